@@ -49,7 +49,7 @@ export async function measureCore(motion, { quick, log }) {
 
 /** Parses a log. @param {string} csv */
 function columnsOf(csv) {
-  const rows = csv.trim().split('\n').slice(1).map((line) => line.split(',').map(Number));
-  const [t, x, y, theta] = [0, 1, 2, 3].map((i) => Float64Array.from(rows, (row) => row[i]));
+  const csvRows = csv.trim().split('\n').slice(1).map((line) => line.split(',').map(Number));
+  const [t, x, y, theta] = [0, 1, 2, 3].map((i) => Float64Array.from(csvRows, (row) => row[i]));
   return { t, x, y, theta };
 }

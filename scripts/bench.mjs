@@ -22,26 +22,26 @@ async function runBench(quick) {
   // The full build, as it is published: the local build is not optimized.
   await build();
   const [odometry, reference] = [EXAMPLE_LOGS.odometry, EXAMPLE_LOGS.reference].map((path) => readFileSync(join(ROOT, path), 'utf8'));
-  const options = { quick, log: { odometry, reference } };
+  const benchOptions = { quick, log: { odometry, reference } };
   printStep('Node');
   // These modules need dist/, which exists only after the build.
   const { measureCore } = await import('../benches/suite.js');
   const { load } = await import('../dist/core.js');
-  const nodeTimings = await measureCore(/** @type {import('../www/types.d.ts').Motion} */ (await load()), options);
+  const nodeTimings = await measureCore(/** @type {import('../www/types.d.ts').Motion} */ (await load()), benchOptions);
   const browser = await ensureBrowser();
   printStep('Chromium');
-  const results = { ranOn: await describeMachine(browser.version), quick, node: nodeTimings, ...(await measureInChromium(browser.chrome, options)) };
+  const results = { ranOn: await describeMachine(browser.version), quick, node: nodeTimings, ...(await measureInChromium(browser.chrome, benchOptions)) };
   writeFileSync(join(ROOT, 'build/bench.json'), `${JSON.stringify(results, null, 2)}\n`);
   console.log(`\n${formatReport(results)}\n\nbuild/bench.json has all measurements.`);
 }
 
 /** Describes the machine and the versions. @param {string} chromium */
 async function describeMachine(chromium) {
-  const commit = await run('git', ['describe', '--always', '--dirty'], { quiet: true });
+  const commitRun = await run('git', ['describe', '--always', '--dirty'], { quiet: true });
   const { description } = await ensureNativeRust();
   return {
     'Measured on': new Date().toISOString().slice(0, 10),
-    commit: commit.ok ? commit.stdout.trim() : 'unknown',
+    commit: commitRun.ok ? commitRun.stdout.trim() : 'unknown',
     processor: `${cpus()[0].model}, ${cpus().length} cores`,
     Node: process.versions.node,
     Chromium: chromium,
@@ -59,13 +59,13 @@ async function describeMachine(chromium) {
 async function measureInChromium(executablePath, options) {
   const { chromium: chromiumLauncher } = await import('@playwright/test');
   const { timeDrags } = await import('../benches/drag.js');
-  const { timeStarts: timeStart } = await import('../benches/start.js');
+  const { timeStarts } = await import('../benches/start.js');
   const { address, close } = await serve(ROOT.replace(/[\\/]$/, ''), { port: 0, headers: ISOLATION_HEADERS });
   const browser = await chromiumLauncher.launch({ executablePath, args: CHROME_ARGUMENTS });
   const figuresAddress = `${address}benches/page.html`;
   try {
     printStep('First cloud');
-    const startTimes = await timeStart(browser, figuresAddress, options.quick ? 5 : 11);
+    const startTimes = await timeStarts(browser, figuresAddress, options.quick ? 5 : 11);
     printStep('Drags');
     const dragTimes = await timeDrags(browser, figuresAddress, options.quick ? 10 : 40);
     printStep('Refresh and calibration');

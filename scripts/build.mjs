@@ -9,7 +9,7 @@ import { WIDGET_TAGS, bundle, filesOf } from './bundle.mjs';
 import { EXAMPLE_LOGS, writeExampleLog } from './example-log.mjs';
 import { cratesOf } from './licences.mjs';
 import { ROOT, mustRun, printStep, run, runAsScript, settleAll } from './process.mjs';
-import { ensurePackages, wasmRust } from './toolchain.mjs';
+import { ensurePackages, ensureRustForWasm } from './toolchain.mjs';
 
 const pathOf = (/** @type {string} */ path) => join(ROOT, path);
 
@@ -89,7 +89,7 @@ function isCurrent(stamp, sourceHash, products) {
  */
 async function buildCores(coreNames, local) {
   // Waits for Rust first: an error of other work would end the process before the message about missing Rust.
-  const rustTools = await wasmRust();
+  const rustTools = await ensureRustForWasm();
   const [binderPromise, packagesPromise] = [ensureBindProgram(), ensurePackages(local ? undefined : 'scripts')];
   printStep(`Compiling the core to WebAssembly (${rustTools.description}): ${coreNames.join(', ')}`);
   const finishPromises = [];
@@ -108,7 +108,7 @@ async function buildCores(coreNames, local) {
 /**
  * Compiles a core.
  *
- * @param {Awaited<ReturnType<typeof wasmRust>>} rust
+ * @param {Awaited<ReturnType<typeof ensureRustForWasm>>} rust
  * @param {string} name the tag of a widget, or "motion" for the whole core
  * @param {boolean} local
  * @returns {Promise<string>} the path of the module as rustc leaves it
@@ -121,17 +121,17 @@ async function compileCore(rust, name, local) {
   const { stdout: sysroot } = await run(join(rust.bin, 'rustc'), ['--print', 'sysroot'], { env: rust.env, quiet: true });
   const remapFlags = [registrySources, join(sysroot.trim(), 'lib/rustlib/src/rust')].map((path) => `"--remap-path-prefix=${path}="`);
   const remapOption = `target.wasm32-unknown-unknown.rustflags=[${remapFlags}]`;
-  const profile = local ? 'web' : 'release';
-  const cargoOptions = ['--quiet', '--locked', '--profile', profile, '--lib', '--crate-type', 'cdylib', ...(local ? [] : ['--config', remapOption])];
+  const cargoProfile = local ? 'web' : 'release';
+  const cargoOptions = ['--quiet', '--locked', '--profile', cargoProfile, '--lib', '--crate-type', 'cdylib', ...(local ? [] : ['--config', remapOption])];
   const widgetOptions = name === 'motion' ? [] : ['--', '--cfg', 'widget', '--cfg', `widget="${name}"`];
   await mustRun('The core does not compile: see the errors above.', cargoPath, ['rustc', ...cargoOptions, ...rust.target, ...widgetOptions], { env: rust.env });
   const outputOfCargo = async (/** @type {string[]} */ ...question) => (await run(cargoPath, [...question, '--locked'], { env: rust.env, quiet: true })).stdout;
-  const metadata = JSON.parse(await outputOfCargo('metadata', '--format-version', '1'));
+  const cargoMetadata = JSON.parse(await outputOfCargo('metadata', '--format-version', '1'));
   if (name === 'motion') {
     const crateTree = await outputOfCargo('tree', '--target', 'wasm32-unknown-unknown', '--edges', 'normal,no-proc-macro', '--prefix', 'none');
-    writeFileSync(pathOf('build/crates.json'), JSON.stringify(cratesOf(crateTree, metadata)));
+    writeFileSync(pathOf('build/crates.json'), JSON.stringify(cratesOf(crateTree, cargoMetadata)));
   }
-  return join(metadata.target_directory, `wasm32-unknown-unknown/${profile}/motion.wasm`);
+  return join(cargoMetadata.target_directory, `wasm32-unknown-unknown/${cargoProfile}/motion.wasm`);
 }
 
 /** Writes the module and the glue of a bound core. @param {string} name @param {boolean} local */
@@ -156,20 +156,20 @@ async function silencePanics(path) {
   // The name is a variable, because the package is installed for full builds only: the type checker would look for a constant name.
   const packageName = 'binaryen';
   const { default: binaryen } = await import(packageName);
-  const module = binaryen.readBinary(readFileSync(pathOf(path)));
+  const binaryenModule = binaryen.readBinary(readFileSync(pathOf(path)));
   const { BulkMemory, Multivalue, MutableGlobals, NontrappingFPToInt, ReferenceTypes, SignExt, SIMD128 } = binaryen.Features;
-  module.setFeatures(BulkMemory | Multivalue | MutableGlobals | NontrappingFPToInt | ReferenceTypes | SignExt | SIMD128);
+  binaryenModule.setFeatures(BulkMemory | Multivalue | MutableGlobals | NontrappingFPToInt | ReferenceTypes | SignExt | SIMD128);
   const { Function: functionWrapper } = binaryen;
   const panicNamePattern = /(^|::)(panicking::\w*(panic|assert)\w*|panic_\w+|rust_panic\w*|\w+_failed|slice_\w*fail\w*|handle_(alloc_)?error|capacity_overflow)(::|$)/;
-  for (let i = 0; i < module.getNumFunctions(); i++) {
-    const panicFunction = module.getFunctionByIndex(i);
+  for (let i = 0; i < binaryenModule.getNumFunctions(); i++) {
+    const panicFunction = binaryenModule.getFunctionByIndex(i);
     const { name, base } = binaryen.getFunctionInfo(panicFunction);
     if (base === '' && /^<?(core|alloc|std|__rustc)(\[|::)/.test(name) && panicNamePattern.test(name)) {
-      functionWrapper.setBody(panicFunction, module.unreachable());
+      functionWrapper.setBody(panicFunction, binaryenModule.unreachable());
     }
   }
-  writeFileSync(pathOf(path), module.emitBinary());
-  module.dispose();
+  writeFileSync(pathOf(path), binaryenModule.emitBinary());
+  binaryenModule.dispose();
 }
 
 /** Passes of the optimizer: the usual ones, and then a second merge of variables with equal values. */
@@ -195,10 +195,10 @@ async function optimize(path, passes = OPTIMIZER_PASSES) {
 
 /** Returns the names that wasm-bindgen has given to imports and exports. @param {string} name of the core @returns {Names} */
 function readBoundNames(name) {
-  const module = new WebAssembly.Module(readFileSync(pathOf(`build/${name}.wasm`)));
+  const wasmModule = new WebAssembly.Module(readFileSync(pathOf(`build/${name}.wasm`)));
   return {
-    imports: WebAssembly.Module.imports(module).map((entry) => [entry.module, entry.name, entry.name]),
-    exports: WebAssembly.Module.exports(module).map((entry) => [entry.name, entry.name]),
+    imports: WebAssembly.Module.imports(wasmModule).map((entry) => [entry.module, entry.name, entry.name]),
+    exports: WebAssembly.Module.exports(wasmModule).map((entry) => [entry.name, entry.name]),
   };
 }
 
@@ -254,8 +254,8 @@ async function writeGlue(name, glueNames) {
     '};',
   ];
   writeFileSync(pathOf(`build/${name}.js`), `${moduleLines.join('\n')}\n`);
-  const declaration = 'declare const instantiate: (module: WebAssembly.Module) => Promise<typeof import("./simulations.d.ts")>;\n';
-  writeFileSync(pathOf(`build/${name}.d.ts`), `${declaration}export default instantiate;\n`);
+  const declarationLine = 'declare const instantiate: (module: WebAssembly.Module) => Promise<typeof import("./simulations.d.ts")>;\n';
+  writeFileSync(pathOf(`build/${name}.d.ts`), `${declarationLine}export default instantiate;\n`);
 }
 
 await runAsScript(import.meta.url, async () => {

@@ -125,8 +125,8 @@ const moduleFileOf = (tag) => hashedFileOf(tag, '.wasm', readFileSync(pathOf(`bu
  * @param {string | Uint8Array} contents
  */
 function hashedFileOf(name, extension, contents) {
-  const hash = createHash('sha256').update(contents).digest('hex').slice(0, 8);
-  return { path: `dist/chunks/${name}-${hash}${extension}`, contents };
+  const contentHash = createHash('sha256').update(contents).digest('hex').slice(0, 8);
+  return { path: `dist/chunks/${name}-${contentHash}${extension}`, contents };
 }
 
 /** Characters of an inlined module to which 256 is added, because other bundlers or minifiers might damage them. */

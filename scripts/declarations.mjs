@@ -51,8 +51,8 @@ export const unionTypeOf = (words) => words.map((word) => `'${word}'`).join(' | 
 
 /** Returns the TypeScript type of a setting. @param {Declaration} declaration */
 export function typeTextOf({ key, type, words, nullable }) {
-  const text = words ? unionTypeOf(words) : (TYPE_NAMES[type] ?? toPascalCase(key));
-  return nullable ? `${text} | null` : text;
+  const typeText = words ? unionTypeOf(words) : (TYPE_NAMES[type] ?? toPascalCase(key));
+  return nullable ? `${typeText} | null` : typeText;
 }
 
 /**
@@ -131,9 +131,9 @@ async function describeWidget(tag) {
     const nullable = coveredAttributes || entry.nullable;
     const openingText = elementFields[name]?.opening ?? (coveredAttributes ? openingPresetOf(tag) : nullable ? undefined : words?.[0]);
     const type = converter === NUMBER_CONVERTER ? 'number' : words === undefined ? 'boolean' : converter === WORD_LIST_CONVERTER ? `(${unionTypeOf(words)})[]` : unionTypeOf(words);
-    const text = Array.isArray(openingText) ? openingText.join(' ') : openingText;
-    const description = descriptionOf({ ...entry, sentence: attributeSentences[name] }, text);
-    return { name, property, type: nullable ? `${type} | null` : type, description, opening: text, allowed: rangeTextOf(entry), withoutRange: description };
+    const typeText = Array.isArray(openingText) ? openingText.join(' ') : openingText;
+    const description = descriptionOf({ ...entry, sentence: attributeSentences[name] }, typeText);
+    return { name, property, type: nullable ? `${type} | null` : type, description, opening: typeText, allowed: rangeTextOf(entry), withoutRange: description };
   };
   const toItem = (/** @type {[string, any]} */ [name, { sentence, ...rest }]) => ({ name, description: sentence, ...rest });
 

@@ -153,7 +153,7 @@ const MAX_SILENCE_MS = 30_000;
 export function run(command, args, { env = {}, cwd = ROOT, seconds, quiet = false } = {}) {
   return new Promise((resolve) => {
     // A program with a time limit leads its own process group, so that its children can be ended with it.
-    const child = spawn(command, args, {
+    const childProcess = spawn(command, args, {
       cwd,
       env: { ...process.env, ...env },
       stdio: ['ignore', 'pipe', 'pipe'],
@@ -166,7 +166,7 @@ export function run(command, args, { env = {}, cwd = ROOT, seconds, quiet = fals
     const silenceTimer = outputStore.getStore() ? undefined : setInterval(() => {
       print(`  ${basename(command)} ${basename(args[0] ?? '')} has been running for ${Math.round((Date.now() - startTime) / 1000)} s\n`);
     }, MAX_SILENCE_MS);
-    const processGroupId = seconds === undefined ? undefined : child.pid;
+    const processGroupId = seconds === undefined ? undefined : childProcess.pid;
     /** @type {NodeJS.Timeout | undefined} */
     let limitTimer;
     if (seconds !== undefined && processGroupId !== undefined) {
@@ -176,13 +176,13 @@ export function run(command, args, { env = {}, cwd = ROOT, seconds, quiet = fals
         endGroup(processGroupId);
       }, seconds * 1000);
     }
-    child.stdout.setEncoding('utf8').on('data', (text) => {
+    childProcess.stdout.setEncoding('utf8').on('data', (text) => {
       stdout += text;
       output += text;
       silenceTimer?.refresh();
       if (!quiet) print(text);
     });
-    child.stderr.setEncoding('utf8').on('data', (text) => {
+    childProcess.stderr.setEncoding('utf8').on('data', (text) => {
       output += text;
       silenceTimer?.refresh();
       if (!quiet) print(text, process.stderr);
@@ -193,8 +193,8 @@ export function run(command, args, { env = {}, cwd = ROOT, seconds, quiet = fals
       if (processGroupId !== undefined) forgetGroup(processGroupId);
       resolve({ ok, timedOut, stdout, output });
     };
-    child.on('error', () => settleRun(false));
-    child.on('close', (code) => settleRun(code === 0));
+    childProcess.on('error', () => settleRun(false));
+    childProcess.on('close', (code) => settleRun(code === 0));
   });
 }
 
@@ -207,12 +207,12 @@ export function run(command, args, { env = {}, cwd = ROOT, seconds, quiet = fals
  * @param {RunOptions} [options]
  */
 export async function mustRun(message, command, args, options) {
-  const result = await run(command, args, options);
-  if (!result.ok) {
-    if (options?.quiet) print(result.output, process.stderr);
+  const runResult = await run(command, args, options);
+  if (!runResult.ok) {
+    if (options?.quiet) print(runResult.output, process.stderr);
     throw new UserError(message);
   }
-  return result;
+  return runResult;
 }
 
 /**

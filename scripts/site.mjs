@@ -65,8 +65,8 @@ function renderPage({ Marked }, document, documents) {
   const siteLinkOf = (/** @type {string} */ href) => {
     if (/^(https?:|#)/.test(href)) return href;
     const [path, anchor] = href.split('#');
-    const file = posix.join(posix.dirname(document), path);
-    return (documents.includes(file) ? relativeLinkTo(pagePath, pagePathOf(file)) : SOURCES_URL + file) + (anchor ? `#${anchor}` : '');
+    const targetFile = posix.join(posix.dirname(document), path);
+    return (documents.includes(targetFile) ? relativeLinkTo(pagePath, pagePathOf(targetFile)) : SOURCES_URL + targetFile) + (anchor ? `#${anchor}` : '');
   };
   const shownFigures = new Set();
   const markdown = readFileSync(join(ROOT, document), 'utf8');

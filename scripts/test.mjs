@@ -11,7 +11,7 @@ import { CHROME_ARGUMENTS, ensureBrowser } from './browser.mjs';
 import { build } from './build.mjs';
 import { filesOf } from './bundle.mjs';
 import { ROOT, UserError, withCollectedOutput, once, printStep, run, runAsScript, settleAll } from './process.mjs';
-import { ensureLints, ensurePackages, ensureNativeRust, wasmRust } from './toolchain.mjs';
+import { ensureLints, ensurePackages, ensureNativeRust, ensureRustForWasm } from './toolchain.mjs';
 
 /** @typedef {{ passed: number, failed: number, skipped: number }} Tally */
 /** @typedef {{ name: string, ok: boolean, seconds: number, output?: string, tally?: Tally, note?: string }} Outcome */
@@ -46,7 +46,7 @@ async function ensureRust() {
 }
 
 async function ensureWasmRust() {
-  const rustTools = await wasmRust();
+  const rustTools = await ensureRustForWasm();
   toolVersions.add(`for WebAssembly ${rustTools.description}`);
   return rustTools;
 }
@@ -134,10 +134,10 @@ const TEST_PARTS = {
   },
   'clippy-wasm': {
     async prepare(programArgs) {
-      const rust = await ensureWasmRust();
+      const rustTools = await ensureWasmRust();
       // Uses the profile of the tests, in which the macros are compiled already.
-      const testOptions = ['--locked', '--profile', 'web', '--lib', '--test', 'web', ...rust.target];
-      return createLintJob(rust, 'clippy', [...testOptions, ...programArgs, ...LINT_RULES]);
+      const cargoTestOptions = ['--locked', '--profile', 'web', '--lib', '--test', 'web', ...rustTools.target];
+      return createLintJob(rustTools, 'clippy', [...cargoTestOptions, ...programArgs, ...LINT_RULES]);
     },
   },
   docs: {
@@ -153,25 +153,25 @@ const TEST_PARTS = {
   },
   wasm: {
     async prepare(programArgs) {
-      const rust = await ensureWasmRust();
-      const testOptions = ['--locked', '--profile', 'web', '--test', 'web', ...rust.target];
-      return createCargoJob(rust, ['test', ...testOptions, ...programArgs], browserEnvironment(await ensureTestRunner(), await ensureTestBrowser()));
+      const rustTools = await ensureWasmRust();
+      const cargoTestOptions = ['--locked', '--profile', 'web', '--test', 'web', ...rustTools.target];
+      return createCargoJob(rustTools, ['test', ...cargoTestOptions, ...programArgs], browserEnvironment(await ensureTestRunner(), await ensureTestBrowser()));
     },
     counts: COUNT_PATTERNS.cargo,
   },
   node: {
     async prepare(programArgs) {
-      const command = nodeTestCommandFor('tests/node', programArgs);
+      const testCommand = nodeTestCommandFor('tests/node', programArgs);
       await ensureBuilt();
-      return createProgramJob(command);
+      return createProgramJob(testCommand);
     },
     counts: COUNT_PATTERNS.node,
   },
   package: {
     async prepare(programArgs) {
-      const command = nodeTestCommandFor('tests/package', programArgs);
+      const testCommand = nodeTestCommandFor('tests/package', programArgs);
       await ensureBuilt();
-      return createProgramJob(command, { CHROME: (await ensureTestBrowser()).chrome });
+      return createProgramJob(testCommand, { CHROME: (await ensureTestBrowser()).chrome });
     },
     counts: COUNT_PATTERNS.node,
   },
@@ -215,7 +215,7 @@ async function runParts(args) {
   if (partName !== undefined) return summarize([await runPart(partName, moreArguments)]);
 
   // Installation starts now, because some lanes need the tools late. A part that needs a missing one reports it.
-  for (const tool of [ensureTestBrowser, ensureTestRunner]) tool().catch(() => {});
+  for (const ensureTool of [ensureTestBrowser, ensureTestRunner]) ensureTool().catch(() => {});
   /** @type {Outcome[]} */
   const outcomes = [];
   await Promise.all(

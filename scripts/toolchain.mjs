@@ -114,8 +114,8 @@ export const ensureNativeRust = once(/** @returns {Promise<Rust>} */ async () =>
   }
   const bin = dirname(cargo);
   const env = bin === DEBIAN_BIN ? createDebianEnvironment() : createEnvironment(bin);
-  const version = await requireRustVersion(bin, env, 'run `rustup update stable`');
-  return { bin, env, target: [], description: version };
+  const rustcVersion = await requireRustVersion(bin, env, 'run `rustup update stable`');
+  return { bin, env, target: [], description: rustcVersion };
 });
 
 /** Installs Rust by rustup, and returns true if that succeeded. @returns {Promise<boolean>} */
@@ -134,7 +134,7 @@ async function installRustup() {
  * Finds or installs Rust for WebAssembly. The standard library of the target comes from rustup. If rustup's server cannot be reached, Debian's
  * compiler builds that library from Debian's sources.
  */
-export const wasmRust = once(/** @returns {Promise<Rust>} */ async () => {
+export const ensureRustForWasm = once(/** @returns {Promise<Rust>} */ async () => {
   const nativeToolchain = await ensureNativeRust();
   if (nativeToolchain.bin !== DEBIAN_BIN && (await rustupQueue(() => hasTarget(nativeToolchain)))) {
     return { ...nativeToolchain, target: ['--target', WASM_TARGET], description: `${nativeToolchain.description}, ${WASM_TARGET} of rustup` };
@@ -148,12 +148,12 @@ export const wasmRust = once(/** @returns {Promise<Rust>} */ async () => {
   }
   // Tests abort on panic like the published module, and so share its compiled library.
   const env = { ...createDebianEnvironment(), CARGO_UNSTABLE_PANIC_ABORT_TESTS: 'true' };
-  const version = await requireRustVersion(DEBIAN_BIN, env, 'run `sudo apt-get update && sudo apt-get install rustc-web`');
+  const rustcVersion = await requireRustVersion(DEBIAN_BIN, env, 'run `sudo apt-get update && sudo apt-get install rustc-web`');
   return {
     bin: DEBIAN_BIN,
     env,
     target: ['--target', WASM_TARGET, '-Zbuild-std=std,panic_abort'],
-    description: `${version} of Debian, standard library from source`,
+    description: `${rustcVersion} of Debian, standard library from source`,
   };
 });
 
@@ -193,9 +193,9 @@ async function hasTarget({ bin, env }) {
  * @returns {Promise<boolean>} false without curl to ask by
  */
 async function isServerSilent() {
-  const server = process.env.RUSTUP_DIST_SERVER ?? 'https://static.rust-lang.org';
+  const rustupServer = process.env.RUSTUP_DIST_SERVER ?? 'https://static.rust-lang.org';
   // Any answer shows that the server is reachable, also one with an unknown certificate.
-  const curlArguments = ['--silent', '--head', '--insecure', '--output', '/dev/null', `${server}/dist/channel-rust-stable.toml.sha256`];
+  const curlArguments = ['--silent', '--head', '--insecure', '--output', '/dev/null', `${rustupServer}/dist/channel-rust-stable.toml.sha256`];
   return (await run('curl', curlArguments, { seconds: 15, quiet: true })).timedOut;
 }
 

@@ -83,8 +83,8 @@ async function figureTypes([{ attributes }]) {
   });
   const commonFields = attributes.filter(({ name }) => name in COMMON_ATTRS).map(({ property, ...rest }) => ({ ...rest, name: property ?? rest.name }));
   const eventFields = classes.get('FigureElement').events.map((/** @type {any} */ { name, type, description }) => {
-    const text = type?.text ?? 'Event';
-    return { name, type: text === 'CustomEvent' ? `CustomEvent<${name[0].toUpperCase()}${name.slice(1)}>` : text, description: joinLines(description) };
+    const typeText = type?.text ?? 'Event';
+    return { name, type: typeText === 'CustomEvent' ? `CustomEvent<${name[0].toUpperCase()}${name.slice(1)}>` : typeText, description: joinLines(description) };
   });
   return (
     `/** Events of an element for \`addEventListener\`; \`Stats\` are those of its class. */\n${asInterface('FigureEvents<Stats>', eventFields)}\n` +
@@ -147,10 +147,10 @@ ${mapLines.join('')}  }
 
 /** Returns an interface of TypeScript. @param {string} name @param {Field[]} fields @param {string} [base] */
 function asInterface(name, fields, base) {
-  const lines = fields.map(({ name: key, type, description, readonly, isText }) => {
-    const comment = description && `  /** ${description} */\n`;
-    if (isText) return `${comment}  get ${key}(): ${type};\n  set ${key}(value: ${type.replace(' | null', '')} | string | null | undefined);\n`;
-    return `${comment}  ${readonly ? 'readonly ' : ''}${key}: ${type};\n`;
+  const memberLines = fields.map(({ name: key, type, description, readonly, isText }) => {
+    const commentText = description && `  /** ${description} */\n`;
+    if (isText) return `${commentText}  get ${key}(): ${type};\n  set ${key}(value: ${type.replace(' | null', '')} | string | null | undefined);\n`;
+    return `${commentText}  ${readonly ? 'readonly ' : ''}${key}: ${type};\n`;
   });
-  return `export interface ${name}${base ? ` extends ${base}` : ''} {\n${lines.join('')}}\n`;
+  return `export interface ${name}${base ? ` extends ${base}` : ''} {\n${memberLines.join('')}}\n`;
 }

@@ -16,22 +16,22 @@ export const PNG_SIGNATURE = Buffer.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x
 /** Returns a PNG file. @param {Image} image */
 export function pngOf({ width, height, opacity = false, sample: sampleAt }) {
   const channels = opacity ? [0, 1] : [0];
-  const columns = Array.from({ length: width }, (_, column) => column);
-  const scanlines = Array.from({ length: height }, (_, row) => [0, ...columns.flatMap((column) => channels.map((channel) => sampleAt(column, row, channel)))]);
-  return Buffer.concat([PNG_SIGNATURE, headerChunk({ width, height, opacity }), pngChunk('IDAT', deflateSync(Buffer.from(scanlines.flat()))), pngChunk('IEND', [])]);
+  const columnIndices = Array.from({ length: width }, (_, column) => column);
+  const scanlines = Array.from({ length: height }, (_, row) => [0, ...columnIndices.flatMap((column) => channels.map((channel) => sampleAt(column, row, channel)))]);
+  return Buffer.concat([PNG_SIGNATURE, headerChunkOf({ width, height, opacity }), pngChunkOf('IDAT', deflateSync(Buffer.from(scanlines.flat()))), pngChunkOf('IEND', [])]);
 }
 
 /** Returns the chunk with the size and the kind of the image. @param {Omit<Image, 'sample'>} image */
-export function headerChunk({ width, height, opacity = false }) {
-  const data = Buffer.alloc(13);
-  data.writeUInt32BE(width, 0);
-  data.writeUInt32BE(height, 4);
-  data.set([8, opacity ? 4 : 0], 8);
-  return pngChunk('IHDR', data);
+export function headerChunkOf({ width, height, opacity = false }) {
+  const headerData = Buffer.alloc(13);
+  headerData.writeUInt32BE(width, 0);
+  headerData.writeUInt32BE(height, 4);
+  headerData.set([8, opacity ? 4 : 0], 8);
+  return pngChunkOf('IHDR', headerData);
 }
 
 /** Returns a chunk of a PNG file. @param {string} type @param {Uint8Array | number[]} data */
-function pngChunk(type, data) {
+function pngChunkOf(type, data) {
   const typeAndData = Buffer.concat([Buffer.from(type, 'latin1'), Buffer.from(data)]);
   const chunkBytes = Buffer.alloc(typeAndData.length + 8);
   chunkBytes.writeUInt32BE(data.length, 0);

@@ -55,8 +55,8 @@ export const resultFunctions = {
   },
 
   'map-squeeze'({ MapSqueeze }, configurations, { preset, map, bounds = configurations.widgets['map-squeeze'].bounds, settings }) {
-    const start = presets['map-squeeze'].find(({ name }) => name === preset)?.start;
-    const simulation = new MapSqueeze({ start, ...settings });
+    const startPose = presets['map-squeeze'].find(({ name }) => name === preset)?.start;
+    const simulation = new MapSqueeze({ start: startPose, ...settings });
     const { plan, description, image } = map === undefined ? {} : configurations.maps[map];
     if (plan) simulation.setPlan(plan);
     if (description) simulation.setGrid(description, new TextEncoder().encode(`${configurations.images[image].join('\n')}\n`));
@@ -199,26 +199,26 @@ const isList = (value) => Array.isArray(value) || ArrayBuffer.isView(value);
  * values in order, and null as NaN.
  *
  * @param {Encodable} value
- * @param {number[]} numbers
+ * @param {number[]} encodedNumbers
  */
-function appendNumbers(value, numbers) {
-  if (value === null) numbers.push(NaN);
-  else if (typeof value === 'number' || typeof value === 'boolean') numbers.push(Number(value));
-  else if (typeof value === 'string') appendNumbers(Uint16Array.from(value, (_, i) => value.charCodeAt(i)), numbers);
+function appendNumbers(value, encodedNumbers) {
+  if (value === null) encodedNumbers.push(NaN);
+  else if (typeof value === 'number' || typeof value === 'boolean') encodedNumbers.push(Number(value));
+  else if (typeof value === 'string') appendNumbers(Uint16Array.from(value, (_, i) => value.charCodeAt(i)), encodedNumbers);
   else if (typeof value !== 'object') throw new TypeError(`${typeof value} cannot be encoded.`);
   else if (isList(value)) {
-    numbers.push(value.length);
-    for (let i = 0; i < value.length; i++) appendNumbers(/** @type {any} */ (value)[i], numbers);
-  } else for (const item of Object.values(value)) appendNumbers(item, numbers);
+    encodedNumbers.push(value.length);
+    for (let i = 0; i < value.length; i++) appendNumbers(/** @type {any} */ (value)[i], encodedNumbers);
+  } else for (const item of Object.values(value)) appendNumbers(item, encodedNumbers);
 }
 
 /** Returns a hash of every bit of a value. @param {Encodable} value */
 export async function hashOf(value) {
   /** @type {number[]} */
-  const numbers = [];
-  appendNumbers(value, numbers);
-  const dataView = new DataView(new ArrayBuffer(8 * numbers.length));
-  numbers.forEach((number, i) => {
+  const encodedNumbers = [];
+  appendNumbers(value, encodedNumbers);
+  const dataView = new DataView(new ArrayBuffer(8 * encodedNumbers.length));
+  encodedNumbers.forEach((number, i) => {
     if (Number.isNaN(number)) dataView.setBigUint64(8 * i, NAN_BITS, true);
     else dataView.setFloat64(8 * i, number, true);
   });
@@ -238,15 +238,15 @@ const hex = (bytes) => Array.from(new Uint8Array(bytes), (byte) => byte.toString
  */
 export async function computeDigest(motion, configurations, tags = Object.keys(configurations.widgets)) {
   /** @type {string[]} */
-  const lines = [];
+  const digestLines = [];
   for (const widget of tags) {
     for (const [name, configuration] of Object.entries(configurations.widgets[widget].configurations)) {
       const resultParts = Object.entries(resultFunctions[widget](motion, configurations, configuration));
       const partHashes = await Promise.all(resultParts.map(async ([part, value]) => ` ${part}:${await hashOf(value)}`));
-      lines.push(`${widget}/${name}${partHashes.join('')}\n`);
+      digestLines.push(`${widget}/${name}${partHashes.join('')}\n`);
     }
   }
-  return lines.sort().join('');
+  return digestLines.sort().join('');
 }
 
 /** Returns a line for each configuration whose digest differs. @param {string} golden @param {string} computed */

@@ -281,9 +281,9 @@ test('a log that a page gives is fitted, and is in no state; one that is refused
     const { legs } = figure.simulation;
     const t = Array.from({ length: legs.count }, (_, leg) => leg);
     const componentOf = (/** @type {Float64Array} */ poses, /** @type {number} */ component) => t.map((leg) => poses[6 * leg + component]);
-    const poseColumns = (/** @type {Float64Array} */ legPoses) => ({ t, x: componentOf(legPoses, 0).map((x) => x + 0.01), y: componentOf(legPoses, 1), theta: componentOf(legPoses, 2) });
-    const pageLog = { name: 'of the page', odometry: poseColumns(legs.odometry), reference: poseColumns(legs.reference) };
-    const nextErrorMessage = () => new Promise((resolve) => {
+    const poseColumnsOf = (/** @type {Float64Array} */ legPoses) => ({ t, x: componentOf(legPoses, 0).map((x) => x + 0.01), y: componentOf(legPoses, 1), theta: componentOf(legPoses, 2) });
+    const pageLog = { name: 'of the page', odometry: poseColumnsOf(legs.odometry), reference: poseColumnsOf(legs.reference) };
+    const waitForErrorMessage = () => new Promise((resolve) => {
       figure.addEventListener('error', (event) => {
         event.preventDefault();
         resolve(/** @type {ErrorEvent} */ (event).message);
@@ -293,7 +293,7 @@ test('a log that a page gives is fitted, and is in no state; one that is refused
     await new Promise((resolve) => figure.addEventListener('stats', resolve, { once: true }));
     const errorMessages = [];
     for (const log of [{ ...pageLog, odometry: { ...pageLog.odometry, t: t.with(3, 1) } }, 5]) {
-      const messagePromise = nextErrorMessage();
+      const messagePromise = waitForErrorMessage();
       Object.assign(figure, { log });
       errorMessages.push(await messagePromise);
     }

@@ -221,8 +221,8 @@ test('for an α that a log does not determine, the table says why, and what to a
     const sampleCount = 2000;
     const t = Float64Array.from({ length: sampleCount }, (_, i) => i / 20);
     const zeros = new Float64Array(sampleCount);
-    const noisyXs = (/** @type {number} */ error) => t.map((time, i) => 0.5 * time + error * Math.sin(i * i));
-    Object.assign(element, { log: { odometry: { t, x: noisyXs(0), y: zeros, theta: zeros }, reference: { t, x: noisyXs(0.002), y: zeros, theta: zeros } } });
+    const noisyXsOf = (/** @type {number} */ error) => t.map((time, i) => 0.5 * time + error * Math.sin(i * i));
+    Object.assign(element, { log: { odometry: { t, x: noisyXsOf(0), y: zeros, theta: zeros }, reference: { t, x: noisyXsOf(0.002), y: zeros, theta: zeros } } });
   });
   await untilSettled(widget);
   await expect(alphaRowsOf(widget).nth(0)).toHaveText(/not determined: too little rotation in this log; add ~50 in-place rotations/);

@@ -60,10 +60,10 @@ test('the robot is dragged and turned by its handles, under the pointer', async 
   expect(Math.abs(centreAfter.x - centreBefore.x + 60)).toBeLessThan(1);
   expect(Math.abs(centreAfter.y - centreBefore.y - 30)).toBeLessThan(1);
   await page.mouse.up();
-  const afterMove = await resultsOf(widget);
-  expect(afterMove.config.next.x).toBeLessThan(1.1);
-  expect(afterMove.config.next.y).toBeLessThan(0.5);
-  expect(afterMove.config.next.theta).toBe(1.1);
+  const resultsAfterMove = await resultsOf(widget);
+  expect(resultsAfterMove.config.next.x).toBeLessThan(1.1);
+  expect(resultsAfterMove.config.next.y).toBeLessThan(0.5);
+  expect(resultsAfterMove.config.next.theta).toBe(1.1);
   await expect(widget.getByRole('button', { name: 'Left turn' })).toHaveAttribute('aria-pressed', 'false');
 
   const [bodyCentre, headingCentre] = [await centreOf(bodyHandleOf(widget)), await centreOf(headingHandleOf(widget))];
@@ -71,10 +71,10 @@ test('the robot is dragged and turned by its handles, under the pointer', async 
   await page.mouse.down();
   await page.mouse.move(bodyCentre.x + 80, bodyCentre.y, { steps: 5 });
   await page.mouse.up();
-  const afterTurn = await resultsOf(widget);
-  expect(Math.abs(afterTurn.config.next.theta)).toBeLessThan(1 / 80);
-  expect(afterTurn.stats.driven).toEqual(afterMove.stats.driven);
-  expect(afterTurn.stats.lastTurn).not.toBe(afterMove.stats.lastTurn);
+  const resultsAfterTurn = await resultsOf(widget);
+  expect(Math.abs(resultsAfterTurn.config.next.theta)).toBeLessThan(1 / 80);
+  expect(resultsAfterTurn.stats.driven).toEqual(resultsAfterMove.stats.driven);
+  expect(resultsAfterTurn.stats.lastTurn).not.toBe(resultsAfterMove.stats.lastTurn);
   await expect(widget.locator('p[role=status]').last()).toContainText('fits worst');
 });
 
@@ -94,11 +94,11 @@ test('the start moves and turns, the commanded arc with it, and the robot stays 
   const resultsBefore = await resultsOf(widget);
   await startHandle.press('ArrowRight');
   await startHandle.press('ArrowDown');
-  const afterMove = await resultsOf(widget);
-  expect(afterMove.config.start).toEqual({ x: 0.05, y: -0.05, theta: 0 });
-  expect(afterMove.config.next).toEqual(resultsBefore.config.next);
+  const resultsAfterMove = await resultsOf(widget);
+  expect(resultsAfterMove.config.start).toEqual({ x: 0.05, y: -0.05, theta: 0 });
+  expect(resultsAfterMove.config.next).toEqual(resultsBefore.config.next);
   const [endX, endY, endTheta] = resultsBefore.stats.commanded.end;
-  for (const [i, coordinate] of [endX + 0.05, endY - 0.05, endTheta].entries()) expect(afterMove.stats.commanded.end[i]).toBeCloseTo(coordinate, 12);
+  for (const [i, coordinate] of [endX + 0.05, endY - 0.05, endTheta].entries()) expect(resultsAfterMove.stats.commanded.end[i]).toBeCloseTo(coordinate, 12);
   await expect(widget).toHaveAttribute('startx', '0.05');
   await startHeadingHandle.press('ArrowLeft');
   expect((await resultsOf(widget)).config.start.theta).toBe(Math.PI / 36);

@@ -14,8 +14,8 @@ export async function expectAccessible(page, when, where = ':root') {
   const violations = await page.evaluate(async (selector) => {
     const ruleTags = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'];
     const { run } = /** @type {typeof axe} */ (Reflect.get(globalThis, 'axe'));
-    const results = await run(selector, { runOnly: { type: 'tag', values: ruleTags }, resultTypes: ['violations'] });
-    return results.violations.map(({ id, nodes }) => [id, nodes.map(({ html }) => html)]);
+    const axeResults = await run(selector, { runOnly: { type: 'tag', values: ruleTags }, resultTypes: ['violations'] });
+    return axeResults.violations.map(({ id, nodes }) => [id, nodes.map(({ html }) => html)]);
   }, where);
   expect(violations, when).toEqual([]);
 }

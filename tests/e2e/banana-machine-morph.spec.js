@@ -10,12 +10,12 @@ test('one slider carries the floor to exponential coordinates and back, and call
   const floorCanvas = widget.locator('canvas.plane');
   const slider = widget.getByRole('slider', { name: 'From the floor' });
   const pictures = [await pictureOf(floorCanvas)];
-  for (const [morphText, title] of [['0.5', 'On the way'], ['1', 'The floor, morphed'], ['0', 'On the floor']]) {
+  for (const [morphText, panelTitle] of [['0.5', 'On the way'], ['1', 'The floor, morphed'], ['0', 'On the floor']]) {
     await slider.fill(morphText);
     pictures.push(await pictureOf(floorCanvas));
     expect(/** @type {any} */ (await stateOf(widget)).morph).toBe(Number(morphText));
     await expect(widget).toHaveAttribute('morph', morphText);
-    await expect(widget.locator('.panel-title').first()).toContainText(title);
+    await expect(widget.locator('.panel-title').first()).toContainText(panelTitle);
     expect(await calloutCountOf(widget)).toBe(morphText === '0' ? 2 : 0);
   }
   expect(new Set(pictures).size).toBe(3);
@@ -97,7 +97,7 @@ test('Pin keeps the numbers and outlines to compare with, and lets go of them', 
 
 test('the title of the floor agrees with the fit of the ellipse', async ({ page }) => {
   const widget = await openBanana(page);
-  const title = widget.locator('.panel-title').first();
+  const panelTitle = widget.locator('.panel-title').first();
   for (const [settings, fitText, expectedCallouts] of /** @type {const} */ ([
     [{ preset: 'banana' }, 'no ellipse fits', 2],
     [{ preset: 'pivot' }, 'the ellipse fits in size only', 0],
@@ -110,7 +110,7 @@ test('the title of the floor agrees with the fit of the ellipse', async ({ page 
     [{ preset: 'straight', alpha3: 0.2, dt: 3 }, 'the ellipse fits in size only', 0],
   ])) {
     await widget.evaluate((element, settings) => void Object.assign(element, settings), settings);
-    await expect(title).toHaveText(`On the floor: ${fitText}`);
+    await expect(panelTitle).toHaveText(`On the floor: ${fitText}`);
     expect(await calloutCountOf(widget)).toBe(expectedCallouts);
   }
 });

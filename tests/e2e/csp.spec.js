@@ -5,7 +5,7 @@ import { expect, test as testWithWarnings } from '@playwright/test';
 import { serve } from '../../scripts/serve.mjs';
 import { waitForFrames, test, openDisclosures, untilReady } from './support.js';
 
-const DIST = fileURLToPath(new URL('../../dist', import.meta.url));
+const DIST_DIRECTORY = fileURLToPath(new URL('../../dist', import.meta.url));
 const STRICT_POLICY = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'";
 
 /** @type {Awaited<ReturnType<typeof serve>> | undefined} */
@@ -27,7 +27,7 @@ for (const { afterEach } of [test, testWithWarnings]) {
  * @returns {Promise<() => Promise<string[]>>} function that returns the violations so far
  */
 async function openUnderPolicy(page, policy, path) {
-  server = await serve(DIST, { port: 0, headers: { 'content-security-policy': policy } });
+  server = await serve(DIST_DIRECTORY, { port: 0, headers: { 'content-security-policy': policy } });
   await page.addInitScript(() => {
     const violations = /** @type {string[]} */ ([]);
     Object.assign(globalThis, { violations });
@@ -90,18 +90,18 @@ testWithWarnings('where there is no WebAssembly, a sentence says that it cannot 
   const widget = page.locator('banana-machine');
   await expect(widget.getByRole('alert')).toContainText('This interactive figure cannot run here.');
   expect(pageErrors).toEqual([]);
-  const colours = await widget.evaluate(async (element) => {
+  const schemesAndGrounds = await widget.evaluate(async (element) => {
     // A figure that is not visible yet has the same colours.
     const farFigure = /** @type {HTMLElement} */ (element.cloneNode());
     farFigure.style.marginTop = '5000px';
     document.body.append(farFigure);
     await Reflect.get(farFigure, 'updateComplete');
     return [element, farFigure].map(({ shadowRoot }) => {
-      const style = /** @type {HTMLElement | undefined} */ (shadowRoot?.querySelector('.surface'))?.style;
-      return [style?.colorScheme, style?.getPropertyValue('--ground')];
+      const surfaceStyle = /** @type {HTMLElement | undefined} */ (shadowRoot?.querySelector('.surface'))?.style;
+      return [surfaceStyle?.colorScheme, surfaceStyle?.getPropertyValue('--ground')];
     });
   });
-  expect(colours).toEqual(Array(2).fill(['dark', 'rgb(17,34,51)']));
+  expect(schemesAndGrounds).toEqual(Array(2).fill(['dark', 'rgb(17,34,51)']));
 });
 
 testWithWarnings('where the module in a file of its own is forbidden, the embedded one is used, and a warning names the directive @nightly', async ({ page }) => {

@@ -171,8 +171,8 @@ test('CSV has a row a step', async ({ page }) => {
     const { simulation } = /** @type {DeadReckoningElement} */ (element);
     return { text: /** @type {any} */ (element).toCSV(), measured: [...simulation.measured], predicted: [...simulation.predicted['first-order']] };
   });
-  const lines = csvText.trimEnd().split('\n');
-  const [, headerLine, ...dataLines] = lines;
+  const csvLines = csvText.trimEnd().split('\n');
+  const [, headerLine, ...dataLines] = csvLines;
   const columnNames = headerLine.split(',');
   expect(dataLines).toHaveLength(20);
   const valueAt = (/** @type {number} */ row, /** @type {string} */ name) => Number(dataLines[row].split(',')[columnNames.indexOf(name)]);

@@ -41,10 +41,10 @@ test('a figure is as wide as it prefers, or as there is room, in every kind of b
     expect(figureWidths).toHaveLength(sections.length);
     return figureWidths.filter(([, figureWidth]) => Number(figureWidth) > width + 0.5 || Number(figureWidth) < Math.min(PREFERRED_WIDTH, width) - 0.5);
   };
-  for (const script of ['', '<script type="module" src="/motion-widgets.js"></script>']) {
-    await showPage(page, sections.join(''), { head, script });
-    if (script) await page.waitForFunction((tag) => customElements.get(tag) !== undefined, figureName);
-    for (const w of [320, 600, 1280]) expect.soft(await findWrongWidths(w), `${script ? 'defined' : 'not defined'}, ${w} px`).toEqual([]);
+  for (const scriptTag of ['', '<script type="module" src="/motion-widgets.js"></script>']) {
+    await showPage(page, sections.join(''), { head, script: scriptTag });
+    if (scriptTag) await page.waitForFunction((tag) => customElements.get(tag) !== undefined, figureName);
+    for (const w of [320, 600, 1280]) expect.soft(await findWrongWidths(w), `${scriptTag ? 'defined' : 'not defined'}, ${w} px`).toEqual([]);
   }
 });
 
@@ -171,8 +171,8 @@ const SLIDERS_BELOW_TEXTS = /** @type {const} */ ([
 for (const [name, lang, width, sliderId, sliderValues] of SLIDERS_BELOW_TEXTS) {
   test(`texts do not move the slider ${sliderId} while it is dragged, and do not overlap: ${name}, ${lang}, ${width} px @nightly`, async ({ page }) => {
     await page.setViewportSize({ width, height: 900 });
-    const script = ['motion-widgets', 'de'].map((scriptName) => `<script type="module" src="/${scriptName}.js"></script>`).join('');
-    const widget = await mount(page, name, { attributes: `lang="${lang}"`, script, head: "<style>body { margin: 16px; font: 16px 'DejaVu Sans', Verdana }</style>" });
+    const scriptTag = ['motion-widgets', 'de'].map((scriptName) => `<script type="module" src="/${scriptName}.js"></script>`).join('');
+    const widget = await mount(page, name, { attributes: `lang="${lang}"`, script: scriptTag, head: "<style>body { margin: 16px; font: 16px 'DejaVu Sans', Verdana }</style>" });
     const sliderTops = [];
     for (const sliderValue of sliderValues) {
       await widget.locator(`#${sliderId}`).fill(sliderValue);

@@ -19,8 +19,8 @@ test('a drag fires input at each step and one change at its end, composed, with 
     Object.assign(window, { all: recordedEvents });
     for (const name of ['input', 'change', 'load', 'stats']) {
       document.addEventListener(name, (event) => {
-        const [origin] = event.composedPath();
-        recordedEvents.push([name, /** @type {Element} */ (origin).localName, Reflect.get(origin, 'v'), event.bubbles, event.composed]);
+        const [eventOrigin] = event.composedPath();
+        recordedEvents.push([name, /** @type {Element} */ (eventOrigin).localName, Reflect.get(eventOrigin, 'v'), event.bubbles, event.composed]);
       });
     }
   });
@@ -33,7 +33,7 @@ test('a drag fires input at each step and one change at its end, composed, with 
   await waitForFrames(page);
   const recordedEvents = await takeRecordedEvents();
   // All recorded events come from the element itself, and none from a native control inside it.
-  for (const [, origin, , bubbles, composed] of [...openingEvents, ...recordedEvents]) expect([origin, bubbles, composed]).toEqual(['banana-machine', true, true]);
+  for (const [, eventOrigin, , bubbles, composed] of [...openingEvents, ...recordedEvents]) expect([eventOrigin, bubbles, composed]).toEqual(['banana-machine', true, true]);
   const gestureEvents = recordedEvents.filter(([name]) => name !== 'stats');
   expect(gestureEvents.length).toBeGreaterThan(3);
   expect(gestureEvents.map(([name]) => name)).toEqual([...Array(gestureEvents.length - 1).fill('input'), 'change']);

@@ -118,8 +118,8 @@ test('a cloud that is out of sight asks for no frames, and goes on growing where
 
 test('settled waits for the figure and all of its samples, in sight and far from the window', async ({ page, cloudFigureName }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
-  for (const height of [0, 6000]) {
-    await showPage(page, `<div style="height: ${height}px"></div><${cloudFigureName}></${cloudFigureName}>`);
+  for (const heightAbove of [0, 6000]) {
+    await showPage(page, `<div style="height: ${heightAbove}px"></div><${cloudFigureName}></${cloudFigureName}>`);
     const [shownCount, sampleCount, isPlaying] = await page.locator(cloudFigureName).evaluate(async (element) => {
       const figure = /** @type {any} */ (element);
       await figure.settled;

@@ -109,8 +109,8 @@ test('a figure on the ground of any theme has its ink and letters, and enough co
     await page.evaluate(([background, color]) => Object.assign(document.body.style, { background, color }), [backgroundColor, textColor]);
     await expect.poll(async () => (await coloursOf(widget, ['paper', 'ink'])).map(hex), themeName).toEqual([backgroundColor, textColor]);
     const [paperColour, ...roleColours] = await coloursOf(widget, ['paper', ...Object.keys(MIN_CONTRAST)]);
-    for (const [i, [role, minContrast]] of Object.entries(MIN_CONTRAST).entries()) {
-      expect.soft(contrastOf(roleColours[i], paperColour), `${role} on ${themeName}`).toBeGreaterThanOrEqual(minContrast);
+    for (const [i, [colorRole, minContrast]] of Object.entries(MIN_CONTRAST).entries()) {
+      expect.soft(contrastOf(roleColours[i], paperColour), `${colorRole} on ${themeName}`).toBeGreaterThanOrEqual(minContrast);
     }
   }
   expect(await pixelCountOf(widget.locator('canvas.plane'), 'prior')).toBeGreaterThan(50);
@@ -167,8 +167,8 @@ for (const [situation, media, pageStyle] of BLACK_ON_DARK) {
     for (const theme of media?.forcedColors ? ['auto', 'light', 'dark'] : ['auto']) {
       await setTheme(theme);
       const [paperColour, ...roleColours] = await coloursOf(widget, ['paper', ...Object.keys(MIN_CONTRAST)]);
-      for (const [i, [role, minContrast]] of Object.entries(MIN_CONTRAST).entries()) {
-        expect.soft(contrastOf(roleColours[i], paperColour), `${role} in ${theme}`).toBeGreaterThanOrEqual(minContrast);
+      for (const [i, [colorRole, minContrast]] of Object.entries(MIN_CONTRAST).entries()) {
+        expect.soft(contrastOf(roleColours[i], paperColour), `${colorRole} in ${theme}`).toBeGreaterThanOrEqual(minContrast);
       }
     }
     expect(await pixelCountOf(widget.locator('canvas.plane'), 'prior')).toBeGreaterThan(50);

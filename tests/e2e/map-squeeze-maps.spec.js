@@ -191,12 +191,12 @@ test('a map set by a page is shown, an equal one changes nothing, and an incompl
       }, { once: true });
       figure.map = map;
     });
-    const grid = { name: 'grid', columns: 8, rows: 1, resolution: 0.5, origin: [0, 0, 0], occupied: 'gA==' };
+    const gridMap = { name: 'grid', columns: 8, rows: 1, resolution: 0.5, origin: [0, 0, 0], occupied: 'gA==' };
     const outcomes = [];
-    for (const map of [room, { bounds: room.bounds }, grid]) outcomes.push(await setMap(map));
+    for (const map of [room, { bounds: room.bounds }, gridMap]) outcomes.push(await setMap(map));
     let statsEventCount = 0;
     figure.addEventListener('stats', () => statsEventCount++);
-    figure.map = { ...grid };
+    figure.map = { ...gridMap };
     for (let i = 0; i < 5; i++) await new Promise(requestAnimationFrame);
     return [...outcomes, statsEventCount];
   }, ROOM_PLAN);

@@ -141,9 +141,9 @@ test('the table of costs has each sampler, and the share of a processor core fol
   await openDisclosures(widget);
   // After two frames the table is marked as busy, because its numbers are out of date.
   await waitForFrames(page);
-  const table = widget.locator('.table');
-  await expect(table).toHaveAttribute('aria-busy', 'false');
-  const cellTextsOfRows = await table.locator('tbody tr').evaluateAll((rowElements) =>
+  const costTable = widget.locator('.table');
+  await expect(costTable).toHaveAttribute('aria-busy', 'false');
+  const cellTextsOfRows = await costTable.locator('tbody tr').evaluateAll((rowElements) =>
     rowElements.map((row) => [...row.querySelectorAll('td')].map((cell) => cell.textContent ?? '')),
   );
   expect(cellTextsOfRows).toHaveLength(3);

@@ -82,13 +82,13 @@ const ACTIONS = {
   async drag(page, random) {
     const part = await findReachablePart(page, random, 'input[type=range], .handle, canvas');
     if (!part) return 'nothing';
-    const offset = [random.integerBelow(400) - 200, random.integerBelow(200) - 100];
+    const dragOffset = [random.integerBelow(400) - 200, random.integerBelow(200) - 100];
     await page.mouse.move(part.x, part.y);
     await page.mouse.down();
-    await page.mouse.move(part.x + offset[0], part.y + offset[1], { steps: 4 });
+    await page.mouse.move(part.x + dragOffset[0], part.y + dragOffset[1], { steps: 4 });
     // Sometimes another event happens during a drag.
     if (random.integerBelow(4) > 0) await page.mouse.up();
-    return `${part.description} by ${offset}`;
+    return `${part.description} by ${dragOffset}`;
   },
   async key(page, random) {
     const keys = Array.from({ length: 1 + random.integerBelow(4) }, () => random.itemOf(PRESSABLE_KEYS));
@@ -127,9 +127,9 @@ const ACTIONS = {
     return `${width} × ${height}`;
   },
   async media(page, random) {
-    const media = { colorScheme: random.itemOf(/** @type {const} */ (['light', 'dark'])), reducedMotion: random.itemOf(/** @type {const} */ (['reduce', 'no-preference'])), media: random.itemOf(/** @type {const} */ (['screen', 'screen', 'print'])) };
-    await page.emulateMedia(media);
-    return JSON.stringify(media);
+    const mediaFeatures = { colorScheme: random.itemOf(/** @type {const} */ (['light', 'dark'])), reducedMotion: random.itemOf(/** @type {const} */ (['reduce', 'no-preference'])), mediaFeatures: random.itemOf(/** @type {const} */ (['screen', 'screen', 'print'])) };
+    await page.emulateMedia(mediaFeatures);
+    return JSON.stringify(mediaFeatures);
   },
   async language(page, random) {
     const lang = random.itemOf(LANGUAGES);
@@ -148,10 +148,10 @@ const ACTIONS = {
   async files(page, random) {
     const files = random.itemOf(DROPPED_FILES);
     await page.evaluate(async (files) => {
-      const section = document.querySelector('map-squeeze')?.shadowRoot?.querySelector('section');
+      const mapSection = document.querySelector('map-squeeze')?.shadowRoot?.querySelector('section');
       const dataTransfer = new DataTransfer();
       for (const { name, bytes } of files) dataTransfer.items.add(new File([new Uint8Array(bytes)], name));
-      for (const type of ['dragover', 'drop']) section?.dispatchEvent(new DragEvent(type, { dataTransfer, bubbles: true, composed: true, cancelable: true }));
+      for (const eventType of ['dragover', 'drop']) mapSection?.dispatchEvent(new DragEvent(eventType, { dataTransfer, bubbles: true, composed: true, cancelable: true }));
     }, files.map(({ name, buffer }) => ({ name, bytes: [...buffer] })));
     return files.map(({ name }) => name).join(' ');
   },

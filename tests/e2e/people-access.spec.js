@@ -259,7 +259,7 @@ test('paper has the figure and its settings, in light colours, and nothing to pr
   for (const valueText of ['1.00 m/s', '2.00 s']) await expect(widget.getByText(valueText, { exact: true }).first()).toBeVisible();
   // On paper the pixels of a canvas determine its proportions. Setting them in every frame would resize it each time.
   await page.evaluate(() => {
-    addEventListener('error', ({ message }) => Object.assign(window, { complaint: message }));
+    addEventListener('error', ({ message }) => Object.assign(window, { recordedError: message }));
     document.querySelector('banana-machine')?.replaceWith(document.createElement('banana-machine'));
   });
   await untilReady(widget);
@@ -269,7 +269,7 @@ test('paper has the figure and its settings, in light colours, and nothing to pr
     await waitForFrames(page);
     const sizeBefore = await readCanvasSize();
     await waitForFrames(page);
-    expect([await readCanvasSize(), await page.evaluate(() => Reflect.get(window, 'complaint'))]).toEqual([sizeBefore, undefined]);
+    expect([await readCanvasSize(), await page.evaluate(() => Reflect.get(window, 'recordedError'))]).toEqual([sizeBefore, undefined]);
   }
 });
 

@@ -10,9 +10,9 @@ test.use(REDUCED_MOTION);
 
 /** Parses a CSV export of a figure. @param {string} text */
 function parseCSV(text) {
-  const [comment, header, ...lines] = text.trimEnd().split('\n');
-  expect(comment.startsWith('# ')).toBe(true);
-  return { settings: JSON.parse(comment.slice(2)), columns: header.split(','), rows: lines.map((line) => line.split(',').map(Number)) };
+  const [commentLine, headerLine, ...dataLines] = text.trimEnd().split('\n');
+  expect(commentLine.startsWith('# ')).toBe(true);
+  return { settings: JSON.parse(commentLine.slice(2)), columns: headerLine.split(','), rows: dataLines.map((line) => line.split(',').map(Number)) };
 }
 
 const csvOf = (/** @type {Locator} */ widget) => widget.evaluate((element) => /** @type {Figure} */ (element).toCSV());
@@ -149,10 +149,10 @@ test('SVG is well-formed whatever the names of a page are @nightly', async ({ pa
   const widget = await openSqueeze(page);
   await widget.evaluate(async (element, json) => {
     // JSON keeps unpaired surrogates.
-    const text = JSON.parse(json);
-    element.append(Object.assign(document.createElement('span'), { slot: 'title', textContent: text }));
-    element.style.setProperty('--motion-font', `"${text.replaceAll('"', '').replaceAll('\0', '')}", serif`);
-    Object.assign(element, { map: { bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5]], name: text } });
+    const hostileText = JSON.parse(json);
+    element.append(Object.assign(document.createElement('span'), { slot: 'title', textContent: hostileText }));
+    element.style.setProperty('--motion-font', `"${hostileText.replaceAll('"', '').replaceAll('\0', '')}", serif`);
+    Object.assign(element, { map: { bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5]], name: hostileText } });
     for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
   }, JSON.stringify(HOSTILE_TEXT));
   const svg = await svgOf(widget);

@@ -10,21 +10,21 @@ test('examples of the reference start when they are opened, and are what their c
   const examples = page.locator('.example');
   await expect(examples).toHaveCount(5);
   for (const example of await examples.all()) {
-    const element = example.locator('banana-machine, map-squeeze');
-    expect(await element.evaluate((figure) => Reflect.get(figure, 'simulation') === undefined)).toBe(true);
+    const exampleFigure = example.locator('banana-machine, map-squeeze');
+    expect(await exampleFigure.evaluate((figure) => Reflect.get(figure, 'simulation') === undefined)).toBe(true);
     // The attributes are read before the figure starts, which adds attributes if the settings match no preset.
-    const attributes = await element.evaluate((figure) => Object.fromEntries([...figure.attributes].map(({ name, value }) => [name, value])));
+    const attributes = await exampleFigure.evaluate((figure) => Object.fromEntries([...figure.attributes].map(({ name, value }) => [name, value])));
     await example.locator('summary').first().click();
-    await element.locator('canvas').first().scrollIntoViewIfNeeded();
-    await expect(element.locator('.cloud button').first()).toBeVisible();
+    await exampleFigure.locator('canvas').first().scrollIntoViewIfNeeded();
+    await expect(exampleFigure.locator('.cloud button').first()).toBeVisible();
     await waitForFrames(page);
     const exampleCode = (await example.locator('code').first().textContent()) ?? '';
-    const config = await element.evaluate((figure) => Reflect.get(figure, 'simulation').config);
+    const config = await exampleFigure.evaluate((figure) => Reflect.get(figure, 'simulation').config);
     for (const [name, value] of Object.entries(attributes)) expect(exampleCode).toContain(`${name}="${value}"`);
     if ('samples' in attributes) expect(config.samples).toBe(Number(attributes.samples));
     if ('isolate' in attributes) expect(config.isolate).toBe(Number(attributes.isolate));
     if ('sampler' in attributes) expect(config.sampler).toBe(attributes.sampler);
-    if (attributes.lang === 'de') await expect(element.getByRole('button', { name: 'Stichproben ziehen' })).toBeVisible();
+    if (attributes.lang === 'de') await expect(exampleFigure.getByRole('button', { name: 'Stichproben ziehen' })).toBeVisible();
     await example.locator('summary').first().click();
   }
 });
@@ -41,13 +41,13 @@ testEach('each item sets the whole state that it describes, whatever was pressed
   const itemButtons = await article.locator('button[data-try]').all();
   const pressAndReadState = async (/** @type {import('@playwright/test').Locator} */ button) => {
     // The button is clicked by script, because some buttons are in a closed disclosure.
-    await button.evaluate((element) => /** @type {HTMLElement} */ (element).click());
+    await button.evaluate((exampleFigure) => /** @type {HTMLElement} */ (exampleFigure).click());
     await expect(button).toHaveAttribute('aria-current', 'true');
     await waitForFrames(page);
     const itemSettings = JSON.parse((await button.getAttribute('data-try')) ?? '{}');
-    const [state, properties] = await figure.evaluate((element, keys) => {
-      const state = /** @type {any} */ (element).getState();
-      return [state, Object.fromEntries(keys.map((key) => [key, key in element ? Reflect.get(element, key) : Reflect.get(state, key)]))];
+    const [state, properties] = await figure.evaluate((exampleFigure, keys) => {
+      const state = /** @type {any} */ (exampleFigure).getState();
+      return [state, Object.fromEntries(keys.map((key) => [key, key in exampleFigure ? Reflect.get(exampleFigure, key) : Reflect.get(state, key)]))];
     }, Object.keys(itemSettings));
     // After a change no preset is selected.
     const expectedPreset = Object.keys(itemSettings).every((key) => KEYS_OUTSIDE_PRESETS.includes(key)) ? itemSettings.preset : properties.preset;
@@ -73,13 +73,13 @@ test('a term and an entry of the legend highlight their line in the picture', as
   await untilReady(figure);
   const canvas = figure.locator('canvas.plane');
   const pictureBefore = await pictureOf(canvas);
-  const term = article.getByText('dashed ellipse', { exact: true });
-  await term.focus();
+  const termElement = article.getByText('dashed ellipse', { exact: true });
+  await termElement.focus();
   expect(await propertyOf(figure, 'highlight')).toBe('ellipse');
   await waitForFrames(page);
   const highlightedPicture = await pictureOf(canvas);
   expect(highlightedPicture).not.toBe(pictureBefore);
-  await term.blur();
+  await termElement.blur();
   await waitForFrames(page);
   expect(await pictureOf(canvas)).toBe(pictureBefore);
   await figure.locator('.legend').getByText('Gaussian in (x, y)').hover();

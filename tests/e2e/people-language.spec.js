@@ -31,9 +31,9 @@ function textsOf(widget) {
   return widget.evaluate((element) => {
     const shadowRoot = /** @type {ShadowRoot} */ (element.shadowRoot);
     const texts = [];
-    const walker = document.createTreeWalker(shadowRoot, NodeFilter.SHOW_ELEMENT | NodeFilter.SHOW_TEXT);
-    while (walker.nextNode()) {
-      const node = walker.currentNode;
+    const treeWalker = document.createTreeWalker(shadowRoot, NodeFilter.SHOW_ELEMENT | NodeFilter.SHOW_TEXT);
+    while (treeWalker.nextNode()) {
+      const node = treeWalker.currentNode;
       if (node instanceof Element) {
         for (const attributeName of ['aria-label', 'aria-description', 'aria-valuetext', 'title', 'placeholder', 'data-longest']) {
           texts.push(node.getAttribute(attributeName) ?? '');
@@ -168,10 +168,10 @@ test('signs stand left of their numbers on a page from right to left, also among
         return characterRange.getBoundingClientRect();
       };
       return [.../** @type {ShadowRoot} */ (shadowRoot).querySelectorAll(selector)].flatMap((element) => {
-        const walker = document.createTreeWalker(element, NodeFilter.SHOW_TEXT);
+        const treeWalker = document.createTreeWalker(element, NodeFilter.SHOW_TEXT);
         const signs = [];
-        while (walker.nextNode()) {
-          const textNode = /** @type {Text} */ (walker.currentNode);
+        while (treeWalker.nextNode()) {
+          const textNode = /** @type {Text} */ (treeWalker.currentNode);
           const signIndex = textNode.data.search(/\u2212\d/);
           if (signIndex >= 0 && textNode.parentElement?.checkVisibility()) signs.push([textNode.data, boxOfCharacter(textNode, signIndex).right <= boxOfCharacter(textNode, signIndex + 1).left + 0.5]);
         }
@@ -201,18 +201,18 @@ test('a page translator that replaces every text freezes none @nightly', async (
     await openDisclosures(widget);
   }
   await translatedFigure.evaluate(({ shadowRoot }) => {
-    const walker = document.createTreeWalker(/** @type {ShadowRoot} */ (shadowRoot), NodeFilter.SHOW_TEXT);
+    const treeWalker = document.createTreeWalker(/** @type {ShadowRoot} */ (shadowRoot), NodeFilter.SHOW_TEXT);
     const textNodes = /** @type {Text[]} */ ([]);
-    while (walker.nextNode()) textNodes.push(/** @type {Text} */ (walker.currentNode));
+    while (treeWalker.nextNode()) textNodes.push(/** @type {Text} */ (treeWalker.currentNode));
     for (const textNode of textNodes) {
       const fontElement = document.createElement('font');
       fontElement.append(textNode.data);
       textNode.replaceWith(fontElement);
     }
   });
-  for (const value of sliderValues) {
+  for (const sliderValue of sliderValues) {
     const textsBefore = await readTexts();
-    for (const widget of [translatedFigure, otherFigure]) await widget.locator(`#${sliderId}`).fill(String(value));
+    for (const widget of [translatedFigure, otherFigure]) await widget.locator(`#${sliderId}`).fill(String(sliderValue));
     for (const widget of [translatedFigure, otherFigure]) await untilSettled(widget);
     const [translatedText, otherText] = await readTexts();
     expect(otherText).not.toBe(textsBefore[1]);

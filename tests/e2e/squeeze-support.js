@@ -54,9 +54,9 @@ export function makeYamlFile(name, fields) {
  * @param {CellTest} isBlack
  */
 export function makePgmFile(name, columns, rows, isBlack) {
-  const pixels = Buffer.from(Array.from({ length: columns * rows }, (_, i) => (isBlack(i % columns, Math.floor(i / columns)) ? 0 : 254)));
-  const header = `P5\n# by hand\n${columns} ${rows}\n# and another comment\n255\n`;
-  return makeMapFile(name, Buffer.concat([Buffer.from(header), pixels]));
+  const cellBytes = Buffer.from(Array.from({ length: columns * rows }, (_, i) => (isBlack(i % columns, Math.floor(i / columns)) ? 0 : 254)));
+  const pgmHeader = `P5\n# by hand\n${columns} ${rows}\n# and another comment\n255\n`;
+  return makeMapFile(name, Buffer.concat([Buffer.from(pgmHeader), cellBytes]));
 }
 
 /**

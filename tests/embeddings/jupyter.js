@@ -39,8 +39,8 @@ async function runNotebook(page, site) {
   await page.locator('.jp-Notebook-ExecutionIndicator[data-status="idle"]').waitFor();
   // The page says "Idle" even before there is a kernel.
   await page.waitForFunction(async () => {
-    const sessions = await (await fetch('/api/sessions')).json();
-    return sessions.some((/** @type {any} */ { kernel }) => kernel.connections > 0 && kernel.execution_state === 'idle');
+    const kernelSessions = await (await fetch('/api/sessions')).json();
+    return kernelSessions.some((/** @type {any} */ { kernel }) => kernel.connections > 0 && kernel.execution_state === 'idle');
   });
   // The page of JupyterLab connects to the kernel later than its server reports.
   await page.getByText('Python 3 (ipykernel) | Idle').waitFor();
@@ -56,16 +56,16 @@ const bananaMachineOf = (page) => page.locator('banana-machine');
 
 /** Evaluates Python code in the last cell of the notebook. @param {Page} page @param {string} code @returns {Promise<any>} its value */
 async function evaluatePython(page, code) {
-  const cell = page.locator('.jp-CodeCell').last();
-  await cell.locator('.cm-content').click();
+  const codeCell = page.locator('.jp-CodeCell').last();
+  await codeCell.locator('.cm-content').click();
   await page.keyboard.press('ControlOrMeta+A');
   const cellCount = await page.locator('.jp-CodeCell').count();
   await page.keyboard.insertText(`import json; print('=' + json.dumps(${code}))`);
   await page.keyboard.press('Shift+Enter');
-  const output = page.locator('.jp-CodeCell').nth(cellCount - 1).locator('.jp-OutputArea-output', { hasText: /^(=|.*Error)/s });
-  await output.waitFor();
+  const cellOutput = page.locator('.jp-CodeCell').nth(cellCount - 1).locator('.jp-OutputArea-output', { hasText: /^(=|.*Error)/s });
+  await cellOutput.waitFor();
   await page.locator('.jp-CodeCell').nth(cellCount).waitFor();
-  const outputText = (await output.textContent()) ?? '';
+  const outputText = (await cellOutput.textContent()) ?? '';
   assert.ok(outputText.startsWith('='), outputText);
   return JSON.parse(outputText.slice(1));
 }

@@ -3,7 +3,7 @@ import { pinnedVersions, installPythonPackages, pythonProgramPath } from './proj
 import { serveByProgram } from './serving.mjs';
 
 /** @type {NonNullable<import('./project.mjs').Serving['checks']>} */
-const CHECKS = {
+const MARIMO_CHECKS = {
   async 'changes by the user reach Python, and changes by Python reach the figure'(page, site) {
     await page.goto(site.url);
     await untilLive(page, site);
@@ -25,7 +25,7 @@ export default {
       name: 'app',
       serve: (directory, tools) =>
         serveByProgram((port) => [pythonProgramPath(directory, 'marimo'), ['run', 'motion.py', '--headless', '--no-token', '--port', port]])(directory, tools),
-      checks: CHECKS,
+      checks: MARIMO_CHECKS,
     },
   ],
   pages: { first: '/' },

@@ -145,8 +145,8 @@ function toolsIn(directory, env) {
   return {
     async run(command, args, more) {
       const errorMessage = `\`${[command, ...args].join(' ')}\` fails: see above.`;
-      const options = { cwd: directory, env: { ...env, ...more }, quiet: true, seconds: 900 };
-      return (await mustRun(errorMessage, command, args, options)).output;
+      const runOptions = { cwd: directory, env: { ...env, ...more }, quiet: true, seconds: 900 };
+      return (await mustRun(errorMessage, command, args, runOptions)).output;
     },
     start: (command, args, more) => startProgram(command, args, { cwd: directory, env: { ...env, ...more } }),
   };
@@ -168,16 +168,16 @@ export async function prepareExample(name, definition) {
   const directory = join(SCRATCH_DIRECTORY, name);
   const tools = toolsIn(directory, { ...SILENT_ENVIRONMENT, ...(await environmentWithNode(definition)) });
   mkdirSync(directory, { recursive: true });
-  for (const entry of readdirSync(directory)) {
-    if (!KEPT_NAMES.includes(entry)) rmSync(join(directory, entry), { recursive: true });
+  for (const entryName of readdirSync(directory)) {
+    if (!KEPT_NAMES.includes(entryName)) rmSync(join(directory, entryName), { recursive: true });
   }
   cpSync(exampleDirectory, directory, { recursive: true, filter: (path) => !KEPT_NAMES.includes(basename(path)) });
   const packagePaths = { tarball: await packTarball(), wheel: definition.python ? await buildWheel() : '' };
   const pinFiles = ['package.json', 'requirements.txt'].map((file) => join(exampleDirectory, file)).filter((path) => existsSync(path));
-  const hash = createHash('sha256');
-  for (const path of [...pinFiles, ...Object.values(packagePaths).filter((path) => path !== '')]) hash.update(readFileSync(path));
+  const packageHash = createHash('sha256');
+  for (const path of [...pinFiles, ...Object.values(packagePaths).filter((path) => path !== '')]) packageHash.update(readFileSync(path));
   const stampFile = join(directory, '.installed');
-  const currentHash = hash.digest('hex');
+  const currentHash = packageHash.digest('hex');
   if (existsSync(stampFile) && readFileSync(stampFile, 'utf8') === currentHash) return { directory, tools };
   rmSync(stampFile, { force: true });
   removeCaches(join(directory, 'node_modules'));
@@ -205,8 +205,8 @@ async function environmentWithNode({ node = 0 }) {
   const directory = join(SCRATCH_DIRECTORY, `node-${node}`);
   const bin = join(directory, 'node_modules/node/bin');
   if (!existsSync(bin)) {
-    const sentence = `Node ${node} is needed and this is ${process.versions.node}: install it from nodejs.org.`;
-    await mustRun(sentence, 'npm', ['install', '--prefix', directory, '--no-audit', '--no-fund', `node@${node}`], { quiet: true, seconds: 300 });
+    const missingMessage = `Node ${node} is needed and this is ${process.versions.node}: install it from nodejs.org.`;
+    await mustRun(missingMessage, 'npm', ['install', '--prefix', directory, '--no-audit', '--no-fund', `node@${node}`], { quiet: true, seconds: 300 });
   }
   return { PATH: [bin, process.env.PATH].join(delimiter) };
 }

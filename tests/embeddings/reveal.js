@@ -4,7 +4,7 @@ import { installNpmPackages, pinnedVersions } from './project.mjs';
 import { serveFiles } from './serving.mjs';
 
 /** @type {NonNullable<import('./project.mjs').Serving['checks']>} */
-const CHECKS = {
+const SLIDE_CHECKS = {
   async 'a figure fits its slide, keeps its keys, and is presented'(page, site) {
     await page.goto(new URL('index.html#/1', site.url).href);
     await untilLive(page, site);
@@ -22,7 +22,7 @@ export default {
   heading: 'reveal.js',
   versions: () => pinnedVersions('reveal', 'reveal.js'),
   install: installNpmPackages,
-  servings: [{ name: 'page', serve: serveFiles('.'), checks: CHECKS }],
+  servings: [{ name: 'page', serve: serveFiles('.'), checks: SLIDE_CHECKS }],
   pages: { first: '/' },
   expected: [{ selector: 'banana-machine', properties: { omega: 0.8, samples: 20000 } }],
 };

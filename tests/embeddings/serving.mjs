@@ -53,10 +53,10 @@ export const serveByProgram = (command, base = '/') => async (_directory, { star
 /** Returns a free port. @returns {Promise<number>} */
 function findFreePort() {
   return new Promise((resolve, reject) => {
-    const server = createServer().on('error', reject);
-    server.listen(0, 'localhost', () => {
-      const address = server.address();
-      server.close(() => (address === null || typeof address === 'string' ? reject(new Error('There is no port.')) : resolve(address.port)));
+    const portServer = createServer().on('error', reject);
+    portServer.listen(0, 'localhost', () => {
+      const address = portServer.address();
+      portServer.close(() => (address === null || typeof address === 'string' ? reject(new Error('There is no port.')) : resolve(address.port)));
     });
   });
 }
@@ -65,9 +65,9 @@ function findFreePort() {
 async function untilAnswered(url) {
   const deadline = Date.now() + TIMEOUT_SECONDS * 1000;
   for (;;) {
-    const status = await fetch(url, { signal: AbortSignal.timeout(TIMEOUT_SECONDS * 1000) }).then(({ status }) => status, String);
-    if (status === 200) return;
-    if (Date.now() > deadline) throw new Error(`${url} has not answered for ${TIMEOUT_SECONDS} s; the last was ${status}.`);
+    const lastStatus = await fetch(url, { signal: AbortSignal.timeout(TIMEOUT_SECONDS * 1000) }).then(({ status }) => status, String);
+    if (lastStatus === 200) return;
+    if (Date.now() > deadline) throw new Error(`${url} has not answered for ${TIMEOUT_SECONDS} s; the last was ${lastStatus}.`);
     // A server that begins to listen fires no event.
     await new Promise((resolve) => setTimeout(resolve, 200));
   }
@@ -84,18 +84,18 @@ async function untilAnswered(url) {
  *   promises are resolved when the program has ended
  */
 export function startProgram(command, args, { env = {}, cwd = ROOT } = {}) {
-  const child = spawn(command, args, { cwd, env: { ...process.env, ...env }, stdio: ['ignore', 'pipe', 'pipe'], detached: true });
-  const groupId = child.pid;
+  const childProcess = spawn(command, args, { cwd, env: { ...process.env, ...env }, stdio: ['ignore', 'pipe', 'pipe'], detached: true });
+  const groupId = childProcess.pid;
   if (groupId !== undefined) endGroupWithProcess(groupId);
   let outputText = '';
-  for (const stream of [child.stdout, child.stderr]) stream.setEncoding('utf8').on('data', (text) => (outputText += text));
+  for (const stream of [childProcess.stdout, childProcess.stderr]) stream.setEncoding('utf8').on('data', (text) => (outputText += text));
   /** @type {Promise<void>} */
   const ended = new Promise((resolve) => {
-    child.on('error', (error) => {
+    childProcess.on('error', (error) => {
       outputText += error.message;
       resolve();
     });
-    child.on('close', () => {
+    childProcess.on('close', () => {
       if (groupId !== undefined) forgetGroup(groupId);
       resolve();
     });
@@ -108,7 +108,7 @@ export function startProgram(command, args, { env = {}, cwd = ROOT } = {}) {
           const match = outputText.match(pattern);
           if (match) resolve(match[1]);
         };
-        for (const stream of [child.stdout, child.stderr]) stream.on('data', checkOutput);
+        for (const stream of [childProcess.stdout, childProcess.stderr]) stream.on('data', checkOutput);
         ended.then(() => reject(new Error(`${command} has ended:\n${outputText}`)));
         checkOutput();
       }),

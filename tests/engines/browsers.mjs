@@ -29,7 +29,7 @@ import { ensureFirefox, ensureWebKit } from './programs.mjs';
 const PAGE_SIZE = { width: 1280, height: 800 };
 
 /** Time limit of a script in a page, ms. The digest of all simulations takes longest. */
-const SCRIPT_TIMEOUT = 240_000;
+const SCRIPT_TIMEOUT_MS = 240_000;
 
 const KEY_CODES = { ArrowRight: Key.ARROW_RIGHT, ArrowLeft: Key.ARROW_LEFT, ArrowUp: Key.ARROW_UP, ArrowDown: Key.ARROW_DOWN };
 
@@ -43,8 +43,8 @@ async function startChromium() {
 /** Starts Firefox. @returns {Promise<Engine>} */
 async function startFirefox() {
   const { firefox, driver } = await ensureFirefox();
-  const prefs = { 'ui.prefersReducedMotion': 1 };
-  return startEngine(driver, {}, { browserName: 'firefox', 'moz:firefoxOptions': { binary: firefox, args: ['-headless'], prefs } });
+  const firefoxPreferences = { 'ui.prefersReducedMotion': 1 };
+  return startEngine(driver, {}, { browserName: 'firefox', 'moz:firefoxOptions': { binary: firefox, args: ['-headless'], prefs: firefoxPreferences } });
 }
 
 /** Starts WebKit's MiniBrowser on a virtual screen. @returns {Promise<Engine>} */
@@ -99,19 +99,19 @@ async function startEngine(driver, env, capabilities, end = async () => {}) {
  * @returns {Promise<Engine>}
  */
 async function openSession(url, capabilities, stop) {
-  const session = await new Builder().usingServer(url).withCapabilities(new Capabilities(/** @type {any} */ (capabilities))).build();
-  await session.manage().setTimeouts({ script: SCRIPT_TIMEOUT, pageLoad: SCRIPT_TIMEOUT });
-  const window = session.manage().window();
+  const driverSession = await new Builder().usingServer(url).withCapabilities(new Capabilities(/** @type {any} */ (capabilities))).build();
+  await driverSession.manage().setTimeouts({ script: SCRIPT_TIMEOUT_MS, pageLoad: SCRIPT_TIMEOUT_MS });
+  const window = driverSession.manage().window();
   await window.setRect(PAGE_SIZE);
-  const [innerWidth, innerHeight] = /** @type {number[]} */ (await session.executeScript('return [innerWidth, innerHeight]'));
+  const [innerWidth, innerHeight] = /** @type {number[]} */ (await driverSession.executeScript('return [innerWidth, innerHeight]'));
   await window.setRect({ width: 2 * PAGE_SIZE.width - innerWidth, height: 2 * PAGE_SIZE.height - innerHeight });
   return {
-    version: (await session.getCapabilities()).get('browserVersion'),
-    open: (url) => session.get(url),
+    version: (await driverSession.getCapabilities()).get('browserVersion'),
+    open: (url) => driverSession.get(url),
     async ask(work, given) {
       // A script of the page runs the function, because Firefox runs scripts of WebDriver in a sandbox, whose arrays are not of the page's type.
       const script = `(async () => (${work})(${JSON.stringify(given) ?? 'undefined'}))().then((result) => [result], (error) => [null, \`\${error}\\n\${error.stack}\`])`;
-      const answerJson = await session.executeAsyncScript(
+      const answerJson = await driverSession.executeAsyncScript(
         `const [run, done] = arguments;
         const script = document.createElement('script');
         script.textContent = run;
@@ -125,14 +125,14 @@ async function openSession(url, capabilities, stop) {
     },
     async drag([[x, y], ...points]) {
       // The drag is one chain of actions, because some drivers release the button between two. Each move takes longer than a frame.
-      const dragActions = session.actions({ async: false }).move({ x, y, duration: 0 }).press();
+      const dragActions = driverSession.actions({ async: false }).move({ x, y, duration: 0 }).press();
       for (const [x, y] of points) dragActions.move({ x, y, duration: 40 });
       await dragActions.release().perform();
     },
-    press: (key) => session.actions().sendKeys(KEY_CODES[key]).perform(),
-    screenshot: async () => Buffer.from(await session.takeScreenshot(), 'base64'),
+    press: (key) => driverSession.actions().sendKeys(KEY_CODES[key]).perform(),
+    screenshot: async () => Buffer.from(await driverSession.takeScreenshot(), 'base64'),
     async close() {
-      await session.quit();
+      await driverSession.quit();
       await stop();
     },
   };

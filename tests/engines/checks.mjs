@@ -11,7 +11,7 @@ import { ROOT } from '../../scripts/process.mjs';
 import { settings } from '../../www/settings.js';
 import { findDifferences } from '../digest/digest.js';
 import { figures, createSimulation } from './figures.mjs';
-import { simulationState } from './inside.js';
+import { simulationStateOf } from './inside.js';
 
 /** @typedef {import('./browsers.mjs').Engine} Engine */
 
@@ -71,14 +71,14 @@ class Page {
 
   /** Writes a screenshot to a file. @param {string} what part of the file name */
   async keepScreenshot(what) {
-    const directory = join(ROOT, 'test-results/engines');
-    mkdirSync(directory, { recursive: true });
-    writeFileSync(join(directory, `${this.name}-${what}.png`), await this.engine.screenshot());
+    const screenshotDirectory = join(ROOT, 'test-results/engines');
+    mkdirSync(screenshotDirectory, { recursive: true });
+    writeFileSync(join(screenshotDirectory, `${this.name}-${what}.png`), await this.engine.screenshot());
   }
 
   /** Returns the new messages of the console. @returns {Promise<string[]>} */
-  async takeComplaints() {
-    const messages = await this.engine.ask(() => /** @type {string[]} */ (/** @type {any} */ (globalThis).complaints.splice(0)), null);
+  async takeRecordedErrors() {
+    const messages = await this.engine.ask(() => /** @type {string[]} */ (/** @type {any} */ (globalThis).recordedErrors.splice(0)), null);
     return [...new Set(messages)];
   }
 }
@@ -99,7 +99,7 @@ export async function runChecks(name, engine, address) {
   const runCheck = async (/** @type {string} */ checkName, /** @type {() => Promise<unknown>} */ checkFunction) => {
     try {
       await checkFunction();
-      assert.deepEqual(await page.takeComplaints(), [], 'The console has something to say.');
+      assert.deepEqual(await page.takeRecordedErrors(), [], 'The console has something to say.');
       passedCount++;
       console.log(`ok     ${name}: ${checkName}`);
     } catch (error) {
@@ -138,7 +138,7 @@ async function checkDigest(page) {
 async function compareWithNode(page, tag) {
   const { config, hash } = await page.ask('stateOf', tag);
   const simulation = await createSimulation(tag, config);
-  assert.equal(hash, (await simulationState(simulation)).hash, `Node has other bits for ${JSON.stringify(config)}.`);
+  assert.equal(hash, (await simulationStateOf(simulation)).hash, `Node has other bits for ${JSON.stringify(config)}.`);
   return { simulation, hash };
 }
 
@@ -159,7 +159,7 @@ async function checkOpening(page, tag) {
 async function checkDragging(page, tag, { name, to, placeOf }) {
   await page.open(tag);
   const hashBefore = await page.ask('pictureHashOf', tag);
-  const handlePlaces = await page.ask('placesOf', { tag, handle: name, to });
+  const handlePlaces = await page.ask('handlePlacesOf', { tag, handle: name, to });
   // Pointer positions are whole pixels. A handle that is grabbed beside its centre keeps its offset from the pointer.
   const grabPoint = [Math.round(handlePlaces.from.x), Math.round(handlePlaces.from.y)];
   const dragVector = [handlePlaces.to.x - handlePlaces.from.x, handlePlaces.to.y - handlePlaces.from.y];
@@ -189,9 +189,9 @@ async function checkHandleKeys(page, tag, { name }) {
 async function checkSliderKeys(page, tag) {
   await page.open(tag);
   await page.ask('renderAfterInputs', tag);
-  const sliders = await page.ask('sliderStatesOf', tag);
-  assert.ok(sliders.length >= 2, `${sliders.length} sliders are to be seen.`);
-  for (const { key } of sliders) {
+  const sliderStates = await page.ask('sliderStatesOf', tag);
+  assert.ok(sliderStates.length >= 2, `${sliderStates.length} sliders are to be seen.`);
+  for (const { key } of sliderStates) {
     const readSlider = async () => (await page.ask('sliderStatesOf', tag)).find((slider) => slider.key === key);
     const sliderBefore = await readSlider();
     assert.ok(sliderBefore && (await page.ask('focus', { tag, selector: `#${key}` })), `${key} does not take the focus.`);

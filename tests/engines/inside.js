@@ -1,5 +1,5 @@
 /**
- * Functions that checks.mjs calls in the page; `simulationState` runs in Node too.
+ * Functions that checks.mjs calls in the page; `simulationStateOf` runs in Node too.
  *
  * @module
  */
@@ -52,10 +52,10 @@ export async function untilSettled(tag) {
 }
 
 /** Returns the state of a figure. @param {string} tag */
-export const stateOf = (tag) => simulationState(figureOf(tag).simulation);
+export const stateOf = (tag) => simulationStateOf(figureOf(tag).simulation);
 
 /** Returns the state of a simulation of any widget. @param {any} simulation @returns {Promise<State>} */
-export async function simulationState({ config, poses = null, stats, verdicts = null, contours = null, grid = null }) {
+export async function simulationStateOf({ config, poses = null, stats, verdicts = null, contours = null, grid = null }) {
   return { config, hash: await hashOf({ poses, stats, verdicts, contours, grid }) };
 }
 
@@ -65,7 +65,7 @@ export async function simulationState({ config, poses = null, stats, verdicts = 
  * @param {{ tag: string, handle: string, to: number[] }} given `to` is a place in the picture, m
  * @returns {{ from: Point, to: Point, pixel: number }} in pixels of the window; `pixel` in m
  */
-export function placesOf({ tag, handle, to: [x, y] }) {
+export function handlePlacesOf({ tag, handle, to: [x, y] }) {
   const { view } = figureOf(tag).pictures[0];
   const { left, top, width } = firstCanvasOf(tag).getBoundingClientRect();
   const pixelsPerViewPixel = width / view.width;

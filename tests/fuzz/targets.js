@@ -204,13 +204,13 @@ export const fuzzTargets = {
   state: {
     corpus: createStates().map((state) => Buffer.from(JSON.stringify(state))),
     async run(bytes) {
-      let state;
+      let parsedState;
       try {
-        state = JSON.parse(bytes.toString());
+        parsedState = JSON.parse(bytes.toString());
       } catch {
         return false;
       }
-      const { map = null, ...fields } = Object(state);
+      const { map = null, ...fields } = Object(parsedState);
       // The element itself checks this field.
       delete fields.widget;
       const mapBefore = mapOf(mapSqueeze, '');
@@ -246,9 +246,9 @@ function mapOf(simulation, name) {
 function createStates() {
   const simulation = new motion.MapSqueeze({ samples: 1 });
   const { config } = simulation;
-  const plan = { name: 'room.json', bounds: [0, 0, 3, 3], walls: [[0, 0, 3, 3]] };
+  const planMap = { name: 'room.json', bounds: [0, 0, 3, 3], walls: [[0, 0, 3, 3]] };
   simulation.setGrid({ resolution: 0.5, origin: [0, 0, 0.5] }, Buffer.from('P5 3 2 255\n\0\xff\x80\0\xff\xff', 'latin1'));
-  const grid = mapOf(simulation, 'map.yaml');
+  const gridMap = mapOf(simulation, 'map.yaml');
   simulation.free();
-  return [{ ...config, map: null }, { ...config, map: plan }, { widget: 'map-squeeze', samples: 1, map: grid }];
+  return [{ ...config, map: null }, { ...config, map: planMap }, { widget: 'map-squeeze', samples: 1, map: gridMap }];
 }

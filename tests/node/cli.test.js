@@ -30,9 +30,9 @@ after(() => rmSync(temporaryFolder, { recursive: true, force: true }));
 
 /** Writes a file in the temporary folder, and returns its path. @param {string} name @param {string | Uint8Array} contents */
 function writeInFolder(name, contents) {
-  const path = join(temporaryFolder, name);
-  writeFileSync(path, contents);
-  return path;
+  const filePath = join(temporaryFolder, name);
+  writeFileSync(filePath, contents);
+  return filePath;
 }
 
 /** Runs the command in this process, and returns its exit code and its output. @param {string[]} args @param {() => Promise<any>} [core] */
@@ -168,8 +168,8 @@ test('bad input has the exit code 2 and a sentence', async () => {
 test('a shell gets help and errors, and may close the pipe', () => {
   const runInShell = (/** @type {string[]} */ ...args) => spawnSync(process.execPath, [CLI, ...args], { encoding: 'utf8' });
   for (const helpOutput of [runInShell(), runInShell('calibrate', '--help')]) assert.deepEqual([helpOutput.status, helpOutput.stdout, helpOutput.stderr], [0, HELP, '']);
-  const refusal = runInShell('calibrate', '--odometry', 'no.csv', '--reference', 'no.csv');
-  assert.deepEqual([refusal.status, refusal.stdout, refusal.stderr], [2, '', 'no.csv: there is no such file or folder.\n']);
+  const refusalOutput = runInShell('calibrate', '--odometry', 'no.csv', '--reference', 'no.csv');
+  assert.deepEqual([refusalOutput.status, refusalOutput.stdout, refusalOutput.stderr], [2, '', 'no.csv: there is no such file or folder.\n']);
   assert.match(runInShell('my/bag').stderr, /^the command must be calibrate or inspect \(got “my\/bag”\), as in npx motion-widgets inspect my\/bag; --help has examples\.$/m);
   const outputOfClosedPipe = spawnSync('sh', ['-c', '"$0" "$@" | head -c 1', process.execPath, CLI, 'calibrate', ...LOG_ARGS, '--json'], { encoding: 'utf8' });
   assert.deepEqual([outputOfClosedPipe.stdout, outputOfClosedPipe.stderr], ['{', '']);
@@ -190,13 +190,13 @@ test('a recording of the example has the truth in its intervals, and its JSON th
   const recordingPath = writeInFolder('example.mcap', await recordingOf(messages.sort((a, b) => a.t - b.t), { compression: 'zstd', chunkSize: 100_000 }));
   const { status, stdout, stderr } = spawnSync(process.execPath, [CLI, 'calibrate', '--recording', recordingPath, '--json'], { encoding: 'utf8' });
   assert.equal(status, 0, stderr);
-  const result = JSON.parse(stdout);
+  const calibrationResult = JSON.parse(stdout);
   const assertInside = (/** @type {number} */ value, /** @type {[number, number]} */ [low, high]) => assert.ok(low <= value && value <= high, `${value}: ${low} to ${high}`);
-  for (const [i, alpha] of TRUE_MODEL.alphas.entries()) assertInside(alpha, result.intervals[i]);
-  for (const name of /** @type {const} */ (['mountYaw', 'clockOffset', 'distanceScale'])) assertInside(TRUE_MODEL[name], result.systematicErrors[name].interval);
-  assert.deepEqual([result.diagnostics.verdict, result.start, result.date.length], ['consistent', 9, 10]);
+  for (const [i, alpha] of TRUE_MODEL.alphas.entries()) assertInside(alpha, calibrationResult.intervals[i]);
+  for (const name of /** @type {const} */ (['mountYaw', 'clockOffset', 'distanceScale'])) assertInside(TRUE_MODEL[name], calibrationResult.systematicErrors[name].interval);
+  assert.deepEqual([calibrationResult.diagnostics.verdict, calibrationResult.start, calibrationResult.date.length], ['consistent', 9, 10]);
   const [, jsonSection] = readFileSync(new URL('../../doc/calibration.md', import.meta.url), 'utf8').match(/\n### JSON\n(.*?)\n### /s) ?? [];
-  assert.deepEqual(Object.keys(result).filter((key) => !jsonSection.includes(`\`${key}\``)), []);
+  assert.deepEqual(Object.keys(calibrationResult).filter((key) => !jsonSection.includes(`\`${key}\``)), []);
 });
 
 test('the report names the noise that is stated, and the outliers', async () => {
@@ -264,9 +264,9 @@ test('--yaml prints the lines for Nav2 alone, or none of an unusable log', async
   assert.match(err, /^Odometry: odometry\.csv\n {2}\d+ of \d+ rows, [^]*^Consistent: .*\nFirst multiply the odometry’s distances by .*\n$/m);
   assert.match((await outputOf([...LOG_ARGS, '--yaml'])).err, /\nWarning: fitted by another rule than Nav2’s; give --rule nav2\.\n$/);
   const reversedPath = writeReversedReference();
-  const refusal = await outputOf([...LOG_ARGS.slice(0, 3), reversedPath, '--yaml']);
-  assert.deepEqual([refusal.code, refusal.out], [3, '']);
-  assert.match(refusal.err, /^No lines for nav2_params\.yaml: the log is unusable\.$/m);
+  const refusalOutput = await outputOf([...LOG_ARGS.slice(0, 3), reversedPath, '--yaml']);
+  assert.deepEqual([refusalOutput.code, refusalOutput.out], [3, '']);
+  assert.match(refusalOutput.err, /^No lines for nav2_params\.yaml: the log is unusable\.$/m);
 });
 
 test('--plot writes a panel for each drive, with both paths aligned, and the ends of legs at the times of the reference', async () => {

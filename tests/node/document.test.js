@@ -46,12 +46,12 @@ test('README of the example log has its true parameters', () => {
 });
 
 test('doc/reliability.md names files and commands that are there', () => {
-  const document = readText('doc/reliability.md');
+  const reliabilityText = readText('doc/reliability.md');
   const { scripts } = JSON.parse(readText('package.json'));
-  const commandNames = [...document.matchAll(/`npm run ([\w:]+)/g)].map(([, name]) => name);
+  const commandNames = [...reliabilityText.matchAll(/`npm run ([\w:]+)/g)].map(([, name]) => name);
   assert.ok(commandNames.length >= 4, commandNames.join(', '));
   for (const name of commandNames) assert.ok(Object.hasOwn(scripts, name), name);
-  const documentedPaths = [...document.matchAll(/`((?:tests|src|scripts|fuzz|www)\/[\w./-]*)`/g)].map(([, path]) => path);
+  const documentedPaths = [...reliabilityText.matchAll(/`((?:tests|src|scripts|fuzz|www)\/[\w./-]*)`/g)].map(([, path]) => path);
   assert.ok(documentedPaths.length > 15, documentedPaths.join(', '));
   for (const path of documentedPaths) assert.ok(existsSync(new URL(`../../${path}`, import.meta.url)), path);
 });
@@ -69,23 +69,23 @@ const linksOf = (/** @type {string} */ text) =>
   [...text.matchAll(/\]\((?!https?:)([^)#\s]*)#?([^)\s]*)\)/g)].map(([, path, anchor]) => ({ path, anchor }));
 
 test('links of the documents lead to files and headings that exist', () => {
-  for (const [document, text] of TEXT_BY_DOCUMENT) {
+  for (const [documentPath, text] of TEXT_BY_DOCUMENT) {
     for (const { path, anchor } of linksOf(text)) {
-      const targetPath = path === '' ? document : join(dirname(document), path);
-      assert.ok(existsSync(join(ROOT, targetPath)), `${document}: ${path}`);
-      if (anchor !== '') assert.ok(anchorsOf(TEXT_BY_DOCUMENT.get(targetPath) ?? '').includes(anchor), `${document}: ${path}#${anchor}`);
+      const targetPath = path === '' ? documentPath : join(dirname(documentPath), path);
+      assert.ok(existsSync(join(ROOT, targetPath)), `${documentPath}: ${path}`);
+      if (anchor !== '') assert.ok(anchorsOf(TEXT_BY_DOCUMENT.get(targetPath) ?? '').includes(anchor), `${documentPath}: ${path}#${anchor}`);
     }
   }
 });
 
 test('documents are short, and long ones have a table of contents', () => {
   const linkedDocuments = linksOf(TEXT_BY_DOCUMENT.get('doc/README.md') ?? '').map(({ path }) => join('doc', path));
-  for (const [document, text] of TEXT_BY_DOCUMENT) {
-    const lineCount = readText(document).trimEnd().split('\n').length;
-    assert.ok(lineCount <= (document === 'README.md' ? 150 : 350), `${document} has ${lineCount} lines`);
-    if (document.startsWith('doc/') && document !== 'doc/README.md') assert.ok(linkedDocuments.includes(document), `${document} is not in doc/README.md`);
+  for (const [documentPath, text] of TEXT_BY_DOCUMENT) {
+    const lineCount = readText(documentPath).trimEnd().split('\n').length;
+    assert.ok(lineCount <= (documentPath === 'README.md' ? 150 : 350), `${documentPath} has ${lineCount} lines`);
+    if (documentPath.startsWith('doc/') && documentPath !== 'doc/README.md') assert.ok(linkedDocuments.includes(documentPath), `${documentPath} is not in doc/README.md`);
     const headingAnchors = anchorsOf(text, '##');
     const linkedAnchors = linksOf(text).filter(({ path }) => path === '').map(({ anchor }) => anchor);
-    if (headingAnchors.length > 6) assert.deepEqual(headingAnchors.filter((heading) => !linkedAnchors.includes(heading)), [], `contents of ${document}`);
+    if (headingAnchors.length > 6) assert.deepEqual(headingAnchors.filter((heading) => !linkedAnchors.includes(heading)), [], `contents of ${documentPath}`);
   }
 });

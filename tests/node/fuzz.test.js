@@ -12,7 +12,7 @@ import { randomGenerator } from '../random.js';
 
 /** Number of mutations for each target. The nightly job sets a larger number and another seed. */
 const INPUT_COUNT = Number(process.env.FUZZ_INPUTS ?? 400);
-const SEED = Number(process.env.FUZZ_SEED ?? 1);
+const FUZZ_SEED = Number(process.env.FUZZ_SEED ?? 1);
 
 /** Maximum processor time of one input, s, and maximum memory growth of all inputs, bytes. */
 const [MAX_SECONDS, MAX_BYTES] = [1, 256 * 2 ** 20];
@@ -22,14 +22,14 @@ const INPUTS_PER_TURN = 100;
 
 /** Returns the inputs of a target that fuzzing found. The file has one input a line, in hexadecimal. @param {string} target */
 function readFoundInputs(target) {
-  const file = new URL(`../fuzz/corpus/${target}.txt`, import.meta.url);
-  const lines = existsSync(file) ? readFileSync(file, 'latin1').split('\n').slice(0, -1) : [];
-  return lines.map((line) => Buffer.from(line, 'hex'));
+  const corpusFile = new URL(`../fuzz/corpus/${target}.txt`, import.meta.url);
+  const inputLines = existsSync(corpusFile) ? readFileSync(corpusFile, 'latin1').split('\n').slice(0, -1) : [];
+  return inputLines.map((line) => Buffer.from(line, 'hex'));
 }
 
 for (const [name, { corpus, run }] of Object.entries(fuzzTargets)) {
   test(`${name}: every input gives a result or a sentence`, async () => {
-    const random = randomGenerator(SEED);
+    const random = randomGenerator(FUZZ_SEED);
     const allInputs = [...corpus, ...readFoundInputs(name)];
     /** Runs a target on an input, and returns true if the input is accepted. @param {Buffer<ArrayBuffer>} bytes */
     const checkInput = async (bytes) => {

@@ -69,16 +69,16 @@ test('only core.ts touches the generated glue', () => {
 });
 
 test('a widget is one class above the base, which is one above Lit', () => {
-  const files = new Set(imports.flat());
-  const classes = [...files].flatMap((file) =>
+  const sourceFiles = new Set(imports.flat());
+  const classes = [...sourceFiles].flatMap((file) =>
     [...readFileSync(new URL(`../../${file}`, import.meta.url), 'utf8').matchAll(/\bclass (\w+)(?:<.+>)? extends (\w+)/g)].map(([, name, base]) => ({ file, name, base })),
   );
-  const elements = classes.filter(({ base }) => /Element$/.test(base));
+  const elementClasses = classes.filter(({ base }) => /Element$/.test(base));
   assert.deepEqual(
-    elements.filter(({ base }) => base !== 'FigureElement').map(({ file, name, base }) => [file, name, base]),
+    elementClasses.filter(({ base }) => base !== 'FigureElement').map(({ file, name, base }) => [file, name, base]),
     [['www/figure/figure.ts', 'FigureElement', 'LitElement']],
   );
   for (const tag of Object.keys(settings)) {
-    assert.ok(elements.some(({ file, base }) => file === `www/widgets/${tag}/${tag}.ts` && base === 'FigureElement'), tag);
+    assert.ok(elementClasses.some(({ file, base }) => file === `www/widgets/${tag}/${tag}.ts` && base === 'FigureElement'), tag);
   }
 });

@@ -199,9 +199,9 @@ test('formats that are not read are refused with the cure, by their contents', a
 
 test('a recording without one whole message is incomplete, and the tool that repairs it is named', async () => {
   for (const [name, tool] of [['none.bag', 'rosbag reindex'], ['unindexed.mcap', 'mcap recover'], ['sqlite-sqlite.db3', 'sqlite3 FILE .recover | sqlite3 NEW.db3']]) {
-    for (const size of [20, 200]) {
-      const sentence = await refusalSentenceOf(openRecordings([fileOf(bytesOf(name).slice(0, size), name)]));
-      assert.ok(sentence.startsWith(`${name}: it is damaged or incomplete (`) && sentence.includes(`“${tool}”`), sentence);
+    for (const byteCount of [20, 200]) {
+      const message = await refusalSentenceOf(openRecordings([fileOf(bytesOf(name).slice(0, byteCount), name)]));
+      assert.ok(message.startsWith(`${name}: it is damaged or incomplete (`) && message.includes(`“${tool}”`), message);
     }
   }
 });

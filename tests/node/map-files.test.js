@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { limits } from '../../www/settings.js';
-import { PNG_SIGNATURE, headerChunk, pngOf } from '../png.js';
+import { PNG_SIGNATURE, headerChunkOf, pngOf } from '../png.js';
 import { mapYamlFile, fileWith, simulationWithMap, refusalMessageOf } from './map-support.js';
 
 const PGM = fileWith('map.pgm', 'P5 2 1 255\n\x00\x7f');
@@ -88,6 +88,6 @@ test('a damaged or too large PNG image is refused by a sentence', async () => {
   const png = pngOf({ width: 2, height: 1, sample: (column) => [0, 127][column] });
   const message = await refusalMessageOf([mapYamlFile(), fileWith('map.png', png.subarray(0, 50))]);
   assert.match(message, /^map\.png: the PNG image is damaged or cut short before byte \d+ of 50; allowed is a complete one\.$/);
-  const headerOfLargeImage = Buffer.concat([PNG_SIGNATURE, headerChunk({ width: 100_000, height: 100_000 })]);
+  const headerOfLargeImage = Buffer.concat([PNG_SIGNATURE, headerChunkOf({ width: 100_000, height: 100_000 })]);
   assert.equal(await refusalMessageOf([mapYamlFile(), fileWith('map.png', headerOfLargeImage)]), 'map.png: image has 100000 × 100000 pixels; allowed are at most 33554432.');
 });

@@ -23,23 +23,23 @@ test('every script of the package can be imported in Node, and leaves no names b
   const scriptNames = Object.keys(exports).filter((name) => /\.js$/.test(exports[name].default));
   const importNames = scriptNames.map((name) => join('motion-widgets', name));
   assert.ok(importNames.length >= 4, importNames.join(' '));
-  const output = outputOfNode(`
+  const scriptOutput = outputOfNode(`
     const before = Object.getOwnPropertyNames(globalThis);
     for (const address of ${JSON.stringify(importNames)}) await import(address);
     console.log(JSON.stringify(Object.getOwnPropertyNames(globalThis).filter((name) => !before.includes(name))));
   `);
   // Lit keeps the versions of its loaded copies in global variables.
   const litNames = ['reactiveElementVersions', 'litHtmlVersions', 'litElementVersions', 'litPropertyMetadata'];
-  assert.deepEqual(JSON.parse(output).filter((/** @type {string} */ name) => !litNames.includes(name)), []);
+  assert.deepEqual(JSON.parse(scriptOutput).filter((/** @type {string} */ name) => !litNames.includes(name)), []);
 });
 
 test('the elements find the core in Node', () => {
-  const output = outputOfNode(`
+  const scriptOutput = outputOfNode(`
     import { isFigureTag, load } from 'motion-widgets';
     const { BananaMachine } = await load();
     console.log(new BananaMachine({ samples: 100 }).poses.length, isFigureTag('map-squeeze'), isFigureTag('map'));
   `);
-  assert.equal(output, '300 true false\n');
+  assert.equal(scriptOutput, '300 true false\n');
 });
 
 test('a server component is told that no browser would get the elements', () => {

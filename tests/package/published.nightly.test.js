@@ -10,7 +10,7 @@ import { publint } from 'publint';
 import { formatMessage } from 'publint/utils';
 import { ROOT } from '../../scripts/process.mjs';
 
-const manifest = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
+const packageManifest = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
 
 /** @type {string} */
 let temporaryDirectory;
@@ -34,12 +34,12 @@ test('the package has at most 1.5 MB', () => {
 test('publint finds nothing', async () => {
   const { buffer } = readFileSync(tarball);
   const { messages } = await publint({ pack: { tarball: /** @type {ArrayBuffer} */ (buffer) }, strict: true });
-  assert.deepEqual(messages.map((message) => formatMessage(message, manifest)), []);
+  assert.deepEqual(messages.map((message) => formatMessage(message, packageManifest)), []);
 });
 
 test('Are the types wrong? finds nothing', () => {
   // Only scripts have types.
-  const entriesWithoutTypes = Object.keys(manifest.exports).filter((name) => /\.(css|wasm|json)$/.test(name));
+  const entriesWithoutTypes = Object.keys(packageManifest.exports).filter((name) => /\.(css|wasm|json)$/.test(name));
   const cli = join(ROOT, 'node_modules/@arethetypeswrong/cli/dist/index.js');
   // All scripts are modules: `require` is not supported, nor resolution without `exports`.
   const attwArguments = [cli, tarball, '--profile', 'esm-only', '--exclude-entrypoints', ...entriesWithoutTypes];

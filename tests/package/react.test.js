@@ -69,7 +69,7 @@ function prepareProject() {
   mkdirSync(join(project.directory, 'react'));
   writeInProject('application.js', APPLICATION_SOURCE);
   writeInProject('client.js', CLIENT_SOURCE);
-  const pageHtmlOf = (/** @type {string} */ html) => `<!doctype html><html lang="en"><link rel="icon" href="data:,"><div id="root">${html}</div><script type="module" src="./bundle.js"></script>`;
+  const pageHtmlOf = (/** @type {string} */ serverHtml) => `<!doctype html><html lang="en"><link rel="icon" href="data:,"><div id="root">${serverHtml}</div><script type="module" src="./bundle.js"></script>`;
   writeInProject('index.html', pageHtmlOf(''));
   writeInProject('sent.html', pageHtmlOf(serverHtmlOf({ omega: 0.8 })));
   const directory = join(project.directory, 'react');
@@ -123,13 +123,13 @@ const propertyOf = (name) => page.evaluate((key) => /** @type {any} */ (document
 const readReceivedEvents = () => page.evaluate(() => /** @type {any} */ (globalThis).receivedEvents);
 
 test('a server sends what attributes say', () => {
-  const html = serverHtmlOf({ omega: '0.8', overlays: ['command', 'ellipse'], reverseAware: true, headingLevel: '2', share: true, isolate: null });
-  const [openingTag] = html.match(/<banana-machine[^>]*>/) ?? [];
+  const serverHtml = serverHtmlOf({ omega: '0.8', overlays: ['command', 'ellipse'], reverseAware: true, headingLevel: '2', share: true, isolate: null });
+  const [openingTag] = serverHtml.match(/<banana-machine[^>]*>/) ?? [];
   const expectedAttributes = { reverseAware: '', omega: '0.8', samples: '2000', overlays: 'command ellipse', share: '', 'heading-level': '2', class: 'wide' };
   const actualAttributes = Object.fromEntries([...(openingTag ?? '').matchAll(/ ([\w-]+)="([^"]*)"/g)].map(([, name, text]) => [name, text]));
   assert.deepEqual(actualAttributes, expectedAttributes);
-  assert.match(html, /<map-squeeze conditioned="false" heading-level="3">/);
-  assert.match(html, /<span slot="title">Figure 1<\/span>/);
+  assert.match(serverHtml, /<map-squeeze conditioned="false" heading-level="3">/);
+  assert.match(serverHtml, /<span slot="title">Figure 1<\/span>/);
 });
 
 test('what the server has sent is taken over, before its elements are there', async () => {

@@ -24,9 +24,9 @@ function filesLoadedWith(path) {
 
 /** Returns the chunk of external.js whose entry point is a source file, and what a browser loads with it. @param {string} source */
 function filesOfChunk(source) {
-  const chunk = Object.entries(esbuildOutputs).find(([product, { entryPoint }]) => entryPoint === source && product.startsWith('dist/chunks/'));
-  assert.ok(chunk, `external.js has no chunk of ${source}.`);
-  return filesLoadedWith(chunk[0]);
+  const chunkEntry = Object.entries(esbuildOutputs).find(([product, { entryPoint }]) => entryPoint === source && product.startsWith('dist/chunks/'));
+  assert.ok(chunkEntry, `external.js has no chunk of ${source}.`);
+  return filesLoadedWith(chunkEntry[0]);
 }
 
 /** Returns the scripts that a page with some widgets loads before a user uses them. @param {string[]} tags @param {string} core */
@@ -73,7 +73,7 @@ test('what a page loads does not grow', () => {
 });
 
 test('doc/embedding.md says these limits', () => {
-  const document = readFileSync(new URL('../../doc/embedding.md', import.meta.url), 'utf8');
-  const statedLimits = document.slice(document.indexOf('## Sizes')).match(/(?<=^\|.*)\d+(?= kB)/gm);
+  const embeddingDocument = readFileSync(new URL('../../doc/embedding.md', import.meta.url), 'utf8');
+  const statedLimits = embeddingDocument.slice(embeddingDocument.indexOf('## Sizes')).match(/(?<=^\|.*)\d+(?= kB)/gm);
   assert.deepEqual(statedLimits?.map(Number), Object.values(LIMITS_KB));
 });

@@ -26,7 +26,7 @@ export const WIDGET_TAGS = Object.keys(declared.settings);
 const BYTES_MODULE_NAME = 'motion.bytes';
 
 /**
- * Placeholder for the name of the chunk that contains `MODULE.external`. It has the same length, so that source maps stay valid. Within
+ * Placeholder for the name of the chunk that contains `MODULE_SOURCES.external`. It has the same length, so that source maps stay valid. Within
  * dist/ the chunk's address ends with that name; in the output of a bundler it does not.
  */
 const CHUNK_PLACEHOLDER = 'chunk-________.js';
@@ -283,7 +283,7 @@ export async function bundle({ tags = WIDGET_TAGS, transformScript = (_, script)
   chmodSync(pathOf('dist/cli.js'), 0o755);
   writeOutput(pathOf('dist/classroom.html'), inlinedPage('index.html'));
   writeOutput(pathOf('dist/custom-elements.json'), `${JSON.stringify(elementManifest, null, 1)}\n`);
-  // Sizes of products, which tests/package/sizes.nightly.test.js reads.
+  // Sizes of the bundles, which tests/package/sizes.nightly.test.js reads.
   const bundleOutputs = Object.assign({}, ...bundles.map(({ metafile }) => metafile.outputs));
   writeOutput(pathOf('build/outputs.json'), JSON.stringify(bundleOutputs));
   const crates = JSON.parse(readFileSync(pathOf('build/crates.json'), 'utf8'));

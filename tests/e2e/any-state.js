@@ -54,7 +54,7 @@ export function randomStates(seed) {
       alphas: randomAlphas(6),
       clearance: randomNumber(0, 0.2),
       conditioned: randomItem([true, false]),
-      // The whole-arc sampler never gives up, and its settings are valid in any order.
+      // The whole-arc sampler always draws every sample, and its settings are valid in any order.
       sampler: 'whole-arc',
       steps: randomInteger(1, 64),
       unknown: randomItem(['free', 'blocked']),

@@ -172,7 +172,7 @@ testEach('code to embed opens the settings of a state, with its attributes in an
       const loadPromises = [embeddedCopy, reorderedCopy].map((copy) => new Promise((resolve) => copy.addEventListener('load', resolve)));
       element.before(...containers);
       await Promise.all(loadPromises);
-      // A log is fitted in the frames after the state.
+      // After a change of its state, a calibrator fits its log in later frames.
       while (/** @type {any} */ (element).isBusy) await new Promise(requestAnimationFrame);
       const configs = [element, embeddedCopy, reorderedCopy].map((figure) => /** @type {AnyElement} */ (figure).simulation.config);
       for (const container of containers) container.remove();

@@ -100,7 +100,7 @@ test('a link leads to the figure that it was copied from, once; a reload leads n
     await page.evaluate((hash) => history.replaceState(null, '', hash), linkFragments[i]);
   }
   expect(linkFragments[1]).toMatch(/^#banana-machine\.2=.*&banana-machine\.1=/);
-  // A figure whose state is in the address already has no second part there.
+  // A figure whose state is already in the address gets no second part there.
   expect(await fragmentOf(figureAt(page, 1))).toBe(linkFragments[1]);
   for (const [i, fragment] of linkFragments.entries()) {
     const newPage = await context.newPage();

@@ -60,7 +60,7 @@ test('a part of a state leaves the rest, and both models keep their noise', asyn
   await openDisclosures(widget);
   await widget.locator('#alpha1').fill('0.15');
   await widget.getByLabel('odometry').check();
-  // The slider that bends the cloud is another one in each model.
+  // In each model another slider bends the cloud. It is in the element `.pair`.
   await widget.locator('.pair #alpha2').fill('0.07');
   const stateBefore = /** @type {any} */ (await stateOf(widget));
   expect(stateBefore.alphas.velocity[0]).toBe(0.15);

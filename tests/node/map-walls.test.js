@@ -1,4 +1,4 @@
-// Walls of a floor plan that a user moves, and the wall that a path touches.
+// Walls of a floor plan that a user moves, and the first wall that a path touches.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';

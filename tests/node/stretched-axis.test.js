@@ -1,4 +1,4 @@
-// Factor in the name of an axis whose scale differs from that of the other axis.
+// Factor that is shown with the name of an axis if its scale differs from that of the other axis.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';

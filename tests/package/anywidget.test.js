@@ -150,7 +150,7 @@ test('a change of the model reaches the figure, what follows of it the model, an
   const { traits: { _shown } } = await traitsAndPropertiesOf(page, ['_shown']);
   assert.deepEqual(_shown, { heard: 1, settings: { ...traits, samples: 100, isolate: null } });
 
-  // Several changes at once, as from a kernel that groups them: no earlier value is sent back.
+  // A kernel may send several changes at once. Then no earlier value is sent back.
   await page.evaluate(() => {
     const { state, listeners } = /** @type {any} */ (globalThis).view;
     Object.assign(state, { omega: 0.2, v: 0.5 });

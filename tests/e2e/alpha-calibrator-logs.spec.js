@@ -12,19 +12,6 @@ import { REDUCED_MOTION, dropFiles, stateOf, takeEvents, test, openDisclosures, 
 test.use(REDUCED_MOTION);
 testWithWarnings.use(REDUCED_MOTION);
 
-test('a refusal and long work are shown one above the other', async ({ page }) => {
-  const widget = await openCalibrator(page);
-  await widget.evaluate((element) => {
-    const { notice } = /** @type {any} */ (element);
-    notice.show('odom.csv: no columns are named t, x, y, yaw; expected is a table with a header. '.repeat(3));
-    void notice.showDuring(new Promise(() => {}), () => {});
-  });
-  const noticeBoxes = widget.locator('.notice > div');
-  await expect(noticeBoxes).toHaveCount(2);
-  const [progressBox, messageBox] = await noticeBoxes.evaluateAll((boxElements) => boxElements.map((box) => box.getBoundingClientRect()));
-  expect(messageBox.bottom).toBeLessThanOrEqual(progressBox.top);
-});
-
 test('two tables of a user replace the simulated log, and a button brings it back', async ({ page }) => {
   const widget = await openCalibrator(page);
   const logTables = await simulatedTablesOf(widget);

@@ -21,12 +21,11 @@ const MAX_LENGTH = 40;
 
 const shorten = (text: string) => (text.length > MAX_LENGTH ? `${text.slice(0, MAX_LENGTH)}…` : text);
 
-/** Returns an object after a check of its keys; `checkFirst` runs before it. */
-export function checkedObject(field: string, value: unknown, keys: readonly string[], checkFirst?: (value: Record<string, unknown>) => void) {
+/** Returns an object after a check of its keys. */
+export function checkedObject(field: string, value: unknown, keys: readonly string[]) {
   if (typeof value !== 'object' || value === null || Array.isArray(value)) {
     throw refusalError(field, value, `an object with keys from ${keys.join(', ')}`, TypeError);
   }
-  checkFirst?.(value as Record<string, unknown>);
   const unknownKey = Object.keys(value).find((key) => !keys.includes(key));
   if (unknownKey !== undefined) {
     throw new TypeError(`${field}.${shorten(unknownKey)} is an unknown key; allowed are ${keys.join(', ')}`);

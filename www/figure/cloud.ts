@@ -7,7 +7,6 @@ import { button } from '../ui/controls.ts';
 import { integer } from '../ui/format.ts';
 import { refusalError, checkedInteger } from './checks.ts';
 import { FigureController } from './controller.ts';
-import { freeOnError } from './runtime.ts';
 import { prefersReducedMotion } from './renderer.ts';
 import type { Figure } from './figure.ts';
 import type { Values } from './settings.ts';
@@ -83,7 +82,7 @@ export class Cloud extends FigureController {
     this.playing = state ? state.playing : true;
     this.#requestedCount = state && state.shown < this.#samples ? state.shown : Infinity;
     if (!state && !prefersReducedMotion()) this.#restart();
-    if (prefersReducedMotion()) this.finish();
+    if (this.playing && prefersReducedMotion()) this.finish();
   }
 
   /** Changes settings and shows one block of samples; later frames add the others. Returns all settings. */
@@ -97,11 +96,10 @@ export class Cloud extends FigureController {
     this.host.settings.isStale = true;
   }
 
-  /** Shows all samples of a growing cloud at once. */
+  /** Shows all requested samples at once. A growing cloud is complete then. */
   finish() {
-    if (!this.playing) return;
+    if (this.playing) this.#requestedCount = Infinity;
     this.playing = false;
-    this.#requestedCount = Infinity;
     this.refine(Infinity);
   }
 
@@ -183,10 +181,10 @@ export class Cloud extends FigureController {
     if (!this.#isWanted) this.mark(-1);
   }
 
-  /** Adds samples in a frame. The first frame after a change shows one block, so that drags are quick. The last frame adds all samples. */
-  advance(isLast: boolean) {
+  /** Adds samples in a frame. The first frame after a change shows one block, so that drags are quick. */
+  advance() {
     if (this.playing) this.grow();
-    else if (isLast || !this.host.settings.isStale) this.refine(isLast ? Infinity : ADDING_MS);
+    else if (!this.host.settings.isStale) this.refine();
   }
 
   grow() {
@@ -240,15 +238,14 @@ export class Cloud extends FigureController {
 }
 
 /**
- * Sets a new simulation to a state if there is one, with the first block of its samples, and returns it. An invalid state frees the simulation and
- * throws a TypeError or RangeError.
+ * Sets a new simulation to a state if there is one, with the first block of its samples, and returns it. Throws a TypeError or RangeError for
+ * an invalid state.
  */
-export function enterCloud<M extends GrowingSimulation & { free(): void }>({ settings }: Figure, simulation: M, state?: Values): M {
+export function enterCloud<M extends GrowingSimulation>({ settings }: Figure, simulation: M, state?: Values): M {
   if (!state) return simulation;
-  return freeOnError(simulation, () => {
-    simulation.configureFirst(settings.pick(state), 0);
-    simulation.configureFirst({}, checkedInteger('state.shown', state.shown, 0, simulation.config.samples));
-  });
+  simulation.configureFirst(settings.pick(state), 0);
+  simulation.configureFirst({}, checkedInteger('state.shown', state.shown, 0, simulation.config.samples));
+  return simulation;
 }
 
 /** Read-only properties of elements with a cloud. */

@@ -138,11 +138,8 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
 
   // Members that widgets override; the abstract ones are required.
 
-  /** Creates a simulation in a state, or in the default one; throws a TypeError or RangeError. */
+  /** Creates a simulation in a state, to which it adds missing fields, or in the default one; throws a TypeError or RangeError. */
   abstract createSimulation(motion: Motion, state?: Values): Simulation;
-
-  /** Applies the fields of a state that are not settings to a new simulation, and adds missing fields. */
-  restore(_simulation: Simulation, _state: Values) {}
 
   /** Returns the view model of the simulation. It is called once for each change. */
   abstract read(simulation: Simulation): ViewModel;

@@ -1,4 +1,4 @@
-/** Notice over the lower edge of the figure or the window: a sentence, or the progress of long work with a button that stops it. It moves no content. */
+/** Notice over the lower edge of the figure or the window: the progress of long work with a button that stops it, or a sentence. It moves no content. */
 
 import { css, html, nothing } from 'lit';
 import { words } from '../messages/registry.ts';
@@ -35,11 +35,6 @@ export const noticeStyles = css`
     font-variant-numeric: tabular-nums;
   }
 
-  /* A sentence is above the work that is shown with it. */
-  .notice + .notice > div {
-    bottom: 3.7em;
-  }
-
   .notice > .sentence {
     width: max-content;
     border-left: 3px solid var(--accent);
@@ -57,10 +52,6 @@ export class Notice extends FigureController {
   #sentenceText = '';
   /** Stops the work that is shown, if any. */
   #stopWork: (() => void) | undefined;
-
-  get isShown() {
-    return this.#sentenceText !== '';
-  }
 
   /** Shows a sentence until the user closes it; an empty one hides it. */
   show(sentence: string) {
@@ -104,12 +95,16 @@ export class Notice extends FigureController {
 
   render() {
     const { label, stop, stopTitle } = words.progress;
-    const workHtml = this.#stopWork && html`<div part="progress">
-      <progress aria-label=${label}></progress>
-      <span aria-hidden="true">${label}</span>
-      ${button(stop, this.#stopWork, { title: stopTitle })}
-    </div>`;
-    const sentenceHtml = this.isShown && html`<div class="sentence"><span role="alert">${this.#sentenceText}</span> ${button(words.close, () => this.show(''))}</div>`;
-    return [workHtml, sentenceHtml].map((content) => (content ? html`<div class="notice">${content}</div>` : nothing));
+    if (this.#stopWork) {
+      return html`<div class="notice"><div part="progress">
+        <progress aria-label=${label}></progress>
+        <span aria-hidden="true">${label}</span>
+        ${button(stop, this.#stopWork, { title: stopTitle })}
+      </div></div>`;
+    }
+    if (this.#sentenceText === '') return nothing;
+    return html`<div class="notice"><div class="sentence">
+      <span role="alert">${this.#sentenceText}</span> ${button(words.close, () => this.show(''))}
+    </div></div>`;
   }
 }

@@ -127,17 +127,6 @@ export class Runtime extends FigureController {
   }
 }
 
-/** Runs work with a new simulation, which is freed if that throws. */
-export function freeOnError<Simulation extends { free(): void }>(simulation: Simulation, work: (simulation: Simulation) => void) {
-  try {
-    work(simulation);
-    return simulation;
-  } catch (error) {
-    simulation.free();
-    throw error;
-  }
-}
-
 /** Returns true for a trap, and for the error of a simulation used after one: see writeGlue in scripts/build.mjs. */
 const isWasmTrap = (error: unknown) => typeof WebAssembly !== 'undefined' && error instanceof WebAssembly.RuntimeError;
 

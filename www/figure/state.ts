@@ -3,7 +3,6 @@
 import { checkedObject, refusalError, checkedWord } from './checks.ts';
 import { validatedValue } from './definition.ts';
 import { FigureController } from './controller.ts';
-import { freeOnError } from './runtime.ts';
 import type { Values } from './settings.ts';
 
 export const STATE_VERSION = 1;
@@ -31,7 +30,6 @@ export class State extends FigureController {
   resume() {
     const { host } = this;
     host.settings.reset();
-    if (this.lastValidState) host.restore(host.simulation, this.lastValidState);
     host.simulationChanged();
     host.reflection.applyEarlyAssignments();
     // The simulation is missing after a trap. The settings are not stale if a pending state was shown already.
@@ -42,19 +40,17 @@ export class State extends FigureController {
   applyState(state: unknown) {
     const host = this.host;
     host.settings.applyPending();
+    const { widget, version } = Object(state);
+    checkedWord('state.widget', widget, [host.localName]);
+    if (version !== STATE_VERSION) throw refusalError('state.version', version, String(STATE_VERSION));
     const currentState = host.snapshot();
-    const checkedState = checkedObject('state', state, Object.keys(currentState), ({ widget, version }) => {
-      checkedWord('state.widget', widget, [host.localName]);
-      if (version !== STATE_VERSION) throw refusalError('state.version', version, String(STATE_VERSION));
-    });
+    const checkedState = checkedObject('state', state, Object.keys(currentState));
     const wholeState: Values = { ...currentState, ...host.withDerivedFields(currentState, checkedState) };
-    const simulation = freeOnError(host.createSimulation(host.motion, wholeState), (newSimulation) => {
-      const selectableCount = wholeState.playing ? newSimulation.config.samples : wholeState.shown;
-      for (const [name, field] of Object.entries(this.#fields)) {
-        if (name in checkedState) wholeState[name] = validatedValue(field, `state.${name}`, wholeState[name], selectableCount);
-      }
-      host.restore(newSimulation, wholeState);
-    });
+    const selectableCount = wholeState.playing ? wholeState.samples : wholeState.shown;
+    for (const [name, field] of Object.entries(this.#fields)) {
+      if (name in checkedState) wholeState[name] = validatedValue(field, `state.${name}`, wholeState[name], selectableCount);
+    }
+    const simulation = host.createSimulation(host.motion, wholeState);
     for (const name of Object.keys(this.elementState)) this.elementState[name] = wholeState[name];
     host.runtime.replace(simulation);
     host.settings.reset();

@@ -6,7 +6,6 @@ import { pictureCanvas, disclosures, titledPicture } from '../../figure/controls
 import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
 import { define } from '../../figure/reflection.ts';
-import { freeOnError } from '../../figure/runtime.ts';
 import { words } from '../../messages/registry.ts';
 import { pointOn } from '../../scene/canvas.ts';
 import { Memo } from '../../scene/memo.ts';
@@ -69,7 +68,9 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
 
   #simulationOf({ AlphaCalibrator }: Motion, requested: Partial<Simulation['config']>, given: OpenedLog | null): Simulation {
     if (!given) return new AlphaCalibrator(requested);
-    return freeOnError(AlphaCalibrator.restored(given.config, given.fit), (simulation) => simulation.configure(requested));
+    const simulation = AlphaCalibrator.restored(given.config, given.fit);
+    simulation.configure(requested);
+    return simulation;
   }
 
   read(simulation: Simulation) {
@@ -162,7 +163,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
     this.runtime.attempt(() => {
       if (!this.simulation) return;
       const simulation = this.#simulationOf(this.motion, this.settings.pick(this.settings.current), openedLog);
-      freeOnError(simulation, () => check?.(simulation));
+      check?.(simulation);
       if (log !== this.log) {
         this.state.elementState.leg = null;
         for (const { view } of this.pictures) view.reset();

@@ -7,7 +7,6 @@ import { pictureCanvas, disclosures, titledPicture } from '../../figure/controls
 import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
 import { define } from '../../figure/reflection.ts';
-import { freeOnError } from '../../figure/runtime.ts';
 import { words } from '../../messages/registry.ts';
 import { openingAlphas } from '../../settings.js';
 import { hasLength } from '../../scene/draw.ts';
@@ -75,10 +74,12 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     // The simulation starts empty: the cloud grows visibly, and the first frame need not wait for samples.
     const simulation = motion.BananaMachine.empty();
     if (!state) return simulation;
-    const { model, alphas } = state;
+    const { model, alphas, pinned } = state;
     // Each model keeps its own α's.
     const otherModel = model === 'velocity' ? 'odometry' : 'velocity';
-    freeOnError(simulation, () => simulation.configureFirst({ model: otherModel, alphas: alphas[otherModel] }, 0));
+    simulation.configureFirst({ model: otherModel, alphas: alphas[otherModel] }, 0);
+    // Checks the pinned settings.
+    this.#viewModelOfPinned(pinned, motion);
     return enterCloud(this, simulation, { ...state, alphas: alphas[model] });
   };
 
@@ -111,18 +112,13 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     };
   }
 
-  /** Checks the pinned settings of a state. */
-  restore(_simulation: Simulation, { pinned }: Values) {
-    this.#viewModelOfPinned(pinned);
-  }
-
   /** View model of the pinned settings, with which the current cloud is compared. */
   get #pinned() {
     return this.#viewModelOfPinned(this.state.elementState.pinned);
   }
 
-  #viewModelOfPinned(pinned: Settings | null): ViewModel | undefined {
-    return pinned ? this.#pinnedViewModel.get([pinned], () => viewModelOfSettings(this.motion, pinned)) : undefined;
+  #viewModelOfPinned(pinned: Settings | null, motion = this.motion): ViewModel | undefined {
+    return pinned ? this.#pinnedViewModel.get([pinned], () => viewModelOfSettings(motion, pinned)) : undefined;
   }
 
   /** Pins the current settings for comparison, or unpins them. The pinned outlines and numbers are those of the complete cloud. */

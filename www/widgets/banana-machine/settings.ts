@@ -39,7 +39,7 @@ export const definition = definitionOf('banana-machine', {
   elementFields: {
     /** The α that remains under "Isolate", from 1; remembered while "Isolate" is off. */
     isolateChoice: { opening: 4, check: (field, number) => checkedInteger(field, number, 1, openingAlphas.velocity.length) },
-    /** Settings of the simulation whose outlines are pinned; null for none. `BananaMachineElement.restore` checks them. */
+    /** Settings of the simulation whose outlines are pinned; null for none. `BananaMachineElement.createSimulation` checks them. */
     pinned: { opening: null, check: (_, pinned) => pinned },
     /** Morph, from the floor (0) to exponential coordinates (1). */
     morph: { converter: NUMBER_CONVERTER, min: 0, max: 1, opening: 0, isResetByPreset: true },

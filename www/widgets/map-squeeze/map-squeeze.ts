@@ -6,7 +6,6 @@ import { pictureCanvas, disclosures, titledPicture } from '../../figure/controls
 import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
 import { define } from '../../figure/reflection.ts';
-import { freeOnError } from '../../figure/runtime.ts';
 import { words } from '../../messages/registry.ts';
 import { verdict as bits } from '../../settings.js';
 import { Memo } from '../../scene/memo.ts';
@@ -23,7 +22,6 @@ import { styles } from './styles.ts';
 import { WallHandles } from './wall-handles.ts';
 import { wallContact } from './walls.ts';
 import { captionOf, headlineOf, mapText, pictureText } from './words.ts';
-import type { Values } from '../../figure/settings.ts';
 import type { Cells } from '../../scene/walls.ts';
 import type { MapData, MapSqueeze as Simulation, Pose } from '../../types.d.ts';
 import type { OwnMap } from './maps/files.ts';
@@ -59,15 +57,14 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   /** Free pose to which the robot was last moved. */
   #freePose: Pose | undefined;
 
-  createSimulation: FigureElement<Simulation, ViewModel>['createSimulation'] = (motion, state) => enterCloud(this, motion.MapSqueeze.empty(), state);
-
-  restore(simulation: Simulation, state: Values) {
-    const { map } = state;
-    if (!map) return;
-    applyMap(simulation, map);
+  createSimulation: FigureElement<Simulation, ViewModel>['createSimulation'] = (motion, state) => {
+    const simulation = enterCloud(this, motion.MapSqueeze.empty(), state);
+    if (!state?.map) return simulation;
+    applyMap(simulation, state.map);
     simulation.configureFirst({}, state.shown);
-    state.map = mapData(simulation, map.name ?? '', this.#gridOf(simulation));
-  }
+    state.map = mapData(simulation, state.map.name ?? '', this.#gridOf(simulation));
+    return simulation;
+  };
 
   #gridOf(simulation: Simulation) {
     if (this.#grid?.of !== simulation) this.#grid = { of: simulation, grid: cellsOf(simulation) };
@@ -258,13 +255,11 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     if (!motion) return;
     settings.applyPending();
     const simulation = motion.MapSqueeze.empty();
-    freeOnError(simulation, () => {
-      simulation.configureFirst(settings.pick(settings.requested), 0);
-      apply(simulation);
-      const isGrid = this.#gridOf(simulation) !== null;
-      const startPose = start ?? (isGrid || !simulation.startFree ? this.#findFreePose(simulation) : undefined);
-      simulation.configureFirst(startPose ? { start: startPose } : {}, this.cloud.targetCount);
-    });
+    simulation.configureFirst(settings.pick(settings.requested), 0);
+    apply(simulation);
+    const isGrid = this.#gridOf(simulation) !== null;
+    const startPose = start ?? (isGrid || !simulation.startFree ? this.#findFreePose(simulation) : undefined);
+    simulation.configureFirst(startPose ? { start: startPose } : {}, this.cloud.targetCount);
     const newMap = mapData(simulation, name, this.#gridOf(simulation));
     this.runtime.replace(simulation);
     settings.reset();

@@ -257,7 +257,7 @@ test('properties take effect at once and reflect, and those that a model lacks a
   expect(meanTurn).toBeCloseTo(1.1 * dt, 1);
   expect(await setProperty(widget, 'model', 'odometry')).toBe('');
   expect(await propertyOf(widget, 'alpha5')).toBe(null);
-  expect(await setProperty(widget, 'alpha5', 0.1)).toContain('alpha5 is 0.1; allowed is none');
+  expect(await setProperty(widget, 'alpha5', 0.1)).toContain('alphas has length 5; allowed is an array of 4 numbers');
 });
 
 test('properties that are refused fire an error event that does not bubble, and warn in the console if nobody listens', async ({ page }) => {

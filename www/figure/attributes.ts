@@ -1,7 +1,8 @@
 /** Attributes and properties derived from a widget's settings, and their conversion from and to text. */
 
-import { checkedNumber, includesFields, refusalError, checkedWord } from './checks.ts';
+import { checkedNumber, includesFields, checkedWord } from './checks.ts';
 import type { Declaration } from '../settings.js';
+import type { Values } from './settings.ts';
 
 /** Conversion of a value from and to the text of an attribute. */
 export interface Converter {
@@ -11,15 +12,12 @@ export interface Converter {
   print: (value: any) => string | null;
 }
 
-/** Settings of the simulation, with pending changes, and the state of the element. */
-export type Config = Record<string, any>;
-
 export interface Property {
   /** Conversion of a property that is also an attribute. */
   converter?: Converter;
-  get: (config: Config) => unknown;
+  get: (config: Values) => unknown;
   /** Returns the changed part of the configuration for a new value. */
-  change: (value: any, config: Config) => Config;
+  change: (value: any, config: Values) => Values;
   /** Name of a setting in the core, if different. */
   path?: string;
   /** Names of the attributes that this one determines, as a preset does. They are written only while this attribute has no value. */
@@ -107,11 +105,7 @@ function propertyOf({ key, in: group, field = key, index, of, weights = [], type
     ...plainProperty,
     path: index !== undefined ? `${group}[${index}]` : field === key ? undefined : `${group}.${field}`,
     get: (config) => config[group][memberKey] ?? null,
-    change: (value, { [group]: groupValue }) => {
-      if (index === undefined) return { [group]: { ...groupValue, [memberKey]: value } };
-      if (index < groupValue.length) return { [group]: groupValue.with(index, value) };
-      throw refusalError(key, value, `none, as the last one at present is ${key.replace(/\d/, '')}${groupValue.length}`);
-    },
+    change: (value, { [group]: groupValue }) => ({ [group]: Object.assign(index === undefined ? { ...groupValue } : [...groupValue], { [memberKey]: value }) }),
   };
 }
 
@@ -127,7 +121,7 @@ const KEPT_BY_PRESETS = ['samples', 'seed'];
 
 /** Returns the configuration that a figure opens with: the defaults of its settings. */
 export function defaultConfig(declarations: Declaration[]) {
-  let config: Config = {};
+  let config: Values = {};
   for (const setting of declarations) {
     if (!setting.of) config = { ...config, ...propertyOf(setting).change(setting.type === 'group' ? {} : setting.default, config) };
   }

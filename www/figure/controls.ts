@@ -34,14 +34,13 @@ type AllowedNumbers = Pick<Declaration, 'type' | 'unit'> & { min: number, max: n
 export type RowOverrides = Partial<SliderRow> & { maxEntered?: number };
 
 /** Returns the slider of a setting; `overrides` replaces fields of its slider row. */
-export function settingSlider(figure: Figure, key: string, overrides?: RowOverrides) {
-  const { sliderSpecs, attributes } = figure.definition;
-  const { symbol, decimals, value, ...sliderLook } = sliderSpecs[key];
+export function settingSlider(figure: Figure, key: string, overrides?: RowOverrides, spec = figure.definition.sliderSpecs[key]) {
+  const { symbol, decimals, value, ...sliderLook } = spec;
   const { name, effect } = wordsFor(figure, key);
   const declaration = declarationOf(figure, key);
   const { unit } = declaration;
   const config = figure.settings.requested;
-  const setting = attributes[key];
+  const setting = figure.definition.attributes[key];
   return editableSlider(figure, symbol ?? name, declaration, {
     ...sliderLook,
     id: key,
@@ -160,22 +159,8 @@ export function cloudControls(figure: CloudFigure, counts: readonly number[]) {
 
 /** Returns the slider of the number of samples, which offers `counts`. */
 export function samplesSlider(figure: Figure, counts: readonly number[]) {
-  const { name, effect } = wordsFor(figure, 'samples');
-  return editableSlider(figure, 'N', declarationOf(figure, 'samples'), {
-    id: 'samples',
-    symbol: html`<i>N</i>`,
-    name,
-    value: figure.settings.requested.samples,
-    min: counts[0],
-    max: counts[counts.length - 1],
-    step: 1,
-    stops: counts,
-    show: integer,
-    effect,
-    role: 'truth',
-    input: (count) => requestValue(figure, 'samples', count),
-    commit: () => figure.gesture.commit(),
-  });
+  const spec: SliderSpec = { symbol: '*N*', role: 'truth', min: counts[0], max: counts[counts.length - 1], step: 1, decimals: 0 };
+  return settingSlider(figure, 'samples', { stops: counts, show: integer }, spec);
 }
 
 /** Returns the controls of growth and seed of the cloud. */

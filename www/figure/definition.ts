@@ -1,10 +1,11 @@
 /** Definition of a widget: its settings with their sliders, its properties and attributes, and the state of its element. */
 
 import { presets, settings, type Declaration } from '../settings.js';
-import { NUMBER_CONVERTER, WORD_LIST_CONVERTER, selectAttributes, fieldProperty, presetPropertyOf, propertiesOf, type Attribute, type Config, type Properties, type Property } from './attributes.ts';
+import { NUMBER_CONVERTER, WORD_LIST_CONVERTER, selectAttributes, fieldProperty, presetPropertyOf, propertiesOf, type Attribute, type Properties, type Property } from './attributes.ts';
 import { checkedNumber, checkedSubset, checkedInteger, checkedWord } from './checks.ts';
 import type { SliderSpec } from './controls.ts';
 import type { LineStyle } from '../scene/draw.ts';
+import type { Values } from './settings.ts';
 
 /** Field of the state that the element keeps, because the simulation does not have it. */
 export interface ElementField extends Pick<Property, 'converter' | 'words' | 'min' | 'max'> {
@@ -30,7 +31,7 @@ export interface Definition {
   elementFields: Record<string, ElementField>;
   /** Appearance of the settings that have a slider. */
   sliderSpecs: Record<string, SliderSpec>;
-  dependentDefaults?: (config: Config) => Config;
+  dependentDefaults?: (config: Values) => Values;
 }
 
 interface DefinitionOptions extends Pick<Definition, 'messageKey' | 'sliderSpecs' | 'dependentDefaults'> {

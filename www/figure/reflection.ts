@@ -4,8 +4,8 @@ import { COMMON_ATTRS, defaultConfig } from './attributes.ts';
 import { includesFields, withFieldRenamed, checkedWord } from './checks.ts';
 import { cloudProperties } from './cloud.ts';
 import { FigureController } from './controller.ts';
-import type { Config } from './attributes.ts';
 import type { Figure } from './figure.ts';
+import type { Values } from './settings.ts';
 
 /** Texts of attributes; null for none. */
 type AttributeTexts = Map<string, string | null>;
@@ -118,12 +118,12 @@ export class Reflection extends FigureController {
   }
 
   /** Default configuration. Some defaults depend on the present settings. */
-  get #defaultConfig(): Config {
+  get #defaultConfig(): Values {
     const { definition, settings, state } = this.host;
     return { ...defaultConfig(definition.declarations), ...state.defaults, ...definition.dependentDefaults?.(settings.requested) };
   }
 
-  #textsOf(config: Config): AttributeTexts {
+  #textsOf(config: Values): AttributeTexts {
     return new Map(Object.entries(this.#attributes).map(([name, { converter, get }]) => [name, converter.print(get(config) ?? null)]));
   }
 

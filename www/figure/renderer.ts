@@ -143,7 +143,7 @@ export class Renderer extends FigureController {
     host.settings.applyPending();
     // The simulation is missing after a trap.
     if (!host.simulation) return;
-    host.cloud?.advance(this.isPrinting);
+    host.cloud?.advance();
     const { scene } = host;
     const { isPressed, previousViewModel } = host.gesture;
     const options = { elapsed, atOnce: this.isPrinting || prefersReducedMotion(), previousViewModel, highlight: host.highlight, handles: this.isPrinting };
@@ -195,6 +195,7 @@ export class Renderer extends FigureController {
       await host.runtime.start();
       await host.updateComplete;
     }
+    host.settings.applyPending();
     if (!host.simulation) return;
     if (this.isPrinting) host.cloud?.finish();
     else host.canvases.measure();

@@ -1,5 +1,6 @@
 /** Callouts: sentences in a picture, each with a line to the point that it is about. */
 
+import { least } from 'd3-array';
 import { clamp } from '../ui/clamp.ts';
 import { fade } from './canvas.ts';
 import { drawLeader } from './labels.ts';
@@ -21,9 +22,8 @@ const LEADER_LENGTHS = [MIN_LEADER, 2 * MIN_LEADER, 3 * MIN_LEADER];
 const TURN_COST = 1;
 const LENGTH_COST = 0.1;
 
-/** Candidate positions of a sentence around its point, the cheapest first. */
-const CANDIDATES = LEADER_LENGTHS.flatMap((length) => CANDIDATE_ANGLES.map((turn) => ({ turn, length, cost: TURN_COST * Math.abs(turn) + LENGTH_COST * length })))
-  .sort((a, b) => a.cost - b.cost);
+/** Candidate positions of a sentence around its point. */
+const CANDIDATES = LEADER_LENGTHS.flatMap((length) => CANDIDATE_ANGLES.map((turn) => ({ turn, length, cost: TURN_COST * Math.abs(turn) + LENGTH_COST * length })));
 
 /** Sentence with line breaks, the point that it is about (in the view's world), and its colour (default: that of text). */
 export interface Callout {
@@ -51,18 +51,16 @@ export function drawCallouts({ context, view, palette, font, placedBoxes }: Brus
     const halfHeight = (LINE_HEIGHT * textLines.length) / 2 + TEXT_MARGIN;
     const [x, y] = toPixels(at);
     const angle = Math.atan2(y - fromY, x - fromX);
-    let [bestBox, lowestCost]: [Box, number] = [{ x, y, halfWidth, halfHeight }, Infinity];
-    for (const { turn, length, cost } of CANDIDATES) {
-      if (cost >= lowestCost) break;
+    const candidateBoxes = CANDIDATES.map(({ turn, length, cost }) => {
       const [idealX, idealY] = [x + (length + halfWidth) * Math.cos(angle + turn), y + (length + halfHeight) * Math.sin(angle + turn)];
-      const candidateBox = {
+      const box = {
         x: clamp(idealX, left + halfWidth, Math.max(left + halfWidth, right - halfWidth)),
         y: clamp(idealY, top + halfHeight, Math.max(top + halfHeight, bottom - halfHeight)),
         halfWidth, halfHeight,
       };
-      const totalCost = cost + overlapOf(candidateBox, avoidedPoints, placedBoxes);
-      if (totalCost < lowestCost) [bestBox, lowestCost] = [candidateBox, totalCost];
-    }
+      return { ...box, cost: cost + overlapOf(box, avoidedPoints, placedBoxes) };
+    });
+    const bestBox = least(candidateBoxes, ({ cost }) => cost) ?? candidateBoxes[0];
     const leaderStart = [clamp(x, bestBox.x - halfWidth, bestBox.x + halfWidth), clamp(y, bestBox.y - halfHeight, bestBox.y + halfHeight)];
     placedBoxes.push(bestBox);
     avoidedPoints.push(...pointsBetween(leaderStart, [x, y]));

@@ -1,6 +1,6 @@
 import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
-import { STATE_SEEDS, randomStates } from './any-state.js';
+import { STATE_SEEDS, randomStates } from './random-states.js';
 import { ALL_NAMES, FIGURE_FACTS, TWO_NAMES } from './figures.js';
 import { REDUCED_MOTION, setProperty, waitForFrames, mount, propertyOf, showPage, takeEvents, test, testEach, openDisclosures, untilReady } from './support.js';
 

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { STATE_SEEDS, randomStates } from './any-state.js';
+import { STATE_SEEDS, randomStates } from './random-states.js';
 import { REDUCED_MOTION, waitForFrames, mount, showPage, stateOf, takeEvents, test, testEach, openDisclosures, untilReady } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */

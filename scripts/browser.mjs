@@ -48,8 +48,8 @@ export async function ensureBrowser() {
 
 async function ensureChrome() {
   const { CHROME, CHROMEDRIVER } = process.env;
-  const presentBrowser = await checkPair(CHROME ?? findChrome(), CHROMEDRIVER ?? findProgram('chromedriver'));
-  if (presentBrowser !== undefined) return presentBrowser;
+  const existingBrowser = await checkPair(CHROME ?? findChrome(), CHROMEDRIVER ?? findProgram('chromedriver'));
+  if (existingBrowser !== undefined) return existingBrowser;
   if (CHROME !== undefined || CHROMEDRIVER !== undefined) throw new UserError(MISSING_BROWSER_MESSAGE);
   // Packages of these names on Ubuntu only point to a snap, which cannot be driven from here.
   const isDebian = existsSync('/etc/os-release') && /^ID=debian$/m.test(readFileSync('/etc/os-release', 'utf8'));
@@ -97,8 +97,8 @@ async function installChromeForTesting() {
   const pathsFile = join(browsersDirectory, 'paths.json');
   if (existsSync(pathsFile)) {
     const { chrome, driver } = JSON.parse(readFileSync(pathsFile, 'utf8'));
-    const presentBrowser = await checkPair(chrome, driver);
-    if (presentBrowser !== undefined) return presentBrowser;
+    const existingBrowser = await checkPair(chrome, driver);
+    if (existingBrowser !== undefined) return existingBrowser;
   }
   printStep('Downloading Chrome for Testing');
   const chrome = await downloadProgram(browsersDirectory, 'chrome@stable');

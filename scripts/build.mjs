@@ -93,11 +93,11 @@ async function buildCores(coreNames, local) {
   const [binderPromise, packagesPromise] = [ensureBindProgram(), ensurePackages(local ? undefined : 'scripts')];
   printStep(`Compiling the core to WebAssembly (${rustTools.description}): ${coreNames.join(', ')}`);
   const finishPromises = [];
-  for (const name of coreNames) {
+  for (const coreName of coreNames) {
     // Cargo writes all cores to one path: each is bound before the next is compiled. Optimization runs meanwhile.
-    const [modulePath, binderPath] = await settleAll([compileCore(rustTools, name, local), binderPromise, packagesPromise]);
-    await mustRun('wasm-bindgen failed: see above.', binderPath, [modulePath, pathOf(`build/bound/${name}`)]);
-    finishPromises.push(finishCore(name, local));
+    const [modulePath, binderPath] = await settleAll([compileCore(rustTools, coreName, local), binderPromise, packagesPromise]);
+    await mustRun('wasm-bindgen failed: see above.', binderPath, [modulePath, pathOf(`build/bound/${coreName}`)]);
+    finishPromises.push(finishCore(coreName, local));
   }
   await settleAll(finishPromises);
   if (!coreNames.includes('motion')) return;
@@ -242,14 +242,14 @@ async function writeGlue(name, glueNames) {
     plugins: [gluePlugin],
   });
   const shortNameOf = new Map(glueNames.exports);
-  const exportOf = (/** @type {string} */ exportName) => shortNameOf.get(exportName) ?? (() => { throw new Error(`The core of ${name} does not export ${exportName}.`); })();
-  const glueBody = outputFiles[0].text.replace(/^export \{[^}]*\};\s*$/m, '').replaceAll(/\bwasm\.(\w+)/g, (_, key) => `wasm.${exportOf(key)}`);
+  const shortExportOf = (/** @type {string} */ exportName) => shortNameOf.get(exportName) ?? (() => { throw new Error(`The core of ${name} does not export ${exportName}.`); })();
+  const glueBody = outputFiles[0].text.replace(/^export \{[^}]*\};\s*$/m, '').replaceAll(/\bwasm\.(\w+)/g, (_, key) => `wasm.${shortExportOf(key)}`);
   const moduleLines = [
     'export default async (module) => {',
     glueBody,
     `const { exports } = await WebAssembly.instantiate(module, { '${glueNames.imports[0][0]}': { ${glueNames.imports.map(([, importName, key]) => `${key}: ${importName}`)} } });`,
     '__wbg_set_wasm(exports);',
-    `exports.${exportOf('__wbindgen_start')}();`,
+    `exports.${shortExportOf('__wbindgen_start')}();`,
     `return { ${exportNames} };`,
     '};',
   ];

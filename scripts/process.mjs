@@ -12,11 +12,11 @@ export const ROOT = fileURLToPath(new URL('..', import.meta.url));
 export class UserError extends Error {}
 
 /** Collected output of each work that runs in parallel with other work. @type {AsyncLocalStorage<string[]>} */
-const outputStore = new AsyncLocalStorage();
+const collectedOutputStore = new AsyncLocalStorage();
 
 /** Prints text, or adds it to the collected output. @param {string} text @param {NodeJS.WriteStream} [stream] */
 function print(text, stream = process.stdout) {
-  const outputTexts = outputStore.getStore();
+  const outputTexts = collectedOutputStore.getStore();
   if (outputTexts === undefined) stream.write(text);
   else outputTexts.push(text);
 }
@@ -32,7 +32,7 @@ export async function withCollectedOutput(work) {
   /** @type {string[]} */
   const outputTexts = [];
   try {
-    return await outputStore.run(outputTexts, work);
+    return await collectedOutputStore.run(outputTexts, work);
   } finally {
     print(outputTexts.join(''));
   }
@@ -163,7 +163,7 @@ export function run(command, args, { env = {}, cwd = ROOT, seconds, quiet = fals
     let output = '';
     let timedOut = false;
     const startTime = Date.now();
-    const silenceTimer = outputStore.getStore() ? undefined : setInterval(() => {
+    const silenceTimer = collectedOutputStore.getStore() ? undefined : setInterval(() => {
       print(`  ${basename(command)} ${basename(args[0] ?? '')} has been running for ${Math.round((Date.now() - startTime) / 1000)} s\n`);
     }, MAX_SILENCE_MS);
     const processGroupId = seconds === undefined ? undefined : childProcess.pid;

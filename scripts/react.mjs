@@ -8,13 +8,13 @@ import { ROOT } from './process.mjs';
 
 /** @typedef {import('./declarations.mjs').Widget} Widget */
 
-const HEADER = '// Generated from the declarations: not to be edited.\n';
+const GENERATED_HEADER = '// Generated from the declarations: not to be edited.\n';
 
 /** Writes both files. */
 export async function writeComponents() {
   const widgetDescriptions = await describeWidgets();
-  writeFileSync(join(ROOT, 'build/react.js'), `'use client';\n${HEADER}\nimport { component } from '../www/react.ts';\n\n${widgetDescriptions.map(componentSourceOf).join('')}`);
-  writeFileSync(join(ROOT, 'build/react.d.ts'), [HEADER, importLinesOf(widgetDescriptions), PROP_TYPES_SOURCE, ...widgetDescriptions.map(componentTypesOf), jsxTagsOf(widgetDescriptions)].join('\n'));
+  writeFileSync(join(ROOT, 'build/react.js'), `'use client';\n${GENERATED_HEADER}\nimport { component } from '../www/react.ts';\n\n${widgetDescriptions.map(componentSourceOf).join('')}`);
+  writeFileSync(join(ROOT, 'build/react.d.ts'), [GENERATED_HEADER, importLinesOf(widgetDescriptions), PROP_TYPES_SOURCE, ...widgetDescriptions.map(componentTypesOf), jsxTagsOf(widgetDescriptions)].join('\n'));
 }
 
 /** Returns the source of a component. @param {Widget} widget */

@@ -10,7 +10,7 @@ import { importTypeScript } from './typescript.mjs';
 
 /** @typedef {import('./declarations.mjs').Field} Field */
 
-const HEADER = '// Generated from the declarations: not to be edited.\n';
+const GENERATED_HEADER = '// Generated from the declarations: not to be edited.\n';
 
 /** Declaration of `Symbol.dispose`, which may be missing in the `lib` setting of a project. */
 const DISPOSABLE_LIBRARY = '/// <reference lib="esnext.disposable" />\n';
@@ -25,12 +25,12 @@ const TEMPLATE_FRAMEWORKS = {
 export async function writeTypes() {
   const widgetDescriptions = await describeWidgets();
   const coreTypes = readFileSync(join(ROOT, 'build/core.d.ts'), 'utf8');
-  writeFileSync(join(ROOT, 'build/simulations.d.ts'), [DISPOSABLE_LIBRARY, HEADER, ...groupInterfaces(), ...Object.keys(settings).map(settingsInterfaceOf), coreTypes].join('\n'));
-  writeFileSync(join(ROOT, 'build/elements.d.ts'), [HEADER, importLineOf(widgetDescriptions), await figureTypes(widgetDescriptions), ...(await Promise.all(widgetDescriptions.map(elementTypesOf))), tagTypesOf(widgetDescriptions)].join('\n'));
+  writeFileSync(join(ROOT, 'build/simulations.d.ts'), [DISPOSABLE_LIBRARY, GENERATED_HEADER, ...groupInterfaces(), ...Object.keys(settings).map(settingsInterfaceOf), coreTypes].join('\n'));
+  writeFileSync(join(ROOT, 'build/elements.d.ts'), [GENERATED_HEADER, importLineOf(widgetDescriptions), await figureTypes(widgetDescriptions), ...(await Promise.all(widgetDescriptions.map(elementTypesOf))), tagTypesOf(widgetDescriptions)].join('\n'));
   for (const [name, { module, namespace, any, prefix }] of Object.entries(TEMPLATE_FRAMEWORKS)) {
     writeFileSync(
       join(ROOT, `build/${name}.d.ts`),
-      `${HEADER}
+      `${GENERATED_HEADER}
 import type { FigureTags } from '../build/elements.d.ts';
 
 type WithPrefixed<Fields> = Fields & { [Name in keyof Fields as \`${prefix}\${Name & string}\`]?: Fields[Name] };

@@ -209,7 +209,7 @@ function appendNumbers(value, encodedNumbers) {
   else if (isList(value)) {
     encodedNumbers.push(value.length);
     for (let i = 0; i < value.length; i++) appendNumbers(/** @type {any} */ (value)[i], encodedNumbers);
-  } else for (const item of Object.values(value)) appendNumbers(item, encodedNumbers);
+  } else for (const member of Object.values(value)) appendNumbers(member, encodedNumbers);
 }
 
 /** Returns a hash of every bit of a value. @param {Encodable} value */

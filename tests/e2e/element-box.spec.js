@@ -32,7 +32,7 @@ test('a figure is as wide as it prefers, or as there is room, in every kind of b
     const containerHtml = html === 'X' ? '<X></X>' : html;
     return `<section data-box="${box}" style="display: flow-root">${containerHtml.replace('<X', `<${figureName}`).replace('</X>', `</${figureName}>`)}</section>`;
   });
-  const head = '<link rel="stylesheet" href="/motion-widgets.css"><style>body { margin: 0; font: 16px/1.5 sans-serif }</style>';
+  const pageHead = '<link rel="stylesheet" href="/motion-widgets.css"><style>body { margin: 0; font: 16px/1.5 sans-serif }</style>';
   const findWrongWidths = async (/** @type {number} */ width) => {
     await page.setViewportSize({ width, height: 900 });
     await waitForFrames(page);
@@ -42,7 +42,7 @@ test('a figure is as wide as it prefers, or as there is room, in every kind of b
     return figureWidths.filter(([, figureWidth]) => Number(figureWidth) > width + 0.5 || Number(figureWidth) < Math.min(PREFERRED_WIDTH, width) - 0.5);
   };
   for (const scriptTag of ['', '<script type="module" src="/motion-widgets.js"></script>']) {
-    await showPage(page, sections.join(''), { head, script: scriptTag });
+    await showPage(page, sections.join(''), { head: pageHead, script: scriptTag });
     if (scriptTag) await page.waitForFunction((tag) => customElements.get(tag) !== undefined, figureName);
     for (const w of [320, 600, 1280]) expect.soft(await findWrongWidths(w), `${scriptTag ? 'defined' : 'not defined'}, ${w} px`).toEqual([]);
   }

@@ -48,9 +48,9 @@ for (const [direction, originSelector, key] of /** @type {const} */ ([['above', 
 
 test('a figure that starts after the user has moved the focus leaves it there @nightly', async ({ page, figureName }) => {
   let allowModule = () => {};
-  const modulePermission = new Promise((resolve) => (allowModule = () => resolve(undefined)));
+  const modulePermissionPromise = new Promise((resolve) => (allowModule = () => resolve(undefined)));
   await page.route('**/*.wasm', async (route) => {
-    await modulePermission;
+    await modulePermissionPromise;
     await route.continue();
   });
   const widget = await showFigureFarBelow(page, figureName);

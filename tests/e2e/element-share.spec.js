@@ -45,19 +45,19 @@ test('two widgets and an anchor share the fragment, and the link shows what was 
 
   const link = await linkOf(firstFigure);
   // A link scrolls to the figure of its first part.
-  const [anchor, theme, firstPart, secondPart] = hashBefore.slice(1).split('&');
-  expect(new URL(link).hash).toBe(`#${[firstPart, anchor, theme, secondPart].join('&')}`);
+  const [anchor, theme, firstFigurePart, secondFigurePart] = hashBefore.slice(1).split('&');
+  expect(new URL(link).hash).toBe(`#${[firstFigurePart, anchor, theme, secondFigurePart].join('&')}`);
   const newPage = await context.newPage();
   await showPage(newPage, THREE_FIGURES_HTML, { fragment: new URL(link).hash });
-  const [copy1, copy2, copy3] = [0, 1, 2].map((i) => newPage.locator('banana-machine').nth(i));
-  for (const [copiedFigure, originalFigure] of [[copy1, firstFigure], [copy2, secondFigure]]) {
+  const [firstCopy, secondCopy, thirdCopy] = [0, 1, 2].map((i) => newPage.locator('banana-machine').nth(i));
+  for (const [copiedFigure, originalFigure] of [[firstCopy, firstFigure], [secondCopy, secondFigure]]) {
     await copiedFigure.scrollIntoViewIfNeeded();
     await untilReady(copiedFigure);
     expect(await stateOf(copiedFigure)).toEqual(await stateOf(originalFigure));
   }
-  await copy3.scrollIntoViewIfNeeded();
-  await untilReady(copy3);
-  expect(/** @type {any} */ (await stateOf(copy3)).command).toEqual({ v: 1, omega: 0, dt: 2 });
+  await thirdCopy.scrollIntoViewIfNeeded();
+  await untilReady(thirdCopy);
+  expect(/** @type {any} */ (await stateOf(thirdCopy)).command).toEqual({ v: 1, omega: 0, dt: 2 });
   expect(await takeEvents(newPage, ['error', 'input', 'change'])).toEqual([]);
 });
 

@@ -53,8 +53,8 @@ const hex = (channels) => `#${channels.map((channel) => channel.toString(16).pad
 
 /** Returns the contrast of two colours by WCAG. @param {number[]} first @param {number[]} second */
 function contrastOf(first, second) {
-  const linearOf = (/** @type {number} */ c) => (c / 255 <= 0.04045 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4);
-  const luminanceOf = ([r, g, b] = first) => 0.2126 * linearOf(r) + 0.7152 * linearOf(g) + 0.0722 * linearOf(b);
+  const linearChannelOf = (/** @type {number} */ c) => (c / 255 <= 0.04045 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4);
+  const luminanceOf = ([r, g, b] = first) => 0.2126 * linearChannelOf(r) + 0.7152 * linearChannelOf(g) + 0.0722 * linearChannelOf(b);
   const [lowerLuminance, higherLuminance] = [luminanceOf(first), luminanceOf(second)].sort((a, b) => a - b);
   return (higherLuminance + 0.05) / (lowerLuminance + 0.05);
 }

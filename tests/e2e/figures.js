@@ -72,7 +72,7 @@ export const NAMES_WITH_HANDLES = ALL_NAMES.filter((name) => FIGURE_FACTS[name].
  * @param {string} title of the test; a tag at its end has no effect
  * @param {Name[]} [candidates]
  */
-export function figureFor(title, candidates = ALL_NAMES) {
+export function figureNameFor(title, candidates = ALL_NAMES) {
   let hash = 0;
   for (const character of title.replace(/ @\w+$/, '')) hash = (53 * hash + character.charCodeAt(0)) % 65_521;
   return candidates[hash % candidates.length];

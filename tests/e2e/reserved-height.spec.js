@@ -14,9 +14,9 @@ testEach('the height reserved for a figure until its script is loaded is about t
     script: '<script type="module" src="/external.js"></script>',
   });
   let allowScript = () => {};
-  const scriptPermission = new Promise((resolve) => (allowScript = () => resolve(undefined)));
+  const scriptPermissionPromise = new Promise((resolve) => (allowScript = () => resolve(undefined)));
   await page.route('**/chunks/**', async (route) => {
-    await scriptPermission;
+    await scriptPermissionPromise;
     await route.continue();
   });
   await page.evaluate((tag) => document.body.append(document.createElement(tag)), name);
@@ -49,9 +49,9 @@ testEach('the height reserved for a figure until its script is loaded is about t
 
 test('a title and a caption move nothing when the script is loaded', async ({ page }) => {
   let allowScript = () => {};
-  const scriptPermission = new Promise((resolve) => (allowScript = () => resolve(undefined)));
+  const scriptPermissionPromise = new Promise((resolve) => (allowScript = () => resolve(undefined)));
   await page.route('**/motion-widgets.js', async (route) => {
-    await scriptPermission;
+    await scriptPermissionPromise;
     await route.continue();
   });
   const pageBody = '<banana-machine><span slot="title">Figure 9.3</span><p slot="caption">Drag the ring.</p></banana-machine><p id="after">After</p>';

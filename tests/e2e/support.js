@@ -5,7 +5,7 @@
  */
 
 import { expect, test as playwrightTest } from '@playwright/test';
-import { ALL_NAMES, CLOUD_NAMES, NAMES_WITH_HANDLES, figureFor } from './figures.js';
+import { ALL_NAMES, CLOUD_NAMES, NAMES_WITH_HANDLES, figureNameFor } from './figures.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
@@ -32,9 +32,9 @@ import { ALL_NAMES, CLOUD_NAMES, NAMES_WITH_HANDLES, figureFor } from './figures
  */
 export const test = playwrightTest.extend({
   /* oxlint-disable no-empty-pattern */
-  figureName: async ({}, use, { title }) => use(figureFor(title)),
-  cloudFigureName: async ({}, use, { title }) => use(figureFor(title, CLOUD_NAMES)),
-  handleFigureName: async ({}, use, { title }) => use(figureFor(title, NAMES_WITH_HANDLES)),
+  figureName: async ({}, use, { title }) => use(figureNameFor(title)),
+  cloudFigureName: async ({}, use, { title }) => use(figureNameFor(title, CLOUD_NAMES)),
+  handleFigureName: async ({}, use, { title }) => use(figureNameFor(title, NAMES_WITH_HANDLES)),
   /* oxlint-enable no-empty-pattern */
   isIntroductionSkipped: [true, { option: true }],
   page: async ({ page, isIntroductionSkipped }, use) => {

@@ -8,9 +8,9 @@ import { serveFiles } from './serving.mjs';
 /** Functions that switch a theme between light and dark, by the theme's name. One theme has no switch. @type {Record<string, import('./project.mjs').Engine['dark']>} */
 const DARK_SWITCH_OF_THEME = {
   async furo(page, on) {
-    const themeMark = page.locator(`[data-theme="${on ? 'dark' : 'light'}"]`);
+    const activeThemeMark = page.locator(`[data-theme="${on ? 'dark' : 'light'}"]`);
     // The button cycles through light, dark, and the system's scheme.
-    for (let i = 0; i < 3 && (await themeMark.count()) === 0; i++) await page.locator('.theme-toggle').filter({ visible: true }).click();
+    for (let i = 0; i < 3 && (await activeThemeMark.count()) === 0; i++) await page.locator('.theme-toggle').filter({ visible: true }).click();
   },
   async pydata_sphinx_theme(page, on) {
     await page.locator('.theme-switch-button').filter({ visible: true }).click();

@@ -28,8 +28,8 @@ async function ensureGeckodriver() {
   const { GECKOWEBDRIVER } = process.env;
   const bin = join(CACHE_DIRECTORY, 'geckodriver/bin');
   const findGeckodriver = () => findProgram('geckodriver', [...(GECKOWEBDRIVER ? [GECKOWEBDRIVER] : []), bin]);
-  const presentDriver = findGeckodriver();
-  if (presentDriver !== undefined) return presentDriver;
+  const existingDriver = findGeckodriver();
+  if (existingDriver !== undefined) return existingDriver;
   const rustTools = await ensureNativeRust();
   printStep('Compiling geckodriver, once');
   const cargoArguments = ['install', '--quiet', '--locked', '--debug', 'geckodriver', '--root', join(CACHE_DIRECTORY, 'geckodriver')];
@@ -41,8 +41,8 @@ async function ensureGeckodriver() {
 
 /** Returns the programs of WebKit. Installs them if they are missing. @returns {Promise<WebKit>} */
 export async function ensureWebKit() {
-  const presentPrograms = findWebKit();
-  if (presentPrograms !== undefined) return presentPrograms;
+  const existingPrograms = findWebKit();
+  if (existingPrograms !== undefined) return existingPrograms;
   await aptInstall(['webkit2gtk-driver', 'xvfb'], WEBKIT_MISSING_MESSAGE);
   const installedPrograms = findWebKit();
   if (installedPrograms === undefined) throw new UserError(WEBKIT_MISSING_MESSAGE);

@@ -3,15 +3,15 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { differencesFromCore } from '../../benches/check.js';
-import { freshModule } from './support.js';
+import { importFreshModule } from './support.js';
 
 test('baseline has the statistics and the picture of the core', async () => {
-  const motion = await (await freshModule()).load();
+  const motion = await (await importFreshModule()).load();
   assert.deepEqual(differencesFromCore(motion, 2000), []);
 });
 
 test('comparison finds a core with another skew', async () => {
-  const motion = await (await freshModule()).load();
+  const motion = await (await importFreshModule()).load();
   class SimulationWithOtherSkew extends motion.BananaMachine {
     get stats() {
       const stats = super.stats;

@@ -6,7 +6,7 @@ import { readFile } from 'node:fs/promises';
 import { test } from 'node:test';
 import { MAX_VALUE } from '../../www/logs/rows.ts';
 import { settings } from '../../www/settings.js';
-import { freshModule, assertNear } from './support.js';
+import { importFreshModule, assertNear } from './support.js';
 
 test('importing and loading touch neither the DOM nor the network, and load gives one module', async () => {
   /** @type {string[]} */
@@ -17,7 +17,7 @@ test('importing and loading touch neither the DOM nor the network, and load give
     Object.defineProperty(globalThis, name, { configurable: true, get: () => void accessedGlobals.push(name) });
   }
   try {
-    const core = await freshModule();
+    const core = await importFreshModule();
     assert.deepEqual(accessedGlobals, []);
     const motion = await core.load();
     assert.equal(await core.load(), motion);
@@ -35,19 +35,19 @@ test('load takes bytes, a compiled module, or an address, and fails with a sente
   const moduleAddress = new URL('../../build/motion.wasm', import.meta.url);
   const moduleBytes = await readFile(moduleAddress);
   for (const source of [undefined, moduleBytes, new Uint8Array(moduleBytes).buffer, await WebAssembly.compile(moduleBytes), moduleAddress, moduleAddress.href]) {
-    const motion = await (await freshModule()).load(source);
+    const motion = await (await importFreshModule()).load(source);
     const simulation = new motion.BananaMachine({ samples: 5 });
     assert.equal(simulation.stats.n, 5);
     simulation.free();
   }
-  const core = await freshModule();
+  const core = await importFreshModule();
   await assert.rejects(core.load(42), TypeError);
   await assert.rejects(core.load(new Uint8Array([1, 2, 3])));
   assert.ok((await core.load()).BananaMachine, 'a failed load can be tried again');
 });
 
 test('a page finds every name of the contract', async () => {
-  const motion = await (await freshModule()).load();
+  const motion = await (await importFreshModule()).load();
   const simulationNames = ['AlphaCalibrator', 'ArcAnatomy', 'BananaMachine', 'DeadReckoning', 'MapSqueeze', 'OdometryDecomposer'];
   const modelNames = ['OdometryModel', 'VelocityModel'];
   const functionNames = ['calibrate', 'commandReaching', 'decompose', 'invertArc', 'propagate', 'randomSeed', 'readMapImage', 'unbendGaussian', 'unbendLine'];
@@ -62,7 +62,7 @@ test('a page finds every name of the contract', async () => {
 });
 
 test('a simulation opens with the settings that www/settings.js declares', async () => {
-  const motion = await (await freshModule()).load();
+  const motion = await (await importFreshModule()).load();
   for (const [tag, declaredSettings] of Object.entries(settings)) {
     const SimulationClass = motion[tag.replace(/(?:^|-)(\w)/g, (_, letter) => letter.toUpperCase())];
     const fieldsOf = (/** @type {string} */ group) => declaredSettings.filter((setting) => setting.in === group).map(({ key, field = key, default: value }) => [field, value]);
@@ -72,7 +72,7 @@ test('a simulation opens with the settings that www/settings.js declares', async
 });
 
 test('a simulation computes, refuses by class and message, and is freed', async () => {
-  const { BananaMachine, invertArc } = await (await freshModule()).load();
+  const { BananaMachine, invertArc } = await (await importFreshModule()).load();
   const simulation = new BananaMachine({ command: { v: 1, omega: 0.5, dt: 1 }, alphas: [0.02, 0.02, 0.02, 0.02, 0, 0], samples: 100 });
   assertNear(simulation.table.exact.crossTrackSkew, -0.30056, 5.1e-6);
   assert.throws(() => simulation.configure({ samples: 0 }), { name: 'RangeError', message: /^samples is 0; allowed is a whole number / });
@@ -84,7 +84,7 @@ test('a simulation computes, refuses by class and message, and is freed', async 
 });
 
 test('calibrate takes all coordinates that readers of logs take, and no larger ones', async () => {
-  const { calibrate } = await (await freshModule()).load();
+  const { calibrate } = await (await importFreshModule()).load();
   const reference = { t: [0, 1], x: [0, 1], y: [0, 0], theta: [0, 0] };
   const odometryEndingAt = (/** @type {number} */ x) => ({ ...reference, x: [0, x] });
   assert.throws(() => calibrate({ odometry: odometryEndingAt(MAX_VALUE), reference }), { message: /^the log has \d legs/ });

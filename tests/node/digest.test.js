@@ -5,13 +5,13 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { test } from 'node:test';
 import { presets, settings } from '../../www/settings.js';
 import { findDifferences, computeDigest, resultFunctions } from '../digest/digest.js';
-import { freshModule } from './support.js';
+import { importFreshModule } from './support.js';
 
 const readText = (/** @type {string} */ path) => readFileSync(new URL(`../../${path}`, import.meta.url), 'utf8');
 
 /** @type {import('../digest/digest.js').Configurations} */
 const configurationList = JSON.parse(readText('tests/digest/configurations.json'));
-const motion = await (await freshModule()).load();
+const motion = await (await importFreshModule()).load();
 
 /** Exports without a seed, and models that draw as in Rust. They are covered by tests/web and tests/native. */
 const EXCLUDED_EXPORTS = new Set(['VelocityModel', 'OdometryModel', 'invertArc', 'decompose', 'propagate', 'se2', 'calibrate']);

@@ -50,8 +50,8 @@ test('files that are not one map, or a plan that is not JSON, are refused with w
   const yamlFile = mapYamlFile({ image: 'map.pgm' });
   const planFile = fileWith('plan.json', '{"bounds": [0, 0, 1, 1], "walls": []}');
   for (const files of [[yamlFile, PGM, planFile], [PGM], [yamlFile, PGM, fileWith('notes.txt', '')]]) {
-    const names = files.map(({ name }) => name).join(', ');
-    assert.equal(await refusalMessageOf(files), `${names}: expected is one .json floor plan, or one .yaml file together with its .pgm or .png image.`);
+    const fileNames = files.map(({ name }) => name).join(', ');
+    assert.equal(await refusalMessageOf(files), `${fileNames}: expected is one .json floor plan, or one .yaml file together with its .pgm or .png image.`);
   }
   assert.match(await refusalMessageOf([fileWith('plan.json', '{"bounds": [0, 0, 1, 1], "walls": [],}')]), /^plan\.json: .+; expected is \{"bounds"/);
 });

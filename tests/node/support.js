@@ -8,7 +8,7 @@ let copyCount = 0;
  *
  * @returns {Promise<any>} any, because tests also call it with wrong types
  */
-export function freshModule() {
+export function importFreshModule() {
   copyCount += 1;
   return import(`${CORE_ADDRESS}?copy=${copyCount}`);
 }

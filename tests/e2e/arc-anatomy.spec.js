@@ -85,7 +85,7 @@ test('the robot moves and turns by keyboard, and stops where the floor ends', as
   expect((await resultsOf(widget)).config.next).toEqual({ x: 3.98, y: 0.55, theta: 1.1 + Math.PI / 36 });
   await bodyHandleOf(widget).press('ArrowRight');
   expect((await resultsOf(widget)).config.next.x).toBe(4);
-  await expect(bodyHandleOf(widget)).toHaveAttribute('aria-valuetext', /Limit reached$/);
+  await expect(bodyHandleOf(widget)).toHaveAttribute('aria-valuetext', /The floor ends here$/);
 });
 
 test('the start moves and turns, the commanded arc with it, and the robot stays where it is found', async ({ page }) => {

@@ -56,7 +56,7 @@ test('the robot stays inside the map, and says so to the eye and to the ear', as
   await page.mouse.move(x - 20, y, { steps: 3 });
   expect(await readEdgeLabel()).toBe('none');
   await page.mouse.move(1, y, { steps: 3 });
-  expect(await readEdgeLabel()).toBe('"The map ends here"');
+  expect(await readEdgeLabel()).toBe('"The floor ends here"');
   await page.mouse.move(x - 20, y, { steps: 3 });
   expect(await readEdgeLabel()).toBe('none');
   await page.mouse.move(1, y, { steps: 3 });
@@ -65,7 +65,7 @@ test('the robot stays inside the map, and says so to the eye and to the ear', as
   expect((await squeezeResultsOf(widget)).config.start.x).toBe(0);
 
   // With the keyboard, the position and the obstacle are announced.
-  const valueTextAtEdge = /^x = 0\.00 m, y = \d\.\d\d m\. The map ends here$/;
+  const valueTextAtEdge = /^x = 0\.00 m, y = \d\.\d\d m\. The floor ends here$/;
   await expect(bodyHandleOf(widget)).toHaveAttribute('aria-valuetext', valueTextAtEdge);
   await bodyHandleOf(widget).press('ArrowRight');
   await expect(bodyHandleOf(widget)).toHaveAttribute('aria-valuetext', /^x = 0\.05 m, y = \d\.\d\d m$/);
@@ -73,7 +73,7 @@ test('the robot stays inside the map, and says so to the eye and to the ear', as
   for (let i = 0; i < 2; i++) {
     await bodyHandleOf(widget).press('ArrowLeft');
     await expect(bodyHandleOf(widget)).toHaveAttribute('aria-valuetext', valueTextAtEdge);
-    expect(await readEdgeLabel()).toBe('"The map ends here"');
+    expect(await readEdgeLabel()).toBe('"The floor ends here"');
   }
   expect((await squeezeResultsOf(widget)).config.start.x).toBe(0);
 });
@@ -274,7 +274,7 @@ test('walls are moved by keyboard from one stop of Tab, and their handles are na
   expect((await squeezeResultsOf(widget)).walls[18]).toBeCloseTo(walls[18] + 0.05, 9);
   await page.keyboard.press(']');
   expect(await readFocusedHandle()).toBe('side-4');
-  expect(await widget.evaluate(({ shadowRoot }) => getComputedStyle(/** @type {Element} */ (shadowRoot?.activeElement), '::before').content)).toBe('"Drag the wall"');
+  expect(await widget.evaluate(({ shadowRoot }) => getComputedStyle(/** @type {Element} */ (shadowRoot?.activeElement), '::before').content)).toBe('"Drag to move"');
   await expect(widget.locator('.legend')).toContainText('handles: drag walls and edges of doorways');
   await page.keyboard.press('Shift+ArrowDown');
   const resultsAfterMove = await squeezeResultsOf(widget);

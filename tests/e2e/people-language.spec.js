@@ -110,8 +110,8 @@ test('a page may replace words and add languages; a message of another shape is 
     setMessages('ar', { cloud: { play: 'عيّن' } });
     const refusedMessages = /** @type {[string, object][]} */ ([
       ['fr', { banana: { robots: 'x' } }],
-      ['fr', { banana: { alphaIsSilent: 'silence' } }],
-      ['fr', { banana: { settings: { alphas: { effects: 'x' } } } }],
+      ['fr', { banana: { onePlace: 'silence' } }],
+      ['fr', { banana: { settings: { model: 'x' } } }],
       ['de_AT', { play: 'Los' }],
     ]);
     return refusedMessages.map(([lang, messages]) => {
@@ -124,8 +124,8 @@ test('a page may replace words and add languages; a message of another shape is 
   });
   expect(refusals).toEqual([
     expect.stringMatching(/^TypeError: messages: fr\.banana\.robots is a string; allowed is one of title, /),
-    'TypeError: messages: fr.banana.alphaIsSilent is a string; allowed is a function of 4 values.',
-    'TypeError: messages: fr.banana.settings.alphas.effects is a string; allowed is a group.',
+    'TypeError: messages: fr.banana.onePlace is a string; allowed is a function of 3 values.',
+    'TypeError: messages: fr.banana.settings.model is a string; allowed is a group.',
     'RangeError: messages: lang is "de_AT"; allowed is a BCP 47 tag, as "de" or "pt-BR".',
   ]);
   await expect(widget.getByRole('button', { name: 'Draw samples' })).toBeVisible();

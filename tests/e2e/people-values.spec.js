@@ -46,7 +46,7 @@ test('a digit on a slider leads into its value, Enter back, and the value may li
 test('a value is typed with its unit, a true minus and few more decimals, and Escape takes it back', async ({ page }) => {
   const widget = await openUnfolded(page, 'banana-machine');
   const field = valueField(widget, 'v');
-  await expect(helpOf(widget, 'v')).toHaveText('How far along the arc; below zero the robot backs up.');
+  await expect(helpOf(widget, 'v')).toHaveText('How far the robot drives: vΔt; below zero it backs up.');
   // The numeric keyboard of a phone has no minus.
   await expect(field).toHaveAttribute('inputmode', 'text');
   await field.click();

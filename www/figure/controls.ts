@@ -240,6 +240,6 @@ const declarationOf = (figure: Figure, key: string): Declaration & AllowedNumber
 /** Returns the name of a setting, and its effect, if it has one. */
 function wordsFor(figure: Figure, key: string): { name: string, effect?: string } {
   const [model, index] = figure.definition.sliderSpecs[key]?.alpha ?? [];
-  const alphaWords = model && { name: words.alphas[model][(index as number)] };
-  return { ...(words.settings as any)[key], ...alphaWords, ...(words as any)[figure.definition.messageKey].settings[key] };
+  const [alphaName, alphaEffect] = model ? words.alphas[model][index as number] : [];
+  return { ...(words.settings as any)[key], ...(model && { name: alphaName, effect: alphaEffect }), ...(words as any)[figure.definition.messageKey].settings[key] };
 }

@@ -66,7 +66,7 @@ export function recommendationReason({ stats: { recommended, diagnostics: { chec
   return inflation === 1 ? say.covered(percent(coverage), integer(count)) : say.inflated(fixed(inflation, 2), percent(coverage), integer(count), fixed(nees, 2));
 }
 
-export const noiseNames = (model: ViewModel['config']['model']) => words.alphas[model === 'velocity' ? 'velocity' : 'odometry'];
+export const noiseNames = (model: ViewModel['config']['model']) => words.alphas[model === 'velocity' ? 'velocity' : 'odometry'].map(([name]) => name);
 
 /** Converts a number as printed in files (1.5e-7) to the decimal sign of the language and a power of ten. */
 export const localized = (number: string) => number.replace('.', fixed(0.5, 1)[1]).replace(/e(-?\d+)$/, (_, exponent) => `·${formatPowerOfTen(Number(exponent))}`);

@@ -3,16 +3,7 @@
 export const de: typeof import('./en.ts').en = {
   title: 'Arc Anatomy: was ein Bogen verrät',
   settings: {
-    v: { effect: 'Der befohlene Bogen ist *vΔt* lang.' },
-    omega: { effect: 'Biegt den befohlenen Bogen: Radius *v*/*ω*, Drehung *ωΔt*.' },
-    dt: { effect: '*v̂*, *ω̂* und *γ̂* sind Mittel über *Δt*.' },
     map: { name: 'Heatmap' },
-    alpha1: { effect: 'Varianz von *v̂* durch *v*².' },
-    alpha2: { effect: 'Varianz von *v̂* durch *ω*².' },
-    alpha3: { effect: 'Varianz von *ω̂* durch *v*².' },
-    alpha4: { effect: 'Varianz von *ω̂* durch *ω*².' },
-    alpha5: { effect: 'Varianz von *γ̂* durch *v*².' },
-    alpha6: { effect: 'Varianz von *γ̂* durch *ω*².' },
   },
   floor: 'Auf dem Boden: ein Bogen, eine letzte Drehung',
   overlays: {
@@ -30,16 +21,7 @@ export const de: typeof import('./en.ts').en = {
   timeOf: (t, duration) => `${t} von ${duration} s`,
   likelihood: 'Likelihood',
   csvTitle: 'Die drei Schätzungen mit ihren Faktoren, und die Parameter',
-  handles: {
-    start: { robot: 'Start', robotTitle: 'Zieh den Start', heading: 'Richtung am Start', headingTitle: 'Dreh den Start' },
-    next: {
-      robot: 'Roboter, wo er gefunden wird',
-      robotTitle: 'Zieh den Roboter',
-      heading: 'Richtung des Roboters, wo er gefunden wird',
-      headingTitle: 'Dreh den Roboter',
-    },
-    ends: 'Grenze erreicht',
-  },
+  handles: { start: ['Start', 'Richtung am Start'], next: ['Roboter, wo er gefunden wird', 'Richtung des Roboters, wo er gefunden wird'] },
   bars: {
     label: 'Residuen in Standardabweichungen und Faktoren von p',
     names: ['Geschwindigkeit', 'Drehrate', 'letzte Drehung'],

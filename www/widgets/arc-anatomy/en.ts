@@ -3,16 +3,7 @@
 export const en = {
   title: 'Arc Anatomy',
   settings: {
-    v: { effect: 'The commanded arc is *vΔt* long.' },
-    omega: { effect: 'Bends the commanded arc: radius *v*/*ω*, turn *ωΔt*.' },
-    dt: { effect: '*v̂*, *ω̂* and *γ̂* are means over *Δt*.' },
     map: { name: 'Heat map' },
-    alpha1: { effect: 'Variance of *v̂* from *v*².' },
-    alpha2: { effect: 'Variance of *v̂* from *ω*².' },
-    alpha3: { effect: 'Variance of *ω̂* from *v*².' },
-    alpha4: { effect: 'Variance of *ω̂* from *ω*².' },
-    alpha5: { effect: 'Variance of *γ̂* from *v*².' },
-    alpha6: { effect: 'Variance of *γ̂* from *ω*².' },
   },
   floor: 'On the floor: one arc, one last turn',
   overlays: {
@@ -30,16 +21,7 @@ export const en = {
   timeOf: (t, duration) => `${t} of ${duration} s`,
   likelihood: 'Likelihood',
   csvTitle: 'The three estimates with their factors, and the parameters',
-  handles: {
-    start: { robot: 'Start', robotTitle: 'Drag the start', heading: 'Heading at the start', headingTitle: 'Turn the start' },
-    next: {
-      robot: 'Robot, where it is found',
-      robotTitle: 'Drag the robot',
-      heading: 'Heading of the robot, where it is found',
-      headingTitle: 'Turn the robot',
-    },
-    ends: 'Limit reached',
-  },
+  handles: { start: ['Start', 'Heading at the start'], next: ['Robot, where it is found', 'Heading of the robot, where it is found'] },
   bars: {
     label: 'Residuals in standard deviations, and factors of p',
     names: ['speed', 'turn rate', 'last turn'],

@@ -3,7 +3,7 @@
 import { html, nothing } from 'lit';
 import { cloudButtons, samplesSlider, settingCheckbox, settingRadios, settingSlider, settingSliders } from '../../figure/controls.ts';
 import { words } from '../../messages/registry.ts';
-import { radioButton, group, toggle } from '../../ui/controls.ts';
+import { formatMarkup, radioButton, group, toggle } from '../../ui/controls.ts';
 import { formatEditable } from '../../ui/format.ts';
 import { alphaName } from './view-model.ts';
 import { COMMAND_SLIDERS, SAMPLE_COUNTS } from './settings.ts';
@@ -46,26 +46,20 @@ export const samplesControl = (figure: Figure) => group(words.samples, samplesSl
 /** Returns a group with the sliders of those α's whose indices `isIn` accepts. */
 function alphaGroup(figure: Figure, isIn: (index: number) => boolean, name: string) {
   const { model, alphas } = figure.viewModel.config;
-  const { effects } = words.banana.settings.alphas;
-  const alphaNames = words.alphas[(model as 'velocity' | 'odometry')];
-  const sliderOfAlpha = (index: number) => alphaSlider(figure, `alpha${index + 1}`, index + 1, alphaNames[index], effects[model][index]);
-  return group(words.noise, [...alphas.keys()].filter(isIn).map(sliderOfAlpha), name);
+  return group(words.noise, [...alphas.keys()].filter(isIn).map((index) => alphaSlider(figure, index + 1, words.alphas[model as 'velocity' | 'odometry'][index])), name);
 }
 
-/**
- * Returns the slider of an α, counted from 1. `path` names the motion and the noise that grows with it ("v² into v̂"), and `picture` the effect
- * on the cloud.
- */
-function alphaSlider(figure: Figure, key: string, number: number, name: string, [path, picture]: string[]) {
+/** Returns the slider of an α, counted from 1. */
+function alphaSlider(figure: Figure, number: number, [name, effect]: string[]) {
   const { isolate } = figure.viewModel.config;
   const off = isolate !== null && isolate !== number;
   const chooseAlpha = () => figure.gesture.decide({ isolate: number, isolateChoice: number });
-  return settingSlider(figure, key, {
+  return settingSlider(figure, `alpha${number}`, {
     name,
+    effect: formatMarkup(effect),
     hasNoEffect: off,
     pickControl: isolate === null ? undefined : radioButton({ group: 'isolate', name: words.banana.only(alphaName(number - 1)), checked: !off, choose: chooseAlpha }),
     show: (value) => (off ? words.banana.off(formatEditable(value, 3)) : formatEditable(value, 3)),
-    effect: html`<span class="path">${path}:</span> ${picture}.`,
     input: (value) => {
       if (off) chooseAlpha();
       figure.settings.request(({ alphas }) => ({ alphas: alphas.with(number - 1, value) }));

@@ -6,31 +6,8 @@ export const en = {
   title: 'The Banana Machine',
   presets: { straight: 'Straight', gentle: 'Gentle arc', hard: 'Hard arc', pivot: 'Pivot', banana: 'Banana', worked: 'Worked example' },
   settings: {
-    v: { effect: 'How far along the arc; below zero the robot backs up.' },
-    omega: { effect: 'How sharply the arc bends; positive turns left.' },
-    dt: { effect: 'How long it drives: errors spread on the way.' },
     model: { name: 'Motion model' },
     noise: { name: 'Noise' },
-    alphas: {
-      name: 'Noise parameters',
-      /** One line for each α: the noise it adds to, its effect on the cloud, and the motion to watch for while it is raised from 0. */
-      effects: {
-        velocity: [
-          ['v² into v̂', 'smears the cloud along the arc', 'smear along the arc'],
-          ['ω² into v̂', 'smears it too, but only in turns', 'smear along the arc'],
-          ['v² into ω̂', 'fans the cloud and bends it, unless α₁ blurs the bend', 'fan'],
-          ['ω² into ω̂', 'fans it too, but only in turns', 'fan'],
-          ['v² into γ̂', 'turns each robot where it stopped', 'turn in place'],
-          ['ω² into γ̂', 'turns each stopped robot, if ω ≠ 0', 'blur its headings'],
-        ],
-        odometry: [
-          ['rotation into rotation', 'swings the cloud about the start', 'swing'],
-          ['distance into rotation', 'fans the cloud, even on a straight', 'fan'],
-          ['distance into distance', 'smears it along the line of travel', 'smear'],
-          ['rotation into distance', 'smears it too, but only in turns', 'smear'],
-        ],
-      },
-    },
     samples: { name: 'robots', effect: 'Robots sent: few are dots, many a density.' },
   },
   floor: 'On the floor',
@@ -51,20 +28,11 @@ export const en = {
   off: (value) => `${value} off`,
   notes: {
     still: 'The command is to stand still, and a robot at rest has no motion noise.',
-    silent: 'Every α is 0: no noise at all, so every robot stops exactly where it was told to.',
-    unfed: 'No α that is above 0 has anything to multiply in this command: no noise at all.',
+    silent: 'No α above 0 has a motion to multiply: no noise at all, so every robot stops exactly where it was told to.',
     headings: 'Only γ̂ is noisy: every robot stops at the same point, and only the headings fan out.',
     circle: 'Some robots turn by nearly 2π. The logarithm is not unique there, so there are no statistics in ξ.',
     backwards: 'Odometry reads backing up as two half turns, and the table charges noise for both.',
     line: 'Only one noise moves the robots: they lie on a line, and an outline without area holds no share of them.',
-  },
-  alphaIsZero: (alpha) => `${alpha} is alone and 0: no noise at all. Turn it up.`,
-  alphaIsSilent: (alpha, factor, cause, picture) =>
-    `${alpha} multiplies ${factor}: no noise at all. Turn ${cause} up a little and watch it ${picture}.`,
-  /** Factor of an α that has no effect, because this speed of the command is 0. */
-  nothingToMultiply: {
-    velocity: { v: 'v², and v is 0', ω: 'ω², and ω is 0' },
-    odometry: { v: 'the squared distance, and it is 0', ω: 'the squared rotations, and they are 0' },
   },
   announcement: (robots, command, outcome) => `${robots} robots, ${command}. ${outcome}`,
   skew: (skew) => `Cross-track skew ${skew}.`,
@@ -124,7 +92,6 @@ export const en = {
   callouts: ['only the ellipse\ncovers this floor', 'no robot\nstops here'],
   handle: 'End of the commanded arc',
   handleKeys: 'Arrow keys move it over the floor, with Shift by larger steps; Page Up and Page Down move it far in y, Home and End to the ends along x',
-  handleTitle: 'Drag the end of the arc',
   handleHint: 'drag me',
   pin: 'Pin',
   unpin: 'Unpin',

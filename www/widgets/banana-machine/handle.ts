@@ -35,7 +35,7 @@ export class ArcHandle extends Handle {
     return this.element({
       name: say.handle,
       keys: say.handleKeys,
-      title: say.handleTitle,
+      title: words.pose.moveTitle,
       range: [min, max],
       now: omega,
       text: `v = ${fixed(v, 2)} m/s, ω = ${fixed(omega, 2)} rad/s`,

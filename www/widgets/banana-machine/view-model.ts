@@ -72,16 +72,6 @@ function bowTieOf({ model, command: { v, omega, dt }, alphas, isolate, reverseAw
 /** Returns the name of an α, counted from 0. */
 export const alphaName = (index: number) => `α${subscriptOf(index)}`;
 
-/** Speed that each α of a model multiplies, squared: v or ω. */
-const ALPHA_CAUSES = { velocity: [...'vωvωvω'], odometry: [...'ωvvω'] } as const;
-
-/** Returns a sentence on an isolated α (index from 0) that has no effect because the speed that it multiplies is 0. */
-function ineffectiveAlphaText(model: Settings['model'], index: number) {
-  const { alphaIsSilent, nothingToMultiply, settings } = words.banana;
-  const speedName = ALPHA_CAUSES[model][index] as 'v' | 'ω';
-  return alphaIsSilent(alphaName(index), nothingToMultiply[model][speedName], speedName, settings.alphas.effects[model][index][2]);
-}
-
 /** Returns the standard deviation of a variance. Rounding may have made the variance slightly negative. */
 export function deviation(variance: number) {
   return Math.sqrt(Math.max(0, variance));
@@ -97,15 +87,11 @@ export function spreadKind({ exact: { cov } }: Table): 'point' | 'headings' | 'c
  * Returns a sentence about an unusual cloud, with the settings that cause it; empty for a usual cloud. `chartHolds` is false if robots turn
  * so far that exponential coordinates are undefined.
  */
-function cloudNote({ model, command, alphas, isolate, reverseAware }: Settings, table: Table, stats: Stats, chartHolds: boolean): string {
-  const { notes, alphaIsZero } = words.banana;
+function cloudNote({ model, command, reverseAware }: Settings, table: Table, stats: Stats, chartHolds: boolean): string {
+  const { notes } = words.banana;
   const kindOfSpread = spreadKind(table);
   const { v, omega } = command;
-  if (kindOfSpread === 'point') {
-    if (v === 0 && omega === 0) return notes.still;
-    if (isolate === null) return alphas.every((alpha) => alpha === 0) ? notes.silent : notes.unfed;
-    return alphas[isolate - 1] === 0 ? alphaIsZero(alphaName(isolate - 1)) : ineffectiveAlphaText(model, isolate - 1);
-  }
+  if (kindOfSpread === 'point') return v === 0 && omega === 0 ? notes.still : notes.silent;
   if (kindOfSpread === 'headings') return notes.headings;
   if (!chartHolds) return notes.circle;
   if (model === 'odometry' && v < 0 && !reverseAware) return notes.backwards;

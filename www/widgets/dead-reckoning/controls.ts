@@ -21,13 +21,12 @@ function settingsForSteps({ command, steps: previousSteps, step }: Record<string
 
 export function moreControls(figure: Figure) {
   const { steps, step, command: { dt } } = figure.settings.requested;
-  const { settings: { alphas }, walked, per } = words.reckoning;
+  const { walked, per } = words.reckoning;
   const walkedText = walked(fixed(step * dt, 2), fixed(steps * dt, 2));
   return html`<div class="controls">
     ${group(words.command, html`${settingSliders(figure, COMMAND_SLIDERS)}
       ${settingSlider(figure, 'step', { max: Math.max(2, steps), maxEntered: steps, hasNoEffect: steps === 1, effect: walkedText })}`)}
-    ${group(words.noise, html`${Object.keys(NOISE_SLIDERS).map((key, i) => settingSlider(figure, key, { effect: alphas.effects[i] }))}
-      ${settingRadios(figure, 'per', per)}`)}
+    ${group(words.noise, html`${settingSliders(figure, NOISE_SLIDERS)} ${settingRadios(figure, 'per', per)}`)}
     ${cloudControls(figure, SAMPLE_COUNTS)}
   </div>`;
 }

@@ -6,7 +6,6 @@ export const de: typeof import('./en.ts').en = {
   title: 'Koppelnavigation',
   presets: { chapter: '20 Schritte (Kapitel)', doubled: 'Richtungs-σ verdoppelt', fine: '200 Schritte', straight: 'Geradeaus' },
   settings: {
-    v: { effect: 'Wie schnell jeder Schritt gefahren wird; unter null rückwärts.' },
     omega: { effect: 'Wie eng jeder Schritt ist: Was der Rekursion fehlt, wächst mit *ωΔt*.' },
     dt: { name: 'Dauer eines Schritts', effect: 'Wie lange ein Schritt dauert; der Weg wächst mit.' },
     step: { name: 'gewählter Schritt' },
@@ -14,13 +13,6 @@ export const de: typeof import('./en.ts').en = {
     headingNoise: { name: 'Richtungsrauschen *α*₃ bis *α*₆', effect: '*α*₃ und *α*₄; *α*₅ und *α*₆ sind ein Viertel. Sie skalieren Varianzen: mal 4 verdoppelt *σ*.' },
     compounding: { name: 'Rekursion' },
     per: { name: 'Die α gelten für' },
-    alphas: {
-      effects: [
-        'v² in v̂: streut in Fahrtrichtung', 'ω² in v̂: ebenso, nur in Kurven',
-        'v² in ω̂: dreht im Schritt', 'ω² in ω̂: ebenso, nur in Kurven',
-        'v² in γ̂: dreht nach dem Schritt', 'ω² in γ̂: ebenso, nur in Kurven',
-      ],
-    },
     samples: { name: 'Roboter', effect: 'Je mehr Roboter, desto schmaler die Bänder.' },
   },
   walked: (time, duration) => `t = ${time} s von ${duration} s`,

@@ -7,7 +7,6 @@ export const en = {
   title: 'Dead Reckoning',
   presets: { chapter: 'The chapter’s 20 steps', doubled: 'Heading σ doubled', fine: 'Same path, 200 steps', straight: 'Straight' },
   settings: {
-    v: { effect: 'How fast each step is driven; below zero the robot backs up.' },
     omega: { effect: 'How sharply each step bends: what is missing from the recursion grows with *ωΔt*.' },
     dt: { name: 'duration of a step', effect: 'How long a step takes; the path grows with it.' },
     step: { name: 'selected step' },
@@ -15,13 +14,6 @@ export const en = {
     headingNoise: { name: 'heading noise *α*₃ to *α*₆', effect: '*α*₃ and *α*₄; *α*₅ and *α*₆ are a quarter. They scale variances: times 4 doubles *σ*.' },
     compounding: { name: 'Recursion' },
     per: { name: 'α’s apply per' },
-    alphas: {
-      effects: [
-        'v² into v̂: spreads along the track', 'ω² into v̂: the same, only in turns',
-        'v² into ω̂: turns within the step', 'ω² into ω̂: the same, only in turns',
-        'v² into γ̂: turns after the step', 'ω² into γ̂: the same, only in turns',
-      ],
-    },
     samples: { name: 'robots', effect: 'The more robots, the narrower the bands.' },
   },
   walked: (time, duration) => `t = ${time} s of ${duration} s`,

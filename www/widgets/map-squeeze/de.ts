@@ -12,9 +12,6 @@ export const de: typeof import('./en.ts').en = {
     off: 'Die Karte wird nicht verwendet (siehe Weitere Regler): Jede Stichprobe wird angenommen.',
   },
   settings: {
-    v: { effect: 'Bestimmt, wie weit der Roboter fährt und wie viele Wände er treffen kann.' },
-    omega: { effect: 'Biegt den Weg: Er kann hinter einer Ecke im Freien enden.' },
-    dt: { effect: 'Wie lange er fährt: Je länger, desto mehr Wände kann er treffen.' },
     noise: { name: 'Rauschpegel', effect: 'Verbreitert die Wolke: setzt α₁ bis α₄; α₅ und α₆ sind ein Viertel.' },
     clearance: { name: 'Roboterradius', effect: 'Ein breiterer Roboter hat an weniger Stellen Platz und trifft mehr Wände.' },
     unknown: { name: 'Unbekannte Zellen' },
@@ -77,15 +74,10 @@ export const de: typeof import('./en.ts').en = {
     `${drawn} ${subSteps ? 'Teilschritte ' : ''}gezogen; ${accepted} ${subSteps ? 'Bewegungen ' : ''}angenommen, als ${density ? 'Dichte' : 'Punkte'}; davon ${through} durch eine Wand.`,
   rest: (density) => `Der Rest ist verworfen${density ? '' : ', als Kreuze'}.`,
   throughThisWall: 'durch diese Wand',
-  handles: {
-    start: { robot: 'Roboter', robotTitle: 'Zieh den Roboter', heading: 'Richtung des Roboters', headingTitle: 'Dreh den Roboter' },
-    ends: 'Hier endet die Karte',
-  },
+  handles: { start: ['Roboter', 'Richtung des Roboters'] },
   walls: {
     jamb: 'Türkante',
-    jambTitle: 'Zieh die Türkante',
     wall: 'Wand',
-    wallTitle: 'Zieh die Wand',
     legend: 'Griffe: Wände und Türkanten ziehen',
     keys: 'Pfeiltasten bewegen sie, mit Umschalt in größeren Schritten; Komma und Punkt oder [ und ] führen zu den anderen Wänden',
   },

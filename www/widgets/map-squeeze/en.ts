@@ -14,9 +14,6 @@ export const en = {
     off: 'The map is not used (see More controls): every sample is accepted.',
   },
   settings: {
-    v: { effect: 'Sets how far the robot is sent, and how many walls it may meet.' },
-    omega: { effect: 'Bends the path: it can end in free space behind a corner.' },
-    dt: { effect: 'How long it drives: the longer, the more walls it may meet.' },
     noise: { name: 'noise level', effect: 'Spreads the cloud: sets α₁ to α₄; α₅ and α₆ are a quarter.' },
     clearance: { name: 'robot radius', effect: 'A wider robot fits in fewer places and meets more walls.' },
     unknown: { name: 'Unknown cells' },
@@ -77,15 +74,10 @@ export const en = {
     `${drawn} ${subSteps ? 'sub-steps ' : ''}drawn; ${accepted} ${subSteps ? 'motions ' : ''}accepted, as ${density ? 'a density' : 'dots'}; ${through} of those through a wall.`,
   rest: (density) => `The rest is rejected${density ? '' : ', as crosses'}.`,
   throughThisWall: 'through this wall',
-  handles: {
-    start: { robot: 'Robot', robotTitle: 'Drag the robot', heading: 'Heading of the robot', headingTitle: 'Turn the robot' },
-    ends: 'The map ends here',
-  },
+  handles: { start: ['Robot', 'Heading of the robot'] },
   walls: {
     jamb: 'Edge of a doorway',
-    jambTitle: 'Drag the edge of the doorway',
     wall: 'Wall',
-    wallTitle: 'Drag the wall',
     legend: 'handles: drag walls and edges of doorways',
     keys: 'Arrow keys move it, with Shift by larger steps; comma and period, or [ and ], go to the other walls',
   },

@@ -48,7 +48,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
       return this.#handleOf(grip).element({
         name: grip.part === 'side' ? say.wall : say.jamb,
         keys: say.keys,
-        title: grip.part === 'side' ? say.wallTitle : say.jambTitle,
+        title: words.pose.moveTitle,
         range: grip.range.map((limit) => position + limit),
         now: position,
         text: `x = ${fixed(x, 2)} m, y = ${fixed(y, 2)} m`,

@@ -18,11 +18,6 @@ export const de: typeof import('./en.ts').en = {
   },
   settings: {
     rule: { name: 'Rauschmodell' },
-    alpha1: { effect: 'Je mehr der Roboter sich dreht, desto unsicherer seine Richtung.' },
-    alpha2: { effect: 'Gibt den Drehungen auch auf geradem Weg Rauschen.' },
-    alpha3: { effect: 'Streut die Ausgänge in Fahrtrichtung.' },
-    alpha4: { effect: 'Streut die Ausgänge in Fahrtrichtung, auch nach einer Drehung auf der Stelle.' },
-    alpha5: { effect: 'Nur im omnidirektionalen Modell.' },
     correlation: {
       name: 'Korrelation der Drehungen',
       effect: 'Zwischen dem Rauschen beider Drehungen: dreht die Ausgänge an ihrem Ort und verschiebt keinen.',
@@ -34,11 +29,7 @@ export const de: typeof import('./en.ts').en = {
   path: 'Weg',
   drift: 'Drift',
   plays: { phase: 'Bewegung abspielen', drift: 'Drift abspielen' },
-  handles: {
-    from: { robot: 'Odometrie davor', robotTitle: 'Pose davor ziehen', heading: 'Richtung davor', headingTitle: 'Pose davor drehen' },
-    to: { robot: 'Odometrie danach', robotTitle: 'Pose danach ziehen', heading: 'Richtung danach', headingTitle: 'Pose danach drehen' },
-    ends: 'Hier endet der Boden',
-  },
+  handles: { from: ['Odometrie davor', 'Richtung davor'], to: ['Odometrie danach', 'Richtung danach'] },
   legsTitle: 'Eine Messung der Odometrie, vier Rauschmodelle',
   worldTitle: 'In der Welt: Die Odometrie driftet',
   overlays: {

@@ -18,11 +18,6 @@ export const en = {
   },
   settings: {
     rule: { name: 'Noise model' },
-    alpha1: { effect: 'The more the robot turns, the less certain its heading.' },
-    alpha2: { effect: 'Adds noise to the rotations on a straight path too.' },
-    alpha3: { effect: 'Spreads the outcomes along the path.' },
-    alpha4: { effect: 'Spreads the outcomes along the path even after a turn on the spot.' },
-    alpha5: { effect: 'In the omnidirectional model alone.' },
     correlation: {
       name: 'correlation of the rotations',
       effect: 'Between the noises of the two rotations: turns the outcomes where they stand and moves none.',
@@ -34,11 +29,7 @@ export const en = {
   path: 'Path',
   drift: 'Drift',
   plays: { phase: 'Play the motion', drift: 'Play the drift' },
-  handles: {
-    from: { robot: 'Odometry before', robotTitle: 'Drag the pose before', heading: 'Heading before', headingTitle: 'Turn the pose before' },
-    to: { robot: 'Odometry after', robotTitle: 'Drag the pose after', heading: 'Heading after', headingTitle: 'Turn the pose after' },
-    ends: 'The floor ends here',
-  },
+  handles: { from: ['Odometry before', 'Heading before'], to: ['Odometry after', 'Heading after'] },
   legsTitle: 'One odometry reading, four noise models',
   worldTitle: 'In the world: odometry drifts',
   overlays: {

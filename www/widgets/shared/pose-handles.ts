@@ -28,7 +28,7 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
 
   /**
    * Creates the handles of a setting that is a pose, in the view of a picture. `bounds` returns left, bottom, right and top of the allowed
-   * positions, metres. The catalogue of the figure has the texts under `handles`.
+   * positions, metres. The catalogue of the figure has the names of both handles under `handles`.
    */
   constructor(host: import('../../figure/figure.ts').Figure, setting: string, view: () => View, bounds: () => number[] | Float64Array) {
     super(host);
@@ -59,23 +59,24 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
   }
 
   render() {
-    const { ends, [this.#setting]: { robot, robotTitle, heading, headingTitle } } = (words as any)[this.host.definition.messageKey].handles;
+    const [bodyName, headingName] = (words as any)[this.host.definition.messageKey].handles[this.#setting];
+    const { keys, headingKeys, moveTitle, turnTitle, ends } = words.pose;
     const { x, y, theta } = this.#pose;
     const [left, bottom, right, top] = this.#bounds();
     return [
       this.#bodyHandle.element({
-        name: robot,
-        keys: words.pose.keys,
-        title: robotTitle,
+        name: bodyName,
+        keys,
+        title: moveTitle,
         range: [left, right],
         now: x,
         text: `x = ${fixed(x, 2)} m, y = ${fixed(y, 2)} m`,
         stop: (x <= left || x >= right || y <= bottom || y >= top) && ends,
       }),
       this.#turn.element({
-        name: heading,
-        keys: words.pose.headingKeys,
-        title: headingTitle,
+        name: headingName,
+        keys: headingKeys,
+        title: turnTitle,
         range: [-Math.PI, Math.PI],
         now: theta,
         text: `${fixed(theta, 2)} rad`,

@@ -34,16 +34,11 @@ export const de: typeof import('./en.ts').en = {
     untried: 'Noch keine Bewegung versucht',
     nothing: 'Keine Bewegung wurde angenommen',
     none: 'Keine angenommene Bewegung ging durch eine Wand',
-    share: (count, total) => `${count} von ${total} angenommenen Bewegungen ${count === 1 ? 'ging' : 'gingen'} durch eine Wand`,
-    most: 'Fast alle angenommenen Bewegungen gingen durch eine Wand',
-    all: 'Alle angenommenen Bewegungen gingen durch eine Wand',
+    share: (share) => `${share} der angenommenen Bewegungen gingen durch eine Wand`,
   },
-  wedged: (drawn, accepted, acceptedText, requested, through) =>
-    `Der Roboter sitzt fest: Von ${drawn} gezogenen Teilschritten ${accepted === 0 ? 'hat keiner eine Bewegung vollendet' : `wurden nur ${acceptedText} von ${requested} Bewegungen vollendet; ${through}`}.`,
-  nothing: (count, drawn, wholeArc) =>
-    count === 1
-      ? `Keine Stichprobe wurde angenommen: ${wholeArc ? 'Der eine gezogene Weg' : 'Die eine gezogene Endpose'} ist in Kollision.`
-      : `Keine Stichprobe wurde angenommen: Alle ${drawn} gezogenen ${wholeArc ? 'Wege' : 'Endposen'} sind in Kollision.`,
+  wedged: (drawn, accepted, requested, through) =>
+    `Der Roboter sitzt fest: ${drawn} gezogene Teilschritte vollendeten nur ${accepted} von ${requested} Bewegungen; ${through}.`,
+  nothing: (drawn) => `Keine Stichprobe wurde angenommen: Keine der ${drawn} gezogenen ist kollisionsfrei.`,
   noRoom: 'Die Startpose ist in Kollision.',
   verdict: {
     part: 'Teilschritt gescheitert: keine kollisionsfreie Stichprobe gefunden',

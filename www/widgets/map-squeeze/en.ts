@@ -36,14 +36,11 @@ export const en = {
     untried: 'No motion has been tried yet',
     nothing: 'No motion was accepted',
     none: 'No accepted motion went through a wall',
-    share: (count, total) => `${count} in ${total} accepted motions went through a wall`,
-    most: 'Nearly all accepted motions went through a wall',
-    all: 'All accepted motions went through a wall',
+    share: (share) => `${share} of the accepted motions went through a wall`,
   },
-  wedged: (drawn, accepted, acceptedText, requested, through) =>
-    `The robot is wedged: of ${drawn} sub-steps drawn, ${accepted === 0 ? 'none completed a motion' : `only ${acceptedText} of ${requested} motions were completed; ${through}`}.`,
-  nothing: (count, drawn, wholeArc) =>
-    `No sample was accepted: ${count === 1 ? 'the one drawn' : `all ${drawn} drawn`} ${plural(count, wholeArc ? 'path' : 'end pose')} ${count === 1 ? 'is' : 'are'} in collision.`,
+  wedged: (drawn, accepted, requested, through) =>
+    `The robot is wedged: ${drawn} sub-steps drawn completed only ${accepted} of ${requested} motions; ${through}.`,
+  nothing: (drawn) => `No sample was accepted: none of the ${drawn} drawn is collision-free.`,
   noRoom: 'The start pose is in collision.',
   verdict: {
     part: 'sub-step failed: no collision-free sample found',

@@ -46,9 +46,8 @@ export function throughText({ throughWall, throughWallRate, throughWallInterval:
 /** Returns a sentence on a robot that cannot move; empty for an ordinary cloud. */
 function stuckNote(config: SqueezeSettings, stats: SqueezeStats, startFree: boolean): string {
   const { wedged, nothing, noRoom } = words.squeeze;
-  const { accepted } = stats;
-  const drawnText = integer(stats.drawn);
-  if (stats.gaveUp) return wedged(drawnText, accepted, integer(accepted), integer(config.samples), throughText(stats, false));
-  if (stats.drawn > 0 && accepted === 0) return nothing(stats.drawn, drawnText, config.sampler === 'whole-arc');
+  const { accepted, drawn } = stats;
+  if (stats.gaveUp) return wedged(integer(drawn), integer(accepted), integer(config.samples), throughText(stats, false));
+  if (drawn > 0 && accepted === 0) return nothing(integer(drawn));
   return startFree ? '' : noRoom;
 }

@@ -4,8 +4,7 @@
 
 import { addEnglish, words } from '../../messages/registry.ts';
 import { verdict as bits } from '../../settings.js';
-import { clamp } from '../../ui/clamp.ts';
-import { integer, fixed } from '../../ui/format.ts';
+import { integer, fixed, percent } from '../../ui/format.ts';
 import { commandText } from '../shared/sliders.ts';
 import { en } from './en.ts';
 import { throughText, type ViewModel } from './view-model.ts';
@@ -25,30 +24,12 @@ export function verdictText(verdict: number, config: Settings) {
   return `${isAccepted ? overlays.through : outcomeText}: ${reasons.way}`;
 }
 
-/** Denominators of the fractions of a headline, by preference. */
-const DENOMINATORS = [2, 3, 4, 5, 6, 7, 8, 9, 10];
-
-/** Fraction below which the headline says "1 in n", and fraction above which it says "nearly all". */
-const MAX_ONE_IN_N = 0.075;
-const MIN_NEARLY_ALL = 0.95;
-
-/** Returns a number between 0 and 1 as a simple fraction. */
-function simpleFractionOf(share: number): [count: number, total: number] {
-  if (share < MAX_ONE_IN_N) return [1, Number((1 / share).toPrecision(2))];
-  const simpleFractions = DENOMINATORS.map((denominator) => [clamp(Math.round(share * denominator), 1, denominator - 1), denominator] as [number, number]);
-  const roundingError = ([count, total]: [number, number]) => Math.abs(count / total - share);
-  return simpleFractions.reduce((best, fraction) => (roundingError(fraction) < roundingError(best) - 1e-9 ? fraction : best));
-}
-
 /** Returns the headline: the share of accepted motions that went through a wall. */
 export function headlineOf({ attempts, accepted, throughWall }: Pick<Stats, 'attempts' | 'accepted' | 'throughWall'>) {
   const say = words.squeeze.headline;
   if (attempts === 0) return say.untried;
   if (accepted === 0) return say.nothing;
-  if (throughWall === 0) return say.none;
-  const throughFraction = throughWall / accepted;
-  if (throughFraction === 1) return say.all;
-  return throughFraction > MIN_NEARLY_ALL ? say.most : say.share(...simpleFractionOf(throughFraction));
+  return throughWall === 0 ? say.none : say.share(percent(throughWall / accepted));
 }
 
 /** Returns the caption: the counts of the samples, or why the robot cannot move. */

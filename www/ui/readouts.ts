@@ -164,16 +164,14 @@ interface FigureTable {
   columns: unknown[];
   /** Rows, each as its name and its cells. A single cell after the name spans all columns. */
   rows: unknown[][];
-  /** True while newer numbers are being computed. */
-  outdated?: boolean;
 }
 
-export function figureTable({ caption, columns, rows, outdated = false }: FigureTable) {
+export function figureTable({ caption, columns, rows }: FigureTable) {
   const rowCells = ([firstCell, ...otherCells]: unknown[]) =>
     otherCells.length === 0
       ? html`<td colspan=${columns.length - 1}>${untranslated(firstCell)}</td>`
       : [firstCell, ...otherCells].map((cell) => html`<td>${untranslated(cell)}</td>`);
-  return html`<table part="table" class=${outdated ? 'outdated' : nothing}>
+  return html`<table part="table">
     ${caption ? html`<caption>${caption}</caption>` : nothing}
     <thead>
       <tr>

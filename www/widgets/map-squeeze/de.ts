@@ -91,13 +91,13 @@ export const de: typeof import('./en.ts').en = {
   sample: 'Stichprobe',
   markHint: 'Zeig auf eine, um ihren Weg und ihr Urteil zu sehen.',
   costs: {
+    measure: 'Kosten jedes Verfahrens messen',
     caption:
       'Kosten einer angenommenen Stichprobe jedes Verfahrens mit den Einstellungen oben, auf diesem Gerät gemessen; und der Anteil eines Rechenkerns, den 2000 Partikel bei 20 Hz bräuchten. Wiederholte Messungen weichen um einige Prozent ab.',
     sampler: 'Verfahren',
     draws: 'gezogen',
     tests: 'Abstände',
     core: 'vom Kern',
-    none: 'noch nicht gemessen',
     wedged: 'sitzt fest: keine wird angenommen',
     few: 'zu wenige angenommen, um zu messen',
   },

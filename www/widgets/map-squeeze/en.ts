@@ -93,13 +93,13 @@ export const en = {
   sample: 'Sample',
   markHint: 'Point at one to see its path and its verdict.',
   costs: {
+    measure: 'Measure the cost of each sampler',
     caption:
       'Cost of one accepted sample for each sampler at the settings above, measured on this device; and the share of a core that 2000 particles at 20 Hz would take. Repeated runs differ by several per cent.',
     sampler: 'sampler',
     draws: 'samples drawn',
     tests: 'wall distances',
     core: 'of a core',
-    none: 'not yet measured',
     wedged: 'wedged: none is accepted',
     few: 'too few are accepted to measure',
   },

@@ -11,7 +11,7 @@ import { verdict as bits } from '../../settings.js';
 import { Memo } from '../../scene/memo.ts';
 import { PoseHandles } from '../shared/pose-handles.ts';
 import { motionControls, ownMap, startControls, robotAndMap, samplerControls } from './controls.ts';
-import { CostMeter } from './cost.ts';
+import { measureCosts } from './cost.ts';
 import { applyMap, cellsOf, mapData } from './maps/data.ts';
 import { MapOpener } from './maps/open.ts';
 import { overviewMap, costTable, markedSample, tallyReadouts } from './readouts.ts';
@@ -22,6 +22,7 @@ import { styles } from './styles.ts';
 import { WallHandles } from './wall-handles.ts';
 import { wallContact } from './walls.ts';
 import { captionOf, headlineOf, mapText, pictureText } from './words.ts';
+import type { Values } from '../../figure/settings.ts';
 import type { Cells } from '../../scene/walls.ts';
 import type { MapData, MapSqueeze as Simulation, Pose } from '../../types.d.ts';
 import type { OwnMap } from './maps/files.ts';
@@ -41,13 +42,14 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   cloud = new Cloud(this, (simulation: Simulation) => simulation.stats.gaveUp);
 
   picture = new FloorPicture({ bounds: new Float64Array(4), walls: new Float64Array() }, null);
-  #meter = new CostMeter(this);
   #opener = new MapOpener(this);
   dropHandlers = this.#opener;
   #handles = new PoseHandles(this, 'start', () => this.picture.view, () => this.picture.plan.bounds);
   #wallHandles = new WallHandles(this);
   /** Setting `unknown` (treatment of unknown cells) with which the picture was made. */
   #pictureUnknown = '';
+  /** Costs of the samplers, and the settings with which they were measured. */
+  #measurement: { config: Values, costs: ReturnType<typeof measureCosts> } | undefined;
   /** Path of the selected sample. */
   #path: Memo<Float64Array> = new Memo();
   /** Cached copy of the grid of a simulation's map, because copying takes long. */
@@ -76,7 +78,6 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     if (!simulation) return;
     const grid = this.#gridOf(simulation);
     this.#opener.refusal = undefined;
-    this.#meter.outdate();
     this.#pictureUnknown = this.settings.current.unknown;
     this.picture = new FloorPicture(simulation.plan, grid, this.picture);
     this.pictures = [this.picture];
@@ -90,7 +91,6 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
 
   get scene() {
     const viewModel = this.currentViewModel;
-    this.#meter.measureWhenIdle(viewModel.config, !this.cloud.playing && !this.gesture.isPressed);
     const { selectedIndex: index, isMarked } = this.cloud;
     this.picture.close = this.state.elementState.view === 'close';
     return { ...viewModel, simulation: this.simulation, overlays: this.state.elementState.overlays, marked: isMarked ? this.#marked(index) : undefined };
@@ -171,6 +171,19 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
    */
   get verdicts(): Uint8Array | null {
     return this.querySimulation((simulation) => simulation.verdicts);
+  }
+
+  /** Costs of the samplers with the present settings; undefined until they are measured. */
+  get costs() {
+    return this.#measurement?.config === this.settings.current ? this.#measurement.costs : undefined;
+  }
+
+  measure() {
+    this.runtime.attempt(() => {
+      const { simulation, settings: { current: config } } = this;
+      if (simulation) this.#measurement = { config, costs: measureCosts(simulation, config.steps) };
+      this.requestUpdate();
+    });
   }
 
   /** Moves the robot to a pose in the current map, as the user asked. */
@@ -285,7 +298,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   }
 
   content(viewModel: ViewModel) {
-    const { config, sorted, stats, note } = viewModel;
+    const { sorted, stats, note } = viewModel;
     const { hasUnknown } = this.picture;
     const { floor, density } = words.squeeze;
     const { unknown, ...marks } = LINE_STYLES;
@@ -310,7 +323,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
       ${sorted ? nothing : html`<p class="about">${density}</p>`}
       ${disclosures(this, {
         controls: () => html`<div class="controls">${robotAndMap(this, hasUnknown)}</div> ${ownMap(this, this.#opener, this.#mapText)}`,
-        numbers: () => html`${tallyReadouts(viewModel)} ${markedSample(this)} ${costTable(this.#meter, config.steps)}`,
+        numbers: () => html`${tallyReadouts(viewModel)} ${markedSample(this)} ${costTable(this)}`,
       })}`)}
     `;
   }

@@ -3,12 +3,14 @@
 import { html, nothing } from 'lit';
 import { sampleField } from '../../figure/controls.ts';
 import { words } from '../../messages/registry.ts';
+import { button } from '../../ui/controls.ts';
 import { integer, fixed, percent, formatRounded } from '../../ui/format.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
-import { SAMPLES_PER_SECOND, type SampleCost, type CostMeter } from './cost.ts';
+import { SAMPLES_PER_SECOND, type SampleCost } from './cost.ts';
 import { SAMPLERS } from './settings.ts';
 import { verdictText } from './words.ts';
 import type { SamplerName } from '../../types.d.ts';
+import type { MapSqueezeElement as Figure } from './map-squeeze.ts';
 import type { ViewModel } from './view-model.ts';
 
 export function tallyReadouts({ stats, config: { conditioned, sampler }, paths: { length: paths } }: ViewModel) {
@@ -24,34 +26,28 @@ export function tallyReadouts({ stats, config: { conditioned, sampler }, paths: 
   ]);
 }
 
-export function markedSample(figure: import('./map-squeeze.ts').MapSqueezeElement): import('lit').TemplateResult {
+export function markedSample(figure: Figure) {
   const { cloud, viewModel: { config, stats, verdicts } } = figure;
   const { sample, markHint } = words.squeeze;
   const selectedText = cloud.isMarked ? verdictText(verdicts[cloud.selectedIndex], config) : '';
   return sampleField(figure, { id: 'sample', label: sample, hint: markHint, shown: stats.attempts, selected: selectedText });
 }
 
-export function costTable({ costs, current }: CostMeter, steps: number) {
+/** Returns the button that measures the cost of each sampler, and the table of the costs. */
+export function costTable(figure: Figure) {
   const { samplers, costs: say } = words.squeeze;
-  const row = (sampler: SamplerName) => {
-    const samplerName = samplers[sampler];
-    const costOrReason = costs[sampler] ?? 'none';
-    return [
-      sampler === 'sub-stepped' ? `${samplerName} (${steps})` : samplerName,
-      ...(typeof costOrReason === 'string' ? [say[costOrReason]] : costText(costOrReason)),
-    ];
-  };
-  return html`<div class="table" aria-busy=${!current}>
-    ${figureTable({
-      caption: say.caption,
-      columns: [say.sampler, say.draws, say.tests, 'µs', say.core],
-      rows: SAMPLERS.map(row),
-      outdated: !current,
-    })}
+  const { costs, viewModel: { config } } = figure;
+  const row = (sampler: SamplerName, cost: SampleCost) => [
+    sampler === 'sub-stepped' ? `${samplers[sampler]} (${config.steps})` : samplers[sampler],
+    ...(typeof cost === 'string' ? [say[cost]] : costTexts(cost)),
+  ];
+  return html`<div class="table">
+    ${button(say.measure, () => figure.measure())}
+    ${costs ? figureTable({ caption: say.caption, columns: [say.sampler, say.draws, say.tests, 'µs', say.core], rows: SAMPLERS.map((sampler) => row(sampler, costs[sampler])) }) : nothing}
   </div>`;
 }
 
-function costText({ draws, wallTests, micros }: SampleCost) {
+function costTexts({ draws, wallTests, micros }: Exclude<SampleCost, string>) {
   const cpuShare = `${formatRounded(100 * micros * 1e-6 * SAMPLES_PER_SECOND, 2)}\u202f%`;
   return [fixed(draws, 2), fixed(wallTests, 2), formatRounded(micros, 2), cpuShare];
 }

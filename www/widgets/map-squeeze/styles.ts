@@ -170,7 +170,7 @@ export const styles = css`
     margin: 0 0 0.6em;
   }
 
-  :is(.own-map .present, table.outdated tbody) {
+  .own-map .present {
     color: var(--muted);
   }
 

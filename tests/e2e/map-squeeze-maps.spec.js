@@ -53,7 +53,7 @@ test('a JSON floor plan takes the apartment’s place, and the robot finds room 
   expect(await pictureOf(widget.locator('canvas.plane'))).toBe(pictureBefore);
 });
 
-test('presets keep the map of the user, and buttons lead to the apartment and back', async ({ page }) => {
+test('a button leads back to the apartment, which has the presets', async ({ page }) => {
   const widget = await openSqueeze(page);
   await chooseFiles(widget, [makeMapFile('room.json', JSON.stringify(ROOM_PLAN))]);
   await expect(currentMapOf(widget)).toContainText('room.json');
@@ -61,23 +61,13 @@ test('presets keep the map of the user, and buttons lead to the apartment and ba
   for (const name of ['Facing a doorway', 'Facing a wall', 'Open corridor']) {
     await expect(widget.getByRole('button', { name })).toHaveCount(0);
   }
-  const placeButton = widget.getByRole('button', { name: 'Place robot in free space' });
-  await placeButton.click();
-  await expect(placeButton).toHaveAttribute('aria-pressed', 'true');
+  await widget.getByRole('button', { name: 'Place robot in free space' }).click();
   const { config, openPlace, bounds } = await squeezeResultsOf(widget);
   expect(config.start).toEqual(openPlace);
   expect(bounds).toEqual(ROOM_PLAN.bounds);
-  await widget.getByRole('slider', { name: 'Robot', exact: true }).press('ArrowRight');
-  await expect(placeButton).toHaveAttribute('aria-pressed', 'false');
-  const resultsAfterMove = await squeezeResultsOf(widget);
-
   await widget.getByRole('button', { name: 'Back to the apartment' }).click();
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
   expect((await squeezeResultsOf(widget)).bounds).toEqual([0, 0, 12, 9]);
-  await widget.getByRole('button', { name: 'Back to room.json' }).click();
-  expect(await squeezeResultsOf(widget)).toEqual(resultsAfterMove);
-  await expect(currentMapOf(widget)).toContainText('room.json');
-  await expect(widget.getByRole('button', { name: 'Back to room.json' })).toHaveCount(0);
 });
 
 test('unknown cells are hatched, and free or blocked as the user chooses', async ({ page }) => {

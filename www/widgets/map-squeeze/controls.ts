@@ -21,12 +21,10 @@ const EXAMPLE_PLAN = `{
 
 /** Returns the buttons of start positions in the current map. The presets are only offered in the apartment. */
 export function startControls(figure: Figure) {
-  const { map, left } = figure;
-  const { own, pasted } = words.squeeze;
-  if (!map) return presetButtons(figure, left ? button(own.back(left.map.name || pasted), () => figure.returnToMap()) : nothing);
+  const { own } = words.squeeze;
+  if (!figure.map) return presetButtons(figure);
   return html`<div class="buttons presets">
-    ${button(own.leave, () => figure.leaveMap())} ${button(own.open, () => figure.moveToFreePose(), { pressed: figure.isAtFreePose })}
-    ${startOverButton(figure)}
+    ${button(own.leave, () => figure.open(null))} ${button(own.open, () => figure.moveToFreePose())} ${startOverButton(figure)}
   </div>`;
 }
 

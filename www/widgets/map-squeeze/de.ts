@@ -108,7 +108,6 @@ export const de: typeof import('./en.ts').en = {
     files: 'Kartendateien wählen',
     open: 'Roboter ins Freie setzen',
     leave: 'Zurück in die Wohnung',
-    back: (name) => `Zurück zu ${name}`,
     plan: 'Oder hier ein Grundriss, in Metern',
     use: 'Diesen Plan nehmen',
   },

@@ -110,7 +110,6 @@ export const en = {
     files: 'Choose map files',
     open: 'Place robot in free space',
     leave: 'Back to the apartment',
-    back: (name) => `Back to ${name}`,
     plan: 'Or a floor plan here, in metres',
     use: 'Use this plan',
   },

@@ -52,12 +52,8 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   #measurement: { config: Values, costs: ReturnType<typeof measureCosts> } | undefined;
   /** Path of the selected sample. */
   #path: Memo<Float64Array> = new Memo();
-  /** Cached copy of the grid of a simulation's map, because copying takes long. */
-  #grid: { of: Simulation, grid: Cells | null } | undefined;
-  /** Map of the user that was left last, with the start pose in it. A button returns to this map. */
-  left: { map: MapData, start: Pose } | null = null;
-  /** Free pose to which the robot was last moved. */
-  #freePose: Pose | undefined;
+  /** Grid of a simulation's map. Copying it takes long. */
+  #grid: Memo<Cells | null> = new Memo();
 
   createSimulation: FigureElement<Simulation, ViewModel>['createSimulation'] = (motion, state) => {
     const simulation = enterCloud(this, motion.MapSqueeze.empty(), state);
@@ -69,8 +65,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   };
 
   #gridOf(simulation: Simulation) {
-    if (this.#grid?.of !== simulation) this.#grid = { of: simulation, grid: cellsOf(simulation) };
-    return this.#grid.grid;
+    return this.#grid.get([simulation], () => cellsOf(simulation));
   }
 
   simulationChanged() {
@@ -135,7 +130,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   set preset(name) {
     this.reflection.setProperty('preset', name, (newName) => {
       const presetSettings = PRESET_SETTING.change(newName, {});
-      this.#leaveOwnMap();
+      if (this.map) this.#enterMap(null);
       this.settings.assign(presetSettings);
     });
   }
@@ -152,13 +147,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   set map(map) {
     const isNameless = typeof map === 'object' && map !== null && !Array.isArray(map) && map.name === undefined;
     this.reflection.setProperty('map', isNameless ? { ...map, name: '' } : map, (newMap) => {
-      if (newMap === null) {
-        this.#leaveOwnMap();
-        // The start pose may not be free in the new map.
-        if (this.simulation && !this.simulation.startFree) this.settings.assign({ start: OPENING_START });
-      } else {
-        this.#enterMap(ownMapOf(newMap));
-      }
+      this.#enterMap(newMap && ownMapOf(newMap));
       this.reflection.updateAttributes();
       this.renderer.requestFrame();
     });
@@ -186,48 +175,17 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     });
   }
 
-  /** Moves the robot to a pose in the current map, as the user asked. */
-  go(start: Pose) {
-    this.renderer.releaseViews();
-    this.gesture.decide({ start });
-  }
-
   /** Moves the robot to free space, as the user asked. */
   moveToFreePose() {
     this.runtime.attempt(() => {
-      if (this.simulation) this.go(this.#findFreePose(this.simulation));
+      if (!this.simulation) return;
+      this.renderer.releaseViews();
+      this.gesture.decide({ start: freePoseIn(this.simulation) });
     });
   }
 
-  /** True if the robot is still at the free pose to which it was last moved. */
-  get isAtFreePose() {
-    const { x, y, theta } = this.viewModel.config.start;
-    return this.#freePose?.x === x && this.#freePose.y === y && this.#freePose.theta === theta;
-  }
-
-  /**
-   * Returns a free start pose for a robot that enters a map. In an occupancy grid it is used even if the present pose is free, because that
-   * pose may be outside the mapped area.
-   */
-  #findFreePose({ openPlace, config, plan }: Simulation): Pose {
-    const [left, bottom, right, top] = plan.bounds;
-    return (this.#freePose = openPlace ?? { ...config.start, x: (left + right) / 2, y: (bottom + top) / 2 });
-  }
-
-  /** Leaves the user's map, as the user asked. The map is kept, so that the user can return to it. */
-  leaveMap() {
-    this.runtime.attempt(() => this.#leaveOwnMap());
-    this.go(OPENING_START);
-  }
-
-  /** Returns to the user's map, as it was left. */
-  returnToMap() {
-    const { left } = this;
-    if (left) this.open({ ...ownMapOf(left.map), start: left.start });
-  }
-
-  /** Puts the robot into a map of the user. */
-  open(map: OwnMap & { start?: Pose }) {
+  /** Puts the robot into a map of the user, or for null into the apartment, as the user asked. */
+  open(map: OwnMap | null) {
     if (!this.simulation) return;
     this.runtime.attempt(() => {
       this.#enterMap(map);
@@ -247,44 +205,25 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     this.renderer.requestFrame();
   }
 
-  /** Leaves the user's map, if there is one. */
-  #leaveOwnMap() {
-    const { simulation, map } = this;
-    if (!simulation) return;
-    this.#opener.refusal = undefined;
-    if (!map) return;
-    this.left = { map, start: this.settings.requested.start };
-    simulation.setPlan(undefined);
-    this.#grid = undefined;
-    this.#adoptMap(null);
-  }
-
   /**
-   * Puts the robot into another map, at the pose `start` if given. A new simulation tries the map first; the present simulation stays if the map
-   * or the pose is refused.
+   * Puts the robot into a map of the user, or for null into the apartment. A new simulation tries the map first; the present simulation stays
+   * if the map or the start pose is refused.
    */
-  #enterMap({ name, start, apply }: OwnMap & { start?: Pose }) {
+  #enterMap(map: OwnMap & { start?: Pose } | null) {
     const { motion, settings } = this;
     if (!motion) return;
     settings.applyPending();
     const simulation = motion.MapSqueeze.empty();
     simulation.configureFirst(settings.pick(settings.requested), 0);
-    apply(simulation);
-    const isGrid = this.#gridOf(simulation) !== null;
-    const startPose = start ?? (isGrid || !simulation.startFree ? this.#findFreePose(simulation) : undefined);
-    simulation.configureFirst(startPose ? { start: startPose } : {}, this.cloud.targetCount);
-    const newMap = mapData(simulation, name, this.#gridOf(simulation));
+    map?.apply(simulation);
+    // In an occupancy grid the present pose is not kept, because it may be outside the mapped area.
+    const needsFreePose = this.#gridOf(simulation) !== null || !simulation.startFree;
+    const start = map ? map.start ?? (needsFreePose ? freePoseIn(simulation) : undefined) : OPENING_START;
+    simulation.configureFirst(start ? { start } : {}, this.cloud.targetCount);
+    this.state.elementState.map = map && mapData(simulation, map.name, this.#gridOf(simulation));
     this.runtime.replace(simulation);
     settings.reset();
-    this.left = null;
-    this.#adoptMap(newMap);
-  }
-
-  /** Shows the map of the simulation, which is the user's or, for null, the apartment. */
-  #adoptMap(map: MapData | null) {
-    this.state.elementState.map = map;
     this.simulationChanged();
-    this.settings.isStale = true;
     this.cloud.mark(-1);
   }
 
@@ -327,6 +266,11 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
       })}`)}
     `;
   }
+}
+
+/** Returns a free start pose, or the middle of a map that has none. */
+function freePoseIn({ openPlace, config, plan: { bounds: [left, bottom, right, top] } }: Simulation): Pose {
+  return openPlace ?? { ...config.start, x: (left + right) / 2, y: (bottom + top) / 2 };
 }
 
 const ownMapOf = (map: MapData): OwnMap => ({

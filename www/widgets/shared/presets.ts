@@ -1,11 +1,11 @@
 /** Buttons of the presets, and the button that restores the initial state. */
 
-import { html, nothing } from 'lit';
+import { html } from 'lit';
 import { words } from '../../messages/registry.ts';
 import { button } from '../../ui/controls.ts';
 
-/** Returns a button for each preset, of which the current one is pressed, then the buttons `more`, and the button to start over. */
-export function presetButtons(figure: import('../../figure/figure.ts').Figure, more: unknown = nothing) {
+/** Returns a button for each preset, of which the current one is pressed, and the button to start over. */
+export function presetButtons(figure: import('../../figure/figure.ts').Figure) {
   const { definition, settings, state } = figure;
   const { presets } = (words as any)[definition.messageKey];
   const presetAttribute = definition.attributes.preset;
@@ -13,7 +13,7 @@ export function presetButtons(figure: import('../../figure/figure.ts').Figure, m
   return html`<div class="buttons presets" role="group" aria-label=${words.presets}>
     ${Object.entries(presets).map(([name, label]) =>
       button(label, () => state.choosePreset(name), { pressed: name === currentPreset, name: 'preset' }))}
-    ${more} ${startOverButton(figure)}
+    ${startOverButton(figure)}
   </div>`;
 }
 

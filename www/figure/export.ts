@@ -13,11 +13,8 @@ export interface ExportData {
   description: string;
   /** Settings that are exported, after the tag of the element. */
   settings: object;
-  /** Names of the columns, with units. */
-  columns: string[];
-  row: (i: number) => number[];
-  /** Number of samples. */
-  count: number;
+  /** Numbers of the table, row after row, by the names of their columns, which have units and spaces between. */
+  columns: Record<string, ArrayLike<number>>;
   /** Sentences about a copied link and about copied attributes, such as on state that they lack. */
   linkNote?: string;
   codeNote?: string;
@@ -80,8 +77,11 @@ ${svg.markup}
 
 /** Returns CSV: a comment with settings and seed, a header, and a line for each sample with all digits. */
 export function csvOf(element: Figure) {
-  const { settings, columns, row, count } = element.exportData;
-  const csvLines = [`# ${settingsText(element, settings)}`, columns, ...Array.from({ length: count }, (_, i) => row(i))];
+  const { settings, columns } = element.exportData;
+  const groups = Object.entries(columns).map(([names, numbers]) => ({ names: names.split(' '), numbers }));
+  const row = (i: number) => groups.flatMap(({ names, numbers }) => names.map((_, column) => numbers[names.length * i + column]));
+  const rows = Array.from({ length: groups[0].numbers.length / groups[0].names.length }, (_, i) => row(i));
+  const csvLines = [`# ${settingsText(element, settings)}`, groups.flatMap(({ names }) => names), ...rows];
   return `${csvLines.join('\n')}\n`;
 }
 

@@ -206,20 +206,22 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   get exportData() {
     const { fitted, legs } = this.currentViewModel;
     const missingNote = this.log ? words.calibrator.logNotInCopies : '';
-    const legEntries = (numbers: Float64Array, i: number, size: number) => numbers.subarray(size * i, size * (i + 1));
-    const poseColumns = (log: string) => ['from', 'to'].flatMap((end) => ['x_m', 'y_m', 'theta_rad'].map((key) => `${log}_${end}_${key}`));
+    const statisticColumns = (statistic: string) => NOISE_COMPONENTS[fitted.model].map((name) => `${statistic}_${name}`).join(' ');
+    const poseColumns = (log: string) => ['from', 'to'].flatMap((end) => ['x_m', 'y_m', 'theta_rad'].map((key) => `${log}_${end}_${key}`)).join(' ');
     return {
       description: [pathText(this.viewModel, this.chosen), ...alphaTexts(this.viewModel).map((text) => `${text}.`), captionOf(this), recommendationReason(this.viewModel), ...systematicTexts(this.viewModel)].join(' '),
       settings: { ...(this.log && { log: this.log.name }), ...fitted },
-      columns: [
-        'begins_s', 'ends_s', ...poseColumns('odometry'), ...poseColumns('reference'), 'reading_1', 'reading_2', 'reading_3',
-        ...['residual', 'standardized', 'std'].flatMap((statistic) => NOISE_COMPONENTS[fitted.model].map((name) => `${statistic}_${name}`)), 'squared_mahalanobis', 'outlier',
-      ],
-      row: (i: number) => [
-        ...legEntries(legs.times, i, 2), ...legEntries(legs.odometry, i, 6), ...legEntries(legs.reference, i, 6), ...legEntries(legs.readings, i, 3),
-        ...legEntries(legs.residuals, i, 3), ...legEntries(legs.standardized, i, 3), ...legEntries(legs.stds, i, 3), legs.squared[i], legs.outliers[i],
-      ],
-      count: legs.count,
+      columns: {
+        'begins_s ends_s': legs.times,
+        [poseColumns('odometry')]: legs.odometry,
+        [poseColumns('reference')]: legs.reference,
+        'reading_1 reading_2 reading_3': legs.readings,
+        [statisticColumns('residual')]: legs.residuals,
+        [statisticColumns('standardized')]: legs.standardized,
+        [statisticColumns('std')]: legs.stds,
+        squared_mahalanobis: legs.squared,
+        outlier: legs.outliers,
+      },
       linkNote: missingNote,
       codeNote: missingNote,
     };

@@ -56,12 +56,10 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
     return {
       description: pictureText(this.viewModel),
       settings: config,
-      columns: ['estimate', 'residual', 'standard_deviation', 'residual_over_deviation', 'prob', 'share_of_peak'],
-      row: (i: number) => {
-        const { estimate, residual, deviation, deviations, value, share } = factors[i];
-        return [estimate, residual, deviation, deviations, value, share];
+      columns: {
+        'estimate residual standard_deviation residual_over_deviation prob share_of_peak':
+          factors.flatMap(({ estimate, residual, deviation, deviations, value, share }) => [estimate, residual, deviation, deviations, value, share]),
       },
-      count: factors.length,
     };
   }
 

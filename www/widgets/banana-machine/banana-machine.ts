@@ -30,12 +30,10 @@ import { announcementOf, calloutsOf, captionOf, floorTitle, planeText, skewText,
 import type { BananaMachine as Simulation, BananaMachineSettings as Settings, Inspection } from '../../types.d.ts';
 import type { Values } from '../../figure/settings.ts';
 
-/** Columns of a robot in a table: its end, its exponential coordinates, and the executed command. */
-const POSE_COLUMNS = ['x_m', 'y_m', 'theta_rad'];
-const TWIST_COLUMNS = ['xi_along_m', 'xi_lateral_m', 'xi_heading_rad'];
+/** Columns of the executed command in a table. */
 const EXECUTED_COLUMNS = {
-  velocity: ['v_hat_m_per_s', 'omega_hat_rad_per_s', 'gamma_hat_rad_per_s'],
-  odometry: ['delta_hat_rot1_rad', 'delta_hat_trans_m', 'delta_hat_rot2_rad'],
+  velocity: 'v_hat_m_per_s omega_hat_rad_per_s gamma_hat_rad_per_s',
+  odometry: 'delta_hat_rot1_rad delta_hat_trans_m delta_hat_rot2_rad',
 };
 
 /** Number of points of the skew chart's curve. With fewer, the steep fall of the skew at ω = 0 would have visible corners. */
@@ -128,15 +126,13 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
   }
 
   get exportData() {
-    const { config, shown: count } = this.currentViewModel;
+    const { config } = this.currentViewModel;
     const { poses, twists, executed } = this.simulation as Simulation;
     return {
       description: this.#description,
       settings: config,
       codeNote: this.#pinned ? words.banana.pinNotInCode : '',
-      columns: [...POSE_COLUMNS, ...TWIST_COLUMNS, ...EXECUTED_COLUMNS[config.model]],
-      row: (i: number) => [poses, twists, executed].flatMap((triples) => [...triples.subarray(3 * i, 3 * i + 3)]),
-      count,
+      columns: { 'x_m y_m theta_rad': poses, 'xi_along_m xi_lateral_m xi_heading_rad': twists, [EXECUTED_COLUMNS[config.model]]: executed },
     };
   }
 

@@ -23,7 +23,7 @@ import type { DeadReckoning as Simulation } from '../../types.d.ts';
 const VARIANCE_UNITS = { along: 'm2', lateral: 'm2', heading: 'rad2' };
 
 /** Returns the names of the columns of a quantity in a table, one for each component. */
-const columnsOf = (quantity: string) => COMPONENTS.map((name) => `${quantity}_${name}_${VARIANCE_UNITS[name]}`);
+const columnsOf = (quantity: string) => COMPONENTS.map((name) => `${quantity}_${name}_${VARIANCE_UNITS[name]}`).join(' ');
 
 /**
  * One command driven step after step, and how well its growing uncertainty is predicted.
@@ -63,18 +63,15 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
   get exportData() {
     const { config } = this.currentViewModel;
     const { measured, relativeErrors, predicted } = this.simulation as Simulation;
-    const triple = (triples: Float64Array, i: number) => triples.subarray(3 * i, 3 * i + 3);
     return {
       description: planeText(this.viewModel),
       settings: config,
-      columns: [
-        'step',
-        ...columnsOf('measured'),
-        ...COMPONENTS.map((name) => `relative_error_${name}`),
-        ...RECURSIONS.flatMap((recursion) => columnsOf(recursion.replace('-', '_'))),
-      ],
-      row: (i: number) => [i + 1, ...triple(measured, i), ...triple(relativeErrors, i), ...RECURSIONS.flatMap((recursion) => [...triple(predicted[recursion], i)])],
-      count: config.steps,
+      columns: {
+        step: Array.from({ length: config.steps }, (_, i) => i + 1),
+        [columnsOf('measured')]: measured,
+        [COMPONENTS.map((name) => `relative_error_${name}`).join(' ')]: relativeErrors,
+        ...Object.fromEntries(RECURSIONS.map((recursion) => [columnsOf(recursion.replace('-', '_')), predicted[recursion]])),
+      },
     };
   }
 

@@ -104,12 +104,10 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     return {
       description: this.#description,
       settings: { map: this.map?.name ?? null, ...config },
-      columns: ['x_m', 'y_m', 'theta_rad', 'end_free', 'path_free', 'accepted'],
-      row: (i: number) => [
-        ...poses.subarray(3 * i, 3 * i + 3),
-        ...Object.values(bits).map((bit) => Math.sign(verdicts[i] & bit)),
-      ],
-      count: verdicts.length,
+      columns: {
+        'x_m y_m theta_rad': poses,
+        'end_free path_free accepted': [...verdicts].flatMap((verdict) => Object.values(bits).map((bit) => Math.sign(verdict & bit))),
+      },
       linkNote: this.link.lacksMap ? words.squeeze.mapNotInLink : '',
       codeNote: this.map ? words.squeeze.mapNotInCode : '',
     };

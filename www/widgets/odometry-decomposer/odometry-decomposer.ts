@@ -64,9 +64,7 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
     return {
       description: legsText(this.viewModel),
       settings: config,
-      columns: ['x_m', 'y_m', 'theta_rad'],
-      row: (i: number) => [...poses.subarray(3 * i, 3 * i + 3)],
-      count: poses.length / 3,
+      columns: { 'x_m y_m theta_rad': poses },
     };
   }
 

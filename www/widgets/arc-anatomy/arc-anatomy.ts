@@ -38,7 +38,7 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
   #handles: PoseHandles[] = ['start', 'next'].map((setting) => new PoseHandles(this, setting, () => this.#picture.view, () => POSE_BOUNDS));
 
   /** Animation of the arcs, which always takes the same time. The duration of the command is displayed next to it. */
-  player: Player<'underway'> = new Player(this, { underway: { to: UNDERWAY_AT_END, duration: 2000, whole: true } });
+  player: Player<'underway'> = new Player(this, { underway: { to: UNDERWAY_AT_END, duration: 2000 } });
 
   createSimulation: FigureElement<Simulation, ViewModel>['createSimulation'] = (motion, state) => new motion.ArcAnatomy(state && this.settings.pick(state));
 

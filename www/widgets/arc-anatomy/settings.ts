@@ -1,6 +1,6 @@
 /** Arc Anatomy's settings: their attributes, their part of the state, and their sliders. */
 
-import { checkedInteger } from '../../figure/checks.ts';
+import { checkedInteger, checkedNumber } from '../../figure/checks.ts';
 import { definitionOf } from '../../figure/definition.ts';
 import { COMMAND_DASH, alphaSliders, commandSliders } from '../shared/sliders.ts';
 
@@ -45,7 +45,7 @@ export const definition = definitionOf('arc-anatomy', {
   sliderSpecs: { ...COMMAND_SLIDERS, ...ALPHA_SLIDERS },
   elementFields: {
     line: { opening: 0, isResetByPreset: true, check: (field, line) => checkedInteger(field, line, 0, TABLE_LINES) },
-    underway: { opening: UNDERWAY_AT_END, isResetByPreset: true, check: (field, share) => checkedInteger(field, share, 0, UNDERWAY_AT_END) },
+    underway: { opening: UNDERWAY_AT_END, isResetByPreset: true, check: (field, share) => checkedNumber(field, share, 0, UNDERWAY_AT_END) },
   },
 });
 

@@ -11,16 +11,12 @@ interface PlayedSetting {
   to: number;
   /** Duration from 0 to the maximum, milliseconds. */
   duration: number;
-  /** True if the values are whole numbers. */
-  whole?: boolean;
 }
 
 export class Player<Key extends string> extends FigureController {
   /** Key of the animated setting. */
   #key: Key | undefined;
   #playedSettings;
-  /** Fraction of a step that remains from the last movement of a setting with whole steps. */
-  #stepRemainder = 0;
 
   constructor(host: import('../../figure/figure.ts').Figure, played: Record<Key, PlayedSetting>) {
     super(host);
@@ -34,7 +30,7 @@ export class Player<Key extends string> extends FigureController {
   /** Sets a value that the user has chosen, and stops the animation. */
   put(key: Key, value: number) {
     this.stop();
-    this.#setValue(key, value);
+    this.host.settings.request({ [key]: value });
   }
 
   #valueAt(key: Key): number {
@@ -42,31 +38,22 @@ export class Player<Key extends string> extends FigureController {
     return key in state.elementState ? state.elementState[key] : settings.requested[key];
   }
 
-  #setValue(key: Key, value: number) {
-    const nextValue = this.#playedSettings[key].whole ? Math.floor(value) : value;
-    if (nextValue !== this.#valueAt(key)) this.host.settings.request({ [key]: nextValue });
-  }
-
   #toggle(key: Key) {
-    const { host: { gesture, renderer } } = this;
+    const { host: { gesture, renderer, settings } } = this;
     const willPlay = this.#key !== key;
     if (this.#key) gesture.commit();
     this.#key = willPlay ? key : undefined;
-    this.#stepRemainder = 0;
-    if (willPlay && this.#valueAt(key) >= this.#playedSettings[key].to) this.#setValue(key, 0);
-    renderer.requestFrame();
     this.host.requestUpdate();
+    if (willPlay && this.#valueAt(key) >= this.#playedSettings[key].to) settings.request({ [key]: 0 });
+    renderer.requestFrame();
   }
 
   /** Advances the animation by the milliseconds since the previous frame. Returns true if there is more to play. */
   advance(elapsed: number): boolean {
     if (!this.#key) return false;
     const { to, duration } = this.#playedSettings[this.#key];
-    const next = Math.min(to, this.#valueAt(this.#key) + this.#stepRemainder + (to * elapsed) / duration);
-    this.#setValue(this.#key, next);
-    // A listener of the page may have set a state.
-    if (!this.#key) return false;
-    this.#stepRemainder = next - this.#valueAt(this.#key);
+    const next = Math.min(to, this.#valueAt(this.#key) + (to * elapsed) / duration);
+    this.host.settings.request({ [this.#key]: next });
     if (next < to) return true;
     this.stop();
     this.host.gesture.commit();

@@ -19,10 +19,9 @@ import { ALL_NAMES, CLOUD_NAMES, NAMES_WITH_HANDLES, figureNameFor } from './fig
  */
 
 /**
- * Fixtures. The first three are names of the element on which a test about all figures, all clouds or all handles runs; the test's title
- * decides. With the last one, the page behaves as if the user had seen the introduction that a figure shows on the first visit.
+ * Fixtures: names of the elements on which a test about all figures, all clouds or all handles runs (its title decides).
  *
- * @typedef {{ figureName: Name, cloudFigureName: Name, handleFigureName: Name, isIntroductionSkipped: boolean }} FigureFixtures
+ * @typedef {{ figureName: Name, cloudFigureName: Name, handleFigureName: Name }} FigureFixtures
  */
 
 /**
@@ -36,9 +35,7 @@ export const test = playwrightTest.extend({
   cloudFigureName: async ({}, use, { title }) => use(figureNameFor(title, CLOUD_NAMES)),
   handleFigureName: async ({}, use, { title }) => use(figureNameFor(title, NAMES_WITH_HANDLES)),
   /* oxlint-enable no-empty-pattern */
-  isIntroductionSkipped: [true, { option: true }],
-  page: async ({ page, isIntroductionSkipped }, use) => {
-    if (isIntroductionSkipped) await page.addInitScript(skipIntroduction);
+  page: async ({ page }, use) => {
     /** @type {string[]} */
     const consoleMessages = [];
     page.on('console', (message) => {
@@ -64,15 +61,6 @@ export function testEach(title, testBody, details = {}) {
       test.slow();
       return testBody(page, name, true);
     });
-  }
-}
-
-/** Marks the introduction of a figure as seen. It runs in the page before the page's scripts. */
-function skipIntroduction() {
-  try {
-    sessionStorage.setItem('motion-widgets.introduced', 'yes');
-  } catch {
-    // On a page without storage a figure shows no introduction.
   }
 }
 

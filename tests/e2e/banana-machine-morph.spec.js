@@ -115,17 +115,6 @@ test('the title of the floor agrees with the fit of the ellipse', async ({ page 
   }
 });
 
-test('an outline that the morph cannot carry is struck through in the legend, which keeps its size', async ({ page }) => {
-  const widget = await openBanana(page, 'preset="pivot"');
-  const legend = widget.locator('.legend').first();
-  await expect(legend).not.toContainText('on the floor alone');
-  const legendBox = await boxOf(legend);
-  await widget.getByRole('slider', { name: 'From the floor' }).fill('0.5');
-  await expect(legend.getByRole('checkbox', { name: /^Gaussian in \(x, y\), 2σ.*around the start, on the floor alone/ })).toBeVisible();
-  await expect(legend.getByText('Gaussian in (x, y), 2σ')).toHaveCSS('text-decoration-line', 'line-through');
-  expect(await boxOf(legend)).toEqual(legendBox);
-});
-
 test('callouts are hidden while the cloud is dragged under them @nightly', async ({ page }) => {
   const widget = await openBanana(page);
   const countCallouts = () => calloutCountOf(widget);

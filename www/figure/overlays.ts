@@ -5,8 +5,8 @@ import { words } from '../messages/registry.ts';
 import { formatMarkup, toggle } from '../ui/controls.ts';
 import type { LineStyle } from '../scene/draw.ts';
 
-/** Returns the legend of a figure's pictures, with names from the catalogue. `notes` explain missing lines. `extraEntries` have no toggle. */
-export function legend(figure: import('./figure.ts').Figure, styles: Record<string, LineStyle>, notes: Record<string, string> = {}, extraEntries: unknown = nothing) {
+/** Returns the legend of a figure's pictures, with names from the catalogue. `extraEntries` have no toggle. */
+export function legend(figure: import('./figure.ts').Figure, styles: Record<string, LineStyle>, extraEntries: unknown = nothing) {
   const { overlays } = figure.state.elementState;
   const { overlays: names } = (words as any)[figure.definition.messageKey];
   const styleNames = Object.keys(styles);
@@ -15,9 +15,9 @@ export function legend(figure: import('./figure.ts').Figure, styles: Record<stri
     figure.gesture.choose('overlays', allOverlays.filter((overlay) => (overlay === name ? shown : overlays.includes(overlay))));
   const highlight = (name: string | null) => (figure.highlight = name);
   return html`<div class="legend" part="legend" role="group" aria-label=${words.legend}>
-    ${styleNames.map((name) => html`<span title=${notes[name] ?? nothing} @pointerenter=${() => highlight(name)} @pointerleave=${() => highlight(null)} @focusin=${() => highlight(name)} @focusout=${() => highlight(null)}>
+    ${styleNames.map((name) => html`<span @pointerenter=${() => highlight(name)} @pointerleave=${() => highlight(null)} @focusin=${() => highlight(name)} @focusout=${() => highlight(null)}>
       ${toggle({
-        label: html`${swatchHtml(styles[name])}<span class=${notes[name] ? 'absent' : nothing}>${formatMarkup(names[name])}${notes[name] ? html`<span class="visually-hidden">: ${notes[name]}</span>` : nothing}</span>`,
+        label: html`${swatchHtml(styles[name])}<span>${formatMarkup(names[name])}</span>`,
         checked: overlays.includes(name),
         change: (shown) => setShown(name, shown),
       })}

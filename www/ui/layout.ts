@@ -362,11 +362,6 @@ const figureLayout = css`
     fill: var(--role);
   }
 
-  .absent {
-    color: var(--muted);
-    text-decoration: line-through;
-  }
-
   .buttons {
     display: flex;
     flex-wrap: wrap;

@@ -200,13 +200,6 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     return morph === 0 ? floorTitle(this.viewModel) : morph === 1 ? words.banana.morph.arrived : words.banana.morph.title;
   }
 
-  /** Returns a note for each outline that is on, but has no image under the morph. */
-  #missingOutlineNotes(viewModel: ViewModel) {
-    const { morph, overlays } = this.state.elementState;
-    const missingOutlines = morph === 0 ? [] : Object.entries(outlinesAt(this.motion, viewModel, morph)).filter(([name, { length }]) => length === 0 && overlays.includes(name));
-    return Object.fromEntries(missingOutlines.map(([name]) => [name, words.banana.notCarried]));
-  }
-
   get #description() {
     const { overlays } = this.state.elementState as { overlays: (typeof OVERLAYS)[number][] };
     const drawnOutlines = overlays.filter((name) => hasLength(this.viewModel.contours[name]));
@@ -228,7 +221,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
         ${morphControl(this)}
         ${button(this.#pinned ? say.unpin : say.pin, () => this.#pin(), { title: say.pinTitle, otherLabel: this.#pinned ? say.pin : say.unpin })}
       </div>
-      ${legend(this, LINE_STYLES, this.#missingOutlineNotes(viewModel))}
+      ${legend(this, LINE_STYLES)}
       <p part="caption" class="caption ${note && 'note'}">${captionOf(viewModel)}</p>
       ${readouts(viewModel, this.#pinned)} ${presetButtons(this)}
       <div class="controls" part="controls">

@@ -17,7 +17,6 @@ export const de: typeof import('./en.ts').en = {
     additive: 'Rauschen auf der Pose, 2σ',
     exponential: 'Gauß in ξ, 2σ',
   },
-  notCarried: 'um den Start, nur auf dem Boden',
   modelGroup: 'Modell',
   models: { velocity: 'Geschwindigkeit', odometry: 'Odometrie' },
   reverseAware: 'Rückwärts ohne halbe Drehungen',

@@ -19,7 +19,6 @@ export const en = {
     additive: 'noise added to the pose, 2σ',
     exponential: 'Gaussian in ξ, 2σ',
   },
-  notCarried: 'around the start, on the floor alone',
   modelGroup: 'Model',
   models: { velocity: 'velocity', odometry: 'odometry' },
   reverseAware: 'Reverse without half-turn noise',

@@ -246,7 +246,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
             ${this.renderer.afterFirstPicture(() => this.#wallHandles.render())}
             ${this.#handles.render()}
           </div>
-          ${this.renderer.afterFirstPicture(() => legend(this, hasUnknown ? { ...marks, unknown } : marks, {}, this.#wallHandles.legend()))}`)}
+          ${this.renderer.afterFirstPicture(() => legend(this, hasUnknown ? { ...marks, unknown } : marks, this.#wallHandles.legend()))}`)}
         ${this.renderer.afterFirstPicture(() => html`<div class="aside">
           <div class="result">
             <p class="headline">${headlineOf(stats)}</p>

@@ -7,41 +7,32 @@ export type Painter = Pick<Brush, 'view' | 'palette' | 'ratio' | 'highlight'> & 
 
 export class Layer {
   #canvas = new OffscreenCanvas(1, 1);
-  #strokes: Memo<Iterator<void>> = new Memo();
+  #drawing: Memo<void> = new Memo();
 
   /**
-   * Draws the layer, with at most `count` strokes in this frame. Returns true if there are more strokes.
+   * Draws the layer.
    *
-   * @param cacheKey values, besides the view and the colours, on which the drawing depends. When one changes, the drawing begins anew
-   * @param paint returns the strokes of the drawing
+   * @param cacheKey values, besides the view and the colours, on which the drawing depends. When one changes, `paint` is called again
    */
-  draw({ context, view, palette, ratio, highlight }: Brush, cacheKey: unknown[], paint: (painter: Painter) => Iterator<void>, count: number = Infinity): boolean {
+  draw({ context, view, palette, ratio, highlight }: Brush, cacheKey: unknown[], paint: (painter: Painter) => void) {
     const { extent, frame, width, height } = view;
-    const strokes = this.#strokes.get([...cacheKey, JSON.stringify([extent, frame, width, height, palette, ratio])], () => {
+    this.#drawing.get([...cacheKey, JSON.stringify([extent, frame, width, height, palette, ratio])], () => {
       // Setting the size clears the canvas.
       this.#canvas.width = Math.round(width * ratio);
       this.#canvas.height = Math.round(height * ratio);
       const layerContext = hiddenContext(this.#canvas);
       layerContext.scale(ratio, ratio);
-      return paint({ context: layerContext, view, palette, ratio, highlight });
+      paint({ context: layerContext, view, palette, ratio, highlight });
     });
-    const isUnfinished = drawStrokes(strokes, count);
     context.drawImage(this.#canvas, 0, 0, width, height);
-    return isUnfinished;
   }
-}
-
-/** Continues a drawing by at most `count` strokes. Returns true if there are more. */
-export function drawStrokes(strokes: Iterator<void>, count: number = Infinity): boolean {
-  for (; count > 0; count--) if (strokes.next().done) return false;
-  return true;
 }
 
 /** Number of lines in one stroke. Browsers take far longer for one path with many lines. */
 export const LINES_PER_STROKE = 500;
 
 /** Strokes lines through points in pixels, with round ends unless they are dashed. */
-export function* strokeMany(context: Painter['context'], lines: Iterable<number[][]>, style: LineStroke): Generator<undefined, void> {
+export function strokeMany(context: Painter['context'], lines: Iterable<number[][]>, style: LineStroke) {
   let batch: number[][][] = [];
   let pointCount = 0;
   const strokeBatch = () => {
@@ -53,9 +44,7 @@ export function* strokeMany(context: Painter['context'], lines: Iterable<number[
   for (const line of lines) {
     batch.push(line);
     pointCount += line.length - 1;
-    if (pointCount < LINES_PER_STROKE) continue;
-    strokeBatch();
-    yield;
+    if (pointCount >= LINES_PER_STROKE) strokeBatch();
   }
   strokeBatch();
 }

@@ -26,10 +26,10 @@ export class Picture<Scene, Name extends string = string> {
   /** Sets the target of the view. */
   fit(_scene: Scene) {}
 
-  /** Paints the scene. Returns true if the next frame has more to paint. */
-  paint(_brush: Brush, _scene: Scene): boolean | void {}
+  /** Paints the scene. */
+  paint(_brush: Brush, _scene: Scene) {}
 
-  /** Draws the scene. Returns true if the view is still moving, or there is more to paint. */
+  /** Draws the scene. Returns true if the view is still moving. */
   draw(surface: Surface, scene: Scene, palette: Palette, { elapsed = 0, still = false, atOnce = false, previousViewModel, exported, handles = exported, highlight }: DrawOptions = {}): boolean {
     const { view } = this;
     const brush = brushOn(surface, view, palette);
@@ -39,8 +39,8 @@ export class Picture<Scene, Name extends string = string> {
     }
     if (!still || !view.hasTarget) this.fit(scene);
     const isViewMoving = view.ease(elapsed, atOnce);
-    const isUnfinished = this.paint({ ...brush, highlight, exported, handles, previousViewModel: view.hasZoomedOut && !exported ? previousViewModel : undefined }, scene);
-    return isViewMoving || isUnfinished === true;
+    this.paint({ ...brush, highlight, exported, handles, previousViewModel: view.hasZoomedOut && !exported ? previousViewModel : undefined }, scene);
+    return isViewMoving;
   }
 
   /** Returns the index of the sample nearest to a point in CSS pixels; −1 for none. */

@@ -3,7 +3,7 @@
 import { clamp } from '../ui/clamp.ts';
 import { colourChannels } from '../ui/theme.ts';
 import { addLine, fade, hiddenContext, strokePath, strokeLine, type Brush } from './canvas.ts';
-import { Layer, drawStrokes, strokeMany, type Painter } from './layer.ts';
+import { Layer, strokeMany, type Painter } from './layer.ts';
 import type { View } from './view.ts';
 import type { Grid, Plan } from '../types.d.ts';
 
@@ -29,11 +29,11 @@ export class WallLayer {
 
   /** Draws the walls or cells; unknown cells are hatched if they are shown. */
   draw(brush: Brush, unknown: boolean) {
-    if (!this.#grid && 'vector' in brush.context) drawStrokes(this.#paint(brush, unknown));
+    if (!this.#grid && 'vector' in brush.context) this.#paint(brush, unknown);
     else this.#layer.draw(brush, [unknown], (painter) => this.#paint(painter, unknown));
   }
 
-  *#paint(painter: Painter, unknown: boolean): Generator<undefined, void> {
+  #paint(painter: Painter, unknown: boolean) {
     const { context, view, palette } = painter;
     const grid = this.#grid;
     if (unknown && grid?.unknown) {
@@ -46,7 +46,7 @@ export class WallLayer {
     if (grid) fillCells(painter, grid, grid.occupied, palette.truth);
     const { bounds: [xMin, yMin, xMax, yMax] } = this.#plan;
     strokeLine(context, [[xMin, yMin], [xMax, yMin], [xMax, yMax], [xMin, yMax], [xMin, yMin]].map(([x, y]) => view.toPixel(x, y)), { colour: palette.rule, width: 1 });
-    if (!grid) yield* strokeMany(context, this.#linesIn(view), { colour: palette.truth, width: WALL_WIDTH });
+    if (!grid) strokeMany(context, this.#linesIn(view), { colour: palette.truth, width: WALL_WIDTH });
   }
 
   /** Returns the walls as lines, pixels. */

@@ -5,7 +5,7 @@
 
 import { strokePath, type Brush } from '../../scene/canvas.ts';
 import { lineStyles } from '../../scene/draw.ts';
-import { LINES_PER_STROKE, Layer, drawStrokes, strokeMany, type Painter } from '../../scene/layer.ts';
+import { LINES_PER_STROKE, Layer, strokeMany, type Painter } from '../../scene/layer.ts';
 import { Memo } from '../../scene/memo.ts';
 import { colourChannels } from '../../ui/theme.ts';
 import { LEG_CLASSES, LINE_STYLES, type LineName } from './settings.ts';
@@ -15,9 +15,6 @@ export type PathStyle = { colour: string, width: number, dash: number[] };
 
 /** Maximum number of legs that are drawn without a cache. The cache is another canvas, which takes memory. */
 const MAX_UNCACHED_LEGS = 2000;
-
-/** Number of strokes of a new log that are drawn in a frame, in about 10 ms. */
-const STROKES_PER_FRAME = 4;
 
 /** Side of the squares of a grid, CSS pixels. Of the short lines that end in one square only one is drawn, because all look equal. */
 const FINE_SQUARE = 1;
@@ -46,8 +43,6 @@ function mixedColour(one: string, other: string) {
 
 export class PathLayer {
   #layer = new Layer();
-  /** Legs that were drawn last. */
-  #legs: CalibrationLegs | undefined;
   #odometry: Memo<Float64Array> = new Memo();
 
   /** Returns the ends of the legs by odometry (x, y pairs). The path starts at the first pose of the reference, and drifts away from it. */
@@ -66,32 +61,23 @@ export class PathLayer {
     });
   }
 
-  /**
-   * Draws the legs, the most usual classes first. Returns true if there are more to draw in the next frame: many legs of a new log take
-   * several frames. After a change of the view, and in print, all legs are drawn at once.
-   */
-  draw(brush: Brush, legs: CalibrationLegs, classes: Uint8Array, overlays: LineName[]): boolean {
-    const { context, highlight, handles } = brush;
-    if ('vector' in context || legs.count <= MAX_UNCACHED_LEGS) return drawStrokes(drawPath(brush, legs, this.odometryOf(legs), classes, overlays));
-    const isNewLog = legs !== this.#legs;
-    this.#legs = legs;
-    return this.#layer.draw(brush, [legs, overlays, highlight], (painter) => {
-      const strokes = drawPath(painter, legs, this.odometryOf(legs), classes, overlays);
-      if (!isNewLog) drawStrokes(strokes);
-      return strokes;
-    }, handles ? Infinity : STROKES_PER_FRAME);
+  /** Draws the legs, the most usual classes first. */
+  draw(brush: Brush, legs: CalibrationLegs, classes: Uint8Array, overlays: LineName[]) {
+    const paint = (painter: Painter) => drawPath(painter, legs, this.odometryOf(legs), classes, overlays);
+    if ('vector' in brush.context || legs.count <= MAX_UNCACHED_LEGS) paint(brush);
+    else this.#layer.draw(brush, [legs, overlays, brush.highlight], paint);
   }
 }
 
-function* drawPath(brush: Painter, legs: CalibrationLegs, odometry: Float64Array, classes: Uint8Array, overlays: LineName[]) {
-  if (overlays.includes('odometry')) yield* strokeMany(brush.context, odometryLines(brush.view, odometry), pathStyle(brush, 'odometry'));
+function drawPath(brush: Painter, legs: CalibrationLegs, odometry: Float64Array, classes: Uint8Array, overlays: LineName[]) {
+  if (overlays.includes('odometry')) strokeMany(brush.context, odometryLines(brush.view, odometry), pathStyle(brush, 'odometry'));
   // Lines get thinner gradually while the coverage grows from 1 to 2, so that nothing jumps when the picture is resized.
   const thickness = Math.max(0, Math.min(1, 2 - pathCoverage(brush.view, legs.reference)));
   for (const [index, name] of LEG_CLASSES.entries()) {
     if (!overlays.includes(name)) continue;
     const legStyle = pathStyle(brush, name);
     const legLines = visibleLegs(brush.view, legs.reference, (leg) => classes[leg] === index);
-    yield* strokeMany(brush.context, legLines, { ...legStyle, width: HAIRLINE_WIDTH + thickness * (legStyle.width - HAIRLINE_WIDTH) });
+    strokeMany(brush.context, legLines, { ...legStyle, width: HAIRLINE_WIDTH + thickness * (legStyle.width - HAIRLINE_WIDTH) });
   }
   if (overlays.includes('outlier')) drawRings(brush, outlierEnds(brush, legs));
 }

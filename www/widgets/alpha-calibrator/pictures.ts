@@ -59,15 +59,13 @@ export class PathPicture extends SamplesPicture<Scene> {
       return name === 'outlier' ? { ...keyEntry, draw: (x: number, y: number, length: number) => drawRings(brush, [[x + length / 2, y]]) } : keyEntry;
     });
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, key);
-    let isUnfinished = false;
     clipToPlot(brush, () => {
-      isUnfinished = this.#layer.draw(brush, legs, classes, overlays);
+      this.#layer.draw(brush, legs, classes, overlays);
       if (chosen < 0) return;
       const [fromX, fromY, , x, y, heading] = legs.reference.subarray(6 * chosen);
       drawOutline(brush, Float64Array.of(fromX, fromY, x, y), { colour: palette.ink, width: 3.25, dash: [] });
       drawMark(brush, { x, y, heading }, palette.ink);
     });
-    return isUnfinished;
   };
 }
 

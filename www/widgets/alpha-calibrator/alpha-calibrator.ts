@@ -263,8 +263,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
           ${group(say.systematic.title, systematicTable(this))}
           ${group(say.own.title, logSection(this))}
           ${predictionControls(this)}`,
-        numbers: () => html`${this.#opener.otherResults && html`<p class="note">${this.#opener.otherResults}</p>`}
-          ${group(say.oneLeg(integer(chosen + 1)), legReadouts(this))}
+        numbers: () => html`${group(say.oneLeg(integer(chosen + 1)), legReadouts(this))}
           ${diagnostics(this)}
           ${group(say.panels.title, regressionPanels(this))}
           ${group(say.nav2.title, nav2Exports(this, this.#opener.otherResults))}`,

@@ -40,7 +40,6 @@ export const de: typeof import('./en.ts').en = {
   title: 'Der Alpha-Kalibrierer',
   settings: {
     model: { name: 'Modell' },
-    rule: { name: 'Regel' },
     distance: { name: 'Etappenlänge (update_min_d)', effect: 'Eine Etappe endet nach *d* in *x* oder *y*. Die *α* gelten für diese Länge.' },
     angle: { name: 'Etappenwinkel (update_min_a)', effect: 'Eine Etappe endet nach einer Drehung um *φ*.' },
     duration: { name: 'Etappendauer', effect: 'Über 0 beendet *T* eine Etappe statt *d* und *φ*.' },
@@ -206,10 +205,6 @@ export const de: typeof import('./en.ts').en = {
     standing: 'im Stillstand',
     outliers: 'Ausreißer',
   },
-  largest: {
-    title: 'Größte Residuen',
-    leg: (number, isOutlier) => `Etappe ${number}${isOutlier ? ' (Ausreißer)' : ''}`,
-  },
   own: {
     drop: 'Log hierher ziehen: ROS-Bag (.bag, .db3, .mcap, Ordner), CSV oder TUM, oder',
     dropTitle: 'Odometrie und Referenz: eine Aufzeichnung mit beiden oder zwei Dateien; bei mehreren Fahrten alle Dateien zugleich. Nichts verlässt dieses Gerät.',
@@ -219,9 +214,7 @@ export const de: typeof import('./en.ts').en = {
     odometry: 'Odometrie',
     leave: 'Zurück zur simulierten',
     simulated: 'Ein simulierter Roboter folgt einer Kurve und dreht sich ab und zu auf der Stelle. Die wahren Werte stehen neben den Schätzungen.',
-    present: (name, isFormer) => `${isFormer ? 'Vorige Aufzeichnung' : 'Aufzeichnung'}: ${name}.`,
-    former: (log) => `die vorige Aufzeichnung (${log})`,
-    latest: (refusal) => `Zuletzt gewählte Dateien: ${refusal}`,
+    present: (name) => `Aufzeichnung: ${name}.`,
     reading: 'Wird gelesen',
     refused: (message) => `Aufzeichnung abgelehnt: ${message}`,
     still: (log) => `Gezeigt wird noch: ${log}, nicht die zuletzt gewählten Dateien.`,

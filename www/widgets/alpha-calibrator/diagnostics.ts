@@ -2,7 +2,7 @@
 
 import { html } from 'lit';
 import { words } from '../../messages/registry.ts';
-import { button, group, radioGroup, formatMarkup } from '../../ui/controls.ts';
+import { group, radioGroup, formatMarkup } from '../../ui/controls.ts';
 import { NO_VALUE, integer, fixed, percent, formatRounded } from '../../ui/format.ts';
 import { plot, type Curve } from '../../ui/plot.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
@@ -14,12 +14,11 @@ import type { CalibrationPanel } from '../../types.d.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 export function diagnostics(figure: Figure) {
-  const { checks, windows, noise, lost, largest } = words.calibrator;
+  const { checks, windows, noise, lost } = words.calibrator;
   return html`${group(checks.title, checksTable(figure))}
     ${group(windows.title, windowsTable(figure))}
     ${group(noise.title, noiseTable(figure))}
-    ${group(lost.title, lostLegs(figure))}
-    ${group(largest.title, largestResiduals(figure))}`;
+    ${group(lost.title, lostLegs(figure))}`;
 }
 
 function checksTable({ viewModel: { stats: { diagnostics: { checks } } } }: Figure) {
@@ -68,14 +67,6 @@ function lostLegs({ viewModel: { stats: { lost }, legs } }: Figure) {
   return readoutList([...causes.map((cause) => [say[cause], integer(lost[cause])] as [string, string]), [say.outliers, integer(outliers)]]);
 }
 
-function largestResiduals(figure: Figure) {
-  const say = words.calibrator.largest;
-  const { worst, legs } = figure.viewModel;
-  return html`<div class="buttons" role="group" aria-label=${say.title}>
-    ${worst.map((leg) => button(say.leg(integer(leg + 1), legs.outliers[leg] > 0), () => figure.gesture.decide({ leg }), { pressed: leg === figure.chosen }))}
-  </div>`;
-}
-
 /** Minimum squared distance or rotation at the end of an axis: (1 mm)², or (1 mrad)². */
 const MIN_REGRESSOR = 1e-6;
 
@@ -102,9 +93,10 @@ function panelPlot({ alpha, x, y, error, slope, interval }: CalibrationPanel, ki
   const maxRegressor = Math.max(0, ...x);
   // A log without rotation or without translation has an empty axis.
   const axisEnd = maxRegressor > MIN_REGRESSOR ? 1.06 * maxRegressor : 1;
-  const { from, to } = axisOfSquares(y, error, (slope ?? 0) * axisEnd);
-  const axisTop = 1.1 * Math.max(x.length ? 1e-12 : 1, to);
-  const { scaled, unit } = scaleByPowerOf1000(Math.max(axisTop, -from));
+  // The axis has half as much space for error bars as for the bins and the line. A longer bar is cut, so that it does not compress all others.
+  const [lowest, highest] = [Math.min(0, ...y), Math.max(x.length ? 1e-12 : 1, (slope ?? 0) * axisEnd, ...y)];
+  const [axisBottom, axisTop] = [1.5 * lowest, 1.5 * highest];
+  const { scaled, unit } = scaleByPowerOf1000(Math.max(axisTop, -axisBottom));
   const sub = subscriptOf(alpha);
   const [low, high] = interval ?? [NaN, NaN];
   const slopeMiddle = (low + high) / 2;
@@ -115,7 +107,7 @@ function panelPlot({ alpha, x, y, error, slope, interval }: CalibrationPanel, ki
   return {
     label: say.label(kind, String(alpha + 1), slope === null ? NO_VALUE : localized(alphaOrBound(slope, interval))),
     x: { name: axis, from: 0, to: axisEnd },
-    y: { name: `${kind}, ${say.axis}${unit && ` (${unit})`}`, from: scaled(from), to: scaled(axisTop) },
+    y: { name: `${kind}, ${say.axis}${unit && ` (${unit})`}`, from: scaled(axisBottom), to: scaled(axisTop) },
     curves: [...slopeLines, { name: say.bins, role: 'ink', x: [], y: [] }],
     points: x.map((value, i) => ({ role: 'ink' as const, x: value, y: scaled(y[i]), error: scaled(error[i]) })),
   };
@@ -127,18 +119,4 @@ function identifiabilityNote({ alpha, slope, interval }: CalibrationPanel, { fit
   if (slope !== null && !isZero(slope, interval)) return '';
   const sub = subscriptOf(alpha);
   return html`<p class="note">${formatMarkup(slope === null ? say.noSlope(sub) : say.zero(sub, adviceOf(lacking, model, missingMotion(model, alpha)).drive))}</p>`;
-}
-
-/**
- * Returns the range of an axis of squares. It contains all bins and the highest point of the line. Error bars extend it by at most half of
- * that at each end, so that one long error bar does not compress all others.
- */
-function axisOfSquares(squares: number[], error: number[], line: number): { from: number, to: number } {
-  const [lowestValue, highestValue] = [Math.min(0, ...squares), Math.max(0, line, ...squares)];
-  const errorBarEnds = (side: number) => squares.map((square, i) => square + side * error[i]);
-  const maxErrorBarLength = (highestValue - lowestValue) / 2;
-  return {
-    from: Math.max(lowestValue - maxErrorBarLength, Math.min(lowestValue, ...errorBarEnds(-1))),
-    to: Math.min(highestValue + maxErrorBarLength, Math.max(highestValue, ...errorBarEnds(1))),
-  };
 }

@@ -6,7 +6,6 @@ export const en = {
   title: 'The Alpha Calibrator',
   settings: {
     model: { name: 'Model' },
-    rule: { name: 'Rule' },
     distance: { name: 'leg length (update_min_d)', effect: 'A leg ends after *d* in *x* or *y*. The *α*’s are valid for this length.' },
     angle: { name: 'leg angle (update_min_a)', effect: 'A leg ends after a rotation by *φ*.' },
     duration: { name: 'leg duration', effect: 'Above 0, *T* ends a leg instead of *d* and *φ*.' },
@@ -172,10 +171,6 @@ export const en = {
     standing: 'standing still',
     outliers: 'outliers',
   },
-  largest: {
-    title: 'Largest residuals',
-    leg: (number, isOutlier) => `Leg ${number}${isOutlier ? ' (outlier)' : ''}`,
-  },
   own: {
     drop: 'Drop a log here: ROS bag (.bag, .db3, .mcap, folder), CSV or TUM, or',
     dropTitle: 'Odometry and reference: one recording with both, or two files; of several drives, all files at once. Nothing leaves this device.',
@@ -185,9 +180,7 @@ export const en = {
     odometry: 'Odometry',
     leave: 'Back to the simulated log',
     simulated: 'A simulated robot follows a curve and sometimes turns in place. True values stand beside the estimates.',
-    present: (name, isFormer) => `${isFormer ? 'Former log' : 'Log'}: ${name}.`,
-    former: (log) => `the former log (${log})`,
-    latest: (refusal) => `Files chosen last: ${refusal}`,
+    present: (name) => `Log: ${name}.`,
     reading: 'Reading',
     refused: (message) => `Log refused: ${message}`,
     still: (log) => `The results are still those of ${log}, not of the files chosen last.`,

@@ -96,18 +96,7 @@ export class LogOpener extends FileOpener<Figure> {
 
   /** Sentence that the results are those of another log, while the chosen files are refused; empty otherwise. */
   get otherResults() {
-    return this.refusal === undefined || isStopped(this.refusal) ? '' : words.calibrator.own.still(this.#shownLog);
-  }
-
-  /** Name of the log on screen while other files are refused, which may have the same names. */
-  get #shownLog() {
-    return this.host.log ? words.calibrator.own.former(this.host.logName) : this.host.logName;
-  }
-
-  /** Message about the refused files. It says that they are the latest ones if the log on screen has files of the same names. */
-  get complaint() {
-    const hasSameNames = this.otherResults && this.host.log && this.chosen?.files.some(({ name }) => this.host.logName.includes(name));
-    return hasSameNames ? words.calibrator.own.latest(super.complaint) : super.complaint;
+    return this.refusal === undefined || isStopped(this.refusal) ? '' : words.calibrator.own.still(this.host.logName);
   }
 
   get #dropZone() {
@@ -272,7 +261,7 @@ export function dropZone(figure: Figure, opener: LogOpener) {
     ${logModules?.logChoosers(opener)}
     ${share !== undefined
       ? html`<p><progress aria-label=${say.reading} .value=${share}></progress> ${button(words.progress.stop, () => opener.stop())}</p>`
-      : figure.log ? html`<p><span class="present">${say.present(figure.logName, Boolean(opener.otherResults))}</span> ${button(say.leave, () => opener.close())}</p>` : nothing}
+      : figure.log ? html`<p><span class="present">${say.present(figure.logName)}</span> ${button(say.leave, () => opener.close())}</p>` : nothing}
     ${opener.note}
     ${opener.otherResults ? html`<p class="muted other-results">${opener.otherResults} ${button(say.keep, () => opener.forget())}</p>` : nothing}
   </div>`;
@@ -280,7 +269,7 @@ export function dropZone(figure: Figure, opener: LogOpener) {
 
 export function logSection(figure: Figure) {
   const say = words.calibrator.own;
-  return html`<p>${figure.log ? say.present(figure.logName, false) : say.simulated}</p>
+  return html`<p>${figure.log ? say.present(figure.logName) : say.simulated}</p>
     ${referenceNoise(figure)}
     <p class="muted">${say.stds}</p>`;
 }

@@ -46,7 +46,6 @@ export const de: typeof import('./en.ts').en = {
   },
   centreAt: (metres) => `Mittelpunkt ${metres} m`,
   forms: {
-    label: 'Aufgabe 1: beinahe gerade',
     error: 'Fehler des Endes (m)',
     arc: 'Bogen, mit seinem Radius',
     straight: 'Gerade',

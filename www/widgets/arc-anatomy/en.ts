@@ -46,7 +46,6 @@ export const en = {
   },
   centreAt: (metres) => `centre ${metres} m`,
   forms: {
-    label: 'Exercise 1: near straight',
     error: 'error of the end (m)',
     arc: 'arc, by its radius',
     straight: 'straight line',

@@ -38,23 +38,12 @@ sharedCatalogues.listeners.add(() => wordsByLanguage.clear());
 /** Adds English words of the elements, which define the keys of all catalogues. A later call may fill a group that was empty at first. */
 export function addEnglish(messages: { [key: string]: Message }) {
   sharedCatalogues.english = mergeMessages(sharedCatalogues.english, messages);
-  // Checks messages of the page that were added before these keys were known.
-  for (const [lang, pageMessages] of Object.entries(sharedCatalogues.catalogues)) {
-    for (const key of Object.keys(messages).filter((key) => Object.hasOwn(pageMessages, key))) {
-      try {
-        checkMessages(messages, { [key]: pageMessages[key] }, lang);
-      } catch (error) {
-        delete pageMessages[key];
-        reportError(error);
-      }
-    }
-  }
   notifyListeners();
 }
 
 /**
  * Sets words of the elements in a language, at once and on the whole page. Words that are left out stay as they were, and are English in a
- * new language.
+ * new language. Messages of a figure whose script is not loaded yet are not checked.
  *
  * @param lang a BCP 47 tag: "de", "pt-BR"
  * @param messages in the shape of the English ones, or a part of it

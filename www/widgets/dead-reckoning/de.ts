@@ -33,7 +33,6 @@ export const de: typeof import('./en.ts').en = {
   },
   axisAlong: 'ξ längs (m)',
   axisLateral: 'ξ quer (m)',
-  stretched: { along: (factor) => `ξ längs ${factor}-fach vergrößert`, lateral: (factor) => `${factor}-fach vergrößert` },
   components: { along: 'längs', lateral: 'quer', heading: 'Richtung' },
   of: { along: 'längs', lateral: 'quer', heading: 'der Richtung' },
   ratioAxis: 'vorhergesagte / gemessene Varianz',

@@ -34,8 +34,6 @@ export const en = {
   },
   axisAlong: 'ξ along (m)',
   axisLateral: 'ξ lateral (m)',
-  /** Note on the axis with the larger scale, after the name of the lateral axis. */
-  stretched: { along: (factor) => `ξ along enlarged ${factor} times`, lateral: (factor) => `enlarged ${factor} times` },
   components: { along: 'along', lateral: 'lateral', heading: 'heading' },
   of: { along: 'along-track', lateral: 'lateral', heading: 'heading' },
   ratioAxis: 'predicted / measured variance',

@@ -20,7 +20,7 @@ import { Player } from '../shared/player.ts';
 import { commandControls, growthControls, modelControls, otherAlphaControls, samplesControl, visibleAlphaControls } from './controls.ts';
 import { presetButtons } from '../shared/presets.ts';
 import { ArcHandle } from './handle.ts';
-import { MORPH_MS, lineMorphOf, morphControl, outlinesAt, morphedPoint, confidenceRings } from './morph.ts';
+import { MORPH_MS, lineMorphOf, morphControl, outlinesAt, morphedPoint } from './morph.ts';
 import { PlanePicture, TwistPicture } from './pictures.ts';
 import { viewModelOf, viewModelOfSettings, type ViewModel } from './view-model.ts';
 import { markedRobot, otherReadouts, readouts, twistTable, workedExample } from './readouts.ts';
@@ -101,7 +101,6 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
       morph,
       outlinesOf: (otherViewModel: ViewModel) => outlinesAt(motion, otherViewModel, morph),
       callouts,
-      ringsOf: () => confidenceRings(motion, viewModel),
       pinned,
       pinnedAt: (otherMorph: number) =>
         pinned ? Object.entries(outlinesAt(motion, pinned, otherMorph)).flatMap(([name, line]) => (shownOverlays[name] ? [...line] : [])) : [],

@@ -50,15 +50,6 @@ export function outlinesAt(motion: Motion, viewModel: ViewModel, morph: number):
   };
 }
 
-/** Sizes of the rings around the cloud that callouts avoid, relative to the outline of two standard deviations. */
-const RING_SIZES = [0.5, 1, 1.5];
-
-/** Returns outlines, on the floor, of the Gaussian in exponential coordinates. The largest contains nearly the whole cloud. */
-export function confidenceRings(motion: Motion, { stats: { exponential: { mean, cov } }, contours }: ViewModel) {
-  if (contours.exponential.length === 0) return [];
-  return RING_SIZES.map((size) => motion.unbendGaussian(Float64Array.from([...mean, ...cov.flat().map((entry) => size ** 2 * entry)]), 0));
-}
-
 /** Returns the commanded arc at a morph. */
 function commandedArcAt({ config: { command: { v, omega, dt } }, contours }: ViewModel, morph: number) {
   const chordCount = contours.command.length / 2 - 1;

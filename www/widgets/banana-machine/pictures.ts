@@ -20,7 +20,7 @@ import { addLine, drawDisc, strokePath, type Brush } from '../../scene/canvas.ts
 
 /**
  * View model of both pictures. Outlines are transformed by the present morph. `morphedEllipse` is the ellipse after a complete morph.
- * Callouts, and the rings that they avoid, have coordinates of the floor.
+ * Callouts have coordinates of the floor.
  */
 export interface Scene extends ViewModel {
   simulation: BananaMachine;
@@ -32,7 +32,6 @@ export interface Scene extends ViewModel {
   pinnedAt: (morph: number) => number[];
   outlinesOf: (viewModel: ViewModel) => Outlines;
   callouts: Callout[];
-  ringsOf: () => Float64Array[];
   morphedEllipse: Float64Array;
 }
 
@@ -189,9 +188,7 @@ export class PlanePicture extends CloudPicture {
         drawMark(brush, { x, y, heading: morph < 1 ? (1 - morph) * pose[2] : null });
       }
     });
-    if (callouts.length === 0) return;
-    const ringOutlines = morph > 0 ? [outlines.exponential] : scene.ringsOf();
-    drawCallouts(brush, callouts, { from: cloudMiddle, lines: [outlines.command, outlines.ellipse, ...ringOutlines, ...earlierOutlines.map(({ points }) => points)] });
+    drawCallouts(brush, callouts, { from: cloudMiddle, lines: [outlines.command, outlines.ellipse, outlines.exponential, ...earlierOutlines.map(({ points }) => points)] });
   };
 }
 

@@ -44,8 +44,8 @@ test('opens with the chapter’s 6 % along the track, and says that the lateral 
   await expect(readoutDetail(widget, 'predicted along-track variance')).toHaveText('± 0.01 of the measured, at step 20, 50\u202f000 robots');
   expect(await missedStepsOf(widget)).toEqual(['steps 15–20', 'steps 1–15', 'never']);
   await expect(widget.locator('.folded svg.plot')).toHaveAttribute('aria-label', /Equal to first order after 2.00 s\.$/);
-  await expect(widget.getByRole('row', { name: 'along, at the end' }).locator('td').first()).toHaveText('−6.1 ± 0.6\u202f%');
-  await expect(plotOf(widget)).toHaveAttribute('aria-label', /At step 20: along 0.939 ± 0.006, lateral 0.970 ± 0.006, heading/);
+  await expect(widget.getByRole('row', { name: 'along the track, at the end' }).locator('td').first()).toHaveText('−6.1 ± 0.6\u202f%');
+  await expect(plotOf(widget)).toHaveAttribute('aria-label', /At step 20: along the track 0.939 ± 0.006, lateral 0.970 ± 0.006, heading/);
   for (const [canvasClass, colorRole] of [['plane', 'prior'], ['plane', 'posterior'], ['twist', 'posterior'], ['twist', 'truth']]) {
     expect(await pixelCountOf(widget.locator(`canvas.${canvasClass}`), colorRole), `${colorRole} in ${canvasClass}`).toBeGreaterThan(10);
   }
@@ -147,7 +147,7 @@ test('with too few robots nothing is known, and without robots the caption says 
 test('no noise has no ratio, and a fourth order without a covariance neither @nightly', async ({ page }) => {
   const widget = await openDeadReckoning(page, 'samples="500" alpha1="0" alpha2="0" alpha3="0" alpha4="0" alpha5="0" alpha6="0"');
   await expect(captionOf(widget)).toHaveText(/^No noise:/);
-  await expect(plotOf(widget)).toHaveAttribute('aria-label', /along —/);
+  await expect(plotOf(widget)).toHaveAttribute('aria-label', /along the track —/);
   await widget.evaluate((element) => Object.assign(element, { headingNoise: 60, compounding: 'fourth-order', step: 20 }));
   await untilSettled(widget);
   await expect(captionOf(widget)).toHaveText(/has left no covariance/);

@@ -41,7 +41,7 @@ export function legReadouts({ viewModel: { legs }, chosen, predicted: leg }: Fig
   return readoutList([
     [say.off, `${fixed(off, 3)} m`],
     [say.squared(String(observedCount(legs.residuals, chosen))), fixed(leg ? legs.squared[chosen] : NaN, 1)],
-    [say.outlier, leg ? say.isOutlier[legs.outliers[chosen] > 0 ? 'yes' : 'no'] : NO_VALUE],
+    [words.calibrator.overlays.outlier, leg ? say.isOutlier[legs.outliers[chosen] > 0 ? 'yes' : 'no'] : NO_VALUE],
   ]);
 }
 

@@ -137,7 +137,6 @@ export const de: typeof import('./en.ts').en = {
     title: 'Systematische Fehler (angekreuzt = vor der Anpassung korrigiert)',
     what: 'Fehler',
     value: 'Wert',
-    interval: '95-%-Intervall',
     truth: 'simuliert',
     names: {
       clockOffset: 'Uhrenversatz (s)',
@@ -161,7 +160,6 @@ export const de: typeof import('./en.ts').en = {
     worst: 'Nächstes großes Residuum',
     off: 'Fehler',
     squared: (expected) => `quadrierte Mahalanobis-Distanz (erwartet ${expected})`,
-    outlier: 'Ausreißer',
     isOutlier: { yes: 'ja', no: 'nein' },
   },
   panels: {
@@ -193,7 +191,6 @@ export const de: typeof import('./en.ts').en = {
     title: 'Rauschen der Referenz und Persistenz',
     caption: 'Zusammen mit den α geschätzt',
     what: 'Größe',
-    value: 'Wert',
     correlation: 'Korrelation der Radfehler benachbarter Etappen',
     length: 'Korrelationslänge',
   },

@@ -45,12 +45,12 @@ function windowsTable({ viewModel: { stats: { diagnostics: { windows } } } }: Fi
 }
 
 function noiseTable({ viewModel: { stats: { referenceNoise: { positionStd, yawStd }, persistence: { correlation, length } } } }: Figure) {
-  const { noise: say, settings, alphas: { interval: intervalName, between } } = words.calibrator;
+  const { noise: say, systematic, settings, alphas: { interval: intervalName, between } } = words.calibrator;
   const formatStd = (value: number) => (value === 0 ? '0' : Number.isFinite(value) ? formatRounded(value, 2) : '∞');
   const row = (name: string, { value, interval: [low, high] }: import('../../types.d.ts').Estimate) => [name, formatStd(value), between(formatStd(low), formatStd(high))];
   return figureTable({
     caption: say.caption,
-    columns: [say.what, say.value, intervalName],
+    columns: [say.what, systematic.value, intervalName],
     rows: [
       row(`${settings.positionStd.name} (m)`, positionStd),
       row(`${settings.yawStd.name} (rad)`, yawStd),

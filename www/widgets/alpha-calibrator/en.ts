@@ -103,7 +103,6 @@ export const en = {
     title: 'Systematic errors (ticked = corrected before fitting)',
     what: 'error',
     value: 'value',
-    interval: '95 % interval',
     truth: 'simulated',
     names: {
       clockOffset: 'clock offset (s)',
@@ -127,7 +126,6 @@ export const en = {
     worst: 'Next largest residual',
     off: 'error',
     squared: (expected) => `squared Mahalanobis distance (expected ${expected})`,
-    outlier: 'outlier',
     isOutlier: { yes: 'yes', no: 'no' },
   },
   panels: {
@@ -159,7 +157,6 @@ export const en = {
     title: 'Reference noise and persistence',
     caption: 'Estimated together with the α’s',
     what: 'quantity',
-    value: 'value',
     correlation: 'correlation of the wheel errors of neighbouring legs',
     length: 'correlation length',
   },

@@ -64,7 +64,7 @@ export function systematicTable(figure: Figure) {
       ...(truth ? [html`<div class="muted">${stackedTexts([truth[key]].flat().map((component) => fixed(component, 3)))}</div>`] : []),
     ];
   });
-  const columns = [say.what, say.value, say.interval, say.treatment, ...(truth ? [say.truth] : [])];
+  const columns = [say.what, say.value, words.calibrator.alphas.interval, say.treatment, ...(truth ? [say.truth] : [])];
   return html`<div class="systematic">${figureTable({ columns, rows })}</div>`;
 }
 

@@ -121,7 +121,7 @@ export function formsPlot({ ArcAnatomy }: Motion) {
       curves: [
         { name: say.arc, role: 'prediction', x: omega, y: arc },
         { name: say.straight, role: 'prior', dash: '2.5 3.5', x: omega, y: straight },
-        { name: say.chord, role: 'posterior', dash: '7 3', x: omega, y: chord },
+        { name: words.anatomy.overlays.chord, role: 'posterior', dash: '7 3', x: omega, y: chord },
       ],
       marks: [
         { x: estimatedCrossover, text: `2·${formatPowerOfTen(-8)}/Δt` },

@@ -255,9 +255,9 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     return plot({
       label: say.chart,
       x: { name: 'ω (rad/s)', from: min, to: max },
-      y: { name: say.chartAxis, from: -chartHeight, to: chartHeight },
+      y: { name: say.readouts.skew, from: -chartHeight, to: chartHeight },
       curves: [
-        { name: say.chartAxis, role: 'ink', x: curve.map((_, i) => min + (i * (max - min)) / (curve.length - 1)), y: curve },
+        { name: say.readouts.skew, role: 'ink', x: curve.map((_, i) => min + (i * (max - min)) / (curve.length - 1)), y: curve },
         { name: say.chartGaussian, role: 'prediction', dash: '7 4', x: omegaRange, y: [0, 0] },
       ],
       points: [

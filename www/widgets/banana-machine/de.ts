@@ -95,7 +95,6 @@ export const de: typeof import('./en.ts').en = {
   pinNotInCode: 'Die festgehaltenen Umrisse sind nicht dabei.',
   slidersEnd: 'Hier enden die Regler',
   chart: 'Exakte Schiefe quer zur Fahrt über dem befohlenen ω, beim jetzigen Rauschen',
-  chartAxis: 'Schiefe quer zur Fahrt',
   chartMarker: 'Befohlenes ω im Diagramm',
   chartText: (omega, skew) => `ω = ${omega} rad/s, ${skew}`,
   chartCaption:
@@ -136,7 +135,6 @@ export const de: typeof import('./en.ts').en = {
     command: 'Befehl',
     mean: (symbol) => `Mittel ${symbol}`,
     variance: (symbol) => `Varianz ${symbol}`,
-    skew: 'Schiefe quer',
     axes: ['*ξ* längs', '*ξ* quer', '*ξ* Richtung'],
   },
 };

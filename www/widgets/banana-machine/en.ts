@@ -99,7 +99,6 @@ export const en = {
   pinNotInCode: 'The pinned outlines are not in it.',
   slidersEnd: 'The sliders end here',
   chart: 'Exact cross-track skew against commanded ω, for the present noise',
-  chartAxis: 'cross-track skew',
   chartMarker: 'Commanded ω on the chart',
   chartText: (omega, skew) => `ω = ${omega} rad/s, ${skew}`,
   chartCaption:
@@ -140,7 +139,6 @@ export const en = {
     command: 'command',
     mean: (symbol) => `mean ${symbol}`,
     variance: (symbol) => `variance of ${symbol}`,
-    skew: 'cross-track skew',
     axes: ['*ξ* along', '*ξ* lateral', '*ξ* heading'],
   },
 } satisfies import('../../messages/registry.ts').Message;

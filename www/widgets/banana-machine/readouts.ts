@@ -108,7 +108,7 @@ export function workedExample({ table: { linearized, exact, measured }, stats }:
     [covarianceName('yθ'), ({ cov }) => cov[1][2]],
     [covarianceName('θθ'), ({ cov }) => cov[2][2]],
     [html`<i>ρ</i><sub><i>yθ</i></sub>`, ({ cov }) => cov[1][2] / Math.sqrt(cov[1][1] * cov[2][2])],
-    [say.skew, ({ crossTrackSkew }) => crossTrackSkew, measuredSkew],
+    [words.banana.readouts.skew, ({ crossTrackSkew }) => crossTrackSkew, measuredSkew],
   ];
   return figureTable({
     caption: say.caption,

@@ -33,7 +33,6 @@ export const de: typeof import('./en.ts').en = {
   },
   axisAlong: 'ξ längs (m)',
   axisLateral: 'ξ quer (m)',
-  components: { along: 'längs', lateral: 'quer', heading: 'Richtung' },
   of: { along: 'längs', lateral: 'quer', heading: 'der Richtung' },
   ratioAxis: 'vorhergesagte / gemessene Varianz',
   stepAxis: 'Schritt',

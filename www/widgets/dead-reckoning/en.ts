@@ -34,7 +34,6 @@ export const en = {
   },
   axisAlong: 'ξ along (m)',
   axisLateral: 'ξ lateral (m)',
-  components: { along: 'along', lateral: 'lateral', heading: 'heading' },
   of: { along: 'along-track', lateral: 'lateral', heading: 'heading' },
   ratioAxis: 'predicted / measured variance',
   stepAxis: 'step',

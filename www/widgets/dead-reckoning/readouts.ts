@@ -107,7 +107,7 @@ export function missTable({ stats: { misses } }: ViewModel, overlays: string[]) 
     columns: [say.misses.component, ...RECURSIONS.map((recursion) => say.recursions[recursion])],
     rows: shownComponentsOf(overlays).flatMap((component) => {
       const missesOfRecursions = RECURSIONS.map((recursion) => misses[recursion][COMPONENTS.indexOf(component)]);
-      return [[say.components[component], ...missesOfRecursions.map(missText)], [say.misses.endOf(say.components[component]), ...missesOfRecursions.map(finalErrorText)]];
+      return [[say.overlays[component], ...missesOfRecursions.map(missText)], [say.misses.endOf(say.overlays[component]), ...missesOfRecursions.map(finalErrorText)]];
     }),
   });
 }

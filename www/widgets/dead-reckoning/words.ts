@@ -65,7 +65,7 @@ export function ratioText({ config: { step, compounding }, curves }: ViewModel, 
   const say = words.reckoning;
   const ratioTexts = shownComponentsOf(overlays).map((name) => {
     const { ratio, error } = curves[COMPONENTS.indexOf(name)];
-    return `${say.components[name]} ${formatWithError(ratio[step - 1], error[step - 1], 2)}`;
+    return `${say.overlays[name]} ${formatWithError(ratio[step - 1], error[step - 1], 2)}`;
   });
   return say.ratioText(say.recursions[compounding], String(step), ratioTexts.join(', '));
 }

@@ -78,9 +78,7 @@ export const de: typeof import('./en.ts').en = {
   },
   tally: {
     drawn: 'gezogen',
-    accepted: 'angenommen',
     ofDrawn: (share, parts) => `${share} ${parts ? 'aller gezogenen Teilschritte' : 'der gezogenen'}`,
-    through: 'angenommen durch eine Wand',
     ofAccepted: (share) => `${share} der angenommenen`,
     byConstruction: '0, nach Bauart',
     paths: 'gezeichnete Wege durch eine Wand',

@@ -80,9 +80,7 @@ export const en = {
   },
   tally: {
     drawn: 'drawn',
-    accepted: 'accepted',
     ofDrawn: (share, parts) => `${share} of ${parts ? 'all sub-steps drawn' : 'those drawn'}`,
-    through: 'accepted through a wall',
     ofAccepted: (share) => `${share} of those accepted`,
     byConstruction: '0, by construction',
     paths: 'paths through a wall shown',

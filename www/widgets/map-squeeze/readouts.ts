@@ -14,12 +14,12 @@ import type { MapSqueezeElement as Figure } from './map-squeeze.ts';
 import type { ViewModel } from './view-model.ts';
 
 export function tallyReadouts({ stats, config: { conditioned, sampler }, paths: { length: paths } }: ViewModel) {
-  const say = words.squeeze.tally;
+  const { tally: say, overlays } = words.squeeze;
   const excludesWalls = conditioned && sampler === 'whole-arc';
   return readoutList([
     [say.drawn, integer(stats.drawn)],
-    [say.accepted, integer(stats.accepted), say.ofDrawn(percent(stats.acceptanceRate), conditioned && sampler === 'sub-stepped')],
-    [say.through, excludesWalls ? say.byConstruction : integer(stats.throughWall), excludesWalls ? undefined : say.ofAccepted(percent(stats.throughWallRate))],
+    [overlays.accepted, integer(stats.accepted), say.ofDrawn(percent(stats.acceptanceRate), conditioned && sampler === 'sub-stepped')],
+    [overlays.through, excludesWalls ? say.byConstruction : integer(stats.throughWall), excludesWalls ? undefined : say.ofAccepted(percent(stats.throughWallRate))],
     [say.paths, paths < stats.throughWall ? say.first(integer(paths)) : integer(paths)],
     [say.draws, fixed(stats.drawsPerAccepted, 2)],
     [say.tests, fixed(stats.wallTestsPerAccepted, 2)],

@@ -77,7 +77,6 @@ export const de: typeof import('./en.ts').en = {
     x: 'δ trans (m)',
     y: 'σ (m)',
     crossTrack: 'quer zum Weg, genau',
-    lever: 'allein aus der ersten Drehung, *δ*_{trans} · *σ*(*δ*_{rot1})',
     along: 'in Fahrtrichtung',
     here: 'gemessen',
     caption: 'Die Drehungen wie gemessen. Der Punkt ist der der Ausgänge, mit seinem Standardfehler.',

@@ -77,7 +77,6 @@ export const en = {
     x: 'δ trans (m)',
     y: 'σ (m)',
     crossTrack: 'across the path, exact',
-    lever: 'from the first rotation alone, *δ*_{trans} · *σ*(*δ*_{rot1})',
     along: 'along the path',
     here: 'read',
     caption: 'The rotations as they were read. The point is that of the outcomes, with its standard error.',

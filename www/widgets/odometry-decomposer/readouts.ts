@@ -51,7 +51,7 @@ export function spreadPlot(curveOf: (longest: number, points: number) => Float64
       y: { name: say.y, from: 0, to: 1.08 * plotTop },
       curves: [
         { name: say.crossTrack, role: 'prediction', x, y: crossTrack },
-        { name: say.lever, role: 'muted', dash: '2 4', x, y: lever },
+        { name: words.decomposer.readouts.lever, role: 'muted', dash: '2 4', x, y: lever },
         { name: say.along, role: 'prior', dash: '7 4', x, y: along },
       ],
       points: [{ role: 'prediction', x: legs.trans, y: stats.crossTrack, error: stats.crossTrackError }],

@@ -178,11 +178,9 @@ test('the sentence says what holds exactly for the model, and what the robots sh
 test('few robots do not show the lean; the Pivot’s bow-tie has its reason @nightly', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page);
   await widget.getByRole('button', { name: 'Pivot' }).click();
-  const { table, config } = await bananaResultsOf(widget);
-  const [, a2] = config.alphas;
-  const vHatStdDev = Math.sqrt(config.alphas[0] * 0.06 ** 2 + a2 * 1.5 ** 2);
-  await expect(captionOf(widget)).toContainText(`v̂ is 0.06 ± ${vHatStdDev.toFixed(2)} m/s`);
-  await expect(captionOf(widget)).toContainText('ahead of the start and behind it');
+  const { table, config, stats: { exponential: { mean, cov } } } = await bananaResultsOf(widget);
+  const spreadText = `a drive of ${mean[0].toFixed(2)} m by ${Math.sqrt(cov[0][0]).toFixed(2)} m, ahead of the start and behind it`;
+  await expect(captionOf(widget)).toContainText(spreadText);
   expect(Math.abs(table.exact.crossTrackSkew)).toBeGreaterThan(0.01);
   const behindCount = (await posesOf(widget)).filter((x, i) => i % 3 === 0 && x < 0).length;
   expect(behindCount / config.samples).toBeGreaterThan(0.3);

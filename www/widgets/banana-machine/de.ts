@@ -48,12 +48,8 @@ export const de: typeof import('./en.ts').en = {
     neither: (skew) => `Beide Seiten sind gleich: Schiefe ${skew}, genau 0 (Symmetrie).`,
     wide: (ratio) => `Die Wolke ist krumm: Ihre Ellipse hat die ${ratio}-fache Fläche des ξ-Umrisses.`,
     gains: (gain, isBent) => `${isBent ? 'Krumm: ' : ''}Der ξ-Umriss passt um ${gain} Nat je Roboter besser.`,
-    bowTie: {
-      velocity: (speed, deviation, skew) =>
-        `Eine Fliege: Das Drehen bringt Rauschen α₂ω² ins Tempo. v̂ ist ${speed}\u00a0±\u00a0${deviation}\u00a0m/s, also halten Roboter vor und hinter dem Start. Schiefe ${skew}.`,
-      odometry: (length, deviation, skew) =>
-        `Eine Fliege: Das Rauschen der Drehungen, α₄, streut ${length} m Weg um ${deviation} m, vor und hinter den Start. Schiefe ${skew}.`,
-    },
+    bowTie: (length, deviation, skew) =>
+      `Eine Fliege: Das Rauschen streut ${length} m Weg um ${deviation} m, vor und hinter den Start. Schiefe ${skew}.`,
     right: (skew) => `Die Wolke ist krumm wie eine Banane, ihr Schweif rechts der mittleren Richtung: Schiefe ${skew}; jeder Gauß in (x, y) hat 0.`,
     left: (skew) => `Die Wolke ist krumm wie eine Banane, ihr Schweif links der mittleren Richtung: Schiefe ${skew}; jeder Gauß in (x, y) hat 0.`,
   },

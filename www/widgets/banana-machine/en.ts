@@ -51,12 +51,8 @@ export const en = {
     /** Text before the sentence on the skew. */
     wide: (ratio) => `The cloud is bent: its ellipse covers ${ratio} times the area of the ξ outline.`,
     gains: (gain, isBent) => `${isBent ? 'Bent: the' : 'The'} ξ outline fits better by ${gain} nats per robot.`,
-    bowTie: {
-      velocity: (speed, deviation, skew) =>
-        `A bow-tie: turning adds noise α₂ω² to the speed. v̂ is ${speed}\u00a0±\u00a0${deviation}\u00a0m/s, so robots end ahead of the start and behind it. Skew ${skew}.`,
-      odometry: (length, deviation, skew) =>
-        `A bow-tie: the rotations’ noise α₄ spreads a drive of ${length} m by ${deviation} m, ahead of the start and behind it. Skew ${skew}.`,
-    },
+    bowTie: (length, deviation, skew) =>
+      `A bow-tie: noise spreads a drive of ${length} m by ${deviation} m, ahead of the start and behind it. Skew ${skew}.`,
     right: (skew) => `The cloud is bent, with its tail to the right of the mean heading: skew ${skew}, where any Gaussian in (x, y) has 0.`,
     left: (skew) => `The cloud is bent, with its tail to the left of the mean heading: skew ${skew}, where any Gaussian in (x, y) has 0.`,
   },

@@ -18,7 +18,6 @@ export function viewModelOf(simulation: Simulation) {
     note: cloudNote(config, table, stats, chartHolds),
     exactSkew: table.exact.crossTrackSkew,
     gain: gaussianGain(stats, table),
-    bowTie: bowTieOf(config),
     /** Command as an odometry reading; null under the velocity model. */
     reading: config.model === 'odometry' ? results.reading : null,
     /** End of the commanded arc, metres. */
@@ -47,26 +46,6 @@ function gaussianGain({ n, likelihoodGain, likelihoodGainError }: Stats, { exact
   const isUnbounded = exact.likelihoodGain.pose === Infinity;
   const gainKind = isUnbounded ? 'floor' : 'pose';
   return { n, unbounded: isUnbounded, value: likelihoodGain[gainKind], error: likelihoodGainError[gainKind], exact: exact.likelihoodGain[gainKind], wraps: 4 * Math.sqrt(exact.cov[2][2]) > Math.PI };
-}
-
-/**
- * Returns the commanded length and its standard deviation if robots end on both sides of the start: the deviation is larger than the
- * length, and mostly due to the turn. Otherwise returns null.
- */
-function bowTieOf({ model, command: { v, omega, dt }, alphas, isolate, reverseAware }: Settings) {
-  const [a1, a2, a3, a4] = alphas.map((alpha, i) => (isolate === null || isolate === i + 1 ? alpha : 0));
-  if (model === 'velocity') {
-    const [driveVariance, turnVariance] = [a1 * v * v, a2 * omega * omega];
-    const deviation = Math.sqrt(driveVariance + turnVariance);
-    return turnVariance > driveVariance && deviation > Math.abs(v) ? { model, length: v, deviation } : null;
-  }
-  const turn = omega * dt;
-  const chordLength = Math.abs(v * dt * (turn === 0 ? 1 : Math.sin(turn / 2) / (turn / 2)));
-  // Half of the turn is before the drive and half after it. In reverse, the table counts each rotation as π minus that half.
-  const tableRotation = v < 0 && !reverseAware ? Math.PI - Math.abs(turn) / 2 : turn / 2;
-  const [driveVariance, turnVariance] = [a3 * chordLength * chordLength, 2 * a4 * tableRotation * tableRotation];
-  const deviation = Math.sqrt(driveVariance + turnVariance);
-  return turnVariance > driveVariance && deviation > chordLength ? { model, length: chordLength, deviation } : null;
 }
 
 /** Returns the name of an α, counted from 0. */

@@ -69,13 +69,14 @@ export const calloutsOf = ({ gaps }: ViewModel): Callout[] =>
   words.banana.callouts.slice(0, gaps.length / 2).map((text, i) => ({ text, at: [gaps[2 * i], gaps[2 * i + 1]] }));
 
 /** Returns a sentence on the bend of the cloud. The exact skew determines its side, and the skew of the samples its significance. */
-function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, areaRatio }, exactSkew, bowTie, table, gain }: Pick<ViewModel, 'stats' | 'exactSkew' | 'bowTie' | 'table' | 'gain'>) {
+function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, areaRatio, exponential: { mean, cov } }, exactSkew, table, gain }: ViewModel) {
   if (Number.isNaN(skew)) return '';
   const say = words.banana.bend;
   // A line break must not separate a number from its error.
   const withNonBreakingSpaces = (number: string) => number.replaceAll(' ', '\u00a0');
   const [measuredSkew, exactText] = [withNonBreakingSpaces(formatWithError(skew, error, 3)), fixed(exactSkew, 3)];
-  if (bowTie) return say.bowTie[bowTie.model](fixed(bowTie.length, 2), fixed(bowTie.deviation, 2), measuredSkew);
+  // Robots end on both sides of the start.
+  if (deviation(cov[0][0]) > Math.abs(mean[0])) return say.bowTie(fixed(mean[0], 2), deviationText(cov[0][0]), measuredSkew);
   if (Math.abs(exactSkew) < VISIBLE_SKEW) {
     const skewSentence = Math.abs(exactSkew) < MIN_NONZERO_SKEW ? say.neither(measuredSkew) : say.hardly(measuredSkew, exactText);
     // There are no exact values if robots turn by more than π.

@@ -24,8 +24,6 @@ const MAX_GRIP_INSET = 1 / 6;
 export class WallHandles extends FigureController<import('./map-squeeze.ts').MapSqueezeElement> {
   #handles: Map<string, Handle> = new Map();
   #grips: Memo<(Grip | undefined)[]> = new Memo();
-  /** Plan and view that the handles were placed in. */
-  #shownInputs: unknown[] = [];
   /** Name of the handle that is in the tab order. */
   #currentName = '';
 
@@ -64,16 +62,10 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
 
   /** Places new elements, which are rendered after the picture. */
   hostUpdated() {
-    this.#placeHandles(this.host.picture.view);
+    this.place(this.host.picture.view);
   }
 
   place(view: View) {
-    const inputs = [this.host.picture.plan, view.extent, view.frame];
-    if (inputs.some((input, i) => input !== this.#shownInputs[i])) this.#placeHandles(view);
-    this.#shownInputs = inputs;
-  }
-
-  #placeHandles(view: View) {
     const root = this.host.renderRoot;
     const placedHandles = this.#currentGrips.filter((grip) => grip !== undefined).map((grip) => {
       const handleElement = root.querySelector(`.handle.${handleClass(grip)}`) as HTMLElement | null;
@@ -132,7 +124,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     const nextHandle = handleElements[(focusedIndex + turn + handleElements.length) % handleElements.length];
     this.#currentName = nextHandle.classList[2];
     nextHandle.focus();
-    this.#placeHandles(this.host.picture.view);
+    this.place(this.host.picture.view);
   }
 
   /** Moves a grip along its axis by the requested distance, within its range. Returns false if the distance is NaN. */

@@ -34,7 +34,6 @@ function contentHtml(figure: Figure) {
   return html`<section
       class="simulation"
       aria-label=${nameOf(figure)}
-      @dragenter=${dropHandlers?.enter}
       @dragover=${dropHandlers?.over}
       @dragleave=${dropHandlers?.leave}
       @drop=${dropHandlers?.drop}

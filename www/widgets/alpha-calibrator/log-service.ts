@@ -50,11 +50,6 @@ export class LogService {
     return this.#rejectRequest !== undefined;
   }
 
-  /** Starts the worker before it is needed. If it does not start, a later request reports the reason. */
-  start() {
-    this.#connected.catch(() => {});
-  }
-
   get #connected() {
     return (this.#workerLink ??= connectService(this.#tag));
   }

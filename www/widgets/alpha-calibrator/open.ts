@@ -122,12 +122,6 @@ export class LogOpener extends FileOpener<Figure> {
     this.host.requestUpdate();
   }
 
-  /** Preloads the modules and the worker, while the user chooses files or drags them here. */
-  enter = () => {
-    loadLogModules().catch(() => {});
-    this.host.service.start();
-  };
-
   choose(files: File[]) {
     const logFiles = files.filter(mayBeLog);
     this.#open({ files: logFiles.length ? logFiles : files, recordings: [], skipped: [], answers: {}, questions: [], userChoices: {}, roles: new Map() });

@@ -20,9 +20,6 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
   /** Returns the sentence about a refusal, in the present language. */
   abstract explain(refusal: any): string;
 
-  /** Called when something is dragged over the figure, and when the file dialog opens. */
-  enter = () => {};
-
   /** Message about the latest files; empty if they were not refused. */
   get complaint() {
     return this.refusal === undefined ? '' : this.explain(this.refusal);
@@ -91,7 +88,7 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
       // Reset, so that choosing the same file again after a correction fires an event.
       fileInput.value = '';
     };
-    return html`<label class="choice files" @click=${this.enter}>
+    return html`<label class="choice files">
       ${label} <input id=${id} type="file" multiple accept=${extensions.join(',')} @change=${openChosenFiles} />
     </label>`;
   }

@@ -10,7 +10,7 @@ test('opens with the simulated log, labelled as simulated, with its true α’s'
   await expect(captionOf(widget)).toHaveText(/^✓ Trust\s+All 14 checks passed\. \d+ legs of the simulated log, \d outliers\.$/);
   await expect(widget.locator('.to-do')).toHaveText(/^Use the recommended α’s with legs of this length\. First multiply the odometry’s distances by 1\.0\d\d and turns by 0\.9\d\d: the α’s are those of the corrected robot\.$/);
   await expect(alphaRowsOf(widget)).toHaveCount(4);
-  await expect(widget.locator('table.alphas .true')).toHaveCount(5);
+  await expect(widget.locator('table.alphas [stroke="var(--truth)"]')).toHaveCount(5);
   for (const colorRole of /** @type {const} */ (['truth', 'prediction', 'accent'])) {
     expect(await pixelCountOf(widget.locator('canvas.plane'), colorRole), colorRole).toBeGreaterThan(20);
   }
@@ -23,7 +23,7 @@ test('the true α’s are shown where the fit is of their rule and legs, and now
   await openDisclosures(widget);
   await widget.getByRole('radio', { name: 'AMCL of Nav2' }).check();
   await untilSettled(widget);
-  await expect(widget.locator('table.alphas .true')).toHaveCount(0);
+  await expect(widget.locator('table.alphas [stroke="var(--truth)"]')).toHaveCount(0);
   await widget.getByRole('radio', { name: 'velocity' }).check();
   await untilSettled(widget);
   await expect(alphaRowsOf(widget)).toHaveCount(6);

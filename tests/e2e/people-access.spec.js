@@ -255,7 +255,7 @@ test('paper has the figure and its settings, in light colours, and nothing to pr
     return (width * clientHeight) / (height * clientWidth);
   });
   await expect.poll(readAspectRatio).toBeCloseTo(1, 1);
-  await expect(widget.locator('.on-paper')).toHaveText(/α1\s=\s0\.002 α2\s=.* α6\s=\s0\.002/);
+  await expect(widget.locator('.on-paper')).toHaveText(/α1\s=\s0\.002\s+α2\s=.*\sα6\s=\s0\.002/);
   for (const valueText of ['1.00 m/s', '2.00 s']) await expect(widget.getByText(valueText, { exact: true }).first()).toBeVisible();
   // On paper the pixels of a canvas determine its proportions. Setting them in every frame would resize it each time.
   await page.evaluate(() => {

@@ -131,14 +131,14 @@ export function disclosures(figure: Figure, { controls, numbers, fileNameMark = 
     ${figure.copyMenu.messageHtml('link')}
     <div class="begin">${figure.copyMenu.linkButton()} ${figure.presenting.button()}</div>
   </div>
-  <p class="on-paper">${noiseParameters(figure)}</p>`;
+  <p class="on-paper small">${noiseParameters(figure)}</p>`;
 }
 
 /** Returns the noise parameters with their values, for print. */
 function noiseParameters({ definition: { attributes, sliderSpecs }, settings: { requested: config } }: Figure) {
   return Object.entries(sliderSpecs).filter(([, { alpha }]) => alpha).flatMap(([key, { symbol = '', decimals }]) => {
     const alpha = attributes[key].get(config) as number | null;
-    return alpha === null ? [] : html`<span>${formatMarkup(`${symbol}\u00a0=\u00a0${formatEditable(alpha, decimals)}`)}</span> `;
+    return alpha === null ? [] : html`${formatMarkup(`${symbol}\u00a0=\u00a0${formatEditable(alpha, decimals)}`)}\u2003 `;
   });
 }
 
@@ -223,7 +223,7 @@ export function sampleField(figure: Figure & { cloud: import('./cloud.ts').Cloud
         @blur=${() => settings.forgetRefusal()}
       />
     </label>
-    <output for=${id} role=${refusalText ? 'alert' : nothing}>${refusalText || selected || html`<span class="hint">${hint}</span>`}</output>
+    <output for=${id} role=${refusalText ? 'alert' : nothing}>${refusalText || selected || html`<i class="muted">${hint}</i>`}</output>
   </p>`;
 }
 

@@ -30,9 +30,9 @@ export function legend(figure: import('./figure.ts').Figure, styles: Record<stri
 export function swatchHtml({ role, dash, width = 2.25, mark = 'line' }: LineStyle) {
   const markShapes = {
     line: svg`<line x1="1" x2="29" y1="6" y2="6" stroke-width=${width} stroke-dasharray=${dash?.join(' ') ?? nothing} />`,
-    dot: svg`<circle class="filled" cx="15" cy="6" r="3" />`,
+    dot: svg`<circle fill="var(--role)" cx="15" cy="6" r="3" />`,
     ring: svg`<circle cx="15" cy="6" r="4" stroke-width=${width} />`,
-    area: svg`<rect class="filled" x="4" y="1" width="22" height="10" opacity="0.4" />`,
+    area: svg`<rect fill="var(--role)" x="4" y="1" width="22" height="10" opacity="0.4" />`,
     box: svg`<rect x="9" y="2" width="12" height="8" rx="2" stroke-width=${width} />`,
     cross: svg`<path d="M11 2l8 8m0 -8l-8 8" stroke-width=${width} />`,
   };

@@ -112,7 +112,7 @@ export class Presentation extends FigureController {
   render() {
     if (!this.#keyListeners) return nothing;
     const presentationWords = words.presentation;
-    const keyHint = (key: string, label: string) => html`<kbd>${key}</kbd> ${label}`;
+    const keyHint = (key: string, label: string) => html`<b>${key}</b> ${label}`;
     return html`<div class="presenting" role="group" tabindex="-1" aria-label=${presentationWords.begin}>
       ${button(keyHint(CONTROLS_KEY.toUpperCase(), presentationWords.controls), () => this.#toggle(), { pressed: this.#hasControls })}
       ${button(keyHint(RESTORE_KEY, presentationWords.back), () => this.#restoreState(), { title: presentationWords.backTitle })}

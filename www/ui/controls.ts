@@ -10,11 +10,13 @@ export const controlStyles = css`
     margin: 0 0 0.5em;
     padding: 0;
     border: 0;
-    position: relative;
   }
 
-  .effect {
+  .muted {
     color: var(--muted);
+  }
+
+  .small {
     font-size: 0.84em;
     line-height: 1.25;
   }
@@ -31,7 +33,7 @@ export const controlStyles = css`
     cursor: pointer;
   }
 
-  :is(button, textarea, .seed input, input[type='number'], .files) {
+  :where(button, textarea, select, .seed input, input[type='number'], .files, .options .choice) {
     background: none;
     border: 1px solid var(--muted);
     border-radius: 3px;
@@ -49,13 +51,10 @@ export const controlStyles = css`
     font-size: inherit;
   }
 
-  /* Padding in proportion to the font size. */
   button {
-    --size: 1;
-    min-height: calc(2em / var(--size));
-    padding: calc(0.15em / var(--size)) calc(var(--beside, 0.65em) / var(--size)) calc(0.25em / var(--size));
+    min-height: 2em;
+    padding: 0.15em var(--beside, 0.65em) 0.25em;
     font: inherit;
-    font-size: calc(1em * var(--size));
     cursor: pointer;
   }
 
@@ -70,7 +69,7 @@ export const controlStyles = css`
     box-shadow: inset 0 0 0 1px var(--ink);
   }
 
-  button[aria-pressed='true'] {
+  :is(button[aria-pressed='true'], .options .choice:has(:checked)) {
     background: var(--ink);
     border-color: var(--ink);
     color: var(--paper);
@@ -98,11 +97,19 @@ export const controlStyles = css`
     visibility: hidden;
   }
 
+  :is(legend, .panel-title) {
+    font-weight: bold;
+    font-size: 0.92em;
+  }
+
   legend {
     margin-bottom: 0.25em;
     padding: 0;
-    font-weight: bold;
-    font-size: 0.92em;
+  }
+
+  :where(.buttons, .choices, .options, .legend, .plot-key, .readouts, .marked, .marked output) {
+    display: flex;
+    flex-wrap: wrap;
   }
 
   .choice,
@@ -114,16 +121,9 @@ export const controlStyles = css`
     cursor: pointer;
   }
 
-  .choices,
-  .options {
-    display: flex;
-    flex-wrap: wrap;
-    column-gap: 1em;
-  }
-
   .choices {
     align-items: center;
-    row-gap: 0.2em;
+    gap: 0.2em 1em;
     margin-bottom: 0.5em;
   }
 
@@ -134,8 +134,6 @@ export const controlStyles = css`
 
   .options .choice {
     min-height: 2em;
-    border: 1px solid var(--muted);
-    border-radius: 3px;
   }
 
   :is(.options .choice, .files) {
@@ -146,9 +144,6 @@ export const controlStyles = css`
   :is(.options, .files) input {
     position: absolute;
     inset: 0;
-    width: 100%;
-    height: 100%;
-    margin: 0;
     opacity: 0;
   }
 
@@ -156,29 +151,13 @@ export const controlStyles = css`
     min-height: 24px;
   }
 
-  /* The browser's own button, in the language of the browser, is invisible in a button of the figure. */
-  .files input {
-    pointer-events: none;
-  }
-
-  .options .choice:has(:checked) {
-    background: var(--ink);
-    border-color: var(--ink);
-    color: var(--paper);
-  }
-
   .marked {
-    display: flex;
-    flex-wrap: wrap;
     align-items: center;
-    gap: 0.1em 1.1em;
     min-height: 2.2em;
     margin: 0.3em 0 0;
   }
 
-  .marked output {
-    display: inline-flex;
-    flex-wrap: wrap;
+  :is(.marked, .marked output) {
     gap: 0.1em 1.1em;
   }
 
@@ -186,18 +165,16 @@ export const controlStyles = css`
     color: var(--accent);
   }
 
-  .marked input {
+  :is(.marked, .seed) input {
     width: 8em;
-    min-height: 1.75em;
-    margin-left: 0.3em;
-    padding: 0 0.3em;
+    min-height: 2em;
+    padding: 0 0.4em;
     font: inherit;
     font-variant-numeric: inherit;
   }
 
-  .hint {
-    color: var(--muted);
-    font-style: italic;
+  .seed input {
+    width: 5em;
   }
 
   input:is([type='radio'], [type='checkbox']) {

@@ -11,9 +11,9 @@ const decimalSeparators: Map<string, string> = new Map([['en', '.']]);
 
 /** Returns the decimal separator of the current language between Latin digits. The first use of `Intl` takes longer than the rest of the first frame. */
 function decimalSeparator(): string {
-  let separator = decimalSeparators.get(language);
-  if (!separator) decimalSeparators.set(language, (separator = new Intl.NumberFormat(language, { numberingSystem: 'latn' }).formatToParts(0.5).find(({ type }) => type === 'decimal')?.value ?? '.'));
-  return separator;
+  // The text is "0.5" or "0,5".
+  if (!decimalSeparators.has(language)) decimalSeparators.set(language, (0.5).toLocaleString(language, { numberingSystem: 'latn' })[1]);
+  return decimalSeparators.get(language) as string;
 }
 
 /** Prints a number with decimals: "−0.301"; "0.000" rather than "−0.000"; "∞"; "—" for NaN. */

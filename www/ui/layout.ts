@@ -80,13 +80,12 @@ const figureLayout = css`
 
     .simulation > .controls > fieldset {
       grid-column: 1 / -1;
-      grid-template-columns: repeat(3, minmax(min-content, 1fr));
+      grid-template-columns: repeat(auto-fit, minmax(11em, 1fr));
       column-gap: inherit;
     }
 
-    .simulation > .controls > .single {
+    .simulation > .controls > :is(.single, .pair + .cloud) {
       grid-column: auto;
-      grid-template-columns: 1fr;
     }
 
     .simulation > .controls > .single + .cloud {
@@ -97,20 +96,6 @@ const figureLayout = css`
 
     .simulation > .controls > .pair {
       grid-column: span 2;
-      grid-template-columns: repeat(2, minmax(min-content, 1fr));
-    }
-
-    .simulation > .controls > .pair + .cloud {
-      grid-column: auto;
-      grid-template-columns: 1fr;
-    }
-
-    .simulation > .controls > fieldset:not(.pair + .cloud) > .buttons {
-      grid-column: 2 / -1;
-    }
-
-    .simulation > .controls > fieldset > .underway {
-      grid-column: 1 / -1;
     }
   }
 
@@ -123,17 +108,6 @@ const figureLayout = css`
     margin-top: 0.4em;
     padding-top: 0.3em;
     border-top: 1px solid var(--rule);
-  }
-
-  /* Narrow columns of sliders have texts of two lines, which end above the rule. */
-  @container (width < 56em) {
-    .folds {
-      margin-top: 1.3em;
-    }
-  }
-
-  .folds > details {
-    min-width: 0;
   }
 
   .folds > details[open] {
@@ -162,11 +136,15 @@ const figureLayout = css`
   }
 
   .folds > textarea {
-    flex-basis: 100%;
     order: 1;
   }
 
-  @container (max-width: 44em) {
+  @container (width < 56em) {
+    /* Narrow columns of sliders have texts of two lines, which end above the rule. */
+    .folds {
+      margin-top: 1.3em;
+    }
+
     .folds > .copied {
       flex-basis: 100%;
       order: 1;
@@ -283,10 +261,6 @@ const figureLayout = css`
     animation: hinted 2.4s ease-in-out both;
   }
 
-  .handle[data-hint]::after {
-    animation: pulsing 1.2s ease-in-out;
-  }
-
   @keyframes hinted {
     from,
     to {
@@ -299,27 +273,17 @@ const figureLayout = css`
     }
   }
 
-  @keyframes pulsing {
-    50% {
-      box-shadow: 0 0 0 0.9em color-mix(in srgb, var(--prior) 35%, transparent);
-    }
-  }
-
-  /* Height of two lines even for a short sentence, so that nothing moves when it changes. */
-  .caption {
-    min-height: 2lh;
-    margin: 0;
-    padding: 0.25em 0;
-  }
-
   .note {
     margin: 0.5em 0;
     padding-left: 0.8em;
     border-left: 3px solid var(--accent);
   }
 
-  .caption.note {
+  /* Height of two lines even for a short sentence, so that nothing moves when it changes. */
+  .caption {
+    min-height: 2lh;
     margin: 0;
+    padding-block: 0.25em;
   }
 
   @container (max-width: 34em) {
@@ -333,20 +297,16 @@ const figureLayout = css`
   .panel {
     display: grid;
     grid-template-rows: auto 1fr;
-    min-width: 0;
   }
 
   .panel-title {
     margin: 0;
-    font-weight: bold;
-    font-size: 0.92em;
   }
 
-  .legend {
-    display: flex;
-    flex-wrap: wrap;
+  :is(.legend, .plot-key) {
     gap: 0 1.2em;
     margin: 0.2em 0;
+    padding: 0;
     font-size: 0.92em;
   }
 
@@ -358,13 +318,7 @@ const figureLayout = css`
     stroke: var(--role);
   }
 
-  .swatch .filled {
-    fill: var(--role);
-  }
-
   .buttons {
-    display: flex;
-    flex-wrap: wrap;
     align-items: center;
     gap: 0.5em;
     margin-bottom: 0.5em;
@@ -372,13 +326,6 @@ const figureLayout = css`
 
   .start-over {
     margin-inline-start: auto;
-  }
-
-  .seed input {
-    width: 5em;
-    min-height: 2em;
-    padding: 0 0.4em;
-    font: inherit;
   }
 
   figcaption {

@@ -52,24 +52,6 @@ export const plotStyles = css`
     font-size: 13px;
   }
 
-  .plot .name {
-    font-style: italic;
-  }
-
-  .plot .grid {
-    stroke: var(--rule);
-  }
-
-  :is(.plot, .plot-key) .band {
-    stroke: none;
-    opacity: 0.22;
-  }
-
-  .plot .mark {
-    stroke: var(--accent);
-    stroke-dasharray: 2 3;
-  }
-
   .plot .marked {
     fill: var(--accent);
     stroke: var(--paper);
@@ -77,17 +59,8 @@ export const plotStyles = css`
     paint-order: stroke;
   }
 
-  :is(.plot, .plot-key) .curve {
-    fill: none;
-    stroke-width: 1.9;
-  }
-
   .plot .lit {
     stroke-width: 3.6;
-  }
-
-  .plot .band.lit {
-    opacity: 0.45;
   }
 
   .plot .unlit {
@@ -99,13 +72,7 @@ export const plotStyles = css`
   }
 
   .plot-key {
-    display: flex;
-    flex-wrap: wrap;
-    gap: 0.1em 1.2em;
-    margin: 0.2em 0 0.7em;
-    padding: 0;
     list-style: none;
-    font-size: 0.92em;
   }
 
   .plot-key svg {
@@ -152,10 +119,9 @@ export interface Point {
   error: number;
 }
 
-/** Line across the plot, at an x or at a y. */
+/** Vertical line across the plot, with a text. */
 interface Mark {
-  x?: number;
-  y?: number;
+  x: number;
   text: string;
 }
 
@@ -179,16 +145,16 @@ export function plot({ label, x, y, curves, points = [], marks = [], slider, leg
     <svg class="plot" viewBox="0 0 ${CHART_WIDTH} ${CHART_HEIGHT}" role="img" aria-label=${label} part="chart">
       ${axisLabels(x, MAX_LABELS.x).map(([value, text]) => gridLine(toX(value), toX(value), PLOT_TOP, PLOT_BOTTOM, { x: toX(value), y: PLOT_BOTTOM + 18, anchor: 'middle', text }))}
       ${axisLabels(y, MAX_LABELS.y).map(([value, text]) => gridLine(PLOT_LEFT, PLOT_RIGHT, toY(value), toY(value), { x: PLOT_LEFT - 6, y: toY(value) + 4, anchor: 'end', text }))}
-      <text class="name" x=${PLOT_RIGHT} y=${PLOT_BOTTOM + 30} text-anchor="end">${x.name}</text>
-      <text class="name" x="0" y="12">${y.name}</text>
+      <text font-style="italic" x=${PLOT_RIGHT} y=${PLOT_BOTTOM + 30} text-anchor="end">${x.name}</text>
+      <text font-style="italic" x="0" y="12">${y.name}</text>
       <svg x=${PLOT_LEFT} y=${PLOT_TOP} width=${PLOT_RIGHT - PLOT_LEFT} height=${PLOT_BOTTOM - PLOT_TOP} viewBox="${PLOT_LEFT} ${PLOT_TOP} ${PLOT_RIGHT - PLOT_LEFT} ${PLOT_BOTTOM - PLOT_TOP}">
-        ${curves.map((curve) => curve.error && svg`<path class="band ${highlightClass(curve)}" fill="var(--${curve.role})" d=${bandPath(curve, toX, toY)} />`)}
-        ${curves.map((curve) => !curve.area && svg`<path class="curve ${highlightClass(curve)}" stroke="var(--${curve.role})" stroke-dasharray=${curve.dash ?? nothing} d=${curvePath(curve, toX, toY)} />`)}
-        ${marks.map((mark, row) => markSvg(mark, row, toX, toY))}
+        ${curves.map((curve) => curve.error && svg`<path class="band ${highlightClass(curve)}" opacity="0.22" fill="var(--${curve.role})" d=${bandPath(curve, toX, toY)} />`)}
+        ${curves.map((curve) => !curve.area && svg`<path class="curve ${highlightClass(curve)}" fill="none" stroke-width="1.9" stroke="var(--${curve.role})" stroke-dasharray=${curve.dash ?? nothing} d=${curvePath(curve, toX, toY)} />`)}
+        ${marks.map((mark, row) => markSvg(mark, row, toX(mark.x)))}
         ${points.filter(({ y: value, error }) => !Number.isNaN(value + error)).map(
           ({ role, x: pointX, y: value, error }) => svg`<path
-            class="curve"
             stroke="var(--${role})"
+            stroke-width="1.9"
             d="M${toX(pointX) - BAR_CAP},${toY(value - error)}h${2 * BAR_CAP}m${-BAR_CAP},0V${toY(value + error)}m${-BAR_CAP},0h${2 * BAR_CAP}"
           /><circle cx=${toX(pointX)} cy=${toY(value)} r="3" fill="var(--${role})" />`,
         )}
@@ -202,7 +168,7 @@ export function plot({ label, x, y, curves, points = [], marks = [], slider, leg
 
 /** Returns a line of the grid with its label. */
 const gridLine = (x1: number, x2: number, y1: number, y2: number, { x, y, anchor, text }: { x: number, y: number, anchor: string, text: string }) => svg`
-  <line class="grid" x1=${x1} x2=${x2} y1=${y1} y2=${y2} />
+  <line stroke="var(--rule)" x1=${x1} x2=${x2} y1=${y1} y2=${y2} />
   <text class="notranslate" translate="no" x=${x} y=${y} text-anchor=${anchor}>${text}</text>`;
 
 /** Returns the CSS class of a curve that is highlighted, or dimmed because another one is. */
@@ -213,7 +179,7 @@ function curveKey(curves: Curve[]) {
     ${curves.map(
       ({ name, role, dash, area }) => html`<li>
         <svg viewBox="0 0 36 10" aria-hidden="true">
-          <path class=${area ? 'band' : 'curve'} fill="var(--${role})" stroke="var(--${role})" stroke-dasharray=${dash ?? nothing} d=${area ? 'M1 1H35V9H1Z' : 'M1 5H35'} />
+          ${area ? svg`<path opacity="0.22" fill="var(--${role})" d="M1 1H35V9H1Z" />` : svg`<path stroke="var(--${role})" stroke-width="1.9" stroke-dasharray=${dash ?? nothing} d="M1 5H35" />`}
         </svg>${formatMarkup(name)}
       </li>`,
     )}
@@ -248,16 +214,10 @@ function bandPath({ x, y, error = [] }: Curve, toX: (value: number) => number, t
   return definedIndices.length > 0 ? `M${[...bandEdge(1), ...bandEdge(-1).reverse()].join('L')}Z` : '';
 }
 
-/** Returns a mark. The text of a vertical mark is in a row of its own, so that neighbouring texts do not touch. */
-function markSvg({ x, y, text }: Mark, row: number, toX: (value: number) => number, toY: (value: number) => number) {
-  if (x !== undefined) {
-    const markX = toX(x);
-    // Text next to the line, on the side that has space.
-    const [labelOffset, anchor] = 2 * markX > PLOT_LEFT + PLOT_RIGHT ? [-5, 'end'] : [5, 'start'];
-    return svg`<line class="mark" x1=${markX} x2=${markX} y1=${PLOT_TOP} y2=${PLOT_BOTTOM} />
-      <text class="marked" x=${markX + labelOffset} y=${PLOT_TOP + 13 + 16 * row} text-anchor=${anchor}>${text}</text>`;
-  }
-  const markY = toY(y ?? NaN);
-  return svg`<line class="mark" x1=${PLOT_LEFT} x2=${PLOT_RIGHT} y1=${markY} y2=${markY} />
-    <text class="marked" x=${PLOT_RIGHT - 4} y=${markY - 5} text-anchor="end">${text}</text>`;
+/** Returns a mark. Its text is in a row of its own, so that neighbouring texts do not touch. */
+function markSvg({ text }: Mark, row: number, markX: number) {
+  // Text next to the line, on the side that has space.
+  const [labelOffset, anchor] = 2 * markX > PLOT_LEFT + PLOT_RIGHT ? [-5, 'end'] : [5, 'start'];
+  return svg`<line stroke="var(--accent)" stroke-dasharray="2 3" x1=${markX} x2=${markX} y1=${PLOT_TOP} y2=${PLOT_BOTTOM} />
+    <text class="marked" x=${markX + labelOffset} y=${PLOT_TOP + 13 + 16 * row} text-anchor=${anchor}>${text}</text>`;
 }

@@ -7,7 +7,6 @@ export const presentationStyles = css`
   :host([presentation]) {
     position: fixed !important;
     inset: 0 !important;
-    z-index: 2147483647 !important;
     width: 100% !important;
     max-width: none !important;
     height: 100% !important;
@@ -62,7 +61,6 @@ export const presentationStyles = css`
 
   :host([presentation]) .stage canvas {
     position: absolute;
-    inset: 0;
     height: 100%;
     max-height: none;
     aspect-ratio: auto;
@@ -73,24 +71,10 @@ export const presentationStyles = css`
   }
 
   /* Buttons in the row of the title. */
-  :host([presentation]) .title-slot {
-    margin-top: -1.55em;
-    padding-inline-end: 10em;
-  }
-
-  /* On a phone the pictures are below each other, and the page scrolls. */
-  @media (max-width: 30em) or (max-height: 30em) {
+  @media (width > 30em) and (height > 30em) {
     :host([presentation]) .title-slot {
-      margin-top: 0;
-      padding: 0;
-    }
-
-    :host([presentation]) .views {
-      grid-template-rows: auto;
-    }
-
-    :host([presentation]) .stage {
-      min-height: 60vmin;
+      margin-top: -1.55em;
+      padding-inline-end: 10em;
     }
   }
 
@@ -123,11 +107,6 @@ export const presentationStyles = css`
   .presenting button {
     min-height: 0;
     padding: 0 0.53em;
-    background: var(--paper);
-  }
-
-  .presenting button[aria-pressed='true'] {
-    background: var(--ink);
   }
 
   /* The key of a preset is shown in its button. */
@@ -141,11 +120,6 @@ export const presentationStyles = css`
     counter-increment: key;
     content: counter(key) / '';
     margin-inline-end: 0.5em;
-    font-weight: bold;
-  }
-
-  kbd {
-    font: inherit;
     font-weight: bold;
   }
 `;

@@ -6,8 +6,6 @@ import { formatMarkup, untranslated } from './controls.ts';
 export const readoutStyles = css`
   /* Name above its number, side by side. */
   .readouts {
-    display: flex;
-    flex-wrap: wrap;
     align-content: start;
     gap: 0.2em 2em;
     margin: 0.1em 0 0.5em;
@@ -32,44 +30,24 @@ export const readoutStyles = css`
     min-width: 5em;
   }
 
-  .readouts dt {
+  .readouts :is(dt, .detail, .earlier) {
     color: var(--muted);
     font-size: 0.84em;
+  }
+
+  .readouts :is(dt, dd) {
+    margin: 0;
     line-height: 1.25;
   }
 
-  .readouts dd {
-    margin: 0;
+  .readouts dd:not(.detail) > bdi {
     font-size: 1.1em;
-    line-height: 1.25;
     white-space: nowrap;
   }
 
-  .readouts .headline dd:not(.detail) {
+  .readouts .headline dd:not(.detail) > bdi {
     font-size: 2em;
     line-height: 1.1;
-  }
-
-  .readouts dd:has(.earlier) {
-    white-space: normal;
-  }
-
-  /* An earlier value is as large as a detail, whatever the size of the value beside it. */
-  .readouts .earlier {
-    display: inline-block;
-    color: var(--muted);
-    font-size: 0.76em;
-    white-space: nowrap;
-  }
-
-  .readouts .headline .earlier {
-    font-size: 0.42em;
-  }
-
-  .readouts .detail {
-    color: var(--muted);
-    font-size: 0.84em;
-    white-space: normal;
   }
 
   sub {
@@ -103,11 +81,10 @@ export const readoutStyles = css`
 
   :is(th, td) {
     padding: 0.15em 0;
-    padding-inline-start: 0.54em;
   }
 
-  :is(th, td):first-child {
-    padding-inline-start: 0;
+  :is(th, td) + :is(th, td) {
+    padding-inline-start: 0.54em;
   }
 
   thead th:not(:first-child),
@@ -121,26 +98,24 @@ export const readoutStyles = css`
       font-size: 0.82em;
     }
 
-    :where(table:not(.alphas)) > :is(caption, thead, tbody) {
-      display: block;
-    }
+    :where(table:not(.alphas)) {
+      > :is(caption, thead, tbody) {
+        display: block;
+      }
 
-    :where(table:not(.alphas)) tr {
-      display: flex;
-      flex-wrap: wrap;
-    }
+      tr {
+        display: flex;
+        flex-wrap: wrap;
+      }
 
-    :where(table:not(.alphas)) tr > :is(th, td) {
-      flex: 1;
-      min-width: 0;
-      padding: 0.17em 0;
-      padding-inline-start: 0.37em;
-      overflow-wrap: anywhere;
-    }
+      :is(th, td) {
+        flex: 1;
+        overflow-wrap: anywhere;
+      }
 
-    :where(table:not(.alphas)) tr > :first-child {
-      flex-basis: 100%;
-      padding-inline-start: 0;
+      :is(th, td):first-child {
+        flex-basis: 100%;
+      }
     }
   }
 `;

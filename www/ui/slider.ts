@@ -1,7 +1,6 @@
 /** Slider with a label, an editable value, and a line of text about its effect on the picture. */
 
 import { css, html, noChange, nothing, unsafeCSS } from 'lit';
-import { Directive, directive } from 'lit/directive.js';
 import { live } from 'lit/directives/live.js';
 import { inputOf } from './controls.ts';
 
@@ -19,7 +18,7 @@ const trackStyles = (track: string, thumb: string) => unsafeCSS(`
     width: var(--thumb-width, 1.05em);
     height: var(--thumb-height, 1.05em);
     background: var(--thumb);
-    border: 2px solid var(--thumb-edge);
+    border: 2px solid var(--thumb-edge, var(--thumb));
     border-radius: 1em;
     box-shadow: 0 0 0 3px var(--paper);
   }
@@ -37,44 +36,32 @@ export const sliderStyles = css`
     --thumb: var(--role);
     position: relative;
     display: grid;
-    grid-template: 'pick name value' auto 'track track track' auto / auto 1fr auto;
+    grid-template: 'name value' auto 'track track' auto / 1fr auto;
     align-items: baseline;
+    column-gap: 0.5em;
     padding-bottom: 1.1em;
   }
 
   /* In wide figures the label, the track and the value are in one row. Fixed column widths align the sliders of all groups. */
   @container (min-width: 56em) {
     .slider {
-      grid-template: 'pick name track value' auto / auto 14em 1fr minmax(5.5em, max-content);
-      align-items: center;
-      column-gap: 0.5em;
-    }
-
-    .slider:not(:has(> .choice)) {
       grid-template: 'name track value' auto / 14em 1fr minmax(5.5em, max-content);
+      align-items: center;
     }
   }
 
-  .slider > [for] {
+  .slider > :first-child {
     grid-area: name;
     line-height: 1.2;
   }
 
-  @container (width < 56em) {
-    .slider > [for] {
-      margin-inline-end: 0.5em;
-    }
-  }
-
-  .slider > [for] .symbol {
+  .slider .symbol {
     margin-inline-end: 0.3em;
     font-size: 1.1em;
   }
 
-  .slider > .choice {
-    grid-area: pick;
+  .slider .choice {
     min-height: 0;
-    margin-inline-end: 0.3em;
   }
 
   .slider > input[type='range'] {
@@ -106,7 +93,6 @@ export const sliderStyles = css`
     font: inherit;
     font-variant-numeric: inherit;
     text-align: right;
-    cursor: text;
   }
 
   .typed:hover {
@@ -135,17 +121,13 @@ export const sliderStyles = css`
     color: var(--accent);
   }
 
-  .slider.off :is(label, .value) {
+  .slider.off {
+    --thumb: var(--paper);
+    --thumb-edge: var(--muted);
     color: var(--muted);
   }
 
-  .slider.off input[type='range'] {
-    --thumb: var(--paper);
-    --thumb-edge: var(--muted);
-  }
-
   input[type='range'] {
-    --thumb-edge: var(--thumb);
     appearance: none;
     width: 100%;
     height: 1.75em;
@@ -182,13 +164,7 @@ const MIN_TOUCH_MOVE = 8;
  */
 let undecidedTouch: PointerEvent | undefined;
 
-const endTouch = () => (undecidedTouch = undefined);
-
-function beginTouch(event: PointerEvent) {
-  undecidedTouch = event.pointerType === 'touch' ? event : undefined;
-  // An element that is removed during a touch gets no pointerup.
-  for (const end of ['pointerup', 'pointercancel']) addEventListener(end, endTouch, { once: true });
-}
+const beginTouch = (event: PointerEvent) => (undecidedTouch = event.pointerType === 'touch' ? event : undefined);
 
 /** First character of a number that is typed on a slider. */
 const NUMBER_START = /^[\d.,+\-\u2212]$/;
@@ -202,14 +178,16 @@ export function sliderRow(row: SliderRow) {
   const longestText = [row.show(row.min), row.show(row.max)].reduce((longer, candidate) => (candidate.length > longer.length ? candidate : longer), printedValue);
   return html`
     <div class="slider ${row.hasNoEffect ? 'off' : ''} ${row.refusal ? 'refused' : ''}" part="slider" data-role=${row.role}>
-      ${row.pickControl ?? nothing}
-      <label for=${row.id} id="${row.id}-name">${row.symbol ? html`<bdi class="symbol notranslate" translate="no">${row.symbol}</bdi>` : nothing}${row.name}</label>
+      <span>
+        ${row.pickControl ?? nothing}
+        <label for=${row.id} id="${row.id}-name">${row.symbol ? html`<bdi class="symbol notranslate" translate="no">${row.symbol}</bdi>` : nothing}${row.name}</label>
+      </span>
       ${track({ ...row, ...stopPositions(row), name: undefined, text: printedValue, describedBy: `${row.id}-effect`, keydown: focusField })}
-      <span class="value notranslate" translate="no" dir="ltr" data-longest=${longestText}>
+      <form method="dialog" class="value notranslate" translate="no" dir="ltr" data-longest=${longestText}>
         <span class="printed">${printedValue}</span>
         ${valueField(row, printedValue)}
-      </span>
-      <p class="effect" id="${row.id}-effect" role=${row.refusal ? 'alert' : nothing}>${row.refusal || row.effect}</p>
+      </form>
+      <p class="effect muted small" id="${row.id}-effect" role=${row.refusal ? 'alert' : nothing}>${row.refusal || row.effect}</p>
     </div>
   `;
 }
@@ -277,12 +255,12 @@ export function track({ id, name, min, max, step, value, text, describedBy, keyd
   };
   const moveTouch = (event: PointerEvent) => {
     const horizontalMove = Math.abs(event.clientX - (undecidedTouch?.clientX ?? NaN));
-    if (horizontalMove > MIN_TOUCH_MOVE && horizontalMove > Math.abs(event.clientY - (undecidedTouch?.clientY ?? NaN))) endTouch();
+    if (horizontalMove > MIN_TOUCH_MOVE && horizontalMove > Math.abs(event.clientY - (undecidedTouch?.clientY ?? NaN))) undecidedTouch = undefined;
     if (event.pointerType === 'touch') setValue(event);
   };
   const endPointer = (event: PointerEvent) => {
     if (!undecidedTouch) return;
-    endTouch();
+    undecidedTouch = undefined;
     if (event.type === 'pointerup') setValue(event);
     else inputOf(event).value = String(value);
   };
@@ -306,36 +284,19 @@ export function track({ id, name, min, max, step, value, text, describedBy, keyd
   />`;
 }
 
-/** Keeps the text of a field while the user types, because a slow picture is drawn after further keys. */
-const keepWhileTyping = directive(
-  class extends Directive {
-    render(shown: string) {
-      return shown;
-    }
-
-    update({ element }: import('lit').PropertyPart, [shown]: [string]) {
-      const input = element as HTMLInputElement;
-      const isFocused = input.matches(':focus');
-      if (isFocused && input.value !== input.defaultValue) return noChange;
-      if (input.value !== shown) input.value = shown;
-      if (isFocused) input.defaultValue = shown;
-      return noChange;
-    }
-  },
-);
-
-function valueField({ id, keys, type, clearRefusal }: Pick<SliderRow, 'id' | 'keys' | 'type' | 'clearRefusal'>, shown: string) {
+/** Returns the field of a value. Its default is the printed value, which a browser shows unless the user has typed another text. */
+function valueField({ id, keys, type, clearRefusal }: Pick<SliderRow, 'id' | 'keys' | 'type' | 'clearRefusal'>, printedValue: string) {
   /** Applies the typed text; returns true if it became the value. */
   const applyText = (input: HTMLInputElement): boolean => {
-    // The default is the text at the time of focus.
     if (input.value === input.defaultValue) return true;
     const appliedText = type(input.value);
-    input.value = input.defaultValue = appliedText ?? input.defaultValue;
+    input.defaultValue = appliedText ?? input.defaultValue;
+    input.form?.reset();
     return appliedText !== undefined;
   };
   const handleKey = (event: KeyboardEvent) => {
     const input = inputOf(event);
-    if (event.key === 'Escape') input.value = input.defaultValue = shown;
+    if (event.key === 'Escape') input.form?.reset();
     else if (event.key !== 'Enter') return;
     // A handled Escape does not end a presentation.
     event.preventDefault();
@@ -352,12 +313,8 @@ function valueField({ id, keys, type, clearRefusal }: Pick<SliderRow, 'id' | 'ke
     spellcheck="false"
     aria-labelledby="${id}-name"
     aria-describedby="${id}-effect"
-    .value=${keepWhileTyping(shown)}
-    @focus=${(event: Event) => {
-      const input = inputOf(event);
-      input.defaultValue = input.value;
-      input.select();
-    }}
+    value=${printedValue}
+    @focus=${(event: Event) => inputOf(event).select()}
     @input=${clearRefusal}
     @keydown=${handleKey}
     @blur=${(event: Event) => applyText(inputOf(event))}

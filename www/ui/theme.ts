@@ -67,8 +67,6 @@ export const theme = css`
 
   /* Probe that inherits the page's colours. Its transition fires an event when a role changes. */
   .scheme-probe {
-    position: absolute;
-    visibility: hidden;
     forced-color-adjust: none;
     transition: 1ms;
     background: var(--motion-paper, transparent);
@@ -109,11 +107,6 @@ export const theme = css`
     display: contents;
   }
 
-  /* A page translator may insert words with another writing direction. */
-  .spoken :is(p, li, dt, dd, th, td, caption, figcaption, legend, label, summary, button, output) {
-    unicode-bidi: plaintext;
-  }
-
   .title-slot {
     margin: 0 0 0.27em;
     font-size: 1.1em;
@@ -148,29 +141,11 @@ export const theme = css`
     /* Values of settings whose sliders are in a closed disclosure. */
     .folds:not(:has(> #more[open])) + .on-paper {
       display: block;
-      margin: 0.4em 0;
-      font-size: 0.85em;
     }
 
-    .on-paper span {
-      margin-inline-end: 1em;
-      white-space: nowrap;
-    }
-
-    /* Browsers print no background behind text. */
-    .options .choice:has(:checked) {
-      padding: 0;
-      background: none !important;
-      border: 0;
-      color: var(--ink) !important;
-    }
-
-    .surface {
-      color-scheme: light !important;
-    }
-
-    .stage {
-      position: static !important;
+    /* Browsers print no background behind text otherwise. */
+    .options .choice {
+      print-color-adjust: exact;
     }
 
     .simulation {
@@ -184,14 +159,10 @@ export const theme = css`
       aspect-ratio: auto !important;
     }
 
-    :is(button, input, textarea, summary, .handle, .grips, .end, .effect, .marked, .visually-hidden),
+    /* Labels in a table are names of rows, and are all printed with their radio buttons. */
+    :is(button, input:not(th *), textarea, summary, .handle, .grips, .end, .effect, .marked, .visually-hidden),
     :not(th) > label:has(input:not(:checked)) {
       display: none !important;
-    }
-
-    /* Labels in a table are names of rows, and are all printed; that of the selected row is bold. */
-    th > label:has(input:checked) {
-      font-weight: bold;
     }
 
     fieldset {
@@ -212,15 +183,11 @@ export const theme = css`
       visibility: visible !important;
     }
 
-    [data-longest]::after,
-    .reserved {
+    [data-longest]::after {
       display: none !important;
     }
 
-    figure,
-    table,
-    .stage,
-    fieldset {
+    :is(figure, table, .stage, fieldset) {
       break-inside: avoid;
     }
   }

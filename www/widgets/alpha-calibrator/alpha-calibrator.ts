@@ -251,7 +251,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
           </div>
           <p class="to-do">${this.#opener.otherResults || judgementOf(viewModel, this.warnings).toDo}</p>
           ${alphaTable(viewModel)}
-          <p class="muted reason">${recommendationReason(viewModel)}</p>
+          <p class="reason muted small">${recommendationReason(viewModel)}</p>
           ${copyMessage(this)}
         </div>`)}
       </div>

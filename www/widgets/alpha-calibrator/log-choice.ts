@@ -38,7 +38,7 @@ export function logChoosers(opener: LogOpener) {
     ...(recordings.length > 1 ? recordings.flatMap((recording, index) => (hasOneLog(recording) ? [roleSelect(opener, chosen, index, say)] : [])) : []),
   ];
   return html`<div class="choosers">
-    ${roleChoosers.length ? html`<div class="topics">${roleChoosers} ${plan?.hasRolesByOrder ? say.choose.byOrder : nothing}</div>` : nothing}
+    ${roleChoosers.length ? html`<div class="choices">${roleChoosers} ${plan?.hasRolesByOrder ? say.choose.byOrder : nothing}</div>` : nothing}
     ${questions.map((question) => questionOf(opener, chosen, question, say))}
     ${[...skipped, ...(plan?.unused ?? [])].filter((failure) => failure !== opener.refusal).map((failure) => html`<p class="muted">${say.choose.skipped(opener.explain(failure))}</p>`)}
   </div>`;
@@ -106,7 +106,7 @@ function columnsForm(opener: LogOpener, asked: OpenQuestion, answer: string[] | 
   return html`<form id=${questionId(asked)} @submit=${takeColumns}>
     <fieldset>
       <legend>${say.columns(file)}</legend>
-      <div class="topics">
+      <div class="choices">
         ${COLUMN_FIELDS.map((field) => html`<label>
           ${say.fields[field]}
           <select name=${field} aria-label=${say.fields[field]} aria-describedby="refusal">

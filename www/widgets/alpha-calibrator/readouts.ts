@@ -40,15 +40,15 @@ export function alphaTable(viewModel: ViewModel) {
       ${alphas.map((alpha, i) => html`<tr>
         <th scope="row">${formatMarkup(`*α*${subscriptOf(i)}`)}</th>
         ${alpha === null
-          ? html`<td colspan="3"><div class="of">${noiseLabels[i]}</div><span class="unknown">${missingText(viewModel, i)}</span></td>`
-          : html`<td class="chart"><div class="line"><div class="of">${noiseLabels[i]}</div>${whisker(axis, alpha, intervals[i], truth?.[i])}</div></td>
-            <td><div class="line"><div class="fitted-value" data-longest="0.00000">${fittedText(viewModel, i)}</div><div class="between" data-longest=${say.between('0.00000', '0.00000')}>${intervalText(viewModel, i)}</div></div></td>
+          ? html`<td colspan="3"><div class="of muted">${noiseLabels[i]}</div><span class="unknown">${missingText(viewModel, i)}</span></td>`
+          : html`<td class="chart"><div class="line"><div class="of muted">${noiseLabels[i]}</div>${whisker(axis, alpha, intervals[i], truth?.[i])}</div></td>
+            <td><div class="line"><div class="fitted-value" data-longest="0.00000">${fittedText(viewModel, i)}</div><div class="between muted" data-longest=${say.between('0.00000', '0.00000')}>${intervalText(viewModel, i)}</div></div></td>
             <td class="recommended" data-longest="0.00000">${recommendedOf(viewModel, i)}</td>`}
       </tr>`)}
       <tr class="axis" aria-hidden="true">
         <td></td>
         <td class="chart">
-          <div class="line"><div class="of"></div><div class="scale">${axis.decades.map((decade) => html`<span .style=${`left: ${(100 * axis.at(decade)) / WHISKER_ROW.width}%`}>${decade < 5e-4 ? formatPowerOfTen(Math.round(Math.log10(decade))) : tick(decade, decade)}</span>`)}</div></div>
+          <div class="line"><div class="of muted"></div><div class="scale muted small">${axis.decades.map((decade) => html`<span .style=${`left: ${(100 * axis.at(decade)) / WHISKER_ROW.width}%`}>${decade < 5e-4 ? formatPowerOfTen(Math.round(Math.log10(decade))) : tick(decade, decade)}</span>`)}</div></div>
         </td>
         <td colspan="2"></td>
       </tr>
@@ -89,7 +89,7 @@ function intervalText({ stats: { intervals } }: ViewModel, index: number) {
 /** Returns the header of the column of noises, with the symbol of the true value in simulated logs. */
 function noiseColumnHead() {
   const [textBefore, textAfter] = words.calibrator.alphas.noiseTrue.split('|');
-  return html`${textBefore}<svg class="sample" viewBox="0 0 6 12" aria-hidden="true"><path class="true" d="M3 1V11" /></svg>${textAfter}`;
+  return html`${textBefore}<svg class="sample" viewBox="0 0 6 12" aria-hidden="true"><path stroke="var(--truth)" stroke-width="3" d="M3 1V11" /></svg>${textAfter}`;
 }
 
 /** Returns a logarithmic axis over whole decades that contain the values. */
@@ -112,8 +112,8 @@ function whisker({ at }: ReturnType<typeof axisOf>, value: number, interval: [nu
   const { width, height, middle } = WHISKER_ROW;
   const [low, high] = (interval ?? [value, value]).map(at);
   return html`<svg viewBox="0 0 ${width} ${height}" preserveAspectRatio="none" aria-hidden="true">
-    ${truth === undefined ? nothing : svg`<path class="true" d="M${at(truth)} 2V${height - 2}" />`}
-    <path class="whisker" d="M${low} ${middle}H${high}M${low} ${middle - 4}v8M${high} ${middle - 4}v8" />
-    <path class="dot" d="M${at(value)} ${middle}h0" />
+    ${truth === undefined ? nothing : svg`<path stroke="var(--truth)" stroke-width="3" d="M${at(truth)} 2V${height - 2}" />`}
+    <path fill="none" stroke="var(--prediction)" stroke-width="1.9" d="M${low} ${middle}H${high}M${low} ${middle - 4}v8M${high} ${middle - 4}v8" />
+    <path stroke="var(--prediction)" stroke-width="5" stroke-linecap="round" d="M${at(value)} ${middle}h0" />
   </svg>`;
 }

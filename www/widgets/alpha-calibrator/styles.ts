@@ -4,7 +4,6 @@ import { css } from 'lit';
 
 export const styles = css`
   .drop-zone {
-    box-sizing: border-box;
     margin-bottom: 0.4em;
     padding: 0.25em 0.6em;
     border: 1px dashed var(--muted);
@@ -15,21 +14,10 @@ export const styles = css`
     margin: 0;
   }
 
-  .choosers .topics {
-    display: flex;
-    flex-wrap: wrap;
-    gap: 0.3em 1em;
-    align-items: center;
-    margin-block: 0.3em;
-  }
-
   .choosers select {
     max-width: 100%;
     min-height: 2em;
-    border: 1px solid var(--muted);
-    border-radius: 3px;
     background: var(--paper);
-    color: var(--ink);
     font: inherit;
   }
 
@@ -43,17 +31,10 @@ export const styles = css`
   }
 
   .found :is(thead, tbody) :is(th, td) {
-    padding: 0;
-    padding-inline-end: 0.8em;
-    font-weight: normal;
     text-align: start;
     vertical-align: top;
     white-space: normal;
     overflow-wrap: anywhere;
-  }
-
-  .found thead th {
-    font-weight: bold;
   }
 
   .found tbody th {
@@ -70,12 +51,11 @@ export const styles = css`
     display: inline-block;
     margin-inline-end: 0.4em;
     padding: 0.1em 0.6em;
-    border: 1px solid var(--paper);
     border-radius: 3px;
     background: var(--prediction);
     color: var(--paper);
     font-weight: bold;
-    line-height: 1;
+    forced-color-adjust: none;
   }
 
   .badge.consistent {
@@ -84,13 +64,6 @@ export const styles = css`
 
   .badge.unusable {
     background: var(--accent);
-  }
-
-  @media (forced-colors: active) {
-    .badge {
-      color: CanvasText;
-      border-color: CanvasText;
-    }
   }
 
   :host([presentation]) .views {
@@ -153,7 +126,7 @@ export const styles = css`
   }
 
   .alphas :is(th, td) {
-    padding: 0 0 0 0.6em;
+    padding: 0 0 0 0.5em;
     line-height: 1.2;
     white-space: nowrap;
   }
@@ -169,6 +142,12 @@ export const styles = css`
     white-space: normal;
   }
 
+  @container (width < 26em) {
+    .alphas thead th {
+      white-space: normal;
+    }
+  }
+
   .alphas .chart {
     width: 100%;
   }
@@ -176,7 +155,6 @@ export const styles = css`
   /* A name may extend above the interval in the next cell, as far as the shorter value beside it leaves room. */
   .alphas .of {
     margin-inline-end: -4em;
-    color: var(--muted);
     line-height: 1;
     text-align: left;
     white-space: normal;
@@ -198,24 +176,7 @@ export const styles = css`
   }
 
   .alphas path {
-    fill: none;
     vector-effect: non-scaling-stroke;
-  }
-
-  .alphas .true {
-    stroke: var(--truth);
-    stroke-width: 3;
-  }
-
-  .alphas .whisker {
-    stroke: var(--prediction);
-    stroke-width: 1.9;
-  }
-
-  .alphas .dot {
-    stroke: var(--prediction);
-    stroke-width: 5;
-    stroke-linecap: round;
   }
 
   .alphas .scale {
@@ -223,8 +184,6 @@ export const styles = css`
     position: relative;
     flex: 1;
     height: 1.1em;
-    color: var(--muted);
-    font-size: 0.84em;
   }
 
   .scale > span {
@@ -233,14 +192,8 @@ export const styles = css`
   }
 
   /* The first and the last label of an axis have room on any screen. */
-  @container (width < 9em) {
+  @container (width < 10em) {
     .scale > span:not(:first-child, :last-child) {
-      visibility: hidden;
-    }
-  }
-
-  @container (width < 16em) {
-    .scale:has(> :nth-child(4)) > span:not(:first-child, :last-child) {
       visibility: hidden;
     }
   }
@@ -252,18 +205,12 @@ export const styles = css`
     white-space: normal;
   }
 
-  :is(.between, .muted) {
-    color: var(--muted);
-  }
-
   .alphas .recommended {
     font-weight: bold;
   }
 
   .reason {
     margin: 0 0 0.3em;
-    font-size: 0.84em;
-    line-height: 1.3;
   }
 
   /* Space for the advice of a failed check, which must not move a slider that is dragged. */
@@ -321,16 +268,6 @@ export const styles = css`
   @media print {
     :is(.drop-zone, .found) {
       display: none;
-    }
-  }
-
-  @container (width < 26em) {
-    .alphas :is(th, td) {
-      padding-left: 0.4em;
-    }
-
-    .alphas thead th {
-      white-space: normal;
     }
   }
 

@@ -59,7 +59,7 @@ export function systematicTable(figure: Figure) {
     return [
       correctCheckbox,
       stackedTexts(values),
-      html`<div class="between">${stackedTexts(halves.map((half) => `± ${half}`))}</div>`,
+      html`<div class="muted">${stackedTexts(halves.map((half) => `± ${half}`))}</div>`,
       errors[key].corrected ? say.corrected : errors[key].constant ? say.notCorrected : say.notConstant,
       ...(truth ? [html`<div class="muted">${stackedTexts([truth[key]].flat().map((component) => fixed(component, 3)))}</div>`] : []),
     ];

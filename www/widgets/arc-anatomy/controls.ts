@@ -22,7 +22,7 @@ export function likelihoodControls(figure: Figure) {
   const { map } = figure.settings.requested;
   const contourEntry = (name: 'prob' | 'density') => html`<span>${swatchHtml(CONTOUR_STYLES[name])} ${maps[name]}</span>`;
   return group(likelihood, html`${settingCheckbox(figure, 'printed', formatMarkup(printed))} ${settingRadios(figure, 'map', maps)}
-    ${map === 'none' ? nothing : html`<p class="legend contours">${contourEntry('prob')} ${contourEntry('density')}</p>`}`);
+    ${map === 'none' ? nothing : html`<p class="legend">${contourEntry('prob')} ${contourEntry('density')}</p>`}`);
 }
 
 /** Returns an icon, with a text for screen readers. */

@@ -43,8 +43,8 @@ export function factorBars({ stats: { factors, weakest, share } }: ViewModel, li
       return html`<li class=${i === weakest && share < 1 ? 'weakest' : nothing}>
         <span class="estimate">${formatMarkup(symbol)} ${say.names[i]} = ${fixed(factor.estimate, 2)} ${unit}</span>
         ${bar(deviations)}
-        <span class="keeps">${say.factor(shareText(factor.share))}</span>
-        <span class="off">${formatMarkup(error)}/<i>σ</i> = ${fixed(deviations, 1)}</span>
+        <span class="keeps muted small">${say.factor(shareText(factor.share))}</span>
+        <span class="off small">${formatMarkup(error)}/<i>σ</i> = ${fixed(deviations, 1)}</span>
       </li>`;
     })}
   </ul>`;
@@ -57,9 +57,9 @@ function bar(deviations: number) {
   const barSide = Math.sign(deviations);
   const barTicks = Array.from({ length: 2 * BAR_SCALE.max + 1 }, (_, i) => i - BAR_SCALE.max);
   return html`<svg viewBox="0 0 ${2 * BAR_MIDDLE} 20" preserveAspectRatio="none" aria-hidden="true">
-    ${barTicks.map((tick) => svg`<line class="tick" x1=${barX(tick)} x2=${barX(tick)} y1=${tick === 0 ? 0 : 14} y2="20" />`)}
-    <rect x=${Math.min(barX(0), barEnd)} width=${Math.abs(barEnd - barX(0))} y="3" height="11" />
-    ${isBeyondScale ? svg`<path class="beyond" d="M${barEnd - 6 * barSide},1l${6 * barSide},7.5l${-6 * barSide},7.5" />` : nothing}
+    ${barTicks.map((tick) => svg`<line stroke="var(--muted)" vector-effect="non-scaling-stroke" x1=${barX(tick)} x2=${barX(tick)} y1=${tick === 0 ? 0 : 14} y2="20" />`)}
+    <rect fill="var(--prediction)" x=${Math.min(barX(0), barEnd)} width=${Math.abs(barEnd - barX(0))} y="3" height="11" />
+    ${isBeyondScale ? svg`<path fill="none" stroke="var(--prediction)" stroke-width="3" d="M${barEnd - 6 * barSide},1l${6 * barSide},7.5l${-6 * barSide},7.5" />` : nothing}
   </svg>`;
 }
 
@@ -101,7 +101,7 @@ export function tableLines(viewModel: ViewModel, lit: number) {
   return html`<ol class="lines" part="table">
       ${TABLE_FORMULAS.map((_, i) => html`<li class=${i + 1 === lit ? 'lit' : nothing}>${formatMarkup(lineText(viewModel, i + 1))}</li>`)}
     </ol>
-    <p class="about">${formatMarkup(say.sign)}</p>`;
+    <p class="muted">${formatMarkup(say.sign)}</p>`;
 }
 
 /** Range of errors in the plot, m: from below the rounding of the distance to above the whole distance. */

@@ -43,9 +43,8 @@ export const styles = css`
     grid-area: estimate;
   }
 
-  .factors :is(.off, .keeps) {
+  .factors .off {
     grid-area: off;
-    font-size: 0.84em;
   }
 
   .factors svg {
@@ -54,25 +53,8 @@ export const styles = css`
     height: 1.3em;
   }
 
-  .factors rect {
-    fill: var(--prediction);
-  }
-
-  .factors .tick {
-    stroke: var(--muted);
-    vector-effect: non-scaling-stroke;
-  }
-
-  .factors .beyond {
-    fill: none;
-    stroke: var(--prediction);
-    stroke-width: 3;
-  }
-
   .factors .keeps {
     grid-area: keeps;
-    color: var(--muted);
-    line-height: 1.25;
   }
 
   /* Below the picture the bars are side by side. */
@@ -99,10 +81,6 @@ export const styles = css`
     canvas {
       aspect-ratio: 7 / 4;
     }
-  }
-
-  .contours {
-    margin: 0 0 0.5em;
   }
 
   .stepper {
@@ -132,12 +110,6 @@ export const styles = css`
   .lines li {
     display: block;
     padding-block: 0.1em;
-    padding-right: 0.5em;
-  }
-
-  .about {
-    margin: 0 0 0.7em;
-    color: var(--muted);
   }
 
   .handle.turn {

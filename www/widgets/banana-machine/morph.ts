@@ -114,8 +114,8 @@ export function morphControl({ player, gesture, state }: import('./banana-machin
       id: 'morph', name: say.name, min: 0, max: 1, step: MORPH_STEP, value: morph, text: say.text(percent(morph)),
       input: (to) => player.put('morph', to), commit: () => gesture.commit(),
     })}
-    <span class="end floor" aria-hidden="true">${say.floor}</span>
-    <span class="end twist" aria-hidden="true">${say.twist}</span>
+    <span class="end floor muted small" aria-hidden="true">${say.floor}</span>
+    <span class="end twist muted small" aria-hidden="true">${say.twist}</span>
   </div>`;
 }
 

@@ -3,18 +3,6 @@
 import { css } from 'lit';
 
 export const styles = css`
-  @container (min-width: 38em) {
-    canvas {
-      aspect-ratio: 1.45;
-    }
-  }
-
-  @container (min-width: 56em) {
-    canvas {
-      aspect-ratio: 1.6;
-    }
-  }
-
   /* A narrow figure has one picture: the one with the morph, which can show both. */
   @container (width < 30em) {
     .views > .twist {
@@ -42,7 +30,6 @@ export const styles = css`
   .morphing {
     display: flex;
     flex-wrap: wrap;
-    justify-content: end;
     align-items: start;
     gap: 0.5em 1em;
     margin-top: 0.7em;
@@ -54,7 +41,6 @@ export const styles = css`
     flex: 1;
     display: grid;
     grid-template-columns: auto auto 1fr;
-    align-items: start;
     column-gap: 0.75em;
   }
 
@@ -74,12 +60,6 @@ export const styles = css`
     text-align: end;
   }
 
-  .morph .end {
-    color: var(--muted);
-    font-size: 0.84em;
-    line-height: 1.2;
-  }
-
   /* The three main readouts, in columns of equal width where there is room. */
   .surface .simulation > .readouts {
     display: grid;
@@ -94,6 +74,18 @@ export const styles = css`
 
     .surface .simulation > .readouts {
       grid-template-columns: repeat(3, 1fr);
+    }
+  }
+
+  @container (min-width: 38em) {
+    canvas {
+      aspect-ratio: 1.45;
+    }
+  }
+
+  @container (min-width: 56em) {
+    canvas {
+      aspect-ratio: 1.6;
     }
   }
 `;

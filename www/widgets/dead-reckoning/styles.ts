@@ -26,7 +26,6 @@ const chartAlone = css`
 
   .floor .stage[part='picture'] {
     position: relative;
-    z-index: auto;
     box-shadow: none;
   }
 `;
@@ -49,8 +48,6 @@ export const styles = css`
 
   :host([presentation]) .chart .plotted {
     position: relative;
-    z-index: auto;
-    top: 0;
   }
 
   :host([presentation]) .step .stage {
@@ -101,7 +98,6 @@ export const styles = css`
 
     .views {
       grid-template-columns: minmax(0, 1.75fr) repeat(2, minmax(0, 1fr));
-      grid-auto-flow: row;
     }
 
     /* Sliders that have their names in the same row need wide columns: two instead of three. */

@@ -36,7 +36,7 @@ export function samplerControls(figure: Figure) {
   const chooseSampler = (name: string) => figure.gesture.decide({ sampler: name, ...(samples > maxSampleCountOf(name) && { samples: maxSampleCountOf(name) }) });
   return html`<div class="judge">
     ${radioGroup(settings.sampler.name, 'sampler', samplers, sampler, chooseSampler)}
-    <p class="effect">${samplerEffects[conditioned ? sampler : 'off']}</p>
+    <p class="effect muted small">${samplerEffects[conditioned ? sampler : 'off']}</p>
     ${conditioned && sampler === 'sub-stepped' ? settingSlider(figure, 'steps') : nothing}
   </div>`;
 }
@@ -61,13 +61,13 @@ export function ownMap(figure: Figure, opener: import('./maps/open.ts').MapOpene
     const mapField = figure.renderRoot.querySelector('#map-text') as HTMLTextAreaElement;
     opener.paste(mapField.value);
   };
-  return group(say.legend, html`<div class="own-map">
+  return group(say.legend, html`<div class="own-map figures">
     <div>
       <p>${say.text}</p>
       <p>${opener.button('map-files', say.files, EXTENSIONS)}</p>
       <p ?hidden=${!opener.isReading}>${say.reading}</p>
       ${opener.note}
-      <p class="present">${map}.</p>
+      <p class="present muted">${map}.</p>
     </div>
     <div>
       <label for="map-text">${say.plan}</label>

@@ -257,7 +257,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
       </div>
       ${this.renderer.afterFirstPicture(() => html`
       <div class="controls" part="controls">${motionControls(this)}</div>
-      ${sorted ? nothing : html`<p class="about">${density}</p>`}
+      ${sorted ? nothing : html`<p class="about muted">${density}</p>`}
       ${disclosures(this, {
         controls: () => html`<div class="controls">${robotAndMap(this, hasUnknown)}</div> ${ownMap(this, this.#opener, this.#mapText)}`,
         numbers: () => html`${tallyReadouts(viewModel)} ${markedSample(this)} ${costTable(this)}`,

@@ -64,9 +64,9 @@ export function overviewMap(picture: import('./picture.ts').FloorPicture, { conf
   if (!picture.close || shownSize[0] * shownSize[1] > MAX_SHOWN_FRACTION * width * height) return nothing;
   return html`<svg class="overview" viewBox=${`${xMin} ${-yMax} ${width} ${height}`} aria-hidden="true">
     <g transform="scale(1 -1)">
-      <path class="walls" d=${picture.outline} />
-      <polyline class="way" points=${[...commanded].join(' ')} />
-      <rect x=${extent.xMin} y=${extent.yMin} width=${shownSize[0]} height=${shownSize[1]} />
+      <path stroke="var(--muted)" d=${picture.outline} />
+      <polyline stroke="var(--prior)" stroke-width="2" points=${[...commanded].join(' ')} />
+      <rect stroke="var(--ink)" x=${extent.xMin} y=${extent.yMin} width=${shownSize[0]} height=${shownSize[1]} />
     </g>
   </svg>`;
 }

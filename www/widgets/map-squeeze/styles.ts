@@ -73,8 +73,6 @@ export const styles = css`
 
   .about {
     margin: 0;
-    color: var(--muted);
-    font-size: 0.92em;
   }
 
   .overview {
@@ -107,10 +105,6 @@ export const styles = css`
       min-height: 12em;
     }
 
-    .headline {
-      font-size: 1.75em;
-    }
-
     .judge .choices > span {
       flex: 1 0 100%;
     }
@@ -129,32 +123,12 @@ export const styles = css`
     :host(:not([presentation])) .overview {
       display: block;
       width: 11em;
-      max-height: 8.5em;
-      overflow: visible;
       fill: none;
-      stroke: var(--muted);
-      stroke-width: 1;
     }
 
     .overview > * > * {
       vector-effect: non-scaling-stroke;
     }
-
-    .overview .way {
-      stroke: var(--prior);
-      stroke-width: 2;
-    }
-
-    .overview rect {
-      stroke: var(--ink);
-    }
-  }
-
-  .own-map {
-    display: grid;
-    gap: 0.5em 2.75em;
-    grid-template-columns: repeat(auto-fit, minmax(min(100%, 20em), 1fr));
-    margin: 0;
   }
 
   .dropping .stage {
@@ -170,21 +144,14 @@ export const styles = css`
     margin: 0 0 0.6em;
   }
 
-  .own-map .present {
-    color: var(--muted);
-  }
-
   .own-map .note {
-    margin: 0.7em 0;
     /* When it is scrolled into view, the name of the current map is visible too. */
     scroll-margin: 4em;
     overflow-wrap: anywhere;
   }
 
   textarea {
-    display: block;
     margin: 0.35em 0 0.7em;
-    resize: vertical;
   }
 
   @media print {

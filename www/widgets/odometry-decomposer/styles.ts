@@ -67,12 +67,11 @@ export const styles = css`
   }
 
   /* The play button is next to the track. */
-  .playable > .slider:not(:has(> .choice)) {
+  .playable > .slider {
     grid-template: 'name value' auto 'track track' auto / 1fr auto;
   }
 
   .playable > button {
-    min-width: 5em;
     /* The button is centred on the slider's track, not on track and hint together. */
     margin-bottom: 1em;
   }
@@ -82,14 +81,8 @@ export const styles = css`
     margin-bottom: 0.5em;
   }
 
-  .rules th .choice {
+  .rules .choice {
     min-height: max(24px, 1.6em);
-  }
-
-  @container (width < 38em) {
-    .rules th .choice {
-      min-height: max(28px, 1.75em);
-    }
   }
 
   /* Bold, and on a tint. */
@@ -105,16 +98,5 @@ export const styles = css`
     .rules thead th:not(:first-child) {
       font-size: 0.86em;
     }
-  }
-
-  /* The table needs room too. */
-  :host([presentation]) .with-controls .stage {
-    min-height: 34vh;
-  }
-
-  .surface .folded > .readouts {
-    display: grid;
-    grid-template-columns: repeat(auto-fit, minmax(min(100%, 12em), 1fr));
-    gap: 0.2em 1.25em;
   }
 `;

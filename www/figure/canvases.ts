@@ -16,6 +16,10 @@ export class Canvases extends FigureController {
   #widths: WeakMap<HTMLCanvasElement, number> = new WeakMap();
   #observer = new ResizeObserver((entries) => this.#resize(entries));
 
+  hostConnected() {
+    this.#followPixels(this.host.connection.signal);
+  }
+
   /** Finds and observes the canvases. */
   find() {
     this.elements = [...this.host.renderRoot.querySelectorAll('canvas')];
@@ -26,6 +30,15 @@ export class Canvases extends FigureController {
   release() {
     this.#observer.disconnect();
     this.elements = undefined;
+  }
+
+  /** Measures the canvases again after a change of the pixel ratio. WebKit's observer does not report device pixels. */
+  #followPixels(signal: AbortSignal) {
+    const onRatioChange = () => {
+      this.measure();
+      this.#followPixels(signal);
+    };
+    matchMedia(`(resolution:${devicePixelRatio}dppx)`).addEventListener('change', onRatioChange, { once: true, signal });
   }
 
   /** Observes the sizes of the canvases. The observer also reports the present sizes. */

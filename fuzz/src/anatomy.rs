@@ -12,7 +12,7 @@ const MAX_CALLS: usize = 4;
 
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
-    let should_check_paths = input.next_choice(8) == 1;
+    let should_check_paths = input.next_below(8) == 1;
     let first_settings = with_changes(&Settings::default(), &mut input);
     if !are_allowed(&first_settings) {
         assert!(ArcAnatomy::new(first_settings).is_err());
@@ -23,7 +23,7 @@ pub fn run(bytes: &[u8]) {
         if input.is_empty() {
             break;
         }
-        if input.next_choice(3) == 0 {
+        if input.next_below(3) == 0 {
             position_at(&simulation, input.number_within(0.0..=1.0));
         } else {
             configure(&mut simulation, &mut input);

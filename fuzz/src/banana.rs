@@ -18,7 +18,7 @@ const MAX_CALLS: usize = 4;
 
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
-    let [should_check_curves, should_compare_new_simulation] = [0; 2].map(|_| input.next_choice(4) == 1);
+    let [should_check_curves, should_compare_new_simulation] = [0; 2].map(|_| input.next_below(4) == 1);
     let first_settings = with_changes(&limit_samples(Settings::default()), &mut input);
     if !are_allowed(&first_settings) {
         assert!(BananaMachine::with_shown_count(first_settings, 0).is_err());
@@ -50,12 +50,12 @@ fn limit_samples(settings: Settings) -> Settings {
 }
 
 fn call_method(simulation: &mut BananaMachine, input: &mut Input) {
-    match input.next_choice(9) {
+    match input.next_below(9) {
         0 => configure(simulation, input),
         1 => assert_same_if_added_in_blocks(simulation, input),
         2 => {
             let count_before = simulation.shown_count();
-            let added_count = input.next_choice(MAX_SAMPLES);
+            let added_count = input.next_below(MAX_SAMPLES);
             let count_after = simulation.add_samples(added_count);
             assert_eq!(count_after, (count_before + added_count).min(simulation.settings().samples));
         }
@@ -242,7 +242,7 @@ fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
 pub fn read_grid(input: &mut Input) -> Grid {
     let min = [0; 2].map(|_| input.number_within(EXTENT_RANGE));
     let max = min.map(|lower| input.number_within(lower..=*EXTENT_RANGE.end()));
-    let [columns, rows] = [0; 2].map(|_| 1 + input.next_choice(40));
+    let [columns, rows] = [0; 2].map(|_| 1 + input.next_below(40));
     Grid { min, max, columns, rows }
 }
 

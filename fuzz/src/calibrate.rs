@@ -49,14 +49,14 @@ pub fn run(bytes: &[u8]) {
 }
 
 fn read_options(input: &mut Input) -> Options {
-    let leg_length = match input.next_choice(4) {
+    let leg_length = match input.next_below(4) {
         0 => LegLength::AMCL,
         1 => LegLength::Duration { duration: read_leg_size(input) },
         _ => LegLength::Displacement { distance: read_leg_size(input), angle: read_leg_size(input) },
     };
     let outliers = input.one_of(&[Outliers::Reject, Outliers::Keep]);
     let correction_bits = input.next_byte();
-    let mut read_std = || (input.next_choice(3) == 0).then(|| input.number_within(0.0..=1e3));
+    let mut read_std = || (input.next_below(3) == 0).then(|| input.number_within(0.0..=1e3));
     let [position_std, yaw_std] = [read_std(), read_std()];
     Options {
         model: input.one_of(&MODELS),
@@ -77,14 +77,14 @@ type LogRow = (f64, SE2);
 
 /// Returns one of the given numbers, or sometimes any other number.
 fn choice_or_any_number(choices: &[f64], input: &mut Input) -> f64 {
-    let choice = input.next_choice(choices.len() + 1);
+    let choice = input.next_below(choices.len() + 1);
     choices.get(choice).copied().unwrap_or_else(|| input.number_within(-1e9..=1e9))
 }
 
 fn odometry_rows(input: &mut Input, max_rows_of_part: usize) -> Vec<LogRow> {
     let time_step = choice_or_any_number(&[0.05, 0.1, 0.1, 0.5, 1.0], input).abs();
     let mut rows = vec![(choice_or_any_number(&[0.0, 10.0, 1.7e9], input), SE2::identity())];
-    for _ in 0..=input.next_choice(MAX_DRIVE_PARTS) {
+    for _ in 0..=input.next_below(MAX_DRIVE_PARTS) {
         let v = choice_or_any_number(&[0.0, 0.2, 0.5, 0.8, -0.3], input);
         let omega = choice_or_any_number(&[0.0, 0.2, -0.4, 0.9, -0.9], input);
         for _ in 0..1 + usize::from(input.next_byte()) % max_rows_of_part {
@@ -98,7 +98,7 @@ fn odometry_rows(input: &mut Input, max_rows_of_part: usize) -> Vec<LogRow> {
 /// Returns the reference: the odometry with an error in each step, and with occasional jumps.
 fn reference_rows(odometry: &[LogRow], input: &mut Input) -> Vec<LogRow> {
     let clock_offset = choice_or_any_number(&[0.0, 0.12, -3.0, 50.0], input);
-    let mount_pose = SE2::new(0.1 * f64::from(input.next_choice(3) as u8), 0.0, choice_or_any_number(&[0.0, 0.07, 3.0], input));
+    let mount_pose = SE2::new(0.1 * f64::from(input.next_below(3) as u8), 0.0, choice_or_any_number(&[0.0, 0.07, 3.0], input));
     let relative_noise = choice_or_any_number(&[0.0, 0.01, 0.1, 0.5], input);
     let jump_interval = usize::from(input.next_byte());
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(u64::from(input.next_byte()));
@@ -118,11 +118,11 @@ fn reference_rows(odometry: &[LogRow], input: &mut Input) -> Vec<LogRow> {
 
 /// Changes or removes some rows.
 fn edit_rows(rows: &mut Vec<LogRow>, input: &mut Input) {
-    for _ in 0..input.next_choice(4) {
+    for _ in 0..input.next_below(4) {
         let row_index = usize::from(u16::from_le_bytes(input.next_bytes())) % rows.len();
         let (time, pose) = rows[row_index];
         let [x, y, theta] = [pose.x(), pose.y(), pose.theta()];
-        match input.next_choice(6) {
+        match input.next_below(6) {
             0 => rows[row_index].0 = input.next_number(),
             1 => rows[row_index].1 = SE2::new(input.next_number(), y, theta),
             2 => rows[row_index].1 = SE2::new(x, y, input.next_number()),
@@ -138,7 +138,7 @@ fn edit_rows(rows: &mut Vec<LogRow>, input: &mut Input) {
 
 /// Returns the trajectory of the rows, with breaks before some rows. Returns None if a row is refused.
 fn trajectory_from_rows(rows: &[LogRow], input: &mut Input) -> Option<Trajectory> {
-    let trajectory_or_error = match input.next_choice(4) {
+    let trajectory_or_error = match input.next_below(4) {
         // x and θ are used as speed and turn rate.
         0 => Trajectory::from_commands(rows.iter().map(|(time, pose)| (*time, pose.x(), pose.theta()))),
         _ => Trajectory::new(rows.iter().copied()),
@@ -147,7 +147,7 @@ fn trajectory_from_rows(rows: &[LogRow], input: &mut Input) -> Option<Trajectory
         Ok(trajectory) => {
             assert!(rows.is_sorted_by(|a, b| a.0 < b.0));
             let gap_count_before = trajectory.gaps();
-            let break_indices: Vec<usize> = (0..input.next_choice(4)).map(|_| usize::from(input.next_byte())).collect();
+            let break_indices: Vec<usize> = (0..input.next_below(4)).map(|_| usize::from(input.next_byte())).collect();
             let trajectory_with_breaks = trajectory.with_breaks_before(break_indices.iter().copied());
             assert!((gap_count_before..=gap_count_before + break_indices.len()).contains(&trajectory_with_breaks.gaps()));
             Some(trajectory_with_breaks)

@@ -37,10 +37,10 @@ fn limit_samples(settings: Settings) -> Settings {
 
 fn call_method(simulation: &mut OdometryDecomposer, input: &mut Input) {
     let shown_count = simulation.poses().len();
-    match input.next_choice(7) {
+    match input.next_below(7) {
         0 | 1 => configure(simulation, input),
         2 => {
-            let added_count = input.next_choice(MAX_SAMPLES);
+            let added_count = input.next_below(MAX_SAMPLES);
             assert_eq!(simulation.add_samples(added_count), (shown_count + added_count).min(simulation.settings().samples));
         }
         3 => {
@@ -53,7 +53,7 @@ fn call_method(simulation: &mut OdometryDecomposer, input: &mut Input) {
             leg_poses.as_flattened().iter().for_each(|pose| assertions::assert_pose("a leg pose", pose));
             assert!(leg_poses.iter().zip(simulation.poses()).all(|(outcome_poses, pose)| outcome_poses[3] == *pose));
         }
-        5 => assert_deviation_curve(simulation, input.number_within(0.0..=*QUANTITY_RANGE.end()), 1 + input.next_choice(MAX_CURVE_POINTS)),
+        5 => assert_deviation_curve(simulation, input.number_within(0.0..=*QUANTITY_RANGE.end()), 1 + input.next_below(MAX_CURVE_POINTS)),
         _ => assert_nearest_pose(simulation, input),
     }
 }

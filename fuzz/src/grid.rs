@@ -20,7 +20,7 @@ pub fn run(bytes: &[u8]) {
     let [columns, rows] = grid.size();
     assert_eq!(grid.cells().len(), columns * rows);
     // Most runs stop here, because the distance field of a plan takes a hundred times as long as everything else.
-    if input.next_choice(16) != 1 {
+    if input.next_below(16) != 1 {
         assert_outlines(&grid.with_unknown(unknown_cells), unknown_cells);
         return;
     }
@@ -101,7 +101,7 @@ pub fn read_random_grid(input: &mut Input) -> Option<(OccupancyGrid, UnknownCell
     if !RESOLUTION_RANGE.contains(&resolution) || ![x, y, yaw].iter().all(|number| QUANTITY_RANGE.contains(number)) {
         return None;
     }
-    let [width, height] = [0; 2].map(|_| 1 + input.next_choice(MAX_SIDE_CELLS));
+    let [width, height] = [0; 2].map(|_| 1 + input.next_below(MAX_SIDE_CELLS));
     let mode = input.one_of(&[Mode::Trinary, Mode::Scale, Mode::Raw]);
     let negate = input.next_bool();
     let [a, b] = [0; 2].map(|_| f64::from(input.next_byte()) / 255.0);

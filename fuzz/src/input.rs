@@ -63,17 +63,17 @@ impl Input<'_> {
     }
 
     /// Returns an integer from 0 to `count` − 1.
-    pub fn next_choice(&mut self, count: usize) -> usize {
+    pub fn next_below(&mut self, count: usize) -> usize {
         usize::from(self.next_byte()) % count
     }
 
     pub fn one_of<T: Copy>(&mut self, choices: &[T]) -> T {
-        choices[self.next_choice(choices.len())]
+        choices[self.next_below(choices.len())]
     }
 
     /// Returns any double: a round number, a limit of a range, or any bits.
     pub fn next_number(&mut self) -> f64 {
-        match self.next_choice(8) {
+        match self.next_below(8) {
             0 => f64::from_le_bytes(self.next_bytes()),
             1 => self.one_of(&LIMIT_NUMBERS),
             2 => f64::from(self.next_byte() as i8),
@@ -86,7 +86,7 @@ impl Input<'_> {
     /// Returns a double, mostly in this range.
     pub fn number_near(&mut self, range: &RangeInclusive<f64>) -> f64 {
         let number = self.next_number();
-        if self.next_choice(8) == 0 || number.is_nan() {
+        if self.next_below(8) == 0 || number.is_nan() {
             return number;
         }
         number.clamp(*range.start(), *range.end())
@@ -100,11 +100,11 @@ impl Input<'_> {
 
     /// Returns a whole number, mostly in this range.
     pub fn integer_near(&mut self, range: &RangeInclusive<u64>) -> u64 {
-        let integer = match self.next_choice(4) {
+        let integer = match self.next_below(4) {
             0 => u64::from_le_bytes(self.next_bytes()),
             1 => u64::from(u16::from_le_bytes(self.next_bytes())),
             _ => u64::from(self.next_byte()),
         };
-        if self.next_choice(8) == 0 { integer } else { integer.clamp(*range.start(), *range.end()) }
+        if self.next_below(8) == 0 { integer } else { integer.clamp(*range.start(), *range.end()) }
     }
 }

@@ -34,9 +34,9 @@ pub fn read_plan(input: &mut Input) -> Option<FloorPlan> {
     let next_coordinate = |input: &mut Input, low: f64, high: f64| {
         let fraction = f64::from(input.next_byte()) / 255.0;
         let number_inside = low + (high - low) * fraction;
-        if input.next_choice(16) == 0 { input.next_number() } else { number_inside }
+        if input.next_below(16) == 0 { input.next_number() } else { number_inside }
     };
-    let wall_count = input.next_choice(1 + MAX_WALLS);
+    let wall_count = input.next_below(1 + MAX_WALLS);
     let mut walls: Vec<Segment> = Vec::new();
     for i in 0..wall_count {
         let earlier_wall = walls.get(i.wrapping_sub(1)).copied();
@@ -44,7 +44,7 @@ pub fn read_plan(input: &mut Input) -> Option<FloorPlan> {
         let wall_start = next_point();
         let wall_end = next_point();
         // Some walls equal the previous wall, or start at its end.
-        walls.push(match (input.next_choice(8), earlier_wall) {
+        walls.push(match (input.next_below(8), earlier_wall) {
             (0, Some(wall)) => wall,
             (1, Some(wall)) => Segment { from: wall.to, to: wall_end },
             (2, _) => Segment { from: wall_start, to: wall_start },

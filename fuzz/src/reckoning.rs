@@ -17,7 +17,7 @@ const MAX_CALLS: usize = 4;
 
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
-    let [should_check_straight_growth, should_compare_new_simulation] = [0; 2].map(|_| input.next_choice(4) == 1);
+    let [should_check_straight_growth, should_compare_new_simulation] = [0; 2].map(|_| input.next_below(4) == 1);
     let first_settings = Settings { samples: 3, steps: MAX_STEPS, ..Settings::default() };
     let first_settings = with_changes(&first_settings, &mut input);
     if !are_allowed(&first_settings) {
@@ -58,7 +58,7 @@ fn limit_size(settings: Settings, max_samples: usize) -> Settings {
 
 fn call_method(simulation: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> Settings, input: &mut Input) {
     let shown_count = simulation.shown_count();
-    match input.next_choice(9) {
+    match input.next_below(9) {
         0 | 1 => configure(simulation, limit_size, input),
         2 | 3 => assert_same_if_added_in_blocks(simulation, limit_size, input),
         4 => {
@@ -70,7 +70,7 @@ fn call_method(simulation: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> 
             assert_eq!(simulation.shown_count(), 0);
         }
         6 => assert_nearest_pose(simulation, input),
-        7 => assert_outlines(simulation, 1 + input.next_choice(MAX_STEPS as usize) as u32),
+        7 => assert_outlines(simulation, 1 + input.next_below(MAX_STEPS as usize) as u32),
         _ => assert_rollout(simulation, usize::from(u16::from_le_bytes(input.next_bytes())) % MAX_SAMPLES),
     }
 }

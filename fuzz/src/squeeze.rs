@@ -52,7 +52,7 @@ fn without_parts(sampler: Sampler) -> Sampler {
 }
 
 fn call_method(simulation: &mut MapSqueeze, input: &mut Input) {
-    match input.next_choice(10) {
+    match input.next_below(10) {
         0 => configure(simulation, input),
         1 => assert_same_if_added_in_blocks(simulation, input),
         2 => {
@@ -68,7 +68,7 @@ fn call_method(simulation: &mut MapSqueeze, input: &mut Input) {
         }
         4 => {
             let count_before = simulation.attempts().len();
-            let count_after = simulation.add_samples(input.next_choice(MAX_SAMPLES));
+            let count_after = simulation.add_samples(input.next_below(MAX_SAMPLES));
             assert!(count_before <= count_after && count_after <= simulation.settings().samples);
         }
         5 => {
@@ -84,7 +84,7 @@ fn call_method(simulation: &mut MapSqueeze, input: &mut Input) {
         }
         // A free pose is rarely checked: the search along 72 headings takes as long as ten other calls.
         8 => assert_equals_new_simulation(simulation),
-        _ if input.next_choice(64) == 1 => assert_free_pose(simulation),
+        _ if input.next_below(64) == 1 => assert_free_pose(simulation),
         _ => {}
     }
 }
@@ -93,7 +93,7 @@ fn configure(simulation: &mut MapSqueeze, input: &mut Input) {
     let settings = with_changes(simulation.settings(), input);
     let settings_before = *simulation.settings();
     if are_allowed(&settings) {
-        let should_divide_command = input.next_choice(16) == 1;
+        let should_divide_command = input.next_below(16) == 1;
         simulation.configure(limit_size(settings, should_divide_command)).expect("allowed");
         return;
     }
@@ -111,7 +111,7 @@ fn assert_same_if_added_in_blocks(simulation: &mut MapSqueeze, input: &mut Input
     }
     let mut simulation_in_one_call = simulation.clone();
     simulation_in_one_call.configure(settings).expect("allowed");
-    let block_size = 1 + input.next_choice(MAX_SAMPLES);
+    let block_size = 1 + input.next_below(MAX_SAMPLES);
     simulation.configure_first(settings, block_size).expect("allowed");
     while simulation.shown_count() < settings.samples && !simulation.gave_up() {
         simulation.add_samples(block_size);

@@ -97,10 +97,10 @@ fn a_copy_of_the_odometry_is_no_reference() {
     // A precise robot that errs by a millimetre and half a milliradian over a metre is not a copy, even if the reference is noisy.
     for seed in 1..=6 {
         let reference_stds = [0.01 * (seed % 2) as f64; 2];
-        let precise_robot =
+        let precise_simulation =
             Simulation { violation: Violation::Scaled(0.01), reference_stds, ..good_simulation(600, seed) };
         assert!(
-            !names_of_failed_checks(&calibrate_simulation(&precise_robot)).contains(&ReferenceMatches),
+            !names_of_failed_checks(&calibrate_simulation(&precise_simulation)).contains(&ReferenceMatches),
             "{seed}"
         );
     }
@@ -110,8 +110,9 @@ fn a_copy_of_the_odometry_is_no_reference() {
 #[test]
 fn legs_that_hardly_move_are_not_compared() {
     let leg_length = LegLength::Duration { duration: 1.0 };
-    let slow_drive = Simulation { leg_length, drive: Some(|_| [0.03, 0.05]), ..good_simulation(200, 4) };
-    let calibration = calibrate_simulation(&slow_drive);
+    let slow_simulation =
+        Simulation { leg_length, leg_velocity: Some(|_| [0.03, 0.05]), ..good_simulation(200, 4) };
+    let calibration = calibrate_simulation(&slow_simulation);
     let check_names: Vec<CheckName> = calibration.diagnostics.checks.iter().map(|check| check.name).collect();
     assert!(check_names.contains(&EnoughLegs) && !check_names.contains(&ReferenceMatches), "{check_names:?}");
 }
@@ -227,7 +228,7 @@ fn odometry_that_moves_sideways_is_reported_if_the_rule_takes_its_direction() {
     );
     // Table 5.6 treats a backward drive as half a turn, a forward drive and half a turn.
     let reversing_simulation = Simulation {
-        drive: Some(|leg| [if leg % 5 == 0 { -0.3 } else { 0.3 }, 0.2]),
+        leg_velocity: Some(|leg| [if leg % 5 == 0 { -0.3 } else { 0.3 }, 0.2]),
         ..good_simulation(300, 12)
     };
     let is_sideways_motion_reported = |model| {

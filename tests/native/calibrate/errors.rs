@@ -151,7 +151,7 @@ fn an_uncorrected_error_appears_as_noise_of_the_wheels_or_of_the_reference() {
 
 #[test]
 fn an_error_that_the_log_does_not_identify_is_not_corrected() {
-    let simulation = Simulation { drive: Some(|_| [0.4, 0.0]), ..Simulation::of(NAV2, 600, 4) };
+    let simulation = Simulation { leg_velocity: Some(|_| [0.4, 0.0]), ..Simulation::of(NAV2, 600, 4) };
     let calibration = calibrate_simulation(&simulation);
     let is_not_identified = |error: SystematicError| calibration.systematic_stds[error as usize].is_none();
     assert!(
@@ -215,18 +215,18 @@ fn four_drives_are_as_informative_as_one_of_the_same_length() {
         .map(|(offset, seed)| simulation_with_clock(offset, 300, seed).log())
         .collect();
     let drives: Vec<Drive> = logs.iter().map(|[odometry, reference]| Drive { odometry, reference }).collect();
-    let four_drives = calibrate(&drives, &default_options(NAV2)).expect("legs enough");
-    let one_drive = calibrate_simulation(&simulation_with_clock(0.0, 1200, 20));
-    assert!(four_drives.legs.len() > 1190, "{}", four_drives.legs.len());
+    let fit_of_four_drives = calibrate(&drives, &default_options(NAV2)).expect("legs enough");
+    let fit_of_one_drive = calibrate_simulation(&simulation_with_clock(0.0, 1200, 20));
+    assert!(fit_of_four_drives.legs.len() > 1190, "{}", fit_of_four_drives.legs.len());
     for (alpha, truth) in ALPHAS.into_iter().enumerate().take(4) {
         let relative_width = |calibration: &Calibration| {
             let [low, high] = calibration.intervals[alpha].expect("identifiable");
             (high - low) / calibration.alphas[alpha].expect("identifiable")
         };
-        let width_ratio = relative_width(&four_drives) / relative_width(&one_drive);
+        let width_ratio = relative_width(&fit_of_four_drives) / relative_width(&fit_of_one_drive);
         assert!((width_ratio - 1.0).abs() < 0.3, "α{}: {width_ratio}", alpha + 1);
         // Standard errors are at most 9 %, and four of them are allowed.
-        let alpha_ratio = four_drives.alphas[alpha].expect("identifiable") / truth;
+        let alpha_ratio = fit_of_four_drives.alphas[alpha].expect("identifiable") / truth;
         assert!((alpha_ratio - 1.0).abs() < 0.36, "α{}: {alpha_ratio}", alpha + 1);
     }
 }

@@ -12,7 +12,7 @@ type VelocityOfLeg = fn(usize) -> [f64; 2];
 
 /// Returns the calibration of the log of a drive.
 fn calibrate_drive(model: Model, drive: VelocityOfLeg) -> Calibration {
-    calibrate_simulation(&Simulation { drive: Some(drive), ..Simulation::of(model, 400, 17) })
+    calibrate_simulation(&Simulation { leg_velocity: Some(drive), ..Simulation::of(model, 400, 17) })
 }
 
 /// v and ω of a straight leg.

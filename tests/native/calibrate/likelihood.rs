@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 /// Returns a simulation of bends in both directions, where no special case of the model applies.
 fn simulation_of_bends(count: usize) -> Simulation {
     Simulation {
-        drive: Some(|leg| [0.3, [0.3, -0.2, 0.1][leg / 3 % 3]]),
+        leg_velocity: Some(|leg| [0.3, [0.3, -0.2, 0.1][leg / 3 % 3]]),
         reference_stds: [0.004, 0.01],
         ..Simulation::of(NAV2, count, 12)
     }
@@ -164,7 +164,7 @@ fn the_recursion_gives_the_likelihood_of_the_dense_covariance() {
 /// is higher by n(ln s + 1/s − 1).
 #[test]
 fn an_interval_ends_where_the_profile_likelihood_has_fallen() {
-    let sim = Simulation { drive: Some(|_| [0.3, 0.0]), ..Simulation::of(MODELS[3], 400, 3) };
+    let sim = Simulation { leg_velocity: Some(|_| [0.3, 0.0]), ..Simulation::of(MODELS[3], 400, 3) };
     let exact_options = Options {
         correct: [Some(false); 6],
         position_std: Some(0.0),

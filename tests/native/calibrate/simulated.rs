@@ -48,7 +48,7 @@ pub struct Simulation {
     /// Fraction of legs in which the reference jumps by half a metre and stays there.
     pub jump_fraction: f64,
     /// Function from the index of a leg to its v and ω. `None` draws random velocities.
-    pub drive: Option<fn(usize) -> [f64; 2]>,
+    pub leg_velocity: Option<fn(usize) -> [f64; 2]>,
     pub violation: Violation,
     pub seed: u64,
     /// Standard deviations of the reference, m and rad.
@@ -63,7 +63,7 @@ impl Simulation {
             leg_count,
             systematic_errors: Systematic::NONE,
             jump_fraction: 0.0,
-            drive: None,
+            leg_velocity: None,
             violation: Violation::None,
             seed,
             reference_stds: [0.0; 2],
@@ -101,7 +101,7 @@ impl Simulation {
                 rows_left = rng.random_range(15..60);
             }
             rows_left -= 1;
-            let velocity = self.drive.map_or(velocity, |drive| drive(leg_index));
+            let velocity = self.leg_velocity.map_or(velocity, |leg_velocity| leg_velocity(leg_index));
             let time = odometry.len() as f64 * STEP_SECONDS;
             let twist = Vector3::new(velocity[0], 0.0, velocity[1]) * STEP_SECONDS;
             leg_motion = leg_motion.boxplus(twist);

@@ -79,7 +79,7 @@ pub fn winds_around(outline: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
 
 /// A table of tests/reference, written by generate.py.
 pub struct ReferenceTable {
-    columns: Vec<&'static str>,
+    column_names: Vec<&'static str>,
     rows: Vec<Vec<&'static str>>,
 }
 
@@ -91,10 +91,10 @@ pub struct Row<'a> {
 impl ReferenceTable {
     pub fn parse(text: &'static str) -> Self {
         let mut lines = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
-        let columns = lines.next().expect("a header");
+        let column_names = lines.next().expect("a header");
         let rows: Vec<_> = lines.collect();
         assert!(!rows.is_empty(), "a table without rows");
-        Self { columns, rows }
+        Self { column_names, rows }
     }
 
     pub fn rows(&self) -> impl Iterator<Item = Row<'_>> {
@@ -104,7 +104,7 @@ impl ReferenceTable {
 
 impl Row<'_> {
     pub fn text(&self, column: &str) -> &'static str {
-        let index = self.table.columns.iter().position(|name| *name == column);
+        let index = self.table.column_names.iter().position(|name| *name == column);
         self.cells[index.unwrap_or_else(|| panic!("no column {column}"))]
     }
 
@@ -112,8 +112,8 @@ impl Row<'_> {
         self.text(column).parse().expect("a number")
     }
 
-    pub fn all<const N: usize>(&self, columns: [&str; N]) -> [f64; N] {
-        columns.map(|column| self.get(column))
+    pub fn all<const N: usize>(&self, column_names: [&str; N]) -> [f64; N] {
+        column_names.map(|column| self.get(column))
     }
 
     pub fn kind(&self) -> NoiseKind {

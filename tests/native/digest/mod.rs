@@ -14,7 +14,7 @@ const DIGEST_DIRECTORY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/diges
 fn the_same_seed_gives_the_same_bits() {
     let configurations = configuration::parsed_configurations();
     let golden_text = std::fs::read_to_string(format!("{DIGEST_DIRECTORY}/golden.txt")).expect("golden.txt");
-    let mut differences = Vec::new();
+    let mut differing_parts = Vec::new();
     for configuration in configuration::configurations_of(&configurations) {
         let hashed_parts = match configuration.widget {
             "banana-machine" => simulations::banana_machine(&configuration),
@@ -31,15 +31,15 @@ fn the_same_seed_gives_the_same_bits() {
         let is_known = |HashedPart(part, hash): &HashedPart| {
             golden_hashes.split(' ').any(|golden_hash| golden_hash == format!("{part}:{hash}"))
         };
-        differences.extend(
+        differing_parts.extend(
             hashed_parts.iter().filter(|part| !is_known(part)).map(|part| format!("{line_prefix}{}", part.0)),
         );
     }
     assert!(
-        differences.is_empty(),
+        differing_parts.is_empty(),
         "A seed gives other bits:\n{}\nIf that is intended, `UPDATE_DIGEST=1 node --test tests/node/digest.test.js` \
          writes golden.txt, and CHANGELOG.md says why.",
-        differences.join("\n")
+        differing_parts.join("\n")
     );
 }
 

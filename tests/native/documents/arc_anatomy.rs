@@ -41,11 +41,11 @@ fn the_printed_table_gives_no_probability_to_centres_on_the_right() {
         assert!(factors[0].estimate * settings.command.v < 0.0);
         // With the unsigned radius of the printed table, contours of equal score stay near the start. With the signed radius they do not.
         let max_distance = |settings: Settings| {
-            let surface = ArcAnatomy::new(Settings { map: SurfaceKind::Prob, ..settings })
+            let heat_map = ArcAnatomy::new(Settings { map: SurfaceKind::Prob, ..settings })
                 .expect("valid settings")
                 .surface([-2.0, -2.0], [2.0, 2.0])
                 .expect("a map");
-            surface.prob.iter().flatten().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max)
+            heat_map.prob.iter().flatten().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max)
         };
         assert!(
             max_distance(settings) < 0.5 && max_distance(settings_of_preset(name)) > 1.0,

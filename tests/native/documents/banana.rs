@@ -122,22 +122,22 @@ fn a_tenth_of_the_time_leaves_less_than_a_tenth_of_the_cloud() {
     page().assert_contains(
         "In a tenth of the time the cloud shrinks to less than a tenth, and the circle stays:",
     );
-    let long_drive = settings_of_preset("gentle");
-    let short_drive = Settings {
-        command: VelocityCmd { dt: long_drive.command.dt / 10.0, ..long_drive.command },
-        ..long_drive
+    let long_drive_settings = settings_of_preset("gentle");
+    let short_drive_settings = Settings {
+        command: VelocityCmd { dt: long_drive_settings.command.dt / 10.0, ..long_drive_settings.command },
+        ..long_drive_settings
     };
-    let [long_cloud, short_cloud] =
-        [long_drive, short_drive].map(|settings| simulation(Settings { samples: 10, ..settings }));
+    let [long_drive_simulation, short_drive_simulation] = [long_drive_settings, short_drive_settings]
+        .map(|settings| simulation(Settings { samples: 10, ..settings }));
     let cloud_size = |simulation: &BananaMachine| {
         let cov = simulation.table().exact.cov;
         (cov[(0, 0)] + cov[(1, 1)]).sqrt()
     };
     assert!(
-        cloud_size(&short_cloud) < 0.1 * cloud_size(&long_cloud),
+        cloud_size(&short_drive_simulation) < 0.1 * cloud_size(&long_drive_simulation),
         "{} {}",
-        cloud_size(&short_cloud),
-        cloud_size(&long_cloud)
+        cloud_size(&short_drive_simulation),
+        cloud_size(&long_drive_simulation)
     );
 }
 

@@ -153,9 +153,9 @@ fn with_two_hundred_steps_the_recursion_misses_for_half_a_second() {
     page().assert_contains(
         "In 200 steps nothing along the track is off by 5 %, and the lateral variance for half a second instead of three:",
     );
-    let [chapter_drive, fine_drive] = ["chapter", "fine"].map(simulation_of_preset);
-    assert_eq!(fine_drive.settings().steps, 200);
-    assert!(missed_steps(&ratios_to_fourth_order(&fine_drive, Compounding::Chapter, 0)).is_empty());
+    let [chapter_simulation, fine_simulation] = ["chapter", "fine"].map(simulation_of_preset);
+    assert_eq!(fine_simulation.settings().steps, 200);
+    assert!(missed_steps(&ratios_to_fourth_order(&fine_simulation, Compounding::Chapter, 0)).is_empty());
     let miss_duration = |simulation: &DeadReckoning| {
         let last_missed_step = missed_steps(&ratios_to_fourth_order(simulation, Compounding::Chapter, 1))
             .last()
@@ -163,6 +163,11 @@ fn with_two_hundred_steps_the_recursion_misses_for_half_a_second() {
             .unwrap_or(0);
         last_missed_step as f64 * simulation.settings().command.dt
     };
-    assert_eq!((2.0 * miss_duration(&fine_drive)).round() / 2.0, 0.5, "{}", miss_duration(&fine_drive));
-    assert_eq!(miss_duration(&chapter_drive).round(), 3.0, "{}", miss_duration(&chapter_drive));
+    assert_eq!(
+        (2.0 * miss_duration(&fine_simulation)).round() / 2.0,
+        0.5,
+        "{}",
+        miss_duration(&fine_simulation)
+    );
+    assert_eq!(miss_duration(&chapter_simulation).round(), 3.0, "{}", miss_duration(&chapter_simulation));
 }

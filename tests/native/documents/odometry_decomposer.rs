@@ -20,9 +20,11 @@ fn the_lever_grows_faster_than_the_drive() {
     printed_rot1_std.assert_near(noise_of(settings, Table).deviations[0], 0.0);
     printed_lateral_std.assert_near(stats.exact_cross_track, 0.0);
     let OdometryPose([x, y, theta]) = settings.to;
-    let long_drive = Settings { to: OdometryPose([2.0 * x, 2.0 * y, theta]), ..settings };
-    printed_growth
-        .assert_near(simulation(long_drive).stats().exact_cross_track / stats.exact_cross_track, 0.0);
+    let long_drive_settings = Settings { to: OdometryPose([2.0 * x, 2.0 * y, theta]), ..settings };
+    printed_growth.assert_near(
+        simulation(long_drive_settings).stats().exact_cross_track / stats.exact_cross_track,
+        0.0,
+    );
 }
 
 #[test]

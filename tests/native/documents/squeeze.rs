@@ -125,14 +125,14 @@ fn fractions_through_walls_by_substeps_are_those_in_the_documents() {
 fn more_substeps_facing_the_wall_send_more_samples_through_it() {
     let fractions = [2, 4, 8].map(|parts| fraction_in_parts(WALL, parts, 0.0));
     fractions.windows(2).for_each(|pair| assert_less(pair[0], pair[1], "more parts"));
-    let [printed_at_1, printed_at_2, printed_at_4, printed_at_8, printed_wedged_parts] = model_document().numbers(
+    let [printed_with_endpoint, printed_with_2_parts, printed_with_4_parts, printed_with_8_parts, printed_wedged_parts] = model_document().numbers(
         "it rises from # % at k = 1 to # %, # % and # % at k = 2, 4 and 8. From k = # on, so few parts reach across that \
          the widget gives up.",
     );
-    assert_printed(fraction_through_wall(settings(WALL, Sampler::Endpoint, 0.0)), printed_at_1);
+    assert_printed(fraction_through_wall(settings(WALL, Sampler::Endpoint, 0.0)), printed_with_endpoint);
     fractions
         .into_iter()
-        .zip([printed_at_2, printed_at_4, printed_at_8])
+        .zip([printed_with_2_parts, printed_with_4_parts, printed_with_8_parts])
         .for_each(|(fraction, printed)| assert_printed(fraction, printed));
     let [printed_first_parts, printed_last_parts, printed_first_fraction, printed_last_fraction] =
         page().numbers("go from # parts to #. The share through the wall rises, from # % to # %:");

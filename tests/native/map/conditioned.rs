@@ -128,12 +128,13 @@ fn a_robot_that_cannot_move_is_an_error_with_the_number_of_draws() {
         assert_eq!(error.to_string(), "the robot is wedged: 10000 draws were tried and too few accepted");
     }
     // The first part of the motion, 1 m ± 1 mm, is free. A wall blocks the second part. The draws of both parts count.
-    let dead_end = FloorPlan::new(vec![Segment { from: [1.5, 0.0], to: [1.5, 2.0] }], [0.0, 0.0, 2.0, 2.0])
-        .expect("a valid plan");
+    let dead_end_plan =
+        FloorPlan::new(vec![Segment { from: [1.5, 0.0], to: [1.5, 2.0] }], [0.0, 0.0, 2.0, 2.0])
+            .expect("a valid plan");
     let precise_model =
         VelocityModel { alphas: VelocityAlphas([1e-6, 0.0, 0.0, 0.0, 0.0, 0.0]), noise: NoiseKind::Normal };
     let sampler =
-        MapConditioned { model: precise_model, ..conditioned_model(&dead_end, Sampler::SubStepped(2)) };
+        MapConditioned { model: precise_model, ..conditioned_model(&dead_end_plan, Sampler::SubStepped(2)) };
     let error = sampler
         .sample(&STRAIGHT_COMMAND, &SE2::new(0.3, 1.0, 0.0), &mut seeded_rng(13))
         .expect_err("a dead end");

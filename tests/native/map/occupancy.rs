@@ -182,13 +182,13 @@ fn a_grid_outside_the_range_of_coordinates_is_refused() {
 /// Returns a grid with cells of 10 cm that are drawn as `#` (occupied), `?` (unknown) and `.` (free). The first row is at the
 /// top.
 fn grid_from_drawing(rows: &[&str], unknown: UnknownCells) -> OccupancyGrid {
-    let shade = |cell| match cell {
+    let shade_of = |cell| match cell {
         '#' => 0.0,
         '?' => 0.5,
         _ => 1.0,
     };
     let pixels =
-        rows.iter().flat_map(|row| row.chars()).map(|cell| Pixel { shade: shade(cell), opacity: 1.0 });
+        rows.iter().flat_map(|row| row.chars()).map(|cell| Pixel { shade: shade_of(cell), opacity: 1.0 });
     let image = Image { width: rows[0].len(), height: rows.len(), pixels };
     OccupancyGrid::new(&image, &Interpretation::default(), 0.1, SE2::identity()).with_unknown(unknown)
 }

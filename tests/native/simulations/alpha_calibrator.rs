@@ -250,8 +250,10 @@ fn changing_the_model_or_the_rule_adjusts_the_other() {
     assert_eq!(settings_after(|s| s.model = Model::Omnidirectional, "model").rule, OdometryRule::Omni);
     assert_eq!(settings_after(|s| s.rule = OdometryRule::Omni, "rule").model, Model::Omnidirectional);
     assert_eq!(settings_after(|s| s.rule = OdometryRule::Nav2, "rule").model, Model::Odometry);
-    let omni_odometry = Settings { model: Model::Odometry, rule: OdometryRule::Omni, ..Settings::default() };
-    let error_message = AlphaCalibrator::new(omni_odometry).expect_err("they exclude each other").to_string();
+    let conflicting_settings =
+        Settings { model: Model::Odometry, rule: OdometryRule::Omni, ..Settings::default() };
+    let error_message =
+        AlphaCalibrator::new(conflicting_settings).expect_err("they exclude each other").to_string();
     assert_eq!(error_message, "rule is omni; allowed is thrun, nav2 or beluga");
 }
 

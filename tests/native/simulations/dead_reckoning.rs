@@ -196,18 +196,18 @@ fn a_zero_variance_has_no_relative_error() {
             .all(|error| error.is_finite() && *error >= 2f64.sqrt())
     );
     // Robots that only turn have no variance along the track.
-    let on_the_spot = VelocityCmd { v: 0.0, omega: 0.5, dt: 0.2 };
+    let command_on_the_spot = VelocityCmd { v: 0.0, omega: 0.5, dt: 0.2 };
     let [along, _, heading] = relative_errors_of(Settings {
-        command: on_the_spot,
+        command: command_on_the_spot,
         alphas: [0.0, 0.0, 0.0, 0.02, 0.0, 0.0],
         ..settings_with_robots(300)
     })
     .into();
     assert!(along.is_nan() && heading.is_finite(), "{along} {heading}");
     // The squares of such small variances underflow to 0.
-    let slow_drive =
+    let slow_drive_settings =
         Settings { command: VelocityCmd { v: 1e-100, omega: 0.0, dt: 0.2 }, ..settings_with_robots(300) };
-    assert_eq!(are_misses_decidable(slow_drive), [false; 3]);
+    assert_eq!(are_misses_decidable(slow_drive_settings), [false; 3]);
 }
 
 /// Fourth-order corrections can produce a matrix that is no covariance. From that step on there is no covariance and no ratio.
@@ -236,15 +236,15 @@ fn a_fourth_order_without_a_covariance_has_no_ratio() {
 /// scale the noise.
 #[test]
 fn a_seed_gives_the_same_draws() {
-    let large_cloud = simulation(settings_with_robots(1500));
-    let small_cloud = simulation(settings_with_robots(300));
-    let short_path = simulation(Settings { steps: 7, ..settings_with_robots(300) });
-    let noisy_cloud =
+    let large_simulation = simulation(settings_with_robots(1500));
+    let small_simulation = simulation(settings_with_robots(300));
+    let short_simulation = simulation(Settings { steps: 7, ..settings_with_robots(300) });
+    let noisy_simulation =
         simulation(Settings { alphas: [0.08, 0.08, 0.08, 0.08, 0.02, 0.02], ..settings_with_robots(300) });
     for index in [0, 1, 255, 256, 299] {
-        let path = large_cloud.rollout(index).expect("a robot");
-        assert_eq!(small_cloud.rollout(index).as_ref(), Some(&path));
-        assert_eq!(short_path.rollout(index).as_deref(), Some(&path[..7]));
+        let path = large_simulation.rollout(index).expect("a robot");
+        assert_eq!(small_simulation.rollout(index).as_ref(), Some(&path));
+        assert_eq!(short_simulation.rollout(index).as_deref(), Some(&path[..7]));
         // With twice the noise, the executed velocities of the first step differ from the command by twice as much.
         let u = Settings::default().command;
         let first_step_noise = |path: &[[f64; 3]]| {
@@ -252,14 +252,14 @@ fn a_seed_gives_the_same_draws() {
             let inversion = motion::invert_arc(&SE2::identity(), &SE2::new(x, y, theta), u.dt);
             Vector3::new(inversion.v_hat - u.v, inversion.omega_hat - u.omega, inversion.gamma_hat)
         };
-        let double_noise = first_step_noise(&noisy_cloud.rollout(index).expect("a robot"));
+        let double_noise = first_step_noise(&noisy_simulation.rollout(index).expect("a robot"));
         assert!((double_noise - first_step_noise(&path) * 2.0).amax() < 1e-12, "{double_noise}");
     }
     assert_ne!(
-        large_cloud.rollout(0),
+        large_simulation.rollout(0),
         simulation(Settings { seed: 4, ..settings_with_robots(300) }).rollout(0)
     );
-    assert_eq!(large_cloud.rollout(1500), None);
+    assert_eq!(large_simulation.rollout(1500), None);
 }
 
 /// The variance of the whole path is divided equally among its steps. For any number of steps, their variances add up to the same total.

@@ -187,9 +187,10 @@ fn the_gain_on_the_floor_does_not_depend_on_the_last_turn() {
         }
     }
     // The gain on the floor is also defined if headings spread over a full turn, where exponential coordinates are undefined.
-    let wide_cloud = simulation(GENTLE_COMMAND, [0.05, 0.05, 0.05, 0.09, 5.0, 5.0], 10_000);
-    assert!(!wide_cloud.is_chart_defined());
-    let Stats { likelihood_gain: gain, likelihood_gain_error: error, area_ratio, .. } = wide_cloud.stats();
+    let wide_simulation = simulation(GENTLE_COMMAND, [0.05, 0.05, 0.05, 0.09, 5.0, 5.0], 10_000);
+    assert!(!wide_simulation.is_chart_defined());
+    let Stats { likelihood_gain: gain, likelihood_gain_error: error, area_ratio, .. } =
+        wide_simulation.stats();
     assert!(gain.pose.is_nan() && error.pose.is_nan() && area_ratio.is_nan());
     assert_close(
         "floor",

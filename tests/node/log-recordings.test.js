@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { planDrives } from '../../www/logs/drives.ts';
 import { english } from '../../www/logs/en.ts';
-import { readInPieces, stampAt } from '../../www/logs/formats/container.ts';
+import { readInPieces } from '../../www/logs/formats/container.ts';
 import { openRecordings } from '../../www/logs/open.ts';
 import { summarySentences } from '../../www/logs/summary.ts';
 import { odometryMessageOf, poseOf, recordingOf, stampOf, transformMessageOf, twistOf } from '../mcap.js';
@@ -201,14 +201,6 @@ test('chunks with another checksum or size than they state are not read', async 
   ])) {
     bytes.writeBigUInt64LE(statedSize, chunkPosition + 9 + 16);
     assert.equal(await reasonOf(bytes), expectedReason);
-  }
-});
-
-test('times of recording keep their nanoseconds, also those that a number rounds up to the next second', () => {
-  const timeBytes = new DataView(new ArrayBuffer(8));
-  for (const [seconds, nanoseconds] of [[0, 1], [1_718_000_000, 999_999_999], [1_718_000_001, 0]]) {
-    timeBytes.setBigUint64(0, BigInt(seconds) * 10n ** 9n + BigInt(nanoseconds), true);
-    assert.deepEqual(stampAt(timeBytes, 0), { seconds, nanoseconds });
   }
 });
 

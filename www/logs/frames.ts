@@ -83,7 +83,7 @@ interface RecordedTransform {
   link: string;
   isStatic: boolean;
   stampedTransform: StampedTransform;
-  message: Pick<Message, 'channel' | 'seconds' | 'nanoseconds'>;
+  message: Pick<Message, 'channel' | 'time'>;
   number: number;
 }
 
@@ -101,9 +101,9 @@ export class Chain {
   }
 
   /** Adds a transform. Static transforms must come first, because they hold at all times. */
-  add(stampedTransform: StampedTransform, isStatic: boolean, { channel, seconds, nanoseconds }: Message, number: number): void {
+  add(stampedTransform: StampedTransform, isStatic: boolean, { channel, time }: Message, number: number): void {
     this.tree.add(stampedTransform, isStatic);
-    const recordedTransform = { link: framesText(stampedTransform), isStatic, stampedTransform, message: { channel, seconds, nanoseconds }, number };
+    const recordedTransform = { link: framesText(stampedTransform), isStatic, stampedTransform, message: { channel, time }, number };
     if (!this.isConnected || this.#links.includes(recordedTransform.link)) this.#samples.push(recordedTransform);
     if (this.isConnected) return;
     this.#links = (this.tree.findChain(this.#endFrames) ?? []).map(framesText);
@@ -131,14 +131,13 @@ export class Chain {
     }
     const nearestMovingLink = this.#links.findLast((link) => unseenLinks.has(link));
     if (nearestMovingLink === undefined) return false;
-    const timeOf = ({ message: { seconds, nanoseconds } }: RecordedTransform) => seconds + nanoseconds / 1e9;
     let pendingTransform: RecordedTransform | undefined;
-    for (const recordedTransform of this.#samples.toSorted((a, b) => timeOf(a) - timeOf(b))) {
+    for (const recordedTransform of this.#samples.toSorted((a, b) => a.message.time - b.message.time)) {
       transforms.set(recordedTransform.link, recordedTransform.stampedTransform.transform);
       unseenLinks.delete(recordedTransform.link);
       if (recordedTransform.link === nearestMovingLink) pendingTransform = recordedTransform;
       if (!pendingTransform || unseenLinks.size > 0) continue;
-      onPose(sampleOfPose(pendingTransform.stampedTransform, this.#links.map((link) => transforms.get(link) as Transform).reduce(composeTransforms)), pendingTransform);
+      onPose(sampleOfPose(pendingTransform.stampedTransform.time, this.#links.map((link) => transforms.get(link) as Transform).reduce(composeTransforms)), pendingTransform);
       pendingTransform = undefined;
     }
     return true;

@@ -5,13 +5,9 @@ import { unzstdMessage } from './formats/zstd.ts';
 import type { Series } from './log.ts';
 import { headingOf, isRotation } from './quaternion.ts';
 
-export interface Stamp {
-  /** Seconds and nanoseconds of the stamp; 0 for a type without a stamp. */
-  seconds: number;
-  nanoseconds: number;
-}
-
-export interface Sample extends Stamp {
+export interface Sample {
+  /** Time of the stamp, s; 0 for a type without a stamp. */
+  time: number;
   /** x, or v. */
   a: number;
   /** y, or omega. */
@@ -26,7 +22,8 @@ export interface Sample extends Stamp {
 export type Transform = [x: number, y: number, z: number, qx: number, qy: number, qz: number, qw: number];
 
 /** Transform of the child's frame in the parent's. */
-export interface StampedTransform extends Stamp {
+export interface StampedTransform {
+  time: number;
   parent: string;
   child: string;
   transform: Transform;
@@ -62,10 +59,10 @@ class MessageReader {
     this.#alignment = CDR.includes(encodingKind) ? 8 : 4;
   }
 
-  /** Reads the stamp of a header. In ROS 1 a sequence number comes first. */
-  stamp(): Stamp {
+  /** Reads the stamp of a header, s. In ROS 1 a sequence number comes first. */
+  stamp(): number {
     if (this.#alignment === 1) this.skip(4);
-    return { seconds: this.#view.getInt32(this.#next(4), this.#isLittle), nanoseconds: this.uint32() };
+    return this.#view.getInt32(this.#next(4), this.#isLittle) + this.uint32() / 1e9;
   }
 
   /** Skips bytes; throws a RangeError at the end of the message. */
@@ -99,14 +96,12 @@ class MessageReader {
 
 const bytesOf = (block: DataView, from: number, to: number) => new Uint8Array(block.buffer, block.byteOffset + from, to - from);
 
-const NO_STAMP: Stamp = { seconds: 0, nanoseconds: 0 };
-
 /** Skips a string. Decoding it would take as long as reading the rest of the message. */
 function skipString(reader: MessageReader): void {
   reader.skip(reader.uint32());
 }
 
-function readHeader(reader: MessageReader): Stamp {
+function readHeader(reader: MessageReader): number {
   const stamp = reader.stamp();
   skipString(reader);
   return stamp;
@@ -116,15 +111,15 @@ function readTransform(reader: MessageReader): Transform {
   return [reader.float64(), reader.float64(), reader.float64(), reader.float64(), reader.float64(), reader.float64(), reader.float64()];
 }
 
-export function sampleOfPose({ seconds, nanoseconds }: Stamp, [x, y, , qx, qy, qz, qw]: Transform): Sample {
-  return { seconds, nanoseconds, a: x, b: y, c: headingOf(qx, qy, qz, qw), isRotation: isRotation(qx, qy, qz, qw) };
+export function sampleOfPose(time: number, [x, y, , qx, qy, qz, qw]: Transform): Sample {
+  return { time, a: x, b: y, c: headingOf(qx, qy, qz, qw), isRotation: isRotation(qx, qy, qz, qw) };
 }
 
-function readTwist({ seconds, nanoseconds }: Stamp, reader: MessageReader): Sample {
+function readTwist(time: number, reader: MessageReader): Sample {
   const v = reader.float64();
   // Skips speeds in other directions and turn rates about other axes.
   reader.skip(4 * 8);
-  return { seconds, nanoseconds, a: v, b: reader.float64(), c: 0, isRotation: true };
+  return { time, a: v, b: reader.float64(), c: 0, isRotation: true };
 }
 
 /** Reads the stamp and the pose of a child frame relative to its parent. */
@@ -142,11 +137,11 @@ const POSE_READERS: Record<string, (reader: MessageReader) => Sample> = {
   'geometry_msgs/TransformStamped': readFrameTransform,
   'geometry_msgs/PoseStamped': readStampedPose,
   'geometry_msgs/PoseWithCovarianceStamped': readStampedPose,
-  'geometry_msgs/Pose': (reader) => sampleOfPose(NO_STAMP, readTransform(reader)),
-  'geometry_msgs/Pose2D': (reader) => ({ ...NO_STAMP, a: reader.float64(), b: reader.float64(), c: reader.float64(), isRotation: true }),
+  'geometry_msgs/Pose': (reader) => sampleOfPose(0, readTransform(reader)),
+  'geometry_msgs/Pose2D': (reader) => ({ time: 0, a: reader.float64(), b: reader.float64(), c: reader.float64(), isRotation: true }),
 };
 const COMMAND_READERS: typeof POSE_READERS = {
-  'geometry_msgs/Twist': (reader) => readTwist(NO_STAMP, reader),
+  'geometry_msgs/Twist': (reader) => readTwist(0, reader),
   'geometry_msgs/TwistStamped': (reader) => readTwist(readHeader(reader), reader),
   'geometry_msgs/TwistWithCovarianceStamped': (reader) => readTwist(readHeader(reader), reader),
 };
@@ -193,9 +188,9 @@ export function readTransforms(message: Message): StampedTransform[] {
   const reader = readerOf(message.channel, message);
   const transforms: StampedTransform[] = [];
   for (let remainingCount = reader.uint32(); remainingCount > 0; remainingCount--) {
-    const { seconds, nanoseconds } = reader.stamp();
+    const time = reader.stamp();
     const [parent, child] = [withoutSlash(reader.string()), withoutSlash(reader.string())];
-    transforms.push({ seconds, nanoseconds, parent, child, transform: readTransform(reader) });
+    transforms.push({ time, parent, child, transform: readTransform(reader) });
   }
   return transforms;
 }

@@ -1,12 +1,7 @@
-/** Parsers of numbers and times in text. */
-
-/** Time as whole seconds and a fraction of a second, so that nanoseconds since 1970 keep their digits. */
-export type SplitTime = [seconds: number, rest: number];
+/** Parsers of numbers and dates in text. */
 
 /** Pattern of texts for a missing or infinite number. */
 const NOT_FINITE_WORDS = /^(?:[+-]?(?:nan|inf(?:inity)?)|null|none|nat|na|n\/a|-)?$/i;
-
-const DECIMAL_NUMBER = /^\s*([+-]?)(\d+)(?:\.(\d*))?(?:[eE]([+-]?\d{1,3}))?\s*$/;
 
 const ISO_DATE = /^\s*(\d{4})[-/](\d{1,2})[-/](\d{1,2})(?:[T\s]+(\d{1,2}):(\d{2})(?::(\d{2})(?:[.,](\d+))?)?\s*(Z|UTC|GMT|[+-]\d{2}(?::?\d{2})?)?)?\s*$/i;
 
@@ -21,41 +16,27 @@ export function parseNumber(cell: string): number | undefined {
   return NOT_FINITE_WORDS.test(cell.trim()) ? NaN : undefined;
 }
 
-/**
- * Parses a time.
- *
- * @param power decimal exponent of the number of units in a second: 9 for nanoseconds
- * @returns NaN or undefined as `parseNumber`
- */
-export function parseTime(cell: string, power: number): SplitTime | undefined {
-  const decimalMatch = DECIMAL_NUMBER.exec(cell);
-  if (!decimalMatch) {
-    const parsedNumber = parseNumber(cell);
-    if (parsedNumber === undefined) return undefined;
-    const time = parsedNumber / 10 ** power;
-    return [Math.floor(time), time - Math.floor(time)];
-  }
-  const [, sign, digits, decimals = '', exponent] = decimalMatch;
-  // The digits are split at the end of the whole seconds, so that nothing is rounded.
-  const pointIndex = digits.length - power + (exponent === undefined ? 0 : Number(exponent));
-  const allDigits = digits + decimals;
-  const seconds = pointIndex <= 0 ? 0 : Number(allDigits.slice(0, pointIndex).padEnd(pointIndex, '0'));
-  const fraction = Number(`.${pointIndex < 0 ? '0'.repeat(-pointIndex) + allDigits : allDigits.slice(pointIndex)}0`);
-  return sign === '-' ? [-seconds, -fraction] : [seconds, fraction];
+/** Parses a time in units of 10^−power s. Returns seconds, or NaN or undefined as `parseNumber`. */
+export function parseTime(cell: string, power: number): number | undefined {
+  const parsedValue = parseNumber(cell);
+  if (power === 0 || parsedValue === undefined || !Number.isFinite(parsedValue)) return parsedValue;
+  // Nanoseconds since 1970 are no double. With the exponent in the text, they are rounded only once.
+  const [digits, exponent = '0'] = cell.trim().toLowerCase().split('e');
+  return Number(`${digits}e${Number(exponent) - power}`);
 }
 
-/** Parses an ISO 8601 date or a duration; undefined for any other text. A date without a time zone is in UTC. */
-export function parseDate(cell: string): SplitTime | undefined {
+/** Parses an ISO 8601 date or a duration, in seconds; undefined for any other text. A date without a time zone is in UTC. */
+export function parseDate(cell: string): number | undefined {
   const dateMatch = ISO_DATE.exec(cell);
   if (dateMatch) {
     const [, year, month, day, hour = '0', minute = '0', second = '0', fraction = '', zone] = dateMatch;
     const [sign, hours, minutes] = /^([+-])(\d{2}):?(\d{2})?$/.exec(zone ?? '')?.slice(1) ?? ['+', '0', '0'];
     const zoneOffset = (sign === '-' ? -60 : 60) * (60 * Number(hours) + Number(minutes ?? 0));
     const seconds = Date.UTC(Number(year), Number(month) - 1, Number(day), Number(hour), Number(minute), Number(second)) / 1000 - zoneOffset;
-    return [seconds, Number(`.${fraction}0`)];
+    return seconds + Number(`.${fraction}0`);
   }
   const durationMatch = DURATION_TEXT.exec(cell);
   if (!durationMatch) return undefined;
   const [days = '0', hours, minutes, seconds, fraction = ''] = durationMatch.slice(1);
-  return [((Number(days) * 24 + Number(hours)) * 60 + Number(minutes)) * 60 + Number(seconds), Number(`.${fraction}0`)];
+  return ((Number(days) * 24 + Number(hours)) * 60 + Number(minutes)) * 60 + Number(seconds) + Number(`.${fraction}0`);
 }

@@ -55,19 +55,16 @@ const MIN_EPOCH_TIME = 1e8;
 /** Maximum fraction of rows that have the time of another row and other values. */
 const MAX_CONTRADICTING_FRACTION = 0.4;
 
-/**
- * Offsets of the numbers of a row. A time is stored as its whole seconds and, at the next offset, the fraction. IS_BROKEN is 1 if the path before
- * the row is unknown.
- */
-const [SECONDS, REST, A, B, C, LINE, OTHER_SECONDS, OTHER_REST, IS_BROKEN, ROW_WIDTH] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9];
+/** Offsets of the numbers of a row. IS_BROKEN is 1 if the path before the row is unknown. */
+const [TIME, A, B, C, LINE, OTHER_TIME, IS_BROKEN, ROW_WIDTH] = [0, 1, 2, 3, 4, 5, 6, 7];
 
 export class Rows {
   #logPlace: ErrorPlace;
   /** Numbers of the rows that were added, row by row. */
   #numbers = new Float64Array(1024 * ROW_WIDTH);
   #addedCount = 0;
-  /** Offset of the whole seconds of the clock that is used. */
-  #clock = SECONDS;
+  /** Offset of the times of the clock that is used. */
+  #clock = TIME;
   /** True if the path before the next row is unknown, because an unusable row was dropped. */
   #isBroken = false;
   #dropped: Summary['dropped'] = {};
@@ -90,18 +87,16 @@ export class Rows {
   /**
    * Adds a row, or drops it.
    *
-   * @param seconds whole part of the time
-   * @param rest of the time, in seconds
+   * @param time in seconds
    * @param a x, or v
    * @param b y, or omega
    * @param c heading, or 0
    * @param line or number of the message
-   * @param otherSeconds whole part of the time by the other clock, which is used if the first one stands still
-   * @param otherRest of the time by the other clock
+   * @param otherTime time by the other clock, which is used if the first one stands still
    */
-  add(seconds: number, rest: number, a: number, b: number, c: number, line: number, otherSeconds = 0, otherRest = 0): void {
+  add(time: number, a: number, b: number, c: number, line: number, otherTime = 0): void {
     // A sum is finite if all of its terms are.
-    if (!Number.isFinite(seconds + rest + a + b + c)) return this.drop('notFinite', line);
+    if (!Number.isFinite(time + a + b + c)) return this.drop('notFinite', line);
     this.count += 1;
     if (this.count > MAX_ROWS) throw new LogError(this.#logPlace, (say) => say.rows(MAX_ROWS));
     if (Math.max(Math.abs(a), Math.abs(b), Math.abs(c)) > MAX_VALUE) {
@@ -115,14 +110,12 @@ export class Rows {
       this.#numbers = largerNumbers;
     }
     const numbers = this.#numbers;
-    numbers[at + SECONDS] = seconds;
-    numbers[at + REST] = rest;
+    numbers[at + TIME] = time;
     numbers[at + A] = a;
     numbers[at + B] = b;
     numbers[at + C] = c;
     numbers[at + LINE] = line;
-    numbers[at + OTHER_SECONDS] = otherSeconds;
-    numbers[at + OTHER_REST] = otherRest;
+    numbers[at + OTHER_TIME] = otherTime;
     numbers[at + IS_BROKEN] = Number(this.#isBroken);
     this.#isBroken = false;
   }
@@ -135,11 +128,11 @@ export class Rows {
    */
   end(name: string, kind: LogKind, { units: assumed, clocks, ...decisions }: LogFacts, options: OpenOptions = {}): Log {
     const usesOtherClock = clocks[1] !== undefined && this.#isClockStill();
-    if (usesOtherClock) this.#clock = OTHER_SECONDS;
+    if (usesOtherClock) this.#clock = OTHER_TIME;
     const stampedRows = this.#withoutUnsetTimes();
-    const start = min(stampedRows, (row) => this.#wholeSecond(row)) ?? 0;
-    const { sortedRows, lateCount } = this.#sort(stampedRows, start);
-    const rowsOfDistinctTime = this.#withoutEqualTimes(sortedRows, start);
+    const start = Math.floor(min(stampedRows, (row) => this.#time(row)) ?? 0);
+    const { sortedRows, lateCount } = this.#sort(stampedRows);
+    const rowsOfDistinctTime = this.#withoutEqualTimes(sortedRows);
     const rows = kind === 'poses' ? this.#withoutRepeatedPoses(rowsOfDistinctTime) : rowsOfDistinctTime;
     const { count } = this;
     if (rows.length < 2) {
@@ -147,7 +140,7 @@ export class Rows {
       throw new LogError(this.#placeOf(firstDrop?.first ?? 0), (say) => say.few(rows.length, count, cause));
     }
     const [a, b, c] = [A, B, C].map((index) => this.#column(rows, (row) => this.#number(row, index)));
-    const columns = { start, t: this.#column(rows, (row) => this.#time(row, start)), a, b, c };
+    const columns = { start, t: this.#column(rows, (row) => this.#time(row) - start), a, b, c };
     const units = judgeUnits(this.#logPlace, kind, columns, assumed, options);
     const { t } = columns;
     const pathDistance = kind === 'poses' ? distanceOfPaths(t, a, b) : 0;
@@ -178,20 +171,14 @@ export class Rows {
     return new Float64Array(rows.length).map((_, i) => numberOf(rows[i]));
   }
 
-  /** Returns the time of a row in seconds after a start. */
-  #time(row: number, start: number): number {
-    return this.#number(row, this.#clock) - start + this.#number(row, this.#clock + 1);
-  }
-
-  #wholeSecond(row: number): number {
-    const seconds = this.#number(row, this.#clock);
-    return Math.floor(seconds) + Math.floor(seconds - Math.floor(seconds) + this.#number(row, this.#clock + 1));
+  #time(row: number): number {
+    return this.#number(row, this.#clock);
   }
 
   /** Returns true if most rows have the time of the row before: stamps may be 0, or always that of the start. */
   #isClockStill(): boolean {
     const rows = this.#rows;
-    return 2 * rows.filter((row) => row > 0 && this.#time(row, 0) === this.#time(row - 1, 0)).length > rows.length;
+    return 2 * rows.filter((row) => row > 0 && this.#time(row) === this.#time(row - 1)).length > rows.length;
   }
 
   /** Checks whether two rows have the same values. */
@@ -201,14 +188,14 @@ export class Rows {
 
   /** Returns all rows, but those whose stamp was not set: it is 0, and all other times are since 1970. */
   #withoutUnsetTimes(): Uint32Array {
-    const isUnset = (row: number) => this.#time(row, 0) === 0;
-    const isSince1970 = this.#rows.every((row) => isUnset(row) || this.#number(row, this.#clock) > MIN_EPOCH_TIME);
+    const isUnset = (row: number) => this.#time(row) === 0;
+    const isSince1970 = this.#rows.every((row) => isUnset(row) || this.#time(row) > MIN_EPOCH_TIME);
     return isSince1970 ? this.#without(this.#rows, 'noStamp', isUnset) : this.#rows;
   }
 
   /** Returns the rows in the order of their times, and the number of late rows. Throws a LogError if the clock was set back. */
-  #sort(rows: Uint32Array, start: number): { sortedRows: Uint32Array; lateCount: number } {
-    const times = this.#column(rows, (row) => this.#time(row, start));
+  #sort(rows: Uint32Array): { sortedRows: Uint32Array; lateCount: number } {
+    const times = this.#column(rows, (row) => this.#time(row));
     let newestTime = -Infinity;
     const delays = times.map((time) => (newestTime = Math.max(newestTime, time)) - time);
     const lateCount = delays.reduce((count, delay) => count + Number(delay > 0), 0);
@@ -224,10 +211,10 @@ export class Rows {
   }
 
   /** Returns the rows, of which only the first one of each time is kept. Throws a LogError if many rows contradict another one of their time. */
-  #withoutEqualTimes(rows: Uint32Array, start: number): Uint32Array {
+  #withoutEqualTimes(rows: Uint32Array): Uint32Array {
     let [lastTime, contradictions] = [-Infinity, 0];
     const distinctRows = this.#without(rows, 'duplicate', (row, i) => {
-      const time = this.#time(row, start);
+      const time = this.#time(row);
       const isEqual = time <= lastTime;
       if (isEqual && !this.#isSame(rows[i - 1], row)) contradictions += 1;
       lastTime = time;

@@ -5,7 +5,7 @@ import { type Clock, type Group, type Layout, logLayoutOf } from './columns.ts';
 import { type Format, splitCells, detectTableFormat } from './format.ts';
 import { LogError, readBytes, truncate, listNames, type ErrorPlace } from './log-error.ts';
 import type { Log, Note, OpenOptions, Question, Recording, Series, Source, Summary, TimeUnit } from './log.ts';
-import { type SplitTime, parseDate, parseNumber, parseTime } from './numbers.ts';
+import { parseDate, parseNumber, parseTime } from './numbers.ts';
 import { quantile, sampleEvenly } from './quantile.ts';
 import { headingOf, isRotation } from './quaternion.ts';
 import { Rows } from './rows.ts';
@@ -121,14 +121,14 @@ function withYAxisUp(group: Group): Group {
 function clockReader({ columns: [{ at }, subseconds], unit: namedUnit }: Clock, statedUnit: TimeUnit | undefined, textOf: (cell: string) => string) {
   const judged: { unit?: TimeUnit; by: Summary['units']['time']['by'] } = { unit: statedUnit ?? namedUnit, by: statedUnit ? 'option' : namedUnit ? 'name' : 'usage' };
   let isDate: boolean | undefined;
-  /** Returns the time of a row; undefined if its cell is neither a number nor a date. */
-  const read = (cells: string[]): SplitTime | undefined => {
+  /** Returns the time of a row in seconds; undefined if its cell is neither a number nor a date. */
+  const read = (cells: string[]): number | undefined => {
     const text = textOf(cells[at]);
     if (subseconds) {
-      const [seconds, rest] = [parseTime(text, 0), parseNumber(cells[subseconds.at])];
-      return seconds && rest !== undefined ? [seconds[0], seconds[1] + rest / 10 ** UNIT_EXPONENTS[subseconds.unit as TimeUnit]] : undefined;
+      const [seconds, rest] = [parseNumber(text), parseNumber(cells[subseconds.at])];
+      return seconds !== undefined && rest !== undefined ? seconds + rest / 10 ** UNIT_EXPONENTS[subseconds.unit as TimeUnit] : undefined;
     }
-    if (text.trim() === '') return [NaN, NaN];
+    if (text.trim() === '') return NaN;
     if (isDate === undefined) {
       isDate = parseDate(cells[at]) !== undefined;
       if (isDate) Object.assign(judged, { unit: 's', by: 'date' });
@@ -180,10 +180,10 @@ function logReader(name: string, place: ErrorPlace, format: Format, group: Group
 
   /** Adds a row, or drops it. */
   const addCells = (cells: string[], line: number) => {
-    const times: SplitTime[] = [];
+    const times: number[] = [];
     for (let i = 0; i < clocks.length; i++) {
       const time = clockReaders[i].read(cells);
-      if (!time) return dropText(line, clocks[i].name, cells[clocks[i].columns[0].at]);
+      if (time === undefined) return dropText(line, clocks[i].name, cells[clocks[i].columns[0].at]);
       times.push(time);
     }
     const values: number[] = [];
@@ -201,8 +201,7 @@ function logReader(name: string, place: ErrorPlace, format: Format, group: Group
       tiltCosines.push(1 - 2 * (qx * qx + qy * qy));
       heading = headingOf(qx, qy, qz, qw);
     }
-    const [[seconds, fraction], [otherSeconds, otherFraction] = [0, 0]] = times;
-    rows.add(seconds, fraction, x, y, heading, line, otherSeconds, otherFraction);
+    rows.add(times[0], x, y, heading, line, times[1]);
   };
 
   return {

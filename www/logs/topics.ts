@@ -80,8 +80,8 @@ function topicReader(file: string, container: Container, choice: LogChoice, seri
   const readSample = poseReader(type);
   let messageCount = 0;
 
-  const add = ({ seconds, nanoseconds, a, b, c, isRotation }: Sample, recorded: Pick<Message, 'seconds' | 'nanoseconds'>, number: number) => {
-    if (isRotation) rows.add(seconds, nanoseconds / 1e9, a, b, c, number, recorded.seconds, recorded.nanoseconds / 1e9);
+  const add = ({ time, a, b, c, isRotation }: Sample, recordTime: number, number: number) => {
+    if (isRotation) rows.add(time, a, b, c, number, recordTime);
     else rows.drop('noRotation', number);
   };
 
@@ -91,7 +91,7 @@ function topicReader(file: string, container: Container, choice: LogChoice, seri
     addMessage(message: Message): void {
       messageCount += 1;
       try {
-        if (!chain) return add(readSample(message), message, messageCount);
+        if (!chain) return add(readSample(message), message.time, messageCount);
         for (const transform of readTransforms(message)) chain.add(transform, isStaticTopic(message.channel), message, messageCount);
       } catch (error) {
         if (error instanceof LogError) throw error;
@@ -104,7 +104,7 @@ function topicReader(file: string, container: Container, choice: LogChoice, seri
     end(options: OpenOptions): Log {
       if (messageCount === 0) refuse((say) => say.noMessages);
       if (chain && !chain.isConnected) refuse((say) => say.noChain(framesText(frames), listNames(chain.tree.links.map(framesText))));
-      const hasChanged = chain?.poses((pose, { message, number }) => add(pose, message, number)) ?? true;
+      const hasChanged = chain?.poses((pose, { message, number }) => add(pose, message.time, number)) ?? true;
       if (!hasChanged) refuse((say) => say.constant(framesText(frames as FramePair), listNames((chain as Chain).tree.findPoseFrames().map(framesText))));
       const logKind = kind === 'commands' ? 'commands' : 'poses';
       const notes: Note[] = container.cutReason ? [{ name: 'cutShort', values: [] }] : [];

@@ -16,9 +16,8 @@ export interface Channel {
 
 export interface Message {
   channel: Channel;
-  /** Time of recording. */
-  seconds: number;
-  nanoseconds: number;
+  /** Time of recording, s. */
+  time: number;
   /** View of the block that contains the serialized message. Messages share it, because creating a view takes as long as reading a message. */
   block: DataView;
   /** Range of the message in the block. */
@@ -91,11 +90,3 @@ export const dataViewOf = ({ buffer, byteOffset, byteLength }: Uint8Array) => ne
 
 /** Returns an unsigned number of eight bytes. It is exact below 2^53, and rounded above. */
 export const uint53 = (view: DataView, at: number) => view.getUint32(at, true) + 2 ** 32 * view.getUint32(at + 4, true);
-
-/** Reads a time in nanoseconds as seconds and nanoseconds. A BigInt would take as long as the rest of the message. */
-export function stampAt(view: DataView, at: number) {
-  // The number may be rounded up to the next second. The remainder, whose lower 32 bits are exact, is then negative.
-  const seconds = Math.floor(uint53(view, at) / 1e9);
-  const nanoseconds = (view.getUint32(at, true) - Math.imul(seconds, 1e9)) | 0;
-  return nanoseconds < 0 ? { seconds: seconds - 1, nanoseconds: nanoseconds + 1e9 } : { seconds, nanoseconds };
-}

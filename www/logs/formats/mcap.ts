@@ -4,7 +4,7 @@ import { crc32 } from '@foxglove/crc';
 import { McapIndexedReader, McapStreamReader } from '@mcap/core';
 import { readBytes } from '../log-error.ts';
 import type { Source } from '../log.ts';
-import { MAX_BLOCK_BYTES, MessageFile, readInPieces, stampAt, uint53, dataViewOf, type Container, type IsWanted, type OnMessage } from './container.ts';
+import { MAX_BLOCK_BYTES, MessageFile, readInPieces, uint53, dataViewOf, type Container, type IsWanted, type OnMessage } from './container.ts';
 import { unlz4 } from './lz4.ts';
 import { loadZstd, unzstd } from './zstd.ts';
 
@@ -108,7 +108,7 @@ class Mcap extends MessageFile<number> implements Container {
       if (bytes[at] === MESSAGE) {
         const channel = this.channelsById.get(view.getUint16(at + RECORD_HEAD_BYTES, true));
         if (channel && isWanted(channel)) {
-          onMessage({ channel, ...stampAt(view, at + RECORD_HEAD_BYTES + 6), block: view, from: at + RECORD_HEAD_BYTES + 22, to: nextRecord });
+          onMessage({ channel, time: uint53(view, at + RECORD_HEAD_BYTES + 6) / 1e9, block: view, from: at + RECORD_HEAD_BYTES + 22, to: nextRecord });
         }
       } else {
         const reader = new McapStreamReader({ noMagicPrefix: true });

@@ -160,7 +160,7 @@ class Rosbag extends MessageFile<number> implements Container {
       if (op === CONNECTION) this.#addConnection(fields, bytes.subarray(from, next));
       if (op === MESSAGE) {
         const channel = this.channelsById.get(fields.uint32('conn'));
-        if (channel && isWanted(channel)) onMessage({ channel, seconds: fields.uint32('time'), nanoseconds: fields.uint32('time', 4), block: view, from, to: next });
+        if (channel && isWanted(channel)) onMessage({ channel, time: fields.uint32('time') + fields.uint32('time', 4) / 1e9, block: view, from, to: next });
       }
       at = next;
     }

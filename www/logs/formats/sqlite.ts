@@ -14,9 +14,6 @@ const HEADER_BYTES = 100;
 /** Maximum size of a row, bytes. The largest messages are point clouds and images. */
 const MAX_ROW_BYTES = 2 ** 28;
 
-/** Number of nanoseconds in a second. */
-const NS_PER_S = 1_000_000_000n;
-
 type SqliteValue = number | bigint | Uint8Array;
 
 /** Row of a table. */
@@ -88,9 +85,8 @@ class Rosbag2 extends MessageFile<SqliteValue> implements Container {
     const wantedChannels = new Map([...this.channelsById].filter(([, channel]) => isWanted(channel)));
     const [topicId, timestamp, data] = ['topic_id', 'timestamp', 'data'].map((column) => this.#messages.columns.indexOf(column));
     const passRow = (channel: Channel, bytes: Uint8Array) => {
-      const nanoseconds = BigInt(columnValueOf(bytes, timestamp) as bigint);
       const block = dataViewOf(columnValueOf(bytes, data) as Uint8Array);
-      onMessage({ channel, seconds: Number(nanoseconds / NS_PER_S), nanoseconds: Number(nanoseconds % NS_PER_S), block, from: 0, to: block.byteLength });
+      onMessage({ channel, time: Number(columnValueOf(bytes, timestamp)) / 1e9, block, from: 0, to: block.byteLength });
     };
     await this.#eachRow(this.#messages, (row) => {
       const channel = wantedChannels.get(columnValueOf(row.bytes, topicId));

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { planDrives } from '../../www/logs/drives.ts';
 import { english } from '../../www/logs/en.ts';
-import { readInPieces } from '../../www/logs/formats/container.ts';
+import { readAhead } from '../../www/logs/formats/container.ts';
 import { openRecordings } from '../../www/logs/open.ts';
 import { summarySentences } from '../../www/logs/summary.ts';
 import { odometryMessageOf, poseOf, recordingOf, stampOf, transformMessageOf, twistOf } from '../mcap.js';
@@ -207,7 +207,7 @@ test('chunks with another checksum or size than they state are not read', async 
 test('a file that is read in pieces has its bytes, one after the other, across pieces and after gaps', async () => {
   const random = randomGenerator(7);
   const bytes = Buffer.alloc(60e6, Buffer.from(Array.from({ length: 9973 }, () => random() * 256)));
-  const readRange = readInPieces(new File([bytes], 'run.mcap'));
+  const readRange = readAhead(new File([bytes], 'run.mcap'));
   for (let start = 0; start < bytes.length; ) {
     const end = Math.min(bytes.length, start + Math.floor(random() ** 8 * 3e7));
     assert.deepEqual([end, bytes.compare(await readRange(start, end), 0, end - start, start, end)], [end, 0]);

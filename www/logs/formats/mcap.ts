@@ -4,7 +4,7 @@ import { crc32 } from '@foxglove/crc';
 import { McapIndexedReader, McapStreamReader } from '@mcap/core';
 import { readBytes } from '../log-error.ts';
 import type { Source } from '../log.ts';
-import { MAX_BLOCK_BYTES, MessageFile, readInPieces, uint53, dataViewOf, type Container, type IsWanted, type OnMessage } from './container.ts';
+import { MAX_BLOCK_BYTES, MessageFile, readAhead, uint53, dataViewOf, type Container, type IsWanted, type OnMessage } from './container.ts';
 import { unlz4 } from './lz4.ts';
 import { loadZstd, unzstd } from './zstd.ts';
 
@@ -58,7 +58,7 @@ class Mcap extends MessageFile<number> implements Container {
     if (!this.#chunks) return this.#readFromStart(isWanted, onMessage, onProgress);
     const wantedIds = new Set([...this.channelsById].filter(([, channel]) => isWanted(channel)).map(([id]) => id));
     const wantedChunks = this.#chunks.filter(({ messageIndexOffsets }) => [...messageIndexOffsets.keys()].some((id) => wantedIds.has(id)));
-    const readBytesAt = readInPieces(this.source);
+    const readBytesAt = readAhead(this.source);
     for (const [i, { chunkStartOffset, chunkLength }] of wantedChunks.entries()) {
       const from = Number(chunkStartOffset);
       try {
@@ -75,7 +75,7 @@ class Mcap extends MessageFile<number> implements Container {
 
   async #readFromStart(isWanted: IsWanted, onMessage: OnMessage, onProgress?: (share: number) => boolean | void): Promise<void> {
     const { size } = this.source;
-    const readBytesAt = readInPieces(this.source);
+    const readBytesAt = readAhead(this.source);
     this.cutReason = undefined;
     try {
       for (let at = MAGIC_BYTES, nextReport = 0; ; ) {

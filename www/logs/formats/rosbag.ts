@@ -2,7 +2,7 @@
 
 import { LogError, readBytes } from '../log-error.ts';
 import type { Source } from '../log.ts';
-import { MAX_BLOCK_BYTES, MessageFile, readInPieces, dataViewOf, uint53, type Container, type IsWanted, type OnMessage } from './container.ts';
+import { MAX_BLOCK_BYTES, MessageFile, readAhead, dataViewOf, uint53, type Container, type IsWanted, type OnMessage } from './container.ts';
 import { unlz4 } from './lz4.ts';
 
 /** Values of the field "op" of records. */
@@ -120,7 +120,7 @@ class Rosbag extends MessageFile<number> implements Container {
 
   async read(isWanted: IsWanted, onMessage: OnMessage, onProgress?: (share: number) => boolean | void): Promise<void> {
     const { size } = this.source;
-    const readBytesAt = readInPieces(this.source);
+    const readBytesAt = readAhead(this.source);
     const wantedIds = new Set([...this.channelsById].filter(([, channel]) => isWanted(channel)).map(([id]) => id));
     const wantedChunks = this.#chunks?.filter(({ connections }) => connections.some((id) => wantedIds.has(id)));
     this.cutReason = undefined;

@@ -2,7 +2,7 @@
 
 import { LogError, readBytes } from '../log-error.ts';
 import type { Source } from '../log.ts';
-import { MessageFile, readInPieces, dataViewOf, type Channel, type Container, type Message } from './container.ts';
+import { MessageFile, readAhead, dataViewOf, type Channel, type Container, type Message } from './container.ts';
 import { loadZstd } from './zstd.ts';
 
 /** Types of the pages of a table's B-tree. */
@@ -47,7 +47,7 @@ class Rosbag2 extends MessageFile<SqliteValue> implements Container {
   /** Bytes of a page without those reserved at its end. */
   #usableBytes = 0;
   #messages: Table = { root: 0, columns: [] };
-  #readBytesAt = readInPieces(this.source);
+  #readBytesAt = readAhead(this.source);
 
   async open(): Promise<void> {
     const view = dataViewOf(await readBytes(this.source, 0, HEADER_BYTES));

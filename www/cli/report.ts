@@ -120,7 +120,7 @@ function alphaTable({ alphas, intervals, recommended }: any, model: string): str
     alpha === null ? 'not identifiable' : alphaOrBound(alpha, intervals[i]),
     formatInterval(intervals[i]),
     recommended && alpha !== null ? alphaOrBound(alpha, intervals[i], recommended.inflation) : '–',
-    sharedTexts.alphas[model === 'velocity' ? 'velocity' : 'odometry'][i],
+    sharedTexts.alphas[model === 'velocity' ? 'velocity' : 'odometry'][i][0],
   ]);
   return [...alignRows([['', 'fitted', '95 %', 'recommended', ''], ...alphaRows]), ...(recommended ? [recommended.reason] : [])];
 }

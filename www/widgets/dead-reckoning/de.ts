@@ -33,6 +33,7 @@ export const de: typeof import('./en.ts').en = {
   },
   axisAlong: 'ξ längs (m)',
   axisLateral: 'ξ quer (m)',
+  stretched: { along: (factor) => `ξ längs ${factor}-fach vergrößert`, lateral: (factor) => `${factor}-fach vergrößert` },
   of: { along: 'längs', lateral: 'quer', heading: 'der Richtung' },
   ratioAxis: 'vorhergesagte / gemessene Varianz',
   stepAxis: 'Schritt',

@@ -34,6 +34,8 @@ export const en = {
   },
   axisAlong: 'ξ along (m)',
   axisLateral: 'ξ lateral (m)',
+  /** Note on the axis with the larger scale, after the name of the lateral axis. */
+  stretched: { along: (factor) => `ξ along enlarged ${factor} times`, lateral: (factor) => `enlarged ${factor} times` },
   of: { along: 'along-track', lateral: 'lateral', heading: 'heading' },
   ratioAxis: 'predicted / measured variance',
   stepAxis: 'step',

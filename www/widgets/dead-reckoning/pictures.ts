@@ -6,6 +6,7 @@ import { drawCallouts, type Callout } from '../../scene/callout.ts';
 import { drawDots, drawEarlier, drawMark, drawOutlines, drawRobot, lineKeys, lineStyles, strokeLines } from '../../scene/draw.ts';
 import { Picture, SamplesPicture } from '../../scene/picture.ts';
 import { View, extentAround, extentOf } from '../../scene/view.ts';
+import { formatSignificant } from '../../ui/format.ts';
 import { OUTLINE_STYLES } from './settings.ts';
 import { drawDisc, type Brush } from '../../scene/canvas.ts';
 
@@ -100,7 +101,7 @@ export class StepPicture extends Picture<Scene> {
   paint: Picture<Scene>['paint'] = (brush, { outlines: { predicted, measured }, overlays, twists }) => {
     const styles = lineStyles(brush, OUTLINE_STYLES);
     const shownNames = (['exponential', 'measured'] as ('exponential' | 'measured')[]).filter((name) => overlays.includes(name));
-    drawAxes(brush, { x: words.reckoning.axisAlong, y: words.reckoning.axisLateral }, lineKeys(brush, OUTLINE_STYLES, shownNames, words.reckoning.overlays));
+    drawAxes(brush, axesOf(this.view), lineKeys(brush, OUTLINE_STYLES, shownNames, words.reckoning.overlays));
     const points = { exponential: predicted, measured };
     const callouts: Callout[] = [];
     clipToPlot(brush, () => {
@@ -110,4 +111,20 @@ export class StepPicture extends Picture<Scene> {
     });
     drawCallouts(brush, callouts, { from: [0, 0], lines: [predicted, measured] });
   };
+}
+
+/** Ratio of the scales of x and y above which their difference is visible. */
+const MIN_VISIBLE_RATIO = 1.05;
+
+/** Returns texts of the ratios scale x : scale y and scale y : scale x. The text of a ratio that is not visible is empty. */
+export function scaleRatioTexts({ scaleX, scaleY }: Pick<View, 'scaleX' | 'scaleY'>) {
+  return [scaleX / scaleY, scaleY / scaleX].map((factor) => (factor > MIN_VISIBLE_RATIO ? formatSignificant(factor, factor < 10 ? 2 : 1) : ''));
+}
+
+/** Returns the names of the axes. The upper name also has the ratio of the scales, because near the lower name it would hide ticks. */
+function axesOf(view: View) {
+  const { axisAlong: x, axisLateral, stretched } = words.reckoning;
+  const [along, lateral] = scaleRatioTexts(view);
+  const ratioText = along ? stretched.along(along) : lateral && stretched.lateral(lateral);
+  return { x, y: ratioText ? `${axisLateral}, ${ratioText}` : axisLateral };
 }

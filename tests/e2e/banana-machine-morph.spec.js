@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { REDUCED_MOTION, bananaResultsOf, boxOf, centreOf, openBanana, pictureOf, playSlider, propertyOf, readoutValue, stateOf, test } from './support.js';
+import { NEW_PAGE_TAG, REDUCED_MOTION, bananaResultsOf, boxOf, centreOf, openBanana, pictureOf, playSlider, propertyOf, readoutValue, showPage, stateOf, test, untilReady } from './support.js';
 
 test.use(REDUCED_MOTION);
 
@@ -137,11 +137,25 @@ test('a narrow figure has one picture, which shows both ends', async ({ page }) 
   expect(await pictureOf(floorCanvas)).not.toBe(floorPicture);
 });
 
-test('the ring says that it can be dragged, until something is changed', async ({ page }) => {
-  await page.emulateMedia({ reducedMotion: 'no-preference' });
-  const widget = await openBanana(page);
-  const ring = widget.locator('.handle.end');
-  await expect(ring).toHaveAttribute('data-hint', 'drag me');
-  await ring.press('ArrowRight');
-  await expect(ring).not.toHaveAttribute('data-hint');
+test.describe('at first sight', () => {
+  test.use({ isIntroductionSkipped: false });
+
+  test('robots drive once a session, until a key or the pointer is pressed', NEW_PAGE_TAG, async ({ page }) => {
+    await page.emulateMedia({ reducedMotion: 'no-preference' });
+    const countDrivingRobots = () => page.locator('banana-machine').evaluate((element) => /** @type {any} */ (element).cloud.driving?.robots);
+    await showPage(page, '<banana-machine></banana-machine>');
+    await page.waitForFunction(() => /** @type {any} */ (document.querySelector('banana-machine'))?.cloud?.driving?.robots > 0);
+    await page.keyboard.press('Shift');
+    expect(await countDrivingRobots()).toBeUndefined();
+    await expect.poll(async () => (await bananaResultsOf(page.locator('banana-machine'))).shown).toBeGreaterThan(10);
+    await page.reload();
+    await untilReady(page.locator('banana-machine'));
+    expect(await countDrivingRobots()).toBeUndefined();
+  });
+
+  test('robots do not drive for a figure that a page has set @nightly', NEW_PAGE_TAG, async ({ page }) => {
+    await page.emulateMedia({ reducedMotion: 'no-preference' });
+    const widget = await openBanana(page, 'preset="gentle"');
+    expect(await widget.evaluate((element) => /** @type {any} */ (element).cloud.driving)).toBeUndefined();
+  });
 });

@@ -19,9 +19,10 @@ import { ALL_NAMES, CLOUD_NAMES, NAMES_WITH_HANDLES, figureNameFor } from './fig
  */
 
 /**
- * Fixtures: names of the elements on which a test about all figures, all clouds or all handles runs (its title decides).
+ * Fixtures. The first three are names of the element on which a test about all figures, all clouds or all handles runs; the test's title
+ * decides. With the last one, the page behaves as if the user had seen the introduction that a figure shows on the first visit.
  *
- * @typedef {{ figureName: Name, cloudFigureName: Name, handleFigureName: Name }} FigureFixtures
+ * @typedef {{ figureName: Name, cloudFigureName: Name, handleFigureName: Name, isIntroductionSkipped: boolean }} FigureFixtures
  */
 
 /**
@@ -35,7 +36,9 @@ export const test = playwrightTest.extend({
   cloudFigureName: async ({}, use, { title }) => use(figureNameFor(title, CLOUD_NAMES)),
   handleFigureName: async ({}, use, { title }) => use(figureNameFor(title, NAMES_WITH_HANDLES)),
   /* oxlint-enable no-empty-pattern */
-  page: async ({ page }, use) => {
+  isIntroductionSkipped: [true, { option: true }],
+  page: async ({ page, isIntroductionSkipped }, use) => {
+    if (isIntroductionSkipped) await page.addInitScript(skipIntroduction);
     /** @type {string[]} */
     const consoleMessages = [];
     page.on('console', (message) => {
@@ -61,6 +64,15 @@ export function testEach(title, testBody, details = {}) {
       test.slow();
       return testBody(page, name, true);
     });
+  }
+}
+
+/** Marks the introduction of a figure as seen. It runs in the page before the page's scripts. */
+function skipIntroduction() {
+  try {
+    sessionStorage.setItem('motion-widgets.introduced', 'yes');
+  } catch {
+    // On a page without storage a figure shows no introduction.
   }
 }
 

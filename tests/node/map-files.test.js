@@ -56,6 +56,14 @@ test('files that are not one map, or a plan that is not JSON, are refused with w
   assert.match(await refusalMessageOf([fileWith('plan.json', '{"bounds": [0, 0, 1, 1], "walls": [],}')]), /^plan\.json: .+; expected is \{"bounds"/);
 });
 
+test('a description is read as leniently as map_server reads it', async () => {
+  const expected = await simulationWithMap(mapYamlFile({ image: 'map.pgm', origin: '[-1, 2, 0]', mode: 'trinary', negate: 1 }), PGM);
+  for (const yaml of [
+    'image: map.pgm\r\nresolution: "0.05"\r\norigin: ["-1.0", \'2\', 0]\r\nnegate: "1"\r\nmode: Trinary\r\n',
+    'image:\tmap.pgm\nresolution:\t0.05\t\norigin:\t[-1,\t2,\t0]\n\tnegate: Yes\nmode:\tTRINARY\n',
+  ]) assert.deepEqual((await simulationWithMap(fileWith('map.yaml', yaml), PGM)).grid, expected.grid, yaml);
+});
+
 test('a PNG image may have any extension', async () => {
   const png = pngOf({ width: 2, height: 1, sample: (column) => [0, 127][column] });
   const [pgmMap, pngMap] = await Promise.all([PGM, fileWith('map.pgm', png)].map((image) => simulationWithMap(mapYamlFile({ image: 'map.pgm' }), image)));

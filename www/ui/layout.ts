@@ -252,6 +252,16 @@ const figureLayout = css`
     border-width: 2.5px;
   }
 
+  .handle[data-hint]::after {
+    animation: pulsing 1.2s ease-in-out;
+  }
+
+  @keyframes pulsing {
+    50% {
+      box-shadow: 0 0 0 0.9em color-mix(in srgb, var(--prior) 35%, transparent);
+    }
+  }
+
   .handle[data-hint]::before {
     content: attr(data-hint);
     top: 100%;

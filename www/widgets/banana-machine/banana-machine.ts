@@ -2,12 +2,11 @@
 
 import { html } from 'lit';
 import { checkedObject } from '../../figure/checks.ts';
-import { Cloud, enterCloud } from '../../figure/cloud.ts';
+import { enterCloud } from '../../figure/cloud.ts';
 import { pictureCanvas, disclosures, titledPicture } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
 import { define } from '../../figure/reflection.ts';
-import { prefersReducedMotion } from '../../figure/renderer.ts';
 import { words } from '../../messages/registry.ts';
 import { openingAlphas } from '../../settings.js';
 import { hasLength } from '../../scene/draw.ts';
@@ -20,6 +19,7 @@ import { Player } from '../shared/player.ts';
 import { commandControls, growthControls, modelControls, otherAlphaControls, samplesControl, visibleAlphaControls } from './controls.ts';
 import { presetButtons } from '../shared/presets.ts';
 import { ArcHandle } from './handle.ts';
+import { IntroducedCloud } from './introduction.ts';
 import { MORPH_MS, lineMorphOf, morphControl, outlinesAt, morphedPoint } from './morph.ts';
 import { PlanePicture, TwistPicture } from './pictures.ts';
 import { viewModelOf, viewModelOfSettings, type ViewModel } from './view-model.ts';
@@ -56,7 +56,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
 
   static definition = definition;
 
-  cloud = new Cloud(this);
+  cloud = new IntroducedCloud(this);
   #inspectedSample: Memo<Inspection> = new Memo();
   #skewCurve: Memo<Float64Array> = new Memo();
   #planePicture = new PlanePicture();
@@ -104,6 +104,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
       pinned,
       pinnedAt: (otherMorph: number) =>
         pinned ? Object.entries(outlinesAt(motion, pinned, otherMorph)).flatMap(([name, line]) => (shownOverlays[name] ? [...line] : [])) : [],
+      driving: this.cloud.driving,
       morphedEllipse: morph > 0 ? lineMorphOf(motion, viewModel, 1)(viewModel.contours.ellipse) : viewModel.contours.ellipse,
     };
   }
@@ -211,7 +212,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     return html`
       <div class="views">
         ${titledPicture(this.#title, html`<div class="stage" part="picture">
-          ${pictureCanvas(this, this.#planePicture, this.#description)} ${this.#handle.render(config.command, !this.gesture.previousViewModel && !prefersReducedMotion())}
+          ${pictureCanvas(this, this.#planePicture, this.#description)} ${this.#handle.render(config.command, this.cloud.asking)}
         </div>`)}
         ${titledPicture(say.twist, html`<div class="stage">${pictureCanvas(this, this.#twistPicture, twistText(viewModel))}</div>`, 'twist')}
       </div>

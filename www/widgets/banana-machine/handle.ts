@@ -27,8 +27,8 @@ export class ArcHandle extends Handle {
     });
   }
 
-  /** Renders the handle, with a hint to drag it if `hasHint`. */
-  render({ v, omega }: import('../../types.d.ts').Command, hasHint: boolean) {
+  /** Renders the handle, with a hint to drag it if the introduction asks for that. */
+  render({ v, omega }: import('../../types.d.ts').Command, isAsking: boolean) {
     const say = words.banana;
     const { min, max } = sliderSpecs.omega;
     const isAtLimit = [v - sliderSpecs.v.min, sliderSpecs.v.max - v, omega - min, max - omega].some((left) => left <= 0);
@@ -40,7 +40,7 @@ export class ArcHandle extends Handle {
       now: omega,
       text: `v = ${fixed(v, 2)} m/s, ω = ${fixed(omega, 2)} rad/s`,
       stop: isAtLimit && say.slidersEnd,
-      hint: hasHint && say.handleHint,
+      hint: isAsking && say.handleHint,
     });
   }
 }

@@ -30,6 +30,7 @@ export interface Scene extends ViewModel {
   pinned: ViewModel | undefined;
   /** Points of the pinned outlines that are shown, at a morph. */
   pinnedAt: (morph: number) => number[];
+  driving: { robots: number, share: number } | undefined;
   outlinesOf: (viewModel: ViewModel) => Outlines;
   callouts: Callout[];
   morphedEllipse: Float64Array;
@@ -143,7 +144,7 @@ export class PlanePicture extends CloudPicture {
 
   paint: Picture<Scene>['paint'] = (brush, scene) => {
     const { context, view, palette } = brush;
-    const { overlays, table, marked, end, morph } = scene;
+    const { simulation, overlays, table, marked, end, morph } = scene;
     const outlines = scene.outlinesOf(scene);
     const styles = lineStyles(brush, LINE_STYLES);
     const isDrawn = (name: OutlineName) => overlays[name] && hasLength(outlines[name]);
@@ -167,6 +168,10 @@ export class PlanePicture extends CloudPicture {
     const callouts = [...scene.callouts];
     clipToPlot(brush, () => {
       if (morph > 0 && morph < 1) drawMorphGrid(brush, twist, morph);
+      if (scene.driving) {
+        drawDrivingRobots(brush, simulation, scene.driving);
+        return;
+      }
       const { cov } = table.exact;
       const isSinglePoint = morph === 0 && deviation(cov[0][0] + cov[1][1]) * view.scaleX < MIN_CLOUD_DEVIATION;
       if (!isSinglePoint) {
@@ -196,6 +201,22 @@ export class PlanePicture extends CloudPicture {
 const earlierViewModelOf = ({ previousViewModel }: Brush, { pinned }: Scene): ViewModel | undefined => pinned ?? previousViewModel;
 
 const earlierName = ({ pinned }: Scene) => (pinned ? words.banana.pinned : words.before);
+
+function drawDrivingRobots(brush: Brush, simulation: BananaMachine, { robots, share }: { robots: number, share: number }) {
+  const { palette } = brush;
+  for (let i = 0; i < robots; i++) {
+    const { path, pose } = simulation.inspect(i);
+    // The first robot has arrived when the others start.
+    const chordCount = path.length / 2 - 1;
+    const position = (i === 0 && robots > 1 ? 1 : share) * chordCount;
+    const chord = Math.min(Math.floor(position), chordCount - 1);
+    const [x, y, nextX, nextY] = path.subarray(2 * chord, 2 * chord + 4);
+    const [endX, endY] = [x + (position - chord) * (nextX - x), y + (position - chord) * (nextY - y)];
+    drawOutline(brush, Float64Array.of(...path.subarray(0, 2 * chord + 2), endX, endY), { colour: palette.cloud, width: 1.5, dash: [] });
+    const heading = position === chordCount ? pose[2] : Math.atan2(nextY - y, nextX - x);
+    drawRobot(brush, { x: endX, y: endY, heading, colour: palette.cloud });
+  }
+}
 
 /** Radius of the arcs of rotations, and length of the lines from which rotations start, CSS pixels. */
 const TURN_RADIUS = 26;
@@ -297,6 +318,7 @@ export class TwistPicture extends CloudPicture {
     const earlierViewModel = earlierViewModelOf(brush, scene);
     const callouts: Callout[] = [];
     clipToPlot(brush, () => {
+      if (scene.driving) return;
       this.paintCloud(brush, scene, 4 * Math.PI * deviationProduct(scene) * view.scaleX * view.scaleY);
       if (overlays.exponential) {
         if (earlierViewModel) callouts.push(...drawEarlier(brush, [{ points: earlierViewModel.contours.twistEllipse, ...exponential }], [twistMiddle], earlierName(scene)));

@@ -93,11 +93,29 @@ async function readGrid(file: File, images: File[], decodePng: DecodePng): Promi
   };
 }
 
-/** Parses the fields of a description. Without fields, the image is missing. */
+/** Words for true and false, which are texts in YAML 1.2 and booleans for map_server. */
+const BOOLEAN_WORDS = new Map([['true', true], ['yes', true], ['on', true], ['false', false], ['no', false], ['off', false]]);
+
+/** Fields of numbers. map_server also reads numbers in quotes. */
+const NUMBER_FIELDS = ['resolution', 'origin', 'negate', 'occupied_thresh', 'free_thresh'];
+
+/** Returns a number in quotes as a number, and other values unchanged. */
+function numberFromText(value: unknown): unknown {
+  if (Array.isArray(value)) return value.map(numberFromText);
+  return typeof value === 'string' && value.trim() !== '' && Number.isFinite(Number(value)) ? Number(value) : value;
+}
+
+/** Parses the fields of a description as leniently as map_server does. Without fields, the image is missing. */
 function parseDescription(name: string, text: string): Record<string, unknown> {
   try {
-    // Aliases are refused: no map needs them, and with them a short text can expand to billions of values, or contain itself.
-    return { ...(load(text, { maxAliases: 0 }) as object) };
+    // YAML forbids tabs as indentation, and the fields need no indentation. Aliases are refused: no map needs them, and with them a short
+    // text can expand to billions of values, or contain itself.
+    const fields: Record<string, unknown> = { ...(load(text.replaceAll(/^\t+/gm, '').replaceAll('\t', ' '), { maxAliases: 0 }) as object) };
+    for (const key of NUMBER_FIELDS) if (key in fields) fields[key] = numberFromText(fields[key]);
+    const { negate, mode } = fields;
+    if (typeof negate === 'string') fields.negate = BOOLEAN_WORDS.get(negate.toLowerCase()) ?? negate;
+    if (typeof mode === 'string') fields.mode = mode.toLowerCase();
+    return fields;
   } catch (error) {
     if (!(error instanceof YAMLException)) throw error;
     throw new MapFileError(name, (say, file) => say.yaml(file, error.mark ? error.mark.line + 1 : 1, quoteText(error.reason)));

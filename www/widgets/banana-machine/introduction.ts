@@ -1,0 +1,76 @@
+/** Introduction of the figure: one robot drives, then ten, then the cloud grows while the ring pulses. */
+
+import { Cloud } from '../../figure/cloud.ts';
+
+/** Duration of each of two drives, ms: of one robot, and then of all. Drives and growth of the cloud take less than four seconds. */
+const DRIVE_DURATION_MS = 650;
+
+/** Number of robots that drive. */
+const DRIVING_ROBOTS = 10;
+
+/** Key in the session's storage that marks the introduction as seen. */
+const STORAGE_KEY = 'motion-widgets.introduced';
+
+/** Returns true if the introduction was not shown in this session, and marks it as shown. */
+function isFirstInSession() {
+  try {
+    const wasShown = sessionStorage.getItem(STORAGE_KEY) !== null;
+    if (!wasShown) sessionStorage.setItem(STORAGE_KEY, 'yes');
+    return !wasShown;
+  } catch {
+    // Without storage the introduction would be shown again and again.
+    return false;
+  }
+}
+
+/** Cloud of samples that starts to grow after the introduction. */
+export class IntroducedCloud extends Cloud {
+  /** Time at which the first robot started, ms. */
+  #startTime: number | undefined;
+  /** Phase of the introduction: `driving` robots, then a pulsing handle (`asking`) while the cloud grows. */
+  #phase: 'none' | 'driving' | 'asking' = 'none';
+
+  /** True while the ring at the end of the arc pulses, as a hint to drag it. */
+  get asking() {
+    return this.#phase === 'asking';
+  }
+
+  /** Number of driving robots, and the completed fraction of their path. */
+  get driving(): { robots: number, share: number } | undefined {
+    if (this.#phase !== 'driving') return undefined;
+    const elapsed = performance.now() - (this.#startTime ?? performance.now());
+    return { robots: elapsed < DRIVE_DURATION_MS ? 1 : DRIVING_ROBOTS, share: Math.min(1, (elapsed % DRIVE_DURATION_MS) / DRIVE_DURATION_MS) };
+  }
+
+  introduce(state: Parameters<Cloud['introduce']>[0]) {
+    this.#phase = 'none';
+    super.introduce(state);
+    const { host } = this;
+    const isConfigured = host.presentation || Object.keys(host.definition.attributes).some((name) => host.hasAttribute(name));
+    if (state || !this.playing || isConfigured || host.settings.current.samples < DRIVING_ROBOTS || !isFirstInSession()) return;
+    this.#phase = 'driving';
+    this.show(DRIVING_ROBOTS);
+    for (const event of ['pointerdown', 'keydown']) addEventListener(event, this.skip, { capture: true });
+  }
+
+  /** Ends the introduction when it is over, or when the user does something else. */
+  skip = () => {
+    this.#phase = 'none';
+    for (const event of ['pointerdown', 'keydown']) removeEventListener(event, this.skip, { capture: true });
+    this.host.requestUpdate();
+  };
+
+  hostDisconnected() {
+    this.skip();
+  }
+
+  grow() {
+    if (this.#phase === 'driving') {
+      // It starts when the figure is visible.
+      this.#startTime ??= performance.now();
+      if (performance.now() - this.#startTime < 2 * DRIVE_DURATION_MS) return;
+      this.#phase = 'asking';
+    }
+    super.grow();
+  }
+}

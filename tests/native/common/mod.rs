@@ -77,13 +77,14 @@ pub fn winds_around(outline: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
 
 // ------------------------------------------------------------------------------------------- reference tables
 
-/// A table of tests/reference, written by generate.py.
+/// Table of reference values in tests/reference, written by generate.py.
 pub struct ReferenceTable {
     column_names: Vec<&'static str>,
     rows: Vec<Vec<&'static str>>,
 }
 
-pub struct Row<'a> {
+/// Row of a reference table.
+pub struct ReferenceRow<'a> {
     table: &'a ReferenceTable,
     cells: &'a [&'static str],
 }
@@ -97,26 +98,26 @@ impl ReferenceTable {
         Self { column_names, rows }
     }
 
-    pub fn rows(&self) -> impl Iterator<Item = Row<'_>> {
-        self.rows.iter().map(|cells| Row { table: self, cells })
+    pub fn rows(&self) -> impl Iterator<Item = ReferenceRow<'_>> {
+        self.rows.iter().map(|cells| ReferenceRow { table: self, cells })
     }
 }
 
-impl Row<'_> {
+impl ReferenceRow<'_> {
     pub fn text(&self, column: &str) -> &'static str {
         let index = self.table.column_names.iter().position(|name| *name == column);
         self.cells[index.unwrap_or_else(|| panic!("no column {column}"))]
     }
 
-    pub fn get(&self, column: &str) -> f64 {
+    pub fn number(&self, column: &str) -> f64 {
         self.text(column).parse().expect("a number")
     }
 
-    pub fn all<const N: usize>(&self, column_names: [&str; N]) -> [f64; N] {
-        column_names.map(|column| self.get(column))
+    pub fn numbers<const N: usize>(&self, column_names: [&str; N]) -> [f64; N] {
+        column_names.map(|column| self.number(column))
     }
 
-    pub fn kind(&self) -> NoiseKind {
+    pub fn noise_kind(&self) -> NoiseKind {
         match self.text("kind") {
             "normal" => NoiseKind::Normal,
             "triangular" => NoiseKind::Triangular,
@@ -125,8 +126,8 @@ impl Row<'_> {
     }
 
     /// Returns the absolute error of `computed`. The reference is the sum of two columns: the nearest double and a remainder (`_lo`).
-    pub fn error(&self, column: &str, computed: f64) -> f64 {
-        ((computed - self.get(column)) - self.get(&format!("{column}_lo"))).abs()
+    pub fn deviation(&self, column: &str, computed: f64) -> f64 {
+        ((computed - self.number(column)) - self.number(&format!("{column}_lo"))).abs()
     }
 }
 

@@ -58,10 +58,10 @@ fn the_logarithm_near_a_turn_uses_the_branch_of_that_turn() {
 fn exp_and_jacobians_match_the_references() {
     let table = ReferenceTable::parse(include_str!("../../reference/group.csv"));
     for row in table.rows() {
-        let twist = Vector3::from(row.all(["a", "b", "w"]));
+        let twist = Vector3::from(row.numbers(["a", "b", "w"]));
         let tolerance = RELATIVE_ACCURACY * twist.norm().max(1.0);
         let assert_near = |column: &str, computed: f64| {
-            let error = row.error(column, computed);
+            let error = row.deviation(column, computed);
             assert!(
                 error <= tolerance,
                 "{column} at {:?}: off by {error:e}, allowed {tolerance:e}",
@@ -88,14 +88,14 @@ fn exp_and_jacobians_match_the_references() {
 #[test]
 fn log_matches_the_references() {
     for row in ReferenceTable::parse(include_str!("../../reference/log.csv")).rows() {
-        let pose = SE2::new(row.get("x"), row.get("y"), row.get("w"));
+        let pose = SE2::new(row.number("x"), row.number("y"), row.number("w"));
         let twist = pose.log();
-        let tolerance =
-            RELATIVE_ACCURACY * Vector3::new(row.get("a"), row.get("b"), row.get("w")).norm().max(1.0);
+        let tolerance = RELATIVE_ACCURACY
+            * Vector3::new(row.number("a"), row.number("b"), row.number("w")).norm().max(1.0);
         for (column, computed) in [("a", twist.x), ("b", twist.y)] {
-            let error = row.error(column, computed);
+            let error = row.deviation(column, computed);
             assert!(error <= tolerance, "{column} of log {pose:?}: off by {error:e}, allowed {tolerance:e}");
         }
-        assert_eq!(twist.z, row.get("w"));
+        assert_eq!(twist.z, row.number("w"));
     }
 }

@@ -87,10 +87,10 @@ fn with_zero_variance_samples_are_zero_and_prob_is_zero_or_one() {
 #[test]
 fn quantiles_match_references_to_1e_15() {
     for row in ReferenceTable::parse(include_str!("../../reference/quantile.csv")).rows() {
-        let q = row.get("q");
+        let q = row.number("q");
         for (kind, column) in [(NoiseKind::Normal, "normal"), (NoiseKind::Triangular, "triangular")] {
             let z = kind.quantile(q);
-            let relative_error = row.error(column, z) / row.get(column);
+            let relative_error = row.deviation(column, z) / row.number(column);
             assert!(
                 relative_error <= 1e-15,
                 "{kind:?} quantile({q}) = {z}: relative error {relative_error:e}"

@@ -211,7 +211,7 @@ fn twenty_steps_match_the_references() {
     for (row, order) in
         table.rows().zip([Compounding::Chapter, Compounding::FirstOrder, Compounding::FourthOrder])
     {
-        let [aa, ab, aw, bb, bw, ww] = row.all(["caa", "cab", "caw", "cbb", "cbw", "cww"]);
+        let [aa, ab, aw, bb, bw, ww] = row.numbers(["caa", "cab", "caw", "cbb", "cbw", "cww"]);
         let expected_cov = Matrix3::new(aa, ab, aw, ab, bb, bw, aw, bw, ww);
         let sigma = cov_after_twenty_steps(&tangent_model, order);
         assert!((sigma - expected_cov).amax() < 1e-14, "{}: {sigma}{expected_cov}", row.text("order"));

@@ -154,17 +154,17 @@ fn the_gain_equals_its_definition_over_all_poses() {
 #[test]
 fn exact_gains_match_the_references() {
     for row in ReferenceTable::parse(include_str!("../../reference/likelihood_gain.csv")).rows() {
-        let velocity_alphas = row.all(["a1", "a2", "a3", "a4", "a5", "a6"]);
-        let [v, omega, dt] = row.all(["v", "omega", "dt"]);
+        let velocity_alphas = row.numbers(["a1", "a2", "a3", "a4", "a5", "a6"]);
+        let [v, omega, dt] = row.numbers(["v", "omega", "dt"]);
         let command = VelocityCmd { v, omega, dt };
         let settings =
-            Settings { command, velocity_alphas, noise: row.kind(), samples: 1, ..Settings::default() };
+            Settings { command, velocity_alphas, noise: row.noise_kind(), samples: 1, ..Settings::default() };
         let exact_column = BananaMachine::new(settings).expect("a valid setting").table().exact;
         let case_name = format!("{command:?} {velocity_alphas:?}");
-        assert_close(&case_name, exact_column.likelihood_gain.pose, row.get("pose"), 1e-6);
-        assert_close(&case_name, exact_column.likelihood_gain.floor, row.get("floor"), 1e-6);
-        assert_close(&case_name, exact_column.area_ratio, row.get("area_ratio"), 1e-4);
-        let model = VelocityModel { alphas: VelocityAlphas(velocity_alphas), noise: row.kind() };
+        assert_close(&case_name, exact_column.likelihood_gain.pose, row.number("pose"), 1e-6);
+        assert_close(&case_name, exact_column.likelihood_gain.floor, row.number("floor"), 1e-6);
+        assert_close(&case_name, exact_column.area_ratio, row.number("area_ratio"), 1e-4);
+        let model = VelocityModel { alphas: VelocityAlphas(velocity_alphas), noise: row.noise_kind() };
         assert_eq!(ExactGain::of_velocity(&model, &command).value.floor, exact_column.likelihood_gain.floor);
     }
 }

@@ -97,17 +97,21 @@ fn the_outline_is_nearly_the_shadow_of_the_ellipsoid() {
 #[test]
 fn predicted_skews_match_the_references() {
     for row in ReferenceTable::parse(include_str!("../../reference/pushed_skew.csv")).rows() {
-        let mean = Vector3::from(row.all(["a", "b", "w"]));
-        let [aa, ab, aw, bb, bw, ww] = row.all(["caa", "cab", "caw", "cbb", "cbw", "cww"]);
+        let mean = Vector3::from(row.numbers(["a", "b", "w"]));
+        let [aa, ab, aw, bb, bw, ww] = row.numbers(["caa", "cab", "caw", "cbb", "cbw", "cww"]);
         let cov = Matrix3::new(aa, ab, aw, ab, bb, bw, aw, bw, ww);
         let skew = predicted_cross_track_skew(&mean, &cov);
-        assert!((skew - row.get("skew")).abs() < 1e-12, "{mean} {cov}: {skew}, not {}", row.get("skew"));
+        assert!(
+            (skew - row.number("skew")).abs() < 1e-12,
+            "{mean} {cov}: {skew}, not {}",
+            row.number("skew")
+        );
     }
 }
 
 const MOMENT_COLUMNS: [&str; 8] = ["mx", "my", "sxx", "sxy", "syy", "sxt", "syt", "stt"];
 
-fn assert_moments_of_row(exact_moments: &ExactMoments, row: &crate::common::Row<'_>) {
+fn assert_moments_of_row(exact_moments: &ExactMoments, row: &crate::common::ReferenceRow<'_>) {
     let computed = [
         exact_moments.mean.x,
         exact_moments.mean.y,
@@ -119,27 +123,29 @@ fn assert_moments_of_row(exact_moments: &ExactMoments, row: &crate::common::Row<
         exact_moments.cov[(2, 2)],
     ];
     for (name, value) in MOMENT_COLUMNS.into_iter().zip(computed) {
-        assert!((value - row.get(name)).abs() < 1e-14, "{name}: {value}, not {}", row.get(name));
+        assert!((value - row.number(name)).abs() < 1e-14, "{name}: {value}, not {}", row.number(name));
     }
     assert!((exact_moments.cov - exact_moments.cov.transpose()).amax() < 1e-15);
     let skew = exact_moments.cross_track_skew;
-    assert!((skew - row.get("skew")).abs() < 1e-12, "skew {skew}, not {}", row.get("skew"));
+    assert!((skew - row.number("skew")).abs() < 1e-12, "skew {skew}, not {}", row.number("skew"));
 }
 
 #[test]
 fn exact_moments_match_the_references() {
     for row in ReferenceTable::parse(include_str!("../../reference/velocity_moments.csv")).rows() {
-        let alphas = VelocityAlphas(row.all(["a1", "a2", "a3", "a4", "a5", "a6"]));
-        let [v, omega, dt] = row.all(["v", "omega", "dt"]);
-        let model = VelocityModel { alphas, noise: row.kind() };
+        let alphas = VelocityAlphas(row.numbers(["a1", "a2", "a3", "a4", "a5", "a6"]));
+        let [v, omega, dt] = row.numbers(["v", "omega", "dt"]);
+        let model = VelocityModel { alphas, noise: row.noise_kind() };
         let exact_moments = ExactMoments::of_velocity(&model, &VelocityCmd { v, omega, dt });
         assert!((exact_moments.mean.z - wrap_angle(omega * dt)).abs() < 1e-15);
         assert_moments_of_row(&exact_moments, &row);
     }
     for row in ReferenceTable::parse(include_str!("../../reference/odometry_moments.csv")).rows() {
-        let [rot1, trans, rot2] = row.all(["rot1", "trans", "rot2"]);
-        let model =
-            OdometryModel { alphas: OdomAlphas(row.all(["a1", "a2", "a3", "a4"])), noise: row.kind() };
+        let [rot1, trans, rot2] = row.numbers(["rot1", "trans", "rot2"]);
+        let model = OdometryModel {
+            alphas: OdomAlphas(row.numbers(["a1", "a2", "a3", "a4"])),
+            noise: row.noise_kind(),
+        };
         let exact_moments = ExactMoments::of_odometry(&model, &OdomDelta { rot1, trans, rot2 });
         assert!((exact_moments.mean.z - wrap_angle(rot1 + rot2)).abs() < 1e-15);
         assert_moments_of_row(&exact_moments, &row);

@@ -1,6 +1,7 @@
 /**
- * Durations of the steps of a drag, at the initial sample counts and with a processor four times slower: of the frame that paints the picture
- * (JavaScript, WebAssembly, style, layout and paint), until the text is updated, and between frames.
+ * Durations of the steps of a drag, at the initial sample counts and with a processor four times slower. The first is that of the frame that
+ * paints the picture (JavaScript, WebAssembly, style, layout and paint). The others are the time until the text is updated, and the time
+ * between frames.
  *
  * @module
  */

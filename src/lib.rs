@@ -62,4 +62,5 @@ pub use models::{
     Compounding, MotionModel, OdomAlphas, OdomDelta, OdometryModel, ReverseAware, RotTransRot,
     TangentNoiseError, TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel,
 };
+pub use nalgebra;
 pub use noise::{NegativeVariance, NoiseKind, Variance};

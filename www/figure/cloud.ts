@@ -151,14 +151,12 @@ export class Cloud extends FigureController {
 
   /** Selects the sample nearest to the pointer. */
   selectAtPointer(picture: import('../scene/picture.ts').Picture<any>, event: PointerEvent) {
-    this.host.runtime.attempt(() => {
-      const { simulation, gesture } = this.host;
-      // A moving finger scrolls; a tap is a click.
-      if (!simulation || gesture.isPressed || (event.pointerType === 'touch' && event.type !== 'click')) return;
-      const [x, y] = pointOn(event.currentTarget as Element, picture.view, event);
-      const index = picture.nearest(simulation, x, y);
-      if (index >= 0 || event.type === 'click') this.mark(index);
-    });
+    const { simulation, gesture } = this.host;
+    // A moving finger scrolls; a tap is a click.
+    if (!simulation || gesture.isPressed || (event.pointerType === 'touch' && event.type !== 'click')) return;
+    const [x, y] = pointOn(event.currentTarget as Element, picture.view, event);
+    const index = picture.nearest(simulation, x, y);
+    if (index >= 0 || event.type === 'click') this.mark(index);
   }
 
   /** True if the selected sample is shown. */
@@ -215,13 +213,11 @@ export class Cloud extends FigureController {
 
   /** Runs the action of a button of the cloud, and sets `playing`. */
   #control(playing: boolean, action: () => void) {
-    this.host.runtime.attempt(() => {
-      if (!this.host.simulation) return;
-      action();
-      this.playing = playing;
-      this.host.gesture.complete();
-      this.host.renderer.requestFrame();
-    });
+    if (!this.host.simulation) return;
+    action();
+    this.playing = playing;
+    this.host.gesture.complete();
+    this.host.renderer.requestFrame();
   }
 
   /** Returns the buttons of growth and seed, with the field of the seed. */

@@ -210,10 +210,8 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
 
   /** Returns the answer of the simulation to a question, after all pending changes; null without a simulation. */
   querySimulation<Answer>(question: (simulation: Simulation) => Answer): Answer | null {
-    return this.runtime.attempt(() => {
-      this.settings.applyPending();
-      return this.simulation && question(this.simulation);
-    }) ?? null;
+    this.settings.applyPending();
+    return this.simulation ? question(this.simulation) : null;
   }
 
   // Public properties and methods.

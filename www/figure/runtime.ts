@@ -58,33 +58,21 @@ export class Runtime extends FigureController {
     this.simulation = simulation;
   }
 
-  /** Runs work. After a trap, replaces the core and returns undefined. Throws other errors. */
-  attempt<Result>(work: () => Result): Result | undefined {
+  /** Runs work. After a trap, replaces the core and returns undefined. Other errors go to `handleError`, by default to the caller. */
+  attempt<Result>(work: () => Result, handleError = (error: unknown): void => { throw error; }): Result | undefined {
     try {
       return work();
     } catch (error) {
-      if (!isWasmTrap(error)) throw error;
-      this.#recover(error);
+      if (isWasmTrap(error)) this.#recover(error);
+      else handleError(error);
     }
   }
 
   /** Runs work as `attempt` does; an error ends the figure with a message. */
-  attemptOrFail: Runtime['attempt'] = (work) => {
-    try {
-      return this.attempt(work);
-    } catch (error) {
-      this.fail(error);
-    }
-  };
+  attemptOrFail = <Result>(work: () => Result) => this.attempt(work, (error) => this.fail(error));
 
   /** Runs work as `attempt` does; an error is reported. */
-  attemptOrReport(work: () => void) {
-    try {
-      this.attempt(work);
-    } catch (error) {
-      this.report(error);
-    }
-  }
+  attemptOrReport = (work: () => void) => this.attempt(work, (error) => this.report(error));
 
   /** Marks the core as working after a picture was drawn, so that the figure recovers from a later trap again. */
   confirmHealthy() {

@@ -51,15 +51,13 @@ export class Settings extends FigureController {
    * element is changed at once.
    */
   request(change: Values | ((requested: Values) => Values)) {
-    const { runtime, state, gesture, renderer } = this.host;
-    runtime.attempt(() => {
-      if (!this.host.simulation) return;
-      this.forgetRefusal();
-      const values = typeof change === 'function' ? change(this.requested) : change;
-      for (const [key, value] of Object.entries(values)) (key in state.elementState ? state.elementState : this.#pending)[key] = value;
-      gesture.step();
-      renderer.requestFrame();
-    });
+    const { simulation, state, gesture, renderer } = this.host;
+    if (!simulation) return;
+    this.forgetRefusal();
+    const values = typeof change === 'function' ? change(this.requested) : change;
+    for (const [key, value] of Object.entries(values)) (key in state.elementState ? state.elementState : this.#pending)[key] = value;
+    gesture.step();
+    renderer.requestFrame();
   }
 
   /** Shows why a typed text is not a valid value of a setting. */

@@ -72,12 +72,9 @@ export class State extends FigureController {
 
   /** Restores a state, by default the one that the figure opened with, as a change by the user. */
   restoreAsUser(state: Values | undefined = this.#openingState) {
-    const { gesture, runtime } = this.host;
-    runtime.attempt(() => {
-      this.host.copyMenu.clearMessage();
-      this.applyState(state);
-      gesture.complete();
-    });
+    this.host.copyMenu.clearMessage();
+    this.applyState(state);
+    this.host.gesture.complete();
   }
 
   /** Shows a state of the simulation, by default the opening state. */

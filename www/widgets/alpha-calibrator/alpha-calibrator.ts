@@ -113,13 +113,11 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
 
   /** Shows the leg that was clicked in the picture. */
   #chooseLegAt = (event: MouseEvent) => {
-    this.runtime.attempt(() => {
-      const { simulation } = this;
-      if (!simulation || !(event.target instanceof HTMLCanvasElement)) return;
-      const [x, y] = pointOn(event.target, this.#pathPicture.view, event);
-      const leg = this.#pathPicture.nearest(simulation, x, y);
-      if (leg >= 0) this.gesture.decide({ leg });
-    });
+    const { simulation } = this;
+    if (!simulation || !(event.target instanceof HTMLCanvasElement)) return;
+    const [x, y] = pointOn(event.target, this.#pathPicture.view, event);
+    const leg = this.#pathPicture.nearest(simulation, x, y);
+    if (leg >= 0) this.gesture.decide({ leg });
   };
 
   /**

@@ -16,8 +16,8 @@ export class ArcHandle extends Handle {
       drag: (x, y) => figure.reach(x, y),
       key: (event) => {
         const keySteps = stepsOfKey(event);
-        if (!keySteps) return false;
-        const [x, y] = figure.runtime.attempt(() => figure.simulation && figure.seenEnd) ?? [0, 0];
+        if (!keySteps || !figure.simulation) return false;
+        const [x, y] = figure.seenEnd;
         // The straight arc reaches furthest.
         const maxX = sliderSpecs.v.max * figure.settings.requested.command.dt;
         figure.reach(clamp(x + KEY_STEP * keySteps[0], -maxX, maxX), y + KEY_STEP * keySteps[1]);

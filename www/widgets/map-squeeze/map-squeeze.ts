@@ -175,11 +175,9 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
 
   /** Moves the robot to free space, as the user asked. */
   moveToFreePose() {
-    this.runtime.attempt(() => {
-      if (!this.simulation) return;
-      this.renderer.releaseViews();
-      this.gesture.decide({ start: freePoseIn(this.simulation) });
-    });
+    if (!this.simulation) return;
+    this.renderer.releaseViews();
+    this.gesture.decide({ start: freePoseIn(this.simulation) });
   }
 
   /** Puts the robot into a map of the user, or for null into the apartment, as the user asked. */

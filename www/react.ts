@@ -48,7 +48,11 @@ class Figure {
     const { props: previousProps } = this;
     Object.assign(this, { element, props });
     for (const type of EVENT_TYPES) element.addEventListener(type, this);
-    if (!previousProps && element.stats) this.repeatMissedEvents(element, props);
+    if (!previousProps && element.stats) {
+      // An element that the server sent was running before React attached the listeners.
+      element.dispatchEvent(new Event('load'));
+      element.dispatchEvent(new CustomEvent('stats', { detail: element.stats }));
+    }
     for (const [name, attribute] of Object.entries(this.names.attributes)) {
       const text = this.text(name, props);
       // Attributes sent by the server are kept at first: the user may have changed the figure since.
@@ -57,17 +61,6 @@ class Figure {
       else element.setAttribute(attribute, text);
     }
     for (const name of this.names.properties) if (areDifferent(previousProps?.[name], props[name])) element[name] = props[name];
-  }
-
-  /** Repeats events and properties for an element that the server sent: it was running before React attached the listeners. */
-  repeatMissedEvents(element: any, props: Props) {
-    element.dispatchEvent(new Event('load'));
-    element.dispatchEvent(new CustomEvent('stats', { detail: element.stats }));
-    for (const [name, attribute] of Object.entries(this.names.attributes)) {
-      const text = this.text(name, props);
-      // A refused attribute is still there: set as a property, it is refused and reported again.
-      if (text !== null && element.getAttribute(attribute) === text) element[name] = props[name];
-    }
   }
 
   handleEvent(event: Event) {

@@ -63,7 +63,7 @@ const PUBLISHED_SCRIPT = 'https://cdn.jsdelivr.net/npm/motion-widgets@0.1/dist/e
 /** Returns HTML for any page: the script, and the tag with the attributes that differ from the defaults. */
 export function embeddingHtml(figure: import('./figure.ts').Figure) {
   const pageAttributes = ['theme', 'lang', 'dir'].map((name) => [name, figure.getAttribute(name) ?? ''] as [string, string]);
-  const stateAttributes = figure.simulation ? figure.reflection.nonDefaultAttributes() : [];
+  const stateAttributes = figure.simulation ? figure.reflection.neededAttributes() : [];
   // Addresses of local files and inline scripts do not work on other pages.
   const isWebAddress = /^https?:/.test(address);
   const scriptType = (isWebAddress && isClassic ? ['defer', ''] : ['type', 'module']) as [string, string];

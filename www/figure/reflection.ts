@@ -7,9 +7,6 @@ import { FigureController } from './controller.ts';
 import type { Figure } from './figure.ts';
 import type { Values } from './settings.ts';
 
-/** Texts of attributes; null for none. */
-type AttributeTexts = Map<string, string | null>;
-
 export class Reflection extends FigureController {
   #attributes = this.host.definition.attributes;
   #properties = this.host.definition.properties;
@@ -20,8 +17,6 @@ export class Reflection extends FigureController {
   /** True after the first connection: an element that is moved in the page keeps its settings. */
   #hasConnected = false;
   #isWriting = false;
-  /** Attribute texts as last written. */
-  #writtenTexts: AttributeTexts | undefined;
 
   /** Applies properties that were set before the element was upgraded, or that a server wrote as text. */
   hostConnected() {
@@ -123,50 +118,43 @@ export class Reflection extends FigureController {
     return { ...defaultConfig(definition.declarations), ...state.defaults, ...definition.dependentDefaults?.(settings.requested) };
   }
 
-  #textsOf(config: Values): AttributeTexts {
-    return new Map(Object.entries(this.#attributes).map(([name, { converter, get }]) => [name, converter.print(get(config) ?? null)]));
-  }
-
-  /** Writes the attributes that have changed; the first call only remembers their texts. A text of the page stays if it has the same value. */
+  /** Writes attributes that differ from the settings. An attribute that is missing is written if a new figure would need it. */
   updateAttributes() {
-    this.host.runtime.attempt(() => {
-      if (this.host.simulation) this.#write(this.#textsOf(this.host.state.config));
-    });
-  }
-
-  #write(texts: AttributeTexts) {
-    const writtenTexts = this.#writtenTexts;
-    this.#writtenTexts = texts;
-    if (!writtenTexts) return;
-    const changedNames = new Set([...texts.keys()].filter((name) => texts.get(name) !== writtenTexts.get(name)));
-    for (const [name, { coveredAttributes }] of Object.entries(this.#attributes)) {
-      if (!coveredAttributes || texts.get(name) !== null || !changedNames.has(name)) continue;
-      const defaultTexts = this.#textsOf(this.#defaultConfig);
-      for (const covered of coveredAttributes) if (texts.get(covered) !== defaultTexts.get(covered)) changedNames.add(covered);
-    }
+    const { simulation, viewModel, state } = this.host;
+    // At first the attributes of the page still wait in `#earlyAssignments`.
+    if (!simulation || !viewModel) return;
+    const texts = this.#textsOf(state.config);
+    const neededTexts = this.neededAttributes();
     this.#isWriting = true;
-    for (const name of changedNames) {
-      const { parse, print } = this.#attributes[name].converter;
-      const [text, presentText] = [texts.get(name) ?? null, this.host.getAttribute(name)];
+    for (const [name, { converter: { parse, print } }] of Object.entries(this.#attributes)) {
+      const presentText = this.host.getAttribute(name);
+      const text = (presentText === null ? neededTexts : texts).get(name) ?? null;
       if (text === null) this.host.removeAttribute(name);
+      // A text of the page stays if it has the same value.
       else if (presentText === null || print(parse(presentText)) !== text) this.host.setAttribute(name, text);
     }
     this.#isWriting = false;
   }
 
   /** Returns the attributes that a new figure needs to open in the present state. */
-  nonDefaultAttributes(): [string, string][] {
+  neededAttributes(): Map<string, string> {
     const texts = this.#textsOf(this.host.state.config);
     const defaultTexts = this.#textsOf(this.#defaultConfig);
     const coveredNames: Set<string> = new Set();
-    const attributes: [string, string][] = [];
-    for (const [name, { coveredAttributes }] of Object.entries(this.#attributes)) {
-      const text = texts.get(name) ?? null;
-      if (text === null) continue;
-      if (text !== defaultTexts.get(name) && !coveredNames.has(name)) attributes.push([name, text]);
-      coveredAttributes?.forEach((coveredName) => coveredNames.add(coveredName));
+    const neededTexts = new Map<string, string>();
+    for (const [name, { coveredAttributes = [] }] of Object.entries(this.#attributes)) {
+      const text = texts.get(name);
+      if (text === undefined) continue;
+      if (text !== defaultTexts.get(name) && !coveredNames.has(name)) neededTexts.set(name, text);
+      for (const coveredName of coveredAttributes) coveredNames.add(coveredName);
     }
-    return attributes;
+    return neededTexts;
+  }
+
+  /** Returns the texts of all attributes that have a value. */
+  #textsOf(config: Values): Map<string, string> {
+    const entries = Object.entries(this.#attributes).map(([name, { converter, get }]) => [name, converter.print(get(config) ?? null)] as const);
+    return new Map(entries.filter((entry): entry is [string, string] => entry[1] !== null));
   }
 }
 

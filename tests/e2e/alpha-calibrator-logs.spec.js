@@ -22,6 +22,7 @@ test('two tables of a user replace the simulated log, and a button brings it bac
   await expect(widget.locator('.drop-zone .present')).toHaveText('Log: odom.csv, truth.csv.');
   // The summary stays visible next to the result.
   await expect(widget.getByRole('row', { name: /^read \d+ of \d+ rows/ })).toBeVisible();
+  await expect(widget.getByRole('img', { name: /^Paths from above: .* m by .* m\.$/ })).toBeVisible();
   // The names of the files decide their roles, not the order in which they are chosen.
   await widget.getByLabel('odom.csv').selectOption('Reference');
   await expect(captionOf(widget)).toHaveText(/of truth\.csv, odom\.csv[.,]/);

@@ -145,6 +145,7 @@ export const german: Words = {
   found: {
     title: 'Was gelesen wurde',
     drive: (number) => `Fahrt ${number}`,
+    paths: (width, height) => `Bahnen von oben: Referenz (durchgezogen) und Odometrie (gestrichelt), an ihr ausgerichtet; ${width} m mal ${height} m.`,
     labels: { rows: 'gelesen', columns: 'Spalten', units: 'Einheiten', frames: 'Koordinatensysteme', clock: 'Zeiten', dropped: 'weggelassen', gaps: 'Lücken', jumps: 'Sprünge', notes: 'Hinweise' },
     rows: (used, rows, seconds, rate, distance) => `${used} von ${rows} Zeilen, ${withDecimalComma(seconds, 1)} s mit ${rate.toPrecision(3).replace('.', ',')} Hz, ${withDecimalComma(distance, 1)} m gefahren`,
     units: ({ time, length, angle }) =>

@@ -158,6 +158,7 @@ export const english = {
   found: {
     title: 'What was read',
     drive: (number: number) => `Drive ${number}`,
+    paths: (width: string, height: string) => `Paths from above: reference (solid) and odometry (dashed), aligned with it; ${width} m by ${height} m.`,
     labels: { rows: 'read', columns: 'columns', units: 'units', frames: 'frames', clock: 'times', dropped: 'left out', gaps: 'gaps', jumps: 'jumps', notes: 'notes' },
     rows: (used: number, rows: number, seconds: number, rate: number, distance: number) =>
       `${used} of ${rows} rows, ${seconds.toFixed(1)} s at ${rate.toPrecision(3)} Hz, ${distance.toFixed(1)} m driven`,

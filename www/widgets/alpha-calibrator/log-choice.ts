@@ -1,13 +1,15 @@
 /** Forms that ask which logs to read, and the summary of the logs that were read. This module is loaded with the first log. */
 
-import { html, nothing } from 'lit';
+import { html, nothing, svg } from 'lit';
 import { guard } from 'lit/directives/guard.js';
 import { live } from 'lit/directives/live.js';
 import { findCandidates, readableSeries } from '../../logs/candidates.ts';
 import { ROLES, UNITS, framesText, type LogChoice, type Question, type Recording, type Role } from '../../logs/log.ts';
+import { alignedPath, pathOf, type Path } from '../../logs/path.ts';
 import { summaryLines } from '../../logs/summary.ts';
 import { language } from '../../messages/registry.ts';
 import { radioGroup } from '../../ui/controls.ts';
+import { fixed } from '../../ui/format.ts';
 import type { Drive } from '../../logs/drives.ts';
 import type { AlphaCalibratorElement } from './alpha-calibrator.ts';
 import type { OpenQuestion, ChosenFiles, LogOpener, LogWords } from './open.ts';
@@ -133,6 +135,12 @@ export function focusChooser({ renderRoot }: AlphaCalibratorElement, asked: Open
   return true;
 }
 
+/** Size of the picture, CSS pixels, and its margin for the width of lines. */
+const [WIDTH, HEIGHT, MARGIN] = [220, 150, 4];
+
+/** Maximum number of points of a path. More than one per pixel would be invisible. */
+const MAX_POINTS = 1500;
+
 /** Returns the summary of the logs of each drive. It is shown while the logs are fitted, and below the result. */
 export function logSummary({ chosen, say, host }: LogOpener) {
   // The page may have set another log in the meantime.
@@ -140,7 +148,10 @@ export function logSummary({ chosen, say, host }: LogOpener) {
   const { drives } = chosen;
   return html`<details class="found" open>
     <summary>${say.found.title}</summary>
-    ${guard([drives, say, language], () => drives.map((drive, i) => tableOf(drive, drives.length > 1 ? say.found.drive(i + 1) : '', say)))}
+    ${guard([drives, say, language], () => drives.map((drive, i) => html`<div class="drive">
+      ${tableOf(drive, drives.length > 1 ? say.found.drive(i + 1) : '', say)}
+      ${pathsPicture(drive, say)}
+    </div>`))}
   </details>`;
 }
 
@@ -158,4 +169,24 @@ function tableOf({ odometry, reference }: Drive, caption: string, { choose, foun
       ${labels.map((label) => html`<tr><th scope="row">${found.labels[label]}</th>${lines.map((line) => tableCell(line[label]))}</tr>`)}
     </tbody>
   </table>`;
+}
+
+/** Returns a picture of both paths, with the odometry aligned to the reference. */
+function pathsPicture({ odometry, reference }: Drive, { found }: LogWords) {
+  const [drivenPath, referencePath] = [odometry.data, reference.data].map((data) => pathOf(data, Math.ceil(data.t.length / MAX_POINTS)));
+  const odometryPath = alignedPath(drivenPath, referencePath);
+  const allPoses = [...odometryPath.poses, ...referencePath.poses];
+  const axisRanges = ([0, 1] as const).map((axis) => [Math.min(...allPoses.map((pose) => pose[axis])), Math.max(...allPoses.map((pose) => pose[axis]))]);
+  const [width, height] = axisRanges.map(([low, high]) => high - low);
+  const pixelsPerMetre = Math.min((WIDTH - 2 * MARGIN) / Math.max(width, 0.1), (HEIGHT - 2 * MARGIN) / Math.max(height, 0.1));
+  const formatCoordinate = (value: number) => value.toFixed(1);
+  const pathData = ({ poses, breaks }: Path) => poses.map(([x, y], i) =>
+    `${i === 0 || breaks.has(i) ? 'M' : 'L'}${formatCoordinate(MARGIN + (x - axisRanges[0][0]) * pixelsPerMetre)} ${formatCoordinate(HEIGHT - MARGIN - (y - axisRanges[1][0]) * pixelsPerMetre)}`).join('');
+  const captionText = found.paths(fixed(width, 1), fixed(height, 1));
+  return html`<figure class="paths">
+    <svg viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" aria-label=${captionText}>
+      ${svg`<path class="reference" d=${pathData(referencePath)}></path><path class="odometry" d=${pathData(odometryPath)}></path>`}
+    </svg>
+    <figcaption>${captionText}</figcaption>
+  </figure>`;
 }

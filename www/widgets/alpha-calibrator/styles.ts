@@ -26,7 +26,16 @@ export const styles = css`
     display: none;
   }
 
+  .drive {
+    display: flex;
+    flex-wrap: wrap;
+    gap: 0.5em 1.5em;
+    align-items: flex-start;
+  }
+
   .found table {
+    flex: 1 1 18em;
+    margin: 0;
     line-height: 1.25;
   }
 
@@ -40,6 +49,30 @@ export const styles = css`
   .found tbody th {
     color: var(--muted);
     white-space: nowrap;
+  }
+
+  .paths {
+    flex: 0 0 14em;
+    margin: 0;
+    font-size: 0.84em;
+    line-height: 1.25;
+  }
+
+  .paths svg {
+    display: block;
+    width: 100%;
+  }
+
+  .paths path {
+    fill: none;
+    stroke: var(--ink);
+    stroke-width: 1.25;
+    stroke-linejoin: round;
+  }
+
+  .paths .odometry {
+    stroke: var(--prior);
+    stroke-dasharray: 4 2;
   }
 
   /* The second class of legs has a colour between two roles, as in the picture. */

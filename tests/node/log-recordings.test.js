@@ -110,13 +110,11 @@ test('stamps that begin at 0 are used; messages without stamps have the times of
 });
 
 test('unusable quaternions, numbers and times are left out', async () => {
-  const messages = createOdometryMessages(20, (i) => odometryMessageOf(i === 8 ? timeOf(2) : timeOf(i), i === 5 ? NaN : i, 0, 0, i === 3 ? 0 : 1));
+  const messages = createOdometryMessages(20, (i) => odometryMessageOf(i === 8 ? timeOf(2) : timeOf(i), { 5: NaN, 11: 1e300 }[i] ?? i, 0, 0, i === 3 ? 0 : 1));
   const { data, summary } = await readLog(mcapFileOf(await recordingOf(messages)), { series: '/odom' });
-  assert.deepEqual([.../** @type {any} */ (data).x], Array.from({ length: 20 }, (_, i) => i).filter((i) => ![3, 5, 8].includes(i)));
-  assert.deepEqual(summary.dropped, { noRotation: { count: 1, first: 4 }, notFinite: { count: 1, first: 6 }, duplicate: { count: 1, first: 9 } });
-  assert.deepEqual([...data.breaks], [3, 4]);
-  const farMessages = createOdometryMessages(20, (i) => odometryMessageOf(timeOf(i), i === 11 ? 1e300 : i, 0, 0));
-  assert.match(await refusalSentenceOf(readLog(mcapFileOf(await recordingOf(farMessages)), { series: '/odom' })), /^run\.mcap, topic \/odom: message 12 has the value 1e\+300; expected are numbers from /);
+  assert.deepEqual([.../** @type {any} */ (data).x], Array.from({ length: 20 }, (_, i) => i).filter((i) => ![3, 5, 8, 11].includes(i)));
+  assert.deepEqual(summary.dropped, { noRotation: { count: 1, first: 4 }, notFinite: { count: 1, first: 6 }, damaged: { count: 1, first: 12 }, duplicate: { count: 1, first: 9 } });
+  assert.deepEqual([...data.breaks], [3, 4, 8]);
 });
 
 test('messages that are written a little late are sorted by their times, and those in any order are refused', async () => {
@@ -175,7 +173,7 @@ test('positions without a heading are refused, by their type', async () => {
 
 test('other recordings are refused', async () => {
   const refusalOf = async (/** @type {Parameters<typeof recordingOf>[1]} */ options, messages = createDriveMessages()) => refusalSentenceOf(readLog(mcapFileOf(await recordingOf(messages, options)), { series: '/odom' }));
-  assert.equal(await refusalOf({ compression: 'odd' }), 'run.mcap: it is damaged or incomplete (compression by snappy, not by zstd or lz4); copy it again from the robot, or try “mcap recover”.');
+  assert.equal(await refusalOf({ compression: 'odd' }), 'run.mcap, topic /odom: it is damaged or incomplete (compression by snappy, not by zstd or lz4); copy it again from the robot, or try “mcap recover”.');
   assert.equal(await refusalOf({ encoding: 'json' }), 'run.mcap, topic /odom: its messages are encoded as “json”; expected is cdr of ROS 2, or ros1.');
   const [jsonRecording] = await openRecordings([mcapFileOf(await recordingOf(createOdometryMessages(3), { encoding: 'json' }))]);
   assert.match(await refusalSentenceOf((async () => planDrives([jsonRecording]))()), /^run\.mcap: the topics are \/odom \(Odometry as json\); /);

@@ -25,6 +25,7 @@ const UNIT_BASIS_TEXTS: Record<UnitBasis, string> = { name: ' (nach dem Namen)',
 const ANGLE_UNIT_TEXTS: Record<Summary['units']['angle']['unit'], string> = { rad: 'Richtung in rad', deg: 'Richtung in Grad', quaternion: 'Richtung aus einem Quaternion', none: '' };
 
 const DROP_REASONS: Record<DropCause, string> = {
+  damaged: 'beschädigte Nachrichten',
   notFinite: 'keine endliche Zahl',
   noRotation: 'ein Quaternion, das keine Drehung ist',
   short: 'zu wenige Felder',
@@ -156,6 +157,7 @@ export const german: Words = {
     jumps: (count, first) => `${count}, der erste ${withDecimalComma(first, 2)} s nach dem Start`,
     recorded: 'die der Aufzeichnung, da die Header keine oder immer dieselben haben',
     notes: {
+      damaged: (count, reason) => `${count} ${count === 1 ? 'beschädigter Block' : 'beschädigte Blöcke'} ausgelassen (${reason})`,
       cutShort: 'die Datei ist unvollständig: Sie endet mitten in einer Zeile oder einem Record',
       upAxis: (axis) => `${axis} ist die senkrechte Achse`,
       sorted: (count) => `${countWithNoun(count, 'verspätete Zeile', 'verspätete Zeilen')} nach der Zeit sortiert`,

@@ -22,6 +22,7 @@ const ANGLE_UNIT_TEXTS: Record<Summary['units']['angle']['unit'], string> = { ra
 
 /** Reasons for leaving rows out. */
 const DROP_REASONS = {
+  damaged: 'damaged messages',
   notFinite: 'a value that is not finite',
   noRotation: 'a quaternion that is no rotation',
   short: 'too few cells',
@@ -171,6 +172,7 @@ export const english = {
     jumps: (count: number, first: number) => `${count}, the first ${first.toFixed(2)} s after the start`,
     recorded: 'when messages were recorded, as their headers have no stamps, or all the same one',
     notes: {
+      damaged: (count: number, reason: string) => `${count} damaged ${count === 1 ? 'block' : 'blocks'} skipped (${reason})`,
       cutShort: 'the file is incomplete: it ends in the middle of a row or record',
       upAxis: (axis: string) => `${axis} is the vertical axis`,
       sorted: (count: number) => `${count} late ${count === 1 ? 'row' : 'rows'} sorted by time`,

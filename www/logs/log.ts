@@ -109,7 +109,7 @@ export interface Log {
 }
 
 /** Reason for dropping a row. */
-export type DropCause = 'notFinite' | 'noRotation' | 'noStamp' | 'short' | 'text' | 'duplicate' | 'repeated' | 'held';
+export type DropCause = 'damaged' | 'notFinite' | 'noRotation' | 'noStamp' | 'short' | 'text' | 'duplicate' | 'repeated' | 'held';
 
 /** Evidence for a unit: a name, the size of the numbers, rate and speed, the format, dates, an option, or (`usage`) only that it is usual. */
 export type UnitBasis = 'name' | 'size' | 'rate' | 'format' | 'date' | 'option' | 'usage';
@@ -119,7 +119,7 @@ export type Warning = Extract<Note['name'], 'localizer'>;
 
 /** Note about a log: key of its sentence in `found.notes` of the messages, and the values in that sentence. */
 export interface Note {
-  name: 'cutShort' | 'sorted' | 'upAxis' | 'apart' | 'localizer';
+  name: 'cutShort' | 'damaged' | 'sorted' | 'upAxis' | 'apart' | 'localizer';
   values: (string | number)[];
 }
 

@@ -5,7 +5,7 @@ import { Chain, FrameTree } from './frames.ts';
 import { LogError, truncate, listNames, reasonOf, type Words } from './log-error.ts';
 import { LOG_TIME, framesOption, framesText, type FramePair, type LogChoice, type Log, type Note, type OpenOptions, type Question, type Recording, type Series } from './log.ts';
 import { readTransforms, isReadable, logKindOfType, poseReader, type Sample } from './messages.ts';
-import { Rows } from './rows.ts';
+import { MAX_VALUE, Rows } from './rows.ts';
 
 /** Maximum number of messages with transforms that are read to find the frames. */
 const MAX_FRAME_MESSAGES = 2000;
@@ -15,8 +15,11 @@ const isStaticTopic = ({ topic, type }: Pick<Channel, 'topic' | 'type'>) => logK
 
 /** Returns a recording whose logs are read from the messages of a container. */
 export async function recordingOf(name: string, container: Container, options: OpenOptions): Promise<Recording> {
-  const { format, cutReason, channels } = container;
-  if (channels.every(({ count }) => count === 0)) throw new LogError({ file: name }, (say) => (cutReason ? say.damaged(cutReason, format) : say.noMessages));
+  const { format, channels } = container;
+  if (channels.every(({ count }) => count === 0)) {
+    const reason = damageReasonOf(container);
+    throw new LogError({ file: name }, (say) => (reason ? say.damaged(reason, format) : say.noMessages));
+  }
   const series = await listSeries(container);
   return { name, format, series, read };
 
@@ -34,6 +37,9 @@ export async function recordingOf(name: string, container: Container, options: O
     return choiceReaders.map((reader) => reader.end(options));
   }
 }
+
+/** Returns the reason why a part of a recording cannot be read; undefined for an undamaged recording. */
+const damageReasonOf = ({ damage, cutReason }: Container): string | undefined => [...damage.values(), cutReason][0];
 
 async function listSeries(container: Container): Promise<Series[]> {
   const channelsByTopic = new Map<string, Channel[]>();
@@ -79,9 +85,18 @@ function topicReader(file: string, container: Container, choice: LogChoice, seri
   const chain = frames && new Chain(frames);
   const readSample = poseReader(type);
   let messageCount = 0;
+  /** Number of damaged messages, and the reason why the first one cannot be read. */
+  let [damagedCount, damageReason] = [0, ''];
+
+  const dropDamaged = (number: number, reason: string) => {
+    damagedCount += 1;
+    damageReason ||= reason;
+    rows.drop('damaged', number);
+  };
 
   const add = ({ time, a, b, c, isRotation }: Sample, recordTime: number, number: number) => {
-    if (isRotation) rows.add(time, a, b, c, number, recordTime);
+    if (Math.max(Math.abs(a), Math.abs(b), Math.abs(c)) > MAX_VALUE) dropDamaged(number, 'a value is out of range');
+    else if (isRotation) rows.add(time, a, b, c, number, recordTime);
     else rows.drop('noRotation', number);
   };
 
@@ -95,19 +110,24 @@ function topicReader(file: string, container: Container, choice: LogChoice, seri
         for (const transform of readTransforms(message)) chain.add(transform, isStaticTopic(message.channel), message, messageCount);
       } catch (error) {
         if (error instanceof LogError) throw error;
-        const number = messageCount;
-        refuse((say) => say.message(number, reasonOf(error)));
+        dropDamaged(messageCount, reasonOf(error));
       }
     },
 
     /** Returns the log; throws a LogError if the messages do not form a log. */
     end(options: OpenOptions): Log {
-      if (messageCount === 0) refuse((say) => say.noMessages);
+      const { format, damage, cutReason } = container;
+      const lossReason = damageReasonOf(container);
+      if (messageCount === 0) refuse((say) => (lossReason ? say.damaged(lossReason, format) : say.noMessages));
+      if (damagedCount === messageCount) refuse((say) => say.message(1, damageReason));
       if (chain && !chain.isConnected) refuse((say) => say.noChain(framesText(frames), listNames(chain.tree.links.map(framesText))));
       const hasChanged = chain?.poses((pose, { message, number }) => add(pose, message.time, number)) ?? true;
       if (!hasChanged) refuse((say) => say.constant(framesText(frames as FramePair), listNames((chain as Chain).tree.findPoseFrames().map(framesText))));
       const logKind = kind === 'commands' ? 'commands' : 'poses';
-      const notes: Note[] = container.cutReason ? [{ name: 'cutShort', values: [] }] : [];
+      const notes: Note[] = [
+        ...(damage.size > 0 ? [{ name: 'damaged' as const, values: [damage.size, lossReason as string] }] : []),
+        ...(cutReason ? [{ name: 'cutShort' as const, values: [] }] : []),
+      ];
       return rows.end(`${file}, ${topic}${frames ? ` (${framesText(frames)})` : ''}`, logKind, {
         units: { time: { unit: 'ns', by: 'format' }, length: { unit: 'm', by: 'format' }, angle: { unit: logKind === 'poses' ? 'quaternion' : 'none', by: 'format' } },
         clocks: ['header.stamp', LOG_TIME],

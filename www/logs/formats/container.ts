@@ -33,16 +33,15 @@ export interface Container {
   channels: Channel[];
   /** Reason why the end of the file cannot be read; undefined for a complete file. */
   cutReason: string | undefined;
-  /**
-   * Passes on the messages of channels, block by block. Stops after a block if `onProgress` returns true. Rejects with a LogError if a block is
-   * damaged, unless it is at the end of a file that was not closed.
-   */
+  /** Reasons why damaged blocks were skipped, by the positions of the blocks. */
+  damage: Map<number, string>;
+  /** Passes on the messages of channels, block by block, without those of damaged blocks. Stops after a block if `onProgress` returns true. */
   read(isWanted: IsWanted, onMessage: OnMessage, onProgress?: (share: number) => boolean | void): Promise<void>;
 }
 
 /** Base class of files of messages, with their channels by id. */
 export abstract class MessageFile<Id> {
-  abstract readonly format: Recording['format'];
+  readonly damage = new Map<number, string>();
   cutReason: string | undefined;
   protected readonly source: Source;
   protected readonly channelsById = new Map<Id, Channel>();
@@ -55,15 +54,10 @@ export abstract class MessageFile<Id> {
     return [...this.channelsById.values()];
   }
 
-  /** Returns the error of a damaged block. An error of reading the file itself stays. */
-  protected damagedError(error: unknown): LogError {
-    return error instanceof LogError ? error : new LogError({ file: this.source.name }, (say) => say.damaged(reasonOf(error), this.format));
-  }
-
-  /** Notes the damage at which a file ends that was not closed. An error of reading the file itself is thrown again. */
-  protected noteEnd(error: unknown): void {
+  /** Notes the damage of a block. An error of reading the file itself is thrown again. */
+  protected noteDamage(position: number, error: unknown): void {
     if (error instanceof LogError) throw error;
-    this.cutReason = reasonOf(error);
+    this.damage.set(position, reasonOf(error));
   }
 }
 

@@ -47,6 +47,9 @@ export function joinedContainer(parts: Container[]): Container {
     get cutReason() {
       return parts.find(({ cutReason }) => cutReason)?.cutReason;
     },
+    get damage() {
+      return new Map(parts.flatMap(({ damage }, i) => [...damage].map(([position, reason]): [number, string] => [2 ** 48 * i + position, reason])));
+    },
     async read(isWanted, onMessage, onProgress) {
       for (const [i, part] of parts.entries()) {
         let isStopped = false;

@@ -15,7 +15,7 @@ const RECORD_HEAD_BYTES = 9;
 /** Number of bytes before the first record. */
 const MAGIC_BYTES = 8;
 
-/** Opens a recording by its index. Without an index it is read from its start up to its end, or to damage. */
+/** Opens a recording by its index. Without an index it is read from its start up to its end. */
 export async function openMcap(source: Source): Promise<Container> {
   await loadZstd();
   const size = BigInt(source.size);
@@ -61,14 +61,12 @@ class Mcap extends MessageFile<number> implements Container {
     const readBytesAt = readAhead(this.source);
     for (const [i, { chunkStartOffset, chunkLength }] of wantedChunks.entries()) {
       const from = Number(chunkStartOffset);
-      try {
+      await this.#skipIfDamaged(from, async () => {
         if (chunkLength > MAX_BLOCK_BYTES) throw new RangeError(`a chunk of ${chunkLength} bytes`);
         const bytes = await readBytesAt(from, from + Number(chunkLength));
         if (bytes[0] !== CHUNK) throw new RangeError('no chunk is there');
         this.#readRecords(await recordsOf(bytes.subarray(RECORD_HEAD_BYTES)), isWanted, onMessage);
-      } catch (error) {
-        throw this.damagedError(error);
-      }
+      });
       if (onProgress?.((i + 1) / wantedChunks.length)) return;
     }
   }
@@ -76,28 +74,30 @@ class Mcap extends MessageFile<number> implements Container {
   async #readFromStart(isWanted: IsWanted, onMessage: OnMessage, onProgress?: (share: number) => boolean | void): Promise<void> {
     const { size } = this.source;
     const readBytesAt = readAhead(this.source);
-    this.cutReason = undefined;
-    try {
-      for (let at = MAGIC_BYTES, nextReport = 0; ; ) {
-        if (at + RECORD_HEAD_BYTES > size) throw new RangeError('it ends without an index');
-        const recordHead = await readBytesAt(at, at + RECORD_HEAD_BYTES);
-        const recordLength = uint53(dataViewOf(recordHead), 1);
-        const nextRecord = at + RECORD_HEAD_BYTES + recordLength;
-        if (recordHead[0] === DATA_END) return;
-        if (nextRecord > size) throw new RangeError('a record is cut short');
-        if ([SCHEMA, CHANNEL, MESSAGE, CHUNK].includes(recordHead[0])) {
+    this.cutReason = 'it ends without an index';
+    for (let at = MAGIC_BYTES, nextReport = 0; at + RECORD_HEAD_BYTES <= size; ) {
+      const recordHead = await readBytesAt(at, at + RECORD_HEAD_BYTES);
+      const recordLength = uint53(dataViewOf(recordHead), 1);
+      const nextRecord = at + RECORD_HEAD_BYTES + recordLength;
+      if (recordHead[0] === DATA_END) this.cutReason = undefined;
+      if (recordHead[0] === DATA_END || nextRecord > size) return;
+      if ([SCHEMA, CHANNEL, MESSAGE, CHUNK].includes(recordHead[0])) {
+        await this.#skipIfDamaged(at, async () => {
           if (recordLength > MAX_BLOCK_BYTES) throw new RangeError(`a record of ${recordLength} bytes`);
           const record = await readBytesAt(at, nextRecord);
           this.#readRecords(recordHead[0] === CHUNK ? await recordsOf(record.subarray(RECORD_HEAD_BYTES)) : record, isWanted, onMessage);
-        }
-        at = nextRecord;
-        if (at < nextReport) continue;
-        if (onProgress?.(at / size)) return;
-        nextReport = at + size / 100;
+        });
       }
-    } catch (error) {
-      this.noteEnd(error);
+      at = nextRecord;
+      if (at < nextReport) continue;
+      if (onProgress?.(at / size)) return;
+      nextReport = at + size / 100;
     }
+  }
+
+  /** Reads a block, or notes its damage. */
+  async #skipIfDamaged(position: number, readBlock: () => Promise<void>): Promise<void> {
+    await readBlock().catch((error) => this.noteDamage(position, error));
   }
 
   #readRecords(bytes: Uint8Array, isWanted: IsWanted, onMessage: OnMessage): void {

@@ -1,6 +1,6 @@
 /** Connections and messages of ROS 1 bags. http://wiki.ros.org/Bags/Format/2.0 */
 
-import { LogError, readBytes } from '../log-error.ts';
+import { LogError, readBytes, reasonOf } from '../log-error.ts';
 import type { Source } from '../log.ts';
 import { MAX_BLOCK_BYTES, MessageFile, readAhead, dataViewOf, uint53, type Container, type IsWanted, type OnMessage } from './container.ts';
 import { unlz4 } from './lz4.ts';
@@ -14,7 +14,7 @@ const MAGIC_BYTES = 13;
 /** Number of bytes of a header that are read at first. Headers with a long topic are longer. */
 const HEADER_BYTES = 4096;
 
-/** Opens a bag by its index. Without an index it is read from its start up to its end, or to damage. */
+/** Opens a bag by its index. Without an index it is read from its start up to its end, or to a damaged length. */
 export async function openRosbag(source: Source): Promise<Container> {
   const bag = new Rosbag(source);
   if (!(await bag.readIndex())) await bag.read(() => true, ({ channel }) => (channel.count += 1));
@@ -124,9 +124,10 @@ class Rosbag extends MessageFile<number> implements Container {
     const wantedIds = new Set([...this.channelsById].filter(([, channel]) => isWanted(channel)).map(([id]) => id));
     const wantedChunks = this.#chunks?.filter(({ connections }) => connections.some((id) => wantedIds.has(id)));
     this.cutReason = undefined;
-    try {
-      for (let i = 0, at = MAGIC_BYTES; wantedChunks ? i < wantedChunks.length : at < size; i++) {
-        if (wantedChunks) at = wantedChunks[i].position;
+    for (let i = 0, at = MAGIC_BYTES; wantedChunks ? i < wantedChunks.length : at < size; i++) {
+      if (wantedChunks) at = wantedChunks[i].position;
+      const recordStart = at;
+      try {
         if (at + 8 > size) throw new RangeError('a record is cut short');
         let recordHead = await readBytesAt(at, Math.min(at + HEADER_BYTES, size));
         const headerLength = dataViewOf(recordHead).getUint32(0, true);
@@ -134,8 +135,8 @@ class Rosbag extends MessageFile<number> implements Container {
         if (headerLength + 8 > recordHead.length) recordHead = await readBytesAt(at, Math.min(at + headerLength + 8, size));
         const dataLength = dataViewOf(recordHead).getUint32(4 + headerLength, true);
         const from = at + 8 + headerLength;
+        if (from + dataLength > size) throw new RangeError('a record is cut short');
         at = from + dataLength;
-        if (at > size) throw new RangeError('a record is cut short');
         const fields = new HeaderFields(dataViewOf(recordHead), 4, 4 + headerLength);
         const op = fields.byte('op');
         if (op === CONNECTION) this.#addConnection(fields, await readBytesAt(from, at));
@@ -143,11 +144,15 @@ class Rosbag extends MessageFile<number> implements Container {
           if (Math.max(dataLength, fields.uint32('size')) > MAX_BLOCK_BYTES) throw new RangeError(`a chunk of ${fields.uint32('size')} bytes`);
           await this.#readChunk(fields, await readBytesAt(from, at), isWanted, onMessage);
         } else if (wantedChunks) throw new RangeError('no chunk is there');
-        if (onProgress?.(wantedChunks ? (i + 1) / wantedChunks.length : at / size)) return;
+      } catch (error) {
+        if (wantedChunks || at > recordStart || error instanceof LogError) this.noteDamage(recordStart, error);
+        else {
+          // Without an index and without a length, the next record cannot be found.
+          this.cutReason = reasonOf(error);
+          return;
+        }
       }
-    } catch (error) {
-      if (wantedChunks) throw this.damagedError(error);
-      this.noteEnd(error);
+      if (onProgress?.(wantedChunks ? (i + 1) / wantedChunks.length : at / size)) return;
     }
   }
 

@@ -52,13 +52,16 @@ class Rosbag2 extends MessageFile<SqliteValue> implements Container {
   async open(): Promise<void> {
     const view = dataViewOf(await readBytes(this.source, 0, HEADER_BYTES));
     const notRosbag2 = () => new LogError({ file: this.source.name }, (say) => say.noRosbag2);
-    if (view.byteLength < HEADER_BYTES) throw this.damagedError(new RangeError('its header is cut short'));
+    if (view.byteLength < HEADER_BYTES) {
+      this.cutReason = 'its header is cut short';
+      return;
+    }
     this.#pageSize = view.getUint16(16) === 1 ? 65536 : view.getUint16(16);
     this.#usableBytes = this.#pageSize - view.getUint8(20);
     if (this.#usableBytes < 480) throw notRosbag2();
     // Pages beyond the number in the header belong to an unfinished transaction.
     const pageCount = view.getUint32(28);
-    if (pageCount > 0 && pageCount * this.#pageSize !== this.source.size) throw this.damagedError(new RangeError('the recorder did not close it'));
+    if (pageCount > 0 && pageCount * this.#pageSize !== this.source.size) this.cutReason = 'the recorder did not close it';
     const tablesByName = new Map<string, Table>();
     await this.#eachRow({ root: 1, columns: [] }, async (row) => {
       const bytes = await this.#wholeRow(row);
@@ -67,7 +70,10 @@ class Rosbag2 extends MessageFile<SqliteValue> implements Container {
       tablesByName.set(decodeText(name), { root: Number(root), columns });
     });
     const [topics, messages] = ['topics', 'messages'].map((name) => tablesByName.get(name));
-    if (!topics || !messages) throw notRosbag2();
+    if (!topics || !messages) {
+      if (this.cutReason) return;
+      throw notRosbag2();
+    }
     this.#messages = messages;
     await this.#eachRow(topics, async (row) => {
       const bytes = await this.#wholeRow(row);
@@ -95,40 +101,50 @@ class Rosbag2 extends MessageFile<SqliteValue> implements Container {
     }, onProgress);
   }
 
-  /** Calls `onRow` for the rows of a table in the order of their ids. */
+  /** Calls `onRow` for the rows of a table in the order of their ids. Damaged pages are skipped. */
   async #eachRow({ root }: Table, onRow: (row: Row) => void | Promise<void>, onProgress?: (share: number) => boolean | void): Promise<void> {
-    try {
-      const leafPages = await this.#leavesOf(root);
-      for (const [i, number] of leafPages.entries()) {
+    // In an incomplete file interior pages may be missing, so all pages are tried. Pages of other tables then fail without a note.
+    const triesAllPages = this.cutReason !== undefined && root === this.#messages.root;
+    const leafPages = triesAllPages ? Array.from({ length: this.source.size / this.#pageSize }, (_, i) => i + 1) : await this.#leavesOf(root);
+    for (const [i, number] of leafPages.entries()) {
+      try {
         const pageBytes = await this.#page(number);
         for (const cell of cellPositionsOf(pageBytes, number, LEAF_PAGE)) {
           const pendingRow = onRow(this.#rowAt(pageBytes, cell));
           if (pendingRow) await pendingRow;
         }
-        if (onProgress?.((i + 1) / leafPages.length)) return;
+      } catch (error) {
+        if (!triesAllPages || error instanceof LogError) this.noteDamage(number, error);
       }
-    } catch (error) {
-      throw this.damagedError(error);
+      if (onProgress?.((i + 1) / leafPages.length)) return;
     }
   }
 
   /** Returns the numbers of a table's leaf pages, which have its rows, in the order of the rows. */
   async #leavesOf(root: number): Promise<number[]> {
     let pagesOfLevel = [root];
-    while (pagesOfLevel.length * this.#pageSize <= this.source.size) {
+    const visitedPages = new Set<number>();
+    while (pagesOfLevel.length > 0) {
       const pagesOfNextLevel: number[] = [];
       for (const number of pagesOfLevel) {
+        // The pointers of damaged pages may form a circle.
+        if (visitedPages.has(number)) continue;
+        visitedPages.add(number);
         // Interior pages are far from each other, so that reading larger pieces would be slow.
         const page = await readBytes(this.source, (number - 1) * this.#pageSize, number * this.#pageSize);
         const start = number === 1 ? HEADER_BYTES : 0;
-        if (page[start] === LEAF_PAGE) return pagesOfLevel;
-        const view = dataViewOf(page);
-        for (const cell of cellPositionsOf(page, number, INTERIOR_PAGE)) pagesOfNextLevel.push(view.getUint32(cell));
-        pagesOfNextLevel.push(view.getUint32(start + 8));
+        if (page[start] === LEAF_PAGE && pagesOfNextLevel.length === 0) return pagesOfLevel;
+        try {
+          const view = dataViewOf(page);
+          for (const cell of cellPositionsOf(page, number, INTERIOR_PAGE)) pagesOfNextLevel.push(view.getUint32(cell));
+          pagesOfNextLevel.push(view.getUint32(start + 8));
+        } catch (error) {
+          this.noteDamage(number, error);
+        }
       }
       pagesOfLevel = pagesOfNextLevel;
     }
-    throw new RangeError('its pages form a circle');
+    return [];
   }
 
   async #page(number: number): Promise<Uint8Array> {

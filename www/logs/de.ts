@@ -33,6 +33,7 @@ const DROP_REASONS: Record<DropCause, string> = {
   noStamp: 'der Zeitstempel 0',
   duplicate: 'die Zeit der Zeile davor',
   repeated: 'eine Pose, die öfter wiederholt ist, als sie gemessen wurde',
+  stray: 'eine Zeit fern von allen anderen',
   held: 'die Pose steht, während die Odometrie weitergeht',
 };
 
@@ -86,7 +87,7 @@ export const german: Words = {
     rows: (max) => `es sind mehr Zeilen; erwartet werden höchstens ${max}.`,
     far: (value, max, message) => `${message ? `die Nachricht ${message} hat den Wert ${value}` : `ein Wert ist ${value}`}; erwartet werden Zahlen von ${-max} bis ${max}, in m, rad und s.`,
     setBack: (seconds, message) =>
-      `die Zeiten springen ${message ? `bei Nachricht ${message} ` : ''}um ${seconds.toPrecision(3)} s zurück; dort die Datei teilen, oder ihre Zeilen nach der Zeit sortieren.`,
+      `die Zeiten springen ${message ? `bei Nachricht ${message} ` : ''}um ${seconds.toPrecision(3)} s zurück und wiederholen die davor; dort die Datei teilen, oder nur eine Aufzeichnung angeben.`,
     sameTimes: (count, rows, message) =>
       `${count} von ${rows} Zeilen, ${message ? `die der Nachricht ${message}` : 'diese'} zuerst, haben die Zeit einer anderen Zeile und andere Werte; nötig ist das Log eines Roboters, mit allen Stellen der Zeiten (eine Tabellenkalkulation oder ein Format wie %.9e kann sie gerundet haben).`,
     few: (kept, rows, reason) => `${kept} von ${rows} Zeilen sind zu brauchen${reason ? ` (${DROP_REASONS[reason]})` : ''}; erwartet werden mindestens 2.`,

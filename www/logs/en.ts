@@ -30,6 +30,7 @@ const DROP_REASONS = {
   noStamp: 'a stamp of 0',
   duplicate: 'the time of the row before',
   repeated: 'a pose repeated at a higher rate than it was measured',
+  stray: 'a time far from all others',
   held: 'the pose stands still while the odometry moves on',
 };
 
@@ -92,7 +93,7 @@ export const english = {
     far: (value: number, max: number, message: number) =>
       `${message ? `message ${message} has the value ${value}` : `a value is ${value}`}; expected are numbers from ${-max} to ${max}, in m, rad and s.`,
     setBack: (seconds: number, message: number) =>
-      `times go back by ${seconds.toPrecision(3)} s${message ? ` at message ${message}` : ''}; split the file there, or sort its rows by time.`,
+      `times go back by ${seconds.toPrecision(3)} s${message ? ` at message ${message}` : ''} and repeat those before; split the file there, or give one recording only.`,
     sameTimes: (count: number, rows: number, message: number) =>
       `${count} of ${rows} rows, ${message ? `that of message ${message}` : 'this one'} first, have the time of another row and other values; give the log of one robot, with all digits of its times (a spreadsheet, or a format such as %.9e, may have rounded them).`,
     few: (kept: number, rows: number, reason: DropCause | undefined) =>

@@ -1,6 +1,6 @@
 /** Rows of a log. Unusable rows are dropped, with the cause. */
 
-import { max, min, range } from 'd3-array';
+import { max, min, range, sum } from 'd3-array';
 import { LogError, type ErrorPlace } from './log-error.ts';
 import type { DropCause, Log, LogKind, Note, OpenOptions, Summary } from './log.ts';
 import { wrapAngle } from './path.ts';
@@ -31,11 +31,14 @@ const MIN_GAP_STEPS = 5;
 /** Minimum speed of a jump, as a multiple of the 90 % quantile of the speeds of a moving robot. */
 const JUMP_FACTOR = 8;
 
-/** Maximum delay of a late row behind the rows before it, in median steps, and maximum fraction of late rows. */
-const [MAX_LATE_STEPS, MAX_LATE_FRACTION] = [20, 0.1];
+/** Minimum number of rows among which a single wrong stamp can be told, and of different poses that show how often a table repeats each. */
+const [MIN_ROWS, MIN_POSES] = [10, 20];
 
-/** Minimum number of different poses that show how often a table repeats each. */
-const MIN_POSES = 20;
+/**
+ * Limits for late rows, which are close to another row in time if the clock was set back: maximum distance in median steps, maximum number of
+ * such rows in a run of rising times, and their maximum fraction of all rows.
+ */
+const [MAX_OVERLAP_STEPS, MAX_RUN_OVERLAPS, MAX_OVERLAP_FRACTION] = [0.75, 2, 0.02];
 
 /**
  * Limits for two paths whose poses alternate: minimum distance (m) of the paths, and minimum number of steps between them. Shorter steps may
@@ -129,7 +132,7 @@ export class Rows {
   end(name: string, kind: LogKind, { units: assumed, clocks, ...decisions }: LogFacts, options: OpenOptions = {}): Log {
     const usesOtherClock = clocks[1] !== undefined && this.#isClockStill();
     if (usesOtherClock) this.#clock = OTHER_TIME;
-    const stampedRows = this.#withoutUnsetTimes();
+    const stampedRows = this.#withoutStrayTime(this.#withoutUnsetTimes());
     const start = Math.floor(min(stampedRows, (row) => this.#time(row)) ?? 0);
     const { sortedRows, lateCount } = this.#sort(stampedRows);
     const rowsOfDistinctTime = this.#withoutEqualTimes(sortedRows);
@@ -193,21 +196,42 @@ export class Rows {
     return isSince1970 ? this.#without(this.#rows, 'noStamp', isUnset) : this.#rows;
   }
 
+  /** Returns the rows without the first or the last in time, if all others are nearer to each other than to it: its stamp is wrong. */
+  #withoutStrayTime(rows: Uint32Array): Uint32Array {
+    if (rows.length < MIN_ROWS) return rows;
+    const times = this.#column(rows, (row) => this.#time(row)).sort();
+    const [first, second, secondLast, last] = [0, 1, -2, -1].map((i) => times.at(i) as number);
+    const strayTime = second - first > last - second ? first : last - secondLast > secondLast - first ? last : undefined;
+    return strayTime === undefined ? rows : this.#without(rows, 'stray', (row) => this.#time(row) === strayTime);
+  }
+
   /** Returns the rows in the order of their times, and the number of late rows. Throws a LogError if the clock was set back. */
   #sort(rows: Uint32Array): { sortedRows: Uint32Array; lateCount: number } {
     const times = this.#column(rows, (row) => this.#time(row));
-    let newestTime = -Infinity;
-    const delays = times.map((time) => (newestTime = Math.max(newestTime, time)) - time);
-    const lateCount = delays.reduce((count, delay) => count + Number(delay > 0), 0);
-    if (lateCount === 0) return { sortedRows: rows, lateCount };
-    const medianStep = quantile(sampleEvenly(times.length - 1, (i) => Math.abs(times[i + 1] - times[i])).filter((step) => step > 0), 0.5);
-    const maxDelay = lateCount > MAX_LATE_FRACTION * rows.length ? 0 : MAX_LATE_STEPS * medianStep;
-    const firstTooLate = delays.findIndex((delay) => delay > maxDelay);
-    if (firstTooLate >= 0) {
-      const line = this.#number(rows[firstTooLate], LINE);
-      throw new LogError(this.#placeOf(line), (say) => say.setBack(delays[firstTooLate], this.#messageNumber(line)));
+    // Runs are rows with rising times.
+    const runOfRow = new Uint32Array(rows.length);
+    for (let i = 1; i < rows.length; i++) runOfRow[i] = runOfRow[i - 1] + Number(times[i] < times[i - 1]);
+    if (!runOfRow.at(-1)) return { sortedRows: rows, lateCount: 0 };
+    const order = rows.map((_, i) => i).sort((one, other) => times[one] - times[other] || one - other);
+    const medianStep = quantile(sampleEvenly(times.length - 1, (i) => times[order[i + 1]] - times[order[i]]).filter((step) => step > 0), 0.5);
+    // Late rows fill gaps. Rows of a clock that was set back are between the rows that had the same times before.
+    const overlapCounts = new Map<number, number>();
+    for (let i = 1; i < order.length; i++) {
+      const [one, other] = [order[i - 1], order[i]];
+      const isOverlap = runOfRow[one] !== runOfRow[other] && times[other] - times[one] < MAX_OVERLAP_STEPS * medianStep && !this.#isSame(rows[one], rows[other]);
+      const laterRun = Math.max(runOfRow[one], runOfRow[other]);
+      if (isOverlap) overlapCounts.set(laterRun, (overlapCounts.get(laterRun) ?? 0) + 1);
     }
-    return { sortedRows: rows.map((_, i) => i).sort((one, other) => times[one] - times[other] || one - other).map((i) => rows[i]), lateCount };
+    const hasManyOverlaps = sum(overlapCounts.values()) > Math.max(MAX_RUN_OVERLAPS, MAX_OVERLAP_FRACTION * rows.length);
+    const [setBackRun] = [...overlapCounts].find(([, count]) => hasManyOverlaps || count > MAX_RUN_OVERLAPS) ?? [];
+    if (setBackRun !== undefined) {
+      const setBackRow = runOfRow.indexOf(setBackRun);
+      const line = this.#number(rows[setBackRow], LINE);
+      throw new LogError(this.#placeOf(line), (say) => say.setBack(times[setBackRow - 1] - times[setBackRow], this.#messageNumber(line)));
+    }
+    let newestTime = -Infinity;
+    const isLate = (time: number) => time < (newestTime = Math.max(newestTime, time));
+    return { sortedRows: order.map((i) => rows[i]), lateCount: times.filter(isLate).length };
   }
 
   /** Returns the rows, of which only the first one of each time is kept. Throws a LogError if many rows contradict another one of their time. */

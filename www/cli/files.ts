@@ -33,7 +33,7 @@ async function openSources(path: string): Promise<Source[]> {
   } catch (error) {
     const { code } = error as NodeJS.ErrnoException;
     if (error instanceof LogError || code === undefined) throw error;
-    throw new LogError({ file: path }, (say) => say.gone(code));
+    throw new LogError({ file: path }, (texts) => texts.gone(code));
   }
 }
 

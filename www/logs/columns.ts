@@ -247,25 +247,25 @@ export interface Layout {
 export function logLayoutOf(group: Group | undefined, names: string[], place: ErrorPlace, wantedKind: LogKind | undefined): Layout {
   const columnNames = listNames(names.map((name) => name.trim()));
   const ask: Question = { what: 'columns', choices: [], columns: names };
-  if (!group) throw new LogError(place, (say) => say.noColumns(wantedKind === 'poses' ? wantedKind : 'either', columnNames), ask);
+  if (!group) throw new LogError(place, (texts) => texts.noColumns(wantedKind === 'poses' ? wantedKind : 'either', columnNames), ask);
   const { columns, duplicateColumns, clocks } = group;
   const hasFields = (...fields: Field[]) => fields.every((field) => columns[field]);
-  if (clocks.length === 0) throw new LogError(place, (say) => say.noTime(columnNames), ask);
+  if (clocks.length === 0) throw new LogError(place, (texts) => texts.noTime(columnNames), ask);
   const takesCommands = group.hasCommands && wantedKind !== 'poses' && (wantedKind === 'commands' || group.kind === 'commands');
-  if (!takesCommands && !hasFields('x', 'y')) throw new LogError(place, (say) => say.noColumns(wantedKind === 'poses' ? wantedKind : 'either', columnNames), ask);
+  if (!takesCommands && !hasFields('x', 'y')) throw new LogError(place, (texts) => texts.noColumns(wantedKind === 'poses' ? wantedKind : 'either', columnNames), ask);
   const headingFields: Field[] = hasFields('qx', 'qy', 'qz', 'qw') ? ['qx', 'qy', 'qz', 'qw'] : hasFields('yaw') ? ['yaw'] : hasFields('qz', 'qw') ? ['qz', 'qw'] : [];
   const fields: Field[] = takesCommands ? ['v', 'omega'] : ['x', 'y', ...headingFields];
   for (const field of [...(clocks[0].columns[0] === columns.t ? ['t' as const] : []), ...fields]) {
     const [firstColumn, secondColumn] = [columns[field], duplicateColumns[field]];
-    if (firstColumn && secondColumn) throw new LogError(place, (say) => say.twice(field, truncate(firstColumn.name), truncate(secondColumn.name)), ask);
+    if (firstColumn && secondColumn) throw new LogError(place, (texts) => texts.twice(field, truncate(firstColumn.name), truncate(secondColumn.name)), ask);
   }
   const usedColumns = fields.map((field) => columns[field] as Column);
   const [lengthUnit, ...otherUnits] = new Set((takesCommands ? usedColumns.slice(0, 1) : usedColumns.slice(0, 2)).map(({ unit }) => unit));
   const angleUnit = takesCommands ? columns.omega?.unit : headingFields[0] === 'yaw' ? columns.yaw?.unit : undefined;
   const isUnknownUnit = (unit: string | undefined, known: readonly string[]) => unit !== undefined && !known.includes(unit);
   const unknownUnit = [lengthUnit, ...otherUnits].find((unit) => isUnknownUnit(unit, UNITS.lengthUnit)) ?? (isUnknownUnit(angleUnit, UNITS.angleUnit) ? angleUnit : undefined);
-  if (unknownUnit !== undefined) throw new LogError(place, (say) => say.unknownUnit(truncate(unknownUnit)));
-  if (otherUnits.length > 0) throw new LogError(place, (say) => say.unknownUnit([lengthUnit, ...otherUnits].map((unit) => unit ?? '–').join(', ')));
+  if (unknownUnit !== undefined) throw new LogError(place, (texts) => texts.unknownUnit(truncate(unknownUnit)));
+  if (otherUnits.length > 0) throw new LogError(place, (texts) => texts.unknownUnit([lengthUnit, ...otherUnits].map((unit) => unit ?? '–').join(', ')));
   return {
     kind: takesCommands ? 'commands' : headingFields.length > 0 ? 'poses' : 'positions',
     clocks, columns: usedColumns, fields, length: lengthUnit as LengthUnit | undefined, angle: angleUnit as AngleUnit | undefined,

@@ -56,7 +56,7 @@ export function planDrives(all: Recording[], userChoices: UserChoices = {}): Log
     const role = plan.hasRolesByOrder ? ROLES[i]
       : 2 * odometry.length >= recordings.length ? 'reference'
         : 2 * reference.length >= recordings.length ? 'odometry' : undefined;
-    if (!role) throw new LogError({ file: recording.name }, (say) => say.noRole, { what: 'roles', choices: [] });
+    if (!role) throw new LogError({ file: recording.name }, (texts) => texts.noRole, { what: 'roles', choices: [] });
     plan.unpaired[role].push({ recording, choice: chooseLog(recording, role, userChoices) });
   }
   // A separate file of one role replaces the log of that role in a recording that has both.
@@ -69,7 +69,7 @@ export function planDrives(all: Recording[], userChoices: UserChoices = {}): Log
     const [first] = longerList;
     const recordingNames = (parts: RecordingChoice[]) => listNames(parts.map(({ recording }) => recording.name));
     const isSameFile = recordings.length === 2 && recordings[0].name === recordings[1].name;
-    throw new LogError({ file: first.recording.name }, (say) => (isSameFile ? say.givenTwice : say.unpaired(recordingNames(odometry), recordingNames(reference))), isSameFile ? undefined : { what: 'roles', choices: [] });
+    throw new LogError({ file: first.recording.name }, (texts) => (isSameFile ? texts.givenTwice : texts.unpaired(recordingNames(odometry), recordingNames(reference))), isSameFile ? undefined : { what: 'roles', choices: [] });
   }
   return plan;
 }
@@ -104,7 +104,7 @@ function chooseBothLogs(recording: Recording, userChoices: UserChoices): Record<
   const reference = chosenReference ?? chooseLog(recording, 'reference', userChoices, odometry);
   if (isSameChoice(odometry, reference)) {
     const ask = { what: 'series' as const, role: 'reference' as const, choices: seriesNamesFor(recording, 'reference').filter((name) => name !== reference.series) };
-    throw new LogError({ file: recording.name, topic: reference.series }, (say) => say.ownReference(reference.frames ? framesText(reference.frames) : reference.series), ask);
+    throw new LogError({ file: recording.name, topic: reference.series }, (texts) => texts.ownReference(reference.frames ? framesText(reference.frames) : reference.series), ask);
   }
   return { odometry: { recording, choice: odometry }, reference: { recording, choice: reference } };
 }
@@ -125,7 +125,7 @@ function resolveRequestedChoice(recording: Recording, role: Role, userChoices: U
     const names = seriesNamesFor(recording, role);
     throw new LogError(
       { file: recording.name, topic: series },
-      (say) => (isTable(recording) ? say.noGroup(describeSeries(recording.series)) : series === undefined ? say.noTransforms(describeSeries(readableSeries(recording))) : say.noTopic(listNames(names))),
+      (texts) => (isTable(recording) ? texts.noGroup(describeSeries(recording.series)) : series === undefined ? texts.noTransforms(describeSeries(readableSeries(recording))) : texts.noTopic(listNames(names))),
       { what: 'series', role, choices: names },
     );
   }
@@ -137,7 +137,7 @@ function resolveRequestedChoice(recording: Recording, role: Role, userChoices: U
 
 function framesError({ name: file }: Recording, { name: topic, frames = [] }: Series, role: Role): LogError {
   const frameTexts = [...new Set([...likeliestFrames(frames, role), ...frames])].map(framesOption);
-  return new LogError({ file, topic }, (say) => say.frames(listNames(frames.map(framesText))), { what: 'frames', role, choices: frameTexts });
+  return new LogError({ file, topic }, (texts) => texts.frames(listNames(frames.map(framesText))), { what: 'frames', role, choices: frameTexts });
 }
 
 function guessChoice(recording: Recording, role: Role, userChoices: UserChoices, other?: LogChoice): LogChoice {
@@ -152,18 +152,18 @@ function guessChoice(recording: Recording, role: Role, userChoices: UserChoices,
   const chains = usableSeries.filter(({ kind }) => kind === 'transforms');
   const hasOnlyOtherChoice = other && chains.every(({ name: series, frames = [] }) => frames.every((ends) => isSameChoice({ series, frames: ends }, other)));
   if (chains.length === usableSeries.length && !hasOnlyOtherChoice) throw framesError(recording, chains.find((chain) => chain.frames) ?? chains[0], role);
-  if (role === 'reference' && usableSeries.every(({ kind }) => kind === 'commands')) throw new LogError({ file }, (say) => say.noPoses(describeSeries(usableSeries)));
+  if (role === 'reference' && usableSeries.every(({ kind }) => kind === 'commands')) throw new LogError({ file }, (texts) => texts.noPoses(describeSeries(usableSeries)));
   const positionSeries = usableSeries.filter(({ name, kind }) => kind === 'positions' && !GOAL_NAMES.test(name));
   if (positionSeries.length === usableSeries.length || (role === 'reference' && bestChoices.length === 0 && positionSeries.length > 0)) {
-    throw new LogError({ file }, (say) => say.positions(describeSeries(positionSeries)));
+    throw new LogError({ file }, (texts) => texts.positions(describeSeries(positionSeries)));
   }
   if (usableSeries.length === 1) {
     const ownRole = roleOfSeries(recording, usableSeries[0]) ?? (other?.frames && ROLES.find((otherRole) => otherRole !== role));
-    throw new LogError({ file }, (say) => say.alone(describeSeries(usableSeries), ownRole), { what: 'other', role: ownRole, choices: [] });
+    throw new LogError({ file }, (texts) => texts.alone(describeSeries(usableSeries), ownRole), { what: 'other', role: ownRole, choices: [] });
   }
   throw new LogError(
     { file },
-    (say) => (bestChoices.length > 0 ? say.choose : say.lacks)(role, describeSeries(usableSeries)),
+    (texts) => (bestChoices.length > 0 ? texts.choose : texts.lacks)(role, describeSeries(usableSeries)),
     { what: 'series', role, choices: bestChoices.length > 0 ? seriesNamesFor(recording, role).filter((name) => name !== other?.series) : usableSeries.filter(({ kind }) => role === 'odometry' && kind === 'commands').map(({ name }) => name) },
   );
 }
@@ -171,7 +171,7 @@ function guessChoice(recording: Recording, role: Role, userChoices: UserChoices,
 /** Returns the error of a recording without a readable series. */
 function unusable({ name: file, series }: Recording): LogError {
   const shortSeries = series.find(({ kind }) => kind !== null);
-  return new LogError({ file, topic: shortSeries?.name }, (say) => (shortSeries ? say.noMessages : say.noTopics(describeSeries(series))));
+  return new LogError({ file, topic: shortSeries?.name }, (texts) => (shortSeries ? texts.noMessages : texts.noTopics(describeSeries(series))));
 }
 
 /** Returns the role of the only series of a recording by its contents or by the name of the file; undefined if neither shows it. */

@@ -106,9 +106,9 @@ export function detectTableFormat(lines: string[], file: string, columns: string
   const filledLines = lines.map((line, i) => ({ line, number: i + 1 })).filter(({ line }) => line.trim() !== '');
   const isComment = ({ line }: { line: string }) => /^\s*(#|%|\/\/)/.test(line);
   const textLines = filledLines.filter((textLine) => !isComment(textLine));
-  if (textLines.length === 0) throw new LogError({ file }, (say) => say.empty);
+  if (textLines.length === 0) throw new LogError({ file }, (texts) => texts.empty);
   const [, notation] = NON_TABLE_PATTERNS.find(([pattern]) => pattern.test(textLines[0].line)) ?? [];
-  if (notation !== undefined) throw new LogError({ file }, (say) => say.noTable(notation));
+  if (notation !== undefined) throw new LogError({ file }, (texts) => texts.noTable(notation));
 
   const separator = separatorOf([...textLines.slice(0, SAMPLED_LINES), ...textLines.slice(-SAMPLED_LINES)].map(({ line }) => line.trim()));
   const cells = (line: string) => splitCells(line, separator);
@@ -120,10 +120,10 @@ export function detectTableFormat(lines: string[], file: string, columns: string
   const rowWidth = Math.max(0, ...rows.map((row) => row.length - (row.at(-1)?.trim() === '' ? 1 : 0)));
   const commonFormat = { name: 'csv' as const, separator, hasDecimalCommas, firstLine: firstRowLine?.number ?? (filledLines.at(-1)?.number ?? 0) + 1, isSparse: false };
   const errorPlace = { file, line: firstRowLine?.number ?? filledLines[0].number };
-  const noLogError = () => new LogError({ file }, (say) => say.noLog);
+  const noLogError = () => new LogError({ file }, (texts) => texts.noLog);
 
   if (columns) {
-    if (firstRowLine && columns.length !== rowWidth) throw new LogError(errorPlace, (say) => say.given(rowWidth, columns.length));
+    if (firstRowLine && columns.length !== rowWidth) throw new LogError(errorPlace, (texts) => texts.given(rowWidth, columns.length));
     return { ...commonFormat, names: columns, groups: columnGroups(columns, rows[0]) };
   }
   // At least half of the lines must be rows: prose can also contain single rows of numbers.
@@ -137,7 +137,7 @@ export function detectTableFormat(lines: string[], file: string, columns: string
     const { number } = header;
     const names = withUnits(header.names, preambleLines.flatMap((text) => (text.number > number ? [cells(text.line)] : [])));
     // Rows with decimal commas between commas have more cells than the header.
-    if (rowWidth > names.length) throw new LogError({ file, line: firstRowLine?.number }, (say) => say.wide(rowWidth, names.length, number));
+    if (rowWidth > names.length) throw new LogError({ file, line: firstRowLine?.number }, (texts) => texts.wide(rowWidth, names.length, number));
     const groups = columnGroups(names, rows[0]);
     if (!firstRowLine && groups.every(({ kind }) => kind === null)) throw noLogError();
     return { ...commonFormat, names, header: lines[number - 1], groups, isSparse: groups.length > 1 || names.some((name) => name.trim() === '__time') };
@@ -145,10 +145,10 @@ export function detectTableFormat(lines: string[], file: string, columns: string
   if (!firstRowLine) throw noLogError();
   const names = columnsByContent(rows);
   if (names) return { ...commonFormat, name: names === TUM_COLUMNS ? 'tum' : 'csv', names, groups: columnGroups(names, rows[0]) };
-  if (rowWidth === KITTI_WIDTH) throw new LogError(errorPlace, (say) => say.kitti);
-  if (rowWidth === TWIST_WIDTH && rows.every((row) => row.slice(1, 5).every((cell) => Number(cell) === 0))) throw new LogError(errorPlace, (say) => say.twists);
+  if (rowWidth === KITTI_WIDTH) throw new LogError(errorPlace, (texts) => texts.kitti);
+  if (rowWidth === TWIST_WIDTH && rows.every((row) => row.slice(1, 5).every((cell) => Number(cell) === 0))) throw new LogError(errorPlace, (texts) => texts.twists);
   const defaultNames = ({ 3: 't,v,omega', 4: 't,x,y,yaw' } as Record<number, string>)[rowWidth] ?? `t,x,y,yaw${',-'.repeat(Math.max(0, rowWidth - 4))}`;
-  throw new LogError(errorPlace, (say) => say.noHeader(rowWidth, truncate(firstRowLine.line.trim().replaceAll('\t', ' '))), { what: 'columns', choices: [defaultNames], columns: rows[0].slice(0, rowWidth) });
+  throw new LogError(errorPlace, (texts) => texts.noHeader(rowWidth, truncate(firstRowLine.line.trim().replaceAll('\t', ' '))), { what: 'columns', choices: [defaultNames], columns: rows[0].slice(0, rowWidth) });
 }
 
 const unitWithoutBrackets = (cell: string) => cell.replaceAll(/[\s"[\](){}]/g, '');
@@ -207,7 +207,7 @@ function motiveFormat(above: string[][], place: ErrorPlace): Pick<Format, 'names
   if (!bodyNames || !quantityRow) return undefined;
   const exportSettings = new Map(above[0].flatMap((cell, i) => (i % 2 === 0 ? [[cell.trim(), above[0][i + 1]?.trim() ?? '']] : [])));
   const rotationType = exportSettings.get('Rotation Type') ?? 'Quaternion';
-  if (rotationType !== 'Quaternion') throw new LogError(place, (say) => say.euler(truncate(rotationType)));
+  if (rotationType !== 'Quaternion') throw new LogError(place, (texts) => texts.euler(truncate(rotationType)));
   const unit = (exportSettings.get('Length Units') ?? exportSettings.get('Units') ?? 'Meters').toLowerCase();
   const bodyTypes = rowNamed('Type');
   const names = axisRow.map((axis, i) => {

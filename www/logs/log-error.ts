@@ -23,11 +23,11 @@ export class LogError extends Error {
   /** Question whose answer resolves the error. */
   ask?: Question;
   /** Returns the message in the language of the given words. */
-  sentence: (say: Words) => string;
+  sentence: (texts: Words) => string;
 
   /** @param reason returns the end of the sentence in the language of the given words */
-  constructor(place: ErrorPlace, reason: (say: Words['refused']) => string, ask?: Question) {
-    const sentenceOf = (say: Words) => `${say.place(truncate(place.file), place.line ?? 0, truncate(place.topic ?? ''))}: ${reason(say.refused)}`;
+  constructor(place: ErrorPlace, reason: (texts: Words['refused']) => string, ask?: Question) {
+    const sentenceOf = (texts: Words) => `${texts.place(truncate(place.file), place.line ?? 0, truncate(place.topic ?? ''))}: ${reason(texts.refused)}`;
     super(sentenceOf(english));
     this.name = 'LogError';
     this.place = place;
@@ -61,6 +61,6 @@ export async function readBytes(source: Source, from: number, to: number): Promi
     return new Uint8Array(await source.slice(from, to).arrayBuffer());
   } catch (error) {
     const reason = error instanceof Error ? error.name : String(error);
-    throw new LogError({ file: source.name }, (say) => say.gone(reason));
+    throw new LogError({ file: source.name }, (texts) => texts.gone(reason));
   }
 }

@@ -75,7 +75,7 @@ export async function openRecordings(files: Source[], options: OpenOptions | ((f
 async function detectFormat(source: Source): Promise<FileFormat | undefined> {
   const firstBytes = String.fromCharCode(...(await readBytes(source, 0, MAX_MAGIC_BYTES)));
   const unsupportedFormat = UNSUPPORTED_MAGIC.find(([, magic]) => firstBytes.startsWith(magic));
-  if (unsupportedFormat) throw new LogError({ file: source.name }, (say) => say.notRead(unsupportedFormat[0]));
+  if (unsupportedFormat) throw new LogError({ file: source.name }, (texts) => texts.notRead(unsupportedFormat[0]));
   return (Object.keys(FORMAT_MAGIC) as FileFormat[]).find((format) => firstBytes.startsWith(FORMAT_MAGIC[format]));
 }
 
@@ -84,5 +84,5 @@ async function openContainer(source: Source, format: FileFormat | undefined): Pr
   if (format === 'mcap') return (await import('./formats/mcap.ts')).openMcap(source);
   if (format === 'rosbag') return (await import('./formats/rosbag.ts')).openRosbag(source);
   if (format === 'sqlite') return (await import('./formats/sqlite.ts')).openSqlite(source);
-  throw new LogError({ file: source.name }, (say) => say.notRosbag2);
+  throw new LogError({ file: source.name }, (texts) => texts.notRosbag2);
 }

@@ -49,13 +49,13 @@ export function matchLogs(odometry: Log[], reference: Log[]): [Log, Log][] {
  */
 export function pairLogs(odometry: Log, reference: Log): Drive {
   const referencePlace = { file: reference.name };
-  if (reference.kind === 'commands') throw new LogError(referencePlace, (say) => say.noColumns('poses', 't, v, omega'));
+  if (reference.kind === 'commands') throw new LogError(referencePlace, (texts) => texts.noColumns('poses', 't, v, omega'));
   const { frames } = reference.summary;
-  if (frames?.parent === 'odom') throw new LogError(referencePlace, (say) => say.ownReference(framesText(frames)));
+  if (frames?.parent === 'odom') throw new LogError(referencePlace, (texts) => texts.ownReference(framesText(frames)));
   const commonStart = Math.min(odometry.start, reference.start);
   const commonOdometry = withStart(odometry, commonStart);
   const brokenReference = breakFrozenPoses(withStart(reference, commonStart), commonOdometry);
-  if (brokenReference.summary.used < 2) throw new LogError(referencePlace, (say) => say.held);
+  if (brokenReference.summary.used < 2) throw new LogError(referencePlace, (texts) => texts.held);
   const notes: Note[] = [
     ...brokenReference.summary.notes,
     ...(isLocalizer(reference.name, frames) ? [{ name: 'localizer' as const, values: [] }] : []),

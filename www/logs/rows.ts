@@ -101,10 +101,10 @@ export class Rows {
     // A sum is finite if all of its terms are.
     if (!Number.isFinite(time + a + b + c)) return this.drop('notFinite', line);
     this.count += 1;
-    if (this.count > MAX_ROWS) throw new LogError(this.#logPlace, (say) => say.rows(MAX_ROWS));
+    if (this.count > MAX_ROWS) throw new LogError(this.#logPlace, (texts) => texts.rows(MAX_ROWS));
     if (Math.max(Math.abs(a), Math.abs(b), Math.abs(c)) > MAX_VALUE) {
       const tooLargeValue = [a, b, c].find((value) => Math.abs(value) > MAX_VALUE) ?? NaN;
-      throw new LogError(this.#placeOf(line), (say) => say.far(tooLargeValue, MAX_VALUE, this.#messageNumber(line)));
+      throw new LogError(this.#placeOf(line), (texts) => texts.far(tooLargeValue, MAX_VALUE, this.#messageNumber(line)));
     }
     const at = ROW_WIDTH * this.#addedCount++;
     if (at === this.#numbers.length) {
@@ -140,14 +140,14 @@ export class Rows {
     const { count } = this;
     if (rows.length < 2) {
       const [cause, firstDrop] = (Object.entries(this.#dropped) as [DropCause, { first: number }][])[0] ?? [];
-      throw new LogError(this.#placeOf(firstDrop?.first ?? 0), (say) => say.few(rows.length, count, cause));
+      throw new LogError(this.#placeOf(firstDrop?.first ?? 0), (texts) => texts.few(rows.length, count, cause));
     }
     const [a, b, c] = [A, B, C].map((index) => this.#column(rows, (row) => this.#number(row, index)));
     const columns = { start, t: this.#column(rows, (row) => this.#time(row) - start), a, b, c };
     const units = judgeUnits(this.#logPlace, kind, columns, assumed, options);
     const { t } = columns;
     const pathDistance = kind === 'poses' ? distanceOfPaths(t, a, b) : 0;
-    if (pathDistance > 0) throw new LogError(this.#logPlace, (say) => say.turns(pathDistance));
+    if (pathDistance > 0) throw new LogError(this.#logPlace, (texts) => texts.turns(pathDistance));
     const { breaks, jumpRows, ...foundGaps } = this.#findEvents(kind, [t, a, b, c], (i) => this.#number(rows[i], IS_BROKEN) === 1);
     const data = { t, ...(kind === 'poses' ? { x: a, y: b, theta: c } : { v: a, omega: b }), breaks } as Log['data'];
     const notes = [...decisions.notes, ...(lateCount > 0 ? [{ name: 'sorted' as const, values: [lateCount] }] : [])];
@@ -227,7 +227,7 @@ export class Rows {
     if (setBackRun !== undefined) {
       const setBackRow = runOfRow.indexOf(setBackRun);
       const line = this.#number(rows[setBackRow], LINE);
-      throw new LogError(this.#placeOf(line), (say) => say.setBack(times[setBackRow - 1] - times[setBackRow], this.#messageNumber(line)));
+      throw new LogError(this.#placeOf(line), (texts) => texts.setBack(times[setBackRow - 1] - times[setBackRow], this.#messageNumber(line)));
     }
     let newestTime = -Infinity;
     const isLate = (time: number) => time < (newestTime = Math.max(newestTime, time));
@@ -246,7 +246,7 @@ export class Rows {
     });
     if (rows.length > 3 && contradictions > MAX_CONTRADICTING_FRACTION * rows.length) {
       const line = this.#dropped.duplicate?.first ?? 0;
-      throw new LogError(this.#placeOf(line), (say) => say.sameTimes(contradictions, rows.length, this.#messageNumber(line)));
+      throw new LogError(this.#placeOf(line), (texts) => texts.sameTimes(contradictions, rows.length, this.#messageNumber(line)));
     }
     return distinctRows;
   }

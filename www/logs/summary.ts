@@ -29,25 +29,25 @@ export function distanceOf(data: Poses | Commands, jumps: number[]): number {
 type Label = keyof Words['found']['labels'];
 
 /** Returns the lines of a log's summary by their labels. */
-export function summaryLines({ summary }: Log, say: Words['found']): Partial<Record<Label, string[]>> {
+export function summaryLines({ summary }: Log, texts: Words['found']): Partial<Record<Label, string[]>> {
   const { rows, used, dropped, seconds, rate, distance, units, clock, columns, frames, gaps, jumps, notes } = summary;
   return {
-    rows: [say.rows(used, rows, seconds, rate, distance)],
-    ...(columns && { columns: [Object.values(columns).join(', ')], units: [say.units(units)] }),
+    rows: [texts.rows(used, rows, seconds, rate, distance)],
+    ...(columns && { columns: [Object.values(columns).join(', ')], units: [texts.units(units)] }),
     ...(frames && { frames: [framesText(frames)] }),
-    ...(clock === LOG_TIME && { clock: [say.recorded] }),
-    dropped: (Object.entries(dropped) as [DropCause, { count: number; first: number }][]).map(([cause, { count, first }]) => say.dropped(cause, count, columns ? first : 0)),
-    gaps: [gaps.count ? say.gaps(gaps.count, gaps.first, gaps.longest) : say.noGaps],
-    ...(jumps.count && { jumps: [say.jumps(jumps.count, jumps.first)] }),
+    ...(clock === LOG_TIME && { clock: [texts.recorded] }),
+    dropped: (Object.entries(dropped) as [DropCause, { count: number; first: number }][]).map(([cause, { count, first }]) => texts.dropped(cause, count, columns ? first : 0)),
+    gaps: [gaps.count ? texts.gaps(gaps.count, gaps.first, gaps.longest) : texts.noGaps],
+    ...(jumps.count && { jumps: [texts.jumps(jumps.count, jumps.first)] }),
     notes: notes.map(({ name, values }) => {
-      const noteText: string | ((...values: any[]) => string) = say.notes[name];
+      const noteText: string | ((...values: any[]) => string) = texts.notes[name];
       return typeof noteText === 'string' ? noteText : noteText(...values);
     }),
   };
 }
 
 /** Returns the summary of a log as sentences, the one about its rows first. */
-export function summarySentences(log: Log, say: Words['found']): string[] {
-  const { rows = [], ...otherLines } = summaryLines(log, say);
-  return [...rows, ...Object.entries(otherLines).flatMap(([label, lines]) => lines.map((line) => `${say.labels[label as Label]}: ${line}`))];
+export function summarySentences(log: Log, texts: Words['found']): string[] {
+  const { rows = [], ...otherLines } = summaryLines(log, texts);
+  return [...rows, ...Object.entries(otherLines).flatMap(([label, lines]) => lines.map((line) => `${texts.labels[label as Label]}: ${line}`))];
 }

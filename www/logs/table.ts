@@ -38,7 +38,7 @@ const MAX_TILT_SPREAD = 0.5;
 export async function openTable(source: Source, options: OpenOptions = {}): Promise<Recording> {
   const encoding = await detectEncoding(source);
   const headText = new TextDecoder(encoding).decode(await readBytes(source, 0, Math.min(HEAD_BYTES, source.size)), { stream: true });
-  if (headText.slice(0, CHECKED_CHARACTERS).includes('\0')) throw new LogError({ file: source.name }, (say) => say.binary);
+  if (headText.slice(0, CHECKED_CHARACTERS).includes('\0')) throw new LogError({ file: source.name }, (texts) => texts.binary);
   const headLines = headText.split('\n');
   // The last line may be incomplete. It is dropped unless it is the only one.
   if (source.size > HEAD_BYTES && headLines.length > 1) headLines.pop();
@@ -106,7 +106,7 @@ async function readLines(source: Source, encoding: string, from: number, onProgr
     const lines = text.split('\n');
     incompleteLine = lines.pop() ?? '';
     for (const line of lines) passLine(line, false);
-    if (incompleteLine.length > MAX_LINE_LENGTH) throw new LogError({ file: source.name, line: number + 1 }, (say) => say.longLine(MAX_LINE_LENGTH));
+    if (incompleteLine.length > MAX_LINE_LENGTH) throw new LogError({ file: source.name, line: number + 1 }, (texts) => texts.longLine(MAX_LINE_LENGTH));
   }
   passLine(incompleteLine + decoder.decode(), true);
 }
@@ -176,7 +176,7 @@ function logReader(name: string, place: ErrorPlace, format: Format, group: Group
     if (damagedRows === 1) [firstDamagedLine, damageReason] = [line, reason];
     rows.drop(cause, line);
   };
-  const dropText = (line: number, columnName: string, cell: string) => dropDamaged('text', line, (say) => say.number(truncate(columnName), truncate(cell.trim())));
+  const dropText = (line: number, columnName: string, cell: string) => dropDamaged('text', line, (texts) => texts.number(truncate(columnName), truncate(cell.trim())));
 
   /** Adds a row, or drops it. */
   const addCells = (cells: string[], line: number) => {
@@ -210,7 +210,7 @@ function logReader(name: string, place: ErrorPlace, format: Format, group: Group
       if (line === header) return rows.drop('text', number);
       const cells = splitCells(line, separator, neededCells);
       if (cells.length < neededCells) {
-        if (!isUnterminated) return dropDamaged('short', number, (say) => say.cells(cells.length, neededCells));
+        if (!isUnterminated) return dropDamaged('short', number, (texts) => texts.cells(cells.length, neededCells));
         notes.push({ name: 'cutShort', values: [] });
         return rows.drop('short', number);
       }
@@ -225,16 +225,16 @@ function logReader(name: string, place: ErrorPlace, format: Format, group: Group
     },
 
     end(): Log {
-      if (kind === 'positions') return refuse((say) => say.positions(listNames(columns.map((column) => column.name))));
+      if (kind === 'positions') return refuse((texts) => texts.positions(listNames(columns.map((column) => column.name))));
       if (damageReason && damagedRows > MAX_DAMAGED_FRACTION * rows.count) {
         const reason = damageReason;
         const isMixed = damagedRows > 1 && damagedRows < rows.count;
-        throw new LogError({ ...place, line: firstDamagedLine }, (say) => [reason(say), ...(isMixed ? [say.manyBad(damagedRows, rows.count, 100 * MAX_DAMAGED_FRACTION)] : [])].join(' '));
+        throw new LogError({ ...place, line: firstDamagedLine }, (texts) => [reason(texts), ...(isMixed ? [texts.manyBad(damagedRows, rows.count, 100 * MAX_DAMAGED_FRACTION)] : [])].join(' '));
       }
-      if (rowNames.size > 1) refuse((say) => say.mixed(listNames([...rowNames])));
-      if (this.tiltSpread > MAX_TILT_SPREAD) refuse((say) => say.tilted, { what: 'columns', choices: [], columns: names });
+      if (rowNames.size > 1) refuse((texts) => texts.mixed(listNames([...rowNames])));
+      if (this.tiltSpread > MAX_TILT_SPREAD) refuse((texts) => texts.tilted, { what: 'columns', choices: [], columns: names });
       const { unit = 's', by } = clockReaders[0].judged;
-      if (!(unit in UNIT_EXPONENTS)) refuse((say) => say.unknownUnit(truncate(unit)));
+      if (!(unit in UNIT_EXPONENTS)) refuse((texts) => texts.unknownUnit(truncate(unit)));
       return rows.end(name, kind, {
         units: {
           time: { unit, by },

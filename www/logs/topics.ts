@@ -18,7 +18,7 @@ export async function recordingOf(name: string, container: Container, options: O
   const { format, channels } = container;
   if (channels.every(({ count }) => count === 0)) {
     const reason = damageReasonOf(container);
-    throw new LogError({ file: name }, (say) => (reason ? say.damaged(reason, format) : say.noMessages));
+    throw new LogError({ file: name }, (texts) => (reason ? texts.damaged(reason, format) : texts.noMessages));
   }
   const series = await listSeries(container);
   return { name, format, series, read };
@@ -79,7 +79,7 @@ function topicReader(file: string, container: Container, choice: LogChoice, seri
   const kind = logKindOfType(type);
   if (kind === 'transforms' && !frames) {
     const candidates = series.find(({ name }) => name === topic)?.frames ?? [];
-    refuse((say) => say.frames(listNames(candidates.map(framesText))), { what: 'frames', choices: candidates.map(framesOption) });
+    refuse((texts) => texts.frames(listNames(candidates.map(framesText))), { what: 'frames', choices: candidates.map(framesOption) });
   }
   const rows = new Rows({ file, topic });
   const chain = frames && new Chain(frames);
@@ -118,11 +118,11 @@ function topicReader(file: string, container: Container, choice: LogChoice, seri
     end(options: OpenOptions): Log {
       const { format, damage, cutReason } = container;
       const lossReason = damageReasonOf(container);
-      if (messageCount === 0) refuse((say) => (lossReason ? say.damaged(lossReason, format) : say.noMessages));
-      if (damagedCount === messageCount) refuse((say) => say.message(1, damageReason));
-      if (chain && !chain.isConnected) refuse((say) => say.noChain(framesText(frames), listNames(chain.tree.links.map(framesText))));
+      if (messageCount === 0) refuse((texts) => (lossReason ? texts.damaged(lossReason, format) : texts.noMessages));
+      if (damagedCount === messageCount) refuse((texts) => texts.message(1, damageReason));
+      if (chain && !chain.isConnected) refuse((texts) => texts.noChain(framesText(frames), listNames(chain.tree.links.map(framesText))));
       const hasChanged = chain?.poses((pose, { message, number }) => add(pose, message.time, number)) ?? true;
-      if (!hasChanged) refuse((say) => say.constant(framesText(frames as FramePair), listNames((chain as Chain).tree.findPoseFrames().map(framesText))));
+      if (!hasChanged) refuse((texts) => texts.constant(framesText(frames as FramePair), listNames((chain as Chain).tree.findPoseFrames().map(framesText))));
       const logKind = kind === 'commands' ? 'commands' : 'poses';
       const notes: Note[] = [
         ...(damage.size > 0 ? [{ name: 'damaged' as const, values: [damage.size, lossReason as string] }] : []),
@@ -138,7 +138,7 @@ function topicReader(file: string, container: Container, choice: LogChoice, seri
   };
 }
 
-type Refuse = (reason: (say: Words['refused']) => string, ask?: Question) => never;
+type Refuse = (reason: (texts: Words['refused']) => string, ask?: Question) => never;
 
 /** Returns the type of a topic, which must be the only one that can be read. */
 function readableTypeOf({ channels }: Container, { series, kind: wantedKind, frames }: LogChoice, refuse: Refuse): string {
@@ -148,9 +148,9 @@ function readableTypeOf({ channels }: Container, { series, kind: wantedKind, fra
     return frames ? kind === 'transforms' : kind !== null && !(wantedKind === 'poses' && kind === 'commands');
   });
   const typeNames = [...new Set((fittingChannels.length ? fittingChannels : channelsOfTopic).map(({ type }) => type))];
-  if (fittingChannels.length === 0) refuse((say) => say.type(truncate(typeNames.join(', ')), frames ? 'transforms' : wantedKind === 'poses' ? wantedKind : 'either'));
-  if (typeNames.length > 1) refuse((say) => say.types(listNames(typeNames)));
-  if (logKindOfType(typeNames[0]) === 'positions') refuse((say) => say.positions(typeNames[0]));
-  if (!isReadable(fittingChannels[0])) refuse((say) => say.encoding(truncate(fittingChannels[0].encoding)));
+  if (fittingChannels.length === 0) refuse((texts) => texts.type(truncate(typeNames.join(', ')), frames ? 'transforms' : wantedKind === 'poses' ? wantedKind : 'either'));
+  if (typeNames.length > 1) refuse((texts) => texts.types(listNames(typeNames)));
+  if (logKindOfType(typeNames[0]) === 'positions') refuse((texts) => texts.positions(typeNames[0]));
+  if (!isReadable(fittingChannels[0])) refuse((texts) => texts.encoding(truncate(fittingChannels[0].encoding)));
   return typeNames[0];
 }

@@ -69,7 +69,7 @@ export function judgeUnits(place: ErrorPlace, kind: LogKind, columns: Columns, a
   const { t, a, b, c } = columns;
   const isJudged = t.length >= MIN_ROWS;
   const askUnit: Ask = (what, value, unit, choices) => {
-    throw new LogError(place, (say) => say[what](value, unit, choices), choices.length > 0 ? { what, choices, doubted: unit } : undefined);
+    throw new LogError(place, (texts) => texts[what](value, unit, choices), choices.length > 0 ? { what, choices, doubted: unit } : undefined);
   };
   const length = options.lengthUnit ? { unit: options.lengthUnit, by: 'option' as const } : assumed.length;
   const metresPerUnit = METRES_PER_UNIT[length.unit];
@@ -81,7 +81,7 @@ export function judgeUnits(place: ErrorPlace, kind: LogKind, columns: Columns, a
 
   const { unit, by } = options.angleUnit ? { unit: options.angleUnit, by: 'option' as const } : assumed.angle;
   const alignment = isJudged && kind === 'poses' ? alignmentWithPath(t, a, b, c) : undefined;
-  if (alignment?.sign === -1) throw new LogError(place, (say) => say.mirrored);
+  if (alignment?.sign === -1) throw new LogError(place, (texts) => texts.mirrored);
   let angle: Units['angle'] = { unit, by };
   if (isJudged && by === 'usage') {
     const turnRate = kind === 'poses' ? 0 : quantile(sampleEvenly(b.length, (i) => Math.abs(b[i])), 0.9);

@@ -28,13 +28,13 @@ export async function listedFiles(metadata: Source, sources: Source[]): Promise<
     fileNames.push(...paths.map((path) => baseName(String(path))));
   } catch (error) {
     if (error instanceof LogError) throw error;
-    throw new LogError(errorPlace, (say) => say.damaged(reasonOf(error)));
+    throw new LogError(errorPlace, (texts) => texts.damaged(reasonOf(error)));
   }
   const filesInFolder = sources.filter((source) => folderOf(source) === folderOf(metadata));
   // A decompressed file has no ".zstd" at the end of its name.
   const files = fileNames.map((name) => filesInFolder.find((source) => source.name === name || `${source.name}.zstd` === name));
   const missingNames = fileNames.filter((_, i) => !files[i]);
-  if (missingNames.length > 0 || files.length === 0) throw new LogError(errorPlace, (say) => say.noFiles(listNames(missingNames)));
+  if (missingNames.length > 0 || files.length === 0) throw new LogError(errorPlace, (texts) => texts.noFiles(listNames(missingNames)));
   const folder = baseName(folderOf(metadata).replace(/\/$/, ''));
   return { name: folder || fileNames[0], files: files as Source[] };
 }

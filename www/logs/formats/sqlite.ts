@@ -51,7 +51,7 @@ class Rosbag2 extends MessageFile<SqliteValue> implements Container {
 
   async open(): Promise<void> {
     const view = dataViewOf(await readBytes(this.source, 0, HEADER_BYTES));
-    const notRosbag2 = () => new LogError({ file: this.source.name }, (say) => say.noRosbag2);
+    const notRosbag2 = () => new LogError({ file: this.source.name }, (texts) => texts.noRosbag2);
     if (view.byteLength < HEADER_BYTES) {
       this.cutReason = 'its header is cut short';
       return;

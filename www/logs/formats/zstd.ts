@@ -51,7 +51,7 @@ function contentSize(frame: Uint8Array): number {
 /** Returns a decompressed file with the same name. */
 export async function unzstdFile(source: Source): Promise<Source> {
   await loadZstd();
-  const tooLargeError = () => new LogError({ file: source.name }, (say) => say.largeFile('zstd -d', MAX_FILE_BYTES));
+  const tooLargeError = () => new LogError({ file: source.name }, (texts) => texts.largeFile('zstd -d', MAX_FILE_BYTES));
   if (source.size > MAX_FILE_BYTES) throw tooLargeError();
   const bytes = await readBytes(source, 0, source.size);
   const outputParts: Uint8Array<ArrayBuffer>[] = [];
@@ -67,7 +67,7 @@ export async function unzstdFile(source: Source): Promise<Source> {
     }
   } catch (error) {
     if (error instanceof LogError) throw error;
-    throw new LogError({ file: source.name }, (say) => say.damaged(reasonOf(error)));
+    throw new LogError({ file: source.name }, (texts) => texts.damaged(reasonOf(error)));
   }
   const decompressedFile = new Blob(outputParts);
   return { name: source.name, path: source.path, size: decompressedFile.size, slice: (from, to) => decompressedFile.slice(from, to) };

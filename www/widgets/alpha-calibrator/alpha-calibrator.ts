@@ -230,21 +230,21 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   }
 
   content(viewModel: ViewModel) {
-    const say = words.calibrator;
+    const texts = words.calibrator;
     const { chosen } = this;
     return html`
       ${dropZone(this, this.#opener)}
       <div class="views">
         <p part="caption" class="caption verdict">${this.renderer.afterFirstPicture(() => verdictLine(this))}</p>
-        ${titledPicture(say.path, html`<div class="stage" part="picture" @click=${this.#chooseLegAt}>${pictureCanvas(this, this.#pathPicture, pathText(viewModel, chosen))}</div>`)}
+        ${titledPicture(texts.path, html`<div class="stage" part="picture" @click=${this.#chooseLegAt}>${pictureCanvas(this, this.#pathPicture, pathText(viewModel, chosen))}</div>`)}
         <div class="one">
-          ${titledPicture(say.oneLeg(integer(chosen + 1)), html`<div class="stage">${pictureCanvas(this, this.#legPicture, legText(this.predicted, chosen))}</div>`)}
+          ${titledPicture(texts.oneLeg(integer(chosen + 1)), html`<div class="stage">${pictureCanvas(this, this.#legPicture, legText(this.predicted, chosen))}</div>`)}
           ${this.renderer.afterFirstPicture(() => html`<div class="looked">${legControls(this)}</div>`)}
         </div>
         ${this.renderer.afterFirstPicture(() => html`
         <div class="fitted" part="readouts">
           <div class="buttons result">
-            <p class="panel-title">${say.alphas.title(say.kinds[modelRuleOf(viewModel.fitted)])}</p>
+            <p class="panel-title">${texts.alphas.title(texts.kinds[modelRuleOf(viewModel.fitted)])}</p>
             ${copyButton(this, this.#opener.otherResults)} ${startOverButton(this, this.#startOver)}
           </div>
           <p class="to-do">${this.#opener.otherResults || judgementOf(viewModel, this.warnings).toDo}</p>
@@ -258,14 +258,14 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
       <div part="controls">${legLengths(this)}</div>
       ${disclosures(this, {
         controls: () => html`${modelControls(this)}
-          ${group(say.systematic.title, systematicTable(this))}
-          ${group(say.own.title, logSection(this))}
+          ${group(texts.systematic.title, systematicTable(this))}
+          ${group(texts.own.title, logSection(this))}
           ${predictionControls(this)}`,
-        numbers: () => html`${group(say.oneLeg(integer(chosen + 1)), legReadouts(this))}
+        numbers: () => html`${group(texts.oneLeg(integer(chosen + 1)), legReadouts(this))}
           ${diagnostics(this)}
-          ${group(say.panels.title, regressionPanels(this))}
-          ${group(say.nav2.title, nav2Exports(this, this.#opener.otherResults))}`,
-        csvTitle: say.csvTitle,
+          ${group(texts.panels.title, regressionPanels(this))}
+          ${group(texts.nav2.title, nav2Exports(this, this.#opener.otherResults))}`,
+        csvTitle: texts.csvTitle,
       })}
       ${this.#opener.logModules?.logSummary(this.#opener)}`)}
     `;

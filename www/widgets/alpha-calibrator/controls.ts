@@ -12,14 +12,14 @@ import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 export function legControls(figure: Figure) {
   const { viewModel: { legs, worst }, chosen } = figure;
-  const say = words.calibrator.leg;
+  const texts = words.calibrator.leg;
   // The button selects the leg after the selected one in the list of worst legs, or the first of the list.
   const nextLeg = worst[(worst.indexOf(figure.state.elementState.leg) + 1) % Math.max(1, worst.length)];
   return html`<fieldset class="leg">
-      <legend class="visually-hidden">${say.name}</legend>
-      ${editableSlider(figure, say.name, { min: 1, max: legs.count, type: 'whole' }, {
+      <legend class="visually-hidden">${texts.name}</legend>
+      ${editableSlider(figure, texts.name, { min: 1, max: legs.count, type: 'whole' }, {
         id: 'leg',
-        name: say.name,
+        name: texts.name,
         value: chosen + 1,
         min: 1,
         max: Math.max(2, legs.count),
@@ -32,16 +32,16 @@ export function legControls(figure: Figure) {
         commit: () => figure.gesture.commit(),
       })}
     </fieldset>
-    ${button(say.worst, () => figure.gesture.decide({ leg: nextLeg }), { disabled: nextLeg === undefined })}`;
+    ${button(texts.worst, () => figure.gesture.decide({ leg: nextLeg }), { disabled: nextLeg === undefined })}`;
 }
 
 export function legReadouts({ viewModel: { legs }, chosen, predicted: leg }: Figure) {
-  const say = words.calibrator.leg;
+  const texts = words.calibrator.leg;
   const off = leg ? Math.hypot(leg.ended[0] - leg.read[0], leg.ended[1] - leg.read[1]) : NaN;
   return readoutList([
-    [say.off, `${fixed(off, 3)} m`],
-    [say.squared(String(observedCount(legs.residuals, chosen))), fixed(leg ? legs.squared[chosen] : NaN, 1)],
-    [words.calibrator.overlays.outlier, leg ? say.isOutlier[legs.outliers[chosen] > 0 ? 'yes' : 'no'] : NO_VALUE],
+    [texts.off, `${fixed(off, 3)} m`],
+    [texts.squared(String(observedCount(legs.residuals, chosen))), fixed(leg ? legs.squared[chosen] : NaN, 1)],
+    [words.calibrator.overlays.outlier, leg ? texts.isOutlier[legs.outliers[chosen] > 0 ? 'yes' : 'no'] : NO_VALUE],
   ]);
 }
 

@@ -22,49 +22,49 @@ export function diagnostics(figure: Figure) {
 }
 
 function checksTable({ viewModel: { stats: { diagnostics: { checks } } } }: Figure) {
-  const say = words.calibrator.checks;
+  const texts = words.calibrator.checks;
   return figureTable({
-    caption: say.caption,
-    columns: [say.check, say.value, say.expected, say.result],
+    caption: texts.caption,
+    columns: [texts.check, texts.value, texts.expected, texts.result],
     rows: checks.map((check) => [
-      html`${say.names[check.name]}<div class="muted">${checkMessage(check)}</div>`,
+      html`${texts.names[check.name]}<div class="muted">${checkMessage(check)}</div>`,
       checkText(check.name, check.value),
       expectedRangeText(check),
-      check.passed ? `✓ ${say.passed}` : html`<strong>✕ ${say.failed}</strong>`,
+      check.passed ? `✓ ${texts.passed}` : html`<strong>✕ ${texts.failed}</strong>`,
     ]),
   });
 }
 
 function windowsTable({ viewModel: { stats: { diagnostics: { windows } } } }: Figure) {
-  const say = words.calibrator.windows;
+  const texts = words.calibrator.windows;
   return figureTable({
-    caption: say.caption,
-    columns: [say.length, say.count, say.coverage, say.nees],
+    caption: texts.caption,
+    columns: [texts.length, texts.count, texts.coverage, texts.nees],
     rows: windows.map(({ length, count, coverage, nees }) => [`${integer(length)} m`, integer(count), percent(coverage), fixed(nees, 2)]),
   });
 }
 
 function noiseTable({ viewModel: { stats: { referenceNoise: { positionStd, yawStd }, persistence: { correlation, length } } } }: Figure) {
-  const { noise: say, systematic, settings, alphas: { interval: intervalName, between } } = words.calibrator;
+  const { noise: texts, systematic, settings, alphas: { interval: intervalName, between } } = words.calibrator;
   const formatStd = (value: number) => (value === 0 ? '0' : Number.isFinite(value) ? formatRounded(value, 2) : '∞');
   const row = (name: string, { value, interval: [low, high] }: import('../../types.d.ts').Estimate) => [name, formatStd(value), between(formatStd(low), formatStd(high))];
   return figureTable({
-    caption: say.caption,
-    columns: [say.what, systematic.value, intervalName],
+    caption: texts.caption,
+    columns: [texts.what, systematic.value, intervalName],
     rows: [
       row(`${settings.positionStd.name} (m)`, positionStd),
       row(`${settings.yawStd.name} (rad)`, yawStd),
-      row(say.correlation, correlation),
-      [say.length, length > 0 ? `${formatRounded(length, 2)} m` : NO_VALUE, NO_VALUE],
+      row(texts.correlation, correlation),
+      [texts.length, length > 0 ? `${formatRounded(length, 2)} m` : NO_VALUE, NO_VALUE],
     ],
   });
 }
 
 function lostLegs({ viewModel: { stats: { lost }, legs } }: Figure) {
-  const say = words.calibrator.lost;
+  const texts = words.calibrator.lost;
   const causes = ['withoutReference', 'acrossBreaks', 'acrossPauses', 'standing'] as const;
   const outliers = legs.outliers.reduce((sum, is) => sum + is, 0);
-  return readoutList([...causes.map((cause) => [say[cause], integer(lost[cause])] as [string, string]), [say.outliers, integer(outliers)]]);
+  return readoutList([...causes.map((cause) => [texts[cause], integer(lost[cause])] as [string, string]), [texts.outliers, integer(outliers)]]);
 }
 
 /** Minimum squared distance or rotation at the end of an axis: (1 mm)², or (1 mrad)². */
@@ -73,23 +73,23 @@ const MIN_REGRESSOR = 1e-6;
 /** Returns a plot for each noise component: its squared residuals against the regressor. */
 export function regressionPanels(figure: Figure) {
   const { viewModel, viewModel: { fitted: { model } }, state: { elementState: { regressor } }, gesture } = figure;
-  const say = words.calibrator.panels;
-  const axisNames = model === 'velocity' ? { turn: say.turnRate, distance: say.speed } : { turn: say.turn, distance: say.distance };
+  const texts = words.calibrator.panels;
+  const axisNames = model === 'velocity' ? { turn: texts.turnRate, distance: texts.speed } : { turn: texts.turn, distance: texts.distance };
   if (viewModel.legs.count === 0) return html`<p>${words.calibrator.none}</p>`;
   const chooseRegressor = (name: Regressor) => gesture.choose('regressor', name);
-  return html`${radioGroup(say.against, 'regressor', say.regressors, regressor, chooseRegressor)}
+  return html`${radioGroup(texts.against, 'regressor', texts.regressors, regressor, chooseRegressor)}
     <figure><div class="panels">
       ${figure.panels.map((panel, i) => html`<figure>
-        ${plot(panelPlot(panel, say.kinds[NOISE_COMPONENTS[model][i]], axisNames[regressor as Regressor]))}
+        ${plot(panelPlot(panel, texts.kinds[NOISE_COMPONENTS[model][i]], axisNames[regressor as Regressor]))}
         ${identifiabilityNote(panel, viewModel)}
       </figure>`)}
     </div>
-    <figcaption>${formatMarkup(say.caption)}</figcaption></figure>`;
+    <figcaption>${formatMarkup(texts.caption)}</figcaption></figure>`;
 }
 
 /** Returns the plot of a panel. `kind` is the name of its noise component, and `axis` that of its regressor. */
 function panelPlot({ alpha, x, y, error, slope, interval }: CalibrationPanel, kind: string, axis: string): import('../../ui/plot.ts').Plot {
-  const say = words.calibrator.panels;
+  const texts = words.calibrator.panels;
   const maxRegressor = Math.max(0, ...x);
   // A log without rotation or without translation has an empty axis.
   const axisEnd = maxRegressor > MIN_REGRESSOR ? 1.06 * maxRegressor : 1;
@@ -101,22 +101,22 @@ function panelPlot({ alpha, x, y, error, slope, interval }: CalibrationPanel, ki
   const [low, high] = interval ?? [NaN, NaN];
   const slopeMiddle = (low + high) / 2;
   const slopeLines: Curve[] = slope === null ? [] : [
-    { name: say.slope(sub), role: 'prediction', x: [0, axisEnd], y: [0, scaled(slope * axisEnd)] },
+    { name: texts.slope(sub), role: 'prediction', x: [0, axisEnd], y: [0, scaled(slope * axisEnd)] },
     { name: words.calibrator.alphas.interval, role: 'cloud', area: true, x: [0, axisEnd], y: [0, scaled(slopeMiddle * axisEnd)], error: [0, scaled(((high - low) / 2) * axisEnd)] },
   ];
   return {
-    label: say.label(kind, String(alpha + 1), slope === null ? NO_VALUE : localized(alphaOrBound(slope, interval))),
+    label: texts.label(kind, String(alpha + 1), slope === null ? NO_VALUE : localized(alphaOrBound(slope, interval))),
     x: { name: axis, from: 0, to: axisEnd },
-    y: { name: `${kind}, ${say.axis}${unit && ` (${unit})`}`, from: scaled(axisBottom), to: scaled(axisTop) },
-    curves: [...slopeLines, { name: say.bins, role: 'ink', x: [], y: [] }],
+    y: { name: `${kind}, ${texts.axis}${unit && ` (${unit})`}`, from: scaled(axisBottom), to: scaled(axisTop) },
+    curves: [...slopeLines, { name: texts.bins, role: 'ink', x: [], y: [] }],
     points: x.map((value, i) => ({ role: 'ink' as const, x: value, y: scaled(y[i]), error: scaled(error[i]) })),
   };
 }
 
 /** Returns a note on an α that is not identifiable, or not distinguishable from 0. */
 function identifiabilityNote({ alpha, slope, interval }: CalibrationPanel, { fitted: { model } }: import('./view-model.ts').ViewModel) {
-  const { panels: say, alphas: { lacking } } = words.calibrator;
+  const { panels: texts, alphas: { lacking } } = words.calibrator;
   if (slope !== null && !isZero(slope, interval)) return '';
   const sub = subscriptOf(alpha);
-  return html`<p class="note">${formatMarkup(slope === null ? say.noSlope(sub) : say.zero(sub, adviceOf(lacking, model, missingMotion(model, alpha)).drive))}</p>`;
+  return html`<p class="note">${formatMarkup(slope === null ? texts.noSlope(sub) : texts.zero(sub, adviceOf(lacking, model, missingMotion(model, alpha)).drive))}</p>`;
 }

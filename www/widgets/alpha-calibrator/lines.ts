@@ -109,32 +109,32 @@ export function missingMotion(model: string, index: number): 'insufficient-rotat
  * Returns the YAML lines with the recommended α's, and with the fitted α's in comments. Returns no lines if Nav2 has no such model, or if
  * no α's are recommended.
  */
-export function nav2Lines({ calibration, count, model, rule, legs, log, warnings, date }: FittedLog, say: Words): string[] {
+export function nav2Lines({ calibration, count, model, rule, legs, log, warnings, date }: FittedLog, texts: Words): string[] {
   const { alphas, intervals, recommended, systematicErrors, diagnostics: { checks, windows: [window] } } = calibration;
   if (!Object.hasOwn(NAV2_PLUGINS, model) || recommended === null) return [];
   const { inflation } = recommended;
   const { distance, angle, duration } = legs;
   const failedNames = failedChecksOf(checks).map(({ name }) => name).join(', ');
   const noteTexts = [
-    say.of(String(count), duration === undefined ? say.moved(formatNumber(distance ?? null), formatNumber(angle ?? null)) : say.lasted(formatNumber(duration)), log, date),
-    say.recommended(formatNumber(inflation), formatPercent(window.coverage), String(window.count)),
-    ...(isOfNav2(model, rule) ? [] : [say.otherRule]),
-    ...correctedErrorsText(systematicErrors).map((errors) => say.corrected(errors)),
-    ...correctionAdvice(calibration, say),
-    ...(failedNames ? [say.failed(failedNames)] : []),
-    ...warnings.map((name) => say[name]),
+    texts.of(String(count), duration === undefined ? texts.moved(formatNumber(distance ?? null), formatNumber(angle ?? null)) : texts.lasted(formatNumber(duration)), log, date),
+    texts.recommended(formatNumber(inflation), formatPercent(window.coverage), String(window.count)),
+    ...(isOfNav2(model, rule) ? [] : [texts.otherRule]),
+    ...correctedErrorsText(systematicErrors).map((errors) => texts.corrected(errors)),
+    ...correctionAdvice(calibration, texts),
+    ...(failedNames ? [texts.failed(failedNames)] : []),
+    ...warnings.map((name) => texts[name]),
   ];
   const alphaLines = alphas.map((alpha: number | null, i: number) => {
     const interval = intervals[i];
-    if (alpha === null) return `# alpha${i + 1}: ${say.notIdentifiable}`;
-    if (isZero(alpha, interval)) return `# alpha${i + 1}: ${say.zero(upperEnd(scaledInterval(interval, inflation)))}`;
+    if (alpha === null) return `# alpha${i + 1}: ${texts.notIdentifiable}`;
+    if (isZero(alpha, interval)) return `# alpha${i + 1}: ${texts.zero(upperEnd(scaledInterval(interval, inflation)))}`;
     const formattedAlpha = formatEstimate(inflation * alpha, scaledInterval(interval, inflation));
-    if (inflation * alpha > MAX_PLAUSIBLE_ALPHA) return `# alpha${i + 1}: ${formattedAlpha}, ${say.tooLarge}`;
-    return `alpha${i + 1}: ${withDecimals(formattedAlpha)}  # ${say.fitted(formatEstimate(alpha, interval), formatInterval(interval))}`;
+    if (inflation * alpha > MAX_PLAUSIBLE_ALPHA) return `# alpha${i + 1}: ${formattedAlpha}, ${texts.tooLarge}`;
+    return `alpha${i + 1}: ${withDecimals(formattedAlpha)}  # ${texts.fitted(formatEstimate(alpha, interval), formatInterval(interval))}`;
   });
   // A line break in a file's name would end the comment.
   const commentLines = noteTexts.map((note) => `# ${note.replaceAll(/\s+/g, ' ')}`);
-  const fifthAlphaNote = alphas.length < 5 ? [`# ${say.fifth}`] : [];
+  const fifthAlphaNote = alphas.length < 5 ? [`# ${texts.fifth}`] : [];
   const updateTriggers = duration === undefined ? [`update_min_d: ${withDecimals(formatNumber(distance ?? null))}`, `update_min_a: ${withDecimals(formatNumber(angle ?? null))}`] : [];
   const parameterLines = [...commentLines, `robot_model_type: "${NAV2_PLUGINS[model]}"`, ...alphaLines, ...fifthAlphaNote, ...updateTriggers];
   return ['amcl:', '  ros__parameters:', ...parameterLines.map((line) => `    ${line}`)];
@@ -148,13 +148,13 @@ export const failedChecksOf = <Check extends { name: string, passed: boolean, me
  *
  * @param print formats numbers
  */
-export function correctionAdvice({ recommended, systematicErrors }: any, say: Pick<Words, 'correctFirst'>, print = (number: string) => number): string[] {
+export function correctionAdvice({ recommended, systematicErrors }: any, texts: Pick<Words, 'correctFirst'>, print = (number: string) => number): string[] {
   if (!recommended) return [];
   const [distance, turn] = ['distanceScale', 'turnScale'].map((key) => {
     const { value, interval, corrected } = systematicErrors[key];
     return corrected && interval && (interval[0] > 1 || interval[1] < 1) ? print(formatEstimate(value, interval)) : '';
   });
-  return distance || turn ? [say.correctFirst(distance, turn)] : [];
+  return distance || turn ? [texts.correctFirst(distance, turn)] : [];
 }
 
 /** Lists the systematic errors that were corrected, in one text or none. */

@@ -31,18 +31,18 @@ function optionsOf(recording: Recording, role?: Role): [label: string, LogChoice
 
 /** Returns the form controls for the open choices about the present files. */
 export function logChoosers(opener: LogOpener) {
-  const { chosen, say } = opener;
-  if (!chosen || !say) return nothing;
+  const { chosen, texts } = opener;
+  if (!chosen || !texts) return nothing;
   const { recordings, skipped, questions, plan } = chosen;
   const hasOneLog = (recording: Recording) => optionsOf(recording).length === 1;
   const roleChoosers = [
-    ...(recordings.every(hasOneLog) ? [] : ROLES.map((role) => seriesSelect(opener, chosen, role, say))),
-    ...(recordings.length > 1 ? recordings.flatMap((recording, index) => (hasOneLog(recording) ? [roleSelect(opener, chosen, index, say)] : [])) : []),
+    ...(recordings.every(hasOneLog) ? [] : ROLES.map((role) => seriesSelect(opener, chosen, role, texts))),
+    ...(recordings.length > 1 ? recordings.flatMap((recording, index) => (hasOneLog(recording) ? [roleSelect(opener, chosen, index, texts)] : [])) : []),
   ];
   return html`<div class="choosers">
-    ${roleChoosers.length ? html`<div class="choices">${roleChoosers} ${plan?.hasRolesByOrder ? say.choose.byOrder : nothing}</div>` : nothing}
-    ${questions.map((question) => questionOf(opener, chosen, question, say))}
-    ${[...skipped, ...(plan?.unused ?? [])].filter((failure) => failure !== opener.refusal).map((failure) => html`<p class="muted">${say.choose.skipped(opener.explain(failure))}</p>`)}
+    ${roleChoosers.length ? html`<div class="choices">${roleChoosers} ${plan?.hasRolesByOrder ? texts.choose.byOrder : nothing}</div>` : nothing}
+    ${questions.map((question) => questionOf(opener, chosen, question, texts))}
+    ${[...skipped, ...(plan?.unused ?? [])].filter((failure) => failure !== opener.refusal).map((failure) => html`<p class="muted">${texts.choose.skipped(opener.explain(failure))}</p>`)}
   </div>`;
 }
 
@@ -56,14 +56,14 @@ function selectField(id: string, label: string, value: string, options: [value: 
   </label>`;
 }
 
-function seriesSelect(opener: LogOpener, { recordings, userChoices, plan }: ChosenFiles, role: Role, { choose: say }: LogWords) {
+function seriesSelect(opener: LogOpener, { recordings, userChoices, plan }: ChosenFiles, role: Role, { choose: texts }: LogWords) {
   const choiceByLabel = new Map(recordings.flatMap((recording) => optionsOf(recording, role)));
   const [plannedLog] = plan ? [...plan.drives.map((drive) => drive[role]), ...plan.unpaired[role]] : [];
   const currentChoice = (userChoices[role] as LogChoice | undefined) ?? plannedLog?.choice ?? likeliestChoice(recordings[0], role, opener.kind);
-  return selectField(`log-${role}`, say.roles[role], currentChoice ? labelOf(currentChoice) || (plannedLog?.recording ?? recordings[0]).name : '', [...choiceByLabel.keys()].map((label) => [label, label]), (label) => {
+  return selectField(`log-${role}`, texts.roles[role], currentChoice ? labelOf(currentChoice) || (plannedLog?.recording ?? recordings[0]).name : '', [...choiceByLabel.keys()].map((label) => [label, label]), (label) => {
     const choice = choiceByLabel.get(label);
     if (choice) opener.change({ userChoices: { ...userChoices, [role]: choice } });
-  }, say.open);
+  }, texts.open);
 }
 
 /** Returns the likeliest choice; undefined if there are several. */
@@ -72,33 +72,33 @@ function likeliestChoice(recording: Recording, role: Role, kind: 'commands' | un
   return likeliestChoices?.length === 1 ? likeliestChoices[0] : undefined;
 }
 
-function roleSelect(opener: LogOpener, { recordings, roles, plan }: ChosenFiles, index: number, { choose: say }: LogWords) {
+function roleSelect(opener: LogOpener, { recordings, roles, plan }: ChosenFiles, index: number, { choose: texts }: LogWords) {
   const { name } = recordings[index];
   const currentRole = roles.get(index) ?? ROLES.find((role) => plan?.unpaired[role].some(({ recording }) => recording === recordings[index]));
-  return selectField(`log-role-${index}`, name, currentRole ?? '', ROLES.map((role) => [role, say.roles[role]]), (value) => {
+  return selectField(`log-role-${index}`, name, currentRole ?? '', ROLES.map((role) => [role, texts.roles[role]]), (value) => {
     const role = value as Role;
     const changedRoles = new Map(roles).set(index, role);
     // If there are two files, the other file gets the other role.
     if (recordings.length === 2 && optionsOf(recordings[1 - index]).length === 1) changedRoles.set(1 - index, role === 'odometry' ? 'reference' : 'odometry');
     opener.change({ roles: changedRoles });
-  }, say.open);
+  }, texts.open);
 }
 
-function questionOf(opener: LogOpener, { answers }: ChosenFiles, asked: OpenQuestion, { choose: say }: LogWords) {
+function questionOf(opener: LogOpener, { answers }: ChosenFiles, asked: OpenQuestion, { choose: texts }: LogWords) {
   const { file, ask: { what, choices } } = asked;
-  if (what === 'columns') return columnsForm(opener, asked, answers[file]?.columns, say);
+  if (what === 'columns') return columnsForm(opener, asked, answers[file]?.columns, texts);
   if (what !== 'timeUnit' && what !== 'lengthUnit' && what !== 'angleUnit') return nothing;
-  const labels: Record<string, string> = Object.fromEntries((choices.length ? choices : UNITS[what]).map((unit) => [unit, say.units[unit as keyof typeof say.units]]));
+  const labels: Record<string, string> = Object.fromEntries((choices.length ? choices : UNITS[what]).map((unit) => [unit, texts.units[unit as keyof typeof texts.units]]));
   return html`<div id=${questionId(asked)}>
-    ${radioGroup(say[what](file), questionId(asked), labels, answers[file]?.[what] ?? '', (unit) => opener.answer(asked, { [what]: unit }))}
+    ${radioGroup(texts[what](file), questionId(asked), labels, answers[file]?.[what] ?? '', (unit) => opener.answer(asked, { [what]: unit }))}
   </div>`;
 }
 
 /** Returns a form with one `<select>` for each field, which assigns a column to it. */
-function columnsForm(opener: LogOpener, asked: OpenQuestion, answer: string[] | undefined, say: LogWords['choose']) {
+function columnsForm(opener: LogOpener, asked: OpenQuestion, answer: string[] | undefined, texts: LogWords['choose']) {
   const { file, ask: { choices: [defaultNames = ''], columns = [] } } = asked;
   const assignedFields = answer ?? defaultNames.split(',');
-  const options = columns.map((cell, index): [string, string] => [String(index), say.column(index + 1, cell.trim().slice(0, MAX_CELL_LENGTH))]);
+  const options = columns.map((cell, index): [string, string] => [String(index), texts.column(index + 1, cell.trim().slice(0, MAX_CELL_LENGTH))]);
   const takeColumns = (event: Event) => {
     event.preventDefault();
     const fieldNames = columns.map(() => '-');
@@ -107,16 +107,16 @@ function columnsForm(opener: LogOpener, asked: OpenQuestion, answer: string[] | 
   };
   return html`<form id=${questionId(asked)} @submit=${takeColumns}>
     <fieldset>
-      <legend>${say.columns(file)}</legend>
+      <legend>${texts.columns(file)}</legend>
       <div class="choices">
         ${COLUMN_FIELDS.map((field) => html`<label>
-          ${say.fields[field]}
-          <select name=${field} aria-label=${say.fields[field]} aria-describedby="refusal">
-            <option value="">${say.none}</option>
+          ${texts.fields[field]}
+          <select name=${field} aria-label=${texts.fields[field]} aria-describedby="refusal">
+            <option value="">${texts.none}</option>
             ${options.map(([index, label]) => html`<option value=${index} ?selected=${assignedFields[Number(index)] === field}>${label}</option>`)}
           </select>
         </label>`)}
-        <button type="submit" part="button">${say.read}</button>
+        <button type="submit" part="button">${texts.read}</button>
       </div>
     </fieldset>
   </form>`;
@@ -142,15 +142,15 @@ const [WIDTH, HEIGHT, MARGIN] = [220, 150, 4];
 const MAX_POINTS = 1500;
 
 /** Returns the summary of the logs of each drive. It is shown while the logs are fitted, and below the result. */
-export function logSummary({ chosen, say, host }: LogOpener) {
+export function logSummary({ chosen, texts, host }: LogOpener) {
   // The page may have set another log in the meantime.
-  if (!chosen?.drives || !say || (chosen.log && chosen.log !== host.log)) return nothing;
+  if (!chosen?.drives || !texts || (chosen.log && chosen.log !== host.log)) return nothing;
   const { drives } = chosen;
   return html`<details class="found" open>
-    <summary>${say.found.title}</summary>
-    ${guard([drives, say, language], () => drives.map((drive, i) => html`<div class="drive">
-      ${tableOf(drive, drives.length > 1 ? say.found.drive(i + 1) : '', say)}
-      ${pathsPicture(drive, say)}
+    <summary>${texts.found.title}</summary>
+    ${guard([drives, texts, language], () => drives.map((drive, i) => html`<div class="drive">
+      ${tableOf(drive, drives.length > 1 ? texts.found.drive(i + 1) : '', texts)}
+      ${pathsPicture(drive, texts)}
     </div>`))}
   </details>`;
 }

@@ -28,10 +28,10 @@ function jsonOf({ viewModel: { fitted, stats, legs, truth }, logName }: Figure) 
  * reason why the button is disabled; empty if it is enabled.
  */
 export function copyButton(figure: Figure, obstacle: string) {
-  const say = words.calibrator.nav2;
-  if (!NAV2_RULES.includes(modelRuleOf(figure.viewModel.fitted))) return button(say.fit, () => figure.gesture.decide(settingsFor('nav2')), { disabled: obstacle !== '', title: obstacle || say.fitTitle });
+  const texts = words.calibrator.nav2;
+  if (!NAV2_RULES.includes(modelRuleOf(figure.viewModel.fitted))) return button(texts.fit, () => figure.gesture.decide(settingsFor('nav2')), { disabled: obstacle !== '', title: obstacle || texts.fitTitle });
   const yaml = yamlOf(figure);
-  return figure.copyMenu.button('nav2', say.copy, () => yaml, { disabled: !yaml || obstacle !== '', title: obstacle || (yaml ? say.label : say.none) });
+  return figure.copyMenu.button('nav2', texts.copy, () => yaml, { disabled: !yaml || obstacle !== '', title: obstacle || (yaml ? texts.label : texts.none) });
 }
 
 /** Returns the message of the button, which stands where it moves neither the button nor the table. */
@@ -39,11 +39,11 @@ export const copyMessage = (figure: Figure) => figure.copyMenu.messageHtml('nav2
 
 /** Returns the lines, and the button that saves all results. `obstacle` is the reason why it is disabled, or empty. */
 export function nav2Exports(figure: Figure, obstacle: string) {
-  const say = words.calibrator.nav2;
+  const texts = words.calibrator.nav2;
   const yaml = yamlOf(figure);
   const fileName = `${figure.localName}-${figure.viewModel.config.seed}.json`;
-  return html`${yaml ? html`<textarea class="yaml" readonly rows=${yaml.split('\n').length} aria-label=${say.label} .value=${yaml}></textarea>` : html`<p>${say.none}</p>`}
+  return html`${yaml ? html`<textarea class="yaml" readonly rows=${yaml.split('\n').length} aria-label=${texts.label} .value=${yaml}></textarea>` : html`<p>${texts.none}</p>`}
     <div class="buttons">
-      ${button(say.json, () => downloadFile(fileName, new Blob([jsonOf(figure)], { type: 'application/json' })), { disabled: obstacle !== '', title: obstacle || undefined })}
+      ${button(texts.json, () => downloadFile(fileName, new Blob([jsonOf(figure)], { type: 'application/json' })), { disabled: obstacle !== '', title: obstacle || undefined })}
     </div>`;
 }

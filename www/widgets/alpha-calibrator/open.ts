@@ -64,7 +64,7 @@ export class LogOpener extends FileOpener<Figure> {
   }
 
   /** Words of logs in the present language. */
-  get say(): LogWords | undefined {
+  get texts(): LogWords | undefined {
     return this.logModules?.[language === 'de' ? 'de' : 'en'];
   }
 
@@ -192,8 +192,8 @@ export class LogOpener extends FileOpener<Figure> {
   explain(refusal: Error & Partial<LogError & LogFailure>) {
     if (isStopped(refusal)) return words.progress.stopped;
     const { message, sentence, sentences, ask } = refusal;
-    const refusalReason = sentences?.[language === 'de' ? 'de' : 'en'] ?? (sentence && this.say ? sentence(this.say) : words.calibrator.own.refused(message));
-    return [refusalReason, ...(ask?.what === 'other' && this.say ? [this.say.choose.other] : [])].join(' ');
+    const refusalReason = sentences?.[language === 'de' ? 'de' : 'en'] ?? (sentence && this.texts ? sentence(this.texts) : words.calibrator.own.refused(message));
+    return [refusalReason, ...(ask?.what === 'other' && this.texts ? [this.texts.choose.other] : [])].join(' ');
   }
 
   /** Shows why a log was refused, and what to choose. */
@@ -245,25 +245,25 @@ async function loadLogModules() {
 
 /** Returns the drop zone for logs. Below it are the choosers, the progress or name of the log, and the reason for a refusal. */
 export function dropZone(figure: Figure, opener: LogOpener) {
-  const say = words.calibrator.own;
+  const texts = words.calibrator.own;
   const { share, logModules } = opener;
   return html`<div class="drop-zone" id=${opener.id} part="drop">
-    <p title=${say.dropTitle}>
-      ${say.drop}
-      ${opener.button('log-files', say.files, EXTENSIONS)}
+    <p title=${texts.dropTitle}>
+      ${texts.drop}
+      ${opener.button('log-files', texts.files, EXTENSIONS)}
     </p>
     ${logModules?.logChoosers(opener)}
     ${share !== undefined
-      ? html`<p><progress aria-label=${say.reading} .value=${share}></progress> ${button(words.progress.stop, () => opener.stop())}</p>`
-      : figure.log ? html`<p><span class="present">${say.present(figure.logName)}</span> ${button(say.leave, () => opener.close())}</p>` : nothing}
+      ? html`<p><progress aria-label=${texts.reading} .value=${share}></progress> ${button(words.progress.stop, () => opener.stop())}</p>`
+      : figure.log ? html`<p><span class="present">${texts.present(figure.logName)}</span> ${button(texts.leave, () => opener.close())}</p>` : nothing}
     ${opener.note}
-    ${opener.otherResults ? html`<p class="muted other-results">${opener.otherResults} ${button(say.keep, () => opener.forget())}</p>` : nothing}
+    ${opener.otherResults ? html`<p class="muted other-results">${opener.otherResults} ${button(texts.keep, () => opener.forget())}</p>` : nothing}
   </div>`;
 }
 
 export function logSection(figure: Figure) {
-  const say = words.calibrator.own;
-  return html`<p>${figure.log ? say.present(figure.logName) : say.simulated}</p>
+  const texts = words.calibrator.own;
+  return html`<p>${figure.log ? texts.present(figure.logName) : texts.simulated}</p>
     ${referenceNoise(figure)}
-    <p class="muted">${say.stds}</p>`;
+    <p class="muted">${texts.stds}</p>`;
 }

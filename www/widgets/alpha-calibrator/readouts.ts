@@ -28,13 +28,13 @@ export function verdictLine({ viewModel, logName, warnings }: Figure) {
 
 export function alphaTable(viewModel: ViewModel) {
   const { alphas, intervals } = viewModel.stats;
-  const say = words.calibrator.alphas;
+  const texts = words.calibrator.alphas;
   const noiseLabels = noiseNames(viewModel.fitted.model);
   const truth = truthApplies(viewModel) ? viewModel.truth?.alphas : undefined;
   const axis = axisOf([...alphas, ...intervals.flatMap((interval) => interval ?? []), ...(truth ?? [])]);
   return html`<table class="alphas" part="table">
     <thead>
-      <tr><th scope="col">${formatMarkup(say.alpha)}</th><th scope="col">${truth ? noiseColumnHead() : say.noise}</th><th scope="col">${say.value}</th><th scope="col">${say.recommended}</th></tr>
+      <tr><th scope="col">${formatMarkup(texts.alpha)}</th><th scope="col">${truth ? noiseColumnHead() : texts.noise}</th><th scope="col">${texts.value}</th><th scope="col">${texts.recommended}</th></tr>
     </thead>
     <tbody>
       ${alphas.map((alpha, i) => html`<tr>
@@ -42,7 +42,7 @@ export function alphaTable(viewModel: ViewModel) {
         ${alpha === null
           ? html`<td colspan="3"><div class="of muted">${noiseLabels[i]}</div><span class="unknown">${missingText(viewModel, i)}</span></td>`
           : html`<td class="chart"><div class="line"><div class="of muted">${noiseLabels[i]}</div>${whisker(axis, alpha, intervals[i], truth?.[i])}</div></td>
-            <td><div class="line"><div class="fitted-value" data-longest="0.00000">${fittedText(viewModel, i)}</div><div class="between muted" data-longest=${say.between('0.00000', '0.00000')}>${intervalText(viewModel, i)}</div></div></td>
+            <td><div class="line"><div class="fitted-value" data-longest="0.00000">${fittedText(viewModel, i)}</div><div class="between muted" data-longest=${texts.between('0.00000', '0.00000')}>${intervalText(viewModel, i)}</div></div></td>
             <td class="recommended" data-longest="0.00000">${recommendedOf(viewModel, i)}</td>`}
       </tr>`)}
       <tr class="axis" aria-hidden="true">
@@ -64,11 +64,11 @@ const fittedText = ({ stats: { alphas, intervals } }: ViewModel, index: number) 
 
 /** Returns the reason why an α is not identifiable, and the drive that would identify it. */
 function missingText({ stats: { notIdentifiable }, fitted: { model } }: ViewModel, index: number) {
-  const say = words.calibrator.alphas;
+  const texts = words.calibrator.alphas;
   const reason = notIdentifiable[index];
   if (!reason) return NO_VALUE;
-  const { lack, drive } = adviceOf(say.lacking, model, reason);
-  return say.unknown(lack, drive);
+  const { lack, drive } = adviceOf(texts.lacking, model, reason);
+  return texts.unknown(lack, drive);
 }
 
 /** Returns all α's as texts, each with its interval. */

@@ -17,17 +17,17 @@ const MAX_DECIMALS = 6;
 
 /** Returns two sentences: one on the systematic errors that were corrected, and one on those that the α's include as noise. */
 export function systematicTexts({ stats: { systematicErrors: errors } }: ViewModel) {
-  const say = words.calibrator.systematic;
+  const texts = words.calibrator.systematic;
   const errorTexts = (corrected: boolean) => SYSTEMATIC_ERRORS.filter((key) => errors[key].corrected === corrected).flatMap((key) => textOf(key, errors[key])).join('; ');
   const [corrected, left] = [errorTexts(true), errorTexts(false)];
-  return [...(corrected ? [say.removed(corrected)] : []), ...(left ? [say.left(left)] : [])];
+  return [...(corrected ? [texts.removed(corrected)] : []), ...(left ? [texts.left(left)] : [])];
 }
 
 /** Returns a sentence on significant systematic errors that the settings leave uncorrected; empty if there are none. */
 export function uncorrectedText({ stats: { systematicErrors: errors }, fitted }: ViewModel): string {
-  const say = words.calibrator.systematic;
+  const texts = words.calibrator.systematic;
   const uncorrectedTexts = SYSTEMATIC_ERRORS.filter((key) => !fitted[key] && isSignificant(key, errors[key])).flatMap((key) => textOf(key, errors[key]));
-  return uncorrectedTexts.length > 0 ? say.matters(uncorrectedTexts.join('; ')) : '';
+  return uncorrectedTexts.length > 0 ? texts.matters(uncorrectedTexts.join('; ')) : '';
 }
 
 /** Returns true if the interval of an error excludes 0, or that of a scale excludes 1. */
@@ -50,21 +50,21 @@ function intervalsOf(interval: SystematicError['interval']) {
 
 export function systematicTable(figure: Figure) {
   const { stats: { systematicErrors: errors }, truth } = figure.viewModel;
-  const say = words.calibrator.systematic;
+  const texts = words.calibrator.systematic;
   const { requested } = figure.settings;
   const rows = SYSTEMATIC_ERRORS.map((key) => {
     const { values, halves } = formatError(errors[key]);
-    const correctCheckbox = toggle({ label: say.names[key], checked: requested[key], change: (on) => figure.gesture.decide({ [key]: on }) });
-    if (values.length === 0) return [correctCheckbox, say.unknown];
+    const correctCheckbox = toggle({ label: texts.names[key], checked: requested[key], change: (on) => figure.gesture.decide({ [key]: on }) });
+    if (values.length === 0) return [correctCheckbox, texts.unknown];
     return [
       correctCheckbox,
       stackedTexts(values),
       html`<div class="muted">${stackedTexts(halves.map((half) => `± ${half}`))}</div>`,
-      errors[key].corrected ? say.corrected : errors[key].constant ? say.notCorrected : say.notConstant,
+      errors[key].corrected ? texts.corrected : errors[key].constant ? texts.notCorrected : texts.notConstant,
       ...(truth ? [html`<div class="muted">${stackedTexts([truth[key]].flat().map((component) => fixed(component, 3)))}</div>`] : []),
     ];
   });
-  const columns = [say.what, say.value, words.calibrator.alphas.interval, say.treatment, ...(truth ? [say.truth] : [])];
+  const columns = [texts.what, texts.value, words.calibrator.alphas.interval, texts.treatment, ...(truth ? [texts.truth] : [])];
   return html`<div class="systematic">${figureTable({ columns, rows })}</div>`;
 }
 

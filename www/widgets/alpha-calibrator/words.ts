@@ -24,21 +24,21 @@ const FRACTION_CHECKS = /-(lost|few|rare|covered)$/;
 export function judgementOf(viewModel: ViewModel, logWarnings: Warning[]) {
   const { stats, legs, fitted } = viewModel;
   const { verdict, checks } = stats.diagnostics;
-  const say = words.calibrator;
-  const missingAlphaTexts = missingAlphas(say.alphas.lacking, fitted.model, stats).map(({ indices, drive }) => say.missing(indices.map((i) => `α${subscriptOf(i)}`).join(', '), drive));
-  const warnings = [...missingAlphaTexts, uncorrectedText(viewModel), ...logWarnings.map((name) => say.nav2[name])].filter(Boolean);
+  const texts = words.calibrator;
+  const missingAlphaTexts = missingAlphas(texts.alphas.lacking, fitted.model, stats).map(({ indices, drive }) => texts.missing(indices.map((i) => `α${subscriptOf(i)}`).join(', '), drive));
+  const warnings = [...missingAlphaTexts, uncorrectedText(viewModel), ...logWarnings.map((name) => texts.nav2[name])].filter(Boolean);
   const rating = verdict === 'consistent' && warnings.length > 0 ? 'questionable' : verdict;
   const useSentences = {
-    consistent: [say.use, ...correctionAdvice(stats, say.nav2, localized)],
-    questionable: [`${[say.useAnyway, ...correctionAdvice(stats, say.useCorrected, localized)].join('')}.`],
+    consistent: [texts.use, ...correctionAdvice(stats, texts.nav2, localized)],
+    questionable: [`${[texts.useAnyway, ...correctionAdvice(stats, texts.useCorrected, localized)].join('')}.`],
     unusable: [],
   }[rating];
-  const judgementWith = (finding: string, ...toDo: string[]) => ({ rating, badge: say.badges[rating], finding, toDo: [...toDo, ...useSentences].join(' ') });
-  if (legs.count === 0) return judgementWith(say.none, say.longer, ...warnings);
+  const judgementWith = (finding: string, ...toDo: string[]) => ({ rating, badge: texts.badges[rating], finding, toDo: [...toDo, ...useSentences].join(' ') });
+  if (legs.count === 0) return judgementWith(texts.none, texts.longer, ...warnings);
   const failedChecks = failedChecksOf(checks);
-  if (failedChecks.length > 0) return judgementWith(say.failed(say.checks.names[failedChecks[0].name], integer(failedChecks.length), integer(checks.length)), ...warnings, checkMessage(failedChecks[0]));
-  if (verdict === 'unusable') return judgementWith(say.noAlpha, ...warnings);
-  return warnings.length > 0 ? judgementWith(warnings[0], ...warnings.slice(1)) : judgementWith(say.passed(integer(checks.length)));
+  if (failedChecks.length > 0) return judgementWith(texts.failed(texts.checks.names[failedChecks[0].name], integer(failedChecks.length), integer(checks.length)), ...warnings, checkMessage(failedChecks[0]));
+  if (verdict === 'unusable') return judgementWith(texts.noAlpha, ...warnings);
+  return warnings.length > 0 ? judgementWith(warnings[0], ...warnings.slice(1)) : judgementWith(texts.passed(integer(checks.length)));
 }
 
 /** Returns what a failed check means and what to do. A reference that matches too closely has its own message. */
@@ -58,12 +58,12 @@ export function expectedRangeText({ name, expected: [low, high] }: CalibrationCh
 
 /** Returns the reason for the recommended α's. */
 export function recommendationReason({ stats: { recommended, diagnostics: { checks, windows } } }: ViewModel) {
-  const say = words.calibrator.recommended;
-  if (!recommended) return say.none;
+  const texts = words.calibrator.recommended;
+  if (!recommended) return texts.none;
   const [{ count, coverage, nees }] = windows;
-  if (!checks.some(({ name }) => name === 'window-1m-covered')) return say.few(integer(count));
+  if (!checks.some(({ name }) => name === 'window-1m-covered')) return texts.few(integer(count));
   const { inflation } = recommended;
-  return inflation === 1 ? say.covered(percent(coverage), integer(count)) : say.inflated(fixed(inflation, 2), percent(coverage), integer(count), fixed(nees, 2));
+  return inflation === 1 ? texts.covered(percent(coverage), integer(count)) : texts.inflated(fixed(inflation, 2), percent(coverage), integer(count), fixed(nees, 2));
 }
 
 export const noiseNames = (model: ViewModel['config']['model']) => words.alphas[model === 'velocity' ? 'velocity' : 'odometry'].map(([name]) => name);

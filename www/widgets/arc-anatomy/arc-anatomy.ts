@@ -70,10 +70,10 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
   }
 
   content(viewModel: ViewModel) {
-    const say = words.anatomy;
+    const texts = words.anatomy;
     return html`
       <div class="views">
-        ${titledPicture(say.floor, html`<div class="stage" part="picture">
+        ${titledPicture(texts.floor, html`<div class="stage" part="picture">
           ${pictureCanvas(this, this.#picture, pictureText(viewModel))} ${this.#handles.map((handle) => handle.render())}
         </div>`)}
         ${this.renderer.afterFirstPicture(() => html`
@@ -88,7 +88,7 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
         controls: () => html`<div class="controls">${likelihoodControls(this)} ${noiseControls(this)}</div>`,
         numbers: () => html`${lineStepper(this)} ${tableLines(viewModel, this.state.elementState.line)} ${likelihoodReadouts(viewModel)} ${formsPlot(this.motion)}`,
         fileNameMark: 'figure',
-        csvTitle: say.csvTitle,
+        csvTitle: texts.csvTitle,
       })}`)}
     `;
   }

@@ -29,13 +29,13 @@ export function likelihoodControls(figure: Figure) {
 const iconWithText = (visibleSymbol: string, spokenText: string) => html`<span aria-hidden="true">${visibleSymbol}</span><span class="visually-hidden">${spokenText}</span>`;
 
 export function lineStepper(figure: Figure) {
-  const say = words.anatomy.table;
+  const texts = words.anatomy.table;
   const { line } = figure.state.elementState;
   const chooseLine = (to: number) => () => figure.gesture.choose('line', to);
-  return html`<div class="stepper" role="group" aria-label=${say.label}>
-    ${button(iconWithText('‹', say.back), chooseLine(line - 1), { disabled: line === 0, title: say.back })}
-    ${button(iconWithText('›', say.on), chooseLine(line + 1), { disabled: line === TABLE_LINES, title: say.on })}
-    <p role="status">${line === 0 ? say.begin : formatMarkup(lineText(figure.viewModel, line))}</p>
+  return html`<div class="stepper" role="group" aria-label=${texts.label}>
+    ${button(iconWithText('‹', texts.back), chooseLine(line - 1), { disabled: line === 0, title: texts.back })}
+    ${button(iconWithText('›', texts.on), chooseLine(line + 1), { disabled: line === TABLE_LINES, title: texts.on })}
+    <p role="status">${line === 0 ? texts.begin : formatMarkup(lineText(figure.viewModel, line))}</p>
   </div>`;
 }
 

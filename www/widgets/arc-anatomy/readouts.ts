@@ -26,8 +26,8 @@ const FACTOR_SYMBOLS = [
 ];
 
 export function headline({ stats: { share } }: ViewModel) {
-  const say = words.anatomy.headline;
-  return html`<p class="headline" part="readouts"><strong>${shareText(share)}</strong> ${isTiny(share) ? say.times : say.share}</p>`;
+  const texts = words.anatomy.headline;
+  return html`<p class="headline" part="readouts"><strong>${shareText(share)}</strong> ${isTiny(share) ? texts.times : texts.share}</p>`;
 }
 
 /**
@@ -35,15 +35,15 @@ export function headline({ stats: { share } }: ViewModel) {
  * them.
  */
 export function factorBars({ stats: { factors, weakest, share } }: ViewModel, line: number) {
-  const say = words.anatomy.bars;
-  return html`<ul part="readouts" class="factors ${line === TABLE_LINES ? 'lit' : ''}" aria-label=${say.label}>
+  const texts = words.anatomy.bars;
+  return html`<ul part="readouts" class="factors ${line === TABLE_LINES ? 'lit' : ''}" aria-label=${texts.label}>
     ${factors.map((factor, i) => {
       const { symbol, error, sign, unit } = FACTOR_SYMBOLS[i];
       const deviations = sign * factor.deviations;
       return html`<li class=${i === weakest && share < 1 ? 'weakest' : nothing}>
-        <span class="estimate">${formatMarkup(symbol)} ${say.names[i]} = ${fixed(factor.estimate, 2)} ${unit}</span>
+        <span class="estimate">${formatMarkup(symbol)} ${texts.names[i]} = ${fixed(factor.estimate, 2)} ${unit}</span>
         ${bar(deviations)}
-        <span class="keeps muted small">${say.factor(shareText(factor.share))}</span>
+        <span class="keeps muted small">${texts.factor(shareText(factor.share))}</span>
         <span class="off small">${formatMarkup(error)}/<i>σ</i> = ${fixed(deviations, 1)}</span>
       </li>`;
     })}
@@ -64,12 +64,12 @@ function bar(deviations: number) {
 }
 
 export function likelihoodReadouts({ stats: { prob, density, xi } }: ViewModel) {
-  const say = words.anatomy.likelihoods;
+  const texts = words.anatomy.likelihoods;
   const [along, lateral, heading] = xi;
   return readoutList([
-    [say.prob, densityText(prob)],
-    [say.density, density === null ? say.none : densityText(density)],
-    [say.xi, `(${fixed(along, 2)}, ${fixed(lateral, 2)}, ${fixed(heading, 2)})`],
+    [texts.prob, densityText(prob)],
+    [texts.density, density === null ? texts.none : densityText(density)],
+    [texts.xi, `(${fixed(along, 2)}, ${fixed(lateral, 2)}, ${fixed(heading, 2)})`],
   ]);
 }
 
@@ -97,11 +97,11 @@ export function lineText({ table: { lines }, config: { printed } }: ViewModel, l
 }
 
 export function tableLines(viewModel: ViewModel, lit: number) {
-  const say = words.anatomy.table;
+  const texts = words.anatomy.table;
   return html`<ol class="lines" part="table">
       ${TABLE_FORMULAS.map((_, i) => html`<li class=${i + 1 === lit ? 'lit' : nothing}>${formatMarkup(lineText(viewModel, i + 1))}</li>`)}
     </ol>
-    <p class="muted">${formatMarkup(say.sign)}</p>`;
+    <p class="muted">${formatMarkup(texts.sign)}</p>`;
 }
 
 /** Range of errors in the plot, m: from below the rounding of the distance to above the whole distance. */
@@ -111,16 +111,16 @@ const ERROR_RANGE = { from: 1e-18, to: 1 };
 let cachedErrors: FormErrors | undefined;
 
 export function formsPlot({ ArcAnatomy }: Motion) {
-  const say = words.anatomy.forms;
+  const texts = words.anatomy.forms;
   const { omega, arc, straight, chord, estimatedCrossover, threshold } = (cachedErrors ??= ArcAnatomy.formErrors());
   return html`<figure class="forms">
     ${plot({
-      label: say.text,
+      label: texts.text,
       x: { name: '|ω̂| (rad/s)', from: omega[0], to: omega[omega.length - 1], logarithmic: true },
-      y: { name: say.error, ...ERROR_RANGE, logarithmic: true },
+      y: { name: texts.error, ...ERROR_RANGE, logarithmic: true },
       curves: [
-        { name: say.arc, role: 'prediction', x: omega, y: arc },
-        { name: say.straight, role: 'prior', dash: '2.5 3.5', x: omega, y: straight },
+        { name: texts.arc, role: 'prediction', x: omega, y: arc },
+        { name: texts.straight, role: 'prior', dash: '2.5 3.5', x: omega, y: straight },
         { name: words.anatomy.overlays.chord, role: 'posterior', dash: '7 3', x: omega, y: chord },
       ],
       marks: [
@@ -128,6 +128,6 @@ export function formsPlot({ ArcAnatomy }: Motion) {
         { x: threshold, text: formatPowerOfTen(Math.log10(threshold)) },
       ],
     })}
-    <figcaption>${formatMarkup(say.caption)}</figcaption>
+    <figcaption>${formatMarkup(texts.caption)}</figcaption>
   </figure>`;
 }

@@ -30,25 +30,25 @@ const ESTIMATE_SYMBOLS = ['v̂', 'ω̂', 'γ̂'];
 
 /** Returns a sentence about the factor that makes p small. */
 export function captionOf({ config, stats: { factors, weakest, share, driven, inverted } }: ViewModel) {
-  const say = words.anatomy.verdict;
+  const texts = words.anatomy.verdict;
   const { deviations, share: keptShare, deviation } = factors[weakest];
   const estimateName = `${words.anatomy.bars.names[weakest]} ${ESTIMATE_SYMBOLS[weakest]}`;
-  if (config.printed && driven.arcLength !== inverted.arcLength) return say.printed(fixed(factors[0].estimate, 2), shareText(share));
-  if (share === 1) return say.peak;
-  if (deviation === 0) return say.noiseless(estimateName);
-  return say.off(estimateName, fixed(Math.abs(deviations), 1), shareText(keptShare), shareText(share));
+  if (config.printed && driven.arcLength !== inverted.arcLength) return texts.printed(fixed(factors[0].estimate, 2), shareText(share));
+  if (share === 1) return texts.peak;
+  if (deviation === 0) return texts.noiseless(estimateName);
+  return texts.off(estimateName, fixed(Math.abs(deviations), 1), shareText(keptShare), shareText(share));
 }
 
 const poseText = ({ x, y, theta }: Pose) => words.anatomy.pose(fixed(x, 2), fixed(y, 2), fixed(theta, 2));
 
 export function pictureText(viewModel: ViewModel) {
   const { config, stats: { inverted, factors } } = viewModel;
-  const say = words.anatomy.picture;
+  const texts = words.anatomy.picture;
   const [v, omega, gamma] = factors.map(({ estimate }) => fixed(estimate, 2));
   return [
-    say.poses(poseText(config.start), commandText(config.command), poseText(config.next)),
-    inverted.center === null ? say.straight : say.arc(fixed(inverted.radius, 2), inverted.radius > 0),
-    say.estimates(v, omega, gamma),
+    texts.poses(poseText(config.start), commandText(config.command), poseText(config.next)),
+    inverted.center === null ? texts.straight : texts.arc(fixed(inverted.radius, 2), inverted.radius > 0),
+    texts.estimates(v, omega, gamma),
     captionOf(viewModel),
   ].join(' ');
 }

@@ -208,18 +208,18 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
 
   content(viewModel: ViewModel) {
     const { config, note } = viewModel;
-    const say = words.banana;
+    const texts = words.banana;
     return html`
       <div class="views">
         ${titledPicture(this.#title, html`<div class="stage" part="picture">
           ${pictureCanvas(this, this.#planePicture, this.#description)} ${this.#handle.render(config.command, this.cloud.asking)}
         </div>`)}
-        ${titledPicture(say.twist, html`<div class="stage">${pictureCanvas(this, this.#twistPicture, twistText(viewModel))}</div>`, 'twist')}
+        ${titledPicture(texts.twist, html`<div class="stage">${pictureCanvas(this, this.#twistPicture, twistText(viewModel))}</div>`, 'twist')}
       </div>
       ${this.renderer.afterFirstPicture(() => html`
       <div class="morphing">
         ${morphControl(this)}
-        ${button(this.#pinned ? say.unpin : say.pin, () => this.#pin(), { title: say.pinTitle, otherLabel: this.#pinned ? say.pin : say.unpin })}
+        ${button(this.#pinned ? texts.unpin : texts.pin, () => this.#pin(), { title: texts.pinTitle, otherLabel: this.#pinned ? texts.pin : texts.unpin })}
       </div>
       ${legend(this, LINE_STYLES)}
       <p part="caption" class="caption ${note && 'note'}">${captionOf(viewModel)}</p>
@@ -235,10 +235,10 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
   }
 
   #figuresHtml(viewModel: ViewModel) {
-    const say = words.banana;
-    return html`${otherReadouts(viewModel)}<p>${formatMarkup(say.gainIs)}</p>
+    const texts = words.banana;
+    return html`${otherReadouts(viewModel)}<p>${formatMarkup(texts.gainIs)}</p>
       <div class="figures" part="figures">
-        <figure>${this.#skewChart(viewModel)}<figcaption>${formatMarkup(say.chartCaption)}</figcaption></figure>
+        <figure>${this.#skewChart(viewModel)}<figcaption>${formatMarkup(texts.chartCaption)}</figcaption></figure>
         <figure>${workedExample(viewModel)}</figure>
         <figure>${twistTable(viewModel)}<p>${twistCaption(viewModel)}</p></figure>
       </div>`;
@@ -246,7 +246,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
 
   #skewChart({ config, stats, exactSkew }: ViewModel) {
     const { model, noise, command: { v, omega, dt }, alphas, isolate } = config;
-    const say = words.banana;
+    const texts = words.banana;
     const { min, max, step } = sliderSpecs.omega;
     // The curve is cached by the settings on which it depends.
     const curve = this.#skewCurve.get([JSON.stringify([model, noise, v, dt, alphas, isolate])], () => (this.simulation as Simulation).skewCurve(min, max, CURVE_POINTS));
@@ -254,12 +254,12 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     const chartHeight = CHART_HEIGHTS.find((height) => height >= maxSkew) ?? maxSkew;
     const omegaRange = [min, max];
     return plot({
-      label: say.chart,
+      label: texts.chart,
       x: { name: 'ω (rad/s)', from: min, to: max },
-      y: { name: say.readouts.skew, from: -chartHeight, to: chartHeight },
+      y: { name: texts.readouts.skew, from: -chartHeight, to: chartHeight },
       curves: [
-        { name: say.readouts.skew, role: 'ink', x: curve.map((_, i) => min + (i * (max - min)) / (curve.length - 1)), y: curve },
-        { name: say.chartGaussian, role: 'prediction', dash: '7 4', x: omegaRange, y: [0, 0] },
+        { name: texts.readouts.skew, role: 'ink', x: curve.map((_, i) => min + (i * (max - min)) / (curve.length - 1)), y: curve },
+        { name: texts.chartGaussian, role: 'prediction', dash: '7 4', x: omegaRange, y: [0, 0] },
       ],
       points: [
         { role: 'prior', x: omega, y: exactSkew, error: 0 },
@@ -267,10 +267,10 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
       ],
       slider: {
         id: 'chart-omega',
-        name: say.chartMarker,
+        name: texts.chartMarker,
         step,
         value: omega,
-        text: say.chartText(fixed(omega, 2), skewText(exactSkew)),
+        text: texts.chartText(fixed(omega, 2), skewText(exactSkew)),
         input: (to) => this.settings.request(({ command }) => ({ command: { ...command, omega: to } })),
         commit: () => this.gesture.commit(),
       },

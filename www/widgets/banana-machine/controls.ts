@@ -15,13 +15,13 @@ export function commandControls(figure: Figure) {
 
 export function modelControls(figure: Figure) {
   const { model, alphas, isolate } = figure.viewModel.config;
-  const say = words.banana;
+  const texts = words.banana;
   // The choice counts from 1. It may be larger than the number of α's, because it was made under the other model.
   const isolatedAlpha = Math.min(figure.state.elementState.isolateChoice, alphas.length);
-  return group(say.modelGroup, html`${settingRadios(figure, 'model', say.models)} ${settingRadios(figure, 'noise', words.noises)}
-    ${model === 'odometry' ? settingCheckbox(figure, 'reverseAware', say.reverseAware) : nothing}
+  return group(texts.modelGroup, html`${settingRadios(figure, 'model', texts.models)} ${settingRadios(figure, 'noise', words.noises)}
+    ${model === 'odometry' ? settingCheckbox(figure, 'reverseAware', texts.reverseAware) : nothing}
     ${toggle({
-      label: say.isolate,
+      label: texts.isolate,
       checked: isolate !== null,
       change: (on) => figure.gesture.decide({ isolate: on ? isolatedAlpha : null }),
     })}`);

@@ -29,18 +29,18 @@ export class ArcHandle extends Handle {
 
   /** Renders the handle, with a hint to drag it if the introduction asks for that. */
   render({ v, omega }: import('../../types.d.ts').Command, isAsking: boolean) {
-    const say = words.banana;
+    const texts = words.banana;
     const { min, max } = sliderSpecs.omega;
     const isAtLimit = [v - sliderSpecs.v.min, sliderSpecs.v.max - v, omega - min, max - omega].some((left) => left <= 0);
     return this.element({
-      name: say.handle,
-      keys: say.handleKeys,
+      name: texts.handle,
+      keys: texts.handleKeys,
       title: words.pose.moveTitle,
       range: [min, max],
       now: omega,
       text: `v = ${fixed(v, 2)} m/s, ω = ${fixed(omega, 2)} rad/s`,
-      stop: isAtLimit && say.slidersEnd,
-      hint: isAsking && say.handleHint,
+      stop: isAtLimit && texts.slidersEnd,
+      hint: isAsking && texts.handleHint,
     });
   }
 }

@@ -106,16 +106,16 @@ export class MorphView extends View {
 }
 
 export function morphControl({ player, gesture, state }: import('./banana-machine.ts').BananaMachineElement) {
-  const say = words.banana.morph;
+  const texts = words.banana.morph;
   const { morph } = state.elementState;
-  return html`<div class="morph" role="group" aria-label=${say.name}>
-    ${player.button('morph', say.play)}
+  return html`<div class="morph" role="group" aria-label=${texts.name}>
+    ${player.button('morph', texts.play)}
     ${track({
-      id: 'morph', name: say.name, min: 0, max: 1, step: MORPH_STEP, value: morph, text: say.text(percent(morph)),
+      id: 'morph', name: texts.name, min: 0, max: 1, step: MORPH_STEP, value: morph, text: texts.text(percent(morph)),
       input: (to) => player.put('morph', to), commit: () => gesture.commit(),
     })}
-    <span class="end floor muted small" aria-hidden="true">${say.floor}</span>
-    <span class="end twist muted small" aria-hidden="true">${say.twist}</span>
+    <span class="end floor muted small" aria-hidden="true">${texts.floor}</span>
+    <span class="end twist muted small" aria-hidden="true">${texts.twist}</span>
   </div>`;
 }
 

@@ -17,16 +17,16 @@ const FRACTION_IN_ELLIPSE = 1 - Math.exp(-2);
  * numbers of a pinned cloud are next to them.
  */
 export function readouts(viewModel: ViewModel, pinned?: ViewModel) {
-  const say = words.banana.readouts;
+  const texts = words.banana.readouts;
   const { stats: { coverage, areaRatioError }, exactSkew, gain } = viewModel;
   const printedValues = printedStatistics(viewModel);
   const pinnedValues = pinned && printedStatistics(pinned).map((value) => `${words.banana.pinned}: ${value}`);
   const coverages = [coverage.ellipse, coverage.exponential];
   return readoutList([
-    [say.area, printedValues[0], coverages.every(Number.isNaN) ? NO_VALUE : say.areaDetail(Number.isNaN(areaRatioError) ? '' : formatSignificant(areaRatioError, 1), percent(coverages[0]), percent(coverages[1])), pinnedValues?.[0]],
+    [texts.area, printedValues[0], coverages.every(Number.isNaN) ? NO_VALUE : texts.areaDetail(Number.isNaN(areaRatioError) ? '' : formatSignificant(areaRatioError, 1), percent(coverages[0]), percent(coverages[1])), pinnedValues?.[0]],
     // A gain on the floor and one of poses are not comparable.
-    [gain.unbounded ? say.gainOnFloor : say.gain, printedValues[1], gainText(gain), pinned?.gain.unbounded === gain.unbounded ? pinnedValues?.[1] : undefined],
-    [say.skew, printedValues[2], Number.isNaN(exactSkew) ? NO_VALUE : say.exactly(fixed(exactSkew, 3)), pinnedValues?.[2]],
+    [gain.unbounded ? texts.gainOnFloor : texts.gain, printedValues[1], gainText(gain), pinned?.gain.unbounded === gain.unbounded ? pinnedValues?.[1] : undefined],
+    [texts.skew, printedValues[2], Number.isNaN(exactSkew) ? NO_VALUE : texts.exactly(fixed(exactSkew, 3)), pinnedValues?.[2]],
   ], 0);
 }
 
@@ -50,14 +50,14 @@ function gainText({ unbounded, value, exact, wraps }: ViewModel['gain']) {
 }
 
 export function otherReadouts({ config, stats, table }: ViewModel) {
-  const say = words.banana.readouts;
+  const texts = words.banana.readouts;
   const { nOfAll } = words.banana;
   return readoutList([
-    [say.robots, nOfAll(integer(stats.n), integer(config.samples))],
-    [say.gaussian, fixed(stats.gaussianSkew, 3)],
-    [say.rho, fixed(stats.rhoCrossHeading, 3)],
-    [say.exactArea, fixed(table.exact.areaRatio, 3)],
-    [say.nominal, percent(FRACTION_IN_ELLIPSE)],
+    [texts.robots, nOfAll(integer(stats.n), integer(config.samples))],
+    [texts.gaussian, fixed(stats.gaussianSkew, 3)],
+    [texts.rho, fixed(stats.rhoCrossHeading, 3)],
+    [texts.exactArea, fixed(table.exact.areaRatio, 3)],
+    [texts.nominal, percent(FRACTION_IN_ELLIPSE)],
   ]);
 }
 
@@ -96,11 +96,11 @@ export function workedExample({ table: { linearized, exact, measured }, stats }:
   const [skew, ...error] = formatWithError(stats.crossTrackSkew, stats.crossTrackSkewError, 3).split(' ');
   // Two lines, also without an error, so that the row keeps its height.
   const measuredSkew = html`${skew} <br />${error.join(' ') || '\u00a0'}`;
-  const say = words.banana.table;
+  const texts = words.banana.table;
   const exampleRows: [unknown, (column: Table['exact']) => number, unknown?][] = [
-    [formatMarkup(say.mean('*x*')), ({ mean }) => mean[0]],
-    [formatMarkup(say.mean('*y*')), ({ mean }) => mean[1]],
-    [formatMarkup(say.mean('*θ*')), ({ mean }) => mean[2]],
+    [formatMarkup(texts.mean('*x*')), ({ mean }) => mean[0]],
+    [formatMarkup(texts.mean('*y*')), ({ mean }) => mean[1]],
+    [formatMarkup(texts.mean('*θ*')), ({ mean }) => mean[2]],
     [covarianceName('xx'), ({ cov }) => cov[0][0]],
     [covarianceName('yy'), ({ cov }) => cov[1][1]],
     [covarianceName('xy'), ({ cov }) => cov[0][1]],
@@ -111,8 +111,8 @@ export function workedExample({ table: { linearized, exact, measured }, stats }:
     [words.banana.readouts.skew, ({ crossTrackSkew }) => crossTrackSkew, measuredSkew],
   ];
   return figureTable({
-    caption: say.caption,
-    columns: [say.quantity, say.linearized, say.exact, say.measured],
+    caption: texts.caption,
+    columns: [texts.quantity, texts.linearized, texts.exact, texts.measured],
     rows: exampleRows.map(([name, valueOf, withItsError]) => [
       name,
       ...computedColumns.map((column) => formatSignificant(valueOf(column), COMPUTED_DIGITS)),
@@ -122,14 +122,14 @@ export function workedExample({ table: { linearized, exact, measured }, stats }:
 }
 
 export function twistTable({ table: { tangent }, stats: { exponential } }: ViewModel) {
-  const say = words.banana.table;
-  const twistRows = say.axes.flatMap((axis, i) => [
-    [say.mean(axis), ({ mean }) => mean[i]],
-    [say.variance(axis), ({ cov }) => cov[i][i]],
+  const texts = words.banana.table;
+  const twistRows = texts.axes.flatMap((axis, i) => [
+    [texts.mean(axis), ({ mean }) => mean[i]],
+    [texts.variance(axis), ({ cov }) => cov[i][i]],
   ] as [string, (moments: Moments) => number][]);
   return figureTable({
-    caption: say.twistCaption,
-    columns: [say.quantity, say.command, say.measured],
+    caption: texts.twistCaption,
+    columns: [texts.quantity, texts.command, texts.measured],
     rows: twistRows.map(([name, of]) => [
       formatMarkup(name),
       tangent === null ? NO_VALUE : formatSignificant(of(tangent), COMPUTED_DIGITS),

@@ -71,22 +71,22 @@ export const calloutsOf = ({ gaps }: ViewModel): Callout[] =>
 /** Returns a sentence on the bend of the cloud. The exact skew determines its side, and the skew of the samples its significance. */
 function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, areaRatio, exponential: { mean, cov } }, exactSkew, table, gain }: ViewModel) {
   if (Number.isNaN(skew)) return '';
-  const say = words.banana.bend;
+  const texts = words.banana.bend;
   // A line break must not separate a number from its error.
   const withNonBreakingSpaces = (number: string) => number.replaceAll(' ', '\u00a0');
   const [measuredSkew, exactText] = [withNonBreakingSpaces(formatWithError(skew, error, 3)), fixed(exactSkew, 3)];
   // Robots end on both sides of the start.
-  if (deviation(cov[0][0]) > Math.abs(mean[0])) return say.bowTie(fixed(mean[0], 2), deviationText(cov[0][0]), measuredSkew);
+  if (deviation(cov[0][0]) > Math.abs(mean[0])) return texts.bowTie(fixed(mean[0], 2), deviationText(cov[0][0]), measuredSkew);
   if (Math.abs(exactSkew) < VISIBLE_SKEW) {
-    const skewSentence = Math.abs(exactSkew) < MIN_NONZERO_SKEW ? say.neither(measuredSkew) : say.hardly(measuredSkew, exactText);
+    const skewSentence = Math.abs(exactSkew) < MIN_NONZERO_SKEW ? texts.neither(measuredSkew) : texts.hardly(measuredSkew, exactText);
     // There are no exact values if robots turn by more than π.
     const lesserOf = (sampled: number, exact: number) => (Number.isNaN(exact) ? sampled : Math.min(sampled, exact));
-    if (lesserOf(areaRatio, table.exact.areaRatio) > VISIBLE_AREA_RATIO) return `${say.wide(fixed(areaRatio, 2))} ${skewSentence}`;
+    if (lesserOf(areaRatio, table.exact.areaRatio) > VISIBLE_AREA_RATIO) return `${texts.wide(fixed(areaRatio, 2))} ${skewSentence}`;
     const smallerGain = lesserOf(gain.value, gain.exact);
-    return smallerGain > MIN_GAIN ? `${say.gains(withNonBreakingSpaces(formatWithError(gain.value, gain.error, 3)), smallerGain > VISIBLE_GAINS.pose)} ${skewSentence}` : skewSentence;
+    return smallerGain > MIN_GAIN ? `${texts.gains(withNonBreakingSpaces(formatWithError(gain.value, gain.error, 3)), smallerGain > VISIBLE_GAINS.pose)} ${skewSentence}` : skewSentence;
   }
-  if (Math.abs(skew) < 2 * error || skew * exactSkew < 0) return say.unsure(measuredSkew, exactText);
-  return exactSkew < 0 ? say.right(measuredSkew) : say.left(measuredSkew);
+  if (Math.abs(skew) < 2 * error || skew * exactSkew < 0) return texts.unsure(measuredSkew, exactText);
+  return exactSkew < 0 ? texts.right(measuredSkew) : texts.left(measuredSkew);
 }
 
 export function captionOf(viewModel: ViewModel) {

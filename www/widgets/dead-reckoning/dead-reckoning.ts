@@ -86,17 +86,17 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
   content(viewModel: ViewModel) {
     const { condition, config: { step } } = viewModel;
     const { overlays } = this.state.elementState;
-    const say = words.reckoning;
+    const texts = words.reckoning;
     return html`
       <div class="views">
-        ${titledPicture(say.chart, html`<div class="chart">${ratioPlot(this, viewModel)}</div>`, 'ratios')}
+        ${titledPicture(texts.chart, html`<div class="chart">${ratioPlot(this, viewModel)}</div>`, 'ratios')}
         <div class="summary">
           ${headline(viewModel, overlays)}
           <p part="caption" class="caption ${condition !== 'certain' && 'note'}">${captionOf(viewModel, overlays)}</p>
-          ${settingRadios(this, 'compounding', say.recursions)}
+          ${settingRadios(this, 'compounding', texts.recursions)}
         </div>
-        ${titledPicture(say.floor, html`<div class="stage" part="picture">${pictureCanvas(this, this.#floor, planeText(viewModel))}</div>`, 'floor')}
-        ${titledPicture(say.atStepTitle(step), html`<div class="stage">${pictureCanvas(this, this.#step, stepText(viewModel))}</div>`, 'step')}
+        ${titledPicture(texts.floor, html`<div class="stage" part="picture">${pictureCanvas(this, this.#floor, planeText(viewModel))}</div>`, 'floor')}
+        ${titledPicture(texts.atStepTitle(step), html`<div class="stage">${pictureCanvas(this, this.#step, stepText(viewModel))}</div>`, 'step')}
       </div>
       ${this.renderer.afterFirstPicture(() => html`
       ${legend(this, OUTLINE_STYLES)} ${presetButtons(this)} ${pathControls(this)}

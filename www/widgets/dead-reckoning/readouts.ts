@@ -23,27 +23,27 @@ const RATIO_TOLERANCE = 0.05;
 export function ratioPlot(figure: import('./dead-reckoning.ts').DeadReckoningElement, viewModel: ViewModel) {
   const { config: { step, steps }, curves } = viewModel;
   const { overlays } = figure.state.elementState;
-  const say = words.reckoning;
+  const texts = words.reckoning;
   const x = Array.from({ length: steps }, (_, i) => i + 1);
   const highestRatio = Math.max(...curves.flatMap(({ ratio }) => Array.from(ratio, (value) => value || 0)));
   const shownCurves = COMPONENTS.map((name, axis) => ({ ...curveStyle(name, figure.highlight), name, ...curves[axis] })).filter(({ name }) => overlays.includes(name));
-  const toleranceBand = { name: say.overlays.tolerance, ...curveStyle('tolerance', figure.highlight), x: [0, steps], y: [1, 1], error: [RATIO_TOLERANCE, RATIO_TOLERANCE], area: true };
+  const toleranceBand = { name: texts.overlays.tolerance, ...curveStyle('tolerance', figure.highlight), x: [0, steps], y: [1, 1], error: [RATIO_TOLERANCE, RATIO_TOLERANCE], area: true };
   return plot({
     label: ratioText(viewModel, overlays),
-    x: { name: say.stepAxis, from: 0, to: steps },
-    y: { name: say.ratioAxis, from: 0, to: CHART_HEIGHTS.find((height) => height >= highestRatio) ?? highestRatio },
+    x: { name: texts.stepAxis, from: 0, to: steps },
+    y: { name: texts.ratioAxis, from: 0, to: CHART_HEIGHTS.find((height) => height >= highestRatio) ?? highestRatio },
     curves: [
       ...(overlays.includes('tolerance') ? [toleranceBand] : []),
       ...shownCurves.map(({ ratio, ...curve }) => ({ ...curve, x, y: ratio })),
     ],
     points: shownCurves.map(({ role, ratio, error }) => ({ role, x: step, y: ratio[step - 1], error: error[step - 1] })),
-    marks: [{ x: step, text: say.atStepMark(step) }],
+    marks: [{ x: step, text: texts.atStepMark(step) }],
     slider: {
       id: 'chart-step',
-      name: say.settings.step.name,
+      name: texts.settings.step.name,
       step: 1,
       value: step,
-      text: say.atStepMark(step),
+      text: texts.atStepMark(step),
       input: (to) => figure.settings.request({ step: Math.max(1, to) }),
       commit: () => figure.gesture.commit(),
     },
@@ -60,35 +60,35 @@ function curveStyle(name: keyof typeof CURVE_STYLES, highlight: string | null) {
 
 /** Returns the headline of the figure: the ratio at the selected step that is furthest from 1. */
 export function headline(viewModel: ViewModel, overlays: string[]) {
-  const say = words.reckoning;
+  const texts = words.reckoning;
   const { ratio, error, component } = worstComponentAt(viewModel, overlays);
-  const headlineDetail = say.ofMeasured(Number.isNaN(error) ? '' : fixed(error, 2), viewModel.config.step, integer(viewModel.shown));
-  return readoutList([[say.predicted(say.of[component]), fixed(ratio, 2), headlineDetail]], 0);
+  const headlineDetail = texts.ofMeasured(Number.isNaN(error) ? '' : fixed(error, 2), viewModel.config.step, integer(viewModel.shown));
+  return readoutList([[texts.predicted(texts.of[component]), fixed(ratio, 2), headlineDetail]], 0);
 }
 
 /** Ranges of both logarithmic axes: fixed, so that a slider moves the curves and not the axes. */
 const GROWTH_AXES = { durations: [0.1, 10], variances: [1e-6, 100] };
 
 export function straightPlot({ durations: x, along, across, alongFirstOrder, acrossFirstOrder, crossing }: import('../../types.d.ts').StraightGrowth) {
-  const say = words.reckoning.straight;
+  const texts = words.reckoning.straight;
   const [from, to] = GROWTH_AXES.durations;
   const [minVariance, maxVariance] = GROWTH_AXES.variances;
   const crossingText = crossing === null ? '' : formatSignificant(crossing, 3);
   return html`<figure>
-    <p class="panel-title">${say.title}</p>
+    <p class="panel-title">${texts.title}</p>
     ${plot({
-      label: say.label(crossing === null ? say.never : say.crossing(crossingText)),
-      x: { name: say.x, from, to, logarithmic: true },
-      y: { name: say.y, from: minVariance, to: maxVariance, logarithmic: true },
+      label: texts.label(crossing === null ? texts.never : texts.crossing(crossingText)),
+      x: { name: texts.x, from, to, logarithmic: true },
+      y: { name: texts.y, from: minVariance, to: maxVariance, logarithmic: true },
       curves: [
-        { name: say.along, role: 'ink', dash: '8 4', x, y: alongFirstOrder },
-        { name: say.across, role: 'prediction', x, y: acrossFirstOrder },
+        { name: texts.along, role: 'ink', dash: '8 4', x, y: alongFirstOrder },
+        { name: texts.across, role: 'prediction', x, y: acrossFirstOrder },
         // One curve with a gap contains both exact curves.
-        { name: say.exact, role: 'truth', dash: '2 3', x: [...x, NaN, ...x], y: [...along, NaN, ...across] },
+        { name: texts.exact, role: 'truth', dash: '2 3', x: [...x, NaN, ...x], y: [...along, NaN, ...across] },
       ],
-      marks: crossing !== null && crossing >= from && crossing <= to ? [{ x: crossing, text: say.mark(crossingText) }] : [],
+      marks: crossing !== null && crossing >= from && crossing <= to ? [{ x: crossing, text: texts.mark(crossingText) }] : [],
     })}
-    <figcaption>${formatMarkup(say.caption)}</figcaption>
+    <figcaption>${formatMarkup(texts.caption)}</figcaption>
   </figure>`;
 }
 
@@ -101,13 +101,13 @@ function missText({ decidable, first, last, end }: Misses) {
 
 /** Returns the table of the steps at which each recursion misses the measured variance, by component. */
 export function missTable({ stats: { misses } }: ViewModel, overlays: string[]) {
-  const say = words.reckoning;
+  const texts = words.reckoning;
   return figureTable({
-    caption: say.misses.caption,
-    columns: [say.misses.component, ...RECURSIONS.map((recursion) => say.recursions[recursion])],
+    caption: texts.misses.caption,
+    columns: [texts.misses.component, ...RECURSIONS.map((recursion) => texts.recursions[recursion])],
     rows: shownComponentsOf(overlays).flatMap((component) => {
       const missesOfRecursions = RECURSIONS.map((recursion) => misses[recursion][COMPONENTS.indexOf(component)]);
-      return [[say.overlays[component], ...missesOfRecursions.map(missText)], [say.misses.endOf(say.overlays[component]), ...missesOfRecursions.map(finalErrorText)]];
+      return [[texts.overlays[component], ...missesOfRecursions.map(missText)], [texts.misses.endOf(texts.overlays[component]), ...missesOfRecursions.map(finalErrorText)]];
     }),
   });
 }

@@ -22,18 +22,18 @@ export const finalErrorText = ({ end, error }: { end: number, error: number }) =
 
 /** Returns a caption that says how well the recursion predicts the components that are shown. */
 export function captionOf({ config: { compounding }, stats: { misses, n }, condition, curves }: ViewModel, overlays: string[]) {
-  const say = words.reckoning;
-  if (condition !== 'certain') return say.conditions[condition];
+  const texts = words.reckoning;
+  if (condition !== 'certain') return texts.conditions[condition];
   const recursionMisses = misses[compounding];
   const shownComponents = shownComponentsOf(overlays);
   const missIfShown = (miss: number, axis: number) => (shownComponents.includes(COMPONENTS[axis]) ? miss : NaN);
-  if (recursionMisses.every(({ first }) => first === null)) return say.right(integer(n));
+  if (recursionMisses.every(({ first }) => first === null)) return texts.right(integer(n));
   // The component whose ratio is furthest from 1 at the end, and the one whose ratio is furthest from 1 at any step.
   const endAxis = indexOfGreatest(recursionMisses.map(({ end }, axis) => missIfShown(Math.abs(end), axis)));
   const worstAxis = indexOfGreatest(curves.map(({ ratio }, axis) => missIfShown(ratio.reduce((max, value) => Math.max(max, Math.abs(value - 1) || 0), 0), axis)));
   const ratioList = ratiosAtSteps(Array.from(curves[worstAxis].ratio));
-  const [end, of] = [signedPercent(recursionMisses[endAxis].end), say.of[COMPONENTS[worstAxis]]];
-  return endAxis === worstAxis ? say.wrong(of, ratioList, end) : say.worse(of, ratioList, end, say.of[COMPONENTS[endAxis]]);
+  const [end, of] = [signedPercent(recursionMisses[endAxis].end), texts.of[COMPONENTS[worstAxis]]];
+  return endAxis === worstAxis ? texts.wrong(of, ratioList, end) : texts.worse(of, ratioList, end, texts.of[COMPONENTS[endAxis]]);
 }
 
 /** Returns the index of the greatest miss (error of the prediction); NaN is not a miss. */
@@ -62,22 +62,22 @@ export function announcementOf(viewModel: ViewModel, overlays: string[]) {
 }
 
 export function ratioText({ config: { step, compounding }, curves }: ViewModel, overlays: string[]) {
-  const say = words.reckoning;
+  const texts = words.reckoning;
   const ratioTexts = shownComponentsOf(overlays).map((name) => {
     const { ratio, error } = curves[COMPONENTS.indexOf(name)];
-    return `${say.overlays[name]} ${formatWithError(ratio[step - 1], error[step - 1], 2)}`;
+    return `${texts.overlays[name]} ${formatWithError(ratio[step - 1], error[step - 1], 2)}`;
   });
-  return say.ratioText(say.recursions[compounding], String(step), ratioTexts.join(', '));
+  return texts.ratioText(texts.recursions[compounding], String(step), ratioTexts.join(', '));
 }
 
 export function planeText({ config, shown, pose }: ViewModel) {
   const { command, steps, step, compounding } = config;
-  const say = words.reckoning;
-  return say.plane(commandText(command), String(steps), integer(shown), String(step), fixed(pose[0], 2), fixed(pose[1], 2), say.recursions[compounding]);
+  const texts = words.reckoning;
+  return texts.plane(commandText(command), String(steps), integer(shown), String(step), fixed(pose[0], 2), fixed(pose[1], 2), texts.recursions[compounding]);
 }
 
 export function stepText({ config: { step, compounding }, stats: { measured, predicted } }: ViewModel) {
-  const say = words.reckoning;
+  const texts = words.reckoning;
   const planeDeviations = (cov: number[][] | null) => [0, 1].map((axis) => fixed(Math.sqrt(cov?.[axis][axis] ?? NaN), 4));
-  return say.stepText(String(step), planeDeviations(measured.cov), planeDeviations(predicted[compounding]));
+  return texts.stepText(String(step), planeDeviations(measured.cov), planeDeviations(predicted[compounding]));
 }

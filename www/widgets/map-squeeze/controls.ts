@@ -56,23 +56,23 @@ export function robotAndMap(figure: Figure, hasUnknown: boolean) {
 
 /** Returns the controls for a map of the user's own, with the name and size of the present map. */
 export function ownMap(figure: Figure, opener: import('./maps/open.ts').MapOpener, map: string) {
-  const say = words.squeeze.own;
+  const texts = words.squeeze.own;
   const pasteMap = () => {
     const mapField = figure.renderRoot.querySelector('#map-text') as HTMLTextAreaElement;
     opener.paste(mapField.value);
   };
-  return group(say.legend, html`<div class="own-map figures">
+  return group(texts.legend, html`<div class="own-map figures">
     <div>
-      <p>${say.text}</p>
-      <p>${opener.button('map-files', say.files, EXTENSIONS)}</p>
-      <p ?hidden=${!opener.isReading}>${say.reading}</p>
+      <p>${texts.text}</p>
+      <p>${opener.button('map-files', texts.files, EXTENSIONS)}</p>
+      <p ?hidden=${!opener.isReading}>${texts.reading}</p>
       ${opener.note}
       <p class="present muted">${map}.</p>
     </div>
     <div>
-      <label for="map-text">${say.plan}</label>
+      <label for="map-text">${texts.plan}</label>
       <textarea id="map-text" rows="8" spellcheck="false" autocomplete="off" .defaultValue=${EXAMPLE_PLAN}></textarea>
-      ${button(say.use, pasteMap)}
+      ${button(texts.use, pasteMap)}
     </div>
   </div>`);
 }

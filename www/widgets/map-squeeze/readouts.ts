@@ -14,15 +14,15 @@ import type { MapSqueezeElement as Figure } from './map-squeeze.ts';
 import type { ViewModel } from './view-model.ts';
 
 export function tallyReadouts({ stats, config: { conditioned, sampler }, paths: { length: paths } }: ViewModel) {
-  const { tally: say, overlays } = words.squeeze;
+  const { tally: texts, overlays } = words.squeeze;
   const excludesWalls = conditioned && sampler === 'whole-arc';
   return readoutList([
-    [say.drawn, integer(stats.drawn)],
-    [overlays.accepted, integer(stats.accepted), say.ofDrawn(percent(stats.acceptanceRate), conditioned && sampler === 'sub-stepped')],
-    [overlays.through, excludesWalls ? say.byConstruction : integer(stats.throughWall), excludesWalls ? undefined : say.ofAccepted(percent(stats.throughWallRate))],
-    [say.paths, paths < stats.throughWall ? say.first(integer(paths)) : integer(paths)],
-    [say.draws, fixed(stats.drawsPerAccepted, 2)],
-    [say.tests, fixed(stats.wallTestsPerAccepted, 2)],
+    [texts.drawn, integer(stats.drawn)],
+    [overlays.accepted, integer(stats.accepted), texts.ofDrawn(percent(stats.acceptanceRate), conditioned && sampler === 'sub-stepped')],
+    [overlays.through, excludesWalls ? texts.byConstruction : integer(stats.throughWall), excludesWalls ? undefined : texts.ofAccepted(percent(stats.throughWallRate))],
+    [texts.paths, paths < stats.throughWall ? texts.first(integer(paths)) : integer(paths)],
+    [texts.draws, fixed(stats.drawsPerAccepted, 2)],
+    [texts.tests, fixed(stats.wallTestsPerAccepted, 2)],
   ]);
 }
 
@@ -35,15 +35,15 @@ export function markedSample(figure: Figure) {
 
 /** Returns the button that measures the cost of each sampler, and the table of the costs. */
 export function costTable(figure: Figure) {
-  const { samplers, costs: say } = words.squeeze;
+  const { samplers, costs: texts } = words.squeeze;
   const { costs, viewModel: { config } } = figure;
   const row = (sampler: SamplerName, cost: SampleCost) => [
     sampler === 'sub-stepped' ? `${samplers[sampler]} (${config.steps})` : samplers[sampler],
-    ...(typeof cost === 'string' ? [say[cost]] : costTexts(cost)),
+    ...(typeof cost === 'string' ? [texts[cost]] : costTexts(cost)),
   ];
   return html`<div class="table">
-    ${button(say.measure, () => figure.measure())}
-    ${costs ? figureTable({ caption: say.caption, columns: [say.sampler, say.draws, say.tests, 'µs', say.core], rows: SAMPLERS.map((sampler) => row(sampler, costs[sampler])) }) : nothing}
+    ${button(texts.measure, () => figure.measure())}
+    ${costs ? figureTable({ caption: texts.caption, columns: [texts.sampler, texts.draws, texts.tests, 'µs', texts.core], rows: SAMPLERS.map((sampler) => row(sampler, costs[sampler])) }) : nothing}
   </div>`;
 }
 

@@ -38,14 +38,14 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   }
 
   render() {
-    const say = words.squeeze.walls;
+    const texts = words.squeeze.walls;
     return this.#currentGrips.map((grip) => {
       if (!grip) return nothing;
       const [x, y] = this.#pointOf(grip);
       const position = x * grip.axis[0] + y * grip.axis[1];
       return this.#handleOf(grip).element({
-        name: grip.part === 'side' ? say.wall : say.jamb,
-        keys: say.keys,
+        name: grip.part === 'side' ? texts.wall : texts.jamb,
+        keys: texts.keys,
         title: words.pose.moveTitle,
         range: grip.range.map((limit) => position + limit),
         now: position,

@@ -26,21 +26,21 @@ export function verdictText(verdict: number, config: Settings) {
 
 /** Returns the headline: the share of accepted motions that went through a wall. */
 export function headlineOf({ attempts, accepted, throughWall }: Pick<Stats, 'attempts' | 'accepted' | 'throughWall'>) {
-  const say = words.squeeze.headline;
-  if (attempts === 0) return say.untried;
-  if (accepted === 0) return say.nothing;
-  return throughWall === 0 ? say.none : say.share(percent(throughWall / accepted));
+  const texts = words.squeeze.headline;
+  if (attempts === 0) return texts.untried;
+  if (accepted === 0) return texts.nothing;
+  return throughWall === 0 ? texts.none : texts.share(percent(throughWall / accepted));
 }
 
 /** Returns the caption: the counts of the samples, or why the robot cannot move. */
 export function captionOf({ config: { conditioned, sampler }, stats, note }: ViewModel) {
   const { accepted, attempts, gaveUp } = stats;
-  const say = words.squeeze;
+  const texts = words.squeeze;
   // If the robot cannot move, the note contains the number of motions.
   if (note && (accepted === 0 || gaveUp)) return note;
-  if (attempts === 0) return `${say.headline.untried}.`;
-  const testedText = say.tested[conditioned ? sampler : 'off'](integer(accepted), integer(attempts));
-  const throughSentence = say.verdictOf(testedText, throughText(stats, conditioned && sampler === 'whole-arc'));
+  if (attempts === 0) return `${texts.headline.untried}.`;
+  const testedText = texts.tested[conditioned ? sampler : 'off'](integer(accepted), integer(attempts));
+  const throughSentence = texts.verdictOf(testedText, throughText(stats, conditioned && sampler === 'whole-arc'));
   return note ? `${throughSentence} ${note}` : throughSentence;
 }
 
@@ -55,13 +55,13 @@ export function mapText(name: string, { bounds, walls }: Plan) {
 export function pictureText({ config, stats, sorted, note }: ViewModel, map: string) {
   const { x, y, theta } = config.start;
   const { attempts, accepted, drawn, throughWall } = stats;
-  const say = words.squeeze;
+  const texts = words.squeeze;
   const hasSubSteps = config.conditioned && config.sampler === 'sub-stepped';
   return [
-    say.picture(map),
-    say.robotAt(fixed(x, 2), fixed(y, 2), fixed(theta, 2), commandText(config.command)),
-    say.outcome(integer(drawn), hasSubSteps, integer(accepted), integer(throughWall), !sorted),
-    accepted < attempts && config.conditioned ? say.rest(!sorted) : '',
+    texts.picture(map),
+    texts.robotAt(fixed(x, 2), fixed(y, 2), fixed(theta, 2), commandText(config.command)),
+    texts.outcome(integer(drawn), hasSubSteps, integer(accepted), integer(throughWall), !sorted),
+    accepted < attempts && config.conditioned ? texts.rest(!sorted) : '',
     note,
   ].filter(Boolean).join(' ');
 }

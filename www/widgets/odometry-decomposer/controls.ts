@@ -11,14 +11,14 @@ import type { OdometryDecomposerElement as Figure } from './odometry-decomposer.
 
 /** Returns the table of standard deviations by noise model. Values that differ from Table 5.6 are bold. */
 export function noiseModelTable(figure: Figure) {
-  const { rules: names, table: say, settings } = words.decomposer;
+  const { rules: names, table: texts, settings } = words.decomposer;
   const { rules } = figure.viewModel;
   const currentRule = figure.settings.requested.rule;
   const cellRows = rules.map(({ deviations, crossTrack, heading }) => [...deviations, crossTrack, heading].map((value) => fixed(value, 3)));
   return html`<div class="rules" role="radiogroup" aria-label=${settings.rule.name}>
     ${figureTable({
-      caption: formatMarkup(say.caption),
-      columns: [settings.rule.name, ...say.columns.map(formatMarkup)],
+      caption: formatMarkup(texts.caption),
+      columns: [settings.rule.name, ...texts.columns.map(formatMarkup)],
       rows: rules.map(({ rule }, i) => [
         radioButton({ group: 'rule', label: names[rule], checked: rule === currentRule, choose: () => figure.gesture.decide({ rule }) }),
         ...cellRows[i].map((cell, column) => (cell === cellRows[0][column] ? cell : html`<strong>${cell}</strong>`)),

@@ -75,20 +75,20 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
   }
 
   content(viewModel: ViewModel) {
-    const say = words.decomposer;
+    const texts = words.decomposer;
     return html`
       <div class="views">
-        ${titledPicture(say.legsTitle, html`<div class="stage" part="picture">
+        ${titledPicture(texts.legsTitle, html`<div class="stage" part="picture">
           ${pictureCanvas(this, this.#legs, legsText(viewModel))} ${this.#handles.map((handle) => handle.render())}
         </div>`, 'legs')}
-        ${titledPicture(say.worldTitle, html`<div class="stage">${pictureCanvas(this, this.#world, worldText(viewModel))}</div>`)}
+        ${titledPicture(texts.worldTitle, html`<div class="stage">${pictureCanvas(this, this.#world, worldText(viewModel))}</div>`)}
         ${this.renderer.afterFirstPicture(() => html`
         <div class="summary">${headline(viewModel)} <p class="caption" part="caption">${captionOf(viewModel)}</p></div>
-        <p class="caption">${formatMarkup(say.worldCaption(fixed(driftDistance(viewModel), 2)))}</p>`)}
+        <p class="caption">${formatMarkup(texts.worldCaption(fixed(driftDistance(viewModel), 2)))}</p>`)}
       </div>
       ${this.renderer.afterFirstPicture(() => html`
       ${legend(this, LINE_STYLES)} ${presetButtons(this)} ${noiseModelTable(this)}
-      <div class="plays" part="controls">${playableSlider(this, 'phase', say.path)} ${playableSlider(this, 'drift', say.drift)}</div>
+      <div class="plays" part="controls">${playableSlider(this, 'phase', texts.path)} ${playableSlider(this, 'drift', texts.drift)}</div>
       ${disclosures(this, {
         controls: () => noiseControls(this),
         numbers: () => html`${readouts(viewModel)} ${spreadPlot(this.#curveOf, viewModel)}`,

@@ -15,21 +15,21 @@ const formatMetres = (value: number) => `${fixed(value, 3)} m`;
 
 /** Returns the headline: the turn noise by Table 5.6 relative to that by Nav2. */
 export function headline({ rules: [thrun, nav2] }: ViewModel) {
-  const say = words.decomposer.headline;
+  const texts = words.decomposer.headline;
   const ratio = thrun.heading / nav2.heading;
-  return readoutList([[say.expects, Number.isFinite(ratio) ? `${formatRounded(ratio, 2)} ×` : NO_VALUE, say.noise]], 0);
+  return readoutList([[texts.expects, Number.isFinite(ratio) ? `${formatRounded(ratio, 2)} ×` : NO_VALUE, texts.noise]], 0);
 }
 
 /** Returns the readouts: the contribution of the first rotation, and the standard deviations of the outcomes. */
 export function readouts({ stats }: ViewModel) {
-  const say = words.decomposer.readouts;
+  const texts = words.decomposer.readouts;
   const { crossTrack, crossTrackError, exactCrossTrack, heading, headingError, exactHeading, independentHeading } = stats;
-  const exactText = say.exactly(fixed(exactHeading, 3));
-  const independentText = say.independent(fixed(exactHeading, 3), fixed(independentHeading, 3));
+  const exactText = texts.exactly(fixed(exactHeading, 3));
+  const independentText = texts.independent(fixed(exactHeading, 3), fixed(independentHeading, 3));
   return readoutList([
-    [say.lever, formatMetres(stats.lever)],
-    [say.crossTrack, `${formatWithError(crossTrack, crossTrackError, 3)} m`, say.exactly(formatMetres(exactCrossTrack))],
-    [say.heading, `${formatWithError(heading, headingError, 3)} rad`, exactHeading === independentHeading ? exactText : independentText],
+    [texts.lever, formatMetres(stats.lever)],
+    [texts.crossTrack, `${formatWithError(crossTrack, crossTrackError, 3)} m`, texts.exactly(formatMetres(exactCrossTrack))],
+    [texts.heading, `${formatWithError(heading, headingError, 3)} rad`, exactHeading === independentHeading ? exactText : independentText],
   ]);
 }
 
@@ -37,26 +37,26 @@ export function readouts({ stats }: ViewModel) {
 const CURVE_POINTS = 121;
 
 export function spreadPlot(curveOf: (longest: number, points: number) => Float64Array, { legs, stats }: ViewModel) {
-  const say = words.decomposer.plot;
+  const texts = words.decomposer.plot;
   const maxLength = Math.max(1, 2 * legs.trans);
   const curveRows = curveOf(maxLength, CURVE_POINTS);
   const curveColumn = (index: number) => Float64Array.from({ length: CURVE_POINTS }, (_, i) => curveRows[4 * i + index]);
   const [x, crossTrack, lever, along] = [0, 1, 2, 3].map(curveColumn);
   const plotTop = Math.max(0.1, ...crossTrack, ...along, stats.crossTrack + stats.crossTrackError || 0);
   return html`<figure>
-    <p class="panel-title">${say.title}</p>
+    <p class="panel-title">${texts.title}</p>
     ${plot({
-      label: say.label(fixed(legs.trans, 2), fixed(stats.exactCrossTrack, 3)),
-      x: { name: say.x, from: 0, to: maxLength },
-      y: { name: say.y, from: 0, to: 1.08 * plotTop },
+      label: texts.label(fixed(legs.trans, 2), fixed(stats.exactCrossTrack, 3)),
+      x: { name: texts.x, from: 0, to: maxLength },
+      y: { name: texts.y, from: 0, to: 1.08 * plotTop },
       curves: [
-        { name: say.crossTrack, role: 'prediction', x, y: crossTrack },
+        { name: texts.crossTrack, role: 'prediction', x, y: crossTrack },
         { name: words.decomposer.readouts.lever, role: 'muted', dash: '2 4', x, y: lever },
-        { name: say.along, role: 'prior', dash: '7 4', x, y: along },
+        { name: texts.along, role: 'prior', dash: '7 4', x, y: along },
       ],
       points: [{ role: 'prediction', x: legs.trans, y: stats.crossTrack, error: stats.crossTrackError }],
-      marks: [{ x: legs.trans, text: say.here }],
+      marks: [{ x: legs.trans, text: texts.here }],
     })}
-    <figcaption>${formatMarkup(say.caption)}</figcaption>
+    <figcaption>${formatMarkup(texts.caption)}</figcaption>
   </figure>`;
 }

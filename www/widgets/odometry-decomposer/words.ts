@@ -11,19 +11,19 @@ addEnglish({ decomposer: en });
 const MAX_JITTER = 0.01;
 
 export function captionOf({ config: { rule, alphas }, rules, legs, deviations, stats }: ViewModel) {
-  const say = words.decomposer.caption;
+  const texts = words.decomposer.caption;
   const [{ legs: { rot1, trans } }] = rules;
   const countsEitherWay = rule === 'nav2' || rule === 'beluga';
   const transMillimetres = fixed(1000 * trans, 1);
-  if (alphas.every((alpha) => alpha === 0)) return say.still;
-  if (rule === 'omni') return say.omni(fixed(deviations.strafe, 2));
-  if (trans > 0 && trans < MAX_JITTER) return countsEitherWay ? say.restSpin(transMillimetres) : say.rest(transMillimetres, fixed(rot1, 2));
+  if (alphas.every((alpha) => alpha === 0)) return texts.still;
+  if (rule === 'omni') return texts.omni(fixed(deviations.strafe, 2));
+  if (trans > 0 && trans < MAX_JITTER) return countsEitherWay ? texts.restSpin(transMillimetres) : texts.rest(transMillimetres, fixed(rot1, 2));
   if (trans === 0) {
     const remainingTurn = Math.PI - Math.abs(legs.rot2);
-    return countsEitherWay && remainingTurn < Math.PI / 2 ? say.spinEitherWay(fixed(remainingTurn, 2)) : say.spin;
+    return countsEitherWay && remainingTurn < Math.PI / 2 ? texts.spinEitherWay(fixed(remainingTurn, 2)) : texts.spin;
   }
-  if (rule === 'thrun' && Math.abs(rot1) > Math.PI / 2 && Math.abs(legs.rot2) > Math.PI / 2) return say.reverse;
-  return say.lever(fixed(deviations.rot1, 2), fixed(trans, 2), fixed(stats.exactCrossTrack, 2));
+  if (rule === 'thrun' && Math.abs(rot1) > Math.PI / 2 && Math.abs(legs.rot2) > Math.PI / 2) return texts.reverse;
+  return texts.lever(fixed(deviations.rot1, 2), fixed(trans, 2), fixed(stats.exactCrossTrack, 2));
 }
 
 /** Returns the distance between the odometry's own pose and the predicted pose, m. */
@@ -34,9 +34,9 @@ export function driftDistance({ drifted, linkage }: ViewModel) {
 
 export function legsText(viewModel: ViewModel) {
   const { legs: { rot1, trans, rot2 }, config: { to }, stats } = viewModel;
-  const say = words.decomposer;
-  const outcomesText = stats.n === 0 ? say.none : say.outcomes(integer(stats.n), fixed(stats.crossTrack, 2), fixed(stats.heading, 2));
-  return `${say.picture(fixed(rot1, 2), fixed(trans, 2), fixed(rot2, 2), fixed(to.x, 2), fixed(to.y, 2))} ${outcomesText} ${captionOf(viewModel)}`;
+  const texts = words.decomposer;
+  const outcomesText = stats.n === 0 ? texts.none : texts.outcomes(integer(stats.n), fixed(stats.crossTrack, 2), fixed(stats.heading, 2));
+  return `${texts.picture(fixed(rot1, 2), fixed(trans, 2), fixed(rot2, 2), fixed(to.x, 2), fixed(to.y, 2))} ${outcomesText} ${captionOf(viewModel)}`;
 }
 
 export function worldText(viewModel: ViewModel) {

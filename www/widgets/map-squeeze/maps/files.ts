@@ -17,12 +17,12 @@ export interface OwnMap {
 
 /** Error with one sentence that names the file, the line or field, and what was expected. */
 export class MapFileError extends Error {
-  sentence: (say: RefusalWords) => string;
+  sentence: (texts: RefusalWords) => string;
 
   /** Creates the error of a file; the sentence is made when it is shown, in the language of that time. */
-  constructor(file: string, sentence: (say: RefusalWords, file: string) => string) {
+  constructor(file: string, sentence: (texts: RefusalWords, file: string) => string) {
     super('The map is refused.');
-    this.sentence = (say: RefusalWords) => sentence(say, quoteText(file));
+    this.sentence = (texts: RefusalWords) => sentence(texts, quoteText(file));
   }
 }
 
@@ -43,7 +43,7 @@ export async function readMapFiles(files: File[], decodePng: DecodePng): Promise
   const filesNamed = (pattern: RegExp) => files.filter(({ name }) => pattern.test(name));
   const [plans, descriptions, images] = [filesNamed(/\.json$/i), filesNamed(/\.ya?ml$/i), filesNamed(/\.(pgm|png)$/i)];
   const isOneMap = plans.length + descriptions.length === 1 && plans.length + descriptions.length + images.length === files.length;
-  if (!isOneMap) throw new MapFileError(files.map(({ name }) => name).join(', '), (say, names) => say.files(names));
+  if (!isOneMap) throw new MapFileError(files.map(({ name }) => name).join(', '), (texts, names) => texts.files(names));
   return plans.length ? readPlan(plans[0].name, await textOf(plans[0], MAX_PLAN_BYTES)) : readGrid(descriptions[0], images, decodePng);
 }
 
@@ -56,7 +56,7 @@ async function bytesOf(file: File, maxBytes: number) {
 const textOf = async (file: File, maxBytes: number) => new TextDecoder().decode(await bytesOf(file, maxBytes));
 
 function checkSize(name: string, size: number, maxBytes: number) {
-  if (size > maxBytes) throw new MapFileError(name, (say, file) => say.long(file, size, maxBytes));
+  if (size > maxBytes) throw new MapFileError(name, (texts, file) => texts.long(file, size, maxBytes));
 }
 
 /** Shortens a text that a sentence quotes. */
@@ -67,21 +67,21 @@ function quoteText(text: string) {
 /** Reads a floor plan from the JSON of a file; throws a MapFileError. */
 export function readPlan(name: string, text: string): OwnMap {
   checkSize(name, text.length, MAX_PLAN_BYTES);
-  const parsedPlan = explainErrors(name, () => JSON.parse(text), (say, file, reason) => say.plan(file, quoteText(reason)));
-  return { name, apply: (simulation) => explainErrors(name, () => simulation.setPlan(parsedPlan), (say, file, reason) => say.plan(file, reason)) };
+  const parsedPlan = explainErrors(name, () => JSON.parse(text), (texts, file, reason) => texts.plan(file, quoteText(reason)));
+  return { name, apply: (simulation) => explainErrors(name, () => simulation.setPlan(parsedPlan), (texts, file, reason) => texts.plan(file, reason)) };
 }
 
 async function readGrid(file: File, images: File[], decodePng: DecodePng): Promise<OwnMap> {
   const description = parseDescription(file.name, await textOf(file, MAX_YAML_BYTES));
   const { image: path } = description;
   if (typeof path !== 'string' || path === '') {
-    throw new MapFileError(file.name, (say, name) => say.image(name, path === undefined ? '' : quoteText(JSON.stringify(path))));
+    throw new MapFileError(file.name, (texts, name) => texts.image(name, path === undefined ? '' : quoteText(JSON.stringify(path))));
   }
   const imageName = path.slice(Math.max(path.lastIndexOf('/'), path.lastIndexOf('\\')) + 1);
   const image = images.find(({ name }) => name === imageName);
   if (!image) {
     const givenNames = images.map(({ name }) => name).join(', ');
-    throw new MapFileError(file.name, (say, name) => say.pair(name, quoteText(imageName), quoteText(givenNames)));
+    throw new MapFileError(file.name, (texts, name) => texts.pair(name, quoteText(imageName), quoteText(givenNames)));
   }
   const bytes = await bytesOf(image, limits.bytes);
   const isPng = PNG_MAGIC.every((byte, i) => byte === bytes[i]);
@@ -89,7 +89,7 @@ async function readGrid(file: File, images: File[], decodePng: DecodePng): Promi
   const pixelsOrBytes = isPng ? await decodePng(bytes).catch(throwPngError) : bytes;
   return {
     name: file.name,
-    apply: (simulation) => explainErrors(file.name, () => simulation.setGrid(description, pixelsOrBytes), (say, name, reason) => gridErrorSentence(say, name, quoteText(image.name), reason)),
+    apply: (simulation) => explainErrors(file.name, () => simulation.setGrid(description, pixelsOrBytes), (texts, name, reason) => gridErrorSentence(texts, name, quoteText(image.name), reason)),
   };
 }
 
@@ -118,24 +118,24 @@ function parseDescription(name: string, text: string): Record<string, unknown> {
     return fields;
   } catch (error) {
     if (!(error instanceof YAMLException)) throw error;
-    throw new MapFileError(name, (say, file) => say.yaml(file, error.mark ? error.mark.line + 1 : 1, quoteText(error.reason)));
+    throw new MapFileError(name, (texts, file) => texts.yaml(file, error.mark ? error.mark.line + 1 : 1, quoteText(error.reason)));
   }
 }
 
 /** Returns the sentence about a grid that the core refuses, with the name of the YAML file or of the image. */
-function gridErrorSentence(say: RefusalWords, description: string, image: string, reason: string) {
+function gridErrorSentence(texts: RefusalWords, description: string, image: string, reason: string) {
   const errorLine = /^line (\d+): (.*)$/.exec(reason);
-  if (errorLine) return say.line(image, errorLine[1], errorLine[2]);
+  if (errorLine) return texts.line(image, errorLine[1], errorLine[2]);
   return `${reason.startsWith('image') ? image : description}: ${reason}.`;
 }
 
 /** Runs a parser or the core with a file, and explains why the file is refused. */
-function explainErrors<Result>(name: string, take: () => Result, sentence: (say: RefusalWords, file: string, reason: string) => string): Result {
+function explainErrors<Result>(name: string, take: () => Result, sentence: (texts: RefusalWords, file: string, reason: string) => string): Result {
   try {
     return take();
   } catch (error) {
     if (!(error instanceof RangeError || error instanceof TypeError || error instanceof SyntaxError)) throw error;
     const reason = error.message.replace(' is undefined;', ' is missing;');
-    throw new MapFileError(name, (say, file) => sentence(say, file, reason));
+    throw new MapFileError(name, (texts, file) => sentence(texts, file, reason));
   }
 }

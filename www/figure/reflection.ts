@@ -17,6 +17,8 @@ export class Reflection extends FigureController {
   /** True after the first connection: an element that is moved in the page keeps its settings. */
   #hasConnected = false;
   #isWriting = false;
+  /** Attribute texts at the previous update. */
+  #previousTexts: Map<string, string> | undefined;
 
   /** Applies properties that were set before the element was upgraded, or that a server wrote as text. */
   hostConnected() {
@@ -118,26 +120,28 @@ export class Reflection extends FigureController {
     return { ...defaultConfig(definition.declarations), ...state.defaults, ...definition.dependentDefaults?.(settings.requested) };
   }
 
-  /** Writes attributes that differ from the settings. An attribute that is missing is written if a new figure would need it. */
+  /** Writes attributes that differ from the settings. A missing one is written if a new figure would need it, or if a preset has changed it. */
   updateAttributes() {
     const { simulation, viewModel, state } = this.host;
     // At first the attributes of the page still wait in `#earlyAssignments`.
     if (!simulation || !viewModel) return;
     const texts = this.#textsOf(state.config);
-    const neededTexts = this.neededAttributes();
+    const previousTexts = this.#previousTexts ?? texts;
+    const neededTexts = this.neededAttributes((name, text) => text !== previousTexts.get(name));
+    this.#previousTexts = texts;
     this.#isWriting = true;
     for (const [name, { converter: { parse, print } }] of Object.entries(this.#attributes)) {
       const presentText = this.host.getAttribute(name);
-      const text = (presentText === null ? neededTexts : texts).get(name) ?? null;
-      if (text === null) this.host.removeAttribute(name);
+      const text = (presentText === null ? neededTexts : texts).get(name);
+      if (text === undefined) this.host.removeAttribute(name);
       // A text of the page stays if it has the same value.
       else if (presentText === null || print(parse(presentText)) !== text) this.host.setAttribute(name, text);
     }
     this.#isWriting = false;
   }
 
-  /** Returns the attributes that a new figure needs to open in the present state. */
-  neededAttributes(): Map<string, string> {
+  /** Returns the attributes that a new figure needs to open in the present state, and those with other values that `isWanted` wants. */
+  neededAttributes(isWanted = (_name: string, _text: string) => false): Map<string, string> {
     const texts = this.#textsOf(this.host.state.config);
     const defaultTexts = this.#textsOf(this.#defaultConfig);
     const coveredNames: Set<string> = new Set();
@@ -145,7 +149,7 @@ export class Reflection extends FigureController {
     for (const [name, { coveredAttributes = [] }] of Object.entries(this.#attributes)) {
       const text = texts.get(name);
       if (text === undefined) continue;
-      if (text !== defaultTexts.get(name) && !coveredNames.has(name)) neededTexts.set(name, text);
+      if (text !== defaultTexts.get(name) && (!coveredNames.has(name) || isWanted(name, text))) neededTexts.set(name, text);
       for (const coveredName of coveredAttributes) coveredNames.add(coveredName);
     }
     return neededTexts;

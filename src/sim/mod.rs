@@ -4,6 +4,7 @@ pub mod alpha_calibrator;
 pub mod arc_anatomy;
 pub mod banana;
 mod cloud;
+mod cloud_simulation;
 mod commands;
 pub mod dead_reckoning;
 mod noise_level;

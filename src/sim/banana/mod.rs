@@ -12,6 +12,7 @@ use super::cloud::drive::Drive;
 use super::cloud::picture::{self, Ramp};
 use super::cloud::views::{Grid, NearestSearch, View};
 use super::cloud::{Cloud, START_POSE};
+use super::cloud_simulation::cloud_simulation;
 use super::settings::{Rules, SettingsError};
 use crate::geom::arc::{Arc, ArcInversion, arc_with_turn_near};
 use crate::geom::lanes::LANES;
@@ -148,42 +149,19 @@ pub struct BananaMachine {
     picture: Vec<[u8; 4]>,
 }
 
-impl BananaMachine {
-    /// Creates a simulation that shows all samples.
-    ///
-    /// # Errors
-    /// [`SettingsError`] for the first setting out of range, or where memory does not suffice for the samples.
-    pub fn new(settings: Settings) -> Result<Self, SettingsError> {
-        Self::with_shown_count(settings, settings.samples)
-    }
+cloud_simulation!(BananaMachine);
 
-    /// Creates a simulation that shows the first `count` samples.
-    /// Errors are those of [`BananaMachine::new`].
-    pub fn with_shown_count(settings: Settings, count: usize) -> Result<Self, SettingsError> {
-        settings.check()?;
+impl BananaMachine {
+    fn empty(settings: Settings) -> Result<Self, SettingsError> {
         let drive = settings.model_with_input(settings.command).drive(&settings.command);
         let cloud = Cloud::new(settings.seed, settings.noise, drive);
         let mut simulation = Self { settings, cloud, stats: Stats::UNDEFINED, picture: Vec::new() };
         simulation.reserve_memory(&settings)?;
-        simulation.show_samples(count.min(settings.samples));
         Ok(simulation)
     }
 
-    /// Returns the settings.
-    pub fn settings(&self) -> &Settings {
-        &self.settings
-    }
-
-    /// Changes the settings, and draws all samples again from the same random numbers.
-    /// Errors are those of [`BananaMachine::new`], and change nothing.
-    pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
-        self.configure_first(settings, settings.samples)?;
-        self.add_samples(settings.samples);
-        Ok(())
-    }
-
     /// Changes the settings and shows the first block of `target_count` samples. [`BananaMachine::add_samples`] shows the others.
-    /// Errors are those of [`BananaMachine::configure`].
+    /// Errors are those of [`BananaMachine::new`], and change nothing.
     pub fn configure_first(&mut self, settings: Settings, target_count: usize) -> Result<(), SettingsError> {
         settings.check()?;
         self.reserve_memory(&settings)?;
@@ -201,15 +179,6 @@ impl BananaMachine {
         let drive = self.settings.model_with_input(command).drive(&command);
         let cloud_stats = self.cloud.drive_and_summarize(seed, noise, drive, count);
         self.stats = Stats::of(count, &cloud_stats, self.defined_charts());
-    }
-
-    /// Shows up to `count` samples more; returns how many are shown.
-    pub fn add_samples(&mut self, count: usize) -> usize {
-        let target_count = self.shown_count().saturating_add(count).min(self.settings.samples);
-        if target_count > self.shown_count() {
-            self.show_samples(target_count);
-        }
-        self.shown_count()
     }
 
     /// Returns the number of samples that can be added within a few milliseconds. Each block sums all

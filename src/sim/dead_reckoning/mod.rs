@@ -11,6 +11,7 @@ pub use stats::{Comparison, MISS_TOLERANCE, Misses, RECURSIONS};
 pub use straight::StraightGrowth;
 
 use super::cloud::views::NearestSearch;
+use super::cloud_simulation::cloud_simulation;
 use super::settings::{AllowedValues, Rules, SettingsError};
 use crate::geom::se2::SE2;
 use crate::js::js_structs;
@@ -90,19 +91,10 @@ js_structs! {
     }
 }
 
-impl DeadReckoning {
-    /// Creates a simulation with all of its robots driven.
-    ///
-    /// # Errors
-    /// [`SettingsError`] for the first setting out of range, or where memory does not suffice.
-    pub fn new(settings: Settings) -> Result<Self, SettingsError> {
-        Self::with_shown_count(settings, settings.samples)
-    }
+cloud_simulation!(DeadReckoning);
 
-    /// Creates a simulation that has driven the first `count` robots.
-    /// Errors are those of [`DeadReckoning::new`].
-    pub fn with_shown_count(settings: Settings, count: usize) -> Result<Self, SettingsError> {
-        settings.check()?;
+impl DeadReckoning {
+    fn empty(settings: Settings) -> Result<Self, SettingsError> {
         let mut rollouts = Rollouts::new(&settings).map_err(|_| SettingsError {
             field: "steps".to_owned(),
             value: f64::from(settings.steps),
@@ -111,36 +103,20 @@ impl DeadReckoning {
         let predicted = RECURSIONS.map(|order| propagate_covariances(&settings, order));
         let measured = rollouts.measured_moments(0);
         let comparisons = compare_all(&settings, &predicted, &measured);
-        let mut simulation = Self { settings, rollouts, shown_count: 0, predicted, measured, comparisons };
-        simulation.drive_robots(count.min(settings.samples));
-        Ok(simulation)
-    }
-
-    /// Returns the settings.
-    pub fn settings(&self) -> &Settings {
-        &self.settings
-    }
-
-    /// Changes the settings and drives all robots. Each robot has the same random numbers for any length of the path and any
-    /// number of robots.
-    /// Errors are those of [`DeadReckoning::new`], and change nothing.
-    pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
-        self.configure_first(settings, 0)?;
-        self.drive_robots(settings.samples);
-        Ok(())
+        Ok(Self { settings, rollouts, shown_count: 0, predicted, measured, comparisons })
     }
 
     /// Changes the settings and drives the first block of `target_count` robots. [`DeadReckoning::add_samples`] drives the others.
     /// Robots stay if the change does not affect them.
-    /// Errors are those of [`DeadReckoning::configure`].
+    /// Errors are those of [`DeadReckoning::new`], and change nothing.
     pub fn configure_first(&mut self, settings: Settings, target_count: usize) -> Result<(), SettingsError> {
         settings.check()?;
         if self.settings.has_same_rollouts(&settings) {
             self.settings = settings;
         } else {
-            *self = Self::with_shown_count(settings, 0)?;
+            *self = Self::empty(settings)?;
         }
-        self.drive_robots(
+        self.show_samples(
             target_count
                 .min(settings.samples)
                 .min(self.block_for_steps(FIRST_BLOCK_STEPS).max(self.shown_count)),
@@ -148,13 +124,7 @@ impl DeadReckoning {
         Ok(())
     }
 
-    /// Drives up to `count` more robots; returns the total number of robots driven.
-    pub fn add_samples(&mut self, count: usize) -> usize {
-        self.drive_robots(self.shown_count.saturating_add(count).min(self.settings.samples));
-        self.shown_count
-    }
-
-    fn drive_robots(&mut self, count: usize) {
+    fn show_samples(&mut self, count: usize) {
         if count == self.shown_count {
             return;
         }

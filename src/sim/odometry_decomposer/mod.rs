@@ -6,6 +6,7 @@ pub use settings::*;
 
 use super::cloud::draws::Draws;
 use super::cloud::views::NearestSearch;
+use super::cloud_simulation::cloud_simulation;
 use super::settings::{Rules, SettingsError};
 use crate::geom::se2::SE2;
 use crate::js::js_structs;
@@ -94,52 +95,21 @@ pub struct OdometryDecomposer {
     poses: Vec<SE2>,
 }
 
+cloud_simulation!(OdometryDecomposer);
+
 impl OdometryDecomposer {
-    /// Creates a simulation that shows all outcomes.
-    ///
-    /// # Errors
-    /// [`SettingsError`] for the first setting out of range.
-    pub fn new(settings: Settings) -> Result<Self, SettingsError> {
-        Self::with_shown_count(settings, settings.samples)
-    }
-
-    /// Creates a simulation that shows the first `count` outcomes.
-    /// Errors are those of [`OdometryDecomposer::new`].
-    pub fn with_shown_count(settings: Settings, count: usize) -> Result<Self, SettingsError> {
-        settings.check()?;
+    fn empty(settings: Settings) -> Result<Self, SettingsError> {
         let draws = Draws::new(settings.seed, settings.noise);
-        let mut simulation =
-            Self { settings, draws, shown_count: count.min(settings.samples), poses: Vec::new() };
-        simulation.update_poses();
-        Ok(simulation)
-    }
-
-    /// Returns the settings.
-    pub fn settings(&self) -> &Settings {
-        &self.settings
-    }
-
-    /// Changes the settings and shows all outcomes; the draws stay the same.
-    /// Errors are those of [`OdometryDecomposer::new`], and change nothing.
-    pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
-        self.configure_first(settings, settings.samples)
+        Ok(Self { settings, draws, shown_count: 0, poses: Vec::new() })
     }
 
     /// Changes the settings and shows the first `target_count` outcomes.
-    /// Errors are those of [`OdometryDecomposer::configure`].
+    /// Errors are those of [`OdometryDecomposer::new`], and change nothing.
     pub fn configure_first(&mut self, settings: Settings, target_count: usize) -> Result<(), SettingsError> {
         settings.check()?;
-        self.shown_count = target_count.min(settings.samples);
         self.settings = settings;
-        self.update_poses();
+        self.show_samples(target_count.min(settings.samples));
         Ok(())
-    }
-
-    /// Shows up to `count` outcomes more; returns how many are shown.
-    pub fn add_samples(&mut self, count: usize) -> usize {
-        self.shown_count = self.shown_count.saturating_add(count).min(self.settings.samples);
-        self.update_poses();
-        self.shown_count
     }
 
     /// Returns the number of outcomes that can be added within a few milliseconds: all of them.
@@ -152,7 +122,8 @@ impl OdometryDecomposer {
         self.shown_count
     }
 
-    fn update_poses(&mut self) {
+    fn show_samples(&mut self, count: usize) {
+        self.shown_count = count;
         self.draws.reset_if_changed(self.settings.seed, self.settings.noise);
         self.draws.extend_to(self.shown_count);
         let start = self.start_pose();

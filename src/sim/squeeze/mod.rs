@@ -14,6 +14,7 @@ pub use tally::{Stats, Tally};
 use super::cloud::draws::Draws;
 use super::cloud::picture::Ramp;
 use super::cloud::views::{Grid, NearestSearch};
+use super::cloud_simulation::cloud_simulation;
 use super::settings::{AllowedValues, Rules, SettingsError};
 use crate::geom::arc::Arc;
 use crate::geom::se2::SE2;
@@ -57,18 +58,11 @@ const MAX_MEAN_DRAWS_PER_PART: usize = 20;
 /// Number of parts of motions that a block of attempts tests against the map. A block takes some milliseconds.
 const BLOCK_PARTS: usize = 4096;
 
-impl MapSqueeze {
-    /// Creates a simulation in the apartment that has made all attempts.
-    ///
-    /// # Errors
-    /// [`SettingsError`] for the first setting out of range, or where memory does not suffice for the samples.
-    pub fn new(settings: Settings) -> Result<Self, SettingsError> {
-        Self::with_shown_count(settings, settings.samples)
-    }
+cloud_simulation!(MapSqueeze);
 
-    /// Creates a simulation in the apartment that shows the first `count` attempts.
-    /// Errors are those of [`MapSqueeze::new`].
-    pub fn with_shown_count(settings: Settings, count: usize) -> Result<Self, SettingsError> {
+impl MapSqueeze {
+    /// Creates a simulation in the apartment.
+    fn empty(settings: Settings) -> Result<Self, SettingsError> {
         let mut simulation = Self {
             plan: FloorPlan::apartment(),
             settings,
@@ -76,14 +70,15 @@ impl MapSqueeze {
             shown: ShownAttempts::default(),
             picture: Vec::new(),
         };
-        simulation.configure_first(settings, 0)?;
-        simulation.add_samples(count);
+        simulation.reserve_memory(&settings)?;
         Ok(simulation)
     }
 
-    /// Returns the settings.
-    pub fn settings(&self) -> &Settings {
-        &self.settings
+    fn reserve_memory(&mut self, settings: &Settings) -> Result<(), SettingsError> {
+        let memory_error = |_| SettingsError::out_of_memory(settings.samples);
+        let missing_attempts = settings.samples.saturating_sub(self.shown.attempts.len());
+        self.shown.attempts.try_reserve_exact(missing_attempts).map_err(memory_error)?;
+        self.draws.reserve(settings.samples).map_err(memory_error)
     }
 
     /// Returns the floor plan.
@@ -107,19 +102,11 @@ impl MapSqueeze {
         Ok(())
     }
 
-    /// Changes the settings and makes all attempts; the draws stay the same.
+    /// Changes the settings and makes the first block of attempts. [`MapSqueeze::add_samples`] makes the others, up to `target_count` in all.
     ///
     /// # Errors
     /// [`SettingsError`] as in [`MapSqueeze::new`], or if the map has too many walls when unknown cells count as `settings.unknown`
     /// says. Errors change nothing.
-    pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
-        self.configure_first(settings, 0)?;
-        self.add_samples(settings.samples);
-        Ok(())
-    }
-
-    /// Changes the settings and makes the first block of attempts. [`MapSqueeze::add_samples`] makes the others, up to `target_count` in all.
-    /// Errors are those of [`MapSqueeze::configure`].
     pub fn configure_first(&mut self, settings: Settings, target_count: usize) -> Result<(), SettingsError> {
         settings.check()?;
         let outdated_grid = self.plan.grid().filter(|_| settings.unknown != self.settings.unknown);
@@ -134,10 +121,7 @@ impl MapSqueeze {
                 allowed: "free, as the cells of this map would have more than 20000 sides",
             },
         })?;
-        let memory_error = |_| SettingsError::out_of_memory(settings.samples);
-        let missing_draws = settings.samples.saturating_sub(self.shown.attempts.len());
-        self.shown.attempts.try_reserve_exact(missing_draws).map_err(memory_error)?;
-        self.draws.reserve(settings.samples).map_err(memory_error)?;
+        self.reserve_memory(&settings)?;
         if let Some(plan) = plan {
             self.plan = plan;
         }
@@ -152,10 +136,8 @@ impl MapSqueeze {
         (self.shown.tally, self.shown.gave_up) = (Tally::default(), false);
     }
 
-    /// Draws up to `count` more samples, and returns the total. If nearly every draw collides, the simulation gives up,
-    /// and further calls draw none.
-    pub fn add_samples(&mut self, count: usize) -> usize {
-        let target_count = self.shown_count().saturating_add(count).min(self.settings.samples);
+    /// Makes attempts up to a number. If nearly every draw collides, the simulation gives up, and further calls make none.
+    fn show_samples(&mut self, target_count: usize) {
         self.draws.reset_if_changed(self.settings.seed, NoiseKind::Normal);
         self.draws.extend_to(target_count);
         let part_count = self.settings.parts() as usize;
@@ -173,7 +155,6 @@ impl MapSqueeze {
             });
             *gave_up = tally.draws > max_draws(part_count * attempts.len());
         }
-        attempts.len()
     }
 
     /// Returns the number of attempts that are made within a few milliseconds.

@@ -1,0 +1,50 @@
+//! Methods that all simulations with a cloud of samples have.
+
+/// Implements the methods that create and configure a simulation, and show more of its samples.
+///
+/// The simulation has `settings`, a function `empty` that creates it without samples from valid settings, and methods `configure_first`,
+/// `show_samples` and `shown_count`.
+macro_rules! cloud_simulation {
+    ($simulation:ident) => {
+        impl $simulation {
+            /// Creates a simulation that shows all samples.
+            ///
+            /// # Errors
+            /// [`SettingsError`] for the first setting out of range, or where memory does not suffice for the samples.
+            pub fn new(settings: Settings) -> Result<Self, SettingsError> {
+                Self::with_shown_count(settings, settings.samples)
+            }
+
+            /// Creates a simulation that shows the first `count` samples. Errors are those of `new`.
+            pub fn with_shown_count(settings: Settings, count: usize) -> Result<Self, SettingsError> {
+                settings.check()?;
+                let mut simulation = Self::empty(settings)?;
+                simulation.show_samples(count.min(settings.samples));
+                Ok(simulation)
+            }
+
+            /// Returns the settings.
+            pub fn settings(&self) -> &Settings {
+                &self.settings
+            }
+
+            /// Changes the settings and shows all samples, drawn from the same random numbers. Errors are those of `configure_first`, and
+            /// change nothing.
+            pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
+                self.configure_first(settings, 0)?;
+                self.add_samples(settings.samples);
+                Ok(())
+            }
+
+            /// Shows up to `count` samples more; returns how many are shown.
+            pub fn add_samples(&mut self, count: usize) -> usize {
+                let target_count = self.shown_count().saturating_add(count).min(self.settings.samples);
+                if target_count > self.shown_count() {
+                    self.show_samples(target_count);
+                }
+                self.shown_count()
+            }
+        }
+    };
+}
+pub(super) use cloud_simulation;

@@ -97,41 +97,6 @@ impl JsVelocityModel {
         let fields = Fields::new("options", "", options, &["alphas", "noise"])?;
         Ok(Self(VelocityModel { alphas: VelocityAlphas(read_alphas(&fields)?), noise: read_noise(&fields)? }))
     }
-
-    /// Scoring function of Table 5.1, with a signed radius, for the arc that turns by at most half a circle. A noise of
-    /// variance 0 has the factor 1 if its residual is 0 up to rounding (1e-7), and 0 otherwise.
-    pub fn prob(
-        &self,
-        #[wasm_bindgen(unchecked_param_type = "Start")] next: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "Command")] command: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
-    ) -> Result<f64, JsValue> {
-        Ok(self.0.prob(&read_pose("next", next)?, &read_command(command)?, &read_pose("start", start)?))
-    }
-
-    /// Density of the sampler over dx dy dθ; null if a variance is 0, infinite if the robot has not moved at all.
-    #[wasm_bindgen(js_name = poseDensity, unchecked_return_type = "number | null")]
-    pub fn pose_density(
-        &self,
-        #[wasm_bindgen(unchecked_param_type = "Start")] next: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "Command")] command: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
-    ) -> Result<JsValue, JsValue> {
-        let (next, command, start) =
-            (read_pose("next", next)?, read_command(command)?, read_pose("start", start)?);
-        Ok(number_or_null(self.0.pose_density(&next, &command, &start)))
-    }
-
-    /// Samples the pose after the command, as x, y, θ triples. Equal seeds (whole numbers) give equal samples.
-    pub fn sample(
-        &self,
-        #[wasm_bindgen(unchecked_param_type = "Command")] command: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
-        count: f64,
-        seed: f64,
-    ) -> Result<Float64Array, JsValue> {
-        draw_poses(&self.0, &read_command(command)?, start, count, seed)
-    }
 }
 
 /// The odometry motion model: noise on each of the three legs of a reading.
@@ -149,41 +114,65 @@ impl JsOdometryModel {
         let reverse_aware = fields.optional("reverseAware", read_boolean)?.unwrap_or(false);
         Ok(Self(ConfiguredOdometry { model, reverse_aware }))
     }
+}
 
-    /// Scoring function of Table 5.5, with the variances of the hypothetical legs. A noise of variance 0 has the factor 1 if
-    /// its residual is 0 up to rounding (1e-7), and 0 otherwise.
-    pub fn prob(
-        &self,
-        #[wasm_bindgen(unchecked_param_type = "Start")] next: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "OdomDelta")] control: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
-    ) -> Result<f64, JsValue> {
-        Ok(self.0.prob(&read_pose("next", next)?, &read_legs(control)?, &read_pose("start", start)?))
-    }
+/// Declares the methods of the JavaScript class of a motion model. `$control` is the TypeScript type of a command or a reading, which the
+/// function `$read_control` reads.
+macro_rules! model_methods {
+    ($class:ident, $name:literal, $control:literal, $read_control:ident, $(#[$prob_doc:meta])+) => {
+        #[wasm_bindgen(js_class = $name)]
+        impl $class {
+            $(#[$prob_doc])+
+            ///
+            /// A noise of variance 0 has the factor 1 if its residual is 0 up to rounding (1e-7), and 0 otherwise.
+            pub fn prob(
+                &self,
+                #[wasm_bindgen(unchecked_param_type = "Start")] next: &JsValue,
+                #[wasm_bindgen(unchecked_param_type = $control)] control: &JsValue,
+                #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
+            ) -> Result<f64, JsValue> {
+                let (next, control, start) =
+                    (read_pose("next", next)?, $read_control(control)?, read_pose("start", start)?);
+                Ok(self.0.prob(&next, &control, &start))
+            }
 
-    /// Density of the sampler over dx dy dθ; null if a variance is 0, infinite if the robot has not moved at all.
-    #[wasm_bindgen(js_name = poseDensity, unchecked_return_type = "number | null")]
-    pub fn pose_density(
-        &self,
-        #[wasm_bindgen(unchecked_param_type = "Start")] next: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "OdomDelta")] control: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
-    ) -> Result<JsValue, JsValue> {
-        let (next, control, start) =
-            (read_pose("next", next)?, read_legs(control)?, read_pose("start", start)?);
-        Ok(number_or_null(self.0.pose_density(&next, &control, &start)))
-    }
+            /// Density of the sampler over dx dy dθ; null if a variance is 0, infinite if the robot has not moved at all.
+            #[wasm_bindgen(js_name = poseDensity, unchecked_return_type = "number | null")]
+            pub fn pose_density(
+                &self,
+                #[wasm_bindgen(unchecked_param_type = "Start")] next: &JsValue,
+                #[wasm_bindgen(unchecked_param_type = $control)] control: &JsValue,
+                #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
+            ) -> Result<JsValue, JsValue> {
+                let (next, control, start) =
+                    (read_pose("next", next)?, $read_control(control)?, read_pose("start", start)?);
+                Ok(number_or_null(self.0.pose_density(&next, &control, &start)))
+            }
 
-    /// Samples the pose after the reading, as x, y, θ triples. Equal seeds (whole numbers) give equal samples.
-    pub fn sample(
-        &self,
-        #[wasm_bindgen(unchecked_param_type = "OdomDelta")] control: &JsValue,
-        #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
-        count: f64,
-        seed: f64,
-    ) -> Result<Float64Array, JsValue> {
-        draw_poses(&self.0, &read_legs(control)?, start, count, seed)
-    }
+            /// Samples the pose after the motion, as x, y, θ triples. Equal seeds (whole numbers) give equal samples.
+            pub fn sample(
+                &self,
+                #[wasm_bindgen(unchecked_param_type = $control)] control: &JsValue,
+                #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
+                count: f64,
+                seed: f64,
+            ) -> Result<Float64Array, JsValue> {
+                let (control, start) = ($read_control(control)?, read_pose("start", start)?);
+                let count = read_integer("count", count, 0..=MAX_SAMPLES as u64)? as usize;
+                let mut rng = Xoshiro256PlusPlus::seed_from_u64(read_integer("seed", seed, 0..=MAX_SEED)?);
+                let draw_pose = |_| <[f64; 3]>::from(self.0.sample(&control, &start, &mut rng));
+                Ok(flat_float_array(&(0..count).map(draw_pose).collect::<Vec<_>>()))
+            }
+        }
+    };
+}
+model_methods! {
+    JsVelocityModel, "VelocityModel", "Command", read_command,
+    /// Scoring function of Table 5.1, with a signed radius, for the arc that turns by at most half a circle.
+}
+model_methods! {
+    JsOdometryModel, "OdometryModel", "OdomDelta", read_legs,
+    /// Scoring function of Table 5.5, with the variances of the hypothetical legs.
 }
 
 /// Arc that leaves `start` along its heading and reaches the position of `next` in `dt` seconds (Table 5.1, with a
@@ -317,20 +306,6 @@ pub fn right_jacobian(
     #[wasm_bindgen(unchecked_param_type = "Twist")] twist: &JsValue,
 ) -> Result<Array, JsValue> {
     Ok(matrix_rows(&SE2::right_jacobian(&read_twist("twist", twist)?)))
-}
-
-fn draw_poses<M: MotionModel>(
-    model: &M,
-    control: &M::Control,
-    start: &JsValue,
-    count: f64,
-    seed: f64,
-) -> Result<Float64Array, JsValue> {
-    let start = read_pose("start", start)?;
-    let count = read_integer("count", count, 0..=MAX_SAMPLES as u64)? as usize;
-    let mut rng = Xoshiro256PlusPlus::seed_from_u64(read_integer("seed", seed, 0..=MAX_SEED)?);
-    let draw_pose = |_| <[f64; 3]>::from(model.sample(control, &start, &mut rng));
-    Ok(flat_float_array(&(0..count).map(draw_pose).collect::<Vec<_>>()))
 }
 
 fn read_alphas<const N: usize>(fields: &Fields) -> Result<[f64; N], JsValue> {

@@ -100,14 +100,6 @@ impl NoiseKind {
         }
     }
 
-    /// Returns the kurtosis E\[ε⁴\]/E\[ε²\]²: 3 of a Gaussian, 12/5 of the triangle.
-    pub fn kurtosis(self) -> f64 {
-        match self {
-            Self::Normal => 3.0,
-            Self::Triangular => 2.4,
-        }
-    }
-
     /// Replaces each number q by its quantile, with the same bits as [`NoiseKind::quantile`].
     pub(crate) fn quantiles(self, numbers: &mut [f64x4]) {
         match self {

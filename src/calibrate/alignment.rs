@@ -88,39 +88,25 @@ fn best_match(
     }
     // Vertex of the parabola through the largest correlation and its neighbours.
     let correlation_at = |offset: usize| correlations.get(offset).copied().unwrap_or(max_correlation);
-    let (correlation_before, correlation_after) =
-        (correlation_at(best_offset.wrapping_sub(1)), correlation_at(best_offset + 1));
-    let curvature = correlation_before - 2.0 * max_correlation + correlation_after;
-    let fraction =
-        if curvature < 0.0 { 0.5 * (correlation_before - correlation_after) / curvature } else { 0.0 };
+    let [before, after] = [best_offset.wrapping_sub(1), best_offset + 1].map(correlation_at);
+    let curvature = before - 2.0 * max_correlation + after;
+    let fraction = if curvature < 0.0 { 0.5 * (before - after) / curvature } else { 0.0 };
     Some((from + (best_offset as f64 + fraction) * step, max_correlation))
 }
 
 /// Returns the turns (rad) between successive times, which are `step` (s) apart. None outside of the trajectory, and across gaps.
 fn turns_of_steps(trajectory: &Trajectory, start: f64, step: f64, count: usize) -> Vec<Option<f64>> {
-    let times: Vec<f64> = trajectory.samples().map(|(time, _)| time).collect();
     let headings = trajectory.unwrapped_heading();
-    let (mut next, mut gaps) = (0, 0);
-    // Returns the number of gaps before a time, and the heading there.
-    let mut heading_at = |time: f64| {
-        while next < times.len() && times[next] < time {
-            next += 1;
-            gaps += usize::from(next < times.len() && trajectory.has_gap_before(next));
-        }
-        let time_after = *times.get(next)?;
-        if time_after == time {
-            return Some((gaps, headings[next]));
-        }
-        let index_before = next.checked_sub(1).filter(|_| !trajectory.has_gap_before(next))?;
-        let fraction = (time - times[index_before]) / (time_after - times[index_before]);
-        Some((gaps, headings[index_before] + fraction * (headings[next] - headings[index_before])))
+    let heading_at = |time: f64| {
+        let (sample, fraction) = trajectory.locate(time)?;
+        let before = headings[sample.saturating_sub(1)];
+        Some(before + fraction * (headings[sample] - before))
     };
-    let headings: Vec<_> = (0..=count).map(|i| heading_at(start + i as f64 * step)).collect();
-    let turn_between = |pair: &[Option<(usize, f64)>]| {
-        let [(gaps_at_start, from), (gaps_at_end, to)] = [pair[0]?, pair[1]?];
-        (gaps_at_start == gaps_at_end).then_some(to - from)
+    let turn_of_step = |i: usize| {
+        let [from, to] = [i, i + 1].map(|i| start + i as f64 * step);
+        Some(heading_at(to)? - heading_at(from)?).filter(|_| !trajectory.has_gap(from, to))
     };
-    headings.windows(2).map(turn_between).collect()
+    (0..count).map(turn_of_step).collect()
 }
 
 /// Returns Pearson's correlation over the pairs of two known numbers. 0 if there are fewer than `min_pairs` such pairs, or one list is

@@ -8,26 +8,29 @@ use super::systematic::{ERROR_COUNT, ErrorMask, Systematic, SystematicError};
 use super::trajectory::median;
 use crate::geom::se2::SE2;
 use crate::models::OdometryRule;
-use nalgebra::Complex;
 use serde::{Deserialize, Serialize};
 
 /// Overall judgement of a calibration.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(rename_all = "kebab-case")]
 pub enum Verdict {
     /// Every check passed.
     Consistent,
     /// A check failed, so the α's may be wrong. The recommended α's compensate for some of the error.
     Questionable,
     /// The log gives no α's.
+    #[default]
     Unusable,
 }
 
 /// Names of the checks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "kebab-case")]
 pub enum CheckName {
-    /// Median difference of a leg's motions by odometry and by reference, divided by the median motion. For a reference that does not drift
-    /// from the odometry it is the drift of both paths, divided by their length.
+    /// Median difference of a leg's motions by odometry and by reference, divided by the median motion. For a copy of the odometry it is the
+    /// noise of the wheels, relative to the motion.
     ReferenceMatches,
     /// Number of legs.
     EnoughLegs,
@@ -64,6 +67,7 @@ pub enum CheckName {
 
 /// One check.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(rename = "CalibrationCheck"))]
 pub struct Check {
     /// Name of the check.
     pub name: CheckName,
@@ -73,23 +77,22 @@ pub struct Check {
     pub expected: [f64; 2],
     /// True if the value is in the range.
     pub passed: bool,
+    /// What a failure means for the α's, and the remedy; empty if the check passed.
+    pub message: String,
 }
 
 impl Check {
     /// Returns the check of a value, which passes within the expected range.
     pub(super) fn new(name: CheckName, value: f64, expected: [f64; 2]) -> Self {
-        Self { name, value, expected, passed: value >= expected[0] && value <= expected[1] }
-    }
-
-    /// Returns what a failure of the check means for the α's, and the remedy; empty if it passed.
-    pub fn message(&self) -> &'static str {
-        match self {
-            Self { passed: true, .. } => "",
-            Self { name: CheckName::ReferenceMatches, value, expected: [min, _], .. } if value < min => {
+        let passed = (expected[0]..=expected[1]).contains(&value);
+        let message = match name {
+            _ if passed => "",
+            CheckName::ReferenceMatches if value < expected[0] => {
                 "The reference has the errors of the odometry: it is a copy of it, or computed from it. The α's mean nothing. Use an independent measurement, such as motion capture or SLAM."
             }
-            _ => self.name.failure_message(),
-        }
+            _ => name.failure_message(),
+        };
+        Self { name, value, expected, passed, message: message.to_owned() }
     }
 }
 
@@ -108,11 +111,13 @@ pub struct WindowCoverage {
 }
 
 /// Checks with the judgement that follows from them.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct Diagnostics {
     /// Judgement of the whole calibration.
     pub verdict: Verdict,
     /// All checks, those of the log first.
+    #[cfg_attr(target_arch = "wasm32", tsify(type = "CalibrationCheck[]"))]
     pub checks: Vec<Check>,
     /// Coverage of windows of 1, 2 and 5 m by the fitted α's.
     pub windows: Vec<WindowCoverage>,
@@ -122,7 +127,7 @@ impl Diagnostics {
     /// Returns the diagnostics of a log that could not be fitted.
     pub(super) fn too_few_legs() -> Self {
         let legs = Check::new(CheckName::EnoughLegs, 0.0, [SUFFICIENT_LEGS, f64::INFINITY]);
-        Self { verdict: Verdict::Unusable, checks: vec![legs], windows: Vec::new() }
+        Self { checks: vec![legs], ..Self::default() }
     }
 }
 
@@ -187,19 +192,12 @@ const NEGLIGIBLE_COVERAGE: f64 = 0.015;
 const SUFFICIENT_LEGS: f64 = 100.0;
 const MIN_USABLE_LEGS: f64 = 30.0;
 
-/// Range of the median difference of the motions by odometry and reference, over the median motion, of logs of the same drive. Two
-/// measurements differ by more than 0.05 %: one that differs by less is a copy of the other.
-const MISMATCH_RANGE: [f64; 2] = [0.0005, 0.7];
+/// Maximum median difference of the motions by odometry and reference, over the median motion, of logs of the same drive.
+const MAX_MISMATCH: f64 = 0.7;
 
-/// Drift of two paths, divided by their length, below which one is a copy of the other. Errors of wheels accumulate along a path, but those of
-/// rounded or noisy numbers do not. A robot that errs by 1 mm and 0.5 mrad over a metre drifts by 1e-4.
-const MAX_COPY_DRIFT: f64 = 3e-5;
-
-/// Lengths (m) of the long and of the short pieces in which paths are compared.
-const PIECE_LENGTHS: [f64; 2] = [200.0, 5.0];
-
-/// Scale factors that errors of the wheels' size can explain. Any other scale shows that the reference has another unit.
-const PLAUSIBLE_SCALES: std::ops::RangeInclusive<f64> = 0.5..=2.0;
+/// Minimum noise of wheels, relative to the motion. If there is less, the reference is a copy of the odometry: numbers of the copy may be rounded
+/// or noisy, but errors of wheels accumulate along the path. A robot that errs by 1 mm and 0.5 mrad over a metre has 1e-3 and more.
+const MIN_WHEEL_NOISE: f64 = 5e-4;
 
 /// Minimum number of windows for conclusions from their coverage.
 pub(super) const MIN_WINDOWS: usize = 20;
@@ -207,27 +205,30 @@ pub(super) const MIN_WINDOWS: usize = 20;
 /// Maximum inflation. α's that need more do not describe the robot.
 pub(super) const MAX_INFLATION: f64 = 30.0;
 
-/// Returns the checks of the log itself. Those that decide whether a log is usable come first: the first failure is the advice.
+/// Returns the checks of the log itself. Those that decide whether a log is usable come first: the first failure is the advice. `identifies` is
+/// true if the log identifies at least one α.
 pub(super) fn log_checks(
+    fit: &Fit,
     sample: &Sample,
     lost: &LostLegs,
     systematic: &Systematic,
+    identifies: bool,
     inflation: f64,
 ) -> Vec<Check> {
     let count = sample.legs.len();
-    let scales = [SystematicError::DistanceScale, SystematicError::TurnScale];
-    let has_plausible_scales = scales.iter().all(|scale| PLAUSIBLE_SCALES.contains(&systematic.get(*scale)));
-    let mismatch = if has_plausible_scales {
-        // A copy with rounded numbers differs in each leg, but hardly drifts. Its drift is the value that fails.
-        copy_drift(sample, systematic).or_else(|| mismatch(sample, systematic))
+    // A copy fails by the noise of the wheels, any other reference by the difference of its motions.
+    let wheel_noise = wheel_noise(fit);
+    let mismatch = if identifies && wheel_noise < MIN_WHEEL_NOISE {
+        Some(wheel_noise)
     } else {
-        Some(f64::INFINITY)
+        mismatch(sample, systematic)
     };
     let mut ratios: Vec<f64> =
         sample.legs.iter().map(|leg| sample.options.legs.ratio(&leg.odometry, leg.duration())).collect();
     let outlier_count = sample.outliers.iter().filter(|is| **is).count();
     let lost_count = lost.total() - lost.standing;
-    let mismatch = mismatch.map(|value| Check::new(CheckName::ReferenceMatches, value, MISMATCH_RANGE));
+    let matches_range = [MIN_WHEEL_NOISE, MAX_MISMATCH];
+    let mismatch = mismatch.map(|value| Check::new(CheckName::ReferenceMatches, value, matches_range));
     let mut checks = Vec::from_iter(mismatch);
     checks.extend([
         Check::new(CheckName::EnoughLegs, count as f64, [SUFFICIENT_LEGS, f64::INFINITY]),
@@ -245,80 +246,50 @@ pub(super) fn log_checks(
     checks
 }
 
-/// Returns the median difference between the motions of a leg by odometry and by reference, divided by the median motion. Of the ratios for
-/// turns and for drives the larger one is returned. `None` if too few legs turn and too few drive.
-fn mismatch(sample: &Sample, systematic: &Systematic) -> Option<f64> {
-    // For turns and for drives: sizes of the motions, and differences between odometry and reference.
-    let [mut turns, mut drives] = [const { [Vec::new(), Vec::new()] }; 2];
-    let add_motion = |[sizes, differences]: &mut [Vec<f64>; 2], size: f64, difference: f64, min_size: f64| {
-        if size > min_size {
-            sizes.push(size);
-            differences.push(difference);
+/// Returns the noise of the wheels over all legs, relative to their motion: the larger one of the ratios for positions and for headings.
+fn wheel_noise(Fit { sample, maximum, .. }: &Fit) -> f64 {
+    let (mut variances, mut squares) = ([0.0; 2], [0.0; 2]);
+    for (leg, observation) in sample.observations.iter().enumerate() {
+        if let Some(covariance) = sample.wheel_covariance(leg, &maximum.parameters) {
+            let motion = &observation.expected;
+            for (axis, square) in
+                [motion.x().powi(2) + motion.y().powi(2), motion.theta().powi(2)].into_iter().enumerate()
+            {
+                squares[axis] += square;
+            }
+            variances[0] += covariance[(0, 0)] + covariance[(1, 1)];
+            variances[1] += covariance[(2, 2)];
         }
-    };
-    for leg in &sample.legs {
-        let (expected, measured) = (systematic.expected(sample.options.model, leg), systematic.motion(leg));
-        let position_difference = libm::hypot(measured.x() - expected.x(), measured.y() - expected.y());
-        add_motion(&mut turns, turn(&expected), (measured.theta() - expected.theta()).abs(), MIN_TURN_ANGLE);
-        add_motion(&mut drives, distance(&expected), position_difference, MIN_DRIVE_DISTANCE);
     }
-    let median_ratio = |[mut sizes, mut differences]: [Vec<f64>; 2]| {
+    f64::max(variances[0] / squares[0], variances[1] / squares[1]).sqrt()
+}
+
+/// Returns the median difference between the motions of a leg by odometry and by reference, divided by the median motion. Of the ratios for
+/// turns and for drives the larger one is returned. `None` if too few legs turn and too few drive. Scales are not corrected, because a scale far
+/// from 1 is another unit.
+fn mismatch(sample: &Sample, systematic: &Systematic) -> Option<f64> {
+    let systematic = Systematic { distance_scale: 1.0, turn_scale: 1.0, ..*systematic };
+    let motions = sample.legs.iter();
+    let motions: Vec<[SE2; 2]> =
+        motions.map(|leg| [systematic.expected(sample.options.model, leg), systematic.motion(leg)]).collect();
+    // Median difference over median size of the motions that are larger than a minimum.
+    let median_ratio = |size: fn(&SE2) -> f64, difference: fn(&[SE2; 2]) -> f64, min_size: f64| {
+        let moving = || motions.iter().filter(|[expected, _]| size(expected) > min_size);
+        let mut differences: Vec<f64> = moving().map(difference).collect();
+        let mut sizes: Vec<f64> = moving().map(|[expected, _]| size(expected)).collect();
         (sizes.len() >= MIN_LEGS).then(|| median(&mut differences) / median(&mut sizes))
     };
-    [turns, drives].into_iter().filter_map(median_ratio).reduce(f64::max)
-}
-
-/// Returns the drift between the paths by odometry and by reference, divided by their length, if one is a copy of the other. The noise of the
-/// reference is equal in long and in short pieces, so their difference is due to drift.
-fn copy_drift(sample: &Sample, systematic: &Systematic) -> Option<f64> {
-    let [
-        (mean_square_of_long, degrees_of_freedom_of_long, long_length),
-        (mean_square_of_short, degrees_of_freedom_of_short, short_length),
-    ] = PIECE_LENGTHS.map(|piece_length| path_distance(sample, systematic, piece_length));
-    // Under equal noise, the difference of both mean squares has this standard error.
-    let added_square_std =
-        mean_square_of_short * (1.0 / degrees_of_freedom_of_short - 1.0 / degrees_of_freedom_of_long).sqrt();
-    let added_square = mean_square_of_long - mean_square_of_short + 2.0 * added_square_std;
-    let squared_drift = added_square / (long_length - short_length) / long_length;
-    (squared_drift < MAX_COPY_DRIFT * MAX_COPY_DRIFT).then(|| squared_drift.max(0.0).sqrt())
-}
-
-/// Cuts the paths by odometry and by reference into pieces of a length (m), and aligns each pair of pieces. Returns their mean squared distance,
-/// its degrees of freedom, and the mean length of the pieces. The alignment of a piece costs the degrees of freedom of two points.
-fn path_distance(sample: &Sample, systematic: &Systematic, piece_length: f64) -> (f64, f64, f64) {
-    let (mut square_sum, mut degrees_of_freedom, mut length_sum) = (0.0, 0.0, 0.0);
-    let (mut pose_pairs, mut expected, mut length) = (Vec::new(), SE2::identity(), 0.0);
-    let (mut legs, base) = (sample.legs.iter().peekable(), systematic.base());
-    while let Some(leg) = legs.next() {
-        let motion = systematic.expected(sample.options.model, leg);
-        expected = expected * motion;
-        length += distance(&motion);
-        pose_pairs.push([expected, leg.reference[1] * base].map(|pose| Complex::new(pose.x(), pose.y())));
-        if length >= piece_length || legs.peek().is_none_or(|next| !next.follows) {
-            let piece_degrees_of_freedom = pose_pairs.len() as f64 - 2.0;
-            if piece_degrees_of_freedom > 0.0 {
-                square_sum += aligned_square_sum(&pose_pairs);
-                degrees_of_freedom += piece_degrees_of_freedom;
-                length_sum += piece_degrees_of_freedom * length;
-            }
-            (expected, length) = (SE2::identity(), 0.0);
-            pose_pairs.clear();
-        }
-    }
-    (square_sum / degrees_of_freedom, degrees_of_freedom, length_sum / degrees_of_freedom)
-}
-
-/// Returns the sum of the squared distances of pairs of points, minimized by shift, rotation and scaling of the first points.
-fn aligned_square_sum(pose_pairs: &[[Complex<f64>; 2]]) -> f64 {
-    let means =
-        [0, 1].map(|i| pose_pairs.iter().map(|pair| pair[i]).sum::<Complex<f64>>() / pose_pairs.len() as f64);
-    let (mut squares, mut product) = ([0.0; 2], Complex::new(0.0, 0.0));
-    for pair in pose_pairs {
-        let [one, other] = [0, 1].map(|i| pair[i] - means[i]);
-        squares = [squares[0] + one.norm_sqr(), squares[1] + other.norm_sqr()];
-        product += one.conj() * other;
-    }
-    (squares[1] - product.norm_sqr() / squares[0]).max(0.0)
+    let turns = median_ratio(
+        turn,
+        |[expected, measured]| (measured.theta() - expected.theta()).abs(),
+        MIN_TURN_ANGLE,
+    );
+    let drives = median_ratio(
+        distance,
+        |[expected, measured]| libm::hypot(measured.x() - expected.x(), measured.y() - expected.y()),
+        MIN_DRIVE_DISTANCE,
+    );
+    [turns, drives].into_iter().flatten().reduce(f64::max)
 }
 
 /// Returns the checks of the innovations: correlation of neighbours and tails.
@@ -371,9 +342,8 @@ const NEGLIGIBLE_SCALE_DIFFERENCE: f64 = 0.01;
 
 /// Returns a check of each scale that is identifiable, and the mask of the systematic errors that are constant.
 ///
-/// Only scales are tested. All other errors, and scales that are not identifiable, count as constant. `std_factor` multiplies the standard
-/// errors, because errors of neighbouring legs may be correlated.
-pub(super) fn scale_checks(fit: &Fit, std_factor: f64) -> (Vec<Check>, ErrorMask) {
+/// Only scales are tested. All other errors, and scales that are not identifiable, count as constant.
+pub(super) fn scale_checks(fit: &Fit) -> (Vec<Check>, ErrorMask) {
     let (mut checks, mut is_constant) = (Vec::new(), [true; ERROR_COUNT]);
     let first_half_count = fit.sample.legs.len() / 2;
     let is_turning = |leg: usize| turn(&fit.sample.observations[leg].expected) > TURNING_LEG_ANGLE;
@@ -381,27 +351,21 @@ pub(super) fn scale_checks(fit: &Fit, std_factor: f64) -> (Vec<Check>, ErrorMask
         (SystematicError::DistanceScale, CheckName::DistanceScaleConstant),
         (SystematicError::TurnScale, CheckName::TurnScaleConstant),
     ];
-    for (scale, name) in scales {
-        if fit.stds[scale as usize] == 0.0 {
-            continue;
-        }
-        let mut largest_difference = (0.0, NEGLIGIBLE_SCALE_DIFFERENCE);
-        let mut compare_groups = |in_first: &dyn Fn(usize) -> bool| {
-            let [first_group, second_group] = [true, false]
-                .map(|is_first_group| scale_of(fit, scale, |leg| in_first(leg) == is_first_group));
-            if let Some(([a, a_std], [b, b_std])) = first_group.zip(second_group) {
-                let tolerance = NEGLIGIBLE_SCALE_DIFFERENCE
-                    .max(MAX_SCALE_STD_ERRORS * std_factor * libm::hypot(a_std, b_std));
-                if (a - b).abs() / tolerance > f64::abs(largest_difference.0) / largest_difference.1 {
-                    largest_difference = (a - b, tolerance);
-                }
-            }
+    for (scale, name) in scales.into_iter().filter(|(scale, _)| fit.sample.estimated[*scale as usize]) {
+        // Difference of the scales of two groups, and its tolerance.
+        let compare_groups = |in_first: &dyn Fn(usize) -> bool| {
+            let [a, a_std] = scale_of(fit, scale, in_first)?;
+            let [b, b_std] = scale_of(fit, scale, |leg| !in_first(leg))?;
+            let tolerance = NEGLIGIBLE_SCALE_DIFFERENCE.max(MAX_SCALE_STD_ERRORS * libm::hypot(a_std, b_std));
+            Some((a - b, tolerance))
         };
-        compare_groups(&|leg| leg < first_half_count);
-        if scale == SystematicError::DistanceScale {
-            compare_groups(&is_turning);
-        }
-        let check = Check::new(name, largest_difference.0, [-largest_difference.1, largest_difference.1]);
+        let halves = compare_groups(&|leg| leg < first_half_count);
+        let turns = compare_groups(&is_turning).filter(|_| scale == SystematicError::DistanceScale);
+        let relative_size = |(difference, tolerance): &(f64, f64)| difference.abs() / tolerance;
+        let comparisons = halves.into_iter().chain(turns);
+        let largest_difference = comparisons.max_by(|a, b| relative_size(a).total_cmp(&relative_size(b)));
+        let (difference, tolerance) = largest_difference.unwrap_or((0.0, NEGLIGIBLE_SCALE_DIFFERENCE));
+        let check = Check::new(name, difference, [-tolerance, tolerance]);
         is_constant[scale as usize] = check.passed;
         checks.push(check);
     }
@@ -414,13 +378,13 @@ fn scale_of(fit: &Fit, scale: SystematicError, select: impl Fn(usize) -> bool) -
     let mut mask = [false; ERROR_COUNT];
     mask[scale as usize] = true;
     let residuals = fit.sample.residuals(mask, |leg| select(leg) && !fit.sample.outliers[leg]);
-    if residuals.len() < MIN_GROUP_LEGS {
+    if residuals.terms.len() < MIN_GROUP_LEGS {
         return None;
     }
-    let solution = residuals.least_squares(&fit.maximum.parameters);
-    let variance = solution.covariance[(scale as usize, scale as usize)];
-    let std = variance.sqrt();
-    (variance > 0.0 && std < scale.identifiability_limit()).then(|| [-solution.errors[scale as usize], std])
+    let filtered = residuals.filtered(&fit.maximum.parameters);
+    let std = filtered.error_stds()[scale as usize];
+    let difference = -filtered.errors[scale as usize];
+    (std > 0.0 && std < scale.identifiability_limit()).then_some([difference, std])
 }
 
 /// Returns the verdict that follows from all checks. `identifies` is true if the log identifies at least one α.

@@ -1,5 +1,4 @@
-//! Fit of the variances and the systematic errors, in rounds. The residuals depend on the systematic errors, their weights on the variances,
-//! and the outliers on both.
+//! Fit of the variances and the systematic errors.
 
 use super::alignment::clock_offset;
 use super::legs::{Leg, LostLegs, MIN_LEGS};
@@ -11,7 +10,6 @@ use super::systematic::{ERROR_COUNT, ErrorMask, Systematic, SystematicError};
 use super::trajectory::median;
 use crate::geom::se2::wrap_angle;
 use std::ops::Range;
-use std::rc::Rc;
 
 /// Legs with their residuals, under the systematic errors that are corrected.
 #[derive(Clone, Debug)]
@@ -19,7 +17,7 @@ pub(super) struct Sample {
     pub options: Options,
     pub legs: Vec<Leg>,
     pub observations: Vec<Observation>,
-    pub terms: Rc<Vec<Term>>,
+    pub terms: Vec<Term>,
     pub outliers: Vec<bool>,
     /// Systematic errors with which the residuals were computed.
     pub systematic: Systematic,
@@ -33,8 +31,6 @@ pub(super) struct Fit {
     pub sample: Sample,
     pub residuals: Residuals,
     pub maximum: Maximum,
-    /// Standard errors of the systematic errors; 0 for an error that is not estimated.
-    pub stds: [f64; ERROR_COUNT],
 }
 
 /// Maximum number of legs that are fitted, in blocks spread over the log. With this many legs the standard error of an α is about 3 %.
@@ -46,53 +42,31 @@ const MAX_ROUNDS: usize = 15;
 /// Change of a systematic error between rounds, relative to its standard error, below which the rounds end.
 const CONVERGENCE_TOLERANCE: f64 = 0.05;
 
-/// Factor by which the outlier gate is wider in the first round, in which variances are an initial guess.
-const FIRST_ROUND_GATE_FACTOR: f64 = 4.0;
-
 impl Sample {
-    fn new(legs: Vec<Leg>, estimated: ErrorMask, options: &Options) -> Self {
-        let (outliers, terms) = (vec![false; legs.len()], Rc::default());
-        Self {
-            options: *options,
-            legs,
-            observations: Vec::new(),
-            terms,
-            outliers,
-            systematic: Systematic::NONE,
-            estimated,
-        }
+    fn new(legs: Vec<Leg>, systematic: &Systematic, estimated: ErrorMask, options: &Options) -> Self {
+        let (outliers, observations, terms) = (vec![false; legs.len()], Vec::new(), Vec::new());
+        Self { options: *options, legs, observations, terms, outliers, systematic: *systematic, estimated }
     }
 
-    /// Returns all legs, or evenly spread blocks of neighbouring legs if there are more than [`MAX_LEGS`].
-    fn with_max_legs(legs: &[Leg], estimated: ErrorMask, options: &Options) -> Self {
-        if legs.len() <= MAX_LEGS {
-            return Self::new(legs.to_vec(), estimated, options);
-        }
-        let block_count = MAX_LEGS / LEGS_PER_BLOCK;
-        let mut legs_of_blocks = Vec::with_capacity(MAX_LEGS);
-        for block in 0..block_count {
-            let first_leg = block * (legs.len() - LEGS_PER_BLOCK) / (block_count - 1);
-            legs_of_blocks.extend_from_slice(&legs[first_leg..first_leg + LEGS_PER_BLOCK]);
-            let start = legs_of_blocks.len() - LEGS_PER_BLOCK;
-            legs_of_blocks[start].follows = false;
-        }
-        Self::new(legs_of_blocks, estimated, options)
-    }
-
-    fn update_observations(&mut self, corrected: &Systematic, position_std: f64) {
-        let model = self.options.model;
-        self.systematic = *corrected;
-        self.observations =
-            self.legs.iter().map(|leg| Observation::new(model, leg, corrected, position_std)).collect();
-        let term = |(leg, observation): (&Leg, &Observation)| Term::new(model, leg, observation, corrected);
-        self.terms = Rc::new(self.legs.iter().zip(&self.observations).map(term).collect());
+    /// Computes the residuals under the present systematic errors. `position_std` (m) is the standard deviation of the reference.
+    fn update_observations(&mut self, position_std: f64) {
+        let Self { systematic, options: Options { model, .. }, .. } = *self;
+        let observe = |leg| Observation::new(model, leg, &systematic, position_std);
+        self.observations = self.legs.iter().map(observe).collect();
+        let term = |(leg, observation): (&Leg, &Observation)| Term::new(model, leg, observation, &systematic);
+        self.terms = self.legs.iter().zip(&self.observations).map(term).collect();
     }
 
     /// Returns the residuals of the legs that `select` accepts. A leg follows the one before it only if both are selected.
     pub fn residuals(&self, estimated: ErrorMask, select: impl Fn(usize) -> bool) -> Residuals {
         let follows = |leg: usize| self.legs[leg].follows && leg > 0 && select(leg - 1);
-        let chosen_terms = (0..self.legs.len()).filter(|leg| select(*leg)).map(|leg| (leg, follows(leg)));
-        Residuals::new(self.options.model, estimated, &self.terms, chosen_terms.collect())
+        let mut terms = Vec::with_capacity(self.legs.len());
+        for leg in (0..self.legs.len()).filter(|leg| select(*leg)) {
+            let mut term = self.terms[leg];
+            term.follows = follows(leg);
+            terms.push(term);
+        }
+        Residuals { model: self.options.model, estimated, terms }
     }
 
     /// Returns the residuals of the legs in a range that are not outliers.
@@ -100,14 +74,55 @@ impl Sample {
         self.residuals(self.estimated, |leg| range.contains(&leg) && !self.outliers[leg])
     }
 
-    /// Fits the variances to the legs that are not outliers.
-    fn fit(&self, start: Parameters) -> Result<(Residuals, Maximum), CalibrateError> {
-        let residuals = self.inlier_residuals(0..self.legs.len());
-        if residuals.len() < MIN_LEGS {
-            return Err(CalibrateError::TooFewLegs { legs: residuals.len() });
+    /// Fits the variances, in rounds: the residuals depend on the systematic errors, their weights on the variances, and outliers on both.
+    /// The first round starts at the given variances, or at a guess. With `log`, each round also chooses the systematic errors that are
+    /// identifiable, and corrects them by generalized least squares. Without, they stay as they are.
+    fn fit(mut self, log: Option<&Log>, mut parameters: Option<Parameters>) -> Result<Fit, CalibrateError> {
+        let all_legs = 0..self.legs.len();
+        for round in 1.. {
+            self.update_observations(
+                parameters.map_or(f64::INFINITY, |found| found[POSITION_VARIANCE].sqrt()),
+            );
+            let start_parameters = parameters.unwrap_or_else(|| self.initial_guess());
+            if log.is_some() {
+                let solution = self.inlier_residuals(all_legs.clone()).filtered(&start_parameters);
+                self.estimated = identifiable_errors(&solution.information);
+            }
+            let has_new_outliers = self.mark_outliers(&start_parameters, round);
+            let residuals = self.inlier_residuals(all_legs.clone());
+            if residuals.terms.len() < MIN_LEGS {
+                return Err(CalibrateError::TooFewLegs { legs: residuals.terms.len() });
+            }
+            let maximum = maximize(&residuals, start_parameters, &free_parameters(&self.options));
+            let corrected = log.map(|log| self.corrected_errors(log, &maximum));
+            let has_converged = corrected.is_none_or(|(_, is_small_change)| is_small_change);
+            if !has_new_outliers && round > 1 && has_converged || round == MAX_ROUNDS {
+                return Ok(Fit { sample: self, residuals, maximum });
+            }
+            if let (Some(log), Some((systematic, _))) = (log, corrected) {
+                let change = systematic.clock_offset - self.systematic.clock_offset;
+                log.realign(&mut self.legs, systematic.clock_offset, change);
+                self.systematic = systematic;
+            }
+            parameters = Some(maximum.parameters);
         }
-        let maximum = maximize(&residuals, start, &free_parameters(&self.options));
-        Ok((residuals, maximum))
+        unreachable!("the last round returns")
+    }
+
+    /// Returns the systematic errors after a step of generalized least squares, and true if the step is small. Errors that are not identifiable
+    /// have no correction.
+    fn corrected_errors(&self, log: &Log, maximum: &Maximum) -> (Systematic, bool) {
+        let (mut corrected, mut is_small_change) = (log.initial_errors(), true);
+        let solution = &maximum.expansion.filtered;
+        for error in SystematicError::ALL.into_iter().filter(|error| self.estimated[*error as usize]) {
+            let (i, max_change) = (error as usize, 4.0 * error.identifiability_limit());
+            is_small_change &=
+                solution.errors[i].abs() <= CONVERGENCE_TOLERANCE * solution.covariance[(i, i)].sqrt();
+            *corrected.get_mut(error) =
+                self.systematic.get(error) - solution.errors[i].clamp(-max_change, max_change);
+        }
+        corrected.mount_yaw = wrap_angle(corrected.mount_yaw);
+        (corrected, is_small_change)
     }
 
     /// Returns the initial guess of the parameters, from the median of the squared residuals of each component.
@@ -124,10 +139,9 @@ impl Sample {
             alphas.iter().for_each(|index| parameters[*index] = alpha.max(parameters[*index]));
         }
         let Options { position_std, yaw_std, .. } = self.options;
-        parameters[POSITION_VARIANCE] =
-            position_std.map_or(INITIAL_REFERENCE_STD * INITIAL_REFERENCE_STD, |std| std * std);
-        parameters[YAW_VARIANCE] =
-            yaw_std.map_or(INITIAL_REFERENCE_STD * INITIAL_REFERENCE_STD, |std| std * std);
+        for (variance, std) in [(POSITION_VARIANCE, position_std), (YAW_VARIANCE, yaw_std)] {
+            parameters[variance] = std.unwrap_or(INITIAL_REFERENCE_STD).powi(2);
+        }
         parameters
     }
 }
@@ -161,79 +175,62 @@ impl<'a> Log<'a> {
         Ok(Self { drives, offsets: drives.iter().map(clock_offset_of).collect::<Result<_, _>>()? })
     }
 
-    pub fn clock_offset(&self) -> f64 {
-        self.offsets.first().copied().unwrap_or(0.0)
+    /// Returns the systematic errors before the fit. Their clock offset is that of the first drive.
+    fn initial_errors(&self) -> Systematic {
+        Systematic { clock_offset: self.offsets.first().copied().unwrap_or(0.0), ..Systematic::NONE }
     }
 
     /// Cuts all drives into legs. `clock_offset` (s) is the offset of the first drive.
-    pub fn legs(&self, options: &Options, clock_offset: f64) -> (Vec<Leg>, LostLegs) {
+    fn legs(&self, options: &Options, clock_offset: f64) -> Result<(Vec<Leg>, LostLegs), CalibrateError> {
         let (mut legs, mut lost) = (Vec::new(), LostLegs::default());
         for (index, drive) in self.drives.iter().enumerate() {
-            let (offset, first_leg) = (clock_offset + self.offsets[index] - self.clock_offset(), legs.len());
-            drive.cut_into_legs(options.legs, offset, &mut legs, &mut lost);
+            let first_leg = legs.len();
+            drive.cut_into_legs(options.legs, self.offset_of(index, clock_offset), &mut legs, &mut lost);
             legs[first_leg..].iter_mut().for_each(|leg| leg.drive = index);
         }
-        (legs, lost)
+        if legs.len() < MIN_LEGS {
+            Err(CalibrateError::TooFewLegs { legs: legs.len() })
+        } else {
+            Ok((legs, lost))
+        }
     }
 
-    /// Moves the reference poses of a leg by a change of the clock offset. `clock_offset` is the new offset of the first drive. A leg that
-    /// would leave the log stays as it is.
-    fn realign(&self, leg: &mut Leg, clock_offset: f64, offset_change: f64) {
-        let offset = clock_offset + self.offsets[leg.drive] - self.clock_offset();
-        if let Some(realigned) = self.drives[leg.drive].realigned(*leg, offset, offset_change) {
-            *leg = realigned;
+    /// Returns the clock offset (s) of a drive where that of the first drive is `clock_offset`.
+    fn offset_of(&self, drive: usize, clock_offset: f64) -> f64 {
+        self.offsets[drive] + clock_offset - self.initial_errors().clock_offset
+    }
+
+    /// Moves legs to a new clock offset, `change` (s) larger than before. A leg that would leave the log stays as it is.
+    fn realign(&self, legs: &mut [Leg], clock_offset: f64, change: f64) {
+        for leg in legs {
+            let offset = self.offset_of(leg.drive, clock_offset);
+            *leg = self.drives[leg.drive].realigned(*leg, offset, change).unwrap_or(*leg);
         }
     }
 }
 
-/// Fits all identifiable systematic errors. Each round fits the variances, and then corrects the errors by generalized least squares.
+/// Returns all legs, or evenly spread blocks of neighbouring legs if there are more than [`MAX_LEGS`].
+fn with_max_legs(legs: &[Leg]) -> Vec<Leg> {
+    if legs.len() <= MAX_LEGS {
+        return legs.to_vec();
+    }
+    let block_count = MAX_LEGS / LEGS_PER_BLOCK;
+    let blocks = (0..block_count).map(|block| block * (legs.len() - LEGS_PER_BLOCK) / (block_count - 1));
+    let first_leg_of_block = |first: usize| Leg { follows: false, ..legs[first] };
+    let legs_of_block = |first: usize| {
+        std::iter::once(first_leg_of_block(first))
+            .chain(legs[first + 1..first + LEGS_PER_BLOCK].iter().copied())
+    };
+    blocks.flat_map(legs_of_block).collect()
+}
+
+/// Fits all identifiable systematic errors.
 pub(super) fn fit_systematic(log: &Log, options: &Options) -> Result<Fit, CalibrateError> {
-    let initial_errors = Systematic { clock_offset: log.clock_offset(), ..Systematic::NONE };
-    let (legs, _) = log.legs(options, initial_errors.clock_offset);
-    if legs.len() < MIN_LEGS {
-        return Err(CalibrateError::TooFewLegs { legs: legs.len() });
-    }
-    let mut sample = Sample::with_max_legs(&legs, [true; ERROR_COUNT], options);
-    let mut systematic =
-        Systematic { mount_yaw: Systematic::initial_mount_yaw(&sample.legs), ..initial_errors };
-    let mut parameters: Option<Parameters> = None;
-    for round in 1.. {
-        let position_std =
-            parameters.map_or(f64::INFINITY, |parameters| parameters[POSITION_VARIANCE].sqrt());
-        sample.update_observations(&systematic, position_std);
-        let start_parameters = parameters.unwrap_or_else(|| sample.initial_guess());
-        sample.estimated = identifiable_errors(
-            &sample.inlier_residuals(0..legs.len()).least_squares(&start_parameters).information,
-        );
-        let gate_factor = if parameters.is_some() { 1.0 } else { FIRST_ROUND_GATE_FACTOR };
-        let mut has_converged = !sample.mark_outliers(&start_parameters, gate_factor, round) && round > 1;
-        let (residuals, maximum) = sample.fit(start_parameters)?;
-        let solution = &maximum.expansion.filtered.least_squares;
-        let previous_errors = systematic;
-        for (i, error) in SystematicError::ALL.into_iter().enumerate() {
-            if sample.estimated[i] {
-                let max_change = 4.0 * error.identifiability_limit();
-                let error_change = -solution.errors[i];
-                has_converged &=
-                    error_change.abs() <= CONVERGENCE_TOLERANCE * solution.covariance[(i, i)].sqrt();
-                *systematic.get_mut(error) += error_change.clamp(-max_change, max_change);
-            } else {
-                *systematic.get_mut(error) = initial_errors.get(error);
-            }
-        }
-        systematic.mount_yaw = wrap_angle(systematic.mount_yaw);
-        if has_converged || round == MAX_ROUNDS {
-            let block_length = (residuals.len() as f64).cbrt().ceil() as usize;
-            let sandwich = maximum.expansion.filtered.sandwich(block_length);
-            let std = |i: usize| solution.covariance[(i, i)].max(sandwich[(i, i)]).max(0.0).sqrt();
-            let stds = std::array::from_fn(std);
-            return Ok(Fit { sample, residuals, maximum, stds });
-        }
-        let offset_change = systematic.clock_offset - previous_errors.clock_offset;
-        sample.legs.iter_mut().for_each(|leg| log.realign(leg, systematic.clock_offset, offset_change));
-        parameters = Some(maximum.parameters);
-    }
-    unreachable!("the last round returns")
+    let initial_errors = log.initial_errors();
+    let (legs, _) = log.legs(options, initial_errors.clock_offset)?;
+    let legs = with_max_legs(&legs);
+    let systematic = Systematic { mount_yaw: Systematic::initial_mount_yaw(&legs), ..initial_errors };
+    Sample::new(legs, &systematic, [true; ERROR_COUNT], options).fit(Some(log), None)
 }
 
 /// Fits the variances with only the given errors corrected. Also returns the sample of all legs, because the fit may use only some of them.
@@ -242,28 +239,16 @@ pub(super) fn fit_corrected(
     options: &Options,
     corrected: &Systematic,
     mask: ErrorMask,
-    start: &Parameters,
+    start: Parameters,
 ) -> Result<(Fit, Sample, LostLegs), CalibrateError> {
-    let (legs, lost) = log.legs(options, corrected.clock_offset);
-    let mut sample = Sample::with_max_legs(&legs, mask, options);
-    let mut parameters = *start;
-    let mut last_fit = None;
-    for round in 1..=MAX_ROUNDS {
-        sample.update_observations(corrected, parameters[POSITION_VARIANCE].sqrt());
-        if !sample.mark_outliers(&parameters, 1.0, round) && last_fit.is_some() {
-            break;
-        }
-        let (residuals, maximum) = sample.fit(parameters)?;
-        parameters = maximum.parameters;
-        last_fit = Some((residuals, maximum));
+    let (legs, lost) = log.legs(options, corrected.clock_offset)?;
+    let fit = Sample::new(with_max_legs(&legs), corrected, mask, options).fit(None, Some(start))?;
+    let mut all_legs = fit.sample.clone();
+    if legs.len() > all_legs.legs.len() {
+        let parameters = &fit.maximum.parameters;
+        all_legs = Sample::new(legs, corrected, mask, options);
+        all_legs.update_observations(parameters[POSITION_VARIANCE].sqrt());
+        all_legs.mark_outliers(parameters, 1);
     }
-    let Some((residuals, maximum)) = last_fit else { unreachable!("the first round fits") };
-    let mut all_legs = sample.clone();
-    if legs.len() > sample.legs.len() {
-        all_legs = Sample::new(legs, mask, options);
-        all_legs.update_observations(corrected, parameters[POSITION_VARIANCE].sqrt());
-        all_legs.mark_outliers(&parameters, 1.0, 1);
-    }
-    let fit = Fit { sample, residuals, maximum, stds: [0.0; ERROR_COUNT] };
     Ok((fit, all_legs, lost))
 }

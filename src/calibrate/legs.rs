@@ -89,6 +89,7 @@ impl Leg {
 
 /// Numbers of legs that were left out, by cause.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "camelCase")]
 pub struct LostLegs {
     /// Legs for which the reference has no pose at one end.
@@ -134,14 +135,13 @@ const MAX_RATIO_ACROSS_PAUSE: f64 = 2.0;
 /// Median period of the reference over that of the odometry, above which the reference counts as sparse.
 const SPARSE_RATIO: f64 = 1.5;
 
-/// One end of a leg. Its fields have the meaning of the fields of [`Leg`].
+/// One end of a leg: its time by the clock of the odometry, the pose by the odometry, and the pose by the reference with the relative variance
+/// of its error, if the reference has a pose there.
 #[derive(Clone, Copy, Debug)]
 struct LegEnd {
     time: f64,
     odometry: SE2,
-    velocity: Vector3<f64>,
-    reference: SE2,
-    interpolation_variance: f64,
+    reference: Option<(SE2, f64)>,
 }
 
 impl Drive<'_> {
@@ -149,31 +149,22 @@ impl Drive<'_> {
         self.reference.median_period() > SPARSE_RATIO * self.odometry.median_period()
     }
 
-    /// Returns the end of a leg at a sample of the odometry, or at the nearest sample of the reference if that is sparse.
+    /// Returns the ends of legs that are possible: times by the clock of the odometry, poses by the odometry, and poses by the reference if
+    /// these are known without interpolation.
     ///
     /// Legs end at samples of the sparser trajectory. A pose interpolated between them would mix the noise of two neighbouring legs.
-    fn end_at(&self, sample: usize, clock_offset: f64) -> Option<LegEnd> {
+    fn possible_ends(&self, clock_offset: f64) -> Box<dyn Iterator<Item = (f64, SE2, Option<SE2>)> + '_> {
         let Self { odometry, reference } = *self;
-        let (time, pose) = odometry.sample(sample);
         if !self.has_sparse_reference() {
-            let velocity = odometry.velocity(sample);
-            let (reference, interpolation_variance) = reference.interpolated(time + clock_offset)?;
-            return Some(LegEnd { time, odometry: pose, velocity, reference, interpolation_variance });
+            return Box::new(odometry.samples().map(|(time, pose)| (time, pose, None)));
         }
-        let (reference_time, reference) = reference.sample(reference.nearest(time + clock_offset)?);
-        let odometry_time = reference_time - clock_offset;
-        let velocity = odometry.velocity(odometry.nearest(odometry_time)?);
-        Some(LegEnd {
-            time: odometry_time,
-            odometry: odometry.pose_at(odometry_time)?,
-            velocity,
-            reference,
-            interpolation_variance: 1.0,
-        })
+        Box::new(reference.samples().filter_map(move |(time, pose)| {
+            let odometry_time = time - clock_offset;
+            Some((odometry_time, odometry.pose_at(odometry_time)?, Some(pose)))
+        }))
     }
 
-    /// Returns a leg of this drive under another clock offset, `change` (s) larger than the offset with which the leg was cut. None if a
-    /// trajectory does not cover it.
+    /// Returns a leg of this drive under another clock offset, `change` (s) larger than before. None if a trajectory does not cover it.
     pub(super) fn realigned(&self, mut leg: Leg, clock_offset: f64, change: f64) -> Option<Leg> {
         for end in 0..2 {
             if self.has_sparse_reference() {
@@ -196,57 +187,52 @@ impl Drive<'_> {
         lost: &mut LostLegs,
     ) {
         let Self { odometry, reference } = *self;
-        // Start of the present leg: time and pose of the odometry, and the end of the previous leg if the reference has a pose there.
-        let mut start: Option<((f64, SE2), Option<LegEnd>)> = None;
-        let (mut follows_previous, mut has_pause) = (false, false);
-        for (sample, (time, pose)) in odometry.samples().enumerate() {
-            if odometry.has_break_before(sample) && start.take().is_some() {
-                lost.across_breaks += 1;
-            }
-            let Some(((start_time, start_pose), leg_start)) = start else {
-                start = Some(((time, pose), self.end_at(sample, clock_offset)));
-                (follows_previous, has_pause) = (false, false);
+        let mut leg_start: Option<LegEnd> = None;
+        let mut follows_previous = false;
+        for (time, pose, reference_pose) in self.possible_ends(clock_offset) {
+            let find_end = || {
+                let known_pose = reference_pose.map(|pose| (pose, 1.0));
+                let reference = known_pose.or_else(|| reference.interpolated(time + clock_offset));
+                LegEnd { time, odometry: pose, reference }
+            };
+            let has_break = leg_start.is_some_and(|start| odometry.has_break(start.time, time));
+            lost.across_breaks += usize::from(has_break);
+            let Some(start) = leg_start.filter(|_| !has_break) else {
+                (leg_start, follows_previous) = (Some(find_end()), false);
                 continue;
             };
-            has_pause |= odometry.has_gap_before(sample);
-            let end_poses = [start_pose, pose];
-            if !length.is_complete(&end_poses, time - start_time) {
+            let (poses, duration) = ([start.odometry, pose], time - start.time);
+            if !length.is_complete(&poses, duration) {
                 continue;
             }
-            let leg_end = self.end_at(sample, clock_offset);
-            let (Some(from), Some(to)) = (leg_start, leg_end) else {
-                // The leg stays open until it is too long, because the reference may have a pose again.
-                if leg_start.is_none() || length.ratio(&end_poses, time - start_time) > MAX_RATIO_ACROSS_PAUSE
-                {
-                    lost.without_reference += 1;
-                    (start, follows_previous) = (Some(((time, pose), leg_end)), false);
-                }
+            let (end, motion) = (find_end(), start.odometry.between(&pose));
+            let is_too_long = length.ratio(&poses, duration) > MAX_RATIO_ACROSS_PAUSE;
+            // The leg stays open until it is too long, because the reference may have a pose again.
+            if start.reference.is_some() && end.reference.is_none() && !is_too_long {
+                continue;
+            }
+            let had_followed = std::mem::replace(&mut follows_previous, false);
+            leg_start = Some(end);
+            let (Some((start_reference, start_variance)), Some((end_reference, end_variance))) =
+                (start.reference, end.reference)
+            else {
+                lost.without_reference += 1;
                 continue;
             };
-            // The nearest sample of a sparse reference may still be the one at the start. The leg then stays open.
-            if to.time <= from.time {
-                continue;
-            }
-            start = Some(((time, pose), Some(to)));
-            let (has_paused, had_followed) =
-                (std::mem::take(&mut has_pause), std::mem::replace(&mut follows_previous, true));
-            let motion = from.odometry.between(&to.odometry);
-            if reference.has_break(from.time + clock_offset, to.time + clock_offset) {
+            if reference.has_break(start.time + clock_offset, time + clock_offset) {
                 lost.across_breaks += 1;
-                follows_previous = false;
-            } else if has_paused && length.ratio(&end_poses, time - start_time) > MAX_RATIO_ACROSS_PAUSE {
+            } else if is_too_long && odometry.has_gap(start.time, time) {
                 lost.across_pauses += 1;
-                follows_previous = false;
             } else if turn(&motion) < MAX_STANDING_TURN && distance(&motion) < MAX_SPIN_DISTANCE {
                 lost.standing += 1;
-                follows_previous = false;
             } else {
+                follows_previous = true;
                 legs.push(Leg {
-                    times: [from.time, to.time],
-                    odometry: [from.odometry, to.odometry],
-                    velocities: [from.velocity, to.velocity],
-                    reference: [from.reference, to.reference],
-                    interpolation_variances: [from.interpolation_variance, to.interpolation_variance],
+                    times: [start.time, time],
+                    odometry: poses,
+                    velocities: [start.time, time].map(|time| odometry.velocity(time)),
+                    reference: [start_reference, end_reference],
+                    interpolation_variances: [start_variance, end_variance],
                     follows: had_followed,
                     drive: 0,
                 });

@@ -14,13 +14,13 @@
 //! vectors (Gilmour, Thompson and Cullis 1995).
 
 use super::legs::Leg;
-use super::matrices::{WideMatrix, inverse, product};
+use super::matrices::{masked_inverse, product, propagated, quadratic_form, transposed_product};
 use super::residuals::{Model, Observation};
 use super::result::LegFit;
 use super::systematic::{ERROR_COUNT, ErrorMask, Systematic, SystematicError};
+use crate::geom::se2::SE2;
 use nalgebra::{Matrix3, SMatrix, SVector, Vector3};
 use std::f64::consts::TAU;
-use std::rc::Rc;
 
 /// Largest number of α's of a model.
 pub(super) const MAX_ALPHAS: usize = 6;
@@ -38,22 +38,21 @@ pub(super) type Parameters = SVector<f64, PARAMETER_COUNT>;
 pub(super) type Information = SMatrix<f64, PARAMETER_COUNT, PARAMETER_COUNT>;
 
 /// Columns that the recursion carries: the Jacobian of the residual with respect to each systematic error, then the residual.
-type JacobianAndResidual = WideMatrix<3>;
-const RESIDUAL_COLUMN: usize = ERROR_COUNT;
-type Gram = WideMatrix<{ RESIDUAL_COLUMN + 1 }>;
+type Columns = SMatrix<f64, 3, COLUMN_COUNT>;
+const COLUMN_COUNT: usize = ERROR_COUNT + 1;
 pub(super) type ErrorMatrix = SMatrix<f64, ERROR_COUNT, ERROR_COUNT>;
 type ErrorVector = SVector<f64, ERROR_COUNT>;
 
 /// Minimum standard deviation of a residual (rad, m or their rates). It keeps the likelihood of a log without noise finite.
 const MIN_STD: f64 = 1e-7;
 
-/// Maximum absolute value of residuals and their derivatives. Legs with larger values are not used.
+/// Maximum absolute value of residuals and their derivatives. Legs with larger values are not used, because their squares would overflow.
 const MAX_ENTRY: f64 = 1e30;
 
-/// Residuals of one leg in the form that the likelihood needs.
-#[derive(Clone, Copy, Debug)]
+/// Residuals of one leg in the form that the likelihood needs. By default it has no observed component.
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Term {
-    columns: JacobianAndResidual,
+    columns: Columns,
     /// Factors of the α's in the variance of each component.
     coefficients: [[f64; 2]; 3],
     /// False for a component without a residual. Its residual is 0 here, and its variance 1.
@@ -61,24 +60,22 @@ pub(super) struct Term {
     /// Jacobians with respect to the reference's errors at the start and at the end of the leg.
     start: Matrix3<f64>,
     end: Matrix3<f64>,
+    /// True if the leg starts at the reference pose at which the previous leg ends.
+    pub follows: bool,
 }
 
 /// Residuals of several legs, with the model and the systematic errors that are estimated with them.
 #[derive(Clone, Debug)]
 pub(super) struct Residuals {
-    terms: Rc<Vec<Term>>,
-    /// Indices of the terms that are used, each with true if its leg starts at the reference pose at which the previous leg ends.
-    chosen: Vec<(usize, bool)>,
-    /// Number of observed components of the used terms.
-    count: usize,
-    model: Model,
-    estimated: ErrorMask,
+    pub model: Model,
+    pub estimated: ErrorMask,
+    pub terms: Vec<Term>,
 }
 
 /// Innovation of one leg: its residual, and the Jacobian of the residual, minus their predictions from the previous legs.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Innovation {
-    columns: JacobianAndResidual,
+    columns: Columns,
     /// Variance of each component; NaN for a component that is not observed.
     variances: [f64; 3],
     /// Inverse covariance.
@@ -87,16 +84,10 @@ pub(super) struct Innovation {
     gain: Matrix3<f64>,
 }
 
-/// Innovations of all legs under given variances, with the resulting least-squares estimate.
+/// Innovations of all legs under given variances, and generalized least squares of the systematic errors.
 #[derive(Clone, Debug)]
 pub(super) struct FilterResult {
     pub innovations: Vec<Innovation>,
-    pub least_squares: LeastSquares,
-}
-
-/// Generalized least squares of the systematic errors under given variances.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct LeastSquares {
     pub log_likelihood: f64,
     /// Information on all errors, XᵀV⁻¹X.
     pub information: ErrorMatrix,
@@ -110,74 +101,64 @@ pub(super) struct LeastSquares {
 #[derive(Clone, Debug)]
 pub(super) struct Expansion {
     pub filtered: FilterResult,
-    /// rᵀP Vⱼ P r and tr(P Vⱼ) for each parameter j. The score is half of their difference.
-    pub quadratic: Parameters,
-    pub trace: Parameters,
-    pub information: Information,
+    /// Sum of the scores of all legs: ½ (rᵀP Vⱼ P r − tr(P Vⱼ)) for each parameter j.
+    pub score: Parameters,
+    /// tr(P Vⱼ) for each parameter j.
+    pub traces: Parameters,
     /// Score of each leg.
     pub scores: Vec<Parameters>,
-}
-
-impl Expansion {
-    pub fn log_likelihood(&self) -> f64 {
-        self.filtered.least_squares.log_likelihood
-    }
-
-    pub fn score(&self) -> Parameters {
-        (self.quadratic - self.trace) * 0.5
-    }
+    pub information: Information,
 }
 
 impl Term {
     pub fn new(model: Model, leg: &Leg, observation: &Observation, corrected: &Systematic) -> Self {
-        let residuals = observation.residuals;
-        let error_jacobian =
-            observation.jacobian * corrected.motion_jacobian(model, leg, &observation.expected);
-        // A leg with huge numbers is not used, because their squares would overflow.
+        let Observation { residuals, coefficients, jacobian, expected, .. } = observation;
+        let error_jacobian = jacobian * corrected.motion_jacobian(model, leg, expected);
         if residuals.iter().chain(&error_jacobian).any(|entry| entry.abs() > MAX_ENTRY) {
-            let [start, end] = [Matrix3::zeros(); 2];
-            return Self {
-                columns: WideMatrix::ZERO,
-                coefficients: [[0.0; 2]; 3],
-                observed: [false; 3],
-                start,
-                end,
-            };
+            return Self::default();
         }
         let observed = residuals.map(|residual| !residual.is_nan());
-        let columns = WideMatrix::from_fn(|k, column| match column {
-            RESIDUAL_COLUMN if observed[k] => residuals[k],
-            0..RESIDUAL_COLUMN => error_jacobian[(k, column)],
-            _ => 0.0,
-        });
-        let [start, end] = corrected
-            .reference_jacobians(leg)
-            .map(|reference_jacobian| observation.jacobian * reference_jacobian);
-        Self { columns, coefficients: observation.coefficients, observed, start, end }
+        let observed_residuals = residuals.map(|residual| if residual.is_nan() { 0.0 } else { residual });
+        let mut columns = Columns::zeros();
+        columns.fixed_columns_mut::<ERROR_COUNT>(0).copy_from(&error_jacobian);
+        columns.set_column(ERROR_COUNT, &observed_residuals.into());
+        // Errors of the reference displace the measured end, whose heading differs from that of the expected end.
+        let heading_error = expected.between(&corrected.motion(leg)).theta();
+        let end_jacobian = jacobian * SE2::new(0.0, 0.0, heading_error).adjoint();
+        let [start, end] =
+            corrected.reference_jacobians(leg).map(|pose_jacobian| end_jacobian * pose_jacobian);
+        Self { columns, coefficients: *coefficients, observed, start, end, follows: false }
     }
 }
 
 impl FilterResult {
-    /// Returns the sandwich covariance of the systematic errors, C (Σ gᵦ gᵦᵀ) C. C is the covariance by the likelihood, and gᵦ the score of a
-    /// block of `length` legs. The sandwich is right even if the legs of a block are correlated.
-    pub fn sandwich(&self, length: usize) -> ErrorMatrix {
-        let LeastSquares { errors, covariance, .. } = self.least_squares;
-        let mut score_products = ErrorMatrix::zeros();
-        for block in self.innovations.chunks(length) {
-            let mut score = ErrorVector::zeros();
-            for Innovation { columns, weight, .. } in block {
-                let jacobian: SMatrix<f64, 3, ERROR_COUNT> = columns.block(0);
-                score += jacobian.transpose() * (weight * residual_without_errors(columns, &errors));
-            }
-            score_products += score * score.transpose();
-        }
-        covariance * score_products * covariance
+    /// Returns the standard errors of the systematic errors; 0 for those that are not estimated.
+    ///
+    /// Each is the larger one of two: that of the covariance C by the likelihood, and that of the sandwich C (Σ gᵦ gᵦᵀ) C with gᵦ the score of a
+    /// block of legs. The sandwich is right even if the legs of a block are correlated.
+    pub fn error_stds(&self) -> [f64; ERROR_COUNT] {
+        let Self { innovations, errors, covariance, .. } = self;
+        let score_of_leg = |innovation: &Innovation| {
+            let weighted = innovation.weight * residual_without_errors(&innovation.columns, errors);
+            innovation.columns.fixed_columns::<ERROR_COUNT>(0).tr_mul(&weighted)
+        };
+        let scores = innovations.chunks(block_length(innovations.len())).map(|block| {
+            let score: ErrorVector = block.iter().map(score_of_leg).sum();
+            score * score.transpose()
+        });
+        let sandwich = covariance * scores.sum::<ErrorMatrix>() * covariance;
+        std::array::from_fn(|i| covariance[(i, i)].max(sandwich[(i, i)]).max(0.0).sqrt())
     }
 
     /// Returns the innovation of each leg, with its standard deviations under the fit.
     pub fn leg_fits(&self) -> impl Iterator<Item = LegFit> {
-        self.innovations.iter().map(|innovation| innovation.leg_fit(&self.least_squares.errors, false))
+        self.innovations.iter().map(|innovation| innovation.leg_fit(&self.errors, false))
     }
+}
+
+/// Returns the number of legs of a block whose scores are summed for a sandwich covariance.
+pub(super) fn block_length(legs: usize) -> usize {
+    ((2.0 * (legs as f64).cbrt()).ceil() as usize).max(1)
 }
 
 impl Innovation {
@@ -196,180 +177,126 @@ impl Innovation {
 
 /// Returns the residual minus the part that these systematic errors explain.
 #[inline(always)]
-fn residual_without_errors(columns: &JacobianAndResidual, errors: &ErrorVector) -> Vector3<f64> {
-    let mut residual = Vector3::zeros();
-    for k in 0..3 {
-        let row = columns.row(k);
-        let mut explained_part = row[0] * errors[0];
-        for error in 1..ERROR_COUNT {
-            explained_part += row[error] * errors[error];
-        }
-        residual[k] = row[RESIDUAL_COLUMN] - explained_part;
-    }
-    residual
+fn residual_without_errors(columns: &Columns, errors: &ErrorVector) -> Vector3<f64> {
+    Vector3::from_fn(|k, _| {
+        columns[(k, ERROR_COUNT)]
+            - (0..ERROR_COUNT).map(|error| columns[(k, error)] * errors[error]).sum::<f64>()
+    })
 }
 
 impl Residuals {
-    pub fn new(
-        model: Model,
-        estimated: ErrorMask,
-        terms: &Rc<Vec<Term>>,
-        chosen: Vec<(usize, bool)>,
-    ) -> Self {
-        let observed = chosen.iter().flat_map(|(term, _)| terms[*term].observed);
-        let count = observed.filter(|is_observed| *is_observed).count();
-        Self { terms: Rc::clone(terms), chosen, count, model, estimated }
-    }
-
-    /// Number of legs.
-    pub fn len(&self) -> usize {
-        self.chosen.len()
-    }
-
-    /// Returns, for each leg, true if it starts at the reference pose at which the previous leg ends.
-    pub fn follows(&self) -> impl Iterator<Item = bool> {
-        self.chosen.iter().map(|(_, follows)| *follows)
-    }
-
-    fn terms(&self) -> impl DoubleEndedIterator<Item = (&Term, bool)> + ExactSizeIterator {
-        self.chosen.iter().map(|(term, follows)| (&self.terms[*term], *follows))
-    }
-
-    /// Runs the forward recursion. Adds the innovation of each leg to `innovations`, if given.
-    fn filter(&self, parameters: &Parameters, mut innovations: Option<&mut Vec<Innovation>>) -> LeastSquares {
-        let reference_variances = reference_variances(parameters);
-        let (mut log_det, mut gram) = (0.0, Gram::ZERO);
-        let initial_state = (JacobianAndResidual::ZERO, Matrix3::from_diagonal(&reference_variances));
+    /// Runs the forward recursion under the given variances.
+    pub fn filtered(&self, parameters: &Parameters) -> FilterResult {
+        let mut innovations = Vec::with_capacity(self.terms.len());
+        let reference_covariance = reference_covariance(parameters);
+        let (mut log_det, mut gram) = (0.0, SMatrix::<f64, COLUMN_COUNT, COLUMN_COUNT>::zeros());
+        // Mean and covariance of the reference's error at the start of the leg.
+        let initial_state = (Columns::zeros(), reference_covariance);
         let (mut mean, mut prior) = initial_state;
         // Determinants are multiplied, because one logarithm is cheaper than many.
         let mut det = 1.0;
-        for (term, follows) in self.terms() {
-            if !follows {
+        for term in &self.terms {
+            if !term.follows {
                 (mean, prior) = initial_state;
             }
-            let columns = term.columns.with_added(&mean.left_multiplied(&-term.start));
-            let scaled_end = with_scaled_columns(&term.end, &reference_variances);
-            let mut covariance = product(&product(&term.start, &prior), &term.start.transpose())
-                + product(&scaled_end, &term.end.transpose());
+            let columns = term.columns - product(&term.start, &mean);
+            let scaled_end = product(&term.end, &reference_covariance);
+            let mut covariance =
+                propagated(&term.start, &prior) + product(&scaled_end, &term.end.transpose());
             let wheels = self.model.wheel_variances(&term.coefficients, parameters);
             for k in 0..3 {
                 covariance[(k, k)] += wheels[k] + if term.observed[k] { MIN_STD * MIN_STD } else { 1.0 };
             }
-            let (weight, determinant) = inverse(&covariance);
+            let (weight, determinant) =
+                (covariance.try_inverse().unwrap_or_default(), covariance.determinant());
             det *= determinant;
-            if !(1e-200..1e200).contains(&det) {
-                log_det += libm::log(det.max(f64::MIN_POSITIVE));
+            if determinant <= 0.0 {
+                // Variances differ by so many orders of magnitude that rounding makes the covariance indefinite.
+                log_det = f64::INFINITY;
+            } else if !(1e-200..1e200).contains(&det) {
+                log_det += libm::log(det);
                 det = 1.0;
             }
             let gain = product(&scaled_end.transpose(), &weight);
-            gram.add_product(&columns, &columns.left_multiplied(&weight));
-            mean = columns.left_multiplied(&gain);
-            prior = Matrix3::from_diagonal(&reference_variances)
-                - with_scaled_columns(&product(&gain, &term.end), &reference_variances);
-            if let Some(innovations) = &mut innovations {
-                let variance = |k: usize| if term.observed[k] { covariance[(k, k)] } else { f64::NAN };
-                let variances = [variance(0), variance(1), variance(2)];
-                innovations.push(Innovation { columns, variances, weight, gain });
-            }
+            gram += transposed_product(&columns, &product(&weight, &columns));
+            mean = product(&gain, &columns);
+            prior = reference_covariance - product(&gain, &scaled_end);
+            let variances =
+                std::array::from_fn(|k| if term.observed[k] { covariance[(k, k)] } else { f64::NAN });
+            innovations.push(Innovation { columns, variances, weight, gain });
         }
-        self.least_squares_of(log_det + libm::log(det.max(f64::MIN_POSITIVE)), &gram)
-    }
-
-    /// Returns the least-squares estimate from ln|V| and [X r]ᵀV⁻¹[X r].
-    fn least_squares_of(&self, log_det: f64, gram: &Gram) -> LeastSquares {
-        let information: ErrorMatrix = gram.block(0);
+        log_det += libm::log(det.abs());
+        let information: ErrorMatrix = gram.fixed_view::<ERROR_COUNT, ERROR_COUNT>(0, 0).into_owned();
         let (covariance, log_det_information) = masked_inverse(&information, &self.estimated);
-        let weighted_residual: ErrorVector = gram.block(RESIDUAL_COLUMN);
+        let weighted_residual = gram.fixed_view::<ERROR_COUNT, 1>(0, ERROR_COUNT);
         let errors = covariance * weighted_residual;
-        let degrees_of_freedom = self.count as f64 - self.estimated.iter().filter(|is| **is).count() as f64;
-        let deviance = log_det + log_det_information + gram.row(RESIDUAL_COLUMN)[RESIDUAL_COLUMN]
+        let count_true = |flags: &[bool]| flags.iter().filter(|is| **is).count() as f64;
+        let residual_count: f64 = self.terms.iter().map(|term| count_true(&term.observed)).sum();
+        let degrees_of_freedom = residual_count - count_true(&self.estimated);
+        let deviance = log_det + log_det_information + gram[(ERROR_COUNT, ERROR_COUNT)]
             - weighted_residual.dot(&errors)
             + degrees_of_freedom * libm::log(TAU);
-        LeastSquares { log_likelihood: -0.5 * deviance, information, errors, covariance }
-    }
-
-    pub fn least_squares(&self, parameters: &Parameters) -> LeastSquares {
-        self.filter(parameters, None)
-    }
-
-    /// Returns the innovation of each leg, and the least-squares estimate of the systematic errors.
-    pub fn filtered(&self, parameters: &Parameters) -> FilterResult {
-        let mut innovations = Vec::with_capacity(self.chosen.len());
-        let least_squares = self.filter(parameters, Some(&mut innovations));
-        FilterResult { innovations, least_squares }
+        FilterResult { innovations, log_likelihood: -0.5 * deviance, information, errors, covariance }
     }
 
     /// Returns the log-likelihood with its derivatives, from the innovations under the same parameters.
     pub fn expansion(&self, filtered: FilterResult) -> Expansion {
-        let LeastSquares { errors, covariance, .. } = filtered.least_squares;
-        // For a row x of V⁻¹X, a diagonal entry of P is smaller than that of V⁻¹ by x C xᵀ, because errors are estimated.
-        let covariance_rows =
-            WideMatrix::<ERROR_COUNT>::from_fn(|i, j| if j < ERROR_COUNT { covariance[(i, j)] } else { 0.0 });
+        let FilterResult { innovations, errors, covariance, .. } = &filtered;
         let alphas = self.model.component_alphas();
-        let mut expansion = Expansion {
-            filtered,
-            quadratic: Parameters::zeros(),
-            trace: Parameters::zeros(),
-            information: Information::zeros(),
-            scores: vec![Parameters::zeros(); self.len()],
-        };
-        // For each leg: P r, the weighted residuals, and their projections on the errors of the reference poses at start and end. A and B are
-        // the Jacobians by the pose at the start and by that at the end. The projection at a pose is Bᵀ P r of the leg that ends there, plus
-        // Aᵀ P r of the leg that starts there. It is stored with the leg that ends there, if there is one.
-        let mut projected = vec![[Vector3::zeros(); 3]; self.len()];
+        let (mut scores, mut traces) = (vec![Parameters::zeros(); self.terms.len()], Parameters::zeros());
+        // For each leg: P r, and its projections on the errors of the reference poses at start and end. A and B are the Jacobians by the pose
+        // at the start and by that at the end. The projection at a pose is Bᵀ P r of the leg that ends there, plus Aᵀ P r of the leg that
+        // starts there. It is stored with the leg that ends there, if there is one.
+        let mut projected = vec![[Vector3::zeros(); 3]; self.terms.len()];
         // V⁻¹[X r] of the next leg in the log, its block on the diagonal of V⁻¹, and its Jacobian A.
-        let mut next_leg: Option<(JacobianAndResidual, Matrix3<f64>, Matrix3<f64>)> = None;
-        let innovations = &expansion.filtered.innovations;
-        for (i, ((term, follows), innovation)) in self.terms().zip(innovations).enumerate().rev() {
+        let mut next_leg: Option<(Columns, Matrix3<f64>, Matrix3<f64>)> = None;
+        for (i, (term, innovation)) in self.terms.iter().zip(innovations).enumerate().rev() {
             let Innovation { columns, weight, gain, .. } = innovation;
-            let (mut solved, mut block) = (columns.left_multiplied(weight), *weight);
-            let (mut at_end, mut end_block) = (JacobianAndResidual::ZERO, Matrix3::zeros());
+            let (mut solved, mut block) = (product(weight, columns), *weight);
+            let (mut at_end, mut end_block) = (Columns::zeros(), Matrix3::zeros());
             if let Some((next, next_block, start)) = &next_leg {
                 let carried_gain = product(start, gain);
-                at_end = next.left_multiplied(&start.transpose());
-                solved = solved.with_added(&at_end.left_multiplied(&-gain.transpose()));
+                at_end = transposed_product(start, next);
+                solved -= transposed_product(gain, &at_end);
                 let off_diagonal = -product(next_block, &carried_gain);
-                block -= product(&carried_gain.transpose(), &off_diagonal);
-                let cross_block = product(&product(&start.transpose(), &off_diagonal), &term.end);
-                let start_product = product(&product(&start.transpose(), next_block), start);
-                end_block = start_product + cross_block + cross_block.transpose();
+                block -= transposed_product(&carried_gain, &off_diagonal);
+                let cross_block = product(&transposed_product(start, &off_diagonal), &term.end);
+                end_block =
+                    propagated(&start.transpose(), next_block) + cross_block + cross_block.transpose();
             }
-            at_end = at_end.with_added(&solved.left_multiplied(&term.end.transpose()));
-            end_block += product(&product(&term.end.transpose(), &block), &term.end);
-            let leg_projection = residual_without_errors(&solved, &errors);
-            let score = &mut expansion.scores[i];
-            let mut add_to_score = |parameter: usize, factor: f64, square: f64, trace: f64| {
-                expansion.quadratic[parameter] += factor * square;
-                expansion.trace[parameter] += factor * trace;
-                score[parameter] += 0.5 * factor * (square - trace);
-            };
-            for component in 0..3 {
-                let trace =
-                    block[(component, component)] - covariance_rows.quadratic_form(solved.row(component));
-                for (alpha, factor) in alphas[component].into_iter().zip(term.coefficients[component]) {
-                    add_to_score(alpha, factor, leg_projection[component] * leg_projection[component], trace);
-                }
-            }
-            let mut add_reference_error = |solved: &JacobianAndResidual, block: &Matrix3<f64>| {
-                let projection = residual_without_errors(solved, &errors);
-                for row in 0..3 {
-                    let trace = block[(row, row)] - covariance_rows.quadratic_form(solved.row(row));
-                    add_to_score(REFERENCE_VARIANCES[row], 1.0, projection[row] * projection[row], trace);
+            at_end += transposed_product(&term.end, &solved);
+            end_block += propagated(&term.end.transpose(), &block);
+            // Adds the scores of variances, given V⁻¹[X r] of their components and the block of V⁻¹. Returns P r of the components.
+            let mut add_scores = |solved: &Columns,
+                                  block: &Matrix3<f64>,
+                                  variances: [[(usize, f64); 2]; 3]| {
+                let projection = residual_without_errors(solved, errors);
+                for (row, variances) in variances.into_iter().enumerate() {
+                    // A diagonal entry of P is smaller than that of V⁻¹ by x C xᵀ for a row x of V⁻¹X, because errors are estimated.
+                    let x = std::array::from_fn(|error| solved[(row, error)]);
+                    let trace = block[(row, row)] - quadratic_form(covariance, &x);
+                    for (parameter, factor) in variances {
+                        traces[parameter] += factor * trace;
+                        scores[i][parameter] += 0.5 * factor * (projection[row] * projection[row] - trace);
+                    }
                 }
                 projection
             };
-            let end = add_reference_error(&at_end, &end_block);
-            let start = if follows && i > 0 {
+            let wheels = [0, 1, 2].map(|row| [0, 1].map(|k| (alphas[row][k], term.coefficients[row][k])));
+            let reference = REFERENCE_VARIANCES.map(|variance| [(variance, 1.0), (variance, 0.0)]);
+            let leg_projection = add_scores(&solved, &block, wheels);
+            let end = add_scores(&at_end, &end_block, reference);
+            let start = if term.follows {
                 Vector3::zeros()
             } else {
-                let start_block = product(&product(&term.start.transpose(), &block), &term.start);
-                add_reference_error(&solved.left_multiplied(&term.start.transpose()), &start_block)
+                let start_block = propagated(&term.start.transpose(), &block);
+                add_scores(&transposed_product(&term.start, &solved), &start_block, reference)
             };
             projected[i] = [leg_projection, start, end];
-            next_leg = (follows && i > 0).then_some((solved, block, term.start));
+            next_leg = term.follows.then_some((solved, block, term.start));
         }
-        expansion.information = self.average_information(innovations, &projected, &covariance);
-        expansion
+        let information = self.average_information(innovations, &projected, covariance);
+        Expansion { filtered, score: scores.iter().sum(), traces, scores, information }
     }
 
     /// Returns the average information ½ rᵀP Vⱼ P Vₖ P r for each pair of parameters j and k.
@@ -379,107 +306,55 @@ impl Residuals {
         projected: &[[Vector3<f64>; 3]],
         covariance: &ErrorMatrix,
     ) -> Information {
-        let (mut gram, mut cross_products) =
-            (WideMatrix::<PARAMETER_COUNT>::ZERO, WideMatrix::<ERROR_COUNT>::ZERO);
-        let (mut mean, mut pose) = (WideMatrix::<3>::ZERO, Vector3::zeros());
+        let mut gram = Information::zeros();
+        let mut cross_products = SMatrix::<f64, COLUMN_COUNT, PARAMETER_COUNT>::zeros();
+        let (mut mean, mut pose) = (SMatrix::<f64, 3, PARAMETER_COUNT>::zeros(), Vector3::zeros());
         let alphas = self.model.component_alphas();
-        for (((term, follows), innovation), [projected_noise, start, end]) in
-            self.terms().zip(innovations).zip(projected)
+        for ((term, innovation), [projected_noise, start, end]) in
+            self.terms.iter().zip(innovations).zip(projected)
         {
-            if !follows {
-                (mean, pose) = (WideMatrix::ZERO, *start);
+            if !term.follows {
+                (mean, pose) = (SMatrix::zeros(), *start);
             }
-            let mut columns = WideMatrix::<3>::ZERO;
+            let mut columns = -product(&term.start, &mean);
             for k in 0..3 {
-                let row = columns.row_mut(k);
                 for (alpha, factor) in alphas[k].into_iter().zip(term.coefficients[k]) {
-                    row[alpha] += factor * projected_noise[k];
+                    columns[(k, alpha)] += factor * projected_noise[k];
                 }
                 for (axis, variance) in REFERENCE_VARIANCES.into_iter().enumerate() {
-                    row[variance] += term.start[(k, axis)] * pose[axis] + term.end[(k, axis)] * end[axis];
+                    columns[(k, variance)] +=
+                        term.start[(k, axis)] * pose[axis] + term.end[(k, axis)] * end[axis];
                 }
             }
-            columns = columns.with_added(&mean.left_multiplied(&-term.start));
-            let weighted_columns = columns.left_multiplied(&innovation.weight);
-            gram.add_product(&columns, &weighted_columns);
-            cross_products.add_product(&innovation.columns, &weighted_columns);
-            mean = columns.left_multiplied(&innovation.gain);
+            let weighted_columns = product(&innovation.weight, &columns);
+            gram += transposed_product(&columns, &weighted_columns);
+            cross_products += transposed_product(&innovation.columns, &weighted_columns);
+            mean = product(&innovation.gain, &columns);
             pose = *end;
         }
-        let gram: Information = gram.block(0);
-        let cross_block: SMatrix<f64, ERROR_COUNT, PARAMETER_COUNT> = cross_products.block(0);
-        (gram - cross_block.transpose() * covariance * cross_block) * 0.5
+        let cross_products = cross_products.fixed_rows::<ERROR_COUNT>(0);
+        (gram - cross_products.transpose() * covariance * cross_products) * 0.5
     }
 }
 
-/// Returns a matrix whose columns are multiplied by the numbers of a vector.
-#[inline(always)]
-fn with_scaled_columns(matrix: &Matrix3<f64>, factors: &Vector3<f64>) -> Matrix3<f64> {
-    let mut scaled_matrix = *matrix;
-    for column in 0..3 {
-        for row in 0..3 {
-            scaled_matrix[(row, column)] *= factors[column];
-        }
-    }
-    scaled_matrix
+/// Returns the covariance R of the reference's error in x, y and θ.
+pub(super) fn reference_covariance(parameters: &Parameters) -> Matrix3<f64> {
+    Matrix3::from_diagonal(&REFERENCE_VARIANCES.map(|variance| parameters[variance]).into())
 }
 
-/// Returns the variances of the reference's error: the diagonal of its covariance R.
-pub(super) fn reference_variances(parameters: &Parameters) -> Vector3<f64> {
-    REFERENCE_VARIANCES.map(|variance| parameters[variance]).into()
-}
-
-/// Returns the inverse of the submatrix that the mask selects, with 0 elsewhere, and the logarithm of its determinant.
-fn masked_inverse(information: &ErrorMatrix, mask: &ErrorMask) -> (ErrorMatrix, f64) {
-    let (mut inverse, mut log_det) = (*information, 0.0);
-    for pivot in (0..ERROR_COUNT).filter(|pivot| mask[*pivot]) {
-        log_det += libm::log(inverse[(pivot, pivot)].max(f64::MIN_POSITIVE));
-        sweep(&mut inverse, pivot);
-    }
-    for i in 0..ERROR_COUNT {
-        for j in 0..ERROR_COUNT {
-            if !(mask[i] && mask[j]) {
-                inverse[(i, j)] = 0.0;
-            }
-        }
-    }
-    (inverse, log_det)
-}
-
-/// Returns the mask of the systematic errors that are identifiable. Errors are added one after the other, the one with the smallest standard error
-/// relative to its limit first. The search ends when each other error, estimated together with the added ones, would exceed its limit.
+/// Returns the mask of the systematic errors that are identifiable. The error with the largest standard error relative to its limit is left
+/// out, until none exceeds its limit.
 pub(super) fn identifiable_errors(information: &ErrorMatrix) -> ErrorMask {
-    let (mut swept_information, mut chosen) = (*information, [false; ERROR_COUNT]);
+    let mut mask = SystematicError::ALL.map(|error| information[(error as usize, error as usize)] > 0.0);
     loop {
-        let information_ratio_of = |error: usize| {
-            let error_limit = SystematicError::ALL[error].identifiability_limit();
-            swept_information[(error, error)] * error_limit * error_limit
+        let (covariance, _) = masked_inverse(information, &mask);
+        let relative_std = |error: &usize| {
+            covariance[(*error, *error)].sqrt() / SystematicError::ALL[*error].identifiability_limit()
         };
-        let candidates = (0..ERROR_COUNT)
-            .filter(|error| !chosen[*error])
-            .map(|error| (error, information_ratio_of(error)));
-        let Some((pivot, _)) = candidates
-            .max_by(|a, b| a.1.total_cmp(&b.1))
-            .filter(|(_, information_ratio)| *information_ratio > 1.0)
-        else {
-            return chosen;
-        };
-        chosen[pivot] = true;
-        sweep(&mut swept_information, pivot);
-    }
-}
-
-/// Applies the sweep operator (a Gauss–Jordan step) to one variable of a symmetric matrix.
-fn sweep(matrix: &mut ErrorMatrix, pivot: usize) {
-    let pivot_value = matrix[(pivot, pivot)];
-    let row = matrix.row(pivot) / pivot_value;
-    for i in (0..ERROR_COUNT).filter(|i| *i != pivot) {
-        let row_factor = matrix[(i, pivot)];
-        for j in 0..ERROR_COUNT {
-            matrix[(i, j)] -= row_factor * row[j];
+        let candidates = (0..ERROR_COUNT).filter(|error| mask[*error]);
+        match candidates.max_by(|a, b| relative_std(a).total_cmp(&relative_std(b))) {
+            Some(worst) if relative_std(&worst) > 1.0 => mask[worst] = false,
+            _ => return mask,
         }
-        matrix[(i, pivot)] = -row_factor / pivot_value;
     }
-    matrix.set_row(pivot, &row);
-    matrix[(pivot, pivot)] = 1.0 / pivot_value;
 }

@@ -1,138 +1,63 @@
-//! Products of the small matrices of the likelihood.
-//!
-//! In WebAssembly a call of a general product takes longer than the product itself. Products are therefore inlined, except two whose
-//! code is long. Products of wide matrices use explicit SIMD vectors.
-
-// Loops over indices compile to less code than iterators over two arrays.
-#![allow(clippy::needless_range_loop)]
+//! Products and inverses of the small matrices of the likelihood.
 
 use nalgebra::{Matrix3, SMatrix};
-use wide::{bytemuck, f64x2};
-
-/// Number of columns of a wide matrix.
-pub(super) const WIDTH: usize = 8;
-
-const VECTORS_PER_ROW: usize = WIDTH / 2;
-
-/// Matrix of `ROWS` rows and [`WIDTH`] columns, stored row by row.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct WideMatrix<const ROWS: usize>([[f64x2; VECTORS_PER_ROW]; ROWS]);
-
-impl<const ROWS: usize> WideMatrix<ROWS> {
-    pub const ZERO: Self = Self([[f64x2::ZERO; VECTORS_PER_ROW]; ROWS]);
-
-    pub fn from_fn(entry: impl Fn(usize, usize) -> f64) -> Self {
-        let mut matrix = Self::ZERO;
-        for row in 0..ROWS {
-            (0..WIDTH).for_each(|column| matrix.row_mut(row)[column] = entry(row, column));
-        }
-        matrix
-    }
-
-    #[inline(always)]
-    pub fn row(&self, row: usize) -> &[f64; WIDTH] {
-        bytemuck::cast_ref(&self.0[row])
-    }
-
-    #[inline(always)]
-    pub fn row_mut(&mut self, row: usize) -> &mut [f64; WIDTH] {
-        bytemuck::cast_mut(&mut self.0[row])
-    }
-
-    /// Returns a block of this matrix that begins at `column` of its first row.
-    pub fn block<const R: usize, const C: usize>(&self, column: usize) -> SMatrix<f64, R, C> {
-        SMatrix::from_fn(|i, j| self.row(i)[column + j])
-    }
-
-    /// Returns vᵀ M v with M the first `ROWS` columns of this matrix, and v the first `ROWS` entries of `vector`.
-    #[inline(always)]
-    pub fn quadratic_form(&self, vector: &[f64; WIDTH]) -> f64 {
-        let mut product = [f64x2::ZERO; VECTORS_PER_ROW];
-        for row in 0..ROWS {
-            for pair in 0..VECTORS_PER_ROW {
-                product[pair] += f64x2::splat(vector[row]) * self.0[row][pair];
-            }
-        }
-        let product: &[f64; WIDTH] = bytemuck::cast_ref(&product);
-        let mut sum = 0.0;
-        for row in 0..ROWS {
-            sum += product[row] * vector[row];
-        }
-        sum
-    }
-
-    /// Adds the product of the transpose of `left`'s first `ROWS` columns and `right`.
-    #[inline(always)]
-    pub fn add_product(&mut self, left: &WideMatrix<3>, right: &WideMatrix<3>) {
-        for row in 0..ROWS {
-            let left_column = [left.row(0)[row], left.row(1)[row], left.row(2)[row]];
-            let product = right.row_combination(left_column);
-            for pair in 0..VECTORS_PER_ROW {
-                self.0[row][pair] += product[pair];
-            }
-        }
-    }
-}
-
-impl WideMatrix<3> {
-    /// Returns the product `left` · `self`.
-    #[inline(never)]
-    pub fn left_multiplied(&self, left: &Matrix3<f64>) -> Self {
-        let mut product = Self::ZERO;
-        for row in 0..3 {
-            product.0[row] = self.row_combination([left[(row, 0)], left[(row, 1)], left[(row, 2)]]);
-        }
-        product
-    }
-
-    #[inline(always)]
-    pub fn with_added(mut self, other: &Self) -> Self {
-        for row in 0..3 {
-            for pair in 0..VECTORS_PER_ROW {
-                self.0[row][pair] += other.0[row][pair];
-            }
-        }
-        self
-    }
-
-    /// Returns a linear combination of the rows.
-    #[inline(always)]
-    fn row_combination(&self, [a, b, c]: [f64; 3]) -> [f64x2; VECTORS_PER_ROW] {
-        let [a, b, c] = [f64x2::splat(a), f64x2::splat(b), f64x2::splat(c)];
-        let mut sum = [f64x2::ZERO; VECTORS_PER_ROW];
-        for pair in 0..VECTORS_PER_ROW {
-            sum[pair] = a * self.0[0][pair] + b * self.0[1][pair] + c * self.0[2][pair];
-        }
-        sum
-    }
-}
 
 /// Returns the product of two matrices.
-#[inline(never)]
-pub(super) fn product(left: &Matrix3<f64>, right: &Matrix3<f64>) -> Matrix3<f64> {
-    let mut product = Matrix3::zeros();
-    for column in 0..3 {
-        for row in 0..3 {
-            product[(row, column)] = left[(row, 0)] * right[(0, column)]
-                + left[(row, 1)] * right[(1, column)]
-                + left[(row, 2)] * right[(2, column)];
+#[inline(always)]
+pub(super) fn product<const N: usize>(left: &Matrix3<f64>, right: &SMatrix<f64, 3, N>) -> SMatrix<f64, 3, N> {
+    transposed_product(&left.transpose(), right)
+}
+
+/// Returns the product of the transpose of a matrix and another matrix. In WebAssembly a call of nalgebra's general product takes longer than the
+/// product itself; the module would be larger if this one were inlined there.
+#[cfg_attr(target_arch = "wasm32", inline(never))]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
+pub(super) fn transposed_product<const M: usize, const N: usize>(
+    left: &SMatrix<f64, 3, M>,
+    right: &SMatrix<f64, 3, N>,
+) -> SMatrix<f64, M, N> {
+    let mut product = SMatrix::<f64, M, N>::zeros();
+    for (product_column, [x, y, z]) in product.data.0.iter_mut().zip(&right.data.0) {
+        for (entry, [a, b, c]) in product_column.iter_mut().zip(&left.data.0) {
+            *entry = a * x + b * y + c * z;
         }
     }
     product
 }
 
-/// Returns the inverse of a matrix (0 if the matrix is singular), and its determinant.
+/// Returns xᵀ M x.
 #[inline(always)]
-pub(super) fn inverse(matrix: &Matrix3<f64>) -> (Matrix3<f64>, f64) {
-    let row = |row: usize| [matrix[(row, 0)], matrix[(row, 1)], matrix[(row, 2)]];
-    let [a, b, c] = [row(0), row(1), row(2)];
-    let first_cofactors = cross_product(&b, &c);
-    let determinant = a[0] * first_cofactors[0] + a[1] * first_cofactors[1] + a[2] * first_cofactors[2];
-    let adjugate = Matrix3::from([first_cofactors, cross_product(&c, &a), cross_product(&a, &b)]);
-    (if determinant == 0.0 { Matrix3::zeros() } else { adjugate / determinant }, determinant)
+pub(super) fn quadratic_form<const N: usize>(matrix: &SMatrix<f64, N, N>, x: &[f64; N]) -> f64 {
+    let columns = matrix.data.0.iter().zip(x);
+    columns.map(|(column, x_j)| x_j * column.iter().zip(x).map(|(entry, x_i)| entry * x_i).sum::<f64>()).sum()
 }
 
+/// Returns the covariance J C Jᵀ of a linear function with the Jacobian J.
 #[inline(always)]
-fn cross_product(a: &[f64; 3], b: &[f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+pub(super) fn propagated(jacobian: &Matrix3<f64>, covariance: &Matrix3<f64>) -> Matrix3<f64> {
+    product(&product(jacobian, covariance), &jacobian.transpose())
+}
+
+/// Relative amount by which the diagonal of a matrix is increased before it is inverted, because rows may be collinear.
+const REGULARIZATION: f64 = 1e-9;
+
+/// Returns the inverse of the submatrix that a mask selects, with 0 elsewhere, and the logarithm of its determinant. The matrix is an
+/// information. Variables without information are not selected.
+pub(super) fn masked_inverse<const N: usize>(
+    information: &SMatrix<f64, N, N>,
+    mask: &[bool; N],
+) -> (SMatrix<f64, N, N>, f64) {
+    // The diagonal is scaled to 1, because variables differ by orders of magnitude.
+    let scales: [f64; N] = std::array::from_fn(|i| {
+        if mask[i] && information[(i, i)] > 0.0 { 1.0 / information[(i, i)].sqrt() } else { 0.0 }
+    });
+    let scaled_information = SMatrix::<f64, N, N>::from_fn(|i, j| {
+        if i == j { 1.0 + REGULARIZATION } else { information[(i, j)] * scales[i] * scales[j] }
+    });
+    let Some(cholesky) = nalgebra::Cholesky::new(scaled_information) else { return (SMatrix::zeros(), 0.0) };
+    let inverse = cholesky.inverse();
+    let selected_scales = scales.iter().filter(|scale| **scale > 0.0);
+    let log_det =
+        cholesky.ln_determinant() - 2.0 * selected_scales.map(|scale| libm::log(*scale)).sum::<f64>();
+    (SMatrix::from_fn(|i, j| inverse[(i, j)] * scales[i] * scales[j]), log_det)
 }

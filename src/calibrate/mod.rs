@@ -65,28 +65,25 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
     let log = Log::new(drives)?;
     let systematic = fit_systematic(&log, options)?;
     let errors = systematic.sample.systematic;
-    let persistence = persistence(&systematic);
-    // Correlated errors of neighbouring legs increase the standard errors, as if there were fewer legs.
-    let correlation = persistence.correlation.value;
-    let std_factor = ((1.0 + correlation) / (1.0 - correlation)).sqrt();
-    let systematic_stds = systematic.stds.map(|std| (std > 0.0).then_some(std_factor * std));
-    let (scale_checks, is_constant) = checks::scale_checks(&systematic, std_factor);
-    let is_corrected: ErrorMask =
-        std::array::from_fn(|i| systematic_stds[i].is_some() && options.correct[i].unwrap_or(is_constant[i]));
+    let error_stds = systematic.maximum.expansion.filtered.error_stds();
+    let (scale_checks, is_constant) = checks::scale_checks(&systematic);
+    let is_corrected: ErrorMask = std::array::from_fn(|i| {
+        systematic.sample.estimated[i] && options.correct[i].unwrap_or(is_constant[i])
+    });
     let mut corrected = Systematic::NONE;
     for error in SystematicError::ALL.into_iter().filter(|error| is_corrected[*error as usize]) {
         *corrected.get_mut(error) = errors.get(error);
     }
     let (fit, all_legs, lost) =
-        fit_corrected(&log, options, &corrected, is_corrected, &systematic.maximum.parameters)?;
+        fit_corrected(&log, options, &corrected, is_corrected, systematic.maximum.parameters)?;
     let parameters = &fit.maximum.parameters;
     let not_identifiable = identifiability(&fit);
-    let interval_of = intervals(&fit, correlation);
-    let is_identified = |alpha: usize| not_identifiable[alpha].is_none();
-    let alphas: Vec<Option<f64>> =
-        (0..options.model.alphas()).map(|alpha| is_identified(alpha).then_some(parameters[alpha])).collect();
-    let alpha_intervals =
-        (0..alphas.len()).map(|alpha| is_identified(alpha).then(|| interval_of(alpha))).collect();
+    let persistence = persistence(&systematic);
+    let interval_of = intervals(&fit, persistence.correlation.value);
+    let identified = not_identifiable.iter().enumerate();
+    let identified = identified.map(|(alpha, reason)| reason.is_none().then_some(alpha));
+    let alphas: Vec<Option<f64>> = identified.clone().map(|alpha| Some(parameters[alpha?])).collect();
+    let alpha_intervals = identified.map(|alpha| alpha.map(&interval_of)).collect();
     let reference_noise = [POSITION_VARIANCE, YAW_VARIANCE].map(|variance| Estimate {
         value: parameters[variance].sqrt(),
         interval: interval_of(variance).map(f64::sqrt),
@@ -94,23 +91,24 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
     let leg_fits = all_legs.leg_fits(parameters);
     let cross_validation = windows::cross_validate(&fit, &all_legs, &alphas);
     let inflation = cross_validation.recommended.as_ref().map_or(f64::INFINITY, |found| found.inflation);
-    let mut checks = checks::log_checks(&all_legs, &lost, &errors, inflation);
+    let identifies = alphas.iter().any(Option::is_some);
+    let mut checks = checks::log_checks(&fit, &all_legs, &lost, &errors, identifies, inflation);
     checks.extend(scale_checks);
     checks.extend(checks::residual_checks(&leg_fits, neighbour_correlation(&fit).0));
     checks.extend(cross_validation.checks);
-    let verdict = checks::verdict(&checks, alphas.iter().any(Option::is_some));
+    let verdict = checks::verdict(&checks, identifies);
     Ok(Calibration {
         alphas,
         intervals: alpha_intervals,
         not_identifiable,
         systematic: errors,
-        systematic_stds,
+        systematic_stds: error_stds.map(|std| (std > 0.0).then_some(std)),
         is_constant,
         corrected,
         is_corrected,
         reference_noise,
         persistence,
-        log_likelihood: fit.maximum.expansion.log_likelihood(),
+        log_likelihood: fit.maximum.expansion.filtered.log_likelihood,
         legs: all_legs.legs,
         observations: all_legs.observations,
         leg_fits,
@@ -121,11 +119,10 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
 }
 
 /// Returns the correlation of the innovations of neighbouring legs, and its standard error.
-fn neighbour_correlation(Fit { sample, maximum, .. }: &Fit) -> (f64, f64) {
-    let residuals = sample.inlier_residuals(0..sample.legs.len());
-    let fits: Vec<LegFit> = residuals.filtered(&maximum.parameters).leg_fits().collect();
+fn neighbour_correlation(Fit { residuals, maximum, .. }: &Fit) -> (f64, f64) {
+    let fits: Vec<LegFit> = maximum.expansion.filtered.leg_fits().collect();
     let (mut product, mut square_sum, mut count) = (0.0, 0.0, 0);
-    for (pair, _) in fits.windows(2).zip(residuals.follows().skip(1)).filter(|(_, follows)| *follows) {
+    for (pair, _) in fits.windows(2).zip(&residuals.terms[1..]).filter(|(_, term)| term.follows) {
         for (before, after) in pair[0].standardized.into_iter().zip(pair[1].standardized) {
             if !before.is_nan() && !after.is_nan() {
                 product += before * after;

@@ -19,12 +19,12 @@ impl Sample {
     /// Returns the innovations of all legs under these parameters. Inliers are filtered in sequence, each outlier by itself.
     pub(super) fn leg_fits(&self, parameters: &Parameters) -> Vec<LegFit> {
         let inliers = self.inlier_residuals(0..self.legs.len());
-        let terms = (0..self.legs.len()).filter(|leg| self.outliers[*leg]).map(|leg| (leg, false));
-        let outliers = Residuals::new(self.options.model, self.estimated, &self.terms, terms.collect());
-        let [inlier_fit, outlier_fit] = [inliers, outliers].map(|residuals| residuals.filtered(parameters));
-        let errors = inlier_fit.least_squares.errors;
+        let outliers = (0..self.legs.len()).filter(|leg| self.outliers[*leg]).map(|leg| self.terms[leg]);
+        let outliers = Residuals { terms: outliers.collect(), ..inliers.clone() };
+        let [inliers, outliers] = [inliers, outliers].map(|residuals| residuals.filtered(parameters));
+        let errors = inliers.errors;
         let [mut inliers, mut outliers] =
-            [inlier_fit, outlier_fit].map(|filtered| filtered.innovations.into_iter());
+            [inliers, outliers].map(|filtered| filtered.innovations.into_iter());
         let fit_of_next = |is_outlier: &bool| {
             let innovation = if *is_outlier { outliers.next() } else { inliers.next() };
             innovation.map(|innovation| innovation.leg_fit(&errors, *is_outlier))
@@ -32,19 +32,19 @@ impl Sample {
         self.outliers.iter().filter_map(fit_of_next).collect()
     }
 
-    /// Marks the outliers under these parameters, and returns true if they changed. `gate` is a factor on the χ² quantile of the gate.
-    pub(super) fn mark_outliers(&mut self, parameters: &Parameters, gate: f64, round: usize) -> bool {
+    /// Marks the outliers under these parameters, and returns true if they changed. `round` counts the rounds of the fit from 1.
+    pub(super) fn mark_outliers(&mut self, parameters: &Parameters, round: usize) -> bool {
         if self.options.outliers == Outliers::Keep {
             return false;
         }
         let fits = self.leg_fits(parameters);
         // Variances may still be too small in early rounds. The gate is wider then, so that at most half of the legs are outliers.
         let mut squared_distances: Vec<f64> = fits.iter().map(|fit| fit.squared).collect();
-        let gate = gate * (median(&mut squared_distances) / MEDIAN_CHI2).max(1.0);
-        let exceeds_gate = |fit: &LegFit| {
-            fit.observed_count() > 0 && fit.squared > gate * CHI2_9999[fit.observed_count() - 1]
+        let gate_factor = (median(&mut squared_distances) / MEDIAN_CHI2).max(1.0);
+        let is_marked = |fit: &LegFit| {
+            fit.is_outlier && round > LAST_RETURN_ROUND
+                || fit.observed_count() > 0 && fit.squared > gate_factor * CHI2_9999[fit.observed_count() - 1]
         };
-        let is_marked = |fit: &LegFit| fit.is_outlier && round > LAST_RETURN_ROUND || exceeds_gate(fit);
         let new_outliers: Vec<bool> = fits.iter().map(is_marked).collect();
         let has_changed = new_outliers != self.outliers;
         self.outliers = new_outliers;

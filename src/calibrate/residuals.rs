@@ -4,12 +4,11 @@
 
 use super::legs::{Leg, distance};
 use super::likelihood::Parameters;
-use super::systematic::{Systematic, log_sinc_derivative};
+use super::systematic::Systematic;
 use crate::geom::arc::invert_arc;
 use crate::geom::se2::{SE2, wrap_angle};
-use crate::geom::sinc::sinc;
 use crate::models::{LegVariances, MAX_SPIN_DISTANCE, OdomDelta, OdometryRule};
-use nalgebra::{Matrix3, RowVector3, Vector3};
+use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
 
 /// Model whose α's are fitted.
@@ -82,8 +81,10 @@ pub struct Observation {
     pub reading: [f64; 3],
     /// Motion that the model expects from the odometry, in the frame of the leg's start.
     pub expected: SE2,
-    /// Jacobian of the residuals with respect to the motion of the base (x, y, θ).
+    /// Jacobian of the residuals with respect to a displacement of the leg's end (x, y, θ), in the frame of the end.
     pub(super) jacobian: Matrix3<f64>,
+    /// Jacobian of the displacement of the leg's end with respect to the wheels' noise in the model's coordinates.
+    pub(super) noise_jacobian: Matrix3<f64>,
 }
 
 /// Maximum ratio of the reference's noise to the length of a leg for which directions are computed by atan2. With more noise atan2 is
@@ -98,17 +99,11 @@ impl Observation {
         let expected = corrected.expected(model, leg);
         let motion = corrected.motion(leg);
         let is_linear = position_std > MAX_ATAN2_NOISE_RATIO * distance(&expected);
-        let mut observation = match model {
+        match model {
             Model::Odometry(OdometryRule::Omni) => omni_residuals(expected, &motion),
             Model::Odometry(rule) => differential_residuals(rule, expected, &motion, is_linear),
             Model::Velocity => velocity_residuals(leg.duration(), &expected, &motion, is_linear),
-        };
-        for component in 0..3 {
-            if observation.residuals[component].is_nan() {
-                observation.jacobian.row_mut(component).fill(0.0);
-            }
         }
-        observation
     }
 }
 
@@ -154,28 +149,26 @@ fn differential_residuals(rule: OdometryRule, expected: SE2, motion: &SE2, is_li
     let (sin, cos) = libm::sincos(rot1);
     let [ahead, left] = [cos * motion.x() + sin * motion.y(), cos * motion.y() - sin * motion.x()];
     let turn_residual = wrap_angle(motion.theta() - rot1 - rot2);
-    let (residuals, coefficients, bearing_row) = if has_direction(odometry_reading.trans, ahead, is_linear) {
+    let (sin, cos) = libm::sincos(rot2);
+    let noise_jacobian = Matrix3::new(trans * sin, cos, 0.0, trans * cos, -sin, 0.0, 1.0, 0.0, 1.0);
+    let (residuals, coefficients, jacobian) = if has_direction(odometry_reading.trans, ahead, is_linear) {
         let (bearing_error, length_error) = if is_linear {
             (left / trans, ahead - trans)
         } else {
             (libm::atan2(left, ahead), libm::hypot(ahead, left) - trans)
         };
-        let bearing_row = RowVector3::new(-sin, cos, 0.0) / trans;
         let residuals = [bearing_error, length_error, wrap_angle(turn_residual - bearing_error)];
-        (residuals, [rot1_coefficients, trans_coefficients, rot2_coefficients], bearing_row)
+        let jacobian = noise_jacobian.try_inverse().unwrap_or_default();
+        (residuals, [rot1_coefficients, trans_coefficients, rot2_coefficients], jacobian)
     } else {
         let turn_coefficients =
             [rot1_coefficients[0] + rot2_coefficients[0], rot1_coefficients[1] + rot2_coefficients[1]];
-        (
-            [f64::NAN, ahead - trans, turn_residual],
-            [[0.0; 2], trans_coefficients, turn_coefficients],
-            RowVector3::zeros(),
-        )
+        let jacobian = Matrix3::new(0.0, 0.0, 0.0, cos, -sin, 0.0, 0.0, 0.0, 1.0);
+        let coefficients = [[0.0; 2], trans_coefficients, turn_coefficients];
+        ([f64::NAN, ahead - trans, turn_residual], coefficients, jacobian)
     };
-    let forward_row = RowVector3::new(cos, sin, 0.0);
-    let jacobian =
-        Matrix3::from_rows(&[bearing_row, forward_row, RowVector3::new(0.0, 0.0, 1.0) - bearing_row]);
-    Observation { residuals, coefficients, reading: [rot1, trans, rot2], expected, jacobian }
+    let reading = [rot1, trans, rot2];
+    Observation { residuals, coefficients, reading, expected, jacobian, noise_jacobian }
 }
 
 /// Returns the residuals of the turn, of the translation and of the strafe across it.
@@ -194,8 +187,10 @@ fn omni_residuals(expected: SE2, motion: &SE2) -> Observation {
         variances_per_alpha.map(|variances| variances.trans.0),
         variances_per_alpha.map(|variances| variances.strafe.0),
     ];
-    let jacobian = Matrix3::new(0.0, 0.0, 1.0, cos, sin, 0.0, -sin, cos, 0.0);
-    Observation { residuals, coefficients, reading: [rot1, trans, rot2], expected, jacobian }
+    let (sin, cos) = libm::sincos(rot2);
+    let jacobian = Matrix3::new(0.0, 0.0, 1.0, cos, -sin, 0.0, sin, cos, 0.0);
+    let (reading, noise_jacobian) = ([rot1, trans, rot2], jacobian.transpose());
+    Observation { residuals, coefficients, reading, expected, jacobian, noise_jacobian }
 }
 
 /// Returns the residuals of v, ω and γ: the arc measured by the reference minus the constant command that explains the odometry.
@@ -206,22 +201,18 @@ fn velocity_residuals(dt: f64, reading_motion: &SE2, motion: &SE2, is_linear: bo
     let [length, turn] = [twist.x, twist.z];
     let [v, omega] = [length / dt, turn / dt];
     let squared_rates = [v * v, omega * omega];
-    let half_turn = 0.5 * turn;
-    let (sin, cos) = libm::sincos(half_turn);
-    let forward_row = RowVector3::new(cos, sin, 0.0) / sinc(half_turn);
+    // A change of v or ω changes the twist, and γ turns the end.
+    let twist_jacobian = SE2::right_jacobian(&(Vector3::new(length, 0.0, turn)));
+    let noise_jacobian =
+        Matrix3::from_columns(&[twist_jacobian.column(0), twist_jacobian.column(2), Vector3::z().column(0)])
+            * dt;
     let executed_arc = invert_arc(&SE2::identity(), motion, dt);
+    let displacement = <[f64; 3]>::from(expected.between(motion));
     let (residuals, coefficients, jacobian) =
         if has_direction(length.abs(), length.signum() * executed_arc.v_hat * dt, is_linear) {
-            let bearing_row = RowVector3::new(-sin, cos, 0.0) / (length * sinc(half_turn));
-            let jacobian = Matrix3::from_rows(&[
-                forward_row - bearing_row * (length * log_sinc_derivative(half_turn)),
-                bearing_row * 2.0,
-                RowVector3::new(0.0, 0.0, 1.0) - bearing_row * 2.0,
-            ]) / dt;
+            let jacobian = noise_jacobian.try_inverse().unwrap_or_default();
             let residuals = if is_linear {
-                let turn_residual = wrap_angle(motion.theta() - expected.theta());
-                let error = Vector3::new(motion.x() - expected.x(), motion.y() - expected.y(), turn_residual);
-                (jacobian * error).into()
+                (jacobian * Vector3::from(displacement)).into()
             } else {
                 [
                     executed_arc.v_hat - v,
@@ -231,9 +222,14 @@ fn velocity_residuals(dt: f64, reading_motion: &SE2, motion: &SE2, is_linear: bo
             };
             (residuals, [squared_rates; 3], jacobian)
         } else {
-            let ahead = (cos * motion.x() + sin * motion.y()) / sinc(half_turn) / dt;
-            let jacobian = Matrix3::from_rows(&[forward_row / dt, RowVector3::zeros(), RowVector3::zeros()]);
-            ([ahead - v, f64::NAN, f64::NAN], [squared_rates, [0.0; 2], [0.0; 2]], jacobian)
+            // Only v is observed.
+            let end_per_v = noise_jacobian.column(0);
+            let row = end_per_v.transpose() / end_per_v.norm_squared();
+            let residual = (row * Vector3::from(displacement)).x;
+            let mut jacobian = Matrix3::zeros();
+            jacobian.set_row(0, &row);
+            ([residual, f64::NAN, f64::NAN], [squared_rates, [0.0; 2], [0.0; 2]], jacobian)
         };
-    Observation { residuals, coefficients, reading: [v, omega, dt], expected, jacobian }
+    let reading = [v, omega, dt];
+    Observation { residuals, coefficients, reading, expected, jacobian, noise_jacobian }
 }

@@ -17,8 +17,16 @@ pub struct Estimate {
     pub interval: [f64; 2],
 }
 
+impl Default for Estimate {
+    /// Returns the estimate of an unknown number of 0 or more.
+    fn default() -> Self {
+        Self { value: 0.0, interval: [0.0, f64::INFINITY] }
+    }
+}
+
 /// Persistence of the wheels' errors over several legs.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct Persistence {
     /// Correlation of the errors in neighbouring legs: 0 if legs are independent, at most 1.
     pub correlation: Estimate,
@@ -28,6 +36,7 @@ pub struct Persistence {
 
 /// Recommended α's, which a filter can use.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(missing_as_null))]
 pub struct Recommendation {
     /// Fitted α's times the inflation. None for an α that is not identifiable.
     pub alphas: Vec<Option<f64>>,
@@ -58,7 +67,7 @@ impl LegFit {
 }
 
 /// Result of a calibration.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Calibration {
     /// Fitted α's. None for an α that the log does not identify.
     pub alphas: Vec<Option<f64>>,
@@ -100,28 +109,14 @@ pub struct Calibration {
 impl Calibration {
     /// Returns the result of a log with too few legs for a fit.
     pub fn empty(model: Model) -> Self {
-        let unknown_estimate = Estimate { value: 0.0, interval: [0.0, f64::INFINITY] };
         Self {
             alphas: vec![None; model.alphas()],
             intervals: vec![None; model.alphas()],
             not_identifiable: vec![None; model.alphas()],
-            systematic: Systematic::NONE,
-            systematic_stds: [None; ERROR_COUNT],
             is_constant: [true; ERROR_COUNT],
-            corrected: Systematic::NONE,
-            is_corrected: [false; ERROR_COUNT],
-            reference_noise: [unknown_estimate; 2],
-            persistence: Persistence {
-                correlation: Estimate { value: 0.0, interval: [0.0, 1.0] },
-                length: 0.0,
-            },
             log_likelihood: f64::NAN,
-            legs: Vec::new(),
-            observations: Vec::new(),
-            leg_fits: Vec::new(),
-            lost: LostLegs::default(),
             diagnostics: Diagnostics::too_few_legs(),
-            recommended: None,
+            ..Self::default()
         }
     }
 

@@ -3,7 +3,7 @@
 use super::legs::Leg;
 use super::residuals::Model;
 use crate::geom::se2::SE2;
-use nalgebra::{Matrix2, Matrix3, SMatrix, Vector2, Vector3};
+use nalgebra::{Matrix3, SMatrix, Vector2, Vector3};
 use serde::{Deserialize, Serialize};
 
 /// Systematic errors of odometry and reference.
@@ -60,6 +60,12 @@ impl SystematicError {
             Self::MountYaw => 0.1,
             Self::DistanceScale | Self::TurnScale => 0.05,
         }
+    }
+}
+
+impl Default for Systematic {
+    fn default() -> Self {
+        Self::NONE
     }
 }
 
@@ -130,36 +136,16 @@ impl Systematic {
         SE2::exp(&read.log().component_mul(&Vector3::new(distance_scale, left_scale, turn_scale)))
     }
 
-    /// Returns the Jacobians of the base's motion with respect to the errors of the reference at the leg's start and end. An error is a
-    /// small motion (x, y, θ) in the frame of the reference there.
+    /// Returns the Jacobians of the end of the base's motion with respect to the errors of the reference at the leg's start and end. An error is
+    /// a small motion (x, y, θ) in the frame of the reference there, and a change of the end one in the frame of the end.
     pub(super) fn reference_jacobians(&self, leg: &Leg) -> [Matrix3<f64>; 2] {
-        let measured_motion = leg.reference[0].between(&leg.reference[1]);
-        let [mount_rotation, turn_rotation] = [self.mount_yaw, measured_motion.theta()].map(rotation_matrix);
-        let arm = turn_rotation * Vector2::from(self.lever_arm);
-        // Displacement of the base per rad of error of the reference's heading at the end.
-        let lever_derivative = Vector2::new(arm.y, -arm.x);
-        let turn_derivative = mount_rotation * Vector2::new(-measured_motion.y(), measured_motion.x());
-        let jacobian = |position_block: Matrix2<f64>, heading: Vector2<f64>, turn: f64| {
-            Matrix3::new(
-                position_block.m11,
-                position_block.m12,
-                heading.x,
-                position_block.m21,
-                position_block.m22,
-                heading.y,
-                0.0,
-                0.0,
-                turn,
-            )
-        };
+        let to_base = self.base().inverse().adjoint();
         let [start, end] = leg.interpolation_variances.map(f64::sqrt);
-        [
-            jacobian(-mount_rotation, -turn_derivative - lever_derivative, -1.0) * start,
-            jacobian(mount_rotation * turn_rotation, lever_derivative, 1.0) * end,
-        ]
+        [self.motion(leg).inverse().adjoint() * to_base * -start, to_base * end]
     }
 
-    /// Returns the Jacobian, with respect to [`SystematicError::ALL`], of the motion by the reference minus the motion by the odometry.
+    /// Returns the Jacobian, with respect to [`SystematicError::ALL`], of the end of the motion by the reference, minus that by the odometry, in
+    /// the frame of the end.
     ///
     /// The Jacobian is evaluated at the reading, because the noise of the measured motion would bias the estimate.
     pub(super) fn motion_jacobian(
@@ -168,27 +154,21 @@ impl Systematic {
         leg: &Leg,
         read: &SE2,
     ) -> SMatrix<f64, 3, ERROR_COUNT> {
-        let (sin, cos) = libm::sincos(read.theta());
-        let (x, y) = (read.x(), read.y());
-        let twist = read.log();
+        let (to_end, twist) = (read.inverse().adjoint(), read.log());
         let [start, end] = leg.velocities;
-        let offset_derivative = Vector3::new(
-            cos * end.x - sin * end.y - start.x + start.z * y,
-            sin * end.x + cos * end.y - start.y - start.z * x,
-            end.z - start.z,
-        );
-        let mut turn_scale_derivative = turn_derivative(&twist, read) * twist.z;
-        if !model.drives_sideways() {
-            let bent_motion = SE2::exp(&Vector3::new(0.0, twist.y, twist.z));
-            turn_scale_derivative += Vector3::new(bent_motion.x(), bent_motion.y(), 0.0);
-        }
+        // A change of the mount moves both ends of the leg by the same small motion.
+        let mount_derivative = |change: Vector3<f64>| to_end * change - change;
+        let yaw_change = self.base().inverse().adjoint().column(2).into_owned();
+        let twist_per_turn_scale =
+            Vector3::new(0.0, if model.drives_sideways() { 0.0 } else { twist.y }, twist.z);
+        let twist_jacobian = SE2::right_jacobian(&twist);
         SMatrix::from_columns(&[
-            offset_derivative,
-            Vector3::new(-y, x, 0.0),
-            Vector3::new(1.0 - cos, -sin, 0.0),
-            Vector3::new(sin, 1.0 - cos, 0.0),
-            -Vector3::new(x, y, 0.0) / self.distance_scale,
-            -turn_scale_derivative / self.turn_scale,
+            end - to_end * start,
+            mount_derivative(yaw_change),
+            mount_derivative(Vector3::x()),
+            mount_derivative(Vector3::y()),
+            twist_jacobian * Vector3::new(twist.x, twist.y, 0.0) / -self.distance_scale,
+            twist_jacobian * twist_per_turn_scale / -self.turn_scale,
         ])
     }
 }
@@ -199,24 +179,6 @@ const MIN_INITIAL_YAW: f64 = 0.5;
 /// Minimum mean resultant length of the direction differences of all legs: 1 if all differences are equal. Logs of unrelated drives
 /// have about 0.05.
 const MIN_RESULTANT: f64 = 0.5;
-
-fn rotation_matrix(angle: f64) -> Matrix2<f64> {
-    let (sin, cos) = libm::sincos(angle);
-    Matrix2::new(cos, -sin, sin, cos)
-}
-
-/// Returns the derivative of the motion exp(twist), which ends at `end`, with respect to the turn. The twist keeps its length.
-fn turn_derivative(twist: &Vector3<f64>, end: &SE2) -> Vector3<f64> {
-    let half_turn = 0.5 * twist.z;
-    let log_derivative = 0.5 * log_sinc_derivative(half_turn);
-    Vector3::new(log_derivative * end.x() - 0.5 * end.y(), log_derivative * end.y() + 0.5 * end.x(), 1.0)
-}
-
-/// Returns the derivative of ln sinc β: cot β − 1/β.
-pub(super) fn log_sinc_derivative(angle: f64) -> f64 {
-    let (sin, cos) = libm::sincos(angle);
-    if angle.abs() < 1e-4 { -angle / 3.0 } else { cos / sin - 1.0 / angle }
-}
 
 /// Mask over [`SystematicError::ALL`].
 pub type ErrorMask = [bool; ERROR_COUNT];

@@ -113,11 +113,6 @@ impl Trajectory {
         self.times.iter().copied().zip(self.poses.iter().copied())
     }
 
-    /// Returns the number of pauses and breaks together.
-    pub fn gaps(&self) -> usize {
-        (1..self.times.len()).filter(|sample| self.has_gap_before(*sample)).count()
-    }
-
     /// Returns the times (s) of the first and the last sample; None for an empty trajectory.
     pub fn span(&self) -> Option<[f64; 2]> {
         Some([*self.times.first()?, *self.times.last()?])
@@ -138,50 +133,48 @@ impl Trajectory {
         self.poses.first().map(|_| 0.0).into_iter().chain(steps).collect()
     }
 
-    /// Returns the velocity (m/s ahead and to the left, rad/s) at a sample: the mean over the steps before and after it.
-    pub(super) fn velocity(&self, sample: usize) -> Vector3<f64> {
+    /// Returns the velocity (m/s ahead and to the left, rad/s) at a time (s): the mean over the steps before and after the first sample that
+    /// is not earlier.
+    pub(super) fn velocity(&self, time: f64) -> Vector3<f64> {
+        let last = self.times.len() - 1;
+        let sample = self.times.partition_point(|row_time| *row_time < time).min(last);
         let from = if sample > 0 && !self.has_gap_before(sample) { sample - 1 } else { sample };
-        let next_index = sample + 1;
-        let to = if next_index < self.times.len() && !self.has_gap_before(next_index) {
-            next_index
-        } else {
-            sample
-        };
+        let to = if sample < last && !self.has_gap_before(sample + 1) { sample + 1 } else { sample };
         if from == to {
             return Vector3::zeros();
         }
         self.poses[to].boxminus(&self.poses[from]) / (self.times[to] - self.times[from])
     }
 
-    /// Returns the time (s) and the pose of a sample.
-    pub(super) fn sample(&self, sample: usize) -> (f64, SE2) {
-        (self.times[sample], self.poses[sample])
-    }
-
-    /// Returns the index of the sample nearest to a time (s). None if it is further away than half of the shortest pause.
-    pub(super) fn nearest(&self, time: f64) -> Option<usize> {
-        let next_index = self.times.partition_point(|row_time| *row_time < time);
-        let distance = |sample: usize| self.times.get(sample).map_or(f64::INFINITY, |at| (at - time).abs());
-        let previous_index = next_index.saturating_sub(1);
-        let nearest =
-            if distance(previous_index) < distance(next_index) { previous_index } else { next_index };
-        (distance(nearest) <= 0.5 * MAX_PERIOD_RATIO * self.median_period).then_some(nearest)
-    }
-
-    pub(super) fn has_break_before(&self, sample: usize) -> bool {
-        self.breaks.binary_search(&sample).is_ok()
-    }
-
     /// Returns true if a pause or a break is between the previous sample and this one.
-    pub(super) fn has_gap_before(&self, sample: usize) -> bool {
+    fn has_gap_before(&self, sample: usize) -> bool {
         let time_before = self.times[sample.saturating_sub(1)];
-        self.times[sample] - time_before > self.max_period || self.has_break_before(sample)
+        self.times[sample] - time_before > self.max_period || self.breaks.binary_search(&sample).is_ok()
+    }
+
+    /// Returns true if a pause or a break lies between two times (s).
+    pub(super) fn has_gap(&self, from: f64, to: f64) -> bool {
+        let next_index = self.times.partition_point(|time| *time <= from).max(1);
+        let mut samples = (next_index..self.times.len()).take_while(|sample| self.times[sample - 1] < to);
+        samples.any(|sample| self.has_gap_before(sample))
     }
 
     /// Returns true if a break lies between two times (s).
     pub(super) fn has_break(&self, from: f64, to: f64) -> bool {
         let next_index = self.breaks.partition_point(|sample| self.times[*sample] <= from);
         self.breaks.get(next_index).is_some_and(|sample| self.times[sample - 1] < to)
+    }
+
+    /// Returns the first sample that is not earlier than `time` (s), and the fraction of the step to it that has passed; 1 at the sample. None
+    /// outside of the trajectory and inside of a gap.
+    pub(super) fn locate(&self, time: f64) -> Option<(usize, f64)> {
+        let sample = self.times.partition_point(|row_time| *row_time < time);
+        let time_after = *self.times.get(sample)?;
+        if time_after == time {
+            return Some((sample, 1.0));
+        }
+        let before = sample.checked_sub(1).filter(|_| !self.has_gap_before(sample))?;
+        Some((sample, (time - self.times[before]) / (time_after - self.times[before])))
     }
 
     /// Returns the pose at `time` (s). Between two samples it lies on the arc of constant velocities that joins them. None outside of the
@@ -195,14 +188,13 @@ impl Trajectory {
     // Not inlined, because the code for arcs is long.
     #[inline(never)]
     pub(super) fn interpolated(&self, time: f64) -> Option<(SE2, f64)> {
-        let index_after = self.times.partition_point(|row_time| *row_time < time);
-        let (time_after, pose) = (*self.times.get(index_after)?, self.poses[index_after]);
-        if time_after == time {
+        let (sample, fraction) = self.locate(time)?;
+        let pose = self.poses[sample];
+        if fraction == 1.0 {
             return Some((pose, 1.0));
         }
-        let before = index_after.checked_sub(1).filter(|_| !self.has_gap_before(index_after))?;
-        let fraction = (time - self.times[before]) / (time_after - self.times[before]);
-        let interpolated_pose = self.poses[before].boxplus(pose.boxminus(&self.poses[before]) * fraction);
+        let before = self.poses[sample - 1];
+        let interpolated_pose = before.boxplus(pose.boxminus(&before) * fraction);
         Some((interpolated_pose, (1.0 - fraction) * (1.0 - fraction) + fraction * fraction))
     }
 }

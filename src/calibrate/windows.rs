@@ -7,7 +7,7 @@ use super::checks::{
 };
 use super::fit::{Fit, Sample};
 use super::legs::{Leg, distance};
-use super::likelihood::{Parameters, Residuals, reference_variances};
+use super::likelihood::{Parameters, Residuals, reference_covariance};
 use super::optimizer::maximize;
 use super::residuals::Observation;
 use super::result::Recommendation;
@@ -40,32 +40,26 @@ impl Sample {
         covariances: &[Option<Matrix3<f64>>],
         parameters: &Parameters,
     ) -> Vec<Window> {
-        let start_values = (0.0, SE2::identity(), Matrix3::zeros());
-        let (mut windows, mut first_leg) = (Vec::new(), range.start);
-        let (mut driven_distance, mut expected, mut wheel_covariance) = start_values;
+        let mut windows = Vec::new();
+        // First leg of the open window, and its driven distance, expected motion and covariance.
+        let mut open_window = None;
         for leg in range {
-            let Some(covariance) = covariances[leg] else {
-                first_leg = leg + 1;
-                continue;
-            };
-            if leg == first_leg || !self.legs[leg].follows {
-                (driven_distance, expected, wheel_covariance) = start_values;
-                first_leg = leg;
-            }
+            let previous_legs = open_window.take().filter(|_| self.legs[leg].follows);
+            let Some(covariance) = covariances[leg] else { continue };
+            let (first_leg, mut driven_distance, mut expected, mut wheel_covariance) =
+                previous_legs.unwrap_or((leg, 0.0, SE2::identity(), Matrix3::zeros()));
             let expected_motion = &self.observations[leg].expected;
             let to_leg_end = expected_motion.inverse().adjoint();
             wheel_covariance = to_leg_end * wheel_covariance * to_leg_end.transpose() + covariance;
             expected = expected * *expected_motion;
             driven_distance += distance(expected_motion);
-            if driven_distance >= length {
-                let (measured, reference_covariance) = self.reference_motion(first_leg, leg, parameters);
-                windows.push(Window {
-                    error: measured.boxminus(&expected),
-                    wheel_covariance,
-                    reference_covariance,
-                });
-                first_leg = leg + 1;
+            if driven_distance < length {
+                open_window = Some((first_leg, driven_distance, expected, wheel_covariance));
+                continue;
             }
+            let (measured, reference_covariance) = self.reference_motion(first_leg, leg, parameters);
+            let error = measured.boxminus(&expected);
+            windows.push(Window { error, wheel_covariance, reference_covariance });
         }
         windows
     }
@@ -83,35 +77,22 @@ impl Sample {
             interpolation_variances: [start.interpolation_variances[0], end.interpolation_variances[1]],
             ..*start
         };
-        let motion = self.systematic.motion(&window);
-        let covariances = self.systematic.reference_jacobians(&window).map(|jacobian| {
-            let rotated_jacobian = to_end_frame(&motion) * jacobian;
-            rotated_jacobian
-                * Matrix3::from_diagonal(&reference_variances(parameters))
-                * rotated_jacobian.transpose()
-        });
-        (motion, covariances.iter().sum())
+        let reference = reference_covariance(parameters);
+        let jacobians = self.systematic.reference_jacobians(&window);
+        let covariance = jacobians.map(|jacobian| jacobian * reference * jacobian.transpose()).iter().sum();
+        (self.systematic.motion(&window), covariance)
     }
 
     /// Returns the covariance of the wheels' noise over one leg, in the frame of its end. None for an outlier, and for a leg whose residuals do not
-    /// determine the noise. In a turn on the spot the first rotation has no noise.
-    fn wheel_covariance(&self, leg: usize, parameters: &Parameters) -> Option<Matrix3<f64>> {
-        let Observation { residuals, coefficients, mut jacobian, expected, .. } = self.observations[leg];
-        if residuals[0].is_nan() {
-            let wheel_direction = jacobian.row(1).transpose().cross(&jacobian.row(2).transpose());
-            jacobian.set_row(0, &wheel_direction.transpose());
-        }
-        let noise_jacobian = jacobian.try_inverse().filter(|_| !self.outliers[leg])?;
-        let rotated_jacobian = to_end_frame(&expected) * noise_jacobian;
-        let variances = self.options.model.wheel_variances(&coefficients, parameters);
-        Some(rotated_jacobian * Matrix3::from_diagonal(&variances) * rotated_jacobian.transpose())
+    /// determine the noise.
+    pub(super) fn wheel_covariance(&self, leg: usize, parameters: &Parameters) -> Option<Matrix3<f64>> {
+        let Observation { residuals, coefficients, noise_jacobian, .. } = &self.observations[leg];
+        // In a turn on the spot the first rotation has no noise.
+        let is_determined = !residuals[1].is_nan() && !self.outliers[leg];
+        let variances = self.options.model.wheel_variances(coefficients, parameters);
+        let covariance = noise_jacobian * Matrix3::from_diagonal(&variances) * noise_jacobian.transpose();
+        is_determined.then_some(covariance)
     }
-}
-
-/// Returns the rotation of a change of motion (x, y, θ) from the frame at the start of the motion to that at its end.
-fn to_end_frame(motion: &SE2) -> Matrix3<f64> {
-    let (sin, cos) = libm::sincos(motion.theta());
-    Matrix3::new(cos, sin, 0.0, -sin, cos, 0.0, 0.0, 0.0, 1.0)
 }
 
 /// Returns the fraction of windows inside of their 95 % ellipsoid, and their NEES: the mean squared Mahalanobis distance divided by its 3
@@ -129,34 +110,24 @@ fn coverage(windows: &[Window], length: f64, inflation: f64) -> WindowCoverage {
     }
 }
 
-/// Standard error of NEES over `count` windows: χ² with 3 degrees of freedom has variance 6.
-fn nees_std(count: usize) -> f64 {
-    (6.0 / count as f64).sqrt() / 3.0
-}
+/// Ratio of two successive inflations that are tried.
+const INFLATION_STEP: f64 = 1.005;
 
 /// Returns the smallest inflation of at least 1 under which 95 % of the windows are covered and NEES is not above its 95 % interval. None
 /// if [`MAX_INFLATION`] is not enough.
 fn required_inflation(windows: &[Window]) -> Option<f64> {
-    let is_covered = |inflation: f64| {
-        let WindowCoverage { coverage, nees, count, .. } = coverage(windows, 0.0, inflation);
-        coverage >= 0.95 && nees <= 1.0 + 1.96 * nees_std(count)
-    };
-    if windows.len() < MIN_WINDOWS || is_covered(1.0) {
+    if windows.len() < MIN_WINDOWS {
         return Some(1.0);
     }
-    if !is_covered(MAX_INFLATION) {
-        return None;
-    }
-    let (mut low_inflation, mut high_inflation) = (1.0, MAX_INFLATION);
-    while high_inflation / low_inflation > 1.005 {
-        let middle_inflation = f64::sqrt(low_inflation * high_inflation);
-        if is_covered(middle_inflation) {
-            high_inflation = middle_inflation
-        } else {
-            low_inflation = middle_inflation
-        }
-    }
-    Some(high_inflation)
+    // χ² with 3 degrees of freedom has variance 6.
+    let nees_std = (6.0 / windows.len() as f64).sqrt() / 3.0;
+    let is_covered = |inflation: f64| {
+        let WindowCoverage { coverage, nees, .. } = coverage(windows, 0.0, inflation);
+        coverage >= 0.95 && nees <= 1.0 + 1.96 * nees_std
+    };
+    let inflations = std::iter::successors(Some(1.0), |inflation| Some(inflation * INFLATION_STEP));
+    let inflations: Vec<f64> = inflations.take_while(|inflation| *inflation <= MAX_INFLATION).collect();
+    inflations.get(inflations.partition_point(|inflation| !is_covered(*inflation))).copied()
 }
 
 /// Lengths of the windows, m. Recommended α's have to cover windows of the first length.
@@ -182,7 +153,7 @@ pub(super) fn cross_validate(fit: &Fit, all_legs: &Sample, alphas: &[Option<f64>
     let parameters_by_other_half = [parameters_of(&residuals[1]), parameters_of(&residuals[0])];
     let (mut covered_legs, mut compared_legs) = (0, 0);
     for (residuals, parameters) in residuals.iter().zip(&parameters_by_other_half) {
-        compared_legs += residuals.len();
+        compared_legs += residuals.terms.len();
         let filtered = residuals.filtered(parameters);
         covered_legs += filtered
             .leg_fits()

@@ -398,6 +398,6 @@ test('the report says what failed, what is lost, and what to drive', async () =>
 
 /** Returns the reasons for which an α is not identifiable, as the core declares them. */
 function readDeclaredReasons() {
-  const [, reasonList] = readFileSync(new URL('../../dist/simulations.d.ts', import.meta.url), 'utf8').match(/notIdentifiable: \('(.*)' \| null\)\[\];/) ?? [];
-  return reasonList.split("' | '");
+  const [, reasonList] = readFileSync(new URL('../../dist/simulations.d.ts', import.meta.url), 'utf8').match(/type NotIdentifiable = "(.*)";/) ?? [];
+  return reasonList.split('" | "');
 }

@@ -77,7 +77,6 @@ fn a_leg_leads_across_a_pause_if_it_stays_short_enough() {
     let drive = straight_drive(101, 0.0625);
     for (after, ends, across_pauses) in [(1, 37, 0), (4, 40, 1)] {
         let drive_with_pause = without_rows_between(&drive, 30 + after, 30 + after + 6);
-        assert_eq!(drive_with_pause.gaps(), 1);
         let (legs, lost_legs) = split_into_legs(&drive_with_pause, &drive, AMCL_LEG, 0.0);
         assert_eq!(lost_legs, LostLegs { across_pauses, ..LostLegs::default() });
         let leg_across_pause = legs.iter().find(|leg| leg.times[0] == sample_times(&drive)[30]);
@@ -125,7 +124,6 @@ fn no_leg_leads_across_a_break() {
     let all_legs = split_into_legs(&drive, &drive, AMCL_LEG, 0.0).0;
     let break_rows = [17, 33, 34, 70];
     let drive_with_breaks = drive.clone().with_breaks_before(break_rows);
-    assert_eq!([drive.gaps(), drive_with_breaks.gaps()], [0, 4]);
     let has_break = |leg: &Leg| {
         let does_lead_across = |row: usize| {
             leg.times[0] < sample_times(&drive)[row] && sample_times(&drive)[row] <= leg.times[1]
@@ -149,7 +147,7 @@ fn no_leg_leads_across_a_break() {
     // There is no pose between the rows of a break, and no break before the first row or after the last.
     assert!(drive_with_breaks.pose_at(sample_times(&drive)[16] + 0.01).is_none());
     assert!([16, 17].iter().all(|row| drive_with_breaks.pose_at(sample_times(&drive)[*row]).is_some()));
-    assert_eq!(drive.with_breaks_before([0, 101]).gaps(), 0);
+    assert_eq!(drive.clone().with_breaks_before([0, 101]), drive);
 }
 
 #[test]
@@ -175,7 +173,7 @@ fn a_leg_ends_at_a_sample_of_the_sparser_trajectory() {
     let drive = straight_drive(1001, 0.05);
     let every_nth_row = |first: usize, step: usize| trajectory(drive.samples().skip(first).step_by(step));
     let has_sample_at = |samples: &Trajectory, time: f64| sample_times(samples).contains(&time);
-    // The sparse drive has a sample each 0.4 s or each 0.8 s. A leg of half a second ends at the nearest sample.
+    // The sparse drive has a sample each 0.4 s or each 0.8 s. A leg of half a second ends at the next sample.
     for (step, duration) in [(4, 0.5), (8, 0.8)] {
         let sparse_drive = every_nth_row(3, step);
         let leg_length = LegLength::Duration { duration: 0.5 };

@@ -3,7 +3,7 @@
 use super::fields::check_range;
 use super::pictures::read_bounds;
 use super::simulation_class::simulation_class;
-use super::values::{flat_float_array, js_object, to_plain_js};
+use super::values::{js_object, to_plain_js, triple_array};
 use crate::sim::arc_anatomy::{ArcAnatomy, form_errors};
 use js_sys::Float64Array;
 use wasm_bindgen::prelude::*;
@@ -65,6 +65,6 @@ impl JsArcAnatomy {
     #[wasm_bindgen(js_name = underway)]
     pub fn poses_at(&self, share: f64) -> Result<Float64Array, JsValue> {
         let poses = self.0.poses_at(check_range("share", share, &(0.0..=1.0))?);
-        Ok(flat_float_array(&poses.map(<[f64; 3]>::from)))
+        Ok(triple_array(poses))
     }
 }

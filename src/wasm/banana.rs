@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use super::fields::{check_range, not_shown_error, read_integer, read_keyword};
 use super::pictures::{RADIUS_RANGE, pixel_view, read_grid, read_ramps};
 use super::simulation_class::cloud_simulation_class;
-use super::values::{flat_float_array, js_array, js_object, to_plain_js};
+use super::values::{flat_float_array, js_array, js_object, to_plain_js, triple_array};
 use crate::geom::se2::SE2;
 use crate::geom::unbend::unbend_line;
 use crate::sim::View;
@@ -76,32 +76,32 @@ impl JsBananaMachine {
     /// x, y (m), θ (rad) of each sample shown; a copy.
     #[wasm_bindgen(getter)]
     pub fn poses(&self) -> Float64Array {
-        flat_float_array(&self.0.poses().map(<[f64; 3]>::from).collect::<Vec<_>>())
+        triple_array(self.0.poses())
     }
 
     /// Poses as in `poses`, of the first `count` samples, or of all if there are fewer.
     #[wasm_bindgen(js_name = firstPoses)]
     pub fn first_poses(&self, count: usize) -> Float64Array {
-        flat_float_array(&self.0.poses().take(count).map(<[f64; 3]>::from).collect::<Vec<_>>())
+        triple_array(self.0.poses().take(count))
     }
 
     /// Twists as in `twists`, of the first `count` samples, or of all if there are fewer.
     #[wasm_bindgen(js_name = firstTwists)]
     pub fn first_twists(&self, count: usize) -> Float64Array {
-        flat_float_array(&self.0.twists().take(count).map(<[f64; 3]>::from).collect::<Vec<_>>())
+        triple_array(self.0.twists().take(count))
     }
 
     /// Exponential coordinates ξ of each sample shown: three numbers, along and lateral (m) and heading (rad). A copy.
     #[wasm_bindgen(getter)]
     pub fn twists(&self) -> Float64Array {
-        flat_float_array(&self.0.twists().map(<[f64; 3]>::from).collect::<Vec<_>>())
+        triple_array(self.0.twists())
     }
 
     /// Motion executed by each of the samples that are shown: v̂ (m/s), ω̂, γ̂ (rad/s); under the odometry model the legs δ̂_rot1
     /// (rad), δ̂_trans (m), δ̂_rot2 (rad). A copy.
     #[wasm_bindgen(getter, js_name = executed)]
     pub fn executed_motions(&self) -> Float64Array {
-        flat_float_array(&self.0.executed_motions().collect::<Vec<_>>())
+        triple_array(self.0.executed_motions())
     }
 
     /// Noise-free odometry reading of the command.

@@ -3,7 +3,7 @@
 use super::fields::{not_shown_error, read_integer};
 use super::pictures::nearest_index;
 use super::simulation_class::cloud_simulation_class;
-use super::values::{flat_float_array, js_object, number_or_null, to_plain_js};
+use super::values::{flat_float_array, js_object, number_or_null, to_plain_js, triple_array};
 use crate::models::Compounding;
 use crate::sim::dead_reckoning::{DeadReckoning, MAX_SAMPLES, MAX_STEPS, MeasuredMoments, Settings};
 use crate::sim::settings::Keywords;
@@ -72,7 +72,7 @@ impl JsDeadReckoning {
     /// undefined.
     #[wasm_bindgen(getter, unchecked_return_type = "ByRecursion<Float64Array>")]
     pub fn ratios(&self) -> JsValue {
-        js_by_recursion(|order| flat_vectors(self.0.comparison(order).ratios.iter().copied()))
+        js_by_recursion(|order| triple_array(self.0.comparison(order).ratios.iter().copied()))
     }
 
     /// Predicted variances of along, lateral (m²) and heading (rad²) after each step, three numbers a step; NaN if
@@ -81,7 +81,7 @@ impl JsDeadReckoning {
     pub fn predicted(&self) -> JsValue {
         let undefined_variances = Vector3::repeat(f64::NAN);
         js_by_recursion(|order| {
-            flat_vectors(
+            triple_array(
                 self.0
                     .predicted_covariances(order)
                     .iter()
@@ -93,7 +93,7 @@ impl JsDeadReckoning {
     /// Measured variances, in the form of `predicted`.
     #[wasm_bindgen(getter)]
     pub fn measured(&self) -> Float64Array {
-        flat_vectors(
+        triple_array(
             self.0.measured_moments().iter().map(|measured: &MeasuredMoments| measured.cov.diagonal()),
         )
     }
@@ -101,7 +101,7 @@ impl JsDeadReckoning {
     /// Standard errors of the measured variances, relative to them.
     #[wasm_bindgen(getter, js_name = relativeErrors)]
     pub fn relative_errors(&self) -> Float64Array {
-        flat_vectors(
+        triple_array(
             self.0.measured_moments().iter().map(|measured: &MeasuredMoments| measured.relative_error),
         )
     }
@@ -121,9 +121,7 @@ impl JsDeadReckoning {
     /// x, y (m), θ (rad) of the commanded pose after each step.
     #[wasm_bindgen(getter)]
     pub fn nominal(&self) -> Float64Array {
-        flat_float_array(
-            &self.0.nominal_poses().iter().map(|pose| <[f64; 3]>::from(*pose)).collect::<Vec<_>>(),
-        )
+        triple_array(self.0.nominal_poses().iter().copied())
     }
 
     /// x, y (m), θ (rad) of the first robots after the selected step, 600 at most; a copy.
@@ -141,7 +139,7 @@ impl JsDeadReckoning {
     /// ξ along, lateral (m), heading (rad) of the robots of `poses` about the commanded pose; a copy.
     #[wasm_bindgen(getter)]
     pub fn twists(&self) -> Float64Array {
-        flat_float_array(&self.0.twists().collect::<Vec<_>>())
+        triple_array(self.0.twists())
     }
 
     /// x, y (m), θ (rad) of one robot after each step, counted from 0.
@@ -169,10 +167,6 @@ fn quarters_of(steps: u32) -> impl Iterator<Item = u32> {
         (1..=4).map(|quarter| ((f64::from(quarter * steps) / 4.0).round() as u32).max(1)).collect();
     quarter_ends.dedup();
     quarter_ends.into_iter()
-}
-
-fn flat_vectors(vectors: impl Iterator<Item = Vector3<f64>>) -> Float64Array {
-    flat_float_array(&vectors.map(<[f64; 3]>::from).collect::<Vec<_>>())
 }
 
 fn js_by_recursion(of: impl Fn(Compounding) -> Float64Array) -> JsValue {

@@ -4,7 +4,7 @@ use super::fields::{
     Fields, array_item, array_length, check_range, read_array, read_boolean, read_group_in_range,
     read_integer, read_keyword, read_number,
 };
-use super::values::{flat_float_array, group_to_js, js_array, js_object, number_or_null, to_plain_js};
+use super::values::{group_to_js, js_array, js_object, number_or_null, to_plain_js, triple_array};
 use crate::geom::arc::invert_arc;
 use crate::geom::se2::SE2;
 use crate::models::{
@@ -160,8 +160,7 @@ macro_rules! model_methods {
                 let (control, start) = ($read_control(control)?, read_pose("start", start)?);
                 let count = read_integer("count", count, 0..=MAX_SAMPLES as u64)? as usize;
                 let mut rng = Xoshiro256PlusPlus::seed_from_u64(read_integer("seed", seed, 0..=MAX_SEED)?);
-                let draw_pose = |_| <[f64; 3]>::from(self.0.sample(&control, &start, &mut rng));
-                Ok(flat_float_array(&(0..count).map(draw_pose).collect::<Vec<_>>()))
+                Ok(triple_array((0..count).map(|_| self.0.sample(&control, &start, &mut rng))))
             }
         }
     };

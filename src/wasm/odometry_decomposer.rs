@@ -3,7 +3,7 @@
 use super::fields::{check_range, read_integer};
 use super::pictures::nearest_index;
 use super::simulation_class::cloud_simulation_class;
-use super::values::{flat_float_array, group_to_js, js_object, to_plain_js};
+use super::values::{flat_float_array, group_to_js, js_object, to_plain_js, triple_array};
 use crate::sim::odometry_decomposer::{CurvePoint, MAX_CURVE_POINTS, MAX_SAMPLES, OdometryDecomposer};
 use crate::sim::settings::QUANTITY_RANGE;
 use js_sys::Float64Array;
@@ -50,23 +50,21 @@ impl JsOdometryDecomposer {
     /// x, y (m), θ (rad) of each outcome shown, in the odometry frame; a copy.
     #[wasm_bindgen(getter)]
     pub fn poses(&self) -> Float64Array {
-        flat_float_array(&self.0.poses().iter().map(|pose| (*pose).into()).collect::<Vec<[f64; 3]>>())
+        triple_array(self.0.poses().iter().copied())
     }
 
     /// Noise-free reading as four poses x, y, θ: at the start, after the first rotation, after the drive, after the
     /// second rotation.
     #[wasm_bindgen(getter, js_name = linkage)]
     pub fn leg_poses(&self) -> Float64Array {
-        flat_float_array(&self.0.leg_poses().map(<[f64; 3]>::from))
+        triple_array(self.0.leg_poses())
     }
 
     /// Leg poses of the first `count` outcomes shown, one after the other in the form of `linkage`.
     #[wasm_bindgen(js_name = ghosts)]
     pub fn sample_leg_poses(&self, count: f64) -> Result<Float64Array, JsValue> {
         let leg_poses = self.0.sample_leg_poses(read_integer("count", count, 0..=MAX_SAMPLES)? as usize);
-        Ok(flat_float_array(
-            &leg_poses.as_flattened().iter().map(|pose| (*pose).into()).collect::<Vec<[f64; 3]>>(),
-        ))
+        Ok(triple_array(leg_poses.into_iter().flatten()))
     }
 
     /// Pose of the robot at the selected phase.
@@ -102,8 +100,8 @@ impl JsOdometryDecomposer {
     #[wasm_bindgen(getter, unchecked_return_type = "Drifted")]
     pub fn drifted(&self) -> Result<JsValue, JsValue> {
         let drifted = self.0.drifted_odometry();
-        let poses = [drifted.frame, drifted.from, drifted.to].map(<[f64; 3]>::from);
-        Ok(js_object(&[("poses", flat_float_array(&poses).into()), ("legs", to_plain_js(&drifted.legs)?)]))
+        let poses = triple_array([drifted.frame, drifted.from, drifted.to]);
+        Ok(js_object(&[("poses", poses.into()), ("legs", to_plain_js(&drifted.legs)?)]))
     }
 
     /// The index of the outcome that ends nearest to a point and within `radius` of it; −1 for none.

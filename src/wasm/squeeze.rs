@@ -4,7 +4,9 @@ use super::fields::{quote, read_integer, read_keyword};
 use super::maps::{read_map, read_plan};
 use super::pictures::{nearest_index, pixel_view, read_grid, read_ramps};
 use super::simulation_class::cloud_simulation_class;
-use super::values::{flat_float_array, float_array, group_to_js, js_object, number_or_null, to_plain_js};
+use super::values::{
+    flat_float_array, float_array, group_to_js, js_object, number_or_null, to_plain_js, triple_array,
+};
 use crate::geom::segment::Segment;
 use crate::map::{Cell, FloorPlan, MAX_DRAWS, Sampler};
 use crate::sim::settings::Keyword;
@@ -145,8 +147,7 @@ impl JsMapSqueeze {
     /// x, y (m), θ (rad) of each attempt shown; a copy.
     #[wasm_bindgen(getter)]
     pub fn poses(&self) -> Float64Array {
-        let poses = self.0.attempts().iter().map(|attempt| <[f64; 3]>::from(attempt.pose));
-        flat_float_array(&poses.collect::<Vec<_>>())
+        triple_array(self.0.attempts().iter().map(|attempt| attempt.pose))
     }
 
     /// Result of each attempt as one byte: 1 for a free end, plus 2 for a free path, plus 4 if it is accepted.

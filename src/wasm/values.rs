@@ -101,6 +101,11 @@ pub fn flat_float_array<const N: usize>(numbers: &[[f64; N]]) -> Float64Array {
     Float64Array::from(numbers.as_flattened())
 }
 
+/// Makes a Float64Array of poses or vectors, the three numbers of each one after the other.
+pub fn triple_array<T: Into<[f64; 3]>>(triples: impl IntoIterator<Item = T>) -> Float64Array {
+    flat_float_array(&triples.into_iter().map(Into::into).collect::<Vec<[f64; 3]>>())
+}
+
 /// Makes a Float64Array of numbers.
 #[inline(never)]
 pub fn float_array(numbers: &[f64]) -> JsValue {

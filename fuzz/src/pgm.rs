@@ -1,16 +1,16 @@
 //! Map images in PGM files.
 
 use motion::geom::se2::SE2;
-use motion::map::{FloorPlan, Image, Interpretation, MAX_PIXELS, OccupancyGrid, Pixel, read_grid, read_pgm};
+use motion::map::{FloorPlan, Image, Interpretation, MAX_PIXELS, OccupancyGrid, read_grid, read_pgm};
 use std::fmt::Write;
 
 pub fn run(bytes: &[u8]) {
-    match read_pixels(bytes) {
+    match read_pgm(bytes).map_err(|error| error.to_string()) {
         Ok(image) => {
             let Image { width, height, ref pixels } = image;
             assert!(width > 0 && height > 0 && width * height <= MAX_PIXELS);
             assert_eq!(pixels.len(), width * height);
-            assert!(pixels.iter().all(|pixel| (0.0..=1.0).contains(&pixel.shade) && pixel.opacity == 1.0));
+            assert!(pixels.iter().all(|shade| (0.0..=1.0).contains(shade)));
             if pixels.len() <= 64 {
                 assert_survives_writing(&image);
                 let grid = OccupancyGrid::new(&image, &Interpretation::default(), 1.0, SE2::identity());
@@ -27,27 +27,21 @@ pub fn run(bytes: &[u8]) {
     }
 }
 
-/// Returns the image with all its pixels, or the error message.
-fn read_pixels(bytes: &[u8]) -> Result<Image<Vec<Pixel>>, String> {
-    let Image { width, height, pixels } = read_pgm(bytes).map_err(|error| error.to_string())?;
-    Ok(Image { width, height, pixels: pixels.map(Pixel::from).collect() })
-}
-
 /// Asserts that an image written with 16 bits, as text or binary, is read as the same image. Shades may differ by their rounding to
 /// 1/65 535.
-fn assert_survives_writing(image: &Image<Vec<Pixel>>) {
+fn assert_survives_writing(image: &Image<f32>) {
     const MAX_VALUE: f32 = 65_535.0;
     let mut plain_text = format!("P2\n{} {}\n{MAX_VALUE}", image.width, image.height);
     let mut binary_file = format!("P5 {} {} {MAX_VALUE}\n", image.width, image.height).into_bytes();
-    for pixel in &image.pixels {
-        let grey_value = (pixel.shade * MAX_VALUE).round() as u16;
+    for shade in &image.pixels {
+        let grey_value = (shade * MAX_VALUE).round() as u16;
         write!(plain_text, " {grey_value}").expect("memory");
         binary_file.extend(grey_value.to_be_bytes());
     }
-    let reread_image = read_pixels(plain_text.as_bytes()).expect("a plain file");
-    assert_eq!(reread_image, read_pixels(&binary_file).expect("a binary file"));
+    let reread_image = read_pgm(plain_text.as_bytes()).expect("a plain file");
+    assert_eq!(reread_image, read_pgm(&binary_file).expect("a binary file"));
     assert_eq!((reread_image.width, reread_image.height), (image.width, image.height));
-    for (pixel, reread_pixel) in image.pixels.iter().zip(&reread_image.pixels) {
-        assert!((pixel.shade - reread_pixel.shade).abs() <= 0.51 / MAX_VALUE, "{pixel:?} {reread_pixel:?}");
+    for (shade, reread_shade) in image.pixels.iter().zip(&reread_image.pixels) {
+        assert!((shade - reread_shade).abs() <= 0.51 / MAX_VALUE, "{shade} {reread_shade}");
     }
 }

@@ -62,13 +62,13 @@ pub enum UnknownCells {
 
 /// Grey image with values from 0 (black) to 1 (white), row by row from the top.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Image<Pixels = Vec<Pixel>> {
+pub struct Image<P = Pixel> {
     /// Number of columns.
     pub width: usize,
     /// Number of rows.
     pub height: usize,
     /// Pixels, width · height of them.
-    pub pixels: Pixels,
+    pub pixels: Vec<P>,
 }
 
 /// One pixel of a map image.
@@ -78,6 +78,13 @@ pub struct Pixel {
     pub shade: f32,
     /// Opacity from 0 (transparent) to 1.
     pub opacity: f32,
+}
+
+/// Shade of an opaque pixel.
+impl From<f32> for Pixel {
+    fn from(shade: f32) -> Self {
+        Self { shade, opacity: 1.0 }
+    }
 }
 
 /// Red, green, blue and opacity, from 0 to 255.
@@ -133,8 +140,8 @@ impl OccupancyGrid {
     /// Unknown cells are free, see [`OccupancyGrid::with_unknown`].
     ///
     /// As in `map_server`, opacity counts as a fourth colour in mode trinary if the image has transparency.
-    pub fn new<P: Copy + PartialEq + Into<Pixel>, Pixels: Clone + IntoIterator<Item = P>>(
-        image: &Image<Pixels>,
+    pub fn new<P: Copy + PartialEq + Into<Pixel>>(
+        image: &Image<P>,
         interpretation: &Interpretation,
         resolution: f64,
         origin: SE2,
@@ -143,9 +150,9 @@ impl OccupancyGrid {
         let cells = vec![Cell::Free; width * height];
         let (to_local, unknown) = (PreparedPose::new(origin.inverse()), UnknownCells::default());
         let mut grid = Self { width, height, resolution, origin, to_local, cells, unknown };
-        let is_transparent = grid.fill_cells(pixels.clone(), interpretation, false);
+        let is_transparent = grid.fill_cells(pixels, interpretation, false);
         if is_transparent && interpretation.mode == Mode::Trinary {
-            grid.fill_cells(pixels.clone(), interpretation, true);
+            grid.fill_cells(pixels, interpretation, true);
         }
         grid
     }
@@ -153,17 +160,17 @@ impl OccupancyGrid {
     /// Converts pixels to cells; returns true if a pixel is not opaque. If `opacity_as_colour` is true, opacity counts as a colour.
     fn fill_cells<P: Copy + PartialEq + Into<Pixel>>(
         &mut self,
-        pixels: impl IntoIterator<Item = P>,
+        pixels: &[P],
         interpretation: &Interpretation,
         opacity_as_colour: bool,
     ) -> bool {
-        let mut pixels = pixels.into_iter();
+        let mut pixels = pixels.iter();
         let mut is_transparent = false;
         // The previous pixel is cached with its cell, because most pixels equal the one before them.
         let mut previous_pixel = None;
         // The first row of an image is its highest, the first of a grid its lowest.
         for row in self.cells.chunks_mut(self.width.max(1)).rev() {
-            for (cell, raw_pixel) in row.iter_mut().zip(&mut pixels) {
+            for (cell, &raw_pixel) in row.iter_mut().zip(&mut pixels) {
                 *cell = match previous_pixel {
                     Some((cached_pixel, cell)) if cached_pixel == raw_pixel => cell,
                     _ => {

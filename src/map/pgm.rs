@@ -1,6 +1,6 @@
 //! Reader of PGM images, in which `map_server` and most mapping programs store maps.
 
-use super::occupancy::{Image, Pixel};
+use super::occupancy::Image;
 use thiserror::Error;
 
 /// Reason why bytes are not a PGM image.
@@ -26,11 +26,11 @@ pub const MAX_BYTES: usize = 6 * MAX_PIXELS + 4096;
 /// Maximum number of characters that an error quotes.
 const MAX_QUOTED_CHARACTERS: usize = 20;
 
-/// Reads a PGM image, binary (P5) or plain (P2), of 8 or 16 bits. Checks the whole file without copying it.
+/// Reads the shades of a PGM image, binary (P5) or plain (P2), of 8 or 16 bits. The maximum value of the header is white.
 ///
 /// # Errors
 /// [`PgmError`] with the line of the header, or the line where plain pixels end.
-pub fn read_pgm(bytes: &[u8]) -> Result<Image<PgmPixels<'_>>, PgmError> {
+pub fn read_pgm(bytes: &[u8]) -> Result<Image<f32>, PgmError> {
     let mut reader = Reader { bytes, position: 0, line: 1 };
     let is_plain = match reader.next_token() {
         b"P5" => false,
@@ -41,94 +41,27 @@ pub fn read_pgm(bytes: &[u8]) -> Result<Image<PgmPixels<'_>>, PgmError> {
     let height = reader.read_number("the height", 1, MAX_PIXELS / width)?;
     let max_value = reader.read_number("the maximum value", 1, 65_535)?;
     let count = width * height;
-    let coding = if is_plain {
-        let mut pixels = reader.clone();
-        for _ in 0..count {
-            pixels.read_number("a pixel", 0, max_value)?;
-        }
-        PixelCoding::Plain
-    } else {
-        let (coding, size) = if max_value < 256 { (PixelCoding::Bytes, 1) } else { (PixelCoding::Words, 2) };
-        let raster_bytes = count * size;
-        // One white space character ends the header. Windows editors write two: carriage return and line feed.
-        let is_crlf = bytes[reader.position..].starts_with(b"\r\n")
-            && bytes.len() >= reader.position + 2 + raster_bytes;
-        reader.position += if is_crlf { 2 } else { 1 };
-        let available_bytes = bytes.len().saturating_sub(reader.position);
-        if available_bytes < raster_bytes {
-            let allowed = format!("{raster_bytes} for {width} × {height} pixels");
-            let (field, value) = ("the length of the raster in bytes", available_bytes.to_string());
-            return Err(PgmError { field, line: reader.line, value, allowed });
-        }
-        coding
+    let shade_of = |value: usize| value.min(max_value) as f32 / max_value as f32;
+    if is_plain {
+        let pixels = (0..count).map(|_| reader.read_number("a pixel", 0, max_value).map(shade_of));
+        return Ok(Image { width, height, pixels: pixels.collect::<Result<_, _>>()? });
+    }
+    let pixel_bytes = if max_value < 256 { 1 } else { 2 };
+    let raster_bytes = count * pixel_bytes;
+    // One white space character ends the header. Windows editors write two: carriage return and line feed.
+    let is_crlf =
+        bytes[reader.position..].starts_with(b"\r\n") && bytes.len() >= reader.position + 2 + raster_bytes;
+    let available_raster = bytes.get(reader.position + if is_crlf { 2 } else { 1 }..).unwrap_or_default();
+    let Some(raster) = available_raster.get(..raster_bytes) else {
+        let allowed = format!("{raster_bytes} for {width} × {height} pixels");
+        let (field, value) = ("the length of the raster in bytes", available_raster.len().to_string());
+        return Err(PgmError { field, line: reader.line, value, allowed });
     };
-    Ok(Image {
-        width,
-        height,
-        pixels: PgmPixels { reader, remaining: count, max_value: max_value as u16, coding },
-    })
+    // The higher byte of two comes first.
+    let value_of = |pixel: &[u8]| pixel.iter().fold(0, |value, byte| 256 * value + usize::from(*byte));
+    let pixels = raster.chunks(pixel_bytes).map(|pixel| shade_of(value_of(pixel))).collect();
+    Ok(Image { width, height, pixels })
 }
-
-/// Coding of the pixels of a file.
-#[derive(Clone, Copy, Debug)]
-enum PixelCoding {
-    /// Decimal numbers.
-    Plain,
-    Bytes,
-    /// Two bytes each, the higher one first.
-    Words,
-}
-
-/// Pixel of a PGM image, from 0 (black) to the maximum of the header (white).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct PgmPixel {
-    value: u16,
-    max_value: u16,
-}
-
-impl From<PgmPixel> for Pixel {
-    fn from(PgmPixel { value, max_value }: PgmPixel) -> Self {
-        Self { shade: f32::from(value) / f32::from(max_value), opacity: 1.0 }
-    }
-}
-
-/// Iterator over the pixels of a PGM image, row by row from the top. Storing them as numbers would take several times the memory
-/// of the file.
-#[derive(Clone, Debug)]
-pub struct PgmPixels<'a> {
-    reader: Reader<'a>,
-    /// Number of pixels that are still to be read. They have been checked.
-    remaining: usize,
-    max_value: u16,
-    coding: PixelCoding,
-}
-
-impl Iterator for PgmPixels<'_> {
-    type Item = PgmPixel;
-
-    fn next(&mut self) -> Option<PgmPixel> {
-        self.remaining = self.remaining.checked_sub(1)?;
-        let Self { reader: Reader { bytes, position, .. }, max_value, .. } = *self;
-        let value = match self.coding {
-            PixelCoding::Plain => parse_decimal(self.reader.next_token())? as u16,
-            PixelCoding::Bytes => {
-                self.reader.position += 1;
-                u16::from(*bytes.get(position)?)
-            }
-            PixelCoding::Words => {
-                self.reader.position += 2;
-                u16::from_be_bytes(*bytes.get(position..)?.first_chunk()?)
-            }
-        };
-        Some(PgmPixel { value: value.min(max_value), max_value })
-    }
-
-    fn size_hint(&self) -> (usize, Option<usize>) {
-        (self.remaining, Some(self.remaining))
-    }
-}
-
-impl ExactSizeIterator for PgmPixels<'_> {}
 
 /// Parses decimal digits; None for a number larger than [`MAX_PIXELS`].
 fn parse_decimal(token: &[u8]) -> Option<usize> {
@@ -140,7 +73,6 @@ fn parse_decimal(token: &[u8]) -> Option<usize> {
 }
 
 /// Reader of the words of a header, and of plain pixels.
-#[derive(Clone, Debug)]
 struct Reader<'a> {
     bytes: &'a [u8],
     position: usize,

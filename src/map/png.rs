@@ -34,7 +34,7 @@ pub enum PngError {
 ///
 /// # Errors
 /// [`PngError`] for an image that is cut short, damaged or too large.
-pub fn read_png(bytes: &[u8]) -> Result<Image<Vec<[u8; 4]>>, PngError> {
+pub fn read_png(bytes: &[u8]) -> Result<Image<[u8; 4]>, PngError> {
     let mut cursor = Cursor::new(bytes);
     let size = Decoder::new(&mut cursor).read_header_info().map(Info::size);
     let (width, height) = size.map_err(|_| damage_error(&cursor))?;

@@ -93,7 +93,7 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
         return Ok(read_grid(&file.to_vec(), &interpretation, resolution, origin)?);
     }
     let (width, height, data) = read_pixels(image)?;
-    let pixels = data.as_chunks::<4>().0.iter().copied();
+    let pixels = data.as_chunks::<4>().0.to_vec();
     Ok(OccupancyGrid::new(&Image { width, height, pixels }, &interpretation, resolution, origin))
 }
 

@@ -1,7 +1,7 @@
 //! Map files in PGM format.
 
 use super::doubles::config_with_cases;
-use motion::map::{Pixel, read_pgm};
+use motion::map::read_pgm;
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -35,10 +35,10 @@ proptest! {
             binary_file.extend(if max_value < 256 { &bytes[3..] } else { &bytes[2..] });
         }
         let image = read_pgm(plain_file.as_bytes()).expect("a plain file");
-        prop_assert!(image.pixels.clone().eq(read_pgm(&binary_file).expect("a binary file").pixels));
+        prop_assert!(image.pixels == read_pgm(&binary_file).expect("a binary file").pixels);
         prop_assert_eq!((image.width, image.height), (width, height));
-        for (pixel, value) in image.pixels.zip(&grey_values) {
-            prop_assert_eq!(Pixel::from(pixel).shade, *value as f32 / max_value as f32);
+        for (shade, value) in image.pixels.iter().zip(&grey_values) {
+            prop_assert_eq!(*shade, *value as f32 / max_value as f32);
         }
         // A truncated binary file is refused. A truncated plain file is refused too, unless the cut is in or after its last number.
         prop_assert!(read_pgm(&binary_file[..cut_position % binary_file.len()]).is_err());

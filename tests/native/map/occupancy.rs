@@ -35,7 +35,7 @@ impl GridCells {
     }
 
     fn grid(&self) -> OccupancyGrid {
-        let pixels = self.occupied.iter().map(|occupied| if *occupied { BLACK } else { WHITE });
+        let pixels = self.occupied.iter().map(|occupied| if *occupied { BLACK } else { WHITE }).collect();
         let image = Image { width: self.width, height: self.height, pixels };
         let [x, y, yaw] = self.origin;
         OccupancyGrid::new(&image, &Interpretation::default(), self.resolution, SE2::new(x, y, yaw))
@@ -187,9 +187,8 @@ fn grid_from_drawing(rows: &[&str], unknown: UnknownCells) -> OccupancyGrid {
         '?' => 0.5,
         _ => 1.0,
     };
-    let pixels =
-        rows.iter().flat_map(|row| row.chars()).map(|cell| Pixel { shade: shade_of(cell), opacity: 1.0 });
-    let image = Image { width: rows[0].len(), height: rows.len(), pixels };
+    let pixels = rows.iter().flat_map(|row| row.chars()).map(shade_of).collect();
+    let image = Image::<f32> { width: rows[0].len(), height: rows.len(), pixels };
     OccupancyGrid::new(&image, &Interpretation::default(), 0.1, SE2::identity()).with_unknown(unknown)
 }
 

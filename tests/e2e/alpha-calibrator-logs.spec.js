@@ -161,7 +161,7 @@ test('a log without enough legs is refused, and the present log keeps its place 
   const captionBefore = await captionOf(widget).innerText();
   const { alphas } = await statsOf(widget);
   const standstillTable = Buffer.from('t,x,y,yaw\n0,0,0,0\n1,0,0,0\n2,0,0,0\n');
-  await dropFiles(widget.locator('.stage').first(), ['a.csv', 'b.csv'].map((name) => ({ name, buffer: standstillTable })));
+  await dropFiles(widget.locator('.stage').first(), ['odom.csv', 'truth.csv'].map((name) => ({ name, buffer: standstillTable })));
   // The message is shown in one place only: in the drop zone, which is visible.
   await expect(widget.locator('.drop-zone').getByRole('alert')).toBeInViewport();
   await expect(widget.getByRole('alert')).toHaveText('Log refused: Not enough data: fewer than 8 legs, or the logs do not overlap in time. Take both logs from one drive, choose shorter legs, or drive longer.');

@@ -192,8 +192,8 @@ test('LZ4 frames of another size are refused, and any damage to one with checksu
 
 test('formats that are not read are refused with the cure, by their contents', async () => {
   const magicBytes: [keyof typeof UNSUPPORTED_FORMATS, string][] = [
-    ['rosbag1', '#ROSBAG V1.2\n'], ['ulog', 'ULog\x01\x12\x35'], ['dataflash', '\xa3\x95\x80'], ['pcap', '\xd4\xc3\xb2\xa1'], ['wal', '\x37\x7f\x06\x82'], ['sqlitePart', '\x18\xe2\x2d\0'], ['sqlitePart', '\xd9\xd5\x05\xf9'], ['zip', 'PK\x03\x04'],
-    ['gzip', '\x1f\x8b\x08'], ['bzip2', 'BZh9'], ['xz', '\xfd7zXZ\0'], ['lz4', '\x04\x22\x4d\x18'], ['hdf5', '\x89HDF\r\n\x1a\n'], ['parquet', 'PAR1'],
+    ['rosbag1', '#ROSBAG V1.2\n'], ['ulog', 'ULog\x01\x12\x35'], ['dataflash', '\xa3\x95\x80'], ['wal', '\x37\x7f\x06\x82'], ['zip', 'PK\x03\x04'],
+    ['compressed', '\x1f\x8b\x08'], ['compressed', 'BZh9'], ['compressed', '\xfd7zXZ\0'], ['compressed', '\x04\x22\x4d\x18'], ['hdf5', '\x89HDF\r\n\x1a\n'], ['parquet', 'PAR1'],
   ];
   for (const [format, magicText] of magicBytes) assert.equal(await refusalSentenceOf(openRecordings([fileOf(Buffer.from(magicText, 'latin1'), 'run.mcap')])), `run.mcap: it is ${UNSUPPORTED_FORMATS[format]}`);
   assert.deepEqual(new Set(magicBytes.map(([format]) => format)), new Set(Object.keys(UNSUPPORTED_FORMATS)));

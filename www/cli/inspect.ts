@@ -1,7 +1,7 @@
 /** Command `inspect`: lists the contents of recordings, and proposes the command for the calibration. */
 
 import { findCandidates, isLocalizer, isTable, readableSeries } from '../logs/candidates.ts';
-import { planDrives, type RecordingChoice, type LogPlan } from '../logs/drives.ts';
+import { planDrives, type RecordingChoice } from '../logs/drives.ts';
 import { english } from '../logs/en.ts';
 import { LogError, truncate } from '../logs/log-error.ts';
 import { ROLES, framesOption, framesText, type LogChoice, type Log, type Recording, type Role, type Summary } from '../logs/log.ts';
@@ -110,10 +110,6 @@ async function readLogs(recording: Recording, choices: LogChoice[], onProgress?:
   return { logs, reasons };
 }
 
-/** Returns a sentence which says that the roles of two files follow only from their order. */
-export const roleOrderSentence = ({ unpaired: { odometry: [first], reference: [second] } }: LogPlan): string =>
-  `${first.recording.name} is taken as the odometry and ${second.recording.name} as the reference, by their order: neither name says which is which.`;
-
 const commandText = (statedOptions: [name: string, value: string][], ...options: string[]) =>
   ['npx motion-widgets calibrate', ...options, ...statedOptions.map(([name, value]) => `--${name} ${shellQuoted(value)}`), '--rule nav2'].join(' ');
 
@@ -123,8 +119,7 @@ function nextCommand(givenRecordings: GivenRecording[], statedOptions: [name: st
   const commandWith = (...options: string[]) => commandText(statedOptions, ...new Set(options));
   const quotedPaths = givenRecordings.map(({ recording }) => quotedPath({ recording }));
   try {
-    const plan = planDrives(givenRecordings.map(({ recording }) => recording));
-    const { drives, unpaired } = plan;
+    const { drives, unpaired } = planDrives(givenRecordings.map(({ recording }) => recording));
     const choiceOptions = ROLES.flatMap((role) => [...drives.map((drive) => drive[role]), ...unpaired[role]].flatMap(({ choice: { series, frames } }) => [
       ...(series ? [`--${role}-topic ${shellQuoted(series)}`] : []),
       ...(frames ? [`--${role}-frames ${shellQuoted(framesOption(frames))}`] : []),
@@ -132,7 +127,7 @@ function nextCommand(givenRecordings: GivenRecording[], statedOptions: [name: st
     const fileArguments = [...drives.map(({ odometry }) => quotedPath(odometry)), ...ROLES.flatMap((role) => unpaired[role].map((part) => `--${role} ${quotedPath(part)}`))];
     // The logs of one folder may have different roles, so that the folder is given without a role.
     const isPathShared = new Set(quotedPaths).size < quotedPaths.length;
-    return { ...(plan.hasRolesByOrder && { missing: roleOrderSentence(plan) }), command: commandWith(...(isPathShared ? quotedPaths : fileArguments), ...choiceOptions) };
+    return { command: commandWith(...(isPathShared ? quotedPaths : fileArguments), ...choiceOptions) };
   } catch (error) {
     if (!(error instanceof LogError)) throw error;
     const reason = error.message;
@@ -143,6 +138,7 @@ function nextCommand(givenRecordings: GivenRecording[], statedOptions: [name: st
       case 'other': return { missing: reason, ...(role && { command: commandWith(`--${role} ${quotedPath(givenRecordings[0])}`, role === 'odometry' ? '--reference FILE' : '--odometry FILE') }) };
       case 'series': return { missing: reason, command: commandWith(...quotedPaths, ...rolesToChoose.map((openRole) => `--${openRole}-topic NAME`)) };
       case 'frames': return { missing: reason, command: commandWith(...quotedPaths, ...rolesToChoose.map((openRole) => `--${openRole}-frames PARENT,CHILD`)) };
+      case 'roles': return { missing: reason, command: commandWith('--odometry FILE', '--reference FILE') };
       default: return { missing: reason };
     }
   }

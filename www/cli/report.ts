@@ -5,7 +5,7 @@ import { ROLES, type Summary } from '../logs/log.ts';
 import { warningsOf } from '../logs/pairs.ts';
 import { en as sharedTexts } from '../messages/en.ts';
 import { en } from '../widgets/alpha-calibrator/en.ts';
-import { alphaOrBound, correctionAdvice, formatInterval, failedChecksOf, formatEstimate, isOfNav2, missingAlphas, nav2Lines, formatPercent, formatNumber } from '../widgets/alpha-calibrator/lines.ts';
+import { SYSTEMATIC_ERRORS, alphaOrBound, correctionAdvice, formatInterval, failedChecksOf, formatEstimate, isOfNav2, missingAlphas, nav2Lines, formatPercent, formatNumber } from '../widgets/alpha-calibrator/lines.ts';
 
 type Interval = [number, number] | null;
 
@@ -26,19 +26,8 @@ export interface CalibrationResult {
   date: string;
 }
 
-/** Systematic errors: key in the result, name in the report, and unit. */
-const SYSTEMATIC_ROWS: [string, string, string][] = [
-  ['clockOffset', 'clock offset', 's'],
-  ['mountYaw', 'mount yaw', 'rad'],
-  ['leverArm', 'lever arm', 'm'],
-  ['distanceScale', 'distance scale', ''],
-  ['turnScale', 'turn scale', ''],
-];
-
-/** Texts of the report for the causes of lost legs. */
-const LOST_LEG_CAUSES: Record<string, string> = {
-  withoutReference: 'without reference', acrossBreaks: 'across jumps or missing rows', acrossPauses: 'across pauses', standing: 'of a standing robot',
-};
+/** Causes of lost legs. */
+const LOST_LEG_CAUSES = ['withoutReference', 'acrossBreaks', 'acrossPauses', 'standing'] as const;
 
 /** Checks whose failure makes a log unusable. */
 const DECISIVE_CHECKS = ['reference-matches', 'enough-legs', 'inflation-bounded'];
@@ -55,7 +44,7 @@ export function reportText({ calibration, options, logs, start, driveStarts, dat
   const { legs, lost, diagnostics: { checks, windows } } = calibration;
   const { model = 'odometry', rule = 'thrun' } = options;
   const failedChecks = failedChecksOf(checks);
-  const lostLegTexts = Object.entries(LOST_LEG_CAUSES).filter(([cause]) => lost[cause] > 0).map(([cause, name]) => `${lost[cause]} ${name}`);
+  const lostLegTexts = LOST_LEG_CAUSES.filter((cause) => lost[cause] > 0).map((cause) => `${lost[cause]} ${en.lost[cause]}`);
   const excludedLegLines = [...(lostLegTexts.length ? [`lost legs: ${lostLegTexts.join(', ')}`] : []), ...outlierLines(legs, driveStarts)];
   const reportBody = [
     '',
@@ -65,7 +54,7 @@ export function reportText({ calibration, options, logs, start, driveStarts, dat
     '',
     ...alphaTable(calibration, model),
     '',
-    ...alignRows([['', 'value', '95 %', ''], ...noiseRows(calibration, options), ...SYSTEMATIC_ROWS.map((row) => systematicRow(row, calibration)), persistenceRow(calibration)]),
+    ...alignRows([['', 'value', '95 %', ''], ...noiseRows(calibration, options), ...SYSTEMATIC_ERRORS.map((name) => systematicRow(name, calibration)), persistenceRow(calibration)]),
     '',
     ...alignRows([['check', 'value', 'expected', ''], ...checks.map(checkRow)]),
     ...failedChecks.map(({ name, message }) => `${name}: ${message}`),
@@ -134,14 +123,14 @@ function noiseRows({ referenceNoise }: any, options: CalibrationResult['options'
   return [noiseRow('reference position σ', 'positionStd', 'm'), noiseRow('reference yaw σ', 'yawStd', 'rad')];
 }
 
-function systematicRow([key, name, unit]: [string, string, string], { systematicErrors }: any): string[] {
-  const { value, interval, constant, corrected } = systematicErrors[key];
+function systematicRow(name: (typeof SYSTEMATIC_ERRORS)[number], { systematicErrors }: any): string[] {
+  const { value, interval, constant, corrected } = systematicErrors[name];
   const [values, intervals] = Array.isArray(value) ? [value, interval] : [[value], [interval]];
-  if (values.includes(null)) return [name, 'not identifiable'];
+  if (values.includes(null)) return [en.systematic.names[name], 'not identifiable'];
   const listValues = (print: (value: any, interval: Interval) => string) => values.map((value: any, i: number) => print(value, intervals[i])).join(', ');
   return [
-    name,
-    listValues((value, interval) => formatEstimate(value, interval) + (unit && ` ${unit}`)),
+    en.systematic.names[name],
+    listValues(formatEstimate),
     listValues((_, interval) => formatInterval(interval)),
     `${corrected ? 'corrected' : 'not corrected'}${constant ? '' : ', not a constant'}`,
   ];

@@ -8,7 +8,7 @@ import { calibrationLogOf } from '../logs/pairs.ts';
 import { summarySentences } from '../logs/summary.ts';
 import { optionAdvice } from './advice.ts';
 import { recordingsOf } from './files.ts';
-import { roleOrderSentence, inspect, inspectionText, type GivenRecording } from './inspect.ts';
+import { inspect, inspectionText, type GivenRecording } from './inspect.ts';
 import { HELP, UsageError, parseOptions, replaceFieldByOption, type CalibrateArguments } from './options.ts';
 import { drivesSvg } from './plot.ts';
 import { resultJson, logSummaries, nav2Yaml, ruleWarning, reportText, verdictLines, type CalibrationResult } from './report.ts';
@@ -67,7 +67,6 @@ async function calibrate({ inputs, userChoices, fit, output, plot }: CalibrateAr
   }
   const plan = planDrives(recordings, { ...userChoices, roles: roleByRecording });
   plan.unused.forEach(onSkip);
-  if (plan.hasRolesByOrder) complain(`${roleOrderSentence(plan)}\n`);
   const drives = await readDrives(plan, onProgress);
   onProgress?.(undefined);
   const [{ odometry: { start } }] = drives;

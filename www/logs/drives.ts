@@ -1,6 +1,6 @@
 /** Search for the odometry and the reference of each drive in recordings. */
 
-import { GOAL_NAMES, findCandidates, isTable, likeliestFrames, seriesNamesFor, roleByName, seriesNamed, readableSeries } from './candidates.ts';
+import { GOAL_NAMES, findCandidates, likeliestFrames, seriesNamesFor, roleByName, seriesNamed, readableSeries } from './candidates.ts';
 import { LogError, listNames } from './log-error.ts';
 import { ROLES, framesOption, framesText, type LogChoice, type FramePair, type Log, type LogKind, type Recording, type Role, type Series } from './log.ts';
 import { pairLogs, matchLogs, withStart, type Drive } from './pairs.ts';
@@ -14,8 +14,6 @@ export interface RecordingChoice { recording: Recording; choice: LogChoice }
 export interface LogPlan {
   drives: Record<Role, RecordingChoice>[];
   unpaired: Record<Role, RecordingChoice[]>;
-  /** True if the roles of two files follow only from their order, odometry first: neither names nor contents show them. */
-  hasRolesByOrder: boolean;
   /** Errors of recordings that are left out, because none of their topics can be read. */
   unused: LogError[];
 }
@@ -41,7 +39,7 @@ export function planDrives(all: Recording[], userChoices: UserChoices = {}): Log
   const usableRecordings = all.filter((recording) => userChoices.roles?.has(recording) || readableSeries(recording).length > 0);
   const recordings = usableRecordings.length > 0 ? usableRecordings : all;
   const unpaired: LogPlan['unpaired'] = { odometry: [], reference: [] };
-  const plan: LogPlan = { drives: [], unpaired, hasRolesByOrder: false, unused: all.filter((recording) => !recordings.includes(recording)).map(unusable) };
+  const plan: LogPlan = { drives: [], unpaired, unused: all.filter((recording) => !recordings.includes(recording)).map(unusable) };
   const unnamedRecordings: Recording[] = [];
   for (const recording of recordings) {
     const role = userChoices.roles?.get(recording) ?? (recordings.length > 1 ? roleOfRecording(recording, userChoices) : 'both');
@@ -50,12 +48,9 @@ export function planDrives(all: Recording[], userChoices: UserChoices = {}): Log
     else unnamedRecordings.push(recording);
   }
   const { odometry, reference } = unpaired;
-  plan.hasRolesByOrder = odometry.length + reference.length === 0 && unnamedRecordings.length === 2;
-  for (const [i, recording] of unnamedRecordings.entries()) {
-    // If no name shows a role, the order of two files or the roles of the other files determine it.
-    const role = plan.hasRolesByOrder ? ROLES[i]
-      : 2 * odometry.length >= recordings.length ? 'reference'
-        : 2 * reference.length >= recordings.length ? 'odometry' : undefined;
+  for (const recording of unnamedRecordings) {
+    // If its name shows no role, the roles of the other files determine it.
+    const role = 2 * odometry.length >= recordings.length ? 'reference' : 2 * reference.length >= recordings.length ? 'odometry' : undefined;
     if (!role) throw new LogError({ file: recording.name }, (texts) => texts.noRole, { what: 'roles', choices: [] });
     plan.unpaired[role].push({ recording, choice: chooseLog(recording, role, userChoices) });
   }
@@ -125,7 +120,7 @@ function resolveRequestedChoice(recording: Recording, role: Role, userChoices: U
     const names = seriesNamesFor(recording, role);
     throw new LogError(
       { file: recording.name, topic: series },
-      (texts) => (isTable(recording) ? texts.noGroup(describeSeries(recording.series)) : series === undefined ? texts.noTransforms(describeSeries(readableSeries(recording))) : texts.noTopic(listNames(names))),
+      (texts) => texts.noTopic(describeSeries(readableSeries(recording))),
       { what: 'series', role, choices: names },
     );
   }
@@ -152,7 +147,6 @@ function guessChoice(recording: Recording, role: Role, userChoices: UserChoices,
   const chains = usableSeries.filter(({ kind }) => kind === 'transforms');
   const hasOnlyOtherChoice = other && chains.every(({ name: series, frames = [] }) => frames.every((ends) => isSameChoice({ series, frames: ends }, other)));
   if (chains.length === usableSeries.length && !hasOnlyOtherChoice) throw framesError(recording, chains.find((chain) => chain.frames) ?? chains[0], role);
-  if (role === 'reference' && usableSeries.every(({ kind }) => kind === 'commands')) throw new LogError({ file }, (texts) => texts.noPoses(describeSeries(usableSeries)));
   const positionSeries = usableSeries.filter(({ name, kind }) => kind === 'positions' && !GOAL_NAMES.test(name));
   if (positionSeries.length === usableSeries.length || (role === 'reference' && bestChoices.length === 0 && positionSeries.length > 0)) {
     throw new LogError({ file }, (texts) => texts.positions(describeSeries(positionSeries)));

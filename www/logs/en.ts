@@ -39,14 +39,9 @@ export const UNSUPPORTED_FORMATS = {
   rosbag1: 'a ROS bag of version 1.2; convert it with “rosbag reindex”.',
   ulog: 'a PX4 log (ULog); convert it with “ulog2csv”, and give two of the tables.',
   dataflash: 'an ArduPilot log; convert it with “mavlogdump.py --format csv --types POS”.',
-  pcap: 'a network capture; expected is a recording of “ros2 bag record” or “rosbag record”.',
   wal: `a journal with messages that its .db3 file lacks; end the recorder, or write them back with “sqlite3 FILE.db3 'PRAGMA wal_checkpoint'”.`,
-  sqlitePart: 'a file that SQLite keeps beside a database, and that has no messages; give the .db3 file with which its name begins.',
   zip: 'a zip archive or a workbook (.xlsx, .ods); unzip it and give its files, or save the sheet as CSV.',
-  gzip: 'compressed by gzip; decompress it with “gunzip”, and give the result.',
-  bzip2: 'compressed by bzip2; decompress it with “bunzip2”, and give the result.',
-  xz: 'compressed by xz; decompress it with “unxz”, and give the result.',
-  lz4: 'compressed by LZ4; decompress it with “unlz4”, and give the result.',
+  compressed: 'compressed by gzip, bzip2, xz or LZ4; decompress it with “gunzip”, “bunzip2”, “unxz” or “unlz4”, and give the result.',
   hdf5: 'an HDF5 or MATLAB file; export times and poses as CSV.',
   parquet: 'a Parquet table; export it as CSV.',
 };
@@ -111,7 +106,7 @@ export const english = {
     notRosbag2: 'it is listed in the metadata.yaml of a recording, and is none; expected is an MCAP or .db3 file.',
     notRead: (format: keyof typeof UNSUPPORTED_FORMATS) => `it is ${UNSUPPORTED_FORMATS[format]}`,
     noFiles: (files: string) => `it describes a recording in ${files}; give that file too, or the whole folder.`,
-    noTopic: (topics: string) => `there is no such topic; expected is one of ${topics}.`,
+    noTopic: (series: string) => `it has no such topic, group of columns or transforms; expected is one of ${series}.`,
     noTopics: (topics: string) => `the topics are ${topics}; expected is one of type ${MESSAGE_TYPES.either}.`,
     alone: (series: string, role: Role | undefined) =>
       `it has ${role ? `the ${role}` : 'one log'} only, ${series}; give ${role ? `the ${role === 'odometry' ? 'reference' : 'odometry'} too` : 'odometry and reference'}.`,
@@ -135,16 +130,12 @@ export const english = {
     /** Errors of several recordings. */
     noRole: 'its name does not say whether it is odometry or reference; call the files odom1.csv, truth1.csv, odom2.csv, … or state which is which.',
     unpaired: (odometry: string, reference: string) => `the odometry is in ${odometry || 'no file'}, and the reference in ${reference || 'no file'}; give one of each for a drive.`,
-    noGroup: (groups: string) => `it is a table, and no group of its columns has this name; it has ${groups}.`,
-    noPoses: (series: string) => `it has commands only, ${series}; a reference needs poses.`,
-    noTransforms: (series: string) => `it has no transforms between frames; it has ${series}.`,
   },
   /** Choosers of what is read. */
   choose: {
     roles: { odometry: 'Odometry', reference: 'Reference' },
     open: 'choose',
     skipped: (reason: string) => `Not used: ${reason}`,
-    byOrder: 'Neither name says which is which: is this right?',
     timeUnit: (file: string) => `Unit of times in ${file}`,
     lengthUnit: (file: string) => `Unit of lengths in ${file}`,
     angleUnit: (file: string) => `Unit of headings in ${file}`,

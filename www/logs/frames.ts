@@ -83,7 +83,8 @@ interface RecordedTransform {
   link: string;
   isStatic: boolean;
   stampedTransform: StampedTransform;
-  message: Pick<Message, 'channel' | 'time'>;
+  /** Time of recording, s. */
+  recordTime: number;
   number: number;
 }
 
@@ -101,9 +102,9 @@ export class Chain {
   }
 
   /** Adds a transform. Static transforms must come first, because they hold at all times. */
-  add(stampedTransform: StampedTransform, isStatic: boolean, { channel, time }: Message, number: number): void {
+  add(stampedTransform: StampedTransform, isStatic: boolean, { time: recordTime }: Message, number: number): void {
     this.tree.add(stampedTransform, isStatic);
-    const recordedTransform = { link: framesText(stampedTransform), isStatic, stampedTransform, message: { channel, time }, number };
+    const recordedTransform = { link: framesText(stampedTransform), isStatic, stampedTransform, recordTime, number };
     if (!this.isConnected || this.#links.includes(recordedTransform.link)) this.#samples.push(recordedTransform);
     if (this.isConnected) return;
     this.#links = (this.tree.findChain(this.#endFrames) ?? []).map(framesText);
@@ -132,7 +133,7 @@ export class Chain {
     const nearestMovingLink = this.#links.findLast((link) => unseenLinks.has(link));
     if (nearestMovingLink === undefined) return false;
     let pendingTransform: RecordedTransform | undefined;
-    for (const recordedTransform of this.#samples.toSorted((a, b) => a.message.time - b.message.time)) {
+    for (const recordedTransform of this.#samples.toSorted((a, b) => a.recordTime - b.recordTime)) {
       transforms.set(recordedTransform.link, recordedTransform.stampedTransform.transform);
       unseenLinks.delete(recordedTransform.link);
       if (recordedTransform.link === nearestMovingLink) pendingTransform = recordedTransform;

@@ -19,10 +19,9 @@ const FORMAT_MAGIC: Record<FileFormat, string> = {
 
 /** First bytes of known formats that cannot be read. The error names the format. */
 const UNSUPPORTED_MAGIC: [keyof typeof UNSUPPORTED_FORMATS, string][] = [
-  ['rosbag1', '#ROSBAG V1'], ['rosbag1', '#ROSRECORD'], ['ulog', 'ULog\x01\x12\x35'], ['dataflash', '\xa3\x95\x80'],
-  ['pcap', '\xd4\xc3\xb2\xa1'], ['pcap', '\xa1\xb2\xc3\xd4'], ['pcap', '\x4d\x3c\xb2\xa1'], ['pcap', '\x0a\x0d\x0d\x0a'],
-  ['wal', '\x37\x7f\x06\x82'], ['wal', '\x37\x7f\x06\x83'], ['sqlitePart', '\x18\xe2\x2d\0'], ['sqlitePart', '\xd9\xd5\x05\xf9'], ['zip', 'PK\x03\x04'], ['gzip', '\x1f\x8b'], ['bzip2', 'BZh'],
-  ['xz', '\xfd7zXZ\0'], ['lz4', '\x04\x22\x4d\x18'], ['hdf5', '\x89HDF\r\n\x1a\n'], ['hdf5', 'MATLAB 5.0 MAT-file'], ['parquet', 'PAR1'],
+  ['rosbag1', '#ROSBAG V1'], ['rosbag1', '#ROSRECORD'], ['ulog', 'ULog\x01\x12\x35'], ['dataflash', '\xa3\x95\x80'], ['wal', '\x37\x7f\x06\x82'], ['wal', '\x37\x7f\x06\x83'],
+  ['zip', 'PK\x03\x04'], ['compressed', '\x1f\x8b'], ['compressed', 'BZh'], ['compressed', '\xfd7zXZ\0'], ['compressed', '\x04\x22\x4d\x18'],
+  ['hdf5', '\x89HDF\r\n\x1a\n'], ['hdf5', 'MATLAB 5.0 MAT-file'], ['parquet', 'PAR1'],
 ];
 
 /** Number of bytes from which the format is identified. */

@@ -121,7 +121,7 @@ function topicReader(file: string, container: Container, choice: LogChoice, seri
       if (messageCount === 0) refuse((texts) => (lossReason ? texts.damaged(lossReason, format) : texts.noMessages));
       if (damagedCount === messageCount) refuse((texts) => texts.message(1, damageReason));
       if (chain && !chain.isConnected) refuse((texts) => texts.noChain(framesText(frames), listNames(chain.tree.links.map(framesText))));
-      const hasChanged = chain?.poses((pose, { message, number }) => add(pose, message.time, number)) ?? true;
+      const hasChanged = chain?.poses((pose, { recordTime, number }) => add(pose, recordTime, number)) ?? true;
       if (!hasChanged) refuse((texts) => texts.constant(framesText(frames as FramePair), listNames((chain as Chain).tree.findPoseFrames().map(framesText))));
       const logKind = kind === 'commands' ? 'commands' : 'poses';
       const notes: Note[] = [

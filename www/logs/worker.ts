@@ -39,13 +39,11 @@ export type WorkerAnswer = { number: number } & ({ progress: number } | { result
 
 /** Opened recordings, and the log that was read last. */
 class LogSession {
-  #motion: Motion;
   #recordings: Recording[] = [];
   #simulation: AlphaCalibrator;
 
   constructor(motion: Motion) {
-    this.#motion = motion;
-    this.#simulation = new this.#motion.AlphaCalibrator();
+    this.#simulation = new motion.AlphaCalibrator();
   }
 
   async open(_: OnProgress, sources: { file: Source; path: string }[], answers: Record<string, OpenOptions>): Promise<{ recordings: OpenedRecording[]; skipped: PostedFailure[] }> {

@@ -40,7 +40,7 @@ export function logChoosers(opener: LogOpener) {
     ...(recordings.length > 1 ? recordings.flatMap((recording, index) => (hasOneLog(recording) ? [roleSelect(opener, chosen, index, texts)] : [])) : []),
   ];
   return html`<div class="choosers">
-    ${roleChoosers.length ? html`<div class="choices">${roleChoosers} ${plan?.hasRolesByOrder ? texts.choose.byOrder : nothing}</div>` : nothing}
+    ${roleChoosers.length ? html`<div class="choices">${roleChoosers}</div>` : nothing}
     ${questions.map((question) => questionOf(opener, chosen, question, texts))}
     ${[...skipped, ...(plan?.unused ?? [])].filter((failure) => failure !== opener.refusal).map((failure) => html`<p class="muted">${texts.choose.skipped(opener.explain(failure))}</p>`)}
   </div>`;

@@ -13,7 +13,7 @@ import { packJson, unpack } from '../../www/figure/packing.ts';
 import { settings } from '../../www/settings.js';
 import { LogError } from '../../www/logs/log-error.ts';
 import { openRecordings } from '../../www/logs/open.ts';
-import { applyMap, cellsOf, mapData } from '../../www/widgets/map-squeeze/maps/data.ts';
+import { applyMap, gridOf, mapDataOf } from '../../www/widgets/map-squeeze/maps/data.ts';
 import { odometryMessageOf, poseOf, recordingOf, stampOf, transformMessageOf, twistOf } from '../mcap.js';
 import { readLog } from '../node/log-support.js';
 import { fileWith, refusalMessageOf } from '../node/map-support.js';
@@ -239,7 +239,7 @@ export const fuzzTargets = {
 
 /** Returns the map that a simulation has, as data of a link. @param {InstanceType<typeof motion.MapSqueeze>} simulation @param {string} name */
 function mapOf(simulation, name) {
-  return mapData(simulation, name, cellsOf(simulation));
+  return mapDataOf(simulation, name, gridOf(simulation));
 }
 
 /** Returns states of Map Squeeze as links contain them. */

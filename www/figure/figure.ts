@@ -121,7 +121,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   /** Player of a figure that animates a slider. `advance` returns true while it plays. */
   player: { advance(elapsed: number): boolean, stop(): void } | undefined;
   /** Handlers for dragged files, if the figure accepts files. */
-  dropHandlers: Record<'over' | 'leave' | 'drop', (event: DragEvent) => void> | undefined;
+  dropHandlers: Record<'onDragOver' | 'onDragLeave' | 'onDrop', (event: DragEvent) => void> | undefined;
   /** Pictures on the canvases. The first is exported, unless `exportPicture` has a picture for that. */
   pictures: import('../scene/picture.ts').Picture<any>[] = [];
   /** Picture for export, with its own size. */

@@ -34,9 +34,9 @@ function contentHtml(figure: Figure) {
   return html`<section
       class="simulation"
       aria-label=${nameOf(figure)}
-      @dragover=${dropHandlers?.over}
-      @dragleave=${dropHandlers?.leave}
-      @drop=${dropHandlers?.drop}
+      @dragover=${dropHandlers?.onDragOver}
+      @dragleave=${dropHandlers?.onDragLeave}
+      @drop=${dropHandlers?.onDrop}
     >
       ${figure.content(viewModel)}
     </section>

@@ -213,7 +213,7 @@ export class LogOpener extends FileOpener<Figure> {
     this.share = 0;
     // An answered question keeps its height, so that the figure does not move up.
     this.#dropZone.style.minHeight = `${this.#dropZone.offsetHeight}px`;
-    const isLatest = await this.run(async () => work(this.logModules ??= await loadLogModules()));
+    const isLatest = await this.runAttempt(async () => work(this.logModules ??= await loadLogModules()));
     if (isLatest) this.#setIdle();
   }
 }
@@ -256,7 +256,7 @@ export function dropZone(figure: Figure, opener: LogOpener) {
     ${share !== undefined
       ? html`<p><progress aria-label=${texts.reading} .value=${share}></progress> ${button(words.progress.stop, () => opener.stop())}</p>`
       : figure.log ? html`<p><span class="present">${texts.present(figure.logName)}</span> ${button(texts.leave, () => opener.close())}</p>` : nothing}
-    ${opener.note}
+    ${opener.refusalNoteHtml}
     ${opener.otherResults ? html`<p class="muted other-results">${opener.otherResults} ${button(texts.keep, () => opener.forget())}</p>` : nothing}
   </div>`;
 }

@@ -10,7 +10,7 @@ import { Player } from '../shared/player.ts';
 import { PoseHandles } from '../shared/pose-handles.ts';
 import { presetButtons } from '../shared/presets.ts';
 import { commandControls, likelihoodControls, lineStepper, noiseControls, timeControl } from './controls.ts';
-import { formsPlot, factorBars, headline, likelihoodReadouts, tableLines } from './readouts.ts';
+import { formsPlot, factorBarsHtml, headlineHtml, likelihoodReadouts, tableLinesHtml } from './readouts.ts';
 import { ArcPicture, ROBOT_RADIUS } from './picture.ts';
 import { LINE_STYLES, MAX_COORDINATE, UNDERWAY_AT_END, definition } from './settings.ts';
 import { styles } from './styles.ts';
@@ -38,7 +38,7 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
   #handles: PoseHandles[] = ['start', 'next'].map((setting) => new PoseHandles(this, setting, () => this.#picture.view, () => POSE_BOUNDS));
 
   /** Animation of the arcs, which always takes the same time. The duration of the command is displayed next to it. */
-  player: Player<'underway'> = new Player(this, { underway: { to: UNDERWAY_AT_END, duration: 2000 } });
+  player: Player<'underway'> = new Player(this, { underway: { max: UNDERWAY_AT_END, durationMs: 2000 } });
 
   createSimulation: FigureElement<Simulation, ViewModel>['createSimulation'] = (motion, state) => new motion.ArcAnatomy(state && this.settings.pick(state));
 
@@ -47,8 +47,8 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
   get scene() {
     const { overlays, line, underway } = this.state.elementState;
     const viewModel = this.currentViewModel;
-    const robots = underway < UNDERWAY_AT_END ? this.simulation?.underway(underway / UNDERWAY_AT_END) : undefined;
-    return { ...viewModel, simulation: this.simulation, overlays, line, underway: robots };
+    const movingRobotPoses = underway < UNDERWAY_AT_END ? this.simulation?.underway(underway / UNDERWAY_AT_END) : undefined;
+    return { ...viewModel, simulation: this.simulation, overlays, line, underway: movingRobotPoses };
   }
 
   get exportData() {
@@ -77,7 +77,7 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
           ${pictureCanvas(this, this.#picture, pictureText(viewModel))} ${this.#handles.map((handle) => handle.render())}
         </div>`)}
         ${this.renderer.afterFirstPicture(() => html`
-        <div class="aside">${headline(viewModel)} ${factorBars(viewModel, this.state.elementState.line)}</div>`)}
+        <div class="aside">${headlineHtml(viewModel)} ${factorBarsHtml(viewModel, this.state.elementState.line)}</div>`)}
       </div>
       ${this.renderer.afterFirstPicture(() => html`
       ${legend(this, LINE_STYLES)}
@@ -86,7 +86,7 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
       <div class="controls" part="controls">${commandControls(this)} ${timeControl(this)}</div>
       ${disclosures(this, {
         controls: () => html`<div class="controls">${likelihoodControls(this)} ${noiseControls(this)}</div>`,
-        numbers: () => html`${lineStepper(this)} ${tableLines(viewModel, this.state.elementState.line)} ${likelihoodReadouts(viewModel)} ${formsPlot(this.motion)}`,
+        numbers: () => html`${lineStepper(this)} ${tableLinesHtml(viewModel, this.state.elementState.line)} ${likelihoodReadouts(viewModel)} ${formsPlot(this.motion)}`,
         fileNameMark: 'figure',
         csvTitle: texts.csvTitle,
       })}`)}

@@ -47,7 +47,7 @@ export function timeControl({ player, gesture, viewModel, state }: Figure) {
     ${player.button('underway', words.play)}
     <div class="slider" part="slider" data-role="truth">
       <label for="underway"><bdi class="symbol notranslate" translate="no"><i>t</i></bdi>${words.anatomy.underway}</label>
-      ${track({ id: 'underway', min: 0, max: UNDERWAY_AT_END, step: 1, value: underway, text: timeText, input: (at) => player.put('underway', at), commit: () => gesture.commit() })}
+      ${track({ id: 'underway', min: 0, max: UNDERWAY_AT_END, step: 1, value: underway, text: timeText, input: (at) => player.setByUser('underway', at), commit: () => gesture.commit() })}
       <output class="value" for="underway">${timeText}</output>
     </div>
   </div>`);

@@ -29,7 +29,7 @@ const MAX_RADIUS = { pathLengths: 3, metres: 1.5 };
 const MARGIN_METRES = 0.15;
 
 /** Maximum radius of the arcs that mark angles, CSS pixels. */
-const MAX_ANGLE_RADIUS = 40;
+const MAX_ANGLE_MARK_RADIUS = 40;
 
 /** Radius of the wedge that shows the last turn, CSS pixels. */
 const WEDGE_RADIUS = 64;
@@ -58,7 +58,7 @@ const CONSTRUCTIONS_BY_LINE: Record<number, string[]> = {
 export class ArcPicture extends Picture<Scene> {
   name = 'plane';
   view: View = new View();
-  #surface = new SurfaceLayer();
+  #surfaceMemo = new SurfaceLayer();
 
   fit({ config: { start, next }, stats: { commanded, inverted, lastTurn }, paths, overlays }: Scene) {
     let box = extentAround([start.x, start.y, next.x, next.y], 2);
@@ -80,19 +80,19 @@ export class ArcPicture extends Picture<Scene> {
     const { palette } = brush;
     const showsLine = (name: LineName) => overlays.includes(name);
     const styles = lineStyles(brush, LINE_STYLES);
-    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, keyOf(brush, scene));
+    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, legendEntriesOf(brush, scene));
     clipToPlot(brush, () => {
-      this.#surface.draw(brush, scene.simulation, scene.config);
+      this.#surfaceMemo.draw(brush, scene.simulation, scene.config);
       const { commanded, inverted, driven, lastTurn } = stats;
       if (showsLine('commanded')) {
-        drawCircle(brush, start, commanded, { ...styles.commanded, side: -1, angle: `ωΔt = ${fixed(commanded.turn, 2)}`, radius: '' });
+        drawArcConstruction(brush, start, commanded, { ...styles.commanded, side: -1, angle: `ωΔt = ${fixed(commanded.turn, 2)}`, radius: '' });
       }
       if (showsLine('inverted')) {
-        drawCircle(brush, start, inverted, {
+        drawArcConstruction(brush, start, inverted, {
           ...styles.inverted,
           side: 1,
           angle: `ω̂Δt = ${fixed(inverted.turn, 2)}`,
-          radius: `r* = ${printed ? fixed(Math.abs(inverted.radius), 2) : signedRadius(inverted.radius)} m`,
+          radius: `r* = ${printed ? fixed(Math.abs(inverted.radius), 2) : signedRadiusText(inverted.radius)} m`,
         });
       }
       if (showsLine('chord')) strokeLines(brush, [{ points: Float64Array.of(start.x, start.y, next.x, next.y), ...styles.chord }]);
@@ -121,7 +121,7 @@ export class ArcPicture extends Picture<Scene> {
 }
 
 /** Returns the legend of an exported picture. The last turn is not in it, because it has a label in the picture. */
-function keyOf(brush: Brush, { overlays, config: { map } }: Scene) {
+function legendEntriesOf(brush: Brush, { overlays, config: { map } }: Scene) {
   const drawnNames = (['inverted', 'commanded', 'chord', 'twist'] as LineName[]).filter((name) => overlays.includes(name));
   return [
     ...lineKeys(brush, LINE_STYLES, drawnNames, words.anatomy.overlays),
@@ -133,7 +133,7 @@ function keyOf(brush: Brush, { overlays, config: { map } }: Scene) {
  * Draws the centre of an arc, both radii and the turn between them. `side` (±1) is the direction in which the first radius is shifted, so
  * that another radius on the same line stays visible.
  */
-function drawCircle(brush: Brush, start: Pose, { center, end, turn, arcLength }: ArcWithCircle, { colour, dash, side, angle, radius: signed }: { colour: string, dash: number[], side: number, angle: string, radius: string }) {
+function drawArcConstruction(brush: Brush, start: Pose, { center, end, turn, arcLength }: ArcWithCircle, { colour, dash, side, angle, radius: signed }: { colour: string, dash: number[], side: number, angle: string, radius: string }) {
   if (!center) return;
   const { context, view } = brush;
   const [x, y] = view.toPixel(center[0], center[1]);
@@ -245,26 +245,26 @@ function drawTableLineConstruction(brush: Brush, { config: { start, next }, stat
 /** Strokes an arc about a centre that marks a turn in radians from the direction of a point; both in pixels. */
 function strokeAngle(context: Brush['context'], [x, y]: number[], [fromX, fromY]: number[], turn: number, style: LineStroke) {
   const firstAngle = Math.atan2(fromY - y, fromX - x);
-  const radius = Math.min(MAX_ANGLE_RADIUS, 0.4 * Math.hypot(fromX - x, fromY - y));
+  const radius = Math.min(MAX_ANGLE_MARK_RADIUS, 0.4 * Math.hypot(fromX - x, fromY - y));
   // In pixels y points down, so that a turn to the left is negative.
   strokePath(context, style, () => context.arc(x, y, radius, firstAngle, firstAngle - turn, turn > 0));
 }
 
 /** Prints a radius with its sign: positive if the centre is to the left. */
-const signedRadius = (radius: number) => (radius > 0 ? `+${fixed(radius, 2)}` : fixed(radius, 2));
+const signedRadiusText = (radius: number) => (radius > 0 ? `+${fixed(radius, 2)}` : fixed(radius, 2));
 
 class SurfaceLayer {
   #pixels = new Pixels();
-  #surface: Memo<AnatomySurface | null> = new Memo();
-  #coloured: Memo<void> = new Memo();
+  #surfaceMemo: Memo<AnatomySurface | null> = new Memo();
+  #pixelsMemo: Memo<void> = new Memo();
 
   /** Draws the surface for `config`, which is a new object after every change. */
   draw(brush: Brush, simulation: ArcAnatomy, config: import('../../types.d.ts').ArcAnatomySettings) {
     const { palette, view: { extent: { xMin, yMin, xMax, yMax } } } = brush;
-    const surface = this.#surface.get([config, xMin, yMin, xMax, yMax], () => simulation.surface(xMin, yMin, xMax, yMax));
+    const surface = this.#surfaceMemo.get([config, xMin, yMin, xMax, yMax], () => simulation.surface(xMin, yMin, xMax, yMax));
     if (!surface) return;
     const { columns, shades, prob, density } = surface;
-    this.#coloured.get([surface, palette], () => this.#pixels.put(colouredPixels(shades, palette), columns));
+    this.#pixelsMemo.get([surface, palette], () => this.#pixels.put(colouredPixels(shades, palette), columns));
     this.#pixels.draw(brush);
     brush.context.globalAlpha = 0.7;
     for (const [lines, { role, width, dash }] of [[prob, CONTOUR_STYLES.prob], [density, CONTOUR_STYLES.density]] as const) {

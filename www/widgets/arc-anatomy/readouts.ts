@@ -19,13 +19,13 @@ const BAR_MIDDLE = BAR_SCALE.max * BAR_SCALE.pixels + 4;
  * Symbols, errors and units of the factors. A bar to the right means more than commanded. The table has the residuals of v and ω with the
  * opposite sign.
  */
-const FACTOR_SYMBOLS = [
+const FACTOR_NOTATION = [
   { symbol: '*v̂*', error: '(*v̂* − *v*)', sign: -1, unit: 'm/s' },
   { symbol: '*ω̂*', error: '(*ω̂* − *ω*)', sign: -1, unit: 'rad/s' },
   { symbol: '*γ̂*', error: '*γ̂*', sign: 1, unit: 'rad/s' },
 ];
 
-export function headline({ stats: { share } }: ViewModel) {
+export function headlineHtml({ stats: { share } }: ViewModel) {
   const texts = words.anatomy.headline;
   return html`<p class="headline" part="readouts"><strong>${shareText(share)}</strong> ${isTiny(share) ? texts.times : texts.share}</p>`;
 }
@@ -34,15 +34,15 @@ export function headline({ stats: { share } }: ViewModel) {
  * Returns the three errors in standard deviations, each with its factor as a share of the peak. The last line of Table 5.1 highlights
  * them.
  */
-export function factorBars({ stats: { factors, weakest, share } }: ViewModel, line: number) {
+export function factorBarsHtml({ stats: { factors, weakest, share } }: ViewModel, line: number) {
   const texts = words.anatomy.bars;
   return html`<ul part="readouts" class="factors ${line === TABLE_LINES ? 'lit' : ''}" aria-label=${texts.label}>
     ${factors.map((factor, i) => {
-      const { symbol, error, sign, unit } = FACTOR_SYMBOLS[i];
+      const { symbol, error, sign, unit } = FACTOR_NOTATION[i];
       const deviations = sign * factor.deviations;
       return html`<li class=${i === weakest && share < 1 ? 'weakest' : nothing}>
         <span class="estimate">${formatMarkup(symbol)} ${texts.names[i]} = ${fixed(factor.estimate, 2)} ${unit}</span>
-        ${bar(deviations)}
+        ${barHtml(deviations)}
         <span class="keeps muted small">${texts.factor(shareText(factor.share))}</span>
         <span class="off small">${formatMarkup(error)}/<i>σ</i> = ${fixed(deviations, 1)}</span>
       </li>`;
@@ -50,7 +50,7 @@ export function factorBars({ stats: { factors, weakest, share } }: ViewModel, li
   </ul>`;
 }
 
-function bar(deviations: number) {
+function barHtml(deviations: number) {
   const barX = (value: number) => BAR_MIDDLE + BAR_SCALE.pixels * clamp(value, -BAR_SCALE.max, BAR_SCALE.max);
   const isBeyondScale = Math.abs(deviations) > BAR_SCALE.max;
   const barEnd = barX(deviations);
@@ -90,16 +90,16 @@ const LINE_UNITS = ['', ' m', ' m', ' m', ' rad', ' m/s', ' rad/s', ' rad/s', ''
 
 /** Returns a line of the table, counted from 1, with its value. */
 export function lineText({ table: { lines }, config: { printed } }: ViewModel, line: number) {
-  const value = lines[line - 1];
+  const lineValue = lines[line - 1];
   const lineFormula = printed ? TABLE_FORMULAS[line - 1].replace('±', '') : TABLE_FORMULAS[line - 1];
-  const valueText = line === TABLE_LINES ? densityText(value) : fixed(value, 3);
+  const valueText = line === TABLE_LINES ? densityText(lineValue) : fixed(lineValue, 3);
   return `${line}. ${lineFormula} = ${valueText}${LINE_UNITS[line - 1]}`;
 }
 
-export function tableLines(viewModel: ViewModel, lit: number) {
+export function tableLinesHtml(viewModel: ViewModel, highlightedLine: number) {
   const texts = words.anatomy.table;
   return html`<ol class="lines" part="table">
-      ${TABLE_FORMULAS.map((_, i) => html`<li class=${i + 1 === lit ? 'lit' : nothing}>${formatMarkup(lineText(viewModel, i + 1))}</li>`)}
+      ${TABLE_FORMULAS.map((_, i) => html`<li class=${i + 1 === highlightedLine ? 'lit' : nothing}>${formatMarkup(lineText(viewModel, i + 1))}</li>`)}
     </ol>
     <p class="muted">${formatMarkup(texts.sign)}</p>`;
 }
@@ -108,11 +108,11 @@ export function tableLines(viewModel: ViewModel, lit: number) {
 const ERROR_RANGE = { from: 1e-18, to: 1 };
 
 /** Cache of the errors of the forms, which depend on no setting. */
-let cachedErrors: FormErrors | undefined;
+let cachedFormErrors: FormErrors | undefined;
 
 export function formsPlot({ ArcAnatomy }: Motion) {
   const texts = words.anatomy.forms;
-  const { omega, arc, straight, chord, estimatedCrossover, threshold } = (cachedErrors ??= ArcAnatomy.formErrors());
+  const { omega, arc, straight, chord, estimatedCrossover, threshold } = (cachedFormErrors ??= ArcAnatomy.formErrors());
   return html`<figure class="forms">
     ${plot({
       label: texts.text,

@@ -12,19 +12,19 @@ addEnglish({ anatomy: en });
 export type ViewModel = ReturnType<ArcAnatomy['read']>;
 
 /** Limit below which numbers are printed as powers of ten: p is a product of three densities, and spans many decades. */
-const MIN_DECIMAL = 0.0005;
+const MIN_PLAIN_NUMBER = 0.0005;
 
-function powerText(value: number) {
+function scientificText(value: number) {
   const [mantissa, exponent] = value.toExponential(1).split('e').map(Number);
   return `${fixed(mantissa, 1)}·${formatPowerOfTen(exponent)}`;
 }
 
 /** Returns true if a number is printed as a power of ten. */
-export const isTiny = (value: number) => value > 0 && value < MIN_DECIMAL;
+export const isTiny = (value: number) => value > 0 && value < MIN_PLAIN_NUMBER;
 
-export const shareText = (share: number) => (isTiny(share) ? powerText(share) : percent(share));
+export const shareText = (share: number) => (isTiny(share) ? scientificText(share) : percent(share));
 
-export const densityText = (density: number) => (isTiny(density) ? powerText(density) : formatSignificant(density, 3));
+export const densityText = (density: number) => (isTiny(density) ? scientificText(density) : formatSignificant(density, 3));
 
 const ESTIMATE_SYMBOLS = ['v̂', 'ω̂', 'γ̂'];
 

@@ -66,7 +66,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
 
   #pinnedViewModel: Memo<ViewModel> = new Memo();
 
-  player: Player<'morph'> = new Player(this, { morph: { to: 1, duration: MORPH_MS } });
+  player: Player<'morph'> = new Player(this, { morph: { max: 1, durationMs: MORPH_MS } });
 
   createSimulation: FigureElement<Simulation, ViewModel>['createSimulation'] = (motion, state) => {
     // The simulation starts empty: the cloud grows visibly, and the first frame need not wait for samples.

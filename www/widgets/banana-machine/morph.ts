@@ -112,7 +112,7 @@ export function morphControl({ player, gesture, state }: import('./banana-machin
     ${player.button('morph', texts.play)}
     ${track({
       id: 'morph', name: texts.name, min: 0, max: 1, step: MORPH_STEP, value: morph, text: texts.text(percent(morph)),
-      input: (to) => player.put('morph', to), commit: () => gesture.commit(),
+      input: (to) => player.setByUser('morph', to), commit: () => gesture.commit(),
     })}
     <span class="end floor muted small" aria-hidden="true">${texts.floor}</span>
     <span class="end twist muted small" aria-hidden="true">${texts.twist}</span>

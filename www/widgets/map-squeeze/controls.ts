@@ -24,7 +24,7 @@ export function startControls(figure: Figure) {
   const { own } = words.squeeze;
   if (!figure.map) return presetButtons(figure);
   return html`<div class="buttons presets">
-    ${button(own.leave, () => figure.open(null))} ${button(own.open, () => figure.moveToFreePose())} ${startOverButton(figure)}
+    ${button(own.leave, () => figure.openMap(null))} ${button(own.open, () => figure.moveToFreePose())} ${startOverButton(figure)}
   </div>`;
 }
 
@@ -47,7 +47,7 @@ export function motionControls(figure: Figure) {
 }
 
 /** Returns the controls that are changed less often. One of them is for unknown cells, if the map has any. */
-export function robotAndMap(figure: Figure, hasUnknown: boolean) {
+export function robotAndMapControls(figure: Figure, hasUnknown: boolean) {
   const { robotAndMap: heading, condition, settings, unknown, views } = words.squeeze;
   return group(heading, html`${settingSlider(figure, 'clearance')} ${settingCheckbox(figure, 'conditioned', condition)}
     ${hasUnknown ? settingRadios(figure, 'unknown', unknown) : nothing}
@@ -55,7 +55,7 @@ export function robotAndMap(figure: Figure, hasUnknown: boolean) {
 }
 
 /** Returns the controls for a map of the user's own, with the name and size of the present map. */
-export function ownMap(figure: Figure, opener: import('./maps/open.ts').MapOpener, map: string) {
+export function userMapControls(figure: Figure, opener: import('./maps/open.ts').MapOpener, mapText: string) {
   const texts = words.squeeze.own;
   const pasteMap = () => {
     const mapField = figure.renderRoot.querySelector('#map-text') as HTMLTextAreaElement;
@@ -66,8 +66,8 @@ export function ownMap(figure: Figure, opener: import('./maps/open.ts').MapOpene
       <p>${texts.text}</p>
       <p>${opener.button('map-files', texts.files, EXTENSIONS)}</p>
       <p ?hidden=${!opener.isReading}>${texts.reading}</p>
-      ${opener.note}
-      <p class="present muted">${map}.</p>
+      ${opener.refusalNoteHtml}
+      <p class="present muted">${mapText}.</p>
     </div>
     <div>
       <label for="map-text">${texts.plan}</label>

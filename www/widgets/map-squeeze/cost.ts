@@ -7,7 +7,7 @@ import type { MapSqueeze, SamplerName } from '../../types.d.ts';
 /** Cost of one accepted sample, with its time in microseconds; or the reason why there is none. */
 export type SampleCost = { micros: number, draws: number, wallTests: number } | 'wedged' | 'few';
 
-/** Number of particles and rate of the chapter's exercise, samples per second. */
+/** Samples per second in the chapter's exercise: 2000 particles, 20 updates per second. */
 export const SAMPLES_PER_SECOND = 2000 * 20;
 
 /** Minimum duration of the measured run, ms. Clocks of browsers may have steps of 1 ms. */
@@ -18,19 +18,19 @@ export const measureCosts = (simulation: MapSqueeze, steps: number) =>
   Object.fromEntries(SAMPLERS.map((sampler) => [sampler, measureCost(simulation, sampler, sampler === 'sub-stepped' ? steps : 1)])) as Record<SamplerName, SampleCost>;
 
 /** Doubles the number of samples until a run is long enough to be measured. */
-function measureCost(simulation: MapSqueeze, sampler: SamplerName, parts: number): SampleCost {
-  const maxCount = Math.floor(limits.trial / parts);
-  let count = 1;
+function measureCost(simulation: MapSqueeze, sampler: SamplerName, subStepCount: number): SampleCost {
+  const maxCount = Math.floor(limits.trial / subStepCount);
+  let sampleCount = 1;
   try {
     for (;;) {
       const startTime = performance.now();
-      const { draws, wallTests } = simulation.trial(sampler, parts, count);
-      const elapsed = performance.now() - startTime;
-      if (elapsed >= MIN_RUN_MS || count === maxCount) return { micros: (1000 * elapsed) / count, draws: draws / count, wallTests: wallTests / count };
-      count = Math.min(maxCount, 2 * count);
+      const { draws, wallTests } = simulation.trial(sampler, subStepCount, sampleCount);
+      const elapsedMs = performance.now() - startTime;
+      if (elapsedMs >= MIN_RUN_MS || sampleCount === maxCount) return { micros: (1000 * elapsedMs) / sampleCount, draws: draws / sampleCount, wallTests: wallTests / sampleCount };
+      sampleCount = Math.min(maxCount, 2 * sampleCount);
     }
   } catch (error) {
     if (!(error instanceof RangeError && error.message.includes('wedged'))) throw error;
-    return count === 1 ? 'wedged' : 'few';
+    return sampleCount === 1 ? 'wedged' : 'few';
   }
 }

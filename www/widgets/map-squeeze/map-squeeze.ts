@@ -10,14 +10,14 @@ import { words } from '../../messages/registry.ts';
 import { verdict as bits } from '../../settings.js';
 import { Memo } from '../../scene/memo.ts';
 import { PoseHandles } from '../shared/pose-handles.ts';
-import { motionControls, ownMap, startControls, robotAndMap, samplerControls } from './controls.ts';
+import { motionControls, userMapControls, startControls, robotAndMapControls, samplerControls } from './controls.ts';
 import { measureCosts } from './cost.ts';
-import { applyMap, cellsOf, mapData } from './maps/data.ts';
+import { applyMap, gridOf, mapDataOf } from './maps/data.ts';
 import { MapOpener } from './maps/open.ts';
-import { overviewMap, costTable, markedSample, tallyReadouts } from './readouts.ts';
+import { overviewMapHtml, costTable, markedSampleField, tallyReadouts } from './readouts.ts';
 import { FloorPicture } from './picture.ts';
 import { outcomeIndex, viewModelOf, type ViewModel } from './view-model.ts';
-import { LINE_STYLES, OPENING_START, PRESET_SETTING, definition } from './settings.ts';
+import { LINE_STYLES, OPENING_POSE, PRESET_SETTING, definition } from './settings.ts';
 import { styles } from './styles.ts';
 import { WallHandles } from './wall-handles.ts';
 import { wallContact } from './walls.ts';
@@ -25,7 +25,7 @@ import { captionOf, headlineOf, mapText, pictureText } from './words.ts';
 import type { Values } from '../../figure/settings.ts';
 import type { Cells } from '../../scene/walls.ts';
 import type { MapData, MapSqueeze as Simulation, Pose } from '../../types.d.ts';
-import type { OwnMap } from './maps/files.ts';
+import type { UserMap } from './maps/files.ts';
 
 /**
  * Motion conditioned on a map, and what the condition cannot see.
@@ -51,21 +51,21 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   /** Costs of the samplers, and the settings with which they were measured. */
   #measurement: { config: Values, costs: ReturnType<typeof measureCosts> } | undefined;
   /** Path of the selected sample. */
-  #path: Memo<Float64Array> = new Memo();
+  #pathMemo: Memo<Float64Array> = new Memo();
   /** Grid of a simulation's map. Copying it takes long. */
-  #grid: Memo<Cells | null> = new Memo();
+  #gridMemo: Memo<Cells | null> = new Memo();
 
   createSimulation: FigureElement<Simulation, ViewModel>['createSimulation'] = (motion, state) => {
     const simulation = enterCloud(this, motion.MapSqueeze.empty(), state);
     if (!state?.map) return simulation;
     applyMap(simulation, state.map);
     simulation.configureFirst({}, state.shown);
-    state.map = mapData(simulation, state.map.name ?? '', this.#gridOf(simulation));
+    state.map = mapDataOf(simulation, state.map.name ?? '', this.#gridOf(simulation));
     return simulation;
   };
 
   #gridOf(simulation: Simulation) {
-    return this.#grid.get([simulation], () => cellsOf(simulation));
+    return this.#gridMemo.get([simulation], () => gridOf(simulation));
   }
 
   simulationChanged() {
@@ -87,14 +87,14 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   get scene() {
     const viewModel = this.currentViewModel;
     const { selectedIndex: index, isMarked } = this.cloud;
-    this.picture.close = this.state.elementState.view === 'close';
-    return { ...viewModel, simulation: this.simulation, overlays: this.state.elementState.overlays, marked: isMarked ? this.#marked(index) : undefined };
+    this.picture.isClose = this.state.elementState.view === 'close';
+    return { ...viewModel, simulation: this.simulation, overlays: this.state.elementState.overlays, marked: isMarked ? this.#markedSampleOf(index) : undefined };
   }
 
   /** Returns the marked sample, with the point where an accepted one went through a wall. */
-  #marked(index: number) {
+  #markedSampleOf(index: number) {
     const { poses, verdicts, config } = this.currentViewModel;
-    const path = this.#path.get([poses, index], () => (this.simulation as Simulation).path(index));
+    const path = this.#pathMemo.get([poses, index], () => (this.simulation as Simulation).path(index));
     const goesThroughWall = outcomeIndex(verdicts[index]) === 2;
     return { pose: poses.subarray(3 * index), path, contact: goesThroughWall ? wallContact(path, this.picture.plan.walls, config.clearance) : undefined };
   }
@@ -145,7 +145,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   set map(map) {
     const isNameless = typeof map === 'object' && map !== null && !Array.isArray(map) && map.name === undefined;
     this.reflection.setProperty('map', isNameless ? { ...map, name: '' } : map, (newMap) => {
-      this.#enterMap(newMap && ownMapOf(newMap));
+      this.#enterMap(newMap && userMapOf(newMap));
       this.reflection.updateAttributes();
       this.renderer.requestFrame();
     });
@@ -165,7 +165,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     return this.#measurement?.config === this.settings.current ? this.#measurement.costs : undefined;
   }
 
-  measure() {
+  measureSamplerCosts() {
     this.runtime.attempt(() => {
       const { simulation, settings: { current: config } } = this;
       if (simulation) this.#measurement = { config, costs: measureCosts(simulation, config.steps) };
@@ -181,7 +181,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   }
 
   /** Puts the robot into a map of the user, or for null into the apartment, as the user asked. */
-  open(map: OwnMap | null) {
+  openMap(map: UserMap | null) {
     if (!this.simulation) return;
     this.runtime.attempt(() => {
       this.#enterMap(map);
@@ -193,7 +193,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   moveWalls(walls: Float64Array) {
     const { bounds } = this.picture.plan;
     const name = this.map?.name ?? words.squeeze.edited;
-    const apply: OwnMap['apply'] = (simulation) => simulation.setPlan({ bounds: [...bounds], walls });
+    const apply: UserMap['apply'] = (simulation) => simulation.setPlan({ bounds: [...bounds], walls });
     this.runtime.attemptOrReport(() => {
       this.#enterMap({ name, apply, start: this.settings.requested.start });
       this.gesture.step();
@@ -205,7 +205,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
    * Puts the robot into a map of the user, or for null into the apartment. A new simulation tries the map first; the present simulation stays
    * if the map or the start pose is refused.
    */
-  #enterMap(map: OwnMap & { start?: Pose } | null) {
+  #enterMap(map: UserMap & { start?: Pose } | null) {
     const { motion, settings } = this;
     if (!motion) return;
     settings.applyPending();
@@ -214,9 +214,9 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     map?.apply(simulation);
     // In an occupancy grid the present pose is not kept, because it may be outside the mapped area.
     const needsFreePose = this.#gridOf(simulation) !== null || !simulation.startFree;
-    const start = map ? map.start ?? (needsFreePose ? freePoseIn(simulation) : undefined) : OPENING_START;
-    simulation.configureFirst(start ? { start } : {}, this.cloud.targetCount);
-    this.state.elementState.map = map && mapData(simulation, map.name, this.#gridOf(simulation));
+    const startPose = map ? map.start ?? (needsFreePose ? freePoseIn(simulation) : undefined) : OPENING_POSE;
+    simulation.configureFirst(startPose ? { start: startPose } : {}, this.cloud.targetCount);
+    this.state.elementState.map = map && mapDataOf(simulation, map.name, this.#gridOf(simulation));
     this.runtime.replace(simulation);
     settings.reset();
     this.simulationChanged();
@@ -233,10 +233,10 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   }
 
   content(viewModel: ViewModel) {
-    const { sorted, stats, note } = viewModel;
+    const { posesByOutcome, stats, note } = viewModel;
     const { hasUnknown } = this.picture;
     const { floor, density } = words.squeeze;
-    const { unknown, ...marks } = LINE_STYLES;
+    const { unknown, ...markStyles } = LINE_STYLES;
     return html`
       <div class="views">
         ${titledPicture(floor, html`<div class="stage" part="picture">
@@ -244,21 +244,21 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
             ${this.renderer.afterFirstPicture(() => this.#wallHandles.render())}
             ${this.#handles.render()}
           </div>
-          ${this.renderer.afterFirstPicture(() => legend(this, hasUnknown ? { ...marks, unknown } : marks, this.#wallHandles.legend()))}`)}
+          ${this.renderer.afterFirstPicture(() => legend(this, hasUnknown ? { ...markStyles, unknown } : markStyles, this.#wallHandles.legend()))}`)}
         ${this.renderer.afterFirstPicture(() => html`<div class="aside">
           <div class="result">
             <p class="headline">${headlineOf(stats)}</p>
             <p class="verdict caption ${note && 'note'}" part="caption">${captionOf(viewModel)}</p>
           </div>
-          ${startControls(this)} ${samplerControls(this)} ${overviewMap(this.picture, viewModel)}
+          ${startControls(this)} ${samplerControls(this)} ${overviewMapHtml(this.picture, viewModel)}
         </div>`)}
       </div>
       ${this.renderer.afterFirstPicture(() => html`
       <div class="controls" part="controls">${motionControls(this)}</div>
-      ${sorted ? nothing : html`<p class="about muted">${density}</p>`}
+      ${posesByOutcome ? nothing : html`<p class="about muted">${density}</p>`}
       ${disclosures(this, {
-        controls: () => html`<div class="controls">${robotAndMap(this, hasUnknown)}</div> ${ownMap(this, this.#opener, this.#mapText)}`,
-        numbers: () => html`${tallyReadouts(viewModel)} ${markedSample(this)} ${costTable(this)}`,
+        controls: () => html`<div class="controls">${robotAndMapControls(this, hasUnknown)}</div> ${userMapControls(this, this.#opener, this.#mapText)}`,
+        numbers: () => html`${tallyReadouts(viewModel)} ${markedSampleField(this)} ${costTable(this)}`,
       })}`)}
     `;
   }
@@ -269,7 +269,7 @@ function freePoseIn({ openPlace, config, plan: { bounds: [left, bottom, right, t
   return openPlace ?? { ...config.start, x: (left + right) / 2, y: (bottom + top) / 2 };
 }
 
-const ownMapOf = (map: MapData): OwnMap => ({
+const userMapOf = (map: MapData): UserMap => ({
   name: map.name ?? '',
   apply: (simulation) => applyMap(simulation, map),
 });

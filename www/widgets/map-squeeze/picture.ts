@@ -57,22 +57,22 @@ export class FloorPicture extends SamplesPicture<Scene> {
   /** True if the map has unknown cells. */
   hasUnknown;
   /** False for a grid, whose walls outline its cells and cannot be moved. */
-  movable;
+  hasMovableWalls;
   #nearView = new View();
   #wholeView = this.view;
-  #walls;
+  #wallLayer;
   /** Corners of the known part of the map, which may be much smaller than the map. */
   #knownCorners: ArrayLike<number>;
-  #density = new Density();
-  #outlinePath = '';
+  #densityImage = new Density();
+  #wallPathData = '';
 
   /** Keeps the views of the previous picture if its map has the same bounds. */
   constructor(plan: Plan, grid: Cells | null, previousPicture?: FloorPicture) {
     super();
     this.plan = plan;
     this.hasUnknown = grid?.unknown !== undefined;
-    this.movable = grid === null;
-    this.#walls = new WallLayer(plan, grid);
+    this.hasMovableWalls = grid === null;
+    this.#wallLayer = new WallLayer(plan, grid);
     this.#knownCorners = grid?.unknown ? knownCorners(grid, grid.unknown) : plan.walls;
     if (previousPicture?.plan.bounds.every((bound, i) => bound === plan.bounds[i])) {
       this.#nearView = previousPicture.#nearView;
@@ -82,35 +82,35 @@ export class FloorPicture extends SamplesPicture<Scene> {
   }
 
   /** Walls as a path of SVG, metres. */
-  get outline() {
-    if (this.#outlinePath) return this.#outlinePath;
+  get wallPathData() {
+    if (this.#wallPathData) return this.#wallPathData;
     const { walls } = this.plan;
-    for (let i = 0; i < walls.length; i += 4) this.#outlinePath += `M${walls[i]} ${walls[i + 1]}L${walls[i + 2]} ${walls[i + 3]}`;
-    return this.#outlinePath;
+    for (let i = 0; i < walls.length; i += 4) this.#wallPathData += `M${walls[i]} ${walls[i + 1]}L${walls[i + 2]} ${walls[i + 3]}`;
+    return this.#wallPathData;
   }
 
   /** True for a close view, which shows only the surroundings of the robot. */
-  get close() {
+  get isClose() {
     return this.view === this.#nearView;
   }
 
-  set close(close) {
-    if (close === this.close) return;
-    this.view = close ? this.#nearView : this.#wholeView;
+  set isClose(isClose) {
+    if (isClose === this.isClose) return;
+    this.view = isClose ? this.#nearView : this.#wholeView;
     this.view.reset();
   }
 
   fit({ commanded, config }: Scene) {
     const mappedExtent = this.knownExtentAround(config.start);
-    if (!this.close) {
+    if (!this.isClose) {
       this.#wholeView.fit(mappedExtent);
       return;
     }
     const driveLength = Math.abs(config.command.v * config.command.dt);
     const halfSize = Math.max(MIN_END_HALF_SIZE, END_HALF_SIZE_FACTOR * driveLength) + config.clearance;
     const [x, y] = commanded.slice(-2);
-    const arcBox = extentAround(commanded, 2);
-    const pathCorners = [arcBox.xMin - PATH_MARGIN, arcBox.yMin - PATH_MARGIN, arcBox.xMax + PATH_MARGIN, arcBox.yMax + PATH_MARGIN];
+    const arcExtent = extentAround(commanded, 2);
+    const pathCorners = [arcExtent.xMin - PATH_MARGIN, arcExtent.yMin - PATH_MARGIN, arcExtent.xMax + PATH_MARGIN, arcExtent.yMax + PATH_MARGIN];
     const neededExtent = extentAround([...pathCorners, x - halfSize, y - halfSize, x + halfSize, y + halfSize], 2);
     this.#nearView.limits = mappedExtent;
     this.#nearView.fit({
@@ -124,37 +124,37 @@ export class FloorPicture extends SamplesPicture<Scene> {
   /** Returns the known part of the plan if the robot is inside it, and the whole plan otherwise. */
   knownExtentAround({ x, y }: { x: number, y: number }) {
     const [xMin, yMin, xMax, yMax] = this.plan.bounds;
-    const box = extentAround(this.#knownCorners, 2, { xMin: x, yMin: y, xMax: x, yMax: y });
-    const isInside = box.xMin < x && x < box.xMax && box.yMin < y && y < box.yMax;
-    const { xMin: left, yMin: bottom, xMax: right, yMax: top } = isInside ? box : { xMin, yMin, xMax, yMax };
+    const knownExtent = extentAround(this.#knownCorners, 2, { xMin: x, yMin: y, xMax: x, yMax: y });
+    const isInside = knownExtent.xMin < x && x < knownExtent.xMax && knownExtent.yMin < y && y < knownExtent.yMax;
+    const { xMin: left, yMin: bottom, xMax: right, yMax: top } = isInside ? knownExtent : { xMin, yMin, xMax, yMax };
     const mapMargin = MAP_MARGIN * Math.max(right - left, top - bottom);
     return { xMin: left - mapMargin, yMin: bottom - mapMargin, xMax: right + mapMargin, yMax: top + mapMargin };
   }
 
   paint: SamplesPicture<Scene>['paint'] = (brush, scene) => {
-    const { sorted, paths, commanded, config, marked, overlays } = scene;
+    const { posesByOutcome, paths, commanded, config, marked, overlays } = scene;
     const { palette } = brush;
     const showsLine = (name: string) => overlays.includes(name);
-    const { accepted, through, rejected, commanded: command } = lineStyles(brush, LINE_STYLES);
-    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, brush.exported ? keyOf(brush, scene) : []);
+    const { accepted, through, rejected, commanded: commandStyle } = lineStyles(brush, LINE_STYLES);
+    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, brush.exported ? legendEntriesOf(brush, scene) : []);
     clipToPlot(brush, () => {
       // The walls are drawn after the paths, so that a path through a wall does not hide the wall.
-      if (sorted) {
+      if (posesByOutcome) {
         if (showsLine('through')) drawPaths(brush, paths, through.colour);
-        if (showsLine('accepted')) drawSamples(brush, sorted.free, accepted.colour);
-        if (showsLine('through')) drawSamples(brush, sorted.through, through.colour);
-        this.#walls.draw(brush, showsLine('unknown'));
-        if (showsLine('rejected')) drawCrosses(brush, sorted.rejected, rejected.colour);
+        if (showsLine('accepted')) drawSamples(brush, posesByOutcome.free, accepted.colour);
+        if (showsLine('through')) drawSamples(brush, posesByOutcome.through, through.colour);
+        this.#wallLayer.draw(brush, showsLine('unknown'));
+        if (showsLine('rejected')) drawCrosses(brush, posesByOutcome.rejected, rejected.colour);
       } else {
         this.#drawDensity(brush, scene);
-        this.#walls.draw(brush, showsLine('unknown'));
+        this.#wallLayer.draw(brush, showsLine('unknown'));
         if (showsLine('through')) drawPaths(brush, paths.slice(0, MAX_PATHS_ON_DENSITY), through.colour);
       }
       const { start, clearance } = config;
       if (showsLine('commanded')) {
-        drawOutline(brush, commanded, command);
+        drawOutline(brush, commanded, commandStyle);
         const [endX, endY] = commanded.slice(-2);
-        drawRobotOutline(brush, endX, endY, clearance, command.colour);
+        drawRobotOutline(brush, endX, endY, clearance, commandStyle.colour);
       }
       drawDraggableRobot(brush, start, clearance, palette.prior);
       if (marked) {
@@ -168,10 +168,10 @@ export class FloorPicture extends SamplesPicture<Scene> {
 
   #drawDensity(brush: Brush, { simulation, stats, overlays }: Scene) {
     const { palette } = brush;
-    const kinds = [['rejected', palette.truth], ['accepted', palette.cloud], ['through', palette.accent]] as const;
-    const ramps = kinds.flatMap(([name, cloud]) => [...(overlays.includes(name) ? densityRamp({ ...palette, cloud }) : TRANSPARENT_RAMP)]);
+    const outcomeColours = [['rejected', palette.truth], ['accepted', palette.cloud], ['through', palette.accent]] as const;
+    const ramps = outcomeColours.flatMap(([name, cloud]) => [...(overlays.includes(name) ? densityRamp({ ...palette, cloud }) : TRANSPARENT_RAMP)]);
     const cellSize = clamp(DENSITY_CELL.max * Math.sqrt(DENSITY_CELL.samples / stats.attempts) / 2, DENSITY_CELL.min, DENSITY_CELL.max);
-    this.#density.draw(brush, cellSize, [stats, palette, overlays], (...part) => simulation.picture(...part, Uint8Array.from(ramps)));
+    this.#densityImage.draw(brush, cellSize, [stats, palette, overlays], (...part) => simulation.picture(...part, Uint8Array.from(ramps)));
   }
 }
 
@@ -205,18 +205,18 @@ function drawWallContact(brush: Brush, contact: number[]) {
 }
 
 /** Returns the key of an exported picture: the marks, or the colours of a density. */
-function keyOf({ context, palette }: Brush, { overlays, sorted }: Scene): import('../../scene/axes.ts').KeyEntry[] {
-  const keyNames = (['accepted', 'through', 'rejected'] as const).filter((name) => overlays.includes(name));
-  return keyNames.map((name) => ({
+function legendEntriesOf({ context, palette }: Brush, { overlays, posesByOutcome }: Scene): import('../../scene/axes.ts').KeyEntry[] {
+  const shownNames = (['accepted', 'through', 'rejected'] as const).filter((name) => overlays.includes(name));
+  return shownNames.map((name) => ({
     name: words.squeeze.overlays[name],
     draw: (x, y, width) => {
-      const sampleMiddle = x + width / 2;
+      const swatchMiddle = x + width / 2;
       context.strokeStyle = context.fillStyle = palette[LINE_STYLES[name].role];
       context.lineWidth = 1;
       context.beginPath();
-      if (!sorted) context.rect(sampleMiddle - 5, y - 5, 10, 10);
-      else if (name === 'rejected') addCross(context, sampleMiddle, y);
-      else context.arc(sampleMiddle, y, SAMPLE_DOT.max, 0, 2 * Math.PI);
+      if (!posesByOutcome) context.rect(swatchMiddle - 5, y - 5, 10, 10);
+      else if (name === 'rejected') addCross(context, swatchMiddle, y);
+      else context.arc(swatchMiddle, y, SAMPLE_DOT.max, 0, 2 * Math.PI);
       context.fill();
       context.stroke();
     },

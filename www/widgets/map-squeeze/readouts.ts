@@ -26,7 +26,7 @@ export function tallyReadouts({ stats, config: { conditioned, sampler }, paths: 
   ]);
 }
 
-export function markedSample(figure: Figure) {
+export function markedSampleField(figure: Figure) {
   const { cloud, viewModel: { config, stats, verdicts } } = figure;
   const { sample, markHint } = words.squeeze;
   const selectedText = cloud.isMarked ? verdictText(verdicts[cloud.selectedIndex], config) : '';
@@ -37,13 +37,13 @@ export function markedSample(figure: Figure) {
 export function costTable(figure: Figure) {
   const { samplers, costs: texts } = words.squeeze;
   const { costs, viewModel: { config } } = figure;
-  const row = (sampler: SamplerName, cost: SampleCost) => [
+  const costRow = (sampler: SamplerName, cost: SampleCost) => [
     sampler === 'sub-stepped' ? `${samplers[sampler]} (${config.steps})` : samplers[sampler],
     ...(typeof cost === 'string' ? [texts[cost]] : costTexts(cost)),
   ];
   return html`<div class="table">
-    ${button(texts.measure, () => figure.measure())}
-    ${costs ? figureTable({ caption: texts.caption, columns: [texts.sampler, texts.draws, texts.tests, 'µs', texts.core], rows: SAMPLERS.map((sampler) => row(sampler, costs[sampler])) }) : nothing}
+    ${button(texts.measure, () => figure.measureSamplerCosts())}
+    ${costs ? figureTable({ caption: texts.caption, columns: [texts.sampler, texts.draws, texts.tests, 'µs', texts.core], rows: SAMPLERS.map((sampler) => costRow(sampler, costs[sampler])) }) : nothing}
   </div>`;
 }
 
@@ -56,15 +56,15 @@ function costTexts({ draws, wallTests, micros }: Exclude<SampleCost, string>) {
 const MAX_SHOWN_FRACTION = 0.6;
 
 /** Returns the overview, or nothing if the picture already shows most of the map. */
-export function overviewMap(picture: import('./picture.ts').FloorPicture, { config, commanded }: import('./view-model.ts').ViewModel) {
+export function overviewMapHtml(picture: import('./picture.ts').FloorPicture, { config, commanded }: import('./view-model.ts').ViewModel) {
   const { xMin, yMin, xMax, yMax } = picture.knownExtentAround(config.start);
   const [width, height] = [xMax - xMin, yMax - yMin];
   const { extent } = picture.view;
   const shownSize = [extent.xMax - extent.xMin, extent.yMax - extent.yMin];
-  if (!picture.close || shownSize[0] * shownSize[1] > MAX_SHOWN_FRACTION * width * height) return nothing;
+  if (!picture.isClose || shownSize[0] * shownSize[1] > MAX_SHOWN_FRACTION * width * height) return nothing;
   return html`<svg class="overview" viewBox=${`${xMin} ${-yMax} ${width} ${height}`} aria-hidden="true">
     <g transform="scale(1 -1)">
-      <path stroke="var(--muted)" d=${picture.outline} />
+      <path stroke="var(--muted)" d=${picture.wallPathData} />
       <polyline stroke="var(--prior)" stroke-width="2" points=${[...commanded].join(' ')} />
       <rect stroke="var(--ink)" x=${extent.xMin} y=${extent.yMin} width=${shownSize[0]} height=${shownSize[1]} />
     </g>

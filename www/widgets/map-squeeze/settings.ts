@@ -6,13 +6,13 @@ import { presets, settings } from '../../settings.js';
 import { COMMAND_DASH, commandSliders } from '../shared/sliders.ts';
 import type { SamplerName } from '../../types.d.ts';
 
-const declarations = settings['map-squeeze'];
+const settingDeclarations = settings['map-squeeze'];
 
 /** Presets: positions in the apartment, with settings that show their effect. */
-export const PRESET_SETTING = presetPropertyOf(presets['map-squeeze'], declarations);
+export const PRESET_SETTING = presetPropertyOf(presets['map-squeeze'], settingDeclarations);
 
 /** Pose of the robot where a map has been left. */
-export const OPENING_START = presets['map-squeeze'][0].start;
+export const OPENING_POSE = presets['map-squeeze'][0].start;
 
 const VIEW_NAMES = ['close', 'whole'];
 
@@ -46,10 +46,10 @@ export const definition = definitionOf('map-squeeze', {
 });
 
 /** Samplers in the order in which they are offered. */
-export const SAMPLERS = declarations.find(({ key }) => key === 'sampler')?.words as SamplerName[];
+export const SAMPLERS = settingDeclarations.find(({ key }) => key === 'sampler')?.words as SamplerName[];
 
 /** Sample counts of the slider. The simulation accepts more, but they would not follow a slider. */
 export const SAMPLE_COUNTS = [1, 2, 5, 10, 20, 50, 100, 200, 300, 600, 1000, 2000, 5000, 10_000, 20_000, 50_000, 100_000];
 
 /** Maximum number of samples for a command in one step; it is divided by the number of sub-steps. */
-export const MAX_SAMPLES = declarations.find(({ key }) => key === 'samples')?.max ?? 0;
+export const MAX_SAMPLES = settingDeclarations.find(({ key }) => key === 'samples')?.max ?? 0;

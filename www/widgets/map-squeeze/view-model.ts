@@ -15,12 +15,12 @@ export function viewModelOf(simulation: MapSqueeze) {
   const { config, stats, verdicts, poses, startFree } = results;
   return {
     ...results,
-    sorted: stats.attempts > MAX_DOTS ? undefined : posesByOutcome(poses, verdicts),
-    note: stuckNote(config, stats, startFree),
+    posesByOutcome: stats.attempts > MAX_DOTS ? undefined : groupByOutcome(poses, verdicts),
+    note: stuckRobotNote(config, stats, startFree),
   };
 }
 
-function posesByOutcome(poses: Float64Array, verdicts: Uint8Array) {
+function groupByOutcome(poses: Float64Array, verdicts: Uint8Array) {
   const posesOfOutcome = (outcome: number) => {
     const indices = [...verdicts.keys()].filter((i) => outcomeIndex(verdicts[i]) === outcome);
     return Float64Array.from(indices.flatMap((i) => [poses[3 * i], poses[3 * i + 1], poses[3 * i + 2]]));
@@ -38,16 +38,16 @@ export function outcomeIndex(verdict: number) {
  * Returns a text on the accepted motions that went through a wall: their number, and their share with its interval. There is no interval if
  * the sampler excludes such motions (`certain`), or if the simulation gave up, because giving up depends on chance.
  */
-export function throughText({ throughWall, throughWallRate, throughWallInterval: [low, high], gaveUp }: Pick<SqueezeStats, 'throughWall' | 'throughWallRate' | 'throughWallInterval' | 'gaveUp'>, certain: boolean) {
-  const interval = certain || gaveUp ? '' : `${fixed(100 * low, 1)}\u2060–\u2060${percent(high)}`;
-  return words.squeeze.throughOf(throughWall, integer(throughWall), percent(throughWallRate), interval);
+export function throughWallText({ throughWall, throughWallRate, throughWallInterval: [low, high], gaveUp }: Pick<SqueezeStats, 'throughWall' | 'throughWallRate' | 'throughWallInterval' | 'gaveUp'>, isCertain: boolean) {
+  const intervalText = isCertain || gaveUp ? '' : `${fixed(100 * low, 1)}\u2060–\u2060${percent(high)}`;
+  return words.squeeze.throughOf(throughWall, integer(throughWall), percent(throughWallRate), intervalText);
 }
 
 /** Returns a sentence on a robot that cannot move; empty for an ordinary cloud. */
-function stuckNote(config: SqueezeSettings, stats: SqueezeStats, startFree: boolean): string {
+function stuckRobotNote(config: SqueezeSettings, stats: SqueezeStats, startFree: boolean): string {
   const { wedged, nothing, noRoom } = words.squeeze;
   const { accepted, drawn } = stats;
-  if (stats.gaveUp) return wedged(integer(drawn), integer(accepted), integer(config.samples), throughText(stats, false));
+  if (stats.gaveUp) return wedged(integer(drawn), integer(accepted), integer(config.samples), throughWallText(stats, false));
   if (drawn > 0 && accepted === 0) return nothing(integer(drawn));
   return startFree ? '' : noRoom;
 }

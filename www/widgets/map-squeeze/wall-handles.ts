@@ -23,14 +23,14 @@ const MAX_GRIP_INSET = 1 / 6;
 
 export class WallHandles extends FigureController<import('./map-squeeze.ts').MapSqueezeElement> {
   #handles: Map<string, Handle> = new Map();
-  #grips: Memo<(Grip | undefined)[]> = new Memo();
+  #gripsMemo: Memo<(Grip | undefined)[]> = new Memo();
   /** Name of the handle that is in the tab order. */
-  #currentName = '';
+  #tabbableName = '';
 
   /** Grips of the plan in the picture. */
   get #currentGrips() {
-    const { plan, movable } = this.host.picture;
-    return this.#grips.get([plan], () => (movable && plan.walls.length <= 4 * MAX_HANDLED_WALLS ? wallGrips(plan) : []));
+    const { plan, hasMovableWalls: movable } = this.host.picture;
+    return this.#gripsMemo.get([plan], () => (movable && plan.walls.length <= 4 * MAX_HANDLED_WALLS ? wallGrips(plan) : []));
   }
 
   get #walls() {
@@ -41,7 +41,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     const texts = words.squeeze.walls;
     return this.#currentGrips.map((grip) => {
       if (!grip) return nothing;
-      const [x, y] = this.#pointOf(grip);
+      const [x, y] = this.#grippedPoint(grip);
       const position = x * grip.axis[0] + y * grip.axis[1];
       return this.#handleOf(grip).element({
         name: grip.part === 'side' ? texts.wall : texts.jamb,
@@ -68,8 +68,8 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   place(view: View) {
     const root = this.host.renderRoot;
     const placedHandles = this.#currentGrips.filter((grip) => grip !== undefined).map((grip) => {
-      const handleElement = root.querySelector(`.handle.${handleClass(grip)}`) as HTMLElement | null;
-      const gripPoint = grip.part === 'side' ? this.#middleIn(grip, view) : this.#gripOf(grip, view);
+      const handleElement = root.querySelector(`.handle.${handleClassOf(grip)}`) as HTMLElement | null;
+      const gripPoint = grip.part === 'side' ? this.#visibleMiddle(grip, view) : this.#gripPosition(grip, view);
       const pixel = gripPoint && [view.toPixelX(gripPoint[0]), view.toPixelY(gripPoint[1])];
       const { left, right, top, bottom } = view.frame;
       const isShown = pixel !== undefined && pixel[0] > left && pixel[0] < right && pixel[1] > top && pixel[1] < bottom;
@@ -78,23 +78,23 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
         if (grip.part === 'side') handleElement.style.rotate = `${Math.atan(grip.axis[0] / grip.axis[1])}rad`;
       }
       if (isShown) this.#handleOf(grip).place(root, pixel[0], pixel[1]);
-      return { name: handleClass(grip), element: isShown ? handleElement : null };
+      return { name: handleClassOf(grip), element: isShown ? handleElement : null };
     });
     const shownHandles = placedHandles.filter(({ element }) => element);
-    const tabbableHandle = shownHandles.find(({ name }) => name === this.#currentName) ?? shownHandles[0];
+    const tabbableHandle = shownHandles.find(({ name }) => name === this.#tabbableName) ?? shownHandles[0];
     for (const handle of shownHandles) (handle.element as HTMLElement).tabIndex = handle === tabbableHandle ? 0 : -1;
   }
 
   #handleOf(grip: Grip) {
-    const gripName = handleClass(grip);
+    const gripName = handleClassOf(grip);
     // The wall may be missing in a new plan, until its handle is removed.
     const callWithGrip = <Result>(use: (currentGrip: Grip) => Result) => {
-      const currentGrip = this.#currentGrips.find((candidate) => candidate && handleClass(candidate) === gripName);
+      const currentGrip = this.#currentGrips.find((candidate) => candidate && handleClassOf(candidate) === gripName);
       return currentGrip && use(currentGrip);
     };
     const handle = this.#handles.get(gripName) ?? new Handle(`${grip.part === 'side' ? 'side' : 'jamb'} ${gripName}`, {
       view: () => this.host.picture.view,
-      at: () => callWithGrip((currentGrip) => this.#pointOf(currentGrip)),
+      at: () => callWithGrip((currentGrip) => this.#grippedPoint(currentGrip)),
       drag: (x, y) => callWithGrip((currentGrip) => this.#move(currentGrip, (point, axis) => (x - point[0]) * axis[0] + (y - point[1]) * axis[1])),
       key: (event) => callWithGrip((currentGrip) => this.#onKey(event, currentGrip)) ?? false,
       commit: () => this.host.gesture.commit(),
@@ -104,10 +104,10 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   }
 
   #onKey(event: KeyboardEvent, grip: Grip) {
-    const turn = turnsOfKey(event);
-    if (turn) {
+    const keyTurns = turnsOfKey(event);
+    if (keyTurns) {
       event.preventDefault();
-      this.#focusHandle(handleClass(grip), -turn);
+      this.#focusHandle(handleClassOf(grip), -keyTurns);
       return false;
     }
     const keySteps = stepsOfKey(event);
@@ -118,63 +118,63 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   }
 
   /** Moves the focus to another handle. */
-  #focusHandle(name: string, turn: number) {
+  #focusHandle(name: string, keyTurns: number) {
     const handleElements = ([...this.host.renderRoot.querySelectorAll('.handle:is(.jamb, .side)')] as HTMLElement[]).filter(({ style }) => !style.visibility);
     const focusedIndex = handleElements.findIndex((element) => element.classList.contains(name));
-    const nextHandle = handleElements[(focusedIndex + turn + handleElements.length) % handleElements.length];
-    this.#currentName = nextHandle.classList[2];
+    const nextHandle = handleElements[(focusedIndex + keyTurns + handleElements.length) % handleElements.length];
+    this.#tabbableName = nextHandle.classList[2];
     nextHandle.focus();
     this.place(this.host.picture.view);
   }
 
   /** Moves a grip along its axis by the requested distance, within its range. Returns false if the distance is NaN. */
   #move(grip: Grip, distanceOf: (point: number[], axis: number[]) => number) {
-    this.#currentName = handleClass(grip);
-    const moveDistance = clamp(distanceOf(this.#pointOf(grip), grip.axis), grip.range[0], grip.range[1]);
+    this.#tabbableName = handleClassOf(grip);
+    const moveDistance = clamp(distanceOf(this.#grippedPoint(grip), grip.axis), grip.range[0], grip.range[1]);
     if (moveDistance) this.host.moveWalls(wallsAfterMove(this.#walls, grip, moveDistance));
     return !Number.isNaN(moveDistance);
   }
 
   /** Returns the end of a wall that a grip moves, or its first end. */
-  #pointOf({ wall, part }: Grip) {
+  #grippedPoint({ wall, part }: Grip) {
     return [...this.#walls.subarray(wall, wall + 4)].slice(...(part === 'to' ? [2] : [0, 2]));
   }
 
   /** Returns the position of the grip of an end. */
-  #gripOf(grip: Grip, view: View) {
-    const [x, y] = this.#pointOf(grip);
+  #gripPosition(grip: Grip, view: View) {
+    const [x, y] = this.#grippedPoint(grip);
     const [ux, uy] = grip.axis;
-    const insetLength = this.#lengthOf(grip) * this.#inward(grip, view);
+    const insetLength = this.#wallLength(grip) * this.#insetFraction(grip, view);
     return [x - insetLength * ux, y - insetLength * uy];
   }
 
-  #lengthOf({ wall }: Grip) {
+  #wallLength({ wall }: Grip) {
     const [x, y, x1, y1] = this.#walls.subarray(wall, wall + 4);
     return Math.hypot(x1 - x, y1 - y);
   }
 
   /** Returns the distance between an end and its grip as a fraction of the wall. */
-  #inward(grip: Grip, view: View) {
-    return Math.min(MAX_GRIP_INSET, GRIP_INSET / (this.#lengthOf(grip) * view.scaleX));
+  #insetFraction(grip: Grip, view: View) {
+    return Math.min(MAX_GRIP_INSET, GRIP_INSET / (this.#wallLength(grip) * view.scaleX));
   }
 
   /** Returns the middle of the visible part of a wall between the grips of its ends; undefined where none is visible. */
-  #middleIn(grip: Grip, view: View) {
+  #visibleMiddle(grip: Grip, view: View) {
     const { wall } = grip;
     const { xMin, yMin, xMax, yMax } = view.extent;
     const [x, y, x1, y1] = this.#walls.subarray(wall, wall + 4);
     const [dx, dy] = [x1 - x, y1 - y];
-    const fractionAtEnd = (part: Grip['part']) => (this.#currentGrips.some((otherGrip) => otherGrip?.wall === wall && otherGrip.part === part) ? 2 * this.#inward(grip, view) : 0);
-    let [from, to] = [fractionAtEnd('from'), 1 - fractionAtEnd('to')];
+    const fractionBeyondGrip = (part: Grip['part']) => (this.#currentGrips.some((otherGrip) => otherGrip?.wall === wall && otherGrip.part === part) ? 2 * this.#insetFraction(grip, view) : 0);
+    let [firstFraction, lastFraction] = [fractionBeyondGrip('from'), 1 - fractionBeyondGrip('to')];
     for (const [coordinate, delta, min, max] of [[x, dx, xMin, xMax], [y, dy, yMin, yMax]]) {
       if (!delta) continue;
       const boundFractions = [(min - coordinate) / delta, (max - coordinate) / delta];
-      [from, to] = [Math.max(from, Math.min(...boundFractions)), Math.min(to, Math.max(...boundFractions))];
+      [firstFraction, lastFraction] = [Math.max(firstFraction, Math.min(...boundFractions)), Math.min(lastFraction, Math.max(...boundFractions))];
     }
-    const middleFraction = (from + to) / 2;
-    return from < to ? [x + middleFraction * dx, y + middleFraction * dy] : undefined;
+    const middleFraction = (firstFraction + lastFraction) / 2;
+    return firstFraction < lastFraction ? [x + middleFraction * dx, y + middleFraction * dy] : undefined;
   }
 }
 
 /** Returns the class of a grip's handle. */
-const handleClass = ({ wall, part }: Grip) => `${part}-${wall / 4}`;
+const handleClassOf = ({ wall, part }: Grip) => `${part}-${wall / 4}`;

@@ -26,20 +26,20 @@ function nearestWallPoint(walls: ArrayLike<number>, k: number, x: number, y: num
 /** Returns the first point of a wall that a robot with this radius touches on a path of x, y pairs; undefined for none. */
 export function wallContact(path: ArrayLike<number>, walls: Float64Array, radius: number) {
   const touchRadius = Math.max(radius, MIN_TOUCH_RADIUS);
-  const pathBox = extentAround(path, 2);
+  const pathExtent = extentAround(path, 2);
   const nearWalls = [];
   for (let k = 0; k < walls.length; k += 4) {
     const wall = extentAround(walls.subarray(k, k + 4), 2);
-    const boxDistance = Math.max(wall.xMin - pathBox.xMax, pathBox.xMin - wall.xMax, wall.yMin - pathBox.yMax, pathBox.yMin - wall.yMax);
-    if (boxDistance < touchRadius) nearWalls.push(k);
+    const extentDistance = Math.max(wall.xMin - pathExtent.xMax, pathExtent.xMin - wall.xMax, wall.yMin - pathExtent.yMax, pathExtent.yMin - wall.yMax);
+    if (extentDistance < touchRadius) nearWalls.push(k);
   }
   for (let i = 0; i + 3 < path.length; i += 2) {
     const [dx, dy] = [path[i + 2] - path[i], path[i + 3] - path[i + 1]];
-    const stepCount = Math.ceil((POINTS_PER_RADIUS * Math.hypot(dx, dy)) / touchRadius) || 1;
-    for (let step = 0; step <= stepCount; step++) {
-      const [x, y] = [path[i] + (step / stepCount) * dx, path[i + 1] + (step / stepCount) * dy];
-      const [first] = nearWalls.map((k) => nearestWallPoint(walls, k, x, y)).sort((one, other) => one.distance - other.distance);
-      if (first?.distance < touchRadius) return first.point;
+    const pointCount = Math.ceil((POINTS_PER_RADIUS * Math.hypot(dx, dy)) / touchRadius) || 1;
+    for (let pointIndex = 0; pointIndex <= pointCount; pointIndex++) {
+      const [x, y] = [path[i] + (pointIndex / pointCount) * dx, path[i + 1] + (pointIndex / pointCount) * dy];
+      const [nearestPoint] = nearWalls.map((k) => nearestWallPoint(walls, k, x, y)).sort((one, other) => one.distance - other.distance);
+      if (nearestPoint?.distance < touchRadius) return nearestPoint.point;
     }
   }
 }
@@ -91,8 +91,8 @@ function moveRange(bounds: ArrayLike<number>, points: readonly (readonly number[
   let [minMove, maxMove] = [-Infinity, Infinity];
   for (const point of points) {
     for (const i of [0, 1].filter((k) => Math.abs(axis[k]) > TOUCH_DISTANCE)) {
-      const limits = [bounds[i] + MIN_GAP, bounds[i + 2] - MIN_GAP].map((bound) => (bound - point[i]) / axis[i]).sort((a, b) => a - b);
-      [minMove, maxMove] = [Math.max(minMove, limits[0]), Math.min(maxMove, limits[1])];
+      const moveLimits = [bounds[i] + MIN_GAP, bounds[i + 2] - MIN_GAP].map((bound) => (bound - point[i]) / axis[i]).sort((a, b) => a - b);
+      [minMove, maxMove] = [Math.max(minMove, moveLimits[0]), Math.min(maxMove, moveLimits[1])];
     }
   }
   return [Math.min(0, minMove), Math.max(0, maxMove)];
@@ -100,24 +100,24 @@ function moveRange(bounds: ArrayLike<number>, points: readonly (readonly number[
 
 /** Returns the distance by which the end of a wall may move along an axis before it is near another wall. */
 function freeDistance(walls: Float64Array, wall: number, [x, y]: readonly number[], [ux, uy]: readonly number[]) {
-  let freeLength = Infinity;
+  let minFreeDistance = Infinity;
   for (let k = 0; k < walls.length; k += 4) {
     if (k === wall) continue;
     const wallEnds = [k, k + 2].map((i) => [(walls[i] - x) * ux + (walls[i + 1] - y) * uy, (walls[i + 1] - y) * ux - (walls[i] - x) * uy]);
     const [[ahead, left], [further, right]] = wallEnds;
     if (Math.min(left, right) > TOUCH_DISTANCE || Math.max(left, right) < -TOUCH_DISTANCE) continue;
     const distance = Math.abs(right - left) < TOUCH_DISTANCE ? Math.min(ahead, further) : ahead - (left * (further - ahead)) / (right - left);
-    if (distance > 0) freeLength = Math.min(freeLength, distance - MIN_GAP);
+    if (distance > 0) minFreeDistance = Math.min(minFreeDistance, distance - MIN_GAP);
   }
-  return freeLength;
+  return minFreeDistance;
 }
 
 /** Returns the walls after one has moved. Walls that end on a wall that moves sideways follow it, if they only get longer or shorter. */
 export function wallsAfterMove(walls: Float64Array, { wall, part, axis: [ux, uy] }: Grip, distance: number) {
-  const moved = walls.slice();
+  const movedWalls = walls.slice();
   const moveEnd = (index: number) => {
-    moved[index] = walls[index] + distance * ux;
-    moved[index + 1] = walls[index + 1] + distance * uy;
+    movedWalls[index] = walls[index] + distance * ux;
+    movedWalls[index + 1] = walls[index + 1] + distance * uy;
   };
   if (part !== 'to') moveEnd(wall);
   if (part !== 'from') moveEnd(wall + 2);
@@ -126,5 +126,5 @@ export function wallsAfterMove(walls: Float64Array, { wall, part, axis: [ux, uy]
     if (k === wall || Math.abs(dx * uy - dy * ux) > TOUCH_DISTANCE) continue;
     for (const end of [k, k + 2]) if (nearestWallPoint(walls, wall, walls[end], walls[end + 1]).distance < TOUCH_DISTANCE) moveEnd(end);
   }
-  return moved;
+  return movedWalls;
 }

@@ -7,7 +7,7 @@ import { verdict as bits } from '../../settings.js';
 import { integer, fixed, percent } from '../../ui/format.ts';
 import { commandText } from '../shared/sliders.ts';
 import { en } from './en.ts';
-import { throughText, type ViewModel } from './view-model.ts';
+import { throughWallText, type ViewModel } from './view-model.ts';
 import type { Plan, SqueezeSettings as Settings, SqueezeStats as Stats } from '../../types.d.ts';
 
 addEnglish({ squeeze: en });
@@ -40,7 +40,7 @@ export function captionOf({ config: { conditioned, sampler }, stats, note }: Vie
   if (note && (accepted === 0 || gaveUp)) return note;
   if (attempts === 0) return `${texts.headline.untried}.`;
   const testedText = texts.tested[conditioned ? sampler : 'off'](integer(accepted), integer(attempts));
-  const throughSentence = texts.verdictOf(testedText, throughText(stats, conditioned && sampler === 'whole-arc'));
+  const throughSentence = texts.verdictOf(testedText, throughWallText(stats, conditioned && sampler === 'whole-arc'));
   return note ? `${throughSentence} ${note}` : throughSentence;
 }
 
@@ -52,7 +52,7 @@ export function mapText(name: string, { bounds, walls }: Plan) {
 }
 
 /** Returns the text equivalent of the picture, with the map as `mapText` has it. */
-export function pictureText({ config, stats, sorted, note }: ViewModel, map: string) {
+export function pictureText({ config, stats, posesByOutcome, note }: ViewModel, map: string) {
   const { x, y, theta } = config.start;
   const { attempts, accepted, drawn, throughWall } = stats;
   const texts = words.squeeze;
@@ -60,8 +60,8 @@ export function pictureText({ config, stats, sorted, note }: ViewModel, map: str
   return [
     texts.picture(map),
     texts.robotAt(fixed(x, 2), fixed(y, 2), fixed(theta, 2), commandText(config.command)),
-    texts.outcome(integer(drawn), hasSubSteps, integer(accepted), integer(throughWall), !sorted),
-    accepted < attempts && config.conditioned ? texts.rest(!sorted) : '',
+    texts.outcome(integer(drawn), hasSubSteps, integer(accepted), integer(throughWall), !posesByOutcome),
+    accepted < attempts && config.conditioned ? texts.rest(!posesByOutcome) : '',
     note,
   ].filter(Boolean).join(' ');
 }

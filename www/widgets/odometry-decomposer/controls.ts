@@ -33,7 +33,7 @@ export function playableSlider(figure: Figure, key: 'phase' | 'drift', legend: s
   const { plays } = words.decomposer;
   return html`<fieldset class="playable ${key}">
     <legend class="visually-hidden">${legend}</legend>
-    ${settingSlider(figure, key, { input: (value) => player.put(key, value) })} ${player.button(key, plays[key])}
+    ${settingSlider(figure, key, { input: (value) => player.setByUser(key, value) })} ${player.button(key, plays[key])}
   </fieldset>`;
 }
 

@@ -38,7 +38,7 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
   static definition = definition;
 
   cloud = new Cloud(this);
-  player: Player<'phase' | 'drift'> = new Player(this, { phase: { to: sliderSpecs.phase.max, duration: 4000 }, drift: { to: sliderSpecs.drift.max, duration: 8000 } });
+  player: Player<'phase' | 'drift'> = new Player(this, { phase: { max: sliderSpecs.phase.max, durationMs: 4000 }, drift: { max: sliderSpecs.drift.max, durationMs: 8000 } });
   #legs = new LegsPicture();
   #world = new WorldPicture();
   pictures = [this.#legs, this.#world];

@@ -9,7 +9,7 @@ import { LABELS_ABOVE, drawLabel, drawLabelsAbove } from '../../scene/labels.ts'
 import { SamplesPicture } from '../../scene/picture.ts';
 import { View, extentOf } from '../../scene/view.ts';
 import { fixed } from '../../ui/format.ts';
-import { drawDraggableRobot, drawRobotOutline, turnDistance } from '../shared/robot.ts';
+import { drawDraggableRobot, drawRobotOutline, turnHandleDistance } from '../shared/robot.ts';
 import { ellipsePoints, turnDirections, drawBar, drawFan, drawTurn } from './marks.ts';
 import { poseIn } from './view-model.ts';
 import { LINE_STYLES } from './settings.ts';
@@ -102,7 +102,7 @@ class OutcomesPicture extends SamplesPicture<Scene> {
 }
 
 /** Returns the radii of the arcs of both turns, pixels. */
-const turnRadii = (view: Pick<View, 'scaleX'>) => [0, 1].map((arc) => turnDistance(view, ROBOT_RADIUS) + ARC_GAPS.handle + arc * ARC_GAPS.arcs);
+const turnRadii = (view: Pick<View, 'scaleX'>) => [0, 1].map((arc) => turnHandleDistance(view, ROBOT_RADIUS) + ARC_GAPS.handle + arc * ARC_GAPS.arcs);
 
 /** Returns points of an arc about a pose that starts at its heading, as x, y pairs. The turn is in radians, and the radius in metres. */
 const worldArc = ({ x, y, theta }: Pose, turn: number, radius: number) =>

@@ -21,13 +21,13 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
   abstract explain(refusal: any): string;
 
   /** Message about the latest files; empty if they were not refused. */
-  get complaint() {
+  get refusalText() {
     return this.refusal === undefined ? '' : this.explain(this.refusal);
   }
 
-  get note() {
-    const { complaint } = this;
-    return html`<p class="note" id="refusal" role="alert" ?hidden=${complaint === ''}>${complaint}</p>`;
+  get refusalNoteHtml() {
+    const { complaint: refusalText } = this;
+    return html`<p class="note" id="refusal" role="alert" ?hidden=${refusalText === ''}>${refusalText}</p>`;
   }
 
   /** Ignores the result of the latest attempt. */
@@ -36,13 +36,13 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
   }
 
   /** Runs an attempt to open files, which replaces an earlier attempt. Returns false if a later attempt has replaced this one. */
-  async run(work: (isLatest: () => boolean) => Promise<void>) {
+  async runAttempt(openFiles: (isLatest: () => boolean) => Promise<void>) {
     const attempt = ++this.#latestAttempt;
     const isLatest = () => attempt === this.#latestAttempt;
     this.refusal = undefined;
     this.host.requestUpdate();
     try {
-      await work(isLatest);
+      await openFiles(isLatest);
     } catch (error) {
       if (isLatest()) await this.refuse(error);
     }
@@ -58,19 +58,19 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
     if (!focusAnswer()) host.renderRoot.querySelector('#refusal')?.scrollIntoView({ block: 'nearest' });
   }
 
-  over = (event: DragEvent) => {
+  onDragOver = (event: DragEvent) => {
     if (!event.dataTransfer?.types.includes('Files')) return;
     event.preventDefault();
     (event.currentTarget as HTMLElement).classList.add('dropping');
   };
 
-  leave = (event: DragEvent) => {
+  onDragLeave = (event: DragEvent) => {
     const figureSection = event.currentTarget as HTMLElement;
-    const to = event.relatedTarget as Node | null;
-    if (!figureSection.contains(to)) figureSection.classList.remove('dropping');
+    const enteredElement = event.relatedTarget as Node | null;
+    if (!figureSection.contains(enteredElement)) figureSection.classList.remove('dropping');
   };
 
-  drop = (event: DragEvent) => {
+  onDrop = (event: DragEvent) => {
     (event.currentTarget as HTMLElement).classList.remove('dropping');
     if (!event.dataTransfer?.types.includes('Files')) return;
     // The browser would otherwise navigate to the file.

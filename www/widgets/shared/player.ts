@@ -8,14 +8,14 @@ import { button } from '../../ui/controls.ts';
 
 interface PlayedSetting {
   /** Maximum of the setting. */
-  to: number;
-  /** Duration from 0 to the maximum, milliseconds. */
-  duration: number;
+  max: number;
+  /** Duration of the animation from 0 to the maximum. */
+  durationMs: number;
 }
 
 export class Player<Key extends string> extends FigureController {
   /** Key of the animated setting. */
-  #key: Key | undefined;
+  #playedKey: Key | undefined;
   #playedSettings;
 
   constructor(host: import('../../figure/figure.ts').Figure, played: Record<Key, PlayedSetting>) {
@@ -24,11 +24,11 @@ export class Player<Key extends string> extends FigureController {
   }
 
   stop() {
-    this.#key = undefined;
+    this.#playedKey = undefined;
   }
 
   /** Sets a value that the user has chosen, and stops the animation. */
-  put(key: Key, value: number) {
+  setByUser(key: Key, value: number) {
     this.stop();
     this.host.settings.request({ [key]: value });
   }
@@ -40,21 +40,21 @@ export class Player<Key extends string> extends FigureController {
 
   #toggle(key: Key) {
     const { host: { gesture, renderer, settings } } = this;
-    const willPlay = this.#key !== key;
-    if (this.#key) gesture.commit();
-    this.#key = willPlay ? key : undefined;
+    const willPlay = this.#playedKey !== key;
+    if (this.#playedKey) gesture.commit();
+    this.#playedKey = willPlay ? key : undefined;
     this.host.requestUpdate();
-    if (willPlay && this.#valueAt(key) >= this.#playedSettings[key].to) settings.request({ [key]: 0 });
+    if (willPlay && this.#valueAt(key) >= this.#playedSettings[key].max) settings.request({ [key]: 0 });
     renderer.requestFrame();
   }
 
   /** Advances the animation by the milliseconds since the previous frame. Returns true if there is more to play. */
-  advance(elapsed: number): boolean {
-    if (!this.#key) return false;
-    const { to, duration } = this.#playedSettings[this.#key];
-    const next = Math.min(to, this.#valueAt(this.#key) + (to * elapsed) / duration);
-    this.host.settings.request({ [this.#key]: next });
-    if (next < to) return true;
+  advance(elapsedMs: number): boolean {
+    if (!this.#playedKey) return false;
+    const { max, durationMs } = this.#playedSettings[this.#playedKey];
+    const nextValue = Math.min(max, this.#valueAt(this.#playedKey) + (max * elapsedMs) / durationMs);
+    this.host.settings.request({ [this.#playedKey]: nextValue });
+    if (nextValue < max) return true;
     this.stop();
     this.host.gesture.commit();
     return false;
@@ -62,7 +62,7 @@ export class Player<Key extends string> extends FigureController {
 
   /** Returns the button that plays and pauses, with a label for the animation. With reduced motion there is only the slider. */
   button(key: Key, label: string) {
-    const [currentLabel, otherLabel] = this.#key === key ? [words.pause, label] : [label, words.pause];
+    const [currentLabel, otherLabel] = this.#playedKey === key ? [words.pause, label] : [label, words.pause];
     return prefersReducedMotion() ? nothing : button(currentLabel, () => this.#toggle(key), { otherLabel });
   }
 }

@@ -5,7 +5,7 @@ import { words } from '../../messages/registry.ts';
 import { Handle, stepsOfKey, turnsOfKey } from '../../scene/handle.ts';
 import { clamp } from '../../ui/clamp.ts';
 import { fixed } from '../../ui/format.ts';
-import { turnDistance } from './robot.ts';
+import { turnHandleDistance } from './robot.ts';
 import type { View } from '../../scene/view.ts';
 import type { Pose } from '../../types.d.ts';
 
@@ -14,7 +14,7 @@ const KEY_STEP = 0.05;
 const KEY_TURN = Math.PI / 36;
 
 /** Minimum size of the body's handle, CSS pixels. */
-const MIN_BODY_SIZE = 32;
+const MIN_BODY_HANDLE_SIZE = 32;
 
 /** Minimum distance of the turning handle from the edge of the picture, CSS pixels. */
 const EDGE_MARGIN = 12;
@@ -24,7 +24,7 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
   #view;
   #bounds;
   #bodyHandle;
-  #turn;
+  #turnHandle;
 
   /**
    * Creates the handles of a setting that is a pose, in the view of a picture. `bounds` returns left, bottom, right and top of the allowed
@@ -42,7 +42,7 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
       drag: (x, y) => this.#moveTo(x, y),
       key: (event) => this.#moveBy(stepsOfKey(event)) || this.#turnBy(turnsOfKey(event)),
     });
-    this.#turn = new Handle(`turn ${setting}`, {
+    this.#turnHandle = new Handle(`turn ${setting}`, {
       ...callbacks,
       at: (pointer) => pointer,
       drag: (x, y) => this.#turnTo(Math.atan2(y - this.#pose.y, x - this.#pose.x)),
@@ -73,7 +73,7 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
         text: `x = ${fixed(x, 2)} m, y = ${fixed(y, 2)} m`,
         stop: (x <= left || x >= right || y <= bottom || y >= top) && ends,
       }),
-      this.#turn.element({
+      this.#turnHandle.element({
         name: headingName,
         keys: headingKeys,
         title: turnTitle,
@@ -88,10 +88,10 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
   place(config: Record<string, any>, radius: number) {
     const view = this.#view();
     const root = this.host.renderRoot;
-    const [[x, y], [turnX, turnY]] = view.ray(config[this.#setting], turnDistance(view, radius));
+    const [[x, y], [turnX, turnY]] = view.ray(config[this.#setting], turnHandleDistance(view, radius));
     const clampToPicture = (coordinate: number, size: number) => clamp(coordinate, EDGE_MARGIN, size - EDGE_MARGIN);
-    this.#bodyHandle.place(root, x, y, Math.max(MIN_BODY_SIZE, 2 * radius * view.scaleX));
-    this.#turn.place(root, clampToPicture(turnX, view.width), clampToPicture(turnY, view.height));
+    this.#bodyHandle.place(root, x, y, Math.max(MIN_BODY_HANDLE_SIZE, 2 * radius * view.scaleX));
+    this.#turnHandle.place(root, clampToPicture(turnX, view.width), clampToPicture(turnY, view.height));
   }
 
   /** Moves the robot by steps along x and y; returns false if there are none. */
@@ -112,16 +112,16 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
   /** Moves the robot to a point in metres, within its bounds. */
   #moveTo(x: number, y: number) {
     const [left, bottom, right, top] = this.#bounds();
-    this.#wantPose({ ...this.#pose, x: clamp(x, left, right), y: clamp(y, bottom, top) });
+    this.#requestPose({ ...this.#pose, x: clamp(x, left, right), y: clamp(y, bottom, top) });
   }
 
   /** Turns the robot to a heading in radians. */
   #turnTo(theta: number) {
     // Wraps to (−π, π] without sines, whose last digits differ between engines, so that equal keys give equal headings.
-    this.#wantPose({ ...this.#pose, theta: theta - 2 * Math.PI * Math.ceil(theta / (2 * Math.PI) - 0.5) });
+    this.#requestPose({ ...this.#pose, theta: theta - 2 * Math.PI * Math.ceil(theta / (2 * Math.PI) - 0.5) });
   }
 
-  #wantPose(pose: Pose) {
+  #requestPose(pose: Pose) {
     this.host.settings.request({ [this.#setting]: pose });
   }
 }

@@ -12,20 +12,20 @@ const MIN_RADIUS = 3;
 const TURN_HANDLE_RADIUS = 5.5;
 
 /** Returns the distance (CSS pixels) from the centre of a robot to the handle that turns it. The radius of the robot is in metres. */
-export function turnDistance(view: Pick<View, 'scaleX'>, radius: number): number {
+export function turnHandleDistance(view: Pick<View, 'scaleX'>, radius: number): number {
   return Math.max(34, radius * view.scaleX + 22);
 }
 
 /** Draws a robot that the user can drag and turn, with a radius in metres. Labels that are drawn later avoid it. */
 export function drawDraggableRobot(brush: Brush, pose: Pose, radius: number, colour: string) {
   const { context, view, palette, placedBoxes: placed } = brush;
-  const [centre, turn] = view.ray(pose, turnDistance(view, radius));
+  const [centre, turnHandle] = view.ray(pose, turnHandleDistance(view, radius));
   const edgeStyle = { colour, width: 2.25 };
   const robotRadius = radiusInPixels(view, radius);
   drawDisc(context, centre, robotRadius, palette.paper, edgeStyle);
-  strokeLine(context, [centre, turn], edgeStyle);
-  for (const [[x, y], size] of [[centre, robotRadius], [turn, TURN_HANDLE_RADIUS + 3]] as const) placed.push({ x, y, halfWidth: size, halfHeight: size });
-  drawHandle(brush, { x: turn[0], y: turn[1], radius: TURN_HANDLE_RADIUS, colour });
+  strokeLine(context, [centre, turnHandle], edgeStyle);
+  for (const [[x, y], size] of [[centre, robotRadius], [turnHandle, TURN_HANDLE_RADIUS + 3]] as const) placed.push({ x, y, halfWidth: size, halfHeight: size });
+  drawHandle(brush, { x: turnHandle[0], y: turnHandle[1], radius: TURN_HANDLE_RADIUS, colour });
 }
 
 /** Draws the dashed outline of a robot at the end of a command. Lengths are in metres. */

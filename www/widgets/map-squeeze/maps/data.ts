@@ -21,12 +21,12 @@ const MAX_WALLS = 20_000;
 const [OCCUPIED_SHADE, UNKNOWN_SHADE] = [2, 1];
 
 /** Returns the grid of a simulation, if it has one. Copying a large grid takes long. */
-export function cellsOf({ grid }: MapSqueeze): Cells | null {
+export function gridOf({ grid }: MapSqueeze): Cells | null {
   return grid && { ...grid, unknown: grid.unknown.includes(1) ? grid.unknown : undefined };
 }
 
 /** Returns the map of a simulation as a frozen object: a page must set a new object to change the map. */
-export function mapData(simulation: MapSqueeze, name: string, grid: Cells | null): MapData {
+export function mapDataOf(simulation: MapSqueeze, name: string, grid: Cells | null): MapData {
   if (grid) {
     const { columns, rows, resolution, origin } = grid;
     const occupied = packBits(grid.occupied);
@@ -40,7 +40,7 @@ export function mapData(simulation: MapSqueeze, name: string, grid: Cells | null
 }
 
 /** Flattens the walls of a floor plan, because the core reads one array fastest. Other values are unchanged, and the core refuses them. */
-function flatWalls(walls: unknown) {
+function flattenWalls(walls: unknown) {
   if (!Array.isArray(walls) || walls.length > MAX_WALLS) return walls;
   const wallNumbers = new Float64Array(4 * walls.length);
   for (const [i, wall] of walls.entries()) {
@@ -59,25 +59,25 @@ export function applyMap(simulation: MapSqueeze, data: unknown) {
   const map = checkedObject('map', data, isGrid ? GRID_KEYS : PLAN_KEYS);
   if (map.name !== undefined && typeof map.name !== 'string') throw refusalError('map.name', map.name, 'a text', TypeError);
   if (!isGrid) {
-    withRenamedFields(PLAN_KEYS, () => simulation.setPlan({ bounds: map.bounds, walls: flatWalls(map.walls) }));
+    withRenamedFields(PLAN_KEYS, () => simulation.setPlan({ bounds: map.bounds, walls: flattenWalls(map.walls) }));
     return;
   }
   const columns = checkedInteger('map.columns', map.columns, 1, limits.cells);
   const rows = checkedInteger('map.rows', map.rows, 1, Math.floor(limits.cells / columns));
   const cellCount = columns * rows;
-  const occupiedBits = bitsOf('map.occupied', map.occupied, cellCount);
-  const unknownBits = map.unknown === undefined ? new Uint8Array(occupiedBits.length) : bitsOf('map.unknown', map.unknown, cellCount);
+  const occupiedBits = decodeBits('map.occupied', map.occupied, cellCount);
+  const unknownBits = map.unknown === undefined ? new Uint8Array(occupiedBits.length) : decodeBits('map.unknown', map.unknown, cellCount);
   const gridDescription = { resolution: map.resolution, origin: map.origin, negate: 1 };
   const pgmImage = pgmImageOf(columns, rows, occupiedBits, unknownBits);
   withRenamedFields(GRID_KEYS, () => simulation.setGrid(gridDescription, pgmImage));
 }
 
 /** Calls a function that passes fields of a map to a simulation. Errors get the field's name in the map instead of that in the simulation. */
-function withRenamedFields(keys: string[], take: () => void) {
+function withRenamedFields(keys: string[], setMap: () => void) {
   try {
-    take();
-  } catch (refused) {
-    const renamedError = withFieldRenamed(refused, 'occupied', 'image');
+    setMap();
+  } catch (error) {
+    const renamedError = withFieldRenamed(error, 'occupied', 'image');
     const fieldKey = keys.find((key) => renamedError instanceof Error && renamedError.message.startsWith(key));
     throw fieldKey === undefined ? renamedError : withFieldRenamed(renamedError, `map.${fieldKey}`, fieldKey);
   }
@@ -88,10 +88,10 @@ function pgmImageOf(columns: number, rows: number, occupiedBits: Uint8Array, unk
   const pgmHeader = new TextEncoder().encode(`P5 ${columns} ${rows} ${OCCUPIED_SHADE}\n`);
   const pgmImage = new Uint8Array(pgmHeader.length + columns * rows);
   pgmImage.set(pgmHeader);
-  const bit = (bits: Uint8Array, i: number) => (bits[i >> 3] >> (7 - (i & 7))) & 1;
+  const bitAt = (bits: Uint8Array, i: number) => (bits[i >> 3] >> (7 - (i & 7))) & 1;
   for (let row = 0, i = 0; row < rows; row++) {
     const rowStart = pgmImage.length - columns * (row + 1);
-    for (let at = rowStart; at < rowStart + columns; at++, i++) pgmImage[at] = OCCUPIED_SHADE * bit(occupiedBits, i) + UNKNOWN_SHADE * bit(unknownBits, i);
+    for (let pixelIndex = rowStart; pixelIndex < rowStart + columns; pixelIndex++, i++) pgmImage[pixelIndex] = OCCUPIED_SHADE * bitAt(occupiedBits, i) + UNKNOWN_SHADE * bitAt(unknownBits, i);
   }
   return pgmImage;
 }
@@ -103,7 +103,7 @@ function packBits(cells: Uint8Array): string {
   return toBase64(packedBytes);
 }
 
-function bitsOf(field: string, text: unknown, count: number) {
+function decodeBits(field: string, text: unknown, count: number) {
   const byteLength = Math.ceil(count / 8);
   const allowedText = `base64 of ${byteLength} bytes, a bit for each cell`;
   if (typeof text !== 'string') throw refusalError(field, text, allowedText, TypeError);

@@ -7,9 +7,9 @@ import type { MapSqueeze } from '../../../types.d.ts';
 export type RefusalWords = import('../../../messages/registry.ts').Messages['squeeze']['refused'];
 
 /** Decodes a PNG image. Throws a RangeError for other files. */
-export type DecodePng = (bytes: Uint8Array) => Promise<Pick<ImageData, 'width' | 'height' | 'data'>>;
+export type DecodePng = (imageBytes: Uint8Array) => Promise<Pick<ImageData, 'width' | 'height' | 'data'>>;
 
-export interface OwnMap {
+export interface UserMap {
   name: string;
   /** Sets the map of a simulation, or throws a MapFileError and changes nothing. */
   apply: (simulation: MapSqueeze) => void;
@@ -33,27 +33,27 @@ const MAX_PLAN_BYTES = 2_000_000;
 const MAX_YAML_BYTES = 100_000;
 
 /** Maximum number of quoted characters of a name or a value. */
-const MAX_QUOTED = 100;
+const MAX_QUOTED_LENGTH = 100;
 
 /** First bytes of a PNG image. */
 const PNG_MAGIC = [0x89, 0x50, 0x4e, 0x47];
 
 /** Reads the map in files; rejects with a MapFileError. */
-export async function readMapFiles(files: File[], decodePng: DecodePng): Promise<OwnMap> {
+export async function readMapFiles(files: File[], decodePng: DecodePng): Promise<UserMap> {
   const filesNamed = (pattern: RegExp) => files.filter(({ name }) => pattern.test(name));
-  const [plans, descriptions, images] = [filesNamed(/\.json$/i), filesNamed(/\.ya?ml$/i), filesNamed(/\.(pgm|png)$/i)];
-  const isOneMap = plans.length + descriptions.length === 1 && plans.length + descriptions.length + images.length === files.length;
+  const [planFiles, yamlFiles, imageFiles] = [filesNamed(/\.json$/i), filesNamed(/\.ya?ml$/i), filesNamed(/\.(pgm|png)$/i)];
+  const isOneMap = planFiles.length + yamlFiles.length === 1 && planFiles.length + yamlFiles.length + imageFiles.length === files.length;
   if (!isOneMap) throw new MapFileError(files.map(({ name }) => name).join(', '), (texts, names) => texts.files(names));
-  return plans.length ? readPlan(plans[0].name, await textOf(plans[0], MAX_PLAN_BYTES)) : readGrid(descriptions[0], images, decodePng);
+  return planFiles.length ? readPlan(planFiles[0].name, await readText(planFiles[0], MAX_PLAN_BYTES)) : readGrid(yamlFiles[0], imageFiles, decodePng);
 }
 
 /** Reads a file; throws if it has more than `maxBytes` bytes. */
-async function bytesOf(file: File, maxBytes: number) {
+async function readBytes(file: File, maxBytes: number) {
   checkSize(file.name, file.size, maxBytes);
   return new Uint8Array(await file.arrayBuffer());
 }
 
-const textOf = async (file: File, maxBytes: number) => new TextDecoder().decode(await bytesOf(file, maxBytes));
+const readText = async (file: File, maxBytes: number) => new TextDecoder().decode(await readBytes(file, maxBytes));
 
 function checkSize(name: string, size: number, maxBytes: number) {
   if (size > maxBytes) throw new MapFileError(name, (texts, file) => texts.long(file, size, maxBytes));
@@ -61,35 +61,35 @@ function checkSize(name: string, size: number, maxBytes: number) {
 
 /** Shortens a text that a sentence quotes. */
 function quoteText(text: string) {
-  return text.length > MAX_QUOTED ? `${text.slice(0, MAX_QUOTED)}…` : text;
+  return text.length > MAX_QUOTED_LENGTH ? `${text.slice(0, MAX_QUOTED_LENGTH)}…` : text;
 }
 
 /** Reads a floor plan from the JSON of a file; throws a MapFileError. */
-export function readPlan(name: string, text: string): OwnMap {
+export function readPlan(name: string, text: string): UserMap {
   checkSize(name, text.length, MAX_PLAN_BYTES);
   const parsedPlan = explainErrors(name, () => JSON.parse(text), (texts, file, reason) => texts.plan(file, quoteText(reason)));
   return { name, apply: (simulation) => explainErrors(name, () => simulation.setPlan(parsedPlan), (texts, file, reason) => texts.plan(file, reason)) };
 }
 
-async function readGrid(file: File, images: File[], decodePng: DecodePng): Promise<OwnMap> {
-  const description = parseDescription(file.name, await textOf(file, MAX_YAML_BYTES));
-  const { image: path } = description;
-  if (typeof path !== 'string' || path === '') {
-    throw new MapFileError(file.name, (texts, name) => texts.image(name, path === undefined ? '' : quoteText(JSON.stringify(path))));
+async function readGrid(file: File, imageFiles: File[], decodePng: DecodePng): Promise<UserMap> {
+  const description = parseDescription(file.name, await readText(file, MAX_YAML_BYTES));
+  const { image: imagePath } = description;
+  if (typeof imagePath !== 'string' || imagePath === '') {
+    throw new MapFileError(file.name, (texts, name) => texts.image(name, imagePath === undefined ? '' : quoteText(JSON.stringify(imagePath))));
   }
-  const imageName = path.slice(Math.max(path.lastIndexOf('/'), path.lastIndexOf('\\')) + 1);
-  const image = images.find(({ name }) => name === imageName);
-  if (!image) {
-    const givenNames = images.map(({ name }) => name).join(', ');
+  const imageName = imagePath.slice(Math.max(imagePath.lastIndexOf('/'), imagePath.lastIndexOf('\\')) + 1);
+  const imageFile = imageFiles.find(({ name }) => name === imageName);
+  if (!imageFile) {
+    const givenNames = imageFiles.map(({ name }) => name).join(', ');
     throw new MapFileError(file.name, (texts, name) => texts.pair(name, quoteText(imageName), quoteText(givenNames)));
   }
-  const bytes = await bytesOf(image, limits.bytes);
-  const isPng = PNG_MAGIC.every((byte, i) => byte === bytes[i]);
-  const throwPngError = (error: Error) => explainErrors(image.name, () => { throw error; }, (_, name, reason) => `${name}: ${reason}.`);
-  const pixelsOrBytes = isPng ? await decodePng(bytes).catch(throwPngError) : bytes;
+  const imageBytes = await readBytes(imageFile, limits.bytes);
+  const isPng = PNG_MAGIC.every((byte, i) => byte === imageBytes[i]);
+  const throwPngError = (error: Error) => explainErrors(imageFile.name, () => { throw error; }, (_, name, reason) => `${name}: ${reason}.`);
+  const imageContent = isPng ? await decodePng(imageBytes).catch(throwPngError) : imageBytes;
   return {
     name: file.name,
-    apply: (simulation) => explainErrors(file.name, () => simulation.setGrid(description, pixelsOrBytes), (texts, name, reason) => gridErrorSentence(texts, name, quoteText(image.name), reason)),
+    apply: (simulation) => explainErrors(file.name, () => simulation.setGrid(description, imageContent), (texts, name, reason) => gridErrorSentence(texts, name, quoteText(imageFile.name), reason)),
   };
 }
 
@@ -130,9 +130,9 @@ function gridErrorSentence(texts: RefusalWords, description: string, image: stri
 }
 
 /** Runs a parser or the core with a file, and explains why the file is refused. */
-function explainErrors<Result>(name: string, take: () => Result, sentence: (texts: RefusalWords, file: string, reason: string) => string): Result {
+function explainErrors<Result>(name: string, readOrApply: () => Result, sentence: (texts: RefusalWords, file: string, reason: string) => string): Result {
   try {
-    return take();
+    return readOrApply();
   } catch (error) {
     if (!(error instanceof RangeError || error instanceof TypeError || error instanceof SyntaxError)) throw error;
     const reason = error.message.replace(' is undefined;', ' is missing;');

@@ -3,7 +3,7 @@
 import { instantiate } from '../../../core.ts';
 import { words } from '../../../messages/registry.ts';
 import { FileOpener } from '../../shared/files.ts';
-import type { OwnMap } from './files.ts';
+import type { UserMap } from './files.ts';
 
 /** Extensions of map files. */
 export const EXTENSIONS = ['.json', '.yaml', '.yml', '.pgm', '.png'];
@@ -37,10 +37,10 @@ export class MapOpener extends FileOpener<import('../map-squeeze.ts').MapSqueeze
     this.#open(({ readPlan }) => readPlan(words.squeeze.pasted, text));
   }
 
-  #open(find: (reader: typeof import('./files.ts')) => OwnMap | Promise<OwnMap>) {
-    return this.run(async (isLatest) => {
-      const map = await find(await import('./files.ts'));
-      if (isLatest()) this.host.open(map);
+  #open(readMap: (reader: typeof import('./files.ts')) => UserMap | Promise<UserMap>) {
+    return this.runAttempt(async (isLatest) => {
+      const map = await readMap(await import('./files.ts'));
+      if (isLatest()) this.host.openMap(map);
     });
   }
 

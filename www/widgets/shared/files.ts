@@ -26,7 +26,7 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
   }
 
   get refusalNoteHtml() {
-    const { complaint: refusalText } = this;
+    const { refusalText } = this;
     return html`<p class="note" id="refusal" role="alert" ?hidden=${refusalText === ''}>${refusalText}</p>`;
   }
 

@@ -50,6 +50,18 @@ export const sliderStyles = css`
     }
   }
 
+  /* Slider next to a button. */
+  .with-button {
+    display: grid;
+    grid-template-columns: minmax(min-content, 1fr) auto;
+    column-gap: 0.75em;
+    align-items: center;
+  }
+
+  .with-button .slider {
+    grid-template: 'name value' auto 'track track' auto / 1fr auto;
+  }
+
   .slider > :first-child {
     grid-area: name;
     line-height: 1.2;

@@ -239,7 +239,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
         ${titledPicture(texts.path, html`<div class="stage" part="picture" @click=${this.#chooseLegAt}>${pictureCanvas(this, this.#pathPicture, pathText(viewModel, chosen))}</div>`)}
         <div class="one">
           ${titledPicture(texts.oneLeg(integer(chosen + 1)), html`<div class="stage">${pictureCanvas(this, this.#legPicture, legText(this.predicted, chosen))}</div>`)}
-          ${this.renderer.afterFirstPicture(() => html`<div class="looked">${legControls(this)}</div>`)}
+          ${this.renderer.afterFirstPicture(() => html`<div class="looked with-button">${legControls(this)}</div>`)}
         </div>
         ${this.renderer.afterFirstPicture(() => html`
         <div class="fitted" part="readouts">

@@ -267,14 +267,7 @@ export const styles = css`
     min-height: calc(2em / 0.84);
   }
 
-  .looked {
-    display: grid;
-    gap: 0 0.8em;
-    align-items: center;
-    grid-template-columns: minmax(min-content, 1fr) auto;
-  }
-
-  :is(.looked, [part='controls']) .slider {
+  [part='controls'] .slider {
     grid-template: 'name value' auto 'track track' auto / 1fr auto;
   }
 

@@ -35,26 +35,17 @@ export const styles = css`
 
   .factors li {
     display: grid;
-    grid-template: 'estimate estimate' 'bar bar' 'keeps off' / 1fr auto;
+    grid-template-columns: 1fr auto;
     align-content: start;
   }
 
-  .factors .estimate {
-    grid-area: estimate;
-  }
-
-  .factors .off {
-    grid-area: off;
+  .factors :is(.estimate, svg) {
+    grid-column: 1 / -1;
   }
 
   .factors svg {
-    grid-area: bar;
     width: 100%;
     height: 1.3em;
-  }
-
-  .factors .keeps {
-    grid-area: keeps;
   }
 
   /* Below the picture the bars are side by side. */
@@ -65,7 +56,7 @@ export const styles = css`
     }
 
     .factors li {
-      grid-template: 'estimate' 'bar' 'off' 'keeps' / 1fr;
+      grid-template-columns: 1fr;
     }
   }
 

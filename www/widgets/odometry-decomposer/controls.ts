@@ -31,7 +31,7 @@ export function noiseModelTable(figure: Figure) {
 export function playableSlider(figure: Figure, key: 'phase' | 'drift', legend: string) {
   const { player } = figure;
   const { plays } = words.decomposer;
-  return html`<fieldset class="playable ${key}">
+  return html`<fieldset class="playable with-button ${key}">
     <legend class="visually-hidden">${legend}</legend>
     ${settingSlider(figure, key, { input: (value) => player.setByUser(key, value) })} ${player.button(key, plays[key])}
   </fieldset>`;

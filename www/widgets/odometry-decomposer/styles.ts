@@ -60,17 +60,6 @@ export const styles = css`
     }
   }
 
-  .playable {
-    grid-template-columns: minmax(0, 1fr) auto;
-    column-gap: 0.75em;
-    align-items: center;
-  }
-
-  /* The play button is next to the track. */
-  .playable > .slider {
-    grid-template: 'name value' auto 'track track' auto / 1fr auto;
-  }
-
   .playable > button {
     /* The button is centred on the slider's track, not on track and hint together. */
     margin-bottom: 1em;

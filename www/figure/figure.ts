@@ -10,6 +10,7 @@ import { theme } from '../ui/theme.ts';
 import { Announcer } from './announcer.ts';
 import { COMMON_ATTRS, type HEADING_LEVELS, type THEMES } from './attributes.ts';
 import { Canvases } from './canvases.ts';
+import { checkedWord } from './checks.ts';
 import { Colours } from './colours.ts';
 import { Focus } from './focus.ts';
 import { Gesture } from './gesture.ts';
@@ -392,8 +393,9 @@ for (const [name, { property = name, words: allowed, nullable }] of Object.entri
       return allowed.find((word) => word === this.getAttribute(name)) ?? (nullable ? null : allowed[0]);
     },
     set(this: Figure, value) {
-      if (allowed) this.reflection.setAttribute(name, value);
-      else this.toggleAttribute(name, value || value === '');
+      if (!allowed) this.toggleAttribute(name, value || value === '');
+      else if (value === null || value === undefined) this.removeAttribute(name);
+      else this.runtime.attemptOrReport(() => this.setAttribute(name, checkedWord(property, String(value), allowed)));
     },
   });
 }

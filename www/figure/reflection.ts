@@ -98,14 +98,6 @@ export class Reflection extends FigureController {
     });
   }
 
-  /** Sets an attribute that every figure has, after a check; null or undefined removes it. */
-  setAttribute(attribute: string, value: unknown) {
-    const { host } = this;
-    const { words, property = attribute } = COMMON_ATTRS[attribute] as { words: readonly string[], property?: string };
-    if (value === null || value === undefined) host.removeAttribute(attribute);
-    else host.runtime.attemptOrReport(() => host.setAttribute(attribute, checkedWord(property, typeof value === 'number' ? String(value) : value, words)));
-  }
-
   /** Applies an attribute's new text. The name is in lower case. */
   attributeChanged(attribute: string, text: string | null) {
     const { words } = COMMON_ATTRS[attribute] ?? {};

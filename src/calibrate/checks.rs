@@ -77,7 +77,7 @@ pub struct Check {
     pub expected: [f64; 2],
     /// True if the value is in the range.
     pub passed: bool,
-    /// What a failure means for the α's, and the remedy; empty if the check passed.
+    /// Meaning of a failure for the α's, and the remedy; empty if the check passed.
     pub message: String,
 }
 

@@ -59,11 +59,10 @@ impl Sample {
 
     /// Returns the residuals of the legs that `select` accepts. A leg follows the one before it only if both are selected.
     pub fn residuals(&self, estimated: ErrorMask, select: impl Fn(usize) -> bool) -> Residuals {
-        let follows = |leg: usize| self.legs[leg].follows && leg > 0 && select(leg - 1);
         let mut terms = Vec::with_capacity(self.legs.len());
         for leg in (0..self.legs.len()).filter(|leg| select(*leg)) {
             let mut term = self.terms[leg];
-            term.follows = follows(leg);
+            term.follows = self.legs[leg].follows && leg > 0 && select(leg - 1);
             terms.push(term);
         }
         Residuals { model: self.options.model, estimated, terms }

@@ -135,12 +135,13 @@ const MAX_RATIO_ACROSS_PAUSE: f64 = 2.0;
 /// Median period of the reference over that of the odometry, above which the reference counts as sparse.
 const SPARSE_RATIO: f64 = 1.5;
 
-/// One end of a leg: its time by the clock of the odometry, the pose by the odometry, and the pose by the reference with the relative variance
-/// of its error, if the reference has a pose there.
+/// One end of a leg.
 #[derive(Clone, Copy, Debug)]
 struct LegEnd {
+    /// Time by the clock of the odometry, s.
     time: f64,
     odometry: SE2,
+    /// Pose by the reference, with the relative variance of its error; None if the reference has no pose here.
     reference: Option<(SE2, f64)>,
 }
 

@@ -65,8 +65,12 @@ pub struct SystematicValue<Value, Interval> {
     corrected: bool,
 }
 
-/// Reference's time = odometry's time + clockOffset (s); reference's heading = base's heading + mountYaw (rad); the point that the reference follows
-/// is at leverArm (m, ahead and to the left) of the base; true distance = distanceScale × odometry's; true turn = turnScale × odometry's.
+/// Systematic errors of odometry and reference.
+///
+/// - The reference's time is the odometry's time plus clockOffset (s).
+/// - The reference's heading is the base's heading plus mountYaw (rad).
+/// - The point that the reference follows is at leverArm (m, ahead and to the left) of the base.
+/// - True distances are distanceScale times those of the odometry, and true turns turnScale times those of the odometry.
 #[derive(Serialize, Tsify)]
 #[serde(rename_all = "camelCase")]
 pub struct SystematicErrors {

@@ -26,7 +26,7 @@ const ANGLE_UNIT_TEXTS: Record<Summary['units']['angle']['unit'], string> = { ra
 
 const DROP_REASONS: Record<DropCause, string> = {
   damaged: 'beschädigte Nachrichten',
-  notFinite: 'keine endliche Zahl',
+  notFinite: 'keine endliche Zahl, oder eine über einer Milliarde',
   noRotation: 'ein Quaternion, das keine Drehung ist',
   short: 'zu wenige Felder',
   text: 'ein Feld ohne Zahl',
@@ -80,7 +80,6 @@ export const german: Words = {
     manyBad: (bad, rows, percent) => `${bad} von ${rows} Zeilen haben Text statt einer Zahl oder zu wenige Zellen; erlaubt sind ${percent} % solcher Zeilen.`,
     number: (column, value) => `${column} ist „${value}“; erwartet wird eine Zahl${/^\d{1,3}(\D\d{3})+\b/.test(value) ? ' ohne Tausendertrennung' : /^[+-]?\d*,\d+$/.test(value) ? ' mit Dezimalpunkt' : /\d[/:-]\d/.test(value) ? ', oder ein Datum wie 2024-01-31 12:00:00.5' : ''}.`,
     rows: (max) => `es sind mehr Zeilen; erwartet werden höchstens ${max}.`,
-    far: (value, max, message) => `${message ? `die Nachricht ${message} hat den Wert ${value}` : `ein Wert ist ${value}`}; erwartet werden Zahlen von ${-max} bis ${max}, in m, rad und s.`,
     setBack: (seconds, message) =>
       `die Zeiten springen ${message ? `bei Nachricht ${message} ` : ''}um ${seconds.toPrecision(3)} s zurück und wiederholen die davor; dort die Datei teilen, oder nur eine Aufzeichnung angeben.`,
     sameTimes: (count, rows, message) =>

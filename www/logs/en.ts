@@ -23,7 +23,7 @@ const ANGLE_UNIT_TEXTS: Record<Summary['units']['angle']['unit'], string> = { ra
 /** Reasons for leaving rows out. */
 const DROP_REASONS = {
   damaged: 'damaged messages',
-  notFinite: 'a value that is not finite',
+  notFinite: 'a value that is not finite, or above a billion',
   noRotation: 'a quaternion that is no rotation',
   short: 'too few cells',
   text: 'a cell that is not a number',
@@ -85,8 +85,6 @@ export const english = {
     manyBad: (bad: number, rows: number, percent: number) => `${bad} of ${rows} rows have text in place of a number, or too few cells; at most ${percent} % of the rows may.`,
     number: (column: string, value: string) => `${column} is “${value}”; expected is a number${/^\d{1,3}(\D\d{3})+\b/.test(value) ? ' without separators of thousands' : /^[+-]?\d*,\d+$/.test(value) ? ' with a decimal point' : /\d[/:-]\d/.test(value) ? ', or a date as 2024-01-31 12:00:00.5' : ''}.`,
     rows: (max: number) => `there are more rows; expected are at most ${max}.`,
-    far: (value: number, max: number, message: number) =>
-      `${message ? `message ${message} has the value ${value}` : `a value is ${value}`}; expected are numbers from ${-max} to ${max}, in m, rad and s.`,
     setBack: (seconds: number, message: number) =>
       `times go back by ${seconds.toPrecision(3)} s${message ? ` at message ${message}` : ''} and repeat those before; split the file there, or give one recording only.`,
     sameTimes: (count: number, rows: number, message: number) =>

@@ -6,7 +6,7 @@ import type { DropCause, Log, LogKind, Note, OpenOptions, Summary } from './log.
 import { wrapAngle } from './path.ts';
 import { quantile, sampleEvenly } from './quantile.ts';
 import { distanceOf } from './summary.ts';
-import { type Units, judgeUnits } from './units.ts';
+import { type Units, epochTimeUnitOf, judgeUnits } from './units.ts';
 
 /** Facts about a log that the reader of its format provides. */
 interface LogFacts {
@@ -52,9 +52,6 @@ const [MIN_JUMP, MIN_JUMP_TURN] = [0.1, 0.2];
 /** Minimum speed of a moving robot, in m/s or rad/s. */
 const MIN_MOVING_SPEED = 0.01;
 
-/** Minimum time (s) that counts as a time since 1970: in 1973. Smaller times are relative to the start of a program. */
-const MIN_EPOCH_TIME = 1e8;
-
 /** Maximum fraction of rows that have the time of another row and other values. */
 const MAX_CONTRADICTING_FRACTION = 0.4;
 
@@ -98,14 +95,9 @@ export class Rows {
    * @param otherTime time by the other clock, which is used if the first one stands still
    */
   add(time: number, a: number, b: number, c: number, line: number, otherTime = 0): void {
-    // A sum is finite if all of its terms are.
-    if (!Number.isFinite(time + a + b + c)) return this.drop('notFinite', line);
+    if (!(Number.isFinite(time) && Math.max(Math.abs(a), Math.abs(b), Math.abs(c)) <= MAX_VALUE)) return this.drop('notFinite', line);
     this.count += 1;
     if (this.count > MAX_ROWS) throw new LogError(this.#logPlace, (texts) => texts.rows(MAX_ROWS));
-    if (Math.max(Math.abs(a), Math.abs(b), Math.abs(c)) > MAX_VALUE) {
-      const tooLargeValue = [a, b, c].find((value) => Math.abs(value) > MAX_VALUE) ?? NaN;
-      throw new LogError(this.#placeOf(line), (texts) => texts.far(tooLargeValue, MAX_VALUE, this.#messageNumber(line)));
-    }
     const at = ROW_WIDTH * this.#addedCount++;
     if (at === this.#numbers.length) {
       const largerNumbers = new Float64Array(2 * at);
@@ -192,7 +184,7 @@ export class Rows {
   /** Returns all rows, but those whose stamp was not set: it is 0, and all other times are since 1970. */
   #withoutUnsetTimes(): Uint32Array {
     const isUnset = (row: number) => this.#time(row) === 0;
-    const isSince1970 = this.#rows.every((row) => isUnset(row) || this.#time(row) > MIN_EPOCH_TIME);
+    const isSince1970 = this.#rows.every((row) => isUnset(row) || epochTimeUnitOf(this.#time(row)) !== undefined);
     return isSince1970 ? this.#without(this.#rows, 'noStamp', isUnset) : this.#rows;
   }
 

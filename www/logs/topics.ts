@@ -5,7 +5,7 @@ import { Chain, FrameTree } from './frames.ts';
 import { LogError, truncate, listNames, reasonOf, type Words } from './log-error.ts';
 import { LOG_TIME, framesOption, framesText, type FramePair, type LogChoice, type Log, type Note, type OpenOptions, type Question, type Recording, type Series } from './log.ts';
 import { readTransforms, isReadable, logKindOfType, poseReader, type Sample } from './messages.ts';
-import { MAX_VALUE, Rows } from './rows.ts';
+import { Rows } from './rows.ts';
 
 /** Maximum number of messages with transforms that are read to find the frames. */
 const MAX_FRAME_MESSAGES = 2000;
@@ -95,8 +95,7 @@ function topicReader(file: string, container: Container, choice: LogChoice, seri
   };
 
   const add = ({ time, a, b, c, isRotation }: Sample, recordTime: number, number: number) => {
-    if (Math.max(Math.abs(a), Math.abs(b), Math.abs(c)) > MAX_VALUE) dropDamaged(number, 'a value is out of range');
-    else if (isRotation) rows.add(time, a, b, c, number, recordTime);
+    if (isRotation) rows.add(time, a, b, c, number, recordTime);
     else rows.drop('noRotation', number);
   };
 

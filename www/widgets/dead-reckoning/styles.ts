@@ -26,6 +26,7 @@ const chartAlone = css`
 
   .floor .stage[part='picture'] {
     position: relative;
+    z-index: auto;
     box-shadow: none;
   }
 `;

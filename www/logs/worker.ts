@@ -11,7 +11,6 @@ import { english } from './en.ts';
 import { LogError } from './log-error.ts';
 import type { OpenOptions, Question, Recording, Source } from './log.ts';
 import { openRecordings } from './open.ts';
-import { calibrationLogOf } from './pairs.ts';
 
 /** Recording as posted to the page: without its methods, but with its index (`place`) among the opened recordings. */
 export type OpenedRecording = Recording & { place: number };
@@ -37,7 +36,7 @@ export interface WorkerRequest {
 /** Answer to the request with this number. Answers with progress precede the result or the failure. */
 export type WorkerAnswer = { number: number } & ({ progress: number } | { result: unknown } | { failure: PostedFailure });
 
-/** Opened recordings, and the log that was read last. */
+/** Opened recordings, and the simulation that fits logs. */
 class LogSession {
   #recordings: Recording[] = [];
   #simulation: AlphaCalibrator;
@@ -52,27 +51,21 @@ class LogSession {
     return { recordings: this.#recordings.map(({ name, format, series }, place) => ({ name, format, series, place }) as OpenedRecording), skipped };
   }
 
-  /** Reads the logs of a plan of the page, and keeps them for `calibrate`. */
+  /** Reads the logs of a plan of the page. */
   async read(onProgress: OnProgress, { drives, unpaired }: Pick<LogPlan, 'drives' | 'unpaired'>): Promise<Drive[]> {
     const openedChoice = ({ recording, choice }: RecordingChoice) => ({ recording: this.#recordings[(recording as OpenedRecording).place], choice });
     const plan = {
       drives: drives.map(({ odometry, reference }) => ({ odometry: openedChoice(odometry), reference: openedChoice(reference) })),
       unpaired: { odometry: unpaired.odometry.map(openedChoice), reference: unpaired.reference.map(openedChoice) },
     };
-    const loadedDrives = await readDrives(plan, onProgress);
-    this.#setLog(calibrationLogOf(loadedDrives));
-    return loadedDrives;
+    return readDrives(plan, onProgress);
   }
 
-  /** Returns the fit to `log`, or to the log that was read last, for `AlphaCalibrator.restored`. */
-  calibrate(_: OnProgress, config: AlphaCalibratorSettings, log?: CalibrationLog): Uint8Array {
-    if (log) this.#setLog(log);
+  /** Returns the fit to a log, for `AlphaCalibrator.restored`. */
+  calibrate(_: OnProgress, config: AlphaCalibratorSettings, { odometry, reference }: CalibrationLog): Uint8Array {
+    this.#simulation.setLog(odometry, reference);
     this.#simulation.configure(config);
     return this.#simulation.save();
-  }
-
-  #setLog({ odometry, reference }: CalibrationLog) {
-    this.#simulation.setLog(odometry, reference);
   }
 }
 

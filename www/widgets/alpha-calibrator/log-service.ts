@@ -6,8 +6,6 @@ import type { OpenOptions, Source } from '../../logs/log.ts';
 import type { WorkerAnswer, PostedFailure, OnProgress, OpenedRecording, WorkerRequest } from '../../logs/worker.ts';
 import type { AlphaCalibratorSettings, CalibrationLog } from '../../types.d.ts';
 
-type Trajectory = Exclude<CalibrationLog['odometry'], unknown[]>;
-
 /** Connection to the worker, or to the same module in the page's thread. */
 interface WorkerLink {
   port: Worker | MessagePort;
@@ -38,8 +36,6 @@ export class LogService {
   #rejectRequest: ((error: unknown) => void) | undefined;
   /** True while the worker holds the recordings that were opened last. */
   isOpen = false;
-  /** Odometry of the drives whose logs the worker has in memory. */
-  #heldOdometry: Trajectory[] | undefined;
 
   /** @param tag tag of the element; the worker gets the WebAssembly module that the page has loaded for it */
   constructor(tag: string) {
@@ -64,23 +60,15 @@ export class LogService {
     return { recordings, skipped: skipped.map((failure) => new LogFailure(failure)) };
   }
 
-  /** Reads the drives of a plan for the opened recordings. The worker keeps their logs for `calibrate`. */
-  async read({ drives: planned, unpaired }: LogPlan, onProgress: OnProgress): Promise<Drive[]> {
-    this.#heldOdometry = undefined;
-    const drives = await this.#ask<Drive[]>('read', [{ drives: planned, unpaired }], onProgress);
-    this.#heldOdometry = drives.map(({ odometry }) => odometry.data);
-    return drives;
+  /** Reads the drives of a plan for the opened recordings. */
+  read({ drives, unpaired }: LogPlan, onProgress: OnProgress): Promise<Drive[]> {
+    return this.#ask('read', [{ drives, unpaired }], onProgress);
   }
 
   /** Returns the fit to a log, for `AlphaCalibrator.restored`. */
-  async calibrate(config: AlphaCalibratorSettings, log: CalibrationLog): Promise<Uint8Array> {
+  calibrate(config: AlphaCalibratorSettings, log: CalibrationLog): Promise<Uint8Array> {
     this.stop();
-    const odometry = [log.odometry].flat();
-    const hasWorkerLog = this.#heldOdometry?.length === odometry.length && odometry.every((log, i) => log === this.#heldOdometry?.[i]);
-    this.#heldOdometry = undefined;
-    const fit = await this.#ask<Uint8Array>('calibrate', [config, hasWorkerLog ? undefined : log]);
-    this.#heldOdometry = odometry;
-    return fit;
+    return this.#ask('calibrate', [config, log]);
   }
 
   /** Cancels the current request, which rejects. */
@@ -88,10 +76,10 @@ export class LogService {
     if (this.isBusy) this.end();
   }
 
-  /** Stops the worker and drops its logs. */
+  /** Stops the worker. */
   end() {
     this.#workerLink?.then(({ end }) => end(), () => {});
-    this.#workerLink = this.#heldOdometry = undefined;
+    this.#workerLink = undefined;
     this.isOpen = false;
     this.#requestNumber++;
     this.#rejectRequest?.(new DOMException('', 'AbortError'));

@@ -90,17 +90,12 @@ export class LogOpener extends FileOpener<Figure> {
   /** Forgets the chosen files. */
   forget() {
     this.chosen = this.#loneLogFiles = this.refusal = undefined;
-    this.#dropZone.style.minHeight = '';
     this.host.requestUpdate();
   }
 
   /** Sentence that the results are those of another log, while the chosen files are refused; empty otherwise. */
   get otherResults() {
     return this.refusal === undefined || isStopped(this.refusal) ? '' : words.calibrator.own.still(this.host.logName);
-  }
-
-  get #dropZone() {
-    return this.host.renderRoot.querySelector(`#${this.id}`) as HTMLElement;
   }
 
   stop() {
@@ -211,8 +206,6 @@ export class LogOpener extends FileOpener<Figure> {
     this.host.service.stop();
     this.#preferredKind = this.kind;
     this.share = 0;
-    // An answered question keeps its height, so that the figure does not move up.
-    this.#dropZone.style.minHeight = `${this.#dropZone.offsetHeight}px`;
     const isLatest = await this.runAttempt(async () => work(this.logModules ??= await loadLogModules()));
     if (isLatest) this.#setIdle();
   }

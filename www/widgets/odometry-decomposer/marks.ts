@@ -1,7 +1,7 @@
 /** Marks of both pictures: turns as arcs with an arrow, and standard deviations as fans and bars. */
 
 import type { Pose } from '../../types.d.ts';
-import { addLine, strokePath, strokeLine, type Brush } from '../../scene/canvas.ts';
+import { addLine, strokePath, type Brush } from '../../scene/canvas.ts';
 
 /** Half width and length of an arrow head, pixels. */
 const ARROW_HEAD_SIZE = { half: 4, length: 9 };
@@ -28,19 +28,13 @@ export function ellipsePoints({ x, y, theta }: Pose, along: number, across: numb
   });
 }
 
-/** Returns points of an arc about a pose that starts at its heading. The turn is in radians, and the radius in pixels. */
-function arcPoints({ view }: Brush, { x, y, theta }: Pose, turn: number, radius: number) {
-  return turnDirections(theta, turn).map((heading) => view.ray({ x, y, theta: heading }, radius)[1]);
-}
-
 /** Draws a turn in radians from a pose's heading, as an arc with an arrow, with a radius in pixels. */
-export function drawTurn(brush: Brush, from: Pose, turn: number, radius: number, colour: string) {
-  const { context, view } = brush;
-  const points = arcPoints(brush, from, turn, radius);
-  strokeLine(context, points, { colour, width: 1.75 });
+export function drawTurn({ context, view }: Brush, from: Pose, turn: number, radius: number, colour: string) {
+  // In pixels y points down, so that a turn to the left is negative.
+  strokePath(context, { colour, width: 1.75 }, () => context.arc(...view.toPixel(from.x, from.y), radius, -from.theta, -from.theta - turn, turn > 0));
   // The arrow head is smaller on a short arc.
   const headLength = Math.min(ARROW_HEAD_SIZE.length, radius * Math.abs(turn));
-  const tip = points[points.length - 1];
+  const tip = view.ray({ ...from, theta: from.theta + turn }, radius)[1];
   const headBase = { ...from, theta: from.theta + turn - (Math.sign(turn) * headLength) / radius };
   const headScale = headLength / ARROW_HEAD_SIZE.length;
   const headCorner = (side: number) => view.ray(headBase, radius + side * headScale * ARROW_HEAD_SIZE.half)[1];
@@ -51,13 +45,13 @@ export function drawTurn(brush: Brush, from: Pose, turn: number, radius: number,
 }
 
 /** Draws a standard deviation (rad) to either side of a heading, as a fan with a radius in pixels. */
-export function drawFan(brush: Brush, middle: Pose, deviation: number, radius: number, colour: string) {
+export function drawFan({ context, view }: Brush, { x, y, theta }: Pose, deviation: number, radius: number, colour: string) {
   const halfAngle = Math.min(deviation, Math.PI);
   if (halfAngle === 0) return;
-  const { context, view } = brush;
-  const rim = arcPoints(brush, { ...middle, theta: middle.theta - halfAngle }, 2 * halfAngle, radius);
+  const centre = view.toPixel(x, y);
   const addFan = () => {
-    addLine(context, [view.toPixel(middle.x, middle.y), ...rim]);
+    context.moveTo(...centre);
+    context.arc(...centre, radius, -theta - halfAngle, halfAngle - theta);
     context.closePath();
   };
   context.fillStyle = colour;

@@ -44,7 +44,6 @@ export const de: typeof import('./en.ts').en = {
     straight: 'Der Weg dazwischen ist gerade.',
     estimates: (v, omega, gamma) => `v̂ = ${v} m/s, ω̂ = ${omega} rad/s, γ̂ = ${gamma} rad/s.`,
   },
-  centreAt: (metres) => `Mittelpunkt ${metres} m`,
   forms: {
     error: 'Fehler des Endes (m)',
     arc: 'Bogen, mit seinem Radius',

@@ -44,7 +44,6 @@ export const en = {
     straight: 'The path between them is straight.',
     estimates: (v, omega, gamma) => `v̂ = ${v} m/s, ω̂ = ${omega} rad/s, γ̂ = ${gamma} rad/s.`,
   },
-  centreAt: (metres) => `centre ${metres} m`,
   forms: {
     error: 'error of the end (m)',
     arc: 'arc, by its radius',

@@ -10,7 +10,7 @@ import { Picture } from '../../scene/picture.ts';
 import { Pixels } from '../../scene/pixels.ts';
 import { View, extentAround } from '../../scene/view.ts';
 import { clamp } from '../../ui/clamp.ts';
-import { fixed, formatSignificant } from '../../ui/format.ts';
+import { fixed } from '../../ui/format.ts';
 import { drawDraggableRobot, drawRobotOutline } from '../shared/robot.ts';
 import { CONTOUR_STYLES, LINE_STYLES, type LineName } from './settings.ts';
 import type { ArcAnatomy, ArcWithCircle, Pose, AnatomySurface } from '../../types.d.ts';
@@ -39,9 +39,6 @@ const CROSS_HALF_SIZE = 4;
 
 /** Length of the heading line at the commanded end, CSS pixels. */
 const HEADING_LENGTH = 24;
-
-/** Length of the arrow towards a centre outside the picture, CSS pixels. */
-const ARROW_LENGTH = 9;
 
 /** Constructions in the picture that are highlighted with a line of Table 5.1. */
 const CONSTRUCTIONS_BY_LINE: Record<number, string[]> = {
@@ -159,20 +156,7 @@ function drawArcConstruction(brush: Brush, start: Pose, { center, end, turn, arc
     drawLabel(brush, { x: labelPoint[0], y: labelPoint[1], towards: Math.abs(towards) < 0.3 ? 0 : Math.sign(towards), text, colour });
   };
   drawArcLabel(signed, visibleFractionOfRadius / 2);
-  if (visibleFractionOfRadius === 1) {
-    drawArcLabel(angle, 1);
-    return;
-  }
-  drawArrow(context, colour, [fromX + visibleFractionOfRadius * (x - fromX), fromY + visibleFractionOfRadius * (y - fromY)], Math.atan2(y - fromY, x - fromX));
-  const distance = formatSignificant(Math.hypot(center[0] - start.x, center[1] - start.y), 2);
-  drawArcLabel(`${words.anatomy.centreAt(distance)}, ${angle}`, visibleFractionOfRadius);
-}
-
-/** Draws an arrow at a point in a direction (rad, clockwise from the right). */
-function drawArrow(context: Brush['context'], colour: string, [x, y]: number[], direction: number) {
-  strokePath(context, { colour, width: 2.25 }, () => {
-    for (const wingAngle of [2.6, -2.6]) addLine(context, [[x + ARROW_LENGTH * Math.cos(direction + wingAngle), y + ARROW_LENGTH * Math.sin(direction + wingAngle)], [x, y]]);
-  });
+  drawArcLabel(angle, visibleFractionOfRadius);
 }
 
 /** Returns the visible fraction of the line from a visible point to another point. */

@@ -148,7 +148,7 @@ export const failedChecksOf = <Check extends { name: string, passed: boolean, me
  *
  * @param print formats numbers
  */
-export function correctionAdvice({ recommended, systematicErrors }: any, texts: Pick<Words, 'correctFirst'>, print = (number: string) => number): string[] {
+export function correctionAdvice({ recommended, systematicErrors }: any, texts: Words, print = (number: string) => number): string[] {
   if (!recommended) return [];
   const [distance, turn] = ['distanceScale', 'turnScale'].map((key) => {
     const { value, interval, corrected } = systematicErrors[key];

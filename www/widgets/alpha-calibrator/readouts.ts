@@ -34,7 +34,7 @@ export function alphaTable(viewModel: ViewModel) {
   const axis = axisOf([...alphas, ...intervals.flatMap((interval) => interval ?? []), ...(truth ?? [])]);
   return html`<table class="alphas" part="table">
     <thead>
-      <tr><th scope="col">${formatMarkup(texts.alpha)}</th><th scope="col">${truth ? noiseColumnHead() : texts.noise}</th><th scope="col">${texts.value}</th><th scope="col">${texts.recommended}</th></tr>
+      <tr><th scope="col">${formatMarkup(texts.alpha)}</th><th scope="col">${truth ? texts.noiseTrue : texts.noise}</th><th scope="col">${texts.value}</th><th scope="col">${texts.recommended}</th></tr>
     </thead>
     <tbody>
       ${alphas.map((alpha, i) => html`<tr>
@@ -84,12 +84,6 @@ export function alphaTexts(viewModel: ViewModel) {
 function intervalText({ stats: { intervals } }: ViewModel, index: number) {
   const interval = intervals[index];
   return interval ? words.calibrator.alphas.between(localized(formatEstimate(interval[0], interval)), localized(formatEstimate(interval[1], interval))) : NO_VALUE;
-}
-
-/** Returns the header of the column of noises, with the symbol of the true value in simulated logs. */
-function noiseColumnHead() {
-  const [textBefore, textAfter] = words.calibrator.alphas.noiseTrue.split('|');
-  return html`${textBefore}<svg class="sample" viewBox="0 0 6 12" aria-hidden="true"><path stroke="var(--truth)" stroke-width="3" d="M3 1V11" /></svg>${textAfter}`;
 }
 
 /** Returns a logarithmic axis over whole decades that contain the values. */

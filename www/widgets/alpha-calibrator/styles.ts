@@ -201,13 +201,6 @@ export const styles = css`
     height: 1.2em;
   }
 
-  .alphas .sample {
-    display: inline-block;
-    width: 0.5em;
-    height: 1em;
-    vertical-align: -0.1em;
-  }
-
   .alphas path {
     vector-effect: non-scaling-stroke;
   }

@@ -28,11 +28,7 @@ export function judgementOf(viewModel: ViewModel, logWarnings: Warning[]) {
   const missingAlphaTexts = missingAlphas(texts.alphas.lacking, fitted.model, stats).map(({ indices, drive }) => texts.missing(indices.map((i) => `α${subscriptOf(i)}`).join(', '), drive));
   const warnings = [...missingAlphaTexts, uncorrectedText(viewModel), ...logWarnings.map((name) => texts.nav2[name])].filter(Boolean);
   const rating = verdict === 'consistent' && warnings.length > 0 ? 'questionable' : verdict;
-  const useSentences = {
-    consistent: [texts.use, ...correctionAdvice(stats, texts.nav2, localized)],
-    questionable: [`${[texts.useAnyway, ...correctionAdvice(stats, texts.useCorrected, localized)].join('')}.`],
-    unusable: [],
-  }[rating];
+  const useSentences = rating === 'unusable' ? [] : [rating === 'consistent' ? texts.use : texts.useAnyway, ...correctionAdvice(stats, texts.nav2, localized)];
   const judgementWith = (finding: string, ...toDo: string[]) => ({ rating, badge: texts.badges[rating], finding, toDo: [...toDo, ...useSentences].join(' ') });
   if (legs.count === 0) return judgementWith(texts.none, texts.longer, ...warnings);
   const failedChecks = failedChecksOf(checks);

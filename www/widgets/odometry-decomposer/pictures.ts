@@ -36,8 +36,8 @@ const ARC_GAPS = { handle: 14, arcs: 16 };
 /** Maximum margin around a turn, as a fraction of the frame's shorter side, so that half of the frame remains for the motion. */
 const MAX_ARC_SHARE = 0.25;
 
-/** Number of bisections for the view's scale. */
-const SCALE_BISECTIONS = 12;
+/** Number of steps to the view's scale, each of which at least halves the distance to it. */
+const SCALE_STEPS = 12;
 
 /** Length of a drive, CSS pixels, below which it has no label. */
 const MIN_LABELLED_DRIVE = 24;
@@ -127,15 +127,10 @@ export class LegsPicture extends OutcomesPicture {
       const arcCorners = [legs.rot1, legs.rot2].flatMap((turn, i) => worldArc(poseIn(linkage, 2 * i), turn, Math.min(radii[i], maxTurnRadius) / scale));
       return extentOf([...worldPoints, ...arcCorners], 1.2);
     };
-    // The arcs have a fixed size in pixels. They fit at half of the scale at which the positions alone would fit.
-    let maxScale = view.scaleFor(extentOf(worldPoints, 1.2));
-    let low = maxScale / 2;
-    for (let i = 0; i < SCALE_BISECTIONS; i++) {
-      const scale = (low + maxScale) / 2;
-      if (view.scaleFor(boxAtScale(scale)) < scale) maxScale = scale;
-      else low = scale;
-    }
-    view.fit(boxAtScale(low));
+    // The arcs have a fixed size in pixels, and need more space in metres at a smaller scale.
+    let scale = view.scaleFor(extentOf(worldPoints, 1.2));
+    for (let i = 0; i < SCALE_STEPS; i++) scale = view.scaleFor(boxAtScale(scale));
+    view.fit(boxAtScale(scale));
   }
 
   paint: SamplesPicture<Scene>['paint'] = (brush, scene) => {

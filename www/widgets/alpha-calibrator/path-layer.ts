@@ -13,17 +13,8 @@ import type { CalibrationLegs } from '../../types.d.ts';
 
 export type PathStyle = { colour: string, width: number, dash: number[] };
 
-/** Maximum number of legs that are drawn without a cache. The cache is another canvas, which takes memory. */
-const MAX_UNCACHED_LEGS = 2000;
-
-/** Side of the squares of a grid, CSS pixels. Of the short lines that end in one square only one is drawn, because all look equal. */
-const FINE_SQUARE = 1;
-
-/** Side of the squares by which the coverage of the picture is measured, CSS pixels. */
-const COARSE_SQUARE = 8;
-
-/** Returns the key of the grid square that contains a point in CSS pixels. */
-const gridSquareOf = (x: number, y: number, side: number = FINE_SQUARE) => Math.round(x / side) + 2 ** 26 * Math.round(y / side);
+/** Number of legs above which the path is cached, on another canvas, and drawn as hairlines, because wide lines would hide each other. */
+const MAX_WIDE_LEGS = 2000;
 
 /** Radius of the rings around outliers, CSS pixels. */
 const RING_RADIUS = 6;
@@ -64,20 +55,21 @@ export class PathLayer {
   /** Draws the legs, the most usual classes first. */
   draw(brush: Brush, legs: CalibrationLegs, classes: Uint8Array, overlays: LineName[]) {
     const paint = (painter: Painter) => drawPath(painter, legs, this.odometryOf(legs), classes, overlays);
-    if ('vector' in brush.context || legs.count <= MAX_UNCACHED_LEGS) paint(brush);
+    if ('vector' in brush.context || legs.count <= MAX_WIDE_LEGS) paint(brush);
     else this.#layer.draw(brush, [legs, overlays, brush.highlight], paint);
   }
 }
 
 function drawPath(brush: Painter, legs: CalibrationLegs, odometry: Float64Array, classes: Uint8Array, overlays: LineName[]) {
-  if (overlays.includes('odometry')) strokeMany(brush.context, odometryLines(brush.view, odometry), pathStyle(brush, 'odometry'));
-  // Lines get thinner gradually while the coverage grows from 1 to 2, so that nothing jumps when the picture is resized.
-  const thickness = Math.max(0, Math.min(1, 2 - pathCoverage(brush.view, legs.reference)));
+  const { context, view } = brush;
+  const { count, reference } = legs;
+  if (overlays.includes('odometry')) strokeMany(context, odometryLines(view, odometry), pathStyle(brush, 'odometry'));
   for (const [index, name] of LEG_CLASSES.entries()) {
     if (!overlays.includes(name)) continue;
+    const legsOfClass = [...classes.keys()].filter((leg) => classes[leg] === index);
+    const lines = legsOfClass.map((leg) => [view.toPixel(reference[6 * leg], reference[6 * leg + 1]), view.toPixel(reference[6 * leg + 3], reference[6 * leg + 4])]);
     const legStyle = pathStyle(brush, name);
-    const legLines = visibleLegs(brush.view, legs.reference, (leg) => classes[leg] === index);
-    strokeMany(brush.context, legLines, { ...legStyle, width: HAIRLINE_WIDTH + thickness * (legStyle.width - HAIRLINE_WIDTH) });
+    strokeMany(context, lines, count > MAX_WIDE_LEGS ? { ...legStyle, width: HAIRLINE_WIDTH } : legStyle);
   }
   if (overlays.includes('outlier')) drawRings(brush, outlierEnds(brush, legs));
 }
@@ -98,50 +90,10 @@ export function drawRings(brush: Painter, points: [number, number][]) {
   });
 }
 
-/**
- * Returns the coverage: the area of the legs at the usual line width, divided by the area of the squares in which they end. Above 1, wide
- * lines would hide each other; as hairlines, each class covers an area in proportion to its number of legs.
- */
-function pathCoverage(view: Painter['view'], reference: Float64Array) {
-  const occupiedSquares: Set<number> = new Set();
-  let coveredLength = 0;
-  for (let at = 0; at < reference.length; at += 6) {
-    const [x, y] = [view.toPixelX(reference[at + 3]), view.toPixelY(reference[at + 4])];
-    occupiedSquares.add(gridSquareOf(x, y, COARSE_SQUARE));
-    // A leg counts only for the square in which it ends, with at most the side of the square.
-    coveredLength += Math.min(COARSE_SQUARE, Math.hypot(x - view.toPixelX(reference[at]), y - view.toPixelY(reference[at + 1])));
-  }
-  return (coveredLength * LINE_STYLES.likely.width) / (occupiedSquares.size * COARSE_SQUARE ** 2);
-}
-
-/** Returns the path of the odometry as lines between the ends of its legs. */
+/** Returns the path of the odometry as lines of many legs each. */
 function* odometryLines(view: Painter['view'], ends: Float64Array) {
-  let [previousSquare, line] = [NaN, [] as number[][]];
-  for (let at = 0; at < ends.length; at += 2) {
-    const legEnd = view.toPixel(ends[at], ends[at + 1]);
-    const square = gridSquareOf(...legEnd);
-    if (square === previousSquare) continue;
-    previousSquare = square;
-    line.push(legEnd);
-    if (line.length <= LINES_PER_STROKE) continue;
-    yield line;
-    line = [legEnd];
-  }
-  yield line;
-}
-
-/** Returns the legs that are drawn as lines between their ends. */
-function* visibleLegs(view: Painter['view'], reference: Float64Array, isDrawn: (leg: number) => boolean) {
-  const drawnSquares: Set<number> = new Set();
-  for (let leg = 0; leg < reference.length / 6; leg++) {
-    if (!isDrawn(leg)) continue;
-    const at = 6 * leg;
-    const [from, to] = [view.toPixel(reference[at], reference[at + 1]), view.toPixel(reference[at + 3], reference[at + 4])];
-    if (Math.hypot(to[0] - from[0], to[1] - from[1]) < FINE_SQUARE) {
-      const square = gridSquareOf(...to);
-      if (drawnSquares.has(square)) continue;
-      drawnSquares.add(square);
-    }
-    yield [from, to];
+  for (let at = 0; at < ends.length; at += 2 * LINES_PER_STROKE) {
+    const coordinates = ends.subarray(at, at + 2 * LINES_PER_STROKE + 2);
+    yield Array.from({ length: coordinates.length / 2 }, (_, i) => view.toPixel(coordinates[2 * i], coordinates[2 * i + 1]));
   }
 }

@@ -130,9 +130,9 @@ test('sliders speak their value with its unit, and nothing is announced while on
     await waitForFrames(page);
     expect(await status.textContent()).toBe('');
   }
-  const { config } = await bananaResultsOf(widget);
   await page.mouse.up();
-  await expect(status).toContainText(`v = ${config.command.v.toFixed(2).replace('-', '−')} m/s`);
+  await expect(status).not.toBeEmpty();
+  expect(await status.innerText()).toBe(await widget.locator('p[part=caption]').innerText());
   for (const otherSlider of await widget.locator('input[type=range]').all()) {
     expect(await otherSlider.getAttribute('aria-valuetext')).toMatch(/\d/);
   }

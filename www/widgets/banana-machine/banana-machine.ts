@@ -26,7 +26,7 @@ import { viewModelOf, viewModelOfSettings, type ViewModel } from './view-model.t
 import { markedRobot, otherReadouts, readouts, twistTable, workedExample } from './readouts.ts';
 import { LINE_STYLES, OVERLAYS, definition, sliderSpecs } from './settings.ts';
 import { styles } from './styles.ts';
-import { announcementOf, calloutsOf, captionOf, floorTitle, planeText, skewText, twistCaption, twistText } from './words.ts';
+import { calloutsOf, captionOf, floorTitle, planeText, skewText, twistCaption, twistText } from './words.ts';
 import type { BananaMachine as Simulation, BananaMachineSettings as Settings, Inspection } from '../../types.d.ts';
 import type { Values } from '../../figure/settings.ts';
 
@@ -130,12 +130,11 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     return {
       description: this.#description,
       settings: config,
-      codeNote: this.#pinned ? words.banana.pinNotInCode : '',
       columns: { 'x_m y_m theta_rad': poses, 'xi_along_m xi_lateral_m xi_heading_rad': twists, [EXECUTED_COLUMNS[config.model]]: executed },
     };
   }
 
-  announcement = announcementOf;
+  announcement = captionOf;
 
   snapshot() {
     return { ...super.snapshot(), alphas: this.settings.isStale ? this.simulation?.alphasOfModels : this.viewModel.alphasOfModels };

@@ -9,14 +9,6 @@ import type { Callout } from '../../scene/callout.ts';
 
 addEnglish({ banana: en });
 
-export function announcementOf({ config, stats, note }: ViewModel) {
-  const { announcement, skew, noSkew } = words.banana;
-  const outcomeText = Number.isNaN(stats.crossTrackSkew)
-    ? noSkew
-    : skew(formatWithError(stats.crossTrackSkew, stats.crossTrackSkewError, 2));
-  return announcement(integer(stats.n), commandText(config.command), note || outcomeText);
-}
-
 /** Returns the text equivalent of the view of the floor, with the names of the outlines that are shown. */
 export function planeText(viewModel: ViewModel, overlays: string[], morph: number) {
   const { config, stats, table, note } = viewModel;

@@ -52,7 +52,6 @@ export const de: typeof import('./en.ts').en = {
     lost: 'Die vierte Ordnung lässt keine Kovarianz übrig: zu viel Rauschen für eine Reihe.',
     few: 'Zu wenige Roboter für 5 %: Die Bänder sind breiter.',
   },
-  announcement: (robots, command, steps, outcome) => `${robots} Roboter, ${stepsOf(steps)} mit ${command}. ${outcome}`,
   plane: (command, steps, robots, step, x, y, recursion) =>
     `Der Boden von oben, x nach rechts und y nach oben. ${robots} Roboter ${robots === '1' ? 'fährt' : 'fahren'} ${stepsOf(steps)} mit ${command}. Wolken wachsen den Weg entlang; nach Schritt ${step} ist der Befehl bei x ${x} m, y ${y} m. Umrisse nach der Rekursion: ${recursion}.`,
   stepText: (step, measured, predicted) =>

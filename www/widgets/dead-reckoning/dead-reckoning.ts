@@ -15,7 +15,7 @@ import { COMPONENTS, viewModelOf, type ViewModel } from './view-model.ts';
 import { headline, markedRobot, missTable, ratioPlot, straightPlot } from './readouts.ts';
 import { OUTLINE_STYLES, RECURSIONS, definition } from './settings.ts';
 import { styles } from './styles.ts';
-import { announcementOf, captionOf, planeText, stepText } from './words.ts';
+import { captionOf, planeText, stepText } from './words.ts';
 import type { Values } from '../../figure/settings.ts';
 import type { DeadReckoning as Simulation } from '../../types.d.ts';
 
@@ -75,7 +75,7 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
     };
   }
 
-  announcement = (viewModel: ViewModel) => announcementOf(viewModel, this.state.elementState.overlays);
+  announcement = (viewModel: ViewModel) => captionOf(viewModel, this.state.elementState.overlays);
 
   /** Poses of the selected robot after each step, if that robot has been driven. */
   get #markedPoses() {

@@ -55,7 +55,6 @@ export const en = {
     lost: 'The fourth order has left no covariance: too much noise for a series.',
     few: 'Too few robots to tell 5 %: the bands are wider than that.',
   },
-  announcement: (robots, command, steps, outcome) => `${robotsOf(robots)}, ${stepsOf(steps)} of ${command}. ${outcome}`,
   plane: (command, steps, robots, step, x, y, recursion) =>
     `View of the floor from above, x to the right and y up. ${robotsOf(robots)} ${robots === '1' ? 'drives' : 'drive'} ${stepsOf(steps)} of ${command}. Clouds grow along the path; after step ${step} the command is at x ${x} m, y ${y} m. Outlines by the recursion: ${recursion}.`,
   stepText: (step, measured, predicted) =>

@@ -56,11 +56,6 @@ export function worstComponentAt({ config: { step }, curves }: ViewModel, overla
   return { component: COMPONENTS[worstIndex], ratio: ratios[worstIndex], error: curves[worstIndex].error[step - 1] };
 }
 
-export function announcementOf(viewModel: ViewModel, overlays: string[]) {
-  const { config, shown } = viewModel;
-  return words.reckoning.announcement(integer(shown), commandText(config.command), String(config.steps), captionOf(viewModel, overlays));
-}
-
 export function ratioText({ config: { step, compounding }, curves }: ViewModel, overlays: string[]) {
   const texts = words.reckoning;
   const ratioTexts = shownComponentsOf(overlays).map((name) => {

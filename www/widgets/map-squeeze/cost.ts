@@ -4,8 +4,8 @@ import { limits } from '../../settings.js';
 import { SAMPLERS } from './settings.ts';
 import type { MapSqueeze, SamplerName } from '../../types.d.ts';
 
-/** Cost of one accepted sample, with its time in microseconds; or the reason why there is none. */
-export type SampleCost = { micros: number, draws: number, wallTests: number } | 'wedged' | 'few';
+/** Cost of one accepted sample, with its time in microseconds; or the reason that there is none. */
+export type SampleCost = { micros: number, draws: number, wallTests: number } | 'wedged';
 
 /** Samples per second in the chapter's exercise: 2000 particles, 20 updates per second. */
 export const SAMPLES_PER_SECOND = 2000 * 20;
@@ -31,6 +31,6 @@ function measureCost(simulation: MapSqueeze, sampler: SamplerName, subStepCount:
     }
   } catch (error) {
     if (!(error instanceof RangeError && error.message.includes('wedged'))) throw error;
-    return sampleCount === 1 ? 'wedged' : 'few';
+    return 'wedged';
   }
 }

@@ -95,8 +95,7 @@ export const de: typeof import('./en.ts').en = {
     draws: 'gezogen',
     tests: 'Abstände',
     core: 'vom Kern',
-    wedged: 'sitzt fest: keine wird angenommen',
-    few: 'zu wenige angenommen, um zu messen',
+    wedged: 'sitzt fest: zu wenige werden angenommen',
   },
   own: {
     reading: 'Die Karte wird gelesen …',

@@ -97,8 +97,7 @@ export const en = {
     draws: 'samples drawn',
     tests: 'wall distances',
     core: 'of a core',
-    wedged: 'wedged: none is accepted',
-    few: 'too few are accepted to measure',
+    wedged: 'wedged: too few are accepted',
   },
   own: {
     reading: 'Reading the map …',

@@ -218,6 +218,9 @@ test('units are stated for both logs, or for each', async () => {
   const [siOptions, statedUnitOptions] = [await coreOptionsOf(LOG_ARGS), await coreOptionsOf(['--odometry', scaledPath, ...LOG_ARGS.slice(2), ...unitArgs])];
   assert.deepEqual(statedUnitOptions.reference, siOptions.reference);
   for (const name of ['t', 'x', 'theta']) assert.ok(Math.abs(statedUnitOptions.odometry[0][name][999] - siOptions.odometry[0][name][999]) < 1e-9, name);
+  const degreesPath = writeInFolder('degrees.csv', [header, ...rows.map((row) => row.split(',').map((cell, i) => Number(cell) * [1, 1, 1, 180 / Math.PI][i]).join(','))].join('\n'));
+  const refusal = await outputOf(['--odometry', degreesPath, ...LOG_ARGS.slice(2), '--angle-unit', 'rad']);
+  assert.match(refusal.err, /^degrees\.csv: its headings are in degrees and were read as radians; .* Choose with --odometry FILE --reference FILE --angle-unit deg,rad\.$/m);
 });
 
 test('a folder gives its logs, and other files are skipped', async () => {
@@ -263,6 +266,8 @@ test('--yaml prints the lines for Nav2 alone, or none of an unusable log', async
   assert.match(out, /^amcl:\n {2}ros__parameters:\n[^]*\n {4}update_min_a: 0\.2\n$/);
   assert.match(err, /^Odometry: odometry\.csv\n {2}\d+ of \d+ rows, [^]*^Consistent: .*\nFirst multiply the odometry’s distances by .*\n$/m);
   assert.match((await outputOf([...LOG_ARGS, '--yaml'])).err, /\nWarning: fitted by another rule than Nav2’s; give --rule nav2\.\n$/);
+  const swappedOutput = await outputOf(['--odometry', examplePath('reference'), '--reference', examplePath('odometry'), '--yaml']);
+  assert.match(swappedOutput.err, /^Warning: .* Are the two swapped\?$/m);
   const reversedPath = writeReversedReference();
   const refusalOutput = await outputOf([...LOG_ARGS.slice(0, 3), reversedPath, '--yaml']);
   assert.deepEqual([refusalOutput.code, refusalOutput.out], [3, '']);

@@ -159,12 +159,13 @@ test('two logs get one start, and none in common is noted', async () => {
   assert.equal(summarySentences(disjointDrive.reference, german.found).length, summarySentences(overlappingDrive.reference, german.found).length + 1);
 });
 
-test('the name of a localizer is noted', async () => {
+test('names of a localizer, and swapped ones, are noted', async () => {
   const noteNamesOf = async (/** @type {string} */ odometry, /** @type {string} */ reference) => {
     const recordings = await openRecordings([odometry, reference].map((name, k) => new File([straightTableOf((i) => (i * (k + 1)) / 100)], name)));
     const [drive] = await readDrives(planDrives(recordings, { roles: new Map([[recordings[0], 'odometry'], [recordings[1], 'reference']]) }));
     return drive.reference.summary.notes.map(({ name }) => name);
   };
+  assert.deepEqual(await noteNamesOf('truth.csv', 'wheels.csv'), ['swapped']);
   assert.deepEqual(await noteNamesOf('odom.csv', 'amcl_pose.csv'), ['localizer']);
   const [{ odometry, reference }] = await drivesOf({ 'odom.csv': straightTableOf((i) => i / 90), 'truth.csv': straightTableOf((i) => i / 80) });
   const notesWithFrame = (/** @type {string} */ parent) => pairLogs(odometry, { ...reference, summary: { ...reference.summary, frames: { parent, child: 'base_link' } } }).reference.summary.notes;
@@ -191,6 +192,46 @@ test('a frozen reference has breaks while the odometry moves on, and none while 
   // Speeds of a log of commands also show that the robot moves.
   const commandTable = ['t,v,omega', ...Array.from({ length: 400 }, (_, i) => `${i / 20},${i < 100 ? 0 : 0.4},0`)].join('\n');
   assert.equal((await readReference(frozenTable, commandTable)).summary.dropped.held?.count, 99);
+});
+
+test('a log that does not follow the other one names the correction that makes it follow', async () => {
+  const headings = Array.from({ length: 1200 }, (_, i) => 2 * Math.sin(i / 60) + Math.cos(i / 23) + i / 300);
+  const pathPoints = [[0, 0]];
+  for (const [i, heading] of headings.entries()) pathPoints.push([pathPoints[i][0] + Math.cos(heading) / 40, pathPoints[i][1] + Math.sin(heading) / 40]);
+  const tableWithChange = (/** @type {(row: number[]) => number[]} */ change) => poseTableOf(1200, (i) => change([i / 20, ...pathPoints[i], headings[i]]).map((value) => Number(value.toFixed(6))));
+  const distortRow = (/** @type {number[]} */ [t, x, y, yaw]) => [t + 0.2, 1.02 * x + 3, 1.02 * y, 1.01 * yaw];
+  const radPerDegree = Math.PI / 180;
+  const scaledBy = (/** @type {number} */ factor) => (/** @type {number[]} */ [t, x, y, yaw]) => [t, factor * x, factor * y, yaw];
+  for (const [changeRow, expectedMessage, what, pair] of /** @type {[(row: number[]) => number[], RegExp, string?, string?][]} */ ([
+    [([t, x, y, yaw]) => [t, x, -y, yaw], /its y axis is mirrored relative to its heading and to /],
+    [([t, x, y, yaw]) => [t, -x, y, yaw], /its x axis is mirrored /],
+    // A compass heading is clockwise from north.
+    [([t, x, y, yaw]) => [t, x, y, Math.PI / 2 - yaw], /its heading has the wrong sign,/],
+    [([t, x, y, yaw]) => [t, y, x, yaw], /its x and y are swapped;/],
+    [([t, x, y, yaw]) => [t, x, -y, -yaw], /it turns left where \S+ turns right: /],
+    [([t, x, y, yaw]) => [t, x, y, yaw * radPerDegree], /its headings are in radians and were read as degrees;/, 'angleUnit', 'rad,rad'],
+    [scaledBy(5), /: multiplied by 0\.196, its lengths match those of odom\.csv; state the unit of lengths of both\./, 'lengthUnit'],
+    [scaledBy(1 / 0.3048), /: multiplied by 0\.299, its lengths match those of odom\.csv: they are in feet; multiply its x and y by 0\.3048\./],
+  ])) {
+    const refusalError = await refusalErrorOf(drivesOf({ 'odom.csv': tableWithChange((row) => row), 'truth.csv': tableWithChange((row) => changeRow(distortRow(row))) }));
+    assert.match(refusalError.message, expectedMessage);
+    assert.match(refusalError.message, /^truth\.csv: .*\. The motions then agree \(correlation (1\.00|0\.9\d)\)\.$/);
+    assert.deepEqual([refusalError.ask?.what, refusalError.ask?.pair], [what, pair]);
+  }
+  // A reference that is mounted backwards is not taken for a mirrored axis, even if the robot hardly turns.
+  const drivesOfBackwardReference = await drivesOf({ 'odom.csv': poseTableOf(400, (i) => [i / 20, i / 40, 0, Math.sin(i / 9) / 9]), 'truth.csv': poseTableOf(400, (i) => [i / 20, i / 39, 0, Math.PI + Math.sin(i / 9) / 9]) });
+  assert.equal(drivesOfBackwardReference.length, 1);
+  const mirrorRow = (/** @type {number[]} */ [t, x, y, yaw]) => [t, x, -y, yaw];
+  assert.match(await refusalSentenceOf(drivesOf({ 'odom.csv': tableWithChange(mirrorRow), 'truth.csv': tableWithChange(distortRow) })), /^odom\.csv: its y axis is mirrored/);
+  // Logs that are both mirrored agree.
+  assert.match(await refusalSentenceOf(drivesOf({ 'odom.csv': tableWithChange(mirrorRow), 'truth.csv': tableWithChange((row) => mirrorRow(distortRow(row))) })), /^odom\.csv: the headings turn the other way than the path; expected/);
+  // The unit of a slow robot is not asked for when its log is read alone.
+  const slowTable = (/** @type {number} */ factor) => tableWithChange(([t, x, y, yaw]) => [20 * t, factor * x, factor * y, yaw]);
+  for (const [odometry, reference, file, pair] of /** @type {const} */ ([[1, 100, 'truth', 'm,cm'], [100, 1, 'odom', 'cm,m']])) {
+    const { message, ask } = await refusalErrorOf(drivesOf({ 'odom.csv': slowTable(odometry), 'truth.csv': slowTable(reference) }));
+    assert.match(message, RegExp(`^${file}\\.csv: multiplied by 0\\.01, its lengths match those of \\w+\\.csv: they are in centimetres; state their unit\\.`));
+    assert.deepEqual([ask?.what, ask?.pair], ['lengthUnit', pair]);
+  }
 });
 
 test('a summary has the distance driven, units and how they were judged, dropped rows and gaps', async () => {

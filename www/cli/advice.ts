@@ -12,6 +12,7 @@ export function optionAdvice({ ask, message }: LogError): string {
   const { what, role = 'odometry', choices, doubted } = ask;
   if (what === 'other') return ' Name both, with --odometry FILE and --reference FILE.';
   const optionText = { series: `--${role}-topic`, frames: `--${role}-frames`, columns: '--columns', timeUnit: '--time-unit', lengthUnit: '--length-unit', angleUnit: '--angle-unit', roles: '--odometry and --reference' }[what];
+  if (ask.pair) return ` Choose with --odometry FILE --reference FILE ${optionText} ${ask.pair}.`;
   if (what in UNITS) {
     const allUnits: readonly string[] = UNITS[what as keyof typeof UNITS];
     const usualUnit = doubted ?? allUnits[0];

@@ -1,8 +1,9 @@
 /** Sentences about logs, in German. */
 
+import type { Correction } from './corrections.ts';
 import { REPAIR_COMMANDS } from './en.ts';
 import type { Words } from './log-error.ts';
-import type { UnitBasis, DropCause, Summary } from './log.ts';
+import type { LogKind, UnitBasis, DropCause, Summary } from './log.ts';
 
 const FIELD_NAMES: Record<string, string> = { t: 'Zeit', x: 'x', y: 'y', yaw: 'Gierwinkel', qx: 'qx', qy: 'qy', qz: 'qz', qw: 'qw', v: 'Geschwindigkeit v', omega: 'Drehrate ω' };
 
@@ -47,6 +48,25 @@ const UNSUPPORTED_FORMATS: typeof import('./en.ts').UNSUPPORTED_FORMATS = {
   hdf5: 'eine HDF5- oder MATLAB-Datei; Zeiten und Posen als CSV exportieren.',
   parquet: 'eine Parquet-Tabelle; als CSV exportieren.',
 };
+
+const CORRECTION_TEXTS: Record<Exclude<Correction['name'], 'lengths'>, (other: string) => string> = {
+  mirroredX: (other) => `ihre x-Achse ist gegenüber ihrer Richtung und ${other} gespiegelt; x negieren`,
+  mirroredY: (other) => `ihre y-Achse ist gegenüber ihrer Richtung und ${other} gespiegelt; y negieren`,
+  mirroredYaw: (other) => `ihre Richtung hat das falsche Vorzeichen, verglichen mit ihrer Bahn und ${other}; die Richtung negieren: Sie wächst gegen den Uhrzeigersinn`,
+  swappedAxes: () => 'ihr x und y sind vertauscht; die beiden Spalten tauschen',
+  leftHanded: (other) => `sie dreht nach links, wo ${other} nach rechts dreht: eine der beiden hat Z nach unten oder ein linkshändiges Koordinatensystem; y und Richtung dieser einen negieren`,
+  degrees: () => 'ihre Richtungen sind in Grad und wurden als Radiant gelesen; die Einheit der Winkel angeben',
+  radians: () => 'ihre Richtungen sind in Radiant und wurden als Grad gelesen; die Einheit der Winkel angeben',
+};
+
+const LENGTH_UNITS = { m: ['Metern'], cm: ['Zentimetern'], mm: ['Millimetern'], ft: ['Fuß', '0,3048'], in: ['Zoll', '0,0254'] };
+
+function lengthCorrectionText({ factor, unit }: Correction, other: string, kind: LogKind): string {
+  const match = `multipliziert mit ${String(Number(factor.toPrecision(3))).replace('.', ',')} passen ihre Längen zu denen von ${other}`;
+  const [unitName, size] = LENGTH_UNITS[unit as keyof typeof LENGTH_UNITS] ?? [];
+  if (!unitName) return `${match}; die Längeneinheit von beiden angeben`;
+  return `${match}: Sie sind in ${unitName}; ${size ? `ihr ${kind === 'poses' ? 'x und y' : 'v'} mit ${size} multiplizieren` : 'die Längeneinheit angeben'}`;
+}
 
 export const german: Words = {
   place: (file, line, topic) => `${file}${line ? `, Zeile ${line}` : ''}${topic ? `, Topic ${topic}` : ''}`,
@@ -115,6 +135,8 @@ export const german: Words = {
     noMessages: 'es sind weniger als 2 Nachrichten; erwartet werden mindestens 2.',
     givenTwice: 'sie ist zweimal angegeben; gebraucht werden zwei unabhängige Messungen einer Fahrt, Odometrie und Referenz.',
     ownReference: (name) => `${name} ist die Odometrie selbst; gebraucht wird eine Referenz, die nicht von den Rädern kommt, wie Motion-Capture oder Scan-Matching.`,
+    correction: (correction, other, kind) =>
+      `${correction.name === 'lengths' ? lengthCorrectionText(correction, other, kind) : CORRECTION_TEXTS[correction.name](other)}. Damit stimmen die Bewegungen überein (Korrelation ${withDecimalComma(correction.score, 2)}).`,
     held: 'ihre Pose steht, während die Odometrie weitergeht: Sie hat den Roboter verloren; gebraucht wird eine, die ihm folgt.',
     noRole: 'ihr Name sagt nicht, ob sie Odometrie oder Referenz ist; Namen wie odom1.csv, truth1.csv, odom2.csv, … sagen es, oder eine Auswahl.',
     unpaired: (odometry, reference) => `die Odometrie ist in ${odometry || 'keiner Datei'}, und die Referenz in ${reference || 'keiner Datei'}; gebraucht wird je eines für eine Fahrt.`,
@@ -151,6 +173,8 @@ export const german: Words = {
       damaged: (count, reason) => `${count} ${count === 1 ? 'beschädigter Block' : 'beschädigte Blöcke'} ausgelassen (${reason})`,
       cutShort: 'die Datei ist unvollständig: Sie endet mitten in einer Zeile oder einem Record',
       upAxis: (axis) => `${axis} ist die senkrechte Achse`,
+      mirrored: 'die Richtungen drehen sich anders herum als die Bahn',
+      swapped: (odometry) => `sie heißt wie eine Odometrie, und ${odometry} nicht: Ist die Odometrie als Referenz angegeben?`,
       sorted: (count) => `${countWithNoun(count, 'verspätete Zeile', 'verspätete Zeilen')} nach der Zeit sortiert`,
       apart: (name, period, otherPeriod) => `keine Zeit gemeinsam mit ${name} (${period}, und ${otherPeriod}): Die Uhren werden nach den Drehungen des Roboters gestellt`,
       localizer: 'die Schätzung eines Lokalisierers, deren Fehler der Odometrie folgen: Die Referenz muss unabhängig gemessen sein',

@@ -1,6 +1,7 @@
 /** Sentences about logs, in English. */
 
-import type { UnitBasis, DropCause, Recording, Role, Summary } from './log.ts';
+import type { Correction } from './corrections.ts';
+import type { LogKind, UnitBasis, DropCause, Recording, Role, Summary } from './log.ts';
 
 /** Fields of a table, as labels and sentences name them. */
 const FIELD_NAMES: Record<string, string> = { t: 'time', x: 'x', y: 'y', yaw: 'yaw', qx: 'qx', qy: 'qy', qz: 'qz', qw: 'qw', v: 'speed v', omega: 'turn rate ω' };
@@ -33,6 +34,27 @@ const DROP_REASONS = {
   stray: 'a time far from all others',
   held: 'the pose stands still while the odometry moves on',
 };
+
+/** Errors of a log and their corrections, found by comparing it with the other log. */
+const CORRECTION_TEXTS: Record<Exclude<Correction['name'], 'lengths'>, (other: string) => string> = {
+  mirroredX: (other) => `its x axis is mirrored relative to its heading and to ${other}; negate x`,
+  mirroredY: (other) => `its y axis is mirrored relative to its heading and to ${other}; negate y`,
+  mirroredYaw: (other) => `its heading has the wrong sign, compared with its path and ${other}; negate it: headings increase counterclockwise`,
+  swappedAxes: () => 'its x and y are swapped; swap the two columns',
+  leftHanded: (other) => `it turns left where ${other} turns right: one of the two has Z down or a left-handed frame; negate y and the heading of that one`,
+  degrees: () => 'its headings are in degrees and were read as radians; state the unit of angles',
+  radians: () => 'its headings are in radians and were read as degrees; state the unit of angles',
+};
+
+/** Names of the units that lengths may have. For units that are no options, the size in m follows. */
+const LENGTH_UNITS = { m: ['metres'], cm: ['centimetres'], mm: ['millimetres'], ft: ['feet', '0.3048'], in: ['inches', '0.0254'] };
+
+function lengthCorrectionText({ factor, unit }: Correction, other: string, kind: LogKind): string {
+  const match = `multiplied by ${Number(factor.toPrecision(3))}, its lengths match those of ${other}`;
+  const [unitName, size] = LENGTH_UNITS[unit as keyof typeof LENGTH_UNITS] ?? [];
+  if (!unitName) return `${match}; state the unit of lengths of both`;
+  return `${match}: they are in ${unitName}; ${size ? `multiply its ${kind === 'poses' ? 'x and y' : 'v'} by ${size}` : 'state their unit'}`;
+}
 
 /** Formats that are recognized but not read, each with a remedy. */
 export const UNSUPPORTED_FORMATS = {
@@ -124,6 +146,8 @@ export const english = {
     /** Errors of two logs. */
     givenTwice: 'it is given twice; give two independent measurements of one drive, odometry and reference.',
     ownReference: (name: string) => `${name} is the odometry itself; choose a reference that does not come from the wheels, such as motion capture or scan matching.`,
+    correction: (correction: Correction, other: string, kind: LogKind) =>
+      `${correction.name === 'lengths' ? lengthCorrectionText(correction, other, kind) : CORRECTION_TEXTS[correction.name](other)}. The motions then agree (correlation ${correction.score.toFixed(2)}).`,
     held: 'its pose stands still while the odometry moves on: it has lost the robot; give one that follows the robot.',
     /** Errors of several recordings. */
     noRole: 'its name does not say whether it is odometry or reference; call the files odom1.csv, truth1.csv, odom2.csv, … or state which is which.',
@@ -165,6 +189,8 @@ export const english = {
       damaged: (count: number, reason: string) => `${count} damaged ${count === 1 ? 'block' : 'blocks'} skipped (${reason})`,
       cutShort: 'the file is incomplete: it ends in the middle of a row or record',
       upAxis: (axis: string) => `${axis} is the vertical axis`,
+      mirrored: 'the headings turn the other way than the path',
+      swapped: (odometry: string) => `its name is that of odometry, and ${odometry} is not: was the odometry given as the reference?`,
       sorted: (count: number) => `${count} late ${count === 1 ? 'row' : 'rows'} sorted by time`,
       apart: (name: string, period: string, otherPeriod: string) =>
         `no time in common with ${name} (${period}, and ${otherPeriod}): the clocks are aligned by the turns of the robot`,

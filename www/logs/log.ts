@@ -81,6 +81,8 @@ export interface Question {
   choices: string[];
   /** Unit that was assumed, and may be wrong. */
   doubted?: string;
+  /** Units of odometry and reference with which they agree, as an option states them. */
+  pair?: string;
   /** Columns of the table: their names, or the cells of its first row. */
   columns?: string[];
 }
@@ -115,11 +117,11 @@ export type DropCause = 'damaged' | 'notFinite' | 'noRotation' | 'noStamp' | 'sh
 export type UnitBasis = 'name' | 'size' | 'rate' | 'format' | 'date' | 'option' | 'usage';
 
 /** Notes that make the α's doubtful even if all checks pass. */
-export type Warning = Extract<Note['name'], 'localizer'>;
+export type Warning = Extract<Note['name'], 'localizer' | 'swapped'>;
 
 /** Note about a log: key of its sentence in `found.notes` of the messages, and the values in that sentence. */
 export interface Note {
-  name: 'cutShort' | 'damaged' | 'sorted' | 'upAxis' | 'apart' | 'localizer';
+  name: 'cutShort' | 'damaged' | 'sorted' | 'upAxis' | 'mirrored' | 'swapped' | 'apart' | 'localizer';
   values: (string | number)[];
 }
 

@@ -1,7 +1,8 @@
 /** Pairs of logs of one drive. */
 
 import type { CalibrationLog } from '../types.d.ts';
-import { isLocalizer } from './candidates.ts';
+import { isLocalizer, roleByName } from './candidates.ts';
+import { correctionOf, questionOf } from './corrections.ts';
 import { LogError } from './log-error.ts';
 import { framesText, type Log, type Note, type Poses, type Role, type Warning } from './log.ts';
 import { pathOf, poseAt, wrapAngle, type Path } from './path.ts';
@@ -44,8 +45,8 @@ export function matchLogs(odometry: Log[], reference: Log[]): [Log, Log][] {
 }
 
 /**
- * Pairs two logs of one drive, with times after the same start. Throws a LogError if the reference has no poses, does not follow the robot, or
- * is the odometry itself.
+ * Pairs two logs of one drive, with times after the same start. Throws a LogError if the reference has no poses, does not follow the robot or
+ * is the odometry itself, or if one of the logs needs a correction.
  */
 export function pairLogs(odometry: Log, reference: Log): Drive {
   const referencePlace = { file: reference.name };
@@ -56,12 +57,21 @@ export function pairLogs(odometry: Log, reference: Log): Drive {
   const commonOdometry = withStart(odometry, commonStart);
   const brokenReference = breakFrozenPoses(withStart(reference, commonStart), commonOdometry);
   if (brokenReference.summary.used < 2) throw new LogError(referencePlace, (texts) => texts.held);
+  const logs = { odometry: commonOdometry, reference: brokenReference };
+  const correction = correctionOf(commonOdometry, brokenReference);
+  if (correction) {
+    const [log, otherLog] = correction.at === 'odometry' ? [odometry, reference] : [reference, odometry];
+    throw new LogError({ file: log.name }, (texts) => texts.correction(correction, otherLog.name, log.kind), questionOf(correction, logs));
+  }
+  const mirroredLog = [odometry, reference].find(({ summary }) => summary.notes.some(({ name }) => name === 'mirrored'));
+  if (mirroredLog) throw new LogError({ file: mirroredLog.name }, (texts) => texts.mirrored);
   const notes: Note[] = [
     ...brokenReference.summary.notes,
+    ...(roleByName(odometry.name) !== 'odometry' && roleByName(reference.name) === 'odometry' ? [{ name: 'swapped' as const, values: [odometry.name] }] : []),
     ...(isLocalizer(reference.name, frames) ? [{ name: 'localizer' as const, values: [] }] : []),
     ...(overlapSeconds(odometry, reference) < 0 ? [{ name: 'apart' as const, values: [odometry.name, timeSpanText(reference), timeSpanText(odometry)] }] : []),
   ];
-  return { odometry: commonOdometry, reference: { ...brokenReference, summary: { ...brokenReference.summary, notes } } };
+  return { ...logs, reference: { ...brokenReference, summary: { ...brokenReference.summary, notes } } };
 }
 
 /**
@@ -93,7 +103,8 @@ function breakFrozenPoses(reference: Log, odometry: Log): Log {
 }
 
 /** Returns the warnings of logs. */
-export const warningsOf = (logs: Pick<Log, 'summary'>[]): Warning[] => (logs.some(({ summary }) => summary.notes.some(({ name }) => name === 'localizer')) ? ['localizer'] : []);
+export const warningsOf = (logs: Pick<Log, 'summary'>[]): Warning[] =>
+  (['localizer', 'swapped'] as const).filter((warning) => logs.some(({ summary }) => summary.notes.some(({ name }) => name === warning)));
 
 /** Returns a log with its times in seconds after another start. */
 export function withStart(log: Log, start: number): Log {

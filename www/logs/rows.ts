@@ -6,7 +6,7 @@ import type { DropCause, Log, LogKind, Note, OpenOptions, Summary } from './log.
 import { wrapAngle } from './path.ts';
 import { quantile, sampleEvenly } from './quantile.ts';
 import { distanceOf } from './summary.ts';
-import { type Units, epochTimeUnitOf, judgeUnits } from './units.ts';
+import { type Columns, type Units, epochTimeUnitOf, judgeUnits } from './units.ts';
 
 /** Facts about a log that the reader of its format provides. */
 interface LogFacts {
@@ -135,14 +135,18 @@ export class Rows {
       throw new LogError(this.#placeOf(firstDrop?.first ?? 0), (texts) => texts.few(rows.length, count, cause));
     }
     const [a, b, c] = [A, B, C].map((index) => this.#column(rows, (row) => this.#number(row, index)));
-    const columns = { start, t: this.#column(rows, (row) => this.#time(row) - start), a, b, c };
+    const columns: Columns = { start, t: this.#column(rows, (row) => this.#time(row) - start), a, b, c };
     const units = judgeUnits(this.#logPlace, kind, columns, assumed, options);
     const { t } = columns;
     const pathDistance = kind === 'poses' ? distanceOfPaths(t, a, b) : 0;
     if (pathDistance > 0) throw new LogError(this.#logPlace, (texts) => texts.turns(pathDistance));
     const { breaks, jumpRows, ...foundGaps } = this.#findEvents(kind, [t, a, b, c], (i) => this.#number(rows[i], IS_BROKEN) === 1);
     const data = { t, ...(kind === 'poses' ? { x: a, y: b, theta: c } : { v: a, omega: b }), breaks } as Log['data'];
-    const notes = [...decisions.notes, ...(lateCount > 0 ? [{ name: 'sorted' as const, values: [lateCount] }] : [])];
+    const notes: Note[] = [
+      ...decisions.notes,
+      ...(lateCount > 0 ? [{ name: 'sorted' as const, values: [lateCount] }] : []),
+      ...(columns.isMirrored ? [{ name: 'mirrored' as const, values: [] }] : []),
+    ];
     const seconds = t[t.length - 1] - t[0];
     const clock = clocks[usesOtherClock ? 1 : 0] ?? '';
     const summary = {

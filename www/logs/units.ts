@@ -1,7 +1,7 @@
 /** Units of a log, judged by names, sizes and the motion of the robot. If they are in doubt, the log is refused with a question. */
 
 import { LogError, type ErrorPlace } from './log-error.ts';
-import { UNITS, type AngleUnit, type LogKind, type OpenOptions, type Summary, type TimeUnit } from './log.ts';
+import { UNITS, type AngleUnit, type LengthUnit, type LogKind, type OpenOptions, type Summary, type TimeUnit } from './log.ts';
 import { quantile, sampleEvenly } from './quantile.ts';
 
 export type Units = Summary['units'];
@@ -17,13 +17,15 @@ export interface Columns {
   b: Float64Array;
   /** Heading, or 0. */
   c: Float64Array;
+  /** True if the headings turn the other way than the path. */
+  isMirrored?: boolean;
 }
 
 /** Decimal exponent of the number of units in a second, by unit of time. */
 export const UNIT_EXPONENTS = { s: 0, ms: 3, us: 6, ns: 9 } as const;
 
 /** Sizes of the units of length in m, and of the units of angle in rad. */
-const METRES_PER_UNIT = { m: 1, cm: 0.01, mm: 0.001 } as const;
+export const METRES_PER_UNIT = { m: 1, cm: 0.01, mm: 0.001 } as const;
 const RADIANS_PER_UNIT = { rad: 1, deg: Math.PI / 180 } as const;
 
 /** Minimum value of times since 1970, by unit. 1e8 s is the year 1973, and 1e11 s the year 5138. */
@@ -43,6 +45,9 @@ const [MIN_SPEED, MAX_SPEED] = [0.005, 20.5];
 
 /** Maximum speed (m/s) of a log whose unit of length is not stated. A faster one may be that of a slow robot in centimetres. */
 const MAX_UNSTATED_SPEED = 5;
+
+/** Most usual speed of a robot, m/s. */
+const USUAL_SPEED = 0.5;
 
 /** Duration (s) of the steps whose speed is judged. In shorter steps noise would look like a high speed. */
 const STEP_DURATION = 0.5;
@@ -77,11 +82,11 @@ export function judgeUnits(place: ErrorPlace, kind: LogKind, columns: Columns, a
   const time = isJudged ? judgeTimeUnit(kind, columns, assumed.time, askUnit) : assumed.time;
   convertTimes(columns, 10 ** (UNIT_EXPONENTS[time.unit] - UNIT_EXPONENTS[assumed.time.unit]));
   const speed = kind === 'poses' ? speedOf(t, a, b) : quantile(sampleEvenly(a.length, (i) => Math.abs(a[i])), 0.9);
-  if (isJudged && length.by === 'usage' && speed > MAX_UNSTATED_SPEED) askUnit('lengthUnit', speed, length.unit, [...UNITS.lengthUnit]);
+  if (isJudged && length.by === 'usage' && speed > MAX_UNSTATED_SPEED) askUnit('lengthUnit', speed, length.unit, lengthUnitsByUsage(speed));
 
   const { unit, by } = options.angleUnit ? { unit: options.angleUnit, by: 'option' as const } : assumed.angle;
   const alignment = isJudged && kind === 'poses' ? alignmentWithPath(t, a, b, c) : undefined;
-  if (alignment?.sign === -1) throw new LogError(place, (texts) => texts.mirrored);
+  columns.isMirrored = alignment?.sign === -1;
   let angle: Units['angle'] = { unit, by };
   if (isJudged && by === 'usage') {
     const turnRate = kind === 'poses' ? 0 : quantile(sampleEvenly(b.length, (i) => Math.abs(b[i])), 0.9);
@@ -93,6 +98,10 @@ export function judgeUnits(place: ErrorPlace, kind: LogKind, columns: Columns, a
   if (angle.unit === 'deg') scaleColumn(kind === 'poses' ? c : b, RADIANS_PER_UNIT.deg);
   return { time, length, angle };
 }
+
+/** Returns the units of length, those first with which a speed would be most usual. @param speed in m/s, if the lengths are in m */
+const lengthUnitsByUsage = (speed: number): LengthUnit[] =>
+  [...UNITS.lengthUnit].sort((one, other) => Math.abs(Math.log((speed * METRES_PER_UNIT[one]) / USUAL_SPEED)) - Math.abs(Math.log((speed * METRES_PER_UNIT[other]) / USUAL_SPEED)));
 
 type Ask = (what: 'timeUnit' | 'lengthUnit' | 'angleUnit', value: number, unit: string, choices: string[]) => never;
 

@@ -235,6 +235,7 @@ export const de: typeof import('./en.ts').en = {
     fitted: (value, interval) => `angepasst ${value}${interval && `, 95 % ${interval}`}`,
     failed: (checks) => `Vorsicht, nicht bestandene Prüfungen: ${checks}`,
     localizer: 'Warnung: Die Referenz ist die Schätzung eines Lokalisierers. Sie teilt Fehler mit der Odometrie, die α’s sind zu klein.',
+    swapped: 'Warnung: Die Referenz sieht wie Odometrie aus, die Odometrie nicht. Sind die beiden vertauscht?',
     corrected: (errors) => `nach Korrektur dieser systematischen Fehler: ${errors}`,
     correctFirst: (distance, turn) =>
       `Zuerst in der Odometrie ${[distance && `Strecken mit ${distance}`, turn && `Drehungen mit ${turn}`].filter(Boolean).join(' und ')} multiplizieren: Die α gelten für den korrigierten Roboter.`,

@@ -201,6 +201,7 @@ export const en = {
     fitted: (value, interval) => `fitted ${value}${interval && `, 95 % ${interval}`}`,
     failed: (checks) => `Caution, these checks failed: ${checks}`,
     localizer: 'Warning: the reference is a localizer’s own estimate. Its errors follow the odometry: the α’s are too small.',
+    swapped: 'Warning: the reference looks like odometry, and the odometry does not. Are the two swapped?',
     corrected: (errors) => `with these systematic errors corrected: ${errors}`,
     correctFirst: (distance, turn) =>
       `First multiply the odometry’s ${[distance && `distances by ${distance}`, turn && `turns by ${turn}`].filter(Boolean).join(' and ')}: the α’s are those of the corrected robot.`,

@@ -1,0 +1,177 @@
+/** Search for the error in a log whose motion disagrees with that of the other log. It tries each correction on each log. */
+
+import { greatest } from 'd3-array';
+import { ROLES, UNITS, type Log, type Question, type Role } from './log.ts';
+import { pathOf, poseAt, wrapAngle, type Pose } from './path.ts';
+import { quantile } from './quantile.ts';
+import { METRES_PER_UNIT } from './units.ts';
+
+/** Motion of the robot in one step, in the frame of the robot, in m and rad. */
+type Motion = [forward: number, left: number, turn: number];
+
+const DEGREE = Math.PI / 180;
+
+/** Corrections of poses. */
+const POSE_CORRECTIONS = {
+  mirroredX: ([x, y, heading]: Pose): Pose => [-x, y, heading],
+  mirroredY: ([x, y, heading]: Pose): Pose => [x, -y, heading],
+  mirroredYaw: ([x, y, heading]: Pose): Pose => [x, y, -heading],
+  swappedAxes: ([x, y, heading]: Pose): Pose => [y, x, heading],
+  leftHanded: ([x, y, heading]: Pose): Pose => [x, -y, -heading],
+  degrees: ([x, y, heading]: Pose): Pose => [x, y, heading * DEGREE],
+  radians: ([x, y, heading]: Pose): Pose => [x, y, heading / DEGREE],
+};
+
+/** All corrections, each for one of the two logs. */
+const ALL_CORRECTIONS = (Object.keys(POSE_CORRECTIONS) as (keyof typeof POSE_CORRECTIONS)[]).flatMap((name) => [[name, 'reference'], [name, 'odometry']] as [typeof name, Role][]);
+
+/** Correction that makes two logs of a drive agree. */
+export interface Correction {
+  name: keyof typeof POSE_CORRECTIONS | 'lengths';
+  /** Role of the log that needs the correction. */
+  at: Role;
+  /** Correlation of the corrected motions. */
+  score: number;
+  /** Factor for the lengths of the log. */
+  factor: number;
+  /** Unit that the log has after a correction of lengths or angles; undefined if no unit has this size. */
+  unit?: keyof typeof UNIT_SIZES | 'rad' | 'deg';
+}
+
+/** Sizes of units of length in m, also of those that are no options. */
+const UNIT_SIZES = { ...METRES_PER_UNIT, ft: 0.3048, in: 0.0254 };
+
+/** Maximum ratio of a measured size of a unit to its real size, and its inverse. The odometry's wheels may have another size than assumed. */
+const MAX_UNIT_ERROR = 1.2;
+
+/** Maximum number of steps of a drive, minimum duration of a step (s), and minimum number of steps for a comparison. */
+const [MAX_STEPS, MIN_STEP_SECONDS, MIN_STEPS] = [4000, 0.25, 40];
+
+/** Maximum offset of the clocks (s) that is tried, as in the first scan of the core. */
+const MAX_CLOCK_OFFSET = 10;
+
+/** Scores are correlations: minimum of logs that agree, minimum after a correction, and maximum ratio of 1 − score after and before it. */
+const [MIN_AGREEMENT_SCORE, MIN_CORRECTED_SCORE, MAX_REMAINING_FRACTION] = [0.9, 0.8, 0.3];
+
+/** Returns true for a scale that an error of the wheels' size can explain. The core has the same limits. */
+const isPlausibleScale = (scale: number) => scale >= 0.5 && scale <= 2;
+
+/** Mean motion of a step, m or rad, below which the robot counts as standing. */
+const MAX_STANDSTILL_MOTION = 1e-4;
+
+/** Ratio of a motion to the 90 % quantile of all motions, above which the step is a jump. */
+const JUMP_FACTOR = 4;
+
+/** Agreement of two logs: correlation of their motions (−1 to 1), and best scales of the reference's lengths and angles. */
+interface Agreement { score: number; length: number; angle: number }
+
+/** Returns the correction that makes two logs of a drive agree; undefined if they agree already, or if no correction helps. */
+export function correctionOf(odometry: Log, reference: Log): Correction | undefined {
+  const logs = { odometry, reference };
+  const timesByRole = ROLES.map((role) => logs[role].data.t);
+  const [from, to] = [Math.max(...timesByRole.map((t) => t[0])), Math.min(...timesByRole.map((t) => t[t.length - 1]))];
+  const step = Math.max(MIN_STEP_SECONDS, (to - from) / MAX_STEPS, ...ROLES.map((role) => 2 / logs[role].summary.rate));
+  const stepCount = Math.floor((to - from) / step);
+  if (!(stepCount >= MIN_STEPS)) return undefined;
+  const uncorrectedMotions = { odometry: motionsOf(odometry, from, step, stepCount), reference: motionsOf(reference, from, step, stepCount) };
+  const { score, length: factor, angle } = bestAgreementOf(uncorrectedMotions, step, true);
+  const triedCorrections = score >= MIN_AGREEMENT_SCORE ? [] : ALL_CORRECTIONS.map(([name, at]) => {
+    const correctedMotions = { ...uncorrectedMotions, [at]: motionsOf(logs[at], from, step, stepCount, POSE_CORRECTIONS[name]) };
+    // A correction of the wrong log can give both logs the same error. In both the robot then seems to drive sideways.
+    // Compass headings grow clockwise from north. They are mirrored, and may also have any offset.
+    return { name, at, factor, ...bestAgreementOf(correctedMotions, step, name === 'mirroredYaw'), forwardness: forwardness(correctedMotions.odometry) + forwardness(correctedMotions.reference) };
+  });
+  const minScore = Math.max(MIN_CORRECTED_SCORE, 1 - MAX_REMAINING_FRACTION * (1 - score));
+  const best = greatest(triedCorrections.filter((candidate) => candidate.score >= minScore && isPlausibleScale(candidate.length) && isPlausibleScale(candidate.angle)), (candidate) => candidate.score + candidate.forwardness);
+  if (best) return { ...best, unit: { degrees: 'deg' as const, radians: 'rad' as const }[best.name as string] };
+  if (score < MIN_CORRECTED_SCORE) return undefined;
+  if (!isPlausibleScale(factor)) return lengthCorrection(logs, score, factor);
+  return isPlausibleScale(angle) ? undefined : { name: 'degrees', at: angle < 1 ? 'reference' : 'odometry', score, factor, unit: 'deg' };
+}
+
+/** Returns the correction of lengths. The log whose lengths then have a known unit needs it. `factor` is that for the reference. */
+function lengthCorrection(logs: Record<Role, Log>, score: number, factor: number): Correction {
+  const corrections = ([['reference', factor], ['odometry', 1 / factor]] as const).map(([at, factorOfLog]): Correction => {
+    const size = METRES_PER_UNIT[logs[at].summary.units.length.unit] * factorOfLog;
+    const unit = (Object.keys(UNIT_SIZES) as (keyof typeof UNIT_SIZES)[]).find((name) => Math.max(size / UNIT_SIZES[name], UNIT_SIZES[name] / size) < MAX_UNIT_ERROR);
+    return { name: 'lengths', at, score, factor: factorOfLog, unit };
+  });
+  return corrections.find(({ unit }) => unit !== undefined) ?? corrections[0];
+}
+
+/** Returns the question for the unit of a corrected log; undefined if no option states it. */
+export function questionOf({ name, at, unit }: Correction, logs: Record<Role, Log>): Question | undefined {
+  const what = name === 'lengths' ? 'lengthUnit' : name === 'degrees' || name === 'radians' ? 'angleUnit' : undefined;
+  const allUnits: readonly string[] = what ? UNITS[what] : [];
+  if (!what || (unit && !allUnits.includes(unit))) return undefined;
+  const unitOf = (role: Role) => (role === at ? unit : logs[role].summary.units[what === 'lengthUnit' ? 'length' : 'angle'].unit) ?? '';
+  return { what, choices: [], ...(unit && { pair: ROLES.map((role) => (allUnits.includes(unitOf(role)) ? unitOf(role) : allUnits[0])).join() }) };
+}
+
+/** Returns the motions of a log in equal steps, from a start time on. */
+function motionsOf({ data }: Log, from: number, step: number, count: number, correct = (pose: Pose) => pose): Motion[] {
+  const path = pathOf(data, Math.max(1, Math.floor(data.t.length / (4 * MAX_STEPS))));
+  const correctedPath = { ...path, poses: path.poses.map(correct) };
+  const stepPoses = Array.from({ length: count + 1 }, (_, i) => poseAt(correctedPath, from + i * step));
+  return stepPoses.slice(1).map(([x, y, heading], i) => {
+    const [dx, dy, turn] = [x - stepPoses[i][0], y - stepPoses[i][1], wrapAngle(heading - stepPoses[i][2])];
+    const middleHeading = stepPoses[i][2] + turn / 2;
+    return [dx * Math.cos(middleHeading) + dy * Math.sin(middleHeading), dy * Math.cos(middleHeading) - dx * Math.sin(middleHeading), turn];
+  });
+}
+
+/**
+ * Returns the agreement of two logs at the smallest clock offset at which they agree, or at the best offset if they do not agree.
+ *
+ * @param anyYaw true if the headings of the logs may differ by any constant angle
+ */
+function bestAgreementOf({ odometry, reference }: Record<Role, Motion[]>, step: number, anyYaw = false): Agreement {
+  const maxLag = Math.round(MAX_CLOCK_OFFSET / step);
+  const [odo, ref] = [withoutJumps(odometry), withoutJumps(reference)];
+  let best: Agreement = { score: -1, length: 1, angle: 1 };
+  for (let i = 0; i <= 2 * maxLag && best.score < MIN_AGREEMENT_SCORE; i++) {
+    const agreement = agreementAt(odo, ref, i % 2 === 0 ? i / 2 : -(i + 1) / 2, odo.length - maxLag, anyYaw);
+    if (agreement.score > best.score) best = agreement;
+  }
+  return best;
+}
+
+/** Returns motions with jumps replaced by zeros. */
+function withoutJumps(motions: Motion[]): Motion[] {
+  const jumpLimit = (size: (motion: Motion) => number) => JUMP_FACTOR * Math.max(MAX_STANDSTILL_MOTION, quantile(Float64Array.from(motions, size), 0.9));
+  const [maxDrive, maxTurn] = [jumpLimit(([forward, left]) => Math.hypot(forward, left)), jumpLimit(([, , turn]) => Math.abs(turn))];
+  return motions.map((motion) => (Math.hypot(motion[0], motion[1]) <= maxDrive && Math.abs(motion[2]) <= maxTurn ? motion : [0, 0, 0]));
+}
+
+/** Returns the agreement at a clock offset of `lag` steps. Its score is −1 if fewer than half of `count` steps overlap. */
+function agreementAt(odometry: Motion[], reference: Motion[], lag: number, count: number, anyYaw: boolean): Agreement {
+  // Sums of squares and products of the motions. `across` is the cross product of the displacements, and `driveProducts` their dot product.
+  let [odoDriveSquares, driveProducts, across, refDriveSquares, odoTurnSquares, turnProducts, refTurnSquares] = [0, 0, 0, 0, 0, 0, 0];
+  const [first, end] = [Math.max(0, -lag), Math.min(odometry.length, reference.length - lag)];
+  for (let i = first; i < end; i++) {
+    const [odo, ref] = [odometry[i], reference[i + lag]];
+    odoDriveSquares += odo[0] * odo[0] + odo[1] * odo[1];
+    driveProducts += odo[0] * ref[0] + odo[1] * ref[1];
+    across += odo[0] * ref[1] - odo[1] * ref[0];
+    refDriveSquares += ref[0] * ref[0] + ref[1] * ref[1];
+    odoTurnSquares += odo[2] * odo[2];
+    turnProducts += odo[2] * ref[2];
+    refTurnSquares += ref[2] * ref[2];
+  }
+  if (2 * (end - first) < count) return { score: -1, length: 1, angle: 1 };
+  // For a robot that only drives straight or only turns on the spot, one of the two correlations is undefined.
+  const [drive, turn] = [[odoDriveSquares, anyYaw ? Math.hypot(driveProducts, across) : driveProducts, refDriveSquares], [odoTurnSquares, turnProducts, refTurnSquares]].map(([odo, both, ref]) =>
+    (Math.sqrt(Math.max(odo, ref) / (end - first)) < MAX_STANDSTILL_MOTION ? { correlation: 1, scale: 1 } : { correlation: both / Math.sqrt(odo * ref || 1), scale: odo / both }));
+  return { score: Math.min(drive.correlation, turn.correlation), length: drive.scale, angle: turn.scale };
+}
+
+/** Returns the degree to which a robot drives at a constant angle to its heading: 1 if always, 0 if in all directions. */
+function forwardness(motions: Motion[]): number {
+  let [along, across, total] = [0, 0, 0];
+  for (const [forward, left] of motions) {
+    along += forward ** 2 - left ** 2;
+    across += 2 * forward * left;
+    total += forward ** 2 + left ** 2;
+  }
+  return total === 0 ? 1 : Math.hypot(along, across) / total;
+}

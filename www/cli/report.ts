@@ -73,24 +73,26 @@ const [RED, GREEN, YELLOW] = [31, 32, 33];
 
 const inColor = (color: number) => (text: string) => `\x1b[${color}m${text}\x1b[0m`;
 
-/** Returns the verdict, the missing drives for α's that are not identifiable, and the warnings of the logs. */
+/** Returns the warnings of the logs, the verdict, and the missing drives for α's that are not identifiable. */
 export const verdictLines = ({ calibration, options, logs }: Pick<CalibrationResult, 'calibration' | 'options' | 'logs'>): string[] => [
-  verdictSentence(calibration),
-  ...missingAlphas(en.alphas.lacking, options.model, calibration).map(({ indices, lack, drive }) => `${alphaNames(indices)} not identifiable: ${lack}; ${drive}`),
   ...warningsOf(logs).map((name) => en.nav2[name]),
+  verdictSentence(calibration, warningsOf(logs).length > 0),
+  ...missingAlphas(en.alphas.lacking, options.model, calibration).map(({ indices, lack, drive }) => `${alphaNames(indices)} not identifiable: ${lack}; ${drive}`),
   ...correctionAdvice(calibration, en.nav2),
 ];
 
-/** Returns a sentence with the verdict and the advice. */
-function verdictSentence({ alphas, diagnostics: { verdict, checks } }: any): string {
+/** Returns a sentence with the verdict and the advice. A warning of the logs makes consistent α's questionable, as on the page. */
+function verdictSentence({ alphas, diagnostics: { verdict, checks } }: any, hasWarnings: boolean): string {
   const failedChecks = failedChecksOf(checks);
+  const useAnyway = 'If the log cannot be improved, use the recommended α’s.';
+  if (verdict === 'consistent' && hasWarnings) return `Questionable: all checks passed, but the warning remains. ${useAnyway}`;
   if (verdict === 'consistent') {
     const missingIndices = alphas.flatMap((alpha: number | null, i: number) => (alpha === null ? [i] : []));
     return `Consistent: all checks passed${missingIndices.length ? `, but ${alphaNames(missingIndices)} cannot be identified` : ''}. Use the recommended α’s with legs of this length.`;
   }
   if (verdict === 'questionable') {
     const failedText = failedChecks.length === 1 ? 'one check' : `${failedChecks.length} of ${checks.length} checks`;
-    return `Questionable: ${failedText} failed (${failedChecks.map(({ name }) => name).join(', ')}). If the log cannot be improved, use the recommended α’s.`;
+    return `Questionable: ${failedText} failed (${failedChecks.map(({ name }) => name).join(', ')}). ${failedChecks[0].message} ${useAnyway}`;
   }
   const checkMessage = failedChecks.find(({ name }) => DECISIVE_CHECKS.includes(name))?.message ?? 'It does not identify any α.';
   return `Unusable: no α’s are recommended from this log. ${checkMessage}`;

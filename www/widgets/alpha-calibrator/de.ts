@@ -233,6 +233,7 @@ export const de: typeof import('./en.ts').en = {
     lasted: (duration) => `von ${duration} s`,
     recommended: (factor, coverage, windows) => `empfohlen = angepasst × ${factor}: die Anpassung deckt ${coverage} von ${windows} zurückgehaltenen Fenstern von 1 m`,
     fitted: (value, interval) => `angepasst ${value}${interval && `, 95 % ${interval}`}`,
+    longerLegs: (ratio) => `Die Etappen des Logs sind ${ratio}-mal so lang wie verlangt. Zu ihnen gehören die α’s; update_min_d und update_min_a sind darum mit ${ratio} multipliziert.`,
     failed: (checks) => `Vorsicht, nicht bestandene Prüfungen: ${checks}`,
     localizer: 'Warnung: Die Referenz ist die Schätzung eines Lokalisierers. Sie teilt Fehler mit der Odometrie, die α’s sind zu klein.',
     swapped: 'Warnung: Die Referenz sieht wie Odometrie aus, die Odometrie nicht. Sind die beiden vertauscht?',

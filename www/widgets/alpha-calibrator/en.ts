@@ -199,6 +199,7 @@ export const en = {
     lasted: (duration) => `of ${duration} s`,
     recommended: (factor, coverage, windows) => `recommended = fitted × ${factor}: the fit covers ${coverage} of ${windows} held-out windows of 1 m`,
     fitted: (value, interval) => `fitted ${value}${interval && `, 95 % ${interval}`}`,
+    longerLegs: (ratio) => `The log’s legs are ${ratio} times as long as asked. The α’s belong to them, so update_min_d and update_min_a are multiplied by ${ratio}.`,
     failed: (checks) => `Caution, these checks failed: ${checks}`,
     localizer: 'Warning: the reference is a localizer’s own estimate. Its errors follow the odometry: the α’s are too small.',
     swapped: 'Warning: the reference looks like odometry, and the odometry does not. Are the two swapped?',

@@ -135,7 +135,15 @@ export function nav2Lines({ calibration, count, model, rule, legs, log, warnings
   // A line break in a file's name would end the comment.
   const commentLines = noteTexts.map((note) => `# ${note.replaceAll(/\s+/g, ' ')}`);
   const fifthAlphaNote = alphas.length < 5 ? [`# ${texts.fifth}`] : [];
-  const updateTriggers = duration === undefined ? [`update_min_d: ${withDecimals(formatNumber(distance ?? null))}`, `update_min_a: ${withDecimals(formatNumber(angle ?? null))}`] : [];
+  // The α's belong to the legs of the log, which are longer than asked if its rows are sparse.
+  const sparseCheck = failedChecksOf<{ name: string, passed: boolean, message: string, value: number }>(checks).find(({ name }) => name === 'sampling-dense');
+  const legRatio = sparseCheck?.value ?? 1;
+  const updateTriggers = duration === undefined
+    ? [
+      ...(sparseCheck ? [`# ${texts.longerLegs(formatNumber(legRatio))}`] : []),
+      ...Object.entries({ update_min_d: distance, update_min_a: angle }).map(([name, value]) => `${name}: ${withDecimals(formatNumber(value === undefined ? null : legRatio * value))}`),
+    ]
+    : [];
   const parameterLines = [...commentLines, `robot_model_type: "${NAV2_PLUGINS[model]}"`, ...alphaLines, ...fifthAlphaNote, ...updateTriggers];
   return ['amcl:', '  ros__parameters:', ...parameterLines.map((line) => `    ${line}`)];
 }

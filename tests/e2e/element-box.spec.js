@@ -180,7 +180,7 @@ for (const [name, lang, width, sliderId, sliderValues] of SLIDERS_BELOW_TEXTS) {
       sliderTops.push(await widget.locator(`#${sliderId}`).evaluate((element) => element.getBoundingClientRect().top + scrollY));
     }
     expect(Math.max(...sliderTops) - Math.min(...sliderTops)).toBeLessThan(0.5);
-    const textBoxes = await widget.locator('.controls .slider > [for], .controls .slider .value, .controls button').evaluateAll((elements) =>
+    const textBoxes = await widget.locator('.controls .slider [for], .controls .slider .value, .controls button').evaluateAll((elements) =>
       elements.map((element) => ({ text: element.textContent, box: element.getBoundingClientRect() })).filter(({ box }) => box.width > 0));
     const overlappingTexts = textBoxes.flatMap((one, i) => textBoxes.slice(i + 1).filter(({ box }) =>
       box.left < one.box.right - 1 && box.right - 1 > one.box.left && box.top < one.box.bottom - 1 && box.bottom - 1 > one.box.top).map((other) => [one.text, other.text]));

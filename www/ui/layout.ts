@@ -80,7 +80,8 @@ const figureLayout = css`
 
     .simulation > .controls > fieldset {
       grid-column: 1 / -1;
-      grid-template-columns: repeat(auto-fit, minmax(11em, 1fr));
+      grid-auto-flow: column;
+      grid-auto-columns: minmax(min-content, 1fr);
       column-gap: inherit;
     }
 

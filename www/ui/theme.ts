@@ -159,10 +159,14 @@ export const theme = css`
       aspect-ratio: auto !important;
     }
 
-    /* Labels in a table are names of rows, and are all printed with their radio buttons. */
-    :is(button, input:not(th *), textarea, summary, .handle, .grips, .end, .effect, .marked, .visually-hidden),
+    :is(button, input, textarea, summary, .handle, .grips, .end, .effect, .marked, .visually-hidden),
     :not(th) > label:has(input:not(:checked)) {
       display: none !important;
+    }
+
+    /* Labels in a table are names of rows, and are all printed; that of the selected row is bold. */
+    th > label:has(input:checked) {
+      font-weight: bold;
     }
 
     fieldset {

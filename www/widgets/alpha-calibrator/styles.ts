@@ -88,6 +88,7 @@ export const styles = css`
     background: var(--prediction);
     color: var(--paper);
     font-weight: bold;
+    line-height: 1;
     forced-color-adjust: none;
   }
 

@@ -49,9 +49,9 @@ test('the end of the arc is moved where the morph shows it @nightly', async ({ p
   expect(command.omega * command.dt).toBeCloseTo(0.02, 9);
   expect(command.v * command.dt).toBeCloseTo(2.02, 9);
   await widget.evaluate((element) => void Reflect.set(element, 'morph', 0.4));
-  const [x, y] = /** @type {number[]} */ (await propertyOf(widget, 'seenEnd'));
+  const [x, y] = /** @type {number[]} */ (await propertyOf(widget, 'visibleArcEnd'));
   await handle.press('ArrowUp');
-  const [seenX, seenY] = /** @type {number[]} */ (await propertyOf(widget, 'seenEnd'));
+  const [seenX, seenY] = /** @type {number[]} */ (await propertyOf(widget, 'visibleArcEnd'));
   expect(seenX).toBeCloseTo(x, 9);
   expect(seenY).toBeCloseTo(y + 0.02, 9);
   ({ command } = (await bananaResultsOf(widget)).config);

@@ -11,13 +11,13 @@ const MIN_PLAIN_STEP = 9e-4;
 const TICK_SPACING = { x: 60, y: 48 };
 
 /** Lengths of a key, relative to the font size: gap between entries, width of a line sample, space after it, and line height. */
-const KEY_EM = { gap: 0.8, sample: 1.5, space: 0.35, line: 1.4 };
+const LEGEND_EM = { gap: 0.8, sample: 1.5, space: 0.35, line: 1.4 };
 
 /**
  * Draws axes with ticks at the left and the bottom, and a faint grid. Above are the name of the vertical axis and a key. Names have units in
- * brackets. Entries of the key are in the order of their importance: the last ones are omitted if there is no space.
+ * brackets. Entries of the legend are in the order of their importance: the last ones are omitted if there is no space.
  */
-export function drawAxes(brush: Brush, names: { x: string, y: string }, key: KeyEntry[], gridOpacity: number = 0.5) {
+export function drawAxes(brush: Brush, names: { x: string, y: string }, key: LegendEntry[], gridOpacity: number = 0.5) {
   const { context, view, palette, font } = brush;
   const { left, right, top, bottom } = view.frame;
   const { xMin, xMax, yMin, yMax } = view.extent;
@@ -47,33 +47,33 @@ export function drawAxes(brush: Brush, names: { x: string, y: string }, key: Key
   Object.assign(context, { font: `italic ${font}`, textBaseline: 'top' });
   context.fillText(xName, right, bottom + 6);
   context.textAlign = 'left';
-  drawKey(brush, names.y.replace('(', `(${yTicks.unit}`), key);
+  drawLegend(brush, names.y.replace('(', `(${yTicks.unit}`), key);
 }
 
-export interface KeyEntry {
+export interface LegendEntry {
   name: string;
   /** Draws a line sample, from left to right in the middle of the text line; CSS pixels. */
   draw: (x: number, y: number, width: number) => void;
 }
 
 /** Returns an entry of a key with a sample of a line. */
-export const lineKey = ({ context }: Brush, name: string, style: LineStroke): KeyEntry => ({ name, draw: (x, y, width) => strokeLine(context, [[x, y], [x + width, y]], style) });
+export const lineLegendEntry = ({ context }: Brush, name: string, style: LineStroke): LegendEntry => ({ name, draw: (x, y, width) => strokeLine(context, [[x, y], [x + width, y]], style) });
 
 /** Draws a key to the right of the name of an axis. */
-function drawKey({ context, view, palette, font }: Brush, axisName: string, entries: KeyEntry[]) {
+function drawLegend({ context, view, palette, font }: Brush, axisName: string, entries: LegendEntry[]) {
   const fontSize = parseFloat(font);
-  const [width, line] = [KEY_EM.sample * fontSize, KEY_EM.line * fontSize];
+  const [width, line] = [LEGEND_EM.sample * fontSize, LEGEND_EM.line * fontSize];
   let y = view.frame.top - 22;
   const [nameEnd, lastRow] = [2 + context.measureText(axisName).width, Math.floor(y / line)];
   context.font = font;
   let [x, row] = [nameEnd, 0];
   const placedEntries = [];
   for (const entry of entries) {
-    const entryWidth = (KEY_EM.gap + KEY_EM.space) * fontSize + width + context.measureText(entry.name).width;
+    const entryWidth = (LEGEND_EM.gap + LEGEND_EM.space) * fontSize + width + context.measureText(entry.name).width;
     // The first entry of a line has no gap before it.
-    if (x + entryWidth > view.width && row < lastRow) [x, row] = [2 - KEY_EM.gap * fontSize, row + 1];
+    if (x + entryWidth > view.width && row < lastRow) [x, row] = [2 - LEGEND_EM.gap * fontSize, row + 1];
     if (x + entryWidth > view.width) break;
-    placedEntries.push({ ...entry, from: x + KEY_EM.gap * fontSize, row });
+    placedEntries.push({ ...entry, from: x + LEGEND_EM.gap * fontSize, row });
     x += entryWidth;
   }
   // The last line is nearest to the picture.
@@ -83,7 +83,7 @@ function drawKey({ context, view, palette, font }: Brush, axisName: string, entr
   context.font = font;
   for (const { name, draw, from, row } of placedEntries) {
     context.fillStyle = palette.ink;
-    context.fillText(name, from + width + KEY_EM.space * fontSize, y + row * line);
+    context.fillText(name, from + width + LEGEND_EM.space * fontSize, y + row * line);
     draw(from, y + row * line + fontSize / 2, width);
   }
 }

@@ -28,7 +28,7 @@ export interface Brush {
   font: string;
   /** Boxes of the texts drawn so far. Further texts avoid them. */
   placedBoxes: Box[];
-  /** True if the picture is drawn for a file. Such a picture contains its key of lines, because there is no legend beside it. */
+  /** True if the picture is drawn for a file. Such a picture contains its own legend. */
   exported?: boolean;
   /** True if handles are drawn: on the screen they are elements over the picture. */
   handles?: boolean;

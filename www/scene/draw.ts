@@ -3,7 +3,7 @@
 import { greatest } from 'd3-array';
 import { limits } from '../settings.js';
 import { colourChannels } from '../ui/theme.ts';
-import { lineKey, type KeyEntry } from './axes.ts';
+import { lineLegendEntry, type LegendEntry } from './axes.ts';
 import { addLine, drawDisc, fade, strokePath, type Brush, type LineStroke } from './canvas.ts';
 import { drawLabel } from './labels.ts';
 import type { Callout } from './callout.ts';
@@ -29,7 +29,7 @@ export function drawDots(brush: Brush, triples: Float64Array, layout: { x: numbe
   const { heading, ahead = 1 } = layout;
   if (heading !== null) {
     const tickLength = ahead * dotScale * (isSparse ? 13 : 9);
-    const addTicks = (firstIndex: number) => dots.slice(firstIndex, firstIndex + TICKS_PER_STROKE).forEach((point, i) => headingTick(brush, point, triples[3 * (firstIndex + i) + heading], tickLength));
+    const addTicks = (firstIndex: number) => dots.slice(firstIndex, firstIndex + TICKS_PER_STROKE).forEach((point, i) => addHeadingTick(brush, point, triples[3 * (firstIndex + i) + heading], tickLength));
     fade(context, isSparse ? 0.6 : 0.32, () => {
       for (let firstIndex = 0; firstIndex < dots.length; firstIndex += TICKS_PER_STROKE) strokePath(context, { colour: palette.cloud, width: 1 }, () => addTicks(firstIndex));
     });
@@ -46,17 +46,17 @@ export function drawDots(brush: Brush, triples: Float64Array, layout: { x: numbe
 }
 
 /** Adds a line to the path, from a point in CSS pixels in a direction of the world (rad), with a length in CSS pixels. */
-function headingTick({ context, view }: Brush, [x, y]: number[], heading: number, length: number) {
+function addHeadingTick({ context, view }: Brush, [x, y]: number[], heading: number, length: number) {
   const direction = view.direction(heading);
   addLine(context, [[x, y], [x + length * direction.x, y + length * direction.y]]);
 }
 
 /** Draws many robots at the same position as one marker with a ray for each heading. */
-export function drawRobotHeap(brush: Brush, { x, y, headings, label }: { x: number, y: number, headings: number[], label: string }) {
+export function drawCoincidentRobots(brush: Brush, { x, y, headings, label }: { x: number, y: number, headings: number[], label: string }) {
   const { context, view, palette: { prediction: colour } } = brush;
   const robotPosition = view.toPixel(x, y);
   fade(context, Math.min(1, 30 / headings.length), () => {
-    for (const heading of headings) strokePath(context, { colour, width: 1 }, () => headingTick(brush, robotPosition, heading, 64));
+    for (const heading of headings) strokePath(context, { colour, width: 1 }, () => addHeadingTick(brush, robotPosition, heading, 64));
   });
   // The disc is larger than the handle, which is often at the same position.
   drawDisc(context, robotPosition, 14, colour);
@@ -119,10 +119,10 @@ export function lineStyles<Name extends string>({ palette, highlight }: Pick<Bru
   return Object.fromEntries(styleEntries) as Record<Name, { colour: string, width: number, dash: number[] }>;
 }
 
-/** Returns the key of an exported picture: the named lines with their words. On the page there is a legend beside the picture. */
-export function lineKeys<Name extends string>(brush: Brush, lines: Record<Name, LineStyle>, names: Name[], labels: Record<Name, string>): KeyEntry[] {
+/** Returns the legend of an exported picture: the named lines with their words. On the page there is a legend beside the picture. */
+export function lineLegendEntries<Name extends string>(brush: Brush, lines: Record<Name, LineStyle>, names: Name[], labels: Record<Name, string>): LegendEntry[] {
   const stylesByName = lineStyles(brush, lines);
-  return brush.exported ? names.map((name) => lineKey(brush, labels[name].replaceAll('*', ''), stylesByName[name])) : [];
+  return brush.exported ? names.map((name) => lineLegendEntry(brush, labels[name].replaceAll('*', ''), stylesByName[name])) : [];
 }
 
 /** Returns true if an outline has a length. If all robots are at one point, its length is only rounding. */
@@ -145,13 +145,13 @@ const LINES_PER_STROKE = 10;
 
 /** Draws lines in their own styles. */
 export function strokeLines(brush: Brush, lines: Outline[]) {
-  for (let nextLine = 0; nextLine < lines.length;) {
-    const { points: _, ...style } = lines[nextLine];
-    const strokeEnd = nextLine + LINES_PER_STROKE;
+  for (let nextLineIndex = 0; nextLineIndex < lines.length;) {
+    const { points: _, ...style } = lines[nextLineIndex];
+    const strokeEnd = nextLineIndex + LINES_PER_STROKE;
     const hasSameStyle = ({ colour, width, dash }: Outline) => colour === style.colour && width === style.width && dash === style.dash;
     strokePath(brush.context, style, () => {
-      do addPolyline(brush, lines[nextLine++].points);
-      while (nextLine < Math.min(strokeEnd, lines.length) && hasSameStyle(lines[nextLine]));
+      do addPolyline(brush, lines[nextLineIndex++].points);
+      while (nextLineIndex < Math.min(strokeEnd, lines.length) && hasSameStyle(lines[nextLineIndex]));
     });
   }
 }
@@ -163,14 +163,14 @@ const EARLIER_OPACITY = 0.35;
  * Draws earlier outlines. Returns a callout that names them, or none if they are out of the view. It points to the visible point that is
  * furthest from the present outlines.
  */
-export function drawEarlier(brush: Brush, outlines: Outline[], from: ArrayLike<number>[], text: string): Callout[] {
+export function drawEarlierOutlines(brush: Brush, outlines: Outline[], currentPoints: ArrayLike<number>[], text: string): Callout[] {
   const { context, view, palette } = brush;
   const visibleOutlines = outlines.filter(({ points }) => hasLength(points));
   fade(context, EARLIER_OPACITY, () => strokeLines(brush, visibleOutlines));
   const { xMin, xMax, yMin, yMax } = view.extent;
   const visiblePoints = visibleOutlines.flatMap(({ points }) => Array.from({ length: points.length / 2 }, (_, i): [number, number] => [points[2 * i], points[2 * i + 1]]))
     .filter(([x, y]) => x > xMin && x < xMax && y > yMin && y < yMax);
-  const calloutPoint = greatest(visiblePoints, ([x, y]) => Math.min(...from.map((point) => Math.hypot(view.scaleX * (x - point[0]), view.scaleY * (y - point[1])))));
+  const calloutPoint = greatest(visiblePoints, ([x, y]) => Math.min(...currentPoints.map((point) => Math.hypot(view.scaleX * (x - point[0]), view.scaleY * (y - point[1])))));
   return calloutPoint ? [{ text, at: calloutPoint, colour: palette.muted }] : [];
 }
 
@@ -181,9 +181,9 @@ export function drawOutline(brush: Brush, points: Float64Array, style: LineStrok
 /** Draws a robot seen from above: a disc with a line to the front. */
 export function drawRobot(brush: Brush, { x, y, heading, colour }: { x: number, y: number, heading: number, colour: string }) {
   const { context, view, palette } = brush;
-  const position = view.toPixel(x, y);
-  drawDisc(context, position, 8, palette.paper, { colour, width: 2 });
-  strokePath(context, { colour, width: 2 }, () => headingTick(brush, position, heading, 14));
+  const robotPosition = view.toPixel(x, y);
+  drawDisc(context, robotPosition, 8, palette.paper, { colour, width: 2 });
+  strokePath(context, { colour, width: 2 }, () => addHeadingTick(brush, robotPosition, heading, 14));
 }
 
 /** Draws a handle in files and on paper, where it is no element. Lengths are in pixels. */
@@ -199,7 +199,7 @@ export function drawMark(brush: Brush, { x, y, heading }: { x: number, y: number
     strokePath(context, style, () => {
       context.arc(px, py, 7, 0, 2 * Math.PI);
       for (const [dx, dy] of [[1, 0], [0, 1], [-1, 0], [0, -1]]) addLine(context, [[px + 7 * dx, py + 7 * dy], [px + 12 * dx, py + 12 * dy]]);
-      if (heading !== null) headingTick(brush, [px, py], heading, 24);
+      if (heading !== null) addHeadingTick(brush, [px, py], heading, 24);
     });
   }
 }

@@ -41,9 +41,9 @@ export function drawLabel(brush: Brush, { x, y, towards, colour, ...text }: Labe
   const { left, right, top, bottom } = view.frame;
   const labelLeft = clamp(x - (0.5 - 0.5 * towards) * width, left + 3, Math.max(left + 3, right - width - 3));
   const [halfWidth, halfHeight] = [width / 2 + 2, BACKGROUND.halfHeight];
-  const candidates = LABEL_SHIFTS.map((shift) => clamp(y + 2 * halfHeight * shift, top + 10, bottom - 10));
+  const candidateYs = LABEL_SHIFTS.map((shift) => clamp(y + 2 * halfHeight * shift, top + 10, bottom - 10));
   const isFreeAt = (candidateY: number) => placedBoxes.every((placedBox) => Math.abs(placedBox.x - labelLeft - width / 2) >= placedBox.halfWidth + halfWidth || Math.abs(placedBox.y - candidateY) >= placedBox.halfHeight + halfHeight);
-  const labelY = candidates.find(isFreeAt) ?? candidates[0];
+  const labelY = candidateYs.find(isFreeAt) ?? candidateYs[0];
   placedBoxes.push({ x: labelLeft + width / 2, y: labelY, halfWidth, halfHeight });
   context.fillStyle = palette.paper;
   fade(context, BACKGROUND.opacity, () => context.fillRect(labelLeft - 2, labelY - halfHeight, 2 * halfWidth, 2 * halfHeight));
@@ -65,15 +65,15 @@ export function drawLabelsAbove(brush: Brush, labels: (LabelText & { x: number, 
   for (const row of [0, 1]) {
     const rowLabels = placedLabels.filter((label) => label.row === row);
     // Each label is moved to the right of the previous one. Then the last labels are moved to the left, into the picture.
-    let edgeX = left;
+    let limitX = left;
     for (const label of rowLabels) {
-      label.from = Math.max(label.from, edgeX);
-      edgeX = label.from + label.width + LABEL_GAP;
+      label.from = Math.max(label.from, limitX);
+      limitX = label.from + label.width + LABEL_GAP;
     }
-    edgeX = right;
+    limitX = right;
     for (const label of rowLabels.toReversed()) {
-      label.from = Math.min(label.from, edgeX - label.width);
-      edgeX = label.from - LABEL_GAP;
+      label.from = Math.min(label.from, limitX - label.width);
+      limitX = label.from - LABEL_GAP;
     }
   }
   placedLabels.forEach((label, i) => {

@@ -1,7 +1,7 @@
 /** Pictures of the Alpha Calibrator: the path of the robot, and one leg in the frame of its start. */
 
 import { words } from '../../messages/registry.ts';
-import { clipToPlot, drawAxes, lineKey } from '../../scene/axes.ts';
+import { clipToPlot, drawAxes, lineLegendEntry } from '../../scene/axes.ts';
 import { drawDots, drawMark, drawOutline, drawOutlines, drawRobot } from '../../scene/draw.ts';
 import { Picture, SamplesPicture } from '../../scene/picture.ts';
 import { View, extentAround, extentOf } from '../../scene/view.ts';
@@ -55,7 +55,7 @@ export class PathPicture extends SamplesPicture<Scene> {
     const { palette } = brush;
     const legendNames = brush.exported ? ([...LEG_CLASSES.toReversed(), 'odometry', 'outlier'] as const).filter((name) => overlays.includes(name)) : [];
     const key = legendNames.map((name) => {
-      const keyEntry = lineKey(brush, words.calibrator.overlays[name].replaceAll('*', ''), pathStyle(brush, name));
+      const keyEntry = lineLegendEntry(brush, words.calibrator.overlays[name].replaceAll('*', ''), pathStyle(brush, name));
       return name === 'outlier' ? { ...keyEntry, draw: (x: number, y: number, length: number) => drawRings(brush, [[x + length / 2, y]]) } : keyEntry;
     });
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, key);

@@ -3,7 +3,7 @@
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { addLine, drawDisc, strokePath, strokeLine, type Brush, type LineStroke } from '../../scene/canvas.ts';
-import { drawOutlines, drawRobot, lineKeys, lineStyles, strokeLines, addPolyline, densityRamp } from '../../scene/draw.ts';
+import { drawOutlines, drawRobot, lineLegendEntries, lineStyles, strokeLines, addPolyline, densityRamp } from '../../scene/draw.ts';
 import { drawLabel } from '../../scene/labels.ts';
 import { Memo } from '../../scene/memo.ts';
 import { Picture } from '../../scene/picture.ts';
@@ -121,8 +121,8 @@ export class ArcPicture extends Picture<Scene> {
 function legendEntriesOf(brush: Brush, { overlays, config: { map } }: Scene) {
   const drawnNames = (['inverted', 'commanded', 'chord', 'twist'] as LineName[]).filter((name) => overlays.includes(name));
   return [
-    ...lineKeys(brush, LINE_STYLES, drawnNames, words.anatomy.overlays),
-    ...lineKeys(brush, CONTOUR_STYLES, map === 'none' ? [] : ['prob', 'density'], words.anatomy.maps),
+    ...lineLegendEntries(brush, LINE_STYLES, drawnNames, words.anatomy.overlays),
+    ...lineLegendEntries(brush, CONTOUR_STYLES, map === 'none' ? [] : ['prob', 'density'], words.anatomy.maps),
   ];
 }
 

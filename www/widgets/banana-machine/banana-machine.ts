@@ -23,8 +23,8 @@ import { IntroducedCloud } from './introduction.ts';
 import { MORPH_MS, lineMorphOf, morphControl, outlinesAt, morphedPoint } from './morph.ts';
 import { PlanePicture, TwistPicture } from './pictures.ts';
 import { viewModelOf, viewModelOfSettings, type ViewModel } from './view-model.ts';
-import { markedRobot, otherReadouts, readouts, twistTable, workedExample } from './readouts.ts';
-import { LINE_STYLES, OVERLAYS, definition, sliderSpecs } from './settings.ts';
+import { markedRobotField, otherReadouts, mainReadouts, twistTable, workedExampleTable } from './readouts.ts';
+import { LINE_STYLES, OVERLAY_NAMES, definition, sliderSpecs } from './settings.ts';
 import { styles } from './styles.ts';
 import { calloutsOf, captionOf, floorTitle, planeText, skewText, twistCaption, twistText } from './words.ts';
 import type { BananaMachine as Simulation, BananaMachineSettings as Settings, Inspection } from '../../types.d.ts';
@@ -57,14 +57,14 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
   static definition = definition;
 
   cloud = new IntroducedCloud(this);
-  #inspectedSample: Memo<Inspection> = new Memo();
-  #skewCurve: Memo<Float64Array> = new Memo();
+  #inspectionMemo: Memo<Inspection> = new Memo();
+  #skewCurveMemo: Memo<Float64Array> = new Memo();
   #planePicture = new PlanePicture();
   #twistPicture = new TwistPicture();
   pictures = [this.#planePicture, this.#twistPicture];
   #handle = new ArcHandle(this);
 
-  #pinnedViewModel: Memo<ViewModel> = new Memo();
+  #pinnedViewModelMemo: Memo<ViewModel> = new Memo();
 
   player: Player<'morph'> = new Player(this, { morph: { max: 1, durationMs: MORPH_MS } });
 
@@ -86,40 +86,40 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
   get scene() {
     const viewModel = this.currentViewModel;
     const { motion } = this;
-    const pinned = this.#pinned;
+    const pinned = this.#pinnedViewModel;
     const { overlays, morph } = this.state.elementState;
-    const shownOverlays = Object.fromEntries(OVERLAYS.map((name) => [name, overlays.includes(name)]));
+    const overlayVisibility = Object.fromEntries(OVERLAY_NAMES.map((name) => [name, overlays.includes(name)]));
     // Callouts are hidden while a cloud grows or is dragged, because outlines move. During a morph their texts would be wrong.
     const isMoving = this.cloud.playing || (this.gesture.isPressed && viewModel !== this.gesture.previousViewModel);
-    const otherOverlays = OVERLAYS.filter((name) => name !== 'command' && shownOverlays[name] && hasLength(viewModel.contours[name]));
-    const callouts = isMoving || morph > 0 || otherOverlays.join() !== 'ellipse,exponential' ? [] : calloutsOf(viewModel);
+    const shownOutlineNames = OVERLAY_NAMES.filter((name) => name !== 'command' && overlayVisibility[name] && hasLength(viewModel.contours[name]));
+    const callouts = isMoving || morph > 0 || shownOutlineNames.join() !== 'ellipse,exponential' ? [] : calloutsOf(viewModel);
     return {
       ...viewModel,
       simulation: this.simulation,
-      overlays: shownOverlays,
+      overlays: overlayVisibility,
       marked: this.#inspection,
       morph,
       outlinesOf: (otherViewModel: ViewModel) => outlinesAt(motion, otherViewModel, morph),
       callouts,
       pinned,
       pinnedAt: (otherMorph: number) =>
-        pinned ? Object.entries(outlinesAt(motion, pinned, otherMorph)).flatMap(([name, line]) => (shownOverlays[name] ? [...line] : [])) : [],
+        pinned ? Object.entries(outlinesAt(motion, pinned, otherMorph)).flatMap(([name, line]) => (overlayVisibility[name] ? [...line] : [])) : [],
       driving: this.cloud.driving,
       morphedEllipse: morph > 0 ? lineMorphOf(motion, viewModel, 1)(viewModel.contours.ellipse) : viewModel.contours.ellipse,
     };
   }
 
   /** View model of the pinned settings, with which the current cloud is compared. */
-  get #pinned() {
+  get #pinnedViewModel() {
     return this.#viewModelOfPinned(this.state.elementState.pinned);
   }
 
   #viewModelOfPinned(pinned: Settings | null, motion = this.motion): ViewModel | undefined {
-    return pinned ? this.#pinnedViewModel.get([pinned], () => viewModelOfSettings(motion, pinned)) : undefined;
+    return pinned ? this.#pinnedViewModelMemo.get([pinned], () => viewModelOfSettings(motion, pinned)) : undefined;
   }
 
   /** Pins the current settings for comparison, or unpins them. The pinned outlines and numbers are those of the complete cloud. */
-  #pin() {
+  #togglePin() {
     const { config } = this.currentViewModel;
     this.gesture.choose('pinned', this.state.elementState.pinned ? null : { ...config, samples: Math.max(1, this.cloud.selectableCount) });
   }
@@ -146,14 +146,14 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
   }
 
   /** Position at which the end of the commanded arc is drawn, in the view's world. */
-  get seenEnd() {
+  get visibleArcEnd() {
     const { v, omega, dt } = this.currentViewModel.config.command;
     return morphedPoint([v * dt, 0, omega * dt], this.state.elementState.morph);
   }
 
   placeHandles() {
     const { view } = this.#planePicture;
-    const [x, y] = this.seenEnd;
+    const [x, y] = this.visibleArcEnd;
     this.#handle.place(this.renderRoot, view.toPixelX(x), view.toPixelY(y));
   }
 
@@ -179,14 +179,14 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
   /** Selected robot, if it is among those shown. */
   get #inspection() {
     const { simulation, viewModel, cloud: { isMarked, selectedIndex: index } } = this;
-    return isMarked && simulation ? this.#inspectedSample.get([viewModel.stats, index], () => simulation.inspect(index)) : undefined;
+    return isMarked && simulation ? this.#inspectionMemo.get([viewModel.stats, index], () => simulation.inspect(index)) : undefined;
   }
 
   /**
    * Sets the command to an arc that ends at a point of the view's world, within the range of the sliders. Of several arcs it takes the one
    * nearest to the current arc.
    */
-  reach(x: number, y: number) {
+  moveArcEnd(x: number, y: number) {
     this.settings.request(({ command }) => {
       const { v, omega } = this.motion.commandReaching(x, y, command, this.state.elementState.morph);
       const clampToSlider = (value: number, { min, max }: { min: number, max: number }) => clamp(value, min, max);
@@ -200,9 +200,9 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
   }
 
   get #description() {
-    const { overlays } = this.state.elementState as { overlays: (typeof OVERLAYS)[number][] };
-    const drawnOutlines = overlays.filter((name) => hasLength(this.viewModel.contours[name]));
-    return planeText(this.viewModel, drawnOutlines.map((name) => words.banana.overlays[name]), this.state.elementState.morph);
+    const { overlays } = this.state.elementState as { overlays: (typeof OVERLAY_NAMES)[number][] };
+    const drawnOutlineNames = overlays.filter((name) => hasLength(this.viewModel.contours[name]));
+    return planeText(this.viewModel, drawnOutlineNames.map((name) => words.banana.overlays[name]), this.state.elementState.morph);
   }
 
   content(viewModel: ViewModel) {
@@ -211,24 +211,24 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     return html`
       <div class="views">
         ${titledPicture(this.#title, html`<div class="stage" part="picture">
-          ${pictureCanvas(this, this.#planePicture, this.#description)} ${this.#handle.render(config.command, this.cloud.asking)}
+          ${pictureCanvas(this, this.#planePicture, this.#description)} ${this.#handle.render(config.command, this.cloud.isAsking)}
         </div>`)}
         ${titledPicture(texts.twist, html`<div class="stage">${pictureCanvas(this, this.#twistPicture, twistText(viewModel))}</div>`, 'twist')}
       </div>
       ${this.renderer.afterFirstPicture(() => html`
       <div class="morphing">
         ${morphControl(this)}
-        ${button(this.#pinned ? texts.unpin : texts.pin, () => this.#pin(), { title: texts.pinTitle, otherLabel: this.#pinned ? texts.pin : texts.unpin })}
+        ${button(this.#pinnedViewModel ? texts.unpin : texts.pin, () => this.#togglePin(), { title: texts.pinTitle, otherLabel: this.#pinnedViewModel ? texts.pin : texts.unpin })}
       </div>
       ${legend(this, LINE_STYLES)}
       <p part="caption" class="caption ${note && 'note'}">${captionOf(viewModel)}</p>
-      ${readouts(viewModel, this.#pinned)} ${presetButtons(this)}
+      ${mainReadouts(viewModel, this.#pinnedViewModel)} ${presetButtons(this)}
       <div class="controls" part="controls">
         ${commandControls(this)} ${visibleAlphaControls(this)} ${growthControls(this)}
       </div>
       ${disclosures(this, {
         controls: () => html`<div class="controls">${otherAlphaControls(this)} ${modelControls(this)} ${samplesControl(this)}</div>`,
-        numbers: () => html`${markedRobot(this, this.#inspection)} ${this.#figuresHtml(viewModel)}`,
+        numbers: () => html`${markedRobotField(this, this.#inspection)} ${this.#figuresHtml(viewModel)}`,
       })}`)}
     `;
   }
@@ -238,7 +238,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     return html`${otherReadouts(viewModel)}<p>${formatMarkup(texts.gainIs)}</p>
       <div class="figures" part="figures">
         <figure>${this.#skewChart(viewModel)}<figcaption>${formatMarkup(texts.chartCaption)}</figcaption></figure>
-        <figure>${workedExample(viewModel)}</figure>
+        <figure>${workedExampleTable(viewModel)}</figure>
         <figure>${twistTable(viewModel)}<p>${twistCaption(viewModel)}</p></figure>
       </div>`;
   }
@@ -248,8 +248,8 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     const texts = words.banana;
     const { min, max, step } = sliderSpecs.omega;
     // The curve is cached by the settings on which it depends.
-    const curve = this.#skewCurve.get([JSON.stringify([model, noise, v, dt, alphas, isolate])], () => (this.simulation as Simulation).skewCurve(min, max, CURVE_POINTS));
-    const maxSkew = curve.reduce((largest, value) => Math.max(largest, Math.abs(value) || 0), 0);
+    const skews = this.#skewCurveMemo.get([JSON.stringify([model, noise, v, dt, alphas, isolate])], () => (this.simulation as Simulation).skewCurve(min, max, CURVE_POINTS));
+    const maxSkew = skews.reduce((largest, value) => Math.max(largest, Math.abs(value) || 0), 0);
     const chartHeight = CHART_HEIGHTS.find((height) => height >= maxSkew) ?? maxSkew;
     const omegaRange = [min, max];
     return plot({
@@ -257,7 +257,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
       x: { name: 'ω (rad/s)', from: min, to: max },
       y: { name: texts.readouts.skew, from: -chartHeight, to: chartHeight },
       curves: [
-        { name: texts.readouts.skew, role: 'ink', x: curve.map((_, i) => min + (i * (max - min)) / (curve.length - 1)), y: curve },
+        { name: texts.readouts.skew, role: 'ink', x: skews.map((_, i) => min + (i * (max - min)) / (skews.length - 1)), y: skews },
         { name: texts.chartGaussian, role: 'prediction', dash: '7 4', x: omegaRange, y: [0, 0] },
       ],
       points: [

@@ -33,11 +33,11 @@ export function modelControls(figure: Figure) {
  */
 const VISIBLE_ALPHAS: Record<string, number[]> = { velocity: [0, 2], odometry: [1, 2] };
 
-const isVisible = (figure: Figure, index: number) => VISIBLE_ALPHAS[figure.viewModel.config.model].includes(index);
+const isAlwaysVisible = (figure: Figure, index: number) => VISIBLE_ALPHAS[figure.viewModel.config.model].includes(index);
 
-export const visibleAlphaControls = (figure: Figure) => alphaGroup(figure, (index) => isVisible(figure, index), 'pair');
+export const visibleAlphaControls = (figure: Figure) => alphaGroup(figure, (index) => isAlwaysVisible(figure, index), 'pair');
 
-export const otherAlphaControls = (figure: Figure) => alphaGroup(figure, (index) => !isVisible(figure, index), 'alphas');
+export const otherAlphaControls = (figure: Figure) => alphaGroup(figure, (index) => !isAlwaysVisible(figure, index), 'alphas');
 
 export const growthControls = (figure: Figure) => group(words.samples, cloudButtons(figure), 'cloud');
 
@@ -50,19 +50,19 @@ function alphaGroup(figure: Figure, isIn: (index: number) => boolean, name: stri
 }
 
 /** Returns the slider of an α, counted from 1. */
-function alphaSlider(figure: Figure, number: number, [name, effect]: string[]) {
+function alphaSlider(figure: Figure, alphaNumber: number, [name, effect]: string[]) {
   const { isolate } = figure.viewModel.config;
-  const off = isolate !== null && isolate !== number;
-  const chooseAlpha = () => figure.gesture.decide({ isolate: number, isolateChoice: number });
-  return settingSlider(figure, `alpha${number}`, {
+  const hasNoEffect = isolate !== null && isolate !== alphaNumber;
+  const chooseAlpha = () => figure.gesture.decide({ isolate: alphaNumber, isolateChoice: alphaNumber });
+  return settingSlider(figure, `alpha${alphaNumber}`, {
     name,
     effect: formatMarkup(effect),
-    hasNoEffect: off,
-    pickControl: isolate === null ? undefined : radioButton({ group: 'isolate', name: words.banana.only(alphaName(number - 1)), checked: !off, choose: chooseAlpha }),
-    show: (value) => (off ? words.banana.off(formatEditable(value, 3)) : formatEditable(value, 3)),
+    hasNoEffect,
+    pickControl: isolate === null ? undefined : radioButton({ group: 'isolate', name: words.banana.only(alphaName(alphaNumber - 1)), checked: !hasNoEffect, choose: chooseAlpha }),
+    show: (value) => (hasNoEffect ? words.banana.off(formatEditable(value, 3)) : formatEditable(value, 3)),
     input: (value) => {
-      if (off) chooseAlpha();
-      figure.settings.request(({ alphas }) => ({ alphas: alphas.with(number - 1, value) }));
+      if (hasNoEffect) chooseAlpha();
+      figure.settings.request(({ alphas }) => ({ alphas: alphas.with(alphaNumber - 1, value) }));
     },
   });
 }

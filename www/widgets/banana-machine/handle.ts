@@ -13,14 +13,14 @@ export class ArcHandle extends Handle {
   constructor(figure: import('./banana-machine.ts').BananaMachineElement) {
     super('end', {
       view: () => figure.pictures[0].view,
-      drag: (x, y) => figure.reach(x, y),
+      drag: (x, y) => figure.moveArcEnd(x, y),
       key: (event) => {
         const keySteps = stepsOfKey(event);
         if (!keySteps || !figure.simulation) return false;
-        const [x, y] = figure.seenEnd;
+        const [x, y] = figure.visibleArcEnd;
         // The straight arc reaches furthest.
         const maxX = sliderSpecs.v.max * figure.settings.requested.command.dt;
-        figure.reach(clamp(x + KEY_STEP * keySteps[0], -maxX, maxX), y + KEY_STEP * keySteps[1]);
+        figure.moveArcEnd(clamp(x + KEY_STEP * keySteps[0], -maxX, maxX), y + KEY_STEP * keySteps[1]);
         return true;
       },
       commit: () => figure.gesture.commit(),
@@ -31,7 +31,7 @@ export class ArcHandle extends Handle {
   render({ v, omega }: import('../../types.d.ts').Command, isAsking: boolean) {
     const texts = words.banana;
     const { min, max } = sliderSpecs.omega;
-    const isAtLimit = [v - sliderSpecs.v.min, sliderSpecs.v.max - v, omega - min, max - omega].some((left) => left <= 0);
+    const isAtLimit = [v - sliderSpecs.v.min, sliderSpecs.v.max - v, omega - min, max - omega].some((margin) => margin <= 0);
     return this.element({
       name: texts.handle,
       keys: texts.handleKeys,

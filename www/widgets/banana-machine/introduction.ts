@@ -26,20 +26,20 @@ function isFirstInSession() {
 /** Cloud of samples that starts to grow after the introduction. */
 export class IntroducedCloud extends Cloud {
   /** Time at which the first robot started, ms. */
-  #startTime: number | undefined;
+  #startTimeMs: number | undefined;
   /** Phase of the introduction: `driving` robots, then a pulsing handle (`asking`) while the cloud grows. */
   #phase: 'none' | 'driving' | 'asking' = 'none';
 
   /** True while the ring at the end of the arc pulses, as a hint to drag it. */
-  get asking() {
+  get isAsking() {
     return this.#phase === 'asking';
   }
 
   /** Number of driving robots, and the completed fraction of their path. */
   get driving(): { robots: number, share: number } | undefined {
     if (this.#phase !== 'driving') return undefined;
-    const elapsed = performance.now() - (this.#startTime ?? performance.now());
-    return { robots: elapsed < DRIVE_DURATION_MS ? 1 : DRIVING_ROBOTS, share: Math.min(1, (elapsed % DRIVE_DURATION_MS) / DRIVE_DURATION_MS) };
+    const elapsedMs = performance.now() - (this.#startTimeMs ?? performance.now());
+    return { robots: elapsedMs < DRIVE_DURATION_MS ? 1 : DRIVING_ROBOTS, share: Math.min(1, (elapsedMs % DRIVE_DURATION_MS) / DRIVE_DURATION_MS) };
   }
 
   introduce(state: Parameters<Cloud['introduce']>[0]) {
@@ -67,8 +67,8 @@ export class IntroducedCloud extends Cloud {
   grow() {
     if (this.#phase === 'driving') {
       // It starts when the figure is visible.
-      this.#startTime ??= performance.now();
-      if (performance.now() - this.#startTime < 2 * DRIVE_DURATION_MS) return;
+      this.#startTimeMs ??= performance.now();
+      if (performance.now() - this.#startTimeMs < 2 * DRIVE_DURATION_MS) return;
       this.#phase = 'asking';
     }
     super.grow();

@@ -64,41 +64,41 @@ export class MorphView extends View {
   /** Morph, from the floor (0) to exponential coordinates (1). */
   morph = 0;
   /** Views at both ends of the morph: of the floor, and of exponential coordinates. */
-  ends;
+  endViews;
 
   constructor(inset: { left: number, right: number }) {
     super(inset);
-    this.ends = [new View(inset), new View({ ...inset, equal: false })];
+    this.endViews = [new View(inset), new View({ ...inset, equal: false })];
   }
 
   resize(width: Parameters<View['resize']>[0], height: Parameters<View['resize']>[1]) {
     super.resize(width, height);
-    for (const end of this.ends) end.resize(width, height);
+    for (const endView of this.endViews) endView.resize(width, height);
   }
 
   release(minFill?: number) {
-    for (const end of this.ends) end.release(minFill);
+    for (const endView of this.endViews) endView.release(minFill);
   }
 
   reset() {
-    for (const end of this.ends) end.reset();
+    for (const endView of this.endViews) endView.reset();
   }
 
   get hasTarget() {
-    return this.ends[this.morph > 0 ? 1 : 0].hasTarget;
+    return this.endViews[this.morph > 0 ? 1 : 0].hasTarget;
   }
 
   /** Sets the extent to which the view zooms at an end of the morph. */
-  fitEnd(needed: Extent, end: 0 | 1) {
-    const view = this.ends[end];
+  fitEnd(neededExtent: Extent, end: 0 | 1) {
+    const view = this.endViews[end];
     view.hasZoomedOut = false;
-    view.fit(needed);
+    view.fit(neededExtent);
     this.hasZoomedOut ||= view.hasZoomedOut;
   }
 
   ease(elapsed: Parameters<View['ease']>[0], atOnce: Parameters<View['ease']>[1]) {
-    const isMoving = this.ends.map((end) => end.ease(elapsed, atOnce)).includes(true);
-    const [floor, twist] = this.ends.map(({ extent }) => extent);
+    const isMoving = this.endViews.map((endView) => endView.ease(elapsed, atOnce)).includes(true);
+    const [floor, twist] = this.endViews.map(({ extent }) => extent);
     const interpolate = (key: keyof Extent) => floor[key] + this.morph * (twist[key] - floor[key]);
     this.extent = { xMin: interpolate('xMin'), yMin: interpolate('yMin'), xMax: interpolate('xMax'), yMax: interpolate('yMax') };
     return isMoving;

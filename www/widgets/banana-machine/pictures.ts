@@ -4,7 +4,7 @@ import { quantile } from 'd3-array';
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { drawCallouts, type Callout } from '../../scene/callout.ts';
-import { densityRamp, drawDots, drawEarlier, drawHandle, drawRobotHeap, drawMark, drawOutline, drawOutlines, drawRobot, hasLength, lineKeys, lineStyles } from '../../scene/draw.ts';
+import { densityRamp, drawDots, drawEarlierOutlines, drawHandle, drawCoincidentRobots, drawMark, drawOutline, drawOutlines, drawRobot, hasLength, lineLegendEntries, lineStyles } from '../../scene/draw.ts';
 import { drawLabel } from '../../scene/labels.ts';
 import { Memo } from '../../scene/memo.ts';
 import { Picture } from '../../scene/picture.ts';
@@ -13,7 +13,7 @@ import { View, extentOf } from '../../scene/view.ts';
 import { clamp } from '../../ui/clamp.ts';
 import { integer } from '../../ui/format.ts';
 import { drawMorphGrid, MorphView, morphedPoint, type Outlines } from './morph.ts';
-import { deviation, type ViewModel } from './view-model.ts';
+import { deviationOf, type ViewModel } from './view-model.ts';
 import { LINE_STYLES, type LineName } from './settings.ts';
 import type { BananaMachine, Inspection, Moments } from '../../types.d.ts';
 import { addLine, drawDisc, strokePath, type Brush } from '../../scene/canvas.ts';
@@ -71,7 +71,7 @@ class CloudPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
   /** Returns the positions of the robots that are drawn as dots, with their headings scaled down by the morph. */
   dotPositions({ simulation, stats }: Scene): Float64Array {
     const { morph } = this;
-    return this.#dotPositions.get([stats, morph], () => (morph === 0 ? simulation.firstPoses(MAX_DOTS) : morphedTriples(simulation.firstTwists(MAX_DOTS), morph)));
+    return this.#dotPositions.get([stats, morph], () => (morph === 0 ? simulation.firstPoses(MAX_DOTS) : morphedPoses(simulation.firstTwists(MAX_DOTS), morph)));
   }
 
   /** Draws the robots. `area` is the area that they cover, in square pixels. */
@@ -84,28 +84,28 @@ class CloudPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
       drawDots(brush, this.dotPositions(scene), { x: 0, y: 1, heading: morph < 1 ? 2 : null, ahead: 1 - morph });
       return;
     }
-    this.#density.draw(brush, cellSize(area, shown), [stats, morph, palette], (...part) => simulation.picture(morph, ...part, densityRamp(palette)));
+    this.#density.draw(brush, densityCellSize(area, shown), [stats, morph, palette], (...part) => simulation.picture(morph, ...part, densityRamp(palette)));
   }
 }
 
 /** Returns x, y and heading of each robot at a morph. The heading shrinks to 0 towards exponential coordinates. */
-function morphedTriples(twists: Float64Array, morph: number) {
-  const triples = new Float64Array(twists.length);
+function morphedPoses(twists: Float64Array, morph: number) {
+  const poses = new Float64Array(twists.length);
   for (let i = 0; i < twists.length; i += 3) {
-    triples.set([...morphedPoint(twists.subarray(i, i + 3), morph), (1 - morph) * twists[i + 2]], i);
+    poses.set([...morphedPoint(twists.subarray(i, i + 3), morph), (1 - morph) * twists[i + 2]], i);
   }
-  return triples;
+  return poses;
 }
 
 /** Returns the size of the density's cells in CSS pixels, for a cloud with an area in square pixels. Many robots allow small cells. */
-function cellSize(area: number, count: number) {
+function densityCellSize(area: number, count: number) {
   return Math.min(7, Math.max(2, Math.round(Math.sqrt((3 * area) / count))));
 }
 
-/** Names of the outlines, in the order of painting and of the key. */
+/** Names of the outlines, and their orders: of painting and of the legend. */
 export type OutlineName = import('./settings.ts').LineName;
 const PAINT_ORDER = ['additive', 'linearized', 'ellipse', 'exponential', 'command'] as const satisfies OutlineName[];
-const KEY_ORDER = ['ellipse', 'exponential', 'linearized', 'additive', 'command'] as const satisfies OutlineName[];
+const LEGEND_ORDER = ['ellipse', 'exponential', 'linearized', 'additive', 'command'] as const satisfies OutlineName[];
 
 /** Insets of the views, CSS pixels. */
 const VIEW_INSETS = { left: 46, right: 10 };
@@ -119,25 +119,25 @@ export class PlanePicture extends CloudPicture {
     return this.view.morph;
   }
 
-  draw(...[surface, scene, ...how]: Parameters<Picture<Scene>['draw']>) {
+  draw(...[surface, scene, ...drawOptions]: Parameters<Picture<Scene>['draw']>) {
     this.view.morph = scene.morph;
-    return super.draw(surface, scene, ...how);
+    return super.draw(surface, scene, ...drawOptions);
   }
 
   fit(scene: Scene) {
     this.#fitFloor(scene);
-    if (scene.morph > 0) this.view.fitEnd(extentOf([...pointsOfTwists(scene), ...(scene.overlays.ellipse ? scene.morphedEllipse : []), ...scene.pinnedAt(1)], 0.1), 1);
+    if (scene.morph > 0) this.view.fitEnd(extentOf([...neededTwistPoints(scene), ...(scene.overlays.ellipse ? scene.morphedEllipse : []), ...scene.pinnedAt(1)], 0.1), 1);
   }
 
   #fitFloor({ contours, table, end, overlays, pinnedAt }: Scene) {
     const { mean, cov } = table.exact;
-    const [sx, sy] = [SHOWN_DEVIATIONS * deviation(cov[0][0]), SHOWN_DEVIATIONS * deviation(cov[1][1])];
+    const [sx, sy] = [SHOWN_DEVIATIONS * deviationOf(cov[0][0]), SHOWN_DEVIATIONS * deviationOf(cov[1][1])];
     const points = [mean[0] - sx, mean[1] - sy, mean[0] + sx, mean[1] + sy, ...contours.command, ...pinnedAt(0)];
     // The additive outline may be much larger than the cloud, and counts only if it is shown.
     if (overlays.additive) points.push(...contours.additive);
-    const box = extentOf(points, 0.4);
+    const floorExtent = extentOf(points, 0.4);
     // Space for a fan of headings around the end, which may be all that is visible.
-    const fanMargin = 0.2 * (box.xMax - box.xMin);
+    const fanMargin = 0.2 * (floorExtent.xMax - floorExtent.xMin);
     const [x, y] = end;
     this.view.fitEnd(extentOf([...points, x - fanMargin, y - fanMargin, x + fanMargin, y + fanMargin], 0.4), 0);
   }
@@ -148,17 +148,17 @@ export class PlanePicture extends CloudPicture {
     const outlines = scene.outlinesOf(scene);
     const styles = lineStyles(brush, LINE_STYLES);
     const isDrawn = (name: OutlineName) => overlays[name] && hasLength(outlines[name]);
-    const key = lineKeys(brush, LINE_STYLES, KEY_ORDER.filter(isDrawn), words.banana.overlays);
+    const legendEntries = lineLegendEntries(brush, LINE_STYLES, LEGEND_ORDER.filter(isDrawn), words.banana.overlays);
     // One pair of axes fades out before the other fades in.
-    const [floor, twist] = this.view.ends;
-    const axesAtEnds = [
+    const [floor, twist] = this.view.endViews;
+    const axesOfEndViews = [
       { view: floor, opacity: 1 - 2 * morph, names: { x: 'x (m)', y: 'y (m)' } },
       { view: twist, opacity: 2 * morph - 1, names: { x: words.banana.axisAlong, y: words.banana.axisHeading } },
     ];
-    for (const { view: axesView, opacity, names } of axesAtEnds) {
+    for (const { view: axesView, opacity, names } of axesOfEndViews) {
       context.globalAlpha = clamp(opacity, 0, 1);
       // While the grid of exponential coordinates is curved, `drawMorphGrid` draws it.
-      if (opacity > 0) drawAxes({ ...brush, view: axesView }, names, key, axesView === twist && morph < 1 ? 0 : undefined);
+      if (opacity > 0) drawAxes({ ...brush, view: axesView }, names, legendEntries, axesView === twist && morph < 1 ? 0 : undefined);
     }
     context.globalAlpha = 1;
     const cloudMiddle = morphedMiddle(scene, morph);
@@ -173,17 +173,17 @@ export class PlanePicture extends CloudPicture {
         return;
       }
       const { cov } = table.exact;
-      const isSinglePoint = morph === 0 && deviation(cov[0][0] + cov[1][1]) * view.scaleX < MIN_CLOUD_DEVIATION;
+      const isSinglePoint = morph === 0 && deviationOf(cov[0][0] + cov[1][1]) * view.scaleX < MIN_CLOUD_DEVIATION;
       if (!isSinglePoint) {
         const determinant = Math.max(0, cov[0][0] * cov[1][1] - cov[0][1] * cov[1][0]);
         const cloudArea = Math.sqrt(determinant) + morph * (deviationProduct(scene) - Math.sqrt(determinant));
         this.paintCloud(brush, scene, 4 * Math.PI * cloudArea * view.scaleX * view.scaleY);
       }
       drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
-      callouts.push(...drawEarlier(brush, earlierOutlines, [cloudMiddle, [0, 0]], earlierName(scene)));
+      callouts.push(...drawEarlierOutlines(brush, earlierOutlines, [cloudMiddle, [0, 0]], earlierOutlinesName(scene)));
       drawOutlines(brush, outlinesInStyle(outlines));
-      if (overlays.command && scene.reading && morph === 0) drawReading(brush, scene.reading, end);
-      if (isSinglePoint && scene.shown > 0) drawRobotHeap(brush, robotsAtPoint(this.dotPositions(scene), scene.shown));
+      if (overlays.command && scene.reading && morph === 0) drawOdometryReading(brush, scene.reading, end);
+      if (isSinglePoint && scene.shown > 0) drawCoincidentRobots(brush, robotsAtPoint(this.dotPositions(scene), scene.shown));
       const [endX, endY] = outlines.command.slice(-2);
       drawHandle(brush, { x: view.toPixelX(endX), y: view.toPixelY(endY), radius: HANDLE_RADIUS, colour: palette.prior });
       if (marked) {
@@ -200,7 +200,7 @@ export class PlanePicture extends CloudPicture {
 /** Returns the view model of the simulation whose outlines stay in the picture: the pinned one, or the one before the latest change. */
 const earlierViewModelOf = ({ previousViewModel }: Brush, { pinned }: Scene): ViewModel | undefined => pinned ?? previousViewModel;
 
-const earlierName = ({ pinned }: Scene) => (pinned ? words.banana.pinned : words.before);
+const earlierOutlinesName = ({ pinned }: Scene) => (pinned ? words.banana.pinned : words.before);
 
 function drawDrivingRobots(brush: Brush, simulation: BananaMachine, { robots, share }: { robots: number, share: number }) {
   const { palette } = brush;
@@ -208,12 +208,12 @@ function drawDrivingRobots(brush: Brush, simulation: BananaMachine, { robots, sh
     const { path, pose } = simulation.inspect(i);
     // The first robot has arrived when the others start.
     const chordCount = path.length / 2 - 1;
-    const position = (i === 0 && robots > 1 ? 1 : share) * chordCount;
-    const chord = Math.min(Math.floor(position), chordCount - 1);
+    const chordPosition = (i === 0 && robots > 1 ? 1 : share) * chordCount;
+    const chord = Math.min(Math.floor(chordPosition), chordCount - 1);
     const [x, y, nextX, nextY] = path.subarray(2 * chord, 2 * chord + 4);
-    const [endX, endY] = [x + (position - chord) * (nextX - x), y + (position - chord) * (nextY - y)];
+    const [endX, endY] = [x + (chordPosition - chord) * (nextX - x), y + (chordPosition - chord) * (nextY - y)];
     drawOutline(brush, Float64Array.of(...path.subarray(0, 2 * chord + 2), endX, endY), { colour: palette.cloud, width: 1.5, dash: [] });
-    const heading = position === chordCount ? pose[2] : Math.atan2(nextY - y, nextX - x);
+    const heading = chordPosition === chordCount ? pose[2] : Math.atan2(nextY - y, nextX - x);
     drawRobot(brush, { x: endX, y: endY, heading, colour: palette.cloud });
   }
 }
@@ -223,20 +223,20 @@ const TURN_RADIUS = 26;
 const TURN_LINE_LENGTH = 38;
 
 /** Draws the odometry reading of the command: rotation, drive, rotation. The drive ends at x, y in metres. */
-function drawReading(brush: Brush, { rot1, trans, rot2 }: import('../../types.d.ts').OdomDelta, [x, y]: [number, number]) {
+function drawOdometryReading(brush: Brush, { rot1, trans, rot2 }: import('../../types.d.ts').OdomDelta, [x, y]: [number, number]) {
   const { context, view, palette } = brush;
   const [[fromX, fromY], [toX, toY]] = [view.toPixel(0, 0), view.toPixel(x, y)];
-  const ahead = view.direction(rot1);
+  const driveDirection = view.direction(rot1);
   const finalDirection = view.direction(rot1 + rot2);
   const colour = palette.prior;
   const style = { colour, width: 1.5 };
   strokePath(context, style, () => {
     // The heading at the start, the drive, and its continuation, from which the second rotation starts.
-    addLine(context, [[fromX + TURN_LINE_LENGTH, fromY], [fromX, fromY], [toX, toY], [toX + TURN_LINE_LENGTH * ahead.x, toY + TURN_LINE_LENGTH * ahead.y]]);
+    addLine(context, [[fromX + TURN_LINE_LENGTH, fromY], [fromX, fromY], [toX, toY], [toX + TURN_LINE_LENGTH * driveDirection.x, toY + TURN_LINE_LENGTH * driveDirection.y]]);
     addLine(context, [[toX, toY], [toX + TURN_LINE_LENGTH * finalDirection.x, toY + TURN_LINE_LENGTH * finalDirection.y]]);
   });
   // On the screen y points down.
-  const strokeTurn = (x: number, y: number, from: number, turn: number) => strokePath(context, style, () => context.arc(x, y, TURN_RADIUS, -from, -from - turn, turn > 0));
+  const strokeTurn = (x: number, y: number, firstAngle: number, turn: number) => strokePath(context, style, () => context.arc(x, y, TURN_RADIUS, -firstAngle, -firstAngle - turn, turn > 0));
   strokeTurn(fromX, fromY, 0, rot1);
   strokeTurn(toX, toY, rot1, rot2);
   const labelTurn = (sub: string, atX: number, atY: number, heading: number) => {
@@ -246,7 +246,7 @@ function drawReading(brush: Brush, { rot1, trans, rot2 }: import('../../types.d.
   labelTurn('rot1', fromX, fromY, rot1 / 2);
   labelTurn('rot2', toX, toY, rot1 + rot2 / 2);
   if (trans > 0) {
-    const [atX, atY] = [(fromX + toX) / 2 + 10 * ahead.y, (fromY + toY) / 2 - 10 * ahead.x + 6];
+    const [atX, atY] = [(fromX + toX) / 2 + 10 * driveDirection.y, (fromY + toY) / 2 - 10 * driveDirection.x + 6];
     drawLabel(brush, { x: atX, y: atY, towards: 1, symbol: 'δ', sub: 'trans', colour });
   }
 }
@@ -278,7 +278,7 @@ const morphedMiddle = (scene: Scene, morph: number) => morphedPoint(twistMoments
 const VIEW_QUANTILES = [0.025, 0.975];
 
 /** Returns points around everything that is visible in exponential coordinates. */
-function pointsOfTwists(scene: Scene) {
+function neededTwistPoints(scene: Scene) {
   const { v, omega, dt } = scene.config.command;
   const points = [v * dt, omega * dt];
   if (!scene.chartHolds && scene.shown > 0) {
@@ -287,7 +287,7 @@ function pointsOfTwists(scene: Scene) {
     for (const share of VIEW_QUANTILES) points.push(quantile(along, share)!, quantile(heading, share)!);
   }
   for (const { mean, cov } of twistMoments(scene)) {
-    const [along, heading] = [SHOWN_DEVIATIONS * deviation(cov[0][0]), SHOWN_DEVIATIONS * deviation(cov[2][2])];
+    const [along, heading] = [SHOWN_DEVIATIONS * deviationOf(cov[0][0]), SHOWN_DEVIATIONS * deviationOf(cov[2][2])];
     points.push(mean[0] - along, mean[2] - heading, mean[0] + along, mean[2] + heading);
   }
   return points;
@@ -296,7 +296,7 @@ function pointsOfTwists(scene: Scene) {
 /** Returns the product of the standard deviations of ξ along and ξ heading, the axes of the picture. */
 function deviationProduct(scene: Scene) {
   const [{ cov }] = twistMoments(scene);
-  return deviation(cov[0][0]) * deviation(cov[2][2]);
+  return deviationOf(cov[0][0]) * deviationOf(cov[2][2]);
 }
 
 /** Picture of the same robots in exponential coordinates. */
@@ -305,7 +305,7 @@ export class TwistPicture extends CloudPicture {
   view: View = new View({ ...VIEW_INSETS, equal: false });
 
   fit(scene: Scene) {
-    this.view.fit(extentOf([...pointsOfTwists(scene), ...(scene.pinned?.contours.twistEllipse ?? [])], 0.1));
+    this.view.fit(extentOf([...neededTwistPoints(scene), ...(scene.pinned?.contours.twistEllipse ?? [])], 0.1));
   }
 
   paint: Picture<Scene>['paint'] = (brush, scene) => {
@@ -313,7 +313,7 @@ export class TwistPicture extends CloudPicture {
     const { config, contours, overlays, marked } = scene;
     const { exponential, command } = lineStyles(brush, LINE_STYLES);
     const showsOutline = overlays.exponential && hasLength(contours.twistEllipse);
-    drawAxes(brush, { x: words.banana.axisAlong, y: words.banana.axisHeading }, lineKeys(brush, LINE_STYLES, showsOutline ? ['exponential'] : [], words.banana.overlays));
+    drawAxes(brush, { x: words.banana.axisAlong, y: words.banana.axisHeading }, lineLegendEntries(brush, LINE_STYLES, showsOutline ? ['exponential'] : [], words.banana.overlays));
     const twistMiddle = morphedMiddle(scene, 1);
     const earlierViewModel = earlierViewModelOf(brush, scene);
     const callouts: Callout[] = [];
@@ -321,7 +321,7 @@ export class TwistPicture extends CloudPicture {
       if (scene.driving) return;
       this.paintCloud(brush, scene, 4 * Math.PI * deviationProduct(scene) * view.scaleX * view.scaleY);
       if (overlays.exponential) {
-        if (earlierViewModel) callouts.push(...drawEarlier(brush, [{ points: earlierViewModel.contours.twistEllipse, ...exponential }], [twistMiddle], earlierName(scene)));
+        if (earlierViewModel) callouts.push(...drawEarlierOutlines(brush, [{ points: earlierViewModel.contours.twistEllipse, ...exponential }], [twistMiddle], earlierOutlinesName(scene)));
         drawOutline(brush, contours.twistEllipse, exponential);
       }
       if (overlays.command) {

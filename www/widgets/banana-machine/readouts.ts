@@ -16,7 +16,7 @@ const FRACTION_IN_ELLIPSE = 1 - Math.exp(-2);
  * Returns the three main numbers: the area ratio of the ellipse, the gain of exponential coordinates, and the skew of the cloud. The
  * numbers of a pinned cloud are next to them.
  */
-export function readouts(viewModel: ViewModel, pinned?: ViewModel) {
+export function mainReadouts(viewModel: ViewModel, pinned?: ViewModel) {
   const texts = words.banana.readouts;
   const { stats: { coverage, areaRatioError }, exactSkew, gain } = viewModel;
   const printedValues = printedStatistics(viewModel);
@@ -62,13 +62,13 @@ export function otherReadouts({ config, stats, table }: ViewModel) {
 }
 
 /** Returns the field with the number of the marked robot, and the motion of that robot. */
-export function markedRobot(figure: import('./banana-machine.ts').BananaMachineElement, inspection: Inspection | undefined): import('lit').TemplateResult {
+export function markedRobotField(figure: import('./banana-machine.ts').BananaMachineElement, inspection: Inspection | undefined): import('lit').TemplateResult {
   const { robot, markHint } = words.banana;
   const { shown } = figure.viewModel;
   const quantityHtml = (symbol: string, value: number, unit: string) =>
     html`<span><i>${symbol}</i> = ${fixed(value, 3)} ${unit}</span>`;
   const selectedHtml = inspection && (inspection.legs
-    ? legNoise(inspection.legs, figure.viewModel.reading as import('../../types.d.ts').OdomDelta)
+    ? legNoiseHtml(inspection.legs, figure.viewModel.reading as import('../../types.d.ts').OdomDelta)
     : [
         quantityHtml('v̂', inspection.vHat, 'm/s'),
         quantityHtml('ω̂', inspection.omegaHat, 'rad/s'),
@@ -78,10 +78,10 @@ export function markedRobot(figure: import('./banana-machine.ts').BananaMachineE
 }
 
 /** Returns the noise of each leg: the reading minus the executed motion, as Table 5.6 subtracts it. */
-function legNoise(driven: import('../../types.d.ts').OdomDelta, read: import('../../types.d.ts').OdomDelta) {
+function legNoiseHtml(executedLegs: import('../../types.d.ts').OdomDelta, odometryReading: import('../../types.d.ts').OdomDelta) {
   return ([['rot1', 'rad'], ['trans', 'm'], ['rot2', 'rad']] as const).map(([leg, unit]) => {
-    const legNoiseValue = read[leg] - driven[leg];
-    return html`<span><i>ε</i><sub>${leg}</sub> = ${fixed(legNoiseValue, 3)} ${unit}</span>`;
+    const noise = odometryReading[leg] - executedLegs[leg];
+    return html`<span><i>ε</i><sub>${leg}</sub> = ${fixed(noise, 3)} ${unit}</span>`;
   });
 }
 
@@ -89,24 +89,24 @@ function legNoise(driven: import('../../types.d.ts').OdomDelta, read: import('..
 const COMPUTED_DIGITS = 5;
 const MEASURED_DIGITS = 3;
 
-const covarianceName = (indices: string) => html`<i>Σ</i><sub><i>${indices}</i></sub>`;
+const covarianceNameHtml = (indices: string) => html`<i>Σ</i><sub><i>${indices}</i></sub>`;
 
-export function workedExample({ table: { linearized, exact, measured }, stats }: ViewModel) {
+export function workedExampleTable({ table: { linearized, exact, measured }, stats }: ViewModel) {
   const computedColumns = [linearized, exact];
-  const [skew, ...error] = formatWithError(stats.crossTrackSkew, stats.crossTrackSkewError, 3).split(' ');
+  const [skew, ...errorWords] = formatWithError(stats.crossTrackSkew, stats.crossTrackSkewError, 3).split(' ');
   // Two lines, also without an error, so that the row keeps its height.
-  const measuredSkew = html`${skew} <br />${error.join(' ') || '\u00a0'}`;
+  const measuredSkew = html`${skew} <br />${errorWords.join(' ') || '\u00a0'}`;
   const texts = words.banana.table;
   const exampleRows: [unknown, (column: Table['exact']) => number, unknown?][] = [
     [formatMarkup(texts.mean('*x*')), ({ mean }) => mean[0]],
     [formatMarkup(texts.mean('*y*')), ({ mean }) => mean[1]],
     [formatMarkup(texts.mean('*θ*')), ({ mean }) => mean[2]],
-    [covarianceName('xx'), ({ cov }) => cov[0][0]],
-    [covarianceName('yy'), ({ cov }) => cov[1][1]],
-    [covarianceName('xy'), ({ cov }) => cov[0][1]],
-    [covarianceName('xθ'), ({ cov }) => cov[0][2]],
-    [covarianceName('yθ'), ({ cov }) => cov[1][2]],
-    [covarianceName('θθ'), ({ cov }) => cov[2][2]],
+    [covarianceNameHtml('xx'), ({ cov }) => cov[0][0]],
+    [covarianceNameHtml('yy'), ({ cov }) => cov[1][1]],
+    [covarianceNameHtml('xy'), ({ cov }) => cov[0][1]],
+    [covarianceNameHtml('xθ'), ({ cov }) => cov[0][2]],
+    [covarianceNameHtml('yθ'), ({ cov }) => cov[1][2]],
+    [covarianceNameHtml('θθ'), ({ cov }) => cov[2][2]],
     [html`<i>ρ</i><sub><i>yθ</i></sub>`, ({ cov }) => cov[1][2] / Math.sqrt(cov[1][1] * cov[2][2])],
     [words.banana.readouts.skew, ({ crossTrackSkew }) => crossTrackSkew, measuredSkew],
   ];
@@ -130,10 +130,10 @@ export function twistTable({ table: { tangent }, stats: { exponential } }: ViewM
   return figureTable({
     caption: texts.twistCaption,
     columns: [texts.quantity, texts.command, texts.measured],
-    rows: twistRows.map(([name, of]) => [
+    rows: twistRows.map(([name, valueOf]) => [
       formatMarkup(name),
-      tangent === null ? NO_VALUE : formatSignificant(of(tangent), COMPUTED_DIGITS),
-      formatSignificant(of(exponential), MEASURED_DIGITS),
+      tangent === null ? NO_VALUE : formatSignificant(valueOf(tangent), COMPUTED_DIGITS),
+      formatSignificant(valueOf(exponential), MEASURED_DIGITS),
     ]),
   });
 }

@@ -17,13 +17,13 @@ export const LINE_STYLES = {
 
 export type LineName = keyof typeof LINE_STYLES;
 
-export const OVERLAYS = Object.keys(LINE_STYLES) as LineName[];
+export const OVERLAY_NAMES = Object.keys(LINE_STYLES) as LineName[];
 
 export const documentation: import('../../figure/attributes.ts').Documentation = {
   state: {
-    alphas: { type: '{ velocity: number[]; odometry: number[] }', sentence: 'Six and four, of either model.' },
+    alphas: { type: '{ velocity: number[]; odometry: number[] }', sentence: 'Six of the velocity model, and four of the odometry model.' },
     pinned: { type: 'BananaMachineSettings | null', sentence: 'Settings whose outlines and numbers are pinned.' },
-    isolateChoice: { type: 'number', sentence: 'What Isolate leaves when it is turned on, from 1.' },
+    isolateChoice: { type: 'number', sentence: 'The α that remains when Isolate is turned on, from 1.' },
   },
 };
 

@@ -52,14 +52,14 @@ function gaussianGain({ n, likelihoodGain, likelihoodGainError }: Stats, { exact
 export const alphaName = (index: number) => `α${subscriptOf(index)}`;
 
 /** Returns the standard deviation of a variance. Rounding may have made the variance slightly negative. */
-export function deviation(variance: number) {
+export function deviationOf(variance: number) {
   return Math.sqrt(Math.max(0, variance));
 }
 
 /** Returns the kind of spread according to the exact covariance: one pose, one position with many headings, or a cloud. */
 export function spreadKind({ exact: { cov } }: Table): 'point' | 'headings' | 'cloud' {
-  if (deviation(Math.max(cov[0][0], cov[1][1])) > MIN_SPREAD) return 'cloud';
-  return deviation(cov[2][2]) > MIN_SPREAD ? 'headings' : 'point';
+  if (deviationOf(Math.max(cov[0][0], cov[1][1])) > MIN_SPREAD) return 'cloud';
+  return deviationOf(cov[2][2]) > MIN_SPREAD ? 'headings' : 'point';
 }
 
 /**

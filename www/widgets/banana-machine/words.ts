@@ -4,7 +4,7 @@ import { addEnglish, words } from '../../messages/registry.ts';
 import { integer, fixed, percent, formatWithError } from '../../ui/format.ts';
 import { commandText } from '../shared/sliders.ts';
 import { en } from './en.ts';
-import { deviation, spreadKind, type ViewModel } from './view-model.ts';
+import { deviationOf, spreadKind, type ViewModel } from './view-model.ts';
 import type { Callout } from '../../scene/callout.ts';
 
 addEnglish({ banana: en });
@@ -27,7 +27,7 @@ export function planeText(viewModel: ViewModel, overlays: string[], morph: numbe
 }
 
 function deviationText(variance: number) {
-  return fixed(deviation(variance), 2);
+  return fixed(deviationOf(variance), 2);
 }
 
 /** Absolute value of an exact skew below which it counts as 0. The rounding of the quadrature is about 1e-15. */
@@ -52,8 +52,8 @@ export function floorTitle({ stats, table: { exact } }: Pick<ViewModel, 'stats' 
   const { areaRatio, likelihoodGain: { floor: onFloor, pose } } = Number.isNaN(exact.areaRatio) ? stats : exact;
   // The gain of poses is infinite if their covariance is singular, and then says nothing about the bend.
   const isMisshapen = onFloor > VISIBLE_GAINS.floor || (pose > VISIBLE_GAINS.pose && pose < Infinity) || Math.abs(exact.crossTrackSkew) > VISIBLE_SKEW;
-  const fit = areaRatio > VISIBLE_AREA_RATIO ? 'large' : isMisshapen ? 'misshapen' : 'near';
-  return `${floor}: ${ellipseIs[fit]}`;
+  const ellipseFit = areaRatio > VISIBLE_AREA_RATIO ? 'large' : isMisshapen ? 'misshapen' : 'near';
+  return `${floor}: ${ellipseIs[ellipseFit]}`;
 }
 
 /** Returns the callouts of the floor, at points that only the ellipse covers. */
@@ -65,17 +65,17 @@ function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, a
   if (Number.isNaN(skew)) return '';
   const texts = words.banana.bend;
   // A line break must not separate a number from its error.
-  const withNonBreakingSpaces = (number: string) => number.replaceAll(' ', '\u00a0');
-  const [measuredSkew, exactText] = [withNonBreakingSpaces(formatWithError(skew, error, 3)), fixed(exactSkew, 3)];
+  const joinWithNonBreakingSpaces = (number: string) => number.replaceAll(' ', '\u00a0');
+  const [measuredSkew, exactText] = [joinWithNonBreakingSpaces(formatWithError(skew, error, 3)), fixed(exactSkew, 3)];
   // Robots end on both sides of the start.
-  if (deviation(cov[0][0]) > Math.abs(mean[0])) return texts.bowTie(fixed(mean[0], 2), deviationText(cov[0][0]), measuredSkew);
+  if (deviationOf(cov[0][0]) > Math.abs(mean[0])) return texts.bowTie(fixed(mean[0], 2), deviationText(cov[0][0]), measuredSkew);
   if (Math.abs(exactSkew) < VISIBLE_SKEW) {
     const skewSentence = Math.abs(exactSkew) < MIN_NONZERO_SKEW ? texts.neither(measuredSkew) : texts.hardly(measuredSkew, exactText);
     // There are no exact values if robots turn by more than π.
     const lesserOf = (sampled: number, exact: number) => (Number.isNaN(exact) ? sampled : Math.min(sampled, exact));
     if (lesserOf(areaRatio, table.exact.areaRatio) > VISIBLE_AREA_RATIO) return `${texts.wide(fixed(areaRatio, 2))} ${skewSentence}`;
     const smallerGain = lesserOf(gain.value, gain.exact);
-    return smallerGain > MIN_GAIN ? `${texts.gains(withNonBreakingSpaces(formatWithError(gain.value, gain.error, 3)), smallerGain > VISIBLE_GAINS.pose)} ${skewSentence}` : skewSentence;
+    return smallerGain > MIN_GAIN ? `${texts.gains(joinWithNonBreakingSpaces(formatWithError(gain.value, gain.error, 3)), smallerGain > VISIBLE_GAINS.pose)} ${skewSentence}` : skewSentence;
   }
   if (Math.abs(skew) < 2 * error || skew * exactSkew < 0) return texts.unsure(measuredSkew, exactText);
   return exactSkew < 0 ? texts.right(measuredSkew) : texts.left(measuredSkew);
@@ -105,7 +105,7 @@ export function twistText({ stats: { n, exponential, coverage } }: ViewModel) {
   const textStart = `${twist}, ${twistAxes}.`;
   if (n < 2) return `${textStart} ${n === 0 ? noRobots : oneRobot}`;
   const [along, heading] = [fixed(mean[0], 2), fixed(mean[2], 2)];
-  const [ofAlong, ofHeading] = [deviationText(cov[0][0]), deviationText(cov[2][2])];
+  const [alongDeviation, headingDeviation] = [deviationText(cov[0][0]), deviationText(cov[2][2])];
   const coverageText = Number.isNaN(coverage.exponential) ? '' : percent(coverage.exponential);
-  return `${textStart} ${twistMoments(along, heading, ofAlong, ofHeading, coverageText)}`;
+  return `${textStart} ${twistMoments(along, heading, alongDeviation, headingDeviation, coverageText)}`;
 }

@@ -22,10 +22,10 @@ function settingsForSteps({ command, steps: previousSteps, step }: Record<string
 export function moreControls(figure: Figure) {
   const { steps, step, command: { dt } } = figure.settings.requested;
   const { walked, per } = words.reckoning;
-  const walkedText = walked(fixed(step * dt, 2), fixed(steps * dt, 2));
+  const drivenTimeText = walked(fixed(step * dt, 2), fixed(steps * dt, 2));
   return html`<div class="controls">
     ${group(words.command, html`${settingSliders(figure, COMMAND_SLIDERS)}
-      ${settingSlider(figure, 'step', { max: Math.max(2, steps), maxEntered: steps, hasNoEffect: steps === 1, effect: walkedText })}`)}
+      ${settingSlider(figure, 'step', { max: Math.max(2, steps), maxEntered: steps, hasNoEffect: steps === 1, effect: drivenTimeText })}`)}
     ${group(words.noise, html`${settingSliders(figure, NOISE_SLIDERS)} ${settingRadios(figure, 'per', per)}`)}
     ${cloudControls(figure, SAMPLE_COUNTS)}
   </div>`;

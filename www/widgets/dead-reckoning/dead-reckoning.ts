@@ -12,7 +12,7 @@ import { presetButtons } from '../shared/presets.ts';
 import { moreControls, pathControls } from './controls.ts';
 import { PathPicture, StepPicture } from './pictures.ts';
 import { COMPONENTS, viewModelOf, type ViewModel } from './view-model.ts';
-import { headline, markedRobot, missTable, ratioPlot, straightPlot } from './readouts.ts';
+import { headlineHtml, markedRobotField, missTable, ratioPlot, straightGrowthPlot } from './readouts.ts';
 import { OUTLINE_STYLES, RECURSIONS, definition } from './settings.ts';
 import { styles } from './styles.ts';
 import { captionOf, planeText, stepText } from './words.ts';
@@ -23,7 +23,7 @@ import type { DeadReckoning as Simulation } from '../../types.d.ts';
 const VARIANCE_UNITS = { along: 'm2', lateral: 'm2', heading: 'rad2' };
 
 /** Returns the names of the columns of a quantity in a table, one for each component. */
-const columnsOf = (quantity: string) => COMPONENTS.map((name) => `${quantity}_${name}_${VARIANCE_UNITS[name]}`).join(' ');
+const columnNamesOf = (quantity: string) => COMPONENTS.map((name) => `${quantity}_${name}_${VARIANCE_UNITS[name]}`).join(' ');
 
 /**
  * One command driven step after step, and how well its growing uncertainty is predicted.
@@ -38,12 +38,12 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
   static definition = definition;
 
   cloud = new Cloud(this);
-  #floor = new PathPicture();
-  #step = new StepPicture();
-  pictures = [this.#floor, this.#step];
+  #floorPicture = new PathPicture();
+  #stepPicture = new StepPicture();
+  pictures = [this.#floorPicture, this.#stepPicture];
 
-  #rollout: Memo<Float64Array> = new Memo();
-  #straightGrowth: Memo<Simulation['straightGrowth']> = new Memo();
+  #rolloutMemo: Memo<Float64Array> = new Memo();
+  #straightGrowthMemo: Memo<Simulation['straightGrowth']> = new Memo();
 
   // The simulation starts without robots: the user sees them appear, and the first frame does not wait for them.
   createSimulation: FigureElement<Simulation, ViewModel>['createSimulation'] = (motion, state) => enterCloud(this, motion.DeadReckoning.empty(), state);
@@ -68,9 +68,9 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
       settings: config,
       columns: {
         step: Array.from({ length: config.steps }, (_, i) => i + 1),
-        [columnsOf('measured')]: measured,
+        [columnNamesOf('measured')]: measured,
         [COMPONENTS.map((name) => `relative_error_${name}`).join(' ')]: relativeErrors,
-        ...Object.fromEntries(RECURSIONS.map((recursion) => [columnsOf(recursion.replace('-', '_')), predicted[recursion]])),
+        ...Object.fromEntries(RECURSIONS.map((recursion) => [columnNamesOf(recursion.replace('-', '_')), predicted[recursion]])),
       },
     };
   }
@@ -80,7 +80,7 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
   /** Poses of the selected robot after each step, if that robot has been driven. */
   get #markedPoses() {
     const { simulation, viewModel, cloud: { isMarked, selectedIndex: index } } = this;
-    return isMarked && simulation ? this.#rollout.get([viewModel.stats, index], () => simulation.rollout(index)) : undefined;
+    return isMarked && simulation ? this.#rolloutMemo.get([viewModel.stats, index], () => simulation.rollout(index)) : undefined;
   }
 
   content(viewModel: ViewModel) {
@@ -91,18 +91,18 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
       <div class="views">
         ${titledPicture(texts.chart, html`<div class="chart">${ratioPlot(this, viewModel)}</div>`, 'ratios')}
         <div class="summary">
-          ${headline(viewModel, overlays)}
+          ${headlineHtml(viewModel, overlays)}
           <p part="caption" class="caption ${condition !== 'certain' && 'note'}">${captionOf(viewModel, overlays)}</p>
           ${settingRadios(this, 'compounding', texts.recursions)}
         </div>
-        ${titledPicture(texts.floor, html`<div class="stage" part="picture">${pictureCanvas(this, this.#floor, planeText(viewModel))}</div>`, 'floor')}
-        ${titledPicture(texts.atStepTitle(step), html`<div class="stage">${pictureCanvas(this, this.#step, stepText(viewModel))}</div>`, 'step')}
+        ${titledPicture(texts.floor, html`<div class="stage" part="picture">${pictureCanvas(this, this.#floorPicture, planeText(viewModel))}</div>`, 'floor')}
+        ${titledPicture(texts.atStepTitle(step), html`<div class="stage">${pictureCanvas(this, this.#stepPicture, stepText(viewModel))}</div>`, 'step')}
       </div>
       ${this.renderer.afterFirstPicture(() => html`
       ${legend(this, OUTLINE_STYLES)} ${presetButtons(this)} ${pathControls(this)}
       ${disclosures(this, {
         controls: () => moreControls(this),
-        numbers: () => html`${missTable(viewModel, overlays)} ${markedRobot(this, this.#markedPoses)} ${straightPlot(this.#straightGrowth.get([viewModel.stats], () => (this.simulation as Simulation).straightGrowth))}`,
+        numbers: () => html`${missTable(viewModel, overlays)} ${markedRobotField(this, this.#markedPoses)} ${straightGrowthPlot(this.#straightGrowthMemo.get([viewModel.stats], () => (this.simulation as Simulation).straightGrowth))}`,
       })}`)}
     `;
   }

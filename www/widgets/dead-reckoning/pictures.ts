@@ -3,7 +3,7 @@
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { drawCallouts, type Callout } from '../../scene/callout.ts';
-import { drawDots, drawEarlier, drawMark, drawOutlines, drawRobot, lineKeys, lineStyles, strokeLines } from '../../scene/draw.ts';
+import { drawDots, drawEarlierOutlines, drawMark, drawOutlines, drawRobot, lineLegendEntries, lineStyles, strokeLines } from '../../scene/draw.ts';
 import { Picture, SamplesPicture } from '../../scene/picture.ts';
 import { View, extentAround, extentOf } from '../../scene/view.ts';
 import { formatSignificant } from '../../ui/format.ts';
@@ -17,7 +17,7 @@ export type Scene = import('./view-model.ts').ViewModel & { marked: Float64Array
 const SHOWN_DEVIATIONS = 3.2;
 
 /** Dots of the clouds at milestones: maximum number, radius in CSS pixels, and opacity. */
-const PAST_DOTS = { max: 200, radius: 1.3, alpha: 0.4 };
+const MILESTONE_DOTS = { max: 200, radius: 1.3, alpha: 0.4 };
 
 export type OutlineName = keyof typeof OUTLINE_STYLES;
 
@@ -27,29 +27,29 @@ export class PathPicture extends SamplesPicture<Scene> {
   view: View = new View();
 
   fit({ commanded, outlines, milestones, poses }: Scene) {
-    const outlineNumbers = [outlines, ...milestones.map((milestone) => milestone.outlines)].flatMap(({ ellipse, exponential }) => [...ellipse, ...exponential]);
-    const points = [...commanded, ...outlineNumbers];
+    const outlineCoordinates = [outlines, ...milestones.map((milestone) => milestone.outlines)].flatMap(({ ellipse, exponential }) => [...ellipse, ...exponential]);
+    const points = [...commanded, ...outlineCoordinates];
     // Without a prediction the view shows the robots.
-    const box = extentAround(poses, 3, extentAround(points, 2));
-    this.view.fit(extentOf(outlineNumbers.length > 0 ? points : [box.xMin, box.yMin, box.xMax, box.yMax], 0.4));
+    const neededExtent = extentAround(poses, 3, extentAround(points, 2));
+    this.view.fit(extentOf(outlineCoordinates.length > 0 ? points : [neededExtent.xMin, neededExtent.yMin, neededExtent.xMax, neededExtent.yMax], 0.4));
   }
 
   paint: Picture<Scene>['paint'] = (brush, { commanded, outlines, milestones, poses, pose, marked, overlays, config: { step } }) => {
     const { palette } = brush;
     const styles = lineStyles(brush, OUTLINE_STYLES);
-    const shownOf = (names: OutlineName[]) => names.filter((name) => overlays.includes(name));
-    const shownNames = shownOf(['ellipse', 'exponential']) as ('ellipse' | 'exponential')[];
-    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, lineKeys(brush, OUTLINE_STYLES, shownOf(['ellipse', 'exponential', 'command']), words.reckoning.overlays));
+    const shownNamesOf = (names: OutlineName[]) => names.filter((name) => overlays.includes(name));
+    const shownNames = shownNamesOf(['ellipse', 'exponential']) as ('ellipse' | 'exponential')[];
+    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, lineLegendEntries(brush, OUTLINE_STYLES, shownNamesOf(['ellipse', 'exponential', 'command']), words.reckoning.overlays));
     const linesOf = (stepOutlines: Scene['outlines']) => shownNames.map((name) => ({ points: stepOutlines[name], ...styles[name] }));
     const callouts: Callout[] = [];
     clipToPlot(brush, () => {
       for (const milestone of milestones) drawMilestone(brush, milestone.poses);
       drawDots(brush, poses, { x: 0, y: 1, heading: null });
       drawOutlines(brush, [
-        ...shownOf(['command']).map((name) => ({ points: commanded, ...styles[name] })),
+        ...shownNamesOf(['command']).map((name) => ({ points: commanded, ...styles[name] })),
         ...shownNames.flatMap((name) => milestones.map(({ outlines: passed }) => ({ points: passed[name], ...styles[name], width: 1 }))),
       ]);
-      if (brush.previousViewModel) callouts.push(...drawEarlier(brush, linesOf(brush.previousViewModel.outlines), [pose, [0, 0]], words.before));
+      if (brush.previousViewModel) callouts.push(...drawEarlierOutlines(brush, linesOf(brush.previousViewModel.outlines), [pose, [0, 0]], words.before));
       drawOutlines(brush, linesOf(outlines));
       drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
       drawEndMark(brush, pose);
@@ -72,11 +72,11 @@ function drawEndMark({ context, view, palette }: Brush, [x, y]: Float64Array) {
 
 function drawMilestone({ context, view, palette }: Brush, poses: Float64Array) {
   context.fillStyle = palette.cloud;
-  context.globalAlpha = PAST_DOTS.alpha;
-  const dotSide = 2 * PAST_DOTS.radius;
-  const dotCount = Math.min(PAST_DOTS.max, poses.length / 3);
+  context.globalAlpha = MILESTONE_DOTS.alpha;
+  const dotSide = 2 * MILESTONE_DOTS.radius;
+  const dotCount = Math.min(MILESTONE_DOTS.max, poses.length / 3);
   for (let i = 0; i < dotCount; i++) {
-    context.fillRect(view.toPixelX(poses[3 * i]) - PAST_DOTS.radius, view.toPixelY(poses[3 * i + 1]) - PAST_DOTS.radius, dotSide, dotSide);
+    context.fillRect(view.toPixelX(poses[3 * i]) - MILESTONE_DOTS.radius, view.toPixelY(poses[3 * i + 1]) - MILESTONE_DOTS.radius, dotSide, dotSide);
   }
   context.globalAlpha = 1;
 }
@@ -90,23 +90,23 @@ export class StepPicture extends Picture<Scene> {
     const points = [0, 0, ...predicted];
     const [along, lateral] = [0, 1].map((axis) => SHOWN_DEVIATIONS * Math.sqrt(cov[axis][axis]));
     if (along + lateral > 0) points.push(mean[0] - along, mean[1] - lateral, mean[0] + along, mean[1] + lateral);
-    const box = extentAround(points, 2);
+    const neededExtent = extentAround(points, 2);
     // Minimum heights and widths of the box keep both scales finite. The height is at least a thousandth of the width.
-    const minHeight = Math.max(1e-6, 1e-3 * (box.xMax - box.xMin));
-    const addedHeight = Math.max(0, minHeight - (box.yMax - box.yMin)) / 2;
-    const addedWidth = Math.max(0, 1e-6 - (box.xMax - box.xMin)) / 2;
-    this.view.fit({ xMin: box.xMin - addedWidth, xMax: box.xMax + addedWidth, yMin: box.yMin - addedHeight, yMax: box.yMax + addedHeight });
+    const minHeight = Math.max(1e-6, 1e-3 * (neededExtent.xMax - neededExtent.xMin));
+    const addedHeight = Math.max(0, minHeight - (neededExtent.yMax - neededExtent.yMin)) / 2;
+    const addedWidth = Math.max(0, 1e-6 - (neededExtent.xMax - neededExtent.xMin)) / 2;
+    this.view.fit({ xMin: neededExtent.xMin - addedWidth, xMax: neededExtent.xMax + addedWidth, yMin: neededExtent.yMin - addedHeight, yMax: neededExtent.yMax + addedHeight });
   }
 
   paint: Picture<Scene>['paint'] = (brush, { outlines: { predicted, measured }, overlays, twists }) => {
     const styles = lineStyles(brush, OUTLINE_STYLES);
     const shownNames = (['exponential', 'measured'] as ('exponential' | 'measured')[]).filter((name) => overlays.includes(name));
-    drawAxes(brush, axesOf(this.view), lineKeys(brush, OUTLINE_STYLES, shownNames, words.reckoning.overlays));
+    drawAxes(brush, axisNamesOf(this.view), lineLegendEntries(brush, OUTLINE_STYLES, shownNames, words.reckoning.overlays));
     const points = { exponential: predicted, measured };
     const callouts: Callout[] = [];
     clipToPlot(brush, () => {
       drawDots(brush, twists, { x: 0, y: 1, heading: null });
-      if (brush.previousViewModel && overlays.includes('exponential')) callouts.push(...drawEarlier(brush, [{ points: brush.previousViewModel.outlines.predicted, ...styles.exponential }], [[0, 0]], words.before));
+      if (brush.previousViewModel && overlays.includes('exponential')) callouts.push(...drawEarlierOutlines(brush, [{ points: brush.previousViewModel.outlines.predicted, ...styles.exponential }], [[0, 0]], words.before));
       drawOutlines(brush, shownNames.map((name) => ({ points: points[name], ...styles[name] })));
     });
     drawCallouts(brush, callouts, { from: [0, 0], lines: [predicted, measured] });
@@ -122,7 +122,7 @@ export function scaleRatioTexts({ scaleX, scaleY }: Pick<View, 'scaleX' | 'scale
 }
 
 /** Returns the names of the axes. The upper name also has the ratio of the scales, because near the lower name it would hide ticks. */
-function axesOf(view: View) {
+function axisNamesOf(view: View) {
   const { axisAlong: x, axisLateral, stretched } = words.reckoning;
   const [along, lateral] = scaleRatioTexts(view);
   const ratioText = along ? stretched.along(along) : lateral && stretched.lateral(lateral);

@@ -44,7 +44,7 @@ export function ratioPlot(figure: import('./dead-reckoning.ts').DeadReckoningEle
       step: 1,
       value: step,
       text: texts.atStepMark(step),
-      input: (to) => figure.settings.request({ step: Math.max(1, to) }),
+      input: (newStep) => figure.settings.request({ step: Math.max(1, newStep) }),
       commit: () => figure.gesture.commit(),
     },
     legend: legend(figure, CURVE_STYLES),
@@ -54,12 +54,12 @@ export function ratioPlot(figure: import('./dead-reckoning.ts').DeadReckoningEle
 /** Returns role, dash and highlight of a curve in the chart of ratios. */
 function curveStyle(name: keyof typeof CURVE_STYLES, highlight: string | null) {
   const { role, dash } = CURVE_STYLES[name] as import('../../scene/draw.ts').LineStyle & { role: Role };
-  const lit = highlight !== null && highlight in CURVE_STYLES ? name === highlight : undefined;
-  return { role, dash: dash?.join(' '), lit };
+  const isHighlighted = highlight !== null && highlight in CURVE_STYLES ? name === highlight : undefined;
+  return { role, dash: dash?.join(' '), lit: isHighlighted };
 }
 
 /** Returns the headline of the figure: the ratio at the selected step that is furthest from 1. */
-export function headline(viewModel: ViewModel, overlays: string[]) {
+export function headlineHtml(viewModel: ViewModel, overlays: string[]) {
   const texts = words.reckoning;
   const { ratio, error, component } = worstComponentAt(viewModel, overlays);
   const headlineDetail = texts.ofMeasured(Number.isNaN(error) ? '' : fixed(error, 2), viewModel.config.step, integer(viewModel.shown));
@@ -69,16 +69,16 @@ export function headline(viewModel: ViewModel, overlays: string[]) {
 /** Ranges of both logarithmic axes: fixed, so that a slider moves the curves and not the axes. */
 const GROWTH_AXES = { durations: [0.1, 10], variances: [1e-6, 100] };
 
-export function straightPlot({ durations: x, along, across, alongFirstOrder, acrossFirstOrder, crossing }: import('../../types.d.ts').StraightGrowth) {
+export function straightGrowthPlot({ durations: x, along, across, alongFirstOrder, acrossFirstOrder, crossing }: import('../../types.d.ts').StraightGrowth) {
   const texts = words.reckoning.straight;
-  const [from, to] = GROWTH_AXES.durations;
+  const [minDuration, maxDuration] = GROWTH_AXES.durations;
   const [minVariance, maxVariance] = GROWTH_AXES.variances;
   const crossingText = crossing === null ? '' : formatSignificant(crossing, 3);
   return html`<figure>
     <p class="panel-title">${texts.title}</p>
     ${plot({
       label: texts.label(crossing === null ? texts.never : texts.crossing(crossingText)),
-      x: { name: texts.x, from, to, logarithmic: true },
+      x: { name: texts.x, from: minDuration, to: maxDuration, logarithmic: true },
       y: { name: texts.y, from: minVariance, to: maxVariance, logarithmic: true },
       curves: [
         { name: texts.along, role: 'ink', dash: '8 4', x, y: alongFirstOrder },
@@ -86,7 +86,7 @@ export function straightPlot({ durations: x, along, across, alongFirstOrder, acr
         // One curve with a gap contains both exact curves.
         { name: texts.exact, role: 'truth', dash: '2 3', x: [...x, NaN, ...x], y: [...along, NaN, ...across] },
       ],
-      marks: crossing !== null && crossing >= from && crossing <= to ? [{ x: crossing, text: texts.mark(crossingText) }] : [],
+      marks: crossing !== null && crossing >= minDuration && crossing <= maxDuration ? [{ x: crossing, text: texts.mark(crossingText) }] : [],
     })}
     <figcaption>${formatMarkup(texts.caption)}</figcaption>
   </figure>`;
@@ -94,9 +94,9 @@ export function straightPlot({ durations: x, along, across, alongFirstOrder, acr
 
 /** Returns the range of steps at which a recursion misses the measured variance, as text. */
 function missText({ decidable, first, last, end }: Misses) {
-  const { never, unknown, from } = words.reckoning.misses;
+  const { never, unknown, from: rangeText } = words.reckoning.misses;
   if (!decidable) return Number.isNaN(end) ? NO_VALUE : unknown;
-  return first === null || last === null ? never : from(first, last);
+  return first === null || last === null ? never : rangeText(first, last);
 }
 
 /** Returns the table of the steps at which each recursion misses the measured variance, by component. */
@@ -113,7 +113,7 @@ export function missTable({ stats: { misses } }: ViewModel, overlays: string[]) 
 }
 
 /** Returns the field with the number of the marked robot, and the position of that robot at the step. */
-export function markedRobot(figure: import('./dead-reckoning.ts').DeadReckoningElement, marked: Float64Array | undefined): import('lit').TemplateResult {
+export function markedRobotField(figure: import('./dead-reckoning.ts').DeadReckoningElement, marked: Float64Array | undefined): import('lit').TemplateResult {
   const { robot, markHint, markedAt } = words.reckoning;
   const { config: { step }, shown } = figure.viewModel;
   const poseAtStep = marked?.subarray(3 * (step - 1), 3 * step);

@@ -6,10 +6,10 @@ import { settings } from '../../settings.js';
 import { ALPHA_SLIDER, COMMAND_DASH, alphaSliders, commandSliders } from '../shared/sliders.ts';
 import type { DeadReckoningSettings } from '../../types.d.ts';
 
-const declarations = settings['dead-reckoning'];
+const settingDeclarations = settings['dead-reckoning'];
 
 /** Recursions in the order in which they are offered. */
-export const RECURSIONS = declarations.find(({ key }) => key === 'compounding')?.words as DeadReckoningSettings['compounding'][];
+export const RECURSIONS = settingDeclarations.find(({ key }) => key === 'compounding')?.words as DeadReckoningSettings['compounding'][];
 
 /** Styles of the ratios in the chart. */
 export const CURVE_STYLES = {
@@ -42,7 +42,7 @@ export const definition = definitionOf('dead-reckoning', {
     // The slider shows α₃, even if the other three are not in the usual ratio to it.
     headingNoise: { ...ALPHA_SLIDER, step: 0.005, value: ({ alphas }) => alphas[2] },
   },
-  dependentDefaults: ({ steps }) => ({ step: Math.min(defaultConfig(declarations).step, steps) }),
+  dependentDefaults: ({ steps }) => ({ step: Math.min(defaultConfig(settingDeclarations).step, steps) }),
 });
 
 /** Sample counts that the slider offers. Larger clouds would lag behind it. */

@@ -12,9 +12,9 @@ addEnglish({ reckoning: en });
 const CAPTION_STEPS = [1, 2, 5];
 
 /** Prints a fraction in per cent, with a sign unless it rounds to 0. */
-function signedPercent(share: number, printed: string = fixed(100 * share, 1)) {
+function signedPercent(share: number, printedPercent: string = fixed(100 * share, 1)) {
   if (Number.isNaN(share)) return NO_VALUE;
-  return `${100 * share >= 0.05 ? '+' : ''}${printed}\u202f%`;
+  return `${100 * share >= 0.05 ? '+' : ''}${printedPercent}\u202f%`;
 }
 
 /** Returns the relative error of the predicted variance after the last step, as text. */
@@ -32,8 +32,8 @@ export function captionOf({ config: { compounding }, stats: { misses, n }, condi
   const endAxis = indexOfGreatest(recursionMisses.map(({ end }, axis) => missIfShown(Math.abs(end), axis)));
   const worstAxis = indexOfGreatest(curves.map(({ ratio }, axis) => missIfShown(ratio.reduce((max, value) => Math.max(max, Math.abs(value - 1) || 0), 0), axis)));
   const ratioList = ratiosAtSteps(Array.from(curves[worstAxis].ratio));
-  const [end, of] = [signedPercent(recursionMisses[endAxis].end), texts.of[COMPONENTS[worstAxis]]];
-  return endAxis === worstAxis ? texts.wrong(of, ratioList, end) : texts.worse(of, ratioList, end, texts.of[COMPONENTS[endAxis]]);
+  const [finalErrorPercent, componentPhrase] = [signedPercent(recursionMisses[endAxis].end), texts.of[COMPONENTS[worstAxis]]];
+  return endAxis === worstAxis ? texts.wrong(componentPhrase, ratioList, finalErrorPercent) : texts.worse(componentPhrase, ratioList, finalErrorPercent, texts.of[COMPONENTS[endAxis]]);
 }
 
 /** Returns the index of the greatest miss (error of the prediction); NaN is not a miss. */
@@ -51,8 +51,8 @@ export function shownComponentsOf(overlays: string[]): readonly (typeof COMPONEN
 /** Returns the component whose ratio at the selected step is furthest from 1, of those shown. */
 export function worstComponentAt({ config: { step }, curves }: ViewModel, overlays: string[]) {
   const ratios = curves.map(({ ratio }) => ratio[step - 1]);
-  const shown = shownComponentsOf(overlays);
-  const worstIndex = indexOfGreatest(ratios.map((ratio, axis) => (shown.includes(COMPONENTS[axis]) ? Math.abs(ratio - 1) : NaN)));
+  const shownComponents = shownComponentsOf(overlays);
+  const worstIndex = indexOfGreatest(ratios.map((ratio, axis) => (shownComponents.includes(COMPONENTS[axis]) ? Math.abs(ratio - 1) : NaN)));
   return { component: COMPONENTS[worstIndex], ratio: ratios[worstIndex], error: curves[worstIndex].error[step - 1] };
 }
 

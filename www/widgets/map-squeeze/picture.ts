@@ -188,8 +188,8 @@ function knownCorners(grid: Cells, unknown: Uint8Array) {
   return [left, right].flatMap((column) => [bottom, top].flatMap((row) => cornerOf(grid, column, row)));
 }
 
-/** Returns the key of an exported picture: the marks, or the colours of a density. */
-function legendEntriesOf({ context, palette }: Brush, { overlays, posesByOutcome }: Scene): import('../../scene/axes.ts').KeyEntry[] {
+/** Returns the legend of an exported picture: the marks, or the colours of a density. */
+function legendEntriesOf({ context, palette }: Brush, { overlays, posesByOutcome }: Scene): import('../../scene/axes.ts').LegendEntry[] {
   const shownNames = (['accepted', 'through', 'rejected'] as const).filter((name) => overlays.includes(name));
   return shownNames.map((name) => ({
     name: words.squeeze.overlays[name],

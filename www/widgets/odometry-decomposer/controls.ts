@@ -14,14 +14,14 @@ export function noiseModelTable(figure: Figure) {
   const { rules: names, table: texts, settings } = words.decomposer;
   const { rules } = figure.viewModel;
   const currentRule = figure.settings.requested.rule;
-  const cellRows = rules.map(({ deviations, crossTrack, heading }) => [...deviations, crossTrack, heading].map((value) => fixed(value, 3)));
+  const printedRows = rules.map(({ deviations, crossTrack, heading }) => [...deviations, crossTrack, heading].map((value) => fixed(value, 3)));
   return html`<div class="rules" role="radiogroup" aria-label=${settings.rule.name}>
     ${figureTable({
       caption: formatMarkup(texts.caption),
       columns: [settings.rule.name, ...texts.columns.map(formatMarkup)],
       rows: rules.map(({ rule }, i) => [
         radioButton({ group: 'rule', label: names[rule], checked: rule === currentRule, choose: () => figure.gesture.decide({ rule }) }),
-        ...cellRows[i].map((cell, column) => (cell === cellRows[0][column] ? cell : html`<strong>${cell}</strong>`)),
+        ...printedRows[i].map((cell, column) => (cell === printedRows[0][column] ? cell : html`<strong>${cell}</strong>`)),
       ]),
     })}
   </div>`;

@@ -11,8 +11,8 @@ const CHORD_ANGLE = 0.1;
 
 /** Returns evenly spaced directions (rad) from a heading to the heading after a turn. */
 export function turnDirections(heading: number, turn: number) {
-  const count = Math.max(1, Math.ceil(Math.abs(turn) / CHORD_ANGLE));
-  return Array.from({ length: count + 1 }, (_, i) => heading + (turn * i) / count);
+  const chordCount = Math.max(1, Math.ceil(Math.abs(turn) / CHORD_ANGLE));
+  return Array.from({ length: chordCount + 1 }, (_, i) => heading + (turn * i) / chordCount);
 }
 
 /** Number of points of a drawn ellipse. */
@@ -29,13 +29,13 @@ export function ellipsePoints({ x, y, theta }: Pose, along: number, across: numb
 }
 
 /** Draws a turn in radians from a pose's heading, as an arc with an arrow, with a radius in pixels. */
-export function drawTurn({ context, view }: Brush, from: Pose, turn: number, radius: number, colour: string) {
+export function drawTurn({ context, view }: Brush, startPose: Pose, turn: number, radius: number, colour: string) {
   // In pixels y points down, so that a turn to the left is negative.
-  strokePath(context, { colour, width: 1.75 }, () => context.arc(...view.toPixel(from.x, from.y), radius, -from.theta, -from.theta - turn, turn > 0));
+  strokePath(context, { colour, width: 1.75 }, () => context.arc(...view.toPixel(startPose.x, startPose.y), radius, -startPose.theta, -startPose.theta - turn, turn > 0));
   // The arrow head is smaller on a short arc.
   const headLength = Math.min(ARROW_HEAD_SIZE.length, radius * Math.abs(turn));
-  const tip = view.ray({ ...from, theta: from.theta + turn }, radius)[1];
-  const headBase = { ...from, theta: from.theta + turn - (Math.sign(turn) * headLength) / radius };
+  const tip = view.ray({ ...startPose, theta: startPose.theta + turn }, radius)[1];
+  const headBase = { ...startPose, theta: startPose.theta + turn - (Math.sign(turn) * headLength) / radius };
   const headScale = headLength / ARROW_HEAD_SIZE.length;
   const headCorner = (side: number) => view.ray(headBase, radius + side * headScale * ARROW_HEAD_SIZE.half)[1];
   context.fillStyle = colour;

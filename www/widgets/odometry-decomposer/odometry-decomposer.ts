@@ -16,7 +16,7 @@ import { presetButtons } from '../shared/presets.ts';
 import { noiseControls, playableSlider, noiseModelTable } from './controls.ts';
 import { LegsPicture, ROBOT_RADIUS, WorldPicture } from './pictures.ts';
 import { viewModelOf, type ViewModel } from './view-model.ts';
-import { headline, readouts, spreadPlot } from './readouts.ts';
+import { headlineHtml, outcomeReadouts, spreadPlot } from './readouts.ts';
 import { LINE_STYLES, definition, sliderSpecs } from './settings.ts';
 import { styles } from './styles.ts';
 import { driftDistance, captionOf, legsText, worldText } from './words.ts';
@@ -39,17 +39,17 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
 
   cloud = new Cloud(this);
   player: Player<'phase' | 'drift'> = new Player(this, { phase: { max: sliderSpecs.phase.max, durationMs: 4000 }, drift: { max: sliderSpecs.drift.max, durationMs: 8000 } });
-  #legs = new LegsPicture();
-  #world = new WorldPicture();
-  pictures = [this.#legs, this.#world];
+  #legsPicture = new LegsPicture();
+  #worldPicture = new WorldPicture();
+  pictures = [this.#legsPicture, this.#worldPicture];
   /** Handles of both poses. The handle of the second pose is on top if both poses are at the same place. */
-  #handles: PoseHandles[] = ['from', 'to'].map((setting) => new PoseHandles(this, setting, () => this.#legs.view, () => POSE_BOUNDS));
+  #handles: PoseHandles[] = ['from', 'to'].map((setting) => new PoseHandles(this, setting, () => this.#legsPicture.view, () => POSE_BOUNDS));
 
   createSimulation: FigureElement<Simulation, ViewModel>['createSimulation'] = (motion, state) => enterCloud(this, new motion.OdometryDecomposer(), state);
 
-  #curve: Memo<Float64Array> = new Memo();
-  #curveOf = (longest: number, points: number) =>
-    this.#curve.get([this.viewModel.stats, longest, points], () => (this.simulation as Simulation).curve(longest, points));
+  #spreadCurveMemo: Memo<Float64Array> = new Memo();
+  #spreadCurveOf = (maxLength: number, pointCount: number) =>
+    this.#spreadCurveMemo.get([this.viewModel.stats, maxLength, pointCount], () => (this.simulation as Simulation).curve(maxLength, pointCount));
 
   read = viewModelOf;
 
@@ -79,11 +79,11 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
     return html`
       <div class="views">
         ${titledPicture(texts.legsTitle, html`<div class="stage" part="picture">
-          ${pictureCanvas(this, this.#legs, legsText(viewModel))} ${this.#handles.map((handle) => handle.render())}
+          ${pictureCanvas(this, this.#legsPicture, legsText(viewModel))} ${this.#handles.map((handle) => handle.render())}
         </div>`, 'legs')}
-        ${titledPicture(texts.worldTitle, html`<div class="stage">${pictureCanvas(this, this.#world, worldText(viewModel))}</div>`)}
+        ${titledPicture(texts.worldTitle, html`<div class="stage">${pictureCanvas(this, this.#worldPicture, worldText(viewModel))}</div>`)}
         ${this.renderer.afterFirstPicture(() => html`
-        <div class="summary">${headline(viewModel)} <p class="caption" part="caption">${captionOf(viewModel)}</p></div>
+        <div class="summary">${headlineHtml(viewModel)} <p class="caption" part="caption">${captionOf(viewModel)}</p></div>
         <p class="caption">${formatMarkup(texts.worldCaption(fixed(driftDistance(viewModel), 2)))}</p>`)}
       </div>
       ${this.renderer.afterFirstPicture(() => html`
@@ -91,7 +91,7 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
       <div class="plays" part="controls">${playableSlider(this, 'phase', texts.path)} ${playableSlider(this, 'drift', texts.drift)}</div>
       ${disclosures(this, {
         controls: () => noiseControls(this),
-        numbers: () => html`${readouts(viewModel)} ${spreadPlot(this.#curveOf, viewModel)}`,
+        numbers: () => html`${outcomeReadouts(viewModel)} ${spreadPlot(this.#spreadCurveOf, viewModel)}`,
       })}`)}
     `;
   }

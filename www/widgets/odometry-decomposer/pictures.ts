@@ -4,14 +4,14 @@ import { greatest } from 'd3-array';
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { drawCallouts, type Callout } from '../../scene/callout.ts';
-import { drawDots, drawMark, drawOutlines, hasLength, lineKeys, lineStyles, strokeLines } from '../../scene/draw.ts';
+import { drawDots, drawMark, drawOutlines, hasLength, lineLegendEntries, lineStyles, strokeLines } from '../../scene/draw.ts';
 import { LABELS_ABOVE, drawLabel, drawLabelsAbove } from '../../scene/labels.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
 import { View, extentOf } from '../../scene/view.ts';
 import { fixed } from '../../ui/format.ts';
 import { drawDraggableRobot, drawRobotOutline, turnHandleDistance } from '../shared/robot.ts';
 import { ellipsePoints, turnDirections, drawBar, drawFan, drawTurn } from './marks.ts';
-import { poseIn } from './view-model.ts';
+import { poseAt } from './view-model.ts';
 import { LINE_STYLES } from './settings.ts';
 import type { Pose, RuleNoise } from '../../types.d.ts';
 import { addLine, drawDisc, strokePath, strokeLine, type Brush, type LineStroke } from '../../scene/canvas.ts';
@@ -53,19 +53,19 @@ const AXIS_NAMES = { x: 'x (m)', y: 'y (m)' };
 /** Length of the axes of the odometry frame, m. It is less than the margin, so that no axis is clipped. */
 const FRAME_AXIS_LENGTH = 0.28;
 
-/** Returns the key of an exported picture for the lines that are shown. */
-const keyOf = (brush: Brush, { overlays }: Scene, names: LineName[]) =>
-  lineKeys(brush, LINE_STYLES, names.filter((name) => overlays.includes(name)), words.decomposer.overlays);
+/** Returns the legend of an exported picture for the lines that are shown. */
+const legendEntriesOf = (brush: Brush, { overlays }: Scene, names: LineName[]) =>
+  lineLegendEntries(brush, LINE_STYLES, names.filter((name) => overlays.includes(name)), words.decomposer.overlays);
 
 /** Returns points around the start and the outcomes, as x, y pairs, that a picture has to show. */
 function neededPoints({ linkage, legs, rules }: Scene): number[] {
-  const [{ x, y }, drivenPose] = [poseIn(linkage, 0), poseIn(linkage, 2)];
+  const [{ x, y }, drivenPose] = [poseAt(linkage, 0), poseAt(linkage, 2)];
   // The scale is the same for all noise models, so that their spreads can be compared.
   const alongMargin = Math.min(MARGINS.deviations * Math.max(...rules.map(({ deviations }) => deviations[1])), legs.trans + 2);
   // No limit is needed here: a rotation moves the end across by at most the length of the drive.
   const acrossMargin = MARGINS.deviations * Math.max(...rules.map(({ crossTrack }) => crossTrack));
-  const [dx, dy] = [Math.abs(Math.cos(drivenPose.theta)), Math.abs(Math.sin(drivenPose.theta))];
-  const pointMargins = [MARGINS.metres + alongMargin * dx + acrossMargin * dy, MARGINS.metres + alongMargin * dy + acrossMargin * dx];
+  const [absCos, absSin] = [Math.abs(Math.cos(drivenPose.theta)), Math.abs(Math.sin(drivenPose.theta))];
+  const pointMargins = [MARGINS.metres + alongMargin * absCos + acrossMargin * absSin, MARGINS.metres + alongMargin * absSin + acrossMargin * absCos];
   return [
     ...[x - MARGINS.metres, y - MARGINS.metres, x + MARGINS.metres, y + MARGINS.metres],
     ...[drivenPose.x - pointMargins[0], drivenPose.y - pointMargins[1], drivenPose.x + pointMargins[0], drivenPose.y + pointMargins[1]],
@@ -79,15 +79,15 @@ function drawOutcomes(brush: Brush, { poses, overlays }: Scene) {
 
 /** Returns the ellipses of the spread by the current noise model and, if it differs, by one to compare it with. Each has a callout. */
 function spreadEllipses({ palette }: Brush, { linkage, rules, config }: Scene) {
-  const current = rules.find(({ rule }) => rule === config.rule) as RuleNoise;
-  const compared = rules[config.rule === 'thrun' ? 1 : 0];
-  const differs = compared.deviations.some((deviation, i) => Math.abs(deviation - current.deviations[i]) > 1e-9);
-  return [current, ...(differs ? [compared] : [])].map(({ rule, deviations, crossTrack }) => {
-    const points = ellipsePoints(poseIn(linkage, 2), 2 * deviations[1], 2 * crossTrack);
+  const currentRule = rules.find(({ rule }) => rule === config.rule) as RuleNoise;
+  const comparedRule = rules[config.rule === 'thrun' ? 1 : 0];
+  const hasOtherDeviations = comparedRule.deviations.some((deviation, i) => Math.abs(deviation - currentRule.deviations[i]) > 1e-9);
+  return [currentRule, ...(hasOtherDeviations ? [comparedRule] : [])].map(({ rule, deviations, crossTrack }) => {
+    const points = ellipsePoints(poseAt(linkage, 2), 2 * deviations[1], 2 * crossTrack);
     const colour = rule === config.rule ? palette.prediction : palette.ink;
     // The callouts are at different sides: at the front of the ellipse of Table 5.6, and at the top of the other one, which is smaller.
-    const places = Array.from({ length: points.length / 2 }, (_, i): [number, number] => [points[2 * i], points[2 * i + 1]]);
-    const at = rule === 'thrun' ? places[0] : greatest(places, ([, y]) => y) as [number, number];
+    const ellipsePositions = Array.from({ length: points.length / 2 }, (_, i): [number, number] => [points[2 * i], points[2 * i + 1]]);
+    const at = rule === 'thrun' ? ellipsePositions[0] : greatest(ellipsePositions, ([, y]) => y) as [number, number];
     const callout: Callout = { text: words.decomposer.spread(words.decomposer.rules[rule]), at, colour };
     return { points, colour, width: 2, callout };
   }).filter(({ points }) => hasLength(points));
@@ -105,7 +105,7 @@ class OutcomesPicture extends SamplesPicture<Scene> {
 const turnRadii = (view: Pick<View, 'scaleX'>) => [0, 1].map((arc) => turnHandleDistance(view, ROBOT_RADIUS) + ARC_GAPS.handle + arc * ARC_GAPS.arcs);
 
 /** Returns points of an arc about a pose that starts at its heading, as x, y pairs. The turn is in radians, and the radius in metres. */
-const worldArc = ({ x, y, theta }: Pose, turn: number, radius: number) =>
+const turnArcPoints = ({ x, y, theta }: Pose, turn: number, radius: number) =>
   turnDirections(theta, turn).flatMap((direction) => [x + radius * Math.cos(direction), y + radius * Math.sin(direction)]);
 
 /** Picture in the odometry frame: the legs as a linkage, and the effect of noise on it. */
@@ -122,29 +122,29 @@ export class LegsPicture extends OutcomesPicture {
     }
     const { left, right, top, bottom } = view.frame;
     const maxTurnRadius = MAX_ARC_SHARE * Math.min(right - left, bottom - top);
-    const boxAtScale = (scale: number) => {
+    const extentAtScale = (scale: number) => {
       const radii = turnRadii({ scaleX: scale });
-      const arcCorners = [legs.rot1, legs.rot2].flatMap((turn, i) => worldArc(poseIn(linkage, 2 * i), turn, Math.min(radii[i], maxTurnRadius) / scale));
+      const arcCorners = [legs.rot1, legs.rot2].flatMap((turn, i) => turnArcPoints(poseAt(linkage, 2 * i), turn, Math.min(radii[i], maxTurnRadius) / scale));
       return extentOf([...worldPoints, ...arcCorners], 1.2);
     };
     // The arcs have a fixed size in pixels, and need more space in metres at a smaller scale.
     let scale = view.scaleFor(extentOf(worldPoints, 1.2));
-    for (let i = 0; i < SCALE_STEPS; i++) scale = view.scaleFor(boxAtScale(scale));
-    view.fit(boxAtScale(scale));
+    for (let i = 0; i < SCALE_STEPS; i++) scale = view.scaleFor(extentAtScale(scale));
+    view.fit(extentAtScale(scale));
   }
 
   paint: SamplesPicture<Scene>['paint'] = (brush, scene) => {
     const { palette } = brush;
     const { linkage, legs, deviations, config, overlays } = scene;
-    const [startPose, turnedPose, drivenPose] = [0, 1, 2].map((index) => poseIn(linkage, index));
-    drawAxes(brush, AXIS_NAMES, keyOf(brush, scene, ['legs', 'deviation', 'outcomes']));
-    const [first, second] = turnRadii(this.view);
+    const [startPose, turnedPose, drivenPose] = [0, 1, 2].map((index) => poseAt(linkage, index));
+    drawAxes(brush, AXIS_NAMES, legendEntriesOf(brush, scene, ['legs', 'deviation', 'outcomes']));
+    const [firstRadius, secondRadius] = turnRadii(this.view);
     const styles = lineStyles(brush, LINE_STYLES);
     const showsDeviation = overlays.includes('deviation');
     const { colour } = styles.deviation;
     const ellipses = showsDeviation ? spreadEllipses(brush, scene) : [];
     clipToPlot(brush, () => {
-      if (showsDeviation) drawFan(brush, turnedPose, deviations.rot1, Math.max(legs.trans * this.view.scaleX, second), colour);
+      if (showsDeviation) drawFan(brush, turnedPose, deviations.rot1, Math.max(legs.trans * this.view.scaleX, secondRadius), colour);
       if (overlays.includes('outcomes')) this.#paintGhosts(brush, scene);
       drawOutcomes(brush, scene);
       drawOutlines(brush, ellipses);
@@ -154,24 +154,24 @@ export class LegsPicture extends OutcomesPicture {
       if (showsDeviation) {
         drawBar(brush, drivenPose, deviations.trans, colour);
         drawBar(brush, { ...drivenPose, theta: drivenPose.theta + Math.PI / 2 }, deviations.strafe, colour);
-        drawFan(brush, { ...drivenPose, theta: drivenPose.theta + legs.rot2 }, deviations.rot2, second, colour);
+        drawFan(brush, { ...drivenPose, theta: drivenPose.theta + legs.rot2 }, deviations.rot2, secondRadius, colour);
       }
       if (config.phase < 3) this.#paintRobot(brush, scene.robot);
       if (overlays.includes('legs')) {
-        for (const [from, by, reach] of ([[startPose, legs.rot1, first], [drivenPose, legs.rot2, second]] as [Pose, number, number][])) {
-          if (Math.abs(by) >= MIN_DRAWN_TURN) drawTurn(brush, from, by, reach, styles.legs.colour);
+        for (const [turnPose, turn, turnRadius] of ([[startPose, legs.rot1, firstRadius], [drivenPose, legs.rot2, secondRadius]] as [Pose, number, number][])) {
+          if (Math.abs(turn) >= MIN_DRAWN_TURN) drawTurn(brush, turnPose, turn, turnRadius, styles.legs.colour);
         }
       }
       this.paintMark(brush, scene);
     });
-    const turnArcs = [worldArc(startPose, legs.rot1, first / this.view.scaleX), worldArc(drivenPose, legs.rot2, second / this.view.scaleX)].map((points) => Float64Array.from(points));
-    if (overlays.includes('legs')) drawLabelsAbove(brush, this.#labels(brush, scene, first, second));
+    const turnArcs = [turnArcPoints(startPose, legs.rot1, firstRadius / this.view.scaleX), turnArcPoints(drivenPose, legs.rot2, secondRadius / this.view.scaleX)].map((points) => Float64Array.from(points));
+    if (overlays.includes('legs')) drawLabelsAbove(brush, this.#labels(brush, scene, firstRadius, secondRadius));
     drawCallouts(brush, ellipses.map(({ callout }) => callout), { from: [drivenPose.x, drivenPose.y], lines: [...ellipses.map(({ points }) => points), ...turnArcs] });
   };
 
   /** Returns labels with the value and standard deviation of each leg that is long enough to see. The arcs of both turns have radii in pixels. */
-  #labels({ view, palette: { prior: colour } }: Brush, { linkage, legs, deviations }: Scene, first: number, second: number) {
-    const [startPose, drivenPose] = [0, 2].map((index) => poseIn(linkage, index));
+  #labels({ view, palette: { prior: colour } }: Brush, { linkage, legs, deviations }: Scene, firstRadius: number, secondRadius: number) {
+    const [startPose, drivenPose] = [0, 2].map((index) => poseAt(linkage, index));
     const legLabel = (sub: 'rot1' | 'trans' | 'rot2', unit: string, place: { x: number, y: number }) => ({
       ...place,
       symbol: 'δ',
@@ -188,9 +188,9 @@ export class LegsPicture extends OutcomesPicture {
     };
     const driveMiddle = { x: view.toPixelX((startPose.x + drivenPose.x) / 2), y: view.toPixelY((startPose.y + drivenPose.y) / 2) };
     return [
-      ...(Math.abs(legs.rot1) < MIN_DRAWN_TURN ? [] : [legLabel('rot1', 'rad', leaderEnd(startPose, legs.rot1, first))]),
+      ...(Math.abs(legs.rot1) < MIN_DRAWN_TURN ? [] : [legLabel('rot1', 'rad', leaderEnd(startPose, legs.rot1, firstRadius))]),
       ...(legs.trans * view.scaleX < MIN_LABELLED_DRIVE ? [] : [legLabel('trans', 'm', driveMiddle)]),
-      ...(Math.abs(legs.rot2) < MIN_DRAWN_TURN ? [] : [legLabel('rot2', 'rad', leaderEnd(drivenPose, legs.rot2, second))]),
+      ...(Math.abs(legs.rot2) < MIN_DRAWN_TURN ? [] : [legLabel('rot2', 'rad', leaderEnd(drivenPose, legs.rot2, secondRadius))]),
     ];
   }
 
@@ -218,7 +218,7 @@ export class WorldPicture extends OutcomesPicture {
   fit(scene: Scene) {
     const { poses } = scene.drifted;
     const robotCorners = [0, 1, 2].flatMap((index) => {
-      const { x, y } = poseIn(poses, index);
+      const { x, y } = poseAt(poses, index);
       return [x - MARGINS.metres, y - MARGINS.metres, x + MARGINS.metres, y + MARGINS.metres];
     });
     this.view.fit(extentOf([...neededPoints(scene), ...robotCorners], 1.2));
@@ -227,35 +227,35 @@ export class WorldPicture extends OutcomesPicture {
   paint: SamplesPicture<Scene>['paint'] = (brush, scene) => {
     const { palette } = brush;
     const { overlays } = scene;
-    const [frame, from, to] = [0, 1, 2].map((index) => poseIn(scene.drifted.poses, index));
-    const [start, end] = [poseIn(scene.linkage, 0), poseIn(scene.linkage, 3)];
+    const [frame, odometryStart, odometryEnd] = [0, 1, 2].map((index) => poseAt(scene.drifted.poses, index));
+    const [startPose, predictedPose] = [poseAt(scene.linkage, 0), poseAt(scene.linkage, 3)];
     const styles = lineStyles(brush, LINE_STYLES);
-    drawAxes(brush, AXIS_NAMES, keyOf(brush, scene, ['prediction', 'odometry', 'difference']));
+    drawAxes(brush, AXIS_NAMES, legendEntriesOf(brush, scene, ['prediction', 'odometry', 'difference']));
     clipToPlot(brush, () => {
       if (overlays.includes('odometry')) {
         this.#paintFrame(brush, frame);
-        drawSegment(brush, from, to, styles.odometry);
-        for (const pose of [from, to]) this.#paintOdometry(brush, pose);
+        drawSegment(brush, odometryStart, odometryEnd, styles.odometry);
+        for (const pose of [odometryStart, odometryEnd]) this.#paintOdometry(brush, pose);
       }
       drawOutcomes(brush, scene);
-      if (overlays.includes('prediction')) drawSegment(brush, start, end, styles.prediction);
-      if (overlays.includes('difference')) drawSegment(brush, to, end, styles.difference);
-      drawDraggableRobot(brush, start, ROBOT_RADIUS, palette.truth);
+      if (overlays.includes('prediction')) drawSegment(brush, startPose, predictedPose, styles.prediction);
+      if (overlays.includes('difference')) drawSegment(brush, odometryEnd, predictedPose, styles.difference);
+      drawDraggableRobot(brush, startPose, ROBOT_RADIUS, palette.truth);
       this.paintMark(brush, scene);
     });
     const { left, bottom } = this.view.frame;
     const { outcomesBy, rules } = words.decomposer;
     if (overlays.includes('outcomes')) drawLabel(brush, { text: outcomesBy(rules[scene.config.rule]), x: left, y: bottom, towards: 1, colour: palette.prediction });
     drawLabelsAbove(brush, [
-      ...(overlays.includes('prediction') ? this.#labels(brush, [start, end], 'x', [palette.ink, palette.prediction]) : []),
-      ...(overlays.includes('odometry') ? this.#labels(brush, [from, to], 'x̄', [palette.prior, palette.prior]) : []),
+      ...(overlays.includes('prediction') ? this.#labels(brush, [startPose, predictedPose], 'x', [palette.ink, palette.prediction]) : []),
+      ...(overlays.includes('odometry') ? this.#labels(brush, [odometryStart, odometryEnd], 'x̄', [palette.prior, palette.prior]) : []),
     ]);
   };
 
   #paintFrame({ context, view, palette }: Brush, frame: Pose) {
     const axisLength = FRAME_AXIS_LENGTH * view.scaleX;
-    const [, yEnd] = view.ray({ ...frame, theta: frame.theta + Math.PI / 2 }, axisLength);
-    strokeLine(context, [yEnd, ...view.ray(frame, axisLength)], { colour: palette.prior, width: 1.25 });
+    const [, yAxisEnd] = view.ray({ ...frame, theta: frame.theta + Math.PI / 2 }, axisLength);
+    strokeLine(context, [yAxisEnd, ...view.ray(frame, axisLength)], { colour: palette.prior, width: 1.25 });
   }
 
   #paintOdometry(brush: Brush, pose: Pose) {
@@ -266,11 +266,11 @@ export class WorldPicture extends OutcomesPicture {
 
   /** Returns the labels of the poses before and after the motion; only the second if both are at one place on the screen. */
   #labels({ view }: Brush, poses: Pose[], symbol: string, colours: string[]) {
-    const [before, after] = poses.map((pose, i) => {
+    const [firstLabel, secondLabel] = poses.map((pose, i) => {
       const [x, y] = view.toPixel(pose.x, pose.y);
       return { x, y, symbol, sub: ['t−1', 't'][i], colour: colours[i] };
     });
-    return Math.hypot(before.x - after.x, before.y - after.y) > MIN_LABELLED_DRIVE ? [before, after] : [after];
+    return Math.hypot(firstLabel.x - secondLabel.x, firstLabel.y - secondLabel.y) > MIN_LABELLED_DRIVE ? [firstLabel, secondLabel] : [secondLabel];
   }
 }
 

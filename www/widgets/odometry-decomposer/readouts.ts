@@ -14,14 +14,14 @@ import type { ViewModel } from './view-model.ts';
 const formatMetres = (value: number) => `${fixed(value, 3)} m`;
 
 /** Returns the headline: the turn noise by Table 5.6 relative to that by Nav2. */
-export function headline({ rules: [thrun, nav2] }: ViewModel) {
+export function headlineHtml({ rules: [thrun, nav2] }: ViewModel) {
   const texts = words.decomposer.headline;
-  const ratio = thrun.heading / nav2.heading;
-  return readoutList([[texts.expects, Number.isFinite(ratio) ? `${formatRounded(ratio, 2)} ×` : NO_VALUE, texts.noise]], 0);
+  const headingNoiseRatio = thrun.heading / nav2.heading;
+  return readoutList([[texts.expects, Number.isFinite(headingNoiseRatio) ? `${formatRounded(headingNoiseRatio, 2)} ×` : NO_VALUE, texts.noise]], 0);
 }
 
 /** Returns the readouts: the contribution of the first rotation, and the standard deviations of the outcomes. */
-export function readouts({ stats }: ViewModel) {
+export function outcomeReadouts({ stats }: ViewModel) {
   const texts = words.decomposer.readouts;
   const { crossTrack, crossTrackError, exactCrossTrack, heading, headingError, exactHeading, independentHeading } = stats;
   const exactText = texts.exactly(fixed(exactHeading, 3));
@@ -42,13 +42,13 @@ export function spreadPlot(curveOf: (longest: number, points: number) => Float64
   const curveRows = curveOf(maxLength, CURVE_POINTS);
   const curveColumn = (index: number) => Float64Array.from({ length: CURVE_POINTS }, (_, i) => curveRows[4 * i + index]);
   const [x, crossTrack, lever, along] = [0, 1, 2, 3].map(curveColumn);
-  const plotTop = Math.max(0.1, ...crossTrack, ...along, stats.crossTrack + stats.crossTrackError || 0);
+  const maxDeviation = Math.max(0.1, ...crossTrack, ...along, stats.crossTrack + stats.crossTrackError || 0);
   return html`<figure>
     <p class="panel-title">${texts.title}</p>
     ${plot({
       label: texts.label(fixed(legs.trans, 2), fixed(stats.exactCrossTrack, 3)),
       x: { name: texts.x, from: 0, to: maxLength },
-      y: { name: texts.y, from: 0, to: 1.08 * plotTop },
+      y: { name: texts.y, from: 0, to: 1.08 * maxDeviation },
       curves: [
         { name: texts.crossTrack, role: 'prediction', x, y: crossTrack },
         { name: words.decomposer.readouts.lever, role: 'muted', dash: '2 4', x, y: lever },

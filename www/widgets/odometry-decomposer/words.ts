@@ -3,7 +3,7 @@
 import { addEnglish, words } from '../../messages/registry.ts';
 import { integer, fixed } from '../../ui/format.ts';
 import { en } from './en.ts';
-import { poseIn, type ViewModel } from './view-model.ts';
+import { poseAt, type ViewModel } from './view-model.ts';
 
 addEnglish({ decomposer: en });
 
@@ -13,14 +13,14 @@ const MAX_JITTER = 0.01;
 export function captionOf({ config: { rule, alphas }, rules, legs, deviations, stats }: ViewModel) {
   const texts = words.decomposer.caption;
   const [{ legs: { rot1, trans } }] = rules;
-  const countsEitherWay = rule === 'nav2' || rule === 'beluga';
+  const isReverseAware = rule === 'nav2' || rule === 'beluga';
   const transMillimetres = fixed(1000 * trans, 1);
   if (alphas.every((alpha) => alpha === 0)) return texts.still;
   if (rule === 'omni') return texts.omni(fixed(deviations.strafe, 2));
-  if (trans > 0 && trans < MAX_JITTER) return countsEitherWay ? texts.restSpin(transMillimetres) : texts.rest(transMillimetres, fixed(rot1, 2));
+  if (trans > 0 && trans < MAX_JITTER) return isReverseAware ? texts.restSpin(transMillimetres) : texts.rest(transMillimetres, fixed(rot1, 2));
   if (trans === 0) {
     const remainingTurn = Math.PI - Math.abs(legs.rot2);
-    return countsEitherWay && remainingTurn < Math.PI / 2 ? texts.spinEitherWay(fixed(remainingTurn, 2)) : texts.spin;
+    return isReverseAware && remainingTurn < Math.PI / 2 ? texts.spinEitherWay(fixed(remainingTurn, 2)) : texts.spin;
   }
   if (rule === 'thrun' && Math.abs(rot1) > Math.PI / 2 && Math.abs(legs.rot2) > Math.PI / 2) return texts.reverse;
   return texts.lever(fixed(deviations.rot1, 2), fixed(trans, 2), fixed(stats.exactCrossTrack, 2));
@@ -28,8 +28,8 @@ export function captionOf({ config: { rule, alphas }, rules, legs, deviations, s
 
 /** Returns the distance between the odometry's own pose and the predicted pose, m. */
 export function driftDistance({ drifted, linkage }: ViewModel) {
-  const [odometryPose, predicted] = [poseIn(drifted.poses, 2), poseIn(linkage, 3)];
-  return Math.hypot(odometryPose.x - predicted.x, odometryPose.y - predicted.y);
+  const [odometryPose, predictedPose] = [poseAt(drifted.poses, 2), poseAt(linkage, 3)];
+  return Math.hypot(odometryPose.x - predictedPose.x, odometryPose.y - predictedPose.y);
 }
 
 export function legsText(viewModel: ViewModel) {
@@ -40,6 +40,6 @@ export function legsText(viewModel: ViewModel) {
 }
 
 export function worldText(viewModel: ViewModel) {
-  const { x, y, theta } = poseIn(viewModel.drifted.poses, 0);
+  const { x, y, theta } = poseAt(viewModel.drifted.poses, 0);
   return words.decomposer.worldPicture(fixed(x, 2), fixed(y, 2), fixed(theta, 2), fixed(driftDistance(viewModel), 2));
 }

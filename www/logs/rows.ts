@@ -35,8 +35,8 @@ const JUMP_FACTOR = 8;
 const [MIN_ROWS, MIN_POSES] = [10, 20];
 
 /**
- * Limits for late rows, which are close to another row in time if the clock was set back: maximum distance in median steps, maximum number of
- * such rows in a run of rising times, and their maximum fraction of all rows.
+ * Limits for late rows. If the clock was set back, many of them are close to another row in time: maximum distance of two such rows in median
+ * steps, their maximum number in a run of rising times, and their maximum fraction of all rows.
  */
 const [MAX_OVERLAP_STEPS, MAX_RUN_OVERLAPS, MAX_OVERLAP_FRACTION] = [0.75, 2, 0.02];
 

@@ -3,7 +3,7 @@
 import { least } from 'd3-array';
 import { type Clock, type Group, type Layout, logLayoutOf } from './columns.ts';
 import { type Format, splitCells, detectTableFormat } from './format.ts';
-import { LogError, readBytes, truncate, listNames, type ErrorPlace } from './log-error.ts';
+import { LogError, readBytes, truncate, listNames, type ErrorPlace, type Words } from './log-error.ts';
 import type { Log, Note, OpenOptions, Question, Recording, Series, Source, Summary, TimeUnit } from './log.ts';
 import { parseDate, parseNumber, parseTime } from './numbers.ts';
 import { quantile, sampleEvenly } from './quantile.ts';
@@ -119,7 +119,8 @@ function withYAxisUp(group: Group): Group {
 
 /** Returns a reader of the times of a table. If no unit is stated, the first time that is not 0 determines it. */
 function clockReader({ columns: [{ at }, subseconds], unit: namedUnit }: Clock, statedUnit: TimeUnit | undefined, textOf: (cell: string) => string) {
-  const judged: { unit?: TimeUnit; by: Summary['units']['time']['by'] } = { unit: statedUnit ?? namedUnit, by: statedUnit ? 'option' : namedUnit ? 'name' : 'usage' };
+  const by = statedUnit ? 'option' : namedUnit ? 'name' : 'usage';
+  const judged: { unit?: TimeUnit; by: Summary['units']['time']['by'] } = { unit: statedUnit ?? namedUnit, by };
   let isDate: boolean | undefined;
   /** Returns the time of a row in seconds; undefined if its cell is neither a number nor a date. */
   const read = (cells: string[]): number | undefined => {
@@ -229,7 +230,8 @@ function logReader(name: string, place: ErrorPlace, format: Format, group: Group
       if (damageReason && damagedRows > MAX_DAMAGED_FRACTION * rows.count) {
         const reason = damageReason;
         const isMixed = damagedRows > 1 && damagedRows < rows.count;
-        throw new LogError({ ...place, line: firstDamagedLine }, (texts) => [reason(texts), ...(isMixed ? [texts.manyBad(damagedRows, rows.count, 100 * MAX_DAMAGED_FRACTION)] : [])].join(' '));
+        const sentences = (texts: Words['refused']) => [reason(texts), ...(isMixed ? [texts.manyBad(damagedRows, rows.count, 100 * MAX_DAMAGED_FRACTION)] : [])];
+        throw new LogError({ ...place, line: firstDamagedLine }, (texts) => sentences(texts).join(' '));
       }
       if (rowNames.size > 1) refuse((texts) => texts.mixed(listNames([...rowNames])));
       if (this.tiltSpread > MAX_TILT_SPREAD) refuse((texts) => texts.tilted, { what: 'columns', choices: [], columns: names });

@@ -141,7 +141,8 @@ function alignmentWithPath(t: Float64Array, x: Float64Array, y: Float64Array, he
     }
   }
   // The mean resultant length is 1 if all differences are equal, and near 0 if they are random.
-  const [best, second] = candidates.map(({ unit, sign, cosine, sine }) => ({ unit, sign, alignment: Math.hypot(cosine, sine) / stepCount })).sort((one, other) => other.alignment - one.alignment);
+  const alignments = candidates.map(({ unit, sign, cosine, sine }) => ({ unit, sign, alignment: Math.hypot(cosine, sine) / stepCount }));
+  const [best, second] = alignments.sort((one, other) => other.alignment - one.alignment);
   return stepCount >= MIN_STEPS && best.alignment > MIN_ALIGNMENT && best.alignment - second.alignment > MIN_ALIGNMENT_LEAD ? best : undefined;
 }
 

@@ -3,9 +3,9 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { en } from '../../www/widgets/alpha-calibrator/en.ts';
-import { alphaOrBound, correctionAdvice, formatInterval as ends, formatEstimate, nav2Lines, formatNumber } from '../../www/widgets/alpha-calibrator/lines.ts';
+import { formatAlphaOrBound, correctionAdvice, formatInterval as ends, formatEstimate, nav2Lines, formatNumber } from '../../www/widgets/alpha-calibrator/lines.ts';
 import { viewCornersOf } from '../../www/widgets/alpha-calibrator/pictures.ts';
-import { legClassesOf, truthApplies } from '../../www/widgets/alpha-calibrator/view-model.ts';
+import { legClassesOf, isTruthComparable } from '../../www/widgets/alpha-calibrator/view-model.ts';
 import { SIMULATED_LEGS } from '../../www/widgets/alpha-calibrator/settings.ts';
 import { localized } from '../../www/widgets/alpha-calibrator/words.ts';
 import { settings } from '../../www/settings.js';
@@ -39,7 +39,7 @@ test('numbers in files have the digits that the interval makes meaningful, and t
 });
 
 test('an α that rounds to 0 is an upper bound, and not 0', () => {
-  assert.deepEqual([alphaOrBound(1e-7, [0, 0.0016]), alphaOrBound(1e-7, [0, 0.0016], 2), alphaOrBound(0.03, [0.024, 0.036], 2)], ['≤ 0.0016', '≤ 0.0032', '0.060']);
+  assert.deepEqual([formatAlphaOrBound(1e-7, [0, 0.0016]), formatAlphaOrBound(1e-7, [0, 0.0016], 2), formatAlphaOrBound(0.03, [0.024, 0.036], 2)], ['≤ 0.0016', '≤ 0.0032', '0.060']);
 });
 
 /** Returns the result of a calibration of two α's. @param {object} [changedFields] replaces fields @returns {any} */
@@ -99,7 +99,7 @@ test('lines for Nav2 warn of failed checks, of another rule, and of a localizer 
 test('legs of the simulated log are those that the settings open with', () => {
   const config = Object.fromEntries(settings['alpha-calibrator'].map((setting) => [setting.key, setting.default]));
   assert.deepEqual(SIMULATED_LEGS, { distance: config.distance, angle: config.angle });
-  const hasTruth = (/** @type {object} */ changedFields) => truthApplies(/** @type {any} */ ({ truth: {}, fitted: { ...config, ...changedFields } }));
+  const hasTruth = (/** @type {object} */ changedFields) => isTruthComparable(/** @type {any} */ ({ truth: {}, fitted: { ...config, ...changedFields } }));
   assert.deepEqual([hasTruth({}), hasTruth({ distance: 0.3 }), hasTruth({ angle: 0.3 }), hasTruth({ duration: 1 }), hasTruth({ rule: 'nav2' })], [true, false, false, false, false]);
 });
 

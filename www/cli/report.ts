@@ -5,7 +5,7 @@ import { ROLES, type Summary } from '../logs/log.ts';
 import { warningsOf } from '../logs/pairs.ts';
 import { en as sharedTexts } from '../messages/en.ts';
 import { en } from '../widgets/alpha-calibrator/en.ts';
-import { SYSTEMATIC_ERRORS, alphaOrBound, correctionAdvice, formatInterval, failedChecksOf, formatEstimate, isOfNav2, missingAlphas, nav2Lines, formatPercent, formatNumber } from '../widgets/alpha-calibrator/lines.ts';
+import { SYSTEMATIC_ERRORS, formatAlphaOrBound, correctionAdvice, formatInterval, failedChecksOf, formatEstimate, isNav2Rule, missingAlphas, nav2Lines, formatPercent, formatNumber } from '../widgets/alpha-calibrator/lines.ts';
 
 type Interval = [number, number] | null;
 
@@ -108,9 +108,9 @@ function legLengthText({ distance, angle, duration }: { distance?: number; angle
 function alphaTable({ alphas, intervals, recommended }: any, model: string): string[] {
   const alphaRows = alphas.map((alpha: number | null, i: number) => [
     `alpha${i + 1}`,
-    alpha === null ? 'not identifiable' : alphaOrBound(alpha, intervals[i]),
+    alpha === null ? 'not identifiable' : formatAlphaOrBound(alpha, intervals[i]),
     formatInterval(intervals[i]),
-    recommended && alpha !== null ? alphaOrBound(alpha, intervals[i], recommended.inflation) : '–',
+    recommended && alpha !== null ? formatAlphaOrBound(alpha, intervals[i], recommended.inflation) : '–',
     sharedTexts.alphas[model === 'velocity' ? 'velocity' : 'odometry'][i][0],
   ]);
   return [...alignRows([['', 'fitted', '95 %', 'recommended', ''], ...alphaRows]), ...(recommended ? [recommended.reason] : [])];
@@ -170,7 +170,7 @@ function nav2Section(result: CalibrationResult): string[] {
 
 /** Returns a warning if the α's were fitted by another rule than that of Nav2's AMCL. */
 export const ruleWarning = ({ options: { model = 'odometry', rule = 'thrun' } }: Pick<CalibrationResult, 'options'>): string[] =>
-  (isOfNav2(model, rule) ? [] : ['Warning: fitted by another rule than Nav2’s; give --rule nav2.']);
+  (isNav2Rule(model, rule) ? [] : ['Warning: fitted by another rule than Nav2’s; give --rule nav2.']);
 
 /** Returns the lines for nav2_params.yaml, or the reason why there are none. */
 export function nav2Yaml({ calibration, options: { model = 'odometry', rule = 'thrun', legs }, logs, date }: CalibrationResult): { yaml: string; reason?: string } {

@@ -12,15 +12,15 @@ import { Memo } from '../../scene/memo.ts';
 import { group } from '../../ui/controls.ts';
 import { integer } from '../../ui/format.ts';
 import { startOverButton } from '../shared/presets.ts';
-import { legControls, legLengths, legReadouts, modelControls, predictionControls } from './controls.ts';
-import { diagnostics, regressionPanels } from './diagnostics.ts';
-import { LogService, isStopped } from './log-service.ts';
-import { copyMessage, copyButton, nav2Exports } from './nav2.ts';
+import { legControls, legLengthControls, legReadouts, modelControls, predictionControls } from './controls.ts';
+import { diagnosticsHtml, regressionPanels } from './diagnostics.ts';
+import { LogService, isAbortError } from './log-service.ts';
+import { copyMessage, copyButton, nav2ExportControls } from './nav2.ts';
 import { LogOpener, dropZone, logSection } from './open.ts';
 import { LegPicture, PathPicture } from './pictures.ts';
 import { SummaryPicture } from './summary-picture.ts';
 import { shownLegOf, viewModelOf, type ViewModel } from './view-model.ts';
-import { alphaTable, alphaTexts, verdictLine } from './readouts.ts';
+import { alphaTable, alphaTexts, verdictHtml } from './readouts.ts';
 import { NOISE_COMPONENTS, LINE_STYLES, definition, modelRuleOf } from './settings.ts';
 import { styles } from './styles.ts';
 import { systematicTable, systematicTexts } from './systematic.ts';
@@ -81,7 +81,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
 
   /** True while a log is read or fitted. */
   get isBusy() {
-    return this.service.isBusy || this.#opener.share !== undefined || this.viewModel?.isPending;
+    return this.service.isBusy || this.#opener.readFraction !== undefined || this.viewModel?.isPending;
   }
 
   disconnectedCallback() {
@@ -148,7 +148,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   };
 
   #report = (error: unknown) => {
-    if (!isStopped(error)) this.runtime.report(error);
+    if (!isAbortError(error)) this.runtime.report(error);
   };
 
   /**
@@ -180,7 +180,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
     try {
       await this.notice.showDuring(this.open(log, this.warnings), () => this.#revertSettings());
     } catch (error) {
-      if (!isStopped(error)) this.#revertSettings();
+      if (!isAbortError(error)) this.#revertSettings();
       this.#report(error);
     }
   }
@@ -235,7 +235,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
     return html`
       ${dropZone(this, this.#opener)}
       <div class="views">
-        <p part="caption" class="caption verdict">${this.renderer.afterFirstPicture(() => verdictLine(this))}</p>
+        <p part="caption" class="caption verdict">${this.renderer.afterFirstPicture(() => verdictHtml(this))}</p>
         ${titledPicture(texts.path, html`<div class="stage" part="picture" @click=${this.#chooseLegAt}>${pictureCanvas(this, this.#pathPicture, pathText(viewModel, chosen))}</div>`)}
         <div class="one">
           ${titledPicture(texts.oneLeg(integer(chosen + 1)), html`<div class="stage">${pictureCanvas(this, this.#legPicture, legText(this.predicted, chosen))}</div>`)}
@@ -245,9 +245,9 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
         <div class="fitted" part="readouts">
           <div class="buttons result">
             <p class="panel-title">${texts.alphas.title(texts.kinds[modelRuleOf(viewModel.fitted)])}</p>
-            ${copyButton(this, this.#opener.otherResults)} ${startOverButton(this, this.#startOver)}
+            ${copyButton(this, this.#opener.otherResultsNote)} ${startOverButton(this, this.#startOver)}
           </div>
-          <p class="to-do">${this.#opener.otherResults || judgementOf(viewModel, this.warnings).toDo}</p>
+          <p class="to-do">${this.#opener.otherResultsNote || judgementOf(viewModel, this.warnings).toDo}</p>
           ${alphaTable(viewModel)}
           <p class="reason muted small">${recommendationReason(viewModel)}</p>
           ${copyMessage(this)}
@@ -255,19 +255,19 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
       </div>
       ${this.renderer.afterFirstPicture(() => html`
       ${legend(this, LINE_STYLES)}
-      <div part="controls">${legLengths(this)}</div>
+      <div part="controls">${legLengthControls(this)}</div>
       ${disclosures(this, {
         controls: () => html`${modelControls(this)}
           ${group(texts.systematic.title, systematicTable(this))}
           ${group(texts.own.title, logSection(this))}
           ${predictionControls(this)}`,
         numbers: () => html`${group(texts.oneLeg(integer(chosen + 1)), legReadouts(this))}
-          ${diagnostics(this)}
+          ${diagnosticsHtml(this)}
           ${group(texts.panels.title, regressionPanels(this))}
-          ${group(texts.nav2.title, nav2Exports(this, this.#opener.otherResults))}`,
+          ${group(texts.nav2.title, nav2ExportControls(this, this.#opener.otherResultsNote))}`,
         csvTitle: texts.csvTitle,
       })}
-      ${this.#opener.logModules?.logSummary(this.#opener)}`)}
+      ${this.#opener.logModules?.logSummaryHtml(this.#opener)}`)}
     `;
   }
 }

@@ -57,13 +57,13 @@ export function predictionControls(figure: Figure) {
   return group(words.calibrator.prediction, html`${settingRadios(figure, 'noise', words.noises)} ${settingSlider(figure, 'inflation')}`, 'fit');
 }
 
-export function legLengths(figure: Figure) {
+export function legLengthControls(figure: Figure) {
   const off = figure.settings.requested.duration > 0;
   return group(words.calibrator.leg.group, html`<div class="controls">${settingSlider(figure, 'distance', { hasNoEffect: off })} ${settingSlider(figure, 'angle', { hasNoEffect: off })}</div>`);
 }
 
-export function referenceNoise(figure: Figure) {
-  const row = (key: string, unit: string) =>
+export function referenceNoiseControls(figure: Figure) {
+  const stdSlider = (key: string, unit: string) =>
     settingSlider(figure, key, { show: (std: number) => (std > 0 ? `${formatEditable(std, 3)} ${unit}` : words.calibrator.estimated) });
-  return html`<div class="controls">${row('positionStd', 'm')} ${row('yawStd', 'rad')}</div>`;
+  return html`<div class="controls">${stdSlider('positionStd', 'm')} ${stdSlider('yawStd', 'rad')}</div>`;
 }

@@ -7,18 +7,18 @@ import { NO_VALUE, integer, fixed, percent, formatRounded } from '../../ui/forma
 import { plot, type Curve } from '../../ui/plot.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
 import { subscriptOf } from '../shared/sliders.ts';
-import { adviceOf, alphaOrBound, isZero, missingMotion } from './lines.ts';
+import { adviceOf, formatAlphaOrBound, isZero, missingMotion } from './lines.ts';
 import { NOISE_COMPONENTS, type Regressor } from './settings.ts';
 import { checkText, expectedRangeText, checkMessage, localized, scaleByPowerOf1000 } from './words.ts';
 import type { CalibrationPanel } from '../../types.d.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
-export function diagnostics(figure: Figure) {
+export function diagnosticsHtml(figure: Figure) {
   const { checks, windows, noise, lost } = words.calibrator;
   return html`${group(checks.title, checksTable(figure))}
     ${group(windows.title, windowsTable(figure))}
     ${group(noise.title, noiseTable(figure))}
-    ${group(lost.title, lostLegs(figure))}`;
+    ${group(lost.title, lostLegsReadouts(figure))}`;
 }
 
 function checksTable({ viewModel: { stats: { diagnostics: { checks } } } }: Figure) {
@@ -47,24 +47,24 @@ function windowsTable({ viewModel: { stats: { diagnostics: { windows } } } }: Fi
 function noiseTable({ viewModel: { stats: { referenceNoise: { positionStd, yawStd }, persistence: { correlation, length } } } }: Figure) {
   const { noise: texts, systematic, settings, alphas: { interval: intervalName, between } } = words.calibrator;
   const formatStd = (value: number) => (value === 0 ? '0' : Number.isFinite(value) ? formatRounded(value, 2) : '∞');
-  const row = (name: string, { value, interval: [low, high] }: import('../../types.d.ts').Estimate) => [name, formatStd(value), between(formatStd(low), formatStd(high))];
+  const noiseRow = (name: string, { value, interval: [low, high] }: import('../../types.d.ts').Estimate) => [name, formatStd(value), between(formatStd(low), formatStd(high))];
   return figureTable({
     caption: texts.caption,
     columns: [texts.what, systematic.value, intervalName],
     rows: [
-      row(`${settings.positionStd.name} (m)`, positionStd),
-      row(`${settings.yawStd.name} (rad)`, yawStd),
-      row(texts.correlation, correlation),
+      noiseRow(`${settings.positionStd.name} (m)`, positionStd),
+      noiseRow(`${settings.yawStd.name} (rad)`, yawStd),
+      noiseRow(texts.correlation, correlation),
       [texts.length, length > 0 ? `${formatRounded(length, 2)} m` : NO_VALUE, NO_VALUE],
     ],
   });
 }
 
-function lostLegs({ viewModel: { stats: { lost }, legs } }: Figure) {
+function lostLegsReadouts({ viewModel: { stats: { lost }, legs } }: Figure) {
   const texts = words.calibrator.lost;
   const causes = ['withoutReference', 'acrossBreaks', 'acrossPauses', 'standing'] as const;
-  const outliers = legs.outliers.reduce((sum, is) => sum + is, 0);
-  return readoutList([...causes.map((cause) => [texts[cause], integer(lost[cause])] as [string, string]), [texts.outliers, integer(outliers)]]);
+  const outlierCount = legs.outliers.reduce((sum, isOutlier) => sum + isOutlier, 0);
+  return readoutList([...causes.map((cause) => [texts[cause], integer(lost[cause])] as [string, string]), [texts.outliers, integer(outlierCount)]]);
 }
 
 /** Minimum squared distance or rotation at the end of an axis: (1 mm)², or (1 mrad)². */
@@ -94,22 +94,22 @@ function panelPlot({ alpha, x, y, error, slope, interval }: CalibrationPanel, ki
   // A log without rotation or without translation has an empty axis.
   const axisEnd = maxRegressor > MIN_REGRESSOR ? 1.06 * maxRegressor : 1;
   // The axis has half as much space for error bars as for the bins and the line. A longer bar is cut, so that it does not compress all others.
-  const [lowest, highest] = [Math.min(0, ...y), Math.max(x.length ? 1e-12 : 1, (slope ?? 0) * axisEnd, ...y)];
-  const [axisBottom, axisTop] = [1.5 * lowest, 1.5 * highest];
-  const { scaled, unit } = scaleByPowerOf1000(Math.max(axisTop, -axisBottom));
-  const sub = subscriptOf(alpha);
+  const [minSquare, maxSquare] = [Math.min(0, ...y), Math.max(x.length ? 1e-12 : 1, (slope ?? 0) * axisEnd, ...y)];
+  const [axisBottom, axisTop] = [1.5 * minSquare, 1.5 * maxSquare];
+  const { scaled: scale, unit } = scaleByPowerOf1000(Math.max(axisTop, -axisBottom));
+  const subscript = subscriptOf(alpha);
   const [low, high] = interval ?? [NaN, NaN];
   const slopeMiddle = (low + high) / 2;
   const slopeLines: Curve[] = slope === null ? [] : [
-    { name: texts.slope(sub), role: 'prediction', x: [0, axisEnd], y: [0, scaled(slope * axisEnd)] },
-    { name: words.calibrator.alphas.interval, role: 'cloud', area: true, x: [0, axisEnd], y: [0, scaled(slopeMiddle * axisEnd)], error: [0, scaled(((high - low) / 2) * axisEnd)] },
+    { name: texts.slope(subscript), role: 'prediction', x: [0, axisEnd], y: [0, scale(slope * axisEnd)] },
+    { name: words.calibrator.alphas.interval, role: 'cloud', area: true, x: [0, axisEnd], y: [0, scale(slopeMiddle * axisEnd)], error: [0, scale(((high - low) / 2) * axisEnd)] },
   ];
   return {
-    label: texts.label(kind, String(alpha + 1), slope === null ? NO_VALUE : localized(alphaOrBound(slope, interval))),
+    label: texts.label(kind, String(alpha + 1), slope === null ? NO_VALUE : localized(formatAlphaOrBound(slope, interval))),
     x: { name: axis, from: 0, to: axisEnd },
-    y: { name: `${kind}, ${texts.axis}${unit && ` (${unit})`}`, from: scaled(axisBottom), to: scaled(axisTop) },
+    y: { name: `${kind}, ${texts.axis}${unit && ` (${unit})`}`, from: scale(axisBottom), to: scale(axisTop) },
     curves: [...slopeLines, { name: texts.bins, role: 'ink', x: [], y: [] }],
-    points: x.map((value, i) => ({ role: 'ink' as const, x: value, y: scaled(y[i]), error: scaled(error[i]) })),
+    points: x.map((value, i) => ({ role: 'ink' as const, x: value, y: scale(y[i]), error: scale(error[i]) })),
   };
 }
 
@@ -117,6 +117,6 @@ function panelPlot({ alpha, x, y, error, slope, interval }: CalibrationPanel, ki
 function identifiabilityNote({ alpha, slope, interval }: CalibrationPanel, { fitted: { model } }: import('./view-model.ts').ViewModel) {
   const { panels: texts, alphas: { lacking } } = words.calibrator;
   if (slope !== null && !isZero(slope, interval)) return '';
-  const sub = subscriptOf(alpha);
-  return html`<p class="note">${formatMarkup(slope === null ? texts.noSlope(sub) : texts.zero(sub, adviceOf(lacking, model, missingMotion(model, alpha)).drive))}</p>`;
+  const subscript = subscriptOf(alpha);
+  return html`<p class="note">${formatMarkup(slope === null ? texts.noSlope(subscript) : texts.zero(subscript, adviceOf(lacking, model, missingMotion(model, alpha)).drive))}</p>`;
 }

@@ -47,7 +47,7 @@ export const SYSTEMATIC_ERRORS = ['clockOffset', 'mountYaw', 'leverArm', 'distan
 export const NAV2_RULES = ['nav2', 'omni'];
 
 /** Returns true if Nav2 can use α's that were fitted with a model and a noise rule. */
-export const isOfNav2 = (model: string, rule: string): boolean => model !== 'odometry' || NAV2_RULES.includes(rule);
+export const isNav2Rule = (model: string, rule: string): boolean => model !== 'odometry' || NAV2_RULES.includes(rule);
 
 export const formatNumber = (value: number | null, digits = VALUE_DIGITS) => (value !== null && Number.isFinite(value) ? withPointInMantissa(String(Number(value.toPrecision(digits)))) : NO_NUMBER);
 
@@ -55,15 +55,15 @@ export const formatNumber = (value: number | null, digits = VALUE_DIGITS) => (va
 const withPointInMantissa = (number: string) => number.replace(/^(-?\d)e/, '$1.0e');
 
 /** Adds a decimal to a whole number, because Nav2 refuses integers for parameters of type double. */
-const withDecimals = (number: string) => (number.includes('.') ? number : `${number}.0`);
+const withDecimalPoint = (number: string) => (number.includes('.') ? number : `${number}.0`);
 
 /** Prints a value with the decimals that are significant for its interval. */
 export function formatEstimate(value: number | null, interval: Interval | undefined) {
   const intervalWidth = interval ? interval[1] - interval[0] : 0;
   if (value === null || !(Math.abs(value) < MAX_PLAIN_NUMBER) || !(intervalWidth > 0 && intervalWidth < Infinity)) return formatNumber(value);
-  const decimals = WIDTH_DIGITS - 1 - Math.floor(Math.log10(intervalWidth));
-  if (intervalWidth >= MIN_PLAIN_NUMBER || Math.abs(value) >= MIN_PLAIN_NUMBER) return value.toFixed(Math.max(0, Math.min(MAX_DECIMALS, decimals)));
-  const mantissaDecimals = decimals + Math.floor(Math.log10(Math.abs(value)));
+  const decimalCount = WIDTH_DIGITS - 1 - Math.floor(Math.log10(intervalWidth));
+  if (intervalWidth >= MIN_PLAIN_NUMBER || Math.abs(value) >= MIN_PLAIN_NUMBER) return value.toFixed(Math.max(0, Math.min(MAX_DECIMALS, decimalCount)));
+  const mantissaDecimals = decimalCount + Math.floor(Math.log10(Math.abs(value)));
   return mantissaDecimals < 0 ? '0' : withPointInMantissa(value.toExponential(Math.min(MAX_DECIMALS, mantissaDecimals)));
 }
 
@@ -76,12 +76,12 @@ export const isZero = (alpha: number | null, interval: Interval | undefined) => 
 export const formatPercent = (fraction: number | null) => (fraction !== null && Number.isFinite(fraction) ? `${formatNumber(100 * fraction)} %` : NO_NUMBER);
 
 /** Prints the upper end of an interval. */
-const upperEnd = (interval: Interval | undefined) => formatNumber(interval?.[1] ?? null, WIDTH_DIGITS);
+const formatUpperEnd = (interval: Interval | undefined) => formatNumber(interval?.[1] ?? null, WIDTH_DIGITS);
 
-const scaledInterval = (interval: Interval, factor: number): Interval => interval && [factor * interval[0], factor * interval[1]];
+const scaleInterval = (interval: Interval, factor: number): Interval => interval && [factor * interval[0], factor * interval[1]];
 
 /** Prints an α times a factor, or its upper bound if it is not significantly different from 0. */
-export const alphaOrBound = (alpha: number | null, interval: Interval, factor = 1) => (isZero(alpha, interval) ? `≤ ${upperEnd(scaledInterval(interval, factor))}` : formatEstimate(alpha && factor * alpha, scaledInterval(interval, factor)));
+export const formatAlphaOrBound = (alpha: number | null, interval: Interval, factor = 1) => (isZero(alpha, interval) ? `≤ ${formatUpperEnd(scaleInterval(interval, factor))}` : formatEstimate(alpha && factor * alpha, scaleInterval(interval, factor)));
 
 /** Returns texts for a reason: what the log lacks, and the drive that would identify the α. */
 export function adviceOf(lacking: typeof import('./en.ts').en.alphas.lacking, model: string, reason: keyof typeof lacking) {
@@ -115,10 +115,10 @@ export function nav2Lines({ calibration, count, model, rule, legs, log, warnings
   const { inflation } = recommended;
   const { distance, angle, duration } = legs;
   const failedNames = failedChecksOf(checks).map(({ name }) => name).join(', ');
-  const noteTexts = [
+  const notes = [
     texts.of(String(count), duration === undefined ? texts.moved(formatNumber(distance ?? null), formatNumber(angle ?? null)) : texts.lasted(formatNumber(duration)), log, date),
     texts.recommended(formatNumber(inflation), formatPercent(window.coverage), String(window.count)),
-    ...(isOfNav2(model, rule) ? [] : [texts.otherRule]),
+    ...(isNav2Rule(model, rule) ? [] : [texts.otherRule]),
     ...correctedErrorsText(systematicErrors).map((errors) => texts.corrected(errors)),
     ...correctionAdvice(calibration, texts),
     ...(failedNames ? [texts.failed(failedNames)] : []),
@@ -127,13 +127,13 @@ export function nav2Lines({ calibration, count, model, rule, legs, log, warnings
   const alphaLines = alphas.map((alpha: number | null, i: number) => {
     const interval = intervals[i];
     if (alpha === null) return `# alpha${i + 1}: ${texts.notIdentifiable}`;
-    if (isZero(alpha, interval)) return `# alpha${i + 1}: ${texts.zero(upperEnd(scaledInterval(interval, inflation)))}`;
-    const formattedAlpha = formatEstimate(inflation * alpha, scaledInterval(interval, inflation));
+    if (isZero(alpha, interval)) return `# alpha${i + 1}: ${texts.zero(formatUpperEnd(scaleInterval(interval, inflation)))}`;
+    const formattedAlpha = formatEstimate(inflation * alpha, scaleInterval(interval, inflation));
     if (inflation * alpha > MAX_PLAUSIBLE_ALPHA) return `# alpha${i + 1}: ${formattedAlpha}, ${texts.tooLarge}`;
-    return `alpha${i + 1}: ${withDecimals(formattedAlpha)}  # ${texts.fitted(formatEstimate(alpha, interval), formatInterval(interval))}`;
+    return `alpha${i + 1}: ${withDecimalPoint(formattedAlpha)}  # ${texts.fitted(formatEstimate(alpha, interval), formatInterval(interval))}`;
   });
   // A line break in a file's name would end the comment.
-  const commentLines = noteTexts.map((note) => `# ${note.replaceAll(/\s+/g, ' ')}`);
+  const commentLines = notes.map((note) => `# ${note.replaceAll(/\s+/g, ' ')}`);
   const fifthAlphaNote = alphas.length < 5 ? [`# ${texts.fifth}`] : [];
   // The α's belong to the legs of the log, which are longer than asked if its rows are sparse.
   const sparseCheck = failedChecksOf<{ name: string, passed: boolean, message: string, value: number }>(checks).find(({ name }) => name === 'sampling-dense');
@@ -141,7 +141,7 @@ export function nav2Lines({ calibration, count, model, rule, legs, log, warnings
   const updateTriggers = duration === undefined
     ? [
       ...(sparseCheck ? [`# ${texts.longerLegs(formatNumber(legRatio))}`] : []),
-      ...Object.entries({ update_min_d: distance, update_min_a: angle }).map(([name, value]) => `${name}: ${withDecimals(formatNumber(value === undefined ? null : legRatio * value))}`),
+      ...Object.entries({ update_min_d: distance, update_min_a: angle }).map(([name, value]) => `${name}: ${withDecimalPoint(formatNumber(value === undefined ? null : legRatio * value))}`),
     ]
     : [];
   const parameterLines = [...commentLines, `robot_model_type: "${NAV2_PLUGINS[model]}"`, ...alphaLines, ...fifthAlphaNote, ...updateTriggers];
@@ -154,13 +154,13 @@ export const failedChecksOf = <Check extends { name: string, passed: boolean, me
  * Returns a sentence that says how to correct the robot's odometry, because AMCL gets the odometry as the robot reports it. The sentence
  * has the scales that were corrected and differ from 1 beyond their intervals. There is none without such scales or recommended α's.
  *
- * @param print formats numbers
+ * @param formatLocally formats numbers
  */
-export function correctionAdvice({ recommended, systematicErrors }: any, texts: Words, print = (number: string) => number): string[] {
+export function correctionAdvice({ recommended, systematicErrors }: any, texts: Words, formatLocally = (number: string) => number): string[] {
   if (!recommended) return [];
   const [distance, turn] = ['distanceScale', 'turnScale'].map((key) => {
     const { value, interval, corrected } = systematicErrors[key];
-    return corrected && interval && (interval[0] > 1 || interval[1] < 1) ? print(formatEstimate(value, interval)) : '';
+    return corrected && interval && (interval[0] > 1 || interval[1] < 1) ? formatLocally(formatEstimate(value, interval)) : '';
   });
   return distance || turn ? [texts.correctFirst(distance, turn)] : [];
 }

@@ -20,13 +20,13 @@ const COLUMN_FIELDS = ['t', 'x', 'y', 'yaw', 'qx', 'qy', 'qz', 'qw', 'v', 'omega
 const MAX_CELL_LENGTH = 16;
 
 /** Returns the name of a choice: its series, with the frames of transforms. */
-export const labelOf = ({ series, frames }: LogChoice) => (frames ? `${series}: ${framesText(frames)}` : series);
+export const choiceLabel = ({ series, frames }: LogChoice) => (frames ? `${series}: ${framesText(frames)}` : series);
 
 /** Returns all logs that can be chosen for a role, with labels. Each pair of frames is a separate choice. */
-function optionsOf(recording: Recording, role?: Role): [label: string, LogChoice][] {
+function labelledChoicesOf(recording: Recording, role?: Role): [label: string, LogChoice][] {
   const usableSeries = readableSeries(recording).filter(({ kind }) => role !== 'reference' || kind !== 'commands');
   const choices = usableSeries.flatMap(({ name: series, kind, frames = [] }): LogChoice[] => (kind === 'transforms' ? frames.map((pair) => ({ series, frames: pair })) : [{ series }]));
-  return choices.map((choice) => [labelOf(choice) || recording.name, choice]);
+  return choices.map((choice) => [choiceLabel(choice) || recording.name, choice]);
 }
 
 /** Returns the form controls for the open choices about the present files. */
@@ -34,20 +34,20 @@ export function logChoosers(opener: LogOpener) {
   const { chosen, texts } = opener;
   if (!chosen || !texts) return nothing;
   const { recordings, skipped, questions, plan } = chosen;
-  const hasOneLog = (recording: Recording) => optionsOf(recording).length === 1;
+  const hasOneLog = (recording: Recording) => labelledChoicesOf(recording).length === 1;
   const roleChoosers = [
     ...(recordings.every(hasOneLog) ? [] : ROLES.map((role) => seriesSelect(opener, chosen, role, texts))),
     ...(recordings.length > 1 ? recordings.flatMap((recording, index) => (hasOneLog(recording) ? [roleSelect(opener, chosen, index, texts)] : [])) : []),
   ];
   return html`<div class="choosers">
     ${roleChoosers.length ? html`<div class="choices">${roleChoosers}</div>` : nothing}
-    ${questions.map((question) => questionOf(opener, chosen, question, texts))}
+    ${questions.map((question) => questionHtml(opener, chosen, question, texts))}
     ${[...skipped, ...(plan?.unused ?? [])].filter((failure) => failure !== opener.refusal).map((failure) => html`<p class="muted">${texts.choose.skipped(opener.explain(failure))}</p>`)}
   </div>`;
 }
 
-function selectField(id: string, label: string, value: string, options: [value: string, label: string][], choose: (value: string) => void, open: string) {
-  const allOptions = options.some(([optionValue]) => optionValue === value) ? options : [['', open], ...options];
+function selectField(id: string, label: string, value: string, options: [value: string, label: string][], choose: (value: string) => void, placeholder: string) {
+  const allOptions = options.some(([optionValue]) => optionValue === value) ? options : [['', placeholder], ...options];
   return html`<label>
     ${label}
     <select id=${id} aria-label=${label} aria-describedby="refusal" @change=${(event: Event) => choose((event.target as HTMLSelectElement).value)}>
@@ -57,10 +57,10 @@ function selectField(id: string, label: string, value: string, options: [value: 
 }
 
 function seriesSelect(opener: LogOpener, { recordings, userChoices, plan }: ChosenFiles, role: Role, { choose: texts }: LogWords) {
-  const choiceByLabel = new Map(recordings.flatMap((recording) => optionsOf(recording, role)));
+  const choiceByLabel = new Map(recordings.flatMap((recording) => labelledChoicesOf(recording, role)));
   const [plannedLog] = plan ? [...plan.drives.map((drive) => drive[role]), ...plan.unpaired[role]] : [];
   const currentChoice = (userChoices[role] as LogChoice | undefined) ?? plannedLog?.choice ?? likeliestChoice(recordings[0], role, opener.kind);
-  return selectField(`log-${role}`, texts.roles[role], currentChoice ? labelOf(currentChoice) || (plannedLog?.recording ?? recordings[0]).name : '', [...choiceByLabel.keys()].map((label) => [label, label]), (label) => {
+  return selectField(`log-${role}`, texts.roles[role], currentChoice ? choiceLabel(currentChoice) || (plannedLog?.recording ?? recordings[0]).name : '', [...choiceByLabel.keys()].map((label) => [label, label]), (label) => {
     const choice = choiceByLabel.get(label);
     if (choice) opener.change({ userChoices: { ...userChoices, [role]: choice } });
   }, texts.open);
@@ -79,12 +79,12 @@ function roleSelect(opener: LogOpener, { recordings, roles, plan }: ChosenFiles,
     const role = value as Role;
     const changedRoles = new Map(roles).set(index, role);
     // If there are two files, the other file gets the other role.
-    if (recordings.length === 2 && optionsOf(recordings[1 - index]).length === 1) changedRoles.set(1 - index, role === 'odometry' ? 'reference' : 'odometry');
+    if (recordings.length === 2 && labelledChoicesOf(recordings[1 - index]).length === 1) changedRoles.set(1 - index, role === 'odometry' ? 'reference' : 'odometry');
     opener.change({ roles: changedRoles });
   }, texts.open);
 }
 
-function questionOf(opener: LogOpener, { answers }: ChosenFiles, asked: OpenQuestion, { choose: texts }: LogWords) {
+function questionHtml(opener: LogOpener, { answers }: ChosenFiles, asked: OpenQuestion, { choose: texts }: LogWords) {
   const { file, ask: { what, choices } } = asked;
   if (what === 'columns') return columnsForm(opener, asked, answers[file]?.columns, texts);
   if (what !== 'timeUnit' && what !== 'lengthUnit' && what !== 'angleUnit') return nothing;
@@ -142,20 +142,20 @@ const [WIDTH, HEIGHT, MARGIN] = [220, 150, 4];
 const MAX_POINTS = 1500;
 
 /** Returns the summary of the logs of each drive. It is shown while the logs are fitted, and below the result. */
-export function logSummary({ chosen, texts, host }: LogOpener) {
+export function logSummaryHtml({ chosen, texts, host }: LogOpener) {
   // The page may have set another log in the meantime.
   if (!chosen?.drives || !texts || (chosen.log && chosen.log !== host.log)) return nothing;
   const { drives } = chosen;
   return html`<details class="found" open>
     <summary>${texts.found.title}</summary>
     ${guard([drives, texts, language], () => drives.map((drive, i) => html`<div class="drive">
-      ${tableOf(drive, drives.length > 1 ? texts.found.drive(i + 1) : '', texts)}
+      ${logTable(drive, drives.length > 1 ? texts.found.drive(i + 1) : '', texts)}
       ${pathsPicture(drive, texts)}
     </div>`))}
   </details>`;
 }
 
-function tableOf({ odometry, reference }: Drive, caption: string, { choose, found }: LogWords) {
+function logTable({ odometry, reference }: Drive, caption: string, { choose, found }: LogWords) {
   const logs = [odometry, reference];
   const lines = logs.map((log) => summaryLines(log, found));
   const tableCell = (texts: string[] = []) => html`<td>${texts.length ? texts.map((text, i) => html`${i ? html`<br />` : nothing}${text}`) : '—'}</td>`;

@@ -25,7 +25,7 @@ export class LogFailure extends Error {
 }
 
 /** Returns true if a request was aborted, which needs no message. */
-export const isStopped = (error: unknown) => error instanceof DOMException && error.name === 'AbortError';
+export const isAbortError = (error: unknown) => error instanceof DOMException && error.name === 'AbortError';
 
 /** Client of the worker. It makes one request at a time. */
 export class LogService {
@@ -46,7 +46,7 @@ export class LogService {
     return this.#rejectRequest !== undefined;
   }
 
-  get #connected() {
+  get #connection() {
     return (this.#workerLink ??= connectService(this.#tag));
   }
 
@@ -86,27 +86,27 @@ export class LogService {
   }
 
   #ask<Result>(method: WorkerRequest['method'], parameters: unknown[], onProgress?: OnProgress): Promise<Result> {
-    const number = ++this.#requestNumber;
-    const answerPromise = new Promise<Result>((resolve, reject) => {
+    const requestNumber = ++this.#requestNumber;
+    const resultPromise = new Promise<Result>((resolve, reject) => {
       this.#rejectRequest = reject;
       const postRequest = async () => {
-        const { port } = await this.#connected;
-        if (number !== this.#requestNumber) return;
+        const { port } = await this.#connection;
+        if (requestNumber !== this.#requestNumber) return;
         port.onmessage = ({ data }: MessageEvent<WorkerAnswer>) => {
           if (data.number !== this.#requestNumber) return;
           if ('progress' in data) onProgress?.(data.progress);
           else if ('failure' in data) reject(new LogFailure(data.failure));
           else resolve(data.result as Result);
         };
-        port.postMessage({ number, method, parameters } satisfies WorkerRequest);
+        port.postMessage({ number: requestNumber, method, parameters } satisfies WorkerRequest);
       };
       postRequest().catch((error) => {
         this.#workerLink = undefined;
         reject(error);
       });
     });
-    return answerPromise.finally(() => {
-      if (number === this.#requestNumber) this.#rejectRequest = undefined;
+    return resultPromise.finally(() => {
+      if (requestNumber === this.#requestNumber) this.#rejectRequest = undefined;
     });
   }
 }

@@ -38,7 +38,7 @@ export function copyButton(figure: Figure, obstacle: string) {
 export const copyMessage = (figure: Figure) => figure.copyMenu.messageHtml('nav2', yamlOf(figure));
 
 /** Returns the lines, and the button that saves all results. `obstacle` is the reason why it is disabled, or empty. */
-export function nav2Exports(figure: Figure, obstacle: string) {
+export function nav2ExportControls(figure: Figure, obstacle: string) {
   const texts = words.calibrator.nav2;
   const yaml = yamlOf(figure);
   const fileName = `${figure.localName}-${figure.viewModel.config.seed}.json`;

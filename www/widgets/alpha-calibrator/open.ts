@@ -4,8 +4,8 @@ import { html, nothing } from 'lit';
 import { language, words } from '../../messages/registry.ts';
 import { button } from '../../ui/controls.ts';
 import { FileOpener } from '../shared/files.ts';
-import { referenceNoise } from './controls.ts';
-import { isStopped, type LogFailure } from './log-service.ts';
+import { referenceNoiseControls } from './controls.ts';
+import { isAbortError, type LogFailure } from './log-service.ts';
 import type { Drive, LogPlan, UserChoices } from '../../logs/drives.ts';
 import type { OpenOptions, Question, Recording, Role } from '../../logs/log.ts';
 import type { CalibrationLog } from '../../types.d.ts';
@@ -54,7 +54,7 @@ export class LogOpener extends FileOpener<Figure> {
   /** Modules that plan and show logs, with their texts. They are loaded when a file is chosen. */
   logModules: LogModules | undefined;
   /** Fraction of the files that has been read; undefined if no file is being read. */
-  share: number | undefined;
+  readFraction: number | undefined;
   /** Value of `kind` when the log was read. */
   #preferredKind: 'commands' | undefined;
 
@@ -71,11 +71,11 @@ export class LogOpener extends FileOpener<Figure> {
   /** Reads the files again if the model has changed and prefers another odometry in them. */
   hostUpdated() {
     const { chosen } = this;
-    if (!chosen?.log || chosen.log !== this.host.log || this.share !== undefined || this.#preferredKind === this.kind) return;
-    const choicesBefore = planAsText(chosen.plan);
+    if (!chosen?.log || chosen.log !== this.host.log || this.readFraction !== undefined || this.#preferredKind === this.kind) return;
+    const previousPlanText = planText(chosen.plan);
     this.#restart(async (logModules) => {
       const plan = planOf(logModules, chosen, this.kind);
-      if (planAsText(plan) !== choicesBefore) await this.#read(chosen, plan, logModules);
+      if (planText(plan) !== previousPlanText) await this.#read(chosen, plan, logModules);
     });
   }
 
@@ -94,8 +94,8 @@ export class LogOpener extends FileOpener<Figure> {
   }
 
   /** Sentence that the results are those of another log, while the chosen files are refused; empty otherwise. */
-  get otherResults() {
-    return this.refusal === undefined || isStopped(this.refusal) ? '' : words.calibrator.own.still(this.host.logName);
+  get otherResultsNote() {
+    return this.refusal === undefined || isAbortError(this.refusal) ? '' : words.calibrator.own.still(this.host.logName);
   }
 
   stop() {
@@ -111,14 +111,14 @@ export class LogOpener extends FileOpener<Figure> {
 
   /** Shows that no log is being read, and lets the figure apply the changes that waited for the end of reading. */
   #setIdle() {
-    this.share = undefined;
+    this.readFraction = undefined;
     this.host.settings.isStale = true;
     this.host.renderer.requestFrame();
     this.host.requestUpdate();
   }
 
   choose(files: File[]) {
-    const logFiles = files.filter(mayBeLog);
+    const logFiles = files.filter(isPossibleLog);
     this.#open({ files: logFiles.length ? logFiles : files, recordings: [], skipped: [], answers: {}, questions: [], userChoices: {}, roles: new Map() });
   }
 
@@ -167,8 +167,8 @@ export class LogOpener extends FileOpener<Figure> {
     const { service } = this.host;
     chosen.plan = plan;
     if (!service.isOpen) await service.open(chosen.files, chosen.answers);
-    const drives = await service.read(plan, (share) => {
-      this.share = share;
+    const drives = await service.read(plan, (readFraction) => {
+      this.readFraction = readFraction;
       this.host.requestUpdate();
     });
     const log = { name: logNameOf(plan, logModules), ...logModules.calibrationLogOf(drives) };
@@ -185,7 +185,7 @@ export class LogOpener extends FileOpener<Figure> {
   }
 
   explain(refusal: Error & Partial<LogError & LogFailure>) {
-    if (isStopped(refusal)) return words.progress.stopped;
+    if (isAbortError(refusal)) return words.progress.stopped;
     const { message, sentence, sentences, ask } = refusal;
     const refusalReason = sentences?.[language === 'de' ? 'de' : 'en'] ?? (sentence && this.texts ? sentence(this.texts) : words.calibrator.own.refused(message));
     return [refusalReason, ...(ask?.what === 'other' && this.texts ? [this.texts.choose.other] : [])].join(' ');
@@ -193,7 +193,7 @@ export class LogOpener extends FileOpener<Figure> {
 
   /** Shows why a log was refused, and what to choose. */
   async refuse(error: Error & Partial<LogError & LogFailure>) {
-    if (isStopped(error)) return;
+    if (isAbortError(error)) return;
     const { ask, file, place } = error;
     const { chosen } = this;
     const newQuestion = ask && chosen && { file: file ?? place?.file ?? '', ask };
@@ -205,28 +205,28 @@ export class LogOpener extends FileOpener<Figure> {
   async #restart(work: (logModules: LogModules) => Promise<void>) {
     this.host.service.stop();
     this.#preferredKind = this.kind;
-    this.share = 0;
+    this.readFraction = 0;
     const isLatest = await this.runAttempt(async () => work(this.logModules ??= await loadLogModules()));
     if (isLatest) this.#setIdle();
   }
 }
 
 /** Checks whether a file may be a log, because folders also have other files. */
-const mayBeLog = ({ name, path }: File & { path?: string }) => path === undefined || name === 'metadata.yaml' || [...EXTENSIONS.slice(0, -1), '-wal'].some((extension) => name.endsWith(extension));
+const isPossibleLog = ({ name, path }: File & { path?: string }) => path === undefined || name === 'metadata.yaml' || [...EXTENSIONS.slice(0, -1), '-wal'].some((extension) => name.endsWith(extension));
 
 function planOf(logModules: LogModules, { recordings, userChoices, roles }: ChosenFiles, kind: 'commands' | undefined): LogPlan {
   return logModules.planDrives(recordings, { ...userChoices, kind, roles: new Map([...roles].map(([index, role]) => [recordings[index], role])) });
 }
 
 /** Returns the choices of a plan as a text, to compare plans. */
-const planAsText = (plan: LogPlan | undefined) => JSON.stringify(plan && [plan.drives, plan.unpaired]);
+const planText = (plan: LogPlan | undefined) => JSON.stringify(plan && [plan.drives, plan.unpaired]);
 
 /** Returns the name of a log: its files, and the topics if one recording has both. */
 function logNameOf({ drives, unpaired }: LogPlan, logModules: LogModules) {
   const plannedLogs = [...drives.map(({ odometry }) => odometry), ...unpaired.odometry, ...unpaired.reference];
   const names = plannedLogs.map(({ recording }) => recording.name);
   const [onlyDrive] = plannedLogs.length === 1 ? drives : [];
-  return [...names.slice(0, MAX_NAMED_FILES), ...(names.length > MAX_NAMED_FILES ? ['…'] : []), ...(onlyDrive ? [onlyDrive.odometry, onlyDrive.reference].map(({ choice }) => logModules.labelOf(choice)) : [])].filter(Boolean).join(', ');
+  return [...names.slice(0, MAX_NAMED_FILES), ...(names.length > MAX_NAMED_FILES ? ['…'] : []), ...(onlyDrive ? [onlyDrive.odometry, onlyDrive.reference].map(({ choice }) => logModules.choiceLabel(choice)) : [])].filter(Boolean).join(', ');
 }
 
 async function loadLogModules() {
@@ -239,24 +239,24 @@ async function loadLogModules() {
 /** Returns the drop zone for logs. Below it are the choosers, the progress or name of the log, and the reason for a refusal. */
 export function dropZone(figure: Figure, opener: LogOpener) {
   const texts = words.calibrator.own;
-  const { share, logModules } = opener;
+  const { readFraction, logModules } = opener;
   return html`<div class="drop-zone" id=${opener.id} part="drop">
     <p title=${texts.dropTitle}>
       ${texts.drop}
       ${opener.button('log-files', texts.files, EXTENSIONS)}
     </p>
     ${logModules?.logChoosers(opener)}
-    ${share !== undefined
-      ? html`<p><progress aria-label=${texts.reading} .value=${share}></progress> ${button(words.progress.stop, () => opener.stop())}</p>`
+    ${readFraction !== undefined
+      ? html`<p><progress aria-label=${texts.reading} .value=${readFraction}></progress> ${button(words.progress.stop, () => opener.stop())}</p>`
       : figure.log ? html`<p><span class="present">${texts.present(figure.logName)}</span> ${button(texts.leave, () => opener.close())}</p>` : nothing}
     ${opener.refusalNoteHtml}
-    ${opener.otherResults ? html`<p class="muted other-results">${opener.otherResults} ${button(texts.keep, () => opener.forget())}</p>` : nothing}
+    ${opener.otherResultsNote ? html`<p class="muted other-results">${opener.otherResultsNote} ${button(texts.keep, () => opener.forget())}</p>` : nothing}
   </div>`;
 }
 
 export function logSection(figure: Figure) {
   const texts = words.calibrator.own;
   return html`<p>${figure.log ? texts.present(figure.logName) : texts.simulated}</p>
-    ${referenceNoise(figure)}
+    ${referenceNoiseControls(figure)}
     <p class="muted">${texts.stds}</p>`;
 }

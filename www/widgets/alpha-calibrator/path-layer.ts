@@ -23,22 +23,22 @@ const RING_RADIUS = 6;
 const HAIRLINE_WIDTH = 1;
 
 export function pathStyle({ palette, highlight }: Pick<Brush, 'palette' | 'highlight'>, name: LineName): PathStyle {
-  const legColour = name === 'plausible' ? mixedColour(palette.truth, palette.cloud) : palette.truth;
+  const legColour = name === 'plausible' ? mixColours(palette.truth, palette.cloud) : palette.truth;
   return lineStyles({ palette: { ...palette, truth: legColour }, highlight }, LINE_STYLES)[name];
 }
 
-function mixedColour(one: string, other: string) {
-  const [from, to] = [colourChannels(one), colourChannels(other)];
-  return `rgb(${from.map((value, i) => Math.round((value + to[i]) / 2))})`;
+function mixColours(one: string, other: string) {
+  const [firstChannels, secondChannels] = [colourChannels(one), colourChannels(other)];
+  return `rgb(${firstChannels.map((value, i) => Math.round((value + secondChannels[i]) / 2))})`;
 }
 
 export class PathLayer {
   #layer = new Layer();
-  #odometry: Memo<Float64Array> = new Memo();
+  #odometryPathMemo: Memo<Float64Array> = new Memo();
 
   /** Returns the ends of the legs by odometry (x, y pairs). The path starts at the first pose of the reference, and drifts away from it. */
-  odometryOf(legs: CalibrationLegs): Float64Array {
-    return this.#odometry.get([legs], () => {
+  odometryPathOf(legs: CalibrationLegs): Float64Array {
+    return this.#odometryPathMemo.get([legs], () => {
       const { count, odometry, reference } = legs;
       const frameRotation = reference[2] - odometry[2];
       const [cos, sin] = [Math.cos(frameRotation), Math.sin(frameRotation)];
@@ -54,9 +54,9 @@ export class PathLayer {
 
   /** Draws the legs, the most usual classes first. */
   draw(brush: Brush, legs: CalibrationLegs, classes: Uint8Array, overlays: LineName[]) {
-    const paint = (painter: Painter) => drawPath(painter, legs, this.odometryOf(legs), classes, overlays);
-    if ('vector' in brush.context || legs.count <= MAX_WIDE_LEGS) paint(brush);
-    else this.#layer.draw(brush, [legs, overlays, brush.highlight], paint);
+    const paintLegs = (painter: Painter) => drawPath(painter, legs, this.odometryPathOf(legs), classes, overlays);
+    if ('vector' in brush.context || legs.count <= MAX_WIDE_LEGS) paintLegs(brush);
+    else this.#layer.draw(brush, [legs, overlays, brush.highlight], paintLegs);
   }
 }
 
@@ -92,8 +92,8 @@ export function drawRings(brush: Painter, points: [number, number][]) {
 
 /** Returns the path of the odometry as lines of many legs each. */
 function* odometryLines(view: Painter['view'], ends: Float64Array) {
-  for (let at = 0; at < ends.length; at += 2 * LINES_PER_STROKE) {
-    const coordinates = ends.subarray(at, at + 2 * LINES_PER_STROKE + 2);
+  for (let start = 0; start < ends.length; start += 2 * LINES_PER_STROKE) {
+    const coordinates = ends.subarray(start, start + 2 * LINES_PER_STROKE + 2);
     yield Array.from({ length: coordinates.length / 2 }, (_, i) => view.toPixel(coordinates[2 * i], coordinates[2 * i + 1]));
   }
 }

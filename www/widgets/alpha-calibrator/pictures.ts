@@ -26,10 +26,10 @@ const MARK_MARGIN = 0.08;
  * @param odometry points
  */
 export function viewCornersOf(reference: ArrayLike<number>, odometry: ArrayLike<number>): number[] {
-  const box = extentAround(reference, 3);
-  const boxOfBothPaths = extentAround(odometry, 2, box);
-  const margin = Math.max(box.xMax - box.xMin, box.yMax - box.yMin) / 2;
-  return [Math.max(boxOfBothPaths.xMin, box.xMin - margin), Math.max(boxOfBothPaths.yMin, box.yMin - margin), Math.min(boxOfBothPaths.xMax, box.xMax + margin), Math.min(boxOfBothPaths.yMax, box.yMax + margin)];
+  const referenceExtent = extentAround(reference, 3);
+  const extentOfBothPaths = extentAround(odometry, 2, referenceExtent);
+  const margin = Math.max(referenceExtent.xMax - referenceExtent.xMin, referenceExtent.yMax - referenceExtent.yMin) / 2;
+  return [Math.max(extentOfBothPaths.xMin, referenceExtent.xMin - margin), Math.max(extentOfBothPaths.yMin, referenceExtent.yMin - margin), Math.min(extentOfBothPaths.xMax, referenceExtent.xMax + margin), Math.min(extentOfBothPaths.yMax, referenceExtent.yMax + margin)];
 }
 
 /** Picture of the path from above, in the frame of the reference. */
@@ -46,7 +46,7 @@ export class PathPicture extends SamplesPicture<Scene> {
 
   fit({ legs, overlays }: Scene) {
     this.view.release();
-    this.view.fit(extentOf(legs.count > 0 ? viewCornersOf(legs.reference, overlays.includes('odometry') ? this.#layer.odometryOf(legs) : []) : [0, 0], 1));
+    this.view.fit(extentOf(legs.count > 0 ? viewCornersOf(legs.reference, overlays.includes('odometry') ? this.#layer.odometryPathOf(legs) : []) : [0, 0], 1));
     // The view is not animated, because an animation would draw all legs in each frame.
     this.view.ease(0, true);
   }
@@ -54,11 +54,11 @@ export class PathPicture extends SamplesPicture<Scene> {
   paint: Picture<Scene>['paint'] = (brush, { legs, classes, chosen, overlays }) => {
     const { palette } = brush;
     const legendNames = brush.exported ? ([...LEG_CLASSES.toReversed(), 'odometry', 'outlier'] as const).filter((name) => overlays.includes(name)) : [];
-    const key = legendNames.map((name) => {
-      const keyEntry = lineLegendEntry(brush, words.calibrator.overlays[name].replaceAll('*', ''), pathStyle(brush, name));
-      return name === 'outlier' ? { ...keyEntry, draw: (x: number, y: number, length: number) => drawRings(brush, [[x + length / 2, y]]) } : keyEntry;
+    const legendEntries = legendNames.map((name) => {
+      const lineEntry = lineLegendEntry(brush, words.calibrator.overlays[name].replaceAll('*', ''), pathStyle(brush, name));
+      return name === 'outlier' ? { ...lineEntry, draw: (x: number, y: number, length: number) => drawRings(brush, [[x + length / 2, y]]) } : lineEntry;
     });
-    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, key);
+    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, legendEntries);
     clipToPlot(brush, () => {
       this.#layer.draw(brush, legs, classes, overlays);
       if (chosen < 0) return;

@@ -5,8 +5,8 @@ import { words } from '../../messages/registry.ts';
 import { formatMarkup } from '../../ui/controls.ts';
 import { NO_VALUE, formatPowerOfTen, tick } from '../../ui/format.ts';
 import { subscriptOf } from '../shared/sliders.ts';
-import { adviceOf, alphaOrBound, formatEstimate } from './lines.ts';
-import { truthApplies, type ViewModel } from './view-model.ts';
+import { adviceOf, formatAlphaOrBound, formatEstimate } from './lines.ts';
+import { isTruthComparable, type ViewModel } from './view-model.ts';
 import { judgementOf, legsText, localized, noiseNames } from './words.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
@@ -20,7 +20,7 @@ const MAX_AXIS_INTERVALS = 4;
 const RATING_ICONS = { consistent: '✓', questionable: '!', unusable: '✕' };
 
 /** Returns the badge that rates the α's, the finding, and the number of legs. On a wide page it has at most two lines. */
-export function verdictLine({ viewModel, logName, warnings }: Figure) {
+export function verdictHtml({ viewModel, logName, warnings }: Figure) {
   const { rating, badge, finding } = judgementOf(viewModel, warnings);
   return html`<span class="badge ${rating}"><span aria-hidden="true">${RATING_ICONS[rating]}</span> ${badge}</span>
     <strong>${finding}</strong> <span class="muted">${legsText(viewModel, logName)}</span>`;
@@ -30,8 +30,8 @@ export function alphaTable(viewModel: ViewModel) {
   const { alphas, intervals } = viewModel.stats;
   const texts = words.calibrator.alphas;
   const noiseLabels = noiseNames(viewModel.fitted.model);
-  const truth = truthApplies(viewModel) ? viewModel.truth?.alphas : undefined;
-  const axis = axisOf([...alphas, ...intervals.flatMap((interval) => interval ?? []), ...(truth ?? [])]);
+  const truth = isTruthComparable(viewModel) ? viewModel.truth?.alphas : undefined;
+  const axis = logarithmicAxis([...alphas, ...intervals.flatMap((interval) => interval ?? []), ...(truth ?? [])]);
   return html`<table class="alphas" part="table">
     <thead>
       <tr><th scope="col">${formatMarkup(texts.alpha)}</th><th scope="col">${truth ? texts.noiseTrue : texts.noise}</th><th scope="col">${texts.value}</th><th scope="col">${texts.recommended}</th></tr>
@@ -40,10 +40,10 @@ export function alphaTable(viewModel: ViewModel) {
       ${alphas.map((alpha, i) => html`<tr>
         <th scope="row">${formatMarkup(`*α*${subscriptOf(i)}`)}</th>
         ${alpha === null
-          ? html`<td colspan="3"><div class="of muted">${noiseLabels[i]}</div><span class="unknown">${missingText(viewModel, i)}</span></td>`
-          : html`<td class="chart"><div class="line"><div class="of muted">${noiseLabels[i]}</div>${whisker(axis, alpha, intervals[i], truth?.[i])}</div></td>
-            <td><div class="line"><div class="fitted-value" data-longest="0.00000">${fittedText(viewModel, i)}</div><div class="between muted" data-longest=${texts.between('0.00000', '0.00000')}>${intervalText(viewModel, i)}</div></div></td>
-            <td class="recommended" data-longest="0.00000">${recommendedOf(viewModel, i)}</td>`}
+          ? html`<td colspan="3"><div class="of muted">${noiseLabels[i]}</div><span class="unknown">${missingAlphaText(viewModel, i)}</span></td>`
+          : html`<td class="chart"><div class="line"><div class="of muted">${noiseLabels[i]}</div>${whiskerSvg(axis, alpha, intervals[i], truth?.[i])}</div></td>
+            <td><div class="line"><div class="fitted-value" data-longest="0.00000">${fittedAlphaText(viewModel, i)}</div><div class="between muted" data-longest=${texts.between('0.00000', '0.00000')}>${intervalText(viewModel, i)}</div></div></td>
+            <td class="recommended" data-longest="0.00000">${recommendedAlphaText(viewModel, i)}</td>`}
       </tr>`)}
       <tr class="axis" aria-hidden="true">
         <td></td>
@@ -56,14 +56,14 @@ export function alphaTable(viewModel: ViewModel) {
   </table>`;
 }
 
-function recommendedOf({ stats: { recommended, alphas, intervals } }: ViewModel, index: number) {
-  return recommended && alphas[index] !== null ? localized(alphaOrBound(alphas[index], intervals[index], recommended.inflation)) : NO_VALUE;
+function recommendedAlphaText({ stats: { recommended, alphas, intervals } }: ViewModel, index: number) {
+  return recommended && alphas[index] !== null ? localized(formatAlphaOrBound(alphas[index], intervals[index], recommended.inflation)) : NO_VALUE;
 }
 
-const fittedText = ({ stats: { alphas, intervals } }: ViewModel, index: number) => localized(alphaOrBound(alphas[index], intervals[index]));
+const fittedAlphaText = ({ stats: { alphas, intervals } }: ViewModel, index: number) => localized(formatAlphaOrBound(alphas[index], intervals[index]));
 
 /** Returns the reason why an α is not identifiable, and the drive that would identify it. */
-function missingText({ stats: { notIdentifiable }, fitted: { model } }: ViewModel, index: number) {
+function missingAlphaText({ stats: { notIdentifiable }, fitted: { model } }: ViewModel, index: number) {
   const texts = words.calibrator.alphas;
   const reason = notIdentifiable[index];
   if (!reason) return NO_VALUE;
@@ -76,7 +76,7 @@ export function alphaTexts(viewModel: ViewModel) {
   const { stats: { alphas }, fitted } = viewModel;
   const { recommendedText } = words.calibrator.alphas;
   return alphas.map((alpha, i) => {
-    const alphaParts = alpha === null ? [missingText(viewModel, i)] : [fittedText(viewModel, i), intervalText(viewModel, i), recommendedText(recommendedOf(viewModel, i))];
+    const alphaParts = alpha === null ? [missingAlphaText(viewModel, i)] : [fittedAlphaText(viewModel, i), intervalText(viewModel, i), recommendedText(recommendedAlphaText(viewModel, i))];
     return `α${subscriptOf(i)} ${noiseNames(fitted.model)[i]}: ${alphaParts.join(', ')}`;
   });
 }
@@ -87,22 +87,22 @@ function intervalText({ stats: { intervals } }: ViewModel, index: number) {
 }
 
 /** Returns a logarithmic axis over whole decades that contain the values. */
-function axisOf(values: (number | null)[]) {
+function logarithmicAxis(values: (number | null)[]) {
   const logarithms = values.filter((value) => value !== null && value > 0 && Number.isFinite(value)).map((value) => Math.log10(value as number));
-  const from = Math.floor(Math.min(0, ...(logarithms.length ? [Math.max(Math.min(...logarithms), Math.max(...logarithms) - 4)] : [-3])));
-  const to = Math.max(from + 1, Math.ceil(logarithms.length ? Math.max(...logarithms) : 0));
+  const minExponent = Math.floor(Math.min(0, ...(logarithms.length ? [Math.max(Math.min(...logarithms), Math.max(...logarithms) - 4)] : [-3])));
+  const maxExponent = Math.max(minExponent + 1, Math.ceil(logarithms.length ? Math.max(...logarithms) : 0));
   const { width, inset } = WHISKER_ROW;
   const at = (value: number) => {
-    const axisFraction = (Math.log10(Math.max(value, 0)) - from) / (to - from);
+    const axisFraction = (Math.log10(Math.max(value, 0)) - minExponent) / (maxExponent - minExponent);
     // A mark outside the axis is drawn at its edge.
     return Math.max(inset / 3, Math.min(width - inset / 3, inset + axisFraction * (width - 2 * inset)));
   };
   // At most MAX_AXIS_INTERVALS + 1 labels fit without touching.
-  const labelStep = Math.ceil((to - from) / MAX_AXIS_INTERVALS);
-  return { at, decades: Array.from({ length: Math.floor((to - from) / labelStep) + 1 }, (_, i) => 10 ** (from + i * labelStep)) };
+  const decadesPerLabel = Math.ceil((maxExponent - minExponent) / MAX_AXIS_INTERVALS);
+  return { at, decades: Array.from({ length: Math.floor((maxExponent - minExponent) / decadesPerLabel) + 1 }, (_, i) => 10 ** (minExponent + i * decadesPerLabel)) };
 }
 
-function whisker({ at }: ReturnType<typeof axisOf>, value: number, interval: [number, number] | null, truth: number | undefined) {
+function whiskerSvg({ at }: ReturnType<typeof logarithmicAxis>, value: number, interval: [number, number] | null, truth: number | undefined) {
   const { width, height, middle } = WHISKER_ROW;
   const [low, high] = (interval ?? [value, value]).map(at);
   return html`<svg viewBox="0 0 ${width} ${height}" preserveAspectRatio="none" aria-hidden="true">

@@ -18,15 +18,15 @@ const MAX_DECIMALS = 6;
 /** Returns two sentences: one on the systematic errors that were corrected, and one on those that the α's include as noise. */
 export function systematicTexts({ stats: { systematicErrors: errors } }: ViewModel) {
   const texts = words.calibrator.systematic;
-  const errorTexts = (corrected: boolean) => SYSTEMATIC_ERRORS.filter((key) => errors[key].corrected === corrected).flatMap((key) => textOf(key, errors[key])).join('; ');
-  const [corrected, left] = [errorTexts(true), errorTexts(false)];
-  return [...(corrected ? [texts.removed(corrected)] : []), ...(left ? [texts.left(left)] : [])];
+  const errorTexts = (corrected: boolean) => SYSTEMATIC_ERRORS.filter((key) => errors[key].corrected === corrected).flatMap((key) => errorTextsOf(key, errors[key])).join('; ');
+  const [corrected, uncorrected] = [errorTexts(true), errorTexts(false)];
+  return [...(corrected ? [texts.removed(corrected)] : []), ...(uncorrected ? [texts.left(uncorrected)] : [])];
 }
 
 /** Returns a sentence on significant systematic errors that the settings leave uncorrected; empty if there are none. */
 export function uncorrectedText({ stats: { systematicErrors: errors }, fitted }: ViewModel): string {
   const texts = words.calibrator.systematic;
-  const uncorrectedTexts = SYSTEMATIC_ERRORS.filter((key) => !fitted[key] && isSignificant(key, errors[key])).flatMap((key) => textOf(key, errors[key]));
+  const uncorrectedTexts = SYSTEMATIC_ERRORS.filter((key) => !fitted[key] && isSignificant(key, errors[key])).flatMap((key) => errorTextsOf(key, errors[key]));
   return uncorrectedTexts.length > 0 ? texts.matters(uncorrectedTexts.join('; ')) : '';
 }
 
@@ -37,7 +37,7 @@ function isSignificant(key: string, { interval }: SystematicError) {
 }
 
 /** Returns an error as text, with its name; an empty array if the error is not identifiable. */
-function textOf(key: typeof SYSTEMATIC_ERRORS[number], error: SystematicError): string[] {
+function errorTextsOf(key: typeof SYSTEMATIC_ERRORS[number], error: SystematicError): string[] {
   const { values, halves } = formatError(error);
   return values.length ? [`${words.calibrator.systematic.names[key]} ${values.map((value, i) => `${value} ± ${halves[i]}`).join(', ')}`] : [];
 }
@@ -58,26 +58,26 @@ export function systematicTable(figure: Figure) {
     if (values.length === 0) return [correctCheckbox, texts.unknown];
     return [
       correctCheckbox,
-      stackedTexts(values),
-      html`<div class="muted">${stackedTexts(halves.map((half) => `± ${half}`))}</div>`,
+      stackTexts(values),
+      html`<div class="muted">${stackTexts(halves.map((halfWidth) => `± ${halfWidth}`))}</div>`,
       errors[key].corrected ? texts.corrected : errors[key].constant ? texts.notCorrected : texts.notConstant,
-      ...(truth ? [html`<div class="muted">${stackedTexts([truth[key]].flat().map((component) => fixed(component, 3)))}</div>`] : []),
+      ...(truth ? [html`<div class="muted">${stackTexts([truth[key]].flat().map((component) => fixed(component, 3)))}</div>`] : []),
     ];
   });
   const columns = [texts.what, texts.value, words.calibrator.alphas.interval, texts.treatment, ...(truth ? [texts.truth] : [])];
   return html`<div class="systematic">${figureTable({ columns, rows })}</div>`;
 }
 
-const stackedTexts = (texts: string[]) => texts.map((text) => html`<div>${text}</div>`);
+const stackTexts = (texts: string[]) => texts.map((text) => html`<div>${text}</div>`);
 
 /** Formats the values of an error (two for a lever arm) and half the width of each interval, with significant digits. */
 function formatError({ value, interval }: SystematicError) {
   const halfWidths = intervalsOf(interval).map((limits) => limits && (limits[1] - limits[0]) / 2);
   return {
     values: [value].flat().flatMap((component, i) => (component === null ? [] : [fixed(component, decimalsOf(halfWidths[i]))])),
-    halves: halfWidths.flatMap((half) => (half === null ? [] : [fixed(half, decimalsOf(half))])),
+    halves: halfWidths.flatMap((halfWidth) => (halfWidth === null ? [] : [fixed(halfWidth, decimalsOf(halfWidth))])),
   };
 }
 
 /** Returns the number of decimals of an error: three, or more if its interval is narrower than a thousandth. */
-const decimalsOf = (half: number | null | undefined) => (half ? Math.min(MAX_DECIMALS, Math.max(3, -Math.floor(Math.log10(2 * half)))) : 3);
+const decimalsOf = (halfWidth: number | null | undefined) => (halfWidth ? Math.min(MAX_DECIMALS, Math.max(3, -Math.floor(Math.log10(2 * halfWidth)))) : 3);

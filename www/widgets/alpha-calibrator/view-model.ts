@@ -17,11 +17,11 @@ export type ViewModel = ReturnType<typeof fitOf> & {
 };
 
 /** Returns the view model of a simulation. The fit and the true values are read again only if they have changed. */
-export function viewModelOf(simulation: Simulation, log: CalibrationLog | null, before: ViewModel | undefined): ViewModel {
+export function viewModelOf(simulation: Simulation, log: CalibrationLog | null, previousViewModel: ViewModel | undefined): ViewModel {
   const { config, fittedConfig: fitted, fits, isPending } = simulation.read();
-  const isSameSimulation = before?.simulation === simulation;
-  const fit = isSameSimulation && before.fits === fits ? before : fitOf(simulation, fits, fitted);
-  const truth = isSameSimulation && before.log === log ? before.truth : simulation.truth;
+  const isSameSimulation = previousViewModel?.simulation === simulation;
+  const fit = isSameSimulation && previousViewModel.fits === fits ? previousViewModel : fitOf(simulation, fits, fitted);
+  const truth = isSameSimulation && previousViewModel.log === log ? previousViewModel.truth : simulation.truth;
   return { ...fit, truth, log, config, fitted, isPending };
 }
 
@@ -46,7 +46,7 @@ function fitOf(simulation: Simulation, fits: number, { duration, distance }: Sim
 const MIN_DIRECTED_LEG = 0.01;
 
 /** Number of legs in the list of the largest residuals. */
-const LISTED_RESIDUALS = 10;
+const LISTED_LEGS = 10;
 
 /** Quantiles 0.5, 0.95 and 0.999 of χ² with 0 to 3 degrees of freedom. */
 const CHI2_QUANTILES = [[0, 0, 0], [0.455, 3.841, 10.828], [1.386, 5.991, 13.816], [2.366, 7.815, 16.266]];
@@ -64,9 +64,9 @@ export function legClassesOf({ count, squared, residuals }: Pick<CalibrationLegs
 export const observedCount = (residuals: Float64Array, leg: number) => residuals.subarray(3 * leg, 3 * leg + 3).reduce((count, residual) => count + Number(!Number.isNaN(residual)), 0);
 
 function worstLegsOf({ squared }: Pick<CalibrationLegs, 'squared'>) {
-  const minListedSquare = squared.toSorted()[Math.max(0, squared.length - LISTED_RESIDUALS)];
+  const minListedSquare = squared.toSorted()[Math.max(0, squared.length - LISTED_LEGS)];
   const worstLegs = [...squared.keys()].filter((leg) => squared[leg] >= minListedSquare);
-  return worstLegs.sort((one, other) => squared[other] - squared[one]).slice(0, LISTED_RESIDUALS);
+  return worstLegs.sort((one, other) => squared[other] - squared[one]).slice(0, LISTED_LEGS);
 }
 
 /**
@@ -83,5 +83,5 @@ function defaultLegOf({ squared, outliers, odometry }: CalibrationLegs, distance
 export const shownLegOf = ({ opening, legs }: ViewModel, chosen: number | null) => (chosen !== null && chosen < legs.count ? chosen : opening);
 
 /** Returns true if the true α's belong to the rule and the leg length of the present fit. */
-export const truthApplies = ({ truth, fitted: { rule, model, distance, angle, duration } }: Pick<ViewModel, 'truth' | 'fitted'>) =>
+export const isTruthComparable = ({ truth, fitted: { rule, model, distance, angle, duration } }: Pick<ViewModel, 'truth' | 'fitted'>) =>
   truth !== null && model === 'odometry' && rule === 'thrun' && distance === SIMULATED_LEGS.distance && angle === SIMULATED_LEGS.angle && duration === 0;

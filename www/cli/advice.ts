@@ -4,7 +4,7 @@ import { LogError, truncate } from '../logs/log-error.ts';
 import { UNITS } from '../logs/log.ts';
 
 /** Quotes a text as one argument of a shell command, if necessary. */
-export const shellQuoted = (text: string): string => (/^[\w./,@%+=:-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
+export const quoteForShell = (text: string): string => (/^[\w./,@%+=:-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
 
 /** Returns a sentence with the option that answers the question of an error. */
 export function optionAdvice({ ask, message }: LogError): string {
@@ -19,6 +19,6 @@ export function optionAdvice({ ask, message }: LogError): string {
     const otherUnit = [...choices, ...allUnits].find((unit) => unit !== usualUnit);
     return ` Choose with ${optionText}, as in ${optionText} ${otherUnit}; if odometry and reference differ, with --odometry FILE --reference FILE ${optionText} ${usualUnit},${otherUnit}.`;
   }
-  const [first] = choices.length > 0 ? choices.filter(Boolean) : what === 'columns' ? ['t,x,y,yaw'] : [];
-  return ` Choose with ${optionText}${first === undefined ? '' : `, as in ${optionText} ${shellQuoted(truncate(first))}`}.`;
+  const [exampleChoice] = choices.length > 0 ? choices.filter(Boolean) : what === 'columns' ? ['t,x,y,yaw'] : [];
+  return ` Choose with ${optionText}${exampleChoice === undefined ? '' : `, as in ${optionText} ${quoteForShell(truncate(exampleChoice))}`}.`;
 }

@@ -27,9 +27,9 @@ async function openSources(path: string): Promise<Source[]> {
       return await Promise.all(['', ...(hasJournal ? ['-wal'] : [])].map((ending) => openSource(`${path}${ending}`, `${name}${ending}`)));
     }
     const folderEntries = await readdir(path, { withFileTypes: true, recursive: true });
-    const paths = folderEntries.filter((entry) => entry.isFile() && !/^\.|-shm$/.test(entry.name)).map((entry) => join(entry.parentPath, entry.name)).toSorted();
-    if (paths.length === 0) throw Object.assign(new Error(), { code: 'an empty folder' });
-    return await Promise.all(paths.map((file) => openSource(file, basename(file), join(name, relative(path, file)).replaceAll('\\', '/'))));
+    const filePaths = folderEntries.filter((entry) => entry.isFile() && !/^\.|-shm$/.test(entry.name)).map((entry) => join(entry.parentPath, entry.name)).toSorted();
+    if (filePaths.length === 0) throw Object.assign(new Error(), { code: 'an empty folder' });
+    return await Promise.all(filePaths.map((file) => openSource(file, basename(file), join(name, relative(path, file)).replaceAll('\\', '/'))));
   } catch (error) {
     const { code } = error as NodeJS.ErrnoException;
     if (error instanceof LogError || code === undefined) throw error;

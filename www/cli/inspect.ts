@@ -6,7 +6,7 @@ import { english } from '../logs/en.ts';
 import { LogError, truncate } from '../logs/log-error.ts';
 import { ROLES, framesOption, framesText, type LogChoice, type Log, type Recording, type Role, type Summary } from '../logs/log.ts';
 import { summarySentences } from '../logs/summary.ts';
-import { optionAdvice, shellQuoted } from './advice.ts';
+import { optionAdvice, quoteForShell } from './advice.ts';
 import { alignRows } from './report.ts';
 
 const FORMAT_NAMES: Partial<Record<Recording['format'], string>> = { mcap: 'MCAP recording', rosbag: 'ROS 1 bag', sqlite: 'rosbag2 SQLite recording', csv: 'table', tum: 'TUM table' };
@@ -111,18 +111,18 @@ async function readLogs(recording: Recording, choices: LogChoice[], onProgress?:
 }
 
 const commandText = (statedOptions: [name: string, value: string][], ...options: string[]) =>
-  ['npx motion-widgets calibrate', ...options, ...statedOptions.map(([name, value]) => `--${name} ${shellQuoted(value)}`), '--rule nav2'].join(' ');
+  ['npx motion-widgets calibrate', ...options, ...statedOptions.map(([name, value]) => `--${name} ${quoteForShell(value)}`), '--rule nav2'].join(' ');
 
 /** Returns the command that calibrates from the recordings, or a sentence about missing logs. */
 function nextCommand(givenRecordings: GivenRecording[], statedOptions: [name: string, value: string][]): Pick<InspectionResult, 'command' | 'missing'> {
-  const quotedPath = ({ recording }: Pick<RecordingChoice, 'recording'>) => shellQuoted(givenRecordings.find((file) => file.recording === recording)?.path ?? recording.name);
+  const quotedPath = ({ recording }: Pick<RecordingChoice, 'recording'>) => quoteForShell(givenRecordings.find((file) => file.recording === recording)?.path ?? recording.name);
   const commandWith = (...options: string[]) => commandText(statedOptions, ...new Set(options));
   const quotedPaths = givenRecordings.map(({ recording }) => quotedPath({ recording }));
   try {
     const { drives, unpaired } = planDrives(givenRecordings.map(({ recording }) => recording));
     const choiceOptions = ROLES.flatMap((role) => [...drives.map((drive) => drive[role]), ...unpaired[role]].flatMap(({ choice: { series, frames } }) => [
-      ...(series ? [`--${role}-topic ${shellQuoted(series)}`] : []),
-      ...(frames ? [`--${role}-frames ${shellQuoted(framesOption(frames))}`] : []),
+      ...(series ? [`--${role}-topic ${quoteForShell(series)}`] : []),
+      ...(frames ? [`--${role}-frames ${quoteForShell(framesOption(frames))}`] : []),
     ]));
     const fileArguments = [...drives.map(({ odometry }) => quotedPath(odometry)), ...ROLES.flatMap((role) => unpaired[role].map((part) => `--${role} ${quotedPath(part)}`))];
     // The logs of one folder may have different roles, so that the folder is given without a role.

@@ -6,7 +6,7 @@ import type { UserChoices } from '../logs/drives.ts';
 import { truncate } from '../logs/log-error.ts';
 import { ROLES, UNITS, type FramePair, type OpenOptions, type Role } from '../logs/log.ts';
 import { SYSTEMATIC_ERRORS } from '../widgets/alpha-calibrator/lines.ts';
-import { shellQuoted } from './advice.ts';
+import { quoteForShell } from './advice.ts';
 
 /** Error about the options; its message is a sentence. */
 export class UsageError extends Error {}
@@ -130,7 +130,7 @@ export function parseOptions(args: string[]): CalibrateArguments | InspectArgume
   }
   if (command !== 'calibrate') {
     const path = [command, ...paths].find(isPath) ?? 'run.bag';
-    throw new UsageError(`the command must be calibrate or inspect (got “${truncate(command ?? '')}”), as in npx motion-widgets inspect ${shellQuoted(path)}; --help has examples.`);
+    throw new UsageError(`the command must be calibrate or inspect (got “${truncate(command ?? '')}”), as in npx motion-widgets inspect ${quoteForShell(path)}; --help has examples.`);
   }
   const numberOption = (name: 'update-min-d' | 'update-min-a' | 'duration' | 'reference-position-std' | 'reference-yaw-std') => {
     const value = values[name];

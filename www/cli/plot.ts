@@ -21,13 +21,13 @@ const [INK, MUTED] = ['#1f1e1b', '#57564f'];
 
 /** Returns the picture as SVG, with a panel for each drive. */
 export function drivesSvg(drives: Drive[], calibration: any): string {
-  let top = 0;
+  let nextPanelTop = 0;
   const panelSvgs = drives.map((drive) => {
     const { svg, height } = drivePanel(drive, calibration);
-    top += height;
-    return `<g transform="translate(0 ${top - height})">${svg}</g>`;
+    nextPanelTop += height;
+    return `<g transform="translate(0 ${nextPanelTop - height})">${svg}</g>`;
   });
-  return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${WIDTH} ${top}" width="${WIDTH}" height="${top}" font-family="sans-serif" font-size="13">
+  return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${WIDTH} ${nextPanelTop}" width="${WIDTH}" height="${nextPanelTop}" font-family="sans-serif" font-size="13">
 <rect width="100%" height="100%" fill="#fff"/>
 ${panelSvgs.join('\n')}
 </svg>
@@ -39,47 +39,47 @@ function drivePanel({ odometry, reference }: Drive, { legs, systematicErrors }: 
   // The times of legs are those of the odometry's clock.
   const clockOffset = systematicErrors.clockOffset.value ?? 0;
   const odometryPath = alignedPath(pathOf(odometry.data), referencePath, clockOffset);
-  const [from, to] = [odometry.data.t[0], odometry.data.t[odometry.data.t.length - 1]];
-  const legsOfDrive = Array.from({ length: legs.count }, (_, leg) => ({ from: legs.times[2 * leg], to: legs.times[2 * leg + 1], isOutlier: legs.outliers[leg] === 1 })).filter((leg) => leg.from >= from && leg.to <= to);
+  const [startTime, endTime] = [odometry.data.t[0], odometry.data.t[odometry.data.t.length - 1]];
+  const legsOfDrive = Array.from({ length: legs.count }, (_, leg) => ({ from: legs.times[2 * leg], to: legs.times[2 * leg + 1], isOutlier: legs.outliers[leg] === 1 })).filter((leg) => leg.from >= startTime && leg.to <= endTime);
   const outlierLegs = legsOfDrive.filter(({ isOutlier }) => isOutlier);
 
   const allPoses = [...referencePath.poses, ...odometryPath.poses];
-  const [[left, right], [bottom, ceiling]] = [0, 1].map((axis) => extent(allPoses, (pose) => pose[axis]) as [number, number]);
-  const [spanX, spanY] = [Math.max(right - left, 0.1), Math.max(ceiling - bottom, 0.1)];
+  const [[left, right], [bottom, top]] = [0, 1].map((axis) => extent(allPoses, (pose) => pose[axis]) as [number, number]);
+  const [spanX, spanY] = [Math.max(right - left, 0.1), Math.max(top - bottom, 0.1)];
   const pixelsPerMetre = Math.min((WIDTH - MARGIN.left - MARGIN.right - 2 * INSET_PX) / spanX, (HEIGHT - MARGIN.top - MARGIN.bottom - 2 * INSET_PX) / spanY);
   const height = Math.round(MARGIN.top + MARGIN.bottom + 2 * INSET_PX + spanY * pixelsPerMetre);
-  const x = (value: number) => MARGIN.left + INSET_PX + (value - left) * pixelsPerMetre;
-  const y = (value: number) => height - MARGIN.bottom - INSET_PX - (value - bottom) * pixelsPerMetre;
+  const xPixel = (value: number) => MARGIN.left + INSET_PX + (value - left) * pixelsPerMetre;
+  const yPixel = (value: number) => height - MARGIN.bottom - INSET_PX - (value - bottom) * pixelsPerMetre;
   const pixelText = (value: number) => value.toFixed(1);
   const pathData = ({ poses, breaks }: Pick<Path, 'poses' | 'breaks'>) => {
     let d = '';
     let lastPoint: [x: number, y: number] | undefined;
     for (const [i, pose] of poses.entries()) {
-      const at: typeof lastPoint = [x(pose[0]), y(pose[1])];
+      const pixelPoint: typeof lastPoint = [xPixel(pose[0]), yPixel(pose[1])];
       const isBroken = !lastPoint || breaks.has(i);
-      if (!isBroken && i < poses.length - 1 && lastPoint && Math.hypot(at[0] - lastPoint[0], at[1] - lastPoint[1]) < MIN_STEP_PX) continue;
-      d += `${isBroken ? 'M' : 'L'}${pixelText(at[0])} ${pixelText(at[1])}`;
-      lastPoint = at;
+      if (!isBroken && i < poses.length - 1 && lastPoint && Math.hypot(pixelPoint[0] - lastPoint[0], pixelPoint[1] - lastPoint[1]) < MIN_STEP_PX) continue;
+      d += `${isBroken ? 'M' : 'L'}${pixelText(pixelPoint[0])} ${pixelText(pixelPoint[1])}`;
+      lastPoint = pixelPoint;
     }
     return d;
   };
-  const legEndDots = legsOfDrive.map((leg) => poseAt(referencePath, leg.to + clockOffset)).map((pose) => `M${pixelText(x(pose[0]))} ${pixelText(y(pose[1]))}h0`).join('');
+  const legEndDots = legsOfDrive.map((leg) => poseAt(referencePath, leg.to + clockOffset)).map((pose) => `M${pixelText(xPixel(pose[0]))} ${pixelText(yPixel(pose[1]))}h0`).join('');
   const outlierPaths = outlierLegs.map((leg) => {
-    const [first, last] = [bisectLeft(referencePath.t, leg.from + clockOffset), bisectLeft(referencePath.t, leg.to + clockOffset)];
-    return pathData({ poses: referencePath.poses.slice(first, last + 1), breaks: new Set() });
+    const [firstIndex, lastIndex] = [bisectLeft(referencePath.t, leg.from + clockOffset), bisectLeft(referencePath.t, leg.to + clockOffset)];
+    return pathData({ poses: referencePath.poses.slice(firstIndex, lastIndex + 1), breaks: new Set() });
   }).join('');
-  const axisSvg = (isX: boolean) => ticks(isX ? left : bottom, isX ? right : ceiling, 6).map((value) => {
-    const [at, label] = [isX ? x(value) : y(value), String(Number(value.toPrecision(6))).replace('-', '−')];
+  const axisSvg = (isX: boolean) => ticks(isX ? left : bottom, isX ? right : top, 6).map((value) => {
+    const [tickPixel, label] = [isX ? xPixel(value) : yPixel(value), String(Number(value.toPrecision(6))).replace('-', '−')];
     return isX
-      ? `<path d="M${pixelText(at)} ${height - MARGIN.bottom}v5" stroke="${MUTED}"/><text x="${pixelText(at)}" y="${height - MARGIN.bottom + 19}" text-anchor="middle">${label}</text>`
-      : `<path d="M${MARGIN.left} ${pixelText(at)}h-5" stroke="${MUTED}"/><text x="${MARGIN.left - 9}" y="${pixelText(at + 4)}" text-anchor="end">${label}</text>`;
+      ? `<path d="M${pixelText(tickPixel)} ${height - MARGIN.bottom}v5" stroke="${MUTED}"/><text x="${pixelText(tickPixel)}" y="${height - MARGIN.bottom + 19}" text-anchor="middle">${label}</text>`
+      : `<path d="M${MARGIN.left} ${pixelText(tickPixel)}h-5" stroke="${MUTED}"/><text x="${MARGIN.left - 9}" y="${pixelText(tickPixel + 4)}" text-anchor="end">${label}</text>`;
   }).join('');
-  const keyEntries = ([['reference, with the ends of legs', 'reference'], ['odometry, aligned', 'odometry'], ...(outlierLegs.length ? [['outliers', 'outlier'] as const] : [])] as const)
+  const legendEntries = ([['reference, with the ends of legs', 'reference'], ['odometry, aligned', 'odometry'], ...(outlierLegs.length ? [['outliers', 'outlier'] as const] : [])] as const)
     .map(([label, name], i) => `<path d="M${MARGIN.left + 260 * i} 46h24" ${LINE_STYLES[name]}/><text x="${MARGIN.left + 260 * i + 30}" y="50" fill="${INK}">${label}</text>`);
   const panelTitle = `${odometry.name} and ${reference.name}: ${legsOfDrive.length} legs, ${outlierLegs.length} ${outlierLegs.length === 1 ? 'outlier' : 'outliers'}`;
   const svg = `<title>${escapeXml(panelTitle)}</title>
 <text x="${MARGIN.left}" y="26" font-size="16" fill="${INK}">${escapeXml(panelTitle)}</text>
-${keyEntries.join('')}
+${legendEntries.join('')}
 <g fill="${MUTED}"><g fill="none" stroke="${MUTED}"><path d="M${MARGIN.left} ${MARGIN.top}V${height - MARGIN.bottom}H${WIDTH - MARGIN.right}"/></g>${axisSvg(true)}${axisSvg(false)}
 <text x="${(MARGIN.left + WIDTH - MARGIN.right) / 2}" y="${height - 14}" text-anchor="middle">x (m)</text>
 <text transform="translate(18 ${(MARGIN.top + height - MARGIN.bottom) / 2}) rotate(-90)" text-anchor="middle">y (m)</text></g>

@@ -2,7 +2,7 @@
 
 import { html } from 'lit';
 import { words } from '../messages/registry.ts';
-import { pointOn } from '../scene/canvas.ts';
+import { pointInView } from '../scene/canvas.ts';
 import { button } from '../ui/controls.ts';
 import { integer } from '../ui/format.ts';
 import { refusalError, checkedInteger } from './checks.ts';
@@ -154,7 +154,7 @@ export class Cloud extends FigureController {
     const { simulation, gesture } = this.host;
     // A moving finger scrolls; a tap is a click.
     if (!simulation || gesture.isPressed || (event.pointerType === 'touch' && event.type !== 'click')) return;
-    const [x, y] = pointOn(event.currentTarget as Element, picture.view, event);
+    const [x, y] = pointInView(event.currentTarget as Element, picture.view, event);
     const index = picture.nearest(simulation, x, y);
     if (index >= 0 || event.type === 'click') this.mark(index);
   }

@@ -10,7 +10,7 @@ const numberAtPath = (stats: Record<string, any>, path: string): number | null =
  * and `data-hides` the overlay that shows it, which is hidden while the user bets.
  */
 export function prepareBet(form: HTMLFormElement, enterState: (values: Record<string, unknown>) => Promise<void>, figure: Figure) {
-  const { try: values = '{}', answer: answerPath = '', unit = '', hides: hiddenOverlay } = form.dataset;
+  const { try: stateText = '{}', answer: answerPath = '', unit = '', hides: hiddenOverlay } = form.dataset;
   form.insertAdjacentHTML('beforeend', '<span class="value" aria-hidden="true"></span> <button disabled>Reveal</button><p role="status"></p>');
   const slider = form.querySelector('input') as HTMLInputElement;
   const valueOutput = form.querySelector('.value') as HTMLElement;
@@ -28,15 +28,15 @@ export function prepareBet(form: HTMLFormElement, enterState: (values: Record<st
   });
   showValue();
   if (hiddenOverlay) {
-    const { overlays, ...otherValues } = JSON.parse(values);
+    const { overlays, ...otherValues } = JSON.parse(stateText);
     form.addEventListener('focusin', () => void enterState({ ...otherValues, overlays: overlays.filter((name: string) => name !== hiddenOverlay) }), { once: true });
   }
   form.addEventListener('submit', async (event) => {
     event.preventDefault();
-    await enterState(JSON.parse(values));
+    await enterState(JSON.parse(stateText));
     await figure.settled;
-    const number = numberAtPath(figure.stats, answerPath);
-    const actualValue = number === null ? null : isPercent ? 100 * number : number;
+    const answerNumber = numberAtPath(figure.stats, answerPath);
+    const actualValue = answerNumber === null ? null : isPercent ? 100 * answerNumber : answerNumber;
     form.style.setProperty('--truth', String(((actualValue ?? max) - min) / (max - min)));
     form.classList.add('revealed');
     answerOutput.textContent = `Your bet: ${formatValue(slider.valueAsNumber)}. The figure’s answer, ▲:\u00a0${actualValue === null ? 'never' : formatValue(actualValue)}.`;

@@ -1,8 +1,8 @@
-/** Axes of a picture with ticks, names and a key, and clipping to the plot area. */
+/** Axes of a picture with ticks, names and a legend, and clipping to the plot area. */
 
 import { ticks } from 'd3-array';
 import { formatPowerOfTen, tick } from '../ui/format.ts';
-import { fade, strokeLine, type Brush, type LineStroke } from './canvas.ts';
+import { paintWithOpacity, strokeLine, type Brush, type LineStroke } from './canvas.ts';
 
 /** Tick step below which the axis has a power of ten before its unit. Labels with more zeros would not fit next to the axis. */
 const MIN_PLAIN_STEP = 9e-4;
@@ -10,31 +10,31 @@ const MIN_PLAIN_STEP = 9e-4;
 /** Minimum distances between two ticks, CSS pixels. */
 const TICK_SPACING = { x: 60, y: 48 };
 
-/** Lengths of a key, relative to the font size: gap between entries, width of a line sample, space after it, and line height. */
+/** Lengths in a legend, relative to the font size: gap between entries, width of a line sample, space after it, and line height. */
 const LEGEND_EM = { gap: 0.8, sample: 1.5, space: 0.35, line: 1.4 };
 
 /**
- * Draws axes with ticks at the left and the bottom, and a faint grid. Above are the name of the vertical axis and a key. Names have units in
+ * Draws axes with ticks at the left and the bottom, and a faint grid. Above are the name of the vertical axis and a legend. Names have units in
  * brackets. Entries of the legend are in the order of their importance: the last ones are omitted if there is no space.
  */
-export function drawAxes(brush: Brush, names: { x: string, y: string }, key: LegendEntry[], gridOpacity: number = 0.5) {
+export function drawAxes(brush: Brush, names: { x: string, y: string }, legendEntries: LegendEntry[], gridOpacity: number = 0.5) {
   const { context, view, palette, font } = brush;
   const { left, right, top, bottom } = view.frame;
   const { xMin, xMax, yMin, yMax } = view.extent;
-  const drawRule = (opacity: number, ...line: number[][]) => fade(context, opacity, () => strokeLine(context, line, { colour: palette.rule, width: 1 }));
+  const drawRule = (opacity: number, ...points: number[][]) => paintWithOpacity(context, opacity, () => strokeLine(context, points, { colour: palette.rule, width: 1 }));
 
-  const xTicks = axisTicks(xMin, xMax, (right - left) / TICK_SPACING.x);
+  const xTicks = ticksOfAxis(xMin, xMax, (right - left) / TICK_SPACING.x);
   Object.assign(context, { font, fillStyle: palette.muted, textAlign: 'center', textBaseline: 'top' });
   // The name of the axis takes the place of the last tick label.
-  const xName = names.x.replace('(', `(${xTicks.unit}`);
-  const labelLimit = right - context.measureText(xName).width - 10;
+  const xAxisName = names.x.replace('(', `(${xTicks.unit}`);
+  const maxLabelX = right - context.measureText(xAxisName).width - 10;
   for (const value of xTicks.values) {
     const x = Math.round(view.toPixelX(value)) + 0.5;
     drawRule(gridOpacity, [x, top], [x, bottom]);
-    const text = xTicks.text(value);
-    if (x + context.measureText(text).width / 2 < labelLimit) context.fillText(text, x, bottom + 6);
+    const tickLabel = xTicks.text(value);
+    if (x + context.measureText(tickLabel).width / 2 < maxLabelX) context.fillText(tickLabel, x, bottom + 6);
   }
-  const yTicks = axisTicks(yMin, yMax, (bottom - top) / TICK_SPACING.y);
+  const yTicks = ticksOfAxis(yMin, yMax, (bottom - top) / TICK_SPACING.y);
   Object.assign(context, { textAlign: 'right', textBaseline: 'middle' });
   for (const value of yTicks.values) {
     const y = Math.round(view.toPixelY(value)) + 0.5;
@@ -45,9 +45,9 @@ export function drawAxes(brush: Brush, names: { x: string, y: string }, key: Leg
   drawRule(1, [left, bottom + 0.5], [right, bottom + 0.5]);
   drawRule(1, [left - 0.5, top], [left - 0.5, bottom]);
   Object.assign(context, { font: `italic ${font}`, textBaseline: 'top' });
-  context.fillText(xName, right, bottom + 6);
+  context.fillText(xAxisName, right, bottom + 6);
   context.textAlign = 'left';
-  drawLegend(brush, names.y.replace('(', `(${yTicks.unit}`), key);
+  drawLegend(brush, names.y.replace('(', `(${yTicks.unit}`), legendEntries);
 }
 
 export interface LegendEntry {
@@ -56,50 +56,50 @@ export interface LegendEntry {
   draw: (x: number, y: number, width: number) => void;
 }
 
-/** Returns an entry of a key with a sample of a line. */
+/** Returns an entry of a legend with a sample of a line. */
 export const lineLegendEntry = ({ context }: Brush, name: string, style: LineStroke): LegendEntry => ({ name, draw: (x, y, width) => strokeLine(context, [[x, y], [x + width, y]], style) });
 
-/** Draws a key to the right of the name of an axis. */
+/** Draws a legend to the right of the name of an axis. */
 function drawLegend({ context, view, palette, font }: Brush, axisName: string, entries: LegendEntry[]) {
   const fontSize = parseFloat(font);
-  const [width, line] = [LEGEND_EM.sample * fontSize, LEGEND_EM.line * fontSize];
+  const [width, lineHeight] = [LEGEND_EM.sample * fontSize, LEGEND_EM.line * fontSize];
   let y = view.frame.top - 22;
-  const [nameEnd, lastRow] = [2 + context.measureText(axisName).width, Math.floor(y / line)];
+  const [nameEndX, lastRow] = [2 + context.measureText(axisName).width, Math.floor(y / lineHeight)];
   context.font = font;
-  let [x, row] = [nameEnd, 0];
+  let [x, row] = [nameEndX, 0];
   const placedEntries = [];
   for (const entry of entries) {
     const entryWidth = (LEGEND_EM.gap + LEGEND_EM.space) * fontSize + width + context.measureText(entry.name).width;
     // The first entry of a line has no gap before it.
     if (x + entryWidth > view.width && row < lastRow) [x, row] = [2 - LEGEND_EM.gap * fontSize, row + 1];
     if (x + entryWidth > view.width) break;
-    placedEntries.push({ ...entry, from: x + LEGEND_EM.gap * fontSize, row });
+    placedEntries.push({ ...entry, sampleX: x + LEGEND_EM.gap * fontSize, row });
     x += entryWidth;
   }
   // The last line is nearest to the picture.
-  y -= row * line;
+  y -= row * lineHeight;
   context.font = `italic ${font}`;
   context.fillText(axisName, 2, y);
   context.font = font;
-  for (const { name, draw, from, row } of placedEntries) {
+  for (const { name, draw, sampleX, row } of placedEntries) {
     context.fillStyle = palette.ink;
-    context.fillText(name, from + width + LEGEND_EM.space * fontSize, y + row * line);
-    draw(from, y + row * line + fontSize / 2, width);
+    context.fillText(name, sampleX + width + LEGEND_EM.space * fontSize, y + row * lineHeight);
+    draw(sampleX, y + row * lineHeight + fontSize / 2, width);
   }
 }
 
 /** Returns about `count` ticks, at least two if possible, with the power of ten for the unit, and a function for the labels. */
-function axisTicks(from: number, to: number, count: number) {
+function ticksOfAxis(min: number, max: number, count: number) {
   const tickCount = Math.max(2, Math.floor(count));
-  const firstTicks = ticks(from, to, tickCount);
-  const values = firstTicks.length > 1 ? firstTicks : ticks(from, to, 2 * tickCount);
-  const step = values.length > 1 ? values[1] - values[0] : 1;
-  const exponent = step < MIN_PLAIN_STEP ? Math.floor(Math.log10(step) + 1e-9) : 0;
+  const firstTicks = ticks(min, max, tickCount);
+  const tickValues = firstTicks.length > 1 ? firstTicks : ticks(min, max, 2 * tickCount);
+  const tickStep = tickValues.length > 1 ? tickValues[1] - tickValues[0] : 1;
+  const exponent = tickStep < MIN_PLAIN_STEP ? Math.floor(Math.log10(tickStep) + 1e-9) : 0;
   return {
-    values,
+    values: tickValues,
     /** Factor before the unit of the axis. */
     unit: exponent < 0 ? `${formatPowerOfTen(exponent)} ` : '',
-    text: (value: number) => tick(value / 10 ** exponent, step / 10 ** exponent),
+    text: (value: number) => tick(value / 10 ** exponent, tickStep / 10 ** exponent),
   };
 }
 

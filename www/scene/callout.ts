@@ -2,7 +2,7 @@
 
 import { least } from 'd3-array';
 import { clamp } from '../ui/clamp.ts';
-import { fade } from './canvas.ts';
+import { paintWithOpacity } from './canvas.ts';
 import { drawLeader } from './labels.ts';
 import type { Box, Brush } from './canvas.ts';
 
@@ -33,13 +33,13 @@ export interface Callout {
 }
 
 /**
- * Draws sentences about points on the outline of a shape with the centre `from`. A sentence is outside of the shape, where it covers the
+ * Draws sentences about points on the outline of a shape with the centre `shapeCentre`. A sentence is outside of the shape, where it covers the
  * lines (x, y pairs) and other texts least. The cost of a position is continuous in all points, so that a sentence seldom jumps.
  */
-export function drawCallouts({ context, view, palette, font, placedBoxes }: Brush, callouts: Callout[], { from, lines }: { from: [number, number], lines: Float64Array[] }) {
+export function drawCallouts({ context, view, palette, font, placedBoxes }: Brush, callouts: Callout[], { shapeCentre, lines }: { shapeCentre: [number, number], lines: Float64Array[] }) {
   context.font = font;
   const toPixels = ({ 0: x, 1: y }: ArrayLike<number>) => [view.toPixelX(x), view.toPixelY(y)];
-  const [fromX, fromY] = toPixels(from);
+  const [fromX, fromY] = toPixels(shapeCentre);
   const avoidedPoints = callouts.map(({ at }) => toPixels(at));
   for (const line of lines) {
     for (let i = 0; i + 3 < line.length; i += 2) avoidedPoints.push(...pointsBetween(toPixels(line.subarray(i)), toPixels(line.subarray(i + 2))));
@@ -50,15 +50,15 @@ export function drawCallouts({ context, view, palette, font, placedBoxes }: Brus
     const halfWidth = Math.max(...textLines.map((textLine) => context.measureText(textLine).width)) / 2 + TEXT_MARGIN;
     const halfHeight = (LINE_HEIGHT * textLines.length) / 2 + TEXT_MARGIN;
     const [x, y] = toPixels(at);
-    const angle = Math.atan2(y - fromY, x - fromX);
+    const outwardAngle = Math.atan2(y - fromY, x - fromX);
     const candidateBoxes = CANDIDATES.map(({ turn, length, cost }) => {
-      const [idealX, idealY] = [x + (length + halfWidth) * Math.cos(angle + turn), y + (length + halfHeight) * Math.sin(angle + turn)];
+      const [idealX, idealY] = [x + (length + halfWidth) * Math.cos(outwardAngle + turn), y + (length + halfHeight) * Math.sin(outwardAngle + turn)];
       const box = {
         x: clamp(idealX, left + halfWidth, Math.max(left + halfWidth, right - halfWidth)),
         y: clamp(idealY, top + halfHeight, Math.max(top + halfHeight, bottom - halfHeight)),
         halfWidth, halfHeight,
       };
-      return { ...box, cost: cost + overlapOf(box, avoidedPoints, placedBoxes) };
+      return { ...box, cost: cost + maxOverlapOf(box, avoidedPoints, placedBoxes) };
     });
     const bestBox = least(candidateBoxes, ({ cost }) => cost) ?? candidateBoxes[0];
     const leaderStart = [clamp(x, bestBox.x - halfWidth, bestBox.x + halfWidth), clamp(y, bestBox.y - halfHeight, bestBox.y + halfHeight)];
@@ -67,7 +67,7 @@ export function drawCallouts({ context, view, palette, font, placedBoxes }: Brus
 
     drawLeader(context, [leaderStart, [x, y]], colour);
     context.fillStyle = palette.paper;
-    fade(context, 0.85, () => context.fillRect(bestBox.x - halfWidth, bestBox.y - halfHeight, 2 * halfWidth, 2 * halfHeight));
+    paintWithOpacity(context, 0.85, () => context.fillRect(bestBox.x - halfWidth, bestBox.y - halfHeight, 2 * halfWidth, 2 * halfHeight));
     Object.assign(context, { fillStyle: colour, textAlign: 'center', textBaseline: 'middle' });
     textLines.forEach((textLine, i) => context.fillText(textLine, bestBox.x, bestBox.y + (i - (textLines.length - 1) / 2) * LINE_HEIGHT));
   }
@@ -83,9 +83,9 @@ function pointsBetween([x, y]: number[], [toX, toY]: number[]) {
 }
 
 /** Returns the maximum depth by which points and other boxes reach into a box, pixels. The depth of boxes counts twice. */
-function overlapOf({ x, y, halfWidth, halfHeight }: Box, points: number[][], otherBoxes: Box[]) {
-  const depthOf = (toX: number, toY: number, roomX = 0, roomY = 0) =>
-    Math.min(halfWidth + roomX + MIN_DISTANCE - Math.abs(toX - x), halfHeight + roomY + MIN_DISTANCE - Math.abs(toY - y));
+function maxOverlapOf({ x, y, halfWidth, halfHeight }: Box, points: number[][], otherBoxes: Box[]) {
+  const depthOf = (toX: number, toY: number, otherHalfWidth = 0, otherHalfHeight = 0) =>
+    Math.min(halfWidth + otherHalfWidth + MIN_DISTANCE - Math.abs(toX - x), halfHeight + otherHalfHeight + MIN_DISTANCE - Math.abs(toY - y));
   let maxDepth = 0;
   for (const [toX, toY] of points) maxDepth = Math.max(maxDepth, depthOf(toX, toY));
   for (const otherBox of otherBoxes) maxDepth = Math.max(maxDepth, 2 * depthOf(otherBox.x, otherBox.y, otherBox.halfWidth, otherBox.halfHeight));

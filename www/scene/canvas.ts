@@ -42,13 +42,13 @@ export interface Brush {
 const FONT_SIZE = 13;
 
 /** Returns a length in pixels of a view as CSS em of the figure. */
-export const emOfPixels = (pixels: number) => `${pixels / 16}em`;
+export const emText = (pixels: number) => `${pixels / 16}em`;
 
 /** Converts a size from pixels of a view to CSS pixels, by the font size of the canvas. */
 export const cssSizeOf = ({ width, height }: { width: number, height: number }, canvas: Element) => [width, height].map((size) => (size * parseFloat(getComputedStyle(canvas).fontSize)) / FONT_SIZE);
 
 /** Converts a point of the window to pixels of the view that an element shows. The page may have scaled the element. */
-export function pointOn(element: Element, view: import('./view.ts').View, { clientX, clientY }: { clientX: number, clientY: number }) {
+export function pointInView(element: Element, view: import('./view.ts').View, { clientX, clientY }: { clientX: number, clientY: number }) {
   const { left, top, width } = element.getBoundingClientRect();
   const elementScale = width / view.width;
   return [(clientX - left) / elementScale, (clientY - top) / elementScale];
@@ -73,7 +73,7 @@ export function brushOn({ width, height, clientWidth, fontStyle: { fontFamily, f
 type Context = CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D;
 
 /** Calls `paint` with an opacity for what it draws. */
-export function fade(context: Context, opacity: number, paint: () => void) {
+export function paintWithOpacity(context: Context, opacity: number, paint: () => void) {
   const { globalAlpha } = context;
   context.globalAlpha = opacity * globalAlpha;
   paint();

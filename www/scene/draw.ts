@@ -4,7 +4,7 @@ import { greatest } from 'd3-array';
 import { limits } from '../settings.js';
 import { colourChannels } from '../ui/theme.ts';
 import { lineLegendEntry, type LegendEntry } from './axes.ts';
-import { addLine, drawDisc, fade, strokePath, type Brush, type LineStroke } from './canvas.ts';
+import { addLine, drawDisc, paintWithOpacity, strokePath, type Brush, type LineStroke } from './canvas.ts';
 import { drawLabel } from './labels.ts';
 import type { Callout } from './callout.ts';
 import type { Palette } from '../ui/theme.ts';
@@ -30,14 +30,14 @@ export function drawDots(brush: Brush, triples: Float64Array, layout: { x: numbe
   if (heading !== null) {
     const tickLength = ahead * dotScale * (isSparse ? 13 : 9);
     const addTicks = (firstIndex: number) => dots.slice(firstIndex, firstIndex + TICKS_PER_STROKE).forEach((point, i) => addHeadingTick(brush, point, triples[3 * (firstIndex + i) + heading], tickLength));
-    fade(context, isSparse ? 0.6 : 0.32, () => {
+    paintWithOpacity(context, isSparse ? 0.6 : 0.32, () => {
       for (let firstIndex = 0; firstIndex < dots.length; firstIndex += TICKS_PER_STROKE) strokePath(context, { colour: palette.cloud, width: 1 }, () => addTicks(firstIndex));
     });
   }
   // Squares with the area of the discs are drawn six times as fast. If they are many and small, they look like discs.
   const sideLength = Math.sqrt(Math.PI) * radius;
   context.fillStyle = palette.cloud;
-  fade(context, isSparse ? 0.9 : 0.5, () => {
+  paintWithOpacity(context, isSparse ? 0.9 : 0.5, () => {
     for (const [x, y] of dots) {
       if (isSparse || brush.exported) drawDisc(context, [x, y], radius, palette.cloud);
       else context.fillRect(x - sideLength / 2, y - sideLength / 2, sideLength, sideLength);
@@ -55,7 +55,7 @@ function addHeadingTick({ context, view }: Brush, [x, y]: number[], heading: num
 export function drawCoincidentRobots(brush: Brush, { x, y, headings, label }: { x: number, y: number, headings: number[], label: string }) {
   const { context, view, palette: { prediction: colour } } = brush;
   const robotPosition = view.toPixel(x, y);
-  fade(context, Math.min(1, 30 / headings.length), () => {
+  paintWithOpacity(context, Math.min(1, 30 / headings.length), () => {
     for (const heading of headings) strokePath(context, { colour, width: 1 }, () => addHeadingTick(brush, robotPosition, heading, 64));
   });
   // The disc is larger than the handle, which is often at the same position.
@@ -136,7 +136,7 @@ export function drawOutlines(brush: Brush, outlines: Outline[]) {
   const { context, palette } = brush;
   const visibleOutlines = outlines.filter(({ points }) => hasLength(points));
   context.lineJoin = 'round';
-  fade(context, 0.7, () => strokeLines(brush, visibleOutlines.map(({ points, width }) => ({ points, colour: palette.paper, width: width + 2.5 }))));
+  paintWithOpacity(context, 0.7, () => strokeLines(brush, visibleOutlines.map(({ points, width }) => ({ points, colour: palette.paper, width: width + 2.5 }))));
   strokeLines(brush, visibleOutlines);
 }
 
@@ -166,7 +166,7 @@ const EARLIER_OPACITY = 0.35;
 export function drawEarlierOutlines(brush: Brush, outlines: Outline[], currentPoints: ArrayLike<number>[], text: string): Callout[] {
   const { context, view, palette } = brush;
   const visibleOutlines = outlines.filter(({ points }) => hasLength(points));
-  fade(context, EARLIER_OPACITY, () => strokeLines(brush, visibleOutlines));
+  paintWithOpacity(context, EARLIER_OPACITY, () => strokeLines(brush, visibleOutlines));
   const { xMin, xMax, yMin, yMax } = view.extent;
   const visiblePoints = visibleOutlines.flatMap(({ points }) => Array.from({ length: points.length / 2 }, (_, i): [number, number] => [points[2 * i], points[2 * i + 1]]))
     .filter(([x, y]) => x > xMin && x < xMax && y > yMin && y < yMax);

@@ -1,7 +1,7 @@
 /** Handle in a picture that the user drags with a pointer or moves with keys. */
 
 import { html, nothing } from 'lit';
-import { emOfPixels, pointOn } from './canvas.ts';
+import { emText, pointInView } from './canvas.ts';
 
 /** Callbacks of a handle; lengths in metres. */
 interface HandleCallbacks {
@@ -108,8 +108,8 @@ export class Handle {
     const handle = root.querySelector(`.handle.${this.#classNames.replace(' ', '.')}`) as HTMLElement | null;
     if (!handle) return;
     this.#middlePixels = [x, y];
-    if (size !== undefined) handle.style.width = handle.style.height = emOfPixels(size);
-    handle.style.translate = `${emOfPixels(x)} ${emOfPixels(y)}`;
+    if (size !== undefined) handle.style.width = handle.style.height = emText(size);
+    handle.style.translate = `${emText(x)} ${emText(y)}`;
   }
 
   /** Converts a point from pixels of the view to metres. */
@@ -121,7 +121,7 @@ export class Handle {
   /** Returns the place of the pointer in metres. */
   #pointer(event: PointerEvent): number[] {
     const { parentElement } = event.currentTarget as Element;
-    return this.#toWorld(pointOn(parentElement as Element, this.#callbacks.view(), event));
+    return this.#toWorld(pointInView(parentElement as Element, this.#callbacks.view(), event));
   }
 
   #takePointer = (event: PointerEvent) => {

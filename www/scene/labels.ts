@@ -1,7 +1,7 @@
 /** Labels in pictures: a symbol with its subscript, and a text. */
 
 import { clamp } from '../ui/clamp.ts';
-import { drawDisc, fade, strokeLine, type Brush } from './canvas.ts';
+import { drawDisc, paintWithOpacity, strokeLine, type Brush } from './canvas.ts';
 
 /** Font size of a subscript relative to the text, and its offset below the baseline, pixels. */
 const SUBSCRIPT_SIZE = 0.78;
@@ -46,7 +46,7 @@ export function drawLabel(brush: Brush, { x, y, towards, colour, ...text }: Labe
   const labelY = candidateYs.find(isFreeAt) ?? candidateYs[0];
   placedBoxes.push({ x: labelLeft + width / 2, y: labelY, halfWidth, halfHeight });
   context.fillStyle = palette.paper;
-  fade(context, BACKGROUND.opacity, () => context.fillRect(labelLeft - 2, labelY - halfHeight, 2 * halfWidth, 2 * halfHeight));
+  paintWithOpacity(context, BACKGROUND.opacity, () => context.fillRect(labelLeft - 2, labelY - halfHeight, 2 * halfWidth, 2 * halfHeight));
   writeParts(brush, parts, labelLeft, labelY, colour);
 }
 

@@ -7,7 +7,7 @@ export type Painter = Pick<Brush, 'view' | 'palette' | 'ratio' | 'highlight'> & 
 
 export class Layer {
   #canvas = new OffscreenCanvas(1, 1);
-  #drawing: Memo<void> = new Memo();
+  #drawingMemo: Memo<void> = new Memo();
 
   /**
    * Draws the layer.
@@ -16,7 +16,7 @@ export class Layer {
    */
   draw({ context, view, palette, ratio, highlight }: Brush, cacheKey: unknown[], paint: (painter: Painter) => void) {
     const { extent, frame, width, height } = view;
-    this.#drawing.get([...cacheKey, JSON.stringify([extent, frame, width, height, palette, ratio])], () => {
+    this.#drawingMemo.get([...cacheKey, JSON.stringify([extent, frame, width, height, palette, ratio])], () => {
       // Setting the size clears the canvas.
       this.#canvas.width = Math.round(width * ratio);
       this.#canvas.height = Math.round(height * ratio);
@@ -32,17 +32,17 @@ export class Layer {
 export const LINES_PER_STROKE = 500;
 
 /** Strokes lines through points in pixels, with round ends unless they are dashed. */
-export function strokeMany(context: Painter['context'], lines: Iterable<number[][]>, style: LineStroke) {
-  let batch: number[][][] = [];
+export function strokeInBatches(context: Painter['context'], lines: Iterable<number[][]>, style: LineStroke) {
+  let lineBatch: number[][][] = [];
   let pointCount = 0;
   const strokeBatch = () => {
     context.lineCap = style.dash?.length ? 'butt' : 'round';
-    strokePath(context, style, () => batch.forEach((points) => addLine(context, points)));
+    strokePath(context, style, () => lineBatch.forEach((points) => addLine(context, points)));
     context.lineCap = 'butt';
-    [batch, pointCount] = [[], 0];
+    [lineBatch, pointCount] = [[], 0];
   };
   for (const line of lines) {
-    batch.push(line);
+    lineBatch.push(line);
     pointCount += line.length - 1;
     if (pointCount >= LINES_PER_STROKE) strokeBatch();
   }

@@ -17,7 +17,7 @@ export class Pixels {
    *
    * @param pixels row 0 at the top
    */
-  put(pixels: Uint8ClampedArray<ArrayBuffer>, columns: number) {
+  setPixels(pixels: Uint8ClampedArray<ArrayBuffer>, columns: number) {
     const rows = pixels.length / (4 * columns);
     if (this.#canvas.width !== columns) this.#canvas.width = columns;
     if (this.#canvas.height !== rows) this.#canvas.height = rows;
@@ -42,15 +42,15 @@ export class Density {
   #memo: Memo<void> = new Memo();
 
   /**
-   * @param cell side in CSS pixels
+   * @param cellSide side in CSS pixels
    * @param cacheKey values, besides the view, that the pixels depend on; the pixels are cached until one changes
    * @param pixelsOf returns the simulation's picture of a part of the plane
    */
-  draw(brush: Brush, cell: number, cacheKey: unknown[], pixelsOf: (...view: [xMin: number, yMin: number, xMax: number, yMax: number, columns: number, rows: number]) => Uint8ClampedArray<ArrayBuffer>) {
+  draw(brush: Brush, cellSide: number, cacheKey: unknown[], pixelsOf: (...view: [xMin: number, yMin: number, xMax: number, yMax: number, columns: number, rows: number]) => Uint8ClampedArray<ArrayBuffer>) {
     const { left, right, top, bottom } = brush.view.frame;
     const { xMin, yMin, xMax, yMax } = brush.view.extent;
-    const [columns, rows] = [right - left, bottom - top].map((length) => Math.max(1, Math.round(length / cell)));
-    this.#memo.get([...cacheKey, xMin, yMin, xMax, yMax, columns, rows], () => this.#pixels.put(pixelsOf(xMin, yMin, xMax, yMax, columns, rows), columns));
+    const [columns, rows] = [right - left, bottom - top].map((length) => Math.max(1, Math.round(length / cellSide)));
+    this.#memo.get([...cacheKey, xMin, yMin, xMax, yMax, columns, rows], () => this.#pixels.setPixels(pixelsOf(xMin, yMin, xMax, yMax, columns, rows), columns));
     this.#pixels.draw(brush);
   }
 }
@@ -58,15 +58,15 @@ export class Density {
 /** Returns the bounding box of the pixels that are not transparent, with a border of one pixel, into which scaling blends the edge. */
 function opaqueBox(pixels: Uint8ClampedArray<ArrayBuffer>, columns: number, rows: number): [x: number, y: number, width: number, height: number] | undefined {
   const pixelValues = new Uint32Array(pixels.buffer, pixels.byteOffset, columns * rows);
-  let [left, right, first, last] = [columns, 0, -1, -1];
+  let [left, right, firstVisibleIndex, lastVisibleIndex] = [columns, 0, -1, -1];
   for (let i = 0; i < pixelValues.length; i++) {
     if (pixelValues[i] === 0) continue;
-    if (first < 0) first = i;
-    last = i;
+    if (firstVisibleIndex < 0) firstVisibleIndex = i;
+    lastVisibleIndex = i;
     left = Math.min(left, i % columns);
     right = Math.max(right, i % columns);
   }
-  if (first < 0) return undefined;
-  const [x, y] = [Math.max(0, left - 1), Math.max(0, Math.floor(first / columns) - 1)];
-  return [x, y, Math.min(columns, right + 2) - x, Math.min(rows, Math.floor(last / columns) + 2) - y];
+  if (firstVisibleIndex < 0) return undefined;
+  const [x, y] = [Math.max(0, left - 1), Math.max(0, Math.floor(firstVisibleIndex / columns) - 1)];
+  return [x, y, Math.min(columns, right + 2) - x, Math.min(rows, Math.floor(lastVisibleIndex / columns) + 2) - y];
 }

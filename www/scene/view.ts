@@ -118,63 +118,63 @@ export class View {
 
   /** Returns both ends, in pixels, of a line from a pose in its heading, with a length in pixels. */
   ray({ x, y, theta }: { x: number, y: number, theta: number }, length: number): [from: [x: number, y: number], to: [x: number, y: number]] {
-    const from = this.toPixel(x, y);
+    const rayStart = this.toPixel(x, y);
     const headingStep = this.direction(theta);
-    return [from, [from[0] + length * headingStep.x, from[1] + length * headingStep.y]];
+    return [rayStart, [rayStart[0] + length * headingStep.x, rayStart[1] + length * headingStep.y]];
   }
 
-  /** Sets the target of the view, which stays if it contains `needed`. Otherwise the view zooms out. A released view may also zoom in. */
-  fit(needed: Extent) {
+  /** Sets the target of the view, which stays if it contains `neededExtent`. Otherwise the view zooms out. A released view may also zoom in. */
+  fit(neededExtent: Extent) {
     const { width, height } = this;
     const isResized = this.#isSnug && (width !== this.#fittedSize.width || height !== this.#fittedSize.height);
     const [keptTarget, minFill] = [isResized ? undefined : this.#target, this.#minFill];
     this.#fittedSize = { width, height };
     this.#minFill = 0;
-    if (keptTarget && isInside(needed, keptTarget) && this.#fillOf(keptTarget, needed) >= minFill) return;
+    if (keptTarget && isInside(neededExtent, keptTarget) && this.#fillOf(keptTarget, neededExtent) >= minFill) return;
     this.hasZoomedOut = keptTarget !== undefined && minFill === 0;
-    const paddedExtent = this.#isSnug ? needed : extentWithMargin(needed);
+    const paddedExtent = this.#isSnug ? neededExtent : extentWithMargin(neededExtent);
     this.#requiredExtent = keptTarget && this.hasZoomedOut ? extentAround([paddedExtent.xMin, paddedExtent.yMin, paddedExtent.xMax, paddedExtent.yMax], 2, keptTarget) : paddedExtent;
     this.#target = this.#coveringExtent(this.#requiredExtent);
     if (!keptTarget) this.extent = this.#target;
   }
 
-  /** Moves the extent towards the target, `elapsed` milliseconds after the last call, or at once. Returns true if it has not arrived. */
-  ease(elapsed: number, atOnce: boolean): boolean {
+  /** Moves the extent towards the target, `elapsedMs` after the last call, or at once. Returns true if it has not arrived. */
+  ease(elapsedMs: number, isImmediate: boolean): boolean {
     const target = this.#target;
     if (!target || target === this.extent) return false;
-    const progress = atOnce ? 1 : 1 - Math.exp(-elapsed / EASING_MS);
+    const progress = isImmediate ? 1 : 1 - Math.exp(-elapsedMs / EASING_MS);
     const nextExtent = { ...this.extent };
     for (const key of Object.keys(nextExtent) as (keyof Extent)[]) nextExtent[key] += progress * (target[key] - nextExtent[key]);
-    const remainingDistance = (from: keyof Extent, to: keyof Extent) => Math.abs(nextExtent[from] - target[from]) + Math.abs(nextExtent[to] - target[to]);
+    const remainingDistance = (minKey: keyof Extent, maxKey: keyof Extent) => Math.abs(nextExtent[minKey] - target[minKey]) + Math.abs(nextExtent[maxKey] - target[maxKey]);
     const hasArrived = remainingDistance('xMin', 'xMax') * this.scaleX + remainingDistance('yMin', 'yMax') * this.scaleY < 0.5;
-    this.extent = hasArrived || atOnce ? target : nextExtent;
+    this.extent = hasArrived || isImmediate ? target : nextExtent;
     return this.extent !== target;
   }
 
   /** Returns the fraction of an extent that the needed part of the world fills. */
-  #fillOf(currentExtent: Extent, needed: Extent) {
-    const fractions = [(needed.xMax - needed.xMin) / (currentExtent.xMax - currentExtent.xMin), (needed.yMax - needed.yMin) / (currentExtent.yMax - currentExtent.yMin)];
-    return Math[this.#hasEqualScales ? 'max' : 'min'](...fractions);
+  #fillOf(currentExtent: Extent, neededExtent: Extent) {
+    const filledFractions = [(neededExtent.xMax - neededExtent.xMin) / (currentExtent.xMax - currentExtent.xMin), (neededExtent.yMax - neededExtent.yMin) / (currentExtent.yMax - currentExtent.yMin)];
+    return Math[this.#hasEqualScales ? 'max' : 'min'](...filledFractions);
   }
 
-  /** Returns an extent that contains `required`, moved into the limits. Its size is rounded unless the view is snug. With equal scales it has the aspect ratio of the plot area. */
-  #coveringExtent(required: Extent) {
+  /** Returns an extent that contains `requiredExtent`, moved into the limits. Its size is rounded unless the view is snug. With equal scales it has the aspect ratio of the plot area. */
+  #coveringExtent(requiredExtent: Extent) {
     const { left, right, top, bottom } = this.frame;
-    const roundSize = this.#isSnug ? (needed: number) => needed : niceSize;
+    const roundSize = this.#isSnug ? (size: number) => size : roundUpToNiceSize;
     const aspectRatio = (bottom - top) / (right - left);
-    const [roomX, roomY] = [required.xMax - required.xMin, required.yMax - required.yMin];
-    const width = roundSize(this.#hasEqualScales ? Math.max(roomX, roomY / aspectRatio) : roomX);
-    const height = this.#hasEqualScales ? width * aspectRatio : roundSize(roomY);
+    const [requiredWidth, requiredHeight] = [requiredExtent.xMax - requiredExtent.xMin, requiredExtent.yMax - requiredExtent.yMin];
+    const width = roundSize(this.#hasEqualScales ? Math.max(requiredWidth, requiredHeight / aspectRatio) : requiredWidth);
+    const height = this.#hasEqualScales ? width * aspectRatio : roundSize(requiredHeight);
     const limits = this.limits ?? { xMin: -Infinity, xMax: Infinity, yMin: -Infinity, yMax: Infinity };
-    const x = clampedMiddle((required.xMin + required.xMax) / 2, width, limits.xMin, limits.xMax);
-    const y = clampedMiddle((required.yMin + required.yMax) / 2, height, limits.yMin, limits.yMax);
+    const x = clampedMiddle((requiredExtent.xMin + requiredExtent.xMax) / 2, width, limits.xMin, limits.xMax);
+    const y = clampedMiddle((requiredExtent.yMin + requiredExtent.yMax) / 2, height, limits.yMin, limits.yMax);
     return { xMin: x - width / 2, xMax: x + width / 2, yMin: y - height / 2, yMax: y + height / 2 };
   }
 }
 
 /** Returns the middle of an interval after moving it between limits. An interval that is longer than their distance is centred on them. */
-function clampedMiddle(middle: number, length: number, from: number, to: number) {
-  return to - from > length ? clamp(middle, from + length / 2, to - length / 2) : (from + to) / 2;
+function clampedMiddle(middle: number, length: number, min: number, max: number) {
+  return max - min > length ? clamp(middle, min + length / 2, max - length / 2) : (min + max) / 2;
 }
 
 const isInside = (inner: Extent, outer: Extent) =>
@@ -186,10 +186,10 @@ function extentWithMargin({ xMin, xMax, yMin, yMax }: Extent): Extent {
 }
 
 /** Returns the smallest rounded size that is not below `size`. */
-function niceSize(size: number): number {
+function roundUpToNiceSize(size: number): number {
   const decade = 10 ** Math.floor(Math.log10(size));
-  const niceStep = NICE_SIZES.find((candidate) => candidate * decade >= size * (1 - 1e-9)) ?? 10;
-  return niceStep * decade;
+  const niceFactor = NICE_SIZES.find((candidate) => candidate * decade >= size * (1 - 1e-9)) ?? 10;
+  return niceFactor * decade;
 }
 
 const EMPTY_EXTENT: Readonly<Extent> = { xMin: Infinity, yMin: Infinity, xMax: -Infinity, yMax: -Infinity };

@@ -2,8 +2,8 @@
 
 import { clamp } from '../ui/clamp.ts';
 import { colourChannels } from '../ui/theme.ts';
-import { addLine, fade, hiddenContext, strokePath, strokeLine, type Brush } from './canvas.ts';
-import { Layer, strokeMany, type Painter } from './layer.ts';
+import { addLine, paintWithOpacity, hiddenContext, strokePath, strokeLine, type Brush } from './canvas.ts';
+import { Layer, strokeInBatches, type Painter } from './layer.ts';
 import type { View } from './view.ts';
 import type { Grid, Plan } from '../types.d.ts';
 
@@ -28,15 +28,15 @@ export class WallLayer {
   }
 
   /** Draws the walls or cells; unknown cells are hatched if they are shown. */
-  draw(brush: Brush, unknown: boolean) {
-    if (!this.#grid && 'vector' in brush.context) this.#paint(brush, unknown);
-    else this.#layer.draw(brush, [unknown], (painter) => this.#paint(painter, unknown));
+  draw(brush: Brush, showsUnknown: boolean) {
+    if (!this.#grid && 'vector' in brush.context) this.#paint(brush, showsUnknown);
+    else this.#layer.draw(brush, [showsUnknown], (painter) => this.#paint(painter, showsUnknown));
   }
 
-  #paint(painter: Painter, unknown: boolean) {
+  #paint(painter: Painter, showsUnknown: boolean) {
     const { context, view, palette } = painter;
     const grid = this.#grid;
-    if (unknown && grid?.unknown) {
+    if (showsUnknown && grid?.unknown) {
       // The unknown cells are filled, and the fill is then replaced by hatching.
       fillCells(painter, grid, grid.unknown, palette.muted);
       context.globalCompositeOperation = 'source-in';
@@ -46,7 +46,7 @@ export class WallLayer {
     if (grid) fillCells(painter, grid, grid.occupied, palette.truth);
     const { bounds: [xMin, yMin, xMax, yMax] } = this.#plan;
     strokeLine(context, [[xMin, yMin], [xMax, yMin], [xMax, yMax], [xMin, yMax], [xMin, yMin]].map(([x, y]) => view.toPixel(x, y)), { colour: palette.rule, width: 1 });
-    if (!grid) strokeMany(context, this.#linesIn(view), { colour: palette.truth, width: WALL_WIDTH });
+    if (!grid) strokeInBatches(context, this.#linesIn(view), { colour: palette.truth, width: WALL_WIDTH });
   }
 
   /** Returns the walls as lines, pixels. */
@@ -58,15 +58,15 @@ export class WallLayer {
 
 /** Draws diagonal lines over the whole view. */
 function hatchView(context: Painter['context'], { width, height }: View, colour: string) {
-  fade(context, HATCHING.opacity, () => strokePath(context, { colour, width: HATCHING.width }, () => {
+  paintWithOpacity(context, HATCHING.opacity, () => strokePath(context, { colour, width: HATCHING.width }, () => {
     for (let x = -height; x < width; x += HATCHING.spacing) addLine(context, [[x, height], [x + height, 0]]);
   }));
 }
 
 /** Returns the visible cells as first column and row, and the column and row after the last. They are multiples of `side`, or ends of the grid. */
-function visibleCells({ extent: { xMin, xMax, yMin, yMax } }: View, { columns, rows, resolution, origin: [x, y, yaw] }: Cells, side: number): number[] {
-  const [along, up] = [Math.cos(yaw) / resolution, Math.sin(yaw) / resolution];
-  const viewCorners = [xMin - x, xMax - x].flatMap((dx) => [yMin - y, yMax - y].map((dy) => [dx * along + dy * up, dy * along - dx * up]));
+function visibleCellRange({ extent: { xMin, xMax, yMin, yMax } }: View, { columns, rows, resolution, origin: [x, y, yaw] }: Cells, side: number): number[] {
+  const [xStep, yStep] = [Math.cos(yaw) / resolution, Math.sin(yaw) / resolution];
+  const viewCorners = [xMin - x, xMax - x].flatMap((dx) => [yMin - y, yMax - y].map((dy) => [dx * xStep + dy * yStep, dy * xStep - dx * yStep]));
   const cellRanges = [columns, rows].map((count, i) => {
     const cornerCells = viewCorners.map((corner) => clamp(corner[i], 0, count));
     return [Math.floor(Math.min(...cornerCells) / side) * side, Math.min(count, Math.ceil(Math.max(...cornerCells) / side) * side)];
@@ -75,9 +75,9 @@ function visibleCells({ extent: { xMin, xMax, yMin, yMax } }: View, { columns, r
 }
 
 /** Returns the position of the corner of a cell, m. */
-export function cornerOf({ resolution, origin: [x, y, yaw] }: Cells, column: number, row: number): [x: number, y: number] {
-  const [along, up] = [resolution * Math.cos(yaw), resolution * Math.sin(yaw)];
-  return [x + column * along - row * up, y + column * up + row * along];
+export function cellCorner({ resolution, origin: [x, y, yaw] }: Cells, column: number, row: number): [x: number, y: number] {
+  const [xStep, yStep] = [resolution * Math.cos(yaw), resolution * Math.sin(yaw)];
+  return [x + column * xStep - row * yStep, y + column * yStep + row * xStep];
 }
 
 /**
@@ -86,7 +86,7 @@ export function cornerOf({ resolution, origin: [x, y, yaw] }: Cells, column: num
  */
 function fillCells({ context, view, ratio }: Painter, grid: Cells, cells: Uint8Array, colour: string) {
   const cellsPerSquare = Math.max(1, Math.floor(1 / (grid.resolution * view.scaleX * ratio)));
-  const [left, bottom, right, top] = visibleCells(view, grid, cellsPerSquare);
+  const [left, bottom, right, top] = visibleCellRange(view, grid, cellsPerSquare);
   const [width, height] = [Math.ceil((right - left) / cellsPerSquare), Math.ceil((top - bottom) / cellsPerSquare)];
   if (width < 1 || height < 1) return;
   const squaresImage = new ImageData(width, height);
@@ -101,7 +101,7 @@ function fillCells({ context, view, ratio }: Painter, grid: Cells, cells: Uint8A
   }
   const canvas = new OffscreenCanvas(width, height);
   hiddenContext(canvas).putImageData(squaresImage, 0, 0);
-  const cornerPixel = (column: number, row: number) => view.toPixel(...cornerOf(grid, column, row));
+  const cornerPixel = (column: number, row: number) => view.toPixel(...cellCorner(grid, column, row));
   // The first row of the image is the lowest one, as in the grid.
   const [[fromX, fromY], [rightX, rightY], [aboveX, aboveY]] = [cornerPixel(left, bottom), cornerPixel(left + cellsPerSquare, bottom), cornerPixel(left, bottom + cellsPerSquare)];
   context.save();

@@ -21,7 +21,7 @@ const MAX_LABELS = { x: 6, y: 7 };
 const FAR_OUTSIDE = 10_000;
 
 /** Half the width of the ends of an error bar. */
-const BAR_CAP = 4;
+const ERROR_BAR_CAP = 4;
 
 export const plotStyles = css`
   .plot {
@@ -95,7 +95,7 @@ interface Axis {
 export type Role = Exclude<keyof import('./theme.ts').Palette, 'paper' | 'rule'>;
 
 export interface Curve {
-  /** Name in the key; *stars* make italics. */
+  /** Name in the legend; *stars* make italics. */
   name: string;
   role: Role;
   /** Dash pattern, which distinguishes the curve without colours. */
@@ -135,11 +135,11 @@ export interface Plot {
   marks?: Mark[];
   /** Slider over the whole x axis. */
   slider?: Omit<Parameters<typeof track>[0], 'min' | 'max'>;
-  /** Legend that replaces the key. */
+  /** Legend that replaces the default one. */
   legend?: unknown;
 }
 
-export function plot({ label, x, y, curves, points = [], marks = [], slider, legend = curveKey(curves) }: Plot) {
+export function plot({ label, x, y, curves, points = [], marks = [], slider, legend = curveLegend(curves) }: Plot) {
   const [toX, toY] = [pixelScale(x, PLOT_LEFT, PLOT_RIGHT), pixelScale(y, PLOT_BOTTOM, PLOT_TOP)];
   return html`<div class="plotted" dir="ltr">
     <svg class="plot" viewBox="0 0 ${CHART_WIDTH} ${CHART_HEIGHT}" role="img" aria-label=${label} part="chart">
@@ -155,7 +155,7 @@ export function plot({ label, x, y, curves, points = [], marks = [], slider, leg
           ({ role, x: pointX, y: value, error }) => svg`<path
             stroke="var(--${role})"
             stroke-width="1.9"
-            d="M${toX(pointX) - BAR_CAP},${toY(value - error)}h${2 * BAR_CAP}m${-BAR_CAP},0V${toY(value + error)}m${-BAR_CAP},0h${2 * BAR_CAP}"
+            d="M${toX(pointX) - ERROR_BAR_CAP},${toY(value - error)}h${2 * ERROR_BAR_CAP}m${-ERROR_BAR_CAP},0V${toY(value + error)}m${-ERROR_BAR_CAP},0h${2 * ERROR_BAR_CAP}"
           /><circle cx=${toX(pointX)} cy=${toY(value)} r="3" fill="var(--${role})" />`,
         )}
       </svg>
@@ -174,7 +174,7 @@ const gridLine = (x1: number, x2: number, y1: number, y2: number, { x, y, anchor
 /** Returns the CSS class of a curve that is highlighted, or dimmed because another one is. */
 const highlightClass = ({ lit }: Curve) => (lit === undefined ? '' : lit ? 'lit' : 'unlit');
 
-function curveKey(curves: Curve[]) {
+function curveLegend(curves: Curve[]) {
   return html`<ul class="plot-key" part="legend">
     ${curves.map(
       ({ name, role, dash, area }) => html`<li>
@@ -189,8 +189,8 @@ function curveKey(curves: Curve[]) {
 /** Returns a function that converts values to pixels. It returns NaN only for NaN. On a logarithmic axis, values of 0 or less are far below the axis. */
 function pixelScale({ from, to, logarithmic }: Axis, first: number, last: number): (value: number) => number {
   const toLinear = logarithmic ? (value: number) => Math.log10(Math.max(value, 0)) : Number;
-  const [start, end] = [toLinear(from), toLinear(to)];
-  return (value) => clamp(first + ((toLinear(value) - start) * (last - first)) / (end - start), -FAR_OUTSIDE, FAR_OUTSIDE);
+  const [startValue, endValue] = [toLinear(from), toLinear(to)];
+  return (value) => clamp(first + ((toLinear(value) - startValue) * (last - first)) / (endValue - startValue), -FAR_OUTSIDE, FAR_OUTSIDE);
 }
 
 function axisLabels({ from, to, logarithmic }: Axis, maxCount: number): [value: number, text: string][] {

@@ -7,7 +7,7 @@ import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
 import { define } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
-import { pointOn } from '../../scene/canvas.ts';
+import { pointInView } from '../../scene/canvas.ts';
 import { Memo } from '../../scene/memo.ts';
 import { group } from '../../ui/controls.ts';
 import { integer } from '../../ui/format.ts';
@@ -115,7 +115,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   #chooseLegAt = (event: MouseEvent) => {
     const { simulation } = this;
     if (!simulation || !(event.target instanceof HTMLCanvasElement)) return;
-    const [x, y] = pointOn(event.target, this.#pathPicture.view, event);
+    const [x, y] = pointInView(event.target, this.#pathPicture.view, event);
     const leg = this.#pathPicture.nearest(simulation, x, y);
     if (leg >= 0) this.gesture.decide({ leg });
   };

@@ -5,7 +5,7 @@
 
 import { strokePath, type Brush } from '../../scene/canvas.ts';
 import { lineStyles } from '../../scene/draw.ts';
-import { LINES_PER_STROKE, Layer, strokeMany, type Painter } from '../../scene/layer.ts';
+import { LINES_PER_STROKE, Layer, strokeInBatches, type Painter } from '../../scene/layer.ts';
 import { Memo } from '../../scene/memo.ts';
 import { colourChannels } from '../../ui/theme.ts';
 import { LEG_CLASSES, LINE_STYLES, type LineName } from './settings.ts';
@@ -63,13 +63,13 @@ export class PathLayer {
 function drawPath(brush: Painter, legs: CalibrationLegs, odometry: Float64Array, classes: Uint8Array, overlays: LineName[]) {
   const { context, view } = brush;
   const { count, reference } = legs;
-  if (overlays.includes('odometry')) strokeMany(context, odometryLines(view, odometry), pathStyle(brush, 'odometry'));
+  if (overlays.includes('odometry')) strokeInBatches(context, odometryLines(view, odometry), pathStyle(brush, 'odometry'));
   for (const [index, name] of LEG_CLASSES.entries()) {
     if (!overlays.includes(name)) continue;
     const legsOfClass = [...classes.keys()].filter((leg) => classes[leg] === index);
     const lines = legsOfClass.map((leg) => [view.toPixel(reference[6 * leg], reference[6 * leg + 1]), view.toPixel(reference[6 * leg + 3], reference[6 * leg + 4])]);
     const legStyle = pathStyle(brush, name);
-    strokeMany(context, lines, count > MAX_WIDE_LEGS ? { ...legStyle, width: HAIRLINE_WIDTH } : legStyle);
+    strokeInBatches(context, lines, count > MAX_WIDE_LEGS ? { ...legStyle, width: HAIRLINE_WIDTH } : legStyle);
   }
   if (overlays.includes('outlier')) drawRings(brush, outlierEnds(brush, legs));
 }

@@ -248,7 +248,7 @@ class SurfaceLayer {
     const surface = this.#surfaceMemo.get([config, xMin, yMin, xMax, yMax], () => simulation.surface(xMin, yMin, xMax, yMax));
     if (!surface) return;
     const { columns, shades, prob, density } = surface;
-    this.#pixelsMemo.get([surface, palette], () => this.#pixels.put(colouredPixels(shades, palette), columns));
+    this.#pixelsMemo.get([surface, palette], () => this.#pixels.setPixels(colouredPixels(shades, palette), columns));
     this.#pixels.draw(brush);
     brush.context.globalAlpha = 0.7;
     for (const [lines, { role, width, dash }] of [[prob, CONTOUR_STYLES.prob], [density, CONTOUR_STYLES.density]] as const) {

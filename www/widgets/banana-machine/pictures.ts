@@ -193,7 +193,7 @@ export class PlanePicture extends CloudPicture {
         drawMark(brush, { x, y, heading: morph < 1 ? (1 - morph) * pose[2] : null });
       }
     });
-    drawCallouts(brush, callouts, { from: cloudMiddle, lines: [outlines.command, outlines.ellipse, outlines.exponential, ...earlierOutlines.map(({ points }) => points)] });
+    drawCallouts(brush, callouts, { shapeCentre: cloudMiddle, lines: [outlines.command, outlines.ellipse, outlines.exponential, ...earlierOutlines.map(({ points }) => points)] });
   };
 }
 
@@ -330,6 +330,6 @@ export class TwistPicture extends CloudPicture {
       }
       if (marked) drawMark(brush, { x: marked.twist[0], y: marked.twist[2], heading: null });
     });
-    drawCallouts(brush, callouts, { from: twistMiddle, lines: [contours.twistEllipse, Float64Array.of(...twistMiddle), ...(earlierViewModel ? [earlierViewModel.contours.twistEllipse] : [])] });
+    drawCallouts(brush, callouts, { shapeCentre: twistMiddle, lines: [contours.twistEllipse, Float64Array.of(...twistMiddle), ...(earlierViewModel ? [earlierViewModel.contours.twistEllipse] : [])] });
   };
 }

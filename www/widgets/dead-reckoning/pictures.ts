@@ -58,7 +58,7 @@ export class PathPicture extends SamplesPicture<Scene> {
       const [x, y, heading] = marked.subarray(3 * (step - 1));
       drawMark(brush, { x, y, heading });
     });
-    drawCallouts(brush, callouts, { from: [pose[0], pose[1]], lines: [commanded, outlines.ellipse, outlines.exponential] });
+    drawCallouts(brush, callouts, { shapeCentre: [pose[0], pose[1]], lines: [commanded, outlines.ellipse, outlines.exponential] });
   };
 }
 
@@ -109,7 +109,7 @@ export class StepPicture extends Picture<Scene> {
       if (brush.previousViewModel && overlays.includes('exponential')) callouts.push(...drawEarlierOutlines(brush, [{ points: brush.previousViewModel.outlines.predicted, ...styles.exponential }], [[0, 0]], words.before));
       drawOutlines(brush, shownNames.map((name) => ({ points: points[name], ...styles[name] })));
     });
-    drawCallouts(brush, callouts, { from: [0, 0], lines: [predicted, measured] });
+    drawCallouts(brush, callouts, { shapeCentre: [0, 0], lines: [predicted, measured] });
   };
 }
 

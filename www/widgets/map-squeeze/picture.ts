@@ -6,7 +6,7 @@ import { densityRamp, drawMark, drawOutline, lineStyles, strokeLines } from '../
 import { Density } from '../../scene/pixels.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
 import { View, extentAround } from '../../scene/view.ts';
-import { WallLayer, cornerOf, type Cells } from '../../scene/walls.ts';
+import { WallLayer, cellCorner, type Cells } from '../../scene/walls.ts';
 import { limits } from '../../settings.js';
 import { clamp } from '../../ui/clamp.ts';
 import { drawDraggableRobot, drawRobotOutline } from '../shared/robot.ts';
@@ -185,7 +185,7 @@ function knownCorners(grid: Cells, unknown: Uint8Array) {
   }
   if (knownBox.left > knownBox.right) return [];
   const { left, bottom, right, top } = knownBox;
-  return [left, right].flatMap((column) => [bottom, top].flatMap((row) => cornerOf(grid, column, row)));
+  return [left, right].flatMap((column) => [bottom, top].flatMap((row) => cellCorner(grid, column, row)));
 }
 
 /** Returns the legend of an exported picture: the marks, or the colours of a density. */

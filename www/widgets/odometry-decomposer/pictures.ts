@@ -166,7 +166,7 @@ export class LegsPicture extends OutcomesPicture {
     });
     const turnArcs = [turnArcPoints(startPose, legs.rot1, firstRadius / this.view.scaleX), turnArcPoints(drivenPose, legs.rot2, secondRadius / this.view.scaleX)].map((points) => Float64Array.from(points));
     if (overlays.includes('legs')) drawLabelsAbove(brush, this.#labels(brush, scene, firstRadius, secondRadius));
-    drawCallouts(brush, ellipses.map(({ callout }) => callout), { from: [drivenPose.x, drivenPose.y], lines: [...ellipses.map(({ points }) => points), ...turnArcs] });
+    drawCallouts(brush, ellipses.map(({ callout }) => callout), { shapeCentre: [drivenPose.x, drivenPose.y], lines: [...ellipses.map(({ points }) => points), ...turnArcs] });
   };
 
   /** Returns labels with the value and standard deviation of each leg that is long enough to see. The arcs of both turns have radii in pixels. */

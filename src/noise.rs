@@ -34,9 +34,9 @@ pub struct NegativeVariance(pub f64);
 
 /// Largest residual that counts as 0 for a noise of zero variance (m/s or rad/s, or m or rad for odometry legs).
 ///
-/// The inversion of an arc of 0.01 s at 1 m/s, a kilometre from the origin, has an error of up to 4e-9 in γ̂. At lower speeds
-/// it is larger. A smaller bound would therefore reject poses of the sampler itself. No robot is controlled to 0.1 µm/s, so that
-/// the bound accepts no motion that deviates from the command.
+/// Inverting an arc of 0.01 s at 1 m/s, a kilometre from the origin, gives an error of up to 4e-9 in γ̂. At lower speeds the error is
+/// larger. A smaller bound would therefore reject poses of the sampler itself. No robot is controlled to 0.1 µm/s, so that the bound
+/// accepts no motion that deviates from the command.
 const MAX_ZERO_RESIDUAL: f64 = 1e-7;
 
 /// √6: the triangular density of variance b² is positive within ±√6·b.
@@ -69,8 +69,8 @@ impl NoiseKind {
 
     /// Returns the density of the noise of variance `b2` at the residual `a`, in the inverse of a's unit.
     ///
-    /// For a variance of 0 the result is 1 if `a` is 0 up to rounding (1e-7), and 0 otherwise. In a product of densities, a
-    /// residual without noise therefore changes nothing if it is 0, and makes the product 0 if it is not.
+    /// For a variance of 0 the result is 1 if `a` is 0 up to rounding (1e-7), and 0 otherwise. In a product of densities, a residual
+    /// without noise therefore changes nothing if it is 0. Otherwise it makes the product 0.
     pub fn prob(self, a: f64, b2: Variance) -> f64 {
         let Variance(b2) = b2;
         if b2 == 0.0 {

@@ -96,8 +96,8 @@ pub fn arc_with_turn_near(x: &SE2, x_next: &SE2, near_turn: f64) -> (f64, f64) {
     (length * (total_turn / turn), total_turn)
 }
 
-/// The path of a point that leaves `start` along its heading, driving the signed `length` (m) while turning by `turn`
-/// (rad, any number of circles).
+/// Path of a point that leaves `start` along its heading. It drives the signed `length` (m) while turning by `turn` (rad, any number
+/// of circles).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arc {
     /// Pose at the start.
@@ -224,8 +224,8 @@ impl PreparedPose {
         let x = (forward * self.cos - left * self.sin) + self.pose.x();
         let y = (forward * self.sin + left * self.cos) + self.pose.y();
         let [length, turn, sinc, x, y] = [length, turn, sinc, x, y].map(f64x4::to_array);
-        let start = *self;
-        move |i| start.driven_arc(length[i], turn[i], sinc[i], [x[i], y[i]])
+        let start_pose = *self;
+        move |i| start_pose.driven_arc(length[i], turn[i], sinc[i], [x[i], y[i]])
     }
 
     fn driven_arc(&self, length: f64, turn: f64, half_sinc: f64, end: [f64; 2]) -> DrivenArc {
@@ -239,17 +239,17 @@ impl DrivenArc {
     /// circle.
     pub fn arc_pieces(&self) -> impl Iterator<Item = ArcPiece> {
         let Arc { start, length, turn } = self.arc;
-        let from = [start.x(), start.y()];
+        let start_point = [start.x(), start.y()];
         if turn.abs() <= PI {
-            let arc_piece = ArcPiece::new(from, self.end, length.abs(), turn, self.half_sinc);
+            let arc_piece = ArcPiece::new(start_point, self.end, length.abs(), turn, self.half_sinc);
             return [Some(arc_piece), None].into_iter().flatten();
         }
         let half_fraction = 0.5 * (TAU / turn.abs()).min(1.0);
         let (length, turn) = (half_fraction * length, half_fraction * turn);
         let DrivenArc { end: middle, half_sinc, .. } = PreparedPose::new(start).drive(length, turn);
-        let to = if half_fraction < 0.5 { from } else { self.end };
-        [(from, middle), (middle, to)]
-            .map(|(from, to)| Some(ArcPiece::new(from, to, length.abs(), turn, half_sinc)))
+        let end_point = if half_fraction < 0.5 { start_point } else { self.end };
+        [(start_point, middle), (middle, end_point)]
+            .map(|(start, end)| Some(ArcPiece::new(start, end, length.abs(), turn, half_sinc)))
             .into_iter()
             .flatten()
     }
@@ -283,22 +283,22 @@ pub(crate) struct ArcPiece {
     /// Half the length of the piece, m.
     pub half_length: f64,
     /// Maximum error of a point, m.
-    pub error: f64,
+    pub max_error: f64,
 }
 
 impl ArcPiece {
     /// Creates the piece between two points, with a positive `length` (m) and a turn of `turn` (rad); `half_sinc` is sinc(φ/2).
-    fn new(from: [f64; 2], to: [f64; 2], length: f64, turn: f64, half_sinc: f64) -> Self {
+    fn new(start: [f64; 2], end: [f64; 2], length: f64, turn: f64, half_sinc: f64) -> Self {
         let (per_metre, curvature) =
             if length > MIN_LENGTH { (1.0 / (length * half_sinc), turn / length) } else { (0.0, 0.0) };
-        let tangent = [(to[0] - from[0]) * per_metre, (to[1] - from[1]) * per_metre];
+        let tangent = [(end[0] - start[0]) * per_metre, (end[1] - start[1]) * per_metre];
         let half_length = 0.5 * length;
         let uncorrected_piece = Self {
-            middle: [0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1])],
+            middle: [0.5 * (start[0] + end[0]), 0.5 * (start[1] + end[1])],
             tangent,
             curvature,
             half_length,
-            error: 0.0,
+            max_error: 0.0,
         };
         let [_, rise]: [f64; 2] = uncorrected_piece.local_point(half_length);
         let middle = [
@@ -308,7 +308,7 @@ impl ArcPiece {
         let half_turn_squared = 0.25 * turn * turn;
         Self {
             middle,
-            error: half_length * half_turn_squared * half_turn_squared * half_turn_squared / 2000.0,
+            max_error: half_length * half_turn_squared * half_turn_squared * half_turn_squared / 2000.0,
             ..uncorrected_piece
         }
     }
@@ -377,7 +377,7 @@ impl LocalArc {
     }
 
     /// Returns the distance from a point to the arc.
-    pub fn distance(&self, point: [f64; 2]) -> f64 {
+    pub fn distance_to_point(&self, point: [f64; 2]) -> f64 {
         let distance_to_ends =
             libm::hypot(point[0], point[1]).min(libm::hypot(point[0] - self.end[0], point[1] - self.end[1]));
         if !self.has_nearest_point(point) {

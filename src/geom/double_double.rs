@@ -1,7 +1,7 @@
 //! Double-double arithmetic: numbers with twice the digits of a double, for checking formulas in doubles.
 //!
-//! A number is the sum of two doubles, of which the second is at most half a unit in the last place of the first: 106 bits.
-//! Sums and products use the error-free transformations of Dekker (Numerische Mathematik 18, 1971) and Knuth.
+//! A number is the sum of two doubles, 106 bits in all. The second double is at most half a unit in the last place of the first. Sums
+//! and products use the error-free transformations of Dekker (Numerische Mathematik 18, 1971) and Knuth.
 
 use std::ops::{Add, Mul, Neg, Sub};
 

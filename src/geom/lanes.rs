@@ -29,10 +29,10 @@ pub struct SinCos {
 #[derive(Clone, Copy)]
 pub struct LogTerms {
     /// h minus whole half circles, so that it is within a quarter circle of the requested branch.
-    pub half: f64x4,
-    /// h·cot h of `half`.
-    pub cotangent: f64x4,
-    /// sin h/h of `half`.
+    pub half_heading: f64x4,
+    /// h·cot h of `half_heading`.
+    pub half_cotangent: f64x4,
+    /// sin h/h of `half_heading`.
     pub sinc: f64x4,
     /// sin h. The signs of sine and cosine are reversed if an odd number of half circles was subtracted.
     pub sin: f64x4,
@@ -97,24 +97,24 @@ impl Trigonometry {
 
     /// Returns the terms of the SE(2) logarithm for half headings (rad) within a quarter turn of 0, which are on the requested branch.
     #[inline(always)]
-    pub fn log_terms_small_angle(&self, half: f64x4) -> LogTerms {
-        let (sinc, cos) = self.sinc_cos(half * half);
-        LogTerms { half, cotangent: cos / sinc, sinc, sin: half * sinc, cos }
+    pub fn log_terms_small_angle(&self, half_heading: f64x4) -> LogTerms {
+        let (sinc, cos) = self.sinc_cos(half_heading * half_heading);
+        LogTerms { half_heading, half_cotangent: cos / sinc, sinc, sin: half_heading * sinc, cos }
     }
 
     /// Returns the terms of the SE(2) logarithm for any half headings (rad), on the branch nearest to the half heading `near` (rad).
     /// Half headings that [`Trigonometry::log_terms_small_angle`] accepts get the same bits as from it.
     #[inline(never)]
-    pub fn log_terms_any_angle(&self, half: f64x4, near: f64) -> LogTerms {
-        let mut half_on_branch = subtract_half_circles(half, half_circle_count(half - near));
-        if any_lane_beyond(half - near, MAX_REDUCED_ANGLE) {
-            let wrapped_near = |half: f64| near + 0.5 * wrap_angle(2.0 * (half - near));
-            let is_beyond_reduction = (half - near).abs().simd_gt(f64x4::splat(MAX_REDUCED_ANGLE));
+    pub fn log_terms_any_angle(&self, half_heading: f64x4, near: f64) -> LogTerms {
+        let mut half_on_branch = subtract_half_circles(half_heading, half_circle_count(half_heading - near));
+        if any_lane_beyond(half_heading - near, MAX_REDUCED_ANGLE) {
+            let wrapped_near = |half_heading: f64| near + 0.5 * wrap_angle(2.0 * (half_heading - near));
+            let is_beyond_reduction = (half_heading - near).abs().simd_gt(f64x4::splat(MAX_REDUCED_ANGLE));
             half_on_branch = is_beyond_reduction
-                .bitselect(from_lanes(|i| wrapped_near(half.to_array()[i])), half_on_branch);
+                .bitselect(from_lanes(|i| wrapped_near(half_heading.to_array()[i])), half_on_branch);
         }
         let SinCos { sinc, sin, cos } = self.sin_cos_any_angle(half_on_branch);
-        LogTerms { half: half_on_branch, cotangent: cos / sinc, sinc, sin, cos }
+        LogTerms { half_heading: half_on_branch, half_cotangent: cos / sinc, sinc, sin, cos }
     }
 
     /// Returns (sin x/x, cos x) from z = x², for |x| up to a quarter turn. Exact at 0.
@@ -156,8 +156,7 @@ pub(crate) fn from_lanes(value_of_lane: impl FnMut(usize) -> f64) -> f64x4 {
     f64x4::new(std::array::from_fn(value_of_lane))
 }
 
-/// Returns ln of positive normal numbers, operation for operation that of `libm::log` (FreeBSD's e_log.c, where the
-/// algorithm is explained).
+/// Returns ln of positive normal numbers, by the same operations as `libm::log`. FreeBSD's e_log.c explains the algorithm.
 #[inline(always)]
 pub(crate) fn log(x: f64x4) -> f64x4 {
     /// Upper 32 bits of √2/2, the smallest reduced mantissa.

@@ -70,17 +70,17 @@ impl SE2 {
     ///
     /// V⁻¹ = [h·cot h, h; −h, h·cot h] with h = θ/2. Like every logarithm of SE(2) it is discontinuous at the heading π.
     pub fn log(&self) -> Vector3<f64> {
-        self.log_of_turn(self.theta)
+        self.log_with_turn(self.theta)
     }
 
     /// Returns the logarithm whose ω is within π of `turn`, rad: the approximate turn of a body that may have turned by
     /// more than half a circle. For `turn` between −π and π it mostly equals [`SE2::log`]. Near a turn of whole circles
     /// it grows without bound, unless the body is back at its start.
     pub fn log_near(&self, turn: f64) -> Vector3<f64> {
-        self.log_of_turn(turn + wrap_angle(self.theta - turn))
+        self.log_with_turn(turn + wrap_angle(self.theta - turn))
     }
 
-    fn log_of_turn(&self, turn: f64) -> Vector3<f64> {
+    fn log_with_turn(&self, turn: f64) -> Vector3<f64> {
         let (half_turn, diagonal) = (0.5 * turn, half_cotangent(turn));
         Vector3::new(diagonal * self.x + half_turn * self.y, diagonal * self.y - half_turn * self.x, turn)
     }
@@ -124,7 +124,7 @@ impl SE2 {
     /// Each entry is off by at most 4e-16 · max(1, ‖τ‖) for |ω| ≤ π. det J_r = sinc²(ω/2).
     pub fn right_jacobian(twist: &Vector3<f64>) -> Matrix3<f64> {
         let (a, b) = chord_factors(twist.z);
-        let (c, d) = (sine_defect(twist.z), 0.5 * sinc_squared_half(twist.z));
+        let (c, d) = (sine_defect(twist.z), 0.5 * squared_half_sinc(twist.z));
         Matrix3::new(a, b, c * twist.x - d * twist.y, -b, a, d * twist.x + c * twist.y, 0.0, 0.0, 1.0)
     }
 
@@ -177,7 +177,7 @@ fn half_cotangent(turn: f64) -> f64 {
 }
 
 /// Returns sinc²(ω/2) = 2(1 − cos ω)/ω², without the cancellation of 1 − cos ω.
-fn sinc_squared_half(turn: f64) -> f64 {
+fn squared_half_sinc(turn: f64) -> f64 {
     let half_sinc = sinc(0.5 * turn);
     half_sinc * half_sinc
 }
@@ -193,7 +193,8 @@ fn sine_defect(turn: f64) -> f64 {
         return (turn - libm::sin(turn)) / (turn * turn);
     }
     let turn_squared = turn * turn;
-    // Horner in −ω², each term its predecessor over (2k)(2k + 1): at |ω| = 1 the first omitted term is 1/21! ≈ 2e-20.
+    // Horner's scheme in −ω²: each term is the one before it, divided by (2k)(2k + 1). At |ω| = 1 the first omitted term is 1/21! ≈
+    // 2e-20.
     let mut sum = 1.0;
     for k in (2..=9).rev() {
         let k = f64::from(2 * k);
@@ -202,12 +203,13 @@ fn sine_defect(turn: f64) -> f64 {
     turn / 6.0 * sum
 }
 
-/// Returns (1 − h·cot h)/ω with h = ω/2, = ω/12 + ω³/720 + ω⁵/30240 + …, coefficients |B₂ₖ|/(2k)!.
+/// Returns (1 − h·cot h)/ω with h = ω/2, which is ω/12 + ω³/720 + ω⁵/30240 + …
 fn cotangent_defect(turn: f64) -> f64 {
     if turn.abs() >= MAX_SERIES_ANGLE {
         return (1.0 - half_cotangent(turn)) / turn;
     }
-    /// |B₂ₖ|/(2k)! for k = 1, 2, …; they fall by (2π)² each, so that at |ω| = 1 the first omitted one is 1e-18.
+    /// Coefficients |B₂ₖ|/(2k)! for k = 1, 2, …, with Bernoulli numbers B. Each is 1/(2π)² of the one before; the first omitted one is
+    /// 1e-18.
     const COEFFICIENTS: [f64; 10] = [
         1.0 / 12.0,
         1.0 / 720.0,

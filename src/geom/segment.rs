@@ -40,17 +40,17 @@ impl Segment {
 
     /// Returns the distance (m) between the nearest points of the segment and of an arc; 0 where they cross.
     ///
-    /// The nearest points are a crossing, or an end of segment or arc with the nearest point of the other. Or they are inner
-    /// points, where the segment is parallel to the arc and outside its circle. There are no other minima, because inside the
-    /// circle the distance to it is concave along a line.
+    /// The nearest points are a crossing, an end of one and the nearest point of the other, or two inner points. At inner points the
+    /// segment is parallel to the arc and outside its circle. There are no other minima, because inside the circle the distance to it
+    /// is concave along a line.
     pub fn distance_to_arc(&self, arc: &Arc) -> f64 {
         self.distance_to_local_arc(&arc.local_arc())
     }
 
     /// Returns [`Segment::distance_to_arc`] for an arc that is prepared for several segments.
-    pub(crate) fn distance_to_local_arc(&self, local: &LocalArc) -> f64 {
-        let local_segment = self.in_arc_frame(local);
-        if local_segment.crosses_arc(local) { 0.0 } else { local_segment.distance_without_crossing(local) }
+    pub(crate) fn distance_to_local_arc(&self, arc: &LocalArc) -> f64 {
+        let local_segment = self.in_arc_frame(arc);
+        if local_segment.crosses_arc(arc) { 0.0 } else { local_segment.distance_without_crossing(arc) }
     }
 
     /// Returns the maximum distance (m) of an arc to the right of the segment's line. The ends of the arc must not be to the right.
@@ -73,20 +73,20 @@ impl Segment {
     }
 
     /// Returns the segment in the frame of an arc.
-    fn in_arc_frame(&self, local: &LocalArc) -> Self {
-        Self { from: local.transform(self.from), to: local.transform(self.to) }
+    fn in_arc_frame(&self, arc: &LocalArc) -> Self {
+        Self { from: arc.transform(self.from), to: arc.transform(self.to) }
     }
 
     /// Returns true if a segment in the frame of an arc has a point in common with it.
-    fn crosses_arc(&self, local: &LocalArc) -> bool {
+    fn crosses_arc(&self, arc: &LocalArc) -> bool {
         let Self { from, to } = *self;
         let direction = [to[0] - from[0], to[1] - from[1]];
         // Points of the segment on the circle: the circle's equation is quadratic along it.
-        let a = 0.5 * local.curvature * dot(direction, direction);
-        let b = local.curvature * dot(from, direction) - direction[1];
-        let c = local.circle_equation(from);
+        let a = 0.5 * arc.curvature * dot(direction, direction);
+        let b = arc.curvature * dot(from, direction) - direction[1];
+        let c = arc.circle_equation(from);
         // b² − 4ac, rearranged against cancellation if the wall is much longer than the radius.
-        let line_offset = local.curvature * (from[0] * direction[1] - from[1] * direction[0]);
+        let line_offset = arc.curvature * (from[0] * direction[1] - from[1] * direction[0]);
         let discriminant = direction[1] * direction[1] - line_offset * (line_offset + 2.0 * direction[0]);
         if discriminant < 0.0 {
             return false;
@@ -94,33 +94,33 @@ impl Segment {
         let q = -0.5 * (b + discriminant.sqrt().copysign(b));
         [q / a, c / q].into_iter().any(|t| {
             (0.0..=1.0).contains(&t)
-                && local.has_nearest_point([from[0] + t * direction[0], from[1] + t * direction[1]])
+                && arc.has_nearest_point([from[0] + t * direction[0], from[1] + t * direction[1]])
         })
     }
 
     /// Returns the distance between an arc and a segment that does not cross it, in the frame of the arc.
-    fn distance_without_crossing(&self, local: &LocalArc) -> f64 {
+    fn distance_without_crossing(&self, arc: &LocalArc) -> f64 {
         let Self { from, to } = *self;
         let direction = [to[0] - from[0], to[1] - from[1]];
-        let length_squared = dot(direction, direction);
-        let mut min_squared_distance = [
-            local.distance(from),
-            local.distance(to),
+        let squared_length = dot(direction, direction);
+        let mut min_distance = [
+            arc.distance_to_point(from),
+            arc.distance_to_point(to),
             self.distance_to_point([0.0, 0.0]),
-            self.distance_to_point(local.end),
+            self.distance_to_point(arc.end),
         ]
         .into_iter()
         .fold(f64::INFINITY, f64::min);
         // The foot of the perpendicular from the circle's centre. A straight path has no centre, and needs no foot.
-        if local.curvature > 0.0 && length_squared > 0.0 {
-            let t = (direction[1] / local.curvature - dot(from, direction)) / length_squared;
+        if arc.curvature > 0.0 && squared_length > 0.0 {
+            let t = (direction[1] / arc.curvature - dot(from, direction)) / squared_length;
             if (0.0..=1.0).contains(&t) {
                 // A foot inside the circle is no minimum, except that of a tangent, which rounding may put there.
-                min_squared_distance = min_squared_distance
-                    .min(local.distance([from[0] + t * direction[0], from[1] + t * direction[1]]));
+                min_distance = min_distance
+                    .min(arc.distance_to_point([from[0] + t * direction[0], from[1] + t * direction[1]]));
             }
         }
-        min_squared_distance
+        min_distance
     }
 }
 

@@ -45,27 +45,27 @@ fn position_jacobian(twist: &Vector3<f64>) -> Matrix2x3<f64> {
 pub fn unbend_line(points: &[[f64; 2]], turn: f64, morph: f64) -> Vec<[f64; 2]> {
     let arc = |[x, y]: &[f64; 2]| arc_with_turn_near(&SE2::identity(), &SE2::new(*x, *y, 0.0), turn);
     let arcs: Vec<_> = points.iter().map(arc).collect();
-    if arcs.windows(2).any(|ends| (ends[1].1 - ends[0].1).abs() > PI) {
+    if arcs.windows(2).any(|pair| (pair[1].1 - pair[0].1).abs() > PI) {
         return Vec::new();
     }
     arcs.into_iter().map(|(length, turn)| unbend(&Vector3::new(length, 0.0, turn), morph)).collect()
 }
 
 /// Maximum number of Newton steps. From one frame of a drag to the next three suffice.
-const MAX_STEPS: usize = 20;
+const MAX_NEWTON_STEPS: usize = 20;
 
 /// Returns the length and turn of the arc that a morph takes to a point, by Newton's method from an initial guess. None if the method
 /// does not converge, as on a fold.
 pub fn find_arc(target: [f64; 2], initial_guess: [f64; 2], morph: f64) -> Option<[f64; 2]> {
     let mut arc = Vector2::from(initial_guess);
-    for _ in 0..MAX_STEPS {
+    for _ in 0..MAX_NEWTON_STEPS {
         let twist = Vector3::new(arc.x, 0.0, arc.y);
-        let error = Vector2::from(target) - Vector2::from(unbend(&twist, morph));
-        if error.amax() < 1e-12 * (1.0 + arc.amax()) {
+        let residual = Vector2::from(target) - Vector2::from(unbend(&twist, morph));
+        if residual.amax() < 1e-12 * (1.0 + arc.amax()) {
             return Some(arc.into());
         }
         let jacobian = unbend_jacobian(&twist, morph);
-        arc += Matrix2::from_columns(&[jacobian.column(0), jacobian.column(2)]).try_inverse()? * error;
+        arc += Matrix2::from_columns(&[jacobian.column(0), jacobian.column(2)]).try_inverse()? * residual;
     }
     None
 }

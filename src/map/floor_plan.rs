@@ -329,7 +329,7 @@ impl ArcSweep<'_> {
     fn is_free(&mut self, piece: &ArcPiece, from: f64, to: f64) -> bool {
         let field = self.field;
         let half_part_length = (to - from) / (2 * LANES) as f64;
-        let needed_distance = self.clearance + piece.error + half_part_length;
+        let needed_distance = self.clearance + piece.max_error + half_part_length;
         let part_middles = piece.points_at(f64x4::new([1.0, 3.0, 5.0, 7.0]) * half_part_length + from);
         let lower_bounds = field.lower_bounds(&part_middles);
         if !any_lane_set(lower_bounds.simd_le(f64x4::splat(needed_distance))) {
@@ -337,7 +337,7 @@ impl ArcSweep<'_> {
         }
         let distances = lower_bounds.to_array();
         let min_lower_bound = distances.into_iter().fold(f64::INFINITY, f64::min);
-        if field.upper_bound(min_lower_bound) <= self.clearance - piece.error {
+        if field.upper_bound(min_lower_bound) <= self.clearance - piece.max_error {
             return false;
         }
         // A part no longer than the diagonal of a cell is not divided, because the field is too coarse. Walls near it are measured.
@@ -349,7 +349,7 @@ impl ArcSweep<'_> {
                     let start = from + (2 * i) as f64 * half_part_length;
                     self.is_free(piece, start, start + 2.0 * half_part_length)
                 } else {
-                    self.walls_are_clear([x[i], y[i]], half_part_length + piece.error, piece.error)
+                    self.walls_are_clear([x[i], y[i]], half_part_length + piece.max_error, piece.max_error)
                 }
         })
     }

@@ -97,8 +97,8 @@ pub trait RotTransRot {
     /// frame of `x` (m², m·rad, rad²).
     fn cartesian_cov(&self, u: &OdomDelta, x: &SE2) -> Matrix3<f64> {
         let (sin, cos) = libm::sincos(x.theta() + u.rot1);
-        let rot1_column = Vector3::new(-u.trans * sin, u.trans * cos, 1.0);
-        let jacobian = Matrix3::from_columns(&[rot1_column, Vector3::new(cos, sin, 0.0), Vector3::z()]);
+        let rot1_derivative = Vector3::new(-u.trans * sin, u.trans * cos, 1.0);
+        let jacobian = Matrix3::from_columns(&[rot1_derivative, Vector3::new(cos, sin, 0.0), Vector3::z()]);
         let leg_variances = self.variances(u).map(|variance| variance.0);
         jacobian * Matrix3::from_diagonal(&Vector3::from(leg_variances)) * jacobian.transpose()
     }
@@ -110,12 +110,12 @@ impl<M: RotTransRot> MotionModel for M {
 
     /// Returns the score of Table 5.5. As there, the variances are those of the hypothetical legs, not of the reading.
     fn prob(&self, x_next: &SE2, u: &OdomDelta, x: &SE2) -> f64 {
-        let (noise, hat) = (self.noise(), OdomDelta::from_poses(x, x_next));
-        let [rot1_variance, trans_variance, rot2_variance] = self.variances(&hat);
+        let (noise, hypothesis) = (self.noise(), OdomDelta::from_poses(x, x_next));
+        let [rot1_variance, trans_variance, rot2_variance] = self.variances(&hypothesis);
         product_or_zero([
-            noise.prob(wrap_angle(u.rot1 - hat.rot1), rot1_variance),
-            noise.prob(u.trans - hat.trans, trans_variance),
-            noise.prob(wrap_angle(u.rot2 - hat.rot2), rot2_variance),
+            noise.prob(wrap_angle(u.rot1 - hypothesis.rot1), rot1_variance),
+            noise.prob(u.trans - hypothesis.trans, trans_variance),
+            noise.prob(wrap_angle(u.rot2 - hypothesis.rot2), rot2_variance),
         ])
     }
 
@@ -153,7 +153,7 @@ impl<M: RotTransRot> MotionModel for M {
 pub(super) type EffectiveAngle = fn(f64) -> f64;
 
 /// Returns the variances of the three legs of `delta` (rad², m², rad²).
-pub(super) fn variances_with(
+pub(super) fn leg_variances(
     alphas: OdomAlphas,
     delta: &OdomDelta,
     effective_angle: EffectiveAngle,
@@ -175,7 +175,7 @@ impl RotTransRot for OdometryModel {
     }
 
     fn variances(&self, delta: &OdomDelta) -> [Variance; 3] {
-        variances_with(self.alphas, delta, f64::abs)
+        leg_variances(self.alphas, delta, f64::abs)
     }
 }
 
@@ -198,7 +198,7 @@ impl RotTransRot for ReverseAware {
     }
 
     fn variances(&self, delta: &OdomDelta) -> [Variance; 3] {
-        variances_with(self.0.alphas, delta, turn_allowing_reverse)
+        leg_variances(self.0.alphas, delta, turn_allowing_reverse)
     }
 }
 
@@ -216,6 +216,6 @@ impl RotTransRot for ConfiguredOdometry {
     fn variances(&self, delta: &OdomDelta) -> [Variance; 3] {
         let effective_angle: EffectiveAngle =
             if self.reverse_aware { turn_allowing_reverse } else { f64::abs };
-        variances_with(self.model.alphas, delta, effective_angle)
+        leg_variances(self.model.alphas, delta, effective_angle)
     }
 }

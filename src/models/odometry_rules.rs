@@ -1,6 +1,6 @@
 //! Rules by which localizers add noise to an odometry reading: Table 5.6, and those of deployed software.
 
-use super::odometry::{EffectiveAngle, OdomAlphas, OdomDelta, turn_allowing_reverse, variances_with};
+use super::odometry::{EffectiveAngle, OdomAlphas, OdomDelta, leg_variances, turn_allowing_reverse};
 use crate::geom::se2::{SE2, wrap_angle};
 use crate::noise::{NoiseKind, Variance};
 
@@ -18,9 +18,9 @@ pub enum OdometryRule {
     /// later). As [`OdometryRule::Nav2`], but for a reading of exactly a centimetre, which has no first rotation here.
     /// Before 2.0, α₄ applied to the whole turn rot1 + rot2 instead of to each rotation.
     Beluga,
-    /// AMCL of Navigation2 for a robot that can drive sideways: `nav2_amcl/src/motion_model/omni_motion_model.cpp` (same
-    /// commit). The bearing is exact. Noise is in the distance, across it (the strafe, α₄ and α₅), and in the turn as a
-    /// whole, whose variance does not allow for driving in reverse.
+    /// AMCL of Navigation2 for a robot that can drive sideways: `nav2_amcl/src/motion_model/omni_motion_model.cpp` (same commit). The
+    /// bearing is exact. Noise is in the distance, across it (the strafe, α₄ and α₅), and in the turn as a whole. The variance of the
+    /// turn does not allow for driving in reverse.
     Omni,
 }
 
@@ -76,7 +76,7 @@ impl OdometryRule {
         let [a1, a2, a3, a4, a5] = *alphas;
         let legs = self.legs(reading);
         let differential_variances = |effective_angle: EffectiveAngle| {
-            let [rot1, trans, rot2] = variances_with(OdomAlphas([a1, a2, a3, a4]), &legs, effective_angle);
+            let [rot1, trans, rot2] = leg_variances(OdomAlphas([a1, a2, a3, a4]), &legs, effective_angle);
             LegVariances { rot1, trans, rot2, strafe: Variance(0.0) }
         };
         match self {
@@ -110,9 +110,9 @@ impl ExecutedLegs {
     /// the second turn. All are in the frame in which `x` is given.
     pub fn poses(&self, x: &SE2) -> [SE2; 4] {
         let OdomDelta { rot1, trans, rot2 } = self.legs;
-        let after_rot1 = *x * SE2::new(0.0, 0.0, rot1);
-        let after_drive = after_rot1 * SE2::new(trans, self.strafe, 0.0);
-        [*x, after_rot1, after_drive, after_drive * SE2::new(0.0, 0.0, rot2)]
+        let pose_after_rot1 = *x * SE2::new(0.0, 0.0, rot1);
+        let pose_after_drive = pose_after_rot1 * SE2::new(trans, self.strafe, 0.0);
+        [*x, pose_after_rot1, pose_after_drive, pose_after_drive * SE2::new(0.0, 0.0, rot2)]
     }
 }
 
@@ -140,10 +140,10 @@ impl LegVariances {
     /// Returns the variance (rad²) of the turn made, unwrapped, for a `correlation` of the noises of the two rotations:
     /// σ₁² + σ₂² + 2ρσ₁σ₂.
     pub fn heading_variance(&self, correlation: f64) -> f64 {
-        let [first, second] = [self.rot1, self.rot2].map(std_from_variance);
+        let [rot1_std, rot2_std] = [self.rot1, self.rot2].map(std_from_variance);
         // A sum of squares is never negative. The three terms might add up to slightly less than 0 for equal variances and ρ = −1.
-        let correlated_std = first + correlation * second;
-        correlated_std * correlated_std + (1.0 - correlation * correlation) * second * second
+        let correlated_std = rot1_std + correlation * rot2_std;
+        correlated_std * correlated_std + (1.0 - correlation * correlation) * rot2_std * rot2_std
     }
 }
 

@@ -1,4 +1,4 @@
-//! Gaussian noise in exponential coordinates, and how it grows along a path.
+//! Gaussian noise in exponential coordinates, and its growth along a path.
 
 use super::{VelocityCmd, VelocityModel};
 use crate::geom::arc::invert_arc;
@@ -88,8 +88,8 @@ impl TangentNoiseModel {
     /// # Errors
     /// [`TangentNoiseError`] where α's or command make a variance negative or not finite.
     pub fn from_velocity(model: &VelocityModel, u: &VelocityCmd) -> Result<Self, TangentNoiseError> {
-        let [along, turn, last] = model.variances(u).map(|variance| u.dt * u.dt * variance.0);
-        Self::with_last_turn(Matrix3::from_diagonal(&Vector3::new(along, 0.0, turn)), last)
+        let [length_var, turn_var, last_turn_var] = model.variances(u).map(|Variance(b2)| u.dt * u.dt * b2);
+        Self::with_last_turn(Matrix3::from_diagonal(&Vector3::new(length_var, 0.0, turn_var)), last_turn_var)
     }
 
     fn with_last_turn(r: Matrix3<f64>, last_turn_variance: f64) -> Result<Self, TangentNoiseError> {
@@ -158,7 +158,7 @@ impl TangentNoiseModel {
         let step_cov = jacobian * self.r * jacobian.transpose() + last_turn_cov;
         let first_order_cov = transported_cov + step_cov;
         match order {
-            Compounding::FourthOrder => first_order_cov + fourth_order(&transported_cov, &step_cov),
+            Compounding::FourthOrder => first_order_cov + fourth_order_terms(&transported_cov, &step_cov),
             _ => first_order_cov,
         }
     }
@@ -166,7 +166,7 @@ impl TangentNoiseModel {
 
 /// Returns the fourth-order part of the covariance of log(exp(a)·exp(b)) for independent a and b with covariances `a` and `b`.
 /// It is (𝒜_a·b + b·𝒜_aᵀ + 𝒜_b·a + a·𝒜_bᵀ)/12 + ℬ/4, with 𝒜_a = E[ad(a)²] and ℬ = E[ad(a)·b·ad(a)ᵀ].
-fn fourth_order(a: &Matrix3<f64>, b: &Matrix3<f64>) -> Matrix3<f64> {
+fn fourth_order_terms(a: &Matrix3<f64>, b: &Matrix3<f64>) -> Matrix3<f64> {
     let mean_square = |cov| expectation(cov, |left, right| left * right);
     let one_sided_terms = mean_square(a) * b + mean_square(b) * a;
     let two_sided_term = expectation(a, |left, right| left * b * right.transpose());

@@ -73,11 +73,11 @@ impl VelocityModel {
         self.variances(u).map(|variance| variance.0.sqrt())
     }
 
-    /// Returns the number of full turns in each direction over which [`VelocityModel::pose_density`] sums, beside the turn that is
+    /// Returns the number of full turns in each direction over which [`VelocityModel::pose_density`] sums, in addition to the turn
     /// nearest to the commanded one.
-    pub(crate) fn windings(&self, u: &VelocityCmd) -> i32 {
-        let [_, omega_deviation, _] = self.noise_stds(u);
-        (9.0 * omega_deviation * u.dt / TAU).ceil().min(MAX_WINDINGS) as i32
+    pub(crate) fn max_windings(&self, u: &VelocityCmd) -> i32 {
+        let [_, omega_std, _] = self.noise_stds(u);
+        (9.0 * omega_std * u.dt / TAU).ceil().min(MAX_WINDINGS) as i32
     }
 
     /// Returns the pose reached from `x` with these unit noises: Table 5.3 after its three draws.
@@ -87,18 +87,18 @@ impl VelocityModel {
         *x * SE2::new(forward, left, (omega_hat + gamma_hat) * u.dt)
     }
 
-    /// Returns the 3 × 3 covariance of (x, y, θ) that an EKF carries, from the arc linearized in (v̂, ω̂, γ̂) at the command. It is
-    /// in the frame of `x` (m², m·rad, rad²). It does not depend on the shape of the noise.
+    /// Returns the 3 × 3 covariance of (x, y, θ) that an EKF carries. The arc is linearized in (v̂, ω̂, γ̂) at the command. The
+    /// covariance is in the frame of `x` (m², m·rad, rad²). It does not depend on the shape of the noise.
     ///
     /// It is R·(J_r R_u J_rᵀ + diag(0, 0, Δt²·Var γ̂))·Rᵀ with R_u = Δt²·diag(Var v̂, 0, Var ω̂). J_r is the right Jacobian of SE(2)
     /// at the commanded twist. R is the rotation to the final heading.
     pub fn cartesian_cov(&self, u: &VelocityCmd, x: &SE2) -> Matrix3<f64> {
-        let [along, turn, last] = self.variances(u).map(|variance| u.dt * u.dt * variance.0);
+        let [length_var, turn_var, last_turn_var] = self.variances(u).map(|Variance(b2)| u.dt * u.dt * b2);
         let twist = TangentNoiseModel::twist(u);
         let jacobian = SE2::right_jacobian(&twist);
-        let arc_cov =
-            jacobian * Matrix3::from_diagonal(&Vector3::new(along, 0.0, turn)) * jacobian.transpose();
-        let body_cov = arc_cov + Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, last));
+        let noise_cov = Matrix3::from_diagonal(&Vector3::new(length_var, 0.0, turn_var));
+        let arc_cov = jacobian * noise_cov * jacobian.transpose();
+        let body_cov = arc_cov + Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, last_turn_var));
         let rotation = SE2::new(0.0, 0.0, x.theta() + twist.z).adjoint();
         rotation * body_cov * rotation.transpose()
     }
@@ -154,7 +154,7 @@ impl MotionModel for VelocityModel {
         };
         // Nine standard deviations reach every turn whose Gaussian density is above the rounding of the sum.
         let nearest_winding = ((u.omega * u.dt - shortest_turn) / TAU).round();
-        let max_windings = self.windings(u);
+        let max_windings = self.max_windings(u);
         let arc_density: f64 =
             (-max_windings..=max_windings).map(|k| density_of_turn(nearest_winding + f64::from(k))).sum();
 

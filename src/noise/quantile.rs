@@ -31,12 +31,12 @@ const CHUNK_VECTORS: usize = 256;
 
 /// Replaces each number q by its quantile, with the same bits as [`normal_quantile`].
 pub(super) fn normal_quantiles(numbers: &mut [f64x4]) {
-    numbers.chunks_mut(CHUNK_VECTORS).for_each(replace_chunk);
+    numbers.chunks_mut(CHUNK_VECTORS).for_each(replace_by_quantiles);
 }
 
 /// Replaces the numbers of a chunk by their quantiles. One number in seven is in a tail, and every second vector has one. Gathering
 /// these numbers into full vectors saves most of their cost, and unpredictable branches.
-fn replace_chunk(numbers: &mut [f64x4]) {
+fn replace_by_quantiles(numbers: &mut [f64x4]) {
     let mut tail_numbers = [0.0; LANES * CHUNK_VECTORS + LANES];
     let mut tail_indices = [0u16; LANES * CHUNK_VECTORS + LANES];
     let mut tail_count = 0;

@@ -22,7 +22,7 @@ const MIN_UNCORRELATED_FRACTION: f64 = 1e-12;
 pub struct Ellipse {
     centre: Vector2<f64>,
     /// Lower triangular L with L·Lᵀ the covariance.
-    root: Matrix2<f64>,
+    cov_root: Matrix2<f64>,
     /// L⁻¹, with 0 for a coordinate in which the Gaussian has no extent.
     whitening_matrix: Matrix2<f64>,
 }
@@ -32,18 +32,18 @@ impl Ellipse {
     /// coordinates).
     pub fn new(centre: Vector2<f64>, cov: Matrix2<f64>) -> Self {
         let rounding_variance = MIN_RELATIVE_STD * MIN_RELATIVE_STD * (centre.norm_squared() + cov.trace());
-        let sqrt_above =
+        let std_or_zero =
             |variance: f64, min_variance: f64| if variance > min_variance { variance.sqrt() } else { 0.0 };
-        let first_std = sqrt_above(cov[(0, 0)], rounding_variance);
+        let first_std = std_or_zero(cov[(0, 0)], rounding_variance);
         let cross_term = if first_std > 0.0 { cov[(1, 0)] / first_std } else { 0.0 };
-        let second_std = sqrt_above(
+        let second_std = std_or_zero(
             cov[(1, 1)] - cross_term * cross_term,
             rounding_variance.max(MIN_UNCORRELATED_FRACTION * cov[(1, 1)]),
         );
         let inverse_or_zero = |std: f64| if std > 0.0 { 1.0 / std } else { 0.0 };
         let (z, w) = (inverse_or_zero(first_std), inverse_or_zero(second_std));
         let whitening_matrix = Matrix2::new(z, 0.0, -cross_term * z * w, w);
-        Self { centre, root: Matrix2::new(first_std, 0.0, cross_term, second_std), whitening_matrix }
+        Self { centre, cov_root: Matrix2::new(first_std, 0.0, cross_term, second_std), whitening_matrix }
     }
 
     /// Returns the ellipse of the position (x, y), m.
@@ -53,23 +53,23 @@ impl Ellipse {
 
     /// Returns false if the ellipse is a line or a point. No point is then inside.
     pub fn has_area(&self) -> bool {
-        self.root[(0, 0)] > 0.0 && self.root[(1, 1)] > 0.0
+        self.cov_root[(0, 0)] > 0.0 && self.cov_root[(1, 1)] > 0.0
     }
 
     /// Returns the area, in the product of the units of the coordinates; 0 for a line or a point.
     pub fn area(&self) -> f64 {
-        PI * CONTOUR_SIGMAS * CONTOUR_SIGMAS * self.root[(0, 0)] * self.root[(1, 1)]
+        PI * CONTOUR_SIGMAS * CONTOUR_SIGMAS * self.cov_root[(0, 0)] * self.cov_root[(1, 1)]
     }
 
     /// Returns true if the Gaussian has no extent at all.
     pub fn is_point(&self) -> bool {
-        self.root[(0, 0)] == 0.0 && self.root[(1, 1)] == 0.0
+        self.cov_root[(0, 0)] == 0.0 && self.cov_root[(1, 1)] == 0.0
     }
 
     /// Returns the closed outline as `segments` chords: `segments` + 1 points, the last equal to the first.
     pub fn boundary(&self, segments: usize) -> Vec<[f64; 2]> {
         unit_circle_points(segments)
-            .map(|direction| (self.centre + self.root * direction * CONTOUR_SIGMAS).into())
+            .map(|direction| (self.centre + self.cov_root * direction * CONTOUR_SIGMAS).into())
             .collect()
     }
 
@@ -114,7 +114,7 @@ pub struct ExponentialContour {
     /// The contour in (along, heading).
     ellipse: Ellipse,
     /// G with G·Gᵀ = Σ.
-    root: Matrix3<f64>,
+    cov_root: Matrix3<f64>,
 }
 
 impl ExponentialContour {
@@ -127,7 +127,7 @@ impl ExponentialContour {
             start: *start,
             mean,
             ellipse: Ellipse::new(Vector2::new(mean.x, mean.z), along_heading),
-            root: covariance_root(&cov).unwrap_or_else(|_| Matrix3::zeros()),
+            cov_root: covariance_root(&cov).unwrap_or_else(|_| Matrix3::zeros()),
         }
     }
 
@@ -145,7 +145,7 @@ impl ExponentialContour {
     /// Returns the closed outline at a morph, in the frame of the start. At 0 it is [`ExponentialContour::boundary`], and at 1 the
     /// boundary of [`ExponentialContour::ellipse`].
     pub fn morphed_boundary(&self, segments: usize, morph: f64) -> Vec<[f64; 2]> {
-        self.silhouette(segments, morph).map(|twist| unbend(&twist, morph)).collect()
+        self.silhouette_twists(segments, morph).map(|twist| unbend(&twist, morph)).collect()
     }
 
     /// Returns the area of an `ellipse` in the plane divided by that of this outline, both drawn as `segments` chords. NaN if
@@ -173,7 +173,7 @@ impl ExponentialContour {
 
     /// Returns the coordinate of ξ along the track (m), and the position, of each point of the outline.
     fn outline(&self, segments: usize) -> impl Iterator<Item = (f64, [f64; 2])> {
-        self.silhouette(segments, 0.0).map(|twist| {
+        self.silhouette_twists(segments, 0.0).map(|twist| {
             let pose = self.start.boxplus(twist);
             (twist.x, [pose.x(), pose.y()])
         })
@@ -184,24 +184,24 @@ impl ExponentialContour {
     /// The ellipsoid is ξ = m + 2·G·u with |u| = 1, and H(ξ) = ∂position/∂ξ. On the silhouette u is
     /// perpendicular to the null vector k with H(ξ)·G·k = 0. The direction of k varies little over the ellipsoid. So the
     /// great circle perpendicular to the principal direction of k approximates the silhouette.
-    fn silhouette(&self, segments: usize, morph: f64) -> impl Iterator<Item = Vector3<f64>> {
-        let twist_at = move |u: &Vector3<f64>| self.mean + self.root * u * CONTOUR_SIGMAS;
+    fn silhouette_twists(&self, segments: usize, morph: f64) -> impl Iterator<Item = Vector3<f64>> {
+        let twist_at = move |u: &Vector3<f64>| self.mean + self.cov_root * u * CONTOUR_SIGMAS;
         // Sums k·kᵀ over the six ends of the axes. The cross product weights k by the area that H·G maps to the plane.
-        let mut null_scatter = Matrix3::zeros();
+        let mut null_direction_scatter = Matrix3::zeros();
         for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
             for end in [axis, -axis] {
-                let jacobian = unbend_jacobian(&twist_at(&end), morph) * self.root;
+                let jacobian = unbend_jacobian(&twist_at(&end), morph) * self.cov_root;
                 let null_direction = jacobian.row(0).transpose().cross(&jacobian.row(1).transpose());
-                null_scatter += null_direction * null_direction.transpose();
+                null_direction_scatter += null_direction * null_direction.transpose();
             }
         }
-        let null_direction = principal_direction(&null_scatter);
+        let null_direction = principal_direction(&null_direction_scatter);
         // Two directions that span the circle. The coordinate axis least parallel to k makes the first well-conditioned.
         let axis = Matrix3::identity().column(null_direction.iamin()).into_owned();
-        let first = (axis - null_direction * axis.dot(&null_direction)).normalize();
-        let second = null_direction.cross(&first);
+        let circle_x = (axis - null_direction * axis.dot(&null_direction)).normalize();
+        let circle_y = null_direction.cross(&circle_x);
         unit_circle_points(segments)
-            .map(move |direction| twist_at(&(first * direction.x + second * direction.y)))
+            .map(move |direction| twist_at(&(circle_x * direction.x + circle_y * direction.y)))
     }
 
     /// Returns true if the exponential coordinates of `pose` lie inside the ellipse.

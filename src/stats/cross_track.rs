@@ -52,20 +52,20 @@ impl CrossTrack {
             let [ad, ad2, d4, d5, d6] = [a * d, a * d2, d2 * d2, d2 * d3, d3 * d3];
             let [ss, sd, sd2, sd3, tt, td] = [s * s, s * d, s * d2, s * d3, t * t, t * d];
             let squared_distance = a * a + d2;
-            let terms = [ad, ad2, d2, d3, d4, d5, d6, ss, sd, sd2, sd3, t, tt, td, squared_distance, c];
-            product_sums.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
+            let products = [ad, ad2, d2, d3, d4, d5, d6, ss, sd, sd2, sd3, t, tt, td, squared_distance, c];
+            product_sums.iter_mut().zip(products).for_each(|(sum, term)| *sum += term);
         }
-        let [products @ .., spread_squared, resultant] = product_sums.map(|sum| sum / pose_count);
+        let [products @ .., squared_spread, resultant] = product_sums.map(|sum| sum / pose_count);
         let (x, y) = (first.x() + x, first.y() + y);
-        let moments = TrackMoments { products, resultant, extent_squared: spread_squared + (x * x + y * y) };
+        let moments = TrackMoments { products, resultant, squared_extent: squared_spread + (x * x + y * y) };
         Self::from_moments(poses.len(), &moments)
     }
 
     /// Returns the statistics of `count` poses from their moments.
     pub(super) fn from_moments(count: usize, moments: &TrackMoments) -> Self {
-        let TrackMoments { products, extent_squared, resultant } = *moments;
+        let TrackMoments { products, squared_extent, resultant } = *moments;
         let [ad, ad2, m2, m3, d4, d5, d6, ss, sd, sd2, sd3, t, tt, td] = products;
-        if count < 3 || m2 <= (MIN_RELATIVE_STD * MIN_RELATIVE_STD * extent_squared).max(MIN_VARIANCE) {
+        if count < 3 || m2 <= (MIN_RELATIVE_STD * MIN_RELATIVE_STD * squared_extent).max(MIN_VARIANCE) {
             return Self::UNDEFINED;
         }
         // Means of dᵏ for k = 0 … 6, and of sin(t)·dᵏ for k = 0 … 3. The means of d and of sin(t) are 0.
@@ -100,7 +100,7 @@ pub(super) struct TrackMoments {
     /// Means of ad, ad², d², …, d⁶, s², sd, sd², sd³, t, t² and td, with s = sin t.
     pub products: [f64; 14],
     /// Mean of the squared distance from the origin.
-    pub extent_squared: f64,
+    pub squared_extent: f64,
     /// Mean of cos t.
     pub resultant: f64,
 }

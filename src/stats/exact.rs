@@ -21,52 +21,52 @@ pub struct ExactMoments {
     pub cross_track_skew: f64,
 }
 
-/// Node of the quadrature. Given the noise that turns the robot, the position is L·`unit` with a random length L.
-struct Ray {
+/// Motion of length 1 under one noise that turns the robot: a node of the quadrature. A motion of length L ends at L·`end`.
+struct UnitMotion {
     weight: f64,
-    unit: [f64; 2],
+    end: [f64; 2],
     /// Turn at this noise minus the mean turn, rad.
     excess_turn: f64,
 }
 
-/// Weighted sums over rays of `unit`, called u, and `excess_turn`. The weights may sum to less than 1.
+/// Weighted sums over motions of `end`, called u, and of `excess_turn`. The weights may sum to less than 1.
 #[derive(Default)]
-pub(super) struct RayMoments {
+pub(super) struct UnitMotionMoments {
     /// First value of u. Sums contain differences from it, so that few digits are lost if u varies little.
     reference: Option<[f64; 2]>,
-    total: f64,
-    mean: Vector3<f64>,
-    square: Matrix3<f64>,
+    weight_sum: f64,
+    weighted_sum: Vector3<f64>,
+    square_sum: Matrix3<f64>,
 }
 
-impl RayMoments {
+impl UnitMotionMoments {
     #[inline(never)]
-    pub fn add(&mut self, weight: f64, unit: [f64; 2], excess_turn: f64) {
-        let [x, y] = *self.reference.get_or_insert(unit);
-        let ray_point = Vector3::new(unit[0] - x, unit[1] - y, excess_turn);
-        self.total += weight;
-        self.mean += ray_point * weight;
+    pub fn add(&mut self, weight: f64, end: [f64; 2], excess_turn: f64) {
+        let [x, y] = *self.reference.get_or_insert(end);
+        let offset = Vector3::new(end[0] - x, end[1] - y, excess_turn);
+        self.weight_sum += weight;
+        self.weighted_sum += offset * weight;
         // Multiplying by the weight last makes the matrix symmetric to the last bit.
-        self.square += ray_point * ray_point.transpose() * weight;
+        self.square_sum += offset * offset.transpose() * weight;
     }
 
     /// Returns the mean and covariance of L·u and the turn, with L independent of them. L has this mean and standard deviation.
     #[inline(never)]
-    pub fn finish(&self, [length, deviation]: [f64; 2]) -> (Vector3<f64>, Matrix3<f64>) {
-        let mean = self.mean / self.total;
-        let mut ray_cov = self.square / self.total - mean * mean.transpose();
+    pub fn mean_and_cov(&self, [length, length_std]: [f64; 2]) -> (Vector3<f64>, Matrix3<f64>) {
+        let mean = self.weighted_sum / self.weight_sum;
+        let mut u_cov = self.square_sum / self.weight_sum - mean * mean.transpose();
         for i in 0..3 {
-            ray_cov[(i, i)] = non_negative(ray_cov[(i, i)]);
+            u_cov[(i, i)] = non_negative(u_cov[(i, i)]);
         }
         let [x, y] = self.reference.unwrap_or_default();
-        let mean_ray = [mean.x + x, mean.y + y, 0.0];
+        let mean_u = [mean.x + x, mean.y + y, 0.0];
         let length_factors = [length, length, 1.0];
         let cov = Matrix3::from_fn(|i, j| {
             // The spread of the length moves the position along u.
-            let length_term = if i < 2 && j < 2 { ray_cov[(i, j)] + mean_ray[i] * mean_ray[j] } else { 0.0 };
-            ray_cov[(i, j)] * length_factors[i] * length_factors[j] + length_term * deviation * deviation
+            let second_moment = if i < 2 && j < 2 { u_cov[(i, j)] + mean_u[i] * mean_u[j] } else { 0.0 };
+            u_cov[(i, j)] * length_factors[i] * length_factors[j] + second_moment * length_std * length_std
         });
-        (Vector3::new(length * mean_ray[0], length * mean_ray[1], mean.z), cov)
+        (Vector3::new(length * mean_u[0], length * mean_u[1], mean.z), cov)
     }
 }
 
@@ -75,43 +75,44 @@ impl ExactMoments {
     /// ω̂Δt, linear in v̂.
     pub fn of_velocity(model: &VelocityModel, u: &VelocityCmd) -> Self {
         let [v_variance, omega_variance, gamma_variance] = model.variances(u).map(|variance| variance.0);
-        let rays = nodes(model.noise).iter().map(|node| {
+        let motions = nodes(model.noise).iter().map(|node| {
             let excess_turn = omega_variance.sqrt() * u.dt * node.value;
-            Ray { weight: node.weight, unit: chord_factors(u.omega * u.dt + excess_turn).into(), excess_turn }
+            let end = chord_factors(u.omega * u.dt + excess_turn).into();
+            UnitMotion { weight: node.weight, end, excess_turn }
         });
-        let (rays, dt2) = (rays.collect::<Vec<_>>(), u.dt * u.dt);
-        Self::from_rays(&rays, u.v * u.dt, dt2 * v_variance, u.omega * u.dt, dt2 * gamma_variance)
+        let (motions, dt2) = (motions.collect::<Vec<_>>(), u.dt * u.dt);
+        Self::combine(&motions, u.v * u.dt, dt2 * v_variance, u.omega * u.dt, dt2 * gamma_variance)
     }
 
     /// Returns the moments of the odometry model. Given the first rotation, the position is δ̂_trans along it, linear
     /// in δ̂_trans.
     pub fn of_odometry(model: &impl RotTransRot, u: &OdomDelta) -> Self {
         let [rot1_variance, trans_variance, rot2_variance] = model.variances(u).map(|variance| variance.0);
-        let rays = nodes(model.noise()).iter().map(|node| {
+        let motions = nodes(model.noise()).iter().map(|node| {
             let excess_turn = rot1_variance.sqrt() * node.value;
             let (sin, cos) = libm::sincos(u.rot1 + excess_turn);
-            Ray { weight: node.weight, unit: [cos, sin], excess_turn }
+            UnitMotion { weight: node.weight, end: [cos, sin], excess_turn }
         });
-        Self::from_rays(&rays.collect::<Vec<_>>(), u.trans, trans_variance, u.rot1 + u.rot2, rot2_variance)
+        Self::combine(&motions.collect::<Vec<_>>(), u.trans, trans_variance, u.rot1 + u.rot2, rot2_variance)
     }
 
-    /// Combines the rays with the mean and variance of the length, and with the mean `turn` (rad). `last_turn_variance` is added
+    /// Combines the motions with the mean and variance of the length, and with the mean `turn` (rad). `last_turn_variance` is added
     /// to the heading variance.
     #[inline(never)]
-    fn from_rays(
-        rays: &[Ray],
+    fn combine(
+        motions: &[UnitMotion],
         length: f64,
         length_variance: f64,
         turn: f64,
         last_turn_variance: f64,
     ) -> Self {
-        let mut moments = RayMoments::default();
-        rays.iter().for_each(|ray| moments.add(ray.weight, ray.unit, ray.excess_turn));
-        let (mean, mut cov) = moments.finish([length, length_variance.sqrt()]);
+        let mut moments = UnitMotionMoments::default();
+        motions.iter().for_each(|motion| moments.add(motion.weight, motion.end, motion.excess_turn));
+        let (mean, mut cov) = moments.mean_and_cov([length, length_variance.sqrt()]);
         cov[(2, 2)] += last_turn_variance;
         let (sin, cos) = libm::sincos(turn);
-        let lateral_components = rays.iter().map(|Ray { weight, unit, .. }| {
-            let lateral_direction = unit[1] * cos - unit[0] * sin;
+        let lateral_components = motions.iter().map(|UnitMotion { weight, end, .. }| {
+            let lateral_direction = end[1] * cos - end[0] * sin;
             let (mean, variance) =
                 (length * lateral_direction, length_variance * lateral_direction * lateral_direction);
             Component { weight: *weight, mean, variance }
@@ -136,18 +137,18 @@ pub fn predicted_cross_track_skew(mean: &Vector3<f64>, cov: &Matrix3<f64>) -> f6
     } else {
         nalgebra::Vector2::zeros()
     };
-    let residual = cov.fixed_view::<2, 2>(0, 0)
+    let residual_cov = cov.fixed_view::<2, 2>(0, 0)
         - regression_coefficients * regression_coefficients.transpose() * heading_variance;
     let (sin, cos) = libm::sincos(mean.z);
     let lateral_components = nodes(NoiseKind::Normal).iter().map(|node| {
         let excess_turn = heading_variance.max(0.0).sqrt() * node.value;
         let (a, b) = chord_factors(mean.z + excess_turn);
         // The lateral component of V(ω)·ξ, as a row over (along, lateral).
-        let row = nalgebra::RowVector2::new(b * cos - a * sin, a * cos + b * sin);
+        let lateral_row = nalgebra::RowVector2::new(b * cos - a * sin, a * cos + b * sin);
         Component {
             weight: node.weight,
-            mean: (row * (mean.xy() + regression_coefficients * excess_turn)).x,
-            variance: (row * residual * row.transpose()).x.max(0.0),
+            mean: (lateral_row * (mean.xy() + regression_coefficients * excess_turn)).x,
+            variance: (lateral_row * residual_cov * lateral_row.transpose()).x.max(0.0),
         }
     });
     mixture_skew(lateral_components, mean.xy().norm_squared() + cov[(0, 0)] + cov[(1, 1)])
@@ -161,8 +162,8 @@ struct Component {
 }
 
 /// Returns the third standardized moment of the mixture; NaN if its spread is only rounding relative to
-/// `extent_squared`.
-fn mixture_skew(components: impl Iterator<Item = Component> + Clone, extent_squared: f64) -> f64 {
+/// `squared_extent`.
+fn mixture_skew(components: impl Iterator<Item = Component> + Clone, squared_extent: f64) -> f64 {
     let mixture_mean: f64 = components.clone().map(|component| component.weight * component.mean).sum();
     let (mut m2, mut m3) = (0.0, 0.0);
     for Component { weight, mean, variance } in components {
@@ -170,5 +171,5 @@ fn mixture_skew(components: impl Iterator<Item = Component> + Clone, extent_squa
         m2 += weight * (component_offset * component_offset + variance);
         m3 += weight * component_offset * (component_offset * component_offset + 3.0 * variance);
     }
-    if m2 > MIN_RELATIVE_STD * MIN_RELATIVE_STD * extent_squared { m3 / (m2 * m2.sqrt()) } else { f64::NAN }
+    if m2 > MIN_RELATIVE_STD * MIN_RELATIVE_STD * squared_extent { m3 / (m2 * m2.sqrt()) } else { f64::NAN }
 }

@@ -1,7 +1,7 @@
 //! Exact likelihood gain of a model, by quadrature over the two noises that turn the robot. The noise of the length has
 //! a closed form.
 
-use super::exact::{ExactMoments, RayMoments};
+use super::exact::{ExactMoments, UnitMotionMoments};
 use super::gain::{ChartGaussians, LikelihoodGain, MeanAndCov};
 use super::moments::ExponentialMoments;
 use super::quadrature::{Node, piecewise_nodes};
@@ -18,8 +18,8 @@ use std::f64::consts::{LN_2, PI, TAU};
 /// exact moments of ξ are infinite. Turns beyond `MAX_SIGMAS` standard deviations are therefore omitted, which changes a variance
 /// by a fraction of 1e-7. The values are NaN if a full circle is within `MAX_SIGMAS`.
 ///
-/// Turns are not wrapped here. In a cloud, turns of more than half a circle beyond the command are wrapped, so that its `pose`
-/// differs if many robots make them.
+/// Turns are not wrapped here. A cloud wraps turns of more than half a circle beyond the command. If many robots make such turns, its
+/// `pose` differs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExactGain {
     /// Gain without sampling error.
@@ -51,14 +51,14 @@ struct PolarMotion {
 impl ExactGain {
     /// Returns the gain of the velocity model.
     pub fn of_velocity(model: &VelocityModel, u: &VelocityCmd) -> Self {
-        let [v, omega, gamma] = model.noise_stds(u).map(|deviation| deviation * u.dt);
+        let [length_std, omega_std, gamma_std] = model.noise_stds(u).map(|std| std * u.dt);
         let turn = u.omega * u.dt;
         let motion = PolarMotion {
             noise: model.noise,
             is_arc: true,
-            length: [u.v * u.dt, v],
-            bearing: [0.5 * turn, 0.5 * omega],
-            turn: [turn, omega, gamma],
+            length: [u.v * u.dt, length_std],
+            bearing: [0.5 * turn, 0.5 * omega_std],
+            turn: [turn, omega_std, gamma_std],
         };
         motion.gain(&ExactMoments::of_velocity(model, u))
     }
@@ -82,16 +82,16 @@ impl ExactGain {
 
 impl PolarMotion {
     fn gain(&self, cartesian: &ExactMoments) -> ExactGain {
-        let (mean_log_length, [bearing, deviation]) = (self.mean_log_length(), self.bearing);
-        let (twist, chart) = self.twist_moments();
-        let (arc, ratio) = self.arc_moments();
-        let mean_log_jacobians = [chart, mean_log_length + ratio - LN_2];
-        let charts = ChartGaussians::new((cartesian.mean, cartesian.cov), twist, arc, mean_log_jacobians);
+        let (mean_log_length, [bearing, bearing_std]) = (self.mean_log_length(), self.bearing);
+        let (twist, twist_log_jacobian) = self.twist_moments();
+        let (arc, arc_log_jacobian) = self.arc_moments();
+        let mean_log_jacobians = [twist_log_jacobian, mean_log_length + arc_log_jacobian - LN_2];
+        let gaussians = ChartGaussians::new((cartesian.mean, cartesian.cov), twist, arc, mean_log_jacobians);
         let [turn, bearing_turn_std, last_turn_std] = self.turn;
         let one_if_defined = |turn: f64, reach: f64| if turn.abs() + reach < TAU { 1.0 } else { f64::NAN };
         let pose_factor = one_if_defined(turn, self.integration_limit(bearing_turn_std, last_turn_std));
-        let floor_factor = one_if_defined(2.0 * bearing, self.integration_limit(2.0 * deviation, 0.0));
-        let gain = charts.gain();
+        let floor_factor = one_if_defined(2.0 * bearing, self.integration_limit(2.0 * bearing_std, 0.0));
+        let gain = gaussians.gain();
         ExactGain {
             value: LikelihoodGain { pose: gain.pose * pose_factor, floor: gain.floor * floor_factor },
             exponential: ExponentialMoments { mean: twist.0 * pose_factor, cov: twist.1 * pose_factor },
@@ -99,8 +99,8 @@ impl PolarMotion {
     }
 
     /// Returns the quadrature nodes of a noise with this standard deviation.
-    fn nodes(&self, deviation: f64, breaks: [f64; 2]) -> Vec<Node> {
-        if deviation == 0.0 {
+    fn nodes(&self, std: f64, breaks: [f64; 2]) -> Vec<Node> {
+        if std == 0.0 {
             return vec![Node { value: 0.0, weight: 1.0 }];
         }
         piecewise_nodes(self.noise, self.integration_limit(1.0, 0.0), breaks)
@@ -117,41 +117,42 @@ impl PolarMotion {
     /// Returns the moments of ξ, and the mean of ln sinc²(ξ_ω/2). A chord r on the bearing β with the final heading θ
     /// has ξ = r/sinc(θ/2) · (cos(β − θ/2), sin(β − θ/2)).
     fn twist_moments(&self) -> (MeanAndCov, f64) {
-        let ([bearing, deviation], [turn, bearing_turn_std, last_turn_std]) = (self.bearing, self.turn);
-        let limit = self.integration_limit(bearing_turn_std, last_turn_std);
-        let (mut moments, mut mean_log) = (RayMoments::default(), MeanLog::default());
+        let ([bearing, bearing_std], [turn, bearing_turn_std, last_turn_std]) = (self.bearing, self.turn);
+        let max_excess_turn = self.integration_limit(bearing_turn_std, last_turn_std);
+        let (mut moments, mut mean_log) = (UnitMotionMoments::default(), MeanLog::default());
         let last_turn_nodes = self.nodes(last_turn_std, NO_BREAKS);
-        for bearing_node in self.nodes(deviation, NO_BREAKS) {
-            let bearing = bearing + deviation * bearing_node.value;
-            let chord = if self.is_arc { sinc(bearing) } else { 1.0 };
+        for bearing_node in self.nodes(bearing_std, NO_BREAKS) {
+            let bearing = bearing + bearing_std * bearing_node.value;
+            let chord_ratio = if self.is_arc { sinc(bearing) } else { 1.0 };
             for turn_node in &last_turn_nodes {
                 let excess_turn = bearing_turn_std * bearing_node.value + last_turn_std * turn_node.value;
                 let weight = bearing_node.weight * turn_node.weight;
-                if excess_turn.abs() > limit {
+                if excess_turn.abs() > max_excess_turn {
                     continue;
                 }
                 let half_turn = 0.5 * (turn + excess_turn);
                 let twist_sinc = sinc(half_turn);
                 let (sin, cos) = libm::sincos(bearing - half_turn);
-                let scaled_direction = [cos, sin].map(|component| component * (chord / twist_sinc));
+                let scaled_direction = [cos, sin].map(|component| component * (chord_ratio / twist_sinc));
                 mean_log.add(weight, twist_sinc * twist_sinc);
                 moments.add(weight, scaled_direction, excess_turn);
             }
         }
-        let (mean, cov) = moments.finish(self.length);
-        ((mean + Vector3::z() * turn, cov), mean_log.finish())
+        let (mean, cov) = moments.mean_and_cov(self.length);
+        ((mean + Vector3::z() * turn, cov), mean_log.mean())
     }
 
     /// Returns the moments of the length and turn φ of the arc that ends at the robot's final position. Also returns the
     /// mean of ln|c·sinc²(φ/2)|, with c the length of that arc divided by the driven length.
     fn arc_moments(&self) -> (MeanAndCov, f64) {
-        let ([bearing, deviation], half_commanded_turn) = (self.bearing, 0.5 * self.turn[0]);
-        let (mut moments, mut mean_log) = (RayMoments::default(), MeanLog::default());
+        let ([bearing, bearing_std], half_commanded_turn) = (self.bearing, 0.5 * self.turn[0]);
+        let (mut moments, mut mean_log) = (UnitMotionMoments::default(), MeanLog::default());
         // Statistics of a cloud use the arc whose turn is nearest to the commanded one. That arc is driven in the opposite
         // direction if the bearing differs from half the commanded turn by more than π/2.
-        let breaks = [-0.5 * PI, 0.5 * PI].map(|offset| (half_commanded_turn + offset - bearing) / deviation);
-        for node in self.nodes(deviation, breaks) {
-            let driven_bearing = bearing + deviation * node.value;
+        let breaks =
+            [-0.5 * PI, 0.5 * PI].map(|offset| (half_commanded_turn + offset - bearing) / bearing_std);
+        for node in self.nodes(bearing_std, breaks) {
+            let driven_bearing = bearing + bearing_std * node.value;
             let half_circles = ((driven_bearing - half_commanded_turn) / PI).round();
             let half_turn = driven_bearing - half_circles * PI;
             let drive_sign = if libm::remainder(half_circles, 2.0) == 0.0 { 1.0 } else { -1.0 };
@@ -160,20 +161,20 @@ impl PolarMotion {
             mean_log.add(node.weight, (length_ratio * half_sinc * half_sinc).abs());
             moments.add(node.weight, [length_ratio, 0.0], 2.0 * (half_turn - bearing));
         }
-        let (mean, cov) = moments.finish(self.length);
+        let (mean, cov) = moments.mean_and_cov(self.length);
         let cov = Matrix3::new(cov[(0, 0)], cov[(0, 2)], 0.0, cov[(0, 2)], cov[(2, 2)], 0.0, 0.0, 0.0, 0.0);
-        ((Vector3::new(mean.x, mean.z + 2.0 * bearing, 0.0), cov), mean_log.finish())
+        ((Vector3::new(mean.x, mean.z + 2.0 * bearing, 0.0), cov), mean_log.mean())
     }
 
     /// Returns the mean of ln|driven length|.
     fn mean_log_length(&self) -> f64 {
-        let [mean, deviation] = self.length.map(f64::abs);
-        if deviation == 0.0 {
+        let [mean, std] = self.length.map(f64::abs);
+        if std == 0.0 {
             return libm::log(mean);
         }
         match self.noise {
-            NoiseKind::Normal => libm::log(deviation) + normal_mean_log(mean / deviation),
-            NoiseKind::Triangular => triangular_mean_log(mean, 6f64.sqrt() * deviation),
+            NoiseKind::Normal => libm::log(std) + normal_mean_log(mean / std),
+            NoiseKind::Triangular => triangular_mean_log(mean, 6f64.sqrt() * std),
         }
     }
 }
@@ -181,19 +182,19 @@ impl PolarMotion {
 /// Weighted mean of logarithms.
 #[derive(Default)]
 struct MeanLog {
-    total: f64,
-    sum: f64,
+    weight_sum: f64,
+    log_sum: f64,
 }
 
 impl MeanLog {
     #[inline(never)]
     fn add(&mut self, weight: f64, value: f64) {
-        self.total += weight;
-        self.sum += weight * libm::log(value);
+        self.weight_sum += weight;
+        self.log_sum += weight * libm::log(value);
     }
 
-    fn finish(&self) -> f64 {
-        self.sum / self.total
+    fn mean(&self) -> f64 {
+        self.log_sum / self.weight_sum
     }
 }
 
@@ -203,10 +204,10 @@ impl MeanLog {
 /// a Poisson distribution of mean m²/2. The mean logarithm of χ² with 1 + 2j degrees is ln 2 + ψ(½ + j).
 fn normal_mean_log(m: f64) -> f64 {
     /// Value of m from which the fourth term of the asymptotic series is below 1e-10. Far beyond it, exp(−m²/2) underflows.
-    const ASYMPTOTIC_FROM: f64 = 30.0;
+    const MIN_ASYMPTOTIC_MEAN: f64 = 30.0;
     /// ψ(½) = −γ − 2 ln 2.
     const DIGAMMA_HALF: f64 = -1.963_510_026_021_423_5;
-    if m > ASYMPTOTIC_FROM {
+    if m > MIN_ASYMPTOTIC_MEAN {
         // Terms of the series use E (Z/m)²ᵏ = (2k − 1)!!/m²ᵏ.
         let inverse_square = 1.0 / (m * m);
         return libm::log(m) - inverse_square * (0.5 + inverse_square * (0.75 + inverse_square * 2.5));

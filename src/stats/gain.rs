@@ -62,7 +62,7 @@ pub(super) struct ChartGaussians {
     arc: Gaussian,
     gain: LikelihoodGain,
     /// Geometric mean of the Jacobian dx dy over ds dφ.
-    jacobian: f64,
+    mean_jacobian: f64,
 }
 
 /// Mean and covariance.
@@ -82,7 +82,7 @@ impl ChartGaussians {
             if gain > f64::NEG_INFINITY { gain } else { f64::NAN }
         };
         let gain = LikelihoodGain { pose: gain_in(3, &twist), floor: gain_in(2, &arc) };
-        Self { cartesian, twist, arc, gain, jacobian: libm::exp(log_jacobians[1]) }
+        Self { cartesian, twist, arc, gain, mean_jacobian: libm::exp(log_jacobians[1]) }
     }
 
     pub fn gain(&self) -> LikelihoodGain {
@@ -93,8 +93,8 @@ impl ChartGaussians {
 /// Sums for the standard errors: differences of two log-densities over a sample.
 #[derive(Clone, Debug)]
 pub(super) struct LogDensityDifferences {
-    charts: ChartGaussians,
-    weights: f64x4,
+    gaussians: ChartGaussians,
+    weight_sums: f64x4,
     /// Squared deviations of the log-density difference from the gain, for pose and floor. The mean difference is the
     /// gain of all robots, so that its own sum is not needed.
     squared_deviations: [f64x4; 2],
@@ -104,10 +104,10 @@ pub(super) struct LogDensityDifferences {
 }
 
 impl LogDensityDifferences {
-    pub fn new(charts: ChartGaussians) -> Self {
+    pub fn new(gaussians: ChartGaussians) -> Self {
         Self {
-            charts,
-            weights: f64x4::splat(0.0),
+            gaussians,
+            weight_sums: f64x4::splat(0.0),
             squared_deviations: [f64x4::splat(0.0); 2],
             area_sums: [f64x4::splat(0.0); 4],
         }
@@ -116,7 +116,7 @@ impl LogDensityDifferences {
     /// Adds four robots with these weights; 0 for a lane without a robot.
     #[inline(never)]
     pub fn add(&mut self, robots: &FourRobots, weights: f64x4) {
-        let ChartGaussians { cartesian, twist, arc, gain, jacobian } = &self.charts;
+        let ChartGaussians { cartesian, twist, arc, gain, mean_jacobian } = &self.gaussians;
         let has_robot = weights.simd_gt(f64x4::splat(0.0));
         let cartesian_distances = cartesian.squared_distances(&robots.cartesian);
         let twist_distance = twist.squared_distances(&robots.twist)[2];
@@ -130,35 +130,35 @@ impl LogDensityDifferences {
             let differences = (distances[i] * 0.5 - log(robots.jacobians[i]) + log_ratio) & has_robot;
             self.squared_deviations[i] += differences * differences * weights;
         }
-        let (u, h) = (robots.jacobians[1] / *jacobian - 1.0, distances[1] * 0.5);
+        let (u, h) = (robots.jacobians[1] / *mean_jacobian - 1.0, distances[1] * 0.5);
         for (sum, term) in self.area_sums.iter_mut().zip([u, u * u, h * u, h * h]) {
             *sum += (term & has_robot) * weights;
         }
-        self.weights += weights;
+        self.weight_sums += weights;
     }
 
     /// Returns the gain of a cloud of `count` poses, of which the added ones are a weighted sample.
-    pub fn finish(&self, count: usize) -> MeasuredGain {
-        let degrees_of_freedom = self.weights.reduce_add() - 1.0;
+    pub fn measured_gain(&self, count: usize) -> MeasuredGain {
+        let degrees_of_freedom = self.weight_sums.reduce_add() - 1.0;
         let [pose, floor] = self.squared_deviations.map(|squared_deviations| {
             (squared_deviations.reduce_add() / degrees_of_freedom / count as f64).sqrt()
         });
-        MeasuredGain { value: self.charts.gain, error: LikelihoodGain { pose, floor } }
+        MeasuredGain { value: self.gaussians.gain, error: LikelihoodGain { pose, floor } }
     }
 
     /// Returns the standard error of ln(A/B) by the delta method. A is the area of the 2σ ellipse in (x, y); B is the area of the
     /// image on the floor of the 2σ ellipse in arc coordinates.
     ///
     /// The areas are 4π√(det Σ_xy) and 4π√(det Σ_sφ) times the mean Jacobian over the ellipse. Uniform points of a 2σ ellipse have the
-    /// Gaussian's own covariance, so that to third order this mean is that of the robots. The influence of a robot is then
-    /// ½(z² − w²) − J/mean J, up to a constant, with z and w its two Mahalanobis distances. The outline in ξ has the
-    /// same error to first order. With the presets it is 0 to 14 % smaller than the spread of the ratio.
+    /// Gaussian's own covariance, so that to third order this mean is that of the robots. The influence of a robot is then ½(z² − w²)
+    /// − J/mean J, up to a constant. Here z and w are its two Mahalanobis distances. The outline in ξ has the same error to first
+    /// order. With the presets it is 0 to 14 % smaller than the spread of the ratio.
     pub fn log_area_error(&self, count: usize) -> f64 {
-        let total_weight = self.weights.reduce_add();
+        let total_weight = self.weight_sums.reduce_add();
         let [u, uu, hu, hh] = self.area_sums.map(|sum| sum.reduce_add() / total_weight);
         let mean_jacobian = 1.0 + u;
-        let variance = hh - 2.0 * hu / mean_jacobian + (uu - u * u) / (mean_jacobian * mean_jacobian);
-        (non_negative(variance) / (total_weight - 1.0) * total_weight / count as f64).sqrt()
+        let influence_var = hh - 2.0 * hu / mean_jacobian + (uu - u * u) / (mean_jacobian * mean_jacobian);
+        (non_negative(influence_var) / (total_weight - 1.0) * total_weight / count as f64).sqrt()
     }
 }
 

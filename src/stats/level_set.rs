@@ -9,17 +9,17 @@ const NO_EDGE: usize = usize::MAX;
 /// `values` are finite, at the points of a grid, row by row with `columns` in each row. Points of lines are (column, row) in steps of
 /// the grid, from its first point. A line ends where it began, or at the border of the grid.
 pub fn level_set(values: &[f64], columns: usize, level: f64) -> Vec<Vec<[f64; 2]>> {
-    let rows = values.len() / columns.max(1);
-    // The previous and the next edge of a line, for each edge of the grid that it crosses. Edge 2i leads from point i to the
-    // next point in its row, and edge 2i + 1 to the point in the next row.
+    let row_count = values.len() / columns.max(1);
+    // The previous and the next edge of a line, for each edge of the grid that it crosses. Edge 2i leads from point i to the next
+    // point in its row; edge 2i + 1 leads to the point in the next row.
     let mut edge_links = vec![[NO_EDGE; 2]; 2 * values.len()];
     let mut link_edges = |edge_a: usize, edge_b: usize| {
-        for (from, to) in [(edge_a, edge_b), (edge_b, edge_a)] {
-            let first_free_slot = usize::from(edge_links[from][0] != NO_EDGE);
-            edge_links[from][first_free_slot] = to;
+        for (edge, linked_edge) in [(edge_a, edge_b), (edge_b, edge_a)] {
+            let first_free_slot = usize::from(edge_links[edge][0] != NO_EDGE);
+            edge_links[edge][first_free_slot] = linked_edge;
         }
     };
-    for row in 1..rows {
+    for row in 1..row_count {
         for column in 1..columns {
             let i = (row - 1) * columns + column - 1;
             // Edges around the cell: corner k lies between the edges k − 1 and k.
@@ -29,7 +29,7 @@ pub fn level_set(values: &[f64], columns: usize, level: f64) -> Vec<Vec<[f64; 2]
             let is_crossed = |k: &usize| is_above[*k] != is_above[(k + 1) % 4];
             let mut crossed_edges = (0..4).filter(is_crossed).map(|k| cell_edges[k]);
             match (crossed_edges.next(), crossed_edges.next(), crossed_edges.next()) {
-                (Some(from), Some(to), None) => link_edges(from, to),
+                (Some(edge_a), Some(edge_b), None) => link_edges(edge_a, edge_b),
                 (Some(_), Some(_), Some(_)) => {
                     let centre_is_above = corner_values.iter().sum::<f64>() > 4.0 * level;
                     let first_corner = if centre_is_above == is_above[0] { 0 } else { 1 };
@@ -42,8 +42,8 @@ pub fn level_set(values: &[f64], columns: usize, level: f64) -> Vec<Vec<[f64; 2]
     }
     let crossing_point = |edge: usize| {
         let (i, is_vertical) = (edge / 2, edge % 2 == 1);
-        let (from, to) = (values[i], values[if is_vertical { i + columns } else { i + 1 }]);
-        let fraction = ((level - from) / (to - from)).clamp(0.0, 1.0);
+        let (start_value, end_value) = (values[i], values[if is_vertical { i + columns } else { i + 1 }]);
+        let fraction = ((level - start_value) / (end_value - start_value)).clamp(0.0, 1.0);
         let (column, row) = ((i % columns) as f64, (i / columns) as f64);
         if is_vertical { [column, row + fraction] } else { [column + fraction, row] }
     };

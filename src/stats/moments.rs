@@ -23,9 +23,9 @@ impl CartesianMoments {
         let relative_to_first = |pose: &SE2| {
             Vector3::new(pose.x() - poses[0].x(), pose.y() - poses[0].y(), wrap_angle(pose.theta() - heading))
         };
-        let (offset, cov) = mean_and_cov(poses.iter().map(relative_to_first), poses.len());
+        let (mean_offset, cov) = mean_and_cov(poses.iter().map(relative_to_first), poses.len());
         let (x, y) = poses.first().map_or((f64::NAN, f64::NAN), |first| (first.x(), first.y()));
-        Self { mean: Vector3::new(x + offset.x, y + offset.y, heading), cov }
+        Self { mean: Vector3::new(x + mean_offset.x, y + mean_offset.y, heading), cov }
     }
 }
 
@@ -44,8 +44,8 @@ impl ExponentialMoments {
     /// Returns the moments of `poses` in the chart anchored at `start`, the pose from which all of them were driven.
     /// NaN as for [`CartesianMoments::from_poses`].
     ///
-    /// The turn of each ξ is within half a turn of the mean heading, so that a cloud around a half turn stays in one piece.
-    /// Usually ξ is x_t ⊟ x_{t−1} itself.
+    /// The turn of each ξ is within half a turn of the mean heading. A cloud around a half turn therefore stays in one piece. Usually
+    /// ξ is x_t ⊟ x_{t−1} itself.
     pub fn from_poses(poses: &[SE2], start: &SE2) -> Self {
         let mean_turn = wrap_angle(mean_heading(poses) - start.theta());
         let start_inverse = start.inverse();

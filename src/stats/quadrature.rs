@@ -31,13 +31,13 @@ pub fn nodes(noise: NoiseKind) -> &'static [Node] {
 /// exp(−(2π/h − k)²/2).
 fn normal_nodes() -> Vec<Node> {
     /// Step of the rule. The error stays below rounding up to k ≈ 16; with twice the step it would only up to 4.
-    const STEP: f64 = 0.25;
+    const STEP_SIZE: f64 = 0.25;
     /// Number of steps on each side of 0: nine standard deviations, where the density is 1e-18 of its maximum.
     const STEPS_PER_SIDE: i32 = 36;
     (-STEPS_PER_SIDE..=STEPS_PER_SIDE)
         .map(|i| {
-            let node_value = STEP * f64::from(i);
-            Node { value: node_value, weight: STEP * libm::exp(-0.5 * node_value * node_value) / TAU.sqrt() }
+            let value = STEP_SIZE * f64::from(i);
+            Node { value, weight: STEP_SIZE * libm::exp(-0.5 * value * value) / TAU.sqrt() }
         })
         .collect()
 }
@@ -46,9 +46,9 @@ fn normal_nodes() -> Vec<Node> {
 fn triangular_nodes() -> Vec<Node> {
     /// Number of points on each half of the support. The rule is exact for polynomials of degree 63, which is accurate enough up to
     /// the frequency k ≈ 25: k·√6 ≈ 60.
-    const POINTS: usize = 32;
+    const NODES_PER_HALF: usize = 32;
     let support_end = 6f64.sqrt();
-    legendre_nodes(POINTS)
+    legendre_nodes(NODES_PER_HALF)
         .into_iter()
         .flat_map(|Node { value, weight }| {
             let fraction = 0.5 * (1.0 + value);
@@ -64,38 +64,38 @@ fn triangular_nodes() -> Vec<Node> {
 pub(super) fn piecewise_nodes(noise: NoiseKind, end: f64, breaks: [f64; 2]) -> Vec<Node> {
     /// Number of nodes between breaks. Two noises are combined, so that the cost grows with its square. Fewer nodes would
     /// make displayed digits wrong.
-    const POINTS: usize = 16;
-    let unit_nodes = legendre_nodes(POINTS);
-    let (mut nodes, mut from) = (Vec::with_capacity(4 * POINTS), -end);
+    const NODES_PER_PIECE: usize = 16;
+    let unit_nodes = legendre_nodes(NODES_PER_PIECE);
+    let (mut nodes, mut piece_start) = (Vec::with_capacity(4 * NODES_PER_PIECE), -end);
     // The triangular density has another break at 0.
-    for to in [breaks[0].max(-end).min(0.0), 0.0, breaks[1].max(0.0).min(end), end] {
-        if to > from {
-            let half_width = 0.5 * (to - from);
+    for piece_end in [breaks[0].max(-end).min(0.0), 0.0, breaks[1].max(0.0).min(end), end] {
+        if piece_end > piece_start {
+            let half_width = 0.5 * (piece_end - piece_start);
             nodes.extend(unit_nodes.iter().map(|node| {
-                let node_value = from + half_width * (1.0 + node.value);
+                let value = piece_start + half_width * (1.0 + node.value);
                 let density = match noise {
-                    NoiseKind::Normal => libm::exp(-0.5 * node_value * node_value) / TAU.sqrt(),
-                    NoiseKind::Triangular => (6f64.sqrt() - node_value.abs()) / 6.0,
+                    NoiseKind::Normal => libm::exp(-0.5 * value * value) / TAU.sqrt(),
+                    NoiseKind::Triangular => (6f64.sqrt() - value.abs()) / 6.0,
                 };
-                Node { value: node_value, weight: node.weight * half_width * density }
+                Node { value, weight: node.weight * half_width * density }
             }));
-            from = to;
+            piece_start = piece_end;
         }
     }
     nodes
 }
 
 /// Returns the Gauss–Legendre rule on (−1, 1): the roots of P_n by Newton's method.
-fn legendre_nodes(points: usize) -> Vec<Node> {
-    let n = points as f64;
-    (0..points)
+fn legendre_nodes(node_count: usize) -> Vec<Node> {
+    let n = node_count as f64;
+    (0..node_count)
         .map(|i| {
             // Tricomi's guess is within 1e-4. Newton's method doubles the correct digits in each of four steps.
             let mut x = libm::cos(PI * (i as f64 + 0.75) / (n + 0.5));
             let mut derivative = 1.0;
             for _ in 0..4 {
                 let (mut previous, mut value) = (1.0, x);
-                for k in 2..=points {
+                for k in 2..=node_count {
                     let k = k as f64;
                     (previous, value) = (value, ((2.0 * k - 1.0) * x * value - (k - 1.0) * previous) / k);
                 }

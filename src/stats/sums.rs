@@ -6,7 +6,7 @@ use wide::{f64x2, f64x4};
 /// Sums of `N` quantities.
 #[derive(Clone, Debug)]
 pub struct Sums<const N: usize> {
-    /// Sums of the current block, to which [`add`] adds.
+    /// Sums of the current block, to which [`add_to_block`] adds.
     pub block: [f64x2; N],
     total: [f64x2; N],
     compensation: [f64x2; N],
@@ -18,18 +18,18 @@ impl<const N: usize> Sums<N> {
         Self { block: zero_sums, total: zero_sums, compensation: zero_sums }
     }
 
-    pub fn close_block(&mut self) {
-        close_blocks(&mut self.block, &mut self.total, &mut self.compensation);
+    pub fn flush_block(&mut self) {
+        flush_blocks(&mut self.block, &mut self.total, &mut self.compensation);
     }
 
-    pub fn finish(&self) -> [f64; N] {
+    pub fn totals(&self) -> [f64; N] {
         std::array::from_fn(|i| compensated_total(self.total[i], self.compensation[i]))
     }
 }
 
 /// Adds blocks to their totals, and the rounding errors to `compensation` (Knuth's two-sum).
 #[inline(never)]
-fn close_blocks(blocks: &mut [f64x2], totals: &mut [f64x2], compensation: &mut [f64x2]) {
+fn flush_blocks(blocks: &mut [f64x2], totals: &mut [f64x2], compensation: &mut [f64x2]) {
     for ((block, total), compensation) in blocks.iter_mut().zip(totals).zip(compensation) {
         let block_sum = std::mem::replace(block, f64x2::splat(0.0));
         let sum = *total + block_sum;
@@ -47,7 +47,7 @@ fn compensated_total(total: f64x2, compensation: f64x2) -> f64 {
 
 /// Adds four values of each quantity to its block.
 #[inline(always)]
-pub fn add<const N: usize>(block: &mut [f64x2; N], terms: [f64x4; N]) {
+pub fn add_to_block<const N: usize>(block: &mut [f64x2; N], terms: [f64x4; N]) {
     for i in 0..N {
         let [low, high] = lane_halves(terms[i]);
         block[i] += low + high;
@@ -65,19 +65,19 @@ impl PairSums {
 
     pub fn add(&mut self, [a, b]: [f64x4; 2], mask: f64x4) {
         let (a, b) = (a & mask, b & mask);
-        add(&mut self.0.block, [a, b, a * a, a * b, b * b]);
+        add_to_block(&mut self.0.block, [a, b, a * a, a * b, b * b]);
     }
 
     pub fn subtract(&mut self, [a, b]: [f64x4; 2], mask: f64x4) {
         let (a, b) = (a & mask, b & mask);
-        add(&mut self.0.block, [-a, -b, -(a * a), -(a * b), -(b * b)]);
+        add_to_block(&mut self.0.block, [-a, -b, -(a * a), -(a * b), -(b * b)]);
     }
 
-    pub fn close_block(&mut self) {
-        self.0.close_block();
+    pub fn flush_block(&mut self) {
+        self.0.flush_block();
     }
 
-    pub fn finish(&self) -> [f64; 5] {
-        self.0.finish()
+    pub fn totals(&self) -> [f64; 5] {
+        self.0.totals()
     }
 }

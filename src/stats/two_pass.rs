@@ -8,7 +8,7 @@ use super::contour::{Ellipse, ExponentialContour};
 use super::cross_track::{CrossTrack, TrackMoments};
 use super::gain::{ChartGaussians, FourRobots, LogDensityDifferences, MeanAndCov, MeasuredGain};
 use super::moments::{CartesianMoments, ExponentialMoments, non_negative};
-use super::sums::{PairSums, Sums, add};
+use super::sums::{PairSums, Sums, add_to_block};
 use crate::geom::angle::wrap_angle;
 use crate::geom::lanes::{LANES, any_lane_set, lane_halves};
 use crate::geom::se2::SE2;
@@ -25,7 +25,7 @@ pub struct FourPoses {
     pub along: f64x4,
     pub lateral: f64x4,
     /// Half of the heading on the branch of the logarithm.
-    pub half: f64x4,
+    pub half_heading: f64x4,
     pub half_sin: f64x4,
     pub half_cos: f64x4,
     /// sin h/h of the half heading h.
@@ -37,7 +37,7 @@ pub struct FourPoses {
 #[derive(Clone, Copy)]
 pub struct FourArcs {
     pub length: f64x4,
-    pub half: f64x4,
+    pub half_turn: f64x4,
     pub sinc: f64x4,
 }
 
@@ -56,11 +56,11 @@ pub struct FirstPass {
     sums: Sums<16>,
     /// Corrections for irregular arcs, which are not the driven ones (see `Drive::end_points`). Each adds the values
     /// of its arc, and subtracts those of the driven arc, which are in the sums of the unit noise.
-    irregular: PairSums,
+    irregular_arcs: PairSums,
     /// Products of the scaled factors sinc(ξ_ω/2) and |s|·sinc²(φ/2) over a block, and sums of the logarithms of these
     /// products. One logarithm for each block takes hardly any time. On average the factors are above e⁻¹, and the
     /// product of a block is above 1e-111.
-    products: [f64x2; 2],
+    jacobian_products: [f64x2; 2],
     logs: [f64; 2],
 }
 
@@ -70,8 +70,8 @@ impl FirstPass {
             reference,
             scale,
             sums: Sums::new(),
-            irregular: PairSums::new(),
-            products: [f64x2::splat(1.0); 2],
+            irregular_arcs: PairSums::new(),
+            jacobian_products: [f64x2::splat(1.0); 2],
             logs: [0.0; 2],
         }
     }
@@ -79,15 +79,15 @@ impl FirstPass {
     /// Adds the poses whose lanes of `mask` have all bits set.
     #[inline(always)]
     pub fn add(&mut self, poses: &FourPoses, mask: f64x4) {
-        let [x, y, along, lateral, half, ..] = self.reference;
+        let [x, y, along, lateral, half_heading, ..] = self.reference;
         let (sin, cos) = (poses.half_sin & mask, poses.half_cos);
         let [x, y] = [(poses.x - x) & mask, (poses.y - y) & mask];
-        let [a, l, h] =
-            [(poses.along - along) & mask, (poses.lateral - lateral) & mask, (poses.half - half) & mask];
+        let [a, l] = [(poses.along - along) & mask, (poses.lateral - lateral) & mask];
+        let h = (poses.half_heading - half_heading) & mask;
         let [xx, xy, yy] = [x * x, x * y, y * y];
         let [aa, al, ll, ah, lh, hh] = [a * a, a * l, l * l, a * h, l * h, h * h];
         let terms = [x, y, a, l, h, xx, xy, yy, aa, al, ll, ah, lh, hh, sin * cos, sin * sin];
-        add(&mut self.sums.block, terms);
+        add_to_block(&mut self.sums.block, terms);
     }
 
     /// Multiplies the products by the Jacobians of four poses.
@@ -97,83 +97,83 @@ impl FirstPass {
             let [low, high] = lane_halves(lanes);
             low * high
         };
-        let (chart, arc) = (lane_product(poses.sinc), lane_product(arcs.sinc));
-        let [chart_scale, arc_scale] = self.scale;
-        self.products[0] *= chart * (chart_scale * chart_scale);
-        self.products[1] *= lane_product(arcs.length) * (arc * arc) * (arc_scale * arc_scale);
+        let (twist, arc) = (lane_product(poses.sinc), lane_product(arcs.sinc));
+        let [twist_scale, arc_scale] = self.scale;
+        self.jacobian_products[0] *= twist * (twist_scale * twist_scale);
+        self.jacobian_products[1] *= lane_product(arcs.length) * (arc * arc) * (arc_scale * arc_scale);
     }
 
     /// Multiplies the products by the Jacobians of the poses whose lanes of `mask` have all bits set.
     #[inline(never)]
     pub fn multiply_masked_jacobians(&mut self, poses: &FourPoses, arcs: &FourArcs, mask: f64x4) {
         let masked_or_one = |values: f64x4| mask.bitselect(values, f64x4::splat(1.0));
-        let [chart, length, arc] = [poses.sinc, arcs.length, arcs.sinc].map(masked_or_one);
+        let [twist, length, arc] = [poses.sinc, arcs.length, arcs.sinc].map(masked_or_one);
         self.multiply_jacobians(
-            &FourPoses { sinc: chart, ..*poses },
+            &FourPoses { sinc: twist, ..*poses },
             &FourArcs { length, sinc: arc, ..*arcs },
         );
     }
 
-    /// Corrects the sums for irregular arcs: adds their values, and subtracts those of the driven arcs, `regular`, which are in the sums
+    /// Corrects the sums for irregular arcs: adds their values, and subtracts those of the driven ones, `regular_arcs`, which are in the sums
     /// of the unit noise.
     #[inline(never)]
-    pub fn add_irregular(&mut self, arcs: &FourArcs, regular: [f64x4; 2], mask: f64x4) {
+    pub fn add_irregular(&mut self, arcs: &FourArcs, regular_arcs: [f64x4; 2], mask: f64x4) {
         let [.., length, half_turn] = self.reference;
-        self.irregular.add([arcs.length - length, arcs.half - half_turn], mask);
-        self.irregular.subtract(regular, mask);
+        self.irregular_arcs.add([arcs.length - length, arcs.half_turn - half_turn], mask);
+        self.irregular_arcs.subtract(regular_arcs, mask);
     }
 
-    pub fn close_block(&mut self) {
-        self.sums.close_block();
-        self.irregular.close_block();
-        for (product, log) in self.products.iter_mut().zip(&mut self.logs) {
+    pub fn flush_block(&mut self) {
+        self.sums.flush_block();
+        self.irregular_arcs.flush_block();
+        for (product, log) in self.jacobian_products.iter_mut().zip(&mut self.logs) {
             let [a, b] = product.to_array();
             *log += libm::log((a * b).abs());
             *product = f64x2::splat(1.0);
         }
     }
 
-    /// Returns the moments of `count` poses. Their Cartesian covariance is that of the position only. `regular` are the sums
+    /// Returns the moments of `count` poses. Their Cartesian covariance is that of the position only. `regular_sums` are the sums
     /// over the driven arcs, in the order of [`PairSums`], which the irregular arcs correct.
-    pub fn finish(&self, count: usize, regular: [f64; 5]) -> FirstPassMoments {
+    pub fn moments(&self, count: usize, regular_sums: [f64; 5]) -> FirstPassMoments {
         let n = count as f64;
-        let [x, y, a, l, h, xx, xy, yy, aa, al, ll, ah, lh, hh, sin_cos, sin_sin] = self.sums.finish();
-        let irregular_sums = self.irregular.finish();
-        let [s, t, ss, st, tt] = std::array::from_fn(|i| regular[i] + irregular_sums[i]);
+        let [x, y, a, l, h, xx, xy, yy, aa, al, ll, ah, lh, hh, sin_cos, sin_sin] = self.sums.totals();
+        let irregular_sums = self.irregular_arcs.totals();
+        let [s, t, ss, st, tt] = std::array::from_fn(|i| regular_sums[i] + irregular_sums[i]);
         // A covariance is the mean of the products minus the product of the means.
         let cov = |product: f64, first: f64, second: f64| {
             if count > 1 { (product - first * (second / n)) / (n - 1.0) } else { f64::NAN }
         };
         let variance = |square: f64, sum: f64| non_negative(cov(square, sum, sum));
-        let [x0, y0, along, lateral, half, length, half_turn] = self.reference;
+        let [x0, y0, along, lateral, half_heading, length, half_turn] = self.reference;
         // sin θ and cos θ of the double angle, turned so that the reference's heading is 0.
-        let (sin, cos) = libm::sincos(2.0 * half);
+        let (sin, cos) = libm::sincos(2.0 * half_heading);
         let (sum_sin, sum_cos) = (2.0 * sin_cos, n - 2.0 * sin_sin);
         let rotated_sums = (sum_sin * cos - sum_cos * sin, sum_cos * cos + sum_sin * sin);
         // Equal headings have spread 0, although their sines may be rounded.
         let turn_from_reference = if hh == 0.0 { 0.0 } else { libm::atan2(rotated_sums.0, rotated_sums.1) };
-        let mean_turn = 2.0 * half + turn_from_reference;
+        let mean_turn = 2.0 * half_heading + turn_from_reference;
         let position_cov = [variance(xx, x), cov(xy, x, y), variance(yy, y)];
         let [aa, al, ll] = [variance(aa, a), cov(al, a, l), variance(ll, l)];
         let [ah, lh, hh] = [2.0 * cov(ah, a, h), 2.0 * cov(lh, l, h), 4.0 * variance(hh, h)];
         let [ss, st, tt] = [variance(ss, s), 2.0 * cov(st, s, t), 4.0 * variance(tt, t)];
         // All four lanes are scaled, including those without a pose.
         let scaled_count = count.next_multiple_of(LANES) as f64;
-        let [chart, floor] = [0, 1].map(|i| (self.logs[i] - scaled_count * libm::log(self.scale[i])) / n);
+        let [twist, arc] = [0, 1].map(|i| (self.logs[i] - scaled_count * libm::log(self.scale[i])) / n);
         FirstPassMoments {
             position: [x0 + x / n, y0 + y / n],
             position_cov,
             mean_turn,
             resultant: libm::hypot(rotated_sums.0, rotated_sums.1) / n,
             exponential: ExponentialMoments {
-                mean: Vector3::new(along + a / n, lateral + l / n, 2.0 * (half + h / n)),
+                mean: Vector3::new(along + a / n, lateral + l / n, 2.0 * (half_heading + h / n)),
                 cov: Matrix3::new(aa, al, ah, al, ll, lh, ah, lh, hh),
             },
             arc: (
                 Vector3::new(length + s / n, 2.0 * (half_turn + t / n), 0.0),
                 Matrix3::new(ss, st, 0.0, st, tt, 0.0, 0.0, 0.0, 0.0),
             ),
-            log_jacobians: [2.0 * chart, floor - LN_2],
+            log_jacobians: [2.0 * twist, arc - LN_2],
         }
     }
 
@@ -181,7 +181,7 @@ impl FirstPass {
     /// mean of a small cloud is many of its standard deviations away from the reference.
     pub fn better_reference(&self, count: usize) -> Option<ReferenceCoordinates> {
         let n = count as f64;
-        let sums = self.sums.finish();
+        let sums = self.sums.totals();
         let means = [0, 1, 2, 3, 4].map(|i| sums[i] / n);
         let mean_squares = [5, 7, 8, 10, 13].map(|i| sums[i] / n);
         let has_lost_digits =
@@ -189,7 +189,7 @@ impl FirstPass {
         has_lost_digits.then(|| std::array::from_fn(|i| self.reference[i] + means.get(i).unwrap_or(&0.0)))
     }
 
-    pub fn scale(&self) -> JacobianScale {
+    pub fn jacobian_scale(&self) -> JacobianScale {
         self.scale
     }
 }
@@ -216,7 +216,7 @@ pub struct FirstPassMoments {
 pub struct SecondPass {
     first_pass: FirstPassMoments,
     /// Sine and cosine of the mean heading.
-    heading: (f64, f64),
+    heading_sin_cos: (f64, f64),
     ellipse: Ellipse,
     twist_ellipse: Ellipse,
     sums: Sums<17>,
@@ -242,7 +242,7 @@ impl SecondPass {
         let [xx, xy, yy] = first_pass.position_cov;
         Self {
             first_pass,
-            heading: libm::sincos(first_pass.mean_turn),
+            heading_sin_cos: libm::sincos(first_pass.mean_turn),
             ellipse: Ellipse::new(first_pass.position.into(), Matrix2::new(xx, xy, xy, yy)),
             twist_ellipse: *ExponentialContour::new(&first_pass.exponential, start).ellipse(),
             sums: Sums::new(),
@@ -252,89 +252,73 @@ impl SecondPass {
     /// Adds the poses whose lanes of `mask` have all bits set.
     #[inline(always)]
     pub fn add(&mut self, poses: &FourPoses, mask: f64x4) {
-        let ([mean_x, mean_y], (sin, cos)) = (self.first_pass.position, self.heading);
+        let ([mean_x, mean_y], (sin, cos)) = (self.first_pass.position, self.heading_sin_cos);
         let (x, y) = (poses.x - mean_x, poses.y - mean_y);
         // The names a, d, s and t are those of `TrackMoments`.
         let d = (y * cos - x * sin) & mask;
         let a = (x * cos + y * sin) & mask;
-        let t = wrapped_difference(poses.half * 2.0 - self.first_pass.mean_turn) & mask;
+        let t = wrapped_difference(poses.half_heading * 2.0 - self.first_pass.mean_turn) & mask;
         // sin(θ − h), from the double angle of θ/2.
         let theta_sin = poses.half_sin * poses.half_cos * 2.0;
         let theta_cos = 1.0 - poses.half_sin * poses.half_sin * 2.0;
         let s = (theta_sin * cos - theta_cos * sin) & mask;
         let lane_counts = f64x4::splat(1.0) & mask;
-        let counts_in_ellipse = self.ellipse.contains_four(poses.x, poses.y) & lane_counts;
-        let counts_in_contour = self.twist_ellipse.contains_four(poses.along, poses.half * 2.0) & lane_counts;
+        let ellipse_counts = self.ellipse.contains_four(poses.x, poses.y) & lane_counts;
+        let contour_counts =
+            self.twist_ellipse.contains_four(poses.along, poses.half_heading * 2.0) & lane_counts;
         let d2 = d * d;
         let d3 = d2 * d;
         let [ad, ad2, d4, d5, d6] = [a * d, a * d2, d2 * d2, d2 * d3, d3 * d3];
         let [ss, sd, sd2, sd3, tt, td] = [s * s, s * d, s * d2, s * d3, t * t, t * d];
         let ta = t * a;
-        let terms = [
-            ad,
-            ad2,
-            d2,
-            d3,
-            d4,
-            d5,
-            d6,
-            ss,
-            sd,
-            sd2,
-            sd3,
-            t,
-            tt,
-            td,
-            ta,
-            counts_in_ellipse,
-            counts_in_contour,
-        ];
-        add(&mut self.sums.block, terms);
+        let terms =
+            [ad, ad2, d2, d3, d4, d5, d6, ss, sd, sd2, sd3, t, tt, td, ta, ellipse_counts, contour_counts];
+        add_to_block(&mut self.sums.block, terms);
     }
 
-    pub fn close_block(&mut self) {
-        self.sums.close_block();
+    pub fn flush_block(&mut self) {
+        self.sums.flush_block();
     }
 
     /// Returns the statistics of `count` poses. The weighted poses in `sample` give the standard errors of the gains.
-    pub fn finish(
+    pub fn stats(
         &self,
         count: usize,
         sample: impl Iterator<Item = (FourPoses, FourArcs, f64x4)>,
     ) -> CloudStats {
         let n = count as f64;
-        let means = self.sums.finish().map(|sum| sum / n);
+        let means = self.sums.totals().map(|sum| sum / n);
         let [products @ .., ta, inside, inside_contour] = means;
         let [.., t, tt, td] = products;
         let FirstPassMoments { position: [x, y], position_cov: [xx, xy, yy], .. } = self.first_pass;
-        let (sin, cos) = self.heading;
+        let (sin, cos) = self.heading_sin_cos;
         let bessel_factor = if count > 1 { n / (n - 1.0) } else { f64::NAN };
         let [x_turn, y_turn, turn_variance] =
             [ta * cos - td * sin, ta * sin + td * cos, tt - t * t].map(|mean| bessel_factor * mean);
         let cov = Matrix3::new(xx, xy, x_turn, xy, yy, y_turn, x_turn, y_turn, turn_variance);
         let track_moments = TrackMoments {
             products,
-            extent_squared: x * x + y * y + if count > 1 { (xx + yy) / bessel_factor } else { 0.0 },
+            squared_extent: x * x + y * y + if count > 1 { (xx + yy) / bessel_factor } else { 0.0 },
             resultant: self.first_pass.resultant,
         };
         let FirstPassMoments { exponential, arc, log_jacobians, .. } = self.first_pass;
-        let charts = ChartGaussians::new(
+        let gaussians = ChartGaussians::new(
             (Vector3::new(x, y, t), cov),
             (exponential.mean, exponential.cov),
             arc,
             log_jacobians,
         );
-        let mut differences = LogDensityDifferences::new(charts);
+        let mut density_differences = LogDensityDifferences::new(gaussians);
         for (poses, arcs, weights) in sample {
-            let FourPoses { x, y, along, lateral, half, sinc, .. } = poses;
-            let turn = wrapped_difference(half * 2.0 - self.first_pass.mean_turn);
+            let FourPoses { x, y, along, lateral, half_heading, sinc, .. } = poses;
+            let turn = wrapped_difference(half_heading * 2.0 - self.first_pass.mean_turn);
             let robots = FourRobots {
                 cartesian: [x, y, turn],
-                twist: [along, lateral, half * 2.0],
-                arc: [arcs.length, arcs.half * 2.0, f64x4::splat(0.0)],
+                twist: [along, lateral, half_heading * 2.0],
+                arc: [arcs.length, arcs.half_turn * 2.0, f64x4::splat(0.0)],
                 jacobians: [sinc * sinc, arcs.length.abs() * 0.5 * (arcs.sinc * arcs.sinc)],
             };
-            differences.add(&robots, weights);
+            density_differences.add(&robots, weights);
         }
         let fraction_or_nan =
             |ellipse: &Ellipse, inside: f64| if ellipse.has_area() { inside } else { f64::NAN };
@@ -347,8 +331,8 @@ impl SecondPass {
             cross_track: CrossTrack::from_moments(count, &track_moments),
             inside_ellipse: fraction_or_nan(&self.ellipse, inside),
             inside_exponential: fraction_or_nan(&self.twist_ellipse, inside_contour),
-            gain: differences.finish(count),
-            log_area_error: differences.log_area_error(count),
+            gain: density_differences.measured_gain(count),
+            log_area_error: density_differences.log_area_error(count),
         }
     }
 }

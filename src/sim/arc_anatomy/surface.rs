@@ -41,7 +41,7 @@ impl Surface {
             return None;
         }
         let (model, start) = (settings.model(), settings.start());
-        let windings = f64::from(2 * model.windings(&settings.command) + 1);
+        let windings = f64::from(2 * model.max_windings(&settings.command) + 1);
         let max_cells = MAX_EXPONENTIALS / (3.0 + 2.0 * windings + MAX_LAST_TURNS.min(windings + 2.0));
         let [width, height] = [max[0] - min[0], max[1] - min[1]];
         let columns = (max_cells * width / height).sqrt().max(1.0).min(max_cells).floor();

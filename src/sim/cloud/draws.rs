@@ -99,7 +99,7 @@ impl Draws {
         while groups >= self.summed_groups + BLOCK_GROUPS {
             let block_noise = self.unit_noise[self.summed_groups..][..BLOCK_GROUPS].iter();
             block_noise.for_each(|noise| self.sums.add([noise[0], noise[1]], f64x4::splat(ALL_BITS_SET)));
-            self.sums.close_block();
+            self.sums.flush_block();
             let block_range = self.summed_groups.max(SUBSAMPLE_GROUPS[1])..self.summed_groups + BLOCK_GROUPS;
             self.farthest_groups.extend(
                 block_range.filter(|group| subsample_groups(&self.unit_noise[*group]) > SUBSAMPLE_GROUPS[1]),
@@ -124,8 +124,8 @@ impl Draws {
             let lane_mask = from_lanes(|lane| if LANES * group + lane < count { ALL_BITS_SET } else { 0.0 });
             all_sums.add([noise[0], noise[1]], lane_mask);
         }
-        all_sums.close_block();
-        all_sums.finish()
+        all_sums.flush_block();
+        all_sums.totals()
     }
 
     /// Returns all unit noise drawn so far, in groups of four samples. The last group may have additional samples.

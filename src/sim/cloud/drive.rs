@@ -38,7 +38,7 @@ pub struct Motions {
     length: f64x4,
     bearing: f64x4,
     /// Half of the heading, not wrapped.
-    pub half: f64x4,
+    pub half_heading: f64x4,
 }
 
 impl Drive {
@@ -85,7 +85,7 @@ impl Drive {
         Motions {
             length: length * self.length[1] + self.length[0],
             bearing,
-            half: bearing * self.bearing_weight
+            half_heading: bearing * self.bearing_weight
                 + (third * self.half_heading_offset[1] + self.half_heading_offset[0]),
         }
     }
@@ -105,7 +105,7 @@ impl Drive {
         if is_outside_short_formulas || !self.is_arc {
             return (ends, self.arcs_to_points(bearing, ends), false);
         }
-        (ends, FourArcs { length, half: bearing, sinc: bearing_sin_cos.sinc }, true)
+        (ends, FourArcs { length, half_turn: bearing, sinc: bearing_sin_cos.sinc }, true)
     }
 
     #[inline(always)]
@@ -133,9 +133,9 @@ impl Drive {
     /// Returns the arcs that lead to the points (x, y), which lie in the directions of these bearings.
     #[inline(never)]
     fn arcs_to_points(&self, bearing: f64x4, [x, y]: [f64x4; 2]) -> FourArcs {
-        let LogTerms { half, sinc, sin, cos, .. } =
+        let LogTerms { half_heading: half_turn, sinc, sin, cos, .. } =
             self.trigonometry.log_terms_any_angle(bearing, self.half_commanded_turn);
-        FourArcs { length: (x * cos + y * sin) / sinc, half, sinc }
+        FourArcs { length: (x * cos + y * sin) / sinc, half_turn, sinc }
     }
 
     /// Returns the poses of four motions that ended at `ends`, with their logarithms on the branch of the commanded
@@ -143,9 +143,9 @@ impl Drive {
     #[inline(always)]
     pub fn poses(&self, motions: &Motions, ends: &[f64x4; 2]) -> FourPoses {
         let turn = if self.is_outside_short_formulas(motions) {
-            self.trigonometry.log_terms_any_angle(motions.half, self.half_commanded_turn)
+            self.trigonometry.log_terms_any_angle(motions.half_heading, self.half_commanded_turn)
         } else {
-            self.trigonometry.log_terms_small_angle(motions.half)
+            self.trigonometry.log_terms_small_angle(motions.half_heading)
         };
         with_logarithms(ends, turn)
     }
@@ -153,11 +153,11 @@ impl Drive {
     /// Returns the points to which a morph takes the ends of four motions: see [`crate::geom::unbend`].
     #[inline(always)]
     pub fn morphed_points(&self, motions: &Motions, ends: &[f64x4; 2], morph: f64) -> [f64x4; 2] {
-        let FourPoses { along, lateral, half, .. } = self.poses(motions, ends);
+        let FourPoses { along, lateral, half_heading, .. } = self.poses(motions, ends);
         let remaining_bend = 1.0 - morph;
-        let SinCos { sinc, sin, cos } = self.trigonometry.sin_cos(half * remaining_bend);
+        let SinCos { sinc, sin, cos } = self.trigonometry.sin_cos(half_heading * remaining_bend);
         let (along, lateral) = (along * sinc, lateral * sinc * remaining_bend);
-        [along * cos - lateral * sin, along * sin + lateral * cos + half * (2.0 * morph)]
+        [along * cos - lateral * sin, along * sin + lateral * cos + half_heading * (2.0 * morph)]
     }
 
     /// Tests whether an angle is outside the range of the short formulas.
@@ -166,7 +166,7 @@ impl Drive {
         let [interval_middle, interval_half_width] = self.short_formula_interval;
         let is_beyond =
             |angle: f64x4| (angle - interval_middle).abs().simd_gt(f64x4::splat(interval_half_width));
-        any_lane_set(is_beyond(motions.bearing) | is_beyond(motions.half))
+        any_lane_set(is_beyond(motions.bearing) | is_beyond(motions.half_heading))
     }
 
     /// Returns the poses of four robots and the arcs to them, by formulas for any angle. The loops over all robots of a
@@ -176,7 +176,7 @@ impl Drive {
         let motions = self.motions(unit_noise);
         let bearing_sin_cos = self.trigonometry.sin_cos_any_angle(motions.bearing);
         let ends = self.end_points_on_bearing(&motions, &bearing_sin_cos);
-        let turn = self.trigonometry.log_terms_any_angle(motions.half, self.half_commanded_turn);
+        let turn = self.trigonometry.log_terms_any_angle(motions.half_heading, self.half_commanded_turn);
         (with_logarithms(&ends, turn), self.arcs_to_points(motions.bearing, ends))
     }
 
@@ -184,7 +184,7 @@ impl Drive {
     pub fn nominal_coordinates(&self) -> (ReferenceCoordinates, JacobianScale) {
         let (poses, arcs) = self.coordinates_of_four(&[f64x4::splat(0.0); 3]);
         let mut reference_coordinates =
-            [poses.x, poses.y, poses.along, poses.lateral, poses.half, arcs.length, arcs.half]
+            [poses.x, poses.y, poses.along, poses.lateral, poses.half_heading, arcs.length, arcs.half_turn]
                 .map(|lanes| lanes.to_array()[0]);
         if self.is_arc {
             // The commanded length and half turn are exact. Inverting the end pose would change their last bits.
@@ -205,9 +205,9 @@ impl Drive {
 /// Returns the poses at `ends` with the half headings of `turn`, and their logarithms.
 #[inline(always)]
 fn with_logarithms(ends: &[f64x4; 2], turn: LogTerms) -> FourPoses {
-    let ([x, y], LogTerms { half, cotangent, sinc, sin, cos }) = (*ends, turn);
-    let (along, lateral) = (cotangent * x + half * y, cotangent * y - half * x);
-    FourPoses { x, y, along, lateral, half, half_sin: sin, half_cos: cos, sinc }
+    let ([x, y], LogTerms { half_heading, half_cotangent, sinc, sin, cos }) = (*ends, turn);
+    let (along, lateral) = (half_cotangent * x + half_heading * y, half_cotangent * y - half_heading * x);
+    FourPoses { x, y, along, lateral, half_heading, half_sin: sin, half_cos: cos, sinc }
 }
 
 /// Quarter turn minus a margin for rounding.

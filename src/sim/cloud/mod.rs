@@ -60,22 +60,22 @@ impl Cloud {
         let (reference, scale) = drive.nominal_coordinates();
         let mut first_pass = self.run_first_pass(FirstPass::new(reference, scale));
         if let Some(better) = first_pass.better_reference(shown_count) {
-            first_pass = self.run_first_pass(FirstPass::new(better, first_pass.scale()));
+            first_pass = self.run_first_pass(FirstPass::new(better, first_pass.jacobian_scale()));
         }
         let regular_sums = drive.sums_of_regular_deviations(self.draws.pair_sums(shown_count));
-        let mut second_pass = SecondPass::new(first_pass.finish(shown_count, regular_sums), &START_POSE);
+        let mut second_pass = SecondPass::new(first_pass.moments(shown_count, regular_sums), &START_POSE);
         for parts in sample_blocks(shown_count) {
             for (groups, mask) in parts {
                 let noise = &self.draws.groups()[groups.clone()];
                 add_to_second_pass(&drive, noise, &self.positions[groups], mask, &mut second_pass);
             }
-            second_pass.close_block();
+            second_pass.flush_block();
         }
         let weighted_robots = self.draws.weighted_subsample(shown_count).map(|(noise, weights)| {
             let (poses, arcs) = drive.coordinates_of_four(noise);
             (poses, arcs, weights)
         });
-        second_pass.finish(shown_count, weighted_robots)
+        second_pass.stats(shown_count, weighted_robots)
     }
 
     /// Draws and drives all samples, and adds them to the sums of the first pass.
@@ -92,7 +92,7 @@ impl Cloud {
                 let noise = &draws.groups()[groups.clone()];
                 add_to_first_pass(drive, noise, &mut positions[groups], mask, &mut sums);
             }
-            sums.close_block();
+            sums.flush_block();
         }
         sums
     }
@@ -122,7 +122,7 @@ impl Cloud {
     pub fn pose(&self, index: usize) -> SE2 {
         let [group, lane] = [index / LANES, index % LANES];
         let [x, y] = self.positions[group].map(|lanes| lanes.to_array()[lane]);
-        let half_heading = self.drive.motions(&self.draws.groups()[group]).half;
+        let half_heading = self.drive.motions(&self.draws.groups()[group]).half_heading;
         SE2::new(x, y, 2.0 * half_heading.to_array()[lane])
     }
 
@@ -136,7 +136,7 @@ impl Cloud {
             View::Twist => {
                 let motions = self.drive.motions(&self.draws.groups()[group]);
                 let poses = self.drive.poses(&motions, &self.positions[group]);
-                [poses.along, poses.half * 2.0]
+                [poses.along, poses.half_heading * 2.0]
             }
             View::Morph(morph) => {
                 let motions = self.drive.motions(&self.draws.groups()[group]);

@@ -6,7 +6,7 @@ use crate::geom::se2::SE2;
 use crate::models::TangentNoiseModel;
 use crate::noise::{NoiseKind, centred_uniform};
 use crate::stats::non_negative;
-use crate::stats::sums::{Sums, add};
+use crate::stats::sums::{Sums, add_to_block};
 use nalgebra::{Matrix3, Vector3};
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -50,7 +50,7 @@ struct StepInErrorFrame {
 struct ErrorPoses {
     x: f64x4,
     y: f64x4,
-    half: f64x4,
+    half_heading: f64x4,
     sin: f64x4,
     cos: f64x4,
 }
@@ -119,16 +119,16 @@ impl StepInErrorFrame {
         let heading_cos = 1.0 - 2.0 * robots.sin * robots.sin;
         let x = robots.x + chord_length * (heading_cos * cos - heading_sin * sin) - self.end[0];
         let y = robots.y + chord_length * (heading_sin * cos + heading_cos * sin) - self.end[1];
-        let half_turn = robots.half + (turn_noise + *third * self.half_last_turn_std);
+        let half_turn = robots.half_heading + (turn_noise + *third * self.half_last_turn_std);
         let is_far = any_lane_set(half_turn.abs().simd_gt(f64x4::splat(MAX_SHORT_FORMULA_ANGLE)));
-        let LogTerms { half, cotangent, sin, cos, .. } = if is_far {
+        let LogTerms { half_heading, half_cotangent, sin, cos, .. } = if is_far {
             self.trigonometry.log_terms_any_angle(half_turn, 0.0)
         } else {
             self.trigonometry.log_terms_small_angle(half_turn)
         };
-        *robots =
-            ErrorPoses { x: x * self.cos + y * self.sin, y: y * self.cos - x * self.sin, half, sin, cos };
-        [cotangent * robots.x + half * robots.y, cotangent * robots.y - half * robots.x, half * 2.0]
+        let (x, y) = (x * self.cos + y * self.sin, y * self.cos - x * self.sin);
+        *robots = ErrorPoses { x, y, half_heading, sin, cos };
+        [half_cotangent * x + half_heading * y, half_cotangent * y - half_heading * x, half_heading * 2.0]
     }
 }
 
@@ -178,7 +178,7 @@ impl Rollouts {
     /// Returns the moments of `target_count` robots after each step. It drives those of the last, incomplete block.
     pub fn measured_moments(&mut self, target_count: usize) -> Vec<MeasuredMoments> {
         let moments_of = |sums: &[Sums<SUMMED_TERMS>]| {
-            sums.iter().map(|sums| moments_from_sums(&sums.finish(), target_count as f64)).collect()
+            sums.iter().map(|sums| moments_from_sums(&sums.totals(), target_count as f64)).collect()
         };
         if target_count == self.driven_count {
             return moments_of(&self.sums);
@@ -204,7 +204,7 @@ impl Rollouts {
                     add_to_sums(sums, xi.map(|lane_values| lane_values & mask));
                 }
             }
-            sums.close_block();
+            sums.flush_block();
             let robot_poses =
                 poses[k * MAX_SHOWN_ROBOTS..][..MAX_SHOWN_ROBOTS].iter_mut().skip(*driven_count);
             for (i, pose) in robot_poses.take(BLOCK_ROLLOUTS).enumerate() {
@@ -241,7 +241,7 @@ impl ErrorPoses {
     /// Returns x, y (m) and θ (rad) of the robot in a lane.
     fn pose(&self, lane: usize, nominal: &SE2) -> [f64; 3] {
         let [x, y, half_heading] =
-            [self.x, self.y, self.half].map(|lane_values| lane_values.to_array()[lane]);
+            [self.x, self.y, self.half_heading].map(|lane_values| lane_values.to_array()[lane]);
         (*nominal * SE2::new(x, y, 2.0 * half_heading)).into()
     }
 }
@@ -258,7 +258,7 @@ struct RobotBlock {
 impl RobotBlock {
     fn new(rng: Xoshiro256PlusPlus) -> Self {
         let [zero, one] = [0.0, 1.0].map(f64x4::splat);
-        let start = ErrorPoses { x: zero, y: zero, half: zero, sin: zero, cos: one };
+        let start = ErrorPoses { x: zero, y: zero, half_heading: zero, sin: zero, cos: one };
         Self { rng, groups: [start; BLOCK_GROUPS], draws: [[zero; 3]; BLOCK_GROUPS] }
     }
 
@@ -283,7 +283,7 @@ impl RobotBlock {
 fn add_to_sums(sums: &mut Sums<SUMMED_TERMS>, [a, l, h]: [f64x4; 3]) {
     let [aa, ll, hh] = [a * a, l * l, h * h];
     let terms = [a, l, h, aa, ll, hh, a * aa, l * ll, h * hh, aa * aa, ll * ll, hh * hh, a * l, a * h, l * h];
-    add(&mut sums.block, terms);
+    add_to_block(&mut sums.block, terms);
 }
 
 /// Minimum number of robots whose kurtosis is reliable enough for standard errors of variances.

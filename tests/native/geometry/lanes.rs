@@ -52,7 +52,7 @@ fn half_headings_lie_on_the_requested_branch() {
         for half_heading in angles().into_iter().step_by(7) {
             let log_terms = trigonometry.log_terms_any_angle(f64x4::splat(half_heading), branch_centre);
             let expected_half_turn = branch_centre + 0.5 * wrap_angle(2.0 * (half_heading - branch_centre));
-            let half_turn = first_lane(log_terms.half);
+            let half_turn = first_lane(log_terms.half_heading);
             // Reducing the angle by half circles causes rounding in proportion to their number. At the end of the branch
             // either side is correct.
             let rounding_tolerance = ACCURACY * (1.0 + half_heading.abs());
@@ -78,7 +78,7 @@ fn half_headings_lie_on_the_requested_branch() {
             let tolerance = 4.0 * rounding_tolerance * (1.0 + half_turn.abs())
                 / (sin * sin / (half_turn * half_turn).min(1.0)).max(1e-300);
             assert!(
-                (first_lane(log_terms.cotangent) - cotangent).abs() <= tolerance.max(4.0 * ACCURACY),
+                (first_lane(log_terms.half_cotangent) - cotangent).abs() <= tolerance.max(4.0 * ACCURACY),
                 "{half_heading} {branch_centre}"
             );
         }

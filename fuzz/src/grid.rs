@@ -5,7 +5,7 @@ use super::plan;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
 use motion::map::{
-    Cell, FloorPlan, FloorPlanError, Image, Interpretation, Mode, OccupancyGrid, Pixel, RESOLUTION_RANGE, UnknownCells,
+    Cell, FloorPlan, FloorPlanError, Image, Interpretation, MapMode, OccupancyGrid, Pixel, RESOLUTION_RANGE, UnknownCells,
 };
 use motion::sim::settings::QUANTITY_RANGE;
 
@@ -102,7 +102,7 @@ pub fn read_random_grid(input: &mut Input) -> Option<(OccupancyGrid, UnknownCell
         return None;
     }
     let [width, height] = [0; 2].map(|_| 1 + input.next_below(MAX_SIDE_CELLS));
-    let mode = input.one_of(&[Mode::Trinary, Mode::Scale, Mode::Raw]);
+    let mode = input.one_of(&[MapMode::Trinary, MapMode::Scale, MapMode::Raw]);
     let negate = input.next_bool();
     let [a, b] = [0; 2].map(|_| f64::from(input.next_byte()) / 255.0);
     let interpretation = Interpretation { mode, negate, occupied_thresh: a.max(b), free_thresh: a.min(b) };
@@ -130,13 +130,13 @@ fn assert_cell_of_pixel(interpretation: &Interpretation, pixel: Pixel) {
     let grey_value = (255.0 * shade).round();
     let is_near = |threshold: f64| (occupancy - threshold).abs() < 2.0 * f64::from(f32::EPSILON);
     let expected = match mode {
-        Mode::Raw if grey_value == 100.0 => Cell::Occupied,
-        Mode::Raw if grey_value > 100.0 => Cell::Unknown,
-        Mode::Raw => Cell::Free,
-        Mode::Scale if pixel.opacity < 1.0 => Cell::Unknown,
+        MapMode::Raw if grey_value == 100.0 => Cell::Occupied,
+        MapMode::Raw if grey_value > 100.0 => Cell::Unknown,
+        MapMode::Raw => Cell::Free,
+        MapMode::Scale if pixel.opacity < 1.0 => Cell::Unknown,
         _ if is_near(occupied_thresh) || is_near(free_thresh) => return,
         _ if occupancy > occupied_thresh => Cell::Occupied,
-        Mode::Trinary if occupancy > free_thresh => Cell::Unknown,
+        MapMode::Trinary if occupancy > free_thresh => Cell::Unknown,
         _ => Cell::Free,
     };
     assert_eq!(interpretation.cell(pixel), expected, "{interpretation:?} of {pixel:?}");

@@ -71,9 +71,9 @@ pub struct Draw {
     /// Arc driven with (v̂, ω̂); `pose` is its end turned by γ̂Δt.
     pub arc: Arc,
     /// Result for the end pose.
-    pub end: Verdict,
+    pub end_verdict: Verdict,
     /// Result for the whole arc.
-    pub path: Verdict,
+    pub path_verdict: Verdict,
 }
 
 /// Accepted motion and its cost.
@@ -110,62 +110,63 @@ pub const MAX_DRAWS: usize = 10_000;
 #[derive(Clone, Copy, Debug)]
 pub struct DrawTester<'a> {
     conditioned_model: &'a MapConditioned<'a>,
-    part: PartMotion,
-    from: PreparedPose,
+    command: NoisyCommand,
+    start: PreparedPose,
     trigonometry: Trigonometry,
 }
 
 impl DrawTester<'_> {
     /// Returns the draw for three random numbers of variance 1, with the results of both collision tests.
     pub fn test_draw(&self, unit_noise: [f64; 3]) -> Draw {
-        self.test_motion(self.part.motion(&self.from, unit_noise))
+        self.test_motion(self.command.motion(&self.start, unit_noise))
     }
 
     /// Tests some lanes of four samples, and calls `visit` with each result. The poses may differ by rounding from those of
     /// [`DrawTester::test_draw`].
-    pub fn test_group(&self, unit_noise: &[f64x4; 3], lanes: Range<usize>, visit: impl FnMut(Draw)) {
-        let motion = self.part.four_motions(&self.from, &self.trigonometry, unit_noise);
+    pub fn test_lanes(&self, unit_noise: &[f64x4; 3], lanes: Range<usize>, visit: impl FnMut(Draw)) {
+        let motion = self.command.four_motions(&self.start, &self.trigonometry, unit_noise);
         lanes.map(|lane| self.test_motion(motion(lane))).for_each(visit);
     }
 
     fn test_motion(&self, (pose, driven): (SE2, DrivenArc)) -> Draw {
         let MapConditioned { plan, clearance, .. } = *self.conditioned_model;
-        let end = plan.test_point(driven.end, clearance);
-        Draw { pose, arc: driven.arc, end, path: plan.test_path(&driven, end, clearance) }
+        let end_verdict = plan.test_point(driven.end, clearance);
+        let path_verdict = plan.test_arc_after_end(&driven, end_verdict, clearance);
+        Draw { pose, arc: driven.arc, end_verdict, path_verdict }
     }
 
     /// Returns the arc that is driven under these unit noises.
     pub fn arc(&self, unit_noise: [f64; 3]) -> Arc {
-        let [length, turn, _] = self.part.executed_motion(unit_noise);
-        Arc { start: self.from.pose(), length, turn }
+        let [length, turn, _] = self.command.executed_motion(unit_noise);
+        Arc { start: self.start.pose(), length, turn }
     }
 }
 
 /// Part of a motion: a command, and the standard deviations of its noise.
 #[derive(Clone, Copy, Debug)]
-struct PartMotion {
+struct NoisyCommand {
     u: VelocityCmd,
-    deviations: [f64; 3],
+    noise_stds: [f64; 3],
 }
 
-impl PartMotion {
+impl NoisyCommand {
     /// Returns the end pose under these unit noises, and the arc that is driven.
-    fn motion(&self, from: &PreparedPose, unit_noise: [f64; 3]) -> (SE2, DrivenArc) {
-        let [length, turn, last] = self.executed_motion(unit_noise);
-        with_last_turn(from.drive(length, turn), last)
+    fn motion(&self, start: &PreparedPose, unit_noise: [f64; 3]) -> (SE2, DrivenArc) {
+        let [length, turn, last_turn] = self.executed_motion(unit_noise);
+        with_last_turn(start.drive(length, turn), last_turn)
     }
 
     /// Computes four motions at once, in the lanes of a SIMD vector. Returns a function of the lane's index.
     #[inline(always)]
     fn four_motions(
         &self,
-        from: &PreparedPose,
+        start: &PreparedPose,
         trigonometry: &Trigonometry,
         unit_noise: &[f64x4; 3],
     ) -> impl Fn(usize) -> (SE2, DrivenArc) {
-        let [length, turn, last] = self.executed_motion(*unit_noise);
-        let (driven_arc, last) = (from.drive_four(trigonometry, length, turn), last.to_array());
-        move |lane| with_last_turn(driven_arc(lane), last[lane])
+        let [length, turn, last_turn] = self.executed_motion(*unit_noise);
+        let (driven_arc, last_turn) = (start.drive_four(trigonometry, length, turn), last_turn.to_array());
+        move |lane| with_last_turn(driven_arc(lane), last_turn[lane])
     }
 
     /// Returns the length (m) and turn of the arc, and the turn after it (rad): see [`VelocityModel::executed_motion`].
@@ -173,15 +174,15 @@ impl PartMotion {
     where
         T: Mul<f64, Output = T> + Add<f64, Output = T>,
     {
-        let (u, [v_noise, omega_noise, gamma_noise]) = (self.u, self.deviations);
+        let (u, [v_noise, omega_noise, gamma_noise]) = (self.u, self.noise_stds);
         [(v * v_noise + u.v) * u.dt, (omega * omega_noise + u.omega) * u.dt, gamma * gamma_noise * u.dt]
     }
 }
 
 /// Returns the pose where an arc ends, turned on the spot by `last` (rad).
-fn with_last_turn(driven: DrivenArc, last: f64) -> (SE2, DrivenArc) {
+fn with_last_turn(driven: DrivenArc, last_turn: f64) -> (SE2, DrivenArc) {
     let [x, y] = driven.end;
-    (SE2::new(x, y, driven.heading + last), driven)
+    (SE2::new(x, y, driven.heading + last_turn), driven)
 }
 
 impl MapConditioned<'_> {
@@ -195,22 +196,22 @@ impl MapConditioned<'_> {
         x: &SE2,
         rng: &mut R,
     ) -> Result<AcceptedMotion, NoAcceptedSample> {
-        self.sample_along(u, x, rng, |_| ())
+        self.sample_with_arcs(u, x, rng, |_| ())
     }
 
     /// Returns an accepted motion as [`MapConditioned::sample`] does, after calling `along` with each of its arcs.
-    pub fn sample_along<R: Rng + ?Sized>(
+    pub fn sample_with_arcs<R: Rng + ?Sized>(
         &self,
         u: &VelocityCmd,
         x: &SE2,
         rng: &mut R,
-        mut along: impl FnMut(&Arc),
+        mut visit_arc: impl FnMut(&Arc),
     ) -> Result<AcceptedMotion, NoAcceptedSample> {
         let mut path_free = true;
         let mut cost = Cost::default();
         let pose = self.drive(u, x, rng, &mut cost, &mut |driven, end| {
-            along(&driven.arc);
-            path_free = path_free && self.plan.test_path(driven, end, self.clearance).free;
+            visit_arc(&driven.arc);
+            path_free = path_free && self.plan.test_arc_after_end(driven, end, self.clearance).free;
         })?;
         Ok(AcceptedMotion { pose, path_free, cost })
     }
@@ -231,35 +232,35 @@ impl MapConditioned<'_> {
     }
 
     /// Draws a motion without rejection, in as many parts as the sampler has. Returns its last part, and true if all parts are free.
-    /// Up to the first rejection the draws are those of [`MapConditioned::sample_along`].
+    /// Up to the first rejection the draws are those of [`MapConditioned::sample_with_arcs`].
     pub fn sample_unconditioned<R: Rng + ?Sized>(
         &self,
         u: &VelocityCmd,
         x: &SE2,
         rng: &mut R,
-        mut along: impl FnMut(&Arc),
+        mut visit_arc: impl FnMut(&Arc),
     ) -> (Draw, bool) {
-        let (part_count, part) = self.parts(u);
-        let draw_from = |from: &SE2, unit_noise| self.tester_of_part(part, from).test_draw(unit_noise);
+        let (part_count, command) = self.part_count_and_command(u);
+        let draw_from = |from: &SE2, unit_noise| self.tester_of_command(command, from).test_draw(unit_noise);
         let mut last_draw = draw_from(x, self.unit_noise(rng));
-        along(&last_draw.arc);
-        let mut path_free = last_draw.path.free;
+        visit_arc(&last_draw.arc);
+        let mut path_free = last_draw.path_verdict.free;
         for _ in 1..part_count {
             last_draw = draw_from(&last_draw.pose, self.unit_noise(rng));
-            along(&last_draw.arc);
-            path_free &= last_draw.path.free;
+            visit_arc(&last_draw.arc);
+            path_free &= last_draw.path_verdict.free;
         }
         (last_draw, path_free)
     }
 
     /// Returns the number of parts of a motion, and each of them.
-    fn parts(&self, u: &VelocityCmd) -> (u32, PartMotion) {
+    fn part_count_and_command(&self, u: &VelocityCmd) -> (u32, NoisyCommand) {
         let part_count = self.sampler.parts().max(1);
-        (part_count, self.part(&VelocityCmd { dt: u.dt / f64::from(part_count), ..*u }))
+        (part_count, self.noisy_command(&VelocityCmd { dt: u.dt / f64::from(part_count), ..*u }))
     }
 
-    fn part(&self, u: &VelocityCmd) -> PartMotion {
-        PartMotion { u: *u, deviations: self.model.noise_stds(u) }
+    fn noisy_command(&self, u: &VelocityCmd) -> NoisyCommand {
+        NoisyCommand { u: *u, noise_stds: self.model.noise_stds(u) }
     }
 
     fn unit_noise<R: Rng + ?Sized>(&self, rng: &mut R) -> [f64; 3] {
@@ -274,12 +275,12 @@ impl MapConditioned<'_> {
         x: &SE2,
         rng: &mut R,
         cost: &mut Cost,
-        along: &mut dyn FnMut(&DrivenArc, Verdict),
+        visit_part: &mut dyn FnMut(&DrivenArc, Verdict),
     ) -> Result<SE2, NoAcceptedSample> {
-        let (part_count, part) = self.parts(u);
+        let (part_count, command) = self.part_count_and_command(u);
         (0..part_count).try_fold(*x, |pose, _| {
-            let (pose, arc, end) = self.draw_until_accepted(&part, &PreparedPose::new(pose), rng, cost)?;
-            along(&arc, end);
+            let (pose, arc, end) = self.draw_until_accepted(&command, &PreparedPose::new(pose), rng, cost)?;
+            visit_part(&arc, end);
             Ok(pose)
         })
     }
@@ -287,16 +288,16 @@ impl MapConditioned<'_> {
     /// Returns the first draw that is accepted, and the verdict on its end.
     fn draw_until_accepted<R: Rng + ?Sized>(
         &self,
-        part: &PartMotion,
-        from: &PreparedPose,
+        command: &NoisyCommand,
+        start: &PreparedPose,
         rng: &mut R,
         cost: &mut Cost,
     ) -> Result<(SE2, DrivenArc, Verdict), NoAcceptedSample> {
         for _ in 0..MAX_DRAWS {
-            let (end_pose, driven_arc) = part.motion(from, self.unit_noise(rng));
+            let (end_pose, driven_arc) = command.motion(start, self.unit_noise(rng));
             let end_verdict = self.plan.test_point(driven_arc.end, self.clearance);
             let deciding_verdict = if self.sampler == Sampler::WholeArc {
-                self.plan.test_path(&driven_arc, end_verdict, self.clearance)
+                self.plan.test_arc_after_end(&driven_arc, end_verdict, self.clearance)
             } else {
                 end_verdict
             };
@@ -311,20 +312,20 @@ impl MapConditioned<'_> {
 
     /// Prepares tests of many draws from one pose: common terms are computed once.
     pub fn draw_tester(&self, u: &VelocityCmd, x: &SE2) -> DrawTester<'_> {
-        self.tester_of_part(self.part(u), x)
+        self.tester_of_command(self.noisy_command(u), x)
     }
 
-    fn tester_of_part(&self, part: PartMotion, x: &SE2) -> DrawTester<'_> {
+    fn tester_of_command(&self, command: NoisyCommand, x: &SE2) -> DrawTester<'_> {
         DrawTester {
             conditioned_model: self,
-            part,
-            from: PreparedPose::new(*x),
+            command,
+            start: PreparedPose::new(*x),
             trigonometry: Trigonometry::default(),
         }
     }
 
     /// Returns the result of the test that decides on a draw.
-    pub fn deciding_test(&self, draw: &Draw) -> Verdict {
-        if self.sampler == Sampler::WholeArc { draw.path } else { draw.end }
+    pub fn deciding_verdict(&self, draw: &Draw) -> Verdict {
+        if self.sampler == Sampler::WholeArc { draw.path_verdict } else { draw.end_verdict }
     }
 }

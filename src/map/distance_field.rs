@@ -11,7 +11,7 @@ use wide::f64x4;
 #[derive(Clone, Debug)]
 pub(super) struct DistanceField {
     /// Minimum x and y.
-    corner: [f64; 2],
+    min_corner: [f64; 2],
     cells_per_metre: f64,
     columns: usize,
     /// Index of the last column and of the last row.
@@ -67,8 +67,9 @@ impl DistanceField {
     #[inline(always)]
     pub fn lower_bound(&self, [x, y]: [f64; 2]) -> f64 {
         // Rounding can move a point slightly outside; it belongs to the nearest cell.
-        let column = (((x - self.corner[0]) * self.cells_per_metre) as u32 as usize).min(self.columns - 1);
-        let row = ((y - self.corner[1]) * self.cells_per_metre) as u32 as usize;
+        let column =
+            (((x - self.min_corner[0]) * self.cells_per_metre) as u32 as usize).min(self.columns - 1);
+        let row = ((y - self.min_corner[1]) * self.cells_per_metre) as u32 as usize;
         f64::from(self.lower_bounds.get(row * self.columns + column).copied().unwrap_or(NOT_COMPUTED))
     }
 
@@ -78,7 +79,7 @@ impl DistanceField {
         let zero = f64x4::splat(0.0);
         // The bounds of both cells are correct on their border, so that rounding may select either.
         let [column, row] = [0, 1].map(|axis| {
-            let cell = (points[axis] - self.corner[axis]) * self.cells_per_metre - 0.5;
+            let cell = (points[axis] - self.min_corner[axis]) * self.cells_per_metre - 0.5;
             cell.fast_max(zero).fast_min(f64x4::splat(self.last_cell[axis])) + ROUND_TO_INTEGER
                 - ROUND_TO_INTEGER
         });
@@ -96,7 +97,7 @@ impl DistanceField {
 
     /// Returns the upper bound (m) on a distance with this lower bound; −∞ inside an occupied cell.
     pub fn upper_bound(&self, lower_bound: f64) -> f64 {
-        // If the middle of the cell is at the distance d from the nearest wall, `lower_bound` is d − radius, and the upper bound
+        // With the distance d from the middle of the cell to the nearest wall, `lower_bound` is d − radius. The upper bound is
         // d + radius. In an undivided block d is only known up to a factor of (1 + 1/8)/(1 − 1/8).
         let radius = 1.001 * self.radius;
         let upper_bound = (UNDIVIDED_DISTANCE + 1.0) / (UNDIVIDED_DISTANCE - 1.0)
@@ -124,7 +125,7 @@ struct FieldBuilder {
 /// Block of `size` · `size` cells.
 #[derive(Clone, Copy, Debug)]
 struct Block {
-    first: [usize; 2],
+    first_cell: [usize; 2],
     size: usize,
     /// Range of the candidates of the block in `candidates`.
     candidate_range: [usize; 2],
@@ -141,7 +142,7 @@ impl FieldBuilder {
     fn new(tree: &WallTree, bounds: [f64; 4]) -> Self {
         let [left, bottom, right, top] = bounds;
         let (width, height) = (right - left, top - bottom);
-        let cell_count = (CELLS_PER_WALL * tree.count() as f64).clamp(MIN_CELLS, MAX_CELLS);
+        let cell_count = (CELLS_PER_WALL * tree.wall_count() as f64).clamp(MIN_CELLS, MAX_CELLS);
         // A narrow map could otherwise get more than `cell_count` cells in a single row.
         let cell_side = (width * height / cell_count).sqrt().max(width.max(height) / cell_count);
         let [columns, rows] = [width, height].map(|length| (length / cell_side).ceil() as usize + 1);
@@ -152,10 +153,10 @@ impl FieldBuilder {
             vec![Candidate::Node(1)]
         };
         let size = columns.max(rows).next_power_of_two();
-        let whole_block = Block { first: [0, 0], size, candidate_range: [0, candidates.len()] };
+        let whole_block = Block { first_cell: [0, 0], size, candidate_range: [0, candidates.len()] };
         Self {
             field: DistanceField {
-                corner: [left, bottom],
+                min_corner: [left, bottom],
                 cells_per_metre: 1.0 / cell_side,
                 columns,
                 last_cell: [columns, rows].map(|count| count as f64 - 1.0),
@@ -175,12 +176,12 @@ impl FieldBuilder {
 
     /// Computes the lower bounds of the cells of a block, or divides the block into four.
     fn fill_block(&mut self, tree: &WallTree, occupied_grid: Option<&OccupancyGrid>, block: Block) {
-        let Block { first: [left, bottom], size, candidate_range } = block;
+        let Block { first_cell: [left, bottom], size, candidate_range } = block;
         if left >= self.field.columns || bottom >= self.rows {
             return;
         }
         let [right, top] = [(left + size).min(self.field.columns), (bottom + size).min(self.rows)];
-        let centre = self.centre(block.first, size);
+        let centre = self.block_centre(block.first_cell, size);
         let radius = size as f64 * self.field.radius;
         let uncertainty = size as f64 * self.field.uncertainty;
         // Keeps the candidates of the block around this one; those after them belong to blocks that are done.
@@ -201,7 +202,7 @@ impl FieldBuilder {
             let half_size = size / 2;
             for [column, row] in [[half_size, half_size], [0, half_size], [half_size, 0], [0, 0]] {
                 self.blocks.push(Block {
-                    first: [left + column, bottom + row],
+                    first_cell: [left + column, bottom + row],
                     size: half_size,
                     candidate_range,
                 });
@@ -213,7 +214,7 @@ impl FieldBuilder {
             && occupied_grid.is_some_and(|occupied_grid| occupied_grid.is_blocked_at(centre));
         for row in bottom..top {
             for column in left..right {
-                let [x, y] = self.centre([column, row], 1);
+                let [x, y] = self.block_centre([column, row], 1);
                 let max_offset = self.field.radius
                     + ((x - centre[0]) * (x - centre[0]) + (y - centre[1]) * (y - centre[1])).sqrt();
                 // The bound is reduced by a factor of 1e-6, which is more than the rounding to an f32.
@@ -290,9 +291,9 @@ impl FieldBuilder {
         ])
     }
 
-    fn centre(&self, first: [usize; 2], size: usize) -> [f64; 2] {
+    fn block_centre(&self, first_cell: [usize; 2], size: usize) -> [f64; 2] {
         std::array::from_fn(|axis| {
-            self.field.corner[axis] + (first[axis] as f64 + 0.5 * size as f64) * self.cell_side
+            self.field.min_corner[axis] + (first_cell[axis] as f64 + 0.5 * size as f64) * self.cell_side
         })
     }
 }

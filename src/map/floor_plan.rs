@@ -29,7 +29,7 @@ pub struct FloorPlan {
 #[derive(Clone, Debug)]
 struct CollisionIndex {
     tree: WallTree,
-    field: DistanceField,
+    distance_field: DistanceField,
 }
 
 /// Reason why a floor plan is refused.
@@ -55,9 +55,9 @@ pub enum FloorPlanError {
 
 impl FloorPlanError {
     /// Returns the message, with numbers as `number` prints them.
-    pub fn message(&self, number: impl Fn(f64) -> String) -> String {
+    pub fn message(&self, format_number: impl Fn(f64) -> String) -> String {
         let join_numbers =
-            |numbers: &[f64]| numbers.iter().map(|x| number(*x)).collect::<Vec<_>>().join(", ");
+            |numbers: &[f64]| numbers.iter().map(|x| format_number(*x)).collect::<Vec<_>>().join(", ");
         match self {
             Self::BadBounds(bounds) => format!(
                 "bounds is [{}]; allowed is min x, min y, max x, max y: numbers from -1000000 to 1000000, the sides \
@@ -189,12 +189,12 @@ impl FloorPlan {
         if !self.contains(point) {
             return Verdict::BLOCKED;
         }
-        let field = self.field();
-        let nearest_lower_bound = field.lower_bound(point);
+        let distance_field = self.distance_field();
+        let nearest_lower_bound = distance_field.lower_bound(point);
         if nearest_lower_bound > clearance {
             return Verdict::FREE;
         }
-        if field.upper_bound(nearest_lower_bound) <= clearance || self.is_in_blocked_cell(point) {
+        if distance_field.upper_bound(nearest_lower_bound) <= clearance || self.is_in_blocked_cell(point) {
             return Verdict::BLOCKED;
         }
         let mut wall_tests = 0;
@@ -212,18 +212,18 @@ impl FloorPlan {
     /// bounds.
     pub fn test_arc(&self, arc: &Arc, clearance: f64) -> Verdict {
         let driven_arc = PreparedPose::new(arc.start).drive(arc.length, arc.turn);
-        self.test_path(&driven_arc, self.test_point(driven_arc.end, clearance), clearance)
+        self.test_arc_after_end(&driven_arc, self.test_point(driven_arc.end, clearance), clearance)
     }
 
     /// Tests an arc as [`FloorPlan::test_arc`] does, after its end was tested. The result includes the cost of that test.
-    pub(super) fn test_path(&self, driven: &DrivenArc, end: Verdict, clearance: f64) -> Verdict {
+    pub(super) fn test_arc_after_end(&self, driven: &DrivenArc, end: Verdict, clearance: f64) -> Verdict {
         let start = [driven.arc.start.x(), driven.arc.start.y()];
         if !end.free || self.leaves_bounds(driven) || self.is_in_blocked_cell(start) {
             return Verdict { free: false, ..end };
         }
         let mut sweep = ArcSweep {
             plan: self,
-            field: self.field(),
+            distance_field: self.distance_field(),
             arc: &driven.arc,
             clearance,
             local_arc: OnceCell::new(),
@@ -237,13 +237,13 @@ impl FloorPlan {
     fn collision_index(&self) -> &CollisionIndex {
         self.collision_index.get_or_init(|| {
             let tree = WallTree::new(&self.walls, self.bounds);
-            let field = DistanceField::new(&tree, self.bounds, self.occupied_grid.as_ref());
-            CollisionIndex { tree, field }
+            let distance_field = DistanceField::new(&tree, self.bounds, self.occupied_grid.as_ref());
+            CollisionIndex { tree, distance_field }
         })
     }
 
-    pub(super) fn field(&self) -> &DistanceField {
-        &self.collision_index().field
+    pub(super) fn distance_field(&self) -> &DistanceField {
+        &self.collision_index().distance_field
     }
 
     /// Returns true if a point is on the map: on its grid, which may be rotated, or inside the bounds if there is no grid.
@@ -290,16 +290,16 @@ impl FloorPlan {
     }
 
     /// Tests whether `free` holds for every wall whose bounding box is within `reach` (m) of the point in both coordinates.
-    /// Nodes of the tree for which `node_free` holds are skipped.
+    /// Nodes of the tree for which `is_node_clear` holds are skipped.
     fn all_near_walls(
         &self,
         [x, y]: [f64; 2],
         reach: f64,
         wall_tests: &mut usize,
-        node_free: impl FnMut(&Node) -> bool,
-        mut free: impl FnMut(&Segment) -> bool,
+        is_node_clear: impl FnMut(&Node) -> bool,
+        mut is_wall_clear: impl FnMut(&Segment) -> bool,
     ) -> bool {
-        self.collision_index().tree.all(node_free, |wall| {
+        self.collision_index().tree.all(is_node_clear, |wall| {
             let Segment { from, to } = wall;
             let is_near = from[0].min(to[0]) <= x + reach
                 && from[0].max(to[0]) >= x - reach
@@ -307,7 +307,7 @@ impl FloorPlan {
                 && from[1].max(to[1]) >= y - reach;
             !is_near || {
                 *wall_tests += 1;
-                free(wall)
+                is_wall_clear(wall)
             }
         })
     }
@@ -316,7 +316,7 @@ impl FloorPlan {
 /// Disc that moves along an arc.
 struct ArcSweep<'a> {
     plan: &'a FloorPlan,
-    field: &'a DistanceField,
+    distance_field: &'a DistanceField,
     arc: &'a Arc,
     clearance: f64,
     /// Arc in the frame of its start, computed when the distance to a wall is first measured.
@@ -325,29 +325,29 @@ struct ArcSweep<'a> {
 }
 
 impl ArcSweep<'_> {
-    /// Tests whether an arc piece is free between `from` and `to` metres after its middle. Tests four parts of it at once.
-    fn is_free(&mut self, piece: &ArcPiece, from: f64, to: f64) -> bool {
-        let field = self.field;
-        let half_part_length = (to - from) / (2 * LANES) as f64;
+    /// Tests whether an arc piece is free between `start` and `end` metres after its middle. Tests four parts of it at once.
+    fn is_free(&mut self, piece: &ArcPiece, start: f64, end: f64) -> bool {
+        let distance_field = self.distance_field;
+        let half_part_length = (end - start) / (2 * LANES) as f64;
         let needed_distance = self.clearance + piece.max_error + half_part_length;
-        let part_middles = piece.points_at(f64x4::new([1.0, 3.0, 5.0, 7.0]) * half_part_length + from);
-        let lower_bounds = field.lower_bounds(&part_middles);
+        let part_middles = piece.points_at(f64x4::new([1.0, 3.0, 5.0, 7.0]) * half_part_length + start);
+        let lower_bounds = distance_field.lower_bounds(&part_middles);
         if !any_lane_set(lower_bounds.simd_le(f64x4::splat(needed_distance))) {
             return true;
         }
         let distances = lower_bounds.to_array();
         let min_lower_bound = distances.into_iter().fold(f64::INFINITY, f64::min);
-        if field.upper_bound(min_lower_bound) <= self.clearance - piece.max_error {
+        if distance_field.upper_bound(min_lower_bound) <= self.clearance - piece.max_error {
             return false;
         }
         // A part no longer than the diagonal of a cell is not divided, because the field is too coarse. Walls near it are measured.
-        let is_divisible = half_part_length > field.radius();
+        let is_divisible = half_part_length > distance_field.radius();
         let [x, y] = part_middles.map(|lanes| lanes.to_array());
         (0..LANES).all(|i| {
             distances[i] > needed_distance
                 || if is_divisible {
-                    let start = from + (2 * i) as f64 * half_part_length;
-                    self.is_free(piece, start, start + 2.0 * half_part_length)
+                    let part_start = start + (2 * i) as f64 * half_part_length;
+                    self.is_free(piece, part_start, part_start + 2.0 * half_part_length)
                 } else {
                     self.walls_are_clear([x[i], y[i]], half_part_length + piece.max_error, piece.max_error)
                 }
@@ -359,21 +359,22 @@ impl ArcSweep<'_> {
     fn walls_are_clear(&mut self, middle: [f64; 2], reach: f64, error: f64) -> bool {
         let (arc, clearance) = (self.arc, self.clearance);
         let prepared_arc = || self.local_arc.get_or_init(|| arc.local_arc());
-        let (outer, inner) = (reach + clearance, (clearance - error).max(0.0));
+        let (clear_distance, blocked_distance) = (reach + clearance, (clearance - error).max(0.0));
         self.plan.all_near_walls(
             middle,
-            outer,
+            clear_distance,
             &mut self.wall_tests,
             |node| {
-                node.is_farther_than(middle, outer)
+                node.is_farther_than(middle, clear_distance)
                     // This test saves time only if the node is thinner than the part is long.
                     || node.thickness < reach
                         && node.axis().distance_to_local_arc(prepared_arc()) - node.thickness > clearance
             },
             |wall| {
                 let squared_distance = wall.squared_distance_to_point(middle);
-                if squared_distance > outer * outer || squared_distance < inner * inner {
-                    return squared_distance > outer * outer;
+                let is_clear = squared_distance > clear_distance * clear_distance;
+                if is_clear || squared_distance < blocked_distance * blocked_distance {
+                    return is_clear;
                 }
                 wall.distance_to_local_arc(prepared_arc()) > clearance
             },

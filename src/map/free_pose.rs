@@ -16,9 +16,9 @@ impl FloorPlan {
     /// heading of the longest free path. If the disc does not fit there, takes the first square where it fits; None if it fits nowhere.
     pub fn find_free_pose(&self, clearance: f64) -> Option<SE2> {
         let raster = SquareRaster::of(self);
-        let largest_middle = raster.middle_of_largest_free_square().map(|middle| raster.point(middle));
+        let square_middle = raster.middle_of_largest_free_square().map(|middle| raster.point(middle));
         let disc_fits = |point: &[f64; 2]| self.test_point(*point, clearance).free;
-        let [x, y] = largest_middle.filter(disc_fits).or_else(|| raster.square_middles().find(disc_fits))?;
+        let [x, y] = square_middle.filter(disc_fits).or_else(|| raster.square_middles().find(disc_fits))?;
         Some(SE2::new(x, y, raster.heading_of_longest_path([x, y], disc_fits)))
     }
 }
@@ -40,8 +40,8 @@ impl<'a> SquareRaster<'a> {
         }
         let [left, bottom, right, top] = plan.bounds();
         let (width, height) = (right - left, top - bottom);
-        let longest_side = width.max(height) / SQUARES_ALONG_SIDE;
-        let square_sides = [width, height].map(|length| longest_side.min(length));
+        let square_side = width.max(height) / SQUARES_ALONG_SIDE;
+        let square_sides = [width, height].map(|length| square_side.min(length));
         let [columns, rows] = [width / square_sides[0], height / square_sides[1]].map(|count| count as usize);
         Self { plan, columns, rows, sides: square_sides }
     }
@@ -55,10 +55,10 @@ impl<'a> SquareRaster<'a> {
     }
 
     /// Returns the point at these coordinates, in squares from the lower left corner.
-    fn point(&self, at: [f64; 2]) -> [f64; 2] {
+    fn point(&self, [column, row]: [f64; 2]) -> [f64; 2] {
         let [left, bottom, ..] = self.plan.bounds();
-        let bounds_point = [left + at[0] * self.sides[0], bottom + at[1] * self.sides[1]];
-        self.grid().map_or(bounds_point, |grid| grid.point(at))
+        let bounds_point = [left + column * self.sides[0], bottom + row * self.sides[1]];
+        self.grid().map_or(bounds_point, |grid| grid.point([column, row]))
     }
 
     fn square_middles(&self) -> impl Iterator<Item = [f64; 2]> {
@@ -75,7 +75,7 @@ impl<'a> SquareRaster<'a> {
         }
         let square_middle = self.point([column as f64 + 0.5, row as f64 + 0.5]);
         let is_inside = column < self.columns && row < self.rows;
-        is_inside && self.plan.field().lower_bound(square_middle) > 0.75 * self.longer_side()
+        is_inside && self.plan.distance_field().lower_bound(square_middle) > 0.75 * self.longer_side()
     }
 
     /// Returns the middle of the largest square that consists of free squares, in squares from the lower left corner; None if none is
@@ -96,8 +96,8 @@ impl<'a> SquareRaster<'a> {
             while left + largest_side < self.columns {
                 let right = left + largest_side;
                 let is_too_short = |column: &usize| free_from_row[*column] as usize + largest_side > row;
-                if let Some(short) = (left.max(first_unchecked)..=right).rev().find(is_too_short) {
-                    (left, first_unchecked) = (short + 1, right + 1);
+                if let Some(short_column) = (left.max(first_unchecked)..=right).rev().find(is_too_short) {
+                    (left, first_unchecked) = (short_column + 1, right + 1);
                     continue;
                 }
                 largest_side += 1;
@@ -111,7 +111,7 @@ impl<'a> SquareRaster<'a> {
     }
 
     /// Returns the heading along which the path over free squares is longest.
-    fn heading_of_longest_path(&self, [x, y]: [f64; 2], fits: impl Fn(&[f64; 2]) -> bool) -> f64 {
+    fn heading_of_longest_path(&self, [x, y]: [f64; 2], disc_fits: impl Fn(&[f64; 2]) -> bool) -> f64 {
         let (mut max_steps, mut heading) = (0, 0.0);
         for i in 0..HEADING_COUNT {
             let tried_heading = TAU * f64::from(i) / f64::from(HEADING_COUNT);
@@ -119,7 +119,7 @@ impl<'a> SquareRaster<'a> {
             let free_steps = (1..)
                 .map(|steps| 0.5 * self.longer_side() * f64::from(steps))
                 .map(|length| [x + length * cos, y + length * sin])
-                .take_while(|point| self.is_free_at(*point) && fits(point))
+                .take_while(|point| self.is_free_at(*point) && disc_fits(point))
                 .count();
             if free_steps > max_steps {
                 (max_steps, heading) = (free_steps, tried_heading);
@@ -130,8 +130,8 @@ impl<'a> SquareRaster<'a> {
 
     fn is_free_at(&self, [x, y]: [f64; 2]) -> bool {
         let [left, bottom, ..] = self.plan.bounds();
-        let bounds_point = [(x - left) / self.sides[0], (y - bottom) / self.sides[1]];
-        let [column, row] = self.grid().map_or(bounds_point, |grid| grid.cell_coordinates([x, y]));
+        let raster_coordinates = [(x - left) / self.sides[0], (y - bottom) / self.sides[1]];
+        let [column, row] = self.grid().map_or(raster_coordinates, |grid| grid.cell_coordinates([x, y]));
         column >= 0.0 && row >= 0.0 && self.is_free_square(column as usize, row as usize)
     }
 }

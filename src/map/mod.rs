@@ -18,7 +18,7 @@ pub use conditioned::{
 pub use floor_plan::{FloorPlan, FloorPlanError, Verdict};
 pub use image_file::{ImageError, read_grid};
 pub use occupancy::{
-    Cell, Image, Interpretation, Mode, OccupancyGrid, Pixel, RESOLUTION_RANGE, UnknownCells,
+    Cell, Image, Interpretation, MapMode, OccupancyGrid, Pixel, RESOLUTION_RANGE, UnknownCells,
 };
 pub use pgm::{MAX_BYTES, MAX_PIXELS, PgmError, read_pgm};
 #[cfg(not(widget))]

@@ -9,7 +9,7 @@ use std::ops::RangeInclusive;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interpretation {
     /// Meaning of the pixels.
-    pub mode: Mode,
+    pub mode: MapMode,
     /// True if dark pixels are free instead of occupied.
     pub negate: bool,
     /// Occupancy, from 0 (white) to 1 (black), above which a cell is occupied.
@@ -22,13 +22,13 @@ pub struct Interpretation {
 /// is just above `free_thresh`.
 impl Default for Interpretation {
     fn default() -> Self {
-        Self { mode: Mode::Trinary, negate: false, occupied_thresh: 0.65, free_thresh: 0.196 }
+        Self { mode: MapMode::Trinary, negate: false, occupied_thresh: 0.65, free_thresh: 0.196 }
     }
 }
 
 /// Meaning of the pixels of a map, as in the YAML file of `map_server`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Mode {
+pub enum MapMode {
     /// Dark pixels are occupied, light ones free, and those between the thresholds unknown.
     Trinary,
     /// Transparent pixels are unknown, dark ones occupied, and all others free. In `map_server`, pixels
@@ -105,12 +105,12 @@ impl Interpretation {
         // The grey value is computed only if needed, because rounding is slow on processors without an instruction for it.
         let grey_value = || (shade * 255.0).round();
         match self.mode {
-            Mode::Scale if opacity < 1.0 => Cell::Unknown,
-            Mode::Trinary | Mode::Scale if occupancy > occupied_threshold => Cell::Occupied,
+            MapMode::Scale if opacity < 1.0 => Cell::Unknown,
+            MapMode::Trinary | MapMode::Scale if occupancy > occupied_threshold => Cell::Occupied,
             // For a shade exactly at the threshold, rounding may make the occupancy (1 − shade) slightly less than the threshold.
-            Mode::Trinary if occupancy > free_threshold - f32::EPSILON => Cell::Unknown,
-            Mode::Raw if grey_value() == 100.0 => Cell::Occupied,
-            Mode::Raw if grey_value() > 100.0 => Cell::Unknown,
+            MapMode::Trinary if occupancy > free_threshold - f32::EPSILON => Cell::Unknown,
+            MapMode::Raw if grey_value() == 100.0 => Cell::Occupied,
+            MapMode::Raw if grey_value() > 100.0 => Cell::Unknown,
             _ => Cell::Free,
         }
     }
@@ -150,8 +150,8 @@ impl OccupancyGrid {
         let cells = vec![Cell::Free; width * height];
         let (to_local, unknown) = (PreparedPose::new(origin.inverse()), UnknownCells::default());
         let mut grid = Self { width, height, resolution, origin, to_local, cells, unknown };
-        let is_transparent = grid.fill_cells(pixels, interpretation, false);
-        if is_transparent && interpretation.mode == Mode::Trinary {
+        let has_transparency = grid.fill_cells(pixels, interpretation, false);
+        if has_transparency && interpretation.mode == MapMode::Trinary {
             grid.fill_cells(pixels, interpretation, true);
         }
         grid
@@ -165,7 +165,7 @@ impl OccupancyGrid {
         opacity_as_colour: bool,
     ) -> bool {
         let mut pixels = pixels.iter();
-        let mut is_transparent = false;
+        let mut has_transparency = false;
         // The previous pixel is cached with its cell, because most pixels equal the one before them.
         let mut previous_pixel = None;
         // The first row of an image is its highest, the first of a grid its lowest.
@@ -175,7 +175,7 @@ impl OccupancyGrid {
                     Some((cached_pixel, cell)) if cached_pixel == raw_pixel => cell,
                     _ => {
                         let mut pixel: Pixel = raw_pixel.into();
-                        is_transparent |= pixel.opacity < 1.0;
+                        has_transparency |= pixel.opacity < 1.0;
                         if opacity_as_colour {
                             pixel.shade = (3.0 * pixel.shade + pixel.opacity) / 4.0;
                         }
@@ -185,7 +185,7 @@ impl OccupancyGrid {
                 previous_pixel = Some((raw_pixel, *cell));
             }
         }
-        is_transparent
+        has_transparency
     }
 
     /// Returns the grid with another treatment of unknown cells.
@@ -264,8 +264,8 @@ impl OccupancyGrid {
 
     /// Returns the cells of a row, counted from the bottom; none of a row off the grid.
     fn row(&self, row: usize) -> &[Cell] {
-        let from = row.saturating_mul(self.width).min(self.cells.len());
-        &self.cells[from..(from + self.width).min(self.cells.len())]
+        let first_cell = row.saturating_mul(self.width).min(self.cells.len());
+        &self.cells[first_cell..(first_cell + self.width).min(self.cells.len())]
     }
 
     /// Returns the outlines of the blocked cells, with neighbouring sides joined. From outside the cells, the distance to the
@@ -288,10 +288,10 @@ impl OccupancyGrid {
             let (mut row_start, mut was_left_different) = (None, false);
             for (column, outline_start) in outline_starts.iter_mut().enumerate() {
                 let [blocked, below_blocked] = [cells, cells_below].map(|row| self.is_blocked(row, column));
-                if let Some(from) = outline_end(&mut row_start, below_blocked != blocked, column) {
+                if let Some(from) = update_outline(&mut row_start, below_blocked != blocked, column) {
                     walls.push(self.wall_between([from, row], [column, row]));
                 }
-                if let Some(start) = outline_end(outline_start, was_left_different != blocked, row) {
+                if let Some(start) = update_outline(outline_start, was_left_different != blocked, row) {
                     vertical_walls.push([column, start, row]);
                 }
                 was_left_different = blocked;
@@ -314,9 +314,9 @@ impl OccupancyGrid {
     }
 }
 
-/// Returns the start of the outline that ends at `position` on a grid line. `is_outline` is true if an outline continues from
-/// `position` on; its start is kept in `start`.
-fn outline_end(start: &mut Option<usize>, is_outline: bool, position: usize) -> Option<usize> {
+/// Begins or ends an outline at `position` on a grid line, and returns the start of one that ends. `is_outline` is true if an
+/// outline leads on from `position`; its start is kept in `start`.
+fn update_outline(start: &mut Option<usize>, is_outline: bool, position: usize) -> Option<usize> {
     match *start {
         None if is_outline => *start = Some(position),
         Some(_) if !is_outline => return start.take(),

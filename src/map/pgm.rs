@@ -31,7 +31,7 @@ const MAX_QUOTED_CHARACTERS: usize = 20;
 /// # Errors
 /// [`PgmError`] with the line of the header, or the line where plain pixels end.
 pub fn read_pgm(bytes: &[u8]) -> Result<Image<f32>, PgmError> {
-    let mut reader = Reader { bytes, position: 0, line: 1 };
+    let mut reader = TokenReader { bytes, position: 0, line: 1 };
     let is_plain = match reader.next_token() {
         b"P5" => false,
         b"P2" => true,
@@ -40,14 +40,14 @@ pub fn read_pgm(bytes: &[u8]) -> Result<Image<f32>, PgmError> {
     let width = reader.read_number("the width", 1, MAX_PIXELS)?;
     let height = reader.read_number("the height", 1, MAX_PIXELS / width)?;
     let max_value = reader.read_number("the maximum value", 1, 65_535)?;
-    let count = width * height;
+    let pixel_count = width * height;
     let shade_of = |value: usize| value.min(max_value) as f32 / max_value as f32;
     if is_plain {
-        let pixels = (0..count).map(|_| reader.read_number("a pixel", 0, max_value).map(shade_of));
+        let pixels = (0..pixel_count).map(|_| reader.read_number("a pixel", 0, max_value).map(shade_of));
         return Ok(Image { width, height, pixels: pixels.collect::<Result<_, _>>()? });
     }
     let pixel_bytes = if max_value < 256 { 1 } else { 2 };
-    let raster_bytes = count * pixel_bytes;
+    let raster_bytes = pixel_count * pixel_bytes;
     // One white space character ends the header. Windows editors write two: carriage return and line feed.
     let is_crlf =
         bytes[reader.position..].starts_with(b"\r\n") && bytes.len() >= reader.position + 2 + raster_bytes;
@@ -73,13 +73,13 @@ fn parse_decimal(token: &[u8]) -> Option<usize> {
 }
 
 /// Reader of the words of a header, and of plain pixels.
-struct Reader<'a> {
+struct TokenReader<'a> {
     bytes: &'a [u8],
     position: usize,
     line: usize,
 }
 
-impl<'a> Reader<'a> {
+impl<'a> TokenReader<'a> {
     /// Returns the next run of characters that are neither white space nor in a comment; empty at the end.
     fn next_token(&mut self) -> &'a [u8] {
         let mut in_comment = false;
@@ -95,11 +95,11 @@ impl<'a> Reader<'a> {
             }
             self.position += 1;
         }
-        let from = self.position;
+        let token_start = self.position;
         while self.bytes.get(self.position).is_some_and(|byte| !byte.is_ascii_whitespace() && *byte != b'#') {
             self.position += 1;
         }
-        &self.bytes[from..self.position]
+        &self.bytes[token_start..self.position]
     }
 
     fn read_number(&mut self, field: &'static str, min: usize, max: usize) -> Result<usize, PgmError> {

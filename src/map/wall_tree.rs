@@ -24,7 +24,7 @@ pub(super) struct WallTree {
 /// Node of the tree: the capsule of the walls of its subtree.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
-    hull: PreparedSegment,
+    hull_axis: PreparedSegment,
     /// Maximum distance of a wall of the node from the axis of the capsule, m.
     pub thickness: f64,
     /// True if all walls of the node are equal, so that one represents them.
@@ -50,7 +50,7 @@ impl WallTree {
             // Node 0 is unused. The root is always visited.
             nodes: vec![
                 Node {
-                    hull: PreparedSegment::POINT,
+                    hull_axis: PreparedSegment::POINT,
                     thickness: f64::INFINITY,
                     has_equal_walls: false
                 };
@@ -87,10 +87,10 @@ impl WallTree {
     fn make_node(&self, node_index: usize) -> Node {
         let walls = &self.walls[self.wall_range(node_index)];
         // The capsule lies along the mean direction of the walls or along an axis, whichever makes it narrowest.
-        let sum = walls.iter().map(sort_keys).fold([0.0; 2], |[x, y], key| [x + key[2], y + key[3]]);
-        let length = libm::hypot(sum[0], sum[1]);
+        let key_sum = walls.iter().map(sort_keys).fold([0.0; 2], |[x, y], key| [x + key[2], y + key[3]]);
+        let length = libm::hypot(key_sum[0], key_sum[1]);
         let mean_direction =
-            if length > 0.0 { sum.map(|coordinate| coordinate / length) } else { [1.0, 0.0] };
+            if length > 0.0 { key_sum.map(|coordinate| coordinate / length) } else { [1.0, 0.0] };
         let axes = [mean_direction, [1.0, 0.0], [0.0, 1.0]];
         let mut extents = [[f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY]; 3];
         for end in walls.iter().flat_map(|wall| [wall.from, wall.to]) {
@@ -111,13 +111,13 @@ impl WallTree {
                 narrowest = (width, PreparedSegment::new(&axis));
             }
         }
-        let hull = narrowest.1;
+        let hull_axis = narrowest.1;
         // No point of a wall is further from the capsule's axis than the further end of the wall.
         let wall_ends = walls.iter().flat_map(|wall| [wall.from, wall.to]);
-        let distance = wall_ends.map(|end| hull.squared_distance(end)).fold(0.0, max_of).sqrt();
+        let max_distance = wall_ends.map(|end| hull_axis.squared_distance(end)).fold(0.0, max_of).sqrt();
         Node {
-            hull,
-            thickness: distance + self.rounding_slack,
+            hull_axis,
+            thickness: max_distance + self.rounding_slack,
             has_equal_walls: walls.iter().all(|wall| *wall == walls[0]),
         }
     }
@@ -125,8 +125,8 @@ impl WallTree {
     /// Returns the range of the walls of a node.
     fn wall_range(&self, node_index: usize) -> Range<usize> {
         let depth = node_index.ilog2();
-        let (count, index_in_level) = (self.walls.len() as u64, (node_index - (1 << depth)) as u64);
-        let end_index = |key: u64| ((count * key) >> depth) as usize;
+        let (wall_count, index_in_level) = (self.walls.len() as u64, (node_index - (1 << depth)) as u64);
+        let end_index = |key: u64| ((wall_count * key) >> depth) as usize;
         end_index(index_in_level)..end_index(index_in_level + 1)
     }
 
@@ -149,7 +149,7 @@ impl WallTree {
     }
 
     /// Returns the number of walls.
-    pub fn count(&self) -> usize {
+    pub fn wall_count(&self) -> usize {
         self.walls.len()
     }
 
@@ -190,63 +190,63 @@ impl WallTree {
 impl Node {
     /// Returns the axis of the capsule.
     pub fn axis(&self) -> Segment {
-        let PreparedSegment { from, along, .. } = self.hull;
-        Segment { from, to: [from[0] + along[0], from[1] + along[1]] }
+        let PreparedSegment { start, direction, .. } = self.hull_axis;
+        Segment { from: start, to: [start[0] + direction[0], start[1] + direction[1]] }
     }
 
     /// Returns true if no wall of the node comes within `reach` (m) of a point.
     #[inline(always)]
     pub fn is_farther_than(&self, point: [f64; 2], reach: f64) -> bool {
-        let reach_of_hull = reach + self.thickness;
-        self.hull.squared_distance(point) > reach_of_hull * reach_of_hull
+        let axis_reach = reach + self.thickness;
+        self.hull_axis.squared_distance(point) > axis_reach * axis_reach
     }
 
     /// Returns a lower bound (m) on the distance from a point to the walls of the node.
     #[inline(always)]
     pub fn lower_bound(&self, point: [f64; 2]) -> f64 {
-        (self.hull.squared_distance(point).sqrt() - self.thickness).max(0.0)
+        (self.hull_axis.squared_distance(point).sqrt() - self.thickness).max(0.0)
     }
 }
 
 /// Segment prepared for the distances of many points.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PreparedSegment {
-    from: [f64; 2],
-    along: [f64; 2],
-    /// 1/|along|²; 0 for a segment without length.
+    start: [f64; 2],
+    direction: [f64; 2],
+    /// 1/|direction|²; 0 for a segment without length.
     inverse_square_length: f64,
 }
 
 impl PreparedSegment {
-    const POINT: Self = Self { from: [0.0; 2], along: [0.0; 2], inverse_square_length: 0.0 };
+    const POINT: Self = Self { start: [0.0; 2], direction: [0.0; 2], inverse_square_length: 0.0 };
 
     fn new(wall: &Segment) -> Self {
-        let along = [wall.to[0] - wall.from[0], wall.to[1] - wall.from[1]];
-        let inverse_square = 1.0 / (along[0] * along[0] + along[1] * along[1]);
+        let direction = [wall.to[0] - wall.from[0], wall.to[1] - wall.from[1]];
+        let inverse_square = 1.0 / (direction[0] * direction[0] + direction[1] * direction[1]);
         let inverse_square_length = if inverse_square.is_finite() { inverse_square } else { 0.0 };
-        Self { from: wall.from, along, inverse_square_length }
+        Self { start: wall.from, direction, inverse_square_length }
     }
 
     /// Returns the square of the distance to a point, m².
     #[inline(always)]
     pub fn squared_distance(&self, point: [f64; 2]) -> f64 {
-        let Self { from, along, inverse_square_length } = *self;
-        let offset = [point[0] - from[0], point[1] - from[1]];
-        let t = ((offset[0] * along[0] + offset[1] * along[1]) * inverse_square_length).clamp(0.0, 1.0);
-        let [x, y] = [offset[0] - t * along[0], offset[1] - t * along[1]];
+        let Self { start, direction: [dx, dy], inverse_square_length } = *self;
+        let offset = [point[0] - start[0], point[1] - start[1]];
+        let t = ((offset[0] * dx + offset[1] * dy) * inverse_square_length).clamp(0.0, 1.0);
+        let [x, y] = [offset[0] - t * dx, offset[1] - t * dy];
         x * x + y * y
     }
 }
 
 /// Moves the `count` walls with the smallest coordinates to the front, by Hoare's selection. The number of rounds is limited. Walls
 /// that would need more rounds are divided differently, and the tree is still correct.
-fn select_smallest(walls: &mut [Segment], count: usize, axis: usize) {
+fn select_smallest(walls: &mut [Segment], count: usize, key_index: usize) {
     let (mut low, mut high) = (0, walls.len());
     for _ in 0..MAX_SELECTION_ROUNDS {
         if high - low < 2 {
             return;
         }
-        let key_of = |wall: &Segment| sort_keys(wall)[axis];
+        let key_of = |wall: &Segment| sort_keys(wall)[key_index];
         let pivot = key_of(&walls[(low + high) / 2]);
         let (mut left, mut right) = (low, high);
         loop {

@@ -7,14 +7,14 @@ use super::fields::{
 use crate::geom::se2::SE2;
 use crate::geom::segment::Segment;
 use crate::map::{
-    FloorPlan, FloorPlanError, Image, ImageError, Interpretation, MAX_BYTES, MAX_PIXELS, Mode, OccupancyGrid,
-    RESOLUTION_RANGE, read_grid,
+    FloorPlan, FloorPlanError, Image, ImageError, Interpretation, MAX_BYTES, MAX_PIXELS, MapMode,
+    OccupancyGrid, RESOLUTION_RANGE, read_grid,
 };
 use crate::sim::settings::{Keywords, QUANTITY_RANGE};
 use js_sys::{Float64Array, RangeError, Uint8Array, Uint8ClampedArray};
 use wasm_bindgen::prelude::*;
 
-impl Keywords for Mode {
+impl Keywords for MapMode {
     const KEYWORDS: &'static [(&'static str, Self)] =
         &[("trinary", Self::Trinary), ("scale", Self::Scale), ("raw", Self::Raw)];
 }

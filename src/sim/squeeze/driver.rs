@@ -67,13 +67,13 @@ impl<'a> Driver<'a> {
         let conditioned = self.settings.conditioned;
         let (group, first) = (indices.start / LANES, indices.start % LANES);
         let lane_range = first..LANES.min(first + indices.len());
-        self.draw_tester.test_group(&self.draws.groups()[group], lane_range, |draw| {
-            let deciding_verdict = self.model.deciding_test(&draw);
+        self.draw_tester.test_lanes(&self.draws.groups()[group], lane_range, |draw| {
+            let deciding_verdict = self.model.deciding_verdict(&draw);
             let attempt = Attempt {
                 pose: draw.pose,
                 accepted: !conditioned || deciding_verdict.free,
-                end_free: draw.end.free,
-                path_free: draw.path.free,
+                end_free: draw.end_verdict.free,
+                path_free: draw.path_verdict.free,
             };
             let wall_tests = if conditioned { deciding_verdict.wall_tests } else { 0 };
             visit(attempt, Cost { draws: 1, wall_tests });
@@ -98,10 +98,11 @@ impl<'a> Driver<'a> {
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed ^ (index as u64).rotate_left(32));
         if !conditioned {
             let (end, path_free) = self.model.sample_unconditioned(&command, &start, &mut rng, along);
-            let attempt = Attempt { pose: end.pose, accepted: true, end_free: end.end.free, path_free };
+            let attempt =
+                Attempt { pose: end.pose, accepted: true, end_free: end.end_verdict.free, path_free };
             return (attempt, Cost { draws: steps as usize, wall_tests: 0 });
         }
-        match self.model.sample_along(&command, &start, &mut rng, along) {
+        match self.model.sample_with_arcs(&command, &start, &mut rng, along) {
             Ok(AcceptedMotion { pose, path_free, cost }) => {
                 (Attempt { pose, accepted: true, end_free: true, path_free }, cost)
             }

@@ -5,7 +5,7 @@ use super::encoding::HashedPart;
 use motion::calibrate::{Estimate, Recommendation, SystematicError};
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
-use motion::map::{Cell, FloorPlan, Interpretation, Mode, OccupancyGrid, read_pgm};
+use motion::map::{Cell, FloorPlan, Interpretation, MapMode, OccupancyGrid, read_pgm};
 use motion::sim::alpha_calibrator::AlphaCalibrator;
 use motion::sim::banana::{BananaMachine, TableColumn};
 use motion::sim::dead_reckoning::{DeadReckoning, Misses, RECURSIONS};
@@ -251,9 +251,9 @@ fn read_grid(map: &Value, images: &Value) -> OccupancyGrid {
     let [x, y, yaw] = numbers_of(&description["origin"]);
     let interpretation = Interpretation {
         mode: match description["mode"].as_str() {
-            None | Some("trinary") => Mode::Trinary,
-            Some("scale") => Mode::Scale,
-            Some("raw") => Mode::Raw,
+            None | Some("trinary") => MapMode::Trinary,
+            Some("scale") => MapMode::Scale,
+            Some("raw") => MapMode::Raw,
             Some(other) => panic!("{other} is no mode"),
         },
         negate: number_of(&description["negate"]) == 1.0,

@@ -177,7 +177,7 @@ fn testing_the_geodesic_changes_the_documented_fraction_of_verdicts() {
                 let unit_noise =
                     std::array::from_fn(|_| NoiseKind::Normal.quantile(centred_uniform(&mut rng)));
                 let draw = draw_tester.test_draw(unit_noise);
-                if !draw.end.free {
+                if !draw.end_verdict.free {
                     continue;
                 }
                 // The geodesic exp(s·ξ), 0 ≤ s ≤ 1, is also an arc. It starts in the direction of (ξ along, ξ lateral).
@@ -185,7 +185,7 @@ fn testing_the_geodesic_changes_the_documented_fraction_of_verdicts() {
                 let geodesic_start = SE2::new(x, y, theta + xi.y.atan2(xi.x));
                 let geodesic = Arc { start: geodesic_start, length: xi.xy().norm(), turn: xi.z };
                 accepted_count += 1;
-                differing_count += u32::from(plan.test_arc(&geodesic, 0.13).free != draw.path.free);
+                differing_count += u32::from(plan.test_arc(&geodesic, 0.13).free != draw.path_verdict.free);
             }
             let fraction = f64::from(differing_count) / f64::from(accepted_count);
             let tolerance =

@@ -58,12 +58,13 @@ fn fractions_equal_the_published_ones() {
         let tested_draws: Vec<_> = (0..DRAW_COUNT)
             .map(|_| endpoint_model.draw_tester(&command, &start_pose).test_draw(unit_noise(&mut rng)))
             .collect();
-        let accepted_count = tested_draws.iter().filter(|draw| draw.end.free).count();
-        let through_wall_count = tested_draws.iter().filter(|draw| draw.end.free && !draw.path.free).count();
+        let accepted_count = tested_draws.iter().filter(|draw| draw.end_verdict.free).count();
+        let through_wall_count =
+            tested_draws.iter().filter(|draw| draw.end_verdict.free && !draw.path_verdict.free).count();
         assert_fraction(name, accepted_count, DRAW_COUNT, published_acceptance);
         assert_fraction(name, through_wall_count, accepted_count, published_through_wall);
         assert!(
-            tested_draws.iter().all(|draw| draw.end.free || !draw.path.free),
+            tested_draws.iter().all(|draw| draw.end_verdict.free || !draw.path_verdict.free),
             "the end is part of the path"
         );
     }

@@ -1,7 +1,7 @@
 //! Conversion of pixels to cells as in `map_server`, and valid and malformed PGM files.
 
 use motion::geom::se2::SE2;
-use motion::map::{Cell, Image, Interpretation, MAX_PIXELS, Mode, OccupancyGrid, Pixel, read_pgm};
+use motion::map::{Cell, Image, Interpretation, MAX_PIXELS, MapMode, OccupancyGrid, Pixel, read_pgm};
 
 // -------------------------------------------------------------------------------------------- map_server's pixels
 
@@ -11,8 +11,8 @@ fn pixels_are_read_as_map_server_reads_them() {
     let trinary_mode = Interpretation::default();
     let grey_pixel = |value: u8| Pixel { shade: f32::from(value) / 255.0, opacity: 1.0 };
     let transparent_pixel = |value: u8| Pixel { opacity: 0.0, ..grey_pixel(value) };
-    let scale_mode = Interpretation { mode: Mode::Scale, ..trinary_mode };
-    let raw_mode = Interpretation { mode: Mode::Raw, ..trinary_mode };
+    let scale_mode = Interpretation { mode: MapMode::Scale, ..trinary_mode };
+    let raw_mode = Interpretation { mode: MapMode::Raw, ..trinary_mode };
     let with_occupied_threshold = |occupied_thresh| Interpretation { occupied_thresh, ..trinary_mode };
     let negated_with_threshold =
         |occupied_thresh| Interpretation { negate: true, ..with_occupied_threshold(occupied_thresh) };

@@ -118,9 +118,9 @@ fn fraction_through_walls(settings: &squeeze::Settings) -> f64 {
         for omega in (0..NODE_COUNT).map(unit_noise_at) {
             let weight = libm::exp(-0.5 * (v * v + omega * omega));
             let tested_draw = draw_tester.test_draw([v, omega, 0.0]);
-            if tested_draw.end.free {
+            if tested_draw.end_verdict.free {
                 free_end_weight += weight;
-                blocked_path_weight += if tested_draw.path.free { 0.0 } else { weight };
+                blocked_path_weight += if tested_draw.path_verdict.free { 0.0 } else { weight };
             }
         }
     }

@@ -42,7 +42,7 @@ export async function inspect(givenRecordings: GivenRecording[], statedOptions: 
   for (const { recording } of givenRecordings) recordings.push(await contentsOf(recording, onProgress));
   onProgress?.(undefined);
   const refusedNames = recordings.flatMap(({ name, series, refused }) => (refused.length > 0 && !series.some(({ summary }) => summary) ? [name] : []));
-  if (refusedNames.length === 0) return { recordings, ...nextCommand(givenRecordings, statedOptions) };
+  if (refusedNames.length === 0) return { recordings, ...proposeCommand(givenRecordings, statedOptions) };
   const hintForOthers = { missing: `Give two files without ${new Intl.ListFormat('en').format(refusedNames)}:`, command: commandText(statedOptions, '--odometry FILE', '--reference FILE') };
   return { recordings, ...(refusedNames.length < recordings.length && hintForOthers) };
 }
@@ -54,13 +54,13 @@ async function contentsOf(recording: Recording, onProgress?: (share: number | un
     const possibleUses: { choice?: LogChoice; uses: string[] }[] = usesOfSeries(recording, entry.name);
     return (possibleUses.length > 0 ? possibleUses : [{ uses: [] }]).map((use) => ({ ...entry, ...use }));
   });
-  const { logs, reasons } = await readLogs(recording, seriesEntries.flatMap(({ choice }) => choice ?? []), onProgress);
+  const { logs, refusalSentences } = await readLogs(recording, seriesEntries.flatMap(({ choice }) => choice ?? []), onProgress);
   const series = seriesEntries.map(({ name: seriesName, type, count, uses, choice }) => {
     const log = choice && logs.get(choice);
     const seriesLabel = choice?.frames ? `${seriesName} (${framesText(choice.frames)})` : seriesName;
     return { name: seriesLabel, type, rows: log?.summary.rows ?? count, uses, ...(log && { summary: log.summary, sentences: summarySentences(log, english.found) }) };
   });
-  return { name, format, series, refused: [...new Set(reasons)] };
+  return { name, format, series, refused: [...new Set(refusalSentences)] };
 }
 
 /** Returns the contents as text. */
@@ -93,30 +93,30 @@ function usesOfSeries(recording: Recording, name: string): { choice: LogChoice; 
   return [...usesByFrames.values()];
 }
 
-/** Reads logs in one pass, or one by one if one is refused. `reasons` are the errors. */
-async function readLogs(recording: Recording, choices: LogChoice[], onProgress?: (share: number) => void): Promise<{ logs: Map<LogChoice, Log>; reasons: string[] }> {
+/** Reads logs in one pass, or one by one if one is refused. `refusalSentences` name the errors. */
+async function readLogs(recording: Recording, choices: LogChoice[], onProgress?: (share: number) => void): Promise<{ logs: Map<LogChoice, Log>; refusalSentences: string[] }> {
   const logs = new Map<LogChoice, Log>();
-  const reasons: string[] = [];
-  const readTogether = async (choicesToRead: LogChoice[]) => {
+  const refusalSentences: string[] = [];
+  const readInOnePass = async (choicesToRead: LogChoice[]) => {
     try {
       for (const [i, log] of (await recording.read(choicesToRead, onProgress)).entries()) logs.set(choicesToRead[i], log);
     } catch (error) {
       if (!(error instanceof LogError)) throw error;
-      if (choicesToRead.length === 1) reasons.push(`${error.message}${optionAdvice(error)}`);
-      else for (const choice of choicesToRead) await readTogether([choice]);
+      if (choicesToRead.length === 1) refusalSentences.push(`${error.message}${optionAdvice(error)}`);
+      else for (const choice of choicesToRead) await readInOnePass([choice]);
     }
   };
-  if (choices.length > 0) await readTogether(choices);
-  return { logs, reasons };
+  if (choices.length > 0) await readInOnePass(choices);
+  return { logs, refusalSentences };
 }
 
 const commandText = (statedOptions: [name: string, value: string][], ...options: string[]) =>
   ['npx motion-widgets calibrate', ...options, ...statedOptions.map(([name, value]) => `--${name} ${quoteForShell(value)}`), '--rule nav2'].join(' ');
 
 /** Returns the command that calibrates from the recordings, or a sentence about missing logs. */
-function nextCommand(givenRecordings: GivenRecording[], statedOptions: [name: string, value: string][]): Pick<InspectionResult, 'command' | 'missing'> {
+function proposeCommand(givenRecordings: GivenRecording[], statedOptions: [name: string, value: string][]): Pick<InspectionResult, 'command' | 'missing'> {
   const quotedPath = ({ recording }: Pick<RecordingChoice, 'recording'>) => quoteForShell(givenRecordings.find((file) => file.recording === recording)?.path ?? recording.name);
-  const commandWith = (...options: string[]) => commandText(statedOptions, ...new Set(options));
+  const calibrationCommand = (...options: string[]) => commandText(statedOptions, ...new Set(options));
   const quotedPaths = givenRecordings.map(({ recording }) => quotedPath({ recording }));
   try {
     const { drives, unpaired } = planDrives(givenRecordings.map(({ recording }) => recording));
@@ -127,19 +127,19 @@ function nextCommand(givenRecordings: GivenRecording[], statedOptions: [name: st
     const fileArguments = [...drives.map(({ odometry }) => quotedPath(odometry)), ...ROLES.flatMap((role) => unpaired[role].map((part) => `--${role} ${quotedPath(part)}`))];
     // The logs of one folder may have different roles, so that the folder is given without a role.
     const isPathShared = new Set(quotedPaths).size < quotedPaths.length;
-    return { command: commandWith(...(isPathShared ? quotedPaths : fileArguments), ...choiceOptions) };
+    return { command: calibrationCommand(...(isPathShared ? quotedPaths : fileArguments), ...choiceOptions) };
   } catch (error) {
     if (!(error instanceof LogError)) throw error;
-    const reason = error.message;
+    const refusalSentence = error.message;
     const role = error.ask?.role ?? ROLES.find((candidateRole) => givenRecordings.some(({ recording }) => findCandidates(recording, candidateRole).some(({ length }) => length > 0)));
     // The odometry is chosen first.
     const rolesToChoose = error.ask?.role === 'reference' ? ['reference'] : ROLES;
     switch (error.ask?.what) {
-      case 'other': return { missing: reason, ...(role && { command: commandWith(`--${role} ${quotedPath(givenRecordings[0])}`, role === 'odometry' ? '--reference FILE' : '--odometry FILE') }) };
-      case 'series': return { missing: reason, command: commandWith(...quotedPaths, ...rolesToChoose.map((openRole) => `--${openRole}-topic NAME`)) };
-      case 'frames': return { missing: reason, command: commandWith(...quotedPaths, ...rolesToChoose.map((openRole) => `--${openRole}-frames PARENT,CHILD`)) };
-      case 'roles': return { missing: reason, command: commandWith('--odometry FILE', '--reference FILE') };
-      default: return { missing: reason };
+      case 'other': return { missing: refusalSentence, ...(role && { command: calibrationCommand(`--${role} ${quotedPath(givenRecordings[0])}`, role === 'odometry' ? '--reference FILE' : '--odometry FILE') }) };
+      case 'series': return { missing: refusalSentence, command: calibrationCommand(...quotedPaths, ...rolesToChoose.map((openRole) => `--${openRole}-topic NAME`)) };
+      case 'frames': return { missing: refusalSentence, command: calibrationCommand(...quotedPaths, ...rolesToChoose.map((openRole) => `--${openRole}-frames PARENT,CHILD`)) };
+      case 'roles': return { missing: refusalSentence, command: calibrationCommand('--odometry FILE', '--reference FILE') };
+      default: return { missing: refusalSentence };
     }
   }
 }

@@ -26,7 +26,7 @@ interface CliEnvironment {
 }
 
 /** Exit codes of a shell. */
-const [SUCCESS, BAD_INPUT, UNUSABLE] = [0, 2, 3];
+const [EXIT_SUCCESS, EXIT_BAD_INPUT, EXIT_UNUSABLE] = [0, 2, 3];
 
 /** Runs a command, and returns the exit code; rejects only for defects of the program. */
 export async function run(args: string[], environment: CliEnvironment): Promise<number> {
@@ -41,14 +41,14 @@ export async function run(args: string[], environment: CliEnvironment): Promise<
       for (const input of options.inputs) for (const recording of await recordingsOf(input, onSkip)) givenRecordings.push({ recording, path: input.path });
       const inspection = await inspect(givenRecordings, options.statedOptions, onProgress);
       print(options.isJson ? `${JSON.stringify(inspection, undefined, 1)}\n` : inspectionText(inspection));
-      if (inspection.command === undefined) return BAD_INPUT;
+      if (inspection.command === undefined) return EXIT_BAD_INPUT;
     } else return await calibrate(options, environment, onSkip);
-    return SUCCESS;
+    return EXIT_SUCCESS;
   } catch (error) {
     onProgress?.(undefined);
     if (!(error instanceof LogError || error instanceof UsageError)) throw error;
     complain(`${error.message}${error instanceof LogError ? optionAdvice(error) : ''}\n`);
-    return BAD_INPUT;
+    return EXIT_BAD_INPUT;
   }
 }
 
@@ -82,10 +82,10 @@ async function calibrate({ inputs, userChoices, fit, output, plot }: CalibrateAr
     const { yaml, reason } = nav2Yaml(result);
     complain([...verdictLines(result), ...(yaml ? ruleWarning(result) : []), ...(reason ? [reason] : []), ''].join('\n'));
     print(yaml);
-    return isUnusableLog ? UNUSABLE : yaml ? SUCCESS : BAD_INPUT;
+    return isUnusableLog ? EXIT_UNUSABLE : yaml ? EXIT_SUCCESS : EXIT_BAD_INPUT;
   }
   print(output === 'json' ? resultJson(result) : reportText(result, isColored));
-  return isUnusableLog ? UNUSABLE : SUCCESS;
+  return isUnusableLog ? EXIT_UNUSABLE : EXIT_SUCCESS;
 }
 
 async function saveFile(path: string, text: string): Promise<void> {

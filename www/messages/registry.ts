@@ -2,8 +2,8 @@
  * Words of the elements, by language. English and German are included; a page adds or replaces others with `setMessages`. The words of a
  * single widget have their own key.
  *
- * An element uses the language of its nearest `lang` attribute if there are words in it, and otherwise English. `useLanguageOf` makes it
- * the current language before the element is rendered or drawn, synchronously. `words` and the numbers of ui/format.ts follow.
+ * An element uses the language of its nearest `lang` attribute if there are words in it, and otherwise English. Before an element is rendered or
+ * drawn, `useLanguageOf` makes that the current language. `words` and the numbers of ui/format.ts follow.
  */
 
 export type Message = string | ((...values: any[]) => string) | Message[] | { [key: string]: Message };
@@ -65,11 +65,11 @@ function checkMessages(englishMessages: any, pageMessages: any, path: string) {
   if (Object.keys(englishMessages).length === 0) return;
   for (const [key, message] of Object.entries(pageMessages)) {
     const expectedMessage = Object.hasOwn(englishMessages, key) ? englishMessages[key] : undefined;
-    const [kind, allowed] = [describeMessage(message), describeMessage(expectedMessage)];
+    const [messageKind, expectedKind] = [describeMessage(message), describeMessage(expectedMessage)];
     const isShorter = typeof message === 'function' && typeof expectedMessage === 'function' && message.length < expectedMessage.length;
-    if (kind !== allowed && !isShorter) {
-      const allowedText = expectedMessage === undefined ? `one of ${Object.keys(englishMessages).join(', ')}` : allowed;
-      throw new TypeError(`messages: ${path}.${key} is ${kind}; allowed is ${allowedText}.`);
+    if (messageKind !== expectedKind && !isShorter) {
+      const allowedText = expectedMessage === undefined ? `one of ${Object.keys(englishMessages).join(', ')}` : expectedKind;
+      throw new TypeError(`messages: ${path}.${key} is ${messageKind}; allowed is ${allowedText}.`);
     }
     if (typeof message === 'object') checkMessages(expectedMessage, message, `${path}.${key}`);
   }
@@ -123,7 +123,7 @@ function languageOf(element: Element): string {
   return '';
 }
 
-let observer: MutationObserver | undefined;
+let languageObserver: MutationObserver | undefined;
 
 /** Defined outside of `onLanguage`: a closure would keep the element of that call alive for as long as the page lives. */
 function notifyListeners() {
@@ -133,11 +133,11 @@ function notifyListeners() {
 /** Calls `listener` when the words or the language of an element may have changed, until the signal is aborted. */
 export function onLanguage(element: Element, listener: () => void, signal: AbortSignal) {
   const { listeners } = sharedCatalogues;
-  observer ??= new MutationObserver(notifyListeners);
+  languageObserver ??= new MutationObserver(notifyListeners);
   const observeOptions = { attributeFilter: ['lang'], subtree: true };
-  observer.observe(document, observeOptions);
+  languageObserver.observe(document, observeOptions);
   const rootNode = element.getRootNode();
-  if (rootNode !== document) observer.observe(rootNode, observeOptions);
+  if (rootNode !== document) languageObserver.observe(rootNode, observeOptions);
   listeners.add(listener);
   signal.addEventListener('abort', () => listeners.delete(listener));
 }

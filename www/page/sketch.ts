@@ -20,7 +20,7 @@ const MIN_SPREAD = 1e-6;
 const toPixel = ([x, y]: Point) => [START_PIXEL.x + PIXELS_PER_METRE * x, START_PIXEL.y - PIXELS_PER_METRE * y] as Point;
 
 /** Returns a path through points in pixels. */
-const pathOf = (points: Point[], closed: boolean = false) => (points.length ? `M${points.map(([x, y]) => `${x.toFixed(1)} ${y.toFixed(1)}`).join('L')}${closed ? 'Z' : ''}` : '');
+const pathDataOf = (points: Point[], closed: boolean = false) => (points.length ? `M${points.map(([x, y]) => `${x.toFixed(1)} ${y.toFixed(1)}`).join('L')}${closed ? 'Z' : ''}` : '');
 
 /** Returns points of the commanded arc, with an error of the turn rate in rad/s. */
 function commandedArc({ v, omega, dt }: { v: number, omega: number, dt: number }, rateError: number = 0) {
@@ -60,7 +60,7 @@ function shapeOf(points: Point[]): string {
  * Returns sentences on where the robots stop (`poses`: x, y, θ triples), and whether the expected shape is right. Of a drawing they say which
  * fraction of the robots is inside.
  */
-function outcomeOf(poses: Float64Array, expectedShape: string, insideFraction: number) {
+function outcomeText(poses: Float64Array, expectedShape: string, insideFraction: number) {
   const deviationAlong = (axis: number) => deviation(poses.filter((_, i) => i % 3 === axis)) ?? 0;
   const [positionStd, headingStd] = [Math.hypot(deviationAlong(0), deviationAlong(1)), deviationAlong(2)];
   const insideText = `${Math.round(100 * insideFraction)}\u00a0% of the robots stop inside your outline. `;
@@ -73,47 +73,47 @@ function outcomeOf(poses: Float64Array, expectedShape: string, insideFraction: n
 /** Prepares a form with a pad to draw on. `enterState` puts the figure into the state of the chosen radio button `case`. */
 export function prepareSketch(form: HTMLFormElement, enterState: (values: Record<string, unknown>) => Promise<void>, figure: Figure) {
   const svgElement = (name: string) => form.querySelector(`svg .${name}`) as SVGElement;
-  const pad = form.querySelector('svg') as SVGSVGElement;
+  const drawingPad = form.querySelector('svg') as SVGSVGElement;
   const statusOutput = form.querySelector('[role=status]') as HTMLElement;
   const button = form.querySelector('button') as HTMLButtonElement;
   let drawnPoints: Point[] = [];
 
   const checkedInput = (name: string) => form.querySelector(`[name=${name}]:checked`) as HTMLInputElement | null;
   const caseValues = () => JSON.parse(checkedInput('case')?.value ?? '{}');
-  const command = () => ({ v: 1, omega: caseValues().omega ?? 0, dt: 2 });
+  const currentCommand = () => ({ v: 1, omega: caseValues().omega ?? 0, dt: 2 });
   const showDrawing = (points: Point[]) => {
     drawnPoints = points;
-    svgElement('drawn').setAttribute('d', pathOf(points, true));
+    svgElement('drawn').setAttribute('d', pathDataOf(points, true));
     button.disabled = points.length < 2;
   };
   const resetDrawing = () => {
-    const arc = commandedArc(command()).map(toPixel);
-    svgElement('command').setAttribute('d', pathOf(arc));
-    for (const [name, coordinateIndex] of [['cx', 0], ['cy', 1]]) svgElement('end').setAttribute(String(name), String(arc[24][Number(coordinateIndex)]));
+    const arcPixels = commandedArc(currentCommand()).map(toPixel);
+    svgElement('command').setAttribute('d', pathDataOf(arcPixels));
+    for (const [name, coordinateIndex] of [['cx', 0], ['cy', 1]]) svgElement('end').setAttribute(String(name), String(arcPixels[24][Number(coordinateIndex)]));
     for (const name of ['robots', 'headings']) svgElement(name).setAttribute('d', '');
     statusOutput.textContent = '';
-    const shape = checkedInput('shape');
-    if (shape) shape.checked = false;
+    const shapeInput = checkedInput('shape');
+    if (shapeInput) shapeInput.checked = false;
     showDrawing([]);
   };
   const pointOfEvent = (event: PointerEvent) => {
-    const { x, y } = new DOMPoint(event.clientX, event.clientY).matrixTransform(pad.getScreenCTM()?.inverse());
+    const { x, y } = new DOMPoint(event.clientX, event.clientY).matrixTransform(drawingPad.getScreenCTM()?.inverse());
     return [x, y] as Point;
   };
 
-  pad.addEventListener('pointerdown', (event) => {
-    const shape = checkedInput('shape');
-    if (shape) shape.checked = false;
-    pad.setPointerCapture(event.pointerId);
+  drawingPad.addEventListener('pointerdown', (event) => {
+    const shapeInput = checkedInput('shape');
+    if (shapeInput) shapeInput.checked = false;
+    drawingPad.setPointerCapture(event.pointerId);
     showDrawing([pointOfEvent(event)]);
   });
-  pad.addEventListener('pointermove', (event) => {
-    if (pad.hasPointerCapture(event.pointerId)) showDrawing([...drawnPoints, pointOfEvent(event)]);
+  drawingPad.addEventListener('pointermove', (event) => {
+    if (drawingPad.hasPointerCapture(event.pointerId)) showDrawing([...drawnPoints, pointOfEvent(event)]);
   });
   form.addEventListener('change', ({ target }) => {
     const { name, value } = target as HTMLInputElement;
     if (name === 'case') resetDrawing();
-    else showDrawing(SHAPE_OUTLINES[value](command()));
+    else showDrawing(SHAPE_OUTLINES[value](currentCommand()));
   });
   form.addEventListener('submit', async (event) => {
     event.preventDefault();
@@ -126,10 +126,10 @@ export function prepareSketch(form: HTMLFormElement, enterState: (values: Record
     });
     svgElement('robots').setAttribute('d', robotDots.map(({ dot }) => dot).join(''));
     svgElement('headings').setAttribute('d', robotDots.map(({ tick }) => tick).join(''));
-    const outline = svgElement('drawn') as SVGPathElement;
-    const insideCount = robotPoses.filter(([x, y]) => outline.isPointInFill(new DOMPoint(...toPixel([x, y])))).length;
+    const drawnOutline = svgElement('drawn') as SVGPathElement;
+    const insideCount = robotPoses.filter(([x, y]) => drawnOutline.isPointInFill(new DOMPoint(...toPixel([x, y])))).length;
     form.classList.add('revealed');
-    statusOutput.textContent = outcomeOf(poses, checkedInput('shape')?.value ?? shapeOf(drawnPoints), insideCount / robotPoses.length);
+    statusOutput.textContent = outcomeText(poses, checkedInput('shape')?.value ?? shapeOf(drawnPoints), insideCount / robotPoses.length);
   });
   resetDrawing();
 }

@@ -7,7 +7,7 @@ import { emText, pointInView } from './canvas.ts';
 interface HandleCallbacks {
   view: () => import('./view.ts').View;
   /** Returns the point (x, y) that a pointer at `pointer` grasps; by default the middle of the handle. */
-  at?: (pointer: number[]) => number[] | undefined;
+  graspedPointAt?: (pointer: number[]) => number[] | undefined;
   drag: (x: number, y: number) => void;
   /** Handles a key; returns true if it moved the target. */
   key: (event: KeyboardEvent) => boolean;
@@ -43,13 +43,13 @@ const KEY_STEPS: Record<string, [number, number]> = {
 };
 
 /** Steps of an arrow key with Shift. */
-const LONG_STEP = 5;
+const SHIFT_STEPS = 5;
 
 /** Returns the steps along x and y by which a key moves something; undefined for other keys and for key shortcuts of the browser. */
 export function stepsOfKey({ key, shiftKey, ctrlKey, metaKey, altKey }: KeyboardEvent): [number, number] | undefined {
   const steps = ctrlKey || metaKey || altKey ? undefined : KEY_STEPS[key];
   if (!steps || !shiftKey || !key.startsWith('Arrow')) return steps;
-  return [LONG_STEP * steps[0], LONG_STEP * steps[1]];
+  return [SHIFT_STEPS * steps[0], SHIFT_STEPS * steps[1]];
 }
 
 /** Steps of rotation by key, positive to the left. The first two are for keyboards on which brackets need a modifier. */
@@ -79,7 +79,7 @@ export class Handle {
     return this.#heldPointer?.element.hasPointerCapture(this.#heldPointer.id) ?? false;
   }
 
-  element({ name, keys, title, range, now, text, stop, hint }: HandleLabels) {
+  handleHtml({ name, keys, title, range, now, text, stop, hint }: HandleLabels) {
     // The text about the limit is on the side that faces the middle of the picture.
     const limitTextSide = 2 * this.#middlePixels[0] > this.#callbacks.view().width ? 'right' : '';
     return html`<div
@@ -99,7 +99,7 @@ export class Handle {
       @pointermove=${this.#drag}
       @pointerup=${this.#release}
       @pointercancel=${this.#release}
-      @keydown=${this.#key}
+      @keydown=${this.#onKey}
     ></div>`;
   }
 
@@ -119,7 +119,7 @@ export class Handle {
   }
 
   /** Returns the place of the pointer in metres. */
-  #pointer(event: PointerEvent): number[] {
+  #pointerInWorld(event: PointerEvent): number[] {
     const { parentElement } = event.currentTarget as Element;
     return this.#toWorld(pointInView(parentElement as Element, this.#callbacks.view(), event));
   }
@@ -129,14 +129,14 @@ export class Handle {
     const handle = event.currentTarget as Element;
     handle.setPointerCapture(event.pointerId);
     this.#heldPointer = { id: event.pointerId, element: handle };
-    const pointer = this.#pointer(event);
-    const graspedPoint = this.#callbacks.at?.(pointer) ?? this.#toWorld(this.#middlePixels);
+    const pointer = this.#pointerInWorld(event);
+    const graspedPoint = this.#callbacks.graspedPointAt?.(pointer) ?? this.#toWorld(this.#middlePixels);
     this.#gripOffset = [graspedPoint[0] - pointer[0], graspedPoint[1] - pointer[1]];
   };
 
   #drag = (event: PointerEvent) => {
     if (!this.isHeld) return;
-    const [x, y] = this.#pointer(event);
+    const [x, y] = this.#pointerInWorld(event);
     this.#callbacks.drag(x + this.#gripOffset[0], y + this.#gripOffset[1]);
   };
 
@@ -146,7 +146,7 @@ export class Handle {
     this.#callbacks.commit();
   };
 
-  #key = (event: KeyboardEvent) => {
+  #onKey = (event: KeyboardEvent) => {
     if (!this.#callbacks.key(event)) return;
     event.preventDefault();
     this.#callbacks.commit();

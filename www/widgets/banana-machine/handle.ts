@@ -32,7 +32,7 @@ export class ArcHandle extends Handle {
     const texts = words.banana;
     const { min, max } = sliderSpecs.omega;
     const isAtLimit = [v - sliderSpecs.v.min, sliderSpecs.v.max - v, omega - min, max - omega].some((margin) => margin <= 0);
-    return this.element({
+    return this.handleHtml({
       name: texts.handle,
       keys: texts.handleKeys,
       title: words.pose.moveTitle,

@@ -43,7 +43,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
       if (!grip) return nothing;
       const [x, y] = this.#grippedPoint(grip);
       const position = x * grip.axis[0] + y * grip.axis[1];
-      return this.#handleOf(grip).element({
+      return this.#handleOf(grip).handleHtml({
         name: grip.part === 'side' ? texts.wall : texts.jamb,
         keys: texts.keys,
         title: words.pose.moveTitle,
@@ -94,7 +94,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     };
     const handle = this.#handles.get(gripName) ?? new Handle(`${grip.part === 'side' ? 'side' : 'jamb'} ${gripName}`, {
       view: () => this.host.picture.view,
-      at: () => callWithGrip((currentGrip) => this.#grippedPoint(currentGrip)),
+      graspedPointAt: () => callWithGrip((currentGrip) => this.#grippedPoint(currentGrip)),
       drag: (x, y) => callWithGrip((currentGrip) => this.#move(currentGrip, (point, axis) => (x - point[0]) * axis[0] + (y - point[1]) * axis[1])),
       key: (event) => callWithGrip((currentGrip) => this.#onKey(event, currentGrip)) ?? false,
       commit: () => this.host.gesture.commit(),

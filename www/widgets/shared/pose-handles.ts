@@ -38,13 +38,13 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
     const callbacks = { view, commit: () => host.gesture.commit() };
     this.#bodyHandle = new Handle(`body ${setting}`, {
       ...callbacks,
-      at: () => [this.#pose.x, this.#pose.y],
+      graspedPointAt: () => [this.#pose.x, this.#pose.y],
       drag: (x, y) => this.#moveTo(x, y),
       key: (event) => this.#moveBy(stepsOfKey(event)) || this.#turnBy(turnsOfKey(event)),
     });
     this.#turnHandle = new Handle(`turn ${setting}`, {
       ...callbacks,
-      at: (pointer) => pointer,
+      graspedPointAt: (pointer) => pointer,
       drag: (x, y) => this.#turnTo(Math.atan2(y - this.#pose.y, x - this.#pose.x)),
       key: (event) => {
         const steps = stepsOfKey(event);
@@ -64,7 +64,7 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
     const { x, y, theta } = this.#pose;
     const [left, bottom, right, top] = this.#bounds();
     return [
-      this.#bodyHandle.element({
+      this.#bodyHandle.handleHtml({
         name: bodyName,
         keys,
         title: moveTitle,
@@ -73,7 +73,7 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
         text: `x = ${fixed(x, 2)} m, y = ${fixed(y, 2)} m`,
         stop: (x <= left || x >= right || y <= bottom || y >= top) && ends,
       }),
-      this.#turnHandle.element({
+      this.#turnHandle.handleHtml({
         name: headingName,
         keys: headingKeys,
         title: turnTitle,

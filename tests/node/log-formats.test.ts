@@ -232,6 +232,8 @@ const movingTransformAt = (i: number) => transformMessageOf(timeAt(i), 'odom', '
 test('a transform that never changes is no log', async () => {
   const messages = mapSteps((i) => tfMessageAt(i, transformMessageOf(timeAt(i), 'odom', 'base_link', 1, 2, 0), transformMessageOf(timeAt(i), 'map', 'robot', i / 50, 0, 0)));
   assert.equal(await refusalSentenceOf(readLogsOf(messages, BASE_CHOICE)), 'run.mcap, topic /tf: the transform odom → base_link never changes, so it is no path of a robot; expected are frames that move, as map → robot.');
+  const constantMessages = mapSteps((i) => tfMessageAt(i, transformMessageOf(timeAt(i), 'odom', 'base_link', 1, 2, 0)));
+  assert.match(await refusalSentenceOf(readLogsOf(constantMessages, BASE_CHOICE)), /never changes, so it is no path of a robot; expected are frames that move\.$/);
 });
 
 test('a constant transform that is published more often than the moving one adds no rows', async () => {

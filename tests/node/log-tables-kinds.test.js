@@ -112,6 +112,12 @@ test('poses that a table repeats at the rate of another log are taken once', asy
   const { data, summary } = await readTable(circleTableOf((row, i) => [row[0], ...CIRCLE_ROWS[i - (i % 5)].slice(1)]));
   assert.deepEqual([data.t.length, data.t[1], data.x[1]], [160, 0.25, CIRCLE_ROWS[5][1]]);
   assert.deepEqual([summary.dropped, [...data.breaks]], [{ repeated: { count: 640, first: 3 } }, []]);
+  // A localizer that publishes its last pose all the time, until the robot has moved far enough.
+  const poseOfRow = Array.from({ length: 700 }, (_, i) => Math.floor(i / 10) * 10 - (i % 70 >= 10 && i % 70 < 16 ? 10 : 0));
+  const republished = await readTable(circleTableOf((row, i) => [row[0], ...CIRCLE_ROWS[poseOfRow[i] ?? 690].slice(1)]));
+  const firstRows = poseOfRow.flatMap((pose, i) => (pose === poseOfRow[i - 1] ? [] : [i / 20]));
+  assert.deepEqual([...republished.data.t].slice(0, firstRows.length), firstRows);
+  assert.deepEqual([...republished.data.t].slice(firstRows.length).map((t) => Math.round(20 * t)), [700, 710, 720, 730, 740, 750, 760, 770, 780, 790]);
 });
 
 test('pauses and jumps are found, and a heading that wraps is no jump', async () => {

@@ -34,6 +34,9 @@ const JUMP_FACTOR = 8;
 /** Minimum number of rows among which a single wrong stamp can be told, and of different poses that show how often a table repeats each. */
 const [MIN_ROWS, MIN_POSES] = [10, 20];
 
+/** Minimum number of rows of a standing robot's pose, as a multiple of the usual number. Localizers repeat a pose until the robot has moved. */
+const STANDSTILL_REPEATS = 8;
+
 /**
  * Limits for late rows. If the clock was set back, many of them are close to another row in time: maximum distance of two such rows in median
  * steps, their maximum number in a run of rising times, and their maximum fraction of all rows.
@@ -249,7 +252,7 @@ export class Rows {
 
   /**
    * Returns the rows, of which each pose of a moving robot is kept once: a table with topics of different rates repeats the poses of the slower
-   * ones. While the robot stands, as many rows are dropped.
+   * ones, and a localizer may publish its last pose at a higher rate than it estimates one. While the robot stands, as many rows are dropped.
    */
   #withoutRepeatedPoses(rows: Uint32Array): Uint32Array {
     const isRepeated = (i: number) => i > 0 && this.#isSame(rows[i - 1], rows[i]);
@@ -260,10 +263,11 @@ export class Rows {
     }
     const usualRowsPerPose = rowsPerPose.length < MIN_POSES ? 1 : quantile(sampleEvenly(rowsPerPose.length, (i) => rowsPerPose[i]), 0.5);
     if (usualRowsPerPose === 1) return rows;
-    let repeatCount = 0;
+    let [pose, repeatCount] = [-1, 0];
     return this.#without(rows, 'repeated', (_, i) => {
-      repeatCount = isRepeated(i) ? repeatCount + 1 : 0;
-      return repeatCount % usualRowsPerPose !== 0;
+      [pose, repeatCount] = isRepeated(i) ? [pose, repeatCount + 1] : [pose + 1, 0];
+      const isStanding = rowsPerPose[pose] >= STANDSTILL_REPEATS * usualRowsPerPose;
+      return isStanding ? repeatCount % usualRowsPerPose !== 0 : repeatCount > 0;
     });
   }
 

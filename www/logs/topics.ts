@@ -121,7 +121,7 @@ function topicReader(file: string, container: Container, choice: LogChoice, seri
       if (damagedCount === messageCount) refuse((texts) => texts.message(1, damageReason));
       if (chain && !chain.isConnected) refuse((texts) => texts.noChain(framesText(frames), listNames(chain.tree.links.map(framesText))));
       const hasChanged = chain?.poses((pose, { recordTime, number }) => add(pose, recordTime, number)) ?? true;
-      if (!hasChanged) refuse((texts) => texts.constant(framesText(frames as FramePair), listNames((chain as Chain).tree.findPoseFrames().map(framesText))));
+      if (!hasChanged) refuse((texts) => texts.constant(framesText(frames as FramePair), otherFramesOf(chain as Chain, frames as FramePair)));
       const logKind = kind === 'commands' ? 'commands' : 'poses';
       const notes: Note[] = [
         ...(damage.size > 0 ? [{ name: 'damaged' as const, values: [damage.size, lossReason as string] }] : []),
@@ -136,6 +136,10 @@ function topicReader(file: string, container: Container, choice: LogChoice, seri
     },
   };
 }
+
+/** Lists the frames of a chain's tree, other than the given ones, that may be a path of the robot. */
+const otherFramesOf = ({ tree }: Chain, { parent, child }: FramePair) =>
+  listNames(tree.findPoseFrames().filter((ends) => ends.parent !== parent || ends.child !== child).map(framesText));
 
 type Refuse = (reason: (texts: Words['refused']) => string, ask?: Question) => never;
 

@@ -44,7 +44,7 @@ pub fn form_errors() -> FormErrors {
     let [first, last] = FIRST_AND_LAST_DECADE.map(|exponent| exponent * POINTS_PER_DECADE);
     let omega: Vec<f64> =
         (first..=last).map(|i| libm::exp10(f64::from(i) / f64::from(POINTS_PER_DECADE))).collect();
-    let rms_errors: Vec<[f64; 3]> = omega.iter().map(|omega| root_mean_squares(*omega)).collect();
+    let rms_errors: Vec<[f64; 3]> = omega.iter().map(|omega| rms_errors_at(*omega)).collect();
     let errors_of_form = |form: usize| rms_errors.iter().map(|error| error[form]).collect();
     FormErrors {
         arc: errors_of_form(0),
@@ -57,7 +57,7 @@ pub fn form_errors() -> FormErrors {
 }
 
 /// Returns the root mean square errors of the arc, the straight line and the chord.
-fn root_mean_squares(omega: f64) -> [f64; 3] {
+fn rms_errors_at(omega: f64) -> [f64; 3] {
     let mut squared_errors = [0.0; 3];
     for i in 0..HEADING_COUNT {
         // The headings avoid the axes, along which one of the coordinates would be exact.
@@ -65,8 +65,8 @@ fn root_mean_squares(omega: f64) -> [f64; 3] {
         let true_end = exact_end(theta, omega);
         let form_ends = [arc_form(theta, omega), straight_form(theta), chord_form(theta, omega)];
         for (square, end) in squared_errors.iter_mut().zip(form_ends) {
-            for (value, truth) in end.into_iter().zip(true_end) {
-                let coordinate_error = (DoubleDouble::from(value) - truth).to_f64();
+            for (coordinate, exact_coordinate) in end.into_iter().zip(true_end) {
+                let coordinate_error = (DoubleDouble::from(coordinate) - exact_coordinate).to_f64();
                 *square += coordinate_error * coordinate_error;
             }
         }

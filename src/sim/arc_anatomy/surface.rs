@@ -51,18 +51,18 @@ impl Surface {
         let cell_centre = |[column, row]: [f64; 2]| {
             [min[0] + (column + 0.5) * cell_size[0], max[1] - (row + 0.5) * cell_size[1]]
         };
-        let values_of = |value: &dyn Fn(&Settings) -> f64| -> Vec<f64> {
-            let value_at = |i: usize| {
+        let values_of = |function: &dyn Fn(&Settings) -> f64| -> Vec<f64> {
+            let cell_value = |i: usize| {
                 let [x, y] = cell_centre([(i % columns) as f64, (i / columns) as f64]);
                 let next = FinalPose { x, y, theta: settings.next.theta };
                 // The density is infinite at the start pose.
-                value(&Settings { next, ..*settings }).min(f64::MAX)
+                function(&Settings { next, ..*settings }).min(f64::MAX)
             };
-            (0..columns * rows).map(value_at).collect()
+            (0..columns * rows).map(cell_value).collect()
         };
         let prob = values_of(&prob);
-        let density = values_of(&|value_at| {
-            model.pose_density(&value_at.next(), &value_at.command, &start).unwrap_or(0.0)
+        let density = values_of(&|settings| {
+            model.pose_density(&settings.next(), &settings.command, &start).unwrap_or(0.0)
         });
         let shown_values = if settings.map == SurfaceKind::Prob { &prob } else { &density };
         let maximum_of = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);

@@ -30,8 +30,7 @@ pub const MAX_SAMPLES: usize = 10_000_000;
 /// error of the initial skew is 0.007.
 const INITIAL_SAMPLES: usize = 50_000;
 
-/// Seed from 0 to 99 whose initial cloud has the area ratio and gain nearest to the exact values, so that the first
-/// picture is typical.
+/// Seed from 0 to 99 with a typical initial cloud: its area ratio and gain are nearest to the exact values.
 const INITIAL_SEED: u64 = 87;
 
 settings! {

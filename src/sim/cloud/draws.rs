@@ -82,21 +82,21 @@ impl Draws {
     /// Draws further samples until there are `count`, for which memory must be reserved.
     pub fn extend_to(&mut self, count: usize) {
         let Self { noise, rng, unit_noise, .. } = self;
-        let (first, end) = (unit_noise.len(), count.div_ceil(LANES));
-        while unit_noise.len() < end {
+        let (first_group, end_group) = (unit_noise.len(), count.div_ceil(LANES));
+        while unit_noise.len() < end_group {
             let mut uniforms = [[0.0; LANES]; 3];
             for lane in 0..LANES {
                 uniforms.iter_mut().for_each(|variate| variate[lane] = centred_uniform(rng));
             }
             unit_noise.push(uniforms.map(f64x4::from));
         }
-        noise.quantiles(unit_noise.get_mut(first..).unwrap_or_default().as_flattened_mut());
+        noise.quantiles(unit_noise.get_mut(first_group..).unwrap_or_default().as_flattened_mut());
     }
 
-    /// Adds the complete blocks among the first `groups` groups to the sums, and lists their farthest groups.
+    /// Adds the complete blocks among the first `group_count` groups to the sums, and lists their farthest groups.
     #[inline(never)]
-    pub fn sum_blocks_to(&mut self, groups: usize) {
-        while groups >= self.summed_groups + BLOCK_GROUPS {
+    pub fn sum_blocks_to(&mut self, group_count: usize) {
+        while group_count >= self.summed_groups + BLOCK_GROUPS {
             let block_noise = self.unit_noise[self.summed_groups..][..BLOCK_GROUPS].iter();
             block_noise.for_each(|noise| self.sums.add([noise[0], noise[1]], f64x4::splat(ALL_BITS_SET)));
             self.sums.flush_block();
@@ -111,12 +111,12 @@ impl Draws {
     /// Returns the sums of the first two noises, of their squares and of their product over `count` drawn samples.
     #[inline(never)]
     pub fn pair_sums(&mut self, count: usize) -> [f64; 5] {
-        let groups = count / LANES;
-        if self.summed_groups > groups {
+        let group_count = count / LANES;
+        if self.summed_groups > group_count {
             (self.sums, self.summed_groups) = (PairSums::new(), 0);
             self.farthest_groups.clear();
         }
-        self.sum_blocks_to(groups);
+        self.sum_blocks_to(group_count);
         let mut all_sums = self.sums.clone();
         for (group, noise) in
             self.unit_noise[..count.div_ceil(LANES)].iter().enumerate().skip(self.summed_groups)

@@ -65,8 +65,8 @@ impl<'a> Driver<'a> {
             return visit(attempt, cost);
         }
         let conditioned = self.settings.conditioned;
-        let (group, first) = (indices.start / LANES, indices.start % LANES);
-        let lane_range = first..LANES.min(first + indices.len());
+        let (group, first_lane) = (indices.start / LANES, indices.start % LANES);
+        let lane_range = first_lane..LANES.min(first_lane + indices.len());
         self.draw_tester.test_lanes(&self.draws.groups()[group], lane_range, |draw| {
             let deciding_verdict = self.model.deciding_verdict(&draw);
             let attempt = Attempt {
@@ -90,19 +90,19 @@ impl<'a> Driver<'a> {
         arcs
     }
 
-    fn drive_parts(&self, index: usize, steps: u32, along: &mut dyn FnMut(&Arc)) -> (Attempt, Cost) {
+    fn drive_parts(&self, index: usize, steps: u32, visit_arc: &mut dyn FnMut(&Arc)) -> (Attempt, Cost) {
         let Settings { command, conditioned, seed, .. } = *self.settings;
         let start = self.settings.start();
         // The walls determine how many random numbers an attempt uses. Each attempt has its own stream, so that the
         // others do not change.
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed ^ (index as u64).rotate_left(32));
         if !conditioned {
-            let (end, path_free) = self.model.sample_unconditioned(&command, &start, &mut rng, along);
+            let (draw, path_free) = self.model.sample_unconditioned(&command, &start, &mut rng, visit_arc);
             let attempt =
-                Attempt { pose: end.pose, accepted: true, end_free: end.end_verdict.free, path_free };
+                Attempt { pose: draw.pose, accepted: true, end_free: draw.end_verdict.free, path_free };
             return (attempt, Cost { draws: steps as usize, wall_tests: 0 });
         }
-        match self.model.sample_with_arcs(&command, &start, &mut rng, along) {
+        match self.model.sample_with_arcs(&command, &start, &mut rng, visit_arc) {
             Ok(AcceptedMotion { pose, path_free, cost }) => {
                 (Attempt { pose, accepted: true, end_free: true, path_free }, cost)
             }

@@ -229,7 +229,7 @@ impl MapSqueeze {
     /// Draws `count` accepted samples with a sampler and returns their cost. The caller measures the time.
     ///
     /// # Errors
-    /// [`NoAcceptedSample`] if one of the samples is not accepted, or if all together take so many draws that the simulation would give up.
+    /// [`NoAcceptedSample`] if one of the samples is not accepted, or if the simulation would give up because of the number of draws.
     pub fn sampling_trial(&self, sampler: Sampler, count: usize) -> Result<Cost, NoAcceptedSample> {
         let model = conditioned_model(&self.settings, &self.plan, sampler);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(self.settings.seed);

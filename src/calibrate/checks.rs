@@ -342,8 +342,8 @@ const NEGLIGIBLE_SCALE_DIFFERENCE: f64 = 0.01;
 
 /// Returns a check of each scale that is identifiable, and the mask of the systematic errors that are constant.
 ///
-/// Only scales are tested. All other errors, and scales that are not identifiable, count as constant.
-pub(super) fn scale_checks(fit: &Fit) -> (Vec<Check>, ErrorMask) {
+/// Only scales are tested. All other errors, and scales that are not identifiable, count as constant. `correlation` is that of neighbouring legs.
+pub(super) fn scale_checks(fit: &Fit, correlation: f64) -> (Vec<Check>, ErrorMask) {
     let (mut checks, mut is_constant) = (Vec::new(), [true; ERROR_COUNT]);
     let first_half_count = fit.sample.legs.len() / 2;
     let is_turning = |leg: usize| turn(&fit.sample.observations[leg].expected) > TURNING_LEG_ANGLE;
@@ -354,8 +354,8 @@ pub(super) fn scale_checks(fit: &Fit) -> (Vec<Check>, ErrorMask) {
     for (scale, name) in scales.into_iter().filter(|(scale, _)| fit.sample.estimated[*scale as usize]) {
         // Difference of the scales of two groups, and its tolerance.
         let compare_groups = |in_first: &dyn Fn(usize) -> bool| {
-            let [a, a_std] = scale_of(fit, scale, in_first)?;
-            let [b, b_std] = scale_of(fit, scale, |leg| !in_first(leg))?;
+            let [a, a_std] = scale_of(fit, scale, correlation, in_first)?;
+            let [b, b_std] = scale_of(fit, scale, correlation, |leg| !in_first(leg))?;
             let tolerance = NEGLIGIBLE_SCALE_DIFFERENCE.max(MAX_SCALE_STD_ERRORS * libm::hypot(a_std, b_std));
             Some((a - b, tolerance))
         };
@@ -374,7 +374,12 @@ pub(super) fn scale_checks(fit: &Fit) -> (Vec<Check>, ErrorMask) {
 
 /// Returns the scale of the selected legs minus that of all legs, and the standard error of this difference. Other systematic errors are
 /// not estimated again. None if the legs do not identify the scale.
-fn scale_of(fit: &Fit, scale: SystematicError, select: impl Fn(usize) -> bool) -> Option<[f64; 2]> {
+fn scale_of(
+    fit: &Fit,
+    scale: SystematicError,
+    correlation: f64,
+    select: impl Fn(usize) -> bool,
+) -> Option<[f64; 2]> {
     let mut mask = [false; ERROR_COUNT];
     mask[scale as usize] = true;
     let residuals = fit.sample.residuals(mask, |leg| select(leg) && !fit.sample.outliers[leg]);
@@ -382,7 +387,7 @@ fn scale_of(fit: &Fit, scale: SystematicError, select: impl Fn(usize) -> bool) -
         return None;
     }
     let filtered = residuals.filtered(&fit.maximum.parameters);
-    let std = filtered.error_stds()[scale as usize];
+    let std = filtered.error_stds(correlation)[scale as usize];
     let difference = -filtered.errors[scale as usize];
     (std > 0.0 && std < scale.identifiability_limit()).then_some([difference, std])
 }

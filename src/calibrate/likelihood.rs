@@ -135,8 +135,8 @@ impl FilterResult {
     /// Returns the standard errors of the systematic errors; 0 for those that are not estimated.
     ///
     /// Each is the larger one of two: that of the covariance C by the likelihood, and that of the sandwich C (Σ gᵦ gᵦᵀ) C with gᵦ the score of a
-    /// block of legs. The sandwich is right even if the legs of a block are correlated.
-    pub fn error_stds(&self) -> [f64; ERROR_COUNT] {
+    /// block of legs. Both allow for the `correlation` of neighbouring legs: as if there were fewer legs, and by the blocks.
+    pub fn error_stds(&self, correlation: f64) -> [f64; ERROR_COUNT] {
         let Self { innovations, errors, covariance, .. } = self;
         let score_of_leg = |innovation: &Innovation| {
             let weighted = innovation.weight * residual_without_errors(&innovation.columns, errors);
@@ -147,7 +147,8 @@ impl FilterResult {
             score * score.transpose()
         });
         let sandwich = covariance * scores.sum::<ErrorMatrix>() * covariance;
-        std::array::from_fn(|i| covariance[(i, i)].max(sandwich[(i, i)]).max(0.0).sqrt())
+        let variance_factor = (1.0 + correlation) / (1.0 - correlation);
+        std::array::from_fn(|i| (variance_factor * covariance[(i, i)]).max(sandwich[(i, i)]).max(0.0).sqrt())
     }
 
     /// Returns the innovation of each leg, with its standard deviations under the fit.

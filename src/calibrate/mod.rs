@@ -65,8 +65,10 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
     let log = Log::new(drives)?;
     let systematic = fit_systematic(&log, options)?;
     let errors = systematic.sample.systematic;
-    let error_stds = systematic.maximum.expansion.filtered.error_stds();
-    let (scale_checks, is_constant) = checks::scale_checks(&systematic);
+    let persistence = persistence(&systematic);
+    let correlation = persistence.correlation.value;
+    let error_stds = systematic.maximum.expansion.filtered.error_stds(correlation);
+    let (scale_checks, is_constant) = checks::scale_checks(&systematic, correlation);
     let is_corrected: ErrorMask = std::array::from_fn(|i| {
         systematic.sample.estimated[i] && options.correct[i].unwrap_or(is_constant[i])
     });
@@ -78,8 +80,7 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
         fit_corrected(&log, options, &corrected, is_corrected, systematic.maximum.parameters)?;
     let parameters = &fit.maximum.parameters;
     let not_identifiable = identifiability(&fit);
-    let persistence = persistence(&systematic);
-    let interval_of = intervals(&fit, persistence.correlation.value);
+    let interval_of = intervals(&fit, correlation);
     let identified = not_identifiable.iter().enumerate();
     let identified = identified.map(|(alpha, reason)| reason.is_none().then_some(alpha));
     let alphas: Vec<Option<f64>> = identified.clone().map(|alpha| Some(parameters[alpha?])).collect();

@@ -217,6 +217,18 @@ test('a sample pointed at, or named, shows its verdict', async ({ page }) => {
   await expect(sampleField).toHaveValue(String(rightmostIndex + 1));
 });
 
+test('a marked motion that went through a wall has a leader to it, and no other has @nightly', async ({ page }) => {
+  const widget = await openSqueeze(page);
+  const { verdicts } = await squeezeResultsOf(widget);
+  const hasWallLabel = (/** @type {number | null} */ index) => widget.evaluate((element, marked) => {
+    Object.assign(element, { marked });
+    return /** @type {any} */ (element).toSVG().includes('through this wall');
+  }, index);
+  expect(await hasWallLabel(null)).toBe(false);
+  expect(await hasWallLabel(verdicts.indexOf(5))).toBe(true);
+  expect(await hasWallLabel(verdicts.indexOf(7))).toBe(false);
+});
+
 test('the edge of a doorway and a wall are dragged, and Back to the apartment undoes it', async ({ page }) => {
   const widget = await openSqueeze(page);
   const resultsBefore = await squeezeResultsOf(widget);

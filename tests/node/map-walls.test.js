@@ -1,8 +1,8 @@
-// Walls of a floor plan that a user moves.
+// Walls of a floor plan that a user moves, and the first wall that a path touches.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { wallGrips, wallsAfterMove } from '../../www/widgets/map-squeeze/walls.ts';
+import { wallContact, wallGrips, wallsAfterMove } from '../../www/widgets/map-squeeze/walls.ts';
 
 /** Room of 6 m × 4 m with a wall at x = 3 that has a doorway, and a wall that ends at its lower part. */
 const BOUNDS = Float64Array.of(0, 0, 6, 4);
@@ -35,4 +35,10 @@ test('a wall goes across, and the wall that ends at it follows', () => {
   const wallsAfter = wallsAfterMove(WALLS, grip, grip.axis[0] * 0.5);
   assert.deepEqual([...wallsAfter.subarray(LOWER_WALL_INDEX)], [3.5, 0, 3.5, 1.5, 3, 2.5, 3, 4, 0, 1, 3.5, 1]);
   assert.deepEqual([...wallsAfter.subarray(0, LOWER_WALL_INDEX)], OUTER_WALLS);
+});
+
+test('the contact is at the wall that the robot touches first, none on a path that keeps clear', () => {
+  const [x, y] = wallContact([1, 0.5, 5.9, 0.5], WALLS, 0.1) ?? [];
+  assert.deepEqual([x, y], [3, 0.5]);
+  assert.equal(wallContact([1, 2, 5, 2], WALLS, 0.2), undefined);
 });

@@ -68,6 +68,7 @@ export const de: typeof import('./en.ts').en = {
   outcome: (drawn, subSteps, accepted, through, density) =>
     `${drawn} ${subSteps ? 'Teilschritte ' : ''}gezogen; ${accepted} ${subSteps ? 'Bewegungen ' : ''}angenommen, als ${density ? 'Dichte' : 'Punkte'}; davon ${through} durch eine Wand.`,
   rest: (density) => `Der Rest ist verworfen${density ? '' : ', als Kreuze'}.`,
+  throughThisWall: 'durch diese Wand',
   handles: { start: ['Roboter', 'Richtung des Roboters'] },
   walls: {
     jamb: 'Türkante',

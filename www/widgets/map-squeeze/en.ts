@@ -70,6 +70,7 @@ export const en = {
   outcome: (drawn, subSteps, accepted, through, density) =>
     `${drawn} ${subSteps ? 'sub-steps ' : ''}drawn; ${accepted} ${subSteps ? 'motions ' : ''}accepted, as ${density ? 'a density' : 'dots'}; ${through} of those through a wall.`,
   rest: (density) => `The rest is rejected${density ? '' : ', as crosses'}.`,
+  throughThisWall: 'through this wall',
   handles: { start: ['Robot', 'Heading of the robot'] },
   walls: {
     jamb: 'Edge of a doorway',

@@ -16,10 +16,11 @@ import { applyMap, gridOf, mapDataOf } from './maps/data.ts';
 import { MapOpener } from './maps/open.ts';
 import { overviewMapHtml, costTable, markedSampleField, tallyReadouts } from './readouts.ts';
 import { FloorPicture } from './picture.ts';
-import { viewModelOf, type ViewModel } from './view-model.ts';
+import { outcomeIndex, viewModelOf, type ViewModel } from './view-model.ts';
 import { LINE_STYLES, OPENING_POSE, PRESET_SETTING, definition } from './settings.ts';
 import { styles } from './styles.ts';
 import { WallHandles } from './wall-handles.ts';
+import { wallContact } from './walls.ts';
 import { captionOf, headlineOf, mapText, pictureText } from './words.ts';
 import type { Values } from '../../figure/settings.ts';
 import type { Cells } from '../../scene/walls.ts';
@@ -90,10 +91,12 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     return { ...viewModel, simulation: this.simulation, overlays: this.state.elementState.overlays, marked: isMarked ? this.#markedSampleOf(index) : undefined };
   }
 
-  /** Returns the end and the path of the marked sample. */
+  /** Returns the marked sample, with the point where an accepted one went through a wall. */
   #markedSampleOf(index: number) {
-    const { poses } = this.currentViewModel;
-    return { pose: poses.subarray(3 * index), path: this.#pathMemo.get([poses, index], () => (this.simulation as Simulation).path(index)) };
+    const { poses, verdicts, config } = this.currentViewModel;
+    const path = this.#pathMemo.get([poses, index], () => (this.simulation as Simulation).path(index));
+    const goesThroughWall = outcomeIndex(verdicts[index]) === 2;
+    return { pose: poses.subarray(3 * index), path, contact: goesThroughWall ? wallContact(path, this.picture.plan.walls, config.clearance) : undefined };
   }
 
   get exportData() {

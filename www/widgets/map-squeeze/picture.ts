@@ -4,6 +4,7 @@ import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { densityRamp, drawMark, drawOutline, lineStyles, strokeLines } from '../../scene/draw.ts';
 import { Density } from '../../scene/pixels.ts';
+import { drawLabel, drawLeader } from '../../scene/labels.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
 import { View, extentAround } from '../../scene/view.ts';
 import { WallLayer, cellCorner, type Cells } from '../../scene/walls.ts';
@@ -18,7 +19,7 @@ import type { ViewModel } from './view-model.ts';
 export interface Scene extends ViewModel {
   simulation: MapSqueeze;
   overlays: string[];
-  marked: { pose: Float64Array, path: Float64Array } | undefined;
+  marked: { pose: Float64Array, path: Float64Array, contact: number[] | undefined } | undefined;
 }
 
 /** Half the size of a cross, CSS pixels. */
@@ -26,6 +27,9 @@ const CROSS_HALF_SIZE = 2.6;
 
 /** Dot of a sample: minimum and maximum radius (CSS pixels), width of the picture per pixel of the radius, and opacity. */
 const SAMPLE_DOT = { min: 2, max: 3, per: 240, alpha: 0.4 };
+
+/** Vector of the leader from the contact with a wall to its label, CSS pixels. */
+const LEADER_OFFSET = { x: 46, y: 30 };
 
 /** Half the size of the area around the end of the command that a close view shows: a multiple of the command's length, at least a minimum (m). */
 const END_HALF_SIZE_FACTOR = 0.8;
@@ -154,9 +158,10 @@ export class FloorPicture extends SamplesPicture<Scene> {
       }
       drawDraggableRobot(brush, start, clearance, palette.prior);
       if (marked) {
-        const { pose, path } = marked;
+        const { pose, path, contact } = marked;
         drawOutline(brush, path, { colour: palette.ink, width: 1.5, dash: [2, 3] });
         drawMark(brush, { x: pose[0], y: pose[1], heading: pose[2] }, palette.ink);
+        if (contact) drawWallContact(brush, contact);
       }
     });
   };
@@ -186,6 +191,17 @@ function knownCorners(grid: Cells, unknown: Uint8Array) {
   if (knownBox.left > knownBox.right) return [];
   const { left, bottom, right, top } = knownBox;
   return [left, right].flatMap((column) => [bottom, top].flatMap((row) => cellCorner(grid, column, row)));
+}
+
+/** Draws the contact of a path with a wall, a point in metres, with a leader to it. */
+function drawWallContact(brush: Brush, contact: number[]) {
+  const { context, view, palette } = brush;
+  const [x, y] = view.toPixel(contact[0], contact[1]);
+  const { left, right, top, bottom } = view.frame;
+  const [signX, signY] = [2 * x > left + right ? -1 : 1, 2 * y > top + bottom ? -1 : 1];
+  const [endX, endY] = [x + signX * LEADER_OFFSET.x, y + signY * LEADER_OFFSET.y];
+  drawLeader(context, [[endX, endY], [x, y]], palette.ink);
+  drawLabel(brush, { x: endX + 4 * signX, y: endY, towards: signX, text: words.squeeze.throughThisWall, colour: palette.ink });
 }
 
 /** Returns the legend of an exported picture: the marks, or the colours of a density. */

@@ -1,5 +1,6 @@
-/** Moving of walls. Lengths are in metres. */
+/** Geometry of walls: contacts of a path with walls, and moving of walls. Lengths are in metres. */
 
+import { extentAround } from '../../scene/view.ts';
 import type { Plan } from '../../types.d.ts';
 
 /** Distance below which two walls touch. */
@@ -8,13 +9,39 @@ const TOUCH_DISTANCE = 1e-6;
 /** Minimum gap between the end of a wall and the next wall, and minimum length of a wall, m. */
 const MIN_GAP = 0.05;
 
-/** Returns the distance of a point from a wall. `k` is the index of the wall's first number. */
-function wallDistance(walls: ArrayLike<number>, k: number, x: number, y: number) {
+/** Minimum distance (m) at which a path counts as touching a wall, and number of tested points of a path in such a distance. */
+const MIN_TOUCH_RADIUS = 0.02;
+const POINTS_PER_RADIUS = 4;
+
+/** Returns the point of a wall that is nearest to another point, with the distance. `k` is the index of the wall's first number. */
+function nearestWallPoint(walls: ArrayLike<number>, k: number, x: number, y: number) {
   const [x0, y0] = [walls[k], walls[k + 1]];
   const [dx, dy] = [walls[k + 2] - x0, walls[k + 3] - y0];
   const projection = ((x - x0) * dx + (y - y0) * dy) / (dx * dx + dy * dy || 1);
   const fraction = Math.min(1, Math.max(0, projection));
-  return Math.hypot(x - x0 - fraction * dx, y - y0 - fraction * dy);
+  const point = [x0 + fraction * dx, y0 + fraction * dy];
+  return { point, distance: Math.hypot(x - point[0], y - point[1]) };
+}
+
+/** Returns the first point of a wall that a robot with this radius touches on a path of x, y pairs; undefined for none. */
+export function wallContact(path: ArrayLike<number>, walls: Float64Array, radius: number) {
+  const touchRadius = Math.max(radius, MIN_TOUCH_RADIUS);
+  const pathExtent = extentAround(path, 2);
+  const nearWalls = [];
+  for (let k = 0; k < walls.length; k += 4) {
+    const wall = extentAround(walls.subarray(k, k + 4), 2);
+    const extentDistance = Math.max(wall.xMin - pathExtent.xMax, pathExtent.xMin - wall.xMax, wall.yMin - pathExtent.yMax, pathExtent.yMin - wall.yMax);
+    if (extentDistance < touchRadius) nearWalls.push(k);
+  }
+  for (let i = 0; i + 3 < path.length; i += 2) {
+    const [dx, dy] = [path[i + 2] - path[i], path[i + 3] - path[i + 1]];
+    const pointCount = Math.ceil((POINTS_PER_RADIUS * Math.hypot(dx, dy)) / touchRadius) || 1;
+    for (let pointIndex = 0; pointIndex <= pointCount; pointIndex++) {
+      const [x, y] = [path[i] + (pointIndex / pointCount) * dx, path[i + 1] + (pointIndex / pointCount) * dy];
+      const [nearestPoint] = nearWalls.map((k) => nearestWallPoint(walls, k, x, y)).sort((one, other) => one.distance - other.distance);
+      if (nearestPoint?.distance < touchRadius) return nearestPoint.point;
+    }
+  }
 }
 
 /** Part of a wall that can be moved along an axis. */
@@ -55,7 +82,7 @@ export function wallGrips({ bounds, walls }: Plan): (Grip | undefined)[] {
 
 /** Returns true if an end of a wall touches no other wall. */
 function isUnattachedEnd(walls: Float64Array, wall: number, [x, y]: readonly number[]) {
-  for (let k = 0; k < walls.length; k += 4) if (k !== wall && wallDistance(walls, k, x, y) < TOUCH_DISTANCE) return false;
+  for (let k = 0; k < walls.length; k += 4) if (k !== wall && nearestWallPoint(walls, k, x, y).distance < TOUCH_DISTANCE) return false;
   return true;
 }
 
@@ -97,7 +124,7 @@ export function wallsAfterMove(walls: Float64Array, { wall, part, axis: [ux, uy]
   for (let k = 0; k < walls.length && part === 'side'; k += 4) {
     const [dx, dy] = [walls[k + 2] - walls[k], walls[k + 3] - walls[k + 1]];
     if (k === wall || Math.abs(dx * uy - dy * ux) > TOUCH_DISTANCE) continue;
-    for (const end of [k, k + 2]) if (wallDistance(walls, wall, walls[end], walls[end + 1]) < TOUCH_DISTANCE) moveEnd(end);
+    for (const end of [k, k + 2]) if (nearestWallPoint(walls, wall, walls[end], walls[end + 1]).distance < TOUCH_DISTANCE) moveEnd(end);
   }
   return movedWalls;
 }

@@ -97,29 +97,29 @@ struct CurrentLeg {
     /// True pose at the start of the leg.
     truth: SE2,
     /// Times, and noise-free motions since the start of the leg.
-    rows: Vec<(f64, SE2)>,
+    motions: Vec<(f64, SE2)>,
 }
 
 /// Returns the simulated log of a seed.
 pub fn simulated_log(seed: u64) -> Log {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     let [x, y] = target_position(0.0);
-    let start = SE2::new(x, y, 1.6);
+    let start_pose = SE2::new(x, y, 1.6);
     let mut controller = Controller { phase: 0.0, remaining_turn: 0.0, next_turn_time: 6.0 };
     let mut odometry = vec![(0.0, SE2::identity())];
-    let mut truth = vec![(0.0, start)];
+    let mut truth = vec![(0.0, start_pose)];
     let mut current_leg =
-        CurrentLeg { odometry: SE2::identity(), truth: start, rows: vec![(0.0, SE2::identity())] };
+        CurrentLeg { odometry: SE2::identity(), truth: start_pose, motions: vec![(0.0, SE2::identity())] };
     for row in 1..ROW_COUNT {
         let time = ROW_INTERVAL * row as f64;
-        let (_, motion) = current_leg.rows[current_leg.rows.len() - 1];
+        let (_, motion) = current_leg.motions[current_leg.motions.len() - 1];
         // The robot steers by its odometry. Steering by the true pose would correct the errors, and correlate them with the turns.
-        let [v, omega] = controller.next_speeds(time, &(start * odometry[row - 1].1), &mut rng);
+        let [v, omega] = controller.next_speeds(time, &(start_pose * odometry[row - 1].1), &mut rng);
         let next_motion = motion * SE2::exp(&Vector3::new(v * ROW_INTERVAL, 0.0, omega * ROW_INTERVAL));
-        let step = Vector3::new(v * ROW_INTERVAL / DISTANCE_SCALE, 0.0, omega * ROW_INTERVAL / TURN_SCALE);
-        let pose = odometry[row - 1].1 * SE2::exp(&step);
+        let twist = Vector3::new(v * ROW_INTERVAL / DISTANCE_SCALE, 0.0, omega * ROW_INTERVAL / TURN_SCALE);
+        let pose = odometry[row - 1].1 * SE2::exp(&twist);
         odometry.push((time, pose));
-        current_leg.rows.push((time, next_motion));
+        current_leg.motions.push((time, next_motion));
         let has_moved = |from: f64, to: f64| (to - from).abs() > LEG_DISTANCE;
         let has_turned = wrap_angle(pose.theta() - current_leg.odometry.theta()).abs() > LEG_ANGLE;
         if has_moved(current_leg.odometry.x(), pose.x())
@@ -127,11 +127,13 @@ pub fn simulated_log(seed: u64) -> Log {
             || has_turned
         {
             let end = finish_leg(&current_leg, &mut truth, &mut rng);
-            current_leg = CurrentLeg { odometry: pose, truth: end, rows: vec![(time, SE2::identity())] };
+            current_leg = CurrentLeg { odometry: pose, truth: end, motions: vec![(time, SE2::identity())] };
         }
     }
     // Rows after the last complete leg have no noise.
-    truth.extend(current_leg.rows.iter().skip(1).map(|(time, motion)| (*time, current_leg.truth * *motion)));
+    truth.extend(
+        current_leg.motions.iter().skip(1).map(|(time, motion)| (*time, current_leg.truth * *motion)),
+    );
     let trajectory = |samples| {
         // The times increase, so that the trajectory is valid.
         let Ok(trajectory) = Trajectory::new(samples) else { unreachable!() };
@@ -144,17 +146,17 @@ pub fn simulated_log(seed: u64) -> Log {
 /// noise of a leg were spread evenly over its rows, legs with other boundaries would have too little noise.
 fn finish_leg(leg: &CurrentLeg, truth: &mut Vec<(f64, SE2)>, rng: &mut Xoshiro256PlusPlus) -> SE2 {
     let [a1, a2, a3, a4] = TRUE_ALPHAS;
-    let rows = &leg.rows[1..];
-    let (_, leg_motion) = leg.rows[rows.len()];
+    let motions = &leg.motions[1..];
+    let (_, leg_motion) = leg.motions[motions.len()];
     let reading = OdomDelta::from_poses(&SE2::identity(), &leg_motion);
     let variances = OdometryRule::Table.variances(&reading, &[a1, a2, a3, a4, 0.0]);
-    let variance_per_row = Variance(1.0 / rows.len() as f64);
+    let variance_per_row = Variance(1.0 / motions.len() as f64);
     let mut unit_noise = [0.0; 3];
     let mut end = leg_motion;
-    for (time, pose) in rows {
+    for (time, motion) in motions {
         unit_noise.iter_mut().for_each(|noise| *noise += NoiseKind::Normal.sample(variance_per_row, rng));
         [.., end] = variances.executed_motion(&reading, unit_noise).poses(&SE2::identity());
-        truth.push((*time, leg.truth * pose.boxplus(end.boxminus(&leg_motion))));
+        truth.push((*time, leg.truth * motion.boxplus(end.boxminus(&leg_motion))));
     }
     leg.truth * end
 }

@@ -99,7 +99,7 @@ fn panel(model: Model, calibration: &Calibration, component: usize, regressor: R
             leg_points.iter().filter(|point| point[0] > previous_limit && point[0] <= bin_limit).collect();
         previous_limit = bin_limit;
         let sum =
-            |value: &dyn Fn(&[f64; 4]) -> f64| bin.iter().map(|point| point[2] * value(point)).sum::<f64>();
+            |term: &dyn Fn(&[f64; 4]) -> f64| bin.iter().map(|point| point[2] * term(point)).sum::<f64>();
         let total_weight = sum(&|_| 1.0);
         let [x, y] = [sum(&|point| point[0]) / total_weight, sum(&|point| point[1]) / total_weight];
         let mean_variance =

@@ -90,16 +90,17 @@ pub struct Rollouts {
 impl StepInErrorFrame {
     fn new(settings: &Settings) -> Self {
         let u = &settings.command;
-        let [length, turn, last] = settings.model().variances(u).map(|variance| variance.0.sqrt() * u.dt);
-        let (mean_length, mean_half) = (u.v * u.dt, 0.5 * (u.omega * u.dt));
+        let [length_std, turn_std, last_turn_std] =
+            settings.model().variances(u).map(|variance| variance.0.sqrt() * u.dt);
+        let (mean_length, half_mean_turn) = (u.v * u.dt, 0.5 * (u.omega * u.dt));
         let trigonometry = Trigonometry::default();
-        let mean_sin_cos = trigonometry.sin_cos(f64x4::splat(mean_half));
+        let mean_sin_cos = trigonometry.sin_cos(f64x4::splat(half_mean_turn));
         let chord_length = f64x4::splat(mean_length) * mean_sin_cos.sinc;
-        let (sin, cos) = libm::sincos(2.0 * mean_half);
+        let (sin, cos) = libm::sincos(2.0 * half_mean_turn);
         Self {
-            length: [mean_length, length],
-            half_turn: [mean_half, 0.5 * turn],
-            half_last_turn_std: 0.5 * last,
+            length: [mean_length, length_std],
+            half_turn: [half_mean_turn, 0.5 * turn_std],
+            half_last_turn_std: 0.5 * last_turn_std,
             end: [chord_length * mean_sin_cos.cos, chord_length * mean_sin_cos.sin],
             sin,
             cos,
@@ -195,7 +196,7 @@ impl Rollouts {
         let mut block = RobotBlock::new(block_rng.clone());
         for (k, (sums, nominal)) in sums.iter_mut().zip(nominal).enumerate() {
             block.drive(step);
-            for (i, xi) in block.draws.iter().enumerate() {
+            for (i, xi) in block.noise_or_xi.iter().enumerate() {
                 let remaining_lanes = count.saturating_sub(LANES * i);
                 if remaining_lanes >= LANES {
                     add_to_sums(sums, *xi);
@@ -252,28 +253,28 @@ struct RobotBlock {
     /// Error poses of the robots.
     groups: [ErrorPoses; BLOCK_GROUPS],
     /// Draws of a step, replaced by the resulting ξ.
-    draws: [[f64x4; 3]; BLOCK_GROUPS],
+    noise_or_xi: [[f64x4; 3]; BLOCK_GROUPS],
 }
 
 impl RobotBlock {
     fn new(rng: Xoshiro256PlusPlus) -> Self {
         let [zero, one] = [0.0, 1.0].map(f64x4::splat);
         let start = ErrorPoses { x: zero, y: zero, half_heading: zero, sin: zero, cos: one };
-        Self { rng, groups: [start; BLOCK_GROUPS], draws: [[zero; 3]; BLOCK_GROUPS] }
+        Self { rng, groups: [start; BLOCK_GROUPS], noise_or_xi: [[zero; 3]; BLOCK_GROUPS] }
     }
 
     #[inline(never)]
     fn drive(&mut self, step: &StepInErrorFrame) {
-        let Self { rng, groups, draws } = self;
-        for draw in draws.iter_mut() {
+        let Self { rng, groups, noise_or_xi } = self;
+        for draw in noise_or_xi.iter_mut() {
             let mut uniforms = [[0.0; LANES]; 3];
             for lane in 0..LANES {
                 uniforms.iter_mut().for_each(|variate| variate[lane] = centred_uniform(rng));
             }
             *draw = uniforms.map(f64x4::from);
         }
-        NoiseKind::Normal.quantiles(draws.as_flattened_mut());
-        for (robots, draw) in groups.iter_mut().zip(draws) {
+        NoiseKind::Normal.quantiles(noise_or_xi.as_flattened_mut());
+        for (robots, draw) in groups.iter_mut().zip(noise_or_xi) {
             *draw = step.drive(robots, draw);
         }
     }

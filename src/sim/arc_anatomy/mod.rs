@@ -105,13 +105,13 @@ impl ArcAnatomy {
     /// Returns the poses after a fraction of the time, from 0 to 1: on the commanded arc, on the arc that v̂ and ω̂ drive, and on
     /// the path of the constant twist.
     pub fn poses_at(&self, fraction: f64) -> [SE2; 3] {
-        let start = self.settings.start();
+        let start_pose = self.settings.start();
         let Stats { commanded, driven, .. } = self.stats();
-        let xi = self.settings.next().boxminus(&start);
+        let xi = self.settings.next().boxminus(&start_pose);
         [
-            commanded.leading_part(start, fraction).end(),
-            driven.leading_part(start, fraction).end(),
-            start.boxplus(xi * fraction),
+            commanded.leading_part(start_pose, fraction).end(),
+            driven.leading_part(start_pose, fraction).end(),
+            start_pose.boxplus(xi * fraction),
         ]
     }
 

@@ -190,19 +190,19 @@ impl DeadReckoning {
 
     /// Returns the robot in the picture that is nearest to a point (m) after the selected step, within `radius`.
     pub fn nearest(&self, target: [f64; 2], radius: f64) -> Option<usize> {
-        let mut nearest = NearestSearch::new(target, [radius, radius]);
-        self.poses(self.settings.step).iter().for_each(|[x, y, _]| nearest.visit_point([*x, *y]));
-        nearest.index()
+        let mut search = NearestSearch::new(target, [radius, radius]);
+        self.poses(self.settings.step).iter().for_each(|[x, y, _]| search.visit_point([*x, *y]));
+        search.index()
     }
 
     /// Returns the moments and predicted covariances after the selected step, and the misses of all steps.
     pub fn stats(&self) -> Stats {
-        let step = self.settings.step as usize - 1;
-        let MeasuredMoments { mean, cov, .. } = self.measured_moments()[step];
+        let step_index = self.settings.step as usize - 1;
+        let MeasuredMoments { mean, cov, .. } = self.measured_moments()[step_index];
         Stats {
             n: self.shown_count(),
             measured: ExponentialMoments { mean, cov },
-            predicted: by_recursion(|order| self.predicted_covariances(order)[step].map(Into::into)),
+            predicted: by_recursion(|order| self.predicted_covariances(order)[step_index].map(Into::into)),
             misses: by_recursion(|order| self.comparison(order).misses),
         }
     }

@@ -262,9 +262,9 @@ impl OdometryDecomposer {
 
     /// Returns the outcome shown that ends nearest to a point (m), within `radius`.
     pub fn nearest(&self, target: [f64; 2], radius: f64) -> Option<usize> {
-        let mut nearest = NearestSearch::new(target, [radius, radius]);
-        self.poses.iter().for_each(|pose| nearest.visit_point([pose.x(), pose.y()]));
-        nearest.index()
+        let mut search = NearestSearch::new(target, [radius, radius]);
+        self.poses.iter().for_each(|pose| search.visit_point([pose.x(), pose.y()]));
+        search.index()
     }
 }
 
@@ -279,6 +279,6 @@ fn rms_with_error(values: impl Iterator<Item = f64>, count: usize) -> [f64; 2] {
         m2 += square / count as f64;
         m4 += square * square / count as f64;
     }
-    let error = ((m4 - m2 * m2).max(0.0) / count as f64).sqrt() / (2.0 * m2.sqrt());
-    [m2.sqrt(), if m2 == 0.0 { 0.0 } else { error }]
+    let rms_error = ((m4 - m2 * m2).max(0.0) / count as f64).sqrt() / (2.0 * m2.sqrt());
+    [m2.sqrt(), if m2 == 0.0 { 0.0 } else { rms_error }]
 }

@@ -128,7 +128,7 @@ test('names and units of columns that a table does not state are asked for, and 
   await expect(alert).toHaveText(/^odom\.csv, line 1: the table has no header, .* name its 4 columns\.$/);
   await expect(widget.getByRole('group', { name: 'Columns of odom.csv' }).getByLabel('time', { exact: true })).toBeFocused();
   await widget.getByRole('button', { name: 'Read', exact: true }).press('Enter');
-  await expect(alert).toHaveText(/in m, the robot would drive at .* state the unit of lengths: m or cm or mm\.$/);
+  await expect(alert).toHaveText(/in m, the robot would drive at .* state the unit of lengths: mm or cm or m\.$/);
   await widget.getByRole('radiogroup', { name: 'Unit of lengths in odom.csv' }).getByRole('radio', { name: 'millimetres (mm)' }).check();
   await expect(captionOf(widget)).toHaveText(/of odom\.csv, slam\.csv[.,]/);
   await expect(widget.getByText('Warning: the reference is a localizer’s own estimate.').first()).toBeVisible();

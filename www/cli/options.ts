@@ -115,21 +115,21 @@ export function parseOptions(args: string[]): CalibrateArguments | InspectArgume
   const { values, positionals: [command, ...givenPaths] } = parseArguments(args);
   // A metadata.yaml stands for its folder. A shell that expands a pattern gives all files of the folder.
   const listedFolders = givenPaths.filter((path) => basename(path) === 'metadata.yaml').map(dirname);
-  const paths = [...new Set(listedFolders), ...givenPaths.filter((path) => !listedFolders.includes(dirname(path)))];
+  const positionalPaths = [...new Set(listedFolders), ...givenPaths.filter((path) => !listedFolders.includes(dirname(path)))];
   if (values.version) return 'version';
   if (values.help || args.length === 0) return 'help';
   const columnNames = (name: 'columns' | 'odometry-columns' | 'reference-columns') => values[name]?.split(',').map((column) => column.trim());
   const openOptionsOf = (role?: Role, names = columnNames('columns')): OpenOptions => ({ ...unitsOf(values, role), ...(names && { columns: names }) });
   if (command === 'inspect') {
-    const allPaths = [...paths, ...(values.recording ?? []), ...(values.odometry ?? []), ...(values.reference ?? [])];
+    const allPaths = [...positionalPaths, ...(values.recording ?? []), ...(values.odometry ?? []), ...(values.reference ?? [])];
     if (allPaths.length === 0) throw new UsageError('inspect needs a file or folder: npx motion-widgets inspect run.bag');
-    const uselessOption = Object.keys(values).find((name) => !INSPECT_OPTIONS.includes(name));
-    if (uselessOption !== undefined) throw new UsageError(`--${uselessOption} is an option of calibrate; inspect has ${listOfAlternatives(INSPECT_OPTIONS.map((name) => `--${name}`))}.`);
+    const ignoredOption = Object.keys(values).find((name) => !INSPECT_OPTIONS.includes(name));
+    if (ignoredOption !== undefined) throw new UsageError(`--${ignoredOption} is an option of calibrate; inspect has ${listOfAlternatives(INSPECT_OPTIONS.map((name) => `--${name}`))}.`);
     const statedOptions = Object.entries(values).filter((entry): entry is [string, string] => typeof entry[1] === 'string');
     return { command, inputs: allPaths.map((path) => ({ path, open: openOptionsOf() })), statedOptions, isJson: values.json ?? false };
   }
   if (command !== 'calibrate') {
-    const path = [command, ...paths].find(isPath) ?? 'run.bag';
+    const path = [command, ...positionalPaths].find(isPath) ?? 'run.bag';
     throw new UsageError(`the command must be calibrate or inspect (got “${truncate(command ?? '')}”), as in npx motion-widgets inspect ${quoteForShell(path)}; --help has examples.`);
   }
   const numberOption = (name: 'update-min-d' | 'update-min-a' | 'duration' | 'reference-position-std' | 'reference-yaw-std') => {
@@ -144,7 +144,7 @@ export function parseOptions(args: string[]): CalibrateArguments | InspectArgume
   if (duration !== undefined && (distance ?? angle) !== undefined) throw new UsageError('--duration excludes --update-min-d and --update-min-a: give one or the other.');
   if (values.plot !== undefined && !/\.svg$/i.test(values.plot)) throw new UsageError(`--plot writes SVG; the name must end in .svg (got “${truncate(values.plot)}”).`);
   if (values.json && values.yaml) throw new UsageError('--json excludes --yaml: give one or the other.');
-  const recording = [...paths, ...(values.recording ?? [])];
+  const recording = [...positionalPaths, ...(values.recording ?? [])];
   const { odometry = [], reference = [] } = values;
   if (recording.length === 0) {
     for (const [one, other] of [[odometry, 'reference'], [reference, 'odometry']] as const) {

@@ -46,7 +46,7 @@ export function reportText({ calibration, options, logs, start, driveStarts, dat
   const failedChecks = failedChecksOf(checks);
   const lostLegTexts = LOST_LEG_CAUSES.filter((cause) => lost[cause] > 0).map((cause) => `${lost[cause]} ${en.lost[cause]}`);
   const excludedLegLines = [...(lostLegTexts.length ? [`lost legs: ${lostLegTexts.join(', ')}`] : []), ...outlierLines(legs, driveStarts)];
-  const reportBody = [
+  const uncoloredReport = [
     '',
     ...verdictLines({ calibration, options, logs }),
     '',
@@ -65,13 +65,13 @@ export function reportText({ calibration, options, logs, start, driveStarts, dat
     ...nav2Section({ calibration, options, logs, start, driveStarts, date }),
     '',
   ].join('\n');
-  return isColored ? reportBody.replaceAll(/^Consistent|\bok$/gm, inColor(GREEN)).replace(/^Questionable/m, inColor(YELLOW)).replaceAll(/^Unusable|\bFAILED$/gm, inColor(RED)) : reportBody;
+  return isColored ? uncoloredReport.replaceAll(/^Consistent|\bok$/gm, colorize(GREEN)).replace(/^Questionable/m, colorize(YELLOW)).replaceAll(/^Unusable|\bFAILED$/gm, colorize(RED)) : uncoloredReport;
 }
 
 /** ANSI codes of colours in a terminal. */
 const [RED, GREEN, YELLOW] = [31, 32, 33];
 
-const inColor = (color: number) => (text: string) => `\x1b[${color}m${text}\x1b[0m`;
+const colorize = (color: number) => (text: string) => `\x1b[${color}m${text}\x1b[0m`;
 
 /** Returns the warnings of the logs, the verdict, and the missing drives for α's that are not identifiable. */
 export const verdictLines = ({ calibration, options, logs }: Pick<CalibrationResult, 'calibration' | 'options' | 'logs'>): string[] => [
@@ -127,13 +127,13 @@ function noiseRows({ referenceNoise }: any, options: CalibrationResult['options'
 
 function systematicRow(name: (typeof SYSTEMATIC_ERRORS)[number], { systematicErrors }: any): string[] {
   const { value, interval, constant, corrected } = systematicErrors[name];
-  const [values, intervals] = Array.isArray(value) ? [value, interval] : [[value], [interval]];
-  if (values.includes(null)) return [en.systematic.names[name], 'not identifiable'];
-  const listValues = (print: (value: any, interval: Interval) => string) => values.map((value: any, i: number) => print(value, intervals[i])).join(', ');
+  const [estimates, intervals] = Array.isArray(value) ? [value, interval] : [[value], [interval]];
+  if (estimates.includes(null)) return [en.systematic.names[name], 'not identifiable'];
+  const joinEstimates = (print: (value: any, interval: Interval) => string) => estimates.map((value: any, i: number) => print(value, intervals[i])).join(', ');
   return [
     en.systematic.names[name],
-    listValues(formatEstimate),
-    listValues((_, interval) => formatInterval(interval)),
+    joinEstimates(formatEstimate),
+    joinEstimates((_, interval) => formatInterval(interval)),
     `${corrected ? 'corrected' : 'not corrected'}${constant ? '' : ', not a constant'}`,
   ];
 }
@@ -188,6 +188,6 @@ export function alignRows(rows: string[][]): string[] {
 
 /** Returns the result as JSON, with typed arrays as plain arrays. */
 export function resultJson({ calibration, options, logs, start, date }: CalibrationResult): string {
-  const withPlainArrays = (_: string, value: unknown) => (ArrayBuffer.isView(value) ? [...(value as Float64Array)] : value);
-  return `${JSON.stringify({ date, options, logs, start, ...calibration }, withPlainArrays, 1)}\n`;
+  const replaceTypedArrays = (_: string, value: unknown) => (ArrayBuffer.isView(value) ? [...(value as Float64Array)] : value);
+  return `${JSON.stringify({ date, options, logs, start, ...calibration }, replaceTypedArrays, 1)}\n`;
 }

@@ -94,8 +94,8 @@ function propertyOf({ key, in: group, field = key, index, of, weights = [], type
       ...plainProperty,
       get: (config) => commonFactorOf(config[of], weights),
       change: (level, { [of]: numbers }) => {
-        const scaledNumbers = weights.map((weight) => weight * checkedNumber(key, level, min, max));
-        return { [of]: [...numbers.slice(0, -weights.length), ...scaledNumbers] };
+        const scaledWeights = weights.map((weight) => weight * checkedNumber(key, level, min, max));
+        return { [of]: [...numbers.slice(0, -weights.length), ...scaledWeights] };
       },
     };
   }
@@ -112,8 +112,8 @@ function propertyOf({ key, in: group, field = key, index, of, weights = [], type
 /** Returns the factor by which the last numbers are multiples of their weights; null if there is none. */
 function commonFactorOf(numbers: number[], weights: number[]): number | null {
   const lastNumbers = numbers.slice(-weights.length);
-  const factor = lastNumbers[0] / weights[0];
-  return lastNumbers.every((number, i) => number === factor * weights[i]) ? factor : null;
+  const commonFactor = lastNumbers[0] / weights[0];
+  return lastNumbers.every((number, i) => number === commonFactor * weights[i]) ? commonFactor : null;
 }
 
 /** Settings that presets do not change. */

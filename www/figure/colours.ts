@@ -16,7 +16,7 @@ export class Colours extends FigureController {
 
   /** Colours of the roles, for canvases. */
   get palette() {
-    return (this.#palette ??= resolvePalette(this.#find('.surface')));
+    return (this.#palette ??= resolvePalette(this.#probe('.surface')));
   }
 
   /** Updates the colours from the page and the theme, and draws. */
@@ -27,10 +27,10 @@ export class Colours extends FigureController {
 
   /** Uses the colours of the page, or the figure's own colours if its theme differs from the page's. In print the theme is light. */
   resolve() {
-    const style = this.#find('.surface')?.style;
+    const style = this.#probe('.surface')?.style;
     if (!style) return;
     const { renderer: { isPrinting }, theme } = this.host;
-    const { scheme, ...pageColours } = readPageColours(this.#find('.scheme-probe'));
+    const { scheme, ...pageColours } = readPageColours(this.#probe('.scheme-probe'));
     // Forced colours override the theme.
     const isAuto = theme === 'auto' || matchMedia('(forced-colors: active)').matches;
     style.colorScheme = isPrinting ? 'light' : isAuto ? scheme : theme;
@@ -42,7 +42,7 @@ export class Colours extends FigureController {
     this.#palette = undefined;
   }
 
-  #find(selector: string) {
+  #probe(selector: string) {
     return this.host.renderRoot?.querySelector(selector) as HTMLElement;
   }
 }
@@ -83,8 +83,8 @@ function readPageColours(probe: Element): PageColours {
   // The darkening grows with the darkness of the background. Nearly white backgrounds need none.
   const shade = scheme === 'light' && backgroundLightness < 0.97 ? `${100 * (1 - backgroundLightness ** 2.2)}%` : '';
   const mutedColour = (share: number) => backgroundColour.map((channel, i) => channel + (share / 100) * (textColour[i] - channel));
-  const strength = isLegible ? `${MUTED_SHARES.find((share) => contrast(mutedColour(share), backgroundColour) >= MIN_CONTRAST) ?? 100}%` : '';
-  return { ground: `rgb(${backgroundColour})`, text: isLegible ? color : '', shade, strength, scheme };
+  const mutedStrength = isLegible ? `${MUTED_SHARES.find((share) => contrast(mutedColour(share), backgroundColour) >= MIN_CONTRAST) ?? 100}%` : '';
+  return { ground: `rgb(${backgroundColour})`, text: isLegible ? color : '', shade, strength: mutedStrength, scheme };
 }
 
 /** Returns the contrast by WCAG 2. */

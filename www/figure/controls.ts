@@ -34,8 +34,8 @@ type AllowedNumbers = Pick<Declaration, 'type' | 'unit'> & { min: number, max: n
 export type RowOverrides = Partial<SliderRow> & { maxEntered?: number };
 
 /** Returns the slider of a setting; `overrides` replaces fields of its slider row. */
-export function settingSlider(figure: Figure, key: string, overrides?: RowOverrides, spec = figure.definition.sliderSpecs[key]) {
-  const { symbol, decimals, value, ...sliderLook } = spec;
+export function settingSlider(figure: Figure, key: string, overrides?: RowOverrides, sliderSpec = figure.definition.sliderSpecs[key]) {
+  const { symbol, decimals, value, ...sliderLook } = sliderSpec;
   const { name, effect } = wordsFor(figure, key);
   const declaration = declarationOf(figure, key);
   const { unit } = declaration;
@@ -137,8 +137,8 @@ export function disclosures(figure: Figure, { controls, numbers, fileNameMark = 
 /** Returns the noise parameters with their values, for print. */
 function noiseParameters({ definition: { attributes, sliderSpecs }, settings: { requested: config } }: Figure) {
   return Object.entries(sliderSpecs).filter(([, { alpha }]) => alpha).flatMap(([key, { symbol = '', decimals }]) => {
-    const alpha = attributes[key].get(config) as number | null;
-    return alpha === null ? [] : html`${formatMarkup(`${symbol}\u00a0=\u00a0${formatEditable(alpha, decimals)}`)}\u2003 `;
+    const alphaValue = attributes[key].get(config) as number | null;
+    return alphaValue === null ? [] : html`${formatMarkup(`${symbol}\u00a0=\u00a0${formatEditable(alphaValue, decimals)}`)}\u2003 `;
   });
 }
 
@@ -159,8 +159,8 @@ export function cloudControls(figure: CloudFigure, counts: readonly number[]) {
 
 /** Returns the slider of the number of samples, which offers `counts`. */
 export function samplesSlider(figure: Figure, counts: readonly number[]) {
-  const spec: SliderSpec = { symbol: '*N*', role: 'truth', min: counts[0], max: counts[counts.length - 1], step: 1, decimals: 0 };
-  return settingSlider(figure, 'samples', { stops: counts, show: integer }, spec);
+  const sliderSpec: SliderSpec = { symbol: '*N*', role: 'truth', min: counts[0], max: counts[counts.length - 1], step: 1, decimals: 0 };
+  return settingSlider(figure, 'samples', { stops: counts, show: integer }, sliderSpec);
 }
 
 /** Returns the controls of growth and seed of the cloud. */
@@ -168,7 +168,7 @@ export const cloudButtons = (figure: CloudFigure) => figure.cloud.buttons(seedFi
 
 function seedField(figure: Figure) {
   const { settings, gesture } = figure;
-  const refusal = settings.refusalOf('seed');
+  const seedRefusal = settings.refusalOf('seed');
   const enterSeed = (event: Event) => {
     const seed = parseEntered(figure, 'seed', words.seed, inputOf(event).value, declarationOf(figure, 'seed'));
     if (seed !== undefined) settings.request({ seed });
@@ -179,12 +179,12 @@ function seedField(figure: Figure) {
       type="text"
       inputmode="numeric"
       autocomplete="off"
-      .value=${refusal ? noChange : live(String(settings.requested.seed))}
+      .value=${seedRefusal ? noChange : live(String(settings.requested.seed))}
       @input=${enterSeed}
       @change=${() => gesture.commit()}
       @blur=${() => settings.forgetRefusal()}
     />
-    ${refusal ? html`<output role="alert">${refusal}</output>` : nothing}
+    ${seedRefusal ? html`<output role="alert">${seedRefusal}</output>` : nothing}
   </label>`;
 }
 
@@ -202,8 +202,8 @@ export function sampleField(figure: Figure & { cloud: import('./cloud.ts').Cloud
   const { cloud, settings } = figure;
   const refusalText = settings.refusalOf('marked');
   const enterIndex = (event: Event) => {
-    const text = inputOf(event).value;
-    const number = text === '' ? 0 : parseEntered(figure, 'marked', label, text, { min: 1, max: shown, type: 'whole' });
+    const typedIndex = inputOf(event).value;
+    const number = typedIndex === '' ? 0 : parseEntered(figure, 'marked', label, typedIndex, { min: 1, max: shown, type: 'whole' });
     if (number === undefined) return;
     settings.forgetRefusal();
     cloud.mark(number - 1);

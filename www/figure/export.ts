@@ -32,10 +32,10 @@ function drawScene({ scene, pictures: [firstPicture], exportPicture, canvases, c
   const canvas = canvases.canvasOf(firstPicture);
   const canvasBox = canvas.clientWidth > 0 ? canvas.getBoundingClientRect() : DEFAULT_SIZE;
   const [clientWidth, height] = exportPicture ? cssSizeOf(exportPicture.size, canvas) : [canvasBox.width, canvasBox.height];
-  const pxSize = { width: Math.round(ratio * clientWidth), height: Math.round(ratio * height) };
-  const surface = { ...pxSize, clientWidth, fontStyle: getComputedStyle(canvas), context: contextOf(pxSize) as CanvasRenderingContext2D };
+  const canvasSize = { width: Math.round(ratio * clientWidth), height: Math.round(ratio * height) };
+  const surface = { ...canvasSize, clientWidth, fontStyle: getComputedStyle(canvas), context: contextOf(canvasSize) as CanvasRenderingContext2D };
   picture.draw(surface, scene, colours.palette, { still: true, atOnce: true, exported: true });
-  return { view: picture.view, ...pxSize };
+  return { view: picture.view, ...canvasSize };
 }
 
 /** Returns a PNG image with the background. */
@@ -78,10 +78,10 @@ ${svg.markup}
 /** Returns CSV: a comment with settings and seed, a header, and a line for each sample with all digits. */
 export function csvOf(element: Figure) {
   const { settings, columns } = element.exportData;
-  const groups = Object.entries(columns).map(([names, numbers]) => ({ names: names.split(' '), numbers }));
-  const row = (i: number) => groups.flatMap(({ names, numbers }) => names.map((_, column) => numbers[names.length * i + column]));
-  const rows = Array.from({ length: groups[0].numbers.length / groups[0].names.length }, (_, i) => row(i));
-  const csvLines = [`# ${settingsText(element, settings)}`, groups.flatMap(({ names }) => names), ...rows];
+  const columnGroups = Object.entries(columns).map(([names, numbers]) => ({ names: names.split(' '), numbers }));
+  const rowAt = (i: number) => columnGroups.flatMap(({ names, numbers }) => names.map((_, column) => numbers[names.length * i + column]));
+  const rows = Array.from({ length: columnGroups[0].numbers.length / columnGroups[0].names.length }, (_, i) => rowAt(i));
+  const csvLines = [`# ${settingsText(element, settings)}`, columnGroups.flatMap(({ names }) => names), ...rows];
   return `${csvLines.join('\n')}\n`;
 }
 

@@ -21,7 +21,7 @@ export class Gesture extends FigureController {
     this.#endPress();
     this.#pressListeners = new AbortController();
     const { signal } = this.#pressListeners;
-    for (const end of ['pointerup', 'pointercancel']) addEventListener(end, () => this.#endPress(), { capture: true, signal });
+    for (const endEvent of ['pointerup', 'pointercancel']) addEventListener(endEvent, () => this.#endPress(), { capture: true, signal });
     // No `pointerup` is fired if the pointer is released over a list or dialog of the browser.
     addEventListener('pointermove', ({ buttons }) => buttons === 0 && this.#endPress(), { capture: true, signal });
   }
@@ -50,7 +50,7 @@ export class Gesture extends FigureController {
     const { host } = this;
     host.settings.applyPending();
     host.announcer.announceNext();
-    this.#end();
+    this.#endGesture();
     if (host.settings.isStale) host.renderer.requestFrame();
     else if (host.simulation) {
       host.finishChange();
@@ -73,10 +73,10 @@ export class Gesture extends FigureController {
   /** Changes a field of the element's state as a complete gesture. No outcome is announced. */
   choose(name: string, value: unknown) {
     this.host.settings.request({ [name]: value });
-    this.#end();
+    this.#endGesture();
   }
 
-  #end() {
+  #endGesture() {
     if (!this.#isOpen) return;
     this.#isOpen = false;
     this.host.reflection.updateAttributes();

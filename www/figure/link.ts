@@ -31,7 +31,7 @@ export class Link extends FigureController {
 
   /** Returns true for this figure's part of the address. */
   #isOwnPart(part = '') {
-    return part.startsWith(`${keyOf(this.host)}=`);
+    return part.startsWith(`${partKeyOf(this.host)}=`);
   }
 
   /** Scrolls to the figure that a link names. */
@@ -67,7 +67,7 @@ export class Link extends FigureController {
     const token = (this.#latestWrite = {});
     const packedState = await this.#pack();
     if (token !== this.#latestWrite || !this.host.isConnected) return;
-    const address = addressWith(keyOf(this.host), packedState);
+    const address = addressWith(partKeyOf(this.host), packedState);
     if (address === location.href) return;
     try {
       history.replaceState(history.state, document.title, address);
@@ -78,7 +78,7 @@ export class Link extends FigureController {
 
   /** Returns the address of this page with the state. The figure's part comes first, because a link scrolls to the figure of its first part. */
   async address(): Promise<string> {
-    return addressWith(keyOf(this.host), await this.#pack(), true);
+    return addressWith(partKeyOf(this.host), await this.#pack(), true);
   }
 
   async #pack() {
@@ -91,10 +91,10 @@ export class Link extends FigureController {
 }
 
 /** Returns the key of an element's part: its tag with its id or its index among elements of that tag. Keys of shadow hosts come first. */
-function keyOf(element: Element): string {
+function partKeyOf(element: Element): string {
   const { localName, id } = element;
   const rootNode = element.getRootNode() as any;
-  const name = (rootNode.host ? `${keyOf(rootNode.host)}/` : '') + encodeURIComponent(localName);
+  const name = (rootNode.host ? `${partKeyOf(rootNode.host)}/` : '') + encodeURIComponent(localName);
   if (id) return `${name}:${encodeURIComponent(id)}`;
   return `${name}.${[...rootNode.querySelectorAll(CSS.escape(localName))].indexOf(element) + 1}`;
 }

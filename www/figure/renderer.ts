@@ -97,13 +97,13 @@ export class Renderer extends FigureController {
   #schedule() {
     if (!this.host.simulation || this.#frameRequest !== undefined) return;
     this.#previousTime = performance.now();
-    this.#frameRequest = requestAnimationFrame((now) => {
+    this.#frameRequest = requestAnimationFrame((nowMs) => {
       this.#frameRequest = undefined;
-      const elapsed = clamp(now - this.#previousTime, 0, MAX_TIME_STEP_MS);
+      const elapsedMs = clamp(nowMs - this.#previousTime, 0, MAX_TIME_STEP_MS);
       if (!this.isVisible) this.#updateUnseen();
-      else if (this.#undrawn.size > 0) this.#drawNow(elapsed);
+      else if (this.#undrawn.size > 0) this.#drawNow(elapsedMs);
       else this.#renderText();
-      this.#previousTime = now;
+      this.#previousTime = nowMs;
     });
   }
 
@@ -137,20 +137,20 @@ export class Renderer extends FigureController {
     return this.isOpening ? nothing : content();
   }
 
-  /** @param elapsed milliseconds since the frame before */
-  #drawNow(elapsed: number) {
+  /** @param elapsedMs milliseconds since the frame before */
+  #drawNow(elapsedMs: number) {
     // In a closed disclosure all sizes are 0.
     if (!this.host.simulation || !this.host.canvases.elements?.some(hasPixels)) return;
     this.host.runtime.attemptOrFail(() => {
-      this.#draw(elapsed);
+      this.#draw(elapsedMs);
       if (this.host.simulation) this.host.runtime.confirmHealthy();
     });
   }
 
-  #draw(elapsed: number) {
+  #draw(elapsedMs: number) {
     const host = this.host;
     const { viewModel } = host;
-    const startTime = performance.now();
+    const startTimeMs = performance.now();
     host.settings.applyPending();
     // The simulation is missing after a trap.
     if (!host.simulation) return;
@@ -158,7 +158,7 @@ export class Renderer extends FigureController {
     const { scene } = host;
     if (host.viewModel !== viewModel) this.#addPictures();
     const { isPressed, previousViewModel } = host.gesture;
-    const options = { elapsed, atOnce: this.isPrinting || prefersReducedMotion(), previousViewModel, highlight: host.highlight, handles: this.isPrinting };
+    const options = { elapsed: elapsedMs, atOnce: this.isPrinting || prefersReducedMotion(), previousViewModel, highlight: host.highlight, handles: this.isPrinting };
     let isMoving = false;
     this.#hasPicturesLeft = false;
     for (const picture of this.#undrawn) {
@@ -168,21 +168,21 @@ export class Renderer extends FigureController {
       // A figure may have replaced its picture.
       if (!host.pictures.includes(picture) || !hasPixels(canvas)) continue;
       // A drag keeps the scale of pictures with handles, so that they stay under the pointer.
-      const still = isPressed && canvas.parentElement!.querySelector('.handle') !== null;
-      isMoving = picture.draw(host.canvases.surfaceOf(canvas), scene, host.colours.palette, { ...options, still }) || isMoving;
-      this.#hasPicturesLeft = this.#undrawn.size > 0 && (!this.#isResizing || this.isOpening) && performance.now() - startTime > MAX_PICTURES_MS;
+      const isStill = isPressed && canvas.parentElement!.querySelector('.handle') !== null;
+      isMoving = picture.draw(host.canvases.surfaceOf(canvas), scene, host.colours.palette, { ...options, still: isStill }) || isMoving;
+      this.#hasPicturesLeft = this.#undrawn.size > 0 && (!this.#isResizing || this.isOpening) && performance.now() - startTimeMs > MAX_PICTURES_MS;
     }
     host.placeHandles(scene);
-    const now = performance.now();
-    const pendingSince = this.#textPendingSince;
+    const nowMs = performance.now();
+    const pendingSinceMs = this.#textPendingSince;
     // The first picture is drawn without text.
-    if (this.isOpening ? pendingSince : !this.#isResizing && (now - startTime < MAX_SAME_FRAME_MS || now - (pendingSince ?? now) > MAX_TEXT_DELAY_MS)) this.#renderText();
+    if (this.isOpening ? pendingSinceMs : !this.#isResizing && (nowMs - startTimeMs < MAX_SAME_FRAME_MS || nowMs - (pendingSinceMs ?? nowMs) > MAX_TEXT_DELAY_MS)) this.#renderText();
     else {
-      this.#textPendingSince ??= startTime;
+      this.#textPendingSince ??= startTimeMs;
       this.#schedule();
     }
     host.resolveSettled();
-    const isPlaying = host.player?.advance(elapsed);
+    const isPlaying = host.player?.advance(elapsedMs);
     if (this.#hasPicturesLeft) this.#schedule();
     if (isPlaying || isMoving || host.cloud?.isSettled === false) this.requestFrame();
   }

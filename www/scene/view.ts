@@ -59,6 +59,8 @@ export class View {
     const { left, right, top, bottom } = this.#margins;
     this.frame = { left, top, right: Math.max(left + 1, width - right), bottom: Math.max(top + 1, height - bottom) };
     if (this.#requiredExtent) this.extent = this.#target = this.#coveringExtent(this.#requiredExtent);
+    // Marks of a size in pixels need more metres on a smaller canvas, such as that of an unfinished layout.
+    this.release();
   }
 
   /** True after the first fit. */

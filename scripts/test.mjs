@@ -125,7 +125,7 @@ const TEST_PARTS = {
   tsc: {
     async prepare(programArgs) {
       await ensureBuilt();
-      // The nightly tier also needs the packages of the engines and of tests/package.
+      // Only the nightly tier has installed the packages that tests of engines and of tests/package import, and checks the types of these tests.
       return createNpmJob('typescript/bin/tsc', ['-p', IS_NIGHTLY ? 'tests/types.json' : '.', ...programArgs]);
     },
   },

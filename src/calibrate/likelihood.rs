@@ -135,7 +135,8 @@ impl FilterResult {
     /// Returns the standard errors of the systematic errors; 0 for those that are not estimated.
     ///
     /// Each is the larger one of two: that of the covariance C by the likelihood, and that of the sandwich C (Σ gᵦ gᵦᵀ) C with gᵦ the score of a
-    /// block of legs. Both allow for the `correlation` of neighbouring legs: as if there were fewer legs, and by the blocks.
+    /// block of legs. The first counts correlated legs as fewer legs, by the `correlation` of neighbours. The second has correlated legs in one
+    /// block.
     pub fn error_stds(&self, correlation: f64) -> [f64; ERROR_COUNT] {
         let Self { innovations, errors, covariance, .. } = self;
         let score_of_leg = |innovation: &Innovation| {

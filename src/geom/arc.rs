@@ -340,8 +340,8 @@ impl ArcPiece {
 /// limit would cause visible errors, a much smaller one underflow of the curvature.
 const MIN_TURN: f64 = 1e-30;
 
-/// Length (m) below which arcs count as points. The curvature of much shorter ones, times a square of kilometres, would exceed
-/// the range of doubles.
+/// Length (m) below which arcs count as points. Products of the curvature of a shorter arc and areas of some km² might exceed the
+/// range of doubles.
 const MIN_LENGTH: f64 = 1e-100;
 
 /// Arc in the frame of its start, mirrored so that it leads forward and to the left. It starts at the origin along x, with

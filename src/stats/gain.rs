@@ -90,7 +90,8 @@ impl ChartGaussians {
     }
 }
 
-/// Sums for the standard errors: differences of two log-densities over a sample.
+/// Sums over a sample for the standard errors of the likelihood gain and of the area ratio: differences of the log-densities of both
+/// Gaussians, and areas.
 #[derive(Clone, Debug)]
 pub(super) struct LogDensityDifferences {
     gaussians: ChartGaussians,

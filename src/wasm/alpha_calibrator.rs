@@ -51,7 +51,7 @@ impl JsAlphaCalibrator {
         ])
     }
 
-    /// Settings of the fit. They differ from `config` while those are pending.
+    /// Settings of the fit. They differ from `config` until a fit with the settings in `config` has come.
     #[wasm_bindgen(getter, js_name = fittedConfig, unchecked_return_type = "AlphaCalibratorSettings")]
     pub fn fitted_config(&self) -> JsValue {
         settings_to_js(self.0.fitted_settings())

@@ -23,5 +23,5 @@ export async function refusalErrorOf(reading) {
   return error;
 }
 
-/** Returns the sentence of a log that is refused. @param {Promise<unknown>} reading */
+/** Returns the message of the error with which a log is refused. @param {Promise<unknown>} reading */
 export const refusalSentenceOf = async (reading) => (await refusalErrorOf(reading)).message;

@@ -88,7 +88,7 @@ export const fieldProperty = (key: string, converter?: Converter): Property => (
 
 function propertyOf({ key, in: group, field = key, index, of, weights = [], type, min = -Infinity, max = Infinity }: Declaration): Property {
   const plainProperty = fieldProperty(key, CONVERTERS[type]);
-  // The property is a level, which scales the last numbers of a setting.
+  // The property is a factor: the last numbers of the array `of` are the `weights` times that factor.
   if (of) {
     return {
       ...plainProperty,

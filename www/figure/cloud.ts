@@ -72,7 +72,7 @@ export class Cloud extends FigureController {
     return this.isComplete ? this.#samples : this.#requestedCount;
   }
 
-  /** True if all samples to show are shown. */
+  /** True if the cloud is not playing, and has as many samples as requested or as the simulation can draw. */
   get isSettled(): boolean {
     return !this.playing && (this.#latest.shown >= this.targetCount || this.#hasGivenUp(this.#latest));
   }

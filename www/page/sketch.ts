@@ -45,13 +45,13 @@ const ringAround = ([x, y]: Point, radiusX: number, radiusY: number) =>
   Array.from({ length: 37 }, (_, i) => [x + radiusX * Math.cos((i * Math.PI) / 18), y + radiusY * Math.sin((i * Math.PI) / 18)] as Point);
 
 /** Maximum size in pixels of a drawing that stands for a point. */
-const POINT_SIZE = 25;
+const MAX_POINT_EXTENT = 25;
 
 /** Returns the shape that a drawing stands for: a point, or any other. */
 function shapeOf(points: Point[]): string {
   const isLargerThanPoint = [0, 1].some((axis) => {
     const [min, max] = extent(points, (point) => point[axis]) as [number, number];
-    return max - min > POINT_SIZE;
+    return max - min > MAX_POINT_EXTENT;
   });
   return isLargerThanPoint ? 'drawing' : 'point';
 }

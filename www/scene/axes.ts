@@ -11,7 +11,7 @@ const MIN_PLAIN_STEP = 9e-4;
 const TICK_SPACING = { x: 60, y: 48 };
 
 /** Lengths in a legend, relative to the font size: gap between entries, width of a line sample, space after it, and line height. */
-const LEGEND_EM = { gap: 0.8, sample: 1.5, space: 0.35, line: 1.4 };
+const LEGEND_LENGTHS_EM = { gap: 0.8, sample: 1.5, space: 0.35, line: 1.4 };
 
 /**
  * Draws axes with ticks at the left and the bottom, and a faint grid. Above are the name of the vertical axis and a legend. Names have units in
@@ -62,18 +62,18 @@ export const lineLegendEntry = ({ context }: Brush, name: string, style: LineStr
 /** Draws a legend to the right of the name of an axis. */
 function drawLegend({ context, view, palette, font }: Brush, axisName: string, entries: LegendEntry[]) {
   const fontSize = parseFloat(font);
-  const [width, lineHeight] = [LEGEND_EM.sample * fontSize, LEGEND_EM.line * fontSize];
+  const [width, lineHeight] = [LEGEND_LENGTHS_EM.sample * fontSize, LEGEND_LENGTHS_EM.line * fontSize];
   let y = view.frame.top - 22;
   const [nameEndX, lastRow] = [2 + context.measureText(axisName).width, Math.floor(y / lineHeight)];
   context.font = font;
   let [x, row] = [nameEndX, 0];
   const placedEntries = [];
   for (const entry of entries) {
-    const entryWidth = (LEGEND_EM.gap + LEGEND_EM.space) * fontSize + width + context.measureText(entry.name).width;
+    const entryWidth = (LEGEND_LENGTHS_EM.gap + LEGEND_LENGTHS_EM.space) * fontSize + width + context.measureText(entry.name).width;
     // The first entry of a line has no gap before it.
-    if (x + entryWidth > view.width && row < lastRow) [x, row] = [2 - LEGEND_EM.gap * fontSize, row + 1];
+    if (x + entryWidth > view.width && row < lastRow) [x, row] = [2 - LEGEND_LENGTHS_EM.gap * fontSize, row + 1];
     if (x + entryWidth > view.width) break;
-    placedEntries.push({ ...entry, sampleX: x + LEGEND_EM.gap * fontSize, row });
+    placedEntries.push({ ...entry, sampleX: x + LEGEND_LENGTHS_EM.gap * fontSize, row });
     x += entryWidth;
   }
   // The last line is nearest to the picture.
@@ -83,7 +83,7 @@ function drawLegend({ context, view, palette, font }: Brush, axisName: string, e
   context.font = font;
   for (const { name, draw, sampleX, row } of placedEntries) {
     context.fillStyle = palette.ink;
-    context.fillText(name, sampleX + width + LEGEND_EM.space * fontSize, y + row * lineHeight);
+    context.fillText(name, sampleX + width + LEGEND_LENGTHS_EM.space * fontSize, y + row * lineHeight);
     draw(sampleX, y + row * lineHeight + fontSize / 2, width);
   }
 }

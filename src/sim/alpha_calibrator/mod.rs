@@ -248,12 +248,12 @@ impl AlphaCalibrator {
             |k: usize| settings.inflation * calibration.alphas.get(k).copied().flatten().unwrap_or(0.0);
         let [first, second, third] = *reading;
         if settings.model == Model::Velocity {
-            let model = VelocityModel {
+            let fitted_model = VelocityModel {
                 alphas: VelocityAlphas(std::array::from_fn(inflated_alpha)),
                 noise: settings.noise,
             };
             let command = VelocityCmd { v: first, omega: second, dt: third };
-            return model.apply_noise(&command, &SE2::identity(), unit_noise);
+            return fitted_model.apply_noise(&command, &SE2::identity(), unit_noise);
         }
         let legs = OdomDelta { rot1: first, trans: second, rot2: third };
         let alphas: RuleAlphas = std::array::from_fn(inflated_alpha);

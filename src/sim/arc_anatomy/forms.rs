@@ -5,7 +5,7 @@ use crate::geom::double_double::DoubleDouble;
 use crate::js::js_structs;
 use std::f64::consts::TAU;
 
-/// Speed, m/s, and duration, s, of the exercise.
+/// Speed, m/s, and duration, s, of the arcs of Exercise 1.
 const SPEED: f64 = 1.0;
 const DURATION: f64 = 0.1;
 

@@ -47,7 +47,8 @@ pub struct Draws {
     /// Sums over the first `summed_groups` groups, in complete blocks. They stay valid while a slider moves the robots.
     sums: PairSums,
     summed_groups: usize,
-    /// Indices of farthest groups among the first `summed_groups`, in ascending order. Those below `SUBSAMPLE_GROUPS[1]` are not listed.
+    /// Indices of the groups whose noise is farthest from 0 among the first `summed_groups`, in ascending order. Those
+    /// below `SUBSAMPLE_GROUPS[1]` enter the subsample with the far groups, and are not listed.
     farthest_groups: Vec<usize>,
 }
 
@@ -93,7 +94,7 @@ impl Draws {
         noise.quantiles(unit_noise.get_mut(first_group..).unwrap_or_default().as_flattened_mut());
     }
 
-    /// Adds the complete blocks among the first `group_count` groups to the sums, and lists their farthest groups.
+    /// Adds the complete blocks among the first `group_count` groups to the sums, and lists the groups whose noise is farthest from 0.
     #[inline(never)]
     pub fn sum_blocks_to(&mut self, group_count: usize) {
         while group_count >= self.summed_groups + BLOCK_GROUPS {

@@ -57,7 +57,7 @@ impl<'a> Driver<'a> {
         Self { model, draw_tester: model.draw_tester(&settings.command, &settings.start()), settings, draws }
     }
 
-    /// Makes the first attempt of `indices`. A sampler that checks each attempt once makes up to four, in the lanes of a SIMD vector.
+    /// Makes attempts from the start of `indices`: up to four, in the lanes of a SIMD vector, or one with the sub-stepped sampler.
     #[inline(always)]
     pub fn make_next_attempts(&self, indices: Range<usize>, mut visit: impl FnMut(Attempt, Cost)) {
         if let Sampler::SubStepped(steps) = self.settings.sampler {

@@ -18,7 +18,7 @@ fn clamped_wall(x0: f64, y0: f64, x1: f64, y1: f64) -> Segment {
 /// Returns names and walls of plans. Their many walls are in one place, on one line, through one point, around one point, or nearly equal.
 fn hard_plans(count: usize) -> Vec<(&'static str, Vec<Segment>)> {
     let mut rng = seeded_rng(9800);
-    let repeated_walls =
+    let make_walls =
         |make: &mut dyn FnMut(f64) -> Segment| (0..count).map(|i| make(i as f64 / count as f64)).collect();
     let diagonal = |width: f64| move |s: f64| clamped_wall(width * s, 0.0, 10.0, 10.0 - width * s);
     let ray = |s: f64, reach: f64| {
@@ -27,27 +27,27 @@ fn hard_plans(count: usize) -> Vec<(&'static str, Vec<Segment>)> {
     };
     let mut random_coordinate = move || uniform(&mut rng, 0.0, 10.0);
     vec![
-        ("equal diagonals", repeated_walls(&mut diagonal(0.0))),
-        ("nearly equal diagonals", repeated_walls(&mut diagonal(1e-9))),
-        ("diagonals close together", repeated_walls(&mut diagonal(0.1))),
+        ("equal diagonals", make_walls(&mut diagonal(0.0))),
+        ("nearly equal diagonals", make_walls(&mut diagonal(1e-9))),
+        ("diagonals close together", make_walls(&mut diagonal(0.1))),
         ("equal but for their direction", {
             let mut is_forward = false;
-            repeated_walls(&mut |_| {
+            make_walls(&mut |_| {
                 is_forward = !is_forward;
                 if is_forward { clamped_wall(1.0, 2.0, 9.0, 7.0) } else { clamped_wall(9.0, 7.0, 1.0, 2.0) }
             })
         }),
         (
             "covered by a longer one",
-            repeated_walls(&mut |s| clamped_wall(5.0 - 4.0 * s, 5.0 - 3.0 * s, 5.0 + 4.0 * s, 5.0 + 3.0 * s)),
+            make_walls(&mut |s| clamped_wall(5.0 - 4.0 * s, 5.0 - 3.0 * s, 5.0 + 4.0 * s, 5.0 + 3.0 * s)),
         ),
-        ("overlapping", repeated_walls(&mut |s| clamped_wall(6.0 * s, 3.0, 6.0 * s + 4.0, 3.0))),
-        ("dots on a line", repeated_walls(&mut |s| clamped_wall(10.0 * s, 5.0, 10.0 * s, 5.0))),
-        ("a star", repeated_walls(&mut |s| ray(s, 5.0))),
-        ("all in one cell", repeated_walls(&mut |s| ray(s, 1e-3))),
+        ("overlapping", make_walls(&mut |s| clamped_wall(6.0 * s, 3.0, 6.0 * s + 4.0, 3.0))),
+        ("dots on a line", make_walls(&mut |s| clamped_wall(10.0 * s, 5.0, 10.0 * s, 5.0))),
+        ("a star", make_walls(&mut |s| ray(s, 5.0))),
+        ("all in one cell", make_walls(&mut |s| ray(s, 1e-3))),
         (
             "tangents to a circle",
-            repeated_walls(&mut |s| {
+            make_walls(&mut |s| {
                 let (sin, cos) = (TAU * s).sin_cos();
                 let point_at = |t: f64| [5.0 + 0.5 * cos - t * sin, 5.0 + 0.5 * sin + t * cos];
                 let ([x0, y0], [x1, y1]) = (point_at(-3.0), point_at(3.0));
@@ -56,7 +56,7 @@ fn hard_plans(count: usize) -> Vec<(&'static str, Vec<Segment>)> {
         ),
         (
             "long ones anywhere",
-            repeated_walls(&mut |_| {
+            make_walls(&mut |_| {
                 clamped_wall(
                     random_coordinate(),
                     random_coordinate(),
@@ -67,7 +67,7 @@ fn hard_plans(count: usize) -> Vec<(&'static str, Vec<Segment>)> {
         ),
         ("a mesh", {
             let mut is_horizontal = false;
-            repeated_walls(&mut |s| {
+            make_walls(&mut |s| {
                 is_horizontal = !is_horizontal;
                 if is_horizontal {
                     clamped_wall(0.0, 10.0 * s, 10.0, 10.0 * s)

@@ -44,15 +44,15 @@ fn assert_exact_moments(poses: &[SE2], cartesian: &CartesianMoments, cross_track
         exact_mean(poses.iter().map(|pose| libm::sin(pose.theta()))),
         exact_mean(poses.iter().map(|pose| libm::cos(pose.theta()))),
     );
-    let heading = libm::atan2(sin, cos);
+    let mean_heading = libm::atan2(sin, cos);
     let centre = [exact_mean(poses.iter().map(SE2::x)), exact_mean(poses.iter().map(SE2::y))];
-    assert_close("mean heading", cartesian.mean.z, heading, 1.0);
+    assert_close("mean heading", cartesian.mean.z, mean_heading, 1.0);
     assert_close("mean x", cartesian.mean.x, centre[0], 1.0);
     assert_close("mean y", cartesian.mean.y, centre[1], 1.0);
 
     let pose_residuals = || {
         poses.iter().map(|pose| {
-            Vector3::new(pose.x() - centre[0], pose.y() - centre[1], wrap_angle(pose.theta() - heading))
+            Vector3::new(pose.x() - centre[0], pose.y() - centre[1], wrap_angle(pose.theta() - mean_heading))
         })
     };
     let mean_heading_residual = exact_mean(pose_residuals().map(|r| r.z));
@@ -68,7 +68,7 @@ fn assert_exact_moments(poses: &[SE2], cartesian: &CartesianMoments, cross_track
         }
     }
 
-    let (sin, cos) = libm::sincos(heading);
+    let (sin, cos) = libm::sincos(mean_heading);
     let track_coordinates = |r: Vector3<f64>| (r.x * cos + r.y * sin, r.y * cos - r.x * sin, r.z);
     let all_track_coordinates = || pose_residuals().map(track_coordinates);
     let lateral_variance = exact_mean(all_track_coordinates().map(|(_, d, _)| d * d));

@@ -1,4 +1,4 @@
-//! Density images, in which every pixel has the colour of the samples in its cell.
+//! Density images, in which the colour of a pixel shows the number of samples in its cell.
 
 use crate::common::settings_of_preset;
 use motion::sim::View;

@@ -36,7 +36,7 @@ const TEST_WORKSPACES = IS_NIGHTLY ? ['tests', 'tests/package', 'tests/engines']
 /** Builds dist/ and installs the packages of the tests. Daily tests use the common core in all figures; nightly ones also the core of each figure. */
 const ensureBuilt = once(() => settleAll([build({ local: !IS_NIGHTLY }), ...TEST_WORKSPACES.map((name) => ensurePackages(name))]));
 
-/** Versions of the tools that the parts have used so far. */
+/** Versions of the tools that the parts of this test run have used so far. */
 const toolVersions = new Set([`Node ${process.versions.node}`]);
 
 async function ensureRust() {

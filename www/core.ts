@@ -47,7 +47,7 @@ export function instantiate(source?: Source): Promise<Motion> {
   return instantiateFor('motion');
 }
 
-/** Returns a core for the widget of a tag. external.js has a smaller module for each widget, and uses it while a page has one kind of widget. */
+/** Returns a core: that of all widgets for "motion", or the smaller one of a widget for its tag, which external.js uses on a page with one kind of widget. */
 export async function instantiateFor(name: string): Promise<Motion> {
   if (typeof WebAssembly === 'undefined') {
     throw new Error('WebAssembly is not available here, and motion-widgets needs it.');

@@ -140,11 +140,11 @@ fn has_direction(reading_length: f64, executed_length: f64, is_linear: bool) -> 
 fn differential_residuals(rule: OdometryRule, expected: SE2, motion: &SE2, is_linear: bool) -> Observation {
     let odometry_reading = OdomDelta::from_poses(&SE2::identity(), &expected);
     let OdomDelta { rot1, trans, rot2 } = rule.legs(&odometry_reading);
-    let variances_per_alpha = unit_variances(rule, &odometry_reading);
+    let unit_variance_pair = unit_variances(rule, &odometry_reading);
     let [rot1_coefficients, trans_coefficients, rot2_coefficients] = [
-        variances_per_alpha.map(|variances| variances.rot1.0),
-        variances_per_alpha.map(|variances| variances.trans.0),
-        variances_per_alpha.map(|variances| variances.rot2.0),
+        unit_variance_pair.map(|variances| variances.rot1.0),
+        unit_variance_pair.map(|variances| variances.trans.0),
+        unit_variance_pair.map(|variances| variances.rot2.0),
     ];
     let (sin, cos) = libm::sincos(rot1);
     let [ahead, left] = [cos * motion.x() + sin * motion.y(), cos * motion.y() - sin * motion.x()];
@@ -175,7 +175,7 @@ fn differential_residuals(rule: OdometryRule, expected: SE2, motion: &SE2, is_li
 fn omni_residuals(expected: SE2, motion: &SE2) -> Observation {
     let odometry_reading = OdomDelta::from_poses(&SE2::identity(), &expected);
     let OdomDelta { rot1, trans, rot2 } = odometry_reading;
-    let variances_per_alpha = unit_variances(OdometryRule::Omni, &odometry_reading);
+    let unit_variance_pair = unit_variances(OdometryRule::Omni, &odometry_reading);
     let (sin, cos) = libm::sincos(rot1);
     let residuals = [
         wrap_angle(motion.theta() - rot1 - rot2),
@@ -183,9 +183,9 @@ fn omni_residuals(expected: SE2, motion: &SE2) -> Observation {
         cos * motion.y() - sin * motion.x(),
     ];
     let coefficients = [
-        variances_per_alpha.map(|variances| variances.rot2.0),
-        variances_per_alpha.map(|variances| variances.trans.0),
-        variances_per_alpha.map(|variances| variances.strafe.0),
+        unit_variance_pair.map(|variances| variances.rot2.0),
+        unit_variance_pair.map(|variances| variances.trans.0),
+        unit_variance_pair.map(|variances| variances.strafe.0),
     ];
     let (sin, cos) = libm::sincos(rot2);
     let jacobian = Matrix3::new(0.0, 0.0, 1.0, cos, -sin, 0.0, sin, cos, 0.0);

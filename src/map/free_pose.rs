@@ -103,7 +103,7 @@ impl<'a> SquareRaster<'a> {
                 largest_side += 1;
                 let half_side = 0.5 * largest_side as f64;
                 middle = Some([right as f64 + 1.0 - half_side, row as f64 + 1.0 - half_side]);
-                // The next side is longer by one row, so that all columns are checked again.
+                // The next square has one row more, so that all columns are checked again.
                 first_unchecked = 0;
             }
         }

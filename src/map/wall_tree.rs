@@ -194,7 +194,7 @@ impl Node {
         Segment { from: start, to: [start[0] + direction[0], start[1] + direction[1]] }
     }
 
-    /// Returns true if no wall of the node comes within `reach` (m) of a point.
+    /// Returns true only if no wall of the node comes within `reach` (m) of a point: if its hull, a capsule, does not.
     #[inline(always)]
     pub fn is_farther_than(&self, point: [f64; 2], reach: f64) -> bool {
         let axis_reach = reach + self.thickness;

@@ -49,7 +49,7 @@ struct PolarMotion {
 }
 
 impl ExactGain {
-    /// Returns the gain of the velocity model.
+    /// Returns the exact likelihood gain for a command under the velocity model.
     pub fn of_velocity(model: &VelocityModel, u: &VelocityCmd) -> Self {
         let [length_std, omega_std, gamma_std] = model.noise_stds(u).map(|std| std * u.dt);
         let turn = u.omega * u.dt;

@@ -47,7 +47,7 @@ impl JsArcAnatomy {
         to_plain_js(&self.0.paths())
     }
 
-    /// Surface over the positions of a rectangle (m), for the heading of the final pose; null for none.
+    /// Heat map over the positions of a rectangle (m), for the heading of the final pose; null if no heat map is selected.
     #[wasm_bindgen(unchecked_return_type = "AnatomySurface | null")]
     pub fn surface(
         &self,

@@ -136,7 +136,7 @@ impl JsDeadReckoning {
         Ok(flat_float_array(self.0.poses(read_integer("step", step, 1..=MAX_STEPS)? as u32)))
     }
 
-    /// ξ along, lateral (m), heading (rad) of the robots of `poses` about the commanded pose; a copy.
+    /// Exponential coordinates (along and lateral in m, heading in rad) of the robots of `poses`, relative to the commanded pose; a copy.
     #[wasm_bindgen(getter)]
     pub fn twists(&self) -> Float64Array {
         triple_array(self.0.twists())

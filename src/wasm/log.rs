@@ -1,4 +1,4 @@
-//! Logs of JavaScript: odometry and reference.
+//! Reader of the logs that JavaScript passes: odometry and reference.
 
 use super::fields::{Fields, array_item, array_length, number_text, read_integer, read_number, type_error};
 use crate::calibrate::{Trajectory, TrajectoryError};

@@ -340,7 +340,7 @@ export async function pixelCountOf(canvas, role) {
   return canvas.evaluate((element, name) => {
     const sourceCanvas = /** @type {HTMLCanvasElement} */ (element);
     const colorProbe = document.createElement('span');
-    // Roles keep their hues in forced colours too.
+    // The figures keep the hues of their colour roles in forced colours. Without this property the probe would not.
     colorProbe.style.cssText = `color: var(--${name}); forced-color-adjust: none`;
     sourceCanvas.after(colorProbe);
     const pixelCopy = document.createElement('canvas');

@@ -43,8 +43,8 @@ export async function inspect(givenRecordings: GivenRecording[], statedOptions: 
   onProgress?.(undefined);
   const refusedNames = recordings.flatMap(({ name, series, refused }) => (refused.length > 0 && !series.some(({ summary }) => summary) ? [name] : []));
   if (refusedNames.length === 0) return { recordings, ...proposeCommand(givenRecordings, statedOptions) };
-  const hintForOthers = { missing: `Give two files without ${new Intl.ListFormat('en').format(refusedNames)}:`, command: commandText(statedOptions, '--odometry FILE', '--reference FILE') };
-  return { recordings, ...(refusedNames.length < recordings.length && hintForOthers) };
+  const proposalWithoutRefused = { missing: `Give two files without ${new Intl.ListFormat('en').format(refusedNames)}:`, command: commandText(statedOptions, '--odometry FILE', '--reference FILE') };
+  return { recordings, ...(refusedNames.length < recordings.length && proposalWithoutRefused) };
 }
 
 async function contentsOf(recording: Recording, onProgress?: (share: number | undefined) => void): Promise<RecordingContents> {

@@ -94,8 +94,8 @@ function propertyOf({ key, in: group, field = key, index, of, weights = [], type
       ...plainProperty,
       get: (config) => commonFactorOf(config[of], weights),
       change: (level, { [of]: numbers }) => {
-        const scaledWeights = weights.map((weight) => weight * checkedNumber(key, level, min, max));
-        return { [of]: [...numbers.slice(0, -weights.length), ...scaledWeights] };
+        const scaledNumbers = weights.map((weight) => weight * checkedNumber(key, level, min, max));
+        return { [of]: [...numbers.slice(0, -weights.length), ...scaledNumbers] };
       },
     };
   }

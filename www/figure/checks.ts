@@ -34,8 +34,8 @@ export function checkedObject(field: string, value: unknown, keys: readonly stri
 }
 
 export function checkedWord<Word extends string>(field: string, value: unknown, allowed: readonly Word[]) {
-  const allowedWord = allowed.find((word) => word === value);
-  if (allowedWord !== undefined) return allowedWord;
+  const matchingWord = allowed.find((word) => word === value);
+  if (matchingWord !== undefined) return matchingWord;
   const ErrorClass = typeof value === 'string' ? RangeError : TypeError;
   throw refusalError(field, value, allowed.map((word) => JSON.stringify(word)).join(' or '), ErrorClass);
 }

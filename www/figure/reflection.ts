@@ -123,11 +123,11 @@ export class Reflection extends FigureController {
     this.#previousTexts = texts;
     this.#isWriting = true;
     for (const [name, { converter: { parse, print } }] of Object.entries(this.#attributes)) {
-      const presentText = this.host.getAttribute(name);
-      const text = (presentText === null ? neededTexts : texts).get(name);
+      const currentText = this.host.getAttribute(name);
+      const text = (currentText === null ? neededTexts : texts).get(name);
       if (text === undefined) this.host.removeAttribute(name);
       // A text of the page stays if it has the same value.
-      else if (presentText === null || print(parse(presentText)) !== text) this.host.setAttribute(name, text);
+      else if (currentText === null || print(parse(currentText)) !== text) this.host.setAttribute(name, text);
     }
     this.#isWriting = false;
   }

@@ -30,7 +30,7 @@ export interface Correction {
   name: keyof typeof POSE_CORRECTIONS | 'lengths';
   /** Role of the log that needs the correction. */
   at: Role;
-  /** Correlation of the corrected motions. */
+  /** Correlation of the motions of both logs after the correction. */
   score: number;
   /** Factor for the lengths of the log. */
   factor: number;

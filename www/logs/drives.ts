@@ -168,7 +168,7 @@ function unusable({ name: file, series }: Recording): LogError {
   return new LogError({ file, topic: shortSeries?.name }, (texts) => (shortSeries ? texts.noMessages : texts.noTopics(describeSeries(series))));
 }
 
-/** Returns the role of the only series of a recording by its contents or by the name of the file; undefined if neither shows it. */
+/** Returns the role of the only series of a recording by its name, its contents or the name of the file; undefined if none shows it. */
 function roleOfSeries({ name: file }: Recording, { name, type, kind, hasCommands }: Series): Role | undefined {
   if (kind === 'commands') return 'odometry';
   return roleByName(name) ?? (hasCommands || /Odometry$/.test(type) ? 'odometry' : roleByName(file));

@@ -35,7 +35,7 @@ const JUMP_FACTOR = 8;
 const [MIN_ROWS, MIN_POSES] = [10, 20];
 
 /** Minimum number of rows of a standing robot's pose, as a multiple of the usual number. Localizers repeat a pose until the robot has moved. */
-const STANDSTILL_REPEATS = 8;
+const STANDSTILL_FACTOR = 8;
 
 /**
  * Limits for late rows. If the clock was set back, many of them are close to another row in time: maximum distance of two such rows in median
@@ -251,8 +251,8 @@ export class Rows {
   }
 
   /**
-   * Returns the rows, of which each pose of a moving robot is kept once: a table with topics of different rates repeats the poses of the slower
-   * ones, and a localizer may publish its last pose at a higher rate than it estimates one. While the robot stands, as many rows are dropped.
+   * Returns the rows with each pose of a moving robot kept once. A table with topics of different rates repeats the poses of the slower ones,
+   * and a localizer may publish its last pose again. While the robot stands, the same fraction of rows is dropped.
    */
   #withoutRepeatedPoses(rows: Uint32Array): Uint32Array {
     const isRepeated = (i: number) => i > 0 && this.#isSame(rows[i - 1], rows[i]);
@@ -266,7 +266,7 @@ export class Rows {
     let [pose, repeatCount] = [-1, 0];
     return this.#without(rows, 'repeated', (_, i) => {
       [pose, repeatCount] = isRepeated(i) ? [pose, repeatCount + 1] : [pose + 1, 0];
-      const isStanding = rowsPerPose[pose] >= STANDSTILL_REPEATS * usualRowsPerPose;
+      const isStanding = rowsPerPose[pose] >= STANDSTILL_FACTOR * usualRowsPerPose;
       return isStanding ? repeatCount % usualRowsPerPose !== 0 : repeatCount > 0;
     });
   }

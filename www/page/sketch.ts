@@ -79,8 +79,8 @@ export function prepareSketch(form: HTMLFormElement, enterState: (values: Record
   let drawnPoints: Point[] = [];
 
   const checkedInput = (name: string) => form.querySelector(`[name=${name}]:checked`) as HTMLInputElement | null;
-  const caseValues = () => JSON.parse(checkedInput('case')?.value ?? '{}');
-  const currentCommand = () => ({ v: 1, omega: caseValues().omega ?? 0, dt: 2 });
+  const chosenCase = () => JSON.parse(checkedInput('case')?.value ?? '{}');
+  const currentCommand = () => ({ v: 1, omega: chosenCase().omega ?? 0, dt: 2 });
   const showDrawing = (points: Point[]) => {
     drawnPoints = points;
     svgElement('drawn').setAttribute('d', pathDataOf(points, true));
@@ -117,7 +117,7 @@ export function prepareSketch(form: HTMLFormElement, enterState: (values: Record
   });
   form.addEventListener('submit', async (event) => {
     event.preventDefault();
-    await enterState(caseValues());
+    await enterState(chosenCase());
     const poses = figure.poses as Float64Array;
     const robotPoses = Array.from({ length: poses.length / 3 }, (_, i) => poses.subarray(3 * i, 3 * i + 3));
     const robotDots = robotPoses.slice(0, MAX_DRAWN_ROBOTS).map(([x, y, theta]) => {

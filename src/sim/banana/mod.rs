@@ -107,8 +107,8 @@ pub fn command_reaching(x: f64, y: f64, near: &VelocityCmd) -> VelocityCmd {
     VelocityCmd { v: length / dt, omega: turn / dt, dt }
 }
 
-/// Returns the command whose end is drawn at (x, y) at a morph, with the duration of `near`. The search starts at
-/// `near`, and returns it if there is no solution. At morph 0, the floor, the result is [`command_reaching`].
+/// Returns the command whose end is drawn at (x, y), with the duration of `near`. `morph` is from 0 (the floor, where the result
+/// is [`command_reaching`]) to 1 (exponential coordinates). The search starts at `near`, and returns it if there is no solution.
 pub fn command_drawn_at([x, y]: [f64; 2], near: &VelocityCmd, morph: f64) -> VelocityCmd {
     let VelocityCmd { v, omega, dt } = *near;
     if morph == 0.0 {

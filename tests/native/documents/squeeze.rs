@@ -27,7 +27,7 @@ fn simulation(settings: Settings) -> MapSqueeze {
     MapSqueeze::new(settings).expect("valid settings")
 }
 
-/// Returns the fraction through a wall, and its standard error.
+/// Returns the fraction of accepted samples whose path crosses a wall, and its standard error.
 fn fraction_through_wall(settings: Settings) -> (f64, f64) {
     let simulation = simulation(settings);
     assert!(!simulation.gave_up(), "{settings:?}");
@@ -45,7 +45,7 @@ fn assert_printed((fraction, error): (f64, f64), printed: PrintedNumber) {
     printed.assert_percent(fraction, MAX_STANDARD_ERRORS * error);
 }
 
-/// Asserts that one fraction is less than the other by more than their standard errors.
+/// Asserts that one fraction is less than the other by more than [`MAX_STANDARD_ERRORS`] of their difference.
 fn assert_less(smaller: (f64, f64), larger: (f64, f64), description: &str) {
     assert!(
         larger.0 - smaller.0 > MAX_STANDARD_ERRORS * smaller.1.hypot(larger.1),

@@ -52,15 +52,15 @@ impl GridCells {
         let ([x0, y0, yaw], cell_side) = (self.origin, self.resolution);
         let u = (x - x0) * yaw.cos() + (y - y0) * yaw.sin();
         let v = (y - y0) * yaw.cos() - (x - x0) * yaw.sin();
-        let distance_outside = |at: f64, cell: usize| {
+        let axis_distance_to_cell = |at: f64, cell: usize| {
             let cell_start = cell as f64 * cell_side;
             (cell_start - at).max(at - cell_start - cell_side).max(0.0)
         };
         let occupied_indices = (0..self.occupied.len()).filter(|i| self.occupied[*i]);
         occupied_indices
             .map(|i| {
-                distance_outside(u, i % self.width)
-                    .hypot(distance_outside(v, self.height - 1 - i / self.width))
+                axis_distance_to_cell(u, i % self.width)
+                    .hypot(axis_distance_to_cell(v, self.height - 1 - i / self.width))
             })
             .fold(f64::INFINITY, f64::min)
     }

@@ -161,7 +161,7 @@ fn object_lines(objects: impl IntoIterator<Item = String>) -> String {
     })
 }
 
-/// Returns a line for each setting, and for each number of a group or list. `number_sentences` describe the numbers of a list.
+/// Returns a line of JavaScript, an object, for each setting, and for each number of a group or list. `number_sentences` describe the numbers of a list.
 fn declaration_lines(mut defaults: impl DeclaredSettings, number_sentences: &[&str]) -> String {
     let mut objects = Vec::new();
     let shared_keys = shared_field_keys(&mut defaults);

@@ -1,4 +1,4 @@
-/** <map-squeeze>: motion conditioned on a map, and what the condition cannot see. */
+/** <map-squeeze>: motion conditioned on a map, and walls on the path that a test of the end pose does not see. */
 
 import { html, nothing } from 'lit';
 import { Cloud, enterCloud } from '../../figure/cloud.ts';

@@ -170,6 +170,9 @@ test('custom-elements.json says what the elements have', async () => {
       await waitForFrames();
       for (const fold of /** @type {ShadowRoot} */ (element.shadowRoot).querySelectorAll('details')) fold.open = true;
       await waitForFrames();
+      // Map Squeeze has a table once the costs of the samplers are measured.
+      element.shadowRoot?.querySelector('div.table button')?.dispatchEvent(new Event('click'));
+      await waitForFrames();
       const partElements = [.../** @type {ShadowRoot} */ (element.shadowRoot).querySelectorAll('[part]')];
       const cssText = [...new Set(Class.elementStyles.map(String))].join('');
       const cssProperties = [...new Set(cssText.match(/--motion-[a-z-]+/g))];

@@ -245,3 +245,14 @@ test('a button plays the drive along the arcs', async ({ page }) => {
   expect(sliderValues[2]).toBeGreaterThan(sliderValues[1]);
   await expect(widget.getByRole('button', { name: 'Play' })).toBeVisible();
 });
+
+test('a change of size while a slider plays is no step', async ({ page }) => {
+  await page.emulateMedia({ reducedMotion: 'no-preference' });
+  const widget = await openArcAnatomy(page);
+  // The figure draws at once after a change of size, without elapsed time.
+  await widget.evaluate((element) => element.addEventListener('input', () => {
+    /** @type {HTMLElement} */ (element).style.width = `${element.clientWidth - 1}px`;
+  }));
+  const { sliderValues } = await playSlider(widget, 'underway', 8);
+  expect(new Set(sliderValues).size).toBe(sliderValues.length);
+});

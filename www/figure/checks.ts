@@ -16,10 +16,8 @@ function describeValue(value: unknown) {
   return ['function', 'symbol', 'bigint'].includes(typeof value) ? `a ${typeof value}` : String(value);
 }
 
-/** Maximum length of a text in a message. */
-const MAX_LENGTH = 40;
-
-const shorten = (text: string) => (text.length > MAX_LENGTH ? `${text.slice(0, MAX_LENGTH)}…` : text);
+/** Returns the first 40 characters of a text, without splitting a surrogate pair. */
+const shorten = (text: string) => text.replace(/^(.{40}).+$/su, '$1…');
 
 /** Returns an object after a check of its keys. */
 export function checkedObject(field: string, value: unknown, keys: readonly string[]) {

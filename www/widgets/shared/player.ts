@@ -51,6 +51,8 @@ export class Player<Key extends string> extends FigureController {
   /** Advances the animation by the milliseconds since the previous frame. Returns true if there is more to play. */
   advance(elapsedMs: number): boolean {
     if (!this.#playedKey) return false;
+    // The figure also draws without elapsed time, after a change of size. That is no step.
+    if (elapsedMs === 0) return true;
     const { max, durationMs } = this.#playedSettings[this.#playedKey];
     const nextValue = Math.min(max, this.#valueAt(this.#playedKey) + (max * elapsedMs) / durationMs);
     this.host.settings.request({ [this.#playedKey]: nextValue });

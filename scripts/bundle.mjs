@@ -425,7 +425,6 @@ function withoutModule(text) {
  * but not inline ones.
  *
  * @param {string} name
- * @returns {string}
  */
 function inlinedPage(name) {
   const readDistFile = (/** @type {string} */ path) => readFileSync(pathOf(join('dist', path)), 'utf8').replace(/\n?\/\/# sourceMappingURL=\S+\s*$/, '');

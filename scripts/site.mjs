@@ -58,7 +58,6 @@ function linkAddressOf(/** @type {string} */ code) {
  * @param {typeof import('marked')} marked
  * @param {string} document
  * @param {string[]} documents
- * @returns {string}
  */
 function renderPage({ Marked }, document, documents) {
   const pagePath = pagePathOf(document);

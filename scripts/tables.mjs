@@ -33,7 +33,6 @@ const TABLE_BUILDERS = {
  * @param {string} page HTML with comments like `<!-- table of events -->`
  * @param {Element[]} elements
  * @param {Widget[]} widgets
- * @returns {string}
  */
 export function withTables(page, elements, widgets) {
   return page.replaceAll(/^ *<!-- table of (\w+) -->$/gm, (_, name) => TABLE_BUILDERS[name](elements, widgets));

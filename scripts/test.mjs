@@ -203,7 +203,6 @@ const PART_LANES = [
  * Runs one part or all, and returns true if they pass.
  *
  * @param {string[]} args of the command line
- * @returns {Promise<boolean>}
  */
 async function runParts(args) {
   const [partName, ...moreArguments] = args.filter((argument) => argument !== '--all');
@@ -297,7 +296,6 @@ const SHOWN_ERROR_LINES = 60;
  * Prints the outcomes, and returns true if all parts passed.
  *
  * @param {Outcome[]} outcomes
- * @returns {boolean}
  */
 function summarize(outcomes) {
   printStep('Summary');

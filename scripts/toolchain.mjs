@@ -35,7 +35,6 @@ const installationByWorkspace = new Map();
  * Installs the npm packages of the root, and those of a workspace, unless the versions of package-lock.json are already installed.
  *
  * @param {Workspace} [workspace]
- * @returns {Promise<void>}
  */
 export async function ensurePackages(workspace) {
   if (workspace) await ensurePackages();
@@ -161,7 +160,6 @@ export const ensureRustForWasm = once(/** @returns {Promise<Rust>} */ async () =
  * Returns true if the standard library for WebAssembly is installed. If it is missing, rustup is asked to install it first.
  *
  * @param {Rust} native
- * @returns {Promise<boolean>}
  */
 async function hasTarget({ bin, env }) {
   const sysrootRun = await run(join(bin, 'rustc'), ['--print', 'sysroot'], { env, quiet: true });

@@ -1,6 +1,6 @@
 /** Rows of a log. Unusable rows are dropped, with the cause. */
 
-import { max, min, range, sum } from 'd3-array';
+import { group, max, min, range, sum } from 'd3-array';
 import { LogError, type ErrorPlace } from './log-error.ts';
 import type { DropCause, Log, LogKind, Note, OpenOptions, Summary } from './log.ts';
 import { wrapAngle } from './path.ts';
@@ -31,17 +31,20 @@ const MIN_GAP_STEPS = 5;
 /** Minimum speed of a jump, as a multiple of the 90 % quantile of the speeds of a moving robot. */
 const JUMP_FACTOR = 8;
 
-/** Minimum number of rows among which a single wrong stamp can be told, and of different poses that show how often a table repeats each. */
-const [MIN_ROWS, MIN_POSES] = [10, 20];
+/** Minimum number of rows of a log in which a single wrong stamp is looked for. */
+const MIN_ROWS = 10;
 
-/** Minimum number of rows of a standing robot's pose, as a multiple of the usual number. Localizers repeat a pose until the robot has moved. */
+/** Minimum number of different poses from which the usual number of rows of a pose is found. */
+const MIN_POSES = 20;
+
+/** Ratio of a pose's rows to the usual number, from which the robot stands. Below it, a localizer repeats the pose of a robot that has moved little. */
 const STANDSTILL_FACTOR = 8;
 
-/**
- * Limits for late rows. If the clock was set back, many of them are close to another row in time: maximum distance of two such rows in median
- * steps, their maximum number in a run of rising times, and their maximum fraction of all rows.
- */
+/** Limits for overlapping rows: time between two of them, in median steps, and their number in a run of rising times and fraction of all rows. */
 const [MAX_OVERLAP_STEPS, MAX_RUN_OVERLAPS, MAX_OVERLAP_FRACTION] = [0.75, 2, 0.02];
+
+/** Maximum ratio of the path's lengths in the order of times and of the file, if rows are late, and minimum number of rows for this ratio. */
+const [MAX_LATE_PATH_RATIO, MIN_LATE_ROWS] = [0.75, 20];
 
 /**
  * Limits for two paths whose poses alternate: minimum distance (m) of the paths, and minimum number of steps between them. Shorter steps may
@@ -213,16 +216,22 @@ export class Rows {
     if (!runOfRow.at(-1)) return { sortedRows: rows, lateCount: 0 };
     const order = rows.map((_, i) => i).sort((one, other) => times[one] - times[other] || one - other);
     const medianStep = quantile(sampleEvenly(times.length - 1, (i) => times[order[i + 1]] - times[order[i]]).filter((step) => step > 0), 0.5);
-    // Late rows fill gaps. Rows of a clock that was set back are between the rows that had the same times before.
-    const overlapCounts = new Map<number, number>();
+    const distance = (one: number, other: number) =>
+      Math.hypot(this.#number(rows[one], A) - this.#number(rows[other], A), this.#number(rows[one], B) - this.#number(rows[other], B));
+    // Rows overlap if they are close in time but not in the file. Rows that were only late make the path shorter when they are sorted.
+    const overlaps: { run: number; sortedLength: number; fileLength: number }[] = [];
     for (let i = 1; i < order.length; i++) {
       const [one, other] = [order[i - 1], order[i]];
       const isOverlap = runOfRow[one] !== runOfRow[other] && times[other] - times[one] < MAX_OVERLAP_STEPS * medianStep && !this.#isSame(rows[one], rows[other]);
-      const laterRun = Math.max(runOfRow[one], runOfRow[other]);
-      if (isOverlap) overlapCounts.set(laterRun, (overlapCounts.get(laterRun) ?? 0) + 1);
+      const run = Math.max(runOfRow[one], runOfRow[other]);
+      if (isOverlap) overlaps.push({ run, sortedLength: distance(one, other), fileLength: distance(other, Math.max(other, 1) - 1) });
     }
-    const hasManyOverlaps = sum(overlapCounts.values()) > Math.max(MAX_RUN_OVERLAPS, MAX_OVERLAP_FRACTION * rows.length);
-    const [setBackRun] = [...overlapCounts].find(([, count]) => hasManyOverlaps || count > MAX_RUN_OVERLAPS) ?? [];
+    const isSetBack = (found: typeof overlaps, maxCount: number) => {
+      const hasShorterPath = sum(found, ({ sortedLength }) => sortedLength) < MAX_LATE_PATH_RATIO * sum(found, ({ fileLength }) => fileLength);
+      return found.length > maxCount && !(hasShorterPath && found.length >= MIN_LATE_ROWS);
+    };
+    const hasManyOverlaps = isSetBack(overlaps, Math.max(MAX_RUN_OVERLAPS, MAX_OVERLAP_FRACTION * rows.length));
+    const [setBackRun] = [...group(overlaps, ({ run }) => run)].find(([, found]) => hasManyOverlaps || isSetBack(found, MAX_RUN_OVERLAPS)) ?? [];
     if (setBackRun !== undefined) {
       const setBackRow = runOfRow.indexOf(setBackRun);
       const line = this.#number(rows[setBackRow], LINE);

@@ -72,6 +72,10 @@ test('a log that is out of order everywhere is sorted, and one of two clocks in 
     assert.deepEqual([[...data.x], [...data.breaks], summary.used], [CIRCLE_ROWS.map(([, x]) => x), [], rows.length]);
     assert.ok(summary.notes[0].name === 'sorted' && Number(summary.notes[0].values[0]) > rows.length / 8, JSON.stringify(summary.notes));
   }
+  // Stamps that vary by a fifth of a step, and every third row late.
+  const jitteredRows = CIRCLE_ROWS.map(([t, ...pose], i) => [t + ((rowOrder[i] % 21) - 10) / 1000, ...pose]);
+  const lateTable = jitteredRows.map((_, i) => i).toSorted((one, other) => one + (one % 3 ? 0 : 3.5) - other - (other % 3 ? 0 : 3.5)).map((i) => jitteredRows[i].join(','));
+  assert.deepEqual([...(await readTable([header, ...lateTable].join('\n'))).data.x], CIRCLE_ROWS.map(([, x]) => x));
   const rowsOfTwoClocks = rows.flatMap((row, i) => [row, [CIRCLE_ROWS[i][0] + 5.02, ...CIRCLE_ROWS[rows.length - 1 - i].slice(1)].join(',')]);
   assert.match(await refusalSentenceOf(readTable([header, ...rowsOfTwoClocks].join('\n'))), /^run\.csv, line 202: times go back by 4\.97 s and repeat those before;/);
 });
@@ -135,12 +139,13 @@ test('pauses and jumps are found, and a heading that wraps is no jump', async ()
 test('ordinary logs are neither of two paths nor in another unit', async () => {
   const wrapAngle = (/** @type {number} */ angle) => Math.atan2(Math.sin(angle), Math.cos(angle));
   for (const table of [
-    // Few rows a round, vibrations, a single pose elsewhere, a robot that reverses on a curve, and a fast car whose unit is in the name.
+    // Few rows a round, vibrations, a single pose elsewhere, a robot that reverses on a curve, a car, and a unit in the name.
     circleTableOf((_, i) => [2 * i, Math.sin(i), -Math.cos(i), wrapAngle(i)]),
     circleTableOf(([t, , , yaw], i) => [t, (i % 2) / 25, 0, yaw]),
     circleTableOf(([t], i) => (i < 10 ? [t, i === 4 ? 5 : 0, 0, 0] : [])),
     circleTableOf(([t], i) => [t, ...CIRCLE_ROWS[Math.min(i, 799 - i)].slice(1)]),
-    circleTableOf(([t]) => [t, 40 * Math.sin(0.3 * t), 0, 0], 't,x_m,y_m,yaw'),
+    circleTableOf(([t]) => [t, 40 * Math.sin(0.3 * t), 0, 0]),
+    circleTableOf(([t]) => [t, 15 * Math.sin(t), 0, 0], 't,x_m,y_m,yaw'),
   ]) assert.equal((await readTable(table)).summary.units.length.unit, 'm');
 });
 

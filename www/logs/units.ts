@@ -43,8 +43,11 @@ const [USUAL_RATES, POSSIBLE_RATES] = [[0.2, 2000], [0.05, 5000]] as const;
 /** Minimum and maximum speed of moving robots, m/s or rad/s. */
 const [MIN_SPEED, MAX_SPEED] = [0.005, 20.5];
 
-/** Maximum speed (m/s) of a log whose unit of length is not stated. A faster one may be that of a slow robot in centimetres. */
-const MAX_UNSTATED_SPEED = 5;
+/**
+ * Speed (m/s) above which a log may be that of a slow robot in centimetres. It then has larger accelerations (m/s²) than tyres can have. Above the
+ * second speed the unit is always asked for.
+ */
+const [DOUBTFUL_SPEED, MAX_ACCELERATION, MAX_VEHICLE_SPEED] = [5, 10, 50];
 
 /** Most usual speed of a robot, m/s. */
 const USUAL_SPEED = 0.5;
@@ -82,7 +85,8 @@ export function judgeUnits(place: ErrorPlace, kind: LogKind, columns: Columns, a
   const time = isJudged ? judgeTimeUnit(kind, columns, assumed.time, askUnit) : assumed.time;
   convertTimes(columns, 10 ** (UNIT_EXPONENTS[time.unit] - UNIT_EXPONENTS[assumed.time.unit]));
   const speed = kind === 'poses' ? speedOf(t, a, b) : quantile(sampleEvenly(a.length, (i) => Math.abs(a[i])), 0.9);
-  if (isJudged && length.by === 'usage' && speed > MAX_UNSTATED_SPEED) askUnit('lengthUnit', speed, length.unit, lengthUnitsByUsage(speed));
+  const isDoubtful = speed > MAX_VEHICLE_SPEED || (speed > DOUBTFUL_SPEED && accelerationOf(kind, columns) > MAX_ACCELERATION);
+  if (isJudged && length.by === 'usage' && isDoubtful) askUnit('lengthUnit', speed, length.unit, lengthUnitsByUsage(speed));
 
   const { unit, by } = options.angleUnit ? { unit: options.angleUnit, by: 'option' as const } : assumed.angle;
   const alignment = isJudged && kind === 'poses' ? alignmentWithPath(t, a, b, c) : undefined;
@@ -152,6 +156,15 @@ const medianStepOf = (t: Float64Array) => quantile(sampleEvenly(t.length - 1, (i
 function speedOf(t: Float64Array, x: Float64Array, y: Float64Array): number {
   const stride = Math.min(Math.max(1, Math.round(STEP_DURATION / medianStepOf(t))), t.length - 1);
   return quantile(sampleEvenly(t.length - stride, (i) => Math.hypot(x[i + stride] - x[i], y[i + stride] - y[i]) / (t[i + stride] - t[i])), 0.9);
+}
+
+/** Returns the 99 % quantile of the accelerations between steps. For commands it is that of v. */
+function accelerationOf(kind: LogKind, { t, a, b }: Columns): number {
+  const stride = Math.max(1, Math.round(STEP_DURATION / medianStepOf(t)));
+  const velocityAt = (i: number, column: Float64Array) => (column[i + stride] - column[i]) / (t[i + stride] - t[i]);
+  const change = (i: number, column: Float64Array) => velocityAt(i + stride, column) - velocityAt(i, column);
+  const accelerationAt = (i: number) => (kind === 'poses' ? (2 * Math.hypot(change(i, a), change(i, b))) / (t[i + 2 * stride] - t[i]) : Math.abs(velocityAt(i, a)));
+  return quantile(sampleEvenly(t.length - 2 * stride, accelerationAt), 0.99);
 }
 
 /** Returns the 90 % quantile of the turn rates of the steps. */

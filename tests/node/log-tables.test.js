@@ -126,6 +126,11 @@ const READABLE_TABLES = [
   { name: 'ros2 topic echo --csv of poses', start: EPOCH_SECONDS, text: tableOf('', (row) => [...secondsAndNanoseconds(row.t), 'map', ...poseCellsOf(row)]).slice(1) },
   { name: 'ros2 topic echo --csv of commands', start: EPOCH_SECONDS, kind: 'commands', text: tableOf('', ({ t, v, omega }) => [...secondsAndNanoseconds(t), 'base', v, 0, 0, 0, 0, omega]).slice(1) },
   { name: 'PlotJuggler, a topic of two', start: EPOCH_SECONDS, series: ['/odom', '/mocap', '/imu'], choice: { series: '/odom' }, text: plotjugglerTable },
+  {
+    name: 'PlotJuggler, stamps of two topics', start: EPOCH_SECONDS, series: ['/mocap/pose', '/cmd_vel'], choice: { series: '/mocap/pose' },
+    text: tableOf('__time,/mocap/pose/header/stamp,/mocap/pose/pose/position/x,/mocap/pose/pose/position/y,/mocap/pose/pose/orientation/yaw,/cmd_vel/header/stamp,/cmd_vel/twist/linear/x,/cmd_vel/twist/angular/z',
+      ({ t, x, y, theta, v, omega }) => [EPOCH_SECONDS + t + 0.5, EPOCH_SECONDS + t, x, y, theta, EPOCH_SECONDS + t + 0.25, v, omega]),
+  },
   { name: 'a prefix', series: ['gt_', 'odom_'], choice: { series: 'odom_' }, text: tableOf('t,gt_x,gt_y,gt_yaw,odom_x,odom_y,odom_yaw', ({ t, x, y, theta }) => [t, 7, 8, 9, x, y, theta]) },
   { name: 'a suffix', series: ['_gt', '_odom'], choice: { series: '_gt' }, text: tableOf('t,x_gt,y_gt,theta_gt,x_odom,y_odom,theta_odom', ({ t, x, y, theta }) => [t, x, y, theta, 7, 8, 9]) },
   { name: 'an own message before one that it contains', text: tableOf('time,object.pose.position.x,pose.position.x,pose.position.y,pose.yaw', ({ t, x, y, theta }) => [t, 9, x, y, theta]), series: ['', 'object'] },

@@ -169,11 +169,15 @@ function matchField(path: string): ColumnMeaning | undefined {
  */
 export function groupColumns(names: string[], isTime: (index: number) => boolean = () => false): Group[] {
   const groups = new Map<string, Group>();
+  // PlotJuggler puts the topic before each name. A topic may have the name of its message's fields, as in /mocap/pose and /cmd_vel.
+  const topics = names.flatMap((name) => /^\s*(\/.+\/)header\/stamp\s*$/.exec(name)?.[1] ?? []);
   for (const [index, name] of names.entries()) {
     const isUnnamed = /^\s*(|unnamed: \d+|index)\s*$/i.test(name);
-    const meaning: ColumnMeaning | undefined = isUnnamed ? (isTime(index) ? { field: 't', rank: 9, prefix: '' } : undefined) : parseColumnName(name);
+    const topic = topics.find((start) => name.trim().startsWith(start)) ?? '';
+    const meaning: ColumnMeaning | undefined = isUnnamed ? (isTime(index) ? { field: 't', rank: 9, prefix: '' } : undefined) : parseColumnName(name.trim().slice(topic.length));
     if (!meaning) continue;
-    const { field, rank, prefix, unit } = meaning;
+    const { field, rank, unit } = meaning;
+    const prefix = dottedName(topic + meaning.prefix);
     const group = groups.get(prefix) ?? { name: prefix, kind: null, hasCommands: false, columns: {}, duplicateColumns: {}, timeColumns: [], clocks: [] };
     groups.set(prefix, group);
     // Headings in radians are preferred. Headings in degrees beside them are usually derived.

@@ -89,7 +89,7 @@ export const german: Words = {
     noTable: (notation) => `das ist ${notation} und keine Tabelle; eine Zeile je Zeitpunkt schreiben, wie mit ros2 topic echo --csv, rostopic echo -p oder pandas, oder die Aufzeichnung selbst angeben.`,
     twists: 'Zeilen mit 6 Zahlen sind Befehle von geometry_msgs/Twist, die keine Zeiten haben; die Aufzeichnung selbst angeben, oder eine Spalte mit Zeiten ergänzen.',
     positions: (columns) =>
-      `${columns} sind Positionen ohne Richtung; nötig ist eine Referenz, die die Richtung misst, wie mit zwei Prismen, Markern oder Scan-Matching (in einer Tabelle in einer Spalte namens yaw): Die Fahrtrichtung verbirgt Drehfehler und würde alpha1 und alpha2 halbieren.`,
+      `${columns} sind Positionen ohne Richtung; nötig ist eine Referenz, die die Richtung misst, wie mit zwei Prismen, Markern oder Scan-Matching (in einer Tabelle in einer Spalte namens yaw mit dem Präfix von x und y): Die Fahrtrichtung verbirgt Drehfehler und würde alpha1 und alpha2 halbieren.`,
     kitti: 'Zeilen mit 12 Zahlen sind Posen von KITTI, die keine Zeiten haben; diese aus times.txt mit kitti_poses_and_timestamps_to_trajectory.py von evo ergänzen und die TUM-Datei angeben, die es schreibt.',
     euler: (rotation) => `die Drehungen sind Eulerwinkel (${rotation}); die Aufnahme noch einmal aus Motive exportieren, mit Rotation Type „Quaternion“.`,
     tilted: 'die Posen drehen sich nicht um eine senkrechte Z-Achse; erwartet werden Quaternionen in der Reihenfolge des Kopfs auf einer Ebene mit Z nach oben. Mit Z nach oben exportieren, oder die Spalten auswählen.',

@@ -96,7 +96,7 @@ export const english = {
     noTable: (notation: string) => `it is ${notation} and no table; write one row a time, as by ros2 topic echo --csv, rostopic echo -p or pandas, or give the recording itself.`,
     twists: 'rows of 6 numbers are commands of geometry_msgs/Twist, which have no times; give the recording itself, or add a column of times.',
     positions: (columns: string) =>
-      `${columns} are positions without a heading; give a reference that measures the heading, as by two prisms, markers or scan matching (in a table, in a column named yaw): the direction of travel hides turning errors, and would halve alpha1 and alpha2.`,
+      `${columns} are positions without a heading; give a reference that measures the heading, as by two prisms, markers or scan matching (in a table, in a column named yaw with the prefix of x and y): the direction of travel hides turning errors, and would halve alpha1 and alpha2.`,
     kitti: 'rows of 12 numbers are poses of KITTI, which have no times; add them from its times.txt with kitti_poses_and_timestamps_to_trajectory.py of evo, and give the TUM file that it writes.',
     euler: (rotation: string) => `the rotations are Euler angles (${rotation}); export the take from Motive again with the rotation type Quaternion.`,
     tilted: 'the poses do not turn about a vertical Z axis; expected are quaternions in the order of the header on a plane with Z up. Export with Z up, or choose the columns.',

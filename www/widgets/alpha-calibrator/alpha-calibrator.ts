@@ -2,28 +2,28 @@
 
 import { html } from 'lit';
 import { checkedObject } from '../../figure/checks.ts';
-import { pictureCanvas, disclosures, titledPicture } from '../../figure/controls.ts';
+import { pictureCanvas, disclosures, titledPicture, settingRadios, editableSlider, settingSlider } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
 import { define } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
 import { pointInView } from '../../scene/canvas.ts';
 import { Memo } from '../../scene/memo.ts';
-import { group } from '../../ui/controls.ts';
-import { integer } from '../../ui/format.ts';
+import { group, button, radioGroup } from '../../ui/controls.ts';
+import { integer, NO_VALUE, fixed, formatEditable } from '../../ui/format.ts';
+import { readoutList } from '../../ui/readouts.ts';
 import { startOverButton } from '../shared/presets.ts';
-import { legControls, legLengthControls, legReadouts, modelControls, predictionControls } from './controls.ts';
 import { diagnosticsHtml, regressionPanels } from './diagnostics.ts';
 import { LogService, isAbortError } from './log-service.ts';
 import { copyMessage, copyButton, nav2ExportControls } from './nav2.ts';
 import { LogOpener, dropZone, logSection } from './open.ts';
 import { LegPicture, PathPicture } from './pictures.ts';
-import { SummaryPicture } from './summary-picture.ts';
-import { shownLegOf, viewModelOf, type ViewModel } from './view-model.ts';
 import { alphaTable, alphaTexts, verdictHtml } from './readouts.ts';
-import { NOISE_COMPONENTS, LINE_STYLES, definition, modelRuleOf } from './settings.ts';
+import { NOISE_COMPONENTS, LINE_STYLES, definition, modelRuleOf, settingsFor } from './settings.ts';
 import { styles } from './styles.ts';
+import { SummaryPicture } from './summary-picture.ts';
 import { systematicTable, systematicTexts } from './systematic.ts';
+import { shownLegOf, viewModelOf, type ViewModel, observedCount } from './view-model.ts';
 import { captionOf, judgementOf, legText, recommendationReason, pathText } from './words.ts';
 import type { AlphaCalibrator as Simulation, CalibrationLog, CalibrationPanel, LegView, Motion } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
@@ -35,6 +35,58 @@ interface OpenedLog {
   warnings: Warning[];
   config: Simulation['config'];
   fit: Uint8Array;
+}
+
+function legControls(figure: AlphaCalibratorElement) {
+  const { viewModel: { legs, worst }, chosen } = figure;
+  const texts = words.calibrator.leg;
+  // The button selects the leg after the selected one in the list of worst legs, or the first of the list.
+  const nextLeg = worst[(worst.indexOf(figure.state.elementState.leg) + 1) % Math.max(1, worst.length)];
+  return html`<fieldset class="leg">
+      <legend class="visually-hidden">${texts.name}</legend>
+      ${editableSlider(figure, texts.name, { min: 1, max: legs.count, type: 'whole' }, {
+        id: 'leg',
+        name: texts.name,
+        value: chosen + 1,
+        min: 1,
+        max: Math.max(2, legs.count),
+        step: 1,
+        show: integer,
+        effect: undefined,
+        role: 'truth',
+        hasNoEffect: legs.count < 2,
+        input: (number) => figure.settings.request({ leg: number - 1 }),
+        commit: () => figure.gesture.commit(),
+      })}
+    </fieldset>
+    ${button(texts.worst, () => figure.gesture.decide({ leg: nextLeg }), { disabled: nextLeg === undefined })}`;
+}
+
+function legReadouts({ viewModel: { legs }, chosen, predicted: leg }: AlphaCalibratorElement) {
+  const texts = words.calibrator.leg;
+  const off = leg ? Math.hypot(leg.ended[0] - leg.read[0], leg.ended[1] - leg.read[1]) : NaN;
+  return readoutList([
+    [texts.off, `${fixed(off, 3)} m`],
+    [texts.squared(String(observedCount(legs.residuals, chosen))), fixed(leg ? legs.squared[chosen] : NaN, 1)],
+    [words.calibrator.overlays.outlier, leg ? texts.isOutlier[legs.outliers[chosen] > 0 ? 'yes' : 'no'] : NO_VALUE],
+  ]);
+}
+
+function modelControls(figure: AlphaCalibratorElement) {
+  const { fit, settings: { model }, kinds, outliers } = words.calibrator;
+  const formatDuration = (seconds: number) => (seconds > 0 ? `${formatEditable(seconds, 2)} s` : NO_VALUE);
+  const chooseModel = (kind: import('./settings.ts').ModelRule) => figure.gesture.decide(settingsFor(kind));
+  return group(fit, html`${radioGroup(model.name, 'kind', kinds, modelRuleOf(figure.settings.requested as any), chooseModel)}
+    ${settingRadios(figure, 'outliers', outliers)} ${settingSlider(figure, 'duration', { show: formatDuration })}`, 'fit');
+}
+
+function predictionControls(figure: AlphaCalibratorElement) {
+  return group(words.calibrator.prediction, html`${settingRadios(figure, 'noise', words.noises)} ${settingSlider(figure, 'inflation')}`, 'fit');
+}
+
+function legLengthControls(figure: AlphaCalibratorElement) {
+  const off = figure.settings.requested.duration > 0;
+  return group(words.calibrator.leg.group, html`<div class="controls">${settingSlider(figure, 'distance', { hasNoEffect: off })} ${settingSlider(figure, 'angle', { hasNoEffect: off })}</div>`);
 }
 
 /**

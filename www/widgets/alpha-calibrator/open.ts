@@ -1,10 +1,11 @@
 /** Opener of the user's logs, from chosen or dropped files. */
 
 import { html, nothing } from 'lit';
+import { settingSlider } from '../../figure/controls.ts';
 import { language, words } from '../../messages/registry.ts';
 import { button } from '../../ui/controls.ts';
+import { formatEditable } from '../../ui/format.ts';
 import { FileOpener } from '../shared/files.ts';
-import { referenceNoiseControls } from './controls.ts';
 import { isAbortError, type LogFailure } from './log-service.ts';
 import type { Drive, LogPlan, UserChoices } from '../../logs/drives.ts';
 import type { OpenOptions, Question, Recording, Role } from '../../logs/log.ts';
@@ -234,6 +235,12 @@ async function loadLogModules() {
     import('../../logs/candidates.ts'), import('../../logs/drives.ts'), import('../../logs/pairs.ts'), import('./log-choice.ts'), import('../../logs/en.ts'), import('../../logs/de.ts'),
   ]);
   return { ...candidates, ...drives, ...pairs, ...choice, en, de };
+}
+
+function referenceNoiseControls(figure: Figure) {
+  const stdSlider = (key: string, unit: string) =>
+    settingSlider(figure, key, { show: (std: number) => (std > 0 ? `${formatEditable(std, 3)} ${unit}` : words.calibrator.estimated) });
+  return html`<div class="controls">${stdSlider('positionStd', 'm')} ${stdSlider('yawStd', 'rad')}</div>`;
 }
 
 /** Returns the drop zone for logs. Below it are the choosers, the progress or name of the log, and the reason for a refusal. */

@@ -1,24 +1,68 @@
 /** <arc-anatomy>: the arc between two poses, and how likely it is after a command. */
 
-import { html } from 'lit';
-import { pictureCanvas, disclosures, titledPicture } from '../../figure/controls.ts';
+import { html, nothing } from 'lit';
+import { pictureCanvas, disclosures, titledPicture, settingCheckbox, settingRadios, settingSliders } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
-import { legend } from '../../figure/overlays.ts';
+import { legend, swatchHtml } from '../../figure/overlays.ts';
 import { define } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
+import { button, group, formatMarkup } from '../../ui/controls.ts';
+import { fixed } from '../../ui/format.ts';
+import { track } from '../../ui/slider.ts';
 import { Player } from '../shared/player.ts';
 import { PoseHandles } from '../shared/pose-handles.ts';
 import { presetButtons } from '../shared/presets.ts';
-import { commandControls, likelihoodControls, lineStepper, noiseControls, timeControl } from './controls.ts';
-import { formsPlot, factorBarsHtml, headlineHtml, likelihoodReadouts, tableLinesHtml } from './readouts.ts';
 import { ArcPicture, ROBOT_RADIUS } from './picture.ts';
-import { LINE_STYLES, MAX_COORDINATE, UNDERWAY_AT_END, definition } from './settings.ts';
+import { formsPlot, factorBarsHtml, headlineHtml, likelihoodReadouts, tableLinesHtml, lineText } from './readouts.ts';
+import { LINE_STYLES, MAX_COORDINATE, UNDERWAY_AT_END, definition, CONTOUR_STYLES, ALPHA_SLIDERS, COMMAND_SLIDERS, TABLE_LINES } from './settings.ts';
 import { styles } from './styles.ts';
 import { captionOf, pictureText, type ViewModel } from './words.ts';
 import type { ArcAnatomy as Simulation } from '../../types.d.ts';
 
 /** Bounds of both poses, m. */
 const POSE_BOUNDS = [-MAX_COORDINATE, -MAX_COORDINATE, MAX_COORDINATE, MAX_COORDINATE];
+
+const commandControls = (figure: ArcAnatomyElement) => group(words.command, settingSliders(figure, COMMAND_SLIDERS));
+
+const noiseControls = (figure: ArcAnatomyElement) =>
+  group(words.noise, html`${settingRadios(figure, 'noise', words.noises)} ${settingSliders(figure, ALPHA_SLIDERS)}`, 'alphas');
+
+/** Returns the controls of the likelihood: the sign of the radius, and the heat map with the names of its contours. */
+function likelihoodControls(figure: ArcAnatomyElement) {
+  const { likelihood, maps, printed } = words.anatomy;
+  const { map } = figure.settings.requested;
+  const contourEntry = (name: 'prob' | 'density') => html`<span>${swatchHtml(CONTOUR_STYLES[name])} ${maps[name]}</span>`;
+  return group(likelihood, html`${settingCheckbox(figure, 'printed', formatMarkup(printed))} ${settingRadios(figure, 'map', maps)}
+    ${map === 'none' ? nothing : html`<p class="legend">${contourEntry('prob')} ${contourEntry('density')}</p>`}`);
+}
+
+/** Returns an icon, with a text for screen readers. */
+const iconWithText = (visibleSymbol: string, spokenText: string) => html`<span aria-hidden="true">${visibleSymbol}</span><span class="visually-hidden">${spokenText}</span>`;
+
+function lineStepper(figure: ArcAnatomyElement) {
+  const texts = words.anatomy.table;
+  const { line } = figure.state.elementState;
+  const chooseLine = (to: number) => () => figure.gesture.choose('line', to);
+  return html`<div class="stepper" role="group" aria-label=${texts.label}>
+    ${button(iconWithText('‹', texts.back), chooseLine(line - 1), { disabled: line === 0, title: texts.back })}
+    ${button(iconWithText('›', texts.on), chooseLine(line + 1), { disabled: line === TABLE_LINES, title: texts.on })}
+    <p role="status">${line === 0 ? texts.begin : formatMarkup(lineText(figure.viewModel, line))}</p>
+  </div>`;
+}
+
+function timeControl({ player, gesture, viewModel, state }: ArcAnatomyElement) {
+  const { underway } = state.elementState;
+  const { dt } = viewModel.config.command;
+  const timeText = words.anatomy.timeOf(fixed((underway / UNDERWAY_AT_END) * dt, 2), fixed(dt, 2));
+  return group(words.anatomy.time, html`<div class="underway">
+    ${player.button('underway', words.play)}
+    <div class="slider" part="slider" data-role="truth">
+      <label for="underway"><bdi class="symbol notranslate" translate="no"><i>t</i></bdi>${words.anatomy.underway}</label>
+      ${track({ id: 'underway', min: 0, max: UNDERWAY_AT_END, step: 1, value: underway, text: timeText, input: (at) => player.setByUser('underway', at), commit: () => gesture.commit() })}
+      <output class="value" for="underway">${timeText}</output>
+    </div>
+  </div>`);
+}
 
 /**
  * The arc between two poses, and how likely it is after a command.

@@ -1,31 +1,30 @@
 /** <banana-machine>: one command, thousands of outcomes, and the coordinates in which they are nearly a Gaussian. */
 
-import { html } from 'lit';
+import { html, nothing } from 'lit';
 import { checkedObject } from '../../figure/checks.ts';
 import { enterCloud } from '../../figure/cloud.ts';
-import { pictureCanvas, disclosures, titledPicture } from '../../figure/controls.ts';
+import { pictureCanvas, disclosures, titledPicture, cloudButtons, samplesSlider, settingCheckbox, settingRadios, settingSlider, settingSliders } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
 import { define } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
-import { openingAlphas } from '../../settings.js';
 import { hasLength } from '../../scene/draw.ts';
 import { Memo } from '../../scene/memo.ts';
+import { openingAlphas } from '../../settings.js';
 import { clamp } from '../../ui/clamp.ts';
-import { button, formatMarkup } from '../../ui/controls.ts';
-import { fixed } from '../../ui/format.ts';
+import { button, formatMarkup, radioButton, group, toggle } from '../../ui/controls.ts';
+import { fixed, formatEditable } from '../../ui/format.ts';
 import { plot } from '../../ui/plot.ts';
 import { Player } from '../shared/player.ts';
-import { commandControls, growthControls, modelControls, otherAlphaControls, samplesControl, visibleAlphaControls } from './controls.ts';
 import { presetButtons } from '../shared/presets.ts';
 import { ArcHandle } from './handle.ts';
 import { IntroducedCloud } from './introduction.ts';
 import { MORPH_MS, lineMorphOf, morphControl, outlinesAt, morphedPoint } from './morph.ts';
 import { PlanePicture, TwistPicture } from './pictures.ts';
-import { viewModelOf, viewModelOfSettings, type ViewModel } from './view-model.ts';
 import { markedRobotField, otherReadouts, mainReadouts, twistTable, workedExampleTable } from './readouts.ts';
-import { LINE_STYLES, OVERLAY_NAMES, definition, sliderSpecs } from './settings.ts';
+import { LINE_STYLES, OVERLAY_NAMES, definition, sliderSpecs, COMMAND_SLIDERS, SAMPLE_COUNTS } from './settings.ts';
 import { styles } from './styles.ts';
+import { viewModelOf, viewModelOfSettings, type ViewModel, alphaName } from './view-model.ts';
 import { calloutsOf, captionOf, floorTitle, planeText, skewText, twistCaption, twistText } from './words.ts';
 import type { BananaMachine as Simulation, BananaMachineSettings as Settings, Inspection } from '../../types.d.ts';
 import type { Values } from '../../figure/settings.ts';
@@ -41,6 +40,64 @@ const CURVE_POINTS = 241;
 
 /** Allowed heights of the skew chart, so that its axis does not change with every step of a drag. */
 const CHART_HEIGHTS = [0.25, 0.5, 1, 2, 4, 8];
+
+function commandControls(figure: BananaMachineElement) {
+  return group(words.command, settingSliders(figure, COMMAND_SLIDERS));
+}
+
+function modelControls(figure: BananaMachineElement) {
+  const { model, alphas, isolate } = figure.viewModel.config;
+  const texts = words.banana;
+  // The choice counts from 1. It may be larger than the number of α's, because it was made under the other model.
+  const isolatedAlpha = Math.min(figure.state.elementState.isolateChoice, alphas.length);
+  return group(texts.modelGroup, html`${settingRadios(figure, 'model', texts.models)} ${settingRadios(figure, 'noise', words.noises)}
+    ${model === 'odometry' ? settingCheckbox(figure, 'reverseAware', texts.reverseAware) : nothing}
+    ${toggle({
+      label: texts.isolate,
+      checked: isolate !== null,
+      change: (on) => figure.gesture.decide({ isolate: on ? isolatedAlpha : null }),
+    })}`);
+}
+
+/**
+ * Indices of the α's that are always visible, by model: those that add noise to the distance and to the turn of a straight drive. The cloud is
+ * a banana if the turn has much more.
+ */
+const VISIBLE_ALPHAS: Record<string, number[]> = { velocity: [0, 2], odometry: [1, 2] };
+
+const isAlwaysVisible = (figure: BananaMachineElement, index: number) => VISIBLE_ALPHAS[figure.viewModel.config.model].includes(index);
+
+const visibleAlphaControls = (figure: BananaMachineElement) => alphaGroup(figure, (index) => isAlwaysVisible(figure, index), 'pair');
+
+const otherAlphaControls = (figure: BananaMachineElement) => alphaGroup(figure, (index) => !isAlwaysVisible(figure, index), 'alphas');
+
+const growthControls = (figure: BananaMachineElement) => group(words.samples, cloudButtons(figure), 'cloud');
+
+const samplesControl = (figure: BananaMachineElement) => group(words.samples, samplesSlider(figure, SAMPLE_COUNTS));
+
+/** Returns a group with the sliders of those α's whose indices `isIn` accepts. */
+function alphaGroup(figure: BananaMachineElement, isIn: (index: number) => boolean, name: string) {
+  const { model, alphas } = figure.viewModel.config;
+  return group(words.noise, [...alphas.keys()].filter(isIn).map((index) => alphaSlider(figure, index + 1, words.alphas[model as 'velocity' | 'odometry'][index])), name);
+}
+
+/** Returns the slider of an α, counted from 1. */
+function alphaSlider(figure: BananaMachineElement, alphaNumber: number, [name, effect]: string[]) {
+  const { isolate } = figure.viewModel.config;
+  const hasNoEffect = isolate !== null && isolate !== alphaNumber;
+  const chooseAlpha = () => figure.gesture.decide({ isolate: alphaNumber, isolateChoice: alphaNumber });
+  return settingSlider(figure, `alpha${alphaNumber}`, {
+    name,
+    effect: formatMarkup(effect),
+    hasNoEffect,
+    pickControl: isolate === null ? undefined : radioButton({ group: 'isolate', name: words.banana.only(alphaName(alphaNumber - 1)), checked: !hasNoEffect, choose: chooseAlpha }),
+    show: (value) => (hasNoEffect ? words.banana.off(formatEditable(value, 3)) : formatEditable(value, 3)),
+    input: (value) => {
+      if (hasNoEffect) chooseAlpha();
+      figure.settings.request(({ alphas }) => ({ alphas: alphas.with(alphaNumber - 1, value) }));
+    },
+  });
+}
 
 /**
  * One command, thousands of outcomes, and the coordinates in which they are close to an ordinary Gaussian.

@@ -2,19 +2,20 @@
 
 import { html } from 'lit';
 import { Cloud, enterCloud } from '../../figure/cloud.ts';
-import { pictureCanvas, settingRadios, disclosures, titledPicture } from '../../figure/controls.ts';
+import { pictureCanvas, settingRadios, disclosures, titledPicture, cloudControls, settingSlider, settingSliders } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
 import { define } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
 import { Memo } from '../../scene/memo.ts';
+import { group } from '../../ui/controls.ts';
+import { fixed } from '../../ui/format.ts';
 import { presetButtons } from '../shared/presets.ts';
-import { moreControls, pathControls } from './controls.ts';
 import { PathPicture, StepPicture } from './pictures.ts';
-import { COMPONENTS, viewModelOf, type ViewModel } from './view-model.ts';
 import { headlineHtml, markedRobotField, missTable, ratioPlot, straightGrowthPlot } from './readouts.ts';
-import { OUTLINE_STYLES, RECURSIONS, definition } from './settings.ts';
+import { OUTLINE_STYLES, RECURSIONS, definition, COMMAND_SLIDERS, NOISE_SLIDERS, SAMPLE_COUNTS } from './settings.ts';
 import { styles } from './styles.ts';
+import { COMPONENTS, viewModelOf, type ViewModel } from './view-model.ts';
 import { captionOf, planeText, stepText } from './words.ts';
 import type { Values } from '../../figure/settings.ts';
 import type { DeadReckoning as Simulation } from '../../types.d.ts';
@@ -24,6 +25,29 @@ const VARIANCE_UNITS = { along: 'm2', lateral: 'm2', heading: 'rad2' };
 
 /** Returns the names of the columns of a quantity in a table, one for each component. */
 const columnNamesOf = (quantity: string) => COMPONENTS.map((name) => `${quantity}_${name}_${VARIANCE_UNITS[name]}`).join(' ');
+
+function pathControls(figure: DeadReckoningElement) {
+  return html`<div class="controls" part="controls">
+    ${settingSlider(figure, 'headingNoise')} ${settingSlider(figure, 'steps', { input: (steps) => figure.settings.request((requested) => settingsForSteps(requested, steps)) })}
+  </div>`;
+}
+
+/** Returns the settings for the same path in another number of steps, with the selected step at the same point of the path. */
+function settingsForSteps({ command, steps: previousSteps, step }: Record<string, any>, steps: number) {
+  return { steps, step: Math.max(1, Math.round((step * steps) / previousSteps)), command: { ...command, dt: (command.dt * previousSteps) / steps } };
+}
+
+function moreControls(figure: DeadReckoningElement) {
+  const { steps, step, command: { dt } } = figure.settings.requested;
+  const { walked, per } = words.reckoning;
+  const drivenTimeText = walked(fixed(step * dt, 2), fixed(steps * dt, 2));
+  return html`<div class="controls">
+    ${group(words.command, html`${settingSliders(figure, COMMAND_SLIDERS)}
+      ${settingSlider(figure, 'step', { max: Math.max(2, steps), maxEntered: steps, hasNoEffect: steps === 1, effect: drivenTimeText })}`)}
+    ${group(words.noise, html`${settingSliders(figure, NOISE_SLIDERS)} ${settingRadios(figure, 'per', per)}`)}
+    ${cloudControls(figure, SAMPLE_COUNTS)}
+  </div>`;
+}
 
 /**
  * One command driven step after step, and how well its growing uncertainty is predicted.

@@ -20,7 +20,7 @@ const CHART_HEIGHTS = [1.2, 1.6, 2, 3, 5, 10];
 const RATIO_TOLERANCE = 0.05;
 
 /** Returns the chart of predicted over measured variance, whose line at the selected step is a slider. */
-export function ratioPlot(figure: import('./dead-reckoning.ts').DeadReckoningElement, viewModel: ViewModel) {
+export function ratioPlot(figure: import('./dead-reckoning.ts').DeadReckoningElement, viewModel: ViewModel): ReturnType<typeof plot> {
   const { config: { step, steps }, curves } = viewModel;
   const { overlays } = figure.state.elementState;
   const texts = words.reckoning;

@@ -2,23 +2,24 @@
 
 import { html, nothing } from 'lit';
 import { Cloud, enterCloud } from '../../figure/cloud.ts';
-import { pictureCanvas, disclosures, titledPicture } from '../../figure/controls.ts';
+import { pictureCanvas, disclosures, titledPicture, settingCheckbox, settingRadios, cloudControls, settingSlider, settingSliders } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
 import { define } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
-import { verdict as bits } from '../../settings.js';
 import { Memo } from '../../scene/memo.ts';
+import { verdict as bits } from '../../settings.js';
+import { button, group, radioGroup } from '../../ui/controls.ts';
 import { PoseHandles } from '../shared/pose-handles.ts';
-import { motionControls, userMapControls, startControls, robotAndMapControls, samplerControls } from './controls.ts';
+import { presetButtons, startOverButton } from '../shared/presets.ts';
 import { measureCosts } from './cost.ts';
 import { applyMap, gridOf, mapDataOf } from './maps/data.ts';
-import { MapOpener } from './maps/open.ts';
-import { overviewMapHtml, costTable, markedSampleField, tallyReadouts } from './readouts.ts';
+import { MapOpener, EXTENSIONS } from './maps/open.ts';
 import { FloorPicture } from './picture.ts';
-import { outcomeIndex, viewModelOf, type ViewModel } from './view-model.ts';
-import { LINE_STYLES, OPENING_POSE, PRESET_SETTING, definition } from './settings.ts';
+import { overviewMapHtml, costTable, markedSampleField, tallyReadouts } from './readouts.ts';
+import { LINE_STYLES, OPENING_POSE, PRESET_SETTING, definition, COMMAND_SLIDERS, MAX_SAMPLES, SAMPLE_COUNTS } from './settings.ts';
 import { styles } from './styles.ts';
+import { outcomeIndex, viewModelOf, type ViewModel } from './view-model.ts';
 import { WallHandles } from './wall-handles.ts';
 import { wallContact } from './walls.ts';
 import { captionOf, headlineOf, mapText, pictureText } from './words.ts';
@@ -26,6 +27,74 @@ import type { Values } from '../../figure/settings.ts';
 import type { Cells } from '../../scene/walls.ts';
 import type { MapData, MapSqueeze as Simulation, Pose } from '../../types.d.ts';
 import type { UserMap } from './maps/files.ts';
+
+/** Example of a floor plan: a room with a gap in its wall. */
+const EXAMPLE_PLAN = `{
+  "bounds": [0, 0, 6, 4],
+  "walls": [
+    [3, 0, 3, 1.5], [3, 2.5, 3, 4],
+    [0, 0, 6, 0], [6, 0, 6, 4],
+    [6, 4, 0, 4], [0, 4, 0, 0]
+  ]
+}`;
+
+/** Returns the buttons of start positions in the current map. The presets are only offered in the apartment. */
+function startControls(figure: MapSqueezeElement) {
+  const { own } = words.squeeze;
+  if (!figure.map) return presetButtons(figure);
+  return html`<div class="buttons presets">
+    ${button(own.leave, () => figure.openMap(null))} ${button(own.open, () => figure.moveToFreePose())} ${startOverButton(figure)}
+  </div>`;
+}
+
+function samplerControls(figure: MapSqueezeElement) {
+  const { conditioned, sampler, samples, steps } = figure.viewModel.config;
+  const { settings, samplers, samplerEffects } = words.squeeze;
+  // With sub-steps each sample takes several draws.
+  const maxSampleCountOf = (name: string) => (name === 'sub-stepped' ? Math.floor(MAX_SAMPLES / steps) : MAX_SAMPLES);
+  const chooseSampler = (name: string) => figure.gesture.decide({ sampler: name, ...(samples > maxSampleCountOf(name) && { samples: maxSampleCountOf(name) }) });
+  return html`<div class="judge">
+    ${radioGroup(settings.sampler.name, 'sampler', samplers, sampler, chooseSampler)}
+    <p class="effect muted small">${samplerEffects[conditioned ? sampler : 'off']}</p>
+    ${conditioned && sampler === 'sub-stepped' ? settingSlider(figure, 'steps') : nothing}
+  </div>`;
+}
+
+function motionControls(figure: MapSqueezeElement) {
+  return html`${group(words.command, settingSliders(figure, COMMAND_SLIDERS))}
+    ${group(words.noise, settingSlider(figure, 'noise'), 'single')} ${cloudControls(figure, SAMPLE_COUNTS)}`;
+}
+
+/** Returns the controls that are changed less often. One of them is for unknown cells, if the map has any. */
+function robotAndMapControls(figure: MapSqueezeElement, hasUnknown: boolean) {
+  const { robotAndMap: heading, condition, settings, unknown, views } = words.squeeze;
+  return group(heading, html`${settingSlider(figure, 'clearance')} ${settingCheckbox(figure, 'conditioned', condition)}
+    ${hasUnknown ? settingRadios(figure, 'unknown', unknown) : nothing}
+    ${radioGroup(settings.view.name, 'view', views, figure.state.elementState.view, (view) => figure.gesture.choose('view', view))}`);
+}
+
+/** Returns the controls for a map of the user's own, with the name and size of the present map. */
+function userMapControls(figure: MapSqueezeElement, opener: import('./maps/open.ts').MapOpener, mapText: string) {
+  const texts = words.squeeze.own;
+  const pasteMap = () => {
+    const mapField = figure.renderRoot.querySelector('#map-text') as HTMLTextAreaElement;
+    opener.paste(mapField.value);
+  };
+  return group(texts.legend, html`<div class="own-map figures">
+    <div>
+      <p>${texts.text}</p>
+      <p>${opener.button('map-files', texts.files, EXTENSIONS)}</p>
+      <p ?hidden=${!opener.isReading}>${texts.reading}</p>
+      ${opener.refusalNoteHtml}
+      <p class="present muted">${mapText}.</p>
+    </div>
+    <div>
+      <label for="map-text">${texts.plan}</label>
+      <textarea id="map-text" rows="8" spellcheck="false" autocomplete="off" .defaultValue=${EXAMPLE_PLAN}></textarea>
+      ${button(texts.use, pasteMap)}
+    </div>
+  </div>`);
+}
 
 /**
  * Motion conditioned on a map, and what the condition cannot see.

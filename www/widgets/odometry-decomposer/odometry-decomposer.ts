@@ -2,28 +2,64 @@
 
 import { html } from 'lit';
 import { Cloud, enterCloud } from '../../figure/cloud.ts';
-import { pictureCanvas, disclosures, titledPicture } from '../../figure/controls.ts';
+import { pictureCanvas, disclosures, titledPicture, settingRadios, cloudControls, settingSlider, settingSliders } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
 import { define } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
-import { formatMarkup } from '../../ui/controls.ts';
-import { fixed } from '../../ui/format.ts';
 import { Memo } from '../../scene/memo.ts';
+import { formatMarkup, radioButton, group } from '../../ui/controls.ts';
+import { fixed } from '../../ui/format.ts';
+import { figureTable } from '../../ui/readouts.ts';
 import { Player } from '../shared/player.ts';
 import { PoseHandles } from '../shared/pose-handles.ts';
 import { presetButtons } from '../shared/presets.ts';
-import { noiseControls, playableSlider, noiseModelTable } from './controls.ts';
 import { LegsPicture, ROBOT_RADIUS, WorldPicture } from './pictures.ts';
-import { viewModelOf, type ViewModel } from './view-model.ts';
 import { headlineHtml, outcomeReadouts, spreadPlot } from './readouts.ts';
-import { LINE_STYLES, definition, sliderSpecs } from './settings.ts';
+import { LINE_STYLES, definition, sliderSpecs, NOISE_SLIDERS, SAMPLE_COUNTS } from './settings.ts';
 import { styles } from './styles.ts';
+import { viewModelOf, type ViewModel } from './view-model.ts';
 import { driftDistance, captionOf, legsText, worldText } from './words.ts';
 import type { OdometryDecomposer as Simulation } from '../../types.d.ts';
 
 /** Bounds of both poses: left, bottom, right and top, m. */
 const POSE_BOUNDS = [-4, -4, 4, 4];
+
+/** Returns the table of standard deviations by noise model. Values that differ from Table 5.6 are bold. */
+function noiseModelTable(figure: OdometryDecomposerElement) {
+  const { rules: names, table: texts, settings } = words.decomposer;
+  const { rules } = figure.viewModel;
+  const currentRule = figure.settings.requested.rule;
+  const printedRows = rules.map(({ deviations, crossTrack, heading }) => [...deviations, crossTrack, heading].map((value) => fixed(value, 3)));
+  return html`<div class="rules" role="radiogroup" aria-label=${settings.rule.name}>
+    ${figureTable({
+      caption: formatMarkup(texts.caption),
+      columns: [settings.rule.name, ...texts.columns.map(formatMarkup)],
+      rows: rules.map(({ rule }, i) => [
+        radioButton({ group: 'rule', label: names[rule], checked: rule === currentRule, choose: () => figure.gesture.decide({ rule }) }),
+        ...printedRows[i].map((cell, column) => (cell === printedRows[0][column] ? cell : html`<strong>${cell}</strong>`)),
+      ]),
+    })}
+  </div>`;
+}
+
+/** Returns a slider, with a play button unless the user prefers reduced motion. */
+function playableSlider(figure: OdometryDecomposerElement, key: 'phase' | 'drift', legend: string) {
+  const { player } = figure;
+  const { plays } = words.decomposer;
+  return html`<fieldset class="playable with-button ${key}">
+    <legend class="visually-hidden">${legend}</legend>
+    ${settingSlider(figure, key, { input: (value) => player.setByUser(key, value) })} ${player.button(key, plays[key])}
+  </fieldset>`;
+}
+
+function noiseControls(figure: OdometryDecomposerElement) {
+  return html`<div class="controls">
+      ${group(words.noise, html`${settingSliders(figure, NOISE_SLIDERS)} ${settingRadios(figure, 'noise', words.noises)}`, 'alphas')}
+      ${cloudControls(figure, SAMPLE_COUNTS)}
+    </div>
+    <p>${formatMarkup(words.decomposer.hinges)}</p>`;
+}
 
 /**
  * Odometry read as rotate, drive, rotate, with the noise that localizers add to each part.

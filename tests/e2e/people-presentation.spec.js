@@ -140,3 +140,30 @@ testEach('a presented figure has large pictures and legible letters, with and wi
     expect(height).toBeGreaterThanOrEqual(0.3 * 1080);
   }
 });
+
+testEach('a figure presented on a phone has its pictures below their titles, and nothing over what follows', async (page, name) => {
+  for (const viewport of [{ width: 375, height: 760 }, { width: 760, height: 375 }]) {
+    await page.setViewportSize(viewport);
+    const widget = await mount(page, name, { attributes: 'presentation' });
+    await waitForFrames(page);
+    const panels = await widget.evaluate(({ shadowRoot }) => [...(shadowRoot?.querySelectorAll('.panel') ?? [])].map((panel) => {
+      const [title, picture] = ['.panel-title', '.stage, .plotted'].map((selector) => panel.querySelector(selector)?.getBoundingClientRect());
+      return { title, picture };
+    }));
+    const shownPanels = panels.filter(({ picture }) => picture && picture.height > 0);
+    expect(shownPanels.length).toBeGreaterThan(0);
+    for (const { title, picture } of shownPanels) {
+      expect(picture?.height).toBeGreaterThan(125);
+      expect(picture?.top).toBeGreaterThanOrEqual(Number(title?.bottom) - 1);
+      expect(picture?.left).toBeLessThan(Number(title?.right));
+    }
+    const overlap = await widget.evaluate(({ shadowRoot }) => {
+      const views = /** @type {Element} */ (shadowRoot?.querySelector('.views'));
+      const lowestPicture = Math.max(...[...views.querySelectorAll('.stage')].map((stage) => stage.getBoundingClientRect().bottom));
+      const following = [...(views.parentElement?.children ?? [])].filter((element) => views.compareDocumentPosition(element) === Node.DOCUMENT_POSITION_FOLLOWING);
+      const tops = following.map((element) => element.getBoundingClientRect()).filter(({ height }) => height > 0).map(({ top }) => top);
+      return lowestPicture - Math.min(...tops);
+    });
+    expect(overlap).toBeLessThanOrEqual(0);
+  }
+});

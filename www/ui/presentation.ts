@@ -54,9 +54,16 @@ export const presentationStyles = css`
     align-self: stretch;
   }
 
+  /* Pictures of a narrow figure are not sticky here, so that they are below their titles. */
+  :host([presentation]) .panel:has([part='picture']) {
+    display: grid;
+  }
+
   :host([presentation]) .stage {
     position: relative !important;
+    top: 0;
     min-height: 30vh;
+    box-shadow: none;
   }
 
   :host([presentation]) .stage canvas {
@@ -68,6 +75,17 @@ export const presentationStyles = css`
 
   :host([presentation]) :is(.caption, .stepper p) {
     min-height: 0;
+  }
+
+  /* On a phone the figure scrolls, so that its pictures are large. */
+  @media (width <= 30em) or (height <= 30em) {
+    :host([presentation]) .views {
+      grid-template-rows: auto;
+    }
+
+    :host([presentation]) .stage {
+      min-height: 60vmin;
+    }
   }
 
   /* Buttons in the row of the title. */

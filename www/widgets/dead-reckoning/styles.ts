@@ -47,8 +47,18 @@ export const styles = css`
     --most: 41svh;
   }
 
+  :host([presentation]) .ratios {
+    display: grid;
+  }
+
+  :host([presentation]) .chart {
+    display: block;
+  }
+
   :host([presentation]) .chart .plotted {
     position: relative;
+    border: 0;
+    box-shadow: none;
   }
 
   :host([presentation]) .step .stage {

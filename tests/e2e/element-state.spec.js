@@ -32,6 +32,7 @@ test('a state that is refused names the field, and changes nothing', async ({ pa
     ['banana-machine', { speed: 1 }, 'TypeError: state.speed is an unknown key; allowed are'],
     ['banana-machine', { overlays: ['stars'] }, 'RangeError: state.overlays[0] is "stars"; allowed is'],
     ['banana-machine', { shown: 10, marked: 10 }, 'RangeError: state.marked is 10; allowed is a whole number from 0 to 9'],
+    ['banana-machine', { samples: 'x', marked: 3 }, 'TypeError: samples is "x"; allowed is a number'],
     ['map-squeeze', { view: '🤖'.repeat(1000) }, `RangeError: state.view is "${'🤖'.repeat(40)}…"; allowed is "close" or "whole"`],
     ['map-squeeze', { map: { columns: 2, rows: 2, resolution: 1, origin: [0, 0, 0], occupied: '?' } }, 'RangeError: map.occupied is "?"; allowed is base64 of 1 bytes'],
     ['dead-reckoning', { steps: 1, step: 2 }, 'RangeError: step is 2; allowed is'],

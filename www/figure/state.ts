@@ -46,11 +46,12 @@ export class State extends FigureController {
     const currentState = host.snapshot();
     const checkedState = checkedObject('state', state, Object.keys(currentState));
     const wholeState: Values = { ...currentState, ...host.withDerivedFields(currentState, checkedState) };
+    // Checks the settings first, because the number of samples limits other fields.
+    const simulation = host.createSimulation(host.motion, wholeState);
     const selectableCount = wholeState.playing ? wholeState.samples : wholeState.shown;
     for (const [name, field] of Object.entries(this.#fields)) {
       if (name in checkedState) wholeState[name] = validatedValue(field, `state.${name}`, wholeState[name], selectableCount);
     }
-    const simulation = host.createSimulation(host.motion, wholeState);
     for (const name of Object.keys(this.elementState)) this.elementState[name] = wholeState[name];
     host.runtime.replace(simulation);
     host.settings.reset();

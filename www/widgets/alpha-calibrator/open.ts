@@ -84,6 +84,7 @@ export class LogOpener extends FileOpener<Figure> {
   async close(log: CalibrationLog | null = null) {
     this.#end();
     this.forget();
+    if (log === this.host.log) return;
     await this.host.open(log, []);
     this.host.gesture.complete();
   }

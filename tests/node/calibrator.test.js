@@ -30,6 +30,7 @@ test('numbers in files have the digits that the interval makes meaningful, and t
     [2.34e-13, [1.8e-13, 2.9e-13], '2.3e-13', '1.8e-13 to 2.9e-13'],
     [3e-8, [0, 1.6e-7], '3.0e-8', '0 to 1.6e-7'],
     [1e-7, [0, 0.0016], '0.0000', '0.0000 to 0.0016'],
+    [-0.0024, [-0.0048, -1e-5], '-0.0024', '-0.0048 to 0.0000'],
     [0.5, [0.5 - 1e-9, 0.5 + 1e-9], '0.5000000000', '0.4999999990 to 0.5000000010'],
   ])) {
     assert.deepEqual([formatEstimate(value, interval), ends(interval)], [estimateText, rangeText]);

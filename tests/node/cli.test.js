@@ -392,7 +392,7 @@ test('the report says what failed, what is lost, and what to drive', async () =>
   assert.match(reportWith({ legs: legsWithOutliers }), /^outliers: 2 of 3 legs, at 2\.00 s of drive 1, 5\.00 s of drive 2 after the start$/m);
   assert.match(reportWith({ lost: { ...lost, withoutReference: 3, standing: 7 } }), /^lost legs: 3 without reference, 7 standing still$/m);
   assert.match(reportWith({ persistence: { ...persistence, length: 0.987 } }), /^correlation of neighbouring legs .*errors persist over 0\.99 m$/m);
-  assert.match(reportWith({ systematicErrors: { ...systematicErrors, turnScale: { value: 0.9, interval: [0.88, 0.92], constant: false, corrected: false } } }), /^rotation scale factor .*not corrected, not a constant$/m);
+  assert.match(reportWith({ systematicErrors: { ...systematicErrors, turnScale: { value: 0.9, interval: [0.88, 0.92], constant: false, corrected: false } } }), /^turn scale factor .*not corrected, not a constant$/m);
   assert.match(reportWith({ systematicErrors: { ...systematicErrors, mountYaw: { value: null, interval: null, constant: true, corrected: false } } }), /^mount yaw \(rad\) +not identifiable$/m);
   const unidentifiedAlphas = { alphas: [0.1, null, 0.1, null], notIdentifiable: [null, 'collinear', null, 'collinear'] };
   const reportOfUnidentified = reportWith(unidentifiedAlphas);

@@ -57,12 +57,12 @@ const withPointInMantissa = (number: string) => number.replace(/^(-?\d)e/, '$1.0
 /** Adds a decimal to a whole number, because Nav2 refuses integers for parameters of type double. */
 const withDecimalPoint = (number: string) => (number.includes('.') ? number : `${number}.0`);
 
-/** Prints a value with the decimals that are significant for its interval. */
+/** Prints a value with the decimals that are significant for its interval. A value that rounds to 0 has no sign. */
 export function formatEstimate(value: number | null, interval: Interval | undefined) {
   const intervalWidth = interval ? interval[1] - interval[0] : 0;
   if (value === null || !(Math.abs(value) < MAX_PLAIN_NUMBER) || !(intervalWidth > 0 && intervalWidth < Infinity)) return formatNumber(value);
   const decimalCount = WIDTH_DIGITS - 1 - Math.floor(Math.log10(intervalWidth));
-  if (intervalWidth >= MIN_PLAIN_NUMBER || Math.abs(value) >= MIN_PLAIN_NUMBER) return value.toFixed(Math.max(0, Math.min(MAX_DECIMALS, decimalCount)));
+  if (intervalWidth >= MIN_PLAIN_NUMBER || Math.abs(value) >= MIN_PLAIN_NUMBER) return value.toFixed(Math.max(0, Math.min(MAX_DECIMALS, decimalCount))).replace(/^-(?=[0.]+$)/, '');
   const mantissaDecimals = decimalCount + Math.floor(Math.log10(Math.abs(value)));
   return mantissaDecimals < 0 ? '0' : withPointInMantissa(value.toExponential(Math.min(MAX_DECIMALS, mantissaDecimals)));
 }

@@ -87,7 +87,7 @@ test('with J_r, and to fourth order, every component is right', async ({ page })
 
 test('entries of the legends hide curves and outlines', async ({ page }) => {
   const widget = await openDeadReckoning(page, 'overlays="lateral tolerance measured exponential"');
-  await expect(widget.locator('[part=caption]')).toHaveText(/^At the end the predicted lateral variance is off by [−+][\d.]+\s%\. Before, it is /);
+  await expect(widget.locator('[part=caption]')).toHaveText(/^At the end the predicted lateral variance is off by [−+][\d.]+\s%\. Before, the lateral one is /);
   await expect(plotOf(widget).locator('path.curve, circle')).toHaveCount(2);
   const twistPicture = await pictureOf(widget.locator('canvas.twist'));
   await widget.getByRole('checkbox', { name: 'measured' }).uncheck();

@@ -188,18 +188,13 @@ function seedField(figure: Figure) {
   </label>`;
 }
 
-interface SampleFieldOptions {
-  id: string;
-  label: string;
-  shown: number;
-  /** Text about the selected sample, if any. */
-  selected: unknown;
-  hint: string;
-}
-
-/** Returns the field with the number of the selected sample. Refused text stays until the user corrects or leaves it. */
-export function sampleField(figure: Figure & { cloud: import('./cloud.ts').Cloud }, { id, label, shown, selected, hint }: SampleFieldOptions) {
+/**
+ * Returns the field with the number of the selected sample, one of `shown`, and a text about it, if there is one. `id` is also the key of the
+ * label in the catalogue. Refused text stays until the user corrects or leaves it.
+ */
+export function sampleField(figure: CloudFigure, id: 'robot' | 'sample', shown: number, selected: unknown) {
   const { cloud, settings } = figure;
+  const { [id]: label, markHint } = (words as any)[figure.definition.messageKey];
   const refusalText = settings.refusalOf('marked');
   const enterIndex = (event: Event) => {
     const typedIndex = inputOf(event).value;
@@ -223,7 +218,7 @@ export function sampleField(figure: Figure & { cloud: import('./cloud.ts').Cloud
         @blur=${() => settings.forgetRefusal()}
       />
     </label>
-    <output for=${id} role=${refusalText ? 'alert' : nothing}>${refusalText || selected || html`<i class="muted">${hint}</i>`}</output>
+    <output for=${id} role=${refusalText ? 'alert' : nothing}>${refusalText || selected || html`<i class="muted">${markHint}</i>`}</output>
   </p>`;
 }
 

@@ -3,7 +3,7 @@
  * selects the words. In HTML, *stars* make italics, and subscript digits and _{braces} make subscripts.
  */
 
-export const plural = (count: number, word: string) => `${word}${count === 1 ? '' : 's'}`;
+export const countOf = (count: string, word: string) => `${count} ${word}${count === '1' ? '' : 's'}`;
 
 export const en = {
   failure: (reason) => `This interactive figure cannot run here. ${reason}`,

@@ -250,7 +250,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
 
   get logName() {
     const { log } = this.viewModel;
-    return log ? log.name || words.calibrator.own.odometry : words.calibrator.simulated;
+    return log ? log.name || words.calibrator.overlays.odometry : words.calibrator.simulated;
   }
 
   get exportData() {

@@ -77,10 +77,8 @@ export const de: typeof import('./en.ts').en = {
   missing: (alphas, drive) => `Von dieser Aufzeichnung nicht bestimmt: ${alphas}; ${drive}.`,
   noAlpha: 'Die Aufzeichnung bestimmt kein α.',
   none: 'Nicht genug Daten: weniger als 8 Etappen, oder keine gemeinsame Zeit. Beide Aufzeichnungen derselben Fahrt nehmen, kürzere Etappen wählen oder länger fahren.',
-  longer: 'Länger aufzeichnen oder kürzere Etappen wählen.',
   checks: {
     title: 'Prüfungen',
-    caption: 'Beobachtete Werte, und welche bestehen',
     check: 'Prüfung',
     value: 'beobachtet',
     expected: 'erwartet',
@@ -173,7 +171,6 @@ export const de: typeof import('./en.ts').en = {
     speed: 'Geschwindigkeit² (m²/s²)',
     bins: 'Klassenmittel',
     slope: (alpha) => `Steigung *α*${alpha}`,
-    noSlope: (alpha) => `*α*${alpha} ist nicht bestimmt`,
     zero: (alpha, drive) => `*α*${alpha} ist nicht signifikant von 0 verschieden; ${drive}`,
     label: (kind, alpha, value) => `Quadrierte Residuen, ${kind}, in Klassen, und eine Gerade mit der Steigung Alpha ${alpha}, ${value}.`,
     axis: 'quadriertes Residuum',
@@ -188,7 +185,6 @@ export const de: typeof import('./en.ts').en = {
   },
   noise: {
     title: 'Rauschen der Referenz und Persistenz',
-    caption: 'Zusammen mit den α geschätzt',
     what: 'Größe',
     correlation: 'Korrelation der Radfehler benachbarter Etappen',
     length: 'Korrelationslänge',
@@ -199,15 +195,12 @@ export const de: typeof import('./en.ts').en = {
     acrossBreaks: 'über Brüche',
     acrossPauses: 'über Pausen',
     standing: 'im Stillstand',
-    outliers: 'Ausreißer',
   },
   own: {
     drop: 'Log hierher ziehen: ROS-Bag (.bag, .db3, .mcap, Ordner), CSV oder TUM, oder',
     dropTitle: 'Odometrie und Referenz: eine Aufzeichnung mit beiden oder zwei Dateien; bei mehreren Fahrten alle Dateien zugleich. Nichts verlässt dieses Gerät.',
     files: 'Dateien wählen',
     title: 'Aufzeichnung und Referenz',
-    stds: 'Standardabweichungen der Referenz; 0: aus der Aufzeichnung geschätzt.',
-    odometry: 'Odometrie',
     leave: 'Zurück zur simulierten',
     simulated: 'Ein simulierter Roboter folgt einer Kurve und dreht sich ab und zu auf der Stelle. Die wahren Werte stehen neben den Schätzungen.',
     present: (name) => `Aufzeichnung: ${name}.`,
@@ -244,8 +237,6 @@ export const de: typeof import('./en.ts').en = {
   },
   csvTitle: 'Jede Etappe mit Odometrie, Referenz und Residuen',
   logNotInCopies: 'Die eigene Aufzeichnung ist nicht dabei: Die Abbildung öffnet sich mit der simulierten.',
-  noWay: 'Der Boden von oben: Es sind weniger als acht Etappen, gezeigt wird keine.',
-  noLeg: 'Es gibt keine Etappe zu zeigen.',
   way: (legs, far, chosen) =>
     `Der Boden von oben, x nach rechts und y nach oben: der Weg des Roboters nach der Referenz in ${legsWithCount(legs)}. ${far} davon haben einen p-Wert unter 0,05. Gezeigt wird Etappe ${chosen}.`,
   legText: (number, readX, readY, endX, endY) =>

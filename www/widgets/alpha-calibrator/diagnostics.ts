@@ -24,7 +24,6 @@ export function diagnosticsHtml(figure: Figure) {
 function checksTable({ viewModel: { stats: { diagnostics: { checks } } } }: Figure) {
   const texts = words.calibrator.checks;
   return figureTable({
-    caption: texts.caption,
     columns: [texts.check, texts.value, texts.expected, texts.result],
     rows: checks.map((check) => [
       html`${texts.names[check.name]}<div class="muted">${checkMessage(check)}</div>`,
@@ -49,7 +48,6 @@ function noiseTable({ viewModel: { stats: { referenceNoise: { positionStd, yawSt
   const formatStd = (value: number) => (value === 0 ? '0' : Number.isFinite(value) ? formatRounded(value, 2) : '∞');
   const noiseRow = (name: string, { value, interval: [low, high] }: import('../../types.d.ts').Estimate) => [name, formatStd(value), between(formatStd(low), formatStd(high))];
   return figureTable({
-    caption: texts.caption,
     columns: [texts.what, systematic.value, intervalName],
     rows: [
       noiseRow(`${settings.positionStd.name} (m)`, positionStd),
@@ -60,11 +58,9 @@ function noiseTable({ viewModel: { stats: { referenceNoise: { positionStd, yawSt
   });
 }
 
-function lostLegsReadouts({ viewModel: { stats: { lost }, legs } }: Figure) {
-  const texts = words.calibrator.lost;
+function lostLegsReadouts({ viewModel: { stats: { lost } } }: Figure) {
   const causes = ['withoutReference', 'acrossBreaks', 'acrossPauses', 'standing'] as const;
-  const outlierCount = legs.outliers.reduce((sum, isOutlier) => sum + isOutlier, 0);
-  return readoutList([...causes.map((cause) => [texts[cause], integer(lost[cause])] as [string, string]), [texts.outliers, integer(outlierCount)]]);
+  return readoutList(causes.map((cause) => [words.calibrator.lost[cause], integer(lost[cause])]));
 }
 
 /** Minimum squared distance or rotation at the end of an axis: (1 mm)², or (1 mrad)². */
@@ -113,10 +109,9 @@ function panelPlot({ alpha, x, y, error, slope, interval }: CalibrationPanel, ki
   };
 }
 
-/** Returns a note on an α that is not identifiable, or not distinguishable from 0. */
+/** Returns a note on an α that is not distinguishable from 0, with the drive that would identify it. */
 function identifiabilityNote({ alpha, slope, interval }: CalibrationPanel, { fitted: { model } }: import('./view-model.ts').ViewModel) {
   const { panels: texts, alphas: { lacking } } = words.calibrator;
-  if (slope !== null && !isZero(slope, interval)) return '';
-  const subscript = subscriptOf(alpha);
-  return html`<p class="note">${formatMarkup(slope === null ? texts.noSlope(subscript) : texts.zero(subscript, adviceOf(lacking, model, missingMotion(model, alpha)).drive))}</p>`;
+  if (!isZero(slope, interval)) return '';
+  return html`<p class="note">${formatMarkup(texts.zero(subscriptOf(alpha), adviceOf(lacking, model, missingMotion(model, alpha)).drive))}</p>`;
 }

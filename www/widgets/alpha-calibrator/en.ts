@@ -1,6 +1,6 @@
 /** The Alpha Calibrator in English; see messages/en.ts. */
 
-const of = (count: string, word: string) => `${count} ${word}${count === '1' ? '' : 's'}`;
+import { countOf } from '../../messages/en.ts';
 
 export const en = {
   title: 'The Alpha Calibrator',
@@ -34,7 +34,7 @@ export const en = {
   axisAhead: 'ahead (m)',
   axisLeft: 'left (m)',
   simulated: 'the simulated log',
-  present: (log, legs, outliers) => `${of(legs, 'leg')} of ${log}${outliers ? `, ${of(outliers, 'outlier')}` : ''}.`,
+  present: (log, legs, outliers) => `${countOf(legs, 'leg')} of ${log}${outliers ? `, ${countOf(outliers, 'outlier')}` : ''}.`,
   badges: { consistent: 'Trust', questionable: 'Caution', unusable: 'Do not use' },
   passed: (count) => `All ${count} checks passed.`,
   failed: (name, failed, count) => `Failed check: ${name} (${failed} of ${count} failed).`,
@@ -43,10 +43,8 @@ export const en = {
   missing: (alphas, drive) => `Not determined by this log: ${alphas}; ${drive}.`,
   noAlpha: 'The log identifies no α.',
   none: 'Not enough data: fewer than 8 legs, or the logs do not overlap in time. Take both logs from one drive, choose shorter legs, or drive longer.',
-  longer: 'Record a longer drive, or choose shorter legs.',
   checks: {
     title: 'Checks',
-    caption: 'Observed values, and those that pass',
     check: 'check',
     value: 'observed',
     expected: 'expected',
@@ -74,7 +72,7 @@ export const en = {
   },
   recommended: {
     none: 'There are no recommended α’s: the log is unusable.',
-    few: (count) => `Recommended: the fit itself, as ${of(count, 'held-out window')} of 1 m cannot judge it.`,
+    few: (count) => `Recommended: the fit itself, as ${countOf(count, 'held-out window')} of 1 m cannot judge it.`,
     covered: (coverage, count) => `Recommended: the fit itself. It covers ${coverage} of ${count} held-out windows of 1 m; 95 % is right.`,
     inflated: (inflation, coverage, count, nees) =>
       `Recommended: fitted × ${inflation}, which covers at least 95 % of ${count} held-out windows of 1 m. The fit covers ${coverage}, with a squared error over predicted variance (NEES) of ${nees}, expected 1.`,
@@ -139,7 +137,6 @@ export const en = {
     speed: 'speed² (m²/s²)',
     bins: 'bin means',
     slope: (alpha) => `slope *α*${alpha}`,
-    noSlope: (alpha) => `*α*${alpha} is not determined`,
     zero: (alpha, drive) => `*α*${alpha} is not significantly different from 0; ${drive}`,
     label: (kind, alpha, value) => `Squared residuals of the ${kind}, in bins. The slope of the line is alpha ${alpha}, ${value}.`,
     axis: 'squared residual',
@@ -154,7 +151,6 @@ export const en = {
   },
   noise: {
     title: 'Reference noise and persistence',
-    caption: 'Estimated together with the α’s',
     what: 'quantity',
     correlation: 'correlation of the wheel errors of neighbouring legs',
     length: 'correlation length',
@@ -165,15 +161,12 @@ export const en = {
     acrossBreaks: 'across breaks',
     acrossPauses: 'across pauses',
     standing: 'standing still',
-    outliers: 'outliers',
   },
   own: {
     drop: 'Drop a log here: ROS bag (.bag, .db3, .mcap, folder), CSV or TUM, or',
     dropTitle: 'Odometry and reference: one recording with both, or two files; of several drives, all files at once. Nothing leaves this device.',
     files: 'choose files',
     title: 'Log and reference',
-    stds: 'Standard deviations of the reference; 0: estimated.',
-    odometry: 'Odometry',
     leave: 'Back to the simulated log',
     simulated: 'A simulated robot follows a curve and sometimes turns in place. True values stand beside the estimates.',
     present: (name) => `Log: ${name}.`,
@@ -194,7 +187,7 @@ export const en = {
     notIdentifiable: 'not identifiable from this log',
     zero: (upperBound) => `not significantly different from 0, at most ${upperBound}`,
     tooLarge: 'implausible (> 1): see the failed checks and the outliers',
-    of: (legs, length, log, date) => `${of(legs, 'leg')} ${length} of ${log}, ${date}`,
+    of: (legs, length, log, date) => `${countOf(legs, 'leg')} ${length} of ${log}, ${date}`,
     moved: (distance, angle) => `of ${distance} m or ${angle} rad`,
     lasted: (duration) => `of ${duration} s`,
     recommended: (factor, coverage, windows) => `recommended = fitted × ${factor}: the fit covers ${coverage} of ${windows} held-out windows of 1 m`,
@@ -210,10 +203,8 @@ export const en = {
   },
   csvTitle: 'Every leg, with odometry, reference and residuals',
   logNotInCopies: 'Your log is not in it: the figure opens with the simulated one.',
-  noWay: 'No view of the floor: there are fewer than eight legs.',
-  noLeg: 'No leg to show.',
   way: (legs, classes, chosen) =>
-    `View of the floor from above, x to the right and y up: the path of the robot by the reference, in ${of(legs, 'leg')}. ${classes} have a p-value below 0.05. Leg ${chosen} is shown.`,
+    `View of the floor from above, x to the right and y up: the path of the robot by the reference, in ${countOf(legs, 'leg')}. ${classes} have a p-value below 0.05. Leg ${chosen} is shown.`,
   legText: (number, readX, readY, endX, endY) =>
     `Leg ${number} in the frame of the robot at its start, x ahead and y to the left. By odometry it ends at ${readX} m, ${readY} m; by the reference, at ${endX} m, ${endY} m. The predicted cloud lies around the end by odometry.`,
 } satisfies import('../../messages/registry.ts').Message;

@@ -238,12 +238,6 @@ async function loadLogModules() {
   return { ...candidates, ...drives, ...pairs, ...choice, en, de };
 }
 
-function referenceNoiseControls(figure: Figure) {
-  const stdSlider = (key: string, unit: string) =>
-    settingSlider(figure, key, { show: (std: number) => (std > 0 ? `${formatEditable(std, 3)} ${unit}` : words.calibrator.estimated) });
-  return html`<div class="controls">${stdSlider('positionStd', 'm')} ${stdSlider('yawStd', 'rad')}</div>`;
-}
-
 /** Returns the drop zone for logs. Below it are the choosers, the progress or name of the log, and the reason for a refusal. */
 export function dropZone(figure: Figure, opener: LogOpener) {
   const texts = words.calibrator.own;
@@ -262,9 +256,10 @@ export function dropZone(figure: Figure, opener: LogOpener) {
   </div>`;
 }
 
+/** Returns the controls of the noise of the reference. A sentence says what the simulated log is. */
 export function logSection(figure: Figure) {
-  const texts = words.calibrator.own;
-  return html`<p>${figure.log ? texts.present(figure.logName) : texts.simulated}</p>
-    ${referenceNoiseControls(figure)}
-    <p class="muted">${texts.stds}</p>`;
+  const stdSlider = (key: string, unit: string) =>
+    settingSlider(figure, key, { show: (std: number) => (std > 0 ? `${formatEditable(std, 3)} ${unit}` : words.calibrator.estimated) });
+  return html`${figure.log ? nothing : html`<p>${words.calibrator.own.simulated}</p>`}
+    <div class="controls">${stdSlider('positionStd', 'm')} ${stdSlider('yawStd', 'rad')}</div>`;
 }

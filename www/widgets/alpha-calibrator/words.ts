@@ -30,7 +30,7 @@ export function judgementOf(viewModel: ViewModel, logWarnings: Warning[]) {
   const rating = verdict === 'consistent' && warnings.length > 0 ? 'questionable' : verdict;
   const useSentences = rating === 'unusable' ? [] : [rating === 'consistent' ? texts.use : texts.useAnyway, ...correctionAdvice(stats, texts.nav2, localized)];
   const judgementWith = (finding: string, ...toDo: string[]) => ({ rating, badge: texts.badges[rating], finding, toDo: [...toDo, ...useSentences].join(' ') });
-  if (legs.count === 0) return judgementWith(texts.none, texts.longer, ...warnings);
+  if (legs.count === 0) return judgementWith(texts.none, ...warnings);
   const failedChecks = failedChecksOf(checks);
   if (failedChecks.length > 0) return judgementWith(texts.failed(texts.checks.names[failedChecks[0].name], integer(failedChecks.length), integer(checks.length)), ...warnings, checkMessage(failedChecks[0]));
   if (verdict === 'unusable') return judgementWith(texts.noAlpha, ...warnings);
@@ -86,13 +86,13 @@ export function captionOf({ viewModel, warnings, logName }: Figure) {
 }
 
 export function pathText({ legs, classes }: ViewModel, chosen: number) {
-  if (chosen < 0) return words.calibrator.noWay;
+  if (chosen < 0) return words.calibrator.none;
   const unlikelyCount = classes.reduce((sum, legClass) => sum + Number(legClass > 1), 0);
   return words.calibrator.way(integer(legs.count), integer(unlikelyCount), integer(chosen + 1));
 }
 
 export function legText(leg: LegView | null, chosen: number) {
-  if (!leg) return words.calibrator.noLeg;
+  if (!leg) return words.calibrator.none;
   const [readX, readY, endX, endY] = [leg.read[0], leg.read[1], leg.ended[0], leg.ended[1]];
   return words.calibrator.legText(integer(chosen + 1), fixed(readX, 3), fixed(readY, 3), fixed(endX, 3), fixed(endY, 3));
 }

@@ -14,13 +14,10 @@ import { PoseHandles } from '../shared/pose-handles.ts';
 import { presetButtons } from '../shared/presets.ts';
 import { ArcPicture, ROBOT_RADIUS } from './picture.ts';
 import { formsPlot, factorBarsHtml, headlineHtml, likelihoodReadouts, tableLinesHtml, lineText } from './readouts.ts';
-import { LINE_STYLES, MAX_COORDINATE, UNDERWAY_AT_END, definition, CONTOUR_STYLES, ALPHA_SLIDERS, COMMAND_SLIDERS, TABLE_LINES } from './settings.ts';
+import { LINE_STYLES, UNDERWAY_AT_END, definition, CONTOUR_STYLES, ALPHA_SLIDERS, COMMAND_SLIDERS, TABLE_LINES } from './settings.ts';
 import { styles } from './styles.ts';
 import { captionOf, pictureText, type ViewModel } from './words.ts';
 import type { ArcAnatomy as Simulation } from '../../types.d.ts';
-
-/** Bounds of both poses, m. */
-const POSE_BOUNDS = [-MAX_COORDINATE, -MAX_COORDINATE, MAX_COORDINATE, MAX_COORDINATE];
 
 const commandControls = (figure: ArcAnatomyElement) => group(words.command, settingSliders(figure, COMMAND_SLIDERS));
 
@@ -79,7 +76,7 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
   #picture = new ArcPicture();
   pictures = [this.#picture];
   /** Handles of both poses. The handle of the final pose is on top if both poses are at the same place. */
-  #handles: PoseHandles[] = ['start', 'next'].map((setting) => new PoseHandles(this, setting, () => this.#picture.view, () => POSE_BOUNDS));
+  #handles: PoseHandles[] = ['start', 'next'].map((setting) => new PoseHandles(this, setting, () => this.#picture.view));
 
   /** Animation of the arcs, which always takes the same time. The duration of the command is displayed next to it. */
   player: Player<'underway'> = new Player(this, { underway: { max: UNDERWAY_AT_END, durationMs: 2000 } });

@@ -48,6 +48,3 @@ export const definition = definitionOf('arc-anatomy', {
     underway: { opening: UNDERWAY_AT_END, isResetByPreset: true, check: (field, share) => checkedNumber(field, share, 0, UNDERWAY_AT_END) },
   },
 });
-
-/** Maximum absolute coordinate of a pose that is dragged, m. */
-export const MAX_COORDINATE = 4;

@@ -25,7 +25,7 @@ import { markedRobotField, otherReadouts, mainReadouts, twistTable, workedExampl
 import { LINE_STYLES, OVERLAY_NAMES, definition, sliderSpecs, COMMAND_SLIDERS, SAMPLE_COUNTS } from './settings.ts';
 import { styles } from './styles.ts';
 import { viewModelOf, viewModelOfSettings, type ViewModel, alphaName } from './view-model.ts';
-import { calloutsOf, captionOf, floorTitle, planeText, skewText, twistCaption, twistText } from './words.ts';
+import { calloutsOf, captionOf, floorTitle, planeText, twistCaption, twistText } from './words.ts';
 import type { BananaMachine as Simulation, BananaMachineSettings as Settings, Inspection } from '../../types.d.ts';
 import type { Values } from '../../figure/settings.ts';
 
@@ -326,7 +326,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
         name: texts.chartMarker,
         step,
         value: omega,
-        text: texts.chartText(fixed(omega, 2), skewText(exactSkew)),
+        text: texts.chartText(fixed(omega, 2), fixed(exactSkew, 3)),
         input: (to) => this.settings.request(({ command }) => ({ command: { ...command, omega: to } })),
         commit: () => this.gesture.commit(),
       },

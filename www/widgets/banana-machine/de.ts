@@ -35,7 +35,6 @@ export const de: typeof import('./en.ts').en = {
   plane: (command) => `Der Boden von oben, x nach rechts und y nach oben. Befohlen: ${command}.`,
   drawnOver: (overlays) => `Darüber gezeichnet: ${overlays}.`,
   noRobots: 'Noch keine Roboter.',
-  oneRobot: 'Ein Roboter.',
   mean: (robots, x, y) => `${robots} Roboter halten um x ${x} m, y ${y} m.`,
   onePlace: (robots, x, y) => `Alle ${robots} halten an einer Stelle, x ${x} m, y ${y} m.`,
   spread: (x, y) => `Standardabweichungen ${x} m in x und ${y} m in y.`,
@@ -47,13 +46,10 @@ export const de: typeof import('./en.ts').en = {
     gains: (gain, isBent) => `${isBent ? 'Krumm: ' : ''}Der ξ-Umriss passt um ${gain} Nat je Roboter besser.`,
     bowTie: (length, deviation, skew) =>
       `Eine Fliege: Das Rauschen streut ${length} m Weg um ${deviation} m, vor und hinter den Start. Schiefe ${skew}.`,
-    right: (skew) => `Die Wolke ist krumm wie eine Banane, ihr Schweif rechts der mittleren Richtung: Schiefe ${skew}; jeder Gauß in (x, y) hat 0.`,
-    left: (skew) => `Die Wolke ist krumm wie eine Banane, ihr Schweif links der mittleren Richtung: Schiefe ${skew}; jeder Gauß in (x, y) hat 0.`,
+    bent: (skew, left) => `Die Wolke ist krumm wie eine Banane, ihr Schweif ${left ? 'links' : 'rechts'} der mittleren Richtung: Schiefe ${skew}; jeder Gauß in (x, y) hat 0.`,
   },
   fewRobots: 'Zu wenige Roboter für eine Schiefe.',
-  robotsHere: (_count, printed) => `hier ${printed} Roboter`,
-  exactSkew: (skew) => `exakte Schiefe ${skew}`,
-  noExactSkew: 'exakte Schiefe nicht definiert',
+  robotsHere: (count) => `hier ${count} Roboter`,
   twist: 'Dieselben in Exponentialkoordinaten ξ',
   twistIs: {
     odometry:
@@ -88,7 +84,7 @@ export const de: typeof import('./en.ts').en = {
   slidersEnd: 'Hier enden die Regler',
   chart: 'Exakte Schiefe quer zur Fahrt über dem befohlenen ω, beim jetzigen Rauschen',
   chartMarker: 'Befohlenes ω im Diagramm',
-  chartText: (omega, skew) => `ω = ${omega} rad/s, ${skew}`,
+  chartText: (omega, skew) => `ω = ${omega} rad/s, exakte Schiefe ${skew}`,
   chartCaption:
     'Exakte Schiefe über dem befohlenen *ω*, und die der Roboter mit ihrem Standardfehler. Die gestrichelte Linie ist jede Gauß-Verteilung in *(x, y)*. ' +
     'Bei *ω* = 0 ist sie der Symmetrie wegen 0, wie krumm die Wolke auch sei: siehe die Passung.',

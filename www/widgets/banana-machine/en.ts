@@ -1,6 +1,6 @@
 /** The Banana Machine in English; see messages/en.ts. */
 
-import { plural } from '../../messages/en.ts';
+import { countOf } from '../../messages/en.ts';
 
 export const en = {
   title: 'The Banana Machine',
@@ -37,7 +37,6 @@ export const en = {
   plane: (command) => `View of the floor from above, x to the right and y up. Commanded: ${command}.`,
   drawnOver: (overlays) => `Drawn over it: ${overlays}.`,
   noRobots: 'No robots yet.',
-  oneRobot: 'One robot.',
   mean: (robots, x, y) => `${robots} robots end around x ${x} m, y ${y} m.`,
   onePlace: (robots, x, y) => `All ${robots} end at one place, x ${x} m, y ${y} m.`,
   spread: (x, y) => `Standard deviations ${x} m in x and ${y} m in y.`,
@@ -50,13 +49,10 @@ export const en = {
     gains: (gain, isBent) => `${isBent ? 'Bent: the' : 'The'} ξ outline fits better by ${gain} nats per robot.`,
     bowTie: (length, deviation, skew) =>
       `A bow-tie: noise spreads a drive of ${length} m by ${deviation} m, ahead of the start and behind it. Skew ${skew}.`,
-    right: (skew) => `The cloud is bent, with its tail to the right of the mean heading: skew ${skew}, where any Gaussian in (x, y) has 0.`,
-    left: (skew) => `The cloud is bent, with its tail to the left of the mean heading: skew ${skew}, where any Gaussian in (x, y) has 0.`,
+    bent: (skew, left) => `The cloud is bent, with its tail to the ${left ? 'left' : 'right'} of the mean heading: skew ${skew}, where any Gaussian in (x, y) has 0.`,
   },
   fewRobots: 'Too few robots for a skew.',
-  robotsHere: (count, printed) => `${printed} ${plural(count, 'robot')} here`,
-  exactSkew: (skew) => `exact skew ${skew}`,
-  noExactSkew: 'no exact skew',
+  robotsHere: (count) => `${countOf(count, 'robot')} here`,
   twist: 'Same robots, exponential coordinates ξ',
   twistIs: {
     odometry:
@@ -92,7 +88,7 @@ export const en = {
   slidersEnd: 'The sliders end here',
   chart: 'Exact cross-track skew against commanded ω, for the present noise',
   chartMarker: 'Commanded ω on the chart',
-  chartText: (omega, skew) => `ω = ${omega} rad/s, ${skew}`,
+  chartText: (omega, skew) => `ω = ${omega} rad/s, exact skew ${skew}`,
   chartCaption:
     'Exact skew against commanded *ω*, and the robots’ own with its standard error. The dashed line is any Gaussian in *(x, y)*. ' +
     'At *ω* = 0 it is 0 by symmetry, however bent the cloud is: see the gain in fit.',

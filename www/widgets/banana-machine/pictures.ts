@@ -254,7 +254,7 @@ function drawOdometryReading(brush: Brush, { rot1, trans, rot2 }: import('../../
 /** Returns the position of a cloud that is drawn as one point, with the headings of the first robots. */
 function robotsAtPoint(poses: Float64Array, shown: number) {
   const headings = [...poses.subarray(0, 3 * MAX_RAYS)].filter((_, i) => i % 3 === 2);
-  return { x: poses[0], y: poses[1], headings, label: words.banana.robotsHere(shown, integer(shown)) };
+  return { x: poses[0], y: poses[1], headings, label: words.banana.robotsHere(integer(shown)) };
 }
 
 /**

@@ -63,60 +63,40 @@ export function otherReadouts({ config, stats, table }: ViewModel) {
 
 /** Returns the field with the number of the marked robot, and the motion of that robot. */
 export function markedRobotField(figure: import('./banana-machine.ts').BananaMachineElement, inspection: Inspection | undefined): import('lit').TemplateResult {
-  const { robot, markHint } = words.banana;
-  const { shown } = figure.viewModel;
-  const quantityHtml = (symbol: string, value: number, unit: string) =>
-    html`<span><i>${symbol}</i> = ${fixed(value, 3)} ${unit}</span>`;
-  const selectedHtml = inspection && (inspection.legs
-    ? legNoiseHtml(inspection.legs, figure.viewModel.reading as import('../../types.d.ts').OdomDelta)
-    : [
-        quantityHtml('v̂', inspection.vHat, 'm/s'),
-        quantityHtml('ω̂', inspection.omegaHat, 'rad/s'),
-        quantityHtml('γ̂', inspection.gammaHat, 'rad/s'),
-      ]);
-  return sampleField(figure, { id: 'robot', label: robot, hint: markHint, shown, selected: selectedHtml });
-}
-
-/** Returns the noise of each leg: the reading minus the executed motion, as Table 5.6 subtracts it. */
-function legNoiseHtml(executedLegs: import('../../types.d.ts').OdomDelta, odometryReading: import('../../types.d.ts').OdomDelta) {
-  return ([['rot1', 'rad'], ['trans', 'm'], ['rot2', 'rad']] as const).map(([leg, unit]) => {
-    const noise = odometryReading[leg] - executedLegs[leg];
-    return html`<span><i>ε</i><sub>${leg}</sub> = ${fixed(noise, 3)} ${unit}</span>`;
-  });
+  const { shown, reading } = figure.viewModel;
+  const quantityHtml = (symbol: string, value: number, unit: string) => html`<span>${formatMarkup(symbol)} = ${fixed(value, 3)} ${unit}</span>`;
+  if (!inspection) return sampleField(figure, 'robot', shown, undefined);
+  const { legs, vHat, omegaHat, gammaHat } = inspection;
+  // The noise of a leg is the reading minus the executed motion, as Table 5.6 subtracts it.
+  return sampleField(figure, 'robot', shown, legs && reading
+    ? ([['rot1', 'rad'], ['trans', 'm'], ['rot2', 'rad']] as const).map(([leg, unit]) => quantityHtml(`*ε*_{${leg}}`, reading[leg] - legs[leg], unit))
+    : [quantityHtml('*v̂*', vHat, 'm/s'), quantityHtml('*ω̂*', omegaHat, 'rad/s'), quantityHtml('*γ̂*', gammaHat, 'rad/s')]);
 }
 
 /** Significant digits of computed numbers, as in the book, and of measured numbers. */
 const COMPUTED_DIGITS = 5;
 const MEASURED_DIGITS = 3;
 
-const covarianceNameHtml = (indices: string) => html`<i>Σ</i><sub><i>${indices}</i></sub>`;
-
-export function workedExampleTable({ table: { linearized, exact, measured }, stats }: ViewModel) {
+export function workedExampleTable({ table: { linearized, exact, measured } }: ViewModel) {
   const computedColumns = [linearized, exact];
-  const [skew, ...errorWords] = formatWithError(stats.crossTrackSkew, stats.crossTrackSkewError, 3).split(' ');
-  // Two lines, also without an error, so that the row keeps its height.
-  const measuredSkew = html`${skew} <br />${errorWords.join(' ') || '\u00a0'}`;
   const texts = words.banana.table;
-  const exampleRows: [unknown, (column: Table['exact']) => number, unknown?][] = [
-    [formatMarkup(texts.mean('*x*')), ({ mean }) => mean[0]],
-    [formatMarkup(texts.mean('*y*')), ({ mean }) => mean[1]],
-    [formatMarkup(texts.mean('*θ*')), ({ mean }) => mean[2]],
-    [covarianceNameHtml('xx'), ({ cov }) => cov[0][0]],
-    [covarianceNameHtml('yy'), ({ cov }) => cov[1][1]],
-    [covarianceNameHtml('xy'), ({ cov }) => cov[0][1]],
-    [covarianceNameHtml('xθ'), ({ cov }) => cov[0][2]],
-    [covarianceNameHtml('yθ'), ({ cov }) => cov[1][2]],
-    [covarianceNameHtml('θθ'), ({ cov }) => cov[2][2]],
-    [html`<i>ρ</i><sub><i>yθ</i></sub>`, ({ cov }) => cov[1][2] / Math.sqrt(cov[1][1] * cov[2][2])],
-    [words.banana.readouts.skew, ({ crossTrackSkew }) => crossTrackSkew, measuredSkew],
+  const symbolOf = (letter: string, indices: string) => html`<i>${letter}</i><sub><i>${indices}</i></sub>`;
+  const exampleRows: [unknown, (column: Table['exact']) => number][] = [
+    ...['x', 'y', 'θ'].map((axis, i): typeof exampleRows[0] => [formatMarkup(texts.mean(`*${axis}*`)), ({ mean }) => mean[i]]),
+    ...['xx', 'yy', 'xy', 'xθ', 'yθ', 'θθ'].map((pair): typeof exampleRows[0] => {
+      const [i, j] = [...pair].map((axis) => 'xyθ'.indexOf(axis));
+      return [symbolOf('Σ', pair), ({ cov }) => cov[i][j]];
+    }),
+    [symbolOf('ρ', 'yθ'), ({ cov }) => cov[1][2] / Math.sqrt(cov[1][1] * cov[2][2])],
+    [words.banana.readouts.skew, ({ crossTrackSkew }) => crossTrackSkew],
   ];
   return figureTable({
     caption: texts.caption,
     columns: [texts.quantity, texts.linearized, texts.exact, texts.measured],
-    rows: exampleRows.map(([name, valueOf, withItsError]) => [
+    rows: exampleRows.map(([name, valueOf]) => [
       name,
       ...computedColumns.map((column) => formatSignificant(valueOf(column), COMPUTED_DIGITS)),
-      withItsError ?? formatSignificant(valueOf(measured), MEASURED_DIGITS),
+      formatSignificant(valueOf(measured), MEASURED_DIGITS),
     ]),
   });
 }

@@ -78,16 +78,12 @@ function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, a
     return smallerGain > MIN_GAIN ? `${texts.gains(joinWithNonBreakingSpaces(formatWithError(gain.value, gain.error, 3)), smallerGain > VISIBLE_GAINS.pose)} ${skewSentence}` : skewSentence;
   }
   if (Math.abs(skew) < 2 * error || skew * exactSkew < 0) return texts.unsure(measuredSkew, exactText);
-  return exactSkew < 0 ? texts.right(measuredSkew) : texts.left(measuredSkew);
+  return texts.bent(measuredSkew, exactSkew > 0);
 }
 
 export function captionOf(viewModel: ViewModel) {
   const { note, stats } = viewModel;
   return note || (stats.n === 0 ? words.banana.noRobots : bendText(viewModel) || words.banana.fewRobots);
-}
-
-export function skewText(skew: number) {
-  return Number.isNaN(skew) ? words.banana.noExactSkew : words.banana.exactSkew(fixed(skew, 3));
 }
 
 /** Returns the caption of the view in exponential coordinates: how Gaussian they make the cloud, or another note about it. */
@@ -101,9 +97,9 @@ export function twistCaption({ config: { model, noise, alphas, isolate }, note }
 
 export function twistText({ stats: { n, exponential, coverage } }: ViewModel) {
   const { mean, cov } = exponential;
-  const { twist, twistAxes, noRobots, oneRobot, twistMoments } = words.banana;
+  const { twist, twistAxes, robotsHere, twistMoments } = words.banana;
   const textStart = `${twist}, ${twistAxes}.`;
-  if (n < 2) return `${textStart} ${n === 0 ? noRobots : oneRobot}`;
+  if (n < 2) return `${textStart} ${robotsHere(integer(n))}.`;
   const [along, heading] = [fixed(mean[0], 2), fixed(mean[2], 2)];
   const [alongDeviation, headingDeviation] = [deviationText(cov[0][0]), deviationText(cov[2][2])];
   const coverageText = Number.isNaN(coverage.exponential) ? '' : percent(coverage.exponential);

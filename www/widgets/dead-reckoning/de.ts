@@ -43,8 +43,7 @@ export const de: typeof import('./en.ts').en = {
   ratioText: (recursion, step, ratios) =>
     `Vorhergesagte durch gemessene Varianz je Schritt; Rekursion: ${recursion}. Bei Schritt ${step}: ${ratios}.`,
   atStep: (ratio, step) => `${ratio} (Schritt ${step})`,
-  wrong: (worst, list, end) => `Am Ende ist die Vorhersage ${worst} um ${end} falsch. Davor: ${list} der gemessenen Varianz.`,
-  worse: (worst, list, end, far) => `Am Ende ist die Vorhersage ${far} um ${end} falsch. Davor ist sie ${worst} ${list} der gemessenen.`,
+  wrong: (worst, list, end, far) => `Am Ende ist die Vorhersage ${far} um ${end} falsch. Davor ist sie ${worst} ${list} der gemessenen.`,
   right: (robots) => `Höchstens 5 % neben dem, was ${robots} Roboter tun, in jeder Komponente bei jedem Schritt.`,
   conditions: {
     none: 'Noch keine Roboter.',
@@ -69,7 +68,6 @@ export const de: typeof import('./en.ts').en = {
     label: (crossing) => `Varianzen einer Fahrt geradeaus über ihrer Dauer, auf logarithmischen Achsen. ${crossing}`,
     crossing: (duration) => `In erster Ordnung gleich nach ${duration} s.`,
     never: 'Sie kreuzen sich nie.',
-    mark: (duration) => `${duration} s`,
     along: 'längs, *α*₁*v*²*Δt*²',
     across: 'quer, ¼*α*₃*v*⁴*Δt*⁴',
     exact: 'exakt',
@@ -79,5 +77,4 @@ export const de: typeof import('./en.ts').en = {
   },
   robot: 'Roboter',
   markHint: 'Auf einen am Boden zeigen, um seinen Weg zu sehen.',
-  markedAt: (x, y, theta) => `x ${x} m, y ${y} m, θ ${theta} rad`,
 };

@@ -1,7 +1,6 @@
 /** Dead Reckoning in English; see messages/en.ts. */
 
-const robotsOf = (robots: string) => (robots === '1' ? '1 robot' : `${robots} robots`);
-const stepsOf = (steps: string) => (steps === '1' ? '1 step' : `${steps} steps`);
+import { countOf } from '../../messages/en.ts';
 
 export const en = {
   title: 'Dead Reckoning',
@@ -42,12 +41,11 @@ export const en = {
   atStepMark: (step) => `step ${step}`,
   /** Before the ratio, and after it. */
   predicted: (component) => `predicted ${component} variance`,
-  ofMeasured: (error, step, robots) => `${error && `± ${error} `}of the measured, at step ${step}, ${robotsOf(robots)}`,
+  ofMeasured: (error, step, robots) => `${error && `± ${error} `}of the measured, at step ${step}, ${countOf(robots, 'robot')}`,
   ratioText: (recursion, step, ratios) =>
     `Predicted over measured variance by step; recursion: ${recursion}. At step ${step}: ${ratios}.`,
   atStep: (ratio, step) => `${ratio} (step ${step})`,
-  wrong: (worst, list, end) => `At the end the predicted ${worst} variance is off by ${end}. Before, it is ${list} of the measured one.`,
-  worse: (worst, list, end, far) => `At the end the predicted ${far} variance is off by ${end}. Before, the ${worst} one is ${list} of the measured one.`,
+  wrong: (worst, list, end, far) => `At the end the predicted ${far} variance is off by ${end}. Before, the ${worst} one is ${list} of the measured one.`,
   right: (robots) => `Within 5 % of what ${robots} robots do, in every component at every step.`,
   conditions: {
     none: 'No robots yet.',
@@ -56,7 +54,7 @@ export const en = {
     few: 'Too few robots to tell 5 %: the bands are wider than that.',
   },
   plane: (command, steps, robots, step, x, y, recursion) =>
-    `View of the floor from above, x to the right and y up. ${robotsOf(robots)} ${robots === '1' ? 'drives' : 'drive'} ${stepsOf(steps)} of ${command}. Clouds grow along the path; after step ${step} the command is at x ${x} m, y ${y} m. Outlines by the recursion: ${recursion}.`,
+    `View of the floor from above, x to the right and y up. ${countOf(robots, 'robot')} ${robots === '1' ? 'drives' : 'drive'} ${countOf(steps, 'step')} of ${command}. Clouds grow along the path; after step ${step} the command is at x ${x} m, y ${y} m. Outlines by the recursion: ${recursion}.`,
   stepText: (step, measured, predicted) =>
     `Step ${step} in exponential coordinates, ξ along to the right and ξ lateral up. Standard deviations measured ${measured[0]} m and ${measured[1]} m, predicted ${predicted[0]} m and ${predicted[1]} m.`,
   misses: {
@@ -72,7 +70,6 @@ export const en = {
     label: (crossing) => `Variances of a straight drive against its duration, on logarithmic axes. ${crossing}`,
     crossing: (duration) => `Equal to first order after ${duration} s.`,
     never: 'They never cross.',
-    mark: (duration) => `${duration} s`,
     along: 'along the track, *α*₁*v*²*Δt*²',
     across: 'across it, ¼*α*₃*v*⁴*Δt*⁴',
     exact: 'exact',
@@ -82,5 +79,4 @@ export const en = {
   },
   robot: 'Robot',
   markHint: 'Point at one on the floor to see its way.',
-  markedAt: (x, y, theta) => `x ${x} m, y ${y} m, θ ${theta} rad`,
 } satisfies import('../../messages/registry.ts').Message;

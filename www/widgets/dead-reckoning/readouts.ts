@@ -86,7 +86,7 @@ export function straightGrowthPlot({ durations: x, along, across, alongFirstOrde
         // One curve with a gap contains both exact curves.
         { name: texts.exact, role: 'truth', dash: '2 3', x: [...x, NaN, ...x], y: [...along, NaN, ...across] },
       ],
-      marks: crossing !== null && crossing >= minDuration && crossing <= maxDuration ? [{ x: crossing, text: texts.mark(crossingText) }] : [],
+      marks: crossing !== null && crossing >= minDuration && crossing <= maxDuration ? [{ x: crossing, text: `${crossingText} s` }] : [],
     })}
     <figcaption>${formatMarkup(texts.caption)}</figcaption>
   </figure>`;
@@ -112,11 +112,9 @@ export function missTable({ stats: { misses } }: ViewModel, overlays: string[]) 
   });
 }
 
-/** Returns the field with the number of the marked robot, and the position of that robot at the step. */
+/** Returns the field with the number of the marked robot, and the pose of that robot at the step. */
 export function markedRobotField(figure: import('./dead-reckoning.ts').DeadReckoningElement, marked: Float64Array | undefined): import('lit').TemplateResult {
-  const { robot, markHint, markedAt } = words.reckoning;
   const { config: { step }, shown } = figure.viewModel;
-  const poseAtStep = marked?.subarray(3 * (step - 1), 3 * step);
-  const selectedText = poseAtStep && [markedAt(fixed(poseAtStep[0], 3), fixed(poseAtStep[1], 3), fixed(poseAtStep[2], 3))];
-  return sampleField(figure, { id: 'robot', label: robot, hint: markHint, shown, selected: selectedText });
+  const [x, y, theta] = Array.from(marked?.subarray(3 * (step - 1), 3 * step) ?? [], (value) => fixed(value, 3));
+  return sampleField(figure, 'robot', shown, marked && `x ${x} m, y ${y} m, θ ${theta} rad`);
 }

@@ -32,8 +32,7 @@ export function captionOf({ config: { compounding }, stats: { misses, n }, condi
   const endAxis = indexOfGreatest(recursionMisses.map(({ end }, axis) => missIfShown(Math.abs(end), axis)));
   const worstAxis = indexOfGreatest(curves.map(({ ratio }, axis) => missIfShown(ratio.reduce((max, value) => Math.max(max, Math.abs(value - 1) || 0), 0), axis)));
   const ratioList = ratiosAtSteps(Array.from(curves[worstAxis].ratio));
-  const [finalErrorPercent, componentPhrase] = [signedPercent(recursionMisses[endAxis].end), texts.of[COMPONENTS[worstAxis]]];
-  return endAxis === worstAxis ? texts.wrong(componentPhrase, ratioList, finalErrorPercent) : texts.worse(componentPhrase, ratioList, finalErrorPercent, texts.of[COMPONENTS[endAxis]]);
+  return texts.wrong(texts.of[COMPONENTS[worstAxis]], ratioList, signedPercent(recursionMisses[endAxis].end), texts.of[COMPONENTS[endAxis]]);
 }
 
 /** Returns the index of the greatest miss (error of the prediction); NaN is not a miss. */

@@ -60,14 +60,10 @@ export const de: typeof import('./en.ts').en = {
   apartment: 'Die Wohnung',
   edited: 'Geänderte Wohnung',
   pasted: 'Eingegebener Plan',
-  mapText: (name, width, height, walls, printed) =>
-    `${name}: ${width} m × ${height} m, ${printed} ${walls === 1 ? 'Wand' : 'Wände'}`,
+  mapText: (name, width, height, walls) => `${name}: ${width} m × ${height} m, ${walls} ${walls === '1' ? 'Wand' : 'Wände'}`,
   picture: (map) => `Grundriss von oben, x nach rechts und y nach oben. ${map}.`,
   robotAt: (x, y, theta, command) =>
     `Der Roboter steht bei x ${x} m, y ${y} m, Richtung ${theta} rad. Befohlen: ${command}.`,
-  outcome: (drawn, subSteps, accepted, through, density) =>
-    `${drawn} ${subSteps ? 'Teilschritte ' : ''}gezogen; ${accepted} ${subSteps ? 'Bewegungen ' : ''}angenommen, als ${density ? 'Dichte' : 'Punkte'}; davon ${through} durch eine Wand.`,
-  rest: (density) => `Der Rest ist verworfen${density ? '' : ', als Kreuze'}.`,
   throughThisWall: 'durch diese Wand',
   handles: { start: ['Roboter', 'Richtung des Roboters'] },
   walls: {
@@ -78,9 +74,6 @@ export const de: typeof import('./en.ts').en = {
   },
   tally: {
     drawn: 'gezogen',
-    ofDrawn: (share, parts) => `${share} ${parts ? 'aller gezogenen Teilschritte' : 'der gezogenen'}`,
-    ofAccepted: (share) => `${share} der angenommenen`,
-    byConstruction: '0, nach Bauart',
     paths: 'gezeichnete Wege durch eine Wand',
     first: (count) => `die ersten ${count}`,
     draws: 'gezogene je angenommene Stichprobe',

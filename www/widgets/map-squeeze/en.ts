@@ -1,6 +1,6 @@
 /** Map Squeeze in English; see messages/en.ts. */
 
-import { plural } from '../../messages/en.ts';
+import { countOf } from '../../messages/en.ts';
 
 export const en = {
   title: 'Map Squeeze',
@@ -62,14 +62,10 @@ export const en = {
   apartment: 'The apartment',
   edited: 'Edited apartment',
   pasted: 'Pasted plan',
-  mapText: (name, width, height, walls, printed) =>
-    `${name}: ${width} m × ${height} m, ${printed} ${plural(walls, 'wall')}`,
+  mapText: (name, width, height, walls) => `${name}: ${width} m × ${height} m, ${countOf(walls, 'wall')}`,
   picture: (map) => `Floor plan from above, x to the right and y up. ${map}.`,
   robotAt: (x, y, theta, command) =>
     `The robot stands at x ${x} m, y ${y} m, heading ${theta} rad. Commanded: ${command}.`,
-  outcome: (drawn, subSteps, accepted, through, density) =>
-    `${drawn} ${subSteps ? 'sub-steps ' : ''}drawn; ${accepted} ${subSteps ? 'motions ' : ''}accepted, as ${density ? 'a density' : 'dots'}; ${through} of those through a wall.`,
-  rest: (density) => `The rest is rejected${density ? '' : ', as crosses'}.`,
   throughThisWall: 'through this wall',
   handles: { start: ['Robot', 'Heading of the robot'] },
   walls: {
@@ -80,9 +76,6 @@ export const en = {
   },
   tally: {
     drawn: 'drawn',
-    ofDrawn: (share, parts) => `${share} of ${parts ? 'all sub-steps drawn' : 'those drawn'}`,
-    ofAccepted: (share) => `${share} of those accepted`,
-    byConstruction: '0, by construction',
     paths: 'paths through a wall shown',
     first: (count) => `the first ${count}`,
     draws: 'samples drawn per accepted sample',

@@ -4,7 +4,7 @@ import { html, nothing } from 'lit';
 import { sampleField } from '../../figure/controls.ts';
 import { words } from '../../messages/registry.ts';
 import { button } from '../../ui/controls.ts';
-import { integer, fixed, percent, formatRounded } from '../../ui/format.ts';
+import { integer, fixed, formatRounded } from '../../ui/format.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
 import { SAMPLES_PER_SECOND, type SampleCost } from './cost.ts';
 import { SAMPLERS } from './settings.ts';
@@ -13,13 +13,10 @@ import type { SamplerName } from '../../types.d.ts';
 import type { MapSqueezeElement as Figure } from './map-squeeze.ts';
 import type { ViewModel } from './view-model.ts';
 
-export function tallyReadouts({ stats, config: { conditioned, sampler }, paths: { length: paths } }: ViewModel) {
-  const { tally: texts, overlays } = words.squeeze;
-  const excludesWalls = conditioned && sampler === 'whole-arc';
+export function tallyReadouts({ stats, paths: { length: paths } }: ViewModel) {
+  const { tally: texts } = words.squeeze;
   return readoutList([
     [texts.drawn, integer(stats.drawn)],
-    [overlays.accepted, integer(stats.accepted), texts.ofDrawn(percent(stats.acceptanceRate), conditioned && sampler === 'sub-stepped')],
-    [overlays.through, excludesWalls ? texts.byConstruction : integer(stats.throughWall), excludesWalls ? undefined : texts.ofAccepted(percent(stats.throughWallRate))],
     [texts.paths, paths < stats.throughWall ? texts.first(integer(paths)) : integer(paths)],
     [texts.draws, fixed(stats.drawsPerAccepted, 2)],
     [texts.tests, fixed(stats.wallTestsPerAccepted, 2)],
@@ -28,9 +25,7 @@ export function tallyReadouts({ stats, config: { conditioned, sampler }, paths: 
 
 export function markedSampleField(figure: Figure) {
   const { cloud, viewModel: { config, stats, verdicts } } = figure;
-  const { sample, markHint } = words.squeeze;
-  const selectedText = cloud.isMarked ? verdictText(verdicts[cloud.selectedIndex], config) : '';
-  return sampleField(figure, { id: 'sample', label: sample, hint: markHint, shown: stats.attempts, selected: selectedText });
+  return sampleField(figure, 'sample', stats.attempts, cloud.isMarked ? verdictText(verdicts[cloud.selectedIndex], config) : '');
 }
 
 /** Returns the button that measures the cost of each sampler, and the table of the costs. */

@@ -47,21 +47,12 @@ export function captionOf({ config: { conditioned, sampler }, stats, note }: Vie
 /** Returns the name of a map with its size. */
 export function mapText(name: string, { bounds, walls }: Plan) {
   const [left, bottom, right, top] = bounds;
-  const wallCount = walls.length / 4;
-  return words.squeeze.mapText(name, fixed(right - left, 1), fixed(top - bottom, 1), wallCount, integer(wallCount));
+  return words.squeeze.mapText(name, fixed(right - left, 1), fixed(top - bottom, 1), integer(walls.length / 4));
 }
 
 /** Returns the text equivalent of the picture, with the map as `mapText` has it. */
-export function pictureText({ config, stats, posesByOutcome, note }: ViewModel, map: string) {
-  const { x, y, theta } = config.start;
-  const { attempts, accepted, drawn, throughWall } = stats;
+export function pictureText(viewModel: ViewModel, map: string) {
+  const { start: { x, y, theta }, command } = viewModel.config;
   const texts = words.squeeze;
-  const hasSubSteps = config.conditioned && config.sampler === 'sub-stepped';
-  return [
-    texts.picture(map),
-    texts.robotAt(fixed(x, 2), fixed(y, 2), fixed(theta, 2), commandText(config.command)),
-    texts.outcome(integer(drawn), hasSubSteps, integer(accepted), integer(throughWall), !posesByOutcome),
-    accepted < attempts && config.conditioned ? texts.rest(!posesByOutcome) : '',
-    note,
-  ].filter(Boolean).join(' ');
+  return [texts.picture(map), texts.robotAt(fixed(x, 2), fixed(y, 2), fixed(theta, 2), commandText(command)), captionOf(viewModel)].join(' ');
 }

@@ -26,8 +26,6 @@ export const de: typeof import('./en.ts').en = {
     drift: { name: 'Driftzeit', effect: 'Verschiebt das Koordinatensystem der Odometrie gegen die Welt. Die Vorhersage bleibt.' },
     samples: { name: 'Ausgänge', effect: 'Ausgänge: Mehr davon verkleinern den Fehler dessen, was sie messen.' },
   },
-  path: 'Weg',
-  drift: 'Drift',
   plays: { phase: 'Bewegung abspielen', drift: 'Drift abspielen' },
   handles: { from: ['Odometrie davor', 'Richtung davor'], to: ['Odometrie danach', 'Richtung danach'] },
   legsTitle: 'Eine Messung der Odometrie, vier Rauschmodelle',

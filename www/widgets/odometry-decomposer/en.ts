@@ -26,8 +26,6 @@ export const en = {
     drift: { name: 'drift time', effect: 'Moves the odometry frame away from the world. The prediction stays.' },
     samples: { name: 'outcomes', effect: 'Outcomes: more of them narrow the error of what they measure.' },
   },
-  path: 'Path',
-  drift: 'Drift',
   plays: { phase: 'Play the motion', drift: 'Play the drift' },
   handles: { from: ['Odometry before', 'Heading before'], to: ['Odometry after', 'Heading after'] },
   legsTitle: 'One odometry reading, four noise models',

@@ -22,9 +22,6 @@ import { viewModelOf, type ViewModel } from './view-model.ts';
 import { driftDistance, captionOf, legsText, worldText } from './words.ts';
 import type { OdometryDecomposer as Simulation } from '../../types.d.ts';
 
-/** Bounds of both poses: left, bottom, right and top, m. */
-const POSE_BOUNDS = [-4, -4, 4, 4];
-
 /** Returns the table of standard deviations by noise model. Values that differ from Table 5.6 are bold. */
 function noiseModelTable(figure: OdometryDecomposerElement) {
   const { rules: names, table: texts, settings } = words.decomposer;
@@ -44,11 +41,11 @@ function noiseModelTable(figure: OdometryDecomposerElement) {
 }
 
 /** Returns a slider, with a play button unless the user prefers reduced motion. */
-function playableSlider(figure: OdometryDecomposerElement, key: 'phase' | 'drift', legend: string) {
+function playableSlider(figure: OdometryDecomposerElement, key: 'phase' | 'drift') {
   const { player } = figure;
-  const { plays } = words.decomposer;
+  const { plays, settings } = words.decomposer;
   return html`<fieldset class="playable with-button ${key}">
-    <legend class="visually-hidden">${legend}</legend>
+    <legend class="visually-hidden">${settings[key].name}</legend>
     ${settingSlider(figure, key, { input: (value) => player.setByUser(key, value) })} ${player.button(key, plays[key])}
   </fieldset>`;
 }
@@ -79,7 +76,7 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
   #worldPicture = new WorldPicture();
   pictures = [this.#legsPicture, this.#worldPicture];
   /** Handles of both poses. The handle of the second pose is on top if both poses are at the same place. */
-  #handles: PoseHandles[] = ['from', 'to'].map((setting) => new PoseHandles(this, setting, () => this.#legsPicture.view, () => POSE_BOUNDS));
+  #handles: PoseHandles[] = ['from', 'to'].map((setting) => new PoseHandles(this, setting, () => this.#legsPicture.view));
 
   createSimulation: FigureElement<Simulation, ViewModel>['createSimulation'] = (motion, state) => enterCloud(this, new motion.OdometryDecomposer(), state);
 
@@ -124,7 +121,7 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
       </div>
       ${this.renderer.afterFirstPicture(() => html`
       ${legend(this, LINE_STYLES)} ${presetButtons(this)} ${noiseModelTable(this)}
-      <div class="plays" part="controls">${playableSlider(this, 'phase', texts.path)} ${playableSlider(this, 'drift', texts.drift)}</div>
+      <div class="plays" part="controls">${playableSlider(this, 'phase')} ${playableSlider(this, 'drift')}</div>
       ${disclosures(this, {
         controls: () => noiseControls(this),
         numbers: () => html`${outcomeReadouts(viewModel)} ${spreadPlot(this.#spreadCurveOf, viewModel)}`,

@@ -16,6 +16,9 @@ const KEY_TURN = Math.PI / 36;
 /** Minimum size of the body's handle, CSS pixels. */
 const MIN_BODY_HANDLE_SIZE = 32;
 
+/** Allowed positions without a map: left, bottom, right and top, m. */
+const DEFAULT_BOUNDS = [-4, -4, 4, 4];
+
 /** Minimum distance of the turning handle from the edge of the picture, CSS pixels. */
 const EDGE_MARGIN = 12;
 
@@ -30,7 +33,7 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
    * Creates the handles of a setting that is a pose, in the view of a picture. `bounds` returns left, bottom, right and top of the allowed
    * positions, metres. The catalogue of the figure has the names of both handles under `handles`.
    */
-  constructor(host: import('../../figure/figure.ts').Figure, setting: string, view: () => View, bounds: () => number[] | Float64Array) {
+  constructor(host: import('../../figure/figure.ts').Figure, setting: string, view: () => View, bounds: () => number[] | Float64Array = () => DEFAULT_BOUNDS) {
     super(host);
     this.#setting = setting;
     this.#view = view;

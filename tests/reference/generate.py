@@ -1,34 +1,34 @@
 #!/usr/bin/env python3
 """Writes the reference tables beside this file, which the Rust tests read.
 
-    pip install mpmath && python3 generate.py
+    pip install mpmath numpy && python3 generate.py
 
 Nothing here shares a formula with src/: Jacobians come from the series of the adjoint action, moments from
-quadrature at 40 digits, quantiles from Newton's method. A column pair `name`, `name_lo` is one number, split into the
+quadrature at 40 digits, quantiles from the inverse error function. A column pair `name`, `name_lo` is one number, split into the
 nearest double and what that double leaves over, so that a test can measure errors far below one unit in the last
 place. The seed is fixed: running the script again gives the same files.
 """
 
-import cmath
-import math
 import pathlib
 import random
+from itertools import product
 
-from mpmath import mp, mpf, matrix, cos, sin, sqrt, exp, log, erf, erfc, pi, quad
+import numpy as np
+from mpmath import mp, mpf, matrix, cos, sin, sqrt, exp, log, erfinv, pi, quad
 
 mp.dps = 40
 HERE = pathlib.Path(__file__).parent
 rng = random.Random(2005)
 
 
-def split(value):
+def split(value, rest_format="%.3e"):
     """A high-precision number as two columns, its nearest double and the rest."""
     head = float(value)
-    return [repr(head), "%.3e" % float(value - mpf(head))]
+    return [head, rest_format % float(value - mpf(head))]
 
 
 def write(name, header, rows):
-    text = "\n".join([",".join(header)] + [",".join(row) for row in rows]) + "\n"
+    text = "\n".join([",".join(header)] + [",".join(map(str, row)) for row in rows]) + "\n"
     (HERE / name).write_text(text)
     print(f"{name}: {len(rows)} rows, {len(text)} bytes")
 
@@ -89,7 +89,7 @@ def group_tables():
         x, y = s * a - c * b, c * a + s * b
         jacobian = right_jacobian((a, b, w))
         inverse = jacobian**-1
-        row = [repr(v) for v in floats]
+        row = [*floats]
         for value in (x, y):
             row += split(value)
         for m in (jacobian, inverse):
@@ -101,28 +101,13 @@ def group_tables():
         # The logarithm of the *rounded* pose, whose exact value is another number than ξ.
         px, py = mpf(float(x)), mpf(float(y))
         det = s * s + c * c
-        logs.append([repr(float(px)), repr(float(py)), repr(floats[2])]
+        logs.append([float(px), float(py), floats[2]]
                     + split((s * px + c * py) / det) + split((s * py - c * px) / det))
     write("group.csv", header, rows)
     write("log.csv", ["x", "y", "w", "a", "a_lo", "b", "b_lo"], logs)
 
 
 # ----------------------------------------------------------------------------------------------------- the noise
-
-def normal_quantile(q):
-    """z with P(Z < z) = q + 1/2, by Newton's method on the smaller of centre and tail probability."""
-    q = mpf(q)
-    tail = mpf(1) / 2 - abs(q)
-    central = tail > 0.2
-    z = abs(q) * sqrt(2 * pi) if central else sqrt(max(-2 * log(tail) - log(-4 * pi * log(tail)), 0.1))
-    for _ in range(200):
-        excess = erf(z / sqrt(mpf(2))) / 2 - abs(q) if central else tail - erfc(z / sqrt(mpf(2))) / 2
-        step = excess / (exp(-z * z / 2) / sqrt(2 * pi))
-        z -= step
-        if abs(step) <= abs(z) * mpf(10) ** -30:
-            return z if q > 0 else -z
-    raise ArithmeticError(f"no quantile for {q}")
-
 
 def quantile_table():
     points = [10.0**-k for k in (300, 20, 16, 12, 9, 6, 4, 3, 2)]
@@ -132,24 +117,34 @@ def quantile_table():
     rows = []
     for q in sorted(points):
         with mp.workdps(360):
+            # z with P(Z < z) = q + 1/2
+            normal = sqrt(mpf(2)) * erfinv(2 * mpf(q))
             triangular = sqrt(mpf(6)) * (1 - sqrt(1 - 2 * mpf(q)))
-        rows.append([repr(q)] + split(normal_quantile(q)) + split(triangular))
+        rows.append([q] + split(normal) + split(triangular))
     write("quantile.csv", ["q", "normal", "normal_lo", "triangular", "triangular_lo"], rows)
 
 
 # --------------------------------------------------------------------------------------------------- the moments
 
-def expectation(kind, variance, f):
+def expectation(kind, variance, f, singularity=mpf("inf")):
     """E f(Z) for a zero-mean Z of this kind and variance."""
     if variance == 0:
         return f(mpf(0))
     b = sqrt(variance)
     if kind == "normal":
-        weight = lambda z: exp(-z * z / 2) / sqrt(2 * pi)
-        return quad(lambda z: weight(z) * f(b * z), [-13, -9, -6, -3, -1, 0, 1, 3, 6, 9, 13])
-    edge = sqrt(mpf(6))
-    weight = lambda z: (edge - abs(z)) / 6
-    return quad(lambda z: weight(z) * f(b * z), [-edge, -edge / 2, 0, edge / 2, edge])
+        weight, ends = lambda z: exp(-z * z / 2) / sqrt(2 * pi), [-13, -9, -6, -3, -1, 0, 1, 3, 6, 9, 13]
+    else:
+        edge = sqrt(mpf(6))
+        weight, ends = lambda z: (edge - abs(z)) / 6, [-edge, -edge / 2, 0, edge / 2, edge]
+    if abs(singularity / b) < ends[-1]:
+        ends = sorted(ends + [singularity / b])
+    return quad(lambda z: weight(z) * f(b * z), ends)
+
+
+def skewness(m1, m2, m3):
+    """Skewness of a variable with these raw moments."""
+    skew = (m3 - 3 * m1 * m2 + 2 * m1**3) / (m2 - m1 * m1) ** (mpf(3) / 2)
+    return skew if abs(skew) > 1e-30 else mpf(0)      # quadrature noise around a true zero
 
 
 def planar_moments(factor, variance, x_of, y_of, kind, angle_variance, heading, heading_variance):
@@ -166,10 +161,7 @@ def planar_moments(factor, variance, x_of, y_of, kind, angle_variance, heading, 
     syy = r2 * mean(lambda t: y_of(t) ** 2) - my * my
     sxt, syt = r1 * mean(lambda t: t * x_of(t)), r1 * mean(lambda t: t * y_of(t))
     cross = lambda t: y_of(t) * cos(heading) - x_of(t) * sin(heading)
-    m1, m2, m3 = r1 * mean(cross), r2 * mean(lambda t: cross(t) ** 2), r3 * mean(lambda t: cross(t) ** 3)
-    central2 = m2 - m1 * m1
-    central3 = m3 - 3 * m1 * m2 + 2 * m1**3
-    skew = central3 / central2 ** (mpf(3) / 2)
+    skew = skewness(r1 * mean(cross), r2 * mean(lambda t: cross(t) ** 2), r3 * mean(lambda t: cross(t) ** 3))
     moments = [mx, my, sxx, sxy, syy, sxt, syt, heading_variance, skew]
     return [value if abs(value) > 1e-30 else mpf(0) for value in moments]   # quadrature noise around a true zero
 
@@ -206,11 +198,9 @@ def moments_table():
                 for c in [(0.3, 1.0, 0.2), (-0.4, 0.8, 1.0), (0.0, 1.5, 0.0), (2.8, 0.5, -2.9)]]
     odometry += [("normal", (0.1, 0.2, 0.2, 0.1), (0.25, 1.0, 0.25)), ("normal", (0.0, 0.0, 0.0, 0.2), (0.5, 1.0, 0.5))]
     names = ["mx", "my", "sxx", "sxy", "syy", "sxt", "syt", "stt", "skew"]
-    rows = [[k, *map(repr, al), *map(repr, c), *(repr(float(m)) for m in velocity_moments(k, al, *c))]
-            for k, al, c in velocity]
+    rows = [[k, *al, *c, *map(float, velocity_moments(k, al, *c))] for k, al, c in velocity]
     write("velocity_moments.csv", ["kind", "a1", "a2", "a3", "a4", "a5", "a6", "v", "omega", "dt"] + names, rows)
-    rows = [[k, *map(repr, al), *map(repr, c), *(repr(float(m)) for m in odometry_moments(k, al, *c))]
-            for k, al, c in odometry]
+    rows = [[k, *al, *c, *map(float, odometry_moments(k, al, *c))] for k, al, c in odometry]
     write("odometry_moments.csv", ["kind", "a1", "a2", "a3", "a4", "rot1", "trans", "rot2"] + names, rows)
 
 
@@ -231,9 +221,7 @@ def pushed_skew(mean, cov):
             return [mu, mu * mu + var, mu**3 + 3 * mu * var][order - 1]
         return expectation("normal", var_w, given)
 
-    m1, m2, m3 = raw(1), raw(2), raw(3)
-    skew = (m3 - 3 * m1 * m2 + 2 * m1**3) / (m2 - m1 * m1) ** (mpf(3) / 2)
-    return skew if abs(skew) > 1e-30 else mpf(0)
+    return skewness(raw(1), raw(2), raw(3))
 
 
 def pushed_skew_table():
@@ -248,159 +236,104 @@ def pushed_skew_table():
     rows = []
     for mean, cov in cases:
         flat = [cov[0][0], cov[0][1], cov[0][2], cov[1][1], cov[1][2], cov[2][2]]
-        rows.append([*map(repr, mean), *map(repr, flat), repr(float(pushed_skew(mean, cov)))])
+        rows.append([*mean, *flat, float(pushed_skew(mean, cov))])
     write("pushed_skew.csv", ["a", "b", "w", "caa", "cab", "caw", "cbb", "cbw", "cww", "skew"], rows)
 
 
 # ----------------------------------------------------------------------------------------------- likelihood gains
 
 def sums(kind, end=6.6, step=0.2, parts=64):
-    """Nodes and weights for E f(Z), Z of unit variance: trapezoidal for the normal noise, Simpson's rule on either half of
-    the triangle."""
+    """Nodes and weights for E f(Z), Z of unit variance: trapezoidal for the normal noise, Simpson's rule for the triangle."""
     if kind == "normal":
-        count = round(end / step)
-        nodes = [(step * i, step * math.exp(-0.5 * (step * i) ** 2)) for i in range(-count, count + 1)]
+        nodes = step * np.arange(-round(end / step), round(end / step) + 1)
+        weights = np.exp(-0.5 * nodes**2)
     else:
-        edge = math.sqrt(6.0)
-        nodes = []
-        for side in (-1, 1):
-            for i in range(parts + 1):
-                z = edge * i / parts
-                factor = 1 if i in (0, parts) else 4 if i % 2 else 2
-                nodes.append((side * z, factor * (edge - z)))
-    total = sum(weight for _, weight in nodes)
-    return [(z, weight / total) for z, weight in nodes]
+        edge = np.sqrt(6.0)
+        nodes = np.linspace(-edge, edge, 2 * parts + 1)
+        weights = np.where(np.arange(2 * parts + 1) % 2, 4, 2) * (edge - abs(nodes))
+    return nodes, weights / weights.sum()
 
 
 def arc_end(s, turn):
     """The end of an arc as a complex number."""
-    return s * (cmath.exp(1j * turn) - 1) / (1j * turn) if abs(turn) > 1e-9 else complex(s, s * turn / 2)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return s * np.where(abs(turn) > 1e-9, (np.exp(1j * turn) - 1) / (1j * turn), 1 + 0.5j * turn)
 
 
-def exp_pose(xi):
-    end = complex(xi[0], xi[1]) * arc_end(1.0, xi[2])
-    return [end.real, end.imag, xi[2]]
+def polar(s, turn):
+    end = arc_end(s, turn)
+    return np.array([end.real, end.imag])
+
+
+def exp_pose(x, y, turn):
+    end = (x + 1j * y) * arc_end(1.0, turn)
+    return np.array([end.real, end.imag, turn])
 
 
 def jacobian(f, point, step=1e-5):
-    """By central differences: rows are the components of f."""
-    columns = []
-    for i in range(len(point)):
-        ahead, back = list(point), list(point)
-        ahead[i] += step
-        back[i] -= step
-        columns.append([(a - b) / (2 * step) for a, b in zip(f(ahead), f(back))])
-    return [list(row) for row in zip(*columns)]
-
-
-def determinant(m):
-    if len(m) == 1:
-        return m[0][0]
-    return sum((-1) ** j * m[0][j] * determinant([row[:j] + row[j + 1:] for row in m[1:]]) for j in range(len(m)))
-
-
-def weighted_moments(points):
-    """Mean and covariance of (weight, vector) pairs."""
-    size, total = len(points[0][1]), sum(w for w, _ in points)
-    mean = [sum(w * p[i] for w, p in points) / total for i in range(size)]
-    cov = [[sum(w * (p[i] - mean[i]) * (p[j] - mean[j]) for w, p in points) / total for j in range(size)]
-           for i in range(size)]
-    return mean, cov
-
-
-def mean_log_size(kind, mean, deviation):
-    """E ln|mean + deviation·Z|."""
-    if kind == "normal":
-        weight, ends = lambda z: exp(-z * z / 2) / sqrt(2 * pi), [-13, -6, -2, 2, 6, 13]
-    else:
-        edge = sqrt(mpf(6))
-        weight, ends = lambda z: (edge - abs(z)) / 6, [-edge, 0, edge]
-    zero = -mpf(mean) / mpf(deviation)
-    ends = sorted(ends + ([zero] if ends[0] < zero < ends[-1] else []))
-    with mp.workdps(20):
-        return float(quad(lambda z: weight(z) * log(abs(mpf(mean) + mpf(deviation) * z)), ends))
-
-
-def cholesky(cov):
-    size = len(cov)
-    root = [[0.0] * size for _ in range(size)]
-    for j in range(size):
-        pivot = cov[j][j] - sum(root[j][k] ** 2 for k in range(j))
-        if pivot > 1e-12 * cov[j][j] and pivot > 1e-20:
-            for i in range(j, size):
-                root[i][j] = (cov[i][j] - sum(root[i][k] * root[j][k] for k in range(j))) / math.sqrt(pivot)
-    return root
+    """By central differences: the axes after those of the values are the components of f, and its arguments."""
+    steps = step * np.eye(len(point)).reshape(len(point), len(point), *[1] * np.ndim(point[0]))
+    return np.stack([(f(*(point + h)) - f(*(point - h))).T / (2 * step) for h in steps], axis=-1)
 
 
 def outline_area(mean, cov, chords=128):
     """The area inside the widget's outline of N(mean, cov) in exponential coordinates: that of the great circle of the 2σ
     ellipsoid across the mean direction that leaves the place where it is. Loops count positively."""
-    root = cholesky(cov)
-    at = lambda u: [m + 2 * sum(row[k] * u[k] for k in range(3)) for m, row in zip(mean, root)]
-    place = lambda u: exp_pose(at(u))[:2]
-    spread = mp.zeros(3)
-    for axis in range(3):
-        for sign in (-1.0, 1.0):
-            end = [sign if k == axis else 0.0 for k in range(3)]
-            a, b = jacobian(place, end)
-            idle = matrix([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]) / 4
-            spread += idle * idle.T
-    values, vectors = mp.eigsy(spread)
-    k = [float(vectors[i, 2]) for i in range(3)]
-    aside = min(range(3), key=lambda i: abs(k[i]))
-    first = [(1.0 if i == aside else 0.0) - k[i] * k[aside] for i in range(3)]
-    size = math.sqrt(sum(c * c for c in first))
-    first = [c / size for c in first]
-    second = [k[1] * first[2] - k[2] * first[1], k[2] * first[0] - k[0] * first[2], k[0] * first[1] - k[1] * first[0]]
-    turned = lambda t: [math.cos(t) * f + math.sin(t) * g for f, g in zip(first, second)]
-    rim = [at(turned(2 * math.pi * i / chords)) for i in range(chords + 1)]
-    loops = {True: 0.0, False: 0.0}
-    for before, after in zip(rim, rim[1:]):
-        (x0, y0, _), (x1, y1, _) = exp_pose(before), exp_pose(after)
-        loops[after[0] >= 0] += 0.5 * (x0 * y1 - x1 * y0)
-    return sum(abs(loop) for loop in loops.values())
+    root, noisy = np.zeros((3, 3)), np.ix_(*[np.diag(cov) > 1e-20] * 2)
+    root[noisy] = np.linalg.cholesky(cov[noisy])
+    at = lambda u: mean + 2 * root @ u
+    spread = 0.0
+    for end in (*np.eye(3), *-np.eye(3)):
+        idle = np.cross(*jacobian(lambda *u: exp_pose(*at(u))[:2], end)) / 4
+        spread += np.outer(idle, idle)
+    k = np.linalg.eigh(spread)[1][:, 2]
+    aside = np.argmin(abs(k))
+    first = np.eye(3)[aside] - k * k[aside]
+    first /= np.linalg.norm(first)
+    second = np.cross(first, k)
+    rim = [at(np.cos(t) * first + np.sin(t) * second) for t in np.linspace(0, 2 * np.pi, chords + 1)]
+    x, y, _ = exp_pose(*np.transpose(rim))
+    areas = 0.5 * (x[:-1] * y[1:] - x[1:] * y[:-1])
+    forward = np.array(rim[1:])[:, 0] >= 0
+    return abs(areas[forward].sum()) + abs(areas[~forward].sum())
 
 
 def likelihood_gains(kind, alphas, v, omega, dt):
     """Gain of pose and floor, and the ratio of areas, by their definitions: moments and mean logarithms by sums over all
-    combinations of noises, Jacobians by differences."""
-    sv, sw, sg = (dt * math.sqrt(alphas[i] * v * v + alphas[i + 1] * omega * omega) for i in (0, 2, 4))
+    combinations of noises, Jacobians by differences, which leave about nine digits."""
+    sv, sw, sg = (dt * np.sqrt(alphas[i] * v * v + alphas[i + 1] * omega * omega) for i in (0, 2, 4))
     # Three points have the first two moments of the length, and only those count.
-    lengths = [(v * dt + z * sv, w) for z, w in ((-math.sqrt(3), 1 / 6), (0.0, 2 / 3), (math.sqrt(3), 1 / 6))]
-    reach = 6 * math.hypot(sw, sg) if kind == "normal" else math.inf
-    flat, bent, log_chart, total, places = [], [], 0.0, 0.0, []
+    s, ws = v * dt + sv * np.sqrt(3) * np.array([-1, 0, 1]), np.array([1, 4, 1]) / 6
+    moments = lambda weights, *values: (np.average(values, -1, weights), np.cov(values, aweights=weights, ddof=0))
+    log_det = lambda matrices: np.log(abs(np.linalg.det(matrices)))
+
     # The arc to a place is the one of the nearest turn, which jumps half a circle off the command: finer steps.
-    arcs, log_arc = [], 0.0
-    polar = lambda q: [arc_end(*q).real, arc_end(*q).imag]
-    for z, wz in sums(kind, 6.0, 0.001, 1000):
-        turn = omega * dt + sw * z
-        near = omega * dt + math.remainder(sw * z, 2 * math.pi)
-        stretch = near / turn if turn != near else 1.0
-        log_arc += wz * math.log(abs(determinant(jacobian(polar, [stretch, near]))))
-        arcs += [(wz * ws, [s * stretch, near]) for s, ws in lengths]
-    for z, wz in sums(kind):
-        turn = omega * dt + sw * z
-        for s, ws in lengths:
-            places.append((wz * ws, [arc_end(s, turn).real, arc_end(s, turn).imag]))
-        for g, wg in sums(kind) if sg else [(0.0, 1.0)]:
-            if abs(sw * z + sg * g) > reach:
-                continue
-            theta = turn + sg * g
-            chart = math.log(abs(determinant(jacobian(exp_pose, [0.3, 0.2, theta]))))
-            for s, ws in lengths:
-                end = arc_end(s, turn)
-                xi = end / arc_end(1.0, theta)
-                weight = wz * wg * ws
-                flat.append((weight, [end.real, end.imag, theta]))
-                bent.append((weight, [xi.real, xi.imag, theta]))
-            log_chart += wz * wg * chart
-            total += wz * wg
-    (_, flat_cov), (mean, bent_cov), (_, place_cov), (_, arc_cov) = map(weighted_moments, (flat, bent, places, arcs))
-    half_log = lambda cov: 0.5 * math.log(determinant(cov))
-    pose = half_log(flat_cov) - half_log(bent_cov) - log_chart / total if sg else math.inf
-    floor = half_log(place_cov) - half_log(arc_cov) - mean_log_size(kind, v * dt, sv) - log_arc
-    polygon = 64 * math.sin(2 * math.pi / 128)
-    ellipse = polygon * 4 * math.sqrt(determinant(place_cov))
+    z, wz = sums(kind, 6.0, 0.001, 1000)
+    turn, near = omega * dt + sw * z, omega * dt + np.remainder(sw * z + np.pi, 2 * np.pi) - np.pi
+    stretch = np.divide(near, turn, out=np.ones_like(turn), where=abs(turn - near) > 1e-9)
+    log_arc = wz @ log_det(jacobian(polar, np.array([stretch, near])))
+    _, arc_cov = moments(np.outer(wz, ws).ravel(), np.outer(stretch, s).ravel(), np.repeat(near, 3))
+
+    z, wz = sums(kind)
+    turn = omega * dt + sw * z
+    _, place_cov = moments(np.outer(wz, ws).ravel(), *polar(s, turn[:, None]).reshape(2, -1))
+
+    g, wg = sums(kind) if sg else (np.zeros(1), np.ones(1))
+    inside = (abs(np.add.outer(sw * z, sg * g)) <= 6 * np.hypot(sw, sg)) | (kind != "normal")
+    theta, weight = np.add.outer(turn, sg * g)[inside], np.outer(wz, wg)[inside]
+    end = arc_end(s, np.broadcast_to(turn[:, None], inside.shape)[inside][:, None]).ravel()
+    xi, thetas, weights = end / np.repeat(arc_end(1.0, theta), 3), np.repeat(theta, 3), np.outer(weight, ws).ravel()
+    _, flat_cov = moments(weights, end.real, end.imag, thetas)
+    mean, bent_cov = moments(weights, xi.real, xi.imag, thetas)
+    log_chart = np.average(log_det(jacobian(exp_pose, np.array([0.3 + 0 * theta, 0.2 + 0 * theta, theta]))), weights=weight)
+
+    pose = (log_det(flat_cov) - log_det(bent_cov)) / 2 - log_chart if sg else np.inf
+    # E ln|length|
+    with mp.workdps(20):
+        log_length = float(expectation(kind, mpf(sv) ** 2, lambda z: log(abs(v * dt + z)), -mpf(v * dt)))
+    floor = (log_det(place_cov) - log_det(arc_cov)) / 2 - log_length - log_arc
+    polygon = 64 * np.sin(2 * np.pi / 128)
+    ellipse = polygon * 4 * np.sqrt(np.linalg.det(place_cov))
     return pose, floor, ellipse / outline_area(mean, bent_cov)
 
 
@@ -413,7 +346,7 @@ def gain_table():
     # Lengths that are known to a fortieth: far from 0, their mean logarithm is that of a series.
     sure = (0.0005, 0.0005, 0.05, 0.09, 0.01, 0.01)
     cases += [(k, sure, (1.0, 0.5, 1.0)) for k in ("normal", "triangular")]
-    rows = [[k, *map(repr, al), *map(repr, c), *("%.12g" % x for x in likelihood_gains(k, al, *c))] for k, al, c in cases]
+    rows = [[k, *al, *c, *("%.9g" % x for x in likelihood_gains(k, al, *c))] for k, al, c in cases]
     write("likelihood_gain.csv",
           ["kind", "a1", "a2", "a3", "a4", "a5", "a6", "v", "omega", "dt", "pose", "floor", "area_ratio"], rows)
 
@@ -426,24 +359,17 @@ def fourth_order_terms(p, q):
     From log(exp ξ exp η) = ξ + η + [ξ,η]/2 + ([ξ,[ξ,η]] + [η,[η,ξ]])/12 + …, keeping the expectations that hold two
     ξ and two η. Each expectation is spelled out over the basis instead of in matrix identities.
     """
-    basis = [(1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    basis = [matrix(e) for e in ((1, 0, 0), (0, 1, 0), (0, 0, 1))]
     ad = [small_adjoint(e) for e in basis]
     out = mp.zeros(3)
-    for i in range(3):
-        for j in range(3):
-            if p[i, j] == 0:
-                continue
-            for k in range(3):
-                for l in range(3):
-                    if q[k, l] == 0:
-                        continue
-                    weight = p[i, j] * q[k, l]
-                    e = [matrix(b) for b in basis]
-                    bracket_ik, bracket_jl = ad[i] * e[k], ad[j] * e[l]
-                    out += weight / 4 * bracket_ik * bracket_jl.T
-                    # [ξ,[ξ,η]] ηᵀ and [η,[η,ξ]] ξᵀ with their transposes
-                    t = ad[i] * (ad[j] * e[k]) * e[l].T + ad[k] * (ad[l] * e[i]) * e[j].T
-                    out += weight / 12 * (t + t.T)
+    for i, j, k, l in product(range(3), repeat=4):
+        weight = p[i, j] * q[k, l]
+        if weight == 0:
+            continue
+        out += weight / 4 * (ad[i] * basis[k]) * (ad[j] * basis[l]).T
+        # [ξ,[ξ,η]] ηᵀ and [η,[η,ξ]] ξᵀ with their transposes
+        t = ad[i] * (ad[j] * basis[k]) * basis[l].T + ad[k] * (ad[l] * basis[i]) * basis[j].T
+        out += weight / 12 * (t + t.T)
     return out
 
 
@@ -464,7 +390,7 @@ def compounding_table():
         for _ in range(steps):
             moved = transport * sigma * transport.T
             sigma = moved + noise + (fourth_order_terms(moved, noise) if fourth else mp.zeros(3))
-        rows.append([name] + [repr(float(sigma[i, j])) for i, j in ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))])
+        rows.append([name] + [float(sigma[i, j]) for i, j in ((0, 0), (0, 1), (0, 2), (1, 1), (1, 2), (2, 2))])
     write("compounding.csv", ["order", "caa", "cab", "caw", "cbb", "cbw", "cww"], rows)
 
 
@@ -479,11 +405,8 @@ def double_double_table():
     with mp.workdps(60):
         for angle in [ours.choice([-1.0, 1.0]) * angle for angle in angles]:
             exact = mpf(angle)
-            row = [repr(angle)]
-            for value in (sin(exact), cos(exact), sin(exact) / exact):
-                head = float(value)
-                row += [repr(head), repr(float(value - mpf(head)))]
-            rows.append(row)
+            values = (sin(exact), cos(exact), sin(exact) / exact)
+            rows.append([angle] + [column for value in values for column in split(value, "%r")])
     write("double_double.csv", ["angle", "sin", "sin_lo", "cos", "cos_lo", "sinc", "sinc_lo"], rows)
 
 

@@ -36,7 +36,9 @@ export async function runChecks(browser, site) {
     await page.screenshot({ path: join(ROOT, `test-results/embeddings/${[site.name, serving.name, checkName].join(' ').replaceAll(' ', '-')}.png`) }).catch(() => {});
     await context.close();
   }
-  const unexpectedMessages = [...new Set(consoleMessages)].filter((message) => !definition.allowed?.some((allowedMessage) => allowedMessage.message.test(message)));
+  // An aborted request means that the page was left.
+  const allowedPatterns = [/ net::ERR_ABORTED$/, ...(definition.allowed ?? []).map(({ message }) => message)];
+  const unexpectedMessages = [...new Set(consoleMessages)].filter((message) => !allowedPatterns.some((pattern) => pattern.test(message)));
   if (unexpectedMessages.length > 0) failures.push(`console: ${unexpectedMessages.join('\n')}`);
   else passedCount++;
   return { passed: passedCount, failures };
@@ -54,18 +56,14 @@ function checksOf({ definition, serving }) {
 }
 
 /** Collects errors and warnings of the console and failed requests of a page. @param {Page} page @param {string[]} messages */
-function recordMessages(page, messages) {
+export function recordMessages(page, messages) {
   page.on('console', (message) => {
     // The events requestfailed and response have the addresses of failed requests.
     if (/^Failed to load resource/.test(message.text())) return;
     if (['error', 'warning', 'assert'].includes(message.type())) messages.push(message.text());
   });
   page.on('pageerror', (error) => messages.push(String(error)));
-  page.on('requestfailed', (request) => {
-    const failureReason = request.failure()?.errorText;
-    // An aborted request means that the page was left.
-    if (failureReason !== 'net::ERR_ABORTED') messages.push(`${request.url()} ${failureReason}`);
-  });
+  page.on('requestfailed', (request) => messages.push(`${request.url()} ${request.failure()?.errorText}`));
   page.on('response', (response) => {
     // Browsers request the icon on their own.
     const isIcon = new URL(response.url()).pathname === '/favicon.ico';

@@ -2,26 +2,12 @@
 
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
-import { after, before, test } from 'node:test';
+import { test } from 'node:test';
 import { ROOT } from '../../scripts/process.mjs';
-import { serve } from '../../scripts/serve.mjs';
 import { settings } from '../../www/settings.js';
-import { launchBrowser, recordConsoleMessages } from './support.js';
+import { serveDirectory } from './support.js';
 
-/** @type {import('@playwright/test').Browser} */
-let browser;
-/** @type {Awaited<ReturnType<typeof serve>>} */
-let server;
-
-before(async () => {
-  browser = await launchBrowser();
-  server = await serve(join(ROOT, 'dist'), { port: 0 });
-});
-
-after(async () => {
-  server?.close();
-  await browser?.close();
-});
+const site = serveDirectory(() => join(ROOT, 'dist'));
 
 /**
  * Opens a page that shows a model. Its global variable `view` is for the test: `log` lists what was set and saved, `end()` removes
@@ -31,13 +17,12 @@ after(async () => {
  * @param {'notebook' | 'book'} hostKind in a book, some methods of the model throw as MyST's model does, and the figure is in a shadow root
  */
 async function openPageShowing(state, hostKind) {
-  const page = await browser.newPage();
-  const consoleMessages = recordConsoleMessages(page);
+  const page = await site.openPage();
   const pageHtml = '<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><div id="cell"></div>';
   await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body: pageHtml }));
-  await page.goto(`${server.address}page.html`);
+  await page.goto(`${site.address}page.html`);
   await page.evaluate(renderModel, { state, inBook: hostKind === 'book' });
-  return { page, consoleMessages };
+  return page;
 }
 
 /** Renders a figure of a model. Runs in the page. @param {{ state: Record<string, unknown>, inBook: boolean }} given */
@@ -112,7 +97,7 @@ const KERNEL_TRAITS = { stats: null, error: '', _asked: 0, _shown: {} };
 
 test('traits become what the figure shows, by whichever of their names, and those without a value what it shows', async () => {
   const state = { ...KERNEL_TRAITS, widget: 'banana-machine', omega: 0.8, samples: '2000', reverse_aware: true, 'heading-level': 3, v: null, alphas: null, preset: null, lang: 'de' };
-  const { page, consoleMessages } = await openPageShowing(state, 'notebook');
+  const page = await openPageShowing(state, 'notebook');
   await untilComplete(page);
   const { figure, traits } = await traitsAndPropertiesOf(page, ['omega', 'samples', 'reverseAware', 'headingLevel', 'v', 'preset', 'alphas', 'lang']);
   assert.deepEqual(figure, { omega: 0.8, samples: 2000, reverseAware: true, headingLevel: '3', v: 1, preset: null, alphas: [0.002, 0.002, 0.1, 0.1, 0.002, 0.002], lang: 'de' });
@@ -123,25 +108,21 @@ test('traits become what the figure shows, by whichever of their names, and thos
   await setTraits(page, { lang: null, omega: null });
   assert.deepEqual((await traitsAndPropertiesOf(page, ['omega', 'lang'])).figure, { omega: 0, lang: '' });
   await page.getByRole('button', { name: 'New seed' }).waitFor();
-  assert.deepEqual(consoleMessages, []);
-  await page.close();
 });
 
 test('a trait with the underscore of a Python keyword sets the property of that name, and gets its value', async () => {
   const startPose = { x: 1, y: 2, theta: 0.5 };
-  const { page, consoleMessages } = await openPageShowing({ ...KERNEL_TRAITS, widget: 'odometry-decomposer', from_: startPose }, 'notebook');
+  const page = await openPageShowing({ ...KERNEL_TRAITS, widget: 'odometry-decomposer', from_: startPose }, 'notebook');
   await page.locator('canvas').first().waitFor();
   assert.deepEqual((await traitsAndPropertiesOf(page, ['from'])).figure, { from: startPose });
   await setTraits(page, { from_: null });
   const { figure, traits } = await traitsAndPropertiesOf(page, ['from', 'from_']);
   assert.notDeepEqual(figure.from, startPose);
   assert.deepEqual(traits.from_, figure.from);
-  assert.deepEqual(consoleMessages, []);
-  await page.close();
 });
 
 test('a change of the model reaches the figure, what follows of it the model, and an equal value nobody', async () => {
-  const { page, consoleMessages } = await openPageShowing({ ...KERNEL_TRAITS, widget: 'banana-machine', samples: 100, preset: null, omega: null, v: null, dt: null, command: null, isolate: null }, 'notebook');
+  const page = await openPageShowing({ ...KERNEL_TRAITS, widget: 'banana-machine', samples: 100, preset: null, omega: null, v: null, dt: null, command: null, isolate: null }, 'notebook');
   await untilComplete(page);
   await setTraits(page, { _asked: 1, preset: 'hard' });
   const { traits, figure } = await traitsAndPropertiesOf(page, ['preset', 'v', 'omega', 'dt', 'command']);
@@ -164,12 +145,10 @@ test('a change of the model reaches the figure, what follows of it the model, an
   await setTraits(page, { command: { dt: 1.4, omega: 0.2, v: 0.5 } });
   const log = await page.evaluate(() => /** @type {any} */ (globalThis).view.log);
   assert.deepEqual(log, [['command', { dt: 1.4, omega: 0.2, v: 0.5 }]]);
-  assert.deepEqual(consoleMessages, []);
-  await page.close();
 });
 
 test('what is refused is said by the trait error, and the trait has the last good value again', async () => {
-  const { page, consoleMessages } = await openPageShowing({ ...KERNEL_TRAITS, widget: 'banana-machine', samples: 100, alphas: null }, 'notebook');
+  const page = await openPageShowing({ ...KERNEL_TRAITS, widget: 'banana-machine', samples: 100, alphas: null }, 'notebook');
   await untilComplete(page);
   const { traits: { alphas } } = await traitsAndPropertiesOf(page, ['alphas']);
   await setTraits(page, { alphas: [1, 2, 3] });
@@ -178,13 +157,11 @@ test('what is refused is said by the trait error, and the trait has the last goo
   assert.deepEqual(traits.alphas, alphas);
   await setTraits(page, { samples: 200 });
   assert.deepEqual((await traitsAndPropertiesOf(page, ['samples', 'error'])).traits, { samples: 200, error: '' });
-  assert.deepEqual(consoleMessages, []);
-  await page.close();
 });
 
 test('in a book whose models keep nothing the figure is as live, and what is taken away leaves nothing @nightly', async () => {
   for (const hostKind of /** @type {const} */ (['book', 'notebook'])) {
-    const { page, consoleMessages } = await openPageShowing({ widget: 'map-squeeze', preset: 'corridor', samples: '300', view: 'whole' }, hostKind);
+    const page = await openPageShowing({ widget: 'map-squeeze', preset: 'corridor', samples: '300', view: 'whole' }, hostKind);
     await untilComplete(page);
     const { figure, traits } = await traitsAndPropertiesOf(page, ['preset', 'samples', 'view']);
     assert.deepEqual(figure, { preset: 'corridor', samples: 300, view: 'whole' });
@@ -202,15 +179,12 @@ test('in a book whose models keep nothing the figure is as live, and what is tak
     });
     assert.equal(remainsAfterRemoval.html, '');
     if (hostKind === 'notebook') assert.equal(remainsAfterRemoval.listeners, 0);
-    assert.deepEqual(consoleMessages, []);
-    await page.close();
   }
 });
 
 test('a model of no widget says what is allowed in the place of the figure @nightly', async () => {
   for (const [widget, shownValue] of [[undefined, 'missing'], ['banana', '"banana"']]) {
-    const { page } = await openPageShowing({ widget }, 'book');
+    const page = await openPageShowing({ widget }, 'book');
     await page.getByText(`This cell shows no figure: widget is ${shownValue}; allowed is ${Object.keys(settings).join(' or ')}.`).waitFor();
-    await page.close();
   }
 });

@@ -1,15 +1,16 @@
-// Entry points of the package, imported by Node, by TypeScript, and by pages that import several of them.
+// Entry points of the package, imported by Node, by TypeScript, and by pages that import several of them, and its version and options.
 
 import assert from 'node:assert/strict';
 import { execFileSync, spawnSync } from 'node:child_process';
-import { cpSync, readFileSync, writeFileSync } from 'node:fs';
+import { cpSync, existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { ROOT } from '../../scripts/process.mjs';
 import { settings } from '../../www/settings.js';
-import { recordConsoleMessages, serveProject } from './support.js';
+import { serveProject } from './support.js';
 
 const project = serveProject();
+const packagedPathOf = (/** @type {string} */ path) => join(project.directory, 'node_modules/motion-widgets', path);
 
 /** Runs a module next to the installed package, and returns what it prints. @param {string} source */
 function outputOfNode(source) {
@@ -126,12 +127,11 @@ test('TypeScript knows the elements, the components of React and the core, howev
  * Opens a page with three elements and some of the package's scripts, until the elements have drawn.
  *
  * @param {string} scripts
- * @returns {Promise<{ consoleMessages: string[], modules: string[] }>} `modules` are addresses of requested WebAssembly modules
+ * @returns {Promise<string[]>} addresses of requested WebAssembly modules
  */
 async function openPageWith(scripts) {
   const elementsHtml = '<banana-machine></banana-machine><banana-machine></banana-machine><map-squeeze></map-squeeze>';
-  const page = await project.browser.newPage();
-  const consoleMessages = recordConsoleMessages(page);
+  const page = await project.openPage();
   /** @type {string[]} */
   const requestedUrls = [];
   page.on('request', (request) => requestedUrls.push(request.url()));
@@ -143,16 +143,14 @@ async function openPageWith(scripts) {
     await element.scrollIntoViewIfNeeded();
     await element.locator('canvas').first().waitFor({ timeout: 10_000 });
   }
-  await page.close();
-  return { consoleMessages, modules: requestedUrls.filter((url) => url.includes('.wasm')) };
+  return requestedUrls.filter((url) => url.includes('.wasm'));
 }
 
 const DIST_PATH = '/node_modules/motion-widgets/dist/';
 const scriptTagOf = (/** @type {string} */ name) => `<script type="module" src="${DIST_PATH}${name}"></script>`;
 
 test('custom-elements.json says what the elements have', async () => {
-  const manifestPath = join(project.directory, 'node_modules/motion-widgets/dist/custom-elements.json');
-  const { modules } = JSON.parse(readFileSync(manifestPath, 'utf8'));
+  const { modules } = JSON.parse(readFileSync(packagedPathOf('dist/custom-elements.json'), 'utf8'));
   /** @type {any[]} */
   const declarations = modules[0].declarations;
   assert.deepEqual(declarations.map(({ tagName }) => tagName).sort(), Object.keys(settings).sort());
@@ -191,7 +189,6 @@ test('custom-elements.json says what the elements have', async () => {
     assert.deepEqual(sortedNamesOf(cssParts), [...new Set([...actualNames.parts, 'progress'])].sort(), `parts of ${tagName}`);
     assert.deepEqual(sortedNamesOf(cssProperties), actualNames.properties.sort(), `properties of ${tagName}`);
   }
-  await page.close();
 });
 
 test('external.js loads a widget when its tag is met, with the words that the page gave it before', async () => {
@@ -219,7 +216,31 @@ test('external.js loads a widget when its tag is met, with the words that the pa
   await page.locator('map-squeeze').scrollIntoViewIfNeeded();
   await page.getByRole('region', { name: 'Le plan' }).getByRole('button', { name: 'Un pas' }).waitFor();
   assert.equal(squeezeRequestPaths().length, 1);
-  await page.close();
+});
+
+test('package.json names no file that the package leaves out', () => {
+  const { bin, exports, main, types, unpkg, jsdelivr, customElements } = JSON.parse(readFileSync(packagedPathOf('package.json'), 'utf8'));
+  /** @type {(value: any) => string[]} */
+  const pathsIn = (value) => (typeof value === 'string' ? [value] : Object.values(value).flatMap(pathsIn));
+  const allPaths = [...pathsIn(bin), ...pathsIn(exports), main, types, unpkg, jsdelivr, customElements];
+  assert.ok(allPaths.length > 10, allPaths.join(' '));
+  assert.deepEqual(allPaths.filter((path) => !existsSync(packagedPathOf(path))), []);
+});
+
+test('doc/calibration.md describes every option of the command that the package installs', () => {
+  const { status, stdout } = spawnSync(process.execPath, [packagedPathOf('dist/cli.js'), '--help'], { encoding: 'utf8' });
+  assert.equal(status, 0);
+  const commandOptions = new Set(stdout.match(/--[a-z-]+/g));
+  assert.ok(commandOptions.size > 15, [...commandOptions].join(' '));
+  const calibrationDocument = readFileSync(join(ROOT, 'doc/calibration.md'), 'utf8');
+  assert.deepEqual([...commandOptions].filter((option) => option !== '--help' && !calibrationDocument.includes(`\`${option}`) && !calibrationDocument.includes(` ${option}`)), []);
+});
+
+test('all that is released has one version', () => {
+  const { version } = JSON.parse(readFileSync(packagedPathOf('package.json'), 'utf8'));
+  for (const path of ['Cargo.toml', 'python/pyproject.toml']) {
+    assert.equal(readFileSync(join(ROOT, path), 'utf8').match(/^version = "(.+)"$/m)?.[1], version, path);
+  }
 });
 
 test('the classic script is ASCII: it means the same, whatever encoding its page has', () => {
@@ -230,17 +251,13 @@ test('the classic script is ASCII: it means the same, whatever encoding its page
 test('two copies of the bundle on a page get along @nightly', async () => {
   const classicScript = '<script defer src="/iframe/motion-widgets.iife.js"></script>';
   for (const otherScript of [classicScript, scriptTagOf('external.js?copy')]) {
-    const { consoleMessages } = await openPageWith(scriptTagOf('external.js') + otherScript);
-    assert.deepEqual(consoleMessages, []);
+    await openPageWith(scriptTagOf('external.js') + otherScript);
   }
 });
 
 test('the address of the external module can be set by the script that imports it', async () => {
   const moduleAddress = `${DIST_PATH}motion.wasm?mine`;
-  const { consoleMessages, modules } = await openPageWith(
-    `<script type="module">import { load } from '${DIST_PATH}external.js'; load('${moduleAddress}');</script>`,
-  );
-  assert.deepEqual(consoleMessages, []);
+  const modules = await openPageWith(`<script type="module">import { load } from '${DIST_PATH}external.js'; load('${moduleAddress}');</script>`);
   assert.deepEqual(modules, [new URL(moduleAddress, project.address).href]);
 });
 
@@ -265,12 +282,10 @@ test('where the file of a module cannot be had, the embedded one is used, and a 
   assert.equal(warnings.length, 1);
   assert.match(warnings[0], new RegExp(`${project.address}\\S+\\.wasm answers with text/html, which is no WebAssembly module`));
   assert.ok(warnings[0].includes(LOAD_ADVICE));
-  await page.close();
 });
 
 test('an address that has no module is refused with the cure @nightly', async () => {
   const { page } = await openWithoutModules('');
   const loadPromise = page.evaluate(async (address) => (await import(address)).load('/none.wasm'), `${DIST_PATH}external.js`);
   await assert.rejects(loadPromise, (/** @type {Error} */ { message }) => message.includes('/none.wasm answers with text/html') && message.includes(LOAD_ADVICE));
-  await page.close();
 });

@@ -13,12 +13,11 @@ import { openWithCloud, serveProject } from './support.js';
 const project = serveProject(() => writeFileSync(join(project.directory, 'main.js'), "import 'motion-widgets';\n"));
 
 test('a page with a module script', async () => {
-  const { page } = await openWithCloud(project.browser, `${project.address}plain/`);
-  await page.close();
+  await openWithCloud(project, `${project.address}plain/`);
 });
 
 test('a frame that takes the height of its widget', async () => {
-  const { page } = await openWithCloud(project.browser, `${project.address}iframe/`);
+  const { page } = await openWithCloud(project, `${project.address}iframe/`);
   const readHeights = () =>
     page.evaluate(() => {
       const frame = /** @type {HTMLIFrameElement} */ (document.querySelector('iframe'));
@@ -36,7 +35,6 @@ test('a frame that takes the height of its widget', async () => {
     assert.equal(frameHeight, contentHeight);
     assert.ok(!scrolls);
   }
-  await page.close();
 });
 
 test('a frame names what is wrong with its address @nightly', async () => {
@@ -50,23 +48,19 @@ test('a frame names what is wrong with its address @nightly', async () => {
     await page.goto(`${project.address}iframe/embed.html${query}`);
     assert.match(await page.getByRole('alert').innerText(), /** @type {RegExp} */ (expectedMessage));
   }
-  await page.close();
 });
 
 test('a classic script, from a server and from a disk', async () => {
   const fileAddress = pathToFileURL(join(project.directory, 'classic-script/index.html')).href;
   for (const address of [`${project.address}classic-script/`, fileAddress]) {
-    const { page, requests } = await openWithCloud(project.browser, address);
+    const { requests } = await openWithCloud(project, address);
     assert.equal(requests.length, 3, requests.join(' '));
-    await page.close();
   }
 });
 
 test('the one file of a classroom, from a disk', async () => {
-  const pagePath = join(ROOT, 'dist/classroom.html');
-  const openedPage = await openWithCloud(project.browser, pathToFileURL(pagePath).href);
-  assert.deepEqual(openedPage.requests, [pathToFileURL(pagePath).href]);
-  await openedPage.page.close();
+  const { href } = pathToFileURL(join(ROOT, 'dist/classroom.html'));
+  assert.deepEqual((await openWithCloud(project, href)).requests, [href]);
 });
 
 // The bundlers below do not copy the WebAssembly modules into their output, because they do not process `new URL(…, import.meta.url)`.
@@ -98,8 +92,7 @@ for (const [name, writeBundle] of Object.entries(BUNDLERS)) {
     await writeBundle(directory);
     const script = `<script ${name.endsWith('classic script') ? 'defer' : 'type="module"'} src="main.js"></script>`;
     writeFileSync(join(directory, 'index.html'), `<!doctype html><link rel="icon" href="data:,">${script}<banana-machine></banana-machine>`);
-    const { page, requests } = await openWithCloud(project.browser, `${project.address}${directoryName}/`);
+    const { requests } = await openWithCloud(project, `${project.address}${directoryName}/`);
     assert.deepEqual(requests.filter((address) => address.includes('.wasm')), []);
-    await page.close();
   });
 }

@@ -9,6 +9,7 @@ import { after, before, test } from 'node:test';
 import { publint } from 'publint';
 import { formatMessage } from 'publint/utils';
 import { ROOT } from '../../scripts/process.mjs';
+import { packInto } from './support.js';
 
 const packageManifest = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
 
@@ -19,9 +20,7 @@ let tarball;
 
 before(() => {
   temporaryDirectory = mkdtempSync(join(tmpdir(), 'motion-widgets-'));
-  // The package has been built already.
-  const packOutput = execFileSync('npm', ['pack', ROOT, '--ignore-scripts', '--json', '--pack-destination', temporaryDirectory], { encoding: 'utf8' });
-  tarball = join(temporaryDirectory, JSON.parse(packOutput)[0].filename);
+  tarball = packInto(temporaryDirectory);
 });
 
 after(() => rmSync(temporaryDirectory, { recursive: true, force: true }));

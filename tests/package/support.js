@@ -9,26 +9,29 @@ import { execFileSync } from 'node:child_process';
 import { cpSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, renameSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
-import { after, before } from 'node:test';
+import { after, afterEach, before } from 'node:test';
 import { chromium } from '@playwright/test';
 import { CHROME_ARGUMENTS, findChrome } from '../../scripts/browser.mjs';
 import { ROOT } from '../../scripts/process.mjs';
 import { serve } from '../../scripts/serve.mjs';
-import { untilComplete } from '../embeddings/checks.mjs';
+import { recordMessages, untilComplete } from '../embeddings/checks.mjs';
 
 /** Files of dist/ that an author copies next to a page. */
 const COPIED_FILES = ['motion-widgets.iife.js', 'motion-widgets.css', 'embed.html', 'embed.css', 'embed.js'];
 
-/** Returns a directory with the examples, in which only the packed package is installed. @returns {{ directory: string, remove: () => void }} */
-export function installPackage() {
-  const directory = mkdtempSync(join(tmpdir(), 'motion-widgets-'));
+/** Packs the package into a directory, and returns the path of the tarball. @param {string} directory */
+export function packInto(directory) {
   // The package has been built already.
-  execFileSync('npm', ['pack', ROOT, '--ignore-scripts', '--silent', '--pack-destination', directory]);
-  const tarball = readdirSync(directory).find((name) => name.endsWith('.tgz'));
-  assert.ok(tarball, 'npm pack makes a tarball');
+  const tarballName = execFileSync('npm', ['pack', ROOT, '--ignore-scripts', '--silent', '--pack-destination', directory], { encoding: 'utf8' });
+  return join(directory, tarballName.trim());
+}
+
+/** Copies the examples to a directory, and installs only the packed package there. @param {string} directory */
+function installPackage(directory) {
+  const tarball = packInto(directory);
   const modulesDirectory = join(directory, 'node_modules');
   mkdirSync(modulesDirectory);
-  execFileSync('tar', ['-xzf', tarball, '-C', modulesDirectory], { cwd: directory });
+  execFileSync('tar', ['-xzf', tarball, '-C', modulesDirectory]);
   renameSync(join(modulesDirectory, 'package'), join(modulesDirectory, 'motion-widgets'));
   writeFileSync(join(directory, 'package.json'), '{ "private": true }');
   // npm leaves the installation of peer dependencies to the application.
@@ -41,69 +44,79 @@ export function installPackage() {
   for (const exampleEntry of readdirSync(join(ROOT, 'examples'), { withFileTypes: true })) {
     if (exampleEntry.isDirectory()) symlinkSync(modulesDirectory, join(directory, exampleEntry.name, 'node_modules'));
   }
-  return { directory, remove: () => rmSync(directory, { recursive: true, force: true }) };
+}
+
+/**
+ * Serves a directory for all tests of a file, and launches a browser. After a test its pages are closed, and those that `openPage` has
+ * opened must have printed no errors or warnings.
+ *
+ * @param {() => string} prepare returns the directory
+ * @param {string} [base] path of the site
+ */
+export function serveDirectory(prepare, base) {
+  const site = {
+    address: '',
+    browser: /** @type {import('@playwright/test').Browser} */ ({}),
+    consoleMessages: /** @type {string[]} */ ([]),
+    /** Opens a page. @param {import('@playwright/test').BrowserContextOptions} [options] */
+    async openPage(options) {
+      const page = await site.browser.newPage(options);
+      recordMessages(page, site.consoleMessages);
+      return page;
+    },
+  };
+  let closeServer = () => {};
+  before(async () => {
+    // The test file must be evaluated before `prepare` is called.
+    await null;
+    const { address, close } = await serve(prepare(), { port: 0, base });
+    closeServer = close;
+    const browser = await chromium.launch({ executablePath: process.env.CHROME ?? findChrome(), args: CHROME_ARGUMENTS });
+    Object.assign(site, { address, browser });
+  });
+  afterEach(async () => {
+    // A page that is closed aborts its requests, which is no fault.
+    const testMessages = [...site.consoleMessages];
+    for (const context of site.browser.contexts()) await context.close();
+    site.consoleMessages = [];
+    assert.deepEqual(testMessages, []);
+  });
+  after(async () => {
+    closeServer();
+    await site.browser.close();
+  });
+  return site;
 }
 
 /** Installs and serves the package for all tests of a file. @param {() => unknown} [prepare] is called after the installation */
 export function serveProject(prepare) {
-  const projectContext = /** @type {{ directory: string, address: string, browser: import('@playwright/test').Browser }} */ ({});
-  /** @type {(() => void)[]} */
-  const cleanups = [];
-  before(async () => {
-    // The test file must be evaluated before `prepare` is called.
-    await null;
-    const { directory, remove } = installPackage();
-    cleanups.push(remove);
-    projectContext.directory = directory;
+  const directory = mkdtempSync(join(tmpdir(), 'motion-widgets-'));
+  after(() => rmSync(directory, { recursive: true, force: true }));
+  const site = serveDirectory(() => {
+    installPackage(directory);
     prepare?.();
-    const { address, close } = await serve(directory, { port: 0 });
-    cleanups.push(close);
-    Object.assign(projectContext, { address, browser: await launchBrowser() });
+    return directory;
   });
-  after(async () => {
-    await projectContext.browser?.close();
-    for (const end of cleanups.reverse()) end();
-  });
-  return projectContext;
-}
-
-/** Launches the browser of the tests. */
-export function launchBrowser() {
-  return chromium.launch({ executablePath: process.env.CHROME ?? findChrome(), args: CHROME_ARGUMENTS });
-}
-
-/** Collects the errors and warnings of a page. @param {import('@playwright/test').Page} page @returns {string[]} */
-export function recordConsoleMessages(page) {
-  /** @type {string[]} */
-  const consoleMessages = [];
-  page.on('console', (message) => void (['error', 'warning'].includes(message.type()) && consoleMessages.push(message.text())));
-  page.on('pageerror', (error) => consoleMessages.push(String(error)));
-  page.on('requestfailed', (request) => consoleMessages.push(`${request.url()} ${request.failure()?.errorText}`));
-  return consoleMessages;
+  return Object.assign(site, { directory });
 }
 
 /**
  * Opens a page and waits until its figure has all of its samples.
  *
- * @param {import('@playwright/test').Browser} browser
+ * @param {ReturnType<typeof serveDirectory>} site
  * @param {string} address
- * @param {(page: import('@playwright/test').Page) => Promise<unknown>} [prepare] before the page is opened
- * @returns {Promise<{ page: import('@playwright/test').Page, requests: string[] }>}
  */
-export async function openWithCloud(browser, address, prepare) {
-  const page = await browser.newPage();
-  await prepare?.(page);
-  const consoleMessages = recordConsoleMessages(page);
+export async function openWithCloud(site, address) {
+  const page = await site.openPage();
   /** @type {string[]} */
-  const requestedUrls = [];
-  page.on('request', (request) => requestedUrls.push(request.url()));
+  const requests = [];
+  page.on('request', (request) => requests.push(request.url()));
   await page.goto(address);
   const figureFrame = (await page.locator('iframe').count()) > 0 ? page.frameLocator('iframe') : page;
   const canvas = figureFrame.locator('banana-machine canvas').first();
   await canvas.waitFor({ timeout: 10_000 }).catch((error) => {
-    throw new Error([...consoleMessages, error.message].join('\n'));
+    throw new Error([...site.consoleMessages, error.message].join('\n'));
   });
   await figureFrame.locator('banana-machine').first().evaluate(untilComplete);
-  assert.deepEqual(consoleMessages, []);
-  return { page, requests: requestedUrls };
+  return { page, requests };
 }

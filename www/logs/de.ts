@@ -101,7 +101,7 @@ export const german: Words = {
     number: (column, value) => `${column} ist „${value}“; erwartet wird eine Zahl${/^\d{1,3}(\D\d{3})+\b/.test(value) ? ' ohne Tausendertrennung' : /^[+-]?\d*,\d+$/.test(value) ? ' mit Dezimalpunkt' : /\d[/:-]\d/.test(value) ? ', oder ein Datum wie 2024-01-31 12:00:00.5' : ''}.`,
     rows: (max) => `es sind mehr Zeilen; erwartet werden höchstens ${max}.`,
     setBack: (seconds, message) =>
-      `die Zeiten springen ${message ? `bei Nachricht ${message} ` : ''}um ${seconds.toPrecision(3)} s zurück und wiederholen die davor; dort die Datei teilen, oder nur eine Aufzeichnung angeben.`,
+      `die Zeiten springen ${message ? `bei Nachricht ${message} ` : ''}um ${seconds.toPrecision(3)} s zurück und wiederholen die davor; dort die Datei teilen, oder nur eine Aufzeichnung angeben${message ? '' : ', mit den führenden Nullen der Nachkommastellen (1.050000000 für 1 s und 50000000 ns)'}.`,
     sameTimes: (count, rows, message) =>
       `${count} von ${rows} Zeilen, ${message ? `die der Nachricht ${message}` : 'diese'} zuerst, haben die Zeit einer anderen Zeile und andere Werte; nötig ist das Log eines Roboters, mit allen Stellen der Zeiten (eine Tabellenkalkulation oder ein Format wie %.9e kann sie gerundet haben).`,
     few: (kept, rows, reason) => `${kept} von ${rows} Zeilen sind zu brauchen${reason ? ` (${DROP_REASONS[reason]})` : ''}; erwartet werden mindestens 2.`,

@@ -108,7 +108,7 @@ export const english = {
     number: (column: string, value: string) => `${column} is “${value}”; expected is a number${/^\d{1,3}(\D\d{3})+\b/.test(value) ? ' without separators of thousands' : /^[+-]?\d*,\d+$/.test(value) ? ' with a decimal point' : /\d[/:-]\d/.test(value) ? ', or a date as 2024-01-31 12:00:00.5' : ''}.`,
     rows: (max: number) => `there are more rows; expected are at most ${max}.`,
     setBack: (seconds: number, message: number) =>
-      `times go back by ${seconds.toPrecision(3)} s${message ? ` at message ${message}` : ''} and repeat those before; split the file there, or give one recording only.`,
+      `times go back by ${seconds.toPrecision(3)} s${message ? ` at message ${message}` : ''} and repeat those before; split the file there, or give one recording only${message ? '' : ', with the leading zeros of fractions (1.050000000 for 1 s and 50000000 ns)'}.`,
     sameTimes: (count: number, rows: number, message: number) =>
       `${count} of ${rows} rows, ${message ? `that of message ${message}` : 'this one'} first, have the time of another row and other values; give the log of one robot, with all digits of its times (a spreadsheet, or a format such as %.9e, may have rounded them).`,
     few: (kept: number, rows: number, reason: DropCause | undefined) =>

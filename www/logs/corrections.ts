@@ -13,10 +13,6 @@ const DEGREE = Math.PI / 180;
 
 /** Corrections of poses. */
 const POSE_CORRECTIONS = {
-  mirroredX: ([x, y, heading]: Pose): Pose => [-x, y, heading],
-  mirroredY: ([x, y, heading]: Pose): Pose => [x, -y, heading],
-  mirroredYaw: ([x, y, heading]: Pose): Pose => [x, y, -heading],
-  swappedAxes: ([x, y, heading]: Pose): Pose => [y, x, heading],
   leftHanded: ([x, y, heading]: Pose): Pose => [x, -y, -heading],
   degrees: ([x, y, heading]: Pose): Pose => [x, y, heading * DEGREE],
   radians: ([x, y, heading]: Pose): Pose => [x, y, heading / DEGREE],
@@ -74,15 +70,13 @@ export function correctionOf(odometry: Log, reference: Log): Correction | undefi
   const stepCount = Math.floor((to - from) / step);
   if (!(stepCount >= MIN_STEPS)) return undefined;
   const uncorrectedMotions = { odometry: motionsOf(odometry, from, step, stepCount), reference: motionsOf(reference, from, step, stepCount) };
-  const { score, length: factor, angle } = bestAgreementOf(uncorrectedMotions, step, true);
+  const { score, length: factor, angle } = bestAgreementOf(uncorrectedMotions, step);
   const triedCorrections = score >= MIN_AGREEMENT_SCORE ? [] : ALL_CORRECTIONS.map(([name, at]) => {
     const correctedMotions = { ...uncorrectedMotions, [at]: motionsOf(logs[at], from, step, stepCount, POSE_CORRECTIONS[name]) };
-    // A correction of the wrong log can give both logs the same error. In both the robot then seems to drive sideways.
-    // Compass headings grow clockwise from north. They are mirrored, and may also have any offset.
-    return { name, at, factor, ...bestAgreementOf(correctedMotions, step, name === 'mirroredYaw'), forwardness: forwardness(correctedMotions.odometry) + forwardness(correctedMotions.reference) };
+    return { name, at, factor, ...bestAgreementOf(correctedMotions, step) };
   });
   const minScore = Math.max(MIN_CORRECTED_SCORE, 1 - MAX_REMAINING_FRACTION * (1 - score));
-  const best = greatest(triedCorrections.filter((candidate) => candidate.score >= minScore && isPlausibleScale(candidate.length) && isPlausibleScale(candidate.angle)), (candidate) => candidate.score + candidate.forwardness);
+  const best = greatest(triedCorrections.filter((candidate) => candidate.score >= minScore && isPlausibleScale(candidate.length) && isPlausibleScale(candidate.angle)), ({ score: correctedScore }) => correctedScore);
   if (best) return { ...best, unit: { degrees: 'deg' as const, radians: 'rad' as const }[best.name as string] };
   if (score < MIN_CORRECTED_SCORE) return undefined;
   if (!isPlausibleScale(factor)) return lengthCorrection(logs, score, factor);
@@ -120,17 +114,13 @@ function motionsOf({ data }: Log, from: number, step: number, count: number, cor
   });
 }
 
-/**
- * Returns the agreement of two logs at the smallest clock offset at which they agree, or at the best offset if they do not agree.
- *
- * @param anyYaw true if the headings of the logs may differ by any constant angle
- */
-function bestAgreementOf({ odometry, reference }: Record<Role, Motion[]>, step: number, anyYaw = false): Agreement {
+/** Returns the agreement of two logs at the smallest clock offset at which they agree, or at the best offset if they do not agree. */
+function bestAgreementOf({ odometry, reference }: Record<Role, Motion[]>, step: number): Agreement {
   const maxLag = Math.round(MAX_CLOCK_OFFSET / step);
   const [odo, ref] = [withoutJumps(odometry), withoutJumps(reference)];
   let best: Agreement = { score: -1, length: 1, angle: 1 };
   for (let i = 0; i <= 2 * maxLag && best.score < MIN_AGREEMENT_SCORE; i++) {
-    const agreement = agreementAt(odo, ref, i % 2 === 0 ? i / 2 : -(i + 1) / 2, odo.length - maxLag, anyYaw);
+    const agreement = agreementAt(odo, ref, i % 2 === 0 ? i / 2 : -(i + 1) / 2, odo.length - maxLag);
     if (agreement.score > best.score) best = agreement;
   }
   return best;
@@ -143,8 +133,8 @@ function withoutJumps(motions: Motion[]): Motion[] {
   return motions.map((motion) => (Math.hypot(motion[0], motion[1]) <= maxDrive && Math.abs(motion[2]) <= maxTurn ? motion : [0, 0, 0]));
 }
 
-/** Returns the agreement at a clock offset of `lag` steps. Its score is −1 if fewer than half of `count` steps overlap. */
-function agreementAt(odometry: Motion[], reference: Motion[], lag: number, count: number, anyYaw: boolean): Agreement {
+/** Returns the agreement at a clock offset of `lag` steps, for any angle between the headings. Its score is −1 if fewer than half of `count` steps overlap. */
+function agreementAt(odometry: Motion[], reference: Motion[], lag: number, count: number): Agreement {
   // Sums of squares and products of the motions. `across` is the cross product of the displacements, and `driveProducts` their dot product.
   let [odoDriveSquares, driveProducts, across, refDriveSquares, odoTurnSquares, turnProducts, refTurnSquares] = [0, 0, 0, 0, 0, 0, 0];
   const [first, end] = [Math.max(0, -lag), Math.min(odometry.length, reference.length - lag)];
@@ -160,18 +150,7 @@ function agreementAt(odometry: Motion[], reference: Motion[], lag: number, count
   }
   if (2 * (end - first) < count) return { score: -1, length: 1, angle: 1 };
   // For a robot that only drives straight or only turns on the spot, one of the two correlations is undefined.
-  const [drive, turn] = [[odoDriveSquares, anyYaw ? Math.hypot(driveProducts, across) : driveProducts, refDriveSquares], [odoTurnSquares, turnProducts, refTurnSquares]].map(([odo, both, ref]) =>
+  const [drive, turn] = [[odoDriveSquares, Math.hypot(driveProducts, across), refDriveSquares], [odoTurnSquares, turnProducts, refTurnSquares]].map(([odo, both, ref]) =>
     (Math.sqrt(Math.max(odo, ref) / (end - first)) < MAX_STANDSTILL_MOTION ? { correlation: 1, scale: 1 } : { correlation: both / Math.sqrt(odo * ref || 1), scale: odo / both }));
   return { score: Math.min(drive.correlation, turn.correlation), length: drive.scale, angle: turn.scale };
-}
-
-/** Returns the degree to which a robot drives at a constant angle to its heading: 1 if always, 0 if in all directions. */
-function forwardness(motions: Motion[]): number {
-  let [along, across, total] = [0, 0, 0];
-  for (const [forward, left] of motions) {
-    along += forward ** 2 - left ** 2;
-    across += 2 * forward * left;
-    total += forward ** 2 + left ** 2;
-  }
-  return total === 0 ? 1 : Math.hypot(along, across) / total;
 }

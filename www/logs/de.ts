@@ -50,10 +50,6 @@ const UNSUPPORTED_FORMATS: typeof import('./en.ts').UNSUPPORTED_FORMATS = {
 };
 
 const CORRECTION_TEXTS: Record<Exclude<Correction['name'], 'lengths'>, (other: string) => string> = {
-  mirroredX: (other) => `ihre x-Achse ist gegenüber ihrer Richtung und ${other} gespiegelt; x negieren`,
-  mirroredY: (other) => `ihre y-Achse ist gegenüber ihrer Richtung und ${other} gespiegelt; y negieren`,
-  mirroredYaw: (other) => `ihre Richtung hat das falsche Vorzeichen, verglichen mit ihrer Bahn und ${other}; die Richtung negieren: Sie wächst gegen den Uhrzeigersinn`,
-  swappedAxes: () => 'ihr x und y sind vertauscht; die beiden Spalten tauschen',
   leftHanded: (other) => `sie dreht nach links, wo ${other} nach rechts dreht: eine der beiden hat Z nach unten oder ein linkshändiges Koordinatensystem; y und Richtung dieser einen negieren`,
   degrees: () => 'ihre Richtungen sind in Grad und wurden als Radiant gelesen; die Einheit der Winkel angeben',
   radians: () => 'ihre Richtungen sind in Radiant und wurden als Grad gelesen; die Einheit der Winkel angeben',
@@ -173,7 +169,6 @@ export const german: Words = {
       damaged: (count, reason) => `${count} ${count === 1 ? 'beschädigter Block' : 'beschädigte Blöcke'} ausgelassen (${reason})`,
       cutShort: 'die Datei ist unvollständig: Sie endet mitten in einer Zeile oder einem Record',
       upAxis: (axis) => `${axis} ist die senkrechte Achse`,
-      mirrored: 'die Richtungen drehen sich anders herum als die Bahn',
       swapped: (odometry) => `sie heißt wie eine Odometrie, und ${odometry} nicht: Ist die Odometrie als Referenz angegeben?`,
       sorted: (count) => `${countWithNoun(count, 'verspätete Zeile', 'verspätete Zeilen')} nach der Zeit sortiert`,
       apart: (name, period, otherPeriod) => `keine Zeit gemeinsam mit ${name} (${period}, und ${otherPeriod}): Die Uhren werden nach den Drehungen des Roboters gestellt`,

@@ -37,10 +37,6 @@ const DROP_REASONS = {
 
 /** Errors of a log and their corrections, found by comparing it with the other log. */
 const CORRECTION_TEXTS: Record<Exclude<Correction['name'], 'lengths'>, (other: string) => string> = {
-  mirroredX: (other) => `its x axis is mirrored relative to its heading and to ${other}; negate x`,
-  mirroredY: (other) => `its y axis is mirrored relative to its heading and to ${other}; negate y`,
-  mirroredYaw: (other) => `its heading has the wrong sign, compared with its path and ${other}; negate it: headings increase counterclockwise`,
-  swappedAxes: () => 'its x and y are swapped; swap the two columns',
   leftHanded: (other) => `it turns left where ${other} turns right: one of the two has Z down or a left-handed frame; negate y and the heading of that one`,
   degrees: () => 'its headings are in degrees and were read as radians; state the unit of angles',
   radians: () => 'its headings are in radians and were read as degrees; state the unit of angles',
@@ -189,7 +185,6 @@ export const english = {
       damaged: (count: number, reason: string) => `${count} damaged ${count === 1 ? 'block' : 'blocks'} skipped (${reason})`,
       cutShort: 'the file is incomplete: it ends in the middle of a row or record',
       upAxis: (axis: string) => `${axis} is the vertical axis`,
-      mirrored: 'the headings turn the other way than the path',
       swapped: (odometry: string) => `its name is that of odometry, and ${odometry} is not: was the odometry given as the reference?`,
       sorted: (count: number) => `${count} late ${count === 1 ? 'row' : 'rows'} sorted by time`,
       apart: (name: string, period: string, otherPeriod: string) =>

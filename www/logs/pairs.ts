@@ -63,8 +63,6 @@ export function pairLogs(odometry: Log, reference: Log): Drive {
     const [log, otherLog] = correction.at === 'odometry' ? [odometry, reference] : [reference, odometry];
     throw new LogError({ file: log.name }, (texts) => texts.correction(correction, otherLog.name, log.kind), questionOf(correction, logs));
   }
-  const mirroredLog = [odometry, reference].find(({ summary }) => summary.notes.some(({ name }) => name === 'mirrored'));
-  if (mirroredLog) throw new LogError({ file: mirroredLog.name }, (texts) => texts.mirrored);
   const notes: Note[] = [
     ...brokenReference.summary.notes,
     ...(roleByName(odometry.name) !== 'odometry' && roleByName(reference.name) === 'odometry' ? [{ name: 'swapped' as const, values: [odometry.name] }] : []),

@@ -151,7 +151,6 @@ export class Rows {
     const notes: Note[] = [
       ...decisions.notes,
       ...(lateCount > 0 ? [{ name: 'sorted' as const, values: [lateCount] }] : []),
-      ...(columns.isMirrored ? [{ name: 'mirrored' as const, values: [] }] : []),
     ];
     const seconds = t[t.length - 1] - t[0];
     const clock = clocks[usesOtherClock ? 1 : 0] ?? '';

@@ -17,8 +17,6 @@ export interface Columns {
   b: Float64Array;
   /** Heading, or 0. */
   c: Float64Array;
-  /** True if the headings turn the other way than the path. */
-  isMirrored?: boolean;
 }
 
 /** Decimal exponent of the number of units in a second, by unit of time. */
@@ -71,7 +69,7 @@ export const epochTimeUnitOf = (time: number): TimeUnit | undefined => MIN_EPOCH
  *
  * @param assumed units of the columns by names, the size of the times, the format or usage
  * @param options units that the user stated, which are not judged
- * @throws {LogError} with a question, if a unit is in doubt
+ * @throws {LogError} with a question, if a unit is in doubt; without one, if headings turn the other way than the path
  */
 export function judgeUnits(place: ErrorPlace, kind: LogKind, columns: Columns, assumed: Units, options: OpenOptions): Units {
   const { t, a, b, c } = columns;
@@ -90,7 +88,7 @@ export function judgeUnits(place: ErrorPlace, kind: LogKind, columns: Columns, a
 
   const { unit, by } = options.angleUnit ? { unit: options.angleUnit, by: 'option' as const } : assumed.angle;
   const alignment = isJudged && kind === 'poses' ? alignmentWithPath(t, a, b, c) : undefined;
-  columns.isMirrored = alignment?.sign === -1;
+  if (alignment?.sign === -1) throw new LogError(place, (texts) => texts.mirrored);
   let angle: Units['angle'] = { unit, by };
   if (isJudged && by === 'usage') {
     const turnRate = kind === 'poses' ? 0 : quantile(sampleEvenly(b.length, (i) => Math.abs(b[i])), 0.9);

@@ -105,7 +105,7 @@ test('a page may replace words and add languages; a message of another shape is 
   await openDisclosures(widget);
   const refusals = await page.evaluate(async () => {
     const { setMessages } = await import(new URL('/motion-widgets.js', location.href).href);
-    setMessages('fr', { cloud: { play: 'Jouer' }, banana: { robot: 'Automate', bend: { right: () => 'À droite.' } } });
+    setMessages('fr', { cloud: { play: 'Jouer' }, banana: { robot: 'Automate', bend: { bent: () => 'À droite.' } } });
     setMessages('en', { pause: 'Hold' });
     setMessages('ar', { cloud: { play: 'عيّن' } });
     const refusedMessages = /** @type {[string, object][]} */ ([

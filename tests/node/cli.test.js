@@ -337,18 +337,18 @@ test('inspect lists what is in a file, and the command to go on with', async () 
     /^ {2}npx motion-widgets calibrate DIR\/run\.mcap --odometry-topic \/odom --reference-topic '\/vicon\/robot 1' --rule nav2$/m,
   ]) assert.match(recordingInspection, linePattern);
   for (const [role, otherRole] of [['odometry', 'reference'], ['reference', 'odometry']]) {
-    assert.match(await inspectionOf([examplePath(role)]), new RegExp(`; give the ${otherRole} too\\.\\n\\n {2}npx motion-widgets calibrate --${role} \\S+ --${otherRole} FILE --rule nav2$`, 'm'));
+    assert.match(await inspectionOf([examplePath(role)]), new RegExp(`; give the ${otherRole} too\\. Name both, with --odometry FILE and --reference FILE\\.$`, 'm'));
   }
   const [a, b] = [['b', 'reference'], ['a', 'odometry']].map(([name, from]) => writeInFolder(`${name}.csv`, readFileSync(examplePath(from))));
-  assert.match(await inspectionOf([a, b]), /^b\.csv: its name does not say whether it is odometry or reference; .*\n\n {2}npx motion-widgets calibrate --odometry FILE --reference FILE --rule nav2$/m);
+  assert.match(await inspectionOf([a, b]), /^b\.csv: its name does not say whether it is odometry or reference; .* Choose with --odometry and --reference\.$/m);
   const millimetrePath = writeInFolder('mm.csv', readFileSync(examplePath('reference'), 'utf8').replaceAll(/^([\d.]+),([\d.e-]+),([\d.e-]+)/gm, (_, t, x, y) => [t, 1000 * x, 1000 * y].join(',')));
   assert.match(await inspectionOf([millimetrePath], 2), /^mm\.csv: in m, the robot would drive at .* Choose with --length-unit, as in --length-unit /m);
-  assert.match(await inspectionOf([a, b, writeInFolder('empty_table.csv', 't,x,y,yaw\n')]), /^Give two files without empty_table\.csv:\n\n {2}npx motion-widgets calibrate --odometry FILE --reference FILE --rule nav2$/m);
+  assert.match(await inspectionOf([a, b, writeInFolder('empty_table.csv', 't,x,y,yaw\n')]), /^b\.csv: its name does not say whether it is odometry or reference;/m);
   const alternatingPath = writeInFolder('alternating.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y,gt_yaw', ...Array.from({ length: 40 }, (_, i) => `${i >> 1},${i % 2},0,0,${i % 2},1,0`)].join('\n'));
   assert.equal((await inspectionOf([alternatingPath], 2)).match(/give the log of one robot/g)?.length, 1);
-  assert.match(await inspectionOf([millimetrePath, '--length-unit', 'mm']), /^ {2}npx motion-widgets calibrate --odometry DIR\/mm\.csv --reference FILE --length-unit mm --rule nav2$/m);
+  assert.match(await inspectionOf([millimetrePath, examplePath('odometry'), '--length-unit', 'mm']), /^ {2}npx motion-widgets calibrate --odometry \S+odometry\.csv --reference DIR\/mm\.csv --length-unit mm --rule nav2$/m);
   const positionsPath = writeInFolder('positions.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},0,0,${i / 40},1`)].join('\n'));
-  const { recordings: [{ series }], ...inspection } = JSON.parse(await inspectionOf([positionsPath, '--json'], 2));
+  const { recordings: [{ series }], ...inspection } = JSON.parse(await inspectionOf([positionsPath, '--json']));
   assert.deepEqual(series.map((/** @type {any} */ { name, rows, uses, summary }) => [name, rows, uses, summary?.seconds]), [['odom_', 40, ['odometry'], 1.95], ['gt_', 0, [], undefined]]);
   assert.deepEqual([inspection.missing.split(';')[0], inspection.command], ['positions.csv: gt_ (gt_x, gt_y) are positions without a heading', undefined]);
 });

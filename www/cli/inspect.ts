@@ -23,9 +23,9 @@ export interface RecordingContents {
 /** Contents of all recordings in the arguments. */
 export interface InspectionResult {
   recordings: RecordingContents[];
-  /** Sentence about a log that the calibration still needs, or an assumption that it makes. */
+  /** Sentence about a log or a choice that the calibration still needs. */
   missing?: string;
-  /** Command for the calibration; undefined if no log can be used. */
+  /** Command for the calibration; undefined if something is missing. */
   command?: string;
 }
 
@@ -41,10 +41,8 @@ export async function inspect(givenRecordings: GivenRecording[], statedOptions: 
   const recordings: RecordingContents[] = [];
   for (const { recording } of givenRecordings) recordings.push(await contentsOf(recording, onProgress));
   onProgress?.(undefined);
-  const refusedNames = recordings.flatMap(({ name, series, refused }) => (refused.length > 0 && !series.some(({ summary }) => summary) ? [name] : []));
-  if (refusedNames.length === 0) return { recordings, ...proposeCommand(givenRecordings, statedOptions) };
-  const proposalWithoutRefused = { missing: `Give two files without ${new Intl.ListFormat('en').format(refusedNames)}:`, command: commandText(statedOptions, '--odometry FILE', '--reference FILE') };
-  return { recordings, ...(refusedNames.length < recordings.length && proposalWithoutRefused) };
+  const usableRecordings = givenRecordings.filter((_, i) => recordings[i].series.some(({ summary }) => summary));
+  return { recordings, ...(usableRecordings.length > 0 && proposeCommand(usableRecordings, statedOptions)) };
 }
 
 async function contentsOf(recording: Recording, onProgress?: (share: number | undefined) => void): Promise<RecordingContents> {
@@ -110,14 +108,10 @@ async function readLogs(recording: Recording, choices: LogChoice[], onProgress?:
   return { logs, refusalSentences };
 }
 
-const commandText = (statedOptions: [name: string, value: string][], ...options: string[]) =>
-  ['npx motion-widgets calibrate', ...options, ...statedOptions.map(([name, value]) => `--${name} ${quoteForShell(value)}`), '--rule nav2'].join(' ');
-
 /** Returns the command that calibrates from the recordings, or a sentence about missing logs. */
 function proposeCommand(givenRecordings: GivenRecording[], statedOptions: [name: string, value: string][]): Pick<InspectionResult, 'command' | 'missing'> {
   const quotedPath = ({ recording }: Pick<RecordingChoice, 'recording'>) => quoteForShell(givenRecordings.find((file) => file.recording === recording)?.path ?? recording.name);
-  const calibrationCommand = (...options: string[]) => commandText(statedOptions, ...new Set(options));
-  const quotedPaths = givenRecordings.map(({ recording }) => quotedPath({ recording }));
+  const quotedPaths = givenRecordings.map(quotedPath);
   try {
     const { drives, unpaired } = planDrives(givenRecordings.map(({ recording }) => recording));
     const choiceOptions = ROLES.flatMap((role) => [...drives.map((drive) => drive[role]), ...unpaired[role]].flatMap(({ choice: { series, frames } }) => [
@@ -127,19 +121,10 @@ function proposeCommand(givenRecordings: GivenRecording[], statedOptions: [name:
     const fileArguments = [...drives.map(({ odometry }) => quotedPath(odometry)), ...ROLES.flatMap((role) => unpaired[role].map((part) => `--${role} ${quotedPath(part)}`))];
     // The logs of one folder may have different roles, so that the folder is given without a role.
     const isPathShared = new Set(quotedPaths).size < quotedPaths.length;
-    return { command: calibrationCommand(...(isPathShared ? quotedPaths : fileArguments), ...choiceOptions) };
+    const optionTexts = [...new Set([...(isPathShared ? quotedPaths : fileArguments), ...choiceOptions]), ...statedOptions.map(([name, value]) => `--${name} ${quoteForShell(value)}`)];
+    return { command: ['npx motion-widgets calibrate', ...optionTexts, '--rule nav2'].join(' ') };
   } catch (error) {
     if (!(error instanceof LogError)) throw error;
-    const refusalSentence = error.message;
-    const role = error.ask?.role ?? ROLES.find((candidateRole) => givenRecordings.some(({ recording }) => findCandidates(recording, candidateRole).some(({ length }) => length > 0)));
-    // The odometry is chosen first.
-    const rolesToChoose = error.ask?.role === 'reference' ? ['reference'] : ROLES;
-    switch (error.ask?.what) {
-      case 'other': return { missing: refusalSentence, ...(role && { command: calibrationCommand(`--${role} ${quotedPath(givenRecordings[0])}`, role === 'odometry' ? '--reference FILE' : '--odometry FILE') }) };
-      case 'series': return { missing: refusalSentence, command: calibrationCommand(...quotedPaths, ...rolesToChoose.map((openRole) => `--${openRole}-topic NAME`)) };
-      case 'frames': return { missing: refusalSentence, command: calibrationCommand(...quotedPaths, ...rolesToChoose.map((openRole) => `--${openRole}-frames PARENT,CHILD`)) };
-      case 'roles': return { missing: refusalSentence, command: calibrationCommand('--odometry FILE', '--reference FILE') };
-      default: return { missing: refusalSentence };
-    }
+    return { missing: `${error.message}${optionAdvice(error)}` };
   }
 }

@@ -8,6 +8,7 @@ use super::systematic::{ERROR_COUNT, ErrorMask, Systematic, SystematicError};
 use super::trajectory::median;
 use crate::geom::se2::SE2;
 use crate::models::OdometryRule;
+use nalgebra::Complex;
 use serde::{Deserialize, Serialize};
 
 /// Overall judgement of a calibration.
@@ -30,7 +31,7 @@ pub enum Verdict {
 #[serde(rename_all = "kebab-case")]
 pub enum CheckName {
     /// Median difference of a leg's motions by odometry and by reference, divided by the median motion. For a copy of the odometry it is the
-    /// noise of the wheels, relative to the motion.
+    /// drift over a metre, m.
     ReferenceMatches,
     /// Number of legs.
     EnoughLegs,
@@ -195,9 +196,13 @@ const MIN_USABLE_LEGS: f64 = 30.0;
 /// Maximum median difference of the motions by odometry and reference, over the median motion, of logs of the same drive.
 const MAX_MISMATCH: f64 = 0.7;
 
-/// Minimum noise of wheels, relative to the motion. If there is less, the reference is a copy of the odometry: numbers of the copy may be rounded
-/// or noisy, but errors of wheels accumulate along the path. A robot that errs by 1 mm and 0.5 mrad over a metre has 1e-3 and more.
-const MIN_WHEEL_NOISE: f64 = 5e-4;
+/// Drift (m) over a metre, below which one path is a copy of the other. Numbers of a copy may be rounded to millimetres, but errors of wheels
+/// accumulate along a path. Robots that err by 0.7 mm and 0.5 mrad over a metre drift by 7e-5 or more in thousands of simulated logs, because
+/// the alignment removes most of a short path's drift.
+const MIN_DRIFT: f64 = 5e-5;
+
+/// Lengths (m) of the long and of the short pieces of a path whose differences show the drift.
+const PIECE_LENGTHS: [f64; 2] = [200.0, 5.0];
 
 /// Minimum number of windows for conclusions from their coverage.
 pub(super) const MIN_WINDOWS: usize = 20;
@@ -205,29 +210,22 @@ pub(super) const MIN_WINDOWS: usize = 20;
 /// Maximum inflation. α's that need more do not describe the robot.
 pub(super) const MAX_INFLATION: f64 = 30.0;
 
-/// Returns the checks of the log itself. Those that decide whether a log is usable come first: the first failure is the advice. `identifies` is
-/// true if the log identifies at least one α.
+/// Returns the checks of the log itself. Those that decide whether a log is usable come first: the first failure is the advice.
 pub(super) fn log_checks(
-    fit: &Fit,
     sample: &Sample,
     lost: &LostLegs,
     systematic: &Systematic,
-    identifies: bool,
     inflation: f64,
 ) -> Vec<Check> {
     let count = sample.legs.len();
-    // A copy fails by the noise of the wheels, any other reference by the difference of its motions.
-    let wheel_noise = wheel_noise(fit);
-    let mismatch = if identifies && wheel_noise < MIN_WHEEL_NOISE {
-        Some(wheel_noise)
-    } else {
-        mismatch(sample, systematic)
-    };
+    // A copy fails by its drift, any other reference by the difference of its motions. A drift that is NaN says nothing.
+    let drift = Some(drift(sample, systematic)).filter(|drift| *drift < MIN_DRIFT);
+    let mismatch = drift.or_else(|| mismatch(sample, systematic));
     let mut ratios: Vec<f64> =
         sample.legs.iter().map(|leg| sample.options.legs.ratio(&leg.odometry, leg.duration())).collect();
     let outlier_count = sample.outliers.iter().filter(|is| **is).count();
     let lost_count = lost.total() - lost.standing;
-    let matches_range = [MIN_WHEEL_NOISE, MAX_MISMATCH];
+    let matches_range = [MIN_DRIFT, MAX_MISMATCH];
     let mismatch = mismatch.map(|value| Check::new(CheckName::ReferenceMatches, value, matches_range));
     let mut checks = Vec::from_iter(mismatch);
     checks.extend([
@@ -246,22 +244,49 @@ pub(super) fn log_checks(
     checks
 }
 
-/// Returns the noise of the wheels over all legs, relative to their motion: the larger one of the ratios for positions and for headings.
-fn wheel_noise(Fit { sample, maximum, .. }: &Fit) -> f64 {
-    let (mut variances, mut squares) = ([0.0; 2], [0.0; 2]);
-    for (leg, observation) in sample.observations.iter().enumerate() {
-        if let Some(covariance) = sample.wheel_covariance(leg, &maximum.parameters) {
-            let motion = &observation.expected;
-            for (axis, square) in
-                [motion.x().powi(2) + motion.y().powi(2), motion.theta().powi(2)].into_iter().enumerate()
-            {
-                squares[axis] += square;
+/// Returns the drift (m) between the paths by odometry and by reference over a metre, or a larger number if few legs leave it uncertain. NaN if the
+/// log has no long pieces. Drift adds to the squared differences of long pieces. The noise of the reference does not: it is equal in long and in
+/// short pieces.
+fn drift(sample: &Sample, systematic: &Systematic) -> f64 {
+    let [[square, freedom, length], [short_square, short_freedom, short_length]] =
+        PIECE_LENGTHS.map(|piece_length| path_difference(sample, systematic, piece_length));
+    let std_by_chance = short_square * (1.0 / short_freedom - 1.0 / freedom).sqrt();
+    let added_square = (square - short_square).max(0.0) + 2.0 * std_by_chance;
+    (added_square / (length - short_length)).sqrt()
+}
+
+/// Cuts the paths by odometry and by reference into pieces of a length (m), and aligns each pair of pieces. Returns their mean squared distance
+/// (m²), its degrees of freedom, and the mean length of the pieces. An alignment takes the degrees of freedom of two points.
+fn path_difference(sample: &Sample, systematic: &Systematic, piece_length: f64) -> [f64; 3] {
+    let (mut square_sum, mut freedom, mut length_sum) = (0.0, 0.0, 0.0);
+    let (mut points, mut length, base) = (Vec::new(), 0.0, systematic.base());
+    for (i, leg) in sample.legs.iter().enumerate() {
+        points.push([leg.odometry[1], leg.reference[1] * base].map(|pose| Complex::new(pose.x(), pose.y())));
+        length += distance(&leg.odometry[0].between(&leg.odometry[1]));
+        if length >= piece_length || sample.legs.get(i + 1).is_none_or(|next| !next.follows) {
+            if points.len() > 2 {
+                let piece_freedom = points.len() as f64 - 2.0;
+                square_sum += aligned_square_sum(&points);
+                length_sum += piece_freedom * length;
+                freedom += piece_freedom;
             }
-            variances[0] += covariance[(0, 0)] + covariance[(1, 1)];
-            variances[1] += covariance[(2, 2)];
+            points.clear();
+            length = 0.0;
         }
     }
-    f64::max(variances[0] / squares[0], variances[1] / squares[1]).sqrt()
+    [square_sum / freedom, freedom, length_sum / freedom]
+}
+
+/// Returns the sum of the squared distances of pairs of points, minimized by shift, rotation and scaling of the first points.
+fn aligned_square_sum(points: &[[Complex<f64>; 2]]) -> f64 {
+    let mean =
+        [0, 1].map(|path| points.iter().map(|pair| pair[path]).sum::<Complex<f64>>() / points.len() as f64);
+    let centred = || points.iter().map(|pair| [pair[0] - mean[0], pair[1] - mean[1]]);
+    let [first_square, second_square] =
+        [0, 1].map(|path| centred().map(|pair| pair[path].norm_sqr()).sum::<f64>());
+    let product: Complex<f64> = centred().map(|[first, second]| first.conj() * second).sum();
+    // A robot that turns on the spot does not move any point.
+    (second_square - product.norm_sqr() / first_square.max(f64::MIN_POSITIVE)).max(0.0)
 }
 
 /// Returns the median difference between the motions of a leg by odometry and by reference, divided by the median motion. Of the ratios for

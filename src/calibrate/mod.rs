@@ -93,7 +93,7 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
     let cross_validation = windows::cross_validate(&fit, &all_legs, &alphas);
     let inflation = cross_validation.recommended.as_ref().map_or(f64::INFINITY, |found| found.inflation);
     let identifies = alphas.iter().any(Option::is_some);
-    let mut checks = checks::log_checks(&fit, &all_legs, &lost, &errors, identifies, inflation);
+    let mut checks = checks::log_checks(&all_legs, &lost, &errors, inflation);
     checks.extend(scale_checks);
     checks.extend(checks::residual_checks(&leg_fits, neighbour_correlation(&fit).0));
     checks.extend(cross_validation.checks);

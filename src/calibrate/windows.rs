@@ -85,7 +85,7 @@ impl Sample {
 
     /// Returns the covariance of the wheels' noise over one leg, in the frame of its end. None for an outlier, and for a leg whose residuals do not
     /// determine the noise.
-    pub(super) fn wheel_covariance(&self, leg: usize, parameters: &Parameters) -> Option<Matrix3<f64>> {
+    fn wheel_covariance(&self, leg: usize, parameters: &Parameters) -> Option<Matrix3<f64>> {
         let Observation { residuals, coefficients, noise_jacobian, .. } = &self.observations[leg];
         // In a turn on the spot the first rotation has no noise.
         let is_determined = !residuals[1].is_nan() && !self.outliers[leg];

@@ -69,40 +69,36 @@ fn a_reference_with_other_units_or_axes_or_of_another_drive_is_unusable() {
 
 #[test]
 fn a_copy_of_the_odometry_is_no_reference() {
-    let sim = good_simulation(600, 1);
-    let [odometry, _] = sim.log();
     // The copies are in another frame. Their lengths are scaled by 1.02, times are delayed by 0.1 s, and coordinates are rounded.
-    for digits in [6, 3] {
+    for (leg_count, digits) in [(600, 6), (600, 3), (250, 3), (100, 3)] {
+        let sim = good_simulation(leg_count, 1);
+        let [odometry, _] = sim.log();
         let round_to_digits = |value: f64| (value * 10_f64.powi(digits)).round() / 10_f64.powi(digits);
         let copied_samples = odometry.samples().map(|(time, pose)| {
-            let copied_pose =
-                SE2::new(3.0, 1.0, 0.5) * SE2::new(1.02 * pose.x(), 1.02 * pose.y(), pose.theta());
-            (
-                time + 0.1,
-                SE2::new(
-                    round_to_digits(copied_pose.x()),
-                    round_to_digits(copied_pose.y()),
-                    round_to_digits(copied_pose.theta()),
-                ),
-            )
+            let copy = SE2::new(3.0, 1.0, 0.5) * SE2::new(1.02 * pose.x(), 1.02 * pose.y(), pose.theta());
+            let [x, y, theta] = [copy.x(), copy.y(), copy.theta()].map(round_to_digits);
+            (time + 0.1, SE2::new(x, y, theta))
         });
         let calibration = calibrate_log(&[odometry.clone(), trajectory(copied_samples)], &sim.options());
         let message = &calibration.diagnostics.checks[0].message;
         assert!(
             message.starts_with("The reference has the errors of the odometry: "),
-            "{digits} digits: {message}"
+            "{leg_count} legs, {digits} digits: {message}"
         );
         assert_unusable(&calibration, "a copy");
     }
-    // A precise robot that errs by a millimetre and half a milliradian over a metre is not a copy, even if the reference is noisy.
-    for seed in 1..=6 {
-        let reference_stds = [0.01 * (seed % 2) as f64; 2];
-        let precise_simulation =
-            Simulation { violation: Violation::Scaled(0.01), reference_stds, ..good_simulation(600, seed) };
-        assert!(
-            !names_of_failed_checks(&calibrate_simulation(&precise_simulation)).contains(&ReferenceMatches),
-            "{seed}"
-        );
+    // A precise robot that errs by a millimetre and half a milliradian over a metre is not a copy, even if the log is short or the reference hides
+    // the noise of the wheels.
+    for seed in 1..=12 {
+        for (leg_count, std) in [(600, 0.0), (60, 0.0), (100, 0.03)] {
+            let precise_simulation = Simulation {
+                violation: Violation::Scaled(0.01),
+                reference_stds: [std; 2],
+                ..good_simulation(leg_count, seed)
+            };
+            let failed_checks = names_of_failed_checks(&calibrate_simulation(&precise_simulation));
+            assert!(!failed_checks.contains(&ReferenceMatches), "{leg_count} legs, seed {seed}");
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
-import { makeMapFile, openSqueeze, makePgmFile, makePngFile, squeezeResultsOf, makeYamlFile } from './squeeze-support.js';
+import { makeMapFile, openSqueeze, makePgmFile, squeezeResultsOf, makeYamlFile } from './squeeze-support.js';
 import { REDUCED_MOTION, dropFiles, waitForFrames, pictureOf, pixelCountOf, test, openDisclosures } from './support.js';
 
 /**
@@ -9,6 +9,10 @@ import { REDUCED_MOTION, dropFiles, waitForFrames, pictureOf, pixelCountOf, test
  */
 
 test.use(REDUCED_MOTION);
+
+/** White image of a corridor of 4 m × 1 m, whose right half is transparent, so that it is unknown. */
+const CORRIDOR_PNG =
+  'iVBORw0KGgoAAAANSUhEUgAAAFAAAAAUCAQAAACw0XJcAAAAKklEQVR4nO3OMQ0AAAgDsPkXDZjYRZoaaGbL0hVBQUFBQUFBQUFBwc/BAwzfUOhgpknpAAAAAElFTkSuQmCC';
 
 const ROOM_PLAN = {
   bounds: [0, 0, 6, 4],
@@ -73,8 +77,7 @@ test('a button leads back to the apartment, which has the presets', async ({ pag
 test('unknown cells are hatched, and free or blocked as the user chooses', async ({ page }) => {
   const widget = await openSqueeze(page);
   await expect(widget.getByRole('radiogroup', { name: 'Unknown cells' })).toHaveCount(0);
-  // A corridor of 4 m × 1 m, whose right half is unknown.
-  const imageFile = makePngFile('map.png', 80, 20, (column) => column >= 40);
+  const imageFile = makeMapFile('map.png', Buffer.from(CORRIDOR_PNG, 'base64'));
   await chooseFiles(widget, [makeYamlFile('map.yaml', { ...YAML_FIELDS, image: 'map.png', mode: 'scale' }), imageFile]);
   await expect(currentMapOf(widget)).toContainText('map.yaml');
   // The robot is in the left half, whose cells are not unknown.

@@ -4,7 +4,6 @@
  * @module
  */
 
-import { pngOf } from '../png.js';
 import { waitForFrames, showPage, untilReady } from './support.js';
 
 /**
@@ -57,20 +56,4 @@ export function makePgmFile(name, columns, rows, isBlack) {
   const cellBytes = Buffer.from(Array.from({ length: columns * rows }, (_, i) => (isBlack(i % columns, Math.floor(i / columns)) ? 0 : 254)));
   const pgmHeader = `P5\n# by hand\n${columns} ${rows}\n# and another comment\n255\n`;
   return makeMapFile(name, Buffer.concat([Buffer.from(pgmHeader), cellBytes]));
-}
-
-/**
- * Returns a white PNG image of which some pixels are transparent.
- *
- * @param {string} name
- * @param {number} columns
- * @param {number} rows
- * @param {CellTest} isTransparent
- */
-export function makePngFile(name, columns, rows, isTransparent) {
-  const channelValueAt = (/** @type {number} */ column, /** @type {number} */ row, /** @type {number} */ channel) => {
-    if (channel === 0) return 254;
-    return isTransparent(column, row) ? 0 : 255;
-  };
-  return makeMapFile(name, pngOf({ width: columns, height: rows, opacity: true, sample: channelValueAt }));
 }

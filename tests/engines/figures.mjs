@@ -5,6 +5,7 @@
  */
 
 import { load } from '../../dist/core.js';
+import { toPascalCase } from '../../scripts/declarations.mjs';
 
 /**
  * @typedef {object} Handle
@@ -48,5 +49,5 @@ export const figures = {
 /** Returns the simulation of a figure, in Node. @param {string} tag @param {any} config @returns {Promise<any>} */
 export async function createSimulation(tag, config) {
   const motion = /** @type {any} */ (await load());
-  return new motion[tag.replace(/(^|-)(\w)/g, (_, _dash, letter) => letter.toUpperCase())](config);
+  return new motion[toPascalCase(tag)](config);
 }

@@ -8,6 +8,7 @@ import { Buffer } from 'node:buffer';
 import { readFileSync } from 'node:fs';
 import { deflateRawSync, gunzipSync } from 'node:zlib';
 import { load } from '../../dist/core.js';
+import { toPascalCase } from '../../scripts/declarations.mjs';
 import { selectAttributes, propertiesOf } from '../../www/figure/attributes.ts';
 import { packJson, unpack } from '../../www/figure/packing.ts';
 import { settings } from '../../www/settings.js';
@@ -39,9 +40,8 @@ const mapSqueeze = new motion.MapSqueeze({ samples: 1 });
  * @type {{ attributes: ReturnType<typeof selectAttributes>, simulation: any, opening: any }[]}
  */
 const widgetSimulations = Object.entries(settings).map(([tag, declaredSettings]) => {
-  const className = tag.replaceAll(/(?:^|-)(\w)/g, (_, letter) => letter.toUpperCase());
   const hasSamples = declaredSettings.some(({ key }) => key === 'samples');
-  const simulation = { 'map-squeeze': mapSqueeze, 'alpha-calibrator': calibrator }[tag] ?? new (/** @type {any} */ (motion)[className])(hasSamples ? { samples: 1 } : {});
+  const simulation = { 'map-squeeze': mapSqueeze, 'alpha-calibrator': calibrator }[tag] ?? new (/** @type {any} */ (motion)[toPascalCase(tag)])(hasSamples ? { samples: 1 } : {});
   return { attributes: selectAttributes(propertiesOf(declaredSettings)), simulation, opening: simulation.config };
 });
 

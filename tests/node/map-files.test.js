@@ -2,11 +2,13 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { crc32 } from 'node:zlib';
 import { limits } from '../../www/settings.js';
-import { PNG_SIGNATURE, headerChunkOf, pngOf } from '../png.js';
 import { mapYamlFile, fileWith, simulationWithMap, refusalMessageOf } from './map-support.js';
 
 const PGM = fileWith('map.pgm', 'P5 2 1 255\n\x00\x7f');
+/** PNG image of the same two pixels. */
+const PNG_BYTES = Buffer.from('iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAAAAADRSSBWAAAAC0lEQVR4nGNgqAcAAIIAgCASGTYAAAAASUVORK5CYII=', 'base64');
 
 /** Time limit of a refusal, ms: a thousand times the usual time. */
 const MAX_REFUSAL_MS = 1000;
@@ -65,8 +67,7 @@ test('a description is read as leniently as map_server reads it', async () => {
 });
 
 test('a PNG image may have any extension', async () => {
-  const png = pngOf({ width: 2, height: 1, sample: (column) => [0, 127][column] });
-  const [pgmMap, pngMap] = await Promise.all([PGM, fileWith('map.pgm', png)].map((image) => simulationWithMap(mapYamlFile({ image: 'map.pgm' }), image)));
+  const [pgmMap, pngMap] = await Promise.all([PGM, fileWith('map.pgm', PNG_BYTES)].map((image) => simulationWithMap(mapYamlFile({ image: 'map.pgm' }), image)));
   assert.deepEqual(pngMap.grid, pgmMap.grid);
 });
 
@@ -93,9 +94,11 @@ test('the size of a file is checked before the file is read', async () => {
 });
 
 test('a damaged or too large PNG image is refused by a sentence', async () => {
-  const png = pngOf({ width: 2, height: 1, sample: (column) => [0, 127][column] });
-  const message = await refusalMessageOf([mapYamlFile(), fileWith('map.png', png.subarray(0, 50))]);
+  const message = await refusalMessageOf([mapYamlFile(), fileWith('map.png', PNG_BYTES.subarray(0, 50))]);
   assert.match(message, /^map\.png: the PNG image is damaged or cut short before byte \d+ of 50; allowed is a complete one\.$/);
-  const headerOfLargeImage = Buffer.concat([PNG_SIGNATURE, headerChunkOf({ width: 100_000, height: 100_000 })]);
-  assert.equal(await refusalMessageOf([mapYamlFile(), fileWith('map.png', headerOfLargeImage)]), 'map.png: image has 100000 × 100000 pixels; allowed are at most 33554432.');
+  const largeImage = Buffer.from(PNG_BYTES);
+  largeImage.fill(Buffer.of(0, 1, 0x86, 0xa0), 16, 24);
+  // The checksum of the header follows its type and its data.
+  largeImage.writeUInt32BE(crc32(largeImage.subarray(12, 29)), 29);
+  assert.equal(await refusalMessageOf([mapYamlFile(), fileWith('map.png', largeImage)]), 'map.png: image has 100000 × 100000 pixels; allowed are at most 33554432.');
 });

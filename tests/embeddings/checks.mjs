@@ -94,7 +94,7 @@ export async function untilLive(page, { definition }) {
  * @param {Element} element
  * @param {string[]} names
  */
-function propertiesOf(element, names) {
+export function propertiesOf(element, names) {
   const toPlainValue = (/** @type {any} */ value) => (ArrayBuffer.isView(value) ? Array.from(/** @type {any} */ (value)) : value);
   return Object.fromEntries(names.map((name) => [name, toPlainValue(/** @type {any} */ (element)[name])]));
 }

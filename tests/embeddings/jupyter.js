@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { untilLive, untilScheme } from './checks.mjs';
+import { propertiesOf, untilLive, untilScheme } from './checks.mjs';
 import { pinnedVersions, pythonDirectoryOf, installPythonPackages, pythonProgramPath } from './project.mjs';
 import { serveFiles, serveByProgram } from './serving.mjs';
 
@@ -86,10 +86,6 @@ async function untilValue(page, code, expected) {
   assert.deepEqual(actualValue, expected, code);
 }
 
-/** Returns properties of the Banana Machine. @param {Page} page @param {string[]} names */
-const propertiesOf = (page, names) =>
-  bananaMachineOf(page).evaluate((element, propertyNames) => Object.fromEntries(propertyNames.map((name) => [name, /** @type {any} */ (element)[name]])), names);
-
 /** @type {import('./project.mjs').Serving['checks']} */
 const JUPYTERLAB_CHECKS = {
   async 'what Python sets is shown, and what is shown is known to Python'(page, site) {
@@ -99,7 +95,7 @@ const JUPYTERLAB_CHECKS = {
     // The second assignment does not wait for the result of the first.
     await evaluatePython(page, '[setattr(machine, "preset", "hard"), setattr(machine, "omega", 0.2)]');
     await untilValue(page, '[machine.preset, machine.omega, machine.dt, machine.command]', [null, 0.2, 1.4, { v: 1, omega: 0.2, dt: 1.4 }]);
-    assert.deepEqual(await propertiesOf(page, ['preset', 'omega', 'dt']), { preset: null, omega: 0.2, dt: 1.4 });
+    assert.deepEqual(await bananaMachineOf(page).evaluate(propertiesOf, ['preset', 'omega', 'dt']), { preset: null, omega: 0.2, dt: 1.4 });
   },
   async 'changes by the user reach Python, and keys do not reach the notebook'(page, site) {
     await runNotebook(page, site);
@@ -111,7 +107,7 @@ const JUPYTERLAB_CHECKS = {
     for (const key of ['b', 'a', 'm', '1', '2', 'Enter']) await page.keyboard.press(key);
     assert.equal(await page.locator('.jp-Cell').count(), cellCount);
     assert.equal(await page.locator('.jp-CodeCell').count(), cellCount - 3);
-    const { omega } = /** @type {{ omega: number }} */ (await propertiesOf(page, ['omega']));
+    const { omega } = /** @type {{ omega: number }} */ (await bananaMachineOf(page).evaluate(propertiesOf, ['omega']));
     assert.notEqual(omega, ORIGINAL_SETTINGS.omega);
     await untilValue(page, '[machine.omega, machine.command["omega"]]', [omega, omega]);
   },
@@ -135,7 +131,7 @@ const EXPORT_CHECKS = {
     const omegaSlider = bananaMachineOf(page).getByRole('slider', { name: /ω/ }).first();
     await omegaSlider.focus();
     await page.keyboard.press('ArrowRight');
-    assert.notDeepEqual(await propertiesOf(page, ['omega']), { omega: ORIGINAL_SETTINGS.omega });
+    assert.notDeepEqual(await bananaMachineOf(page).evaluate(propertiesOf, ['omega']), { omega: ORIGINAL_SETTINGS.omega });
   },
 };
 
@@ -173,18 +169,18 @@ export default {
   servings: [
     {
       name: 'JupyterLab',
-      serve(directory, tools) {
+      serve: serveByProgram((port, directory) => {
         const labArguments = ['--no-browser', '--allow-root', '--IdentityProvider.token=', '--ServerApp.port_retries=0'];
         // JupyterLab has a separate configuration directory, so that this user's settings do not affect the test.
         const ownDirectoryOf = (/** @type {string} */ name) => join(pythonDirectoryOf(directory), 'own', name);
         const env = { JUPYTER_CONFIG_DIR: ownDirectoryOf('config'), JUPYTERLAB_SETTINGS_DIR: ownDirectoryOf('settings'), JUPYTERLAB_WORKSPACES_DIR: ownDirectoryOf('workspaces') };
-        return serveByProgram((port) => [pythonProgramPath(directory, 'jupyter'), ['lab', ...labArguments, '--port', port], env])(directory, tools);
-      },
+        return [pythonProgramPath(directory, 'jupyter'), ['lab', ...labArguments, '--port', port], env];
+      }),
       checks: JUPYTERLAB_CHECKS,
     },
     {
       name: 'Voilà',
-      serve: (directory, tools) => serveByProgram((port) => [pythonProgramPath(directory, 'voila'), ['motion.ipynb', '--no-browser', '--port', port]])(directory, tools),
+      serve: serveByProgram((port, directory) => [pythonProgramPath(directory, 'voila'), ['motion.ipynb', '--no-browser', '--port', port]]),
       checks: VOILA_CHECKS,
     },
     { name: 'exported by nbconvert', serve: serveFiles('_build'), checks: EXPORT_CHECKS },

@@ -23,8 +23,7 @@ export default {
   servings: [
     {
       name: 'app',
-      serve: (directory, tools) =>
-        serveByProgram((port) => [pythonProgramPath(directory, 'marimo'), ['run', 'motion.py', '--headless', '--no-token', '--port', port]])(directory, tools),
+      serve: serveByProgram((port, directory) => [pythonProgramPath(directory, 'marimo'), ['run', 'motion.py', '--headless', '--no-token', '--port', port]]),
       checks: MARIMO_CHECKS,
     },
   ],

@@ -88,7 +88,7 @@ const ENGINE_DEFINITIONS = {
     },
     servings: [
       { name: 'production', serve: serveFiles('public', '/book/') },
-      { name: 'development', serve: (directory, tools) => serveByProgram((port) => [pythonProgramPath(directory, 'hugo'), ['server', '--port', port, '--baseURL', '/']])(directory, tools) },
+      { name: 'development', serve: serveByProgram((port, directory) => [pythonProgramPath(directory, 'hugo'), ['server', '--port', port, '--baseURL', '/']]) },
     ],
     pages: { first: '' },
     go: undefined,

@@ -5,7 +5,6 @@
  */
 
 import { spawn } from 'node:child_process';
-import { createServer } from 'node:net';
 import { join } from 'node:path';
 import { ROOT, endGroup, endGroupWithProcess, forgetGroup } from '../../scripts/process.mjs';
 import { serve } from '../../scripts/serve.mjs';
@@ -28,14 +27,14 @@ export const serveFiles = (output, base) => async (directory) => {
 /**
  * Starts the server of an engine, and waits until it answers.
  *
- * @param {(port: string) => [command: string, args: string[], env?: Record<string, string>]} command that starts it
+ * @param {(port: string, directory: string) => [command: string, args: string[], env?: Record<string, string>]} command that starts it
  * @param {string} [base] the path of the site, with a slash at both ends
  * @returns {import('./project.mjs').Serving['serve']}
  */
-export const serveByProgram = (command, base = '/') => async (_directory, { start }) => {
+export const serveByProgram = (command, base = '/') => async (directory, { start }) => {
   const port = await findFreePort();
   const url = `http://localhost:${port}${base}`;
-  const engineServer = start(...command(`${port}`));
+  const engineServer = start(...command(port, directory));
   const earlyEnd = engineServer.ended.then(() => {
     throw new Error(`The server has ended:\n${engineServer.output()}`);
   });
@@ -50,15 +49,11 @@ export const serveByProgram = (command, base = '/') => async (_directory, { star
   return { url, stop: engineServer.stop };
 };
 
-/** Returns a free port. @returns {Promise<number>} */
-function findFreePort() {
-  return new Promise((resolve, reject) => {
-    const portServer = createServer().on('error', reject);
-    portServer.listen(0, 'localhost', () => {
-      const address = portServer.address();
-      portServer.close(() => (address === null || typeof address === 'string' ? reject(new Error('There is no port.')) : resolve(address.port)));
-    });
-  });
+/** Returns a free port: one that a server has just left. */
+async function findFreePort() {
+  const { address, close } = await serve(ROOT, { port: 0 });
+  close();
+  return new URL(address).port;
 }
 
 /** Waits until a server answers with status 200. @param {string} url */

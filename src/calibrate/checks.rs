@@ -199,7 +199,7 @@ const MAX_MISMATCH: f64 = 0.7;
 /// Drift (m) over a metre, below which one path is a copy of the other. Numbers of a copy may be rounded to millimetres, but errors of wheels
 /// accumulate along a path. Robots that err by 0.7 mm and 0.5 mrad over a metre drift by 7e-5 or more in thousands of simulated logs, because
 /// the alignment removes most of a short path's drift.
-const MIN_DRIFT: f64 = 5e-5;
+const MIN_DRIFT: f64 = 6e-5;
 
 /// Lengths (m) of the long and of the short pieces of a path whose differences show the drift.
 const PIECE_LENGTHS: [f64; 2] = [200.0, 5.0];

@@ -50,16 +50,16 @@ test('rows that cannot be used are dropped with the first line of each cause, an
   assert.deepEqual([count, notes], [tableRows.length, [{ name: 'cutShort', values: [] }]]);
 });
 
-test('late rows are sorted; a time far from all others is dropped', async () => {
+test('late rows are sorted; before and after a time far from all others the path has a gap', async () => {
   const times = timesFrom(50);
   const { data, summary } = await readTable(straightTableAt([...times.slice(0, 20), times[22], times[20], times[21], ...times.slice(23)]));
   assert.deepEqual([[...data.t], [...data.breaks]], [times, []]);
   assert.deepEqual([data.x[20], summary.notes], [21 / 50, [{ name: 'sorted', values: [2] }]]);
   const swappedLog = await readTable(straightTableAt([...timesFrom(50, 100), ...timesFrom(50)]));
   assert.deepEqual([swappedLog.data.t.length, swappedLog.data.t[0], swappedLog.data.x[0]], [100, 0, 1]);
-  for (const strayTime of [1e6, -1e6]) {
+  for (const [strayTime, order] of /** @type {[number, number[]][]} */ ([[1e6, [...times.keys()].toSpliced(20, 1).concat(20)], [-1e6, [20, ...[...times.keys()].toSpliced(20, 1)]]])) {
     const strayLog = await readTable(straightTableAt(times.with(20, strayTime)));
-    assert.deepEqual([[...strayLog.data.t], strayLog.summary.dropped, [...strayLog.data.breaks]], [times.toSpliced(20, 1), { stray: { count: 1, first: 22 } }, []]);
+    assert.deepEqual([[...strayLog.data.x], strayLog.summary.gaps.count], [order.map((i) => i / 50), 1]);
   }
 });
 

@@ -34,7 +34,6 @@ const DROP_REASONS: Record<DropCause, string> = {
   noStamp: 'der Zeitstempel 0',
   duplicate: 'die Zeit der Zeile davor',
   repeated: 'eine Pose, die öfter wiederholt ist, als sie gemessen wurde',
-  stray: 'eine Zeit fern von allen anderen',
   held: 'die Pose steht, während die Odometrie weitergeht',
 };
 

@@ -31,7 +31,6 @@ const DROP_REASONS = {
   noStamp: 'a stamp of 0',
   duplicate: 'the time of the row before',
   repeated: 'a pose repeated at a higher rate than it was measured',
-  stray: 'a time far from all others',
   held: 'the pose stands still while the odometry moves on',
 };
 

@@ -111,7 +111,7 @@ export interface Log {
 }
 
 /** Reason for dropping a row. */
-export type DropCause = 'damaged' | 'notFinite' | 'noRotation' | 'noStamp' | 'short' | 'text' | 'duplicate' | 'repeated' | 'stray' | 'held';
+export type DropCause = 'damaged' | 'notFinite' | 'noRotation' | 'noStamp' | 'short' | 'text' | 'duplicate' | 'repeated' | 'held';
 
 /** Evidence for a unit: a name, the size of the numbers, rate and speed, the format, dates, an option, or (`usage`) only that it is usual. */
 export type UnitBasis = 'name' | 'size' | 'rate' | 'format' | 'date' | 'option' | 'usage';

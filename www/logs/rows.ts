@@ -31,26 +31,23 @@ const MIN_GAP_STEPS = 5;
 /** Minimum speed of a jump, as a multiple of the 90 % quantile of the speeds of a moving robot. */
 const JUMP_FACTOR = 8;
 
-/** Minimum number of rows of a log in which a single wrong stamp is looked for. */
-const MIN_ROWS = 10;
-
 /** Minimum number of different poses from which the usual number of rows of a pose is found. */
 const MIN_POSES = 20;
 
-/** Ratio of a pose's rows to the usual number, from which the robot stands. Below it, a localizer repeats the pose of a robot that has moved little. */
+/** Minimum ratio of a pose's rows to the usual number for a robot that stands. A localizer also repeats poses of a robot that has moved little. */
 const STANDSTILL_FACTOR = 8;
 
-/** Limits for overlapping rows: time between two of them, in median steps, and their number in a run of rising times and fraction of all rows. */
+/** Maximum time between overlapping rows, in median steps, and maximum number of them in a run of rising times and as a fraction of all rows. */
 const [MAX_OVERLAP_STEPS, MAX_RUN_OVERLAPS, MAX_OVERLAP_FRACTION] = [0.75, 2, 0.02];
 
 /** Maximum ratio of the path's lengths in the order of times and of the file, if rows are late, and minimum number of rows for this ratio. */
 const [MAX_LATE_PATH_RATIO, MIN_LATE_ROWS] = [0.75, 20];
 
-/**
- * Limits for two paths whose poses alternate: minimum distance (m) of the paths, and minimum number of steps between them. Shorter steps may
- * be vibrations, and fewer may be jumps. Then maximum rows and seconds until a path continues, and maximum fraction of poses far from there.
- */
-const [MIN_PATH_DISTANCE, MIN_LONG_STEPS, MAX_RETURN_ROWS, MAX_RETURN_SECONDS, MAX_LONG_FRACTION] = [0.05, 20, 8, 1, 0.2];
+/** Minimum distance (m) of two paths whose poses alternate, above vibrations, and minimum number of steps between them, above that of jumps. */
+const [MIN_PATH_DISTANCE, MIN_LONG_STEPS] = [0.05, 20];
+
+/** Maximum rows and seconds until a path continues among the poses of another one, and maximum fraction of poses that are far from there. */
+const [MAX_RETURN_ROWS, MAX_RETURN_SECONDS, MAX_LONG_FRACTION] = [8, 1, 0.2];
 
 /** Minimum length of a jump in metres and radians, above the noise of a fast log. */
 const [MIN_JUMP, MIN_JUMP_TURN] = [0.1, 0.2];
@@ -61,16 +58,12 @@ const MIN_MOVING_SPEED = 0.01;
 /** Maximum fraction of rows that have the time of another row and other values. */
 const MAX_CONTRADICTING_FRACTION = 0.4;
 
-/** Offsets of the numbers of a row. IS_BROKEN is 1 if the path before the row is unknown. */
-const [TIME, A, B, C, LINE, OTHER_TIME, IS_BROKEN, ROW_WIDTH] = [0, 1, 2, 3, 4, 5, 6, 7];
-
 export class Rows {
   #logPlace: ErrorPlace;
-  /** Numbers of the rows that were added, row by row. */
-  #numbers = new Float64Array(1024 * ROW_WIDTH);
-  #addedCount = 0;
-  /** Offset of the times of the clock that is used. */
-  #clock = TIME;
+  /** Columns of the rows that were added. `isBroken` is 1 if the path before a row is unknown. */
+  #columns = { time: [] as number[], a: [] as number[], b: [] as number[], c: [] as number[], line: [] as number[], otherTime: [] as number[], isBroken: [] as number[] };
+  /** Times of the clock that is used. */
+  #times = this.#columns.time;
   /** True if the path before the next row is unknown, because an unusable row was dropped. */
   #isBroken = false;
   #dropped: Summary['dropped'] = {};
@@ -104,20 +97,14 @@ export class Rows {
     if (!(Number.isFinite(time) && Math.max(Math.abs(a), Math.abs(b), Math.abs(c)) <= MAX_VALUE)) return this.drop('notFinite', line);
     this.count += 1;
     if (this.count > MAX_ROWS) throw new LogError(this.#logPlace, (texts) => texts.rows(MAX_ROWS));
-    const at = ROW_WIDTH * this.#addedCount++;
-    if (at === this.#numbers.length) {
-      const largerNumbers = new Float64Array(2 * at);
-      largerNumbers.set(this.#numbers);
-      this.#numbers = largerNumbers;
-    }
-    const numbers = this.#numbers;
-    numbers[at + TIME] = time;
-    numbers[at + A] = a;
-    numbers[at + B] = b;
-    numbers[at + C] = c;
-    numbers[at + LINE] = line;
-    numbers[at + OTHER_TIME] = otherTime;
-    numbers[at + IS_BROKEN] = Number(this.#isBroken);
+    const columns = this.#columns;
+    columns.time.push(time);
+    columns.a.push(a);
+    columns.b.push(b);
+    columns.c.push(c);
+    columns.line.push(line);
+    columns.otherTime.push(otherTime);
+    columns.isBroken.push(Number(this.#isBroken));
     this.#isBroken = false;
   }
 
@@ -129,9 +116,9 @@ export class Rows {
    */
   end(name: string, kind: LogKind, { units: assumed, clocks, ...decisions }: LogFacts, options: OpenOptions = {}): Log {
     const usesOtherClock = clocks[1] !== undefined && this.#isClockStill();
-    if (usesOtherClock) this.#clock = OTHER_TIME;
-    const stampedRows = this.#withoutStrayTime(this.#withoutUnsetTimes());
-    const start = Math.floor(min(stampedRows, (row) => this.#time(row)) ?? 0);
+    if (usesOtherClock) this.#times = this.#columns.otherTime;
+    const stampedRows = this.#withoutUnsetTimes();
+    const start = Math.floor(min(stampedRows, (row) => this.#times[row]) ?? 0);
     const { sortedRows, lateCount } = this.#sort(stampedRows);
     const rowsOfDistinctTime = this.#withoutEqualTimes(sortedRows);
     const rows = kind === 'poses' ? this.#withoutRepeatedPoses(rowsOfDistinctTime) : rowsOfDistinctTime;
@@ -140,13 +127,13 @@ export class Rows {
       const [cause, firstDrop] = (Object.entries(this.#dropped) as [DropCause, { first: number }][])[0] ?? [];
       throw new LogError(this.#placeOf(firstDrop?.first ?? 0), (texts) => texts.few(rows.length, count, cause));
     }
-    const [a, b, c] = [A, B, C].map((index) => this.#column(rows, (row) => this.#number(row, index)));
-    const columns: Columns = { start, t: this.#column(rows, (row) => this.#time(row) - start), a, b, c };
+    const [times, a, b, c] = [this.#times, this.#columns.a, this.#columns.b, this.#columns.c].map((column) => new Float64Array(rows.length).map((_, i) => column[rows[i]]));
+    const t = times.map((time) => time - start);
+    const columns: Columns = { start, t, a, b, c };
     const units = judgeUnits(this.#logPlace, kind, columns, assumed, options);
-    const { t } = columns;
     const pathDistance = kind === 'poses' ? distanceOfPaths(t, a, b) : 0;
     if (pathDistance > 0) throw new LogError(this.#logPlace, (texts) => texts.turns(pathDistance));
-    const { breaks, jumpRows, ...foundGaps } = this.#findEvents(kind, [t, a, b, c], (i) => this.#number(rows[i], IS_BROKEN) === 1);
+    const { breaks, jumpRows, ...foundGaps } = this.#findEvents(kind, [t, a, b, c], (i) => this.#columns.isBroken[rows[i]] === 1);
     const data = { t, ...(kind === 'poses' ? { x: a, y: b, theta: c } : { v: a, omega: b }), breaks } as Log['data'];
     const notes: Note[] = [
       ...decisions.notes,
@@ -161,62 +148,36 @@ export class Rows {
     return { name, kind, start: columns.start, data, summary };
   }
 
-  /** Returns the indices of all rows that were added. */
-  get #rows(): Uint32Array<ArrayBuffer> {
-    return new Uint32Array(this.#addedCount).map((_, row) => row);
-  }
-
-  #number(row: number, index: number): number {
-    return this.#numbers[ROW_WIDTH * row + index];
-  }
-
-  /** Returns the values of a function of rows. `Float64Array.from` would take ten times as long. */
-  #column(rows: Uint32Array, numberOf: (row: number) => number): Float64Array {
-    return new Float64Array(rows.length).map((_, i) => numberOf(rows[i]));
-  }
-
-  #time(row: number): number {
-    return this.#number(row, this.#clock);
-  }
-
   /** Returns true if most rows have the time of the row before: stamps may be 0, or always that of the start. */
   #isClockStill(): boolean {
-    const rows = this.#rows;
-    return 2 * rows.filter((row) => row > 0 && this.#time(row) === this.#time(row - 1)).length > rows.length;
+    const { time } = this.#columns;
+    return 2 * time.filter((value, row) => value === time[row - 1]).length > time.length;
   }
 
   /** Checks whether two rows have the same values. */
   #isSame(one: number, other: number): boolean {
-    return this.#number(one, A) === this.#number(other, A) && this.#number(one, B) === this.#number(other, B) && this.#number(one, C) === this.#number(other, C);
+    const { a, b, c } = this.#columns;
+    return a[one] === a[other] && b[one] === b[other] && c[one] === c[other];
   }
 
   /** Returns all rows, but those whose stamp was not set: it is 0, and all other times are since 1970. */
   #withoutUnsetTimes(): Uint32Array {
-    const isUnset = (row: number) => this.#time(row) === 0;
-    const isSince1970 = this.#rows.every((row) => isUnset(row) || epochTimeUnitOf(this.#time(row)) !== undefined);
-    return isSince1970 ? this.#without(this.#rows, 'noStamp', isUnset) : this.#rows;
-  }
-
-  /** Returns the rows without the first or the last in time, if all others are nearer to each other than to it: its stamp is wrong. */
-  #withoutStrayTime(rows: Uint32Array): Uint32Array {
-    if (rows.length < MIN_ROWS) return rows;
-    const times = this.#column(rows, (row) => this.#time(row)).sort();
-    const [first, second, secondLast, last] = [0, 1, -2, -1].map((i) => times.at(i) as number);
-    const strayTime = second - first > last - second ? first : last - secondLast > secondLast - first ? last : undefined;
-    return strayTime === undefined ? rows : this.#without(rows, 'stray', (row) => this.#time(row) === strayTime);
+    const rows = new Uint32Array(this.#times.length).map((_, row) => row);
+    const isSince1970 = this.#times.every((time) => time === 0 || epochTimeUnitOf(time) !== undefined);
+    return isSince1970 ? this.#without(rows, 'noStamp', (row) => this.#times[row] === 0) : rows;
   }
 
   /** Returns the rows in the order of their times, and the number of late rows. Throws a LogError if the clock was set back. */
   #sort(rows: Uint32Array): { sortedRows: Uint32Array; lateCount: number } {
-    const times = this.#column(rows, (row) => this.#time(row));
+    const { a, b } = this.#columns;
+    const times = Array.from(rows, (row) => this.#times[row]);
     // Runs are rows with rising times.
     const runOfRow = new Uint32Array(rows.length);
     for (let i = 1; i < rows.length; i++) runOfRow[i] = runOfRow[i - 1] + Number(times[i] < times[i - 1]);
     if (!runOfRow.at(-1)) return { sortedRows: rows, lateCount: 0 };
     const order = rows.map((_, i) => i).sort((one, other) => times[one] - times[other] || one - other);
     const medianStep = quantile(sampleEvenly(times.length - 1, (i) => times[order[i + 1]] - times[order[i]]).filter((step) => step > 0), 0.5);
-    const distance = (one: number, other: number) =>
-      Math.hypot(this.#number(rows[one], A) - this.#number(rows[other], A), this.#number(rows[one], B) - this.#number(rows[other], B));
+    const distance = (one: number, other: number) => Math.hypot(a[rows[one]] - a[rows[other]], b[rows[one]] - b[rows[other]]);
     // Rows overlap if they are close in time but not in the file. Rows that were only late make the path shorter when they are sorted.
     const overlaps: { run: number; sortedLength: number; fileLength: number }[] = [];
     for (let i = 1; i < order.length; i++) {
@@ -233,7 +194,7 @@ export class Rows {
     const [setBackRun] = [...group(overlaps, ({ run }) => run)].find(([, found]) => hasManyOverlaps || isSetBack(found, MAX_RUN_OVERLAPS)) ?? [];
     if (setBackRun !== undefined) {
       const setBackRow = runOfRow.indexOf(setBackRun);
-      const line = this.#number(rows[setBackRow], LINE);
+      const line = this.#columns.line[rows[setBackRow]];
       throw new LogError(this.#placeOf(line), (texts) => texts.setBack(times[setBackRow - 1] - times[setBackRow], this.#messageNumber(line)));
     }
     let newestTime = -Infinity;
@@ -245,7 +206,7 @@ export class Rows {
   #withoutEqualTimes(rows: Uint32Array): Uint32Array {
     let [lastTime, contradictions] = [-Infinity, 0];
     const distinctRows = this.#without(rows, 'duplicate', (row, i) => {
-      const time = this.#time(row);
+      const time = this.#times[row];
       const isEqual = time <= lastTime;
       if (isEqual && !this.#isSame(rows[i - 1], row)) contradictions += 1;
       lastTime = time;
@@ -281,10 +242,11 @@ export class Rows {
 
   /** Returns the rows that are not dropped. A break before a dropped row is moved to the next row. */
   #without(rows: Uint32Array, cause: DropCause, isDropped: (row: number, i: number) => boolean): Uint32Array {
+    const { line, isBroken } = this.#columns;
     return rows.filter((row, i) => {
       if (!isDropped(row, i)) return true;
-      this.#countDropped(cause, this.#number(row, LINE));
-      if (this.#number(row, IS_BROKEN) === 1 && i + 1 < rows.length) this.#numbers[ROW_WIDTH * rows[i + 1] + IS_BROKEN] = 1;
+      this.#countDropped(cause, line[row]);
+      if (i + 1 < rows.length) isBroken[rows[i + 1]] ||= isBroken[row];
       return false;
     });
   }

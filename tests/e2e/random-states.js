@@ -4,6 +4,7 @@
  * @module
  */
 
+import { settings } from '../../www/settings.js';
 import { randomGenerator } from '../random.js';
 
 export const STATE_SEEDS = [1, 2, 3, 4, 5, 6, 7, 8];
@@ -13,29 +14,25 @@ export function randomStates(seed) {
   const random = randomGenerator(seed);
   const randomNumber = (/** @type {number} */ min, /** @type {number} */ max) => min + (max - min) * random();
   const randomInteger = (/** @type {number} */ min, /** @type {number} */ max) => Math.floor(randomNumber(min, max + 1));
-  const randomItem = (/** @type {unknown[]} */ choices) => choices[randomInteger(0, choices.length - 1)];
+  const randomItem = (/** @type {readonly unknown[]} */ choices) => choices[randomInteger(0, choices.length - 1)];
+  const randomSublist = (/** @type {string} */ words) => words.split(' ').filter(() => random() < 0.5);
   const randomAlphas = (/** @type {number} */ count) => Array.from({ length: count }, () => randomNumber(0, 0.2));
   const randomPose = () => ({ x: randomNumber(-4, 4), y: randomNumber(-4, 4), theta: randomNumber(-4, 4) });
   const sampleCount = randomInteger(2, 3000);
-  const shownCount = randomItem([sampleCount, randomInteger(2, sampleCount)]);
-  const cloudState = {
-    version: 1,
+  const cloudFields = {
     samples: sampleCount,
     seed: randomInteger(0, 2 ** 53 - 1),
-    shown: shownCount,
+    shown: randomItem([sampleCount, randomInteger(2, sampleCount)]),
     playing: false,
     marked: randomItem([null, randomInteger(0, 1)]),
   };
   const command = { v: randomNumber(-1, 2), omega: randomNumber(-2, 2), dt: randomNumber(0.1, 3) };
-  const commandedCloudState = { ...cloudState, command };
-  const model = randomItem(['velocity', 'odometry']);
   const stepCount = randomInteger(1, 40);
-  return {
+  /** @type {Record<string, Record<string, unknown>>} */
+  const fieldsByTag = {
     'banana-machine': {
-      ...commandedCloudState,
-      widget: 'banana-machine',
-      model,
-      noise: randomItem(['normal', 'triangular']),
+      ...cloudFields,
+      command,
       alphas: { velocity: randomAlphas(6), odometry: randomAlphas(4) },
       isolate: randomItem([null, randomInteger(1, 4)]),
       isolateChoice: randomInteger(1, 6),
@@ -43,23 +40,20 @@ export function randomStates(seed) {
         null,
         { model: 'odometry', noise: 'normal', command: { v: 1, omega: 0.3, dt: 2 }, alphas: [0.1, 0.02, 0.05, 0.01], samples: randomInteger(1, 3000), seed: 9, isolate: null, reverseAware: true },
       ]),
-      reverseAware: randomItem([true, false]),
-      overlays: ['command', 'ellipse', 'exponential', 'linearized', 'additive'].filter(() => random() < 0.5),
+      overlays: randomSublist('command ellipse exponential linearized additive'),
       morph: random() < 0.5 ? 0 : random(),
     },
     'map-squeeze': {
-      ...commandedCloudState,
-      widget: 'map-squeeze',
+      ...cloudFields,
+      command,
       start: { x: randomNumber(1, 5), y: randomNumber(1, 3), theta: randomNumber(-3, 3) },
       alphas: randomAlphas(6),
       clearance: randomNumber(0, 0.2),
-      conditioned: randomItem([true, false]),
       // The whole-arc sampler always draws every sample, and its settings are valid in any order.
       sampler: 'whole-arc',
       steps: randomInteger(1, 64),
-      unknown: randomItem(['free', 'blocked']),
       view: randomItem(['whole', 'close']),
-      overlays: ['accepted', 'through', 'rejected', 'commanded', 'unknown'].filter(() => random() < 0.5),
+      overlays: randomSublist('accepted through rejected commanded unknown'),
       map: randomItem([
         null,
         { name: 'room.json', bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5], [0, 0, 6, 0]] },
@@ -68,67 +62,53 @@ export function randomStates(seed) {
       ]),
     },
     'arc-anatomy': {
-      version: 1,
-      widget: 'arc-anatomy',
       start: randomPose(),
       next: randomPose(),
       command,
       alphas: randomAlphas(6),
-      noise: randomItem(['normal', 'triangular']),
-      printed: randomItem([true, false]),
-      map: randomItem(['none', 'prob', 'density']),
-      overlays: ['commanded', 'inverted', 'wedge', 'chord', 'twist'].filter(() => random() < 0.5),
+      overlays: randomSublist('commanded inverted wedge chord twist'),
       line: randomInteger(0, 9),
       underway: randomInteger(0, 100),
     },
     'odometry-decomposer': {
-      ...cloudState,
-      widget: 'odometry-decomposer',
+      ...cloudFields,
       from: randomPose(),
       to: randomPose(),
-      rule: randomItem(['thrun', 'nav2', 'beluga', 'omni']),
       alphas: randomAlphas(5),
-      noise: randomItem(['normal', 'triangular']),
       correlation: randomNumber(-1, 1),
       drift: randomNumber(0, 200),
       phase: randomNumber(0, 3),
-      overlays: ['legs', 'deviation', 'outcomes', 'prediction', 'odometry', 'difference'].filter(() => random() < 0.5),
+      overlays: randomSublist('legs deviation outcomes prediction odometry difference'),
     },
     'dead-reckoning': {
-      ...commandedCloudState,
-      widget: 'dead-reckoning',
+      ...cloudFields,
+      command,
       steps: stepCount,
       step: randomInteger(1, stepCount),
       alphas: randomAlphas(6),
-      per: randomItem(['step', 'path']),
-      compounding: randomItem(['chapter', 'first-order', 'fourth-order']),
-      overlays: ['lateral', 'along', 'heading', 'tolerance', 'command', 'measured', 'ellipse', 'exponential'].filter(() => random() < 0.5),
+      overlays: randomSublist('lateral along heading tolerance command measured ellipse exponential'),
     },
     'alpha-calibrator': {
-      version: 1,
-      widget: 'alpha-calibrator',
       .../** @type {object} */ (randomItem([
         { model: 'odometry', rule: randomItem(['thrun', 'nav2', 'beluga']) },
         { model: 'omnidirectional', rule: 'omni' },
         { model: 'velocity', rule: randomItem(['thrun', 'nav2']) },
       ])),
-      noise: randomItem(['normal', 'triangular']),
-      outliers: randomItem(['reject', 'keep']),
       distance: randomNumber(0.1, 1),
       angle: randomNumber(0.1, 1),
       duration: randomItem([0, randomNumber(0.2, 2)]),
       positionStd: randomNumber(0, 0.02),
       yawStd: randomNumber(0, 0.02),
-      mountYaw: randomItem([true, false]),
-      leverArm: randomItem([true, false]),
-      distanceScale: randomItem([true, false]),
-      turnScale: randomItem([true, false]),
-      clockOffset: randomItem([true, false]),
       inflation: randomNumber(0.1, 5),
       seed: randomInteger(0, 2 ** 53 - 1),
       leg: randomItem([null, randomInteger(0, 20)]),
       regressor: randomItem(['turn', 'distance']),
-      overlays: ['likely', 'plausible', 'unlikely', 'implausible', 'outlier', 'odometry', 'predicted', 'reference'].filter(() => random() < 0.5),
+      overlays: randomSublist('likely plausible unlikely implausible outlier odometry predicted reference'),
     },
   };
+  return Object.fromEntries(Object.entries(fieldsByTag).map(([widget, fields]) => {
+    // Every word of a setting is allowed, and both values of one that is true or false.
+    const choices = settings[widget].flatMap(({ key, type, words = [true, false] }) => (['word', 'boolean'].includes(type) ? [[key, randomItem(words)]] : []));
+    return [widget, { version: 1, widget, ...Object.fromEntries(choices), ...fields }];
+  }));
 }

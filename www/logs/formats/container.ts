@@ -27,6 +27,8 @@ export interface Message {
 
 export type IsWanted = (channel: Channel) => boolean;
 export type OnMessage = (message: Message) => void;
+/** Called after each block with the share that has been read. Reading stops if it returns true. */
+export type OnBlock = (share: number) => boolean | void;
 
 export interface Container {
   format: Recording['format'];
@@ -35,8 +37,8 @@ export interface Container {
   cutReason: string | undefined;
   /** Reasons why damaged blocks were skipped, by the positions of the blocks. */
   damage: Map<number, string>;
-  /** Passes on the messages of channels, block by block, without those of damaged blocks. Stops after a block if `onProgress` returns true. */
-  read(isWanted: IsWanted, onMessage: OnMessage, onProgress?: (share: number) => boolean | void): Promise<void>;
+  /** Passes on the messages of channels, block by block, without those of damaged blocks. */
+  read(isWanted: IsWanted, onMessage: OnMessage, onProgress?: OnBlock): Promise<void>;
 }
 
 /** Base class of files of messages, with their channels by id. */
@@ -58,6 +60,26 @@ export abstract class MessageFile<Id> {
   protected noteDamage(position: number, error: unknown): void {
     if (error instanceof LogError) throw error;
     this.damage.set(position, reasonOf(error));
+  }
+
+  /**
+   * Reads blocks at the positions of an index, or without an index one after the other. Damaged blocks are noted. Without an index, the blocks
+   * after one whose end is unknown cannot be found.
+   *
+   * @param readBlock calls `setEnd` when it knows the end of the block
+   */
+  protected async readBlocks(positions: number[] | undefined, start: number, readBlock: (at: number, setEnd: (end: number) => void) => Promise<void>, onProgress?: OnBlock): Promise<void> {
+    const { size } = this.source;
+    this.cutReason = undefined;
+    for (let i = 0, at = start; positions ? i < positions.length : at < size; i++) {
+      const position = positions ? positions[i] : at;
+      at = 0;
+      await readBlock(position, (end) => (at = end)).catch((error) => {
+        if (positions || at > 0 || error instanceof LogError) this.noteDamage(position, error);
+        else [this.cutReason, at] = [reasonOf(error), size];
+      });
+      if (onProgress?.(positions ? (i + 1) / positions.length : at / size)) return;
+    }
   }
 }
 

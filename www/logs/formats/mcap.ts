@@ -4,7 +4,7 @@ import { crc32 } from '@foxglove/crc';
 import { McapIndexedReader, McapStreamReader } from '@mcap/core';
 import { readBytes } from '../log-error.ts';
 import type { Source } from '../log.ts';
-import { MAX_BLOCK_BYTES, MessageFile, readAhead, uint53, dataViewOf, type Container, type IsWanted, type OnMessage } from './container.ts';
+import { MAX_BLOCK_BYTES, MessageFile, readAhead, uint53, dataViewOf, type Container, type IsWanted, type OnBlock, type OnMessage } from './container.ts';
 import { unlz4 } from './lz4.ts';
 import { loadZstd, unzstd } from './zstd.ts';
 
@@ -54,50 +54,27 @@ class Mcap extends MessageFile<number> implements Container {
     if (!this.channelsById.has(id)) this.channelsById.set(id, { topic, type: this.#types.get(schemaId) ?? '', encoding: messageEncoding, count });
   }
 
-  async read(isWanted: IsWanted, onMessage: OnMessage, onProgress?: (share: number) => boolean | void): Promise<void> {
-    if (!this.#chunks) return this.#readFromStart(isWanted, onMessage, onProgress);
-    const wantedIds = new Set([...this.channelsById].filter(([, channel]) => isWanted(channel)).map(([id]) => id));
-    const wantedChunks = this.#chunks.filter(({ messageIndexOffsets }) => [...messageIndexOffsets.keys()].some((id) => wantedIds.has(id)));
-    const readBytesAt = readAhead(this.source);
-    for (const [i, { chunkStartOffset, chunkLength }] of wantedChunks.entries()) {
-      const from = Number(chunkStartOffset);
-      await this.#skipIfDamaged(from, async () => {
-        if (chunkLength > MAX_BLOCK_BYTES) throw new RangeError(`a chunk of ${chunkLength} bytes`);
-        const bytes = await readBytesAt(from, from + Number(chunkLength));
-        if (bytes[0] !== CHUNK) throw new RangeError('no chunk is there');
-        this.#readRecords(await recordsOf(bytes.subarray(RECORD_HEAD_BYTES)), isWanted, onMessage);
-      });
-      if (onProgress?.((i + 1) / wantedChunks.length)) return;
-    }
-  }
-
-  async #readFromStart(isWanted: IsWanted, onMessage: OnMessage, onProgress?: (share: number) => boolean | void): Promise<void> {
+  async read(isWanted: IsWanted, onMessage: OnMessage, onProgress?: OnBlock): Promise<void> {
     const { size } = this.source;
     const readBytesAt = readAhead(this.source);
-    this.cutReason = 'it ends without an index';
-    for (let at = MAGIC_BYTES, nextReport = 0; at + RECORD_HEAD_BYTES <= size; ) {
+    const wantedIds = new Set([...this.channelsById].filter(([, channel]) => isWanted(channel)).map(([id]) => id));
+    const wantedChunks = this.#chunks?.filter(({ messageIndexOffsets }) => [...messageIndexOffsets.keys()].some((id) => wantedIds.has(id)));
+    let isComplete = wantedChunks !== undefined;
+    const readBlock = async (at: number, setEnd: (end: number) => void) => {
       const recordHead = await readBytesAt(at, at + RECORD_HEAD_BYTES);
-      const recordLength = uint53(dataViewOf(recordHead), 1);
-      const nextRecord = at + RECORD_HEAD_BYTES + recordLength;
-      if (recordHead[0] === DATA_END) this.cutReason = undefined;
-      if (recordHead[0] === DATA_END || nextRecord > size) return;
-      if ([SCHEMA, CHANNEL, MESSAGE, CHUNK].includes(recordHead[0])) {
-        await this.#skipIfDamaged(at, async () => {
-          if (recordLength > MAX_BLOCK_BYTES) throw new RangeError(`a record of ${recordLength} bytes`);
-          const record = await readBytesAt(at, nextRecord);
-          this.#readRecords(recordHead[0] === CHUNK ? await recordsOf(record.subarray(RECORD_HEAD_BYTES)) : record, isWanted, onMessage);
-        });
-      }
-      at = nextRecord;
-      if (at < nextReport) continue;
-      if (onProgress?.(at / size)) return;
-      nextReport = at + size / 100;
-    }
-  }
-
-  /** Reads a block, or notes its damage. */
-  async #skipIfDamaged(position: number, readBlock: () => Promise<void>): Promise<void> {
-    await readBlock().catch((error) => this.noteDamage(position, error));
+      const [opcode, length] = [recordHead[0], uint53(dataViewOf(recordHead), 1)];
+      const end = at + RECORD_HEAD_BYTES + length;
+      if (end > size) throw new RangeError('a record is cut short');
+      isComplete ||= opcode === DATA_END;
+      setEnd(isComplete ? size : end);
+      if (wantedChunks && opcode !== CHUNK) throw new RangeError('no chunk is there');
+      if (![SCHEMA, CHANNEL, MESSAGE, CHUNK].includes(opcode)) return;
+      if (length > MAX_BLOCK_BYTES) throw new RangeError(`a record of ${length} bytes`);
+      const record = await readBytesAt(at, end);
+      this.#readRecords(opcode === CHUNK ? await recordsOf(record.subarray(RECORD_HEAD_BYTES)) : record, isWanted, onMessage);
+    };
+    await this.readBlocks(wantedChunks?.map(({ chunkStartOffset }) => Number(chunkStartOffset)), MAGIC_BYTES, readBlock, onProgress);
+    if (!isComplete) this.cutReason ??= 'it ends without an index';
   }
 
   #readRecords(bytes: Uint8Array, isWanted: IsWanted, onMessage: OnMessage): void {

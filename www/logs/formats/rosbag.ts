@@ -1,8 +1,8 @@
 /** Connections and messages of ROS 1 bags. http://wiki.ros.org/Bags/Format/2.0 */
 
-import { LogError, readBytes, reasonOf } from '../log-error.ts';
+import { LogError, readBytes } from '../log-error.ts';
 import type { Source } from '../log.ts';
-import { MAX_BLOCK_BYTES, MessageFile, readAhead, dataViewOf, uint53, type Container, type IsWanted, type OnMessage } from './container.ts';
+import { MAX_BLOCK_BYTES, MessageFile, readAhead, dataViewOf, uint53, type Container, type IsWanted, type OnBlock, type OnMessage } from './container.ts';
 import { unlz4 } from './lz4.ts';
 
 /** Values of the field "op" of records. */
@@ -118,42 +118,29 @@ class Rosbag extends MessageFile<number> implements Container {
     this.channelsById.set(id, { topic: fields.text('topic'), type: new HeaderFields(dataViewOf(data)).text('type'), encoding: 'ros1', count: 0 });
   }
 
-  async read(isWanted: IsWanted, onMessage: OnMessage, onProgress?: (share: number) => boolean | void): Promise<void> {
+  async read(isWanted: IsWanted, onMessage: OnMessage, onProgress?: OnBlock): Promise<void> {
     const { size } = this.source;
     const readBytesAt = readAhead(this.source);
     const wantedIds = new Set([...this.channelsById].filter(([, channel]) => isWanted(channel)).map(([id]) => id));
     const wantedChunks = this.#chunks?.filter(({ connections }) => connections.some((id) => wantedIds.has(id)));
-    this.cutReason = undefined;
-    for (let i = 0, at = MAGIC_BYTES; wantedChunks ? i < wantedChunks.length : at < size; i++) {
-      if (wantedChunks) at = wantedChunks[i].position;
-      const recordStart = at;
-      try {
-        if (at + 8 > size) throw new RangeError('a record is cut short');
-        let recordHead = await readBytesAt(at, Math.min(at + HEADER_BYTES, size));
-        const headerLength = dataViewOf(recordHead).getUint32(0, true);
-        if (headerLength > MAX_BLOCK_BYTES || at + headerLength + 8 > size) throw new RangeError('a header is damaged or cut short');
-        if (headerLength + 8 > recordHead.length) recordHead = await readBytesAt(at, Math.min(at + headerLength + 8, size));
-        const dataLength = dataViewOf(recordHead).getUint32(4 + headerLength, true);
-        const from = at + 8 + headerLength;
-        if (from + dataLength > size) throw new RangeError('a record is cut short');
-        at = from + dataLength;
-        const fields = new HeaderFields(dataViewOf(recordHead), 4, 4 + headerLength);
-        const op = fields.byte('op');
-        if (op === CONNECTION) this.#addConnection(fields, await readBytesAt(from, at));
-        if (op === CHUNK) {
-          if (Math.max(dataLength, fields.uint32('size')) > MAX_BLOCK_BYTES) throw new RangeError(`a chunk of ${fields.uint32('size')} bytes`);
-          await this.#readChunk(fields, await readBytesAt(from, at), isWanted, onMessage);
-        } else if (wantedChunks) throw new RangeError('no chunk is there');
-      } catch (error) {
-        if (wantedChunks || at > recordStart || error instanceof LogError) this.noteDamage(recordStart, error);
-        else {
-          // Without an index and without a length, the next record cannot be found.
-          this.cutReason = reasonOf(error);
-          return;
-        }
-      }
-      if (onProgress?.(wantedChunks ? (i + 1) / wantedChunks.length : at / size)) return;
-    }
+    const readBlock = async (at: number, setEnd: (end: number) => void) => {
+      let recordHead = await readBytesAt(at, Math.min(at + HEADER_BYTES, size));
+      const headerLength = dataViewOf(recordHead).getUint32(0, true);
+      if (headerLength > MAX_BLOCK_BYTES || at + headerLength + 8 > size) throw new RangeError('a header is damaged or cut short');
+      if (headerLength + 8 > recordHead.length) recordHead = await readBytesAt(at, Math.min(at + headerLength + 8, size));
+      const from = at + 8 + headerLength;
+      const end = from + dataViewOf(recordHead).getUint32(4 + headerLength, true);
+      if (end > size) throw new RangeError('a record is cut short');
+      setEnd(end);
+      const fields = new HeaderFields(dataViewOf(recordHead), 4, 4 + headerLength);
+      const op = fields.byte('op');
+      if (op === CONNECTION) this.#addConnection(fields, await readBytesAt(from, end));
+      if (op === CHUNK) {
+        if (Math.max(end - from, fields.uint32('size')) > MAX_BLOCK_BYTES) throw new RangeError(`a chunk of ${fields.uint32('size')} bytes`);
+        await this.#readChunk(fields, await readBytesAt(from, end), isWanted, onMessage);
+      } else if (wantedChunks) throw new RangeError('no chunk is there');
+    };
+    await this.readBlocks(wantedChunks?.map(({ position }) => position), MAGIC_BYTES, readBlock, onProgress);
   }
 
   async #readChunk(chunk: HeaderFields, compressed: Uint8Array, isWanted: IsWanted, onMessage: OnMessage): Promise<void> {

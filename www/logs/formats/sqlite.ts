@@ -2,7 +2,7 @@
 
 import { LogError, readBytes } from '../log-error.ts';
 import type { Source } from '../log.ts';
-import { MessageFile, readAhead, dataViewOf, type Channel, type Container, type Message } from './container.ts';
+import { MessageFile, readAhead, dataViewOf, type Channel, type Container, type IsWanted, type OnBlock, type OnMessage } from './container.ts';
 import { loadZstd } from './zstd.ts';
 
 /** Types of the pages of a table's B-tree. */
@@ -87,7 +87,7 @@ class Rosbag2 extends MessageFile<SqliteValue> implements Container {
     });
   }
 
-  async read(isWanted: (channel: Channel) => boolean, onMessage: (message: Message) => void, onProgress?: (share: number) => boolean | void): Promise<void> {
+  async read(isWanted: IsWanted, onMessage: OnMessage, onProgress?: OnBlock): Promise<void> {
     const wantedChannels = new Map([...this.channelsById].filter(([, channel]) => isWanted(channel)));
     const [topicId, timestamp, data] = ['topic_id', 'timestamp', 'data'].map((column) => this.#messages.columns.indexOf(column));
     const passRow = (channel: Channel, bytes: Uint8Array) => {
@@ -102,7 +102,7 @@ class Rosbag2 extends MessageFile<SqliteValue> implements Container {
   }
 
   /** Calls `onRow` for the rows of a table in the order of their ids. Damaged pages are skipped. */
-  async #eachRow({ root }: Table, onRow: (row: Row) => void | Promise<void>, onProgress?: (share: number) => boolean | void): Promise<void> {
+  async #eachRow({ root }: Table, onRow: (row: Row) => void | Promise<void>, onProgress?: OnBlock): Promise<void> {
     // In an incomplete file interior pages may be missing, so all pages are tried. Pages of other tables then fail without a note.
     const triesAllPages = this.cutReason !== undefined && root === this.#messages.root;
     const leafPages = triesAllPages ? Array.from({ length: this.source.size / this.#pageSize }, (_, i) => i + 1) : await this.#leavesOf(root);

@@ -2,14 +2,14 @@
 
 import { bisectLeft, extent, ticks } from 'd3-array';
 import type { Drive } from '../logs/drives.ts';
-import { alignedPath, pathOf, poseAt, type Path } from '../logs/path.ts';
+import { alignedPath, pathOf, poseAt, svgPathData, type Path } from '../logs/path.ts';
 import { escapeXml } from '../scene/svg.ts';
 
 /** Width, maximum height and margins of a panel, in pixels. Title and axes are in the margins. */
 const [WIDTH, HEIGHT, MARGIN] = [800, 800, { top: 64, right: 24, bottom: 56, left: 64 }];
 
-/** Minimum distance of successive points of a line, pixels. Points that are closer are left out. */
-const MIN_STEP_PX = 0.5;
+/** Maximum number of points of a path. */
+const MAX_POINTS = 10_000;
 
 /** Distance of the paths from the axes, in pixels. */
 const INSET_PX = 12;
@@ -35,10 +35,10 @@ ${panelSvgs.join('\n')}
 }
 
 function drivePanel({ odometry, reference }: Drive, { legs, systematicErrors }: any): { svg: string; height: number } {
-  const referencePath = pathOf(reference.data);
+  const [drivenPath, referencePath] = [odometry.data, reference.data].map((data) => pathOf(data, Math.ceil(data.t.length / MAX_POINTS)));
   // The times of legs are those of the odometry's clock.
   const clockOffset = systematicErrors.clockOffset.value ?? 0;
-  const odometryPath = alignedPath(pathOf(odometry.data), referencePath, clockOffset);
+  const odometryPath = alignedPath(drivenPath, referencePath, clockOffset);
   const [startTime, endTime] = [odometry.data.t[0], odometry.data.t[odometry.data.t.length - 1]];
   const legsOfDrive = Array.from({ length: legs.count }, (_, leg) => ({ from: legs.times[2 * leg], to: legs.times[2 * leg + 1], isOutlier: legs.outliers[leg] === 1 })).filter((leg) => leg.from >= startTime && leg.to <= endTime);
   const outlierLegs = legsOfDrive.filter(({ isOutlier }) => isOutlier);
@@ -51,22 +51,11 @@ function drivePanel({ odometry, reference }: Drive, { legs, systematicErrors }: 
   const xPixel = (value: number) => MARGIN.left + INSET_PX + (value - left) * pixelsPerMetre;
   const yPixel = (value: number) => height - MARGIN.bottom - INSET_PX - (value - bottom) * pixelsPerMetre;
   const pixelText = (value: number) => value.toFixed(1);
-  const pathData = ({ poses, breaks }: Pick<Path, 'poses' | 'breaks'>) => {
-    let d = '';
-    let lastPoint: [x: number, y: number] | undefined;
-    for (const [i, pose] of poses.entries()) {
-      const pixelPoint: typeof lastPoint = [xPixel(pose[0]), yPixel(pose[1])];
-      const isBroken = !lastPoint || breaks.has(i);
-      if (!isBroken && i < poses.length - 1 && lastPoint && Math.hypot(pixelPoint[0] - lastPoint[0], pixelPoint[1] - lastPoint[1]) < MIN_STEP_PX) continue;
-      d += `${isBroken ? 'M' : 'L'}${pixelText(pixelPoint[0])} ${pixelText(pixelPoint[1])}`;
-      lastPoint = pixelPoint;
-    }
-    return d;
-  };
+  const pathData = (path: Path) => svgPathData(path, ([x, y]) => [xPixel(x), yPixel(y)]);
   const legEndDots = legsOfDrive.map((leg) => poseAt(referencePath, leg.to + clockOffset)).map((pose) => `M${pixelText(xPixel(pose[0]))} ${pixelText(yPixel(pose[1]))}h0`).join('');
   const outlierPaths = outlierLegs.map((leg) => {
     const [firstIndex, lastIndex] = [bisectLeft(referencePath.t, leg.from + clockOffset), bisectLeft(referencePath.t, leg.to + clockOffset)];
-    return pathData({ poses: referencePath.poses.slice(firstIndex, lastIndex + 1), breaks: new Set() });
+    return pathData({ t: [], poses: referencePath.poses.slice(firstIndex, lastIndex + 1), breaks: new Set() });
   }).join('');
   const axisSvg = (isX: boolean) => ticks(isX ? left : bottom, isX ? right : top, 6).map((value) => {
     const [tickPixel, label] = [isX ? xPixel(value) : yPixel(value), String(Number(value.toPrecision(6))).replace('-', '−')];

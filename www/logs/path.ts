@@ -45,6 +45,10 @@ export function poseAt({ t, poses }: Path, time: number): Pose {
   return [a[0] + fraction * (b[0] - a[0]), a[1] + fraction * (b[1] - a[1]), a[2] + fraction * wrapAngle(b[2] - a[2])];
 }
 
+/** Returns a path as the data of an SVG path. */
+export const svgPathData = ({ poses, breaks }: Path, toPixel: (pose: Pose) => number[]) =>
+  poses.map((pose, i) => `${i === 0 || breaks.has(i) ? 'M' : 'L'}${toPixel(pose).map((value) => value.toFixed(1)).join(' ')}`).join('');
+
 /** Rotates and moves a path so that its squared distance to the target is smallest. Times of the target are later by `offset`. */
 export function alignedPath(path: Path, target: Path, offset = 0): Path {
   const posePairs = path.poses.flatMap((pose, i): [Pose, Pose][] => {

@@ -5,7 +5,7 @@ import { guard } from 'lit/directives/guard.js';
 import { live } from 'lit/directives/live.js';
 import { findCandidates, readableSeries } from '../../logs/candidates.ts';
 import { ROLES, UNITS, framesText, type LogChoice, type Question, type Recording, type Role } from '../../logs/log.ts';
-import { alignedPath, pathOf, type Path } from '../../logs/path.ts';
+import { alignedPath, pathOf, svgPathData, type Path } from '../../logs/path.ts';
 import { summaryLines } from '../../logs/summary.ts';
 import { language } from '../../messages/registry.ts';
 import { radioGroup } from '../../ui/controls.ts';
@@ -179,9 +179,7 @@ function pathsPicture({ odometry, reference }: Drive, { found }: LogWords) {
   const axisRanges = ([0, 1] as const).map((axis) => [Math.min(...allPoses.map((pose) => pose[axis])), Math.max(...allPoses.map((pose) => pose[axis]))]);
   const [width, height] = axisRanges.map(([low, high]) => high - low);
   const pixelsPerMetre = Math.min((WIDTH - 2 * MARGIN) / Math.max(width, 0.1), (HEIGHT - 2 * MARGIN) / Math.max(height, 0.1));
-  const formatCoordinate = (value: number) => value.toFixed(1);
-  const pathData = ({ poses, breaks }: Path) => poses.map(([x, y], i) =>
-    `${i === 0 || breaks.has(i) ? 'M' : 'L'}${formatCoordinate(MARGIN + (x - axisRanges[0][0]) * pixelsPerMetre)} ${formatCoordinate(HEIGHT - MARGIN - (y - axisRanges[1][0]) * pixelsPerMetre)}`).join('');
+  const pathData = (path: Path) => svgPathData(path, ([x, y]) => [MARGIN + (x - axisRanges[0][0]) * pixelsPerMetre, HEIGHT - MARGIN - (y - axisRanges[1][0]) * pixelsPerMetre]);
   const captionText = found.paths(fixed(width, 1), fixed(height, 1));
   return html`<figure class="paths">
     <svg viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" aria-label=${captionText}>

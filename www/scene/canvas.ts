@@ -94,6 +94,14 @@ export function strokePath(context: Context, { colour, width, dash = [] }: LineS
   context.setLineDash([]);
 }
 
+/** Fills a path in pixels. */
+export function fillPath(context: Context, colour: string, path: () => void) {
+  context.fillStyle = colour;
+  context.beginPath();
+  path();
+  context.fill();
+}
+
 /** Adds a line through points in pixels to the path. */
 export const addLine = (context: Context, points: number[][]) => points.forEach(([x, y], i) => (i ? context.lineTo(x, y) : context.moveTo(x, y)));
 
@@ -102,11 +110,6 @@ export const strokeLine = (context: Context, points: number[][], style: LineStro
 /** Draws a disc in pixels, filled, with an edge, or both. */
 export function drawDisc(context: Context, [x, y]: number[], radius: number, fill?: string, edge?: LineStroke) {
   const addCircle = () => context.arc(x, y, radius, 0, 2 * Math.PI);
-  if (fill) {
-    context.fillStyle = fill;
-    context.beginPath();
-    addCircle();
-    context.fill();
-  }
+  if (fill) fillPath(context, fill, addCircle);
   if (edge) strokePath(context, edge, addCircle);
 }

@@ -74,7 +74,6 @@ function drawPath(brush: Painter, legs: CalibrationLegs, odometry: Float64Array,
   if (overlays.includes('outlier')) drawRings(brush, outlierEnds(brush, legs));
 }
 
-/** Returns the ends of the outliers, CSS pixels. */
 function outlierEnds({ view }: Painter, { outliers, reference }: CalibrationLegs): [number, number][] {
   const outlierLegs = [...outliers.keys()].filter((leg) => outliers[leg] > 0);
   return outlierLegs.map((leg) => view.toPixel(reference[6 * leg + 3], reference[6 * leg + 4]));

@@ -43,10 +43,7 @@ export class SummaryPicture extends Picture<Scene> {
     context.save();
     pathPicture.paint({ ...brush, view: pathPicture.view }, scene);
     context.restore();
-    context.fillStyle = palette.ink;
-    context.font = brush.font;
-    context.textAlign = 'left';
-    context.textBaseline = 'top';
+    Object.assign(context, { fillStyle: palette.ink, font: brush.font, textAlign: 'left', textBaseline: 'top' });
     const alphasLeft = PATH_SIZE.width + 20;
     let y = 2;
     for (const sentence of [`${words.calibrator.alphas.caption}:`, ...alphaTexts(viewModel)]) y = writeText(context, sentence, alphasLeft, y, WIDTH - alphasLeft) + LINE_HEIGHT / 3;
@@ -58,17 +55,13 @@ export class SummaryPicture extends Picture<Scene> {
 
 /** Writes a text in lines that are not longer than the width, and returns the y of the next line. */
 function writeText(context: CanvasRenderingContext2D, sentence: string, x: number, y: number, width: number): number {
-  let textLine = '';
-  for (const nextWord of sentence.split(' ')) {
-    const extendedLine = textLine && `${textLine} ${nextWord}`;
-    if (extendedLine && context.measureText(extendedLine).width <= width) {
-      textLine = extendedLine;
-      continue;
-    }
-    if (textLine) context.fillText(textLine, x, y);
-    if (textLine) y += LINE_HEIGHT;
-    textLine = nextWord;
+  const [firstWord, ...otherWords] = sentence.split(' ');
+  const textLines = [firstWord];
+  for (const nextWord of otherWords) {
+    const extendedLine = `${textLines.at(-1)} ${nextWord}`;
+    if (context.measureText(extendedLine).width <= width) textLines.splice(-1, 1, extendedLine);
+    else textLines.push(nextWord);
   }
-  context.fillText(textLine, x, y);
-  return y + LINE_HEIGHT;
+  textLines.forEach((textLine, i) => context.fillText(textLine, x, y + i * LINE_HEIGHT));
+  return y + textLines.length * LINE_HEIGHT;
 }

@@ -2,7 +2,7 @@
 
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
-import { addLine, drawDisc, strokePath, strokeLine, type Brush, type LineStroke } from '../../scene/canvas.ts';
+import { addLine, drawDisc, fillPath, paintWithOpacity, strokePath, strokeLine, type Brush, type LineStroke } from '../../scene/canvas.ts';
 import { drawOutlines, drawRobot, lineLegendEntries, lineStyles, strokeLines, addPolyline, densityRamp } from '../../scene/draw.ts';
 import { drawLabel } from '../../scene/labels.ts';
 import { Memo } from '../../scene/memo.ts';
@@ -89,7 +89,8 @@ export class ArcPicture extends Picture<Scene> {
           ...styles.inverted,
           side: 1,
           angle: `ω̂Δt = ${fixed(inverted.turn, 2)}`,
-          radius: `r* = ${printed ? fixed(Math.abs(inverted.radius), 2) : signedRadiusText(inverted.radius)} m`,
+          // The radius is positive if the centre is to the left. As printed, it has no sign.
+          radius: `r* = ${inverted.radius > 0 && !printed ? '+' : ''}${fixed(printed ? Math.abs(inverted.radius) : inverted.radius, 2)} m`,
         });
       }
       if (showsLine('chord')) strokeLines(brush, [{ points: Float64Array.of(start.x, start.y, next.x, next.y), ...styles.chord }]);
@@ -169,14 +170,10 @@ function visibleFraction({ left, right, top, bottom }: import('../../scene/view.
 /** Draws a wedge for the last turn (rad), by which the final heading differs from the heading at the end of the arc. */
 function drawWedge({ context, view }: Brush, next: Pose, turn: number, colour: string) {
   const [x, y] = view.toPixel(next.x, next.y);
-  context.beginPath();
-  context.moveTo(x, y);
-  context.arc(x, y, WEDGE_RADIUS, turn - next.theta, -next.theta, turn > 0);
-  context.lineTo(x, y);
-  context.fillStyle = colour;
-  context.globalAlpha = 0.32;
-  context.fill();
-  context.globalAlpha = 1;
+  paintWithOpacity(context, 0.32, () => fillPath(context, colour, () => {
+    context.moveTo(x, y);
+    context.arc(x, y, WEDGE_RADIUS, turn - next.theta, -next.theta, turn > 0);
+  }));
   // Edge of the wedge along the heading at the end of the arc.
   strokeLine(context, view.ray({ ...next, theta: next.theta - turn }, WEDGE_RADIUS), { colour, width: 1.25 });
 }
@@ -234,9 +231,6 @@ function strokeAngle(context: Brush['context'], [x, y]: number[], [fromX, fromY]
   strokePath(context, style, () => context.arc(x, y, radius, firstAngle, firstAngle - turn, turn > 0));
 }
 
-/** Prints a radius with its sign: positive if the centre is to the left. */
-const signedRadiusText = (radius: number) => (radius > 0 ? `+${fixed(radius, 2)}` : fixed(radius, 2));
-
 class SurfaceLayer {
   #pixels = new Pixels();
   #surfaceMemo: Memo<AnatomySurface | null> = new Memo();
@@ -250,13 +244,10 @@ class SurfaceLayer {
     const { columns, shades, prob, density } = surface;
     this.#pixelsMemo.get([surface, palette], () => this.#pixels.setPixels(colouredPixels(shades, palette), columns));
     this.#pixels.draw(brush);
-    brush.context.globalAlpha = 0.7;
-    for (const [lines, { role, width, dash }] of [[prob, CONTOUR_STYLES.prob], [density, CONTOUR_STYLES.density]] as const) {
-      strokePath(brush.context, { colour: palette[role], width, dash }, () => {
-        for (const line of lines) addPolyline(brush, line);
-      });
-    }
-    brush.context.globalAlpha = 1;
+    const strokeContours = (lines: Float64Array[], { role, width, dash }: typeof CONTOUR_STYLES.prob | typeof CONTOUR_STYLES.density) =>
+      paintWithOpacity(brush.context, 0.7, () => strokePath(brush.context, { colour: palette[role], width, dash }, () => lines.forEach((line) => addPolyline(brush, line))));
+    strokeContours(prob, CONTOUR_STYLES.prob);
+    strokeContours(density, CONTOUR_STYLES.density);
   }
 }
 

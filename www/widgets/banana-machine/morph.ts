@@ -3,7 +3,7 @@
 import { ticks } from 'd3-array';
 import { html } from 'lit';
 import { words } from '../../messages/registry.ts';
-import { addLine, strokePath, type Brush } from '../../scene/canvas.ts';
+import { addLine, paintWithOpacity, strokePath, type Brush } from '../../scene/canvas.ts';
 import { View, type Extent } from '../../scene/view.ts';
 import { percent } from '../../ui/format.ts';
 import { track } from '../../ui/slider.ts';
@@ -125,15 +125,13 @@ const CHORDS_PER_LINE = 32;
 
 /** Draws the grid of exponential coordinates at a morph. `end` is the view at the end of the morph. */
 export function drawMorphGrid({ context, view, palette }: Brush, { extent: { xMin, xMax, yMin, yMax } }: View, morph: number) {
-  // The grid becomes visible early in the morph, and ends as the straight grid of the axes.
-  context.globalAlpha = 0.7 * Math.min(1, 5 * morph);
   const drawGridLine = (pointAt: (share: number) => [along: number, heading: number]) => addLine(context, Array.from({ length: CHORDS_PER_LINE + 1 }, (_, i) => {
     const [along, heading] = pointAt(i / CHORDS_PER_LINE);
     return view.toPixel(...morphedPoint([along, 0, heading], morph));
   }));
-  strokePath(context, { colour: palette.rule, width: 1 }, () => {
+  // The grid becomes visible early in the morph, and ends as the straight grid of the axes.
+  paintWithOpacity(context, 0.7 * Math.min(1, 5 * morph), () => strokePath(context, { colour: palette.rule, width: 1 }, () => {
     for (const along of ticks(xMin, xMax, GRID_LINES)) drawGridLine((share) => [along, yMin + share * (yMax - yMin)]);
     for (const heading of ticks(yMin, yMax, GRID_LINES)) drawGridLine((share) => [xMin + share * (xMax - xMin), heading]);
-  });
-  context.globalAlpha = 1;
+  }));
 }

@@ -10,13 +10,12 @@ import { Memo } from '../../scene/memo.ts';
 import { Picture } from '../../scene/picture.ts';
 import { Density } from '../../scene/pixels.ts';
 import { View, extentOf } from '../../scene/view.ts';
-import { clamp } from '../../ui/clamp.ts';
 import { integer } from '../../ui/format.ts';
 import { drawMorphGrid, MorphView, morphedPoint, type Outlines } from './morph.ts';
 import { deviationOf, type ViewModel } from './view-model.ts';
 import { LINE_STYLES, type LineName } from './settings.ts';
 import type { BananaMachine, Inspection, Moments } from '../../types.d.ts';
-import { addLine, drawDisc, strokePath, type Brush } from '../../scene/canvas.ts';
+import { addLine, drawDisc, paintWithOpacity, strokePath, type Brush } from '../../scene/canvas.ts';
 
 /**
  * View model of both pictures. Outlines are transformed by the present morph. `morphedEllipse` is the ellipse after a complete morph.
@@ -156,11 +155,10 @@ export class PlanePicture extends CloudPicture {
       { view: twist, opacity: 2 * morph - 1, names: { x: words.banana.axisAlong, y: words.banana.axisHeading } },
     ];
     for (const { view: axesView, opacity, names } of axesOfEndViews) {
-      context.globalAlpha = clamp(opacity, 0, 1);
       // While the grid of exponential coordinates is curved, `drawMorphGrid` draws it.
-      if (opacity > 0) drawAxes({ ...brush, view: axesView }, names, legendEntries, axesView === twist && morph < 1 ? 0 : undefined);
+      const gridOpacity = axesView === twist && morph < 1 ? 0 : undefined;
+      if (opacity > 0) paintWithOpacity(context, Math.min(1, opacity), () => drawAxes({ ...brush, view: axesView }, names, legendEntries, gridOpacity));
     }
-    context.globalAlpha = 1;
     const cloudMiddle = morphedMiddle(scene, morph);
     const outlinesInStyle = (outlinePoints: Outlines) => PAINT_ORDER.filter(isDrawn).map((name) => ({ points: outlinePoints[name], ...styles[name] }));
     const earlierViewModel = earlierViewModelOf(brush, scene);

@@ -8,7 +8,7 @@ import { Picture, SamplesPicture } from '../../scene/picture.ts';
 import { View, extentAround, extentOf } from '../../scene/view.ts';
 import { formatSignificant } from '../../ui/format.ts';
 import { OUTLINE_STYLES } from './settings.ts';
-import { drawDisc, type Brush } from '../../scene/canvas.ts';
+import { drawDisc, paintWithOpacity, type Brush } from '../../scene/canvas.ts';
 
 /** View model of both pictures, with the poses of the selected robot after each step. */
 export type Scene = import('./view-model.ts').ViewModel & { marked: Float64Array | undefined, overlays: string[] };
@@ -18,6 +18,9 @@ const SHOWN_DEVIATIONS = 3.2;
 
 /** Dots of the clouds at milestones: maximum number, radius in CSS pixels, and opacity. */
 const MILESTONE_DOTS = { max: 200, radius: 1.3, alpha: 0.4 };
+
+/** Radius of the mark at the commanded end, CSS pixels. */
+const END_MARK_RADIUS = 4;
 
 export type OutlineName = keyof typeof OUTLINE_STYLES;
 
@@ -52,7 +55,8 @@ export class PathPicture extends SamplesPicture<Scene> {
       if (brush.previousViewModel) callouts.push(...drawEarlierOutlines(brush, linesOf(brush.previousViewModel.outlines), [pose, [0, 0]], words.before));
       drawOutlines(brush, linesOf(outlines));
       drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
-      drawEndMark(brush, pose);
+      // The mark of the commanded position is small, so that the cloud around it is visible.
+      drawDisc(brush.context, brush.view.toPixel(pose[0], pose[1]), END_MARK_RADIUS, palette.prior, { colour: palette.paper, width: 1.5 });
       if (!marked) return;
       strokeLines(brush, [{ points: Float64Array.from([0, 0, ...marked.filter((_, i) => i % 3 < 2)]), colour: palette.accent, width: 1.25, dash: [6, 2] }]);
       const [x, y, heading] = marked.subarray(3 * (step - 1));
@@ -62,23 +66,12 @@ export class PathPicture extends SamplesPicture<Scene> {
   };
 }
 
-/** Half the size of the mark at the commanded end, CSS pixels. */
-const END_MARK_RADIUS = 4;
-
-/** Marks the commanded position after the step. The mark is small, so that the cloud around it is visible. */
-function drawEndMark({ context, view, palette }: Brush, [x, y]: Float64Array) {
-  drawDisc(context, view.toPixel(x, y), END_MARK_RADIUS, palette.prior, { colour: palette.paper, width: 1.5 });
-}
-
 function drawMilestone({ context, view, palette }: Brush, poses: Float64Array) {
   context.fillStyle = palette.cloud;
-  context.globalAlpha = MILESTONE_DOTS.alpha;
-  const dotSide = 2 * MILESTONE_DOTS.radius;
-  const dotCount = Math.min(MILESTONE_DOTS.max, poses.length / 3);
-  for (let i = 0; i < dotCount; i++) {
-    context.fillRect(view.toPixelX(poses[3 * i]) - MILESTONE_DOTS.radius, view.toPixelY(poses[3 * i + 1]) - MILESTONE_DOTS.radius, dotSide, dotSide);
-  }
-  context.globalAlpha = 1;
+  const { radius, max, alpha } = MILESTONE_DOTS;
+  paintWithOpacity(context, alpha, () => {
+    for (let i = 0; i < Math.min(3 * max, poses.length); i += 3) context.fillRect(view.toPixelX(poses[i]) - radius, view.toPixelY(poses[i + 1]) - radius, 2 * radius, 2 * radius);
+  });
 }
 
 /** Picture of ξ along and ξ lateral about the commanded pose. Each axis has its own scale, because the lateral spread is small at first. */

@@ -13,7 +13,7 @@ import { clamp } from '../../ui/clamp.ts';
 import { drawDraggableRobot, drawRobotOutline } from '../shared/robot.ts';
 import { LINE_STYLES } from './settings.ts';
 import type { MapSqueeze, Plan } from '../../types.d.ts';
-import { addLine, strokePath, type Brush } from '../../scene/canvas.ts';
+import { addLine, drawDisc, fillPath, paintWithOpacity, strokePath, type Brush } from '../../scene/canvas.ts';
 import type { ViewModel } from './view-model.ts';
 
 export interface Scene extends ViewModel {
@@ -175,22 +175,14 @@ export class FloorPicture extends SamplesPicture<Scene> {
   }
 }
 
-/** Returns the corners of the bounding box of the known cells of a grid, as x, y pairs. */
+/** Returns the outer corners of the first and the last known cell of each row of a grid, as x, y pairs. */
 function knownCorners(grid: Cells, unknown: Uint8Array) {
   const { columns } = grid;
-  const knownBox = { left: Infinity, bottom: Infinity, right: -Infinity, top: -Infinity };
-  for (let row = 0; row * columns < unknown.length; row++) {
+  return Array.from({ length: unknown.length / columns }, (_, row) => {
     const rowCells = unknown.subarray(row * columns, (row + 1) * columns);
-    const firstKnown = rowCells.indexOf(0);
-    if (firstKnown < 0) continue;
-    knownBox.left = Math.min(knownBox.left, firstKnown);
-    knownBox.right = Math.max(knownBox.right, rowCells.lastIndexOf(0) + 1);
-    knownBox.bottom = Math.min(knownBox.bottom, row);
-    knownBox.top = row + 1;
-  }
-  if (knownBox.left > knownBox.right) return [];
-  const { left, bottom, right, top } = knownBox;
-  return [left, right].flatMap((column) => [bottom, top].flatMap((row) => cellCorner(grid, column, row)));
+    const outerColumns = rowCells.includes(0) ? [rowCells.indexOf(0), rowCells.lastIndexOf(0) + 1] : [];
+    return outerColumns.flatMap((column) => [row, row + 1].flatMap((cornerRow) => cellCorner(grid, column, cornerRow)));
+  }).flat();
 }
 
 /** Draws the contact of a path with a wall, a point in metres, with a leader to it. */
@@ -210,15 +202,10 @@ function legendEntriesOf({ context, palette }: Brush, { overlays, posesByOutcome
   return shownNames.map((name) => ({
     name: words.squeeze.overlays[name],
     draw: (x, y, width) => {
-      const swatchMiddle = x + width / 2;
-      context.strokeStyle = context.fillStyle = palette[LINE_STYLES[name].role];
-      context.lineWidth = 1;
-      context.beginPath();
-      if (!posesByOutcome) context.rect(swatchMiddle - 5, y - 5, 10, 10);
-      else if (name === 'rejected') addCross(context, swatchMiddle, y);
-      else context.arc(swatchMiddle, y, SAMPLE_DOT.max, 0, 2 * Math.PI);
-      context.fill();
-      context.stroke();
+      const [middle, colour] = [x + width / 2, palette[LINE_STYLES[name].role]];
+      if (!posesByOutcome) fillPath(context, colour, () => context.rect(middle - 5.5, y - 5.5, 11, 11));
+      else if (name === 'rejected') strokePath(context, { colour, width: 1 }, () => addCross(context, middle, y));
+      else drawDisc(context, [middle, y], SAMPLE_DOT.max, colour, { colour, width: 1 });
     },
   }));
 }
@@ -230,29 +217,19 @@ function addCross(context: Brush['context'], x: number, y: number) {
 }
 
 function drawCrosses({ context, view }: Brush, triples: Float64Array, colour: string) {
-  context.globalAlpha = 0.5;
-  strokePath(context, { colour, width: 1 }, () => {
+  paintWithOpacity(context, 0.5, () => strokePath(context, { colour, width: 1 }, () => {
     for (let i = 0; i < triples.length; i += 3) addCross(context, ...view.toPixel(triples[i], triples[i + 1]));
-  });
-  context.globalAlpha = 1;
+  }));
 }
 
 function drawPaths(brush: Brush, paths: Float64Array[], colour: string) {
-  const { context } = brush;
-  context.globalAlpha = 0.3;
-  strokeLines(brush, paths.map((points) => ({ points, colour, width: 1 })));
-  context.globalAlpha = 1;
+  paintWithOpacity(brush.context, 0.3, () => strokeLines(brush, paths.map((points) => ({ points, colour, width: 1 }))));
 }
 
 /** Draws samples as dots that darken where they overlap. */
 function drawSamples({ context, view }: Brush, triples: Float64Array, colour: string) {
-  context.fillStyle = colour;
-  context.globalAlpha = SAMPLE_DOT.alpha;
   const dotRadius = clamp(view.width / SAMPLE_DOT.per, SAMPLE_DOT.min, SAMPLE_DOT.max);
-  for (let i = 0; i < triples.length; i += 3) {
-    context.beginPath();
-    context.arc(...view.toPixel(triples[i], triples[i + 1]), dotRadius, 0, 2 * Math.PI);
-    context.fill();
-  }
-  context.globalAlpha = 1;
+  paintWithOpacity(context, SAMPLE_DOT.alpha, () => {
+    for (let i = 0; i < triples.length; i += 3) drawDisc(context, view.toPixel(triples[i], triples[i + 1]), dotRadius, colour);
+  });
 }

@@ -27,7 +27,6 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   /** Name of the handle that is in the tab order. */
   #tabbableName = '';
 
-  /** Grips of the plan in the picture. */
   get #currentGrips() {
     const { plan, hasMovableWalls: movable } = this.host.picture;
     return this.#gripsMemo.get([plan], () => (movable && plan.walls.length <= 4 * MAX_HANDLED_WALLS ? wallGrips(plan) : []));
@@ -144,18 +143,14 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   #gripPosition(grip: Grip, view: View) {
     const [x, y] = this.#grippedPoint(grip);
     const [ux, uy] = grip.axis;
-    const insetLength = this.#wallLength(grip) * this.#insetFraction(grip, view);
+    const insetLength = this.#insetLength(grip, view);
     return [x - insetLength * ux, y - insetLength * uy];
   }
 
-  #wallLength({ wall }: Grip) {
+  /** Returns the distance between an end and its grip, m. */
+  #insetLength({ wall }: Grip, view: View) {
     const [x, y, x1, y1] = this.#walls.subarray(wall, wall + 4);
-    return Math.hypot(x1 - x, y1 - y);
-  }
-
-  /** Returns the distance between an end and its grip as a fraction of the wall. */
-  #insetFraction(grip: Grip, view: View) {
-    return Math.min(MAX_GRIP_INSET, GRIP_INSET / (this.#wallLength(grip) * view.scaleX));
+    return Math.min(MAX_GRIP_INSET * Math.hypot(x1 - x, y1 - y), GRIP_INSET / view.scaleX);
   }
 
   /** Returns the middle of the visible part of a wall between the grips of its ends; undefined where none is visible. */
@@ -164,7 +159,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     const { xMin, yMin, xMax, yMax } = view.extent;
     const [x, y, x1, y1] = this.#walls.subarray(wall, wall + 4);
     const [dx, dy] = [x1 - x, y1 - y];
-    const fractionBeyondGrip = (part: Grip['part']) => (this.#currentGrips.some((otherGrip) => otherGrip?.wall === wall && otherGrip.part === part) ? 2 * this.#insetFraction(grip, view) : 0);
+    const fractionBeyondGrip = (part: Grip['part']) => (this.#currentGrips.some((otherGrip) => otherGrip?.wall === wall && otherGrip.part === part) ? (2 * this.#insetLength(grip, view)) / Math.hypot(dx, dy) : 0);
     let [firstFraction, lastFraction] = [fractionBeyondGrip('from'), 1 - fractionBeyondGrip('to')];
     for (const [coordinate, delta, min, max] of [[x, dx, xMin, xMax], [y, dy, yMin, yMax]]) {
       if (!delta) continue;
@@ -176,5 +171,4 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   }
 }
 
-/** Returns the class of a grip's handle. */
 const handleClassOf = ({ wall, part }: Grip) => `${part}-${wall / 4}`;

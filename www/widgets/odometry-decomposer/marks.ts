@@ -1,7 +1,7 @@
 /** Marks of both pictures: turns as arcs with an arrow, and standard deviations as fans and bars. */
 
 import type { Pose } from '../../types.d.ts';
-import { addLine, strokePath, type Brush } from '../../scene/canvas.ts';
+import { addLine, fillPath, paintWithOpacity, strokePath, type Brush } from '../../scene/canvas.ts';
 
 /** Half width and length of an arrow head, pixels. */
 const ARROW_HEAD_SIZE = { half: 4, length: 9 };
@@ -38,10 +38,7 @@ export function drawTurn({ context, view }: Brush, startPose: Pose, turn: number
   const headBase = { ...startPose, theta: startPose.theta + turn - (Math.sign(turn) * headLength) / radius };
   const headScale = headLength / ARROW_HEAD_SIZE.length;
   const headCorner = (side: number) => view.ray(headBase, radius + side * headScale * ARROW_HEAD_SIZE.half)[1];
-  context.fillStyle = colour;
-  context.beginPath();
-  addLine(context, [tip, headCorner(1), headCorner(-1)]);
-  context.fill();
+  fillPath(context, colour, () => addLine(context, [tip, headCorner(1), headCorner(-1)]));
 }
 
 /** Draws a standard deviation (rad) to either side of a heading, as a fan with a radius in pixels. */
@@ -54,14 +51,8 @@ export function drawFan({ context, view }: Brush, { x, y, theta }: Pose, deviati
     context.arc(...centre, radius, -theta - halfAngle, halfAngle - theta);
     context.closePath();
   };
-  context.fillStyle = colour;
-  context.globalAlpha = 0.14;
-  context.beginPath();
-  addFan();
-  context.fill();
-  context.globalAlpha = 0.75;
-  strokePath(context, { colour, width: 1, dash: [5, 3] }, addFan);
-  context.globalAlpha = 1;
+  paintWithOpacity(context, 0.14, () => fillPath(context, colour, addFan));
+  paintWithOpacity(context, 0.75, () => strokePath(context, { colour, width: 1, dash: [5, 3] }, addFan));
 }
 
 /** Draws a standard deviation (m) as a bar with ends, along the heading of a pose and to either side of its position. */

@@ -14,7 +14,7 @@ import { ellipsePoints, turnDirections, drawBar, drawFan, drawTurn } from './mar
 import { poseAt } from './view-model.ts';
 import { LINE_STYLES } from './settings.ts';
 import type { Pose, RuleNoise } from '../../types.d.ts';
-import { addLine, drawDisc, strokePath, strokeLine, type Brush, type LineStroke } from '../../scene/canvas.ts';
+import { addLine, drawDisc, paintWithOpacity, strokePath, strokeLine, type Brush, type LineStroke } from '../../scene/canvas.ts';
 
 export type LineName = keyof typeof LINE_STYLES;
 
@@ -196,11 +196,9 @@ export class LegsPicture extends OutcomesPicture {
 
   #paintGhosts({ context, view, palette }: Brush, { ghosts }: Scene) {
     const ghostPixel = (index: number) => view.toPixel(ghosts[3 * index], ghosts[3 * index + 1]);
-    context.globalAlpha = 0.5;
-    strokePath(context, { colour: palette.cloud, width: 1 }, () => {
+    paintWithOpacity(context, 0.5, () => strokePath(context, { colour: palette.cloud, width: 1 }, () => {
       for (let i = 0; i < ghosts.length / 3; i += 4) addLine(context, [0, 1, 2, 3].map((k) => ghostPixel(i + k)));
-    });
-    context.globalAlpha = 1;
+    }));
   }
 
   #paintRobot({ context, view, palette }: Brush, pose: Pose) {

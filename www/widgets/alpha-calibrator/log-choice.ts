@@ -181,9 +181,11 @@ function pathsPicture({ odometry, reference }: Drive, { found }: LogWords) {
   const pixelsPerMetre = Math.min((WIDTH - 2 * MARGIN) / Math.max(width, 0.1), (HEIGHT - 2 * MARGIN) / Math.max(height, 0.1));
   const pathData = (path: Path) => svgPathData(path, ([x, y]) => [MARGIN + (x - axisRanges[0][0]) * pixelsPerMetre, HEIGHT - MARGIN - (y - axisRanges[1][0]) * pixelsPerMetre]);
   const captionText = found.paths(fixed(width, 1), fixed(height, 1));
-  return html`<figure class="paths">
+  return html`<figure class="paths small">
     <svg viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" aria-label=${captionText}>
-      ${svg`<path class="reference" d=${pathData(referencePath)}></path><path class="odometry" d=${pathData(odometryPath)}></path>`}
+      <g fill="none" stroke-width="1.25" stroke-linejoin="round">
+        ${svg`<path stroke="var(--ink)" d=${pathData(referencePath)} /><path stroke="var(--prior)" stroke-dasharray="4 2" d=${pathData(odometryPath)} />`}
+      </g>
     </svg>
     <figcaption>${captionText}</figcaption>
   </figure>`;

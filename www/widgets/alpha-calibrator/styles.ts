@@ -10,7 +10,7 @@ export const styles = css`
     border-radius: 3px;
   }
 
-  :is(.drop-zone p, .looked fieldset) {
+  .drop-zone p {
     margin: 0;
   }
 
@@ -53,26 +53,11 @@ export const styles = css`
 
   .paths {
     flex: 0 0 14em;
-    margin: 0;
-    font-size: 0.84em;
-    line-height: 1.25;
   }
 
   .paths svg {
     display: block;
     width: 100%;
-  }
-
-  .paths path {
-    fill: none;
-    stroke: var(--ink);
-    stroke-width: 1.25;
-    stroke-linejoin: round;
-  }
-
-  .paths .odometry {
-    stroke: var(--prior);
-    stroke-dasharray: 4 2;
   }
 
   /* The second class of legs has a colour between two roles, as in the picture. */
@@ -106,13 +91,9 @@ export const styles = css`
 
   /* The picture of the leg takes the remaining space. */
   :host([presentation]) .one {
-    display: flex;
-    flex-direction: column;
+    display: grid;
+    grid-template-rows: 1fr auto;
     align-self: stretch;
-  }
-
-  :host([presentation]) .one .panel {
-    flex: 1;
   }
 
   .fitted .buttons {
@@ -171,7 +152,7 @@ export const styles = css`
     border-top: 1px solid var(--rule);
   }
 
-  .alphas thead th:nth-child(2) {
+  .alphas :is(th, td):nth-child(2) {
     text-align: left;
     white-space: normal;
   }
@@ -190,8 +171,6 @@ export const styles = css`
   .alphas .of {
     margin-inline-end: -4em;
     line-height: 1;
-    text-align: left;
-    white-space: normal;
     overflow-wrap: anywhere;
     hyphens: auto;
   }
@@ -223,13 +202,6 @@ export const styles = css`
     .scale > span:not(:first-child, :last-child) {
       visibility: hidden;
     }
-  }
-
-  .alphas .unknown {
-    display: block;
-    text-align: left;
-    font-style: italic;
-    white-space: normal;
   }
 
   .alphas .recommended {
@@ -334,11 +306,6 @@ export const styles = css`
     .alphas .of {
       flex: 0 0 16em;
       margin-inline-end: 0;
-    }
-
-    .alphas svg {
-      flex: 1;
-      min-width: 0;
     }
   }
 

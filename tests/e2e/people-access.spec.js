@@ -341,7 +341,7 @@ testEach('the help of a slider covers no slider of its group and no rule, and no
         const helpBox = row.querySelector('.effect')?.getBoundingClientRect();
         if (!helpBox) return [];
         // The outline of a thumb ends 4 px outside it, and a thumb has the radius 0.525 rem.
-        return [.../** @type {Element} */ (row.closest('fieldset, .controls')).querySelectorAll('.slider input[type=range]')]
+        return [.../** @type {Element} */ (row.closest('fieldset, .controls, .with-button')).querySelectorAll('.slider input[type=range]')]
           .map((control) => control.getBoundingClientRect())
           .filter(({ top, bottom }) => (top + bottom) / 2 + 0.525 * 16 + 4 > helpBox.top && (top + bottom) / 2 < helpBox.bottom)
           .map(() => slider.id)

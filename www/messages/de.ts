@@ -23,7 +23,6 @@ export const de: typeof import('./en.ts').en = {
   startOverTitle: 'Einstellungen, Ausschnitt und Startwert wie am Anfang',
   newSeed: 'Neu würfeln',
   seed: 'Startwert',
-  commandText: (v, omega, dt) => `v = ${v} m/s, ω = ${omega} rad/s, Δt = ${dt} s`,
   command: 'Fahrbefehl',
   settings: {
     v: { name: 'Geschwindigkeit', effect: 'Wie weit der Roboter fährt: *vΔt*; unter null fährt er rückwärts.' },

@@ -28,7 +28,6 @@ export const en = {
   startOverTitle: 'Settings, view and seed as the figure opened',
   newSeed: 'New seed',
   seed: 'seed',
-  commandText: (v, omega, dt) => `v = ${v} m/s, ω = ${omega} rad/s, Δt = ${dt} s`,
   command: 'Command',
   settings: {
     v: { name: 'speed', effect: 'How far the robot drives: *vΔt*; below zero it backs up.' },

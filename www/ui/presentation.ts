@@ -98,7 +98,7 @@ export const presentationStyles = css`
 
   :host([presentation]) .surface:not(.with-controls) .simulation > :not(.views, .morphing, .presets, .about, [part~='legend'], [part~='caption'], [part~='readouts']),
   :host([presentation]) .surface:not(.with-controls) .aside > :not([part~='readouts'], .result, .presets, .judge),
-  :host([presentation]) .surface:not(.with-controls) :is(.result, .looked) > :is(fieldset, .choices, button),
+  :host([presentation]) .surface:not(.with-controls) :is(.result, .looked) > :is(.slider, .choices, button),
   :host([presentation]) .surface:not(.with-controls) .start-over,
   :host([presentation]) .surface > .caption-slot,
   :host([presentation]) .folds > :is(output, textarea),

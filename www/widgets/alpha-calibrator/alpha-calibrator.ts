@@ -42,23 +42,20 @@ function legControls(figure: AlphaCalibratorElement) {
   const texts = words.calibrator.leg;
   // The button selects the leg after the selected one in the list of worst legs, or the first of the list.
   const nextLeg = worst[(worst.indexOf(figure.state.elementState.leg) + 1) % Math.max(1, worst.length)];
-  return html`<fieldset class="leg">
-      <legend class="visually-hidden">${texts.name}</legend>
-      ${editableSlider(figure, texts.name, { min: 1, max: legs.count, type: 'whole' }, {
-        id: 'leg',
-        name: texts.name,
-        value: chosen + 1,
-        min: 1,
-        max: Math.max(2, legs.count),
-        step: 1,
-        show: integer,
-        effect: undefined,
-        role: 'truth',
-        hasNoEffect: legs.count < 2,
-        input: (number) => figure.settings.request({ leg: number - 1 }),
-        commit: () => figure.gesture.commit(),
-      })}
-    </fieldset>
+  return html`${editableSlider(figure, texts.name, { min: 1, max: legs.count, type: 'whole' }, {
+      id: 'leg',
+      name: texts.name,
+      value: chosen + 1,
+      min: 1,
+      max: Math.max(2, legs.count),
+      step: 1,
+      show: integer,
+      effect: undefined,
+      role: 'truth',
+      hasNoEffect: legs.count < 2,
+      input: (number) => figure.settings.request({ leg: number - 1 }),
+      commit: () => figure.gesture.commit(),
+    })}
     ${button(texts.worst, () => figure.gesture.decide({ leg: nextLeg }), { disabled: nextLeg === undefined })}`;
 }
 
@@ -78,10 +75,6 @@ function modelControls(figure: AlphaCalibratorElement) {
   const chooseModel = (kind: import('./settings.ts').ModelRule) => figure.gesture.decide(settingsFor(kind));
   return group(fit, html`${radioGroup(model.name, 'kind', kinds, modelRuleOf(figure.settings.requested as any), chooseModel)}
     ${settingRadios(figure, 'outliers', outliers)} ${settingSlider(figure, 'duration', { show: formatDuration })}`, 'fit');
-}
-
-function predictionControls(figure: AlphaCalibratorElement) {
-  return group(words.calibrator.prediction, html`${settingRadios(figure, 'noise', words.noises)} ${settingSlider(figure, 'inflation')}`, 'fit');
 }
 
 function legLengthControls(figure: AlphaCalibratorElement) {
@@ -131,7 +124,6 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
     return viewModel;
   }
 
-  /** True while a log is read or fitted. */
   get isBusy() {
     return this.service.isBusy || this.#opener.readFraction !== undefined || this.viewModel?.isPending;
   }
@@ -163,7 +155,6 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
     return { ...viewModel, chosen: this.chosen, leg: this.predicted, overlays: this.state.elementState.overlays };
   }
 
-  /** Shows the leg that was clicked in the picture. */
   #chooseLegAt = (event: MouseEvent) => {
     const { simulation } = this;
     if (!simulation || !(event.target instanceof HTMLCanvasElement)) return;
@@ -193,7 +184,6 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
     });
   }
 
-  /** Restores the settings and the log that the figure opened with. */
   #startOver = () => {
     this.state.restoreAsUser();
     this.#opener.close(this.#pageLog).catch(this.#report);
@@ -312,7 +302,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
         controls: () => html`${modelControls(this)}
           ${group(texts.systematic.title, systematicTable(this))}
           ${group(texts.own.title, logSection(this))}
-          ${predictionControls(this)}`,
+          ${group(texts.prediction, html`${settingRadios(this, 'noise', words.noises)} ${settingSlider(this, 'inflation')}`, 'fit')}`,
         numbers: () => html`${group(texts.oneLeg(integer(chosen + 1)), legReadouts(this))}
           ${diagnosticsHtml(this)}
           ${group(texts.panels.title, regressionPanels(this))}

@@ -114,14 +114,12 @@ export const de: typeof import('./en.ts').en = {
   alphas: {
     title: (kind) => `Angepasste Rauschparameter (${kind})`,
     caption: 'Restringierte Maximum Likelihood mit 95-%-Intervallen',
-    alpha: '*α*',
     noise: 'Rauschen',
     noiseTrue: 'Rauschen (| wahr)',
     value: 'angepasst, 95 %',
     recommended: 'empfohlen',
     recommendedText: (alpha) => `empfohlen ${alpha}`,
     interval: '95-%-Intervall',
-    between: (low, high) => `${low} – ${high}`,
     unknown: (lack, drive) => `nicht bestimmt: ${lack}; ${drive}`,
     lacking: {
       'insufficient-rotation': { lack: 'zu wenig Drehung', drive: '~50 Drehungen auf der Stelle ergänzen', byCommands: '~50 Etappen in engen Kurven ergänzen' },

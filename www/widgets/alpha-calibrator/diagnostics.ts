@@ -9,7 +9,7 @@ import { figureTable, readoutList } from '../../ui/readouts.ts';
 import { subscriptOf } from '../shared/sliders.ts';
 import { adviceOf, formatAlphaOrBound, isZero, missingMotion } from './lines.ts';
 import { NOISE_COMPONENTS, type Regressor } from './settings.ts';
-import { checkText, expectedRangeText, checkMessage, localized, scaleByPowerOf1000 } from './words.ts';
+import { checkText, expectedRangeText, checkMessage, localized, rangeText, scaleByPowerOf1000 } from './words.ts';
 import type { CalibrationPanel } from '../../types.d.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
@@ -44,9 +44,9 @@ function windowsTable({ viewModel: { stats: { diagnostics: { windows } } } }: Fi
 }
 
 function noiseTable({ viewModel: { stats: { referenceNoise: { positionStd, yawStd }, persistence: { correlation, length } } } }: Figure) {
-  const { noise: texts, systematic, settings, alphas: { interval: intervalName, between } } = words.calibrator;
+  const { noise: texts, systematic, settings, alphas: { interval: intervalName } } = words.calibrator;
   const formatStd = (value: number) => (value === 0 ? '0' : Number.isFinite(value) ? formatRounded(value, 2) : '∞');
-  const noiseRow = (name: string, { value, interval: [low, high] }: import('../../types.d.ts').Estimate) => [name, formatStd(value), between(formatStd(low), formatStd(high))];
+  const noiseRow = (name: string, { value, interval: [low, high] }: import('../../types.d.ts').Estimate) => [name, formatStd(value), rangeText(formatStd(low), formatStd(high))];
   return figureTable({
     columns: [texts.what, systematic.value, intervalName],
     rows: [

@@ -80,14 +80,12 @@ export const en = {
   alphas: {
     title: (kind) => `Fitted noise parameters (${kind})`,
     caption: 'Restricted maximum likelihood, with 95 % intervals',
-    alpha: '*α*',
     noise: 'noise',
     noiseTrue: 'noise (| simulated)',
     value: 'fitted, 95 %',
     recommended: 'recom\u00ADmended',
     recommendedText: (alpha) => `recommended ${alpha}`,
     interval: '95 % interval',
-    between: (low, high) => `${low} – ${high}`,
     unknown: (lack, drive) => `not determined: ${lack}; ${drive}`,
     lacking: {
       'insufficient-rotation': { lack: 'too little rotation in this log', drive: 'add ~50 in-place rotations', byCommands: 'add ~50 legs in tight bends' },

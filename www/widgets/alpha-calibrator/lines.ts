@@ -75,7 +75,6 @@ export const isZero = (alpha: number | null, interval: Interval | undefined) => 
 
 export const formatPercent = (fraction: number | null) => (fraction !== null && Number.isFinite(fraction) ? `${formatNumber(100 * fraction)} %` : NO_NUMBER);
 
-/** Prints the upper end of an interval. */
 const formatUpperEnd = (interval: Interval | undefined) => formatNumber(interval?.[1] ?? null, WIDTH_DIGITS);
 
 const scaleInterval = (interval: Interval, factor: number): Interval => interval && [factor * interval[0], factor * interval[1]];

@@ -46,10 +46,6 @@ export class LogService {
     return this.#rejectRequest !== undefined;
   }
 
-  get #connection() {
-    return (this.#workerLink ??= connectService(this.#tag));
-  }
-
   /** Opens files, with the options of each by its name, and aborts the request in progress. */
   async open(files: Source[], answers: Record<string, OpenOptions>): Promise<{ recordings: OpenedRecording[]; skipped: LogFailure[] }> {
     this.stop();
@@ -76,7 +72,6 @@ export class LogService {
     if (this.isBusy) this.end();
   }
 
-  /** Stops the worker. */
   end() {
     this.#workerLink?.then(({ end }) => end(), () => {});
     this.#workerLink = undefined;
@@ -90,7 +85,7 @@ export class LogService {
     const resultPromise = new Promise<Result>((resolve, reject) => {
       this.#rejectRequest = reject;
       const postRequest = async () => {
-        const { port } = await this.#connection;
+        const { port } = await (this.#workerLink ??= connectService(this.#tag));
         if (requestNumber !== this.#requestNumber) return;
         port.onmessage = ({ data }: MessageEvent<WorkerAnswer>) => {
           if (data.number !== this.#requestNumber) return;

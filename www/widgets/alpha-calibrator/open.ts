@@ -89,7 +89,6 @@ export class LogOpener extends FileOpener<Figure> {
     this.host.gesture.complete();
   }
 
-  /** Forgets the chosen files. */
   forget() {
     this.chosen = this.#loneLogFiles = this.refusal = undefined;
     this.host.requestUpdate();
@@ -126,13 +125,11 @@ export class LogOpener extends FileOpener<Figure> {
 
   /** Stores an answer to a question, and opens the files with it. */
   answer({ file }: OpenQuestion, answer: OpenOptions) {
-    if (!this.chosen) return;
-    const { answers } = this.chosen;
-    this.#open({ ...this.chosen, recordings: [], answers: { ...answers, [file]: { ...answers[file], ...answer } } });
+    const answers = this.chosen?.answers ?? {};
+    this.change({ recordings: [], answers: { ...answers, [file]: { ...answers[file], ...answer } } });
   }
 
-  /** Stores a choice of logs. */
-  change(change: Pick<ChosenFiles, 'userChoices'> | Pick<ChosenFiles, 'roles'>) {
+  change(change: Partial<ChosenFiles>) {
     if (this.chosen) this.#open({ ...this.chosen, ...change });
   }
 

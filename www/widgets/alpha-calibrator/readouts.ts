@@ -7,7 +7,7 @@ import { NO_VALUE, formatPowerOfTen, tick } from '../../ui/format.ts';
 import { subscriptOf } from '../shared/sliders.ts';
 import { adviceOf, formatAlphaOrBound, formatEstimate } from './lines.ts';
 import { isTruthComparable, type ViewModel } from './view-model.ts';
-import { judgementOf, legsText, localized, noiseNames } from './words.ts';
+import { judgementOf, legsText, localized, noiseNames, rangeText } from './words.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 /** Size of the plot of one α's interval (a whisker) in the table. */
@@ -34,15 +34,15 @@ export function alphaTable(viewModel: ViewModel) {
   const axis = logarithmicAxis([...alphas, ...intervals.flatMap((interval) => interval ?? []), ...(truth ?? [])]);
   return html`<table class="alphas" part="table">
     <thead>
-      <tr><th scope="col">${formatMarkup(texts.alpha)}</th><th scope="col">${truth ? texts.noiseTrue : texts.noise}</th><th scope="col">${texts.value}</th><th scope="col">${texts.recommended}</th></tr>
+      <tr><th scope="col">${formatMarkup('*α*')}</th><th scope="col">${truth ? texts.noiseTrue : texts.noise}</th><th scope="col">${texts.value}</th><th scope="col">${texts.recommended}</th></tr>
     </thead>
     <tbody>
       ${alphas.map((alpha, i) => html`<tr>
         <th scope="row">${formatMarkup(`*α*${subscriptOf(i)}`)}</th>
         ${alpha === null
-          ? html`<td colspan="3"><div class="of muted">${noiseLabels[i]}</div><span class="unknown">${missingAlphaText(viewModel, i)}</span></td>`
+          ? html`<td colspan="3"><div class="of muted">${noiseLabels[i]}</div><i>${missingAlphaText(viewModel, i)}</i></td>`
           : html`<td class="chart"><div class="line"><div class="of muted">${noiseLabels[i]}</div>${whiskerSvg(axis, alpha, intervals[i], truth?.[i])}</div></td>
-            <td><div class="line"><div class="fitted-value" data-longest="0.00000">${fittedAlphaText(viewModel, i)}</div><div class="between muted" data-longest=${texts.between('0.00000', '0.00000')}>${intervalText(viewModel, i)}</div></div></td>
+            <td><div class="line"><div class="fitted-value" data-longest="0.00000">${fittedAlphaText(viewModel, i)}</div><div class="between muted" data-longest=${rangeText('0.00000', '0.00000')}>${intervalText(viewModel, i)}</div></div></td>
             <td class="recommended" data-longest="0.00000">${recommendedAlphaText(viewModel, i)}</td>`}
       </tr>`)}
       <tr class="axis" aria-hidden="true">
@@ -83,7 +83,7 @@ export function alphaTexts(viewModel: ViewModel) {
 
 function intervalText({ stats: { intervals } }: ViewModel, index: number) {
   const interval = intervals[index];
-  return interval ? words.calibrator.alphas.between(localized(formatEstimate(interval[0], interval)), localized(formatEstimate(interval[1], interval))) : NO_VALUE;
+  return interval ? rangeText(localized(formatEstimate(interval[0], interval)), localized(formatEstimate(interval[1], interval))) : NO_VALUE;
 }
 
 /** Returns a logarithmic axis over whole decades that contain the values. */

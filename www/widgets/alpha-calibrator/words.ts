@@ -46,10 +46,12 @@ export function checkText(name: CalibrationCheck['name'], value: number) {
   return name === 'enough-legs' ? integer(value) : FRACTION_CHECKS.test(name) ? percent(value) : fixed(value, 3);
 }
 
+export const rangeText = (low: string, high: string) => `${low} – ${high}`;
+
 /** Prints the range of values with which a check passes. */
 export function expectedRangeText({ name, expected: [low, high] }: CalibrationCheck) {
   if (high === Infinity) return `≥ ${checkText(name, low)}`;
-  return low === 0 ? `≤ ${checkText(name, high)}` : words.calibrator.alphas.between(checkText(name, low), checkText(name, high));
+  return low === 0 ? `≤ ${checkText(name, high)}` : rangeText(checkText(name, low), checkText(name, high));
 }
 
 /** Returns the reason for the recommended α's. */

@@ -19,11 +19,6 @@ import { styles } from './styles.ts';
 import { captionOf, pictureText, type ViewModel } from './words.ts';
 import type { ArcAnatomy as Simulation } from '../../types.d.ts';
 
-const commandControls = (figure: ArcAnatomyElement) => group(words.command, settingSliders(figure, COMMAND_SLIDERS));
-
-const noiseControls = (figure: ArcAnatomyElement) =>
-  group(words.noise, html`${settingRadios(figure, 'noise', words.noises)} ${settingSliders(figure, ALPHA_SLIDERS)}`, 'alphas');
-
 /** Returns the controls of the likelihood: the sign of the radius, and the heat map with the names of its contours. */
 function likelihoodControls(figure: ArcAnatomyElement) {
   const { likelihood, maps, printed } = words.anatomy;
@@ -33,16 +28,13 @@ function likelihoodControls(figure: ArcAnatomyElement) {
     ${map === 'none' ? nothing : html`<p class="legend">${contourEntry('prob')} ${contourEntry('density')}</p>`}`);
 }
 
-/** Returns an icon, with a text for screen readers. */
-const iconWithText = (visibleSymbol: string, spokenText: string) => html`<span aria-hidden="true">${visibleSymbol}</span><span class="visually-hidden">${spokenText}</span>`;
-
 function lineStepper(figure: ArcAnatomyElement) {
   const texts = words.anatomy.table;
   const { line } = figure.state.elementState;
   const chooseLine = (to: number) => () => figure.gesture.choose('line', to);
   return html`<div class="stepper" role="group" aria-label=${texts.label}>
-    ${button(iconWithText('‹', texts.back), chooseLine(line - 1), { disabled: line === 0, title: texts.back })}
-    ${button(iconWithText('›', texts.on), chooseLine(line + 1), { disabled: line === TABLE_LINES, title: texts.on })}
+    ${button(html`<span aria-hidden="true">‹</span>`, chooseLine(line - 1), { disabled: line === 0, title: texts.back })}
+    ${button(html`<span aria-hidden="true">›</span>`, chooseLine(line + 1), { disabled: line === TABLE_LINES, title: texts.on })}
     <p role="status">${line === 0 ? texts.begin : formatMarkup(lineText(figure.viewModel, line))}</p>
   </div>`;
 }
@@ -124,9 +116,10 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
       ${legend(this, LINE_STYLES)}
       <p class="verdict caption" part="caption">${captionOf(viewModel)}</p>
       ${presetButtons(this)}
-      <div class="controls" part="controls">${commandControls(this)} ${timeControl(this)}</div>
+      <div class="controls" part="controls">${group(words.command, settingSliders(this, COMMAND_SLIDERS))} ${timeControl(this)}</div>
       ${disclosures(this, {
-        controls: () => html`<div class="controls">${likelihoodControls(this)} ${noiseControls(this)}</div>`,
+        controls: () => html`<div class="controls">${likelihoodControls(this)}
+          ${group(words.noise, html`${settingRadios(this, 'noise', words.noises)} ${settingSliders(this, ALPHA_SLIDERS)}`, 'alphas')}</div>`,
         numbers: () => html`${lineStepper(this)} ${tableLinesHtml(viewModel, this.state.elementState.line)} ${likelihoodReadouts(viewModel)} ${formsPlot(this.motion)}`,
         fileNameMark: 'figure',
         csvTitle: texts.csvTitle,

@@ -42,7 +42,6 @@ export const de: typeof import('./en.ts').en = {
     poses: (start, command, next) => `Ein Roboter von oben. Er beginnt bei ${start}; befohlen ist ${command}. Gefunden wird er bei ${next}.`,
     arc: (radius, left) => `Der Bogen dazwischen hat den Radius ${radius} m, sein Mittelpunkt ist ${left ? 'links' : 'rechts'}.`,
     straight: 'Der Weg dazwischen ist gerade.',
-    estimates: (v, omega, gamma) => `v̂ = ${v} m/s, ω̂ = ${omega} rad/s, γ̂ = ${gamma} rad/s.`,
   },
   forms: {
     error: 'Fehler des Endes (m)',

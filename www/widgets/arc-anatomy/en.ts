@@ -42,7 +42,6 @@ export const en = {
     poses: (start, command, next) => `A robot from above. It starts at ${start}; commanded is ${command}. It is found at ${next}.`,
     arc: (radius, left) => `The arc between them has the radius ${radius} m, its centre to the ${left ? 'left' : 'right'}.`,
     straight: 'The path between them is straight.',
-    estimates: (v, omega, gamma) => `v̂ = ${v} m/s, ω̂ = ${omega} rad/s, γ̂ = ${gamma} rad/s.`,
   },
   forms: {
     error: 'error of the end (m)',

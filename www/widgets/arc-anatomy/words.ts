@@ -42,13 +42,11 @@ export function captionOf({ config, stats: { factors, weakest, share, driven, in
 const poseText = ({ x, y, theta }: Pose) => words.anatomy.pose(fixed(x, 2), fixed(y, 2), fixed(theta, 2));
 
 export function pictureText(viewModel: ViewModel) {
-  const { config, stats: { inverted, factors } } = viewModel;
+  const { config, stats: { inverted } } = viewModel;
   const texts = words.anatomy.picture;
-  const [v, omega, gamma] = factors.map(({ estimate }) => fixed(estimate, 2));
   return [
     texts.poses(poseText(config.start), commandText(config.command), poseText(config.next)),
     inverted.center === null ? texts.straight : texts.arc(fixed(inverted.radius, 2), inverted.radius > 0),
-    texts.estimates(v, omega, gamma),
     captionOf(viewModel),
   ].join(' ');
 }

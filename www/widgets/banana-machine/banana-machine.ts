@@ -17,6 +17,7 @@ import { fixed, formatEditable } from '../../ui/format.ts';
 import { plot } from '../../ui/plot.ts';
 import { Player } from '../shared/player.ts';
 import { presetButtons } from '../shared/presets.ts';
+import { subscriptOf } from '../shared/sliders.ts';
 import { ArcHandle } from './handle.ts';
 import { IntroducedCloud } from './introduction.ts';
 import { MORPH_MS, lineMorphOf, morphControl, outlinesAt, morphedPoint } from './morph.ts';
@@ -24,7 +25,7 @@ import { PlanePicture, TwistPicture } from './pictures.ts';
 import { markedRobotField, otherReadouts, mainReadouts, twistTable, workedExampleTable } from './readouts.ts';
 import { LINE_STYLES, OVERLAY_NAMES, definition, sliderSpecs, COMMAND_SLIDERS, SAMPLE_COUNTS } from './settings.ts';
 import { styles } from './styles.ts';
-import { viewModelOf, viewModelOfSettings, type ViewModel, alphaName } from './view-model.ts';
+import { viewModelOf, viewModelOfSettings, type ViewModel } from './view-model.ts';
 import { calloutsOf, captionOf, floorTitle, planeText, twistCaption, twistText } from './words.ts';
 import type { BananaMachine as Simulation, BananaMachineSettings as Settings, Inspection } from '../../types.d.ts';
 import type { Values } from '../../figure/settings.ts';
@@ -40,10 +41,6 @@ const CURVE_POINTS = 241;
 
 /** Allowed heights of the skew chart, so that its axis does not change with every step of a drag. */
 const CHART_HEIGHTS = [0.25, 0.5, 1, 2, 4, 8];
-
-function commandControls(figure: BananaMachineElement) {
-  return group(words.command, settingSliders(figure, COMMAND_SLIDERS));
-}
 
 function modelControls(figure: BananaMachineElement) {
   const { model, alphas, isolate } = figure.viewModel.config;
@@ -65,20 +62,11 @@ function modelControls(figure: BananaMachineElement) {
  */
 const VISIBLE_ALPHAS: Record<string, number[]> = { velocity: [0, 2], odometry: [1, 2] };
 
-const isAlwaysVisible = (figure: BananaMachineElement, index: number) => VISIBLE_ALPHAS[figure.viewModel.config.model].includes(index);
-
-const visibleAlphaControls = (figure: BananaMachineElement) => alphaGroup(figure, (index) => isAlwaysVisible(figure, index), 'pair');
-
-const otherAlphaControls = (figure: BananaMachineElement) => alphaGroup(figure, (index) => !isAlwaysVisible(figure, index), 'alphas');
-
-const growthControls = (figure: BananaMachineElement) => group(words.samples, cloudButtons(figure), 'cloud');
-
-const samplesControl = (figure: BananaMachineElement) => group(words.samples, samplesSlider(figure, SAMPLE_COUNTS));
-
-/** Returns a group with the sliders of those α's whose indices `isIn` accepts. */
-function alphaGroup(figure: BananaMachineElement, isIn: (index: number) => boolean, name: string) {
+/** Returns a group with the sliders of the α's that are always visible, or of the others. */
+function alphaGroup(figure: BananaMachineElement, isVisible: boolean) {
   const { model, alphas } = figure.viewModel.config;
-  return group(words.noise, [...alphas.keys()].filter(isIn).map((index) => alphaSlider(figure, index + 1, words.alphas[model as 'velocity' | 'odometry'][index])), name);
+  const indices = [...alphas.keys()].filter((index) => VISIBLE_ALPHAS[model].includes(index) === isVisible);
+  return group(words.noise, indices.map((index) => alphaSlider(figure, index + 1, words.alphas[model as 'velocity' | 'odometry'][index])), isVisible ? 'pair' : 'alphas');
 }
 
 /** Returns the slider of an α, counted from 1. */
@@ -90,7 +78,7 @@ function alphaSlider(figure: BananaMachineElement, alphaNumber: number, [name, e
     name,
     effect: formatMarkup(effect),
     hasNoEffect,
-    pickControl: isolate === null ? undefined : radioButton({ group: 'isolate', name: words.banana.only(alphaName(alphaNumber - 1)), checked: !hasNoEffect, choose: chooseAlpha }),
+    pickControl: isolate === null ? undefined : radioButton({ group: 'isolate', name: words.banana.only(`α${subscriptOf(alphaNumber - 1)}`), checked: !hasNoEffect, choose: chooseAlpha }),
     show: (value) => (hasNoEffect ? words.banana.off(formatEditable(value, 3)) : formatEditable(value, 3)),
     input: (value) => {
       if (hasNoEffect) chooseAlpha();
@@ -281,10 +269,10 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
       <p part="caption" class="caption ${note && 'note'}">${captionOf(viewModel)}</p>
       ${mainReadouts(viewModel, this.#pinnedViewModel)} ${presetButtons(this)}
       <div class="controls" part="controls">
-        ${commandControls(this)} ${visibleAlphaControls(this)} ${growthControls(this)}
+        ${group(words.command, settingSliders(this, COMMAND_SLIDERS))} ${alphaGroup(this, true)} ${group(words.samples, cloudButtons(this), 'cloud')}
       </div>
       ${disclosures(this, {
-        controls: () => html`<div class="controls">${otherAlphaControls(this)} ${modelControls(this)} ${samplesControl(this)}</div>`,
+        controls: () => html`<div class="controls">${alphaGroup(this, false)} ${modelControls(this)} ${group(words.samples, samplesSlider(this, SAMPLE_COUNTS))}</div>`,
         numbers: () => html`${markedRobotField(this, this.#inspection)} ${this.#figuresHtml(viewModel)}`,
       })}`)}
     `;

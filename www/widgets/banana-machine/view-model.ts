@@ -2,7 +2,6 @@
 
 import { withFieldRenamed } from '../../figure/checks.ts';
 import { words } from '../../messages/registry.ts';
-import { subscriptOf } from '../shared/sliders.ts';
 import type { BananaMachine as Simulation, BananaMachineSettings as Settings, Motion, Stats, Table } from '../../types.d.ts';
 
 export type ViewModel = ReturnType<typeof viewModelOf>;
@@ -47,9 +46,6 @@ function gaussianGain({ n, likelihoodGain, likelihoodGainError }: Stats, { exact
   const gainKind = isUnbounded ? 'floor' : 'pose';
   return { n, unbounded: isUnbounded, value: likelihoodGain[gainKind], error: likelihoodGainError[gainKind], exact: exact.likelihoodGain[gainKind], wraps: 4 * Math.sqrt(exact.cov[2][2]) > Math.PI };
 }
-
-/** Returns the name of an α, counted from 0. */
-export const alphaName = (index: number) => `α${subscriptOf(index)}`;
 
 /** Returns the standard deviation of a variance. Rounding may have made the variance slightly negative. */
 export function deviationOf(variance: number) {

@@ -71,7 +71,6 @@ export const de: typeof import('./en.ts').en = {
     along: 'längs, *α*₁*v*²*Δt*²',
     across: 'quer, ¼*α*₃*v*⁴*Δt*⁴',
     exact: 'exakt',
-    x: 'Δt (s)',
     y: 'Varianz (m²)',
     caption: 'Geradeaus mit *v*, in erster Ordnung und exakt. Von der Kreuzung an, (2/*v*)·√(*α*₁/*α*₃), entscheidet die Richtung, so gut die Drehgeber auch sind.',
   },

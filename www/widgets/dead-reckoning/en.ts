@@ -73,7 +73,6 @@ export const en = {
     along: 'along the track, *α*₁*v*²*Δt*²',
     across: 'across it, ¼*α*₃*v*⁴*Δt*⁴',
     exact: 'exact',
-    x: 'Δt (s)',
     y: 'variance (m²)',
     caption: 'Straight ahead at *v*, to first order and exactly. From the crossing on, (2/*v*)·√(*α*₁/*α*₃), heading decides, however good the encoders.',
   },

@@ -78,7 +78,7 @@ export function straightGrowthPlot({ durations: x, along, across, alongFirstOrde
     <p class="panel-title">${texts.title}</p>
     ${plot({
       label: texts.label(crossing === null ? texts.never : texts.crossing(crossingText)),
-      x: { name: texts.x, from: minDuration, to: maxDuration, logarithmic: true },
+      x: { name: 'Δt (s)', from: minDuration, to: maxDuration, logarithmic: true },
       y: { name: texts.y, from: minVariance, to: maxVariance, logarithmic: true },
       curves: [
         { name: texts.along, role: 'ink', dash: '8 4', x, y: alongFirstOrder },

@@ -1,5 +1,6 @@
 /** Texts of Dead Reckoning in the current language. */
 
+import { greatest, max } from 'd3-array';
 import { addEnglish, words } from '../../messages/registry.ts';
 import { NO_VALUE, integer, fixed, formatWithError } from '../../ui/format.ts';
 import { commandText } from '../shared/sliders.ts';
@@ -25,18 +26,19 @@ export function captionOf({ config: { compounding }, stats: { misses, n }, condi
   const texts = words.reckoning;
   if (condition !== 'certain') return texts.conditions[condition];
   const recursionMisses = misses[compounding];
-  const shownComponents = shownComponentsOf(overlays);
-  const missIfShown = (miss: number, axis: number) => (shownComponents.includes(COMPONENTS[axis]) ? miss : NaN);
   if (recursionMisses.every(({ first }) => first === null)) return texts.right(integer(n));
   // The component whose ratio is furthest from 1 at the end, and the one whose ratio is furthest from 1 at any step.
-  const endAxis = indexOfGreatest(recursionMisses.map(({ end }, axis) => missIfShown(Math.abs(end), axis)));
-  const worstAxis = indexOfGreatest(curves.map(({ ratio }, axis) => missIfShown(ratio.reduce((max, value) => Math.max(max, Math.abs(value - 1) || 0), 0), axis)));
+  const endAxis = worstAxisOf(overlays, (axis) => Math.abs(recursionMisses[axis].end));
+  const worstAxis = worstAxisOf(overlays, (axis) => max(curves[axis].ratio, (ratio) => Math.abs(ratio - 1)) ?? NaN);
   const ratioList = ratiosAtSteps(Array.from(curves[worstAxis].ratio));
   return texts.wrong(texts.of[COMPONENTS[worstAxis]], ratioList, signedPercent(recursionMisses[endAxis].end), texts.of[COMPONENTS[endAxis]]);
 }
 
-/** Returns the index of the greatest miss (error of the prediction); NaN is not a miss. */
-const indexOfGreatest = (misses: number[]): number => misses.reduce((greatest, miss, i) => (miss > (misses[greatest] || 0) ? i : greatest), 0);
+/** Returns the index of the shown component whose miss (error of the prediction) is greatest; NaN is not a miss. */
+function worstAxisOf(overlays: string[], missOf: (axis: number) => number) {
+  const shownAxes = shownComponentsOf(overlays).map((name) => COMPONENTS.indexOf(name));
+  return greatest(shownAxes, missOf) ?? shownAxes[0];
+}
 
 const ratiosAtSteps = (ratios: number[]) =>
   CAPTION_STEPS.filter((step) => step <= ratios.length).map((step) => words.reckoning.atStep(fixed(ratios[step - 1], 2), String(step))).join(', ');
@@ -49,10 +51,8 @@ export function shownComponentsOf(overlays: string[]): readonly (typeof COMPONEN
 
 /** Returns the component whose ratio at the selected step is furthest from 1, of those shown. */
 export function worstComponentAt({ config: { step }, curves }: ViewModel, overlays: string[]) {
-  const ratios = curves.map(({ ratio }) => ratio[step - 1]);
-  const shownComponents = shownComponentsOf(overlays);
-  const worstIndex = indexOfGreatest(ratios.map((ratio, axis) => (shownComponents.includes(COMPONENTS[axis]) ? Math.abs(ratio - 1) : NaN)));
-  return { component: COMPONENTS[worstIndex], ratio: ratios[worstIndex], error: curves[worstIndex].error[step - 1] };
+  const axis = worstAxisOf(overlays, (i) => Math.abs(curves[i].ratio[step - 1] - 1));
+  return { component: COMPONENTS[axis], ratio: curves[axis].ratio[step - 1], error: curves[axis].error[step - 1] };
 }
 
 export function ratioText({ config: { step, compounding }, curves }: ViewModel, overlays: string[]) {

@@ -55,7 +55,6 @@ export const de: typeof import('./en.ts').en = {
   },
   throughOf: (count, through, share, interval) =>
     `${count === 0 ? 'keine davon ging' : `${through} davon, ${share}, gingen`} durch eine Wand${interval && ` (95-%-Intervall ${interval})`}`,
-  verdictOf: (tested, through) => `${tested}; ${through}.`,
   density: 'Dichte: dunkler = mehr Stichproben; Farbe = häufigster Ausgang je Zelle.',
   apartment: 'Die Wohnung',
   edited: 'Geänderte Wohnung',

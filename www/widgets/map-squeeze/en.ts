@@ -57,7 +57,6 @@ export const en = {
   },
   throughOf: (count, through, share, interval) =>
     `${count === 0 ? 'none of them' : `${through} of them, ${share},`} went through a wall${interval && ` (95\u202f% interval ${interval})`}`,
-  verdictOf: (tested, through) => `${tested}; ${through}.`,
   density: 'Density: darker = more samples; colour = most frequent outcome per cell.',
   apartment: 'The apartment',
   edited: 'Edited apartment',

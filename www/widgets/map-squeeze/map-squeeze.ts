@@ -60,11 +60,6 @@ function samplerControls(figure: MapSqueezeElement) {
   </div>`;
 }
 
-function motionControls(figure: MapSqueezeElement) {
-  return html`${group(words.command, settingSliders(figure, COMMAND_SLIDERS))}
-    ${group(words.noise, settingSlider(figure, 'noise'), 'single')} ${cloudControls(figure, SAMPLE_COUNTS)}`;
-}
-
 /** Returns the controls that are changed less often. One of them is for unknown cells, if the map has any. */
 function robotAndMapControls(figure: MapSqueezeElement, hasUnknown: boolean) {
   const { robotAndMap: heading, condition, settings, unknown, views } = words.squeeze;
@@ -76,10 +71,7 @@ function robotAndMapControls(figure: MapSqueezeElement, hasUnknown: boolean) {
 /** Returns the controls for a map of the user's own, with the name and size of the present map. */
 function userMapControls(figure: MapSqueezeElement, opener: import('./maps/open.ts').MapOpener, mapText: string) {
   const texts = words.squeeze.own;
-  const pasteMap = () => {
-    const mapField = figure.renderRoot.querySelector('#map-text') as HTMLTextAreaElement;
-    opener.paste(mapField.value);
-  };
+  const pasteMap = () => opener.paste((figure.renderRoot.querySelector('#map-text') as HTMLTextAreaElement).value);
   return group(texts.legend, html`<div class="own-map figures">
     <div>
       <p>${texts.text}</p>
@@ -214,7 +206,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   set map(map) {
     const isNameless = typeof map === 'object' && map !== null && !Array.isArray(map) && map.name === undefined;
     this.reflection.setProperty('map', isNameless ? { ...map, name: '' } : map, (newMap) => {
-      this.#enterMap(newMap && userMapOf(newMap));
+      this.#enterMap(newMap && { name: newMap.name ?? '', apply: (simulation) => applyMap(simulation, newMap) });
       this.reflection.updateAttributes();
       this.renderer.requestFrame();
     });
@@ -242,7 +234,6 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     });
   }
 
-  /** Moves the robot to free space, as the user asked. */
   moveToFreePose() {
     if (!this.simulation) return;
     this.renderer.releaseViews();
@@ -323,7 +314,9 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
         </div>`)}
       </div>
       ${this.renderer.afterFirstPicture(() => html`
-      <div class="controls" part="controls">${motionControls(this)}</div>
+      <div class="controls" part="controls">
+        ${group(words.command, settingSliders(this, COMMAND_SLIDERS))} ${group(words.noise, settingSlider(this, 'noise'), 'single')} ${cloudControls(this, SAMPLE_COUNTS)}
+      </div>
       ${posesByOutcome ? nothing : html`<p class="about muted">${density}</p>`}
       ${disclosures(this, {
         controls: () => html`<div class="controls">${robotAndMapControls(this, hasUnknown)}</div> ${userMapControls(this, this.#opener, this.#mapText)}`,
@@ -337,10 +330,5 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
 function freePoseIn({ openPlace, config, plan: { bounds: [left, bottom, right, top] } }: Simulation): Pose {
   return openPlace ?? { ...config.start, x: (left + right) / 2, y: (bottom + top) / 2 };
 }
-
-const userMapOf = (map: MapData): UserMap => ({
-  name: map.name ?? '',
-  apply: (simulation) => applyMap(simulation, map),
-});
 
 define(MapSqueezeElement);

@@ -40,8 +40,7 @@ export function captionOf({ config: { conditioned, sampler }, stats, note }: Vie
   if (note && (accepted === 0 || gaveUp)) return note;
   if (attempts === 0) return `${texts.headline.untried}.`;
   const testedText = texts.tested[conditioned ? sampler : 'off'](integer(accepted), integer(attempts));
-  const throughSentence = texts.verdictOf(testedText, throughWallText(stats, conditioned && sampler === 'whole-arc'));
-  return note ? `${throughSentence} ${note}` : throughSentence;
+  return `${testedText}; ${throughWallText(stats, conditioned && sampler === 'whole-arc')}. ${note}`.trim();
 }
 
 /** Returns the name of a map with its size. */

@@ -72,8 +72,6 @@ export const de: typeof import('./en.ts').en = {
     title: 'Streuung über der Länge der Fahrt',
     label: (trans, exact) =>
       `Standardabweichungen über der Länge der Fahrt: quer zum Weg, allein aus der ersten Drehung, und in Fahrtrichtung. Bei der Messung, ${trans} m, sind es quer ${exact} m.`,
-    x: 'δ trans (m)',
-    y: 'σ (m)',
     crossTrack: 'quer zum Weg, genau',
     along: 'in Fahrtrichtung',
     here: 'gemessen',

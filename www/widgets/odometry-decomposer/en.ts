@@ -72,8 +72,6 @@ export const en = {
     title: 'Spread against the length of the drive',
     label: (trans, exact) =>
       `Standard deviations against the length of the drive: across the path, from the first rotation alone, and along the path. At the reading, ${trans} m, ${exact} m across.`,
-    x: 'δ trans (m)',
-    y: 'σ (m)',
     crossTrack: 'across the path, exact',
     along: 'along the path',
     here: 'read',

@@ -47,8 +47,8 @@ export function spreadPlot(curveOf: (longest: number, points: number) => Float64
     <p class="panel-title">${texts.title}</p>
     ${plot({
       label: texts.label(fixed(legs.trans, 2), fixed(stats.exactCrossTrack, 3)),
-      x: { name: texts.x, from: 0, to: maxLength },
-      y: { name: texts.y, from: 0, to: 1.08 * maxDeviation },
+      x: { name: 'δ trans (m)', from: 0, to: maxLength },
+      y: { name: 'σ (m)', from: 0, to: 1.08 * maxDeviation },
       curves: [
         { name: texts.crossTrack, role: 'prediction', x, y: crossTrack },
         { name: words.decomposer.readouts.lever, role: 'muted', dash: '2 4', x, y: lever },

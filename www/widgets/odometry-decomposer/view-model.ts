@@ -1,19 +1,14 @@
 /** View model of the Odometry Decomposer. */
 
-import type { OdometryDecomposer, OdometryDecomposerSettings, RuleNoise } from '../../types.d.ts';
+import type { OdometryDecomposer, RuleNoise } from '../../types.d.ts';
 
 export type ViewModel = ReturnType<typeof viewModelOf>;
 
 export function viewModelOf(simulation: OdometryDecomposer) {
   const results = simulation.read();
-  return { ...results, ...currentRuleNoise(results.rules, results.config) };
-}
-
-/** Returns the legs and standard deviations of the current rule. */
-function currentRuleNoise(rules: RuleNoise[], config: OdometryDecomposerSettings) {
-  const currentRule = rules.find(({ rule }) => rule === config.rule) as RuleNoise;
-  const [rot1, trans, rot2, strafe] = currentRule.deviations;
-  return { legs: currentRule.legs, deviations: { rot1, trans, rot2, strafe } };
+  // Legs and standard deviations of the current rule.
+  const { legs, deviations: [rot1, trans, rot2, strafe] } = results.rules.find(({ rule }) => rule === results.config.rule) as RuleNoise;
+  return { ...results, legs, deviations: { rot1, trans, rot2, strafe } };
 }
 
 /** Returns one of several poses in an array of x, y, θ triples. */

@@ -20,13 +20,8 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
   /** Returns the sentence about a refusal, in the present language. */
   abstract explain(refusal: any): string;
 
-  /** Message about the latest files; empty if they were not refused. */
-  get refusalText() {
-    return this.refusal === undefined ? '' : this.explain(this.refusal);
-  }
-
   get refusalNoteHtml() {
-    const { refusalText } = this;
+    const refusalText = this.refusal === undefined ? '' : this.explain(this.refusal);
     return html`<p class="note" id="refusal" role="alert" ?hidden=${refusalText === ''}>${refusalText}</p>`;
   }
 

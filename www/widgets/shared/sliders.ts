@@ -1,6 +1,5 @@
 /** Sliders of the velocity command and of the noise parameters (α's) of a motion model, and the command in words. */
 
-import { words } from '../../messages/registry.ts';
 import { fixed } from '../../ui/format.ts';
 
 /** Dash of the commanded path, CSS pixels. */
@@ -16,7 +15,7 @@ export const commandSliders = (maxDuration: number) => ({
 });
 
 export function commandText({ v, omega, dt }: import('../../types.d.ts').Command) {
-  return words.commandText(fixed(v, 2), fixed(omega, 2), fixed(dt, 2));
+  return `v = ${fixed(v, 2)} m/s, ω = ${fixed(omega, 2)} rad/s, Δt = ${fixed(dt, 2)} s`;
 }
 
 /** Returns the subscript of an α, counted from 0. */

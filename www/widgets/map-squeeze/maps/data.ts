@@ -11,11 +11,7 @@ const freeze = Object.freeze;
 const PLAN_KEYS = ['name', 'bounds', 'walls'];
 const GRID_KEYS = ['name', 'columns', 'rows', 'resolution', 'origin', 'occupied', 'unknown'];
 
-/** Keys that only a grid has. */
 const GRID_ONLY_KEYS = GRID_KEYS.filter((key) => !PLAN_KEYS.includes(key));
-
-/** Maximum number of walls in the core. */
-const MAX_WALLS = 20_000;
 
 /** Grey values of cells in the image that passes a grid to the core. The brightest is occupied. */
 const [OCCUPIED_SHADE, UNKNOWN_SHADE] = [2, 1];
@@ -39,17 +35,6 @@ export function mapDataOf(simulation: MapSqueeze, name: string, grid: Cells | nu
   return freeze({ name, bounds: freeze([...bounds]), walls: freeze(wallList) });
 }
 
-/** Flattens the walls of a floor plan, because the core reads one array fastest. Other values are unchanged, and the core refuses them. */
-function flattenWalls(walls: unknown) {
-  if (!Array.isArray(walls) || walls.length > MAX_WALLS) return walls;
-  const wallNumbers = new Float64Array(4 * walls.length);
-  for (const [i, wall] of walls.entries()) {
-    if (!Array.isArray(wall) || wall.length !== 4 || !wall.every((coordinate) => typeof coordinate === 'number')) return walls;
-    wallNumbers.set(wall, 4 * i);
-  }
-  return wallNumbers;
-}
-
 /** Sets the map of a simulation. Throws a TypeError or RangeError that names the field, and then changes nothing. */
 export function applyMap(simulation: MapSqueeze, data: unknown) {
   if (typeof data !== 'object' || data === null || Array.isArray(data)) {
@@ -59,7 +44,7 @@ export function applyMap(simulation: MapSqueeze, data: unknown) {
   const map = checkedObject('map', data, isGrid ? GRID_KEYS : PLAN_KEYS);
   if (map.name !== undefined && typeof map.name !== 'string') throw refusalError('map.name', map.name, 'a text', TypeError);
   if (!isGrid) {
-    withRenamedFields(PLAN_KEYS, () => simulation.setPlan({ bounds: map.bounds, walls: flattenWalls(map.walls) }));
+    withRenamedFields(PLAN_KEYS, () => simulation.setPlan({ bounds: map.bounds, walls: map.walls }));
     return;
   }
   const columns = checkedInteger('map.columns', map.columns, 1, limits.cells);

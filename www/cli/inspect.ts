@@ -11,7 +11,6 @@ import { alignRows } from './report.ts';
 
 const FORMAT_NAMES: Partial<Record<Recording['format'], string>> = { mcap: 'MCAP recording', rosbag: 'ROS 1 bag', sqlite: 'rosbag2 SQLite recording', csv: 'table', tum: 'TUM table' };
 
-/** Contents of a recording. */
 export interface RecordingContents {
   name: string;
   format: Recording['format'];
@@ -20,7 +19,6 @@ export interface RecordingContents {
   refused: string[];
 }
 
-/** Contents of all recordings in the arguments. */
 export interface InspectionResult {
   recordings: RecordingContents[];
   /** Sentence about a log or a choice that the calibration still needs. */
@@ -29,7 +27,6 @@ export interface InspectionResult {
   command?: string;
 }
 
-/** Recording with its path in the arguments. */
 export interface GivenRecording { recording: Recording; path: string }
 
 /**
@@ -61,7 +58,6 @@ async function contentsOf(recording: Recording, onProgress?: (share: number | un
   return { name, format, series, refused: [...new Set(refusalSentences)] };
 }
 
-/** Returns the contents as text. */
 export function inspectionText({ recordings, missing, command }: InspectionResult): string {
   const contentLines = recordings.flatMap(({ name, format, series, refused }) => {
     const tableRows = series.map(({ name: seriesName, type, rows: count, uses, summary }) => [seriesName || '(all columns)', isTable({ format }) ? truncate(type) : type, String(count || ''), summary ? `${summary.rate.toPrecision(3)} Hz` : '', uses.join(' or ')]);

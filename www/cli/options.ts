@@ -73,7 +73,6 @@ const OPTIONS = {
   help: { ...flagOption, short: 'h' }, version: flagOption,
 } as const;
 
-/** Options of the command `inspect`. */
 const INSPECT_OPTIONS = ['recording', 'odometry', 'reference', 'columns', 'time-unit', 'length-unit', 'angle-unit', 'json'];
 
 /** Options by the fields of the core's function `calibrate`. */
@@ -88,29 +87,24 @@ export function replaceFieldByOption(message: string): string | undefined {
   return Object.hasOwn(OPTION_BY_FIELD, field) ? `--${OPTION_BY_FIELD[field]}${message.slice(field.length)}.` : undefined;
 }
 
-/** File or folder, and the options to open it with. */
 export interface InputPath { path: string; open: OpenOptions }
 
 export interface CalibrateArguments {
   command: 'calibrate';
   inputs: { recording: InputPath[]; odometry: InputPath[]; reference: InputPath[] };
   userChoices: UserChoices;
-  /** Options of the core's function `calibrate`. */
   fit: Record<string, any>;
   output: 'text' | 'json' | 'yaml';
-  /** Path of the picture. */
   plot: string | undefined;
 }
 
 interface InspectArguments {
   command: 'inspect';
   inputs: InputPath[];
-  /** Options about units and columns. */
   statedOptions: [name: string, value: string][];
   isJson: boolean;
 }
 
-/** Parses the arguments; throws a UsageError. */
 export function parseOptions(args: string[]): CalibrateArguments | InspectArguments | 'help' | 'version' {
   const { values, positionals: [command, ...givenPaths] } = parseArguments(args);
   // A metadata.yaml stands for its folder. A shell that expands a pattern gives all files of the folder.
@@ -189,7 +183,6 @@ function unitsOf(values: { [name in 'time-unit' | 'length-unit' | 'angle-unit']?
   }));
 }
 
-/** Returns an object without keys that are undefined. */
 const withoutUndefined = <T extends object>(object: T): T => Object.fromEntries(Object.entries(object).filter(([, value]) => value !== undefined)) as T;
 
 const listOfAlternatives = (names: readonly string[]) => new Intl.ListFormat('en', { type: 'disjunction' }).format(names);

@@ -11,7 +11,6 @@ const [WIDTH, HEIGHT, MARGIN] = [800, 800, { top: 64, right: 24, bottom: 56, lef
 /** Maximum number of points of a path. */
 const MAX_POINTS = 10_000;
 
-/** Distance of the paths from the axes, in pixels. */
 const INSET_PX = 12;
 
 /** Attributes of the lines, in the colours of the page. */
@@ -19,7 +18,6 @@ const LINE_STYLES = { reference: 'stroke="#1f1e1b" stroke-width="1.5"', odometry
 
 const [INK, MUTED] = ['#1f1e1b', '#57564f'];
 
-/** Returns the picture as SVG, with a panel for each drive. */
 export function drivesSvg(drives: Drive[], calibration: any): string {
   let nextPanelTop = 0;
   const panelSvgs = drives.map((drive) => {

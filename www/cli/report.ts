@@ -13,9 +13,7 @@ type Interval = [number, number] | null;
 interface ReadLog { name: string; summary: Summary; sentences: string[] }
 
 export interface CalibrationResult {
-  /** Result of the core. */
   calibration: any;
-  /** Options of `calibrate`. */
   options: Record<string, any>;
   /** Odometry and reference of each drive. */
   logs: ReadLog[];
@@ -26,13 +24,11 @@ export interface CalibrationResult {
   date: string;
 }
 
-/** Causes of lost legs. */
 const LOST_LEG_CAUSES = ['withoutReference', 'acrossBreaks', 'acrossPauses', 'standing'] as const;
 
 /** Checks whose failure makes a log unusable. */
 const DECISIVE_CHECKS = ['reference-matches', 'enough-legs', 'inflation-bounded'];
 
-/** Maximum number of outliers that are listed. */
 const MAX_LISTED_OUTLIERS = 5;
 
 /** Returns the summaries of the logs (odometry and reference of each drive), without the result of the fit. */
@@ -68,7 +64,6 @@ export function reportText({ calibration, options, logs, start, driveStarts, dat
   return isColored ? uncoloredReport.replaceAll(/^Consistent|\bok$/gm, colorize(GREEN)).replace(/^Questionable/m, colorize(YELLOW)).replaceAll(/^Unusable|\bFAILED$/gm, colorize(RED)) : uncoloredReport;
 }
 
-/** ANSI codes of colours in a terminal. */
 const [RED, GREEN, YELLOW] = [31, 32, 33];
 
 const colorize = (color: number) => (text: string) => `\x1b[${color}m${text}\x1b[0m`;
@@ -180,7 +175,6 @@ export function nav2Yaml({ calibration, options: { model = 'odometry', rule = 't
   return yamlLines.length ? { yaml: `${yamlLines.join('\n')}\n` } : { yaml: '', reason: 'No lines for nav2_params.yaml: Nav2 has no velocity model.' };
 }
 
-/** Aligns the columns of a table. */
 export function alignRows(rows: string[][]): string[] {
   const columnWidths = rows[0].map((_, column) => Math.max(...rows.map((row) => (row[column] ?? '').length)));
   return rows.map((row) => row.map((cell, column) => cell.padEnd(columnWidths[column])).join('  ').trimEnd());

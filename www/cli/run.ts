@@ -14,7 +14,6 @@ import { drivesSvg } from './plot.ts';
 import { resultJson, logSummaries, nav2Yaml, ruleWarning, reportText, verdictLines, type CalibrationResult } from './report.ts';
 
 interface CliEnvironment {
-  /** Loads the core. */
   load(): Promise<any>;
   print(text: string): void;
   complain(text: string): void;
@@ -25,7 +24,6 @@ interface CliEnvironment {
   now?: Date;
 }
 
-/** Exit codes of a shell. */
 const [EXIT_SUCCESS, EXIT_BAD_INPUT, EXIT_UNUSABLE] = [0, 2, 3];
 
 /** Runs a command, and returns the exit code; rejects only for defects of the program. */

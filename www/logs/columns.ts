@@ -6,7 +6,6 @@ import { UNITS, type AngleUnit, type LengthUnit, type LogKind, type Question, ty
 export type Field = 't' | 'seconds' | 'subseconds' | 'x' | 'y' | 'z' | 'yaw' | 'qx' | 'qy' | 'qz' | 'qw' | 'v' | 'omega' | 'frame' | 'child' | 'source';
 
 interface Column {
-  /** Index, from 0. */
   at: number;
   name: string;
   /** Unit of time, length or angle in the name. A speed has the unit of its length or angle. */
@@ -23,7 +22,6 @@ export interface Clock {
 }
 
 export interface Group {
-  /** Prefix of the names. */
   name: string;
   kind: Series['kind'];
   hasCommands: boolean;
@@ -231,7 +229,6 @@ function groupName({ name, columns }: Group, names: string[]): string {
   return name;
 }
 
-/** Columns that are read for a log. */
 export interface Layout {
   kind: LogKind | 'positions';
   clocks: Clock[];

@@ -11,24 +11,20 @@ type Motion = [forward: number, left: number, turn: number];
 
 const DEGREE = Math.PI / 180;
 
-/** Corrections of poses. */
 const POSE_CORRECTIONS = {
   leftHanded: ([x, y, heading]: Pose): Pose => [x, -y, -heading],
   degrees: ([x, y, heading]: Pose): Pose => [x, y, heading * DEGREE],
   radians: ([x, y, heading]: Pose): Pose => [x, y, heading / DEGREE],
 };
 
-/** All corrections, each for one of the two logs. */
 const ALL_CORRECTIONS = (Object.keys(POSE_CORRECTIONS) as (keyof typeof POSE_CORRECTIONS)[]).flatMap((name) => [[name, 'reference'], [name, 'odometry']] as [typeof name, Role][]);
 
 /** Correction that makes two logs of a drive agree. */
 export interface Correction {
   name: keyof typeof POSE_CORRECTIONS | 'lengths';
-  /** Role of the log that needs the correction. */
   at: Role;
   /** Correlation of the motions of both logs after the correction. */
   score: number;
-  /** Factor for the lengths of the log. */
   factor: number;
   /** Unit that the log has after a correction of lengths or angles; undefined if no unit has this size. */
   unit?: keyof typeof UNIT_SIZES | 'rad' | 'deg';
@@ -126,7 +122,6 @@ function bestAgreementOf({ odometry, reference }: Record<Role, Motion[]>, step: 
   return best;
 }
 
-/** Returns motions with jumps replaced by zeros. */
 function withoutJumps(motions: Motion[]): Motion[] {
   const jumpLimit = (size: (motion: Motion) => number) => JUMP_FACTOR * Math.max(MAX_STANDSTILL_MOTION, quantile(Float64Array.from(motions, size), 0.9));
   const [maxDrive, maxTurn] = [jumpLimit(([forward, left]) => Math.hypot(forward, left)), jumpLimit(([, , turn]) => Math.abs(turn))];

@@ -7,7 +7,6 @@ import { pairLogs, matchLogs, withStart, type Drive } from './pairs.ts';
 
 export type { Drive };
 
-/** Recording, and the log that is chosen in it. */
 export interface RecordingChoice { recording: Recording; choice: LogChoice }
 
 /** Plan of the logs to read: drives with both logs, and single logs that are paired after they are read. */
@@ -29,7 +28,6 @@ export interface UserChoices {
   roles?: ReadonlyMap<Recording, Role>;
 }
 
-/** Returns the names and types of series, for a sentence. */
 const describeSeries = (series: Series[]) => listNames(series.map(({ name, type }) => (name ? `${name} (${type.replace(/^\w+\/(msg\/)?(?=\w+( as |$))/, '')})` : type)));
 
 const isSameChoice = (one: LogChoice, other?: LogChoice) => one.series === other?.series && one.frames?.parent === other.frames?.parent && one.frames?.child === other.frames?.child;
@@ -90,7 +88,6 @@ function valueUnlessLogError<Result>(work: () => Result, isExpected: (error: Log
   }
 }
 
-/** Returns both logs of one recording. */
 function chooseBothLogs(recording: Recording, userChoices: UserChoices): Record<Role, RecordingChoice> {
   // A series that the user chose as the reference is not guessed as the odometry.
   const { series, frames } = userChoices.reference ?? {};
@@ -162,7 +159,6 @@ function guessChoice(recording: Recording, role: Role, userChoices: UserChoices,
   );
 }
 
-/** Returns the error of a recording without a readable series. */
 function unusable({ name: file, series }: Recording): LogError {
   const shortSeries = series.find(({ kind }) => kind !== null);
   return new LogError({ file, topic: shortSeries?.name }, (texts) => (shortSeries ? texts.noMessages : texts.noTopics(describeSeries(series))));

@@ -3,7 +3,6 @@
 import type { Correction } from './corrections.ts';
 import type { LogKind, UnitBasis, DropCause, Recording, Role, Summary } from './log.ts';
 
-/** Fields of a table, as labels and sentences name them. */
 const FIELD_NAMES: Record<string, string> = { t: 'time', x: 'x', y: 'y', yaw: 'yaw', qx: 'qx', qy: 'qy', qz: 'qz', qw: 'qw', v: 'speed v', omega: 'turn rate ω' };
 
 const NEEDED_COLUMNS = {
@@ -11,17 +10,14 @@ const NEEDED_COLUMNS = {
   either: 'x, y and yaw (or qx, qy, qz and qw), or v and omega',
 };
 
-/** ROS message types that a log of poses or commands can be read from. */
 const POSE_TYPES = 'nav_msgs/Odometry, geometry_msgs/PoseStamped, PoseWithCovarianceStamped, TransformStamped, Pose, Pose2D or tf2_msgs/TFMessage';
 const COMMAND_TYPES = 'geometry_msgs/Twist, TwistStamped or TwistWithCovarianceStamped';
 const MESSAGE_TYPES = { poses: POSE_TYPES, either: `${POSE_TYPES}, or ${COMMAND_TYPES}`, transforms: 'tf2_msgs/TFMessage, which has frames' };
 
-/** Bases of decisions about units. */
 const UNIT_BASIS_TEXTS: Record<UnitBasis, string> = { name: ' (by name)', size: ' (by size)', rate: ' (by rate and speed)', format: '', date: ' (from dates)', option: ' (as stated)', usage: '' };
 
 const ANGLE_UNIT_TEXTS: Record<Summary['units']['angle']['unit'], string> = { rad: 'yaw in rad', deg: 'yaw in degrees', quaternion: 'yaw from a quaternion', none: '' };
 
-/** Reasons for leaving rows out. */
 const DROP_REASONS = {
   damaged: 'damaged messages',
   notFinite: 'a value that is not finite, or above a billion',
@@ -63,7 +59,6 @@ export const UNSUPPORTED_FORMATS = {
   parquet: 'a Parquet table; export it as CSV.',
 };
 
-/** Tools that repair a recording. */
 export const REPAIR_COMMANDS: Record<Recording['format'], string> = { mcap: 'mcap recover', rosbag: 'rosbag reindex', sqlite: 'sqlite3 FILE .recover | sqlite3 NEW.db3', csv: '', tum: '' };
 
 export const english = {
@@ -114,7 +109,6 @@ export const english = {
       `in ${unit}, the robot would drive at ${speed.toPrecision(3)} m/s; state the unit of lengths: ${choices.join(' or ')}.`,
     angleUnit: (turn: number, unit: string, choices: string[]) =>
       `headings in ${unit} would turn at ${turn.toPrecision(3)} rad/s; state their unit: ${choices.join(' or ')}.`,
-    /** Errors of recordings. */
     damaged: (reason: string, format?: Recording['format']) => `it is damaged or incomplete (${reason}); copy it again from the robot${format ? `, or try “${REPAIR_COMMANDS[format]}”` : ''}.`,
     largeFile: (command: string, max: number) => `it has more than ${max} bytes when it is decompressed; decompress it with “${command}”, and give the result.`,
     noRosbag2: 'it is an SQLite database without the tables “topics” and “messages” of rosbag2; expected is a recording of “ros2 bag record”.',
@@ -138,17 +132,14 @@ export const english = {
     constant: (frames: string, others: string) =>
       `the transform ${frames} never changes, so it is no path of a robot; expected are frames that move${others ? `, as ${others}` : ''}.`,
     noMessages: 'it has fewer than 2 messages; expected are at least 2.',
-    /** Errors of two logs. */
     givenTwice: 'it is given twice; give two independent measurements of one drive, odometry and reference.',
     ownReference: (name: string) => `${name} is the odometry itself; choose a reference that does not come from the wheels, such as motion capture or scan matching.`,
     correction: (correction: Correction, other: string, kind: LogKind) =>
       `${correction.name === 'lengths' ? lengthCorrectionText(correction, other, kind) : CORRECTION_TEXTS[correction.name](other)}. The motions then agree (correlation ${correction.score.toFixed(2)}).`,
     held: 'its pose stands still while the odometry moves on: it has lost the robot; give one that follows the robot.',
-    /** Errors of several recordings. */
     noRole: 'its name does not say whether it is odometry or reference; call the files odom1.csv, truth1.csv, odom2.csv, … or state which is which.',
     unpaired: (odometry: string, reference: string) => `the odometry is in ${odometry || 'no file'}, and the reference in ${reference || 'no file'}; give one of each for a drive.`,
   },
-  /** Choosers of what is read. */
   choose: {
     roles: { odometry: 'Odometry', reference: 'Reference' },
     open: 'choose',
@@ -164,7 +155,6 @@ export const english = {
     read: 'Read',
     other: 'Drop or choose the other file too, or both at once.',
   },
-  /** Summary of a log. */
   found: {
     title: 'What was read',
     drive: (number: number) => `Drive ${number}`,

@@ -9,9 +9,7 @@ export interface Format {
   name: 'csv' | 'tum';
   /** Separator of cells. A space stands for any number of spaces and tabs. */
   separator: string;
-  /** True if numbers have decimal commas. */
   hasDecimalCommas: boolean;
-  /** Number of the first row's line, from 1. */
   firstLine: number;
   names: string[];
   /** Line of the header. Concatenated files repeat it among the rows. */
@@ -153,7 +151,6 @@ export function detectTableFormat(lines: string[], file: string, columns: string
 
 const unitWithoutBrackets = (cell: string) => cell.replaceAll(/[\s"[\](){}]/g, '');
 
-/** Adds the units of a row below the header to the names. */
 function withUnits(names: string[], below: string[][]): string[] {
   const unitTexts = below.map((row) => row.map(unitWithoutBrackets)).find((row) => row.length === names.length && row.filter(isUnit).length >= 2);
   return names.map((name, i) => (unitTexts && isUnit(unitTexts[i]) ? `${name} [${unitTexts[i]}]` : name));

@@ -5,12 +5,9 @@ import type { Question, Source } from './log.ts';
 
 export type Words = typeof english;
 
-/** Location of an error: a line of a table, or a topic of a recording. */
 export interface ErrorPlace {
   file: string;
-  /** Line from 1. */
   line?: number;
-  /** Topic of a recording. */
   topic?: string;
 }
 

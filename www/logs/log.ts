@@ -6,7 +6,6 @@ export type Source = Pick<File, 'name' | 'size' | 'slice'> & { path?: string };
 /** Contents of a log: poses of the robot, or velocity commands. */
 export type LogKind = 'poses' | 'commands';
 
-/** Roles of the two logs of a drive. */
 export const ROLES = ['odometry', 'reference'] as const;
 
 export type Role = (typeof ROLES)[number];
@@ -32,18 +31,14 @@ export interface FramePair {
   child: string;
 }
 
-/** Returns a pair of frames as text. */
 export const framesText = ({ parent, child }: FramePair) => `${parent} → ${child}`;
 
-/** Returns frames in the form of an option. */
 export const framesOption = ({ parent, child }: FramePair) => `${parent},${child}`;
 
 export interface LogChoice {
-  /** Name of the series. */
   series: string;
   /** Kind of log: `commands` prefers commands to poses, and `poses` excludes commands. By default poses come first. */
   kind?: LogKind;
-  /** Ends of a chain of transforms. */
   frames?: FramePair;
 }
 
@@ -64,7 +59,6 @@ export type TimeUnit = (typeof UNITS.timeUnit)[number];
 export type LengthUnit = (typeof UNITS.lengthUnit)[number];
 export type AngleUnit = (typeof UNITS.angleUnit)[number];
 
-/** Answers of the user to questions about a file. */
 export interface OpenOptions {
   /** Names of the columns of a table. They replace its header, if it has one. */
   columns?: string[];
@@ -110,7 +104,6 @@ export interface Log {
   summary: Summary;
 }
 
-/** Reason for dropping a row. */
 export type DropCause = 'damaged' | 'notFinite' | 'noRotation' | 'noStamp' | 'short' | 'text' | 'duplicate' | 'repeated' | 'held';
 
 /** Evidence for a unit: a name, the size of the numbers, rate and speed, the format, dates, an option, or (`usage`) only that it is usual. */
@@ -127,12 +120,10 @@ export interface Note {
 
 /** Numbers and decisions about a log. */
 export interface Summary {
-  /** Number of rows or messages in the file. */
   rows: number;
   used: number;
   /** Number of dropped rows by cause. `first` is the line or the message number of the first dropped row; 0 if unknown. */
   dropped: Partial<Record<DropCause, { count: number; first: number }>>;
-  /** Duration. */
   seconds: number;
   /** Rate in Hz, from the median time between rows. */
   rate: number;
@@ -150,7 +141,6 @@ export interface Summary {
   /** Source of the times: "header.stamp", "log time", or the column. */
   clock: string;
   frames?: FramePair;
-  /** Columns by field. */
   columns?: Record<string, string>;
   notes: Note[];
 }

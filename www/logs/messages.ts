@@ -14,14 +14,11 @@ export interface Sample {
   b: number;
   /** Heading, or 0. */
   c: number;
-  /** True if the quaternion has length 1. */
   isRotation: boolean;
 }
 
-/** Position and quaternion. */
 export type Transform = [x: number, y: number, z: number, qx: number, qy: number, qz: number, qw: number];
 
-/** Transform of the child's frame in the parent's. */
 export interface StampedTransform {
   time: number;
   parent: string;
@@ -131,7 +128,6 @@ function readFrameTransform(reader: MessageReader): Sample {
 
 const readStampedPose = (reader: MessageReader) => sampleOfPose(readHeader(reader), readTransform(reader));
 
-/** Readers of poses and commands by message type. */
 const POSE_READERS: Record<string, (reader: MessageReader) => Sample> = {
   'nav_msgs/Odometry': readFrameTransform,
   'geometry_msgs/TransformStamped': readFrameTransform,
@@ -146,10 +142,8 @@ const COMMAND_READERS: typeof POSE_READERS = {
   'geometry_msgs/TwistWithCovarianceStamped': (reader) => readTwist(readHeader(reader), reader),
 };
 const TRANSFORM_TYPES = ['tf2_msgs/TFMessage', 'tf/tfMessage'];
-/** Types of positions without a heading, which are refused. */
 const POSITION_TYPES = ['geometry_msgs/PointStamped', 'sensor_msgs/NavSatFix'];
 
-/** Returns the ROS 1 name of a message type. */
 const ros1TypeName = (type: string) => type.replace('/msg/', '/');
 
 /** Returns the kind of log that can be read from messages of a type. */

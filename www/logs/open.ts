@@ -8,7 +8,6 @@ import { openTable } from './table.ts';
 
 type FileFormat = 'mcap' | 'rosbag' | 'sqlite' | 'zstd' | 'metadata';
 
-/** First bytes of formats that are read. */
 const FORMAT_MAGIC: Record<FileFormat, string> = {
   mcap: '\x89MCAP0\r\n',
   rosbag: '#ROSBAG V2.0\n',
@@ -24,7 +23,6 @@ const UNSUPPORTED_MAGIC: [keyof typeof UNSUPPORTED_FORMATS, string][] = [
   ['hdf5', '\x89HDF\r\n\x1a\n'], ['hdf5', 'MATLAB 5.0 MAT-file'], ['parquet', 'PAR1'],
 ];
 
-/** Number of bytes from which the format is identified. */
 const MAX_MAGIC_BYTES = 32;
 
 /**

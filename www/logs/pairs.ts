@@ -19,7 +19,6 @@ const END_MARGIN_SECONDS = 1;
 /** Minimum motion of the odometry during a frozen pose, metres and radians added up. Encoders at rest may count a pulse or two. */
 const MIN_ODOMETRY_MOTION = 0.05;
 
-/** Returns the absolute times of the first and the last row. */
 const timeSpanOf = ({ start, data: { t } }: Log): [number, number] => [start + t[0], start + t[t.length - 1]];
 
 const timeSpanText = (log: Log) => timeSpanOf(log).map((time) => `${time.toFixed(2)} s`).join(' to ');
@@ -100,7 +99,6 @@ function breakFrozenPoses(reference: Log, odometry: Log): Log {
   };
 }
 
-/** Returns the warnings of logs. */
 export const warningsOf = (logs: Pick<Log, 'summary'>[]): Warning[] =>
   (['localizer', 'swapped'] as const).filter((warning) => logs.some(({ summary }) => summary.notes.some(({ name }) => name === warning)));
 

@@ -45,7 +45,6 @@ export function poseAt({ t, poses }: Path, time: number): Pose {
   return [a[0] + fraction * (b[0] - a[0]), a[1] + fraction * (b[1] - a[1]), a[2] + fraction * wrapAngle(b[2] - a[2])];
 }
 
-/** Returns a path as the data of an SVG path. */
 export const svgPathData = ({ poses, breaks }: Path, toPixel: (pose: Pose) => number[]) =>
   poses.map((pose, i) => `${i === 0 || breaks.has(i) ? 'M' : 'L'}${toPixel(pose).map((value) => value.toFixed(1)).join(' ')}`).join('');
 

@@ -20,7 +20,6 @@ export function isRotation(qx: number, qy: number, qz: number, qw: number): bool
   return !(Math.abs(Math.sqrt(qx * qx + qy * qy + qz * qz + qw * qw) - 1) > LENGTH_TOLERANCE);
 }
 
-/** Returns the Hamilton product. */
 export const hamiltonProduct = (a: Quaternion, b: Quaternion): Quaternion => ({
   x: a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
   y: a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
@@ -28,7 +27,6 @@ export const hamiltonProduct = (a: Quaternion, b: Quaternion): Quaternion => ({
   w: a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z,
 });
 
-/** Rotates a vector by a quaternion of length 1. */
 export function rotateVector(q: Quaternion, v: Vector): Vector {
   return hamiltonProduct(hamiltonProduct(q, { ...v, w: 0 }), { x: -q.x, y: -q.y, z: -q.z, w: q.w });
 }

@@ -76,7 +76,6 @@ export class Rows {
     this.#logPlace = place;
   }
 
-  /** Drops an unusable row. */
   drop(cause: DropCause, line: number): void {
     this.count += 1;
     this.#countDropped(cause, line);
@@ -154,7 +153,6 @@ export class Rows {
     return 2 * time.filter((value, row) => value === time[row - 1]).length > time.length;
   }
 
-  /** Checks whether two rows have the same values. */
   #isSame(one: number, other: number): boolean {
     const { a, b, c } = this.#columns;
     return a[one] === a[other] && b[one] === b[other] && c[one] === c[other];

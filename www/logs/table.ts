@@ -11,7 +11,6 @@ import { headingOf, isRotation } from './quaternion.ts';
 import { Rows } from './rows.ts';
 import { UNIT_EXPONENTS, epochTimeUnitOf } from './units.ts';
 
-/** Number of bytes that are read and parsed at a time. */
 const BLOCK_BYTES = 2 ** 22;
 
 /** Number of first bytes, with a preamble and some rows, from which the format is detected. */
@@ -34,7 +33,6 @@ const MAX_LISTED_NAMES = 4;
 /** Maximum spread of the cosine of the tilt. Above it, the robot does not drive on a plane. */
 const MAX_TILT_SPREAD = 0.5;
 
-/** Opens a table; rejects with a LogError. */
 export async function openTable(source: Source, options: OpenOptions = {}): Promise<Recording> {
   const encoding = await detectEncoding(source);
   const headText = new TextDecoder(encoding).decode(await readBytes(source, 0, Math.min(HEAD_BYTES, source.size)), { stream: true });
@@ -179,7 +177,6 @@ function logReader(name: string, place: ErrorPlace, format: Format, group: Group
   };
   const dropText = (line: number, columnName: string, cell: string) => dropDamaged('text', line, (texts) => texts.number(truncate(columnName), truncate(cell.trim())));
 
-  /** Adds a row, or drops it. */
   const addCells = (cells: string[], line: number) => {
     const times: number[] = [];
     for (let i = 0; i < clocks.length; i++) {

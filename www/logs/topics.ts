@@ -13,7 +13,6 @@ const MAX_FRAME_MESSAGES = 2000;
 /** Returns true for a topic of static transforms. */
 const isStaticTopic = ({ topic, type }: Pick<Channel, 'topic' | 'type'>) => logKindOfType(type) === 'transforms' && /(^|\/)tf_static$/.test(topic);
 
-/** Returns a recording whose logs are read from the messages of a container. */
 export async function recordingOf(name: string, container: Container, options: OpenOptions): Promise<Recording> {
   const { format, channels } = container;
   if (channels.every(({ count }) => count === 0)) {
@@ -23,7 +22,6 @@ export async function recordingOf(name: string, container: Container, options: O
   const series = await listSeries(container);
   return { name, format, series, read };
 
-  /** Reads several logs in one pass. */
   async function read(choices: LogChoice[], onProgress?: (share: number) => void): Promise<Log[]> {
     const choiceReaders = choices.map((choice) => topicReader(name, container, choice, series));
     const readersByChannel = new Map(container.channels.map((channel) => [channel, choiceReaders.filter((reader) => reader.wants(channel))]));

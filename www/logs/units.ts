@@ -32,7 +32,6 @@ const MIN_EPOCH_TIMES = [['ns', 1e17], ['us', 1e14], ['ms', 1e11], ['s', 1e8]] a
 /** Largest heading of an angle that is wrapped at a full circle, rad, with a margin for rounding. */
 const MAX_WRAPPED_HEADING = 2 * Math.PI + 0.1;
 
-/** Minimum number of rows of a log whose units are judged. */
 const MIN_ROWS = 10;
 
 /** Usual range of the rate of a log, Hz, and possible range of a log whose times are since 1970. */

@@ -51,7 +51,6 @@ class LogSession {
     return { recordings: this.#recordings.map(({ name, format, series }, place) => ({ name, format, series, place }) as OpenedRecording), skipped };
   }
 
-  /** Reads the logs of a plan of the page. */
   async read(onProgress: OnProgress, { drives, unpaired }: Pick<LogPlan, 'drives' | 'unpaired'>): Promise<Drive[]> {
     const openedChoice = ({ recording, choice }: RecordingChoice) => ({ recording: this.#recordings[(recording as OpenedRecording).place], choice });
     const plan = {

@@ -3,14 +3,12 @@
 import type { Recording, Source } from '../log.ts';
 import { LogError, readBytes, reasonOf } from '../log-error.ts';
 
-/** Topic of one publishing node. */
 export interface Channel {
   topic: string;
   /** Message type as it was recorded. */
   type: string;
   /** Serialization: "cdr" of ROS 2, "ros1", or another. */
   encoding: string;
-  /** Number of messages. */
   count: number;
 }
 

@@ -5,13 +5,10 @@ import { LogError, readBytes, listNames, reasonOf } from '../log-error.ts';
 import type { Source } from '../log.ts';
 import type { Container } from './container.ts';
 
-/** Maximum size of a metadata.yaml, bytes. */
 const MAX_METADATA_BYTES = 2 ** 24;
 
-/** Files of a recording, as listed in its metadata.yaml. */
 interface Folder {
   name: string;
-  /** Files in the order of recording. */
   files: Source[];
 }
 

@@ -12,7 +12,6 @@ import { loadZstd, unzstd } from './zstd.ts';
 const [SCHEMA, CHANNEL, MESSAGE, CHUNK, DATA_END] = [3, 4, 5, 6, 15];
 const RECORD_HEAD_BYTES = 9;
 
-/** Number of bytes before the first record. */
 const MAGIC_BYTES = 8;
 
 /** Opens a recording by its index. Without an index it is read from its start up to its end. */

@@ -8,7 +8,6 @@ import { unlz4 } from './lz4.ts';
 /** Values of the field "op" of records. */
 const [MESSAGE, BAG, CHUNK, CHUNK_INFO, CONNECTION] = [2, 3, 5, 6, 7];
 
-/** Number of bytes before the first record. */
 const MAGIC_BYTES = 13;
 
 /** Number of bytes of a header that are read at first. Headers with a long topic are longer. */

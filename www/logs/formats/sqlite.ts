@@ -5,10 +5,8 @@ import type { Source } from '../log.ts';
 import { MessageFile, readAhead, dataViewOf, type Channel, type Container, type IsWanted, type OnBlock, type OnMessage } from './container.ts';
 import { loadZstd } from './zstd.ts';
 
-/** Types of the pages of a table's B-tree. */
 const [INTERIOR_PAGE, LEAF_PAGE] = [5, 13];
 
-/** Number of bytes of the database's header, on the first page. */
 const HEADER_BYTES = 100;
 
 /** Maximum size of a row, bytes. The largest messages are point clouds and images. */
@@ -16,7 +14,6 @@ const MAX_ROW_BYTES = 2 ** 28;
 
 type SqliteValue = number | bigint | Uint8Array;
 
-/** Row of a table. */
 interface Row {
   id: number;
   /** Bytes of the row on the leaf page. All other bytes are on overflow pages. */

@@ -7,16 +7,13 @@ import { MAX_BLOCK_BYTES, dataViewOf } from './container.ts';
 
 const zstdDecoder = new ZSTDDecoder();
 
-/** Maximum size of a file that is decompressed in memory, bytes. */
 const MAX_FILE_BYTES = 2 ** 30;
 
-/** Size of the pieces of input that are decompressed at once, bytes. */
 const INPUT_PIECE_BYTES = 2 ** 20;
 
 /** Maximum number of successive empty parts of the output. The end of each piece of input or frame gives one. */
 const MAX_EMPTY_PARTS = 100;
 
-/** Loads the decoder; the other functions need it. */
 export const loadZstd = () => zstdDecoder.init();
 
 /** Decompresses a block of known size; throws a RangeError if it has another size. */
@@ -27,7 +24,6 @@ export function unzstd(bytes: Uint8Array, size: number): Uint8Array {
   return output;
 }
 
-/** Decompresses a message; throws a RangeError if it is damaged. */
 export function unzstdMessage(bytes: Uint8Array): Uint8Array {
   const size = contentSize(bytes);
   if (size > MAX_BLOCK_BYTES) throw new RangeError(`a message of ${size} bytes`);
@@ -48,7 +44,6 @@ function contentSize(frame: Uint8Array): number {
   }
 }
 
-/** Returns a decompressed file with the same name. */
 export async function unzstdFile(source: Source): Promise<Source> {
   await loadZstd();
   const tooLargeError = () => new LogError({ file: source.name }, (texts) => texts.largeFile('zstd -d', MAX_FILE_BYTES));

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { REDUCED_MOTION, waitForFrames, propertyOf, showPage, test, untilReady } from './support.js';
+import { REDUCED_MOTION, holdRequests, waitForFrames, propertyOf, showPage, test, untilReady } from './support.js';
 
 /** @typedef {import('@playwright/test').Page} Page */
 
@@ -47,12 +47,7 @@ for (const [direction, originSelector, key] of /** @type {const} */ ([['above', 
 }
 
 test('a figure that starts after the user has moved the focus leaves it there @nightly', async ({ page, figureName }) => {
-  let allowModule = () => {};
-  const modulePermissionPromise = new Promise((resolve) => (allowModule = () => resolve(undefined)));
-  await page.route('**/*.wasm', async (route) => {
-    await modulePermissionPromise;
-    await route.continue();
-  });
+  const allowModule = await holdRequests(page, '**/*.wasm');
   const widget = await showFigureFarBelow(page, figureName);
   const moduleRequest = page.waitForRequest(/\.wasm$/);
   await page.locator('#before').focus();

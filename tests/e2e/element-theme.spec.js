@@ -1,5 +1,6 @@
 import { expect } from '@playwright/test';
-import { REDUCED_MOTION, waitForFrames, mount, pixelCountOf, showPage, test, openDisclosures, untilReady } from './support.js';
+import axe from 'axe-core';
+import { REDUCED_MOTION, coloursOf, mount, pixelCountOf, showPage, test, openDisclosures, untilReady } from './support.js';
 
 /** @typedef {import('@playwright/test').Locator} Locator */
 
@@ -21,43 +22,15 @@ const THEME_COLORS = {
 /** Minimum contrast with the background of text, lines and dots. */
 const MIN_CONTRAST = { ink: 4.5, muted: 4.5, prior: 4.5, prediction: 4.5, posterior: 4.5, accent: 4.5, cloud: 3, truth: 3 };
 
-/**
- * Returns the colours of a figure's roles on its surface.
- *
- * @param {Locator} widget
- * @param {string[]} roles
- * @returns {Promise<number[][]>} red, green, blue, 0 to 255
- */
-async function coloursOf(widget, roles) {
-  await waitForFrames(widget.page());
-  return widget.evaluate((element, names) => {
-    const context = /** @type {OffscreenCanvasRenderingContext2D} */ (new OffscreenCanvas(1, 1).getContext('2d', { willReadFrequently: true }));
-    return names.map((name) => {
-      const swatch = document.createElement('span');
-      swatch.style.color = `var(--${name})`;
-      swatch.style.forcedColorAdjust = 'none';
-      element.shadowRoot?.querySelector('.surface')?.append(swatch);
-      context.fillStyle = getComputedStyle(swatch).color;
-      swatch.remove();
-      context.fillRect(0, 0, 1, 1);
-      return [...context.getImageData(0, 0, 1, 1).data.slice(0, 3)];
-    });
-  }, roles);
-}
-
 /** Returns the background colour of a figure as hexadecimal digits. @param {Locator} widget @returns {Promise<string>} */
 const paperOf = async (widget) => hex((await coloursOf(widget, ['paper']))[0]);
 
 /** @param {number[]} channels */
 const hex = (channels) => `#${channels.map((channel) => channel.toString(16).padStart(2, '0')).join('')}`;
 
-/** Returns the contrast of two colours by WCAG. @param {number[]} first @param {number[]} second */
-function contrastOf(first, second) {
-  const linearChannelOf = (/** @type {number} */ c) => (c / 255 <= 0.04045 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4);
-  const luminanceOf = ([r, g, b] = first) => 0.2126 * linearChannelOf(r) + 0.7152 * linearChannelOf(g) + 0.0722 * linearChannelOf(b);
-  const [lowerLuminance, higherLuminance] = [luminanceOf(first), luminanceOf(second)].sort((a, b) => a - b);
-  return (higherLuminance + 0.05) / (lowerLuminance + 0.05);
-}
+const { Color, getContrast } = /** @type {any} */ (axe).commons.color;
+/** Returns the contrast of two colours by WCAG. @param {number[]} first @param {number[]} second @returns {number} */
+const contrastOf = (first, second) => getContrast(new Color(...first), new Color(...second));
 
 /** Returns computed styles of the surface of a figure. @param {Locator} widget */
 const surfaceStyleOf = (widget) =>

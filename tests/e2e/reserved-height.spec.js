@@ -1,6 +1,5 @@
 import { expect } from '@playwright/test';
-import { NEW_PAGE_TAG, REDUCED_MOTION, boxOf, waitForFrames, mount, showPage, test, testEach, untilReady } from './support.js';
-
+import { NEW_PAGE_TAG, REDUCED_MOTION, boxOf, holdRequests, waitForFrames, mount, showPage, test, testEach, untilReady } from './support.js';
 
 test.use(REDUCED_MOTION);
 
@@ -13,12 +12,7 @@ testEach('the height reserved for a figure until its script is loaded is about t
     head: '<style>body { margin: 0; font: 16px "Liberation Serif", serif }</style>',
     script: '<script type="module" src="/external.js"></script>',
   });
-  let allowScript = () => {};
-  const scriptPermissionPromise = new Promise((resolve) => (allowScript = () => resolve(undefined)));
-  await page.route('**/chunks/**', async (route) => {
-    await scriptPermissionPromise;
-    await route.continue();
-  });
+  const allowScript = await holdRequests(page, '**/chunks/**');
   await page.evaluate((tag) => document.body.append(document.createElement(tag)), name);
   const widget = page.locator(name);
   const readHeightsInEm = async () => {
@@ -48,12 +42,7 @@ testEach('the height reserved for a figure until its script is loaded is about t
 }, NEW_PAGE_TAG);
 
 test('a title and a caption move nothing when the script is loaded', async ({ page }) => {
-  let allowScript = () => {};
-  const scriptPermissionPromise = new Promise((resolve) => (allowScript = () => resolve(undefined)));
-  await page.route('**/motion-widgets.js', async (route) => {
-    await scriptPermissionPromise;
-    await route.continue();
-  });
+  const allowScript = await holdRequests(page, '**/motion-widgets.js');
   const pageBody = '<banana-machine><span slot="title">Figure 9.3</span><p slot="caption">Drag the ring.</p></banana-machine><p id="after">After</p>';
   const pageOpening = showPage(page, pageBody, { head: '<link rel="stylesheet" href="/motion-widgets.css">' });
   const textBelow = page.locator('#after');

@@ -218,6 +218,17 @@ export function stateOf(widget) {
   return widget.evaluate((element) => /** @type {AnyElement} */ (element).getState());
 }
 
+/** Holds requests of a page until the returned function is called. @param {Page} page @param {string} addressPattern */
+export async function holdRequests(page, addressPattern) {
+  let allowRequests = () => {};
+  const permissionPromise = new Promise((resolve) => (allowRequests = () => resolve(undefined)));
+  await page.route(addressPattern, async (route) => {
+    await permissionPromise;
+    await route.continue();
+  });
+  return allowRequests;
+}
+
 /** Opens a page with a Banana Machine. @param {Page} page @param {string} [attributes] */
 export async function openBanana(page, attributes = '') {
   return mount(page, 'banana-machine', { attributes });
@@ -330,38 +341,45 @@ export async function pictureOf(canvas) {
 }
 
 /**
- * Returns the number of pixels of a canvas that have a role's colour.
+ * Returns the colours of roles on a figure, or on a part of it.
  *
- * @param {Locator} canvas
- * @param {string} role name of the custom property
+ * @param {Locator} part
+ * @param {string[]} roles names of custom properties
+ * @returns {Promise<number[][]>} red, green, blue, 0 to 255
  */
+export async function coloursOf(part, roles) {
+  await waitForFrames(part.page());
+  return part.evaluate((element, names) => {
+    const context = /** @type {OffscreenCanvasRenderingContext2D} */ (new OffscreenCanvas(1, 1).getContext('2d', { willReadFrequently: true }));
+    return names.map((name) => {
+      const swatch = document.createElement('span');
+      // The figures keep the hues of their colour roles in forced colours. Without this property the swatch would not.
+      swatch.style.cssText = `color: var(--${name}); forced-color-adjust: none`;
+      (element.shadowRoot?.querySelector('.surface') ?? element).append(swatch);
+      // The canvas converts colours of any notation to numbers.
+      context.fillStyle = getComputedStyle(swatch).color;
+      swatch.remove();
+      context.fillRect(0, 0, 1, 1);
+      return [...context.getImageData(0, 0, 1, 1).data.slice(0, 3)];
+    });
+  }, roles);
+}
+
+/** Returns the number of pixels of a canvas that have a role's colour. @param {Locator} canvas @param {string} role */
 export async function pixelCountOf(canvas, role) {
-  await waitForFrames(canvas.page());
-  return canvas.evaluate((element, name) => {
-    const sourceCanvas = /** @type {HTMLCanvasElement} */ (element);
-    const colorProbe = document.createElement('span');
-    // The figures keep the hues of their colour roles in forced colours. Without this property the probe would not.
-    colorProbe.style.cssText = `color: var(--${name}); forced-color-adjust: none`;
-    sourceCanvas.after(colorProbe);
-    const pixelCopy = document.createElement('canvas');
-    pixelCopy.width = sourceCanvas.width;
-    pixelCopy.height = sourceCanvas.height;
-    const context = /** @type {CanvasRenderingContext2D} */ (pixelCopy.getContext('2d', { willReadFrequently: true }));
-    // The canvas converts colours of any notation to numbers.
-    context.fillStyle = getComputedStyle(colorProbe).color;
-    colorProbe.remove();
-    context.fillRect(0, 0, 1, 1);
-    const roleColor = context.getImageData(0, 0, 1, 1).data.slice(0, 3);
-    context.clearRect(0, 0, 1, 1);
-    context.drawImage(sourceCanvas, 0, 0);
-    const { data } = context.getImageData(0, 0, pixelCopy.width, pixelCopy.height);
+  const [roleColour] = await coloursOf(canvas, [role]);
+  return canvas.evaluate((element, colour) => {
+    const { width, height } = /** @type {HTMLCanvasElement} */ (element);
+    const context = /** @type {OffscreenCanvasRenderingContext2D} */ (new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true }));
+    context.drawImage(/** @type {HTMLCanvasElement} */ (element), 0, 0);
+    const { data } = context.getImageData(0, 0, width, height);
     let count = 0;
     for (let i = 0; i < data.length; i += 4) {
-      const channelDifference = Math.max(...[...roleColor].map((channel, k) => Math.abs(channel - data[i + k])));
+      const channelDifference = Math.max(...colour.map((channel, k) => Math.abs(channel - data[i + k])));
       if (data[i + 3] > 250 && channelDifference < 8) count++;
     }
     return count;
-  }, role);
+  }, roleColour);
 }
 
 /** Returns the element with the value of a readout, without its detail. @param {Locator} widget @param {string | RegExp} name */
@@ -392,13 +410,7 @@ export function dropFiles(part, files) {
   );
 }
 
-/**
- * Opens a page with a running Banana Machine, with all disclosures open.
- *
- * @param {Page} page
- * @param {string} [attributes]
- * @returns {Promise<Locator>} the widget
- */
+/** Opens a page with a running Banana Machine, with all disclosures open. @param {Page} page @param {string} [attributes] */
 export async function openBananaWithDisclosures(page, attributes = '') {
   const widget = await openBanana(page, attributes);
   await openDisclosures(widget);

@@ -4,7 +4,6 @@ import { html, noChange, nothing } from 'lit';
 import { live } from 'lit/directives/live.js';
 import { words } from '../messages/registry.ts';
 import { group, inputOf, radioGroup, formatMarkup, toggle } from '../ui/controls.ts';
-import { disclosure } from '../ui/fold.ts';
 import { integer, formatLimit, parseNumber, formatEditable } from '../ui/format.ts';
 import { sliderRow, type SliderRow } from '../ui/slider.ts';
 import { exportButtons } from './export.ts';
@@ -123,11 +122,20 @@ interface DisclosureOptions {
   csvTitle?: string;
 }
 
+/** Returns a disclosure. Its content is rendered only while it is open. */
+function disclosure(figure: Figure, name: string, id: string, content: () => unknown) {
+  const isOpen = figure.renderRoot.querySelector<HTMLDetailsElement>(`#${id}`)?.open;
+  return html`<details part="fold" id=${id} @toggle=${() => figure.requestUpdate()}>
+    <summary>${name}</summary>
+    <div class="folded">${isOpen ? content() : noChange}</div>
+  </details>`;
+}
+
 /** Returns the two disclosures below a figure, the button that copies a link, and the button that starts the presentation. */
 export function disclosures(figure: Figure, { controls, numbers, fileNameMark = figure.viewModel.config.seed, csvTitle }: DisclosureOptions) {
   return html`<div class="folds">
-    ${disclosure(words.moreControls, controls, 'more')}
-    ${disclosure(words.numbersAndData, () => html`${numbers()} ${exportButtons(figure, fileNameMark, csvTitle)} ${figure.copyMenu.codeButton()}`, 'numbers')}
+    ${disclosure(figure, words.moreControls, 'more', controls)}
+    ${disclosure(figure, words.numbersAndData, 'numbers', () => html`${numbers()} ${exportButtons(figure, fileNameMark, csvTitle)} ${figure.copyMenu.codeButton()}`)}
     ${figure.copyMenu.messageHtml('link')}
     <div class="begin">${figure.copyMenu.linkButton()} ${figure.presenting.button()}</div>
   </div>
@@ -222,13 +230,11 @@ export function sampleField(figure: CloudFigure, id: 'robot' | 'sample', shown: 
   </p>`;
 }
 
-/** Requests another value of a setting. */
 function requestValue(figure: Figure, key: string, value: unknown) {
   const setting = figure.definition.attributes[key];
   figure.settings.request((requested) => setting.change(value, requested));
 }
 
-/** Returns the declaration of a numeric setting. */
 const declarationOf = (figure: Figure, key: string): Declaration & AllowedNumbers =>
   figure.definition.declarations.find((setting) => setting.key === key) as any;
 

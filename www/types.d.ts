@@ -1,7 +1,7 @@
 /** Types that the code imports. scripts/types.mjs generates those of settings, simulations and elements from their declarations. */
 
 import type { BananaMachineSettings, CalibrationOptions, MapSqueezeSettings, Start } from '../build/simulations.d.ts';
-import type { BananaMachineElement, BananaMachineState, FigureElement } from '../build/elements.d.ts';
+import type { BananaMachineElement, FigureElement } from '../build/elements.d.ts';
 
 export type * from '../build/simulations.d.ts';
 export type * from '../build/elements.d.ts';
@@ -42,4 +42,3 @@ export type SamplerName = SqueezeSettings['sampler'];
 /** Common members of the elements with a command and a cloud. */
 export type WidgetElement<State extends FigureState, Stats> = FigureElement<State, Stats> &
   Pick<BananaMachineElement, 'v' | 'omega' | 'dt' | 'command' | 'alphas' | 'samples' | 'seed' | 'marked' | 'poses'>;
-export type WidgetState = Pick<BananaMachineState, 'version' | 'command' | 'samples' | 'seed' | 'shown' | 'playing' | 'marked'>;

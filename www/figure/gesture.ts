@@ -6,7 +6,6 @@ import type { Values } from './settings.ts';
 export class Gesture extends FigureController {
   /** True between an `input` event and its `change`. */
   #isOpen = false;
-  /** Removes the listeners of a press. */
   #pressListeners: AbortController | undefined;
   /** View model of the simulation (see FigureElement.viewModel) before the present or latest gesture. */
   previousViewModel: any;
@@ -21,9 +20,8 @@ export class Gesture extends FigureController {
     this.#endPress();
     this.#pressListeners = new AbortController();
     const { signal } = this.#pressListeners;
-    for (const endEvent of ['pointerup', 'pointercancel']) addEventListener(endEvent, () => this.#endPress(), { capture: true, signal });
-    // No `pointerup` is fired if the pointer is released over a list or dialog of the browser.
-    addEventListener('pointermove', ({ buttons }) => buttons === 0 && this.#endPress(), { capture: true, signal });
+    // If the pointer is released over a list or dialog of the browser, the next event is a `pointermove`.
+    for (const type of ['pointerup', 'pointercancel', 'pointermove'] as const) addEventListener(type, ({ buttons }) => buttons === 0 && this.#endPress(), { capture: true, signal });
   }
 
   #endPress() {
@@ -32,7 +30,6 @@ export class Gesture extends FigureController {
     this.host.renderer.requestFrame();
   }
 
-  /** Ends the gesture when the figure is removed. */
   hostDisconnected() {
     this.#endPress();
     if (this.#isOpen) this.commit();

@@ -23,10 +23,7 @@ const MAX_TEXT_DELAY_MS = 100;
 /** Longest time step of an animation, ms. After a pause it continues without a jump. */
 const MAX_TIME_STEP_MS = 100;
 
-let reducedMotionQuery: MediaQueryList | undefined;
-
-/** Returns true if the user prefers reduced motion. */
-export const prefersReducedMotion = () => (reducedMotionQuery ??= matchMedia('(prefers-reduced-motion: reduce)')).matches;
+export const prefersReducedMotion = () => matchMedia('(prefers-reduced-motion: reduce)').matches;
 
 export class Renderer extends FigureController {
   isVisible = false;

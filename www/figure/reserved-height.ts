@@ -1,6 +1,6 @@
 /** Heights reserved for figures, so that the text below does not move when they load. */
 
-import { css, unsafeCSS } from 'lit';
+import { unsafeCSS } from 'lit';
 import { preferredWidth } from '../ui/theme.ts';
 
 /** Bounds of the width classes, em, where the layout changes. */
@@ -30,12 +30,8 @@ function heightCss(tag: string, unit: '%' | 'cqi') {
 }
 
 /** Returns the style that reserves the height of a figure. */
-export const reservedHeight = (tag: string) => {
-  const reserveCss = heightCss(tag, 'cqi');
-  return css`
-    ${unsafeCSS(`.reserved{min-height:${reserveCss}}.simulation{min-height:calc(${reserveCss} + var(--motion-sticky-bottom,0px))}`)}
-  `;
-};
+export const reservedHeight = (tag: string) =>
+  unsafeCSS(`.reserved,.simulation{--height:${heightCss(tag, 'cqi')};min-height:var(--height)}.simulation{min-height:calc(var(--height) + var(--motion-sticky-bottom,0px))}`);
 
 /** Returns the style sheet that reserves heights until the elements are defined. */
 export function preUpgradeCss() {

@@ -17,13 +17,13 @@ interface SharedCatalogues {
   english: object;
   /** Catalogues of the page, by language. */
   catalogues: Record<string, Record<string, object>>;
-  /** Functions that run when words or languages change. */
-  listeners: Set<() => void>;
+  /** Fires a `change` event when words or languages change. */
+  changes: EventTarget;
 }
 
 const REGISTRY_KEY = Symbol.for('motion-widgets.messages');
 
-const sharedCatalogues: SharedCatalogues = ((globalThis as any)[REGISTRY_KEY] ??= { english: {}, catalogues: {}, listeners: new Set() });
+const sharedCatalogues: SharedCatalogues = ((globalThis as any)[REGISTRY_KEY] ??= { english: {}, catalogues: {}, changes: new EventTarget() });
 
 /** Words of the current language. */
 export let words: Messages;
@@ -33,7 +33,7 @@ export let language = 'en';
 
 /** Cache of words by the language of the page. */
 const wordsByLanguage: Map<string, { words: Messages, language: string }> = new Map();
-sharedCatalogues.listeners.add(() => wordsByLanguage.clear());
+sharedCatalogues.changes.addEventListener('change', () => wordsByLanguage.clear());
 
 /** Adds English words of the elements, which define the keys of all catalogues. A later call may fill a group that was empty at first. */
 export function addEnglish(messages: { [key: string]: Message }) {
@@ -127,17 +127,15 @@ let languageObserver: MutationObserver | undefined;
 
 /** Defined outside of `onLanguage`: a closure would keep the element of that call alive for as long as the page lives. */
 function notifyListeners() {
-  for (const listener of sharedCatalogues.listeners) listener();
+  sharedCatalogues.changes.dispatchEvent(new Event('change'));
 }
 
 /** Calls `listener` when the words or the language of an element may have changed, until the signal is aborted. */
 export function onLanguage(element: Element, listener: () => void, signal: AbortSignal) {
-  const { listeners } = sharedCatalogues;
   languageObserver ??= new MutationObserver(notifyListeners);
   const observeOptions = { attributeFilter: ['lang'], subtree: true };
   languageObserver.observe(document, observeOptions);
   const rootNode = element.getRootNode();
   if (rootNode !== document) languageObserver.observe(rootNode, observeOptions);
-  listeners.add(listener);
-  signal.addEventListener('abort', () => listeners.delete(listener));
+  sharedCatalogues.changes.addEventListener('change', listener, { signal });
 }

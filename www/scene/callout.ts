@@ -1,6 +1,6 @@
 /** Callouts: sentences in a picture, each with a line to the point that it is about. */
 
-import { least } from 'd3-array';
+import { least, pairs } from 'd3-array';
 import { clamp } from '../ui/clamp.ts';
 import { paintWithOpacity } from './canvas.ts';
 import { drawLeader } from './labels.ts';
@@ -38,18 +38,15 @@ export interface Callout {
  */
 export function drawCallouts({ context, view, palette, font, placedBoxes }: Brush, callouts: Callout[], { shapeCentre, lines }: { shapeCentre: [number, number], lines: Float64Array[] }) {
   context.font = font;
-  const toPixels = ({ 0: x, 1: y }: ArrayLike<number>) => [view.toPixelX(x), view.toPixelY(y)];
-  const [fromX, fromY] = toPixels(shapeCentre);
-  const avoidedPoints = callouts.map(({ at }) => toPixels(at));
-  for (const line of lines) {
-    for (let i = 0; i + 3 < line.length; i += 2) avoidedPoints.push(...pointsBetween(toPixels(line.subarray(i)), toPixels(line.subarray(i + 2))));
-  }
+  const [fromX, fromY] = view.toPixel(...shapeCentre);
+  const linePoints = lines.flatMap((line) => pairs(view.toPixels(line)).flatMap(([start, end]) => pointsBetween(start, end)));
+  const avoidedPoints: number[][] = [...callouts.map(({ at }) => view.toPixel(...at)), ...linePoints];
   const { left, right, top, bottom } = view.frame;
   for (const { text, at, colour = palette.ink } of callouts) {
     const textLines = text.split('\n');
     const halfWidth = Math.max(...textLines.map((textLine) => context.measureText(textLine).width)) / 2 + TEXT_MARGIN;
     const halfHeight = (LINE_HEIGHT * textLines.length) / 2 + TEXT_MARGIN;
-    const [x, y] = toPixels(at);
+    const [x, y] = view.toPixel(...at);
     const outwardAngle = Math.atan2(y - fromY, x - fromX);
     const candidateBoxes = CANDIDATES.map(({ turn, length, cost }) => {
       const [idealX, idealY] = [x + (length + halfWidth) * Math.cos(outwardAngle + turn), y + (length + halfHeight) * Math.sin(outwardAngle + turn)];

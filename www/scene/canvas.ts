@@ -81,12 +81,13 @@ export function paintWithOpacity(context: Context, opacity: number, paint: () =>
 }
 
 /** Style of a line; dashes in pixels. */
-export interface LineStroke { colour: string, width: number, dash?: number[] }
+export interface LineStroke { colour: string, width: number, dash?: number[], cap?: CanvasLineCap }
 
 /** Strokes a path in pixels. */
-export function strokePath(context: Context, { colour, width, dash = [] }: LineStroke, path: () => void) {
+export function strokePath(context: Context, { colour, width, dash = [], cap = 'butt' }: LineStroke, path: () => void) {
   context.strokeStyle = colour;
   context.lineWidth = width;
+  context.lineCap = cap;
   context.setLineDash(dash);
   context.beginPath();
   path();

@@ -4,8 +4,9 @@ import { greatest } from 'd3-array';
 import { limits } from '../settings.js';
 import { colourChannels } from '../ui/theme.ts';
 import { lineLegendEntry, type LegendEntry } from './axes.ts';
-import { addLine, drawDisc, paintWithOpacity, strokePath, type Brush, type LineStroke } from './canvas.ts';
+import { addLine, drawDisc, paintWithOpacity, strokeLine, strokePath, type Brush, type LineStroke } from './canvas.ts';
 import { drawLabel } from './labels.ts';
+import { strokeInBatches } from './layer.ts';
 import type { Callout } from './callout.ts';
 import type { Palette } from '../ui/theme.ts';
 
@@ -29,10 +30,11 @@ export function drawDots(brush: Brush, triples: Float64Array, layout: { x: numbe
   const { heading, ahead = 1 } = layout;
   if (heading !== null) {
     const tickLength = ahead * dotScale * (isSparse ? 13 : 9);
-    const addTicks = (firstIndex: number) => dots.slice(firstIndex, firstIndex + TICKS_PER_STROKE).forEach((point, i) => addHeadingTick(brush, point, triples[3 * (firstIndex + i) + heading], tickLength));
-    paintWithOpacity(context, isSparse ? 0.6 : 0.32, () => {
-      for (let firstIndex = 0; firstIndex < dots.length; firstIndex += TICKS_PER_STROKE) strokePath(context, { colour: palette.cloud, width: 1 }, () => addTicks(firstIndex));
+    const ticks = dots.map(([x, y], i) => {
+      const direction = view.direction(triples[3 * i + heading]);
+      return [[x, y], [x + tickLength * direction.x, y + tickLength * direction.y]];
     });
+    paintWithOpacity(context, isSparse ? 0.6 : 0.32, () => strokeInBatches(context, ticks, { colour: palette.cloud, width: 1 }, TICKS_PER_STROKE));
   }
   // Squares with the area of the discs are drawn six times as fast. If they are many and small, they look like discs.
   const sideLength = Math.sqrt(Math.PI) * radius;
@@ -45,18 +47,12 @@ export function drawDots(brush: Brush, triples: Float64Array, layout: { x: numbe
   });
 }
 
-/** Adds a line to the path, from a point in CSS pixels in a direction of the world (rad), with a length in CSS pixels. */
-function addHeadingTick({ context, view }: Brush, [x, y]: number[], heading: number, length: number) {
-  const direction = view.direction(heading);
-  addLine(context, [[x, y], [x + length * direction.x, y + length * direction.y]]);
-}
-
 /** Draws many robots at the same position as one marker with a ray for each heading. */
 export function drawCoincidentRobots(brush: Brush, { x, y, headings, label }: { x: number, y: number, headings: number[], label: string }) {
   const { context, view, palette: { prediction: colour } } = brush;
   const robotPosition = view.toPixel(x, y);
   paintWithOpacity(context, Math.min(1, 30 / headings.length), () => {
-    for (const heading of headings) strokePath(context, { colour, width: 1 }, () => addHeadingTick(brush, robotPosition, heading, 64));
+    for (const theta of headings) strokeLine(context, view.ray({ x, y, theta }, 64), { colour, width: 1 });
   });
   // The disc is larger than the handle, which is often at the same position.
   drawDisc(context, robotPosition, 14, colour);
@@ -77,14 +73,6 @@ export function densityRamp(palette: Palette): Uint8Array {
     ramp[4 * i + 3] = 255 * (0.15 + 0.85 * relativeCount);
   }
   return ramp;
-}
-
-/** Adds a polyline through x, y pairs to the path. */
-export function addPolyline({ context, view }: Brush, points: Float64Array) {
-  context.moveTo(view.toPixelX(points[0]), view.toPixelY(points[1]));
-  for (let i = 2; i < points.length; i += 2) {
-    context.lineTo(view.toPixelX(points[i]), view.toPixelY(points[i + 1]));
-  }
 }
 
 export interface Outline extends LineStroke {
@@ -140,20 +128,9 @@ export function drawOutlines(brush: Brush, outlines: Outline[]) {
   strokeLines(brush, visibleOutlines);
 }
 
-/** Number of lines of the same style in one stroke. More are faster, but lines of one stroke do not darken each other where they cross. */
-const LINES_PER_STROKE = 10;
-
 /** Draws lines in their own styles. */
-export function strokeLines(brush: Brush, lines: Outline[]) {
-  for (let nextLineIndex = 0; nextLineIndex < lines.length;) {
-    const { points: _, ...style } = lines[nextLineIndex];
-    const strokeEnd = nextLineIndex + LINES_PER_STROKE;
-    const hasSameStyle = ({ colour, width, dash }: Outline) => colour === style.colour && width === style.width && dash === style.dash;
-    strokePath(brush.context, style, () => {
-      do addPolyline(brush, lines[nextLineIndex++].points);
-      while (nextLineIndex < Math.min(strokeEnd, lines.length) && hasSameStyle(lines[nextLineIndex]));
-    });
-  }
+export function strokeLines({ context, view }: Brush, lines: Outline[]) {
+  for (const { points, ...style } of lines) strokeLine(context, view.toPixels(points), style);
 }
 
 /** Opacity of earlier outlines. */
@@ -181,9 +158,8 @@ export function drawOutline(brush: Brush, points: Float64Array, style: LineStrok
 /** Draws a robot seen from above: a disc with a line to the front. */
 export function drawRobot(brush: Brush, { x, y, heading, colour }: { x: number, y: number, heading: number, colour: string }) {
   const { context, view, palette } = brush;
-  const robotPosition = view.toPixel(x, y);
-  drawDisc(context, robotPosition, 8, palette.paper, { colour, width: 2 });
-  strokePath(context, { colour, width: 2 }, () => addHeadingTick(brush, robotPosition, heading, 14));
+  drawDisc(context, view.toPixel(x, y), 8, palette.paper, { colour, width: 2 });
+  strokeLine(context, view.ray({ x, y, theta: heading }, 14), { colour, width: 2 });
 }
 
 /** Draws a handle in files and on paper, where it is no element. Lengths are in pixels. */
@@ -199,7 +175,7 @@ export function drawMark(brush: Brush, { x, y, heading }: { x: number, y: number
     strokePath(context, style, () => {
       context.arc(px, py, 7, 0, 2 * Math.PI);
       for (const [dx, dy] of [[1, 0], [0, 1], [-1, 0], [0, -1]]) addLine(context, [[px + 7 * dx, py + 7 * dy], [px + 12 * dx, py + 12 * dy]]);
-      if (heading !== null) addHeadingTick(brush, [px, py], heading, 24);
+      if (heading !== null) addLine(context, view.ray({ x, y, theta: heading }, 24));
     });
   }
 }

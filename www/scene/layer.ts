@@ -31,20 +31,9 @@ export class Layer {
 /** Number of lines in one stroke. Browsers take far longer for one path with many lines. */
 export const LINES_PER_STROKE = 500;
 
-/** Strokes lines through points in pixels, with round ends unless they are dashed. */
-export function strokeInBatches(context: Painter['context'], lines: Iterable<number[][]>, style: LineStroke) {
-  let lineBatch: number[][][] = [];
-  let pointCount = 0;
-  const strokeBatch = () => {
-    context.lineCap = style.dash?.length ? 'butt' : 'round';
-    strokePath(context, style, () => lineBatch.forEach((points) => addLine(context, points)));
-    context.lineCap = 'butt';
-    [lineBatch, pointCount] = [[], 0];
-  };
-  for (const line of lines) {
-    lineBatch.push(line);
-    pointCount += line.length - 1;
-    if (pointCount >= LINES_PER_STROKE) strokeBatch();
+/** Strokes lines through points in pixels, `linesPerStroke` at a time. */
+export function strokeInBatches(context: Painter['context'], lines: number[][][], style: LineStroke, linesPerStroke = LINES_PER_STROKE) {
+  for (let i = 0; i < lines.length; i += linesPerStroke) {
+    strokePath(context, style, () => lines.slice(i, i + linesPerStroke).forEach((points) => addLine(context, points)));
   }
-  strokeBatch();
 }

@@ -47,12 +47,6 @@ export class Picture<Scene, Name extends string = string> {
   nearest(_simulation: any, _x: number, _y: number) {
     return -1;
   }
-
-  /** Converts a point and a radius in CSS pixels to the world of the view. */
-  toWorldCircle(x: number, y: number, radius: number): [x: number, y: number, radiusX: number, radiusY: number] {
-    const { view } = this;
-    return [view.toWorldX(x), view.toWorldY(y), radius / view.scaleX, radius / view.scaleY];
-  }
 }
 
 /** Maximum distance from the pointer to a sample that it selects, CSS pixels. */
@@ -60,5 +54,5 @@ const PICK_RADIUS = 14;
 
 /** Picture of samples that the pointer can select, with the same scale on both axes. */
 export class SamplesPicture<Scene> extends Picture<Scene> {
-  nearest: Picture<any>['nearest'] = (simulation, x, y) => simulation.nearest(...this.toWorldCircle(x, y, PICK_RADIUS).slice(0, 3));
+  nearest: Picture<any>['nearest'] = (simulation, x, y) => simulation.nearest(this.view.toWorldX(x), this.view.toWorldY(y), PICK_RADIUS / this.view.scaleX);
 }

@@ -25,8 +25,6 @@ export class SvgContext {
   font = '';
   textAlign = 'left';
   textBaseline = 'alphabetic';
-  direction = 'ltr';
-  imageSmoothingEnabled = true;
   #path = '';
   #dash: number[] = [];
   #elements: string[] = [];
@@ -142,14 +140,10 @@ export class SvgContext {
     this.#elements.push(`<text ${textPosition} style="font:${escapeXml(this.font)}"${paintAttributes}>${escapeXml(text)}</text>`);
   }
 
-  /** Draws an image in a rectangle x, y, width, height. Four numbers before these select a part of the image. */
-  drawImage(image: CanvasImageSource & { width: number, height: number }, ...rectangle: number[]) {
-    const [x, y, width, height] = rectangle.slice(-4).map(formatLength);
-    const [fromX, fromY, columns, rows] = rectangle.length > 4 ? rectangle : [0, 0, image.width, image.height];
-    const canvas = document.createElement('canvas');
-    canvas.width = columns;
-    canvas.height = rows;
-    (canvas.getContext('2d') as CanvasRenderingContext2D).drawImage(image, -fromX, -fromY);
+  drawImage(image: OffscreenCanvas, ...rectangle: [x: number, y: number, width: number, height: number]) {
+    const [x, y, width, height] = rectangle.map(formatLength);
+    const canvas = Object.assign(document.createElement('canvas'), { width: image.width, height: image.height });
+    (canvas.getContext('2d') as CanvasRenderingContext2D).drawImage(image, 0, 0);
     const imageBox = `x="${x}" y="${y}" width="${width}" height="${height}"`;
     this.#elements.push(`<image ${imageBox} preserveAspectRatio="none" href="${canvas.toDataURL()}"${this.#opacityAttribute()}/>`);
   }

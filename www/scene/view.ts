@@ -118,11 +118,16 @@ export class View {
     return [this.toPixelX(x), this.toPixelY(y)];
   }
 
+  /** Converts x, y pairs to points in pixels. */
+  toPixels(pairs: ArrayLike<number>) {
+    return Array.from({ length: pairs.length / 2 }, (_, i) => this.toPixel(pairs[2 * i], pairs[2 * i + 1]));
+  }
+
   /** Returns both ends, in pixels, of a line from a pose in its heading, with a length in pixels. */
   ray({ x, y, theta }: { x: number, y: number, theta: number }, length: number): [from: [x: number, y: number], to: [x: number, y: number]] {
-    const rayStart = this.toPixel(x, y);
+    const [startX, startY] = this.toPixel(x, y);
     const headingStep = this.direction(theta);
-    return [rayStart, [rayStart[0] + length * headingStep.x, rayStart[1] + length * headingStep.y]];
+    return [[startX, startY], [startX + length * headingStep.x, startY + length * headingStep.y]];
   }
 
   /** Sets the target of the view, which stays if it contains `neededExtent`. Otherwise the view zooms out. A released view may also zoom in. */

@@ -46,13 +46,10 @@ export class WallLayer {
     if (grid) fillCells(painter, grid, grid.occupied, palette.truth);
     const { bounds: [xMin, yMin, xMax, yMax] } = this.#plan;
     strokeLine(context, [[xMin, yMin], [xMax, yMin], [xMax, yMax], [xMin, yMax], [xMin, yMin]].map(([x, y]) => view.toPixel(x, y)), { colour: palette.rule, width: 1 });
-    if (!grid) strokeInBatches(context, this.#linesIn(view), { colour: palette.truth, width: WALL_WIDTH });
-  }
-
-  /** Returns the walls as lines, pixels. */
-  *#linesIn(view: View) {
+    if (grid) return;
     const { walls } = this.#plan;
-    for (let i = 0; i < walls.length; i += 4) yield [view.toPixel(walls[i], walls[i + 1]), view.toPixel(walls[i + 2], walls[i + 3])];
+    const wallLines = Array.from({ length: walls.length / 4 }, (_, i) => view.toPixels(walls.slice(4 * i, 4 * i + 4)));
+    strokeInBatches(context, wallLines, { colour: palette.truth, width: WALL_WIDTH, cap: 'round' });
   }
 }
 

@@ -63,12 +63,12 @@ export class PathLayer {
 function drawPath(brush: Painter, legs: CalibrationLegs, odometry: Float64Array, classes: Uint8Array, overlays: LineName[]) {
   const { context, view } = brush;
   const { count, reference } = legs;
-  if (overlays.includes('odometry')) strokeInBatches(context, odometryLines(view, odometry), pathStyle(brush, 'odometry'));
+  if (overlays.includes('odometry')) for (const line of odometryLines(view, odometry)) strokeInBatches(context, [line], pathStyle(brush, 'odometry'));
   for (const [index, name] of LEG_CLASSES.entries()) {
     if (!overlays.includes(name)) continue;
     const legsOfClass = [...classes.keys()].filter((leg) => classes[leg] === index);
-    const lines = legsOfClass.map((leg) => [view.toPixel(reference[6 * leg], reference[6 * leg + 1]), view.toPixel(reference[6 * leg + 3], reference[6 * leg + 4])]);
-    const legStyle = pathStyle(brush, name);
+    const lines = legsOfClass.map((leg) => [0, 3].map((end) => view.toPixel(reference[6 * leg + end], reference[6 * leg + end + 1])));
+    const legStyle = { ...pathStyle(brush, name), cap: 'round' } as const;
     strokeInBatches(context, lines, count > MAX_WIDE_LEGS ? { ...legStyle, width: HAIRLINE_WIDTH } : legStyle);
   }
   if (overlays.includes('outlier')) drawRings(brush, outlierEnds(brush, legs));
@@ -92,7 +92,6 @@ export function drawRings(brush: Painter, points: [number, number][]) {
 /** Returns the path of the odometry as lines of many legs each. */
 function* odometryLines(view: Painter['view'], ends: Float64Array) {
   for (let start = 0; start < ends.length; start += 2 * LINES_PER_STROKE) {
-    const coordinates = ends.subarray(start, start + 2 * LINES_PER_STROKE + 2);
-    yield Array.from({ length: coordinates.length / 2 }, (_, i) => view.toPixel(coordinates[2 * i], coordinates[2 * i + 1]));
+    yield view.toPixels(ends.subarray(start, start + 2 * LINES_PER_STROKE + 2));
   }
 }

@@ -3,7 +3,7 @@
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { addLine, drawDisc, fillPath, paintWithOpacity, strokePath, strokeLine, type Brush, type LineStroke } from '../../scene/canvas.ts';
-import { drawOutlines, drawRobot, lineLegendEntries, lineStyles, strokeLines, addPolyline, densityRamp } from '../../scene/draw.ts';
+import { drawOutlines, drawRobot, lineLegendEntries, lineStyles, strokeLines, densityRamp } from '../../scene/draw.ts';
 import { drawLabel } from '../../scene/labels.ts';
 import { Memo } from '../../scene/memo.ts';
 import { Picture } from '../../scene/picture.ts';
@@ -197,7 +197,7 @@ function drawMovingRobots(brush: Brush, { underway, overlays }: Scene) {
 /** Draws the displacements by the lateral velocity of the constant twist, as short lines across its path. */
 function drawTwistTicks(brush: Brush, ticks: Float64Array, colour: string) {
   strokePath(brush.context, { colour, width: 1.25 }, () => {
-    for (let i = 0; i < ticks.length; i += 4) addPolyline(brush, ticks.subarray(i, i + 4));
+    for (let i = 0; i < ticks.length; i += 4) addLine(brush.context, brush.view.toPixels(ticks.subarray(i, i + 4)));
   });
 }
 
@@ -245,7 +245,7 @@ class SurfaceLayer {
     this.#pixelsMemo.get([surface, palette], () => this.#pixels.setPixels(colouredPixels(shades, palette), columns));
     this.#pixels.draw(brush);
     const strokeContours = (lines: Float64Array[], { role, width, dash }: typeof CONTOUR_STYLES.prob | typeof CONTOUR_STYLES.density) =>
-      paintWithOpacity(brush.context, 0.7, () => strokePath(brush.context, { colour: palette[role], width, dash }, () => lines.forEach((line) => addPolyline(brush, line))));
+      paintWithOpacity(brush.context, 0.7, () => strokePath(brush.context, { colour: palette[role], width, dash }, () => lines.forEach((line) => addLine(brush.context, brush.view.toPixels(line)))));
     strokeContours(prob, CONTOUR_STYLES.prob);
     strokeContours(density, CONTOUR_STYLES.density);
   }

@@ -2,7 +2,8 @@
 
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
-import { densityRamp, drawMark, drawOutline, lineStyles, strokeLines } from '../../scene/draw.ts';
+import { densityRamp, drawMark, drawOutline, lineStyles } from '../../scene/draw.ts';
+import { strokeInBatches } from '../../scene/layer.ts';
 import { Density } from '../../scene/pixels.ts';
 import { drawLabel, drawLeader } from '../../scene/labels.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
@@ -46,6 +47,9 @@ const DENSITY_CELL = { min: 2, max: 5, samples: 40_000 };
 
 /** Maximum number of paths that are drawn over a density. More would hide it. */
 const MAX_PATHS_ON_DENSITY = 25;
+
+/** Number of paths in one stroke. More are faster, but paths of one stroke do not darken each other where they cross. */
+const PATHS_PER_STROKE = 10;
 
 /** Transparent ramp for kinds of samples that are hidden in a density. */
 const TRANSPARENT_RAMP = new Uint8Array(4 * limits.ramp);
@@ -222,8 +226,8 @@ function drawCrosses({ context, view }: Brush, triples: Float64Array, colour: st
   }));
 }
 
-function drawPaths(brush: Brush, paths: Float64Array[], colour: string) {
-  paintWithOpacity(brush.context, 0.3, () => strokeLines(brush, paths.map((points) => ({ points, colour, width: 1 }))));
+function drawPaths({ context, view }: Brush, paths: Float64Array[], colour: string) {
+  paintWithOpacity(context, 0.3, () => strokeInBatches(context, paths.map((points) => view.toPixels(points)), { colour, width: 1 }, PATHS_PER_STROKE));
 }
 
 /** Draws samples as dots that darken where they overlap. */

@@ -133,7 +133,7 @@ test('bad input has the exit code 2 and a sentence', async () => {
     [['no.bag', '--rule', 'Nav2'], '--rule is "Nav2"; allowed is '],
     [
       [writeInFolder('two.csv', ['t,x,y,yaw,b_x,b_y,b_yaw', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},0,0,${i / 39},0,0`)].join('\n'))],
-      "two.csv: it is not clear what the odometry is: t, x, y, yaw (t, x, y, yaw), b_ (b_x, b_y, b_yaw). Choose with --odometry-topic, as in --odometry-topic 't, x, y, yaw'.\n",
+      "two.csv: it is not clear what the odometry is: t, x, y, yaw (t, x, y, yaw), b (b_x, b_y, b_yaw). Choose with --odometry-topic, as in --odometry-topic 't, x, y, yaw'.\n",
     ],
     [['--json'], 'no logs are given; give a recording, as in calibrate run.bag, or two files, odometry and reference.'],
     [['--odometry', examplePath('odometry')], '--reference is missing; give a file or folder, or a recording with both.'],
@@ -349,8 +349,8 @@ test('inspect lists what is in a file, and the command to go on with', async () 
   assert.match(await inspectionOf([millimetrePath, examplePath('odometry'), '--length-unit', 'mm']), /^ {2}npx motion-widgets calibrate --odometry \S+odometry\.csv --reference DIR\/mm\.csv --length-unit mm --rule nav2$/m);
   const positionsPath = writeInFolder('positions.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},0,0,${i / 40},1`)].join('\n'));
   const { recordings: [{ series }], ...inspection } = JSON.parse(await inspectionOf([positionsPath, '--json']));
-  assert.deepEqual(series.map((/** @type {any} */ { name, rows, uses, summary }) => [name, rows, uses, summary?.seconds]), [['odom_', 40, ['odometry'], 1.95], ['gt_', 0, [], undefined]]);
-  assert.deepEqual([inspection.missing.split(';')[0], inspection.command], ['positions.csv: gt_ (gt_x, gt_y) are positions without a heading', undefined]);
+  assert.deepEqual(series.map((/** @type {any} */ { name, rows, uses, summary }) => [name, rows, uses, summary?.seconds]), [['odom', 40, ['odometry'], 1.95], ['gt', 0, [], undefined]]);
+  assert.deepEqual([inspection.missing.split(';')[0], inspection.command], ['positions.csv: gt (gt_x, gt_y) are positions without a heading', undefined]);
 });
 
 test('an unusable log has a sentence and no lines for Nav2', async () => {

@@ -4,19 +4,19 @@ import type { LogChoice, FramePair, LogKind, Recording, Role, Series } from './l
 
 /** Names of odometry and of commands, the likeliest first. */
 const ODOMETRY_NAMES = [/(^|[/_.])odom(etry)?[/_.]?$/i, /odom|wheel|encoder/i];
-const COMMAND_NAMES = [/(^|[/_.])cmd_?vel[/_.]?$/i, /cmd|command|twist/i];
+const COMMAND_NAMES = [/(^|[/_.])cmd[_.]?vel[/_.]?$/i, /cmd|command|twist/i];
 
 /** Names of external measurements of the pose, such as motion capture or a total station. */
 const MEASUREMENT_NAMES = /truth|(^|[^a-z])(gt|ref|true)([^a-z]|$)|mocap|vicon|optitrack|qualisys|vrpn|motive|natnet|phasespace|reference|station|leica|prism|tracker/i;
 
 /** Names of poses estimated by localizers. Their errors are correlated with those of the odometry that they use. */
-const LOCALIZER_NAMES = /slam|amcl|locali[sz]|carto|tracked_pose|icp|loam|scan_?match|pose_graph/i;
+const LOCALIZER_NAMES = /slam|amcl|locali[sz]|carto|tracked[_.]pose|icp|loam|scan[_.]?match|pose[_.]graph/i;
 
 /** Names of poses estimated by filters of the odometry. */
-const FILTER_NAMES = /odometry[/_]filtered|ekf|ukf|odom_combined/i;
+const FILTER_NAMES = /odometry[/_.]filtered|ekf|ukf|odom[_.]combined/i;
 
 /** Names of topics with poses that are not a path of the robot. */
-export const GOAL_NAMES = /goal|initial_?pose|waypoint|target|setpoint|clicked_?point/i;
+export const GOAL_NAMES = /goal|initial[_.]?pose|waypoint|target|setpoint|clicked[_.]?point/i;
 
 /** Names of base frames of a robot, and of fixed frames by the role of the log, the likeliest first. */
 const BASE_FRAME_NAMES = [/(^|\/)base_footprint$/, /(^|\/)base_link$/, /(^|\/)base/];
@@ -39,10 +39,10 @@ export function roleByName(name: string): Role | undefined {
 /** Returns the series that can be read. A topic needs two messages. */
 export const readableSeries = (recording: Recording): Series[] => recording.series.filter(({ kind, count }) => kind !== null && (isTable(recording) || count > 1));
 
-/** Returns the series with a name. The name may lack the separators at its ends. */
+/** Returns the series with a name. Separators and capitals do not count. */
 export function seriesNamed(series: Series[], wantedName: string): Series | undefined {
-  const trimSeparators = (name: string) => name.replaceAll(/^[/_.]+|[/_.]+$/g, '');
-  return series.find(({ name }) => name === wantedName) ?? series.find(({ name }) => trimSeparators(name) !== '' && trimSeparators(name) === trimSeparators(wantedName));
+  const words = (name: string) => name.toLowerCase().split(/[^\p{L}\p{N}]+/u).filter(Boolean).join('.');
+  return series.find(({ name }) => name === wantedName) ?? series.find(({ name }) => words(name) !== '' && words(name) === words(wantedName));
 }
 
 /** Returns the names of the series that could be the log of a role, the likeliest first. */

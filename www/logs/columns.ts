@@ -203,7 +203,7 @@ export function groupColumns(names: string[], isTime: (index: number) => boolean
     if (group.clocks.length === 0) group.kind = null;
     if (group.kind === 'positions' && group.hasCommands) group.kind = 'commands';
   }
-  return allGroups.filter(({ columns }) => columns.x || columns.y || columns.v || columns.omega || columns.yaw || columns.qw).map((group) => ({ ...group, name: groupName(group, names) }));
+  return allGroups.filter(({ columns }) => columns.x || columns.y || columns.v || columns.omega || columns.yaw || columns.qw);
 }
 
 const clockOf = (column: Column): Clock => ({ name: column.name, columns: [column], ...(column.unit !== undefined && { unit: column.unit as TimeUnit }) });
@@ -214,19 +214,6 @@ function clocksOf({ columns: { seconds, subseconds }, timeColumns }: Group): Clo
   if (seconds && subseconds) return [{ name: `${seconds.name}, ${subseconds.name}`, columns: [seconds, subseconds], unit: 's' }, ...singleColumnClocks];
   const timePartColumn = seconds ?? subseconds;
   return singleColumnClocks.length > 0 || !timePartColumn ? singleColumnClocks : [clockOf(timePartColumn)];
-}
-
-/** Returns the common prefix or suffix of a group's columns, as written in the table. Without either, returns the names of the columns. */
-function groupName({ name, columns }: Group, names: string[]): string {
-  if (name === '') return '';
-  const { x, v, yaw, omega } = columns;
-  const [first] = [x, v, yaw, omega].filter((column) => column !== undefined);
-  const columnName = names[first?.at ?? 0].trim().replace(/^%?(field\.)?/, '');
-  for (let end = 1; end < columnName.length; end++) {
-    if (/[^\p{L}\p{N}]/u.test(columnName[end]) && dottedName(columnName.slice(0, end)) === name) return columnName.slice(0, columnName[end] === '_' ? end + 1 : end);
-  }
-  for (let start = 1; start < columnName.length; start++) if (dottedName(columnName.slice(start)) === name) return columnName.slice(start);
-  return name;
 }
 
 export interface Layout {

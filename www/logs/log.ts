@@ -12,7 +12,7 @@ export type Role = (typeof ROLES)[number];
 
 /** Part of a recording from which one log can be read: a topic, or a group of columns with a common prefix. */
 export interface Series {
-  /** Topic, or prefix of the columns ("gt_", "/odom"); empty where a table has one group only. */
+  /** Topic, or prefix of the columns ("gt", "odom.pose"); empty where a table has one group only. */
   name: string;
   /** Message type of a topic, or the names of the columns of a table. */
   type: string;

@@ -78,22 +78,6 @@ test('attributes stay as written until a setting changes, and then reflect it', 
   expect(await attributesOf(squeeze)).toEqual({ x: '3.3', conditioned: 'false' });
 });
 
-test('boolean attributes may be empty or "true", and lists may have any space @nightly', async ({ page }) => {
-  await showPage(page, '<banana-machine overlays=" linearized\n  command "></banana-machine><map-squeeze conditioned="true"></map-squeeze>');
-  const [banana, squeeze] = TWO_NAMES.map((name) => page.locator(name));
-  await untilReady(banana);
-  expect(await propertyOf(banana, 'overlays')).toEqual(['command', 'linearized']);
-  await banana.evaluate((element) => element.setAttribute('overlays', ''));
-  expect(await propertyOf(banana, 'overlays')).toEqual([]);
-  await squeeze.scrollIntoViewIfNeeded();
-  await untilReady(squeeze);
-  for (const [attributeText, expectedValue] of /** @type {const} */ ([['false', false], ['true', true], ['false', false], ['', true]])) {
-    await squeeze.evaluate((element, value) => element.setAttribute('conditioned', value), attributeText);
-    expect(await propertyOf(squeeze, 'conditioned')).toBe(expectedValue);
-  }
-  expect(await takeEvents(page, ['error'])).toEqual([]);
-});
-
 test('attributes follow the controls of a figure, and lead back to the default where they are removed', async ({ page, figureName }) => {
   const widget = await mount(page, figureName);
   const { sliderId, sliderValues: [firstValue, secondValue] } = FIGURE_FACTS[figureName];

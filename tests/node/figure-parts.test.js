@@ -1,0 +1,36 @@
+// Parts of figures without a page: conversions of attributes, the view of a picture, and the factor of a stretched axis.
+
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { WORD_LIST_CONVERTER, propertiesOf, selectAttributes } from '../../www/figure/attributes.ts';
+import { View } from '../../www/scene/view.ts';
+import { settings } from '../../www/settings.js';
+import { scaleRatioTexts } from '../../www/widgets/dead-reckoning/pictures.ts';
+
+test('boolean attributes may be empty or "true", and lists may have any space', () => {
+  const { conditioned } = selectAttributes(propertiesOf(settings['map-squeeze']));
+  assert.deepEqual(['false', 'true', ''].map((text) => conditioned.converter.parse(text)), [false, true, true]);
+  assert.deepEqual([' linearized\n  command ', ''].map((text) => WORD_LIST_CONVERTER.parse(text)), [['linearized', 'command'], []]);
+});
+
+test('a view that was fitted to a tiny canvas zooms in on a larger one, and keeps its scale otherwise', () => {
+  const view = new View();
+  const fitTo = (/** @type {number} */ halfSize) => {
+    view.fit({ xMin: -halfSize, xMax: halfSize, yMin: -halfSize, yMax: halfSize });
+    view.ease(0, true);
+    return view.extent.xMax - view.extent.xMin;
+  };
+  view.resize(100, 60);
+  // A mark of some pixels needs many metres there.
+  assert.ok(fitTo(20) >= 40);
+  view.resize(600, 400);
+  assert.ok(fitTo(1) < 10);
+  const [widthBefore, widthAfter] = [fitTo(2), fitTo(1)];
+  assert.equal(widthAfter, widthBefore);
+});
+
+test('the stretched axis has the factor of the scales, and none that is not seen', () => {
+  assert.deepEqual(scaleRatioTexts({ scaleX: 100, scaleY: 720 }), ['', '7.2']);
+  assert.deepEqual(scaleRatioTexts({ scaleX: 1230, scaleY: 100 }), ['10', '']);
+  assert.deepEqual(scaleRatioTexts({ scaleX: 100, scaleY: 104 }), ['', '']);
+});

@@ -333,7 +333,7 @@ test('inspect lists what is in a file, and the command to go on with', async () 
   for (const linePattern of [
     /^run\.mcap: MCAP recording$/m, /^ {2}\/chatter +std_msgs\/msg\/String +40$/m, /^ {2}\/odom +nav_msgs\/msg\/Odometry +40 +20\.0 Hz +odometry$/m,
     /^ {2}\/vicon\/robot 1 +geometry_msgs\/msg\/PoseStamped +40 +20\.0 Hz +reference$/m,
-    /^ {2}\/tf \(map → base_link\) +tf2_msgs\/msg\/TFMessage +40 +20\.0 Hz +reference \(a localizer\)$/m, /^ {2}\/tf \(map → base_link\): 40 of 40 rows, 2\.0 s at 20\.0 Hz, 39\.0 m driven$/m, /^run\.mcap, topic \/lost: 0 of 40 rows can be used/m,
+    /^ {2}\/tf \(map → base_link\) +tf2_msgs\/msg\/TFMessage +40 +20\.0 Hz +reference \(a localizer\)$/m, /^ {2}\/tf \(map → base_link\): 40 of 40 rows, 2\.0 s at 20\.0 Hz, 39\.0 m driven$/m, /^run\.mcap, topic \/lost, message 1: 0 of 40 rows can be used/m,
     /^ {2}npx motion-widgets calibrate DIR\/run\.mcap --odometry-topic \/odom --reference-topic '\/vicon\/robot 1' --rule nav2$/m,
   ]) assert.match(recordingInspection, linePattern);
   for (const [role, otherRole] of [['odometry', 'reference'], ['reference', 'odometry']]) {

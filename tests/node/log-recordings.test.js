@@ -178,11 +178,11 @@ test('other recordings are refused', async () => {
   assert.equal(await refusalOf({ encoding: 'json' }), 'run.mcap, topic /odom: its messages are encoded as “json”; expected is cdr of ROS 2, or ros1.');
   const [jsonRecording] = await openRecordings([mcapFileOf(await recordingOf(createOdometryMessages(3), { encoding: 'json' }))]);
   assert.match(await refusalSentenceOf((async () => planDrives([jsonRecording]))()), /^run\.mcap: the topics are \/odom \(Odometry as json\); /);
-  assert.equal(await refusalOf({}, []), 'run.mcap: it has fewer than 2 messages; expected are at least 2.');
+  assert.equal(await refusalOf({}, []), 'run.mcap: 0 of 0 rows can be used; expected are at least 2.');
   assert.equal(await refusalOf({}, createDriveMessages().slice(0, 6)), 'run.mcap, topic /odom: 1 of 1 rows can be used; expected are at least 2.');
   // These messages claim to be odometry, and are too short.
   const shortMessages = createOdometryMessages(3, () => ({ data: 'x' })).map((message) => ({ ...message, type: 'std_msgs/msg/String', schema: ODOMETRY_TYPE }));
-  assert.match(await refusalOf({}, shortMessages), /^run\.mcap, topic \/odom: message 1 cannot be read \(.+\); expected is one of the topic's type\.$/);
+  assert.match(await refusalOf({}, shortMessages), /^run\.mcap, topic \/odom, message 1: it cannot be read \(.+\); expected is one of the topic's type\.$/);
 });
 
 test('chunks with another checksum or size than they state are not read', async () => {

@@ -86,7 +86,7 @@ test('a clock that was set back is refused', async () => {
     [timesFrom(900), timesFrom(100, 89.6), 902, '0\\.300'],
   ])) {
     const sentence = await refusalSentenceOf(readTable(straightTableAt([...firstTimes, ...nextTimes])));
-    assert.match(sentence, RegExp(`^run\\.csv, line ${line}: times go back by ${seconds} s and repeat those before; split the file there, or give one recording only, with the leading zeros .*\\.$`));
+    assert.match(sentence, RegExp(`^run\\.csv, line ${line}: times go back by ${seconds} s and repeat those before; split the file there, give one recording only, or write fractions with their leading zeros .*\\.$`));
   }
   // The rows of one recording that is given twice are used once.
   const twiceGiven = straightTableAt(timesFrom(50));
@@ -224,14 +224,14 @@ const REFUSED_TABLES = [
   ['few rows', 't,x,y,yaw\nnan,0,0,0\n1,0,0,0', /, line 2: 1 of 2 rows can be used \(a value that is not finite, or above a billion\);/],
   ['a large value', 't,x,y,yaw\n1,0,0,0\n2,0,1e300,0\n', /, line 3: 1 of 2 rows can be used \(a value that is not finite, or above a billion\);/],
   ['two logs at the same times', circleTableOf((row, i) => row.with(0, CIRCLE_ROWS[i - (i % 2)][0])), /, line 3: 400 of 800 rows, this one first, have the time of another row/],
-  ['nanoseconds without leading zeros', circleTableOf(([t, ...pose]) => [`${Math.floor(t)}.${Math.round((t % 1) * 1e9)}`, ...pose]), /, line 4: times go back by 0\.400 s and repeat those before; .* with the leading zeros of fractions \(1\.050000000 for 1 s and 50000000 ns\)\.$/],
+  ['nanoseconds without leading zeros', circleTableOf(([t, ...pose]) => [`${Math.floor(t)}.${Math.round((t % 1) * 1e9)}`, ...pose]), /, line 4: times go back by 0\.400 s and repeat those before; .* write fractions with their leading zeros \(1\.050000000 for 1 s and 50000000 ns\)\.$/],
   ['a quaternion in another order', circleTableOf(([t, x, y, yaw]) => [t, x, y, 0, Math.cos(yaw / 2), 0, 0, Math.sin(yaw / 2)]).slice('t,x,y,yaw\n'.length), /do not turn about a vertical Z axis;/],
   ['several frames', circleTableOf((row, i) => [...row, i % 2 ? 'base' : 'wheel'], 't,x,y,yaw,child_frame_id'), /of several frames, topics or robots \(wheel, base\); keep/],
   ['robots one after the other', circleTableOf((row, i) => [...row, i >> 9], 't,x,y,yaw,robot_id'), /of several frames, topics or robots \(0, 1\); keep/],
   ['robots one after the other, with a prefix', circleTableOf((row, i) => [...row, i >> 9], 't,odom_x,odom_y,odom_yaw,robot_id'), /of several frames, topics or robots \(0, 1\); keep/],
   ['two robots in turns', circleTableOf((row, i) => [...row, i % 2], 't,x,y,yaw,robot_id'), /of several frames, topics or robots \(0, 1\); keep/],
   ['two paths', circleTableOf(([t, x, ...rest], i) => [t, i % 6 ? x : x + 1, ...rest]), /poses of two paths alternate, 1\.\d m apart: .*; keep those of one\.$/],
-  ['poses of KITTI', `${KITTI_ROW}\n${KITTI_ROW}\n`, /poses of KITTI, which have no times; add/],
+  ['poses of KITTI', `${KITTI_ROW}\n${KITTI_ROW}\n`, /poses of KITTI, which have no times; give/],
   ['Euler angles of Motive', 'Format Version,1.23,Take Name,x,Rotation Type,XYZ,Length Units,Meters\n\n,Type,Rigid Body\n,Name,Robot\n,ID,1\n,,Rotation\nFrame,Time (Seconds),X\n0,0.0,1\n1,0.1,1\n', /Euler angles \(XYZ\); export/],
   ['commands without times', '0.4,0.0,0.0,0.0,0.0,0.1\n0.4,0.0,0.0,0.0,0.0,0.1\n', /geometry_msgs\/Twist, which have no times; give/],
   ['a program’s messages', '[INFO] [1718000000.1] [amcl]: at 1.0, 2.0\n'.repeat(3), /does not look like a log/],

@@ -64,7 +64,7 @@ function lengthCorrectionText({ factor, unit }: Correction, other: string, kind:
 }
 
 export const german: Words = {
-  place: (file, line, topic) => `${file}${line ? `, Zeile ${line}` : ''}${topic ? `, Topic ${topic}` : ''}`,
+  place: (file, line, topic) => `${file}${topic ? `, Topic ${topic}` : ''}${line ? `, ${topic ? 'Nachricht' : 'Zeile'} ${line}` : ''}`,
   refused: {
     gone: (reason) => (reason === 'ENOENT' ? 'es gibt keine solche Datei und keinen solchen Ordner.' : `die Datei lässt sich nicht lesen (${reason}); erwartet wird eine, die noch da ist.`),
     empty: 'es steht nichts darin; erwartet wird ein Log von Posen oder Befehlen.',
@@ -82,10 +82,10 @@ export const german: Words = {
     noHeader: (count, row) =>
       `die Tabelle hat keinen Kopf, und ihre erste Zeile ist „${row}“; ihre ${count} Spalten benennen.`,
     noTable: (notation) => `das ist ${notation} und keine Tabelle; eine Zeile je Zeitpunkt schreiben, wie mit ros2 topic echo --csv, rostopic echo -p oder pandas, oder die Aufzeichnung selbst angeben.`,
-    twists: 'Zeilen mit 6 Zahlen sind Befehle von geometry_msgs/Twist, die keine Zeiten haben; die Aufzeichnung selbst angeben, oder eine Spalte mit Zeiten ergänzen.',
     positions: (columns) =>
       `${columns} sind Positionen ohne Richtung; nötig ist eine Referenz, die die Richtung misst, wie mit zwei Prismen, Markern oder Scan-Matching (in einer Tabelle in einer Spalte namens yaw mit dem Präfix von x und y): Die Fahrtrichtung verbirgt Drehfehler und würde alpha1 und alpha2 halbieren.`,
-    kitti: 'Zeilen mit 12 Zahlen sind Posen von KITTI, die keine Zeiten haben; diese aus times.txt mit kitti_poses_and_timestamps_to_trajectory.py von evo ergänzen und die TUM-Datei angeben, die es schreibt.',
+    timeless: (width) =>
+      `Zeilen mit ${width} Zahlen sind ${width === 6 ? 'Befehle von geometry_msgs/Twist' : 'Posen von KITTI'}, die keine Zeiten haben; ${width === 6 ? 'die Aufzeichnung selbst' : 'die TUM-Datei, die kitti_poses_and_timestamps_to_trajectory.py von evo schreibt,'} angeben, oder eine Spalte mit Zeiten ergänzen.`,
     euler: (rotation) => `die Drehungen sind Eulerwinkel (${rotation}); die Aufnahme noch einmal aus Motive exportieren, mit Rotation Type „Quaternion“.`,
     tilted: 'die Posen drehen sich nicht um eine senkrechte Z-Achse; erwartet werden Quaternionen in der Reihenfolge des Kopfs auf einer Ebene mit Z nach oben. Mit Z nach oben exportieren, oder die Spalten auswählen.',
     mirrored: 'die Richtungen drehen sich anders herum als die Bahn; erwartet werden Richtungen, die gegen den Uhrzeigersinn wachsen, von x nach y: die Richtungen oder y negieren, oder x und y tauschen.',
@@ -95,10 +95,10 @@ export const german: Words = {
     manyBad: (bad, rows, percent) => `${bad} von ${rows} Zeilen haben Text statt einer Zahl oder zu wenige Zellen; erlaubt sind ${percent} % solcher Zeilen.`,
     number: (column, value) => `${column} ist „${value}“; erwartet wird eine Zahl${/^\d{1,3}(\D\d{3})+\b/.test(value) ? ' ohne Tausendertrennung' : /^[+-]?\d*,\d+$/.test(value) ? ' mit Dezimalpunkt' : /\d[/:-]\d/.test(value) ? ', oder ein Datum wie 2024-01-31 12:00:00.5' : ''}.`,
     rows: (max) => `es sind mehr Zeilen; erwartet werden höchstens ${max}.`,
-    setBack: (seconds, message) =>
-      `die Zeiten springen ${message ? `bei Nachricht ${message} ` : ''}um ${seconds.toPrecision(3)} s zurück und wiederholen die davor; dort die Datei teilen, oder nur eine Aufzeichnung angeben${message ? '' : ', mit den führenden Nullen der Nachkommastellen (1.050000000 für 1 s und 50000000 ns)'}.`,
-    sameTimes: (count, rows, message) =>
-      `${count} von ${rows} Zeilen, ${message ? `die der Nachricht ${message}` : 'diese'} zuerst, haben die Zeit einer anderen Zeile und andere Werte; nötig ist das Log eines Roboters, mit allen Stellen der Zeiten (eine Tabellenkalkulation oder ein Format wie %.9e kann sie gerundet haben).`,
+    setBack: (seconds) =>
+      `die Zeiten springen um ${seconds.toPrecision(3)} s zurück und wiederholen die davor; dort die Datei teilen, nur eine Aufzeichnung angeben, oder Nachkommastellen mit ihren führenden Nullen schreiben (1.050000000 für 1 s und 50000000 ns).`,
+    sameTimes: (count, rows) =>
+      `${count} von ${rows} Zeilen, diese zuerst, haben die Zeit einer anderen Zeile und andere Werte; nötig ist das Log eines Roboters, mit allen Stellen der Zeiten (eine Tabellenkalkulation oder ein Format wie %.9e kann sie gerundet haben).`,
     few: (kept, rows, reason) => `${kept} von ${rows} Zeilen sind zu brauchen${reason ? ` (${DROP_REASONS[reason]})` : ''}; erwartet werden mindestens 2.`,
     timeUnit: (rate, unit, choices) =>
       `in ${unit} wären es ${rate.toPrecision(3)} Zeilen je Sekunde; ${choices.length ? `die Einheit der Zeiten angeben: ${choices.join(' oder ')}` : 'sie in s schreiben, oder als Datum wie 2024-01-31 12:00:00.5 (Tabellenprogramme zählen Tage)'}.`,
@@ -121,13 +121,12 @@ export const german: Words = {
     type: (type, neededType) => `sein Typ ist „${type}“; erwartet wird ${MESSAGE_TYPES[neededType]}.`,
     encoding: (value) => `seine Nachrichten sind als „${value}“ kodiert; erwartet wird cdr von ROS 2, oder ros1.`,
     types: (types) => `seine Nachrichten haben die Typen ${types}; erwartet wird einer: das Topic eines Knotens umbenennen und neu aufzeichnen.`,
-    message: (number, reason) => `die Nachricht ${number} lässt sich nicht lesen (${reason}); erwartet wird eine vom Typ des Topics.`,
+    message: (reason) => `sie lässt sich nicht lesen (${reason}); erwartet wird eine vom Typ des Topics.`,
     frames: (knownFrames) => `zu nennen sind ein äußerer und ein innerer Frame, verbunden durch ${knownFrames || 'Transformationen, von denen es keine gibt'}.`,
     noChain: (frames, knownFrames) =>
       `keine Transformationen führen entlang ${frames}; erwartet werden verbundene Frames, aus ${knownFrames || 'keinen'}.`,
     constant: (frames, others) =>
       `die Transformation ${frames} ändert sich nie und ist daher keine Bahn eines Roboters; erwartet werden Frames, die sich bewegen${others ? `, wie ${others}` : ''}.`,
-    noMessages: 'es sind weniger als 2 Nachrichten; erwartet werden mindestens 2.',
     givenTwice: 'sie ist zweimal angegeben; gebraucht werden zwei unabhängige Messungen einer Fahrt, Odometrie und Referenz.',
     ownReference: (name) => `${name} ist die Odometrie selbst; gebraucht wird eine Referenz, die nicht von den Rädern kommt, wie Motion-Capture oder Scan-Matching.`,
     correction: (correction, other, kind) =>

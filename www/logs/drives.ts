@@ -161,7 +161,7 @@ function guessChoice(recording: Recording, role: Role, userChoices: UserChoices,
 
 function unusable({ name: file, series }: Recording): LogError {
   const shortSeries = series.find(({ kind }) => kind !== null);
-  return new LogError({ file, topic: shortSeries?.name }, (texts) => (shortSeries ? texts.noMessages : texts.noTopics(describeSeries(series))));
+  return new LogError({ file, topic: shortSeries?.name }, (texts) => (shortSeries ? texts.few(shortSeries.count, shortSeries.count) : texts.noTopics(describeSeries(series))));
 }
 
 /** Returns the role of the only series of a recording by its name, its contents or the name of the file; undefined if none shows it. */

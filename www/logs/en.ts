@@ -63,7 +63,7 @@ export const REPAIR_COMMANDS: Record<Recording['format'], string> = { mcap: 'mca
 
 export const english = {
   place: (file: string, line: number, topic: string) =>
-    `${file}${line ? `, line ${line}` : ''}${topic ? `, topic ${topic}` : ''}`,
+    `${file}${topic ? `, topic ${topic}` : ''}${line ? `, ${topic ? 'message' : 'line'} ${line}` : ''}`,
   /** Reasons for refusing a log, each after its place. */
   refused: {
     gone: (reason: string) => (reason === 'ENOENT' ? 'there is no such file or folder.' : `the file cannot be read (${reason}); expected is one that exists and may be read.`),
@@ -84,10 +84,10 @@ export const english = {
     noHeader: (count: number, row: string) =>
       `the table has no header, and its first row is “${row}”; name its ${count} columns.`,
     noTable: (notation: string) => `it is ${notation} and no table; write one row a time, as by ros2 topic echo --csv, rostopic echo -p or pandas, or give the recording itself.`,
-    twists: 'rows of 6 numbers are commands of geometry_msgs/Twist, which have no times; give the recording itself, or add a column of times.',
     positions: (columns: string) =>
       `${columns} are positions without a heading; give a reference that measures the heading, as by two prisms, markers or scan matching (in a table, in a column named yaw with the prefix of x and y): the direction of travel hides turning errors, and would halve alpha1 and alpha2.`,
-    kitti: 'rows of 12 numbers are poses of KITTI, which have no times; add them from its times.txt with kitti_poses_and_timestamps_to_trajectory.py of evo, and give the TUM file that it writes.',
+    timeless: (width: number) =>
+      `rows of ${width} numbers are ${width === 6 ? 'commands of geometry_msgs/Twist' : 'poses of KITTI'}, which have no times; give ${width === 6 ? 'the recording itself' : 'the TUM file that kitti_poses_and_timestamps_to_trajectory.py of evo writes'}, or add a column of times.`,
     euler: (rotation: string) => `the rotations are Euler angles (${rotation}); export the take from Motive again with the rotation type Quaternion.`,
     tilted: 'the poses do not turn about a vertical Z axis; expected are quaternions in the order of the header on a plane with Z up. Export with Z up, or choose the columns.',
     mirrored: 'the headings turn the other way than the path; expected are headings that grow counterclockwise, from x to y: negate the headings or y, or swap x and y.',
@@ -97,11 +97,11 @@ export const english = {
     manyBad: (bad: number, rows: number, percent: number) => `${bad} of ${rows} rows have text in place of a number, or too few cells; at most ${percent} % of the rows may.`,
     number: (column: string, value: string) => `${column} is “${value}”; expected is a number${/^\d{1,3}(\D\d{3})+\b/.test(value) ? ' without separators of thousands' : /^[+-]?\d*,\d+$/.test(value) ? ' with a decimal point' : /\d[/:-]\d/.test(value) ? ', or a date as 2024-01-31 12:00:00.5' : ''}.`,
     rows: (max: number) => `there are more rows; expected are at most ${max}.`,
-    setBack: (seconds: number, message: number) =>
-      `times go back by ${seconds.toPrecision(3)} s${message ? ` at message ${message}` : ''} and repeat those before; split the file there, or give one recording only${message ? '' : ', with the leading zeros of fractions (1.050000000 for 1 s and 50000000 ns)'}.`,
-    sameTimes: (count: number, rows: number, message: number) =>
-      `${count} of ${rows} rows, ${message ? `that of message ${message}` : 'this one'} first, have the time of another row and other values; give the log of one robot, with all digits of its times (a spreadsheet, or a format such as %.9e, may have rounded them).`,
-    few: (kept: number, rows: number, reason: DropCause | undefined) =>
+    setBack: (seconds: number) =>
+      `times go back by ${seconds.toPrecision(3)} s and repeat those before; split the file there, give one recording only, or write fractions with their leading zeros (1.050000000 for 1 s and 50000000 ns).`,
+    sameTimes: (count: number, rows: number) =>
+      `${count} of ${rows} rows, this one first, have the time of another row and other values; give the log of one robot, with all digits of its times (a spreadsheet, or a format such as %.9e, may have rounded them).`,
+    few: (kept: number, rows: number, reason?: DropCause) =>
       `${kept} of ${rows} rows can be used${reason ? ` (${DROP_REASONS[reason]})` : ''}; expected are at least 2.`,
     timeUnit: (rate: number, unit: string, choices: string[]) =>
       `in ${unit}, the times would mean ${rate.toPrecision(3)} rows a second; ${choices.length ? `state their unit: ${choices.join(' or ')}` : 'write them in s, or as dates such as 2024-01-31 12:00:00.5 (a spreadsheet counts days)'}.`,
@@ -124,14 +124,12 @@ export const english = {
     type: (type: string, neededType: keyof typeof MESSAGE_TYPES) => `its type is “${type}”; expected is ${MESSAGE_TYPES[neededType]}.`,
     encoding: (value: string) => `its messages are encoded as “${value}”; expected is cdr of ROS 2, or ros1.`,
     types: (types: string) => `its messages have the types ${types}; expected is one: rename the topic of one node, and record again.`,
-    message: (number: number, reason: string) =>
-      `message ${number} cannot be read (${reason}); expected is one of the topic's type.`,
+    message: (reason: string) => `it cannot be read (${reason}); expected is one of the topic's type.`,
     frames: (knownFrames: string) => `give a parent and a child frame, connected by ${knownFrames || 'transforms, of which there are none'}.`,
     noChain: (frames: string, knownFrames: string) =>
       `no transforms lead along ${frames}; expected are frames that are connected, of ${knownFrames || 'none'}.`,
     constant: (frames: string, others: string) =>
       `the transform ${frames} never changes, so it is no path of a robot; expected are frames that move${others ? `, as ${others}` : ''}.`,
-    noMessages: 'it has fewer than 2 messages; expected are at least 2.',
     givenTwice: 'it is given twice; give two independent measurements of one drive, odometry and reference.',
     ownReference: (name: string) => `${name} is the odometry itself; choose a reference that does not come from the wheels, such as motion capture or scan matching.`,
     correction: (correction: Correction, other: string, kind: LogKind) =>

@@ -43,9 +43,6 @@ const ROS2_LAYOUTS = [
   ]),
 ];
 
-/** Number of columns of rows without times: poses of KITTI, and geometry_msgs/Twist. */
-const [KITTI_WIDTH, TWIST_WIDTH] = [12, 6];
-
 /** Patterns of the first line of texts that are not tables, with the name of their notation. */
 const NON_TABLE_PATTERNS: [RegExp, string][] = [[/^\s*(\{\s*("|$)|\[\s*([-\d"[{]|$))/, 'JSON'], [/^(---|header:|pose:|transforms:|- header:)\s*$/, 'YAML']];
 
@@ -143,8 +140,9 @@ export function detectTableFormat(lines: string[], file: string, columns: string
   if (!firstRowLine) throw noLogError();
   const names = columnsByContent(rows);
   if (names) return { ...commonFormat, name: names === TUM_COLUMNS ? 'tum' : 'csv', names, groups: columnGroups(names, rows[0]) };
-  if (rowWidth === KITTI_WIDTH) throw new LogError(errorPlace, (texts) => texts.kitti);
-  if (rowWidth === TWIST_WIDTH && rows.every((row) => row.slice(1, 5).every((cell) => Number(cell) === 0))) throw new LogError(errorPlace, (texts) => texts.twists);
+  // Poses of KITTI have 12 numbers. In geometry_msgs/Twist, four of six numbers are 0.
+  const isTwist = rowWidth === 6 && rows.every((row) => row.slice(1, 5).every((cell) => Number(cell) === 0));
+  if (rowWidth === 12 || isTwist) throw new LogError(errorPlace, (texts) => texts.timeless(rowWidth));
   const defaultNames = ({ 3: 't,v,omega', 4: 't,x,y,yaw' } as Record<number, string>)[rowWidth] ?? `t,x,y,yaw${',-'.repeat(Math.max(0, rowWidth - 4))}`;
   throw new LogError(errorPlace, (texts) => texts.noHeader(rowWidth, truncate(firstRowLine.line.trim().replaceAll('\t', ' '))), { what: 'columns', choices: [defaultNames], columns: rows[0].slice(0, rowWidth) });
 }

@@ -7,6 +7,7 @@ export type Words = typeof english;
 
 export interface ErrorPlace {
   file: string;
+  /** Number of a line, or of a message of the topic, from 1. */
   line?: number;
   topic?: string;
 }

@@ -124,7 +124,7 @@ export class Rows {
     const { count } = this;
     if (rows.length < 2) {
       const [cause, firstDrop] = (Object.entries(this.#dropped) as [DropCause, { first: number }][])[0] ?? [];
-      throw new LogError(this.#placeOf(firstDrop?.first ?? 0), (texts) => texts.few(rows.length, count, cause));
+      throw new LogError({ ...this.#logPlace, line: firstDrop?.first }, (texts) => texts.few(rows.length, count, cause));
     }
     const [times, a, b, c] = [this.#times, this.#columns.a, this.#columns.b, this.#columns.c].map((column) => new Float64Array(rows.length).map((_, i) => column[rows[i]]));
     const t = times.map((time) => time - start);
@@ -193,7 +193,7 @@ export class Rows {
     if (setBackRun !== undefined) {
       const setBackRow = runOfRow.indexOf(setBackRun);
       const line = this.#columns.line[rows[setBackRow]];
-      throw new LogError(this.#placeOf(line), (texts) => texts.setBack(times[setBackRow - 1] - times[setBackRow], this.#messageNumber(line)));
+      throw new LogError({ ...this.#logPlace, line }, (texts) => texts.setBack(times[setBackRow - 1] - times[setBackRow]));
     }
     let newestTime = -Infinity;
     const isLate = (time: number) => time < (newestTime = Math.max(newestTime, time));
@@ -211,8 +211,8 @@ export class Rows {
       return isEqual;
     });
     if (rows.length > 3 && contradictions > MAX_CONTRADICTING_FRACTION * rows.length) {
-      const line = this.#dropped.duplicate?.first ?? 0;
-      throw new LogError(this.#placeOf(line), (texts) => texts.sameTimes(contradictions, rows.length, this.#messageNumber(line)));
+      const line = this.#dropped.duplicate?.first;
+      throw new LogError({ ...this.#logPlace, line }, (texts) => texts.sameTimes(contradictions, rows.length));
     }
     return distinctRows;
   }
@@ -264,15 +264,6 @@ export class Rows {
       gaps: { count: gapRows.length, longest: max(gapRows, (i) => t[i] - t[i - 1]) ?? 0, first: t[gapRows[0] - 1] - t[0] },
       jumps: { count: jumpRows.length, first: t[jumpRows[0]] - t[0] },
     };
-  }
-
-  #placeOf(line: number): ErrorPlace {
-    return line && !this.#messageNumber(line) ? { ...this.#logPlace, line } : this.#logPlace;
-  }
-
-  /** Returns the number of a message of a recording; 0 in a table. */
-  #messageNumber(line: number): number {
-    return this.#logPlace.topic === undefined ? 0 : line;
   }
 
   #countDropped(cause: DropCause, line: number): void {

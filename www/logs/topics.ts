@@ -17,7 +17,7 @@ export async function recordingOf(name: string, container: Container, options: O
   const { format, channels } = container;
   if (channels.every(({ count }) => count === 0)) {
     const reason = damageReasonOf(container);
-    throw new LogError({ file: name }, (texts) => (reason ? texts.damaged(reason, format) : texts.noMessages));
+    throw new LogError({ file: name }, (texts) => (reason ? texts.damaged(reason, format) : texts.few(0, 0)));
   }
   const series = await listSeries(container);
   return { name, format, series, read };
@@ -115,8 +115,8 @@ function topicReader(file: string, container: Container, choice: LogChoice, seri
     end(options: OpenOptions): Log {
       const { format, damage, cutReason } = container;
       const lossReason = damageReasonOf(container);
-      if (messageCount === 0) refuse((texts) => (lossReason ? texts.damaged(lossReason, format) : texts.noMessages));
-      if (damagedCount === messageCount) refuse((texts) => texts.message(1, damageReason));
+      if (messageCount === 0 && lossReason) refuse((texts) => texts.damaged(lossReason, format));
+      if (damagedCount > 0 && damagedCount === messageCount) throw new LogError({ file, topic, line: 1 }, (texts) => texts.message(damageReason));
       if (chain && !chain.isConnected) refuse((texts) => texts.noChain(framesText(frames), listNames(chain.tree.links.map(framesText))));
       const hasChanged = chain?.poses((pose, { recordTime, number }) => add(pose, recordTime, number)) ?? true;
       if (!hasChanged) refuse((texts) => texts.constant(framesText(frames as FramePair), otherFramesOf(chain as Chain, frames as FramePair)));

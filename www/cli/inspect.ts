@@ -49,13 +49,24 @@ async function contentsOf(recording: Recording, onProgress?: (share: number | un
     const possibleUses: { choice?: LogChoice; uses: string[] }[] = usesOfSeries(recording, entry.name);
     return (possibleUses.length > 0 ? possibleUses : [{ uses: [] }]).map((use) => ({ ...entry, ...use }));
   });
-  const { logs, refusalSentences } = await readLogs(recording, seriesEntries.flatMap(({ choice }) => choice ?? []), onProgress);
+  const logs = new Map<LogChoice, Log>();
+  const refusalSentences = new Set<string>();
+  for (const { choice } of seriesEntries) {
+    if (!choice) continue;
+    try {
+      const [log] = await recording.read([choice], onProgress);
+      logs.set(choice, log);
+    } catch (error) {
+      if (!(error instanceof LogError)) throw error;
+      refusalSentences.add(`${error.message}${optionAdvice(error)}`);
+    }
+  }
   const series = seriesEntries.map(({ name: seriesName, type, count, uses, choice }) => {
     const log = choice && logs.get(choice);
     const seriesLabel = choice?.frames ? `${seriesName} (${framesText(choice.frames)})` : seriesName;
     return { name: seriesLabel, type, rows: log?.summary.rows ?? count, uses, ...(log && { summary: log.summary, sentences: summarySentences(log, english.found) }) };
   });
-  return { name, format, series, refused: [...new Set(refusalSentences)] };
+  return { name, format, series, refused: [...refusalSentences] };
 }
 
 export function inspectionText({ recordings, missing, command }: InspectionResult): string {
@@ -85,23 +96,6 @@ function usesOfSeries(recording: Recording, name: string): { choice: LogChoice; 
   addUses('odometry', 'commands');
   addUses('reference');
   return [...usesByFrames.values()];
-}
-
-/** Reads logs in one pass, or one by one if one is refused. `refusalSentences` name the errors. */
-async function readLogs(recording: Recording, choices: LogChoice[], onProgress?: (share: number) => void): Promise<{ logs: Map<LogChoice, Log>; refusalSentences: string[] }> {
-  const logs = new Map<LogChoice, Log>();
-  const refusalSentences: string[] = [];
-  const readInOnePass = async (choicesToRead: LogChoice[]) => {
-    try {
-      for (const [i, log] of (await recording.read(choicesToRead, onProgress)).entries()) logs.set(choicesToRead[i], log);
-    } catch (error) {
-      if (!(error instanceof LogError)) throw error;
-      if (choicesToRead.length === 1) refusalSentences.push(`${error.message}${optionAdvice(error)}`);
-      else for (const choice of choicesToRead) await readInOnePass([choice]);
-    }
-  };
-  if (choices.length > 0) await readInOnePass(choices);
-  return { logs, refusalSentences };
 }
 
 /** Returns the command that calibrates from the recordings, or a sentence about missing logs. */

@@ -26,10 +26,7 @@ export interface StampedTransform {
   transform: Transform;
 }
 
-/** Identifiers of encodings in the CDR header: of version 1, and of version 2, which aligns values to at most four bytes. */
-const [CDR, CDR_2] = [[0, 1], [6, 7, 16, 17]];
-
-/** Number of bytes of the CDR header. Values are aligned relative to its end. */
+/** Number of bytes of the CDR header. Its second byte is 0 for big-endian and 1 for little-endian. Values are aligned relative to its end. */
 const CDR_HEADER_BYTES = 4;
 
 type MessageBytes = Pick<Message, 'block' | 'from' | 'to'>;
@@ -51,9 +48,9 @@ class MessageReader {
     if (encoding === 'ros1') return;
     this.#start += CDR_HEADER_BYTES;
     const encodingKind = this.#view.getUint8(this.#next(CDR_HEADER_BYTES) + 1);
-    if (!CDR.includes(encodingKind) && !CDR_2.includes(encodingKind)) throw new RangeError(`CDR of kind ${encodingKind}`);
-    this.#isLittle = encodingKind % 2 === 1;
-    this.#alignment = CDR.includes(encodingKind) ? 8 : 4;
+    if (encodingKind > 1) throw new RangeError(`CDR of kind ${encodingKind}`);
+    this.#isLittle = encodingKind === 1;
+    this.#alignment = 8;
   }
 
   /** Reads the stamp of a header, s. In ROS 1 a sequence number comes first. */

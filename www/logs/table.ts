@@ -27,9 +27,6 @@ const MAX_DAMAGED_FRACTION = 0.1;
 
 type ErrorReason = ConstructorParameters<typeof LogError>[1];
 
-/** Maximum number of names of frames, topics or robots that a sentence lists. */
-const MAX_LISTED_NAMES = 4;
-
 /** Maximum spread of the cosine of the tilt. Above it, the robot does not drive on a plane. */
 const MAX_TILT_SPREAD = 0.5;
 
@@ -59,7 +56,7 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
     series: allSeries,
     async read(choices, onProgress) {
       const readersOfChoices = choices.map(({ series: seriesName, kind }) => {
-        const chosenGroup = readableGroups.length === 1 && seriesName === '' ? readableGroups[0] : format.groups[allSeries.findIndex(({ name }) => name === seriesName)];
+        const chosenGroup = format.groups[allSeries.findIndex(({ name }) => name === seriesName)];
         const name = readableGroups.length === 1 ? source.name : `${source.name}, ${seriesOfGroup(chosenGroup).name}`;
         const readerOf = (group: Group, upAxis?: 'Y' | 'Z') => logReader(name, { file: source.name }, format, group, logLayoutOf(group, format.names, headerPlace, kind), options, upAxis);
         return format.hasUnknownAxis ? [readerOf(chosenGroup, 'Z'), readerOf(withYAxisUp(chosenGroup), 'Y')] : [readerOf(chosenGroup)];
@@ -190,7 +187,7 @@ function logReader(name: string, place: ErrorPlace, format: Format, group: Group
       if (value === undefined) return dropText(line, columnName, cells[at]);
       values.push(value);
     }
-    if (nameColumns.length > 0 && rowNames.size <= MAX_LISTED_NAMES) rowNames.add(nameColumns.map(({ at }) => cells[at].trim()).join(' to '));
+    if (nameColumns.length > 0) rowNames.add(nameColumns.map(({ at }) => cells[at].trim()).join(' to '));
     const [x, y] = values;
     let heading = values[2] ?? 0;
     if (fields.at(-1) === 'qw') {

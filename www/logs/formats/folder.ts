@@ -7,16 +7,11 @@ import type { Container } from './container.ts';
 
 const MAX_METADATA_BYTES = 2 ** 24;
 
-interface Folder {
-  name: string;
-  files: Source[];
-}
-
 const folderOf = ({ path = '' }: Source) => path.replace(/[^/]*$/, '');
 const baseName = (path: string) => path.replace(/^.*\//, '');
 
 /** Returns the files that a metadata.yaml lists, in its folder. */
-export async function listedFiles(metadata: Source, sources: Source[]): Promise<Folder> {
+export async function listedFiles(metadata: Source, sources: Source[]): Promise<{ name: string; files: Source[] }> {
   const errorPlace = { file: metadata.path || metadata.name };
   const fileNames: string[] = [];
   try {

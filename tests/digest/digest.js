@@ -234,10 +234,8 @@ const hex = (bytes) => Array.from(new Uint8Array(bytes), (byte) => byte.toString
  * @param {Motion} motion
  * @param {Configurations} configurations
  * @param {string[]} [tags] of these widgets
- * @returns {Promise<string>}
  */
 export async function computeDigest(motion, configurations, tags = Object.keys(configurations.widgets)) {
-  /** @type {string[]} */
   const digestLines = [];
   for (const widget of tags) {
     for (const [name, configuration] of Object.entries(configurations.widgets[widget].configurations)) {

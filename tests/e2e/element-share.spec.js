@@ -90,7 +90,6 @@ test('a link leads to the figure that it was copied from, once; a reload leads n
   const figureAt = (/** @type {import('@playwright/test').Page} */ openPage, /** @type {number} */ i) => openPage.locator('banana-machine').nth(i);
   const figureTopsOf = (/** @type {import('@playwright/test').Page} */ openPage) =>
     openPage.locator('banana-machine').evaluateAll((figureElements) => figureElements.map((figure) => Math.round(figure.getBoundingClientRect().top)));
-  /** @type {string[]} */
   const linkFragments = [];
   for (const i of [0, 1]) {
     await figureAt(page, i).scrollIntoViewIfNeeded();

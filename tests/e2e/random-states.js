@@ -28,7 +28,6 @@ export function randomStates(seed) {
   };
   const command = { v: randomNumber(-1, 2), omega: randomNumber(-2, 2), dt: randomNumber(0.1, 3) };
   const stepCount = randomInteger(1, 40);
-  /** @type {Record<string, Record<string, unknown>>} */
   const fieldsByTag = {
     'banana-machine': {
       ...cloudFields,

@@ -14,7 +14,7 @@ import { ALL_NAMES, CLOUD_NAMES, NAMES_WITH_HANDLES, figureNameFor } from './fig
  * @typedef {import('../../www/types.d.ts').Motion} Motion
  * @typedef {import('./figures.js').Name} Name
  * @typedef {import('../../www/types.d.ts').WidgetElement<any, any> & { simulation: any, motion: any }} AnyElement
- * @typedef {{ name: string, target: string, message: string, path: number, value: unknown }} FiredEvent
+ * @typedef {{ name: string, target: string, message: string }} FiredEvent
  * @typedef {HTMLElement & { simulation: BananaMachine, motion: Motion }} BananaMachineElement
  */
 
@@ -100,8 +100,7 @@ export async function showPage(page, body, { head = '', fragment = '', script = 
         const { message = '' } = /** @type {ErrorEvent} */ (event);
         // With a listener that handles errors, the figure prints no warning.
         event.preventDefault();
-        const speed = /** @type {AnyElement} */ (target).v;
-        firedEvents.push({ name, target: target.localName, message, path: event.composedPath().length, value: speed });
+        firedEvents.push({ name, target: target.localName, message });
         // Error events do not bubble.
       }, { capture: name === 'error' });
     }
@@ -138,13 +137,7 @@ export async function mount(page, name, { attributes = '', ...options } = {}) {
   return widget;
 }
 
-/**
- * Takes the events of the elements since the last call.
- *
- * @param {Page} page
- * @param {string[]} [names]
- * @returns {Promise<FiredEvent[]>}
- */
+/** Takes the events of the elements since the last call. @param {Page} page @param {string[]} [names] */
 export async function takeEvents(page, names = ['load', 'input', 'change', 'error']) {
   await waitForFrames(page);
   const events = /** @type {FiredEvent[]} */ (await page.evaluate(() => Reflect.get(window, 'heard').splice(0)));

@@ -19,7 +19,6 @@ export async function runChecks(browser, site) {
   const { definition, serving } = site;
   /** @type {string[]} */
   const consoleMessages = [];
-  /** @type {string[]} */
   const failures = [];
   let passedCount = 0;
   for (const [checkName, checkFunction] of Object.entries(serving.checks ?? checksOf(site))) {

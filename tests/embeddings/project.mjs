@@ -161,7 +161,6 @@ const KEPT_NAMES = ['node_modules', '.venv', '.installed'];
  *
  * @param {string} name
  * @param {Engine} definition
- * @returns {Promise<{ directory: string, tools: Tools }>}
  */
 export async function prepareExample(name, definition) {
   const exampleDirectory = join(ROOT, 'examples', name);

@@ -15,40 +15,23 @@ import { computeDigest, hashOf } from '../digest/digest.js';
 const figureOf = (/** @type {string} */ tag) => /** @type {Figure} */ (document.querySelector(tag));
 const shadowRootOf = (/** @type {string} */ tag) => /** @type {ShadowRoot} */ (figureOf(tag).shadowRoot);
 const firstCanvasOf = (/** @type {string} */ tag) => /** @type {HTMLCanvasElement} */ (shadowRootOf(tag).querySelector('canvas'));
-const nextFrame = () => new Promise(requestAnimationFrame);
-
-/** Number of frames without a change after which a figure counts as settled. */
-const UNCHANGED_FRAMES = 10;
 
 /**
- * Scrolls to a figure and waits until its cloud is complete and its picture no longer changes.
+ * Scrolls to a figure and waits until its cloud is complete and all is drawn.
  *
  * @param {string} tag
  * @returns {Promise<{ stats: number, samples: number }>} number of samples in the statistics, and number requested
  */
 export async function untilSettled(tag) {
-  const deadline = performance.now() + 60_000;
+  await customElements.whenDefined(tag);
   const figure = /** @type {any} */ (figureOf(tag));
-  // A figure outside the viewport does not start.
-  figure.scrollIntoView({ block: 'start' });
-  while (!(figure.shadowRoot && firstCanvasOf(tag))) {
-    if (performance.now() > deadline) throw new Error(`<${tag}> has no picture.`);
-    await nextFrame();
-  }
+  await figure.settled;
   firstCanvasOf(tag).scrollIntoView({ block: 'center' });
+  // A browser reports in a frame of its own that the figure has come into sight.
+  for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
+  await figure.settled;
   // Statistics of some figures count attempts, and others have no samples.
-  const requestedCount = figure.samples ?? 0;
-  const countSamples = () => figure.stats?.n ?? figure.stats?.attempts ?? figure.stats?.drawn ?? 0;
-  while (countSamples() !== requestedCount && performance.now() < deadline) await nextFrame();
-  const readLayout = () => JSON.stringify([figure.pictures.map((/** @type {any} */ { view }) => view.extent), firstCanvasOf(tag).getBoundingClientRect()]);
-  let lastLayout = readLayout();
-  for (let unchangedFrames = 0; unchangedFrames < UNCHANGED_FRAMES && performance.now() < deadline; unchangedFrames++) {
-    await nextFrame();
-    const currentLayout = readLayout();
-    if (currentLayout !== lastLayout) unchangedFrames = 0;
-    lastLayout = currentLayout;
-  }
-  return { stats: countSamples(), samples: requestedCount };
+  return { stats: figure.stats?.n ?? figure.stats?.attempts ?? figure.stats?.drawn ?? 0, samples: figure.samples ?? 0 };
 }
 
 /** Returns the state of a figure. @param {string} tag */

@@ -54,11 +54,7 @@ async function renderModel({ state, inBook }) {
 /** Waits until the figure of a page has all its samples. @param {import('@playwright/test').Page} page */
 async function untilComplete(page) {
   await page.locator('canvas').first().waitFor();
-  await page.waitForFunction(() => {
-    const { el } = /** @type {any} */ (globalThis).view;
-    const { stats, samples } = el.firstElementChild;
-    return (stats?.n ?? stats?.attempts) === samples;
-  });
+  await page.evaluate(() => /** @type {any} */ (globalThis).view.el.firstElementChild.settled);
   await waitForFrames(page);
 }
 

@@ -4,72 +4,53 @@ import { findCandidates, isLocalizer, isTable, readableSeries } from '../logs/ca
 import { planDrives, type RecordingChoice } from '../logs/drives.ts';
 import { english } from '../logs/en.ts';
 import { LogError, truncate } from '../logs/log-error.ts';
-import { ROLES, framesOption, framesText, type LogChoice, type Log, type Recording, type Role, type Summary } from '../logs/log.ts';
+import { ROLES, framesOption, framesText, type LogChoice, type Recording, type Role, type Summary } from '../logs/log.ts';
 import { summarySentences } from '../logs/summary.ts';
 import { optionAdvice, quoteForShell } from './advice.ts';
 import { alignRows } from './report.ts';
 
 const FORMAT_NAMES: Partial<Record<Recording['format'], string>> = { mcap: 'MCAP recording', rosbag: 'ROS 1 bag', sqlite: 'rosbag2 SQLite recording', csv: 'table', tum: 'TUM table' };
 
-export interface RecordingContents {
-  name: string;
-  format: Recording['format'];
-  series: { name: string; type: string; rows: number; uses: string[]; summary?: Summary; sentences?: string[] }[];
-  /** Sentences about series that cannot be read. */
-  refused: string[];
-}
-
-export interface InspectionResult {
-  recordings: RecordingContents[];
-  /** Sentence about a log or a choice that the calibration still needs. */
-  missing?: string;
-  /** Command for the calibration; undefined if something is missing. */
-  command?: string;
-}
-
 export interface GivenRecording { recording: Recording; path: string }
 
 /**
- * Returns the contents of recordings, with the logs that could be odometry or reference.
+ * Returns the contents of recordings, and the command that calibrates from them, or a sentence about what is missing.
  *
  * @param statedOptions options about units and columns, which the proposed command repeats
  */
-export async function inspect(givenRecordings: GivenRecording[], statedOptions: [name: string, value: string][], onProgress?: (share: number | undefined) => void): Promise<InspectionResult> {
-  const recordings: RecordingContents[] = [];
+export async function inspect(givenRecordings: GivenRecording[], statedOptions: [name: string, value: string][], onProgress?: (share: number | undefined) => void) {
+  const recordings: Awaited<ReturnType<typeof contentsOf>>[] = [];
   for (const { recording } of givenRecordings) recordings.push(await contentsOf(recording, onProgress));
   onProgress?.(undefined);
   const usableRecordings = givenRecordings.filter((_, i) => recordings[i].series.some(({ summary }) => summary));
   return { recordings, ...(usableRecordings.length > 0 && proposeCommand(usableRecordings, statedOptions)) };
 }
 
-async function contentsOf(recording: Recording, onProgress?: (share: number | undefined) => void): Promise<RecordingContents> {
+/** Returns the series of a recording with their logs, and sentences about the logs that cannot be read. */
+async function contentsOf(recording: Recording, onProgress?: (share: number | undefined) => void) {
   const { name, format } = recording;
-  // Each chain of transforms that could be a log has its own entry.
-  const seriesEntries = recording.series.flatMap((entry) => {
-    const possibleUses: { choice?: LogChoice; uses: string[] }[] = usesOfSeries(recording, entry.name);
-    return (possibleUses.length > 0 ? possibleUses : [{ uses: [] }]).map((use) => ({ ...entry, ...use }));
-  });
-  const logs = new Map<LogChoice, Log>();
-  const refusalSentences = new Set<string>();
-  for (const { choice } of seriesEntries) {
-    if (!choice) continue;
-    try {
-      const [log] = await recording.read([choice], onProgress);
-      logs.set(choice, log);
-    } catch (error) {
-      if (!(error instanceof LogError)) throw error;
-      refusalSentences.add(`${error.message}${optionAdvice(error)}`);
+  const series: { name: string; type: string; rows: number; uses: string[]; summary?: Summary; sentences?: string[] }[] = [];
+  const refused = new Set<string>();
+  for (const { name: seriesName, type, count } of recording.series) {
+    const possibleUses = usesOfSeries(recording, seriesName);
+    if (possibleUses.length === 0) series.push({ name: seriesName, type, rows: count, uses: [] });
+    // Each chain of transforms that could be a log has its own entry.
+    for (const { choice, uses } of possibleUses) {
+      const entry = { name: choice.frames ? `${seriesName} (${framesText(choice.frames)})` : seriesName, type, rows: count, uses };
+      try {
+        const [log] = await recording.read([choice], onProgress);
+        series.push({ ...entry, rows: log.summary.rows, summary: log.summary, sentences: summarySentences(log, english.found) });
+      } catch (error) {
+        if (!(error instanceof LogError)) throw error;
+        series.push(entry);
+        refused.add(`${error.message}${optionAdvice(error)}`);
+      }
     }
   }
-  const series = seriesEntries.map(({ name: seriesName, type, count, uses, choice }) => {
-    const log = choice && logs.get(choice);
-    const seriesLabel = choice?.frames ? `${seriesName} (${framesText(choice.frames)})` : seriesName;
-    return { name: seriesLabel, type, rows: log?.summary.rows ?? count, uses, ...(log && { summary: log.summary, sentences: summarySentences(log, english.found) }) };
-  });
-  return { name, format, series, refused: [...refusalSentences] };
+  return { name, format, series, refused: [...refused] };
 }
 
-export function inspectionText({ recordings, missing, command }: InspectionResult): string {
+export function inspectionText({ recordings, missing, command }: Awaited<ReturnType<typeof inspect>>): string {
   const contentLines = recordings.flatMap(({ name, format, series, refused }) => {
     const tableRows = series.map(({ name: seriesName, type, rows: count, uses, summary }) => [seriesName || '(all columns)', isTable({ format }) ? truncate(type) : type, String(count || ''), summary ? `${summary.rate.toPrecision(3)} Hz` : '', uses.join(' or ')]);
     const summaryLines = series.flatMap(({ name: seriesName, sentences = [] }) => sentences.map((line, i) => (i > 0 ? `  ${line}` : seriesName ? `${seriesName}: ${line}` : line)));
@@ -99,7 +80,7 @@ function usesOfSeries(recording: Recording, name: string): { choice: LogChoice; 
 }
 
 /** Returns the command that calibrates from the recordings, or a sentence about missing logs. */
-function proposeCommand(givenRecordings: GivenRecording[], statedOptions: [name: string, value: string][]): Pick<InspectionResult, 'command' | 'missing'> {
+function proposeCommand(givenRecordings: GivenRecording[], statedOptions: [name: string, value: string][]): { command?: string; missing?: string } {
   const quotedPath = ({ recording }: Pick<RecordingChoice, 'recording'>) => quoteForShell(givenRecordings.find((file) => file.recording === recording)?.path ?? recording.name);
   const quotedPaths = givenRecordings.map(quotedPath);
   try {

@@ -2,7 +2,6 @@
 
 import { basename, dirname } from 'node:path';
 import { parseArgs } from 'node:util';
-import type { UserChoices } from '../logs/drives.ts';
 import { truncate } from '../logs/log-error.ts';
 import { ROLES, UNITS, type FramePair, type OpenOptions, type Role } from '../logs/log.ts';
 import { SYSTEMATIC_ERRORS } from '../widgets/alpha-calibrator/lines.ts';
@@ -89,23 +88,9 @@ export function replaceFieldByOption(message: string): string | undefined {
 
 export interface InputPath { path: string; open: OpenOptions }
 
-export interface CalibrateArguments {
-  command: 'calibrate';
-  inputs: { recording: InputPath[]; odometry: InputPath[]; reference: InputPath[] };
-  userChoices: UserChoices;
-  fit: Record<string, any>;
-  output: 'text' | 'json' | 'yaml';
-  plot: string | undefined;
-}
+export type CalibrateArguments = Extract<ReturnType<typeof parseOptions>, { command: 'calibrate' }>;
 
-interface InspectArguments {
-  command: 'inspect';
-  inputs: InputPath[];
-  statedOptions: [name: string, value: string][];
-  isJson: boolean;
-}
-
-export function parseOptions(args: string[]): CalibrateArguments | InspectArguments | 'help' | 'version' {
+export function parseOptions(args: string[]) {
   const { values, positionals: [command, ...givenPaths] } = parseArguments(args);
   // A metadata.yaml stands for its folder. A shell that expands a pattern gives all files of the folder.
   const listedFolders = givenPaths.filter((path) => basename(path) === 'metadata.yaml').map(dirname);
@@ -120,7 +105,7 @@ export function parseOptions(args: string[]): CalibrateArguments | InspectArgume
     const ignoredOption = Object.keys(values).find((name) => !INSPECT_OPTIONS.includes(name));
     if (ignoredOption !== undefined) throw new UsageError(`--${ignoredOption} is an option of calibrate; inspect has ${listOfAlternatives(INSPECT_OPTIONS.map((name) => `--${name}`))}.`);
     const statedOptions = Object.entries(values).filter((entry): entry is [string, string] => typeof entry[1] === 'string');
-    return { command, inputs: allPaths.map((path) => ({ path, open: openOptionsOf() })), statedOptions, isJson: values.json ?? false };
+    return { command: 'inspect' as const, inputs: allPaths.map((path) => ({ path, open: openOptionsOf() })), statedOptions, isJson: values.json ?? false };
   }
   if (command !== 'calibrate') {
     const path = [command, ...positionalPaths].find(isPath) ?? 'run.bag';
@@ -152,9 +137,9 @@ export function parseOptions(args: string[]): CalibrateArguments | InspectArgume
   const chosenSeries = (role: Role) => withoutUndefined({ series: values[`${role}-topic`], frames: parseFrames(`${role}-frames`, values[`${role}-frames`]) });
   const inputsOf = (paths: string[], role?: Role) => paths.map((path) => ({ path, open: openOptionsOf(role, role && columnNames(`${role}-columns`)) }));
   return {
-    command,
+    command: 'calibrate' as const,
     inputs: { recording: inputsOf(recording), odometry: inputsOf(odometry, 'odometry'), reference: inputsOf(reference, 'reference') },
-    userChoices: { odometry: chosenSeries('odometry'), reference: chosenSeries('reference'), ...(values.model === 'velocity' && { kind: 'commands' }) },
+    userChoices: { odometry: chosenSeries('odometry'), reference: chosenSeries('reference'), ...(values.model === 'velocity' && { kind: 'commands' as const }) },
     fit: withoutUndefined({
       legs: duration === undefined ? { distance: distance ?? 0.25, angle: angle ?? 0.2 } : { duration },
       model: values.model ?? (values.rule === 'omni' ? 'omnidirectional' : undefined),

@@ -216,23 +216,13 @@ function clocksOf({ columns: { seconds, subseconds }, timeColumns }: Group): Clo
   return singleColumnClocks.length > 0 || !timePartColumn ? singleColumnClocks : [clockOf(timePartColumn)];
 }
 
-export interface Layout {
-  kind: LogKind | 'positions';
-  clocks: Clock[];
-  /** x, y and heading, or v and omega. */
-  columns: Column[];
-  fields: Field[];
-  length: LengthUnit | undefined;
-  angle: AngleUnit | undefined;
-}
-
 /**
- * Returns the columns of a group from which a log is read.
+ * Returns the columns of a group from which a log is read: x, y and heading, or v and omega.
  *
  * @param wantedKind kind of the log: `commands` prefers commands to poses, and `poses` excludes commands; by default poses come first
  * @throws {LogError} if a field is missing, or two columns can be the same field
  */
-export function logLayoutOf(group: Group | undefined, names: string[], place: ErrorPlace, wantedKind: LogKind | undefined): Layout {
+export function logLayoutOf(group: Group | undefined, names: string[], place: ErrorPlace, wantedKind: LogKind | undefined) {
   const columnNames = listNames(names.map((name) => name.trim()));
   const ask: Question = { what: 'columns', choices: [], columns: names };
   if (!group) throw new LogError(place, (texts) => texts.noColumns(wantedKind === 'poses' ? wantedKind : 'either', columnNames), ask);
@@ -248,16 +238,14 @@ export function logLayoutOf(group: Group | undefined, names: string[], place: Er
     if (firstColumn && secondColumn) throw new LogError(place, (texts) => texts.twice(field, truncate(firstColumn.name), truncate(secondColumn.name)), ask);
   }
   const usedColumns = fields.map((field) => columns[field] as Column);
-  const [lengthUnit, ...otherUnits] = new Set((takesCommands ? usedColumns.slice(0, 1) : usedColumns.slice(0, 2)).map(({ unit }) => unit));
+  const lengthUnits = [...new Set((takesCommands ? usedColumns.slice(0, 1) : usedColumns.slice(0, 2)).map(({ unit }) => unit))];
   const angleUnit = takesCommands ? columns.omega?.unit : headingFields[0] === 'yaw' ? columns.yaw?.unit : undefined;
-  const isUnknownUnit = (unit: string | undefined, known: readonly string[]) => unit !== undefined && !known.includes(unit);
-  const unknownUnit = [lengthUnit, ...otherUnits].find((unit) => isUnknownUnit(unit, UNITS.lengthUnit)) ?? (isUnknownUnit(angleUnit, UNITS.angleUnit) ? angleUnit : undefined);
-  if (unknownUnit !== undefined) throw new LogError(place, (texts) => texts.unknownUnit(truncate(unknownUnit)));
-  if (otherUnits.length > 0) throw new LogError(place, (texts) => texts.unknownUnit([lengthUnit, ...otherUnits].map((unit) => unit ?? '–').join(', ')));
-  return {
-    kind: takesCommands ? 'commands' : headingFields.length > 0 ? 'poses' : 'positions',
-    clocks, columns: usedColumns, fields, length: lengthUnit as LengthUnit | undefined, angle: angleUnit as AngleUnit | undefined,
-  };
+  for (const [units, knownUnits] of [[lengthUnits, UNITS.lengthUnit], [[angleUnit], UNITS.angleUnit]] as [(string | undefined)[], readonly string[]][]) {
+    const isKnown = units.length === 1 && (units[0] === undefined || knownUnits.includes(units[0]));
+    if (!isKnown) throw new LogError(place, (texts) => texts.unknownUnit(units.map((unit) => truncate(unit ?? '–')).join(', ')));
+  }
+  const kind: LogKind | 'positions' = takesCommands ? 'commands' : headingFields.length > 0 ? 'poses' : 'positions';
+  return { kind, clocks, columns: usedColumns, fields, length: lengthUnits[0] as LengthUnit | undefined, angle: angleUnit as AngleUnit | undefined };
 }
 
 /** Returns true for a header, which has names in some cells. */

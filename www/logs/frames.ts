@@ -3,7 +3,7 @@
 import type { Message } from './formats/container.ts';
 import { framesText, type FramePair } from './log.ts';
 import { sampleOfPose, withoutSlash, type StampedTransform, type Sample, type Transform } from './messages.ts';
-import { hamiltonProduct, rotateVector } from './quaternion.ts';
+import { hamiltonProduct } from './quaternion.ts';
 
 /** Minimum motion (m) of a frame that counts as travelling. Frames of joints only turn, and those of suspensions move less. */
 const MIN_TRAVEL = 0.05;
@@ -146,9 +146,8 @@ export class Chain {
 }
 
 /** Returns the composition of two transforms: the second one is relative to the frame of the first. */
-function composeTransforms([x, y, z, qx, qy, qz, qw]: Transform, [x2, y2, z2, qx2, qy2, qz2, qw2]: Transform): Transform {
-  const rotation = { x: qx, y: qy, z: qz, w: qw };
-  const rotatedOffset = rotateVector(rotation, { x: x2, y: y2, z: z2 });
-  const rotationProduct = hamiltonProduct(rotation, { x: qx2, y: qy2, z: qz2, w: qw2 });
-  return [x + rotatedOffset.x, y + rotatedOffset.y, z + rotatedOffset.z, rotationProduct.x, rotationProduct.y, rotationProduct.z, rotationProduct.w];
+function composeTransforms([x, y, z, ...rotation]: Transform, [x2, y2, z2, ...rotation2]: Transform): Transform {
+  const [qx, qy, qz, qw] = rotation;
+  const [dx, dy, dz] = hamiltonProduct(hamiltonProduct(rotation, [x2, y2, z2, 0]), [-qx, -qy, -qz, qw]);
+  return [x + dx, y + dy, z + dz, ...hamiltonProduct(rotation, rotation2)];
 }

@@ -1,7 +1,6 @@
 /** Arithmetic of the quaternions of recorded poses. */
 
-interface Vector { x: number; y: number; z: number }
-export interface Quaternion extends Vector { w: number }
+type Quaternion = [x: number, y: number, z: number, w: number];
 
 /** Largest deviation from length 1 that rounding explains. */
 const LENGTH_TOLERANCE = 0.1;
@@ -20,13 +19,9 @@ export function isRotation(qx: number, qy: number, qz: number, qw: number): bool
   return !(Math.abs(Math.sqrt(qx * qx + qy * qy + qz * qz + qw * qw) - 1) > LENGTH_TOLERANCE);
 }
 
-export const hamiltonProduct = (a: Quaternion, b: Quaternion): Quaternion => ({
-  x: a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
-  y: a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
-  z: a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w,
-  w: a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z,
-});
-
-export function rotateVector(q: Quaternion, v: Vector): Vector {
-  return hamiltonProduct(hamiltonProduct(q, { ...v, w: 0 }), { x: -q.x, y: -q.y, z: -q.z, w: q.w });
-}
+export const hamiltonProduct = ([ax, ay, az, aw]: Quaternion, [bx, by, bz, bw]: Quaternion): Quaternion => [
+  aw * bx + ax * bw + ay * bz - az * by,
+  aw * by - ax * bz + ay * bw + az * bx,
+  aw * bz + ax * by - ay * bx + az * bw,
+  aw * bw - ax * bx - ay * by - az * bz,
+];

@@ -1,7 +1,7 @@
 /** Reader of logs in text tables of robots, recorders and spreadsheets. */
 
 import { least } from 'd3-array';
-import { type Clock, type Group, type Layout, logLayoutOf } from './columns.ts';
+import { type Clock, type Group, logLayoutOf } from './columns.ts';
 import { type Format, splitCells, detectTableFormat } from './format.ts';
 import { LogError, readBytes, truncate, listNames, type ErrorPlace, type Words } from './log-error.ts';
 import type { Log, Note, OpenOptions, Question, Recording, Series, Source, Summary, TimeUnit } from './log.ts';
@@ -146,7 +146,7 @@ function clockReader({ columns: [{ at }, subseconds], unit: namedUnit }: Clock, 
  *
  * @param upAxis vertical axis, if the format does not define it
  */
-function logReader(name: string, place: ErrorPlace, format: Format, group: Group, layout: Layout, options: OpenOptions, upAxis?: 'Y' | 'Z') {
+function logReader(name: string, place: ErrorPlace, format: Format, group: Group, layout: ReturnType<typeof logLayoutOf>, options: OpenOptions, upAxis?: 'Y' | 'Z') {
   const { separator, hasDecimalCommas, isSparse, header, names } = format;
   const { clocks, columns, fields, kind, length, angle } = layout;
   const rows = new Rows(place);

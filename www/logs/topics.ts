@@ -1,5 +1,6 @@
 /** Reader of logs from the topics of a recording. */
 
+import { group, sort, sum } from 'd3-array';
 import type { Channel, Container, Message } from './formats/container.ts';
 import { Chain, FrameTree } from './frames.ts';
 import { LogError, truncate, listNames, reasonOf, type Words } from './log-error.ts';
@@ -40,13 +41,12 @@ export async function recordingOf(name: string, container: Container, options: O
 const damageReasonOf = ({ damage, cutReason }: Container): string | undefined => [...damage.values(), cutReason][0];
 
 async function listSeries(container: Container): Promise<Series[]> {
-  const channelsByTopic = new Map<string, Channel[]>();
-  for (const channel of container.channels) channelsByTopic.set(channel.topic, [...(channelsByTopic.get(channel.topic) ?? []), channel]);
-  const series: Series[] = [...channelsByTopic].map(([topic, channels]) => {
-    const readableChannels = channels.filter((channel) => isReadable(channel) && logKindOfType(channel.type) !== null);
-    const types = new Set((readableChannels.length ? readableChannels : channels).map((channel) => (isReadable(channel) ? channel.type : `${channel.type} as ${channel.encoding}`)));
-    const count = (readableChannels.length ? readableChannels : channels).reduce((sum, channel) => sum + channel.count, 0);
-    return { name: topic, type: [...types].join(', '), kind: readableChannels.length && types.size === 1 ? logKindOfType([...types][0]) : null, count };
+  const series: Series[] = Array.from(group(container.channels, ({ topic }) => topic), ([topic, allChannels]) => {
+    const readableChannels = allChannels.filter((channel) => isReadable(channel) && logKindOfType(channel.type) !== null);
+    const channels = readableChannels.length > 0 ? readableChannels : allChannels;
+    const types = [...new Set(channels.map((channel) => (isReadable(channel) ? channel.type : `${channel.type} as ${channel.encoding}`)))];
+    const kind = readableChannels.length > 0 && types.length === 1 ? logKindOfType(types[0]) : null;
+    return { name: topic, type: types.join(', '), kind, count: sum(channels, ({ count }) => count) };
   });
   for (const seriesEntry of series) {
     if (seriesEntry.kind !== 'transforms' || isStaticTopic({ topic: seriesEntry.name, type: seriesEntry.type })) continue;
@@ -64,7 +64,7 @@ async function listSeries(container: Container): Promise<Series[]> {
     await container.read(({ topic }) => topic === seriesEntry.name, addMessage, () => messageCount >= MAX_FRAME_MESSAGES);
     seriesEntry.frames = frameTree.findPoseFrames();
   }
-  return series.sort((one, other) => (one.name < other.name ? -1 : 1));
+  return sort(series, ({ name }) => name);
 }
 
 /** Returns a reader of one topic. For a topic of transforms it also reads the static transforms. */

@@ -60,7 +60,8 @@ class Figure {
       if (text === null) element.removeAttribute(attribute);
       else element.setAttribute(attribute, text);
     }
-    for (const name of this.names.properties) if (areDifferent(previousProps?.[name], props[name])) element[name] = props[name];
+    const isChanged = (name: string) => previousProps?.[name] !== props[name] && JSON.stringify(previousProps?.[name]) !== JSON.stringify(props[name]);
+    for (const name of this.names.properties.filter(isChanged)) element[name] = props[name];
   }
 
   handleEvent(event: Event) {
@@ -70,10 +71,6 @@ class Figure {
   removeListeners() {
     for (const type of EVENT_TYPES) this.element.removeEventListener(type, this);
   }
-}
-
-function areDifferent(first: unknown, second: unknown) {
-  return first !== second && JSON.stringify(first) !== JSON.stringify(second);
 }
 
 export function component(displayName: string, tag: string, names: PropNames) {

@@ -22,7 +22,6 @@ export class Announcer {
     this.#isDue = false;
   }
 
-  /** Announces a text now. */
   announce(text: string) {
     this.#latestOutcome = undefined;
     this.#announcedText = text;

@@ -32,7 +32,6 @@ export interface Property {
 /** Properties by name, in the order in which they are applied. */
 export type Properties = Record<string, Property>;
 
-/** Property that is also an attribute. */
 export type Attribute = Property & { converter: Converter };
 
 /** Documentation by name. Types are in TypeScript. */
@@ -79,11 +78,9 @@ export const COMMON_ATTRS: Record<string, { words?: readonly string[], nullable?
 
 export const propertiesOf = (declarations: Declaration[]): Properties => Object.fromEntries(declarations.map((setting) => [setting.key, propertyOf(setting)]));
 
-/** Returns the properties that are also attributes. */
 export const selectAttributes = (properties: Properties) =>
   Object.fromEntries(Object.entries(properties).filter(([, { converter }]) => converter)) as Record<string, Attribute>;
 
-/** Returns the property of a field of the configuration. */
 export const fieldProperty = (key: string, converter?: Converter): Property => ({ converter, get: (config) => config[key], change: (value) => ({ [key]: value }) });
 
 function propertyOf({ key, in: group, field = key, index, of, weights = [], type, min = -Infinity, max = Infinity }: Declaration): Property {
@@ -116,7 +113,6 @@ function commonFactorOf(numbers: number[], weights: number[]): number | null {
   return lastNumbers.every((number, i) => number === commonFactor * weights[i]) ? commonFactor : null;
 }
 
-/** Settings that presets do not change. */
 const KEPT_BY_PRESETS = ['samples', 'seed'];
 
 /** Returns the configuration that a figure opens with: the defaults of its settings. */

@@ -20,7 +20,6 @@ export class Canvases extends FigureController {
     this.#followPixels(this.host.connection.signal);
   }
 
-  /** Finds and observes the canvases. */
   find() {
     this.elements = [...this.host.renderRoot.querySelectorAll('canvas')];
     this.measure();
@@ -76,7 +75,6 @@ export class Canvases extends FigureController {
     }
   }
 
-  /** Returns the canvas of a picture. */
   canvasOf({ name }: { name: string }) {
     return this.elements?.find(({ className }) => className === name) as HTMLCanvasElement;
   }

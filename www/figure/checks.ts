@@ -19,7 +19,6 @@ function describeValue(value: unknown) {
 /** Returns the first 40 characters of a text, without splitting a surrogate pair. */
 const shorten = (text: string) => text.replace(/^(.{40}).+$/su, '$1…');
 
-/** Returns an object after a check of its keys. */
 export function checkedObject(field: string, value: unknown, keys: readonly string[]) {
   if (typeof value !== 'object' || value === null || Array.isArray(value)) {
     throw refusalError(field, value, `an object with keys from ${keys.join(', ')}`, TypeError);

@@ -37,7 +37,7 @@ export class Cloud extends FigureController {
   #requestedCount = Infinity;
   #hasGivenUp;
 
-  /** Creates the cloud. `hasGivenUp` returns true for a view model or simulation that has stopped before it had all samples. */
+  /** `hasGivenUp` returns true for a view model or simulation that has stopped before it had all samples. */
   constructor(host: Figure, hasGivenUp: (latest: any) => boolean = () => false) {
     super(host);
     this.#hasGivenUp = hasGivenUp;
@@ -57,12 +57,10 @@ export class Cloud extends FigureController {
     return this.#requestedCount >= this.#samples || this.#hasGivenUp(this.#latest);
   }
 
-  /** Number of samples of the complete cloud. */
   get #samples(): number {
     return this.host.settings.current.samples;
   }
 
-  /** Number of samples that a step adds. */
   get #batchSize() {
     return Math.ceil(this.#samples / GROWTH_STEPS);
   }
@@ -77,7 +75,7 @@ export class Cloud extends FigureController {
     return !this.playing && (this.#latest.shown >= this.targetCount || this.#hasGivenUp(this.#latest));
   }
 
-  /** Starts the growth, or shows a state; users who prefer reduced motion see the complete cloud. */
+  /** Starts the growth, or shows a state. */
   introduce(state?: Values) {
     this.playing = state ? state.playing : true;
     this.#requestedCount = state && state.shown < this.#samples ? state.shown : Infinity;
@@ -142,14 +140,12 @@ export class Cloud extends FigureController {
     return this.host.state.elementState.marked ?? -1;
   }
 
-  /** Selects a sample; −1 for none. */
   mark(index: number) {
     if (index === this.selectedIndex) return;
     this.host.state.elementState.marked = index < 0 ? null : index;
     this.host.renderer.requestFrame();
   }
 
-  /** Selects the sample nearest to the pointer. */
   selectAtPointer(picture: import('../scene/picture.ts').Picture<any>, event: PointerEvent) {
     const { simulation, gesture } = this.host;
     // A moving finger scrolls; a tap is a click.
@@ -199,18 +195,6 @@ export class Cloud extends FigureController {
     });
   }
 
-  step() {
-    this.#control(false, () => this.show(this.#latest.shown + this.#batchSize));
-  }
-
-  clear() {
-    this.#control(false, () => this.#restart());
-  }
-
-  reseed() {
-    this.host.gesture.decide(() => ({ seed: this.host.motion.randomSeed() }));
-  }
-
   /** Runs the action of a button of the cloud, and sets `playing`. */
   #control(playing: boolean, action: () => void) {
     if (!this.host.simulation) return;
@@ -220,15 +204,14 @@ export class Cloud extends FigureController {
     this.host.renderer.requestFrame();
   }
 
-  /** Returns the buttons of growth and seed, with the field of the seed. */
   buttons(seedField: unknown) {
     const cloudWords = words.cloud;
     const [label, otherLabel] = this.playing ? [words.pause, cloudWords.play] : [cloudWords.play, words.pause];
     return html`<div class="buttons">
       ${button(label, () => this.play(), { title: cloudWords.playTitle, otherLabel })}
-      ${button(words.step, () => this.step(), { title: cloudWords.step(integer(this.#batchSize)), disabled: this.isComplete })}
-      ${button(words.clear, () => this.clear(), { title: cloudWords.clear })}
-      ${seedField} ${button(words.newSeed, () => this.reseed(), { title: cloudWords.reseed })}
+      ${button(words.step, () => this.#control(false, () => this.show(this.#latest.shown + this.#batchSize)), { title: cloudWords.step(integer(this.#batchSize)), disabled: this.isComplete })}
+      ${button(words.clear, () => this.#control(false, () => this.#restart()), { title: cloudWords.clear })}
+      ${seedField} ${button(words.newSeed, () => this.host.gesture.decide(() => ({ seed: this.host.motion.randomSeed() })), { title: cloudWords.reseed })}
     </div>`;
   }
 }

@@ -87,7 +87,6 @@ function readPageColours(probe: Element): PageColours {
   return { ground: `rgb(${backgroundColour})`, text: isLegible ? color : '', shade, strength: mutedStrength, scheme };
 }
 
-/** Returns the contrast by WCAG 2. */
 function contrast(first: number[], second: number[]) {
   const linearChannel = (channel: number) => (channel > 10 ? ((channel / 255 + 0.055) / 1.055) ** 2.4 : channel / 3294.6);
   const [low, high] = [first, second].map((colour) => lightness(colour.map((channel) => 255 * linearChannel(channel)))).sort((a, b) => a - b);

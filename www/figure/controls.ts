@@ -104,17 +104,14 @@ export function pictureCanvas(figure: Figure, picture: import('../scene/picture.
 
 export const settingSliders = (figure: Figure, sliderSpecs: Record<string, SliderSpec>) => Object.keys(sliderSpecs).map((key) => settingSlider(figure, key));
 
-/** Returns radio buttons for a setting that is a word, with labels by word. */
 export const settingRadios = (figure: Figure, key: string, labels: Record<string, string>) =>
   radioGroup(wordsFor(figure, key).name, key, labels, figure.settings.requested[key], (word) => figure.gesture.decide({ [key]: word }));
 
-/** Returns the checkbox of a boolean setting. */
 export const settingCheckbox = (figure: Figure, key: string, label: unknown) =>
   toggle({ label, checked: figure.settings.requested[key], change: (on) => figure.gesture.decide({ [key]: on }) });
 
 interface DisclosureOptions {
   controls: () => unknown;
-  /** Tables and charts. */
   numbers: () => unknown;
   /** Part of the names of exported files. */
   fileNameMark?: string | number;
@@ -142,7 +139,6 @@ export function disclosures(figure: Figure, { controls, numbers, fileNameMark = 
   <p class="on-paper small">${noiseParameters(figure)}</p>`;
 }
 
-/** Returns the noise parameters with their values, for print. */
 function noiseParameters({ definition: { attributes, sliderSpecs }, settings: { requested: config } }: Figure) {
   return Object.entries(sliderSpecs).filter(([, { alpha }]) => alpha).flatMap(([key, { symbol = '', decimals }]) => {
     const alphaValue = attributes[key].get(config) as number | null;
@@ -150,7 +146,6 @@ function noiseParameters({ definition: { attributes, sliderSpecs }, settings: { 
   });
 }
 
-/** Returns a picture with its handles, below a title. */
 export function titledPicture(title: unknown, picture: unknown, name?: string) {
   return html`<figure class="panel ${name ?? ''}">
     <p class="panel-title">${title}</p>
@@ -171,7 +166,6 @@ export function samplesSlider(figure: Figure, counts: readonly number[]) {
   return settingSlider(figure, 'samples', { stops: counts, show: integer }, sliderSpec);
 }
 
-/** Returns the controls of growth and seed of the cloud. */
 export const cloudButtons = (figure: CloudFigure) => figure.cloud.buttons(seedField(figure));
 
 function seedField(figure: Figure) {
@@ -238,7 +232,6 @@ function requestValue(figure: Figure, key: string, value: unknown) {
 const declarationOf = (figure: Figure, key: string): Declaration & AllowedNumbers =>
   figure.definition.declarations.find((setting) => setting.key === key) as any;
 
-/** Returns the name of a setting, and its effect, if it has one. */
 function wordsFor(figure: Figure, key: string): { name: string, effect?: string } {
   const [model, index] = figure.definition.sliderSpecs[key]?.alpha ?? [];
   const [alphaName, alphaEffect] = model ? words.alphas[model][index as number] : [];

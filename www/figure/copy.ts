@@ -1,13 +1,12 @@
-/** Buttons that copy texts, such as a link to the figure or its HTML. */
+/** Buttons that copy texts, such as a link to the figure or its HTML. Each has a message, or shows the text if the clipboard cannot be used. */
 
 import { html, nothing } from 'lit';
 import { address, isClassic } from '../address.ts';
 import { words } from '../messages/registry.ts';
 import { escapeXml } from '../scene/svg.ts';
-import { button } from '../ui/controls.ts';
+import { button, group } from '../ui/controls.ts';
 import { FigureController } from './controller.ts';
 
-/** Buttons that copy a text. Each has a message, or shows the text if the clipboard cannot be used. */
 export class CopyMenu extends FigureController {
   #lastCopy: { kind: string, text: string, isCopied?: boolean, note: string } | undefined;
 
@@ -18,7 +17,6 @@ export class CopyMenu extends FigureController {
     this.host.requestUpdate();
   }
 
-  /** Clears the message. */
   clearMessage() {
     this.#lastCopy = undefined;
     this.host.requestUpdate();
@@ -30,29 +28,22 @@ export class CopyMenu extends FigureController {
   }
 
   linkButton() {
-    const copyWords = words.copies;
-    return this.button('link', copyWords.link, () => this.host.shareLink(), { title: copyWords.linkTitle }, () => this.host.exportData.linkNote);
+    return this.button('link', words.copies.link, () => this.host.shareLink(), { title: words.copies.linkTitle }, () => this.host.exportData.linkNote);
   }
 
-  /** Returns the button that copies the HTML, with its message. */
   codeButton() {
-    const copyWords = words.copies;
-    return html`<fieldset class="copies" part="copies">
-      <legend>${copyWords.label}</legend>
-      <div class="buttons">
-        ${this.button('code', copyWords.code, () => this.host.embedCode(), { title: copyWords.codeTitle }, () => this.host.exportData.codeNote)}
+    return group(words.copies.label, html`<div class="buttons">
+        ${this.button('code', words.copies.code, () => this.host.embedCode(), { title: words.copies.codeTitle }, () => this.host.exportData.codeNote)}
       </div>
-      ${this.messageHtml('code')}
-    </fieldset>`;
+      ${this.messageHtml('code')}`, 'copies', 'copies');
   }
 
   /** Returns the message of a button, unless its text has changed since. */
   messageHtml(kind: string, text?: string) {
-    const copyWords = words.copies;
     const shownCopy = this.#lastCopy?.kind === kind && this.#lastCopy.text === (text ?? this.#lastCopy.text) ? this.#lastCopy : undefined;
-    return html`<output class="copied">${shownCopy ? `${shownCopy.isCopied ? copyWords.done : copyWords.byHand} ${shownCopy.note}` : nothing}</output>
+    return html`<output class="copied">${shownCopy ? `${shownCopy.isCopied ? words.copies.done : words.copies.byHand} ${shownCopy.note}` : nothing}</output>
       ${shownCopy && !shownCopy.isCopied
-        ? html`<textarea readonly rows="3" aria-label=${copyWords.byHand} .value=${shownCopy.text}></textarea>`
+        ? html`<textarea readonly rows="3" aria-label=${words.copies.byHand} .value=${shownCopy.text}></textarea>`
         : nothing}`;
   }
 }

@@ -9,7 +9,6 @@ import type { Values } from './settings.ts';
 
 /** Field of the state that the element keeps, because the simulation does not have it. */
 export interface ElementField extends Pick<Property, 'converter' | 'words' | 'min' | 'max'> {
-  /** Default. */
   opening: unknown;
   /** True if a preset sets the field to its default. */
   isResetByPreset?: true;
@@ -21,15 +20,12 @@ export interface ElementField extends Pick<Property, 'converter' | 'words' | 'mi
 
 export interface Definition {
   tag: string;
-  /** Key of the widget's words in the catalogues. */
   messageKey: string;
   declarations: Declaration[];
   properties: Properties;
-  /** Properties that are also attributes. */
   attributes: Record<string, Attribute>;
   /** Fields of the state that the element keeps, because the simulation does not have them. */
   elementFields: Record<string, ElementField>;
-  /** Appearance of the settings that have a slider. */
   sliderSpecs: Record<string, SliderSpec>;
   dependentDefaults?: (config: Values) => Values;
 }
@@ -37,7 +33,6 @@ export interface Definition {
 interface DefinitionOptions extends Pick<Definition, 'messageKey' | 'sliderSpecs' | 'dependentDefaults'> {
   /** Styles of the lines and marks in the pictures. The keys are the words of the attribute `overlays`. */
   lines: Record<string, LineStyle>;
-  /** Lines that are drawn by default. */
   opening?: readonly string[];
   /** Attribute of the presets, if it depends on more than the settings. */
   preset?: Attribute;
@@ -45,7 +40,6 @@ interface DefinitionOptions extends Pick<Definition, 'messageKey' | 'sliderSpecs
   elementFields?: Record<string, ElementField>;
 }
 
-/** Fields of the state of every element with samples. */
 const cloudFields: Record<string, ElementField> = {
   marked: {
     opening: null,

@@ -4,11 +4,10 @@ import { html } from 'lit';
 import { words } from '../messages/registry.ts';
 import { cssSizeOf } from '../scene/canvas.ts';
 import { SvgContext, escapeXml, formatLength } from '../scene/svg.ts';
-import { button } from '../ui/controls.ts';
+import { button, group } from '../ui/controls.ts';
 import { nameOf } from './surface.ts';
 import type { Figure } from './figure.ts';
 
-/** Content for export besides the picture. */
 export interface ExportData {
   description: string;
   /** Settings that are exported, after the tag of the element. */
@@ -38,7 +37,6 @@ function drawScene({ scene, pictures: [firstPicture], exportPicture, canvases, c
   return { view: picture.view, ...canvasSize };
 }
 
-/** Returns a PNG image with the background. */
 export async function pngOf(element: Figure): Promise<Blob> {
   const image = document.createElement('canvas');
   const context = image.getContext('2d') as CanvasRenderingContext2D;
@@ -85,7 +83,6 @@ export function csvOf(element: Figure) {
   return `${csvLines.join('\n')}\n`;
 }
 
-/** Downloads a file. */
 export function downloadFile(name: string, blob: Blob) {
   const downloadLink = Object.assign(document.createElement('a'), { href: URL.createObjectURL(blob), download: name });
   downloadLink.click();
@@ -98,12 +95,9 @@ export function exportButtons(element: Figure, fileNameMark: string | number, cs
   const exportWords = words.exports;
   const baseName = `${element.localName}-${fileNameMark}`;
   const saveText = (ending: string, type: string, content: string) => downloadFile(`${baseName}.${ending}`, new Blob([content], { type }));
-  return html`<fieldset class="exports" part="exports">
-    <legend>${exportWords.label}</legend>
-    <div class="buttons">
-      ${button(exportWords.png, () => element.toPNG().then((blob) => downloadFile(`${baseName}.png`, blob), (error) => element.runtime.report(error)), { title: exportWords.pngTitle })}
-      ${button(exportWords.svg, () => saveText('svg', 'image/svg+xml', element.toSVG()), { title: exportWords.svgTitle })}
-      ${button(exportWords.csv, () => saveText('csv', 'text/csv', element.toCSV()), { title: csvTitle })}
-    </div>
-  </fieldset>`;
+  return group(exportWords.label, html`<div class="buttons">
+    ${button(exportWords.png, () => element.toPNG().then((blob) => downloadFile(`${baseName}.png`, blob), (error) => element.runtime.report(error)), { title: exportWords.pngTitle })}
+    ${button(exportWords.svg, () => saveText('svg', 'image/svg+xml', element.toSVG()), { title: exportWords.svgTitle })}
+    ${button(exportWords.csv, () => saveText('csv', 'text/csv', element.toCSV()), { title: csvTitle })}
+  </div>`, 'exports', 'exports');
 }

@@ -130,7 +130,6 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   /** View model of the simulation: all values that pictures, texts and tables show, read at one time. Undefined before the first frame. */
   viewModel: ViewModel = undefined as any;
   #highlight: string | null = null;
-  /** Functions that resolve the promises of `settled`. */
   #settledResolvers: (() => void)[] = [];
 
   get definition() {
@@ -165,7 +164,6 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   /** Moves the handles to their places in the pictures. */
   placeHandles(_scene: any) {}
 
-  /** Returns the whole state. */
   snapshot(): Values {
     return { widget: this.localName, version: STATE_VERSION, ...this.state.elementState, ...this.settings.pick(this.settings.current), ...this.cloud?.snapshot() };
   }
@@ -243,7 +241,6 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
     return false;
   }
 
-  /** True if a promise of `settled` is pending. */
   get isAwaited() {
     return this.#settledResolvers.length > 0;
   }

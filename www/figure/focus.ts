@@ -3,7 +3,6 @@
 import { FigureController } from './controller.ts';
 import type { Figure } from './figure.ts';
 
-/** Elements that the Tab key stops at. */
 const FOCUSABLE = ':is(button, input, select, textarea):enabled:not([tabindex]), summary, [tabindex="0"]';
 
 function focusableIn(root: ParentNode): HTMLElement[] {

@@ -29,12 +29,10 @@ export class Link extends FigureController {
     void this.#applyAddress();
   };
 
-  /** Returns true for this figure's part of the address. */
   #isOwnPart(part = '') {
     return part.startsWith(`${partKeyOf(this.host)}=`);
   }
 
-  /** Scrolls to the figure that a link names. */
   #scrollHere() {
     const { host } = this;
     // After the update the figure has its height.

@@ -50,7 +50,6 @@ export const noticeStyles = css`
 
 export class Notice extends FigureController {
   #sentenceText = '';
-  /** Stops the work that is shown, if any. */
   #stopWork: (() => void) | undefined;
 
   /** Shows a sentence until the user closes it; an empty one hides it. */

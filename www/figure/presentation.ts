@@ -5,15 +5,13 @@ import { words } from '../messages/registry.ts';
 import { button } from '../ui/controls.ts';
 import { FigureController } from './controller.ts';
 
-/** Key that shows and hides the controls. */
 const CONTROLS_KEY = 'c';
 
 /** Key that restores the state that the figure had when the presentation began. */
 const RESTORE_KEY = '0';
 
 export class Presentation extends FigureController {
-  /** True while the controls are shown. */
-  #hasControls = false;
+  hasControls = false;
   /** State at the beginning; undefined if the figure opened in a presentation. */
   #stateAtBegin: import('./settings.ts').Values | undefined;
   /** Stops listening to keys; undefined while the figure is not presented. */
@@ -29,7 +27,6 @@ export class Presentation extends FigureController {
     void this.#endPresentation();
   }
 
-  /** Begins or ends the presentation to match the attribute. */
   matchAttribute() {
     const { host } = this;
     if (!host.isConnected || host.presentation === (this.#keyListeners !== undefined)) return;
@@ -61,7 +58,7 @@ export class Presentation extends FigureController {
     if (!this.#keyListeners) return;
     this.#keyListeners.abort();
     this.#keyListeners = undefined;
-    this.#hasControls = false;
+    this.hasControls = false;
     await this.#exitFullScreen();
     await this.host.updateComplete;
     // Focusing the button scrolls the page back to the figure.
@@ -96,17 +93,12 @@ export class Presentation extends FigureController {
   }
 
   #toggle() {
-    this.#hasControls = !this.#hasControls;
+    this.hasControls = !this.hasControls;
     this.host.requestUpdate();
   }
 
-  get className() {
-    return this.#hasControls ? 'with-controls' : '';
-  }
-
   button() {
-    const presentationWords = words.presentation;
-    return button(presentationWords.begin, () => (this.host.presentation = true), { title: presentationWords.title, name: 'to-present' });
+    return button(words.presentation.begin, () => (this.host.presentation = true), { title: words.presentation.title, name: 'to-present' });
   }
 
   render() {
@@ -114,7 +106,7 @@ export class Presentation extends FigureController {
     const presentationWords = words.presentation;
     const keyHint = (key: string, label: string) => html`<b>${key}</b> ${label}`;
     return html`<div class="presenting" role="group" tabindex="-1" aria-label=${presentationWords.begin}>
-      ${button(keyHint(CONTROLS_KEY.toUpperCase(), presentationWords.controls), () => this.#toggle(), { pressed: this.#hasControls })}
+      ${button(keyHint(CONTROLS_KEY.toUpperCase(), presentationWords.controls), () => this.#toggle(), { pressed: this.hasControls })}
       ${button(keyHint(RESTORE_KEY, presentationWords.back), () => this.#restoreState(), { title: presentationWords.backTitle })}
       ${button(keyHint('Esc', presentationWords.end), () => (this.host.presentation = false))}
     </div>`;

@@ -17,7 +17,6 @@ export class Reflection extends FigureController {
   /** True after the first connection: an element that is moved in the page keeps its settings. */
   #hasConnected = false;
   #isWriting = false;
-  /** Attribute texts at the previous update. */
   #previousTexts: Map<string, string> | undefined;
 
   /** Applies properties that were set before the element was upgraded, or that a server wrote as text. */
@@ -147,7 +146,6 @@ export class Reflection extends FigureController {
     return neededTexts;
   }
 
-  /** Returns the texts of all attributes that have a value. */
   #textsOf(config: Values): Map<string, string> {
     const entries = Object.entries(this.#attributes).map(([name, { converter, get }]) => [name, converter.print(get(config) ?? null)] as const);
     return new Map(entries.filter((entry): entry is [string, string] => entry[1] !== null));

@@ -17,7 +17,6 @@ const MAX_SAME_FRAME_MS = 5;
  */
 const MAX_PICTURES_MS = 8;
 
-/** Maximum delay of the text during a drag, ms. */
 const MAX_TEXT_DELAY_MS = 100;
 
 /** Longest time step of an animation, ms. After a pause it continues without a jump. */
@@ -27,11 +26,9 @@ export const prefersReducedMotion = () => matchMedia('(prefers-reduced-motion: r
 
 export class Renderer extends FigureController {
   isVisible = false;
-  /** True once the text of the first picture was rendered. */
   #hasRenderedText = false;
   /** Pictures to draw, the one that has waited longest first. */
   #undrawn: Set<AnyPicture> = new Set();
-  /** True if the latest frame left pictures to the next one. */
   #hasPicturesLeft = false;
   /** Time of the first picture that is newer than the text; undefined if the text is up to date. */
   #textPendingSince: number | undefined;
@@ -134,7 +131,6 @@ export class Renderer extends FigureController {
     return this.isOpening ? nothing : content();
   }
 
-  /** @param elapsedMs milliseconds since the frame before */
   #drawNow(elapsedMs: number) {
     // In a closed disclosure all sizes are 0.
     if (!this.host.simulation || !this.host.canvases.elements?.some(hasPixels)) return;

@@ -29,7 +29,6 @@ function heightCss(tag: string, unit: '%' | 'cqi') {
   return `max(${heightTerms})`;
 }
 
-/** Returns the style that reserves the height of a figure. */
 export const reservedHeight = (tag: string) =>
   unsafeCSS(`.reserved,.simulation{--height:${heightCss(tag, 'cqi')};min-height:var(--height)}.simulation{min-height:calc(var(--height) + var(--motion-sticky-bottom,0px))}`);
 

@@ -7,9 +7,7 @@ export class Runtime extends FigureController {
   motion: import('../types.d.ts').Motion | undefined;
   /** Simulation object of the core. */
   simulation: any;
-  /** Message of the error that stops the figure. */
   failure: string | undefined;
-  /** True once the `load` event was fired. */
   #hasLoaded = false;
   #startPromise: Promise<void> | undefined;
   /** True from a trap to the next picture. */
@@ -52,7 +50,6 @@ export class Runtime extends FigureController {
     this.host.dispatchEvent(new Event('load', { bubbles: true, composed: true }));
   }
 
-  /** Replaces the simulation and frees the present one. */
   replace(simulation: any) {
     this.simulation.free();
     this.simulation = simulation;
@@ -86,7 +83,6 @@ export class Runtime extends FigureController {
     if (isUnhandled) console.warn(message, this.host);
   }
 
-  /** Shows an error in the figure's place and fires it. */
   fail(error: unknown) {
     this.#abandon();
     this.#hasTrapped = false;
@@ -118,7 +114,6 @@ export class Runtime extends FigureController {
 /** Returns true for a trap, and for the error of a simulation used after one: see writeGlue in scripts/build.mjs. */
 const isWasmTrap = (error: unknown) => typeof WebAssembly !== 'undefined' && error instanceof WebAssembly.RuntimeError;
 
-/** Error message if Trusted Types refuse the figure's templates. */
 const CSP_ERROR = "This page's Content-Security-Policy forbids the figure's templates: its trusted-types directive lacks motion-widgets.";
 
 function messageOf(error: unknown) {

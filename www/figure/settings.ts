@@ -29,14 +29,12 @@ export class Settings extends FigureController {
     return Object.fromEntries(keys.map((key) => [key, values[key]]));
   }
 
-  /** Settings in effect. */
   get current(): Values {
     const { simulation, viewModel } = this.host;
     if (simulation) this.#current ??= simulation.config as Values;
     return this.#current ?? viewModel.config;
   }
 
-  /** Settings in effect with the pending changes. */
   get requested(): Values {
     return { ...this.current, ...this.#pending };
   }

@@ -8,11 +8,9 @@ import type { Values } from './settings.ts';
 export const STATE_VERSION = 1;
 
 export class State extends FigureController {
-  /** Last valid state. */
   lastValidState: Values | undefined;
   #openingState: Values | undefined;
   #fields = this.host.definition.elementFields;
-  /** Default of each field of `elementState`. */
   defaults: Values = Object.fromEntries(Object.entries(this.#fields).map(([name, { opening }]) => [name, opening]));
   /** Fields of the state that the element keeps, because the simulation does not have them. */
   elementState = { ...this.defaults };
@@ -60,7 +58,6 @@ export class State extends FigureController {
     this.#showState(wholeState);
   }
 
-  /** Applies a preset, as a change by the user. */
   choosePreset(preset: string) {
     const { host } = this;
     host.player?.stop();

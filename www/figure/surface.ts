@@ -5,7 +5,6 @@ import { language, useLanguageOf, words } from '../messages/registry.ts';
 import { moveFocusInto } from './focus.ts';
 import type { Figure } from './figure.ts';
 
-/** Languages written from right to left. */
 const RIGHT_TO_LEFT = /^(ar|ckb|dv|fa|he|ps|sd|ug|ur|yi)\b/i;
 
 /** Returns the HTML of a figure, whose language and direction may differ from the page's. */
@@ -15,7 +14,7 @@ export function figureHtml(figure: Figure) {
   const updateColours = () => colours.update();
   return html`
     <span class="scheme-probe" aria-hidden="true" @transitionend=${updateColours} @transitioncancel=${updateColours}></span>
-    <div class="surface ${presenting.className}" @pointerdown=${(event: PointerEvent) => gesture.press(event)} @input=${stopPropagation} @change=${stopPropagation} @keydown=${stopUsedKey}>
+    <div class="surface ${presenting.hasControls ? 'with-controls' : ''}" @pointerdown=${(event: PointerEvent) => gesture.press(event)} @input=${stopPropagation} @change=${stopPropagation} @keydown=${stopUsedKey}>
       ${slotHtml(figure, 'title', presentation ? nameOf(figure) : '', headingLevel)}
       <div class="spoken" lang=${language} dir=${RIGHT_TO_LEFT.test(language) ? 'rtl' : 'ltr'}>
         ${contentHtml(figure)} ${notice.render()} ${presenting.render()}
@@ -25,10 +24,10 @@ export function figureHtml(figure: Figure) {
   `;
 }
 
-/** Returns the content, or `noChange` without a simulation, as after a trap. */
 function contentHtml(figure: Figure) {
   const { failure } = figure.runtime;
   if (failure !== undefined) return html`<p class="failure" role="alert">${words.failure(failure)}</p>`;
+  // After a trap the previous content stays.
   if (!figure.simulation) return figure.viewModel ? noChange : placeholderHtml(figure);
   const { announcer, dropHandlers, viewModel } = figure;
   return html`<section
@@ -43,7 +42,6 @@ function contentHtml(figure: Figure) {
     ${announcer.render()}`;
 }
 
-/** Returns the placeholder of a figure that has not started. */
 function placeholderHtml(figure: Figure) {
   const moveFocus = ({ relatedTarget }: FocusEvent) => void moveFocusInto(figure, relatedTarget);
   return html`<div class="reserved" tabindex="0" role="group" aria-label=${nameOf(figure)} @focus=${moveFocus}></div>`;

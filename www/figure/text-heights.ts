@@ -3,7 +3,6 @@
 import { language } from '../messages/registry.ts';
 import { FigureController } from './controller.ts';
 
-/** Texts that change with the settings. */
 const CHANGING_TEXTS = ':is(p, dl, li, .result):not(.result > *, .slider *, details *, .about, .on-paper)';
 
 /** Keeps the largest height of each text at the present width of the figure and in the present language. */

@@ -13,9 +13,7 @@ export type Messages = typeof import('./en.ts').en & WidgetWords;
 
 /** Catalogues that all scripts of a page share, because a language may be in its own file. */
 interface SharedCatalogues {
-  /** Default words of the elements. */
   english: object;
-  /** Catalogues of the page, by language. */
   catalogues: Record<string, Record<string, object>>;
   /** Fires a `change` event when words or languages change. */
   changes: EventTarget;
@@ -25,13 +23,11 @@ const REGISTRY_KEY = Symbol.for('motion-widgets.messages');
 
 const sharedCatalogues: SharedCatalogues = ((globalThis as any)[REGISTRY_KEY] ??= { english: {}, catalogues: {}, changes: new EventTarget() });
 
-/** Words of the current language. */
 export let words: Messages;
 
 /** Current language as a BCP 47 tag, for numbers. */
 export let language = 'en';
 
-/** Cache of words by the language of the page. */
 const wordsByLanguage: Map<string, { words: Messages, language: string }> = new Map();
 sharedCatalogues.changes.addEventListener('change', () => wordsByLanguage.clear());
 
@@ -89,7 +85,6 @@ function mergeMessages(base: any, overrides: any) {
   return mergedMessages;
 }
 
-/** Makes the language of an element the current one. */
 export function useLanguageOf(element: Element) {
   const wantedLanguage = languageOf(element);
   let cachedWords = wordsByLanguage.get(wantedLanguage);

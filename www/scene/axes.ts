@@ -56,10 +56,8 @@ export interface LegendEntry {
   draw: (x: number, y: number, width: number) => void;
 }
 
-/** Returns an entry of a legend with a sample of a line. */
 export const lineLegendEntry = ({ context }: Brush, name: string, style: LineStroke): LegendEntry => ({ name, draw: (x, y, width) => strokeLine(context, [[x, y], [x + width, y]], style) });
 
-/** Draws a legend to the right of the name of an axis. */
 function drawLegend({ context, view, palette, font }: Brush, axisName: string, entries: LegendEntry[]) {
   const fontSize = parseFloat(font);
   const [width, lineHeight] = [LEGEND_LENGTHS_EM.sample * fontSize, LEGEND_LENGTHS_EM.line * fontSize];

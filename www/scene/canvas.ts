@@ -2,10 +2,8 @@
 
 /** Surface for drawing: a canvas or its substitute. */
 export interface Surface {
-  /** Size in pixels. */
   width: number;
   height: number;
-  /** Width in CSS pixels. */
   clientWidth: number;
   fontStyle: { fontFamily: string, fontSize: string };
   context: CanvasRenderingContext2D;
@@ -48,7 +46,7 @@ export const emText = (pixels: number) => `${pixels / 16}em`;
 export const cssSizeOf = ({ width, height }: { width: number, height: number }, canvas: Element) => [width, height].map((size) => (size * parseFloat(getComputedStyle(canvas).fontSize)) / FONT_SIZE);
 
 /** Converts a point of the window to pixels of the view that an element shows. The page may have scaled the element. */
-export function pointInView(element: Element, view: import('./view.ts').View, { clientX, clientY }: { clientX: number, clientY: number }) {
+export function pointInView(element: Element, view: import('./view.ts').View, { clientX, clientY }: { clientX: number, clientY: number }): [x: number, y: number] {
   const { left, top, width } = element.getBoundingClientRect();
   const elementScale = width / view.width;
   return [(clientX - left) / elementScale, (clientY - top) / elementScale];
@@ -83,7 +81,6 @@ export function paintWithOpacity(context: Context, opacity: number, paint: () =>
 /** Style of a line; dashes in pixels. */
 export interface LineStroke { colour: string, width: number, dash?: number[], cap?: CanvasLineCap }
 
-/** Strokes a path in pixels. */
 export function strokePath(context: Context, { colour, width, dash = [], cap = 'butt' }: LineStroke, path: () => void) {
   context.strokeStyle = colour;
   context.lineWidth = width;
@@ -95,7 +92,6 @@ export function strokePath(context: Context, { colour, width, dash = [], cap = '
   context.setLineDash([]);
 }
 
-/** Fills a path in pixels. */
 export function fillPath(context: Context, colour: string, path: () => void) {
   context.fillStyle = colour;
   context.beginPath();
@@ -103,12 +99,10 @@ export function fillPath(context: Context, colour: string, path: () => void) {
   context.fill();
 }
 
-/** Adds a line through points in pixels to the path. */
 export const addLine = (context: Context, points: number[][]) => points.forEach(([x, y], i) => (i ? context.lineTo(x, y) : context.moveTo(x, y)));
 
 export const strokeLine = (context: Context, points: number[][], style: LineStroke) => strokePath(context, style, () => addLine(context, points));
 
-/** Draws a disc in pixels, filled, with an edge, or both. */
 export function drawDisc(context: Context, [x, y]: number[], radius: number, fill?: string, edge?: LineStroke) {
   const addCircle = () => context.arc(x, y, radius, 0, 2 * Math.PI);
   if (fill) fillPath(context, fill, addCircle);

@@ -91,10 +91,8 @@ export interface LineStyle {
   mark?: 'line' | 'dot' | 'ring' | 'area' | 'cross' | 'box';
 }
 
-/** Factor of the width of a highlighted line. */
 const HIGHLIGHT_WIDTH = 1.9;
 
-/** Opacity of the lines that are not highlighted. */
 const DIMMED_OPACITY = 0.3;
 
 /** Returns the line styles by name, in the colours of their roles. The highlighted line is thicker, and all others are faint. */
@@ -128,12 +126,10 @@ export function drawOutlines(brush: Brush, outlines: Outline[]) {
   strokeLines(brush, visibleOutlines);
 }
 
-/** Draws lines in their own styles. */
 export function strokeLines({ context, view }: Brush, lines: Outline[]) {
   for (const { points, ...style } of lines) strokeLine(context, view.toPixels(points), style);
 }
 
-/** Opacity of earlier outlines. */
 const EARLIER_OPACITY = 0.35;
 
 /**

@@ -11,7 +11,6 @@ interface HandleCallbacks {
   drag: (x: number, y: number) => void;
   /** Handles a key; returns true if it moved the target. */
   key: (event: KeyboardEvent) => boolean;
-  /** Commits the change at the end of a movement. */
   commit: () => void;
 }
 
@@ -19,10 +18,8 @@ export interface HandleLabels {
   name: string;
   keys: string;
   title: string;
-  /** Minimum and maximum. */
   range: number[];
   now: number;
-  /** Value in words. */
   text: string;
   /** Text on the limit that the handle has reached, if any. */
   stop?: string | false;
@@ -42,7 +39,6 @@ const KEY_STEPS: Record<string, [number, number]> = {
   End: [Infinity, 0],
 };
 
-/** Steps of an arrow key with Shift. */
 const SHIFT_STEPS = 5;
 
 /** Returns the steps along x and y by which a key moves something; undefined for other keys and for key shortcuts of the browser. */
@@ -66,7 +62,7 @@ export class Handle {
   /** Vector (m) from the pointer to the target. It keeps a target that is grasped at its edge from jumping. */
   #gripOffset = [0, 0];
   /** Position of the middle in pixels of the view, before it is rounded on the screen. */
-  #middlePixels = [0, 0];
+  #middlePixels: [x: number, y: number] = [0, 0];
 
   /** Creates the handle. `classNames` are the CSS classes of its element. */
   constructor(classNames: string, callbacks: HandleCallbacks) {
@@ -112,16 +108,9 @@ export class Handle {
     handle.style.translate = `${emText(x)} ${emText(y)}`;
   }
 
-  /** Converts a point from pixels of the view to metres. */
-  #toWorld([x, y]: number[]): number[] {
+  #pointerInWorld(event: PointerEvent) {
     const view = this.#callbacks.view();
-    return [view.toWorldX(x), view.toWorldY(y)];
-  }
-
-  /** Returns the place of the pointer in metres. */
-  #pointerInWorld(event: PointerEvent): number[] {
-    const { parentElement } = event.currentTarget as Element;
-    return this.#toWorld(pointInView(parentElement as Element, this.#callbacks.view(), event));
+    return view.toWorld(...pointInView((event.currentTarget as Element).parentElement as Element, view, event));
   }
 
   #takePointer = (event: PointerEvent) => {
@@ -130,7 +119,7 @@ export class Handle {
     handle.setPointerCapture(event.pointerId);
     this.#heldPointer = { id: event.pointerId, element: handle };
     const pointer = this.#pointerInWorld(event);
-    const graspedPoint = this.#callbacks.graspedPointAt?.(pointer) ?? this.#toWorld(this.#middlePixels);
+    const graspedPoint = this.#callbacks.graspedPointAt?.(pointer) ?? this.#callbacks.view().toWorld(...this.#middlePixels);
     this.#gripOffset = [graspedPoint[0] - pointer[0], graspedPoint[1] - pointer[1]];
   };
 

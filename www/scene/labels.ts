@@ -21,11 +21,8 @@ const LABEL_GAP = 12;
 export const LABELS_ABOVE = 24 + ROW_HEIGHT;
 
 export interface LabelText {
-  /** Symbol in italics. */
   symbol?: string;
-  /** Subscript of the symbol. */
   sub?: string;
-  /** Text after the symbol. */
   text?: string;
 }
 
@@ -95,7 +92,6 @@ export function drawLeader(context: CanvasRenderingContext2D, line: number[][], 
   drawDisc(context, line[line.length - 1], 2.5, colour);
 }
 
-/** Returns the parts of a text with their widths. */
 function measureParts({ context, font }: Brush, { symbol = '', sub = '', text = '' }: LabelText) {
   const subscriptFont = font.replace(/[\d.]+px/, (size) => `${SUBSCRIPT_SIZE * parseFloat(size)}px`);
   const textParts = [

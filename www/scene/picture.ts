@@ -5,9 +5,7 @@ import type { Brush, Surface } from './canvas.ts';
 import type { View } from './view.ts';
 import type { Palette } from '../ui/theme.ts';
 
-/** Options of `Picture.draw`. */
 export interface DrawOptions extends Pick<Brush, 'exported' | 'handles' | 'highlight' | 'previousViewModel'> {
-  /** Milliseconds since the previous frame. */
   elapsed?: number;
   /** True if the view must not zoom. */
   still?: boolean;
@@ -19,7 +17,6 @@ export class Picture<Scene, Name extends string = string> {
   /** `previousViewModel` of the latest drawing. Another one means that a new gesture began, which has not zoomed the view out yet. */
   #previousViewModel: any;
 
-  /** Class of the canvas. */
   declare name: Name;
   declare view: View;
 
@@ -54,5 +51,5 @@ const PICK_RADIUS = 14;
 
 /** Picture of samples that the pointer can select, with the same scale on both axes. */
 export class SamplesPicture<Scene> extends Picture<Scene> {
-  nearest: Picture<any>['nearest'] = (simulation, x, y) => simulation.nearest(this.view.toWorldX(x), this.view.toWorldY(y), PICK_RADIUS / this.view.scaleX);
+  nearest: Picture<any>['nearest'] = (simulation, x, y) => simulation.nearest(...this.view.toWorld(x, y), PICK_RADIUS / this.view.scaleX);
 }

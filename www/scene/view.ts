@@ -63,7 +63,6 @@ export class View {
     this.release();
   }
 
-  /** True after the first fit. */
   get hasTarget() {
     return this.#target !== undefined;
   }
@@ -101,12 +100,8 @@ export class View {
     return this.frame.bottom - (y - this.extent.yMin) * this.scaleY;
   }
 
-  toWorldX(pixel: number) {
-    return this.extent.xMin + (pixel - this.frame.left) / this.scaleX;
-  }
-
-  toWorldY(pixel: number) {
-    return this.extent.yMin + (this.frame.bottom - pixel) / this.scaleY;
+  toWorld(x: number, y: number): [x: number, y: number] {
+    return [this.extent.xMin + (x - this.frame.left) / this.scaleX, this.extent.yMin + (this.frame.bottom - y) / this.scaleY];
   }
 
   /** Returns a step of one pixel in the direction of a heading (rad), for equal scales of x and y. */
@@ -158,7 +153,6 @@ export class View {
     return this.extent !== target;
   }
 
-  /** Returns the fraction of an extent that the needed part of the world fills. */
   #fillOf(currentExtent: Extent, neededExtent: Extent) {
     const filledFractions = [(neededExtent.xMax - neededExtent.xMin) / (currentExtent.xMax - currentExtent.xMin), (neededExtent.yMax - neededExtent.yMin) / (currentExtent.yMax - currentExtent.yMin)];
     return Math[this.#hasEqualScales ? 'max' : 'min'](...filledFractions);
@@ -192,7 +186,6 @@ function extentWithMargin({ xMin, xMax, yMin, yMax }: Extent): Extent {
   return { xMin: xMin - x, xMax: xMax + x, yMin: yMin - y, yMax: yMax + y };
 }
 
-/** Returns the smallest rounded size that is not below `size`. */
 function roundUpToNiceSize(size: number): number {
   const decade = 10 ** Math.floor(Math.log10(size));
   const niceFactor = NICE_SIZES.find((candidate) => candidate * decade >= size * (1 - 1e-9)) ?? 10;

@@ -10,7 +10,6 @@ import type { Grid, Plan } from '../types.d.ts';
 /** Cells of a grid. `unknown` is missing if no cell is unknown. */
 export type Cells = Omit<Grid, 'unknown'> & { unknown?: Uint8Array };
 
-/** Width of a wall, CSS pixels. */
 const WALL_WIDTH = 2.5;
 
 /** Distance, width and opacity of the lines that hatch unknown cells; lengths in CSS pixels. */
@@ -53,7 +52,6 @@ export class WallLayer {
   }
 }
 
-/** Draws diagonal lines over the whole view. */
 function hatchView(context: Painter['context'], { width, height }: View, colour: string) {
   paintWithOpacity(context, HATCHING.opacity, () => strokePath(context, { colour, width: HATCHING.width }, () => {
     for (let x = -height; x < width; x += HATCHING.spacing) addLine(context, [[x, height], [x + height, 0]]);

@@ -206,9 +206,8 @@ function formulaPiece(piece: string) {
 /** Returns a value or formula with its own writing direction, which page translators leave unchanged. */
 export const untranslated = (content: unknown) => html`<bdi translate="no" class="notranslate">${content}</bdi>`;
 
-/** Returns a group of controls under its heading. */
-export function group(heading: unknown, controls: unknown, name?: string) {
-  return html`<fieldset class=${name ?? nothing}>
+export function group(heading: unknown, controls: unknown, name?: string, part?: string) {
+  return html`<fieldset class=${name ?? nothing} part=${part ?? nothing}>
     <legend>${heading}</legend>
     ${controls}
   </fieldset>`;
@@ -249,9 +248,7 @@ export function button(label: unknown, press: () => void, { pressed, disabled = 
   </button>`;
 }
 
-export function inputOf(event: Event) {
-  return event.target as HTMLInputElement;
-}
+export const inputOf = (event: Event) => event.target as HTMLInputElement;
 
 /** Returns radio buttons in a row under one name, in the order of the labels. */
 export function radioGroup<Name extends string>(label: string, group: string, labels: Record<Name, string>, checkedName: Name, choose: (name: Name) => void) {

@@ -6,7 +6,6 @@ const MINUS = '\u2212';
 const THIN_SPACE = '\u202f';
 export const NO_VALUE = '\u2014';
 
-/** Decimal separators by language. */
 const decimalSeparators: Map<string, string> = new Map([['en', '.']]);
 
 /** Returns the decimal separator of the current language between Latin digits. The first use of `Intl` takes longer than the rest of the first frame. */

@@ -163,6 +163,7 @@ const figureLayout = css`
     grid-template-columns: repeat(auto-fit, minmax(min(100%, 20em), 1fr));
   }
 
+  .panel-title,
   figure,
   dl {
     margin: 0;
@@ -308,10 +309,6 @@ const figureLayout = css`
   .panel {
     display: grid;
     grid-template-rows: auto 1fr;
-  }
-
-  .panel-title {
-    margin: 0;
   }
 
   :is(.legend, .plot-key) {

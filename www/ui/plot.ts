@@ -20,7 +20,6 @@ const MAX_LABELS = { x: 6, y: 7 };
 /** Coordinate outside every plot, and within the range of SVG paths. */
 const FAR_OUTSIDE = 10_000;
 
-/** Half the width of the ends of an error bar. */
 const ERROR_BAR_CAP = 4;
 
 export const plotStyles = css`
@@ -83,7 +82,6 @@ export const plotStyles = css`
 `;
 
 interface Axis {
-  /** Name with its unit. */
   name: string;
   from: number;
   /** End of the axis, greater than `from`. */
@@ -103,7 +101,6 @@ export interface Curve {
   x: ArrayLike<number>;
   /** Values; NaN leaves a gap, and nothing is drawn outside the axes. */
   y: ArrayLike<number>;
-  /** Half the height of a band around the curve. */
   error?: ArrayLike<number>;
   /** True if only the band is drawn. */
   area?: boolean;
@@ -114,7 +111,6 @@ export interface Curve {
 export interface Point {
   role: Role;
   x: number;
-  /** Value; NaN if there is none. */
   y: number;
   error: number;
 }
@@ -166,12 +162,10 @@ export function plot({ label, x, y, curves, points = [], marks = [], slider, leg
   `;
 }
 
-/** Returns a line of the grid with its label. */
 const gridLine = (x1: number, x2: number, y1: number, y2: number, { x, y, anchor, text }: { x: number, y: number, anchor: string, text: string }) => svg`
   <line stroke="var(--rule)" x1=${x1} x2=${x2} y1=${y1} y2=${y2} />
   <text class="notranslate" translate="no" x=${x} y=${y} text-anchor=${anchor}>${text}</text>`;
 
-/** Returns the CSS class of a curve that is highlighted, or dimmed because another one is. */
 const highlightClass = ({ lit }: Curve) => (lit === undefined ? '' : lit ? 'lit' : 'unlit');
 
 function curveLegend(curves: Curve[]) {
@@ -201,13 +195,11 @@ function axisLabels({ from, to, logarithmic }: Axis, maxCount: number): [value: 
   return exponents.map((exponent) => [10 ** exponent, formatPowerOfTen(exponent)]);
 }
 
-/** Returns a curve as a path, with gaps. */
 function curvePath({ x, y }: Curve, toX: (value: number) => number, toY: (value: number) => number) {
   const points = Array.from(x, (value, i) => (Number.isNaN(value + y[i]) ? '' : `${toX(value).toFixed(2)},${toY(y[i]).toFixed(2)}`));
   return points.map((point, i) => point && `${points[i - 1] ? 'L' : 'M'}${point}`).join('');
 }
 
-/** Returns the outline of a curve's band as a path. */
 function bandPath({ x, y, error = [] }: Curve, toX: (value: number) => number, toY: (value: number) => number) {
   const definedIndices = Array.from(x, (_, i) => i).filter((i) => !Number.isNaN(x[i] + y[i] + error[i]));
   const bandEdge = (side: number) => definedIndices.map((i) => `${toX(x[i]).toFixed(2)},${toY(y[i] + side * error[i]).toFixed(2)}`);

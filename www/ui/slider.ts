@@ -204,7 +204,6 @@ export function sliderRow(row: SliderRow) {
   `;
 }
 
-/** Range of a slider and its events. */
 interface Range {
   /** Id that is unique in the widget. */
   id: string;
@@ -223,7 +222,6 @@ export interface SliderRow extends Range {
   name: unknown;
   /** Values of the slider, if they are not in equal steps. */
   stops?: readonly number[];
-  /** Returns a value with its unit. */
   show: (value: number) => string;
   /** Effect of the parameter on the picture, in words. */
   effect: unknown;
@@ -252,9 +250,7 @@ function stopPositions({ stops, value, input }: SliderRow): Partial<Range> {
 interface Track extends Range {
   /** Accessible name, for a slider without a label that screen readers can read. */
   name?: string;
-  /** Value in words. */
   text: string;
-  /** Id of the element with the description. */
   describedBy?: string;
   keydown?: (event: KeyboardEvent) => void;
 }
@@ -345,5 +341,4 @@ function focusField(event: KeyboardEvent) {
   controlOfRow(slider, '.typed').focus();
 }
 
-/** Returns a control of the row that an element is in. */
 const controlOfRow = (element: Element, selector: string) => (element.closest('.slider') as Element).querySelector(selector) as HTMLInputElement;

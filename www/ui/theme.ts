@@ -125,11 +125,9 @@ export const theme = css`
 
   .visually-hidden {
     position: absolute;
-    width: 1px;
     height: 1px;
     overflow: hidden;
     clip-path: inset(50%);
-    white-space: nowrap;
   }
 
   .on-paper {

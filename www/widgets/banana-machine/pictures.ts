@@ -65,7 +65,7 @@ class CloudPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
   /** Returns the robot nearest to a point in CSS pixels; −1 for none. */
   nearest(simulation: BananaMachine, x: number, y: number) {
     const { view } = this;
-    return simulation.nearest(this.morph, view.toWorldX(x), view.toWorldY(y), PICK_RADIUS / view.scaleX, PICK_RADIUS / view.scaleY);
+    return simulation.nearest(this.morph, ...view.toWorld(x, y), PICK_RADIUS / view.scaleX, PICK_RADIUS / view.scaleY);
   }
 
   /** Returns the positions of the robots that are drawn as dots, with their headings scaled down by the morph. */

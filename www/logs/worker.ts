@@ -26,15 +26,14 @@ export interface PostedFailure {
 
 export type OnProgress = (share: number) => void;
 
-/** Request of the page: a method of `LogSession`, and its parameters. */
+/** Request of the page: a method of `LogSession`, and its parameters. The page waits for the result or the failure before the next request. */
 export interface WorkerRequest {
-  number: number;
   method: 'open' | 'read' | 'calibrate';
   parameters: unknown[];
 }
 
-/** Answer to the request with this number. Answers with progress precede the result or the failure. */
-export type WorkerAnswer = { number: number } & ({ progress: number } | { result: unknown } | { failure: PostedFailure });
+/** Answer to a request. Answers with progress precede the result or the failure. */
+export type WorkerAnswer = { progress: number } | { result: unknown } | { failure: PostedFailure };
 
 /** Opened recordings, and the simulation that fits logs. */
 class LogSession {
@@ -91,7 +90,7 @@ export function serveRequests(port: Pick<MessagePort, 'onmessage' | 'postMessage
   let session: LogSession;
   const postAnswer = (message: WorkerAnswer, buffers: ArrayBuffer[] = []) => port.postMessage(message, buffers);
   port.onmessage = async ({ data }: MessageEvent<WorkerRequest & { core?: SharedCore }>) => {
-    const { core, number = 0, method, parameters } = data;
+    const { core, method, parameters } = data;
     try {
       if (core) session = new LogSession(await instantiate(core));
       let nextProgress = 0;
@@ -99,12 +98,12 @@ export function serveRequests(port: Pick<MessagePort, 'onmessage' | 'postMessage
         const now = performance.now();
         if (now < nextProgress) return;
         nextProgress = now + PROGRESS_INTERVAL;
-        postAnswer({ number, progress });
+        postAnswer({ progress });
       };
       const outcome = core ? null : await (session[method] as (...all: unknown[]) => unknown).call(session, onProgress, ...parameters);
-      postAnswer({ number, result: outcome }, buffersOf(outcome));
+      postAnswer({ result: outcome }, buffersOf(outcome));
     } catch (error) {
-      postAnswer({ number, failure: failureOf(error) });
+      postAnswer({ failure: failureOf(error) });
     }
   };
 }

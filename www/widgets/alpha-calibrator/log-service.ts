@@ -31,8 +31,7 @@ export const isAbortError = (error: unknown) => error instanceof DOMException &&
 export class LogService {
   #tag: string;
   #workerLink: Promise<WorkerLink> | undefined;
-  /** Number of the latest request. Answers to earlier requests are ignored. */
-  #requestNumber = 0;
+  /** Rejects the request in progress; undefined if there is none. */
   #rejectRequest: ((error: unknown) => void) | undefined;
   /** True while the worker holds the recordings that were opened last. */
   isOpen = false;
@@ -76,69 +75,60 @@ export class LogService {
     this.#workerLink?.then(({ end }) => end(), () => {});
     this.#workerLink = undefined;
     this.isOpen = false;
-    this.#requestNumber++;
     this.#rejectRequest?.(new DOMException('', 'AbortError'));
+    this.#rejectRequest = undefined;
   }
 
   #ask<Result>(method: WorkerRequest['method'], parameters: unknown[], onProgress?: OnProgress): Promise<Result> {
-    const requestNumber = ++this.#requestNumber;
+    const workerLink = (this.#workerLink ??= connectService(this.#tag));
+    let rejectRequest: (error: unknown) => void;
     const resultPromise = new Promise<Result>((resolve, reject) => {
-      this.#rejectRequest = reject;
-      const postRequest = async () => {
-        const { port } = await (this.#workerLink ??= connectService(this.#tag));
-        if (requestNumber !== this.#requestNumber) return;
+      this.#rejectRequest = rejectRequest = reject;
+      const postRequest = ({ port }: WorkerLink) => {
+        // The request may have been cancelled while the worker started.
+        if (workerLink !== this.#workerLink) return;
         port.onmessage = ({ data }: MessageEvent<WorkerAnswer>) => {
-          if (data.number !== this.#requestNumber) return;
           if ('progress' in data) onProgress?.(data.progress);
           else if ('failure' in data) reject(new LogFailure(data.failure));
           else resolve(data.result as Result);
         };
-        port.postMessage({ number: requestNumber, method, parameters } satisfies WorkerRequest);
+        port.postMessage({ method, parameters } satisfies WorkerRequest);
       };
-      postRequest().catch((error) => {
-        this.#workerLink = undefined;
+      workerLink.then(postRequest).catch((error) => {
+        if (workerLink === this.#workerLink) this.#workerLink = undefined;
         reject(error);
       });
     });
     return resultPromise.finally(() => {
-      if (requestNumber === this.#requestNumber) this.#rejectRequest = undefined;
+      if (this.#rejectRequest === rejectRequest) this.#rejectRequest = undefined;
     });
   }
 }
 
+/** Starts a worker, or if the browser has none or the page's policy or origin forbids them, the same module in the page's thread. */
 async function connectService(tag: string): Promise<WorkerLink> {
   const core = await sharedCore(tag);
-  return (await startLogWorker(core)) ?? connectInPage(core);
-}
-
-/** Starts a worker; returns undefined if the browser has no workers, or if the page's policy or origin forbids them. */
-async function startLogWorker(core: SharedCore): Promise<WorkerLink | undefined> {
+  let worker: Worker | undefined;
+  const end = () => worker?.terminate();
   try {
-    const worker = startWorker();
-    if (!worker) return undefined;
-    const isReady = await new Promise<boolean>((resolve) => {
-      worker.onmessage = ({ data }: MessageEvent<WorkerAnswer>) => resolve('result' in data);
-      worker.onerror = (event: ErrorEvent) => {
-        event.preventDefault();
-        resolve(false);
-      };
-      worker.postMessage({ core });
-    });
-    if (isReady) return { port: worker, end: () => worker.terminate() };
-    worker.terminate();
+    worker = startWorker();
+    if (worker) return { port: await startSession(worker, core), end };
   } catch {
     // Some browsers throw where a policy forbids workers, others fire an error.
+    end();
   }
-  return undefined;
-}
-
-async function connectInPage(core: SharedCore): Promise<WorkerLink> {
   const { serveRequests } = await import('../../logs/worker.ts');
   const { port1, port2 } = new MessageChannel();
   serveRequests(port2, instantiateShared);
-  await new Promise<void>((resolve, reject) => {
-    port1.onmessage = ({ data }: MessageEvent<WorkerAnswer>) => ('failure' in data ? reject(new LogFailure(data.failure)) : resolve());
-    port1.postMessage({ core });
-  });
-  return { port: port1, end: () => port1.close() };
+  return { port: await startSession(port1, core), end: () => port1.close() };
 }
+
+/** Posts the core to a port, and waits for the answer. */
+const startSession = <Port extends Worker | MessagePort>(port: Port, core: SharedCore) => new Promise<Port>((resolve, reject) => {
+  port.onmessage = ({ data }: MessageEvent<WorkerAnswer>) => ('failure' in data ? reject(new LogFailure(data.failure)) : resolve(port));
+  Object.assign(port, { onerror: (event: ErrorEvent) => {
+    event.preventDefault();
+    reject(event);
+  } });
+  port.postMessage({ core });
+});

@@ -23,7 +23,7 @@ import { NOISE_COMPONENTS, LINE_STYLES, definition, modelRuleOf, settingsFor } f
 import { styles } from './styles.ts';
 import { SummaryPicture } from './summary-picture.ts';
 import { systematicTable, systematicTexts } from './systematic.ts';
-import { shownLegOf, viewModelOf, type ViewModel, observedCount } from './view-model.ts';
+import { viewModelOf, type ViewModel, observedCount } from './view-model.ts';
 import { captionOf, judgementOf, legText, recommendationReason, pathText } from './words.ts';
 import type { AlphaCalibrator as Simulation, CalibrationLog, CalibrationPanel, LegView, Motion } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
@@ -135,7 +135,8 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
 
   /** Index of the leg that is shown; −1 if there is none. */
   get chosen() {
-    return shownLegOf(this.viewModel, this.state.elementState.leg);
+    const { viewModel: { opening, legs }, state: { elementState: { leg } } } = this;
+    return leg !== null && leg < legs.count ? leg : opening;
   }
 
   /** Predicted cloud and ends of the leg that is shown, by the latest complete fit; null without a leg. */

@@ -5,15 +5,15 @@ import { downloadFile } from '../../figure/export.ts';
 import { words } from '../../messages/registry.ts';
 import { button } from '../../ui/controls.ts';
 import { NAV2_RULES, nav2Lines } from './lines.ts';
-import { legLengthOption, modelRuleOf, settingsFor } from './settings.ts';
+import { modelRuleOf, settingsFor } from './settings.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 /** Returns the lines for nav2_params.yaml; empty if Nav2 has no such model, or no α's are recommended. */
 function yamlOf({ viewModel, logName, warnings }: Figure): string {
   const { fitted: config, stats, legs: { count } } = viewModel;
-  const { model, rule } = config;
+  const { model, rule, distance, angle, duration } = config;
   const date = new Date().toISOString().slice(0, 10);
-  const fittedLog = { calibration: stats, count, model, rule, legs: legLengthOption(config), log: logName, warnings, date };
+  const fittedLog = { calibration: stats, count, model, rule, legs: duration > 0 ? { duration } : { distance, angle }, log: logName, warnings, date };
   return nav2Lines(fittedLog, words.calibrator.nav2).map((line) => `${line}\n`).join('');
 }
 

@@ -62,7 +62,7 @@ export class PathLayer {
 
 function drawPath(brush: Painter, legs: CalibrationLegs, odometry: Float64Array, classes: Uint8Array, overlays: LineName[]) {
   const { context, view } = brush;
-  const { count, reference } = legs;
+  const { count, reference, outliers } = legs;
   if (overlays.includes('odometry')) for (const line of odometryLines(view, odometry)) strokeInBatches(context, [line], pathStyle(brush, 'odometry'));
   for (const [index, name] of LEG_CLASSES.entries()) {
     if (!overlays.includes(name)) continue;
@@ -71,12 +71,8 @@ function drawPath(brush: Painter, legs: CalibrationLegs, odometry: Float64Array,
     const legStyle = { ...pathStyle(brush, name), cap: 'round' } as const;
     strokeInBatches(context, lines, count > MAX_WIDE_LEGS ? { ...legStyle, width: HAIRLINE_WIDTH } : legStyle);
   }
-  if (overlays.includes('outlier')) drawRings(brush, outlierEnds(brush, legs));
-}
-
-function outlierEnds({ view }: Painter, { outliers, reference }: CalibrationLegs): [number, number][] {
-  const outlierLegs = [...outliers.keys()].filter((leg) => outliers[leg] > 0);
-  return outlierLegs.map((leg) => view.toPixel(reference[6 * leg + 3], reference[6 * leg + 4]));
+  const outlierLegs = overlays.includes('outlier') ? [...outliers.keys()].filter((leg) => outliers[leg] > 0) : [];
+  drawRings(brush, outlierLegs.map((leg) => view.toPixel(reference[6 * leg + 3], reference[6 * leg + 4])));
 }
 
 export function drawRings(brush: Painter, points: [number, number][]) {

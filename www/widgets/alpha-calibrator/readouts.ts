@@ -1,5 +1,6 @@
 /** Readouts of the Alpha Calibrator: the verdict, and the table of the α's with their intervals. */
 
+import { extent, range } from 'd3-array';
 import { html, nothing, svg } from 'lit';
 import { words } from '../../messages/registry.ts';
 import { formatMarkup } from '../../ui/controls.ts';
@@ -88,9 +89,9 @@ function intervalText({ stats: { intervals } }: ViewModel, index: number) {
 
 /** Returns a logarithmic axis over whole decades that contain the values. */
 function logarithmicAxis(values: (number | null)[]) {
-  const logarithms = values.filter((value) => value !== null && value > 0 && Number.isFinite(value)).map((value) => Math.log10(value as number));
-  const minExponent = Math.floor(Math.min(0, ...(logarithms.length ? [Math.max(Math.min(...logarithms), Math.max(...logarithms) - 4)] : [-3])));
-  const maxExponent = Math.max(minExponent + 1, Math.ceil(logarithms.length ? Math.max(...logarithms) : 0));
+  const [lowest = -3, highest = 0] = extent(values.filter((value) => value && value < Infinity), (value) => Math.log10(value ?? 0));
+  const minExponent = Math.floor(Math.min(0, Math.max(lowest, highest - 4)));
+  const maxExponent = Math.max(minExponent + 1, Math.ceil(highest));
   const { width, inset } = WHISKER_ROW;
   const at = (value: number) => {
     const axisFraction = (Math.log10(Math.max(value, 0)) - minExponent) / (maxExponent - minExponent);
@@ -99,7 +100,7 @@ function logarithmicAxis(values: (number | null)[]) {
   };
   // At most MAX_AXIS_INTERVALS + 1 labels fit without touching.
   const decadesPerLabel = Math.ceil((maxExponent - minExponent) / MAX_AXIS_INTERVALS);
-  return { at, decades: Array.from({ length: Math.floor((maxExponent - minExponent) / decadesPerLabel) + 1 }, (_, i) => 10 ** (minExponent + i * decadesPerLabel)) };
+  return { at, decades: range(minExponent, maxExponent + 1, decadesPerLabel).map((exponent) => 10 ** exponent) };
 }
 
 function whiskerSvg({ at }: ReturnType<typeof logarithmicAxis>, value: number, interval: [number, number] | null, truth: number | undefined) {

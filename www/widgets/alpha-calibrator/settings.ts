@@ -47,9 +47,6 @@ export const SIMULATED_LEGS = { distance: 0.25, angle: 0.2 };
 
 export type ModelRule = (typeof MODEL_RULES)[number];
 
-/** Returns the length of legs as an option of `calibrate`. */
-export const legLengthOption = ({ distance, angle, duration }: AlphaCalibratorSettings): { duration: number } | { distance: number, angle: number } => (duration > 0 ? { duration } : { distance, angle });
-
 export const modelRuleOf = ({ model, rule }: AlphaCalibratorSettings): ModelRule => (model === 'velocity' ? 'velocity' : rule);
 
 export function settingsFor(kind: ModelRule) {

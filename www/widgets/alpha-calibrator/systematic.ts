@@ -31,21 +31,15 @@ export function uncorrectedText({ stats: { systematicErrors: errors }, fitted }:
 }
 
 /** Returns true if the interval of an error excludes 0, or that of a scale excludes 1. */
-function isSignificant(key: string, { interval }: SystematicError) {
+function isSignificant(key: string, error: SystematicError) {
   const neutralValue = key.endsWith('Scale') ? 1 : 0;
-  return intervalsOf(interval).some((ends) => ends && (ends[0] > neutralValue || ends[1] < neutralValue));
+  return componentsOf(error).some(({ interval }) => interval && (interval[0] > neutralValue || interval[1] < neutralValue));
 }
 
 /** Returns an error as text, with its name; an empty array if the error is not identifiable. */
 function errorTextsOf(key: typeof SYSTEMATIC_ERRORS[number], error: SystematicError): string[] {
-  const { values, halves } = formatError(error);
-  return values.length ? [`${words.calibrator.systematic.names[key]} ${values.map((value, i) => `${value} ± ${halves[i]}`).join(', ')}`] : [];
-}
-
-/** Returns the intervals of an error: two for a lever arm. */
-function intervalsOf(interval: SystematicError['interval']) {
-  const isPair = Array.isArray(interval) && interval.some((end) => typeof end !== 'number');
-  return (isPair ? interval : [interval]) as (Interval | null)[];
+  const componentTexts = componentsOf(error).map(({ text, halfText }) => `${text} ${halfText}`);
+  return componentTexts.length ? [`${words.calibrator.systematic.names[key]} ${componentTexts.join(', ')}`] : [];
 }
 
 export function systematicTable(figure: Figure) {
@@ -53,13 +47,13 @@ export function systematicTable(figure: Figure) {
   const texts = words.calibrator.systematic;
   const { requested } = figure.settings;
   const rows = SYSTEMATIC_ERRORS.map((key) => {
-    const { values, halves } = formatError(errors[key]);
+    const components = componentsOf(errors[key]);
     const correctCheckbox = toggle({ label: texts.names[key], checked: requested[key], change: (on) => figure.gesture.decide({ [key]: on }) });
-    if (values.length === 0) return [correctCheckbox, texts.unknown];
+    if (components.length === 0) return [correctCheckbox, texts.unknown];
     return [
       correctCheckbox,
-      stackTexts(values),
-      html`<div class="muted">${stackTexts(halves.map((halfWidth) => `± ${halfWidth}`))}</div>`,
+      stackTexts(components.map(({ text }) => text)),
+      html`<div class="muted">${stackTexts(components.map(({ halfText }) => halfText))}</div>`,
       errors[key].corrected ? texts.corrected : errors[key].constant ? texts.notCorrected : texts.notConstant,
       ...(truth ? [html`<div class="muted">${stackTexts([truth[key]].flat().map((component) => fixed(component, 3)))}</div>`] : []),
     ];
@@ -70,14 +64,16 @@ export function systematicTable(figure: Figure) {
 
 const stackTexts = (texts: string[]) => texts.map((text) => html`<div>${text}</div>`);
 
-/** Formats the values of an error (two for a lever arm) and half the width of each interval, with significant digits. */
-function formatError({ value, interval }: SystematicError) {
-  const halfWidths = intervalsOf(interval).map((limits) => limits && (limits[1] - limits[0]) / 2);
-  return {
-    values: [value].flat().flatMap((component, i) => (component === null ? [] : [fixed(component, decimalsOf(halfWidths[i]))])),
-    halves: halfWidths.flatMap((halfWidth) => (halfWidth === null ? [] : [fixed(halfWidth, decimalsOf(halfWidth))])),
-  };
+/**
+ * Returns the components of an identifiable error (two for a lever arm) with their intervals, and as texts: the value, and half the width of
+ * the interval. Both have three decimals, or more if the interval is narrower than a thousandth.
+ */
+function componentsOf({ value, interval }: SystematicError) {
+  const intervals = (Array.isArray(value) ? interval : [interval]) as (Interval | null)[];
+  return [value].flat().flatMap((component, i) => {
+    if (component === null) return [];
+    const halfWidth = intervals[i] && (intervals[i][1] - intervals[i][0]) / 2;
+    const decimals = halfWidth ? Math.min(MAX_DECIMALS, Math.max(3, -Math.floor(Math.log10(2 * halfWidth)))) : 3;
+    return [{ interval: intervals[i], text: fixed(component, decimals), halfText: halfWidth === null ? '' : `± ${fixed(halfWidth, decimals)}` }];
+  });
 }
-
-/** Returns the number of decimals of an error: three, or more if its interval is narrower than a thousandth. */
-const decimalsOf = (halfWidth: number | null | undefined) => (halfWidth ? Math.min(MAX_DECIMALS, Math.max(3, -Math.floor(Math.log10(2 * halfWidth)))) : 3);

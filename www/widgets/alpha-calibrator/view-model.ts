@@ -79,9 +79,6 @@ function defaultLegOf({ squared, outliers, odometry }: CalibrationLegs, distance
   return worstLeg < 0 && squared.length > 0 ? 0 : worstLeg;
 }
 
-/** Returns the leg that is shown; −1 if there is none. */
-export const shownLegOf = ({ opening, legs }: ViewModel, chosen: number | null) => (chosen !== null && chosen < legs.count ? chosen : opening);
-
 /** Returns true if the true α's belong to the rule and the leg length of the present fit. */
 export const isTruthComparable = ({ truth, fitted: { rule, model, distance, angle, duration } }: Pick<ViewModel, 'truth' | 'fitted'>) =>
   truth !== null && model === 'odometry' && rule === 'thrun' && distance === SIMULATED_LEGS.distance && angle === SIMULATED_LEGS.angle && duration === 0;

@@ -95,7 +95,10 @@ export class ArcPicture extends Picture<Scene> {
       }
       if (showsLine('chord')) strokeLines(brush, [{ points: Float64Array.of(start.x, start.y, next.x, next.y), ...styles.chord }]);
       if (showsLine('wedge')) drawWedge(brush, next, lastTurn, styles.wedge.colour);
-      if (showsLine('twist')) drawTwistTicks(brush, paths.ticks, styles.twist.colour);
+      // Displacements by the lateral velocity of the constant twist, as short lines across its path.
+      if (showsLine('twist')) strokePath(brush.context, { colour: styles.twist.colour, width: 1.25 }, () => {
+        for (let i = 0; i < paths.ticks.length; i += 4) addLine(brush.context, brush.view.toPixels(paths.ticks.subarray(i, i + 4)));
+      });
       drawOutlines(brush, [
         ...(showsLine('commanded') ? [{ points: paths.commanded, ...styles.commanded }] : []),
         ...(showsLine('twist') ? [{ points: paths.lie, ...styles.twist }] : []),
@@ -192,13 +195,6 @@ function drawMovingRobots(brush: Brush, { underway, overlays }: Scene) {
     const [x, y, theta] = underway.subarray(3 * i);
     drawRobot(brush, { x, y, heading: theta, colour: brush.palette[LINE_STYLES[name].role] });
   }
-}
-
-/** Draws the displacements by the lateral velocity of the constant twist, as short lines across its path. */
-function drawTwistTicks(brush: Brush, ticks: Float64Array, colour: string) {
-  strokePath(brush.context, { colour, width: 1.25 }, () => {
-    for (let i = 0; i < ticks.length; i += 4) addLine(brush.context, brush.view.toPixels(ticks.subarray(i, i + 4)));
-  });
 }
 
 /** Draws the construction of the highlighted line of Table 5.1. */

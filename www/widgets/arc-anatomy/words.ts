@@ -26,13 +26,11 @@ export const shareText = (share: number) => (isTiny(share) ? scientificText(shar
 
 export const densityText = (density: number) => (isTiny(density) ? scientificText(density) : formatSignificant(density, 3));
 
-const ESTIMATE_SYMBOLS = ['v̂', 'ω̂', 'γ̂'];
-
 /** Returns a sentence about the factor that makes p small. */
 export function captionOf({ config, stats: { factors, weakest, share, driven, inverted } }: ViewModel) {
   const texts = words.anatomy.verdict;
   const { deviations, share: keptShare, deviation } = factors[weakest];
-  const estimateName = `${words.anatomy.bars.names[weakest]} ${ESTIMATE_SYMBOLS[weakest]}`;
+  const estimateName = `${words.anatomy.bars.names[weakest]} ${['v̂', 'ω̂', 'γ̂'][weakest]}`;
   if (config.printed && driven.arcLength !== inverted.arcLength) return texts.printed(fixed(factors[0].estimate, 2), shareText(share));
   if (share === 1) return texts.peak;
   if (deviation === 0) return texts.noiseless(estimateName);

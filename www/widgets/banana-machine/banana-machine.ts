@@ -140,13 +140,14 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     const callouts = isMoving || morph > 0 || shownOutlineNames.join() !== 'ellipse,exponential' ? [] : calloutsOf(viewModel);
     return {
       ...viewModel,
-      simulation: this.simulation,
+      simulation: this.simulation as Simulation,
       overlays: overlayVisibility,
       marked: this.#inspection,
       morph,
       outlinesOf: (otherViewModel: ViewModel) => outlinesAt(motion, otherViewModel, morph),
       callouts,
       pinned,
+      /** Returns the points of the pinned outlines that are shown, at a morph. */
       pinnedAt: (otherMorph: number) =>
         pinned ? Object.entries(outlinesAt(motion, pinned, otherMorph)).flatMap(([name, line]) => (overlayVisibility[name] ? [...line] : [])) : [],
       driving: this.cloud.driving,

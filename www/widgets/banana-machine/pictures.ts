@@ -14,26 +14,11 @@ import { integer } from '../../ui/format.ts';
 import { drawMorphGrid, MorphView, morphedPoint, type Outlines } from './morph.ts';
 import { deviationOf, type ViewModel } from './view-model.ts';
 import { LINE_STYLES, type LineName } from './settings.ts';
-import type { BananaMachine, Inspection, Moments } from '../../types.d.ts';
+import type { BananaMachine, Moments } from '../../types.d.ts';
 import { addLine, drawDisc, paintWithOpacity, strokePath, type Brush } from '../../scene/canvas.ts';
 
-/**
- * View model of both pictures. Outlines are transformed by the present morph. `morphedEllipse` is the ellipse after a complete morph.
- * Callouts have coordinates of the floor.
- */
-export interface Scene extends ViewModel {
-  simulation: BananaMachine;
-  overlays: Record<LineName, boolean>;
-  marked: Inspection | undefined;
-  morph: number;
-  pinned: ViewModel | undefined;
-  /** Points of the pinned outlines that are shown, at a morph. */
-  pinnedAt: (morph: number) => number[];
-  driving: { robots: number, share: number } | undefined;
-  outlinesOf: (viewModel: ViewModel) => Outlines;
-  callouts: Callout[];
-  morphedEllipse: Float64Array;
-}
+/** View model of both pictures. */
+export type Scene = import('./banana-machine.ts').BananaMachineElement['scene'];
 
 /** Number of robots above which a cloud is drawn as a density: dots would be indistinguishable, and take longer than a frame. */
 const MAX_DOTS = 1000;
@@ -102,10 +87,9 @@ function densityCellSize(area: number, count: number) {
   return Math.min(7, Math.max(2, Math.round(Math.sqrt((3 * area) / count))));
 }
 
-/** Names of the outlines, and their orders: of painting and of the legend. */
-export type OutlineName = import('./settings.ts').LineName;
-const PAINT_ORDER = ['additive', 'linearized', 'ellipse', 'exponential', 'command'] as const satisfies OutlineName[];
-const LEGEND_ORDER = ['ellipse', 'exponential', 'linearized', 'additive', 'command'] as const satisfies OutlineName[];
+/** Orders of the outlines: of painting and of the legend. */
+const PAINT_ORDER = ['additive', 'linearized', 'ellipse', 'exponential', 'command'] as const satisfies LineName[];
+const LEGEND_ORDER = ['ellipse', 'exponential', 'linearized', 'additive', 'command'] as const satisfies LineName[];
 
 /** Insets of the views, CSS pixels. */
 const VIEW_INSETS = { left: 46, right: 10 };
@@ -147,7 +131,7 @@ export class PlanePicture extends CloudPicture {
     const { simulation, overlays, table, marked, end, morph } = scene;
     const outlines = scene.outlinesOf(scene);
     const styles = lineStyles(brush, LINE_STYLES);
-    const isDrawn = (name: OutlineName) => overlays[name] && hasLength(outlines[name]);
+    const isDrawn = (name: LineName) => overlays[name] && hasLength(outlines[name]);
     const legendEntries = lineLegendEntries(brush, LINE_STYLES, LEGEND_ORDER.filter(isDrawn), words.banana.overlays);
     // One pair of axes fades out before the other fades in.
     const [floor, twist] = this.view.endViews;

@@ -37,11 +37,9 @@ export const definition = definitionOf('banana-machine', {
   opening: ['command', 'ellipse', 'exponential'],
   sliderSpecs,
   elementFields: {
-    /** The α that remains under "Isolate", from 1; remembered while "Isolate" is off. */
     isolateChoice: { opening: 4, check: (field, number) => checkedInteger(field, number, 1, openingAlphas.velocity.length) },
     /** Settings of the simulation whose outlines are pinned; null for none. `BananaMachineElement.createSimulation` checks them. */
     pinned: { opening: null, check: (_, pinned) => pinned },
-    /** Morph, from the floor (0) to exponential coordinates (1). */
     morph: { converter: NUMBER_CONVERTER, min: 0, max: 1, opening: 0, isResetByPreset: true },
   },
   dependentDefaults: ({ model }) => ({ alphas: openingAlphas[model as keyof typeof openingAlphas] }),

@@ -2,7 +2,7 @@
 
 import { html, nothing } from 'lit';
 import { Cloud, enterCloud } from '../../figure/cloud.ts';
-import { pictureCanvas, disclosures, titledPicture, settingCheckbox, settingRadios, cloudControls, settingSlider, settingSliders } from '../../figure/controls.ts';
+import { pictureCanvas, disclosures, titledPicture, settingCheckbox, settingRadios, cloudControls, sampleField, settingSlider, settingSliders } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { legend } from '../../figure/overlays.ts';
 import { define } from '../../figure/reflection.ts';
@@ -16,13 +16,13 @@ import { measureCosts } from './cost.ts';
 import { applyMap, gridOf, mapDataOf } from './maps/data.ts';
 import { MapOpener, EXTENSIONS } from './maps/open.ts';
 import { FloorPicture } from './picture.ts';
-import { overviewMapHtml, costTable, markedSampleField, tallyReadouts } from './readouts.ts';
+import { overviewMapHtml, costTable, tallyReadouts } from './readouts.ts';
 import { LINE_STYLES, OPENING_POSE, PRESET_SETTING, definition, COMMAND_SLIDERS, MAX_SAMPLES, SAMPLE_COUNTS } from './settings.ts';
 import { styles } from './styles.ts';
 import { outcomeIndex, viewModelOf, type ViewModel } from './view-model.ts';
 import { WallHandles } from './wall-handles.ts';
 import { wallContact } from './walls.ts';
-import { captionOf, headlineOf, mapText, pictureText } from './words.ts';
+import { captionOf, headlineOf, mapText, pictureText, verdictText } from './words.ts';
 import type { Values } from '../../figure/settings.ts';
 import type { Cells } from '../../scene/walls.ts';
 import type { MapData, MapSqueeze as Simulation, Pose } from '../../types.d.ts';
@@ -293,7 +293,8 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   }
 
   content(viewModel: ViewModel) {
-    const { posesByOutcome, stats, note } = viewModel;
+    const { posesByOutcome, stats, note, verdicts, config } = viewModel;
+    const { isMarked, selectedIndex } = this.cloud;
     const { hasUnknown } = this.picture;
     const { floor, density } = words.squeeze;
     const { unknown, ...markStyles } = LINE_STYLES;
@@ -320,7 +321,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
       ${posesByOutcome ? nothing : html`<p class="about muted">${density}</p>`}
       ${disclosures(this, {
         controls: () => html`<div class="controls">${robotAndMapControls(this, hasUnknown)}</div> ${userMapControls(this, this.#opener, this.#mapText)}`,
-        numbers: () => html`${tallyReadouts(viewModel)} ${markedSampleField(this)} ${costTable(this)}`,
+        numbers: () => html`${tallyReadouts(viewModel)} ${sampleField(this, 'sample', stats.attempts, isMarked && verdictText(verdicts[selectedIndex], config))} ${costTable(this)}`,
       })}`)}
     `;
   }

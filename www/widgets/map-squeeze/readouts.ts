@@ -1,14 +1,12 @@
 /** Map Squeeze's readouts: counts of the samples, the selected one, the cost of each sampler, and the whole map beside a close view. */
 
 import { html, nothing } from 'lit';
-import { sampleField } from '../../figure/controls.ts';
 import { words } from '../../messages/registry.ts';
 import { button } from '../../ui/controls.ts';
 import { integer, fixed, formatRounded } from '../../ui/format.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
 import { SAMPLES_PER_SECOND, type SampleCost } from './cost.ts';
 import { SAMPLERS } from './settings.ts';
-import { verdictText } from './words.ts';
 import type { SamplerName } from '../../types.d.ts';
 import type { MapSqueezeElement as Figure } from './map-squeeze.ts';
 import type { ViewModel } from './view-model.ts';
@@ -23,18 +21,13 @@ export function tallyReadouts({ stats, paths: { length: paths } }: ViewModel) {
   ]);
 }
 
-export function markedSampleField(figure: Figure) {
-  const { cloud, viewModel: { config, stats, verdicts } } = figure;
-  return sampleField(figure, 'sample', stats.attempts, cloud.isMarked ? verdictText(verdicts[cloud.selectedIndex], config) : '');
-}
-
 /** Returns the button that measures the cost of each sampler, and the table of the costs. */
 export function costTable(figure: Figure) {
   const { samplers, costs: texts } = words.squeeze;
   const { costs, viewModel: { config } } = figure;
   const costRow = (sampler: SamplerName, cost: SampleCost) => [
     sampler === 'sub-stepped' ? `${samplers[sampler]} (${config.steps})` : samplers[sampler],
-    ...(typeof cost === 'string' ? [texts[cost]] : costTexts(cost)),
+    ...(typeof cost === 'string' ? [texts[cost]] : [fixed(cost.draws, 2), fixed(cost.wallTests, 2), formatRounded(cost.micros, 2), coreShareText(cost.micros)]),
   ];
   return html`<div class="table">
     ${button(texts.measure, () => figure.measureSamplerCosts())}
@@ -42,10 +35,7 @@ export function costTable(figure: Figure) {
   </div>`;
 }
 
-function costTexts({ draws, wallTests, micros }: Exclude<SampleCost, string>) {
-  const cpuShare = `${formatRounded(100 * micros * 1e-6 * SAMPLES_PER_SECOND, 2)}\u202f%`;
-  return [fixed(draws, 2), fixed(wallTests, 2), formatRounded(micros, 2), cpuShare];
-}
+const coreShareText = (micros: number) => `${formatRounded(100 * micros * 1e-6 * SAMPLES_PER_SECOND, 2)}\u202f%`;
 
 /** Maximum fraction of the map's area that a close view with an overview shows. */
 const MAX_SHOWN_FRACTION = 0.6;

@@ -3,7 +3,6 @@
 import { greatest } from 'd3-array';
 import { ROLES, UNITS, type Log, type Question, type Role } from './log.ts';
 import { pathOf, poseAt, wrapAngle, type Pose } from './path.ts';
-import { quantile } from './quantile.ts';
 import { METRES_PER_UNIT } from './units.ts';
 
 /** Motion of the robot in one step, in the frame of the robot, in m and rad. */
@@ -51,9 +50,6 @@ const isPlausibleScale = (scale: number) => scale >= 0.5 && scale <= 2;
 /** Mean motion of a step, m or rad, below which the robot counts as standing. */
 const MAX_STANDSTILL_MOTION = 1e-4;
 
-/** Ratio of a motion to the 90 % quantile of all motions, above which the step is a jump. */
-const JUMP_FACTOR = 4;
-
 /** Agreement of two logs: correlation of their motions (−1 to 1), and best scales of the reference's lengths and angles. */
 interface Agreement { score: number; length: number; angle: number }
 
@@ -98,12 +94,14 @@ export function questionOf({ name, at, unit }: Correction, logs: Record<Role, Lo
   return { what, choices: [], ...(unit && { pair: ROLES.map((role) => (allUnits.includes(unitOf(role)) ? unitOf(role) : allUnits[0])).join() }) };
 }
 
-/** Returns the motions of a log in equal steps, from a start time on. */
+/** Returns the motions of a log in equal steps, from a start time on. Steps with a jump or another break have no motion. */
 function motionsOf({ data }: Log, from: number, step: number, count: number, correct = (pose: Pose) => pose): Motion[] {
   const path = pathOf(data, Math.max(1, Math.floor(data.t.length / (4 * MAX_STEPS))));
   const correctedPath = { ...path, poses: path.poses.map(correct) };
   const stepPoses = Array.from({ length: count + 1 }, (_, i) => poseAt(correctedPath, from + i * step));
+  const brokenSteps = new Set(Array.from(data.breaks, (row) => [row - 1, row].map((end) => Math.floor((data.t[end] - from) / step))).flat());
   return stepPoses.slice(1).map(([x, y, heading], i) => {
+    if (brokenSteps.has(i)) return [0, 0, 0];
     const [dx, dy, turn] = [x - stepPoses[i][0], y - stepPoses[i][1], wrapAngle(heading - stepPoses[i][2])];
     const middleHeading = stepPoses[i][2] + turn / 2;
     return [dx * Math.cos(middleHeading) + dy * Math.sin(middleHeading), dy * Math.cos(middleHeading) - dx * Math.sin(middleHeading), turn];
@@ -113,19 +111,12 @@ function motionsOf({ data }: Log, from: number, step: number, count: number, cor
 /** Returns the agreement of two logs at the smallest clock offset at which they agree, or at the best offset if they do not agree. */
 function bestAgreementOf({ odometry, reference }: Record<Role, Motion[]>, step: number): Agreement {
   const maxLag = Math.round(MAX_CLOCK_OFFSET / step);
-  const [odo, ref] = [withoutJumps(odometry), withoutJumps(reference)];
   let best: Agreement = { score: -1, length: 1, angle: 1 };
   for (let i = 0; i <= 2 * maxLag && best.score < MIN_AGREEMENT_SCORE; i++) {
-    const agreement = agreementAt(odo, ref, i % 2 === 0 ? i / 2 : -(i + 1) / 2, odo.length - maxLag);
+    const agreement = agreementAt(odometry, reference, i % 2 === 0 ? i / 2 : -(i + 1) / 2, odometry.length - maxLag);
     if (agreement.score > best.score) best = agreement;
   }
   return best;
-}
-
-function withoutJumps(motions: Motion[]): Motion[] {
-  const jumpLimit = (size: (motion: Motion) => number) => JUMP_FACTOR * Math.max(MAX_STANDSTILL_MOTION, quantile(Float64Array.from(motions, size), 0.9));
-  const [maxDrive, maxTurn] = [jumpLimit(([forward, left]) => Math.hypot(forward, left)), jumpLimit(([, , turn]) => Math.abs(turn))];
-  return motions.map((motion) => (Math.hypot(motion[0], motion[1]) <= maxDrive && Math.abs(motion[2]) <= maxTurn ? motion : [0, 0, 0]));
 }
 
 /** Returns the agreement at a clock offset of `lag` steps, for any angle between the headings. Its score is −1 if fewer than half of `count` steps overlap. */

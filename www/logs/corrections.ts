@@ -1,7 +1,7 @@
 /** Search for the error in a log whose motion disagrees with that of the other log. It tries each correction on each log. */
 
-import { greatest } from 'd3-array';
-import { ROLES, UNITS, type Log, type Question, type Role } from './log.ts';
+import { cross, greatest } from 'd3-array';
+import { ROLES, UNITS, type AngleUnit, type LengthUnit, type Log, type Question, type Role } from './log.ts';
 import { pathOf, poseAt, wrapAngle, type Pose } from './path.ts';
 import { METRES_PER_UNIT } from './units.ts';
 
@@ -10,27 +10,22 @@ type Motion = [forward: number, left: number, turn: number];
 
 const DEGREE = Math.PI / 180;
 
-const POSE_CORRECTIONS = {
-  leftHanded: ([x, y, heading]: Pose): Pose => [x, -y, -heading],
-  degrees: ([x, y, heading]: Pose): Pose => [x, y, heading * DEGREE],
-  radians: ([x, y, heading]: Pose): Pose => [x, y, heading / DEGREE],
-};
-
-const ALL_CORRECTIONS = (Object.keys(POSE_CORRECTIONS) as (keyof typeof POSE_CORRECTIONS)[]).flatMap((name) => [[name, 'reference'], [name, 'odometry']] as [typeof name, Role][]);
+const POSE_CORRECTIONS: (Pick<Correction, 'name' | 'unit'> & { correct: (pose: Pose) => Pose })[] = [
+  { name: 'leftHanded', correct: ([x, y, heading]) => [x, -y, -heading] },
+  { name: 'angles', unit: 'deg', correct: ([x, y, heading]) => [x, y, heading * DEGREE] },
+  { name: 'angles', unit: 'rad', correct: ([x, y, heading]) => [x, y, heading / DEGREE] },
+];
 
 /** Correction that makes two logs of a drive agree. */
 export interface Correction {
-  name: keyof typeof POSE_CORRECTIONS | 'lengths';
+  name: 'leftHanded' | 'angles' | 'lengths';
   at: Role;
   /** Correlation of the motions of both logs after the correction. */
   score: number;
   factor: number;
   /** Unit that the log has after a correction of lengths or angles; undefined if no unit has this size. */
-  unit?: keyof typeof UNIT_SIZES | 'rad' | 'deg';
+  unit?: LengthUnit | AngleUnit;
 }
-
-/** Sizes of units of length in m, also of those that are no options. */
-const UNIT_SIZES = { ...METRES_PER_UNIT, ft: 0.3048, in: 0.0254 };
 
 /** Maximum ratio of a measured size of a unit to its real size, and its inverse. The odometry's wheels may have another size than assumed. */
 const MAX_UNIT_ERROR = 1.2;
@@ -63,34 +58,33 @@ export function correctionOf(odometry: Log, reference: Log): Correction | undefi
   if (!(stepCount >= MIN_STEPS)) return undefined;
   const uncorrectedMotions = { odometry: motionsOf(odometry, from, step, stepCount), reference: motionsOf(reference, from, step, stepCount) };
   const { score, length: factor, angle } = bestAgreementOf(uncorrectedMotions, step);
-  const triedCorrections = score >= MIN_AGREEMENT_SCORE ? [] : ALL_CORRECTIONS.map(([name, at]) => {
-    const correctedMotions = { ...uncorrectedMotions, [at]: motionsOf(logs[at], from, step, stepCount, POSE_CORRECTIONS[name]) };
-    return { name, at, factor, ...bestAgreementOf(correctedMotions, step) };
+  const triedCorrections = score >= MIN_AGREEMENT_SCORE ? [] : cross(POSE_CORRECTIONS, ['reference', 'odometry'] as const, ({ name, unit, correct }, at) => {
+    const correctedMotions = { ...uncorrectedMotions, [at]: motionsOf(logs[at], from, step, stepCount, correct) };
+    return { name, at, unit, factor, ...bestAgreementOf(correctedMotions, step) };
   });
   const minScore = Math.max(MIN_CORRECTED_SCORE, 1 - MAX_REMAINING_FRACTION * (1 - score));
   const best = greatest(triedCorrections.filter((candidate) => candidate.score >= minScore && isPlausibleScale(candidate.length) && isPlausibleScale(candidate.angle)), ({ score: correctedScore }) => correctedScore);
-  if (best) return { ...best, unit: { degrees: 'deg' as const, radians: 'rad' as const }[best.name as string] };
-  if (score < MIN_CORRECTED_SCORE) return undefined;
+  if (best || score < MIN_CORRECTED_SCORE) return best;
   if (!isPlausibleScale(factor)) return lengthCorrection(logs, score, factor);
-  return isPlausibleScale(angle) ? undefined : { name: 'degrees', at: angle < 1 ? 'reference' : 'odometry', score, factor, unit: 'deg' };
+  return isPlausibleScale(angle) ? undefined : { name: 'angles', at: angle < 1 ? 'reference' : 'odometry', score, factor, unit: 'deg' };
 }
 
 /** Returns the correction of lengths. The log whose lengths then have a known unit needs it. `factor` is that for the reference. */
 function lengthCorrection(logs: Record<Role, Log>, score: number, factor: number): Correction {
   const corrections = ([['reference', factor], ['odometry', 1 / factor]] as const).map(([at, factorOfLog]): Correction => {
     const size = METRES_PER_UNIT[logs[at].summary.units.length.unit] * factorOfLog;
-    const unit = (Object.keys(UNIT_SIZES) as (keyof typeof UNIT_SIZES)[]).find((name) => Math.max(size / UNIT_SIZES[name], UNIT_SIZES[name] / size) < MAX_UNIT_ERROR);
+    const unit = UNITS.lengthUnit.find((name) => Math.max(size / METRES_PER_UNIT[name], METRES_PER_UNIT[name] / size) < MAX_UNIT_ERROR);
     return { name: 'lengths', at, score, factor: factorOfLog, unit };
   });
   return corrections.find(({ unit }) => unit !== undefined) ?? corrections[0];
 }
 
-/** Returns the question for the unit of a corrected log; undefined if no option states it. */
+/** Returns the question for the unit of a corrected log; undefined if no unit is wrong. */
 export function questionOf({ name, at, unit }: Correction, logs: Record<Role, Log>): Question | undefined {
-  const what = name === 'lengths' ? 'lengthUnit' : name === 'degrees' || name === 'radians' ? 'angleUnit' : undefined;
-  const allUnits: readonly string[] = what ? UNITS[what] : [];
-  if (!what || (unit && !allUnits.includes(unit))) return undefined;
-  const unitOf = (role: Role) => (role === at ? unit : logs[role].summary.units[what === 'lengthUnit' ? 'length' : 'angle'].unit) ?? '';
+  if (name === 'leftHanded') return undefined;
+  const [what, quantity] = name === 'lengths' ? (['lengthUnit', 'length'] as const) : (['angleUnit', 'angle'] as const);
+  const allUnits: readonly string[] = UNITS[what];
+  const unitOf = (role: Role) => (role === at ? unit : logs[role].summary.units[quantity].unit) ?? '';
   return { what, choices: [], ...(unit && { pair: ROLES.map((role) => (allUnits.includes(unitOf(role)) ? unitOf(role) : allUnits[0])).join() }) };
 }
 

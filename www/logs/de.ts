@@ -3,7 +3,7 @@
 import type { Correction } from './corrections.ts';
 import { REPAIR_COMMANDS } from './en.ts';
 import type { Words } from './log-error.ts';
-import type { LogKind, UnitBasis, DropCause, Summary } from './log.ts';
+import type { UnitBasis, DropCause, Summary } from './log.ts';
 
 const FIELD_NAMES: Record<string, string> = { t: 'Zeit', x: 'x', y: 'y', yaw: 'Gierwinkel', qx: 'qx', qy: 'qy', qz: 'qz', qw: 'qw', v: 'Geschwindigkeit v', omega: 'Drehrate ω' };
 
@@ -48,20 +48,11 @@ const UNSUPPORTED_FORMATS: typeof import('./en.ts').UNSUPPORTED_FORMATS = {
   parquet: 'eine Parquet-Tabelle; als CSV exportieren.',
 };
 
-const CORRECTION_TEXTS: Record<Exclude<Correction['name'], 'lengths'>, (other: string) => string> = {
-  leftHanded: (other) => `sie dreht nach links, wo ${other} nach rechts dreht: eine der beiden hat Z nach unten oder ein linkshändiges Koordinatensystem; y und Richtung dieser einen negieren`,
-  degrees: () => 'ihre Richtungen sind in Grad und wurden als Radiant gelesen; die Einheit der Winkel angeben',
-  radians: () => 'ihre Richtungen sind in Radiant und wurden als Grad gelesen; die Einheit der Winkel angeben',
+const CORRECTION_TEXTS: Record<Correction['name'], (correction: Correction, other: string) => string> = {
+  leftHanded: (_, other) => `sie dreht nach links, wo ${other} nach rechts dreht: eine der beiden hat Z nach unten oder ein linkshändiges Koordinatensystem; y und Richtung dieser einen negieren`,
+  angles: ({ unit }) => `ihre Richtungen sind in ${unit === 'deg' ? 'Grad und wurden als Radiant gelesen' : 'Radiant und wurden als Grad gelesen'}; die Einheit der Winkel angeben`,
+  lengths: ({ factor, unit }, other) => `multipliziert mit ${String(Number(factor.toPrecision(3))).replace('.', ',')} passen ihre Längen zu denen von ${other}${unit ? `: Sie sind in ${unit}; ihre Einheit angeben` : '; die Längeneinheit von beiden angeben, oder sie multiplizieren'}`,
 };
-
-const LENGTH_UNITS = { m: ['Metern'], cm: ['Zentimetern'], mm: ['Millimetern'], ft: ['Fuß', '0,3048'], in: ['Zoll', '0,0254'] };
-
-function lengthCorrectionText({ factor, unit }: Correction, other: string, kind: LogKind): string {
-  const match = `multipliziert mit ${String(Number(factor.toPrecision(3))).replace('.', ',')} passen ihre Längen zu denen von ${other}`;
-  const [unitName, size] = LENGTH_UNITS[unit as keyof typeof LENGTH_UNITS] ?? [];
-  if (!unitName) return `${match}; die Längeneinheit von beiden angeben`;
-  return `${match}: Sie sind in ${unitName}; ${size ? `ihr ${kind === 'poses' ? 'x und y' : 'v'} mit ${size} multiplizieren` : 'die Längeneinheit angeben'}`;
-}
 
 export const german: Words = {
   place: (file, line, topic) => `${file}${topic ? `, Topic ${topic}` : ''}${line ? `, ${topic ? 'Nachricht' : 'Zeile'} ${line}` : ''}`,
@@ -129,8 +120,8 @@ export const german: Words = {
       `die Transformation ${frames} ändert sich nie und ist daher keine Bahn eines Roboters; erwartet werden Frames, die sich bewegen${others ? `, wie ${others}` : ''}.`,
     givenTwice: 'sie ist zweimal angegeben; gebraucht werden zwei unabhängige Messungen einer Fahrt, Odometrie und Referenz.',
     ownReference: (name) => `${name} ist die Odometrie selbst; gebraucht wird eine Referenz, die nicht von den Rädern kommt, wie Motion-Capture oder Scan-Matching.`,
-    correction: (correction, other, kind) =>
-      `${correction.name === 'lengths' ? lengthCorrectionText(correction, other, kind) : CORRECTION_TEXTS[correction.name](other)}. Damit stimmen die Bewegungen überein (Korrelation ${withDecimalComma(correction.score, 2)}).`,
+    correction: (correction, other) =>
+      `${CORRECTION_TEXTS[correction.name](correction, other)}. Damit stimmen die Bewegungen überein (Korrelation ${withDecimalComma(correction.score, 2)}).`,
     held: 'ihre Pose steht, während die Odometrie weitergeht: Sie hat den Roboter verloren; gebraucht wird eine, die ihm folgt.',
     noRole: 'ihr Name sagt nicht, ob sie Odometrie oder Referenz ist; Namen wie odom1.csv, truth1.csv, odom2.csv, … sagen es, oder eine Auswahl.',
     unpaired: (odometry, reference) => `die Odometrie ist in ${odometry || 'keiner Datei'}, und die Referenz in ${reference || 'keiner Datei'}; gebraucht wird je eines für eine Fahrt.`,

@@ -1,7 +1,7 @@
 /** Sentences about logs, in English. */
 
 import type { Correction } from './corrections.ts';
-import type { LogKind, UnitBasis, DropCause, Recording, Role, Summary } from './log.ts';
+import type { UnitBasis, DropCause, Recording, Role, Summary } from './log.ts';
 
 const FIELD_NAMES: Record<string, string> = { t: 'time', x: 'x', y: 'y', yaw: 'yaw', qx: 'qx', qy: 'qy', qz: 'qz', qw: 'qw', v: 'speed v', omega: 'turn rate ω' };
 
@@ -30,22 +30,12 @@ const DROP_REASONS = {
   held: 'the pose stands still while the odometry moves on',
 };
 
-/** Errors of a log and their corrections, found by comparing it with the other log. */
-const CORRECTION_TEXTS: Record<Exclude<Correction['name'], 'lengths'>, (other: string) => string> = {
-  leftHanded: (other) => `it turns left where ${other} turns right: one of the two has Z down or a left-handed frame; negate y and the heading of that one`,
-  degrees: () => 'its headings are in degrees and were read as radians; state the unit of angles',
-  radians: () => 'its headings are in radians and were read as degrees; state the unit of angles',
+/** Errors of a log, found by comparing it with the other log, and how to correct them. */
+const CORRECTION_TEXTS: Record<Correction['name'], (correction: Correction, other: string) => string> = {
+  leftHanded: (_, other) => `it turns left where ${other} turns right: one of the two has Z down or a left-handed frame; negate y and the heading of that one`,
+  angles: ({ unit }) => `its headings are in ${unit === 'deg' ? 'degrees and were read as radians' : 'radians and were read as degrees'}; state the unit of angles`,
+  lengths: ({ factor, unit }, other) => `multiplied by ${Number(factor.toPrecision(3))}, its lengths match those of ${other}${unit ? `: they are in ${unit}; state their unit` : '; state the unit of lengths of both, or multiply them'}`,
 };
-
-/** Names of the units that lengths may have. For units that are no options, the size in m follows. */
-const LENGTH_UNITS = { m: ['metres'], cm: ['centimetres'], mm: ['millimetres'], ft: ['feet', '0.3048'], in: ['inches', '0.0254'] };
-
-function lengthCorrectionText({ factor, unit }: Correction, other: string, kind: LogKind): string {
-  const match = `multiplied by ${Number(factor.toPrecision(3))}, its lengths match those of ${other}`;
-  const [unitName, size] = LENGTH_UNITS[unit as keyof typeof LENGTH_UNITS] ?? [];
-  if (!unitName) return `${match}; state the unit of lengths of both`;
-  return `${match}: they are in ${unitName}; ${size ? `multiply its ${kind === 'poses' ? 'x and y' : 'v'} by ${size}` : 'state their unit'}`;
-}
 
 /** Formats that are recognized but not read, each with a remedy. */
 export const UNSUPPORTED_FORMATS = {
@@ -132,8 +122,8 @@ export const english = {
       `the transform ${frames} never changes, so it is no path of a robot; expected are frames that move${others ? `, as ${others}` : ''}.`,
     givenTwice: 'it is given twice; give two independent measurements of one drive, odometry and reference.',
     ownReference: (name: string) => `${name} is the odometry itself; choose a reference that does not come from the wheels, such as motion capture or scan matching.`,
-    correction: (correction: Correction, other: string, kind: LogKind) =>
-      `${correction.name === 'lengths' ? lengthCorrectionText(correction, other, kind) : CORRECTION_TEXTS[correction.name](other)}. The motions then agree (correlation ${correction.score.toFixed(2)}).`,
+    correction: (correction: Correction, other: string) =>
+      `${CORRECTION_TEXTS[correction.name](correction, other)}. The motions then agree (correlation ${correction.score.toFixed(2)}).`,
     held: 'its pose stands still while the odometry moves on: it has lost the robot; give one that follows the robot.',
     noRole: 'its name does not say whether it is odometry or reference; call the files odom1.csv, truth1.csv, odom2.csv, … or state which is which.',
     unpaired: (odometry: string, reference: string) => `the odometry is in ${odometry || 'no file'}, and the reference in ${reference || 'no file'}; give one of each for a drive.`,

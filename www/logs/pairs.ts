@@ -60,7 +60,7 @@ export function pairLogs(odometry: Log, reference: Log): Drive {
   const correction = correctionOf(commonOdometry, brokenReference);
   if (correction) {
     const [log, otherLog] = correction.at === 'odometry' ? [odometry, reference] : [reference, odometry];
-    throw new LogError({ file: log.name }, (texts) => texts.correction(correction, otherLog.name, log.kind), questionOf(correction, logs));
+    throw new LogError({ file: log.name }, (texts) => texts.correction(correction, otherLog.name), questionOf(correction, logs));
   }
   const notes: Note[] = [
     ...brokenReference.summary.notes,

@@ -31,7 +31,7 @@ pub enum Verdict {
 #[serde(rename_all = "kebab-case")]
 pub enum CheckName {
     /// Median difference of a leg's motions by odometry and by reference, divided by the median motion. For a copy of the odometry it is the
-    /// drift over a metre, m.
+    /// drift over a hundred metres, m.
     ReferenceMatches,
     /// Number of legs.
     EnoughLegs,
@@ -196,10 +196,10 @@ const MIN_USABLE_LEGS: f64 = 30.0;
 /// Maximum median difference of the motions by odometry and reference, over the median motion, of logs of the same drive.
 const MAX_MISMATCH: f64 = 0.7;
 
-/// Drift (m) over a metre, below which one path is a copy of the other. Numbers of a copy may be rounded to millimetres, but errors of wheels
-/// accumulate along a path. Robots that err by 0.7 mm and 0.5 mrad over a metre drift by 7e-5 or more in thousands of simulated logs, because
-/// the alignment removes most of a short path's drift.
-const MIN_DRIFT: f64 = 6e-5;
+/// Drift (m) over a hundred metres, below which one path is a copy of the other. Numbers of a copy may be rounded to millimetres, but errors of
+/// wheels accumulate along a path. Robots that err by 0.7 mm and 0.5 mrad over a metre drift by 7e-4 or more in thousands of simulated logs,
+/// because the alignment removes most of a short path's drift.
+const MIN_DRIFT: f64 = 5e-4;
 
 /// Lengths (m) of the long and of the short pieces of a path whose differences show the drift.
 const PIECE_LENGTHS: [f64; 2] = [200.0, 5.0];
@@ -244,7 +244,7 @@ pub(super) fn log_checks(
     checks
 }
 
-/// Returns the drift (m) between the paths by odometry and by reference over a metre, or a larger number if few legs leave it uncertain. NaN if the
+/// Returns the drift (m) between the paths by odometry and by reference over 100 m, or a larger number if few legs leave it uncertain. NaN if the
 /// log has no long pieces. Drift adds to the squared differences of long pieces. The noise of the reference does not: it is equal in long and in
 /// short pieces.
 fn drift(sample: &Sample, systematic: &Systematic) -> f64 {
@@ -252,7 +252,7 @@ fn drift(sample: &Sample, systematic: &Systematic) -> f64 {
         PIECE_LENGTHS.map(|piece_length| path_difference(sample, systematic, piece_length));
     let std_by_chance = short_square * (1.0 / short_freedom - 1.0 / freedom).sqrt();
     let added_square = (square - short_square).max(0.0) + 2.0 * std_by_chance;
-    (added_square / (length - short_length)).sqrt()
+    (100.0 * added_square / (length - short_length)).sqrt()
 }
 
 /// Cuts the paths by odometry and by reference into pieces of a length (m), and aligns each pair of pieces. Returns their mean squared distance

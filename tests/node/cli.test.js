@@ -358,7 +358,7 @@ test('an unusable log has a sentence and no lines for Nav2', async () => {
   const { code, out } = await outputOf([...LOG_ARGS.slice(0, 3), reversedPath]);
   assert.equal(code, 3);
   for (const linePattern of [
-    /^Unusable: no α’s are recommended from this log\. The reference does not follow the odometry: /m, /^reference-matches +\S+ +0\.00006 to 0\.7 +FAILED$/m,
+    /^Unusable: no α’s are recommended from this log\. The reference does not follow the odometry: /m, /^reference-matches +\S+ +0\.0005 to 0\.7 +FAILED$/m,
     /^alpha1 .* – +rotation noise/m, /^No lines for nav2_params\.yaml: the log is unusable\.$/m,
   ]) assert.match(out, linePattern);
   assert.doesNotMatch(out, /amcl:|not identifiable: /);

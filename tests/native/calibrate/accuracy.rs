@@ -14,22 +14,19 @@ struct Scenario {
     allowed_bias: f64,
 }
 
-const EXACT_REFERENCE: Scenario = Scenario { name: "exact reference", modify: |_| (), allowed_bias: 0.05 };
-const FINE_REFERENCE: Scenario =
-    Scenario { name: "5 mm, 2 mrad", modify: |sim| sim.reference_stds = [0.005, 0.002], allowed_bias: 0.05 };
-const COARSE_REFERENCE: Scenario =
-    Scenario { name: "20 mm, 20 mrad", modify: |sim| sim.reference_stds = [0.02, 0.02], allowed_bias: 0.05 };
-const SYSTEMATIC_ERRORS: Scenario = Scenario {
-    name: "systematic errors",
-    modify: |sim| sim.systematic_errors = TRUE_SYSTEMATIC_ERRORS,
-    allowed_bias: 0.05,
-};
-const JUMPING_REFERENCE: Scenario =
-    Scenario { name: "jumps", modify: |sim| sim.jump_fraction = 0.01, allowed_bias: 0.05 };
+const fn scenario(name: &'static str, modify: fn(&mut Simulation)) -> Scenario {
+    Scenario { name, modify, allowed_bias: 0.05 }
+}
+
+const EXACT_REFERENCE: Scenario = scenario("exact reference", |_| ());
+const FINE_REFERENCE: Scenario = scenario("5 mm, 2 mrad", |sim| sim.reference_stds = [0.005, 0.002]);
+const COARSE_REFERENCE: Scenario = scenario("20 mm, 20 mrad", |sim| sim.reference_stds = [0.02, 0.02]);
+const SYSTEMATIC_ERRORS: Scenario =
+    scenario("systematic errors", |sim| sim.systematic_errors = TRUE_SYSTEMATIC_ERRORS);
+const JUMPING_REFERENCE: Scenario = scenario("jumps", |sim| sim.jump_fraction = 0.01);
 const PERSISTENT_ERRORS: Scenario = Scenario {
-    name: "persistent",
-    modify: |sim| sim.violation = Violation::Autoregressive(0.7),
     allowed_bias: 0.1,
+    ..scenario("persistent", |sim| sim.violation = Violation::Autoregressive(0.7))
 };
 
 const TRUE_SYSTEMATIC_ERRORS: Systematic = Systematic {

@@ -203,11 +203,7 @@ fn errors_of_a_robot_without_noise_are_exact() {
 fn four_drives_are_as_informative_as_one_of_the_same_length() {
     let simulation_with_clock = |clock_offset: f64, count: usize, seed: u64| {
         let true_errors = Systematic { clock_offset, ..Systematic::NONE };
-        Simulation {
-            systematic_errors: true_errors,
-            seed,
-            ..simulation_with_errors(NAV2, count, true_errors)
-        }
+        Simulation { seed, ..simulation_with_errors(NAV2, count, true_errors) }
     };
     let logs: Vec<[Trajectory; 2]> = [0.0, 0.4, -3.0, 900.0]
         .into_iter()

@@ -23,6 +23,10 @@ fn without_rows_between(trajectory: &Trajectory, first_row: usize, last_row: usi
     )
 }
 
+fn leg_times(legs: &[Leg]) -> Vec<[f64; 2]> {
+    legs.iter().map(|leg| leg.times).collect()
+}
+
 fn sample_times(trajectory: &Trajectory) -> Vec<f64> {
     trajectory.samples().map(|(time, _)| time).collect()
 }
@@ -54,20 +58,16 @@ fn legs_end_as_amcl_ends_them() {
 /// Ten steps of 0.02 rad equal the limit of 0.2 rad, except for the rounding of doubles or of text with six decimals.
 #[test]
 fn rounding_does_not_decide_where_a_leg_ends() {
-    let leg_times = |round_heading: fn(f64) -> f64| {
+    let times_of_legs = |round_heading: fn(f64) -> f64| {
         let heading = |row: usize| round_heading(wrap_angle(0.123_456_7 + 0.02 * row as f64));
         let turning_drive =
             trajectory((0..400).map(|row| (0.1 * row as f64, SE2::new(0.0, 0.0, heading(row)))));
-        split_into_legs(&turning_drive, &turning_drive, AMCL_LEG, 0.0)
-            .0
-            .iter()
-            .map(|leg| leg.times)
-            .collect::<Vec<_>>()
+        leg_times(&split_into_legs(&turning_drive, &turning_drive, AMCL_LEG, 0.0).0)
     };
-    let exact_leg_times = leg_times(|heading| heading);
+    let exact_leg_times = times_of_legs(|heading| heading);
     // A leg does not end at exactly the limit. Each leg therefore has eleven steps.
     assert_eq!(exact_leg_times.len(), 36);
-    assert_eq!(leg_times(|heading| (heading * 1e6).round() / 1e6), exact_leg_times);
+    assert_eq!(times_of_legs(|heading| (heading * 1e6).round() / 1e6), exact_leg_times);
 }
 
 /// A leg normally has five steps. A leg with a pause of six steps after its first step is 0.44 m long. With the pause after the fourth
@@ -101,10 +101,7 @@ fn lost_legs_are_counted_by_cause() {
     // The reference has the rows from 12 to 66. It begins after two of sixteen legs and ends before the last five.
     let shorter_reference = trajectory(drive.samples().skip(12).take(55));
     let (legs, lost_legs) = split_into_legs(&drive, &shorter_reference, AMCL_LEG, 0.0);
-    assert_eq!(
-        legs.iter().map(|leg| leg.times).collect::<Vec<_>>(),
-        all_legs[2..11].iter().map(|leg| leg.times).collect::<Vec<_>>()
-    );
+    assert_eq!(leg_times(&legs), leg_times(&all_legs[2..11]));
     assert!(
         lost_legs.without_reference >= 4 && lost_legs.total() == lost_legs.without_reference,
         "{lost_legs:?}"
@@ -130,15 +127,12 @@ fn no_leg_leads_across_a_break() {
         };
         break_rows.into_iter().any(does_lead_across)
     };
-    let kept_leg_times: Vec<[f64; 2]> =
-        all_legs.iter().filter(|leg| !has_break(leg)).map(|leg| leg.times).collect();
+    let kept_legs: Vec<Leg> = all_legs.iter().filter(|leg| !has_break(leg)).copied().collect();
     // A break of the reference removes the legs across it, and no others.
     let (legs, lost_legs) = split_into_legs(&drive, &drive_with_breaks, AMCL_LEG, 0.0);
-    assert_eq!(legs.iter().map(|leg| leg.times).collect::<Vec<_>>(), kept_leg_times);
-    assert_eq!(
-        lost_legs,
-        LostLegs { across_breaks: all_legs.len() - kept_leg_times.len(), ..LostLegs::default() }
-    );
+    assert_eq!(leg_times(&legs), leg_times(&kept_legs));
+    let across_breaks = all_legs.len() - kept_legs.len();
+    assert_eq!(lost_legs, LostLegs { across_breaks, ..LostLegs::default() });
     // After a break of the odometry a leg begins at the break.
     let (legs, lost_legs) = split_into_legs(&drive_with_breaks, &drive, AMCL_LEG, 0.0);
     assert!(legs.len() > 25 && !legs.iter().any(has_break));

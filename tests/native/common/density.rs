@@ -4,7 +4,8 @@
 //! heading θ relative to `slope` · β. Their volume element is dx dy dθ = |c| dc dβ dθ. A density that grows as 1/|c| towards the start is smooth in
 //! them. The slope is 2 for arcs, which turn by twice their bearing, and 1 for odometry legs, so that cells lie along the cloud.
 
-use super::chi_square_limit;
+use super::{SAMPLE_COUNT, chi_square_limit, seeded_rng};
+use motion::MotionModel;
 use motion::geom::se2::{SE2, wrap_angle};
 use std::f64::consts::PI;
 
@@ -122,12 +123,21 @@ impl PolarGrid {
         pose_counts
     }
 
+    /// Asserts that sampler and density of a model are the same distribution.
+    pub fn assert_sampled<M: MotionModel>(&self, model: &M, u: &M::Control, x: &SE2, seed: u64) {
+        let mut rng = seeded_rng(seed);
+        let poses: Vec<SE2> = (0..SAMPLE_COUNT).map(|_| model.sample(u, x, &mut rng)).collect();
+        let (chi_square, limit) =
+            self.chi_square(&poses, |pose| model.pose_density(pose, u, x).expect("noise of full rank"));
+        assert!(chi_square < limit, "seed {seed}: χ² = {chi_square}, limit {limit}");
+    }
+
     /// Returns χ² of a sample against the density, and the limit that χ² exceeds with probability 1e-4. Everything outside the box is
     /// one cell, and so are the cells that expect fewer than 20 poses.
     ///
     /// If a kink of the triangular density crosses a cell, the Gauss rule has an error of about 1e-3 of its mass. With 10⁶
     /// samples that changes χ² by about 1, and the limit is above 100.
-    pub fn chi_square(&self, poses: &[SE2], density: impl Fn(&SE2) -> f64) -> (f64, f64) {
+    fn chi_square(&self, poses: &[SE2], density: impl Fn(&SE2) -> f64) -> (f64, f64) {
         let n = poses.len() as f64;
         let mut observed = self.pose_counts(poses);
         let mut expected: Vec<f64> = self.cell_masses(density).iter().map(|mass| mass * n).collect();

@@ -5,15 +5,11 @@ use crate::common::MAX_STANDARD_ERRORS;
 use crate::common::text::PrintedNumber;
 use crate::simulations::dead_reckoning::simulation;
 use motion::Compounding;
-use motion::sim::dead_reckoning::{DeadReckoning, MISS_TOLERANCE, PRESETS, Settings};
+use motion::sim::dead_reckoning::{DeadReckoning, MISS_TOLERANCE, PRESETS, Preset, Settings};
 
 fn simulation_of_preset(name: &str) -> DeadReckoning {
-    let simulation_of_preset = PRESETS
-        .iter()
-        .find(|simulation_of_preset| simulation_of_preset.name == name)
-        .expect("a preset of that name");
-    let (command, steps, alphas) =
-        (simulation_of_preset.command, simulation_of_preset.steps, simulation_of_preset.alphas);
+    let preset = PRESETS.iter().find(|preset| preset.name == name).expect("a preset of that name");
+    let Preset { command, steps, alphas, .. } = *preset;
     simulation(Settings { command, steps, alphas, samples: 50_000, ..Settings::default() })
 }
 

@@ -1,7 +1,7 @@
 //! The odometry model: decomposition, scoring, density and sampler, and the option for robots that reverse.
 
 use crate::common::density::PolarGrid;
-use crate::common::{NOISE_KINDS, SAMPLE_COUNT, derivative_by_noise, seeded_rng, uniform};
+use crate::common::{NOISE_KINDS, derivative_by_noise, seeded_rng, uniform};
 use motion::geom::se2::SE2;
 use motion::{
     MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, ReverseAware, RotTransRot, Variance,
@@ -166,16 +166,8 @@ fn sampler_and_density_agree() {
     let x = SE2::new(0.5, -0.25, 1.0);
     for (seed, u) in (100..).zip([odometry_readings()[0], odometry_readings()[3]]) {
         for kind in NOISE_KINDS {
-            let odometry_model = odometry_model(kind);
-            let mut rng = seeded_rng(seed);
-            let poses: Vec<SE2> =
-                (0..SAMPLE_COUNT).map(|_| odometry_model.sample(&u, &x, &mut rng)).collect();
-            let (chi_square, chi_square_limit) = box_around(&u, &x, table_variances(&u, f64::abs))
-                .chi_square(&poses, |pose| odometry_model.pose_density(pose, &u, &x).unwrap());
-            assert!(
-                chi_square < chi_square_limit,
-                "{kind:?} {u:?}: χ² = {chi_square}, limit {chi_square_limit}"
-            );
+            let grid = box_around(&u, &x, table_variances(&u, f64::abs));
+            grid.assert_sampled(&odometry_model(kind), &u, &x, seed);
         }
     }
 }
@@ -200,13 +192,8 @@ fn reverse_aware_noise_excludes_half_turns() {
     let effective_angle = |rotation: f64| rotation.abs().min((PI - rotation.abs()).abs());
     for kind in NOISE_KINDS {
         let (unaware_model, aware_model) = (odometry_model(kind), ReverseAware(odometry_model(kind)));
-        let mut rng = seeded_rng(110);
-        let cloud: Vec<SE2> =
-            (0..SAMPLE_COUNT).map(|_| aware_model.sample(&backward_reading, &x, &mut rng)).collect();
-        let (chi_square, chi_square_limit) =
-            box_around(&backward_reading, &x, table_variances(&backward_reading, effective_angle))
-                .chi_square(&cloud, |pose| aware_model.pose_density(pose, &backward_reading, &x).unwrap());
-        assert!(chi_square < chi_square_limit, "{kind:?}: χ² = {chi_square}, limit {chi_square_limit}");
+        let grid = box_around(&backward_reading, &x, table_variances(&backward_reading, effective_angle));
+        grid.assert_sampled(&aware_model, &backward_reading, &x, 110);
 
         // As in Table 5.5, `prob` computes the variances from the hypothetical legs.
         let executed_legs = odom_delta(

@@ -1,7 +1,7 @@
 //! The velocity model: scoring, density and sampler.
 
 use crate::common::density::PolarGrid;
-use crate::common::{NOISE_KINDS, SAMPLE_COUNT, derivative_by_noise, seeded_rng, uniform};
+use crate::common::{NOISE_KINDS, derivative_by_noise, seeded_rng, uniform};
 use motion::geom::se2::SE2;
 use motion::{MotionModel, NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
 use nalgebra::Vector3;
@@ -193,15 +193,7 @@ fn sampler_and_density_agree() {
         let u = velocity_command(v, omega, 1.0);
         for kind in NOISE_KINDS {
             let velocity_model = velocity_model(alphas, kind);
-            let mut rng = seeded_rng(seed);
-            let poses: Vec<SE2> =
-                (0..SAMPLE_COUNT).map(|_| velocity_model.sample(&u, &x, &mut rng)).collect();
-            let (chi_square, chi_square_limit) = box_around(&velocity_model, &u, &x)
-                .chi_square(&poses, |pose| velocity_model.pose_density(pose, &u, &x).unwrap());
-            assert!(
-                chi_square < chi_square_limit,
-                "{kind:?} {u:?}: χ² = {chi_square}, limit {chi_square_limit}"
-            );
+            box_around(&velocity_model, &u, &x).assert_sampled(&velocity_model, &u, &x, seed);
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Generator of `www/settings.js`, in which scripts find the settings before the core is loaded. Messages about refused settings write
 //! numbers as JavaScript does.
 
+use motion::VelocityCmd;
 use motion::map::{MAX_BYTES, MAX_PIXELS};
 use motion::sim::picture::RAMP_STEPS;
 use motion::sim::settings::{Declaration, DeclaredSettings, Field, Group, Setting};
@@ -13,6 +14,12 @@ const SETTINGS_JS_PATH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/www/setting
 
 #[test]
 fn numbers_in_messages_are_formatted_as_in_javascript() {
+    let assert_message = |field: &str, text: &str, change: &dyn Fn(&mut VelocityCmd)| {
+        let mut settings = banana::Settings::default();
+        change(&mut settings.command);
+        let error = banana::BananaMachine::new(settings).expect_err(text);
+        assert!(error.to_string().starts_with(&format!("command.{field} is {text}; ")), "{error}");
+    };
     for (number, text) in [
         (f64::INFINITY, "Infinity"),
         (f64::NEG_INFINITY, "-Infinity"),
@@ -22,16 +29,10 @@ fn numbers_in_messages_are_formatted_as_in_javascript() {
         (1e21, "1e21"),
         (-2.5e300, "-2.5e300"),
     ] {
-        let mut settings = banana::Settings::default();
-        settings.command.v = number;
-        let error = banana::BananaMachine::new(settings).expect_err(text);
-        assert!(error.to_string().starts_with(&format!("command.v is {text}; ")), "{error}");
+        assert_message("v", text, &|command| command.v = number);
     }
     for (seconds, text) in [(0.0, "0"), (-0.000_001, "-0.000001"), (5e-7, "5e-7"), (-1e-300, "-1e-300")] {
-        let mut settings = banana::Settings::default();
-        settings.command.dt = seconds;
-        let error = banana::BananaMachine::new(settings).expect_err(text);
-        assert!(error.to_string().starts_with(&format!("command.dt is {text}; ")), "{error}");
+        assert_message("dt", text, &|command| command.dt = seconds);
     }
 }
 
@@ -42,52 +43,73 @@ fn settings_js_equals_the_declarations_in_the_core() {
         std::fs::write(SETTINGS_JS_PATH, &expected_text).expect("www/settings.js can be written");
     }
     let existing_text = std::fs::read_to_string(SETTINGS_JS_PATH).unwrap_or_default();
-    let first_different_line = existing_text
+    let equal_line_count = existing_text
         .lines()
         .zip(expected_text.lines())
-        .position(|(existing_text, expected_text)| existing_text != expected_text);
+        .take_while(|(existing, expected)| existing == expected)
+        .count();
     assert!(
         existing_text == expected_text,
         "www/settings.js is stale, at line {}: `UPDATE_SETTINGS=1 cargo test --test native settings` writes it anew",
-        first_different_line
-            .unwrap_or_else(|| existing_text.lines().count().min(expected_text.lines().count()))
-            + 1,
+        equal_line_count + 1,
     );
 }
 
 fn settings_js() -> String {
     let banana::Settings { velocity_alphas, odometry_alphas, .. } = banana::Settings::default();
+    let settings = [
+        ("banana-machine", declaration_lines(banana::Settings::default(), &banana::ALPHA_SENTENCES)),
+        ("map-squeeze", declaration_lines(squeeze::Settings::default(), &[])),
+        ("arc-anatomy", declaration_lines(arc_anatomy::Settings::default(), &arc_anatomy::ALPHA_SENTENCES)),
+        (
+            "odometry-decomposer",
+            declaration_lines(
+                odometry_decomposer::Settings::default(),
+                &odometry_decomposer::ALPHA_SENTENCES,
+            ),
+        ),
+        (
+            "dead-reckoning",
+            declaration_lines(dead_reckoning::Settings::default(), &dead_reckoning::ALPHA_SENTENCES),
+        ),
+        ("alpha-calibrator", declaration_lines(alpha_calibrator::Settings::default(), &[])),
+    ];
+    let presets = [
+        object_lines(banana::PRESETS.map(|banana::Preset { name, command, alphas }| {
+            format!("name: '{name}', {}, alphas: {alphas:?}", group_entries(command))
+        })),
+        object_lines(
+            squeeze::PRESETS
+                .map(|(name, start)| format!("name: '{name}', start: {{ {} }}", group_entries(start))),
+        ),
+        object_lines(arc_anatomy::PRESETS.map(|arc_anatomy::Preset { name, command, next }| {
+            let arc_anatomy::FinalPose { x, y, theta } = next;
+            format!("name: '{name}', {}, nextX: {x}, nextY: {y}, nextTheta: {theta}", group_entries(command))
+        })),
+        object_lines(odometry_decomposer::PRESETS.map(|odometry_decomposer::Preset { name, from, to }| {
+            format!("name: '{name}', from: {{ {} }}, to: {{ {} }}", group_entries(from), group_entries(to))
+        })),
+        object_lines(dead_reckoning::PRESETS.map(
+            |dead_reckoning::Preset { name, command, steps, step, alphas }| {
+                format!(
+                    "name: '{name}', command: {{ {} }}, steps: {steps}, step: {step}, alphas: {alphas:?}",
+                    group_entries(command)
+                )
+            },
+        )),
+    ];
+    let presets =
+        settings.iter().zip(presets).map(|((tag, _), lines)| list_entry(tag, &lines)).collect::<String>();
+    let settings = settings.iter().map(|(tag, lines)| list_entry(tag, lines)).collect::<String>();
     format!(
         "{SETTINGS_JS_HEAD}
 /** @type {{Record<string, Declaration[]>}} declared settings of each widget by its tag, in order */
 export const settings = {{
-  'banana-machine': [
-{}  ],
-  'map-squeeze': [
-{}  ],
-  'arc-anatomy': [
-{}  ],
-  'odometry-decomposer': [
-{}  ],
-  'dead-reckoning': [
-{}  ],
-  'alpha-calibrator': [
-{}  ],
-}};
+{settings}}};
 
 /** Presets of the widgets, by their tags. */
 export const presets = {{
-  'banana-machine': [
-{}  ],
-  'map-squeeze': [
-{}  ],
-  'arc-anatomy': [
-{}  ],
-  'odometry-decomposer': [
-{}  ],
-  'dead-reckoning': [
-{}  ],
-  'alpha-calibrator': [],
+{presets}  'alpha-calibrator': [],
 }};
 
 /** Initial noise parameters of each model. */
@@ -101,31 +123,13 @@ export const limits = {{ cells: {MAX_PIXELS}, bytes: {MAX_BYTES}, trial: {MAX_TR
 
 /** Bits of a verdict on an attempt of Map Squeeze. */
 export const verdict = {{ endFree: {END_FREE_BIT}, pathFree: {PATH_FREE_BIT}, accepted: {ACCEPTED_BIT} }};
-",
-        declaration_lines(banana::Settings::default(), &banana::ALPHA_SENTENCES),
-        declaration_lines(squeeze::Settings::default(), &[]),
-        declaration_lines(arc_anatomy::Settings::default(), &arc_anatomy::ALPHA_SENTENCES),
-        declaration_lines(
-            odometry_decomposer::Settings::default(),
-            &odometry_decomposer::ALPHA_SENTENCES
-        ),
-        declaration_lines(dead_reckoning::Settings::default(), &dead_reckoning::ALPHA_SENTENCES),
-        declaration_lines(alpha_calibrator::Settings::default(), &[]),
-        object_lines(banana::PRESETS.map(|banana::Preset { name, command, alphas }| {
-            format!("name: '{name}', {}, alphas: {alphas:?}", group_entries(command))
-        })),
-        object_lines(squeeze::PRESETS.map(|(name, start)| format!("name: '{name}', start: {{ {} }}", group_entries(start)))),
-        object_lines(arc_anatomy::PRESETS.map(|arc_anatomy::Preset { name, command, next }| {
-            let arc_anatomy::FinalPose { x, y, theta } = next;
-            format!("name: '{name}', {}, nextX: {x}, nextY: {y}, nextTheta: {theta}", group_entries(command))
-        })),
-        object_lines(odometry_decomposer::PRESETS.map(|odometry_decomposer::Preset { name, from, to }| {
-            format!("name: '{name}', from: {{ {} }}, to: {{ {} }}", group_entries(from), group_entries(to))
-        })),
-        object_lines(dead_reckoning::PRESETS.map(|dead_reckoning::Preset { name, command, steps, step, alphas }| {
-            format!("name: '{name}', command: {{ {} }}, steps: {steps}, step: {step}, alphas: {alphas:?}", group_entries(command))
-        })),
+"
     )
+}
+
+/// Returns the entry of an object whose key is a tag, and whose value is a list with these lines.
+fn list_entry(tag: &str, lines: &str) -> String {
+    format!("  '{tag}': [\n{lines}  ],\n")
 }
 
 const SETTINGS_JS_HEAD: &str = "\

@@ -30,6 +30,28 @@ fn settings_of_both_models() -> [Settings; 2] {
     [settings_of_preset("gentle"), Settings { model: ModelKind::Odometry, ..settings_of_preset("gentle") }]
 }
 
+/// Runs a check for clouds of both models and both kinds of noise: forward, in reverse, nearly on the spot, straight, and of one more command.
+pub fn check_varied_clouds(
+    command: [f64; 3],
+    sample_counts: &[usize],
+    mut check: impl FnMut(&BananaMachine, &str),
+) {
+    for settings in settings_of_both_models() {
+        for noise in NOISE_KINDS {
+            for [v, omega, dt] in
+                [[1.0, 0.5, 1.0], [-1.0, 1.2, 1.4], [0.06, -1.5, 1.0], [2.0, 0.0, 2.0], command]
+            {
+                for &samples in sample_counts {
+                    let command = VelocityCmd { v, omega, dt };
+                    let odometry_alphas = [0.02, 0.01, 0.02, 0.01];
+                    let settings = Settings { noise, command, odometry_alphas, samples, ..settings };
+                    check(&simulation(settings), &format!("{settings:?}"));
+                }
+            }
+        }
+    }
+}
+
 /// Returns all results of a simulation as text.
 fn results_as_text(simulation: &BananaMachine) -> String {
     format!(

@@ -308,14 +308,12 @@ fn outlines_are_two_standard_deviations_from_the_commanded_pose() {
     let outlines = simulation.outlines(20).expect("a step");
     assert_eq!([simulation.outlines(0), simulation.outlines(21)], [None, None]);
     let inverse_cov = covariance.fixed_view::<2, 2>(0, 0).into_owned().try_inverse().expect("full rank");
-    for [x, y] in &outlines.ellipse {
+    let relative_positions = outlines.ellipse.iter().map(|[x, y]| {
         let relative_pose = nominal_pose.inverse() * SE2::new(*x, *y, 0.0);
-        let position = nalgebra::Vector2::new(relative_pose.x(), relative_pose.y());
-        assert!(((position.transpose() * inverse_cov * position)[0] - 4.0).abs() < 1e-9);
-    }
-    for [a, l] in &outlines.predicted {
-        let position = nalgebra::Vector2::new(*a, *l);
-        assert!(((position.transpose() * inverse_cov * position)[0] - 4.0).abs() < 1e-9);
+        [relative_pose.x(), relative_pose.y()]
+    });
+    for position in relative_positions.chain(outlines.predicted).map(nalgebra::Vector2::from) {
+        assert!((position.dot(&(inverse_cov * position)) - 4.0).abs() < 1e-9);
     }
     // In the first step the predicted lateral variance is 0, so that the outline is a line.
     let first_outlines =

@@ -1,11 +1,11 @@
 //! Statistics of up to ten million robots, compared with sums in twice the precision.
 
 use crate::common::settings_of_preset;
-use crate::simulations::banana::simulation;
+use crate::simulations::banana::{check_varied_clouds, simulation};
+use motion::VelocityCmd;
 use motion::geom::se2::{SE2, wrap_angle};
-use motion::sim::banana::{BananaMachine, MAX_SAMPLES, ModelKind, Settings, Stats};
+use motion::sim::banana::{BananaMachine, MAX_SAMPLES, Settings, Stats};
 use motion::stats::{CartesianMoments, CrossTrack, Ellipse};
-use motion::{NoiseKind, VelocityCmd};
 use nalgebra::Vector3;
 
 /// Sum in twice the precision, which also sums the rounding errors (Knuth's two-sum). Its relative error is 1e-30.
@@ -141,31 +141,11 @@ fn ten_million_agree_with_exact_sums() {
 /// In some of these clouds robots turn by more than a full circle, or end far from the noise-free pose.
 #[test]
 fn small_and_unusual_clouds_agree_with_exact_sums() {
-    for model in [ModelKind::Velocity, ModelKind::Odometry] {
-        for noise in [NoiseKind::Normal, NoiseKind::Triangular] {
-            for command in
-                [[1.0, 0.5, 1.0], [-1.0, 1.2, 1.4], [0.06, -1.5, 1.0], [2.0, 0.0, 2.0], [1.0, 3.0, 1.9]]
-            {
-                for samples in [3, 257, 5003] {
-                    let [v, omega, dt] = command;
-                    let command = VelocityCmd { v, omega, dt };
-                    let odometry_alphas = [0.02, 0.01, 0.02, 0.01];
-                    let settings = Settings {
-                        model,
-                        noise,
-                        command,
-                        odometry_alphas,
-                        samples,
-                        ..settings_of_preset("gentle")
-                    };
-                    let simulation = simulation(settings);
-                    assert_exact_stats(&simulation);
-                    let poses: Vec<SE2> = simulation.poses().collect();
-                    let CrossTrack { skew, skew_error, rho_heading } = CrossTrack::from_poses(&poses);
-                    let cartesian = CartesianMoments::from_poses(&poses);
-                    assert_exact_moments(&poses, &cartesian, [skew, skew_error, rho_heading]);
-                }
-            }
-        }
-    }
+    check_varied_clouds([1.0, 3.0, 1.9], &[3, 257, 5003], |simulation, _| {
+        assert_exact_stats(simulation);
+        let poses: Vec<SE2> = simulation.poses().collect();
+        let CrossTrack { skew, skew_error, rho_heading } = CrossTrack::from_poses(&poses);
+        let cartesian = CartesianMoments::from_poses(&poses);
+        assert_exact_moments(&poses, &cartesian, [skew, skew_error, rho_heading]);
+    });
 }

@@ -55,33 +55,22 @@ fn fractions_within_standard_errors(settings: Settings, repetitions: u64) -> [f6
     })
 }
 
-const STATISTIC_NAMES: [&str; 3] = ["skew", "gain of poses", "gain on the floor"];
-
+/// In the cloud of the banana preset, a few distant robots cause most of the variance.
 #[test]
 #[ignore = "nightly: thousands of clouds"]
-fn standard_errors_of_small_clouds_cover_95_percent() {
-    for (cloud_name, settings) in [
-        ("gentle arc", settings_of_preset("gentle")),
-        ("hard arc", Settings { noise: NoiseKind::Triangular, ..settings_of_preset("hard") }),
-        ("odometry", Settings { model: ModelKind::Odometry, ..settings_of_preset("gentle") }),
+fn standard_errors_cover_95_percent() {
+    let small = |settings| (Settings { samples: ROBOT_COUNT, ..settings }, REPETITION_COUNT);
+    for (cloud_name, (settings, repetitions)) in [
+        ("gentle arc", small(settings_of_preset("gentle"))),
+        ("hard arc", small(Settings { noise: NoiseKind::Triangular, ..settings_of_preset("hard") })),
+        ("odometry", small(Settings { model: ModelKind::Odometry, ..settings_of_preset("gentle") })),
+        ("banana", (settings_of_preset("banana"), LARGE_CLOUD_REPETITION_COUNT)),
     ] {
-        let settings = Settings { samples: ROBOT_COUNT, ..settings };
-        for (statistic, fraction) in
-            STATISTIC_NAMES.into_iter().zip(fractions_within_standard_errors(settings, REPETITION_COUNT))
+        let fractions = fractions_within_standard_errors(settings, repetitions);
+        for (statistic, fraction) in ["skew", "gain of poses", "gain on the floor"].into_iter().zip(fractions)
         {
-            assert_covered(&format!("{statistic}, {cloud_name}"), fraction, REPETITION_COUNT);
+            assert_covered(&format!("{statistic}, {cloud_name}"), fraction, repetitions);
         }
-    }
-}
-
-/// In the cloud of this preset, a few distant robots cause most of the variance.
-#[test]
-#[ignore = "nightly: thousands of clouds"]
-fn standard_errors_of_the_banana_preset_cover_95_percent() {
-    let coverage_fractions =
-        fractions_within_standard_errors(settings_of_preset("banana"), LARGE_CLOUD_REPETITION_COUNT);
-    for (statistic, fraction) in STATISTIC_NAMES.into_iter().zip(coverage_fractions) {
-        assert_covered(&format!("{statistic}, banana"), fraction, LARGE_CLOUD_REPETITION_COUNT);
     }
 }
 

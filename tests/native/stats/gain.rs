@@ -1,9 +1,10 @@
 //! Likelihood gains and area ratios, compared with their definitions and with references. Degenerate clouds have none.
 
-use crate::common::{NOISE_KINDS, ReferenceTable, mean, settings_of_preset, variance};
+use crate::common::{NOISE_KINDS, ReferenceTable, mean, variance};
+use crate::simulations::banana::check_varied_clouds;
 use motion::geom::arc::{arc_with_turn_near, chord};
 use motion::geom::se2::{SE2, wrap_angle};
-use motion::sim::banana::{BananaMachine, ModelKind, PRESETS, Preset, Settings, Stats};
+use motion::sim::banana::{BananaMachine, PRESETS, Preset, Settings, Stats};
 use motion::stats::{CartesianMoments, ExactGain};
 use motion::{VelocityAlphas, VelocityCmd, VelocityModel};
 use nalgebra::{DMatrix, DVector, Vector3};
@@ -110,41 +111,22 @@ fn robot_gains(cloud: &[SE2], turn: f64) -> [Vec<f64>; 2] {
 /// clouds.
 #[test]
 fn the_gain_equals_its_definition_over_all_poses() {
-    for model in [ModelKind::Velocity, ModelKind::Odometry] {
-        for noise in NOISE_KINDS {
-            for [v, omega, dt] in
-                [[1.0, 0.5, 1.0], [-1.0, 1.2, 1.4], [0.06, -1.5, 1.0], [2.0, 0.0, 2.0], [1.0, 2.2, 1.2]]
-            {
-                for samples in [1, 3, 4, 257, 2048, 5_003] {
-                    let command = VelocityCmd { v, omega, dt };
-                    let odometry_alphas = [0.02, 0.01, 0.02, 0.01];
-                    let settings = Settings {
-                        model,
-                        noise,
-                        command,
-                        odometry_alphas,
-                        samples,
-                        ..settings_of_preset("gentle")
-                    };
-                    let simulation = BananaMachine::new(settings).expect("a valid setting");
-                    let computed_gains = gains_with_errors(simulation.stats());
-                    let case_name = format!("{model:?} {noise:?} {command:?} {samples}");
-                    if samples > 4 {
-                        let expected_gains = robot_gains(&poses(&simulation), omega * dt);
-                        for ([value, error], robot_gains) in computed_gains.into_iter().zip(expected_gains) {
-                            assert_close(&case_name, value, mean(&robot_gains), 1e-9);
-                            if samples <= 2048 {
-                                let expected_error = (variance(&robot_gains) / samples as f64).sqrt();
-                                assert_close(&case_name, error, expected_error, 1e-8 * expected_error);
-                            }
-                        }
-                    }
-                    assert_eq!(computed_gains[0][0].is_nan(), samples < 4, "{case_name}");
-                    assert_eq!(computed_gains[1][0].is_nan(), samples < 3, "{case_name}");
+    check_varied_clouds([1.0, 2.2, 1.2], &[1, 3, 4, 257, 2048, 5_003], |simulation, case_name| {
+        let Settings { samples, command, .. } = *simulation.settings();
+        let computed_gains = gains_with_errors(simulation.stats());
+        if samples > 4 {
+            let expected_gains = robot_gains(&poses(simulation), command.omega * command.dt);
+            for ([value, error], robot_gains) in computed_gains.into_iter().zip(expected_gains) {
+                assert_close(case_name, value, mean(&robot_gains), 1e-9);
+                if samples <= 2048 {
+                    let expected_error = (variance(&robot_gains) / samples as f64).sqrt();
+                    assert_close(case_name, error, expected_error, 1e-8 * expected_error);
                 }
             }
         }
-    }
+        assert_eq!(computed_gains[0][0].is_nan(), samples < 4, "{case_name}");
+        assert_eq!(computed_gains[1][0].is_nan(), samples < 3, "{case_name}");
+    });
 }
 
 // ---------------------------------------------------------------------------------------------- exact values

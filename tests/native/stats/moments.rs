@@ -109,20 +109,13 @@ fn predicted_skews_match_the_references() {
     }
 }
 
-const MOMENT_COLUMNS: [&str; 8] = ["mx", "my", "sxx", "sxy", "syy", "sxt", "syt", "stt"];
-
 fn assert_moments_of_row(exact_moments: &ExactMoments, row: &crate::common::ReferenceRow<'_>) {
-    let computed = [
-        exact_moments.mean.x,
-        exact_moments.mean.y,
-        exact_moments.cov[(0, 0)],
-        exact_moments.cov[(0, 1)],
-        exact_moments.cov[(1, 1)],
-        exact_moments.cov[(0, 2)],
-        exact_moments.cov[(1, 2)],
-        exact_moments.cov[(2, 2)],
-    ];
-    for (name, value) in MOMENT_COLUMNS.into_iter().zip(computed) {
+    let (mean, cov) = (exact_moments.mean, exact_moments.cov);
+    let means = [("mx", mean.x), ("my", mean.y)];
+    let covariances =
+        [("sxx", 0, 0), ("sxy", 0, 1), ("syy", 1, 1), ("sxt", 0, 2), ("syt", 1, 2), ("stt", 2, 2)]
+            .map(|(name, i, j)| (name, cov[(i, j)]));
+    for (name, value) in means.into_iter().chain(covariances) {
         assert!((value - row.number(name)).abs() < 1e-14, "{name}: {value}, not {}", row.number(name));
     }
     assert!((exact_moments.cov - exact_moments.cov.transpose()).amax() < 1e-15);

@@ -77,11 +77,6 @@ function modelControls(figure: AlphaCalibratorElement) {
     ${settingRadios(figure, 'outliers', outliers)} ${settingSlider(figure, 'duration', { show: formatDuration })}`, 'fit');
 }
 
-function legLengthControls(figure: AlphaCalibratorElement) {
-  const off = figure.settings.requested.duration > 0;
-  return group(words.calibrator.leg.group, html`<div class="controls">${settingSlider(figure, 'distance', { hasNoEffect: off })} ${settingSlider(figure, 'angle', { hasNoEffect: off })}</div>`);
-}
-
 /**
  * Noise parameters (α's) fitted to a log, with their confidence intervals, and checks of the model.
  *
@@ -275,6 +270,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   content(viewModel: ViewModel) {
     const texts = words.calibrator;
     const { chosen } = this;
+    const hasDuration = this.settings.requested.duration > 0;
     return html`
       ${dropZone(this, this.#opener)}
       <div class="views">
@@ -298,7 +294,9 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
       </div>
       ${this.renderer.afterFirstPicture(() => html`
       ${legend(this, LINE_STYLES)}
-      <div part="controls">${legLengthControls(this)}</div>
+      <div part="controls">
+        ${group(texts.leg.group, html`<div class="controls">${['distance', 'angle'].map((key) => settingSlider(this, key, { hasNoEffect: hasDuration }))}</div>`)}
+      </div>
       ${disclosures(this, {
         controls: () => html`${modelControls(this)}
           ${group(texts.systematic.title, systematicTable(this))}

@@ -118,7 +118,6 @@ export const de: typeof import('./en.ts').en = {
     noiseTrue: 'Rauschen (| wahr)',
     value: 'angepasst, 95 %',
     recommended: 'empfohlen',
-    recommendedText: (alpha) => `empfohlen ${alpha}`,
     interval: '95-%-Intervall',
     unknown: (lack, drive) => `nicht bestimmt: ${lack}; ${drive}`,
     lacking: {
@@ -202,7 +201,6 @@ export const de: typeof import('./en.ts').en = {
     leave: 'Zurück zur simulierten',
     simulated: 'Ein simulierter Roboter folgt einer Kurve und dreht sich ab und zu auf der Stelle. Die wahren Werte stehen neben den Schätzungen.',
     present: (name) => `Aufzeichnung: ${name}.`,
-    reading: 'Wird gelesen',
     refused: (message) => `Aufzeichnung abgelehnt: ${message}`,
     still: (log) => `Gezeigt wird noch: ${log}, nicht die zuletzt gewählten Dateien.`,
     keep: 'Diese Ergebnisse behalten',

@@ -84,7 +84,6 @@ export const en = {
     noiseTrue: 'noise (| simulated)',
     value: 'fitted, 95 %',
     recommended: 'recom\u00ADmended',
-    recommendedText: (alpha) => `recommended ${alpha}`,
     interval: '95 % interval',
     unknown: (lack, drive) => `not determined: ${lack}; ${drive}`,
     lacking: {
@@ -168,7 +167,6 @@ export const en = {
     leave: 'Back to the simulated log',
     simulated: 'A simulated robot follows a curve and sometimes turns in place. True values stand beside the estimates.',
     present: (name) => `Log: ${name}.`,
-    reading: 'Reading',
     refused: (message) => `Log refused: ${message}`,
     still: (log) => `The results are still those of ${log}, not of the files chosen last.`,
     keep: 'Keep these results',

@@ -6,12 +6,6 @@ import type { OpenOptions, Source } from '../../logs/log.ts';
 import type { WorkerAnswer, PostedFailure, OnProgress, OpenedRecording, WorkerRequest } from '../../logs/worker.ts';
 import type { AlphaCalibratorSettings, CalibrationLog } from '../../types.d.ts';
 
-/** Connection to the worker, or to the same module in the page's thread. */
-interface WorkerLink {
-  port: Worker | MessagePort;
-  end(): void;
-}
-
 /** Error of a log that the worker posted, with its sentence in each language. */
 export class LogFailure extends Error {
   sentences: PostedFailure['sentences'];
@@ -30,6 +24,7 @@ export const isAbortError = (error: unknown) => error instanceof DOMException &&
 /** Client of the worker. It makes one request at a time. */
 export class LogService {
   #tag: string;
+  /** Connection to the worker, or to the same module in the page's thread. */
   #workerLink: Promise<WorkerLink> | undefined;
   /** Rejects the request in progress; undefined if there is none. */
   #rejectRequest: ((error: unknown) => void) | undefined;
@@ -104,6 +99,8 @@ export class LogService {
     });
   }
 }
+
+type WorkerLink = { port: Worker | MessagePort, end: () => void };
 
 /** Starts a worker, or if the browser has none or the page's policy or origin forbids them, the same module in the page's thread. */
 async function connectService(tag: string): Promise<WorkerLink> {

@@ -246,7 +246,7 @@ export function dropZone(figure: Figure, opener: LogOpener) {
     </p>
     ${logModules?.logChoosers(opener)}
     ${readFraction !== undefined
-      ? html`<p><progress aria-label=${texts.reading} .value=${readFraction}></progress> ${button(words.progress.stop, () => opener.stop())}</p>`
+      ? html`<p><progress aria-label=${words.progress.label} .value=${readFraction}></progress> ${button(words.progress.stop, () => opener.stop())}</p>`
       : figure.log ? html`<p><span class="present">${texts.present(figure.logName)}</span> ${button(texts.leave, () => opener.close())}</p>` : nothing}
     ${opener.refusalNoteHtml}
     ${opener.otherResultsNote ? html`<p class="muted other-results">${opener.otherResultsNote} ${button(texts.keep, () => opener.forget())}</p>` : nothing}

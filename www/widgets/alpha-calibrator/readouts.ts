@@ -75,9 +75,9 @@ function missingAlphaText({ stats: { notIdentifiable }, fitted: { model } }: Vie
 /** Returns all α's as texts, each with its interval. */
 export function alphaTexts(viewModel: ViewModel) {
   const { stats: { alphas }, fitted } = viewModel;
-  const { recommendedText } = words.calibrator.alphas;
+  const recommendedName = words.calibrator.alphas.recommended.replace('\u00AD', '');
   return alphas.map((alpha, i) => {
-    const alphaParts = alpha === null ? [missingAlphaText(viewModel, i)] : [fittedAlphaText(viewModel, i), intervalText(viewModel, i), recommendedText(recommendedAlphaText(viewModel, i))];
+    const alphaParts = alpha === null ? [missingAlphaText(viewModel, i)] : [fittedAlphaText(viewModel, i), intervalText(viewModel, i), `${recommendedName} ${recommendedAlphaText(viewModel, i)}`];
     return `α${subscriptOf(i)} ${noiseNames(fitted.model)[i]}: ${alphaParts.join(', ')}`;
   });
 }

@@ -6,7 +6,7 @@ import { words } from '../../messages/registry.ts';
 import { formatMarkup } from '../../ui/controls.ts';
 import { NO_VALUE, integer, fixed, percent, formatSignificant, formatWithError } from '../../ui/format.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
-import type { Inspection, Moments, Table } from '../../types.d.ts';
+import type { Inspection, Moments } from '../../types.d.ts';
 import type { ViewModel } from './view-model.ts';
 
 /** Fraction of a Gaussian in the plane inside its 2σ ellipse, 1 − e⁻². */
@@ -77,43 +77,37 @@ export function markedRobotField(figure: import('./banana-machine.ts').BananaMac
 const COMPUTED_DIGITS = 5;
 const MEASURED_DIGITS = 3;
 
-export function workedExampleTable({ table: { linearized, exact, measured } }: ViewModel) {
-  const computedColumns = [linearized, exact];
-  const texts = words.banana.table;
-  const symbolOf = (letter: string, indices: string) => html`<i>${letter}</i><sub><i>${indices}</i></sub>`;
-  const exampleRows: [unknown, (column: Table['exact']) => number][] = [
-    ...['x', 'y', 'θ'].map((axis, i): typeof exampleRows[0] => [formatMarkup(texts.mean(`*${axis}*`)), ({ mean }) => mean[i]]),
-    ...['xx', 'yy', 'xy', 'xθ', 'yθ', 'θθ'].map((pair): typeof exampleRows[0] => {
-      const [i, j] = [...pair].map((axis) => 'xyθ'.indexOf(axis));
-      return [symbolOf('Σ', pair), ({ cov }) => cov[i][j]];
-    }),
-    [symbolOf('ρ', 'yθ'), ({ cov }) => cov[1][2] / Math.sqrt(cov[1][1] * cov[2][2])],
-    [words.banana.readouts.skew, ({ crossTrackSkew }) => crossTrackSkew],
-  ];
+/** Returns a table of moments, with computed columns and then the measured one. */
+function momentsTable<Column>(caption: string, computed: Record<string, Column | null>, measured: Column, rows: [name: unknown, (column: Column) => number][]) {
+  const { quantity, measured: measuredName } = words.banana.table;
   return figureTable({
-    caption: texts.caption,
-    columns: [texts.quantity, texts.linearized, texts.exact, texts.measured],
-    rows: exampleRows.map(([name, valueOf]) => [
+    caption,
+    columns: [quantity, ...Object.keys(computed), measuredName],
+    rows: rows.map(([name, valueOf]) => [
       name,
-      ...computedColumns.map((column) => formatSignificant(valueOf(column), COMPUTED_DIGITS)),
+      ...Object.values(computed).map((column) => (column === null ? NO_VALUE : formatSignificant(valueOf(column), COMPUTED_DIGITS))),
       formatSignificant(valueOf(measured), MEASURED_DIGITS),
     ]),
   });
 }
 
+export function workedExampleTable({ table: { linearized, exact, measured } }: ViewModel) {
+  const texts = words.banana.table;
+  const symbolOf = (letter: string, indices: string) => html`<i>${letter}</i><sub><i>${indices}</i></sub>`;
+  return momentsTable(texts.caption, { [texts.linearized]: linearized, [texts.exact]: exact }, measured, [
+    ...['x', 'y', 'θ'].map((axis, i): MomentsRow => [formatMarkup(texts.mean(`*${axis}*`)), ({ mean }) => mean[i]]),
+    ...['xx', 'yy', 'xy', 'xθ', 'yθ', 'θθ'].map((pair): MomentsRow => [symbolOf('Σ', pair), ({ cov }) => cov['xyθ'.indexOf(pair[0])]['xyθ'.indexOf(pair[1])]]),
+    [symbolOf('ρ', 'yθ'), ({ cov }) => cov[1][2] / Math.sqrt(cov[1][1] * cov[2][2])],
+    [words.banana.readouts.skew, ({ crossTrackSkew }) => crossTrackSkew],
+  ]);
+}
+
+type MomentsRow = [name: unknown, (column: Moments) => number];
+
 export function twistTable({ table: { tangent }, stats: { exponential } }: ViewModel) {
   const texts = words.banana.table;
-  const twistRows = texts.axes.flatMap((axis, i) => [
-    [texts.mean(axis), ({ mean }) => mean[i]],
-    [texts.variance(axis), ({ cov }) => cov[i][i]],
-  ] as [string, (moments: Moments) => number][]);
-  return figureTable({
-    caption: texts.twistCaption,
-    columns: [texts.quantity, texts.command, texts.measured],
-    rows: twistRows.map(([name, valueOf]) => [
-      formatMarkup(name),
-      tangent === null ? NO_VALUE : formatSignificant(valueOf(tangent), COMPUTED_DIGITS),
-      formatSignificant(valueOf(exponential), MEASURED_DIGITS),
-    ]),
-  });
+  return momentsTable<Moments>(texts.twistCaption, { [texts.command]: tangent }, exponential, texts.axes.flatMap((axis, i): MomentsRow[] => [
+    [formatMarkup(texts.mean(axis)), ({ mean }) => mean[i]],
+    [formatMarkup(texts.variance(axis)), ({ cov }) => cov[i][i]],
+  ]));
 }

@@ -42,7 +42,6 @@ export const de: typeof import('./en.ts').en = {
   ofMeasured: (error, step, robots) => `${error && `± ${error} `}mal die Messung (Schritt ${step}, ${robots} Roboter)`,
   ratioText: (recursion, step, ratios) =>
     `Vorhergesagte durch gemessene Varianz je Schritt; Rekursion: ${recursion}. Bei Schritt ${step}: ${ratios}.`,
-  atStep: (ratio, step) => `${ratio} (Schritt ${step})`,
   wrong: (worst, list, end, far) => `Am Ende ist die Vorhersage ${far} um ${end} falsch. Davor ist sie ${worst} ${list} der gemessenen.`,
   right: (robots) => `Höchstens 5 % neben dem, was ${robots} Roboter tun, in jeder Komponente bei jedem Schritt.`,
   conditions: {

@@ -26,12 +26,6 @@ const VARIANCE_UNITS = { along: 'm2', lateral: 'm2', heading: 'rad2' };
 /** Returns the names of the columns of a quantity in a table, one for each component. */
 const columnNamesOf = (quantity: string) => COMPONENTS.map((name) => `${quantity}_${name}_${VARIANCE_UNITS[name]}`).join(' ');
 
-function pathControls(figure: DeadReckoningElement) {
-  return html`<div class="controls" part="controls">
-    ${settingSlider(figure, 'headingNoise')} ${settingSlider(figure, 'steps', { input: (steps) => figure.settings.request((requested) => settingsForSteps(requested, steps)) })}
-  </div>`;
-}
-
 /** Returns the settings for the same path in another number of steps, with the selected step at the same point of the path. */
 function settingsForSteps({ command, steps: previousSteps, step }: Record<string, any>, steps: number) {
   return { steps, step: Math.max(1, Math.round((step * steps) / previousSteps)), command: { ...command, dt: (command.dt * previousSteps) / steps } };
@@ -123,7 +117,10 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
         ${titledPicture(texts.atStepTitle(step), html`<div class="stage">${pictureCanvas(this, this.#stepPicture, stepText(viewModel))}</div>`, 'step')}
       </div>
       ${this.renderer.afterFirstPicture(() => html`
-      ${legend(this, OUTLINE_STYLES)} ${presetButtons(this)} ${pathControls(this)}
+      ${legend(this, OUTLINE_STYLES)} ${presetButtons(this)} 
+      <div class="controls" part="controls">
+        ${settingSlider(this, 'headingNoise')} ${settingSlider(this, 'steps', { input: (steps) => this.settings.request((requested) => settingsForSteps(requested, steps)) })}
+      </div>
       ${disclosures(this, {
         controls: () => moreControls(this),
         numbers: () => html`${missTable(viewModel, overlays)} ${markedRobotField(this, this.#markedPoses)} ${straightGrowthPlot(this.#straightGrowthMemo.get([viewModel.stats], () => (this.simulation as Simulation).straightGrowth))}`,

@@ -44,7 +44,6 @@ export const en = {
   ofMeasured: (error, step, robots) => `${error && `± ${error} `}of the measured, at step ${step}, ${countOf(robots, 'robot')}`,
   ratioText: (recursion, step, ratios) =>
     `Predicted over measured variance by step; recursion: ${recursion}. At step ${step}: ${ratios}.`,
-  atStep: (ratio, step) => `${ratio} (step ${step})`,
   wrong: (worst, list, end, far) => `At the end the predicted ${far} variance is off by ${end}. Before, the ${worst} one is ${list} of the measured one.`,
   right: (robots) => `Within 5 % of what ${robots} robots do, in every component at every step.`,
   conditions: {

@@ -41,7 +41,7 @@ function worstAxisOf(overlays: string[], missOf: (axis: number) => number) {
 }
 
 const ratiosAtSteps = (ratios: number[]) =>
-  CAPTION_STEPS.filter((step) => step <= ratios.length).map((step) => words.reckoning.atStep(fixed(ratios[step - 1], 2), String(step))).join(', ');
+  CAPTION_STEPS.filter((step) => step <= ratios.length).map((step) => `${fixed(ratios[step - 1], 2)} (${words.reckoning.atStepMark(step)})`).join(', ');
 
 /** Returns the components whose curves are shown, or all components if no curve is shown. */
 export function shownComponentsOf(overlays: string[]): readonly (typeof COMPONENTS)[number][] {

@@ -74,7 +74,6 @@ export const de: typeof import('./en.ts').en = {
   tally: {
     drawn: 'gezogen',
     paths: 'gezeichnete Wege durch eine Wand',
-    first: (count) => `die ersten ${count}`,
     draws: 'gezogene je angenommene Stichprobe',
     tests: 'berechnete Wandabstände je angenommene Stichprobe',
   },

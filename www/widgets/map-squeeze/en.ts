@@ -76,7 +76,6 @@ export const en = {
   tally: {
     drawn: 'drawn',
     paths: 'paths through a wall shown',
-    first: (count) => `the first ${count}`,
     draws: 'samples drawn per accepted sample',
     tests: 'wall distances computed per accepted sample',
   },

@@ -15,7 +15,7 @@ export function tallyReadouts({ stats, paths: { length: paths } }: ViewModel) {
   const { tally: texts } = words.squeeze;
   return readoutList([
     [texts.drawn, integer(stats.drawn)],
-    [texts.paths, paths < stats.throughWall ? texts.first(integer(paths)) : integer(paths)],
+    [texts.paths, integer(paths)],
     [texts.draws, fixed(stats.drawsPerAccepted, 2)],
     [texts.tests, fixed(stats.wallTestsPerAccepted, 2)],
   ]);

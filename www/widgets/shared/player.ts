@@ -6,19 +6,13 @@ import { prefersReducedMotion } from '../../figure/renderer.ts';
 import { words } from '../../messages/registry.ts';
 import { button } from '../../ui/controls.ts';
 
-interface PlayedSetting {
-  /** Maximum of the setting. */
-  max: number;
-  /** Duration of the animation from 0 to the maximum. */
-  durationMs: number;
-}
-
 export class Player<Key extends string> extends FigureController {
   /** Key of the animated setting. */
   #playedKey: Key | undefined;
   #playedSettings;
 
-  constructor(host: import('../../figure/figure.ts').Figure, played: Record<Key, PlayedSetting>) {
+  /** Creates the player, with the maximum of each setting and the duration of the animation from 0 to it. */
+  constructor(host: import('../../figure/figure.ts').Figure, played: Record<Key, { max: number, durationMs: number }>) {
     super(host);
     this.#playedSettings = played;
   }

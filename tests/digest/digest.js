@@ -24,7 +24,8 @@ const NAN_BITS = 0x7ff8_0000_0000_0000n;
 /** Functions that return the results of each widget's simulation, by parts. @type {Record<string, (motion: Motion, document: Configurations, configuration: Configuration) => Record<string, Encodable>>} */
 export const resultFunctions = {
   'banana-machine'({ BananaMachine, commandReaching }, configurations, { preset, bounds = configurations.widgets['banana-machine'].bounds, settings }) {
-    const simulation = new BananaMachine({ ...commandOf(presets['banana-machine'], preset), ...settings });
+    const [presetCommand] = presets['banana-machine'].filter(({ name }) => name === preset).map(({ v, omega, dt }) => ({ v, omega, dt }));
+    const simulation = new BananaMachine({ command: presetCommand, ...settings });
     const { shown, config: { command } } = simulation;
     const [xMin, yMin, xMax, yMax] = bounds;
     const { columns, rows } = configurations.picture;
@@ -173,14 +174,6 @@ export const resultFunctions = {
 
 const VIEWS = /** @type {const} */ (['plane', 'twist']);
 const SAMPLERS = /** @type {const} */ (['endpoint', 'whole-arc', 'sub-stepped']);
-
-/** Returns the command of a preset. @param {{ name: string, v: number, omega: number, dt: number }[]} presets @param {string} [presetName] */
-function commandOf(presets, presetName) {
-  const preset = presets.find(({ name }) => name === presetName);
-  if (preset === undefined) return {};
-  const { v, omega, dt } = preset;
-  return { command: { v, omega, dt } };
-}
 
 /** Returns the multiples of a step below a count. @type {(count: number, step: number) => number[]} */
 const everyNthIndex = (count, step) => Array.from({ length: Math.ceil(count / step) }, (_, i) => i * step);

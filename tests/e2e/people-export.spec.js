@@ -125,7 +125,7 @@ test('PNG of a figure has twice the pixels and opaque paper', async ({ page, fig
 });
 
 test('the menu saves files with names that say what they are, from the keyboard too', async ({ page }) => {
-  const widget = await openBanana(page);
+  const widget = await openBanana(page, 'samples="2000"');
   await openDisclosures(widget);
   await widget.locator('.exports button').first().focus();
   for (const fileEnding of ['png', 'svg', 'csv']) {

@@ -21,9 +21,7 @@ test('examples of the reference start when they are opened, and are what their c
     const exampleCode = (await example.locator('code').first().textContent()) ?? '';
     const config = await exampleFigure.evaluate((figure) => Reflect.get(figure, 'simulation').config);
     for (const [name, value] of Object.entries(attributes)) expect(exampleCode).toContain(`${name}="${value}"`);
-    if ('samples' in attributes) expect(config.samples).toBe(Number(attributes.samples));
-    if ('isolate' in attributes) expect(config.isolate).toBe(Number(attributes.isolate));
-    if ('sampler' in attributes) expect(config.sampler).toBe(attributes.sampler);
+    for (const name of ['samples', 'isolate', 'sampler']) if (name in attributes) expect(String(config[name])).toBe(attributes[name]);
     if (attributes.lang === 'de') await expect(exampleFigure.getByRole('button', { name: 'Stichproben ziehen' })).toBeVisible();
     await example.locator('summary').first().click();
   }

@@ -1,22 +1,16 @@
 import { expect } from '@playwright/test';
-import { FIGURE_FACTS } from './figures.js';
+import { ALL_NAMES, FIGURE_FACTS } from './figures.js';
 import { REDUCED_MOTION, bananaResultsOf, waitForFrames, mount, numberIn, openBanana, pictureOf, readoutValue, showPage, test, testEach, openDisclosures, untilReady, untilSettled } from './support.js';
 
 test.use(REDUCED_MOTION);
-
-/** Folders of the widgets by their keys in a catalogue. */
-const WIDGET_FOLDERS = {
-  banana: 'banana-machine', squeeze: 'map-squeeze', anatomy: 'arc-anatomy',
-  decomposer: 'odometry-decomposer', reckoning: 'dead-reckoning', calibrator: 'alpha-calibrator',
-};
 
 /** Names of figures that are equal in both languages. */
 const UNTRANSLATED_NAMES = ['Map Squeeze', 'Arc Anatomy'];
 
 /** Returns all messages of a language. @param {string} lang @returns {Promise<any>} */
 async function catalogueOf(lang) {
-  const widgetEntries = Object.entries(WIDGET_FOLDERS).map(async ([key, folder]) => [key, (await import(`../../www/widgets/${folder}/${lang}.js`))[lang]]);
-  return { ...(await import(`../../www/messages/${lang}.js`))[lang], ...Object.fromEntries(await Promise.all(widgetEntries)) };
+  const widgetCatalogues = ALL_NAMES.map(async (name) => (await import(`../../www/widgets/${name}/${lang}.js`))[lang]);
+  return { ...(await import(`../../www/messages/${lang}.js`))[lang], ...(await Promise.all(widgetCatalogues)) };
 }
 
 /** Returns path and message of each entry. @param {any} catalogue @param {string} [path] @returns {[string, string | Function][]} */

@@ -101,14 +101,14 @@ function chooseBothLogs(recording: Recording, userChoices: UserChoices): Record<
   return { odometry: { recording, choice: odometry }, reference: { recording, choice: reference } };
 }
 
+/** Returns the likeliest logs for a role, of those that are possible. */
+const likeliestChoices = (recording: Recording, role: Role, userChoices: UserChoices, isPossible: (choice: LogChoice) => boolean) =>
+  findCandidates(recording, role, userChoices).map((tier) => tier.filter(isPossible)).find(({ length }) => length) ?? [];
+
 /** Returns the choice of a log for a role, different from `other`, the choice for the other role. */
 function chooseLog(recording: Recording, role: Role, userChoices: UserChoices, other?: LogChoice): LogChoice {
   const { series, frames } = userChoices[role] ?? {};
-  return series !== undefined || frames ? resolveRequestedChoice(recording, role, userChoices) : guessChoice(recording, role, userChoices, other);
-}
-
-function resolveRequestedChoice(recording: Recording, role: Role, userChoices: UserChoices): LogChoice {
-  const { series, frames } = userChoices[role] ?? {};
+  if (series === undefined && !frames) return guessChoice(recording, role, userChoices, other);
   const kind = role === 'reference' ? 'poses' : userChoices.kind;
   const namedSeries = series === undefined
     ? recording.series.find((entry) => entry.frames)
@@ -122,7 +122,7 @@ function resolveRequestedChoice(recording: Recording, role: Role, userChoices: U
     );
   }
   if (namedSeries.kind !== 'transforms' || frames) return { series: namedSeries.name, ...(kind && { kind }), ...(frames && { frames }) };
-  const [chains = []] = findCandidates(recording, role, userChoices).map((tier) => tier.filter((choice) => choice.series === namedSeries.name)).filter(({ length }) => length);
+  const chains = likeliestChoices(recording, role, userChoices, (choice) => choice.series === namedSeries.name);
   if (chains.length === 1) return chains[0];
   throw framesError(recording, namedSeries, role);
 }
@@ -133,7 +133,7 @@ function framesError({ name: file }: Recording, { name: topic, frames = [] }: Se
 }
 
 function guessChoice(recording: Recording, role: Role, userChoices: UserChoices, other?: LogChoice): LogChoice {
-  const [bestChoices = []] = findCandidates(recording, role, userChoices).map((tier) => tier.filter((choice) => !isSameChoice(choice, other))).filter(({ length }) => length);
+  const bestChoices = likeliestChoices(recording, role, userChoices, (choice) => !isSameChoice(choice, other));
   // Among the best choices, those with the robot frame of the other log are preferred.
   const choicesOfSameRobot = bestChoices.filter(({ frames }) => frames && frames.child === other?.frames?.child);
   if (choicesOfSameRobot.length === 1) return choicesOfSameRobot[0];

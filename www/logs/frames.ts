@@ -23,28 +23,26 @@ interface FrameLink extends FramePair {
 /** Graph of transforms between frames. A frame may have several parents, for example the map and the odometry frame. */
 export class FrameTree {
   #links = new Map<string, FrameLink>();
-  #linksByChild = new Map<string, FrameLink[]>();
 
   add({ parent, child, transform }: StampedTransform, isStatic: boolean): void {
     const link = this.#links.get(framesText({ parent, child }));
-    if (link) {
-      link.maxDistance = Math.max(link.maxDistance, Math.hypot(transform[0] - link.origin[0], transform[1] - link.origin[1]));
-    } else {
-      const newLink = { parent, child, isStatic, origin: transform, maxDistance: 0 };
-      this.#links.set(framesText(newLink), newLink);
-      this.#linksByChild.set(child, [...(this.#linksByChild.get(child) ?? []), newLink]);
-    }
+    if (link) link.maxDistance = Math.max(link.maxDistance, Math.hypot(transform[0] - link.origin[0], transform[1] - link.origin[1]));
+    else this.#links.set(framesText({ parent, child }), { parent, child, isStatic, origin: transform, maxDistance: 0 });
   }
 
-  get links(): FramePair[] {
-    return [...this.#links.values()].map(({ parent, child }) => ({ parent, child }));
+  get links(): FrameLink[] {
+    return [...this.#links.values()];
+  }
+
+  #linksTo(child: string): FrameLink[] {
+    return this.links.filter((link) => link.child === child);
   }
 
   /** Returns the links from one frame to another, or undefined if they are not connected. */
   findChain({ parent, child }: FramePair, seen = new Set<string>()): FramePair[] | undefined {
     if (seen.has(child)) return undefined;
     seen.add(child);
-    for (const link of this.#linksByChild.get(child) ?? []) {
+    for (const link of this.#linksTo(child)) {
       const chain = link.parent === parent ? [] : this.findChain({ parent, child: link.parent }, seen);
       if (chain) return [...chain, link];
     }
@@ -56,7 +54,7 @@ export class FrameTree {
    * travels. If no frame travels, all frames whose transform is not static count as travelling.
    */
   findPoseFrames(): FramePair[] {
-    const links = [...this.#links.values()];
+    const { links } = this;
     const travellingLinks = links.filter(({ isStatic, maxDistance }) => !isStatic && maxDistance > MIN_TRAVEL);
     const movingFrames = new Set((travellingLinks.length ? travellingLinks : links.filter(({ isStatic }) => !isStatic)).map(({ child }) => child));
     const children = [...new Set(links.map(({ child }) => child))];
@@ -73,7 +71,7 @@ export class FrameTree {
   /** Returns the parent of a frame, the parent of that frame and so on. */
   #ancestors(frame: string): string[] {
     const ancestorFrames = new Set<string>([frame]);
-    for (const ancestor of ancestorFrames) for (const { parent } of this.#linksByChild.get(ancestor) ?? []) ancestorFrames.add(parent);
+    for (const ancestor of ancestorFrames) for (const { parent } of this.#linksTo(ancestor)) ancestorFrames.add(parent);
     return [...ancestorFrames].slice(1);
   }
 }

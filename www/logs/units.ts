@@ -1,7 +1,8 @@
 /** Units of a log, judged by names, sizes and the motion of the robot. If they are in doubt, the log is refused with a question. */
 
+import { sort } from 'd3-array';
 import { LogError, type ErrorPlace } from './log-error.ts';
-import { UNITS, type AngleUnit, type LengthUnit, type LogKind, type OpenOptions, type Summary, type TimeUnit } from './log.ts';
+import { UNITS, type AngleUnit, type LogKind, type OpenOptions, type Summary, type TimeUnit } from './log.ts';
 import { quantile, sampleEvenly } from './quantile.ts';
 
 export type Units = Summary['units'];
@@ -83,26 +84,24 @@ export function judgeUnits(place: ErrorPlace, kind: LogKind, columns: Columns, a
   convertTimes(columns, 10 ** (UNIT_EXPONENTS[time.unit] - UNIT_EXPONENTS[assumed.time.unit]));
   const speed = kind === 'poses' ? speedOf(t, a, b) : quantile(sampleEvenly(a.length, (i) => Math.abs(a[i])), 0.9);
   const isDoubtful = speed > MAX_VEHICLE_SPEED || (speed > DOUBTFUL_SPEED && accelerationOf(kind, columns) > MAX_ACCELERATION);
-  if (isJudged && length.by === 'usage' && isDoubtful) askUnit('lengthUnit', speed, length.unit, lengthUnitsByUsage(speed));
+  const likelyUnits = sort(UNITS.lengthUnit, (unit) => Math.abs(Math.log((speed * METRES_PER_UNIT[unit]) / USUAL_SPEED)));
+  if (isJudged && length.by === 'usage' && isDoubtful) askUnit('lengthUnit', speed, length.unit, likelyUnits);
 
   const { unit, by } = options.angleUnit ? { unit: options.angleUnit, by: 'option' as const } : assumed.angle;
   const alignment = isJudged && kind === 'poses' ? alignmentWithPath(t, a, b, c) : undefined;
   if (alignment?.sign === -1) throw new LogError(place, (texts) => texts.mirrored);
   let angle: Units['angle'] = { unit, by };
   if (isJudged && by === 'usage') {
-    const turnRate = kind === 'poses' ? 0 : quantile(sampleEvenly(b.length, (i) => Math.abs(b[i])), 0.9);
-    const exceedsCircle = kind === 'poses' && c.some((heading) => Math.abs(heading) > MAX_WRAPPED_HEADING);
+    const turnRateAt = kind === 'poses' ? (i: number) => (c[i + 1] - c[i]) / (t[i + 1] - t[i]) : (i: number) => b[i];
+    const turnRate = quantile(sampleEvenly(t.length - 1, (i) => Math.abs(turnRateAt(i))), 0.9);
+    const mayBeDegrees = kind === 'poses' ? c.some((heading) => Math.abs(heading) > MAX_WRAPPED_HEADING) : turnRate > MAX_SPEED;
     // Headings in radians may be unwrapped.
-    if (exceedsCircle && alignment) angle = alignment.unit === 'deg' ? { unit: 'deg', by: 'size' } : angle;
-    else if (exceedsCircle || turnRate > MAX_SPEED) askUnit('angleUnit', exceedsCircle ? turnRateOf(t, c) : turnRate, unit, [...UNITS.angleUnit]);
+    if (mayBeDegrees && alignment) angle = alignment.unit === 'deg' ? { unit: 'deg', by: 'size' } : angle;
+    else if (mayBeDegrees) askUnit('angleUnit', turnRate, unit, [...UNITS.angleUnit]);
   }
   if (angle.unit === 'deg') scaleColumn(kind === 'poses' ? c : b, RADIANS_PER_UNIT.deg);
   return { time, length, angle };
 }
-
-/** Returns the units of length, those first with which a speed would be most usual. @param speed in m/s, if the lengths are in m */
-const lengthUnitsByUsage = (speed: number): LengthUnit[] =>
-  [...UNITS.lengthUnit].sort((one, other) => Math.abs(Math.log((speed * METRES_PER_UNIT[one]) / USUAL_SPEED)) - Math.abs(Math.log((speed * METRES_PER_UNIT[other]) / USUAL_SPEED)));
 
 type Ask = (what: 'timeUnit' | 'lengthUnit' | 'angleUnit', value: number, unit: string, choices: string[]) => never;
 
@@ -163,10 +162,6 @@ function accelerationOf(kind: LogKind, { t, a, b }: Columns): number {
   const accelerationAt = (i: number) => (kind === 'poses' ? (2 * Math.hypot(change(i, a), change(i, b))) / (t[i + 2 * stride] - t[i]) : Math.abs(velocityAt(i, a)));
   return quantile(sampleEvenly(t.length - 2 * stride, accelerationAt), 0.99);
 }
-
-/** Returns the 90 % quantile of the turn rates of the steps. */
-const turnRateOf = (t: Float64Array, heading: Float64Array) =>
-  quantile(sampleEvenly(t.length - 1, (i) => Math.abs(heading[i + 1] - heading[i]) / (t[i + 1] - t[i])), 0.9);
 
 function scaleColumn(column: Float64Array, factor: number): void {
   for (let i = 0; i < column.length; i++) column[i] *= factor;

@@ -1,6 +1,7 @@
 /** Command `inspect`: lists the contents of recordings, and proposes the command for the calibration. */
 
-import { findCandidates, isLocalizer, isTable, readableSeries } from '../logs/candidates.ts';
+import { group } from 'd3-array';
+import { findCandidates, isLocalizer, isTable } from '../logs/candidates.ts';
 import { planDrives, type RecordingChoice } from '../logs/drives.ts';
 import { english } from '../logs/en.ts';
 import { LogError, truncate } from '../logs/log-error.ts';
@@ -61,22 +62,15 @@ export function inspectionText({ recordings, missing, command }: Awaited<ReturnT
 
 /** Returns the logs that can be read from a series, several for transforms, each with texts about its possible roles. */
 function usesOfSeries(recording: Recording, name: string): { choice: LogChoice; uses: string[] }[] {
-  if (!readableSeries(recording).some((series) => series.name === name)) return [];
-  const usesByFrames = new Map<string, { choice: LogChoice; uses: string[] }>();
-  const addUses = (role: Role, kind?: 'commands') => {
-    for (const { series, frames, kind: candidateKind } of findCandidates(recording, role, { kind }).flat()) {
-      if (series !== name || (kind && candidateKind !== kind)) continue;
-      const useText = role === 'odometry' ? `odometry${kind ? ' (commands)' : ''}` : `reference${isLocalizer(name, frames) ? ' (a localizer)' : ''}`;
-      const framesKey = frames ? framesText(frames) : '';
-      const useEntry = usesByFrames.get(framesKey) ?? { choice: { series, ...(frames && { frames }) }, uses: [] };
-      if (!useEntry.uses.some((use) => use.startsWith(role))) useEntry.uses.push(useText);
-      usesByFrames.set(framesKey, useEntry);
-    }
-  };
-  addUses('odometry');
-  addUses('odometry', 'commands');
-  addUses('reference');
-  return [...usesByFrames.values()];
+  const rolesAndKinds: [Role, 'commands'?][] = [['odometry'], ['odometry', 'commands'], ['reference']];
+  const uses = rolesAndKinds.flatMap(([role, kind]) => {
+    const candidates = findCandidates(recording, role, { kind }).flat().filter((choice) => choice.series === name && (!kind || choice.kind === kind));
+    const suffixOf = ({ frames }: LogChoice) => (kind ? ' (commands)' : role === 'reference' && isLocalizer(name, frames) ? ' (a localizer)' : '');
+    return candidates.map((choice) => ({ frames: choice.frames, text: `${role}${suffixOf(choice)}` }));
+  });
+  return Array.from(group(uses, ({ frames }) => frames && framesOption(frames)).values(), (usesOfLog) => ({
+    choice: { series: name, ...(usesOfLog[0].frames && { frames: usesOfLog[0].frames }) }, uses: [...new Set(usesOfLog.map(({ text }) => text))],
+  }));
 }
 
 /** Returns the command that calibrates from the recordings, or a sentence about missing logs. */

@@ -174,17 +174,14 @@ const listOfAlternatives = (names: readonly string[]) => new Intl.ListFormat('en
 
 /** Returns true or false for each named systematic error: corrected or not. Single names override `all`. */
 function parseCorrections(uncorrected?: string, corrected?: string): Record<string, boolean> | undefined {
-  const nameLists = [parseErrorNames('no-correct', uncorrected), parseErrorNames('correct', corrected)];
-  const [entriesForAll, entriesByName] = [true, false].map((isAll) => nameLists.flatMap((names, i) => (names.includes('all') === isAll ? names : []).map((name) => [name, i === 1] as const)));
-  const entries = [...entriesForAll.flatMap(([, isCorrected]) => SYSTEMATIC_ERRORS.map((name) => [name, isCorrected] as const)), ...entriesByName];
-  return entries.length ? Object.fromEntries(entries) : undefined;
-}
-
-function parseErrorNames(option: string, value?: string): string[] {
-  const names = value?.split(',').map((name) => name.trim()) ?? [];
-  const unknownName = names.find((name) => name !== 'all' && !(SYSTEMATIC_ERRORS as readonly string[]).includes(name));
-  if (unknownName === undefined) return names;
-  throw new UsageError(`--${option} must be all, or names of ${SYSTEMATIC_ERRORS.join(', ')} (got “${truncate(unknownName)}”).`);
+  const entries = ([['no-correct', uncorrected], ['correct', corrected]] as const).flatMap(([option, value]) => (value?.split(',') ?? []).map((text): [string, boolean] => {
+    const name = text.trim();
+    if (['all', ...SYSTEMATIC_ERRORS].includes(name)) return [name, option === 'correct'];
+    throw new UsageError(`--${option} must be all, or names of ${SYSTEMATIC_ERRORS.join(', ')} (got “${truncate(name)}”).`);
+  }));
+  const entryForAll = entries.findLast(([name]) => name === 'all');
+  const allEntries = [...(entryForAll ? SYSTEMATIC_ERRORS.map((name) => [name, entryForAll[1]]) : []), ...entries.filter(([name]) => name !== 'all')];
+  return allEntries.length ? Object.fromEntries(allEntries) : undefined;
 }
 
 function parseArguments(args: string[]) {

@@ -90,14 +90,10 @@ class MessageReader {
 
 const bytesOf = (block: DataView, from: number, to: number) => new Uint8Array(block.buffer, block.byteOffset + from, to - from);
 
-/** Skips a string. Decoding it would take as long as reading the rest of the message. */
-function skipString(reader: MessageReader): void {
-  reader.skip(reader.uint32());
-}
-
+/** Returns the stamp of a header, and skips its frame. Decoding a string would take as long as reading the rest of the message. */
 function readHeader(reader: MessageReader): number {
   const stamp = reader.stamp();
-  skipString(reader);
+  reader.skip(reader.uint32());
   return stamp;
 }
 
@@ -119,38 +115,33 @@ function readTwist(time: number, reader: MessageReader): Sample {
 /** Reads the stamp and the pose of a child frame relative to its parent. */
 function readFrameTransform(reader: MessageReader): Sample {
   const stamp = readHeader(reader);
-  skipString(reader);
+  reader.skip(reader.uint32());
   return sampleOfPose(stamp, readTransform(reader));
 }
 
 const readStampedPose = (reader: MessageReader) => sampleOfPose(readHeader(reader), readTransform(reader));
 
-const POSE_READERS: Record<string, (reader: MessageReader) => Sample> = {
-  'nav_msgs/Odometry': readFrameTransform,
-  'geometry_msgs/TransformStamped': readFrameTransform,
-  'geometry_msgs/PoseStamped': readStampedPose,
-  'geometry_msgs/PoseWithCovarianceStamped': readStampedPose,
-  'geometry_msgs/Pose': (reader) => sampleOfPose(0, readTransform(reader)),
-  'geometry_msgs/Pose2D': (reader) => ({ time: 0, a: reader.float64(), b: reader.float64(), c: reader.float64(), isRotation: true }),
-};
-const COMMAND_READERS: typeof POSE_READERS = {
-  'geometry_msgs/Twist': (reader) => readTwist(0, reader),
-  'geometry_msgs/TwistStamped': (reader) => readTwist(readHeader(reader), reader),
-  'geometry_msgs/TwistWithCovarianceStamped': (reader) => readTwist(readHeader(reader), reader),
-};
-const TRANSFORM_TYPES = ['tf2_msgs/TFMessage', 'tf/tfMessage'];
-const POSITION_TYPES = ['geometry_msgs/PointStamped', 'sensor_msgs/NavSatFix'];
+/** Kinds of logs of message types, by their ROS 1 names, and the readers of poses and commands. */
+const MESSAGE_TYPES = new Map<string, [kind: Series['kind'], readSample?: (reader: MessageReader) => Sample]>([
+  ['nav_msgs/Odometry', ['poses', readFrameTransform]],
+  ['geometry_msgs/TransformStamped', ['poses', readFrameTransform]],
+  ['geometry_msgs/PoseStamped', ['poses', readStampedPose]],
+  ['geometry_msgs/PoseWithCovarianceStamped', ['poses', readStampedPose]],
+  ['geometry_msgs/Pose', ['poses', (reader) => sampleOfPose(0, readTransform(reader))]],
+  ['geometry_msgs/Pose2D', ['poses', (reader) => ({ time: 0, a: reader.float64(), b: reader.float64(), c: reader.float64(), isRotation: true })]],
+  ['geometry_msgs/Twist', ['commands', (reader) => readTwist(0, reader)]],
+  ['geometry_msgs/TwistStamped', ['commands', (reader) => readTwist(readHeader(reader), reader)]],
+  ['geometry_msgs/TwistWithCovarianceStamped', ['commands', (reader) => readTwist(readHeader(reader), reader)]],
+  ['tf2_msgs/TFMessage', ['transforms']],
+  ['tf/tfMessage', ['transforms']],
+  ['geometry_msgs/PointStamped', ['positions']],
+  ['sensor_msgs/NavSatFix', ['positions']],
+]);
 
-const ros1TypeName = (type: string) => type.replace('/msg/', '/');
+const messageTypeOf = (type: string) => MESSAGE_TYPES.get(type.replace('/msg/', '/')) ?? [null];
 
 /** Returns the kind of log that can be read from messages of a type. */
-export function logKindOfType(type: string): Series['kind'] {
-  const ros1Type = ros1TypeName(type);
-  if (Object.hasOwn(POSE_READERS, ros1Type)) return 'poses';
-  if (Object.hasOwn(COMMAND_READERS, ros1Type)) return 'commands';
-  if (POSITION_TYPES.includes(ros1Type)) return 'positions';
-  return TRANSFORM_TYPES.includes(ros1Type) ? 'transforms' : null;
-}
+export const logKindOfType = (type: string): Series['kind'] => messageTypeOf(type)[0];
 
 /** Returns true if messages have the serialization of ROS 1 or ROS 2. */
 export const isReadable = ({ encoding }: Channel) => encoding === 'cdr' || encoding === 'ros1';
@@ -165,10 +156,10 @@ function readerOf(channel: Channel, message: MessageBytes): MessageReader {
   return new MessageReader(channel, { block: dataViewOf(bytes), from: 0, to: bytes.length });
 }
 
-/** Returns a reader of poses or commands of a type, which throws an error for bytes of another type. */
-export function poseReader(type: string): (message: Message) => Sample {
-  const readSample = POSE_READERS[ros1TypeName(type)] ?? COMMAND_READERS[ros1TypeName(type)];
-  return (message) => readSample(readerOf(message.channel, message));
+/** Returns a reader of poses or commands of a type, which throws an error for bytes of another type; undefined for other types. */
+export function poseReader(type: string): ((message: Message) => Sample) | undefined {
+  const [, readSample] = messageTypeOf(type);
+  return readSample && ((message) => readSample(readerOf(message.channel, message)));
 }
 
 /** Returns the name of a frame without the leading slash of the first tf. */

@@ -103,8 +103,8 @@ function topicReader(file: string, container: Container, choice: LogChoice, seri
     addMessage(message: Message): void {
       messageCount += 1;
       try {
-        if (!chain) return add(readSample(message), message.time, messageCount);
-        for (const transform of readTransforms(message)) chain.add(transform, isStaticTopic(message.channel), message, messageCount);
+        if (readSample) return add(readSample(message), message.time, messageCount);
+        for (const transform of readTransforms(message)) chain?.add(transform, isStaticTopic(message.channel), message, messageCount);
       } catch (error) {
         if (error instanceof LogError) throw error;
         dropDamaged(messageCount, reasonOf(error));

@@ -129,20 +129,6 @@ impl Arc {
             .collect()
     }
 
-    /// Returns a box that holds the arc: minimum x, minimum y, maximum x, maximum y.
-    pub fn bounding_box(&self) -> [f64; 4] {
-        // No point of the arc is further from its middle than half its length, or than the diameter of its circle.
-        let middle_pose = Self { length: 0.5 * self.length, turn: 0.5 * self.turn, ..*self }.end();
-        let diameter = if self.turn == 0.0 { f64::INFINITY } else { 2.0 * (self.length / self.turn).abs() };
-        let max_offset = (0.5 * self.length.abs()).min(diameter);
-        [
-            middle_pose.x() - max_offset,
-            middle_pose.y() - max_offset,
-            middle_pose.x() + max_offset,
-            middle_pose.y() + max_offset,
-        ]
-    }
-
     pub(crate) fn local_arc(&self) -> LocalArc {
         let (sin, cos) = libm::sincos(self.start.theta());
         let drive_sign = if self.length < 0.0 { -1.0 } else { 1.0 };
@@ -256,10 +242,11 @@ impl DrivenArc {
 
     /// Returns a box that holds the arc: minimum x, minimum y, maximum x, maximum y.
     pub fn bounding_box(&self) -> [f64; 4] {
-        if self.arc.turn.abs() > PI {
-            return self.arc.bounding_box();
-        }
         let ([x0, y0], [x1, y1]) = ([self.arc.start.x(), self.arc.start.y()], self.end);
+        if self.arc.turn.abs() > PI {
+            let diameter = 2.0 * (self.arc.length / self.arc.turn).abs();
+            return [x0 - diameter, y0 - diameter, x0 + diameter, y0 + diameter];
+        }
         // The arc lies in the rectangle between its chord and its middle. The middle lies tan(φ/4)/2 chord lengths to the right
         // of the chord, at most φ/2π chord lengths.
         let rise_ratio = self.arc.turn / TAU;

@@ -70,7 +70,12 @@ impl DistanceField {
         let column =
             (((x - self.min_corner[0]) * self.cells_per_metre) as u32 as usize).min(self.columns - 1);
         let row = ((y - self.min_corner[1]) * self.cells_per_metre) as u32 as usize;
-        f64::from(self.lower_bounds.get(row * self.columns + column).copied().unwrap_or(NOT_COMPUTED))
+        self.lower_bound_of_cell(row * self.columns + column)
+    }
+
+    #[inline(always)]
+    fn lower_bound_of_cell(&self, index: usize) -> f64 {
+        f64::from(self.lower_bounds.get(index).copied().unwrap_or(NOT_COMPUTED))
     }
 
     /// Returns [`DistanceField::lower_bound`] of four points. `points` are their x and y.
@@ -85,14 +90,7 @@ impl DistanceField {
         });
         // Adding this number to a small integer puts that integer into the last bits of the sum.
         let cell_indices = (row * self.columns as f64 + column + ROUND_TO_INTEGER).to_array();
-        from_lanes(|i| {
-            f64::from(
-                self.lower_bounds
-                    .get(cell_indices[i].to_bits() as u32 as usize)
-                    .copied()
-                    .unwrap_or(NOT_COMPUTED),
-            )
-        })
+        from_lanes(|i| self.lower_bound_of_cell(cell_indices[i].to_bits() as u32 as usize))
     }
 
     /// Returns the upper bound (m) on a distance with this lower bound; −∞ inside an occupied cell.
@@ -252,7 +250,7 @@ impl FieldBuilder {
             if measured_count > MAX_WALLS_PER_BLOCK + MAX_WALLS_PER_CELL * size * size {
                 return None;
             }
-            let distance_to_wall = |wall: usize| tree.prepared_wall(wall).squared_distance(point).sqrt();
+            let distance_to_wall = |wall: usize| tree.wall(wall).squared_distance_to_point(point).sqrt();
             let lower_bound = match candidate {
                 Candidate::Wall(wall) => distance_to_wall(wall as usize),
                 Candidate::Node(node) => tree.node(node as usize).lower_bound(point),

@@ -269,14 +269,11 @@ impl FloorPlan {
     }
 
     fn leaves_bounds(&self, driven: &DrivenArc) -> bool {
-        let [left, bottom, right, top] = driven.bounding_box();
-        if [[left, bottom], [right, bottom], [right, top], [left, top]]
-            .into_iter()
-            .all(|corner| self.contains(corner))
-        {
+        let (arc, [left, bottom, right, top]) = (&driven.arc, driven.bounding_box());
+        let mut box_corners = [[left, bottom], [right, bottom], [right, top], [left, top]].into_iter();
+        if box_corners.all(|corner| self.contains(corner)) {
             return false;
         }
-        let arc = &driven.arc;
         if !self.contains([arc.start.x(), arc.start.y()]) || !self.contains(driven.end) {
             return true;
         }
@@ -368,7 +365,7 @@ impl ArcSweep<'_> {
                 node.is_farther_than(middle, clear_distance)
                     // This test saves time only if the node is thinner than the part is long.
                     || node.thickness < reach
-                        && node.axis().distance_to_local_arc(prepared_arc()) - node.thickness > clearance
+                        && node.hull_axis.distance_to_local_arc(prepared_arc()) - node.thickness > clearance
             },
             |wall| {
                 let squared_distance = wall.squared_distance_to_point(middle);

@@ -140,52 +140,26 @@ impl OccupancyGrid {
     /// Unknown cells are free, see [`OccupancyGrid::with_unknown`].
     ///
     /// As in `map_server`, opacity counts as a fourth colour in mode trinary if the image has transparency.
-    pub fn new<P: Copy + PartialEq + Into<Pixel>>(
+    pub fn new<P: Copy + Into<Pixel>>(
         image: &Image<P>,
         interpretation: &Interpretation,
         resolution: f64,
         origin: SE2,
     ) -> Self {
         let Image { width, height, ref pixels } = *image;
-        let cells = vec![Cell::Free; width * height];
-        let (to_local, unknown) = (PreparedPose::new(origin.inverse()), UnknownCells::default());
-        let mut grid = Self { width, height, resolution, origin, to_local, cells, unknown };
-        let has_transparency = grid.fill_cells(pixels, interpretation, false);
-        if has_transparency && interpretation.mode == MapMode::Trinary {
-            grid.fill_cells(pixels, interpretation, true);
-        }
-        grid
-    }
-
-    /// Converts pixels to cells; returns true if a pixel is not opaque. If `opacity_as_colour` is true, opacity counts as a colour.
-    fn fill_cells<P: Copy + PartialEq + Into<Pixel>>(
-        &mut self,
-        pixels: &[P],
-        interpretation: &Interpretation,
-        opacity_as_colour: bool,
-    ) -> bool {
-        let mut pixels = pixels.iter();
-        let mut has_transparency = false;
-        // The previous pixel is cached with its cell, because most pixels equal the one before them.
-        let mut previous_pixel = None;
-        // The first row of an image is its highest, the first of a grid its lowest.
-        for row in self.cells.chunks_mut(self.width.max(1)).rev() {
-            for (cell, &raw_pixel) in row.iter_mut().zip(&mut pixels) {
-                *cell = match previous_pixel {
-                    Some((cached_pixel, cell)) if cached_pixel == raw_pixel => cell,
-                    _ => {
-                        let mut pixel: Pixel = raw_pixel.into();
-                        has_transparency |= pixel.opacity < 1.0;
-                        if opacity_as_colour {
-                            pixel.shade = (3.0 * pixel.shade + pixel.opacity) / 4.0;
-                        }
-                        interpretation.cell(pixel)
-                    }
-                };
-                previous_pixel = Some((raw_pixel, *cell));
+        let has_transparency = pixels.iter().any(|pixel| (*pixel).into().opacity < 1.0);
+        let opacity_is_colour = has_transparency && interpretation.mode == MapMode::Trinary;
+        let cell_of = |pixel: &P| {
+            let mut pixel: Pixel = (*pixel).into();
+            if opacity_is_colour {
+                pixel.shade = (3.0 * pixel.shade + pixel.opacity) / 4.0;
             }
-        }
-        has_transparency
+            interpretation.cell(pixel)
+        };
+        // The first row of an image is its highest, the first of a grid its lowest.
+        let cells = pixels.chunks(width.max(1)).rev().flatten().map(cell_of).collect();
+        let (to_local, unknown) = (PreparedPose::new(origin.inverse()), UnknownCells::default());
+        Self { width, height, resolution, origin, to_local, cells, unknown }
     }
 
     /// Returns the grid with another treatment of unknown cells.

@@ -12,8 +12,6 @@ use std::ops::Range;
 pub(super) struct WallTree {
     /// Walls in an order in which those of each node are contiguous.
     walls: Vec<Segment>,
-    /// Walls prepared for the computation of distances, in the same order.
-    prepared_walls: Vec<PreparedSegment>,
     nodes: Vec<Node>,
     /// Number of times that the walls are halved.
     depth: u32,
@@ -24,7 +22,8 @@ pub(super) struct WallTree {
 /// Node of the tree: the capsule of the walls of its subtree.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
-    hull_axis: PreparedSegment,
+    /// Axis of the capsule.
+    pub hull_axis: Segment,
     /// Maximum distance of a wall of the node from the axis of the capsule, m.
     pub thickness: f64,
     /// True if all walls of the node are equal, so that one represents them.
@@ -36,6 +35,8 @@ pub(super) struct Node {
 const MAX_LEAF_WALLS: usize = 16;
 const MAX_SINGLE_LEAF_WALLS: usize = 32;
 
+const POINT: Segment = Segment { from: [0.0; 2], to: [0.0; 2] };
+
 impl WallTree {
     /// Creates the tree of the walls, all of which are inside `bounds`.
     pub fn new(walls: &[Segment], bounds: [f64; 4]) -> Self {
@@ -46,16 +47,8 @@ impl WallTree {
         };
         let mut tree = Self {
             walls: walls.to_vec(),
-            prepared_walls: Vec::new(),
             // Node 0 is unused. The root is always visited.
-            nodes: vec![
-                Node {
-                    hull_axis: PreparedSegment::POINT,
-                    thickness: f64::INFINITY,
-                    has_equal_walls: false
-                };
-                2
-            ],
+            nodes: vec![Node { hull_axis: POINT, thickness: f64::INFINITY, has_equal_walls: false }; 2],
             depth: leaf_count.ilog2(),
             rounding_slack: 1e-9 * bounds.iter().fold(0.0, |largest: f64, bound| largest.max(bound.abs())),
         };
@@ -64,7 +57,6 @@ impl WallTree {
             let children = [2 * parent, 2 * parent + 1].map(|child| tree.make_node(child));
             tree.nodes.extend(children);
         }
-        tree.prepared_walls = tree.walls.iter().map(PreparedSegment::new).collect();
         tree
     }
 
@@ -76,7 +68,7 @@ impl WallTree {
         let mut ranges = [[f64::INFINITY, f64::NEG_INFINITY]; 4];
         for wall in &*walls {
             for ([min, max], key) in ranges.iter_mut().zip(sort_keys(wall)) {
-                (*min, *max) = (min_of(*min, key), max_of(*max, key));
+                (*min, *max) = (min.min(key), max.max(key));
             }
         }
         let widths = ranges.map(|[min, max]| max - min);
@@ -96,11 +88,11 @@ impl WallTree {
         for end in walls.iter().flat_map(|wall| [wall.from, wall.to]) {
             for ([x, y], [back, right, front, left]) in axes.iter().zip(&mut extents) {
                 let (along, across) = (end[0] * x + end[1] * y, end[1] * x - end[0] * y);
-                (*back, *right) = (min_of(*back, along), min_of(*right, across));
-                (*front, *left) = (max_of(*front, along), max_of(*left, across));
+                (*back, *right) = (back.min(along), right.min(across));
+                (*front, *left) = (front.max(along), left.max(across));
             }
         }
-        let mut narrowest = (f64::INFINITY, PreparedSegment::POINT);
+        let mut narrowest = (f64::INFINITY, POINT);
         for ([x, y], [back, right, front, left]) in axes.into_iter().zip(extents) {
             let (axis_offset, width) = (0.5 * (right + left), left - right);
             // The ends of a capsule are round, so that its axis is shorter than the walls at both ends.
@@ -108,13 +100,14 @@ impl WallTree {
             let point_at = |along: f64| [along * x - axis_offset * y, along * y + axis_offset * x];
             if width < narrowest.0 {
                 let axis = Segment { from: point_at(back + shortening), to: point_at(front - shortening) };
-                narrowest = (width, PreparedSegment::new(&axis));
+                narrowest = (width, axis);
             }
         }
         let hull_axis = narrowest.1;
         // No point of a wall is further from the capsule's axis than the further end of the wall.
         let wall_ends = walls.iter().flat_map(|wall| [wall.from, wall.to]);
-        let max_distance = wall_ends.map(|end| hull_axis.squared_distance(end)).fold(0.0, max_of).sqrt();
+        let max_distance =
+            wall_ends.map(|end| hull_axis.squared_distance_to_point(end)).fold(0.0, f64::max).sqrt();
         Node {
             hull_axis,
             thickness: max_distance + self.rounding_slack,
@@ -140,8 +133,8 @@ impl WallTree {
         }
     }
 
-    pub fn prepared_wall(&self, wall: usize) -> &PreparedSegment {
-        &self.prepared_walls[wall]
+    pub fn wall(&self, wall: usize) -> &Segment {
+        &self.walls[wall]
     }
 
     pub fn node(&self, node_index: usize) -> &Node {
@@ -188,53 +181,17 @@ impl WallTree {
 }
 
 impl Node {
-    /// Returns the axis of the capsule.
-    pub fn axis(&self) -> Segment {
-        let PreparedSegment { start, direction, .. } = self.hull_axis;
-        Segment { from: start, to: [start[0] + direction[0], start[1] + direction[1]] }
-    }
-
     /// Returns true only if no wall of the node comes within `reach` (m) of a point: if its hull, a capsule, does not.
     #[inline(always)]
     pub fn is_farther_than(&self, point: [f64; 2], reach: f64) -> bool {
         let axis_reach = reach + self.thickness;
-        self.hull_axis.squared_distance(point) > axis_reach * axis_reach
+        self.hull_axis.squared_distance_to_point(point) > axis_reach * axis_reach
     }
 
     /// Returns a lower bound (m) on the distance from a point to the walls of the node.
     #[inline(always)]
     pub fn lower_bound(&self, point: [f64; 2]) -> f64 {
-        (self.hull_axis.squared_distance(point).sqrt() - self.thickness).max(0.0)
-    }
-}
-
-/// Segment prepared for the distances of many points.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct PreparedSegment {
-    start: [f64; 2],
-    direction: [f64; 2],
-    /// 1/|direction|²; 0 for a segment without length.
-    inverse_square_length: f64,
-}
-
-impl PreparedSegment {
-    const POINT: Self = Self { start: [0.0; 2], direction: [0.0; 2], inverse_square_length: 0.0 };
-
-    fn new(wall: &Segment) -> Self {
-        let direction = [wall.to[0] - wall.from[0], wall.to[1] - wall.from[1]];
-        let inverse_square = 1.0 / (direction[0] * direction[0] + direction[1] * direction[1]);
-        let inverse_square_length = if inverse_square.is_finite() { inverse_square } else { 0.0 };
-        Self { start: wall.from, direction, inverse_square_length }
-    }
-
-    /// Returns the square of the distance to a point, m².
-    #[inline(always)]
-    pub fn squared_distance(&self, point: [f64; 2]) -> f64 {
-        let Self { start, direction: [dx, dy], inverse_square_length } = *self;
-        let offset = [point[0] - start[0], point[1] - start[1]];
-        let t = ((offset[0] * dx + offset[1] * dy) * inverse_square_length).clamp(0.0, 1.0);
-        let [x, y] = [offset[0] - t * dx, offset[1] - t * dy];
-        x * x + y * y
+        (self.hull_axis.squared_distance_to_point(point).sqrt() - self.thickness).max(0.0)
     }
 }
 
@@ -276,17 +233,6 @@ fn select_smallest(walls: &mut [Segment], count: usize, key_index: usize) {
 }
 
 const MAX_SELECTION_ROUNDS: usize = 64;
-
-/// Returns the smaller of two numbers, neither of which is NaN. `f64::min` and `f64::max` take several times as long.
-#[inline(always)]
-fn min_of(a: f64, b: f64) -> f64 {
-    if b < a { b } else { a }
-}
-
-#[inline(always)]
-fn max_of(a: f64, b: f64) -> f64 {
-    if b > a { b } else { a }
-}
 
 /// Returns the coordinates by which walls are divided: twice the midpoint, and the vector from the left end to the right one. They
 /// do not depend on the order of the ends.

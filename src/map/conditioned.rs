@@ -81,6 +81,8 @@ pub struct Draw {
 pub struct AcceptedMotion {
     /// End pose.
     pub pose: SE2,
+    /// True if the end pose is free, as it always is if the motion is conditioned.
+    pub end_free: bool,
     /// True if the whole path was free, as it always is with [`Sampler::WholeArc`].
     pub path_free: bool,
     /// Draws and wall distances that it took.
@@ -196,24 +198,26 @@ impl MapConditioned<'_> {
         x: &SE2,
         rng: &mut R,
     ) -> Result<AcceptedMotion, NoAcceptedSample> {
-        self.sample_with_arcs(u, x, rng, |_| ())
+        self.sample_with_arcs(u, x, rng, true, |_| ())
     }
 
-    /// Returns an accepted motion as [`MapConditioned::sample`] does, after calling `along` with each of its arcs.
+    /// Returns an accepted motion as [`MapConditioned::sample`] does, after calling `visit_arc` with each of its arcs. Every draw is
+    /// accepted if `conditioned` is false. Up to the first rejection the draws are equal.
     pub fn sample_with_arcs<R: Rng + ?Sized>(
         &self,
         u: &VelocityCmd,
         x: &SE2,
         rng: &mut R,
+        conditioned: bool,
         mut visit_arc: impl FnMut(&Arc),
     ) -> Result<AcceptedMotion, NoAcceptedSample> {
-        let mut path_free = true;
-        let mut cost = Cost::default();
-        let pose = self.drive(u, x, rng, &mut cost, &mut |driven, end| {
+        let (mut end_free, mut path_free, mut cost) = (true, true, Cost::default());
+        let pose = self.drive(u, x, rng, conditioned, &mut cost, &mut |driven, end| {
             visit_arc(&driven.arc);
+            end_free = end.free;
             path_free = path_free && self.plan.test_arc_after_end(driven, end, self.clearance).free;
         })?;
-        Ok(AcceptedMotion { pose, path_free, cost })
+        Ok(AcceptedMotion { pose, end_free, path_free, cost })
     }
 
     /// Returns the cost of one accepted motion in a particle filter. A filter tests only what the sampler's condition needs.
@@ -227,36 +231,8 @@ impl MapConditioned<'_> {
         rng: &mut R,
     ) -> Result<Cost, NoAcceptedSample> {
         let mut cost = Cost::default();
-        self.drive(u, x, rng, &mut cost, &mut |_, _| ())?;
+        self.drive(u, x, rng, true, &mut cost, &mut |_, _| ())?;
         Ok(cost)
-    }
-
-    /// Draws a motion without rejection, in as many parts as the sampler has. Returns its last part, and true if all parts are free.
-    /// Up to the first rejection the draws are those of [`MapConditioned::sample_with_arcs`].
-    pub fn sample_unconditioned<R: Rng + ?Sized>(
-        &self,
-        u: &VelocityCmd,
-        x: &SE2,
-        rng: &mut R,
-        mut visit_arc: impl FnMut(&Arc),
-    ) -> (Draw, bool) {
-        let (part_count, command) = self.part_count_and_command(u);
-        let draw_from = |from: &SE2, unit_noise| self.tester_of_command(command, from).test_draw(unit_noise);
-        let mut last_draw = draw_from(x, self.unit_noise(rng));
-        visit_arc(&last_draw.arc);
-        let mut path_free = last_draw.path_verdict.free;
-        for _ in 1..part_count {
-            last_draw = draw_from(&last_draw.pose, self.unit_noise(rng));
-            visit_arc(&last_draw.arc);
-            path_free &= last_draw.path_verdict.free;
-        }
-        (last_draw, path_free)
-    }
-
-    /// Returns the number of parts of a motion, and each of them.
-    fn part_count_and_command(&self, u: &VelocityCmd) -> (u32, NoisyCommand) {
-        let part_count = self.sampler.parts().max(1);
-        (part_count, self.noisy_command(&VelocityCmd { dt: u.dt / f64::from(part_count), ..*u }))
     }
 
     fn noisy_command(&self, u: &VelocityCmd) -> NoisyCommand {
@@ -274,12 +250,15 @@ impl MapConditioned<'_> {
         u: &VelocityCmd,
         x: &SE2,
         rng: &mut R,
+        conditioned: bool,
         cost: &mut Cost,
         visit_part: &mut dyn FnMut(&DrivenArc, Verdict),
     ) -> Result<SE2, NoAcceptedSample> {
-        let (part_count, command) = self.part_count_and_command(u);
+        let part_count = self.sampler.parts().max(1);
+        let command = self.noisy_command(&VelocityCmd { dt: u.dt / f64::from(part_count), ..*u });
         (0..part_count).try_fold(*x, |pose, _| {
-            let (pose, arc, end) = self.draw_until_accepted(&command, &PreparedPose::new(pose), rng, cost)?;
+            let (pose, arc, end) =
+                self.draw_until_accepted(&command, &PreparedPose::new(pose), rng, conditioned, cost)?;
             visit_part(&arc, end);
             Ok(pose)
         })
@@ -291,17 +270,21 @@ impl MapConditioned<'_> {
         command: &NoisyCommand,
         start: &PreparedPose,
         rng: &mut R,
+        conditioned: bool,
         cost: &mut Cost,
     ) -> Result<(SE2, DrivenArc, Verdict), NoAcceptedSample> {
         for _ in 0..MAX_DRAWS {
             let (end_pose, driven_arc) = command.motion(start, self.unit_noise(rng));
             let end_verdict = self.plan.test_point(driven_arc.end, self.clearance);
+            cost.draws += 1;
+            if !conditioned {
+                return Ok((end_pose, driven_arc, end_verdict));
+            }
             let deciding_verdict = if self.sampler == Sampler::WholeArc {
                 self.plan.test_arc_after_end(&driven_arc, end_verdict, self.clearance)
             } else {
                 end_verdict
             };
-            cost.draws += 1;
             cost.wall_tests += deciding_verdict.wall_tests;
             if deciding_verdict.free {
                 return Ok((end_pose, driven_arc, end_verdict));
@@ -312,16 +295,8 @@ impl MapConditioned<'_> {
 
     /// Prepares tests of many draws from one pose: common terms are computed once.
     pub fn draw_tester(&self, u: &VelocityCmd, x: &SE2) -> DrawTester<'_> {
-        self.tester_of_command(self.noisy_command(u), x)
-    }
-
-    fn tester_of_command(&self, command: NoisyCommand, x: &SE2) -> DrawTester<'_> {
-        DrawTester {
-            conditioned_model: self,
-            command,
-            start: PreparedPose::new(*x),
-            trigonometry: Trigonometry::default(),
-        }
+        let (command, start) = (self.noisy_command(u), PreparedPose::new(*x));
+        DrawTester { conditioned_model: self, command, start, trigonometry: Trigonometry::default() }
     }
 
     /// Returns the result of the test that decides on a draw.

@@ -60,8 +60,8 @@ impl<'a> Driver<'a> {
     /// Makes attempts from the start of `indices`: up to four, in the lanes of a SIMD vector, or one with the sub-stepped sampler.
     #[inline(always)]
     pub fn make_next_attempts(&self, indices: Range<usize>, mut visit: impl FnMut(Attempt, Cost)) {
-        if let Sampler::SubStepped(steps) = self.settings.sampler {
-            let (attempt, cost) = self.drive_parts(indices.start, steps, &mut |_| ());
+        if let Sampler::SubStepped(_) = self.settings.sampler {
+            let (attempt, cost) = self.drive_parts(indices.start, &mut |_| ());
             return visit(attempt, cost);
         }
         let conditioned = self.settings.conditioned;
@@ -82,29 +82,23 @@ impl<'a> Driver<'a> {
 
     /// Returns the arcs that are driven in an attempt.
     pub fn arcs(&self, index: usize) -> Vec<Arc> {
-        let Sampler::SubStepped(steps) = self.settings.sampler else {
-            return vec![self.draw_tester.arc(self.draws.noise_of_sample(index))];
-        };
         let mut arcs = Vec::new();
-        self.drive_parts(index, steps, &mut |arc| arcs.push(*arc));
+        match self.settings.sampler {
+            Sampler::SubStepped(_) => _ = self.drive_parts(index, &mut |arc| arcs.push(*arc)),
+            _ => arcs.push(self.draw_tester.arc(self.draws.noise_of_sample(index))),
+        }
         arcs
     }
 
-    fn drive_parts(&self, index: usize, steps: u32, visit_arc: &mut dyn FnMut(&Arc)) -> (Attempt, Cost) {
+    fn drive_parts(&self, index: usize, visit_arc: &mut dyn FnMut(&Arc)) -> (Attempt, Cost) {
         let Settings { command, conditioned, seed, .. } = *self.settings;
         let start = self.settings.start();
         // The walls determine how many random numbers an attempt uses. Each attempt has its own stream, so that the
         // others do not change.
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed ^ (index as u64).rotate_left(32));
-        if !conditioned {
-            let (draw, path_free) = self.model.sample_unconditioned(&command, &start, &mut rng, visit_arc);
-            let attempt =
-                Attempt { pose: draw.pose, accepted: true, end_free: draw.end_verdict.free, path_free };
-            return (attempt, Cost { draws: steps as usize, wall_tests: 0 });
-        }
-        match self.model.sample_with_arcs(&command, &start, &mut rng, visit_arc) {
-            Ok(AcceptedMotion { pose, path_free, cost }) => {
-                (Attempt { pose, accepted: true, end_free: true, path_free }, cost)
+        match self.model.sample_with_arcs(&command, &start, &mut rng, conditioned, visit_arc) {
+            Ok(AcceptedMotion { pose, end_free, path_free, cost }) => {
+                (Attempt { pose, accepted: true, end_free, path_free }, cost)
             }
             Err(NoAcceptedSample(cost)) => {
                 (Attempt { pose: start, accepted: false, end_free: false, path_free: false }, cost)

@@ -59,7 +59,7 @@ struct Readme;
 
 pub use geom::arc::{ArcInversion, invert_arc};
 pub use models::{
-    Compounding, MotionModel, OdomAlphas, OdomDelta, OdometryModel, ReverseAware, RotTransRot,
+    Compounding, ConfiguredOdometry, MotionModel, OdomAlphas, OdomDelta, OdometryModel, RotTransRot,
     TangentNoiseError, TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel,
 };
 pub use nalgebra;

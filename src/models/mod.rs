@@ -5,8 +5,7 @@ mod odometry_rules;
 mod tangent;
 mod velocity;
 
-pub(crate) use odometry::ConfiguredOdometry;
-pub use odometry::{OdomAlphas, OdomDelta, OdometryModel, ReverseAware, RotTransRot};
+pub use odometry::{ConfiguredOdometry, OdomAlphas, OdomDelta, OdometryModel, RotTransRot};
 pub use odometry_rules::{ExecutedLegs, LegVariances, MAX_SPIN_DISTANCE, OdometryRule, RuleAlphas};
 pub(crate) use tangent::covariance_root;
 pub use tangent::{Compounding, TangentNoiseError, TangentNoiseModel};

@@ -179,32 +179,21 @@ impl RotTransRot for OdometryModel {
     }
 }
 
-/// The odometry model for robots that reverse: a rotation δ counts as min(|δ|, |π − |δ||) in the variances.
-///
-/// A robot that backs up decomposes into rot1 ≈ π, drive, rot2 ≈ −π. With the tables' variances it gets the noise of two half
-/// turns that it never made. Deployed localizers also use the smaller angle.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ReverseAware(pub OdometryModel);
-
 /// Returns min(|δ|, |π − |δ||) of a rotation δ: the absolute turn of a robot that may drive in reverse instead.
 pub(super) fn turn_allowing_reverse(rotation: f64) -> f64 {
     let turn = rotation.abs();
     turn.min((PI - turn).abs())
 }
 
-impl RotTransRot for ReverseAware {
-    fn noise(&self) -> NoiseKind {
-        self.0.noise
-    }
-
-    fn variances(&self, delta: &OdomDelta) -> [Variance; 3] {
-        leg_variances(self.0.alphas, delta, turn_allowing_reverse)
-    }
-}
-
-/// Odometry model that is [`ReverseAware`] if `reverse_aware` is true.
-pub(crate) struct ConfiguredOdometry {
+/// The odometry model, optionally for robots that reverse: a rotation δ then counts as min(|δ|, |π − |δ||) in the variances.
+///
+/// A robot that backs up decomposes into rot1 ≈ π, drive, rot2 ≈ −π. With the tables' variances it gets the noise of two half
+/// turns that it never made. Deployed localizers also use the smaller angle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ConfiguredOdometry {
+    /// Model of the tables.
     pub model: OdometryModel,
+    /// True for the smaller angles.
     pub reverse_aware: bool,
 }
 

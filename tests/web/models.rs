@@ -3,7 +3,7 @@
 use crate::support::{Object, assert_near, get};
 use motion::geom::se2::SE2;
 use motion::{
-    Compounding, MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, ReverseAware,
+    Compounding, ConfiguredOdometry, MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel,
     TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel, invert_arc,
 };
 use nalgebra::{Matrix3, Vector3};
@@ -115,7 +115,7 @@ fn models_score_and_draw_as_in_rust() {
     );
     assert_eq!(velocity_scores, prob_and_density(&VELOCITY_MODEL, &next_pose(), &COMMAND));
     assert_eq!(odometry_scores, prob_and_density(&ODOMETRY_MODEL, &next_pose(), &READING));
-    let reverse_aware_model = ReverseAware(ODOMETRY_MODEL);
+    let reverse_aware_model = ConfiguredOdometry { model: ODOMETRY_MODEL, reverse_aware: true };
     assert_eq!(
         reverse_aware_scores,
         prob_and_density(&reverse_aware_model, &pose_behind(), &REVERSE_READING)

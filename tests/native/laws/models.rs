@@ -4,8 +4,8 @@ use super::doubles::{any_double, config_with_cases, doubles_up_to, finite_double
 use motion::geom::se2::SE2;
 use motion::sim::settings::{ALPHA_RANGE, DURATION_RANGE};
 use motion::{
-    MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, ReverseAware, TangentNoiseModel, Variance,
-    VelocityAlphas, VelocityCmd, VelocityModel,
+    ConfiguredOdometry, MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, TangentNoiseModel,
+    Variance, VelocityAlphas, VelocityCmd, VelocityModel,
 };
 use proptest::prelude::*;
 use std::f64::consts::PI;
@@ -102,7 +102,7 @@ proptest! {
     ) {
         let model = OdometryModel { alphas: OdomAlphas(alphas), noise: kind };
         if is_reverse_aware {
-            assert_likelihoods_not_negative_or_nan(&ReverseAware(model), &u, &x, &next)?;
+            assert_likelihoods_not_negative_or_nan(&ConfiguredOdometry { model, reverse_aware: true }, &u, &x, &next)?;
         } else {
             assert_likelihoods_not_negative_or_nan(&model, &u, &x, &next)?;
         }

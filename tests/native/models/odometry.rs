@@ -4,7 +4,7 @@ use crate::common::density::PolarGrid;
 use crate::common::{NOISE_KINDS, derivative_by_noise, seeded_rng, uniform};
 use motion::geom::se2::SE2;
 use motion::{
-    MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, ReverseAware, RotTransRot, Variance,
+    ConfiguredOdometry, MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, RotTransRot, Variance,
 };
 use nalgebra::Vector3;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -183,7 +183,7 @@ fn cartesian_cov_is_the_linearized_motion() {
     }
 }
 
-/// Half a metre backwards is rot1 ≈ π, rot2 ≈ −π. Table 5.6 adds the noise of two half turns, and `ReverseAware` adds none.
+/// Half a metre backwards is rot1 ≈ π, rot2 ≈ −π. Table 5.6 adds the noise of two half turns, and `ConfiguredOdometry` adds none.
 #[test]
 fn reverse_aware_noise_excludes_half_turns() {
     let x = SE2::new(1.0, 1.0, 0.5);
@@ -191,7 +191,8 @@ fn reverse_aware_noise_excludes_half_turns() {
     assert!(backward_reading.rot1.abs() > 3.0 && backward_reading.rot2.abs() > 3.0, "{backward_reading:?}");
     let effective_angle = |rotation: f64| rotation.abs().min((PI - rotation.abs()).abs());
     for kind in NOISE_KINDS {
-        let (unaware_model, aware_model) = (odometry_model(kind), ReverseAware(odometry_model(kind)));
+        let (unaware_model, aware_model) =
+            (odometry_model(kind), ConfiguredOdometry { model: odometry_model(kind), reverse_aware: true });
         let grid = box_around(&backward_reading, &x, table_variances(&backward_reading, effective_angle));
         grid.assert_sampled(&aware_model, &backward_reading, &x, 110);
 

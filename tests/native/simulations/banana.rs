@@ -9,7 +9,7 @@ use motion::sim::banana::{
 };
 use motion::stats::ExponentialMoments;
 use motion::{
-    MotionModel, OdomAlphas, OdomDelta, OdometryModel, ReverseAware, VelocityAlphas, VelocityCmd,
+    ConfiguredOdometry, MotionModel, OdomAlphas, OdomDelta, OdometryModel, VelocityAlphas, VelocityCmd,
     VelocityModel,
 };
 use nalgebra::{Matrix3, Vector3};
@@ -91,7 +91,7 @@ fn the_cloud_equals_samples_of_the_model() {
         assert_same_poses(odometry_settings, &mut |rng| model.sample(&reading, &origin, rng));
         let reverse_aware_settings = Settings { reverse_aware: true, ..odometry_settings };
         assert_same_poses(reverse_aware_settings, &mut |rng| {
-            ReverseAware(model).sample(&reading, &origin, rng)
+            ConfiguredOdometry { model, reverse_aware: true }.sample(&reading, &origin, rng)
         });
     }
 }

@@ -1,7 +1,8 @@
 //! Skewness across the track, which distinguishes a banana-shaped cloud from an ellipse.
 
-use super::moments::mean_heading;
+use super::moments::CartesianMoments;
 use crate::geom::se2::{SE2, wrap_angle};
+use std::ops::Mul;
 
 /// Cross-track skew of a cloud with its standard error, and correlation of cross-track residual and heading.
 ///
@@ -32,33 +33,21 @@ impl CrossTrack {
 
     /// Returns the statistics of `poses`. The origin of their frame must be near them or among them.
     pub fn from_poses(poses: &[SE2]) -> Self {
-        let [first, _, _, ..] = poses else { return Self::UNDEFINED };
-        let pose_count = poses.len() as f64;
-        let heading = mean_heading(poses);
-        let (sin, cos) = libm::sincos(heading);
-        let (mut x, mut y) = (0.0, 0.0);
+        let CartesianMoments { mean, .. } = CartesianMoments::from_poses(poses);
+        let (sin, cos) = libm::sincos(mean.z);
+        let mut sums = [0.0; 16];
         for pose in poses {
-            x += pose.x() - first.x();
-            y += pose.y() - first.y();
-        }
-        let (x, y) = (x / pose_count, y / pose_count);
-        let mut product_sums = [0.0; 16];
-        for pose in poses {
-            let (dx, dy) = (pose.x() - first.x() - x, pose.y() - first.y() - y);
-            let (a, d, t) = (dx * cos + dy * sin, dy * cos - dx * sin, wrap_angle(pose.theta() - heading));
+            let (dx, dy, t) = (pose.x() - mean.x, pose.y() - mean.y, wrap_angle(pose.theta() - mean.z));
             let (s, c) = libm::sincos(t);
-            let d2 = d * d;
-            let d3 = d2 * d;
-            let [ad, ad2, d4, d5, d6] = [a * d, a * d2, d2 * d2, d2 * d3, d3 * d3];
-            let [ss, sd, sd2, sd3, tt, td] = [s * s, s * d, s * d2, s * d3, t * t, t * d];
-            let squared_distance = a * a + d2;
-            let products = [ad, ad2, d2, d3, d4, d5, d6, ss, sd, sd2, sd3, t, tt, td, squared_distance, c];
-            product_sums.iter_mut().zip(products).for_each(|(sum, term)| *sum += term);
+            let [products @ .., squared_distance, resultant] = &mut sums;
+            let terms = track_products(dx * cos + dy * sin, dy * cos - dx * sin, s, t);
+            products.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
+            *squared_distance += dx * dx + dy * dy;
+            *resultant += c;
         }
-        let [products @ .., squared_spread, resultant] = product_sums.map(|sum| sum / pose_count);
-        let (x, y) = (first.x() + x, first.y() + y);
-        let moments = TrackMoments { products, resultant, squared_extent: squared_spread + (x * x + y * y) };
-        Self::from_moments(poses.len(), &moments)
+        let [products @ .., squared_spread, resultant] = sums.map(|sum| sum / poses.len() as f64);
+        let squared_extent = squared_spread + mean.xy().norm_squared();
+        Self::from_moments(poses.len(), &TrackMoments { products, squared_extent, resultant })
     }
 
     /// Returns the statistics of `count` poses from their moments.
@@ -97,12 +86,20 @@ impl CrossTrack {
 /// Means over a cloud of products of residuals from the mean: d across the track, a along it, and t of the heading.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TrackMoments {
-    /// Means of ad, ad², d², …, d⁶, s², sd, sd², sd³, t, t² and td, with s = sin t.
+    /// Means of the [`track_products`].
     pub products: [f64; 14],
     /// Mean of the squared distance from the origin.
     pub squared_extent: f64,
     /// Mean of cos t.
     pub resultant: f64,
+}
+
+/// Returns the products ad, ad², d², …, d⁶, s², sd, sd², sd³, t, t² and td, with s = sin t.
+#[inline(always)]
+pub(super) fn track_products<T: Copy + Mul<Output = T>>(a: T, d: T, s: T, t: T) -> [T; 14] {
+    let d2 = d * d;
+    let d3 = d2 * d;
+    [a * d, a * d2, d2, d3, d2 * d2, d2 * d3, d3 * d3, s * s, s * d, s * d2, s * d3, t, t * t, t * d]
 }
 
 /// Returns [`CrossTrack::skew`] of `poses`.

@@ -57,7 +57,7 @@ impl ExponentialMoments {
 }
 
 /// Returns the circular mean of the headings, atan2(Σ sin θ, Σ cos θ); NaN without poses.
-pub(super) fn mean_heading(poses: &[SE2]) -> f64 {
+fn mean_heading(poses: &[SE2]) -> f64 {
     let Some(first) = poses.first() else { return f64::NAN };
     let (mut sin, mut cos) = (0.0, 0.0);
     for pose in poses {
@@ -75,7 +75,7 @@ pub(crate) fn non_negative(variance: f64) -> f64 {
 }
 
 /// Returns the mean and covariance over n − 1, in two passes.
-pub(super) fn mean_and_cov(
+fn mean_and_cov(
     vectors: impl Iterator<Item = Vector3<f64>> + Clone,
     count: usize,
 ) -> (Vector3<f64>, Matrix3<f64>) {

@@ -5,7 +5,7 @@
 //! relative error for ten million poses is about 1e-13.
 
 use super::contour::{Ellipse, ExponentialContour};
-use super::cross_track::{CrossTrack, TrackMoments};
+use super::cross_track::{CrossTrack, TrackMoments, track_products};
 use super::gain::{ChartGaussians, FourRobots, LogDensityDifferences, MeanAndCov, MeasuredGain};
 use super::moments::{CartesianMoments, ExponentialMoments, non_negative};
 use super::sums::{PairSums, Sums, add_to_block};
@@ -266,13 +266,9 @@ impl SecondPass {
         let ellipse_counts = self.ellipse.contains_four(poses.x, poses.y) & lane_counts;
         let contour_counts =
             self.twist_ellipse.contains_four(poses.along, poses.half_heading * 2.0) & lane_counts;
-        let d2 = d * d;
-        let d3 = d2 * d;
-        let [ad, ad2, d4, d5, d6] = [a * d, a * d2, d2 * d2, d2 * d3, d3 * d3];
-        let [ss, sd, sd2, sd3, tt, td] = [s * s, s * d, s * d2, s * d3, t * t, t * d];
-        let ta = t * a;
+        let [ad, ad2, d2, d3, d4, d5, d6, ss, sd, sd2, sd3, t, tt, td] = track_products(a, d, s, t);
         let terms =
-            [ad, ad2, d2, d3, d4, d5, d6, ss, sd, sd2, sd3, t, tt, td, ta, ellipse_counts, contour_counts];
+            [ad, ad2, d2, d3, d4, d5, d6, ss, sd, sd2, sd3, t, tt, td, t * a, ellipse_counts, contour_counts];
         add_to_block(&mut self.sums.block, terms);
     }
 

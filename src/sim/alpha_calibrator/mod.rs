@@ -11,6 +11,7 @@ use super::cloud::draws::Draws;
 use super::settings::{Rules, SettingsError};
 use crate::calibrate::{Calibration, Drive, Leg, Trajectory, calibrate};
 use crate::geom::se2::SE2;
+use crate::geom::segment::Segment;
 use crate::js::js_structs;
 use crate::models::{OdomDelta, RuleAlphas, VelocityAlphas, VelocityCmd, VelocityModel};
 use crate::stats::{CartesianMoments, Ellipse};
@@ -266,19 +267,11 @@ impl AlphaCalibrator {
     }
 
     /// Returns the leg whose path is nearest to a point (m), within `radius`.
-    pub fn nearest(&self, [x, y]: [f64; 2], radius: f64) -> Option<usize> {
+    pub fn nearest(&self, point: [f64; 2], radius: f64) -> Option<usize> {
         let corrected_errors = &self.calibration().corrected;
         let path_distance = |leg: &Leg| {
             let [from, to] = leg.reference.map(|pose| pose * corrected_errors.base());
-            let [dx, dy] = [to.x() - from.x(), to.y() - from.y()];
-            let [px, py] = [x - from.x(), y - from.y()];
-            let squared_length = dx * dx + dy * dy;
-            let fraction = if squared_length > 0.0 {
-                ((px * dx + py * dy) / squared_length).clamp(0.0, 1.0)
-            } else {
-                0.0
-            };
-            libm::hypot(px - fraction * dx, py - fraction * dy)
+            Segment { from: [from.x(), from.y()], to: [to.x(), to.y()] }.distance_to_point(point)
         };
         let distances = self.legs().iter().map(path_distance).enumerate();
         distances

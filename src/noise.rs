@@ -6,6 +6,7 @@
 mod quantile;
 
 use crate::geom::angle::wrap_angle;
+use crate::geom::lanes::LANES;
 use crate::geom::sinc::sinc;
 use rand::Rng;
 use std::f64::consts::{PI, TAU};
@@ -161,4 +162,14 @@ pub fn centred_uniform<R: Rng + ?Sized>(rng: &mut R) -> f64 {
     const NUMBER_SPACING: f64 = 1.0 / (1u64 << 53) as f64;
     let signed_integer = rng.next_u64() as i64 >> 11;
     (signed_integer as f64 + 0.5) * NUMBER_SPACING
+}
+
+/// Returns three numbers of [`centred_uniform`] for each of four samples, drawn sample by sample.
+#[inline(always)]
+pub(crate) fn four_uniform_triples<R: Rng + ?Sized>(rng: &mut R) -> [f64x4; 3] {
+    let mut triples = [[0.0; LANES]; 3];
+    for lane in 0..LANES {
+        triples.iter_mut().for_each(|variate| variate[lane] = centred_uniform(rng));
+    }
+    triples.map(f64x4::from)
 }

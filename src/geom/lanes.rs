@@ -156,6 +156,11 @@ pub(crate) fn from_lanes(value_of_lane: impl FnMut(usize) -> f64) -> f64x4 {
     f64x4::new(std::array::from_fn(value_of_lane))
 }
 
+/// Returns the mask of the first `count` lanes, whose bits are all set.
+pub(crate) fn first_lanes_mask(count: usize) -> f64x4 {
+    from_lanes(|lane| if lane < count { f64::from_bits(u64::MAX) } else { 0.0 })
+}
+
 /// Returns ln of positive normal numbers, by the same operations as `libm::log`. FreeBSD's e_log.c explains the algorithm.
 #[inline(always)]
 pub(crate) fn log(x: f64x4) -> f64x4 {

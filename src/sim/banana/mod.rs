@@ -10,7 +10,7 @@ use stats::{DefinedCharts, ExecutedMotion};
 
 use super::cloud::drive::Drive;
 use super::cloud::picture::{self, Ramp};
-use super::cloud::views::{Grid, NearestSearch, View};
+use super::cloud::views::{Grid, View, nearest_index};
 use super::cloud::{Cloud, START_POSE};
 use super::cloud_simulation::cloud_simulation;
 use super::settings::{Rules, SettingsError};
@@ -28,6 +28,7 @@ use crate::stats::{
 };
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::TAU;
+use wide::f64x4;
 
 impl Settings {
     /// Returns the current model with its input for a command: the command itself, or the noise-free odometry reading of it.
@@ -394,12 +395,11 @@ impl BananaMachine {
 
     /// Returns the shown sample nearest to a point of a view, inside the ellipse of the given radii around it.
     pub fn nearest(&self, view: View, target: [f64; 2], radii: [f64; 2]) -> Option<usize> {
-        let mut nearest = NearestSearch::new(target, radii);
-        self.cloud.for_each_group(view, |[x, y]| {
+        let points_of_group = |[x, y]: [f64x4; 2]| {
             let (x, y) = (x.to_array(), y.to_array());
-            (0..LANES).for_each(|lane| nearest.visit_point([x[lane], y[lane]]));
-        });
-        nearest.index()
+            (0..LANES).map(move |lane| [x[lane], y[lane]])
+        };
+        nearest_index(self.cloud.groups(view).flat_map(points_of_group), target, radii)
     }
 }
 

@@ -1,8 +1,8 @@
 //! Common random numbers: the unit noise of every sample, drawn once for a seed.
 
-use super::{ALL_BITS_SET, BLOCK_GROUPS};
-use crate::geom::lanes::{LANES, any_lane_set, from_lanes};
-use crate::noise::{NoiseKind, centred_uniform};
+use super::BLOCK_GROUPS;
+use crate::geom::lanes::{LANES, any_lane_set, first_lanes_mask};
+use crate::noise::{NoiseKind, four_uniform_triples};
 use crate::stats::sums::PairSums;
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -85,11 +85,7 @@ impl Draws {
         let Self { noise, rng, unit_noise, .. } = self;
         let (first_group, end_group) = (unit_noise.len(), count.div_ceil(LANES));
         while unit_noise.len() < end_group {
-            let mut uniforms = [[0.0; LANES]; 3];
-            for lane in 0..LANES {
-                uniforms.iter_mut().for_each(|variate| variate[lane] = centred_uniform(rng));
-            }
-            unit_noise.push(uniforms.map(f64x4::from));
+            unit_noise.push(four_uniform_triples(rng));
         }
         noise.quantiles(unit_noise.get_mut(first_group..).unwrap_or_default().as_flattened_mut());
     }
@@ -99,7 +95,7 @@ impl Draws {
     pub fn sum_blocks_to(&mut self, group_count: usize) {
         while group_count >= self.summed_groups + BLOCK_GROUPS {
             let block_noise = self.unit_noise[self.summed_groups..][..BLOCK_GROUPS].iter();
-            block_noise.for_each(|noise| self.sums.add([noise[0], noise[1]], f64x4::splat(ALL_BITS_SET)));
+            block_noise.for_each(|noise| self.sums.add([noise[0], noise[1]], first_lanes_mask(LANES)));
             self.sums.flush_block();
             let block_range = self.summed_groups.max(SUBSAMPLE_GROUPS[1])..self.summed_groups + BLOCK_GROUPS;
             self.farthest_groups.extend(
@@ -122,8 +118,7 @@ impl Draws {
         for (group, noise) in
             self.unit_noise[..count.div_ceil(LANES)].iter().enumerate().skip(self.summed_groups)
         {
-            let lane_mask = from_lanes(|lane| if LANES * group + lane < count { ALL_BITS_SET } else { 0.0 });
-            all_sums.add([noise[0], noise[1]], lane_mask);
+            all_sums.add([noise[0], noise[1]], first_lanes_mask(count - LANES * group));
         }
         all_sums.flush_block();
         all_sums.totals()
@@ -143,9 +138,8 @@ impl Draws {
         (0..groups.min(SUBSAMPLE_GROUPS[1])).chain(later_groups).filter_map(move |group| {
             let noise = &self.unit_noise[group];
             let group_limit = subsample_groups(noise);
-            let weight = (groups as f64 / group_limit as f64).max(1.0);
-            (group < group_limit)
-                .then(|| (noise, from_lanes(|lane| if LANES * group + lane < count { weight } else { 0.0 })))
+            let weight = f64x4::splat((groups as f64 / group_limit as f64).max(1.0));
+            (group < group_limit).then(|| (noise, weight & first_lanes_mask(count - LANES * group)))
         })
     }
 

@@ -211,7 +211,7 @@ fn with_logarithms(ends: &[f64x4; 2], turn: LogTerms) -> FourPoses {
 }
 
 /// Quarter turn minus a margin for rounding.
-const MAX_SHORT_FORMULA_ANGLE: f64 = FRAC_PI_2 * (1.0 - 1e-12);
+pub const MAX_SHORT_FORMULA_ANGLE: f64 = FRAC_PI_2 * (1.0 - 1e-12);
 
 /// Returns the middle and half the width of the interval of half turns that are within a quarter turn of 0 and of `half_commanded_turn`.
 fn short_formula_interval(half_commanded_turn: f64) -> [f64; 2] {

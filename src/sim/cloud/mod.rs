@@ -7,7 +7,7 @@ pub mod views;
 
 pub use views::View;
 
-use crate::geom::lanes::{LANES, from_lanes};
+use crate::geom::lanes::{LANES, first_lanes_mask};
 use crate::geom::se2::SE2;
 use crate::noise::NoiseKind;
 use crate::stats::two_pass::{CloudStats, FirstPass, SecondPass};
@@ -126,12 +126,10 @@ impl Cloud {
         SE2::new(x, y, 2.0 * half_heading.to_array()[lane])
     }
 
-    /// Calls `visit` with the points of each group of four samples in a view. In the last group, lanes without a sample are
-    /// infinitely far away.
+    /// Returns the points of each group of four samples in a view. In the last group, lanes without a sample are infinitely far away.
     #[inline(always)]
-    pub fn for_each_group(&self, view: View, mut visit: impl FnMut([f64x4; 2])) {
-        let shown_count = self.shown_count();
-        let points_of_group = |group: usize| match view {
+    pub fn groups(&self, view: View) -> impl Iterator<Item = [f64x4; 2]> {
+        let points_of_group = move |group: usize| match view {
             View::Plane => self.positions[group],
             View::Twist => {
                 let motions = self.drive.motions(&self.draws.groups()[group]);
@@ -143,15 +141,11 @@ impl Cloud {
                 self.drive.morphed_points(&motions, &self.positions[group], morph)
             }
         };
-        let (full_groups, remaining) = (shown_count / LANES, shown_count % LANES);
-        (0..full_groups).for_each(|group| visit(points_of_group(group)));
-        if remaining > 0 {
-            let lane_mask = from_lanes(|lane| if lane < remaining { ALL_BITS_SET } else { 0.0 });
-            visit(
-                points_of_group(full_groups)
-                    .map(|points| lane_mask.bitselect(points, f64x4::splat(f64::INFINITY))),
-            );
-        }
+        let (full_groups, remaining) = (self.shown_count / LANES, self.shown_count % LANES);
+        let mask_points =
+            move |points: f64x4| first_lanes_mask(remaining).bitselect(points, f64x4::splat(f64::INFINITY));
+        let last_group = (remaining > 0).then(|| points_of_group(full_groups).map(mask_points));
+        (0..full_groups).map(points_of_group).chain(last_group)
     }
 }
 
@@ -159,16 +153,13 @@ impl Cloud {
 /// range of incomplete ones. Each range has the mask of its samples.
 fn sample_blocks(count: usize) -> impl Iterator<Item = [(Range<usize>, f64x4); 2]> {
     let groups = count.div_ceil(LANES);
-    let lane_mask = from_lanes(|lane| if lane < count % LANES { ALL_BITS_SET } else { 0.0 });
+    let lane_mask = first_lanes_mask(count % LANES);
     (0..groups.div_ceil(BLOCK_GROUPS).max(1)).map(move |i| {
         let (start, end) = (BLOCK_GROUPS * i, groups.min(BLOCK_GROUPS * (i + 1)));
         let full_groups = start.max(end.min(count / LANES));
-        [(start..full_groups, f64x4::splat(ALL_BITS_SET)), (full_groups..end, lane_mask)]
+        [(start..full_groups, first_lanes_mask(LANES)), (full_groups..end, lane_mask)]
     })
 }
-
-/// Mask of a lane with a robot: all bits set.
-const ALL_BITS_SET: f64 = f64::from_bits(u64::MAX);
 
 /// Drives the robots, four at a time, and adds them to the sums of the first pass.
 #[inline(never)]

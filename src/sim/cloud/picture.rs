@@ -15,7 +15,7 @@ pub const RAMP_STEPS: usize = 256;
 pub fn density(cloud: &Cloud, view: View, grid: &Grid) -> Vec<u32> {
     let (Grid { min, max, .. }, per_unit) = (*grid, grid.cells_per_unit());
     let mut counts = vec![0; grid.columns * grid.rows];
-    cloud.for_each_group(view, |[x, y]| {
+    cloud.groups(view).for_each(|[x, y]| {
         let column = ((x - min[0]) * per_unit[0]).floor().to_array();
         let row = ((max[1] - y) * per_unit[1]).floor().to_array();
         for cell in (0..LANES).filter_map(|lane| grid.index_of(column[lane], row[lane])) {

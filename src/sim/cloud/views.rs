@@ -70,38 +70,20 @@ impl Grid {
     }
 }
 
-/// Search for the point nearest to a target. Points are given one by one.
-#[derive(Clone, Copy, Debug)]
-pub struct NearestSearch {
+/// Returns the index of the point nearest to `target`, inside the ellipse with these radii around it. Distances are in units of the
+/// radii.
+pub fn nearest_index(
+    points: impl IntoIterator<Item = [f64; 2]>,
     target: [f64; 2],
     radii: [f64; 2],
-    min_squared_distance: f64,
-    visited_count: usize,
-    index: Option<usize>,
-}
-
-impl NearestSearch {
-    /// Starts a search inside an ellipse with the given radii around the target. Distances are in units of those radii.
-    pub fn new(target: [f64; 2], radii: [f64; 2]) -> Self {
-        Self { target, radii, min_squared_distance: 1.0, visited_count: 0, index: None }
-    }
-
-    /// Compares the next sample with the nearest one so far.
-    #[inline(always)]
-    pub fn visit_point(&mut self, [x, y]: [f64; 2]) {
-        let (dx, dy) = ((x - self.target[0]) / self.radii[0], (y - self.target[1]) / self.radii[1]);
-        let squared_distance = dx * dx + dy * dy;
-        if squared_distance < self.min_squared_distance
-            || (squared_distance == self.min_squared_distance && self.index.is_none())
-        {
-            self.min_squared_distance = squared_distance;
-            self.index = Some(self.visited_count);
-        }
-        self.visited_count += 1;
-    }
-
-    /// Returns the index of the nearest point, in the order in which points were given.
-    pub fn index(&self) -> Option<usize> {
-        self.index
-    }
+) -> Option<usize> {
+    let squared_distance = |[x, y]: [f64; 2]| {
+        let (dx, dy) = ((x - target[0]) / radii[0], (y - target[1]) / radii[1]);
+        dx * dx + dy * dy
+    };
+    let distances = points.into_iter().map(squared_distance).enumerate();
+    distances
+        .filter(|(_, distance)| *distance <= 1.0)
+        .min_by(|(_, a), (_, b)| a.total_cmp(b))
+        .map(|(index, _)| index)
 }

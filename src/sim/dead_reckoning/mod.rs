@@ -10,7 +10,7 @@ pub use settings::*;
 pub use stats::{Comparison, MISS_TOLERANCE, Misses, RECURSIONS};
 pub use straight::StraightGrowth;
 
-use super::cloud::views::NearestSearch;
+use super::cloud::views::nearest_index;
 use super::cloud_simulation::cloud_simulation;
 use super::settings::{AllowedValues, Rules, SettingsError};
 use crate::geom::se2::SE2;
@@ -190,9 +190,8 @@ impl DeadReckoning {
 
     /// Returns the robot in the picture that is nearest to a point (m) after the selected step, within `radius`.
     pub fn nearest(&self, target: [f64; 2], radius: f64) -> Option<usize> {
-        let mut search = NearestSearch::new(target, [radius, radius]);
-        self.poses(self.settings.step).iter().for_each(|[x, y, _]| search.visit_point([*x, *y]));
-        search.index()
+        let positions = self.poses(self.settings.step).iter().map(|[x, y, _]| [*x, *y]);
+        nearest_index(positions, target, [radius, radius])
     }
 
     /// Returns the moments and predicted covariances after the selected step, and the misses of all steps.

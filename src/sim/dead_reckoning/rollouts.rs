@@ -1,17 +1,17 @@
 //! Monte Carlo rollouts: many robots drive one command repeatedly, four at a time. Sums after each step give mean and covariance.
 
 use super::settings::Settings;
-use crate::geom::lanes::{LANES, LogTerms, SinCos, Trigonometry, any_lane_set, from_lanes};
+use crate::geom::lanes::{LANES, LogTerms, SinCos, Trigonometry, any_lane_set, first_lanes_mask};
 use crate::geom::se2::SE2;
 use crate::models::TangentNoiseModel;
-use crate::noise::{NoiseKind, centred_uniform};
+use crate::noise::{NoiseKind, four_uniform_triples};
+use crate::sim::cloud::drive::MAX_SHORT_FORMULA_ANGLE;
 use crate::stats::non_negative;
 use crate::stats::sums::{Sums, add_to_block};
 use nalgebra::{Matrix3, Vector3};
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use std::collections::TryReserveError;
-use std::f64::consts::FRAC_PI_2;
 use wide::f64x4;
 
 /// Number of groups of four that are driven through all steps together: 256 rollouts, whose draws and poses take 8 kB.
@@ -21,12 +21,6 @@ pub const BLOCK_ROLLOUTS: usize = BLOCK_GROUPS * LANES;
 
 /// Number of the powers and products of ξ = (a, l, h) that are summed: a, l, h; their squares, cubes and fourth powers; al, ah, lh.
 const SUMMED_TERMS: usize = 15;
-
-/// Mask of a lane with a robot: all bits set.
-const ALL_BITS_SET: f64 = f64::from_bits(u64::MAX);
-
-/// Quarter turn minus a margin for rounding.
-const MAX_SHORT_FORMULA_ANGLE: f64 = FRAC_PI_2 * (1.0 - 1e-12);
 
 /// Step of a robot, as a change of its error pose. With the error pose e = x̄⁻¹·x, e_k =
 /// exp(−τ)·e_{k−1}·exp(τ + w)·(a turn by γ̂Δt). No number grows with the length of the path.
@@ -201,7 +195,7 @@ impl Rollouts {
                 if remaining_lanes >= LANES {
                     add_to_sums(sums, *xi);
                 } else {
-                    let mask = from_lanes(|lane| if lane < remaining_lanes { ALL_BITS_SET } else { 0.0 });
+                    let mask = first_lanes_mask(remaining_lanes);
                     add_to_sums(sums, xi.map(|lane_values| lane_values & mask));
                 }
             }
@@ -266,13 +260,7 @@ impl RobotBlock {
     #[inline(never)]
     fn drive(&mut self, step: &StepInErrorFrame) {
         let Self { rng, groups, noise_or_xi } = self;
-        for draw in noise_or_xi.iter_mut() {
-            let mut uniforms = [[0.0; LANES]; 3];
-            for lane in 0..LANES {
-                uniforms.iter_mut().for_each(|variate| variate[lane] = centred_uniform(rng));
-            }
-            *draw = uniforms.map(f64x4::from);
-        }
+        noise_or_xi.iter_mut().for_each(|draw| *draw = four_uniform_triples(rng));
         NoiseKind::Normal.quantiles(noise_or_xi.as_flattened_mut());
         for (robots, draw) in groups.iter_mut().zip(noise_or_xi) {
             *draw = step.drive(robots, draw);

@@ -5,7 +5,7 @@ mod settings;
 pub use settings::*;
 
 use super::cloud::draws::Draws;
-use super::cloud::views::NearestSearch;
+use super::cloud::views::nearest_index;
 use super::cloud_simulation::cloud_simulation;
 use super::settings::{Rules, SettingsError};
 use crate::geom::se2::SE2;
@@ -262,9 +262,7 @@ impl OdometryDecomposer {
 
     /// Returns the outcome shown that ends nearest to a point (m), within `radius`.
     pub fn nearest(&self, target: [f64; 2], radius: f64) -> Option<usize> {
-        let mut search = NearestSearch::new(target, [radius, radius]);
-        self.poses.iter().for_each(|pose| search.visit_point([pose.x(), pose.y()]));
-        search.index()
+        nearest_index(self.poses.iter().map(|pose| [pose.x(), pose.y()]), target, [radius, radius])
     }
 }
 

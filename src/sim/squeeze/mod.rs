@@ -13,7 +13,7 @@ pub use tally::{Stats, Tally};
 
 use super::cloud::draws::Draws;
 use super::cloud::picture::Ramp;
-use super::cloud::views::{Grid, NearestSearch};
+use super::cloud::views::{Grid, nearest_index};
 use super::cloud_simulation::cloud_simulation;
 use super::settings::{AllowedValues, Rules, SettingsError};
 use crate::geom::arc::Arc;
@@ -209,12 +209,8 @@ impl MapSqueeze {
 
     /// Returns the attempt that ends nearest to a point (m) and within `radius` of it.
     pub fn nearest(&self, target: [f64; 2], radius: f64) -> Option<usize> {
-        let mut nearest = NearestSearch::new(target, [radius, radius]);
-        self.shown
-            .attempts
-            .iter()
-            .for_each(|attempt| nearest.visit_point([attempt.pose.x(), attempt.pose.y()]));
-        nearest.index()
+        let positions = self.shown.attempts.iter().map(|attempt| [attempt.pose.x(), attempt.pose.y()]);
+        nearest_index(positions, target, [radius, radius])
     }
 
     /// Returns the arcs driven in an attempt that is shown.

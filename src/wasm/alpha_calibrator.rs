@@ -4,7 +4,7 @@ use super::calibration::{calibration_to_js, columns_to_js};
 use super::fields::{read_initial_settings, read_integer, read_keyword};
 use super::log::read_logs;
 use super::pictures::nearest_index;
-use super::simulation_class::simulation_class;
+use super::simulation_class::{getters, simulation_class};
 use super::values::{ToJs, js_object, settings_to_js, to_plain_js};
 use crate::sim::alpha_calibrator::{AlphaCalibrator, LegView, RestoreError};
 use js_sys::TypeError;
@@ -13,6 +13,25 @@ use wasm_bindgen::prelude::*;
 simulation_class! {
     /// Calibration of α's from a log, with confidence intervals and goodness of fit. It opens with a simulated log.
     JsAlphaCalibrator(AlphaCalibrator), "AlphaCalibrator", "AlphaCalibratorSettings", "Partial<AlphaCalibratorSettings>"
+}
+
+getters! {
+    JsAlphaCalibrator, "AlphaCalibrator", |it| {
+        /// Settings of the fit. They differ from `config` until a fit with the settings in `config` has come.
+        fitted_config as fittedConfig: "AlphaCalibratorSettings" = settings_to_js(it.fitted_settings());
+        /// True while the settings need another fit, which only the simulation with the log can make.
+        is_pending as isPending: "boolean" = it.is_pending();
+        /// Revision of the fit. It changes with each new fit.
+        fit_revision as fits: "number" = it.fit_revision();
+        /// The true values of the simulated log; null for any other log.
+        truth: "CalibrationTruth | null" = to_plain_js(&it.truth());
+        /// Result of the calibration, without its legs. All α’s are null if the log has too few legs.
+        stats: "Omit<Calibration, 'legs'>" = calibration_to_js(it.calibration());
+        /// Copies of the legs, in the form that `calibrate` returns.
+        legs: "CalibrationLegs" = columns_to_js(it.calibration());
+        /// Number of legs.
+        count: "number" = it.legs().len();
+    }
 }
 
 #[wasm_bindgen(js_class = AlphaCalibrator)]
@@ -46,21 +65,9 @@ impl JsAlphaCalibrator {
         js_object(&[
             ("config", self.config()),
             ("fittedConfig", self.fitted_config()),
-            ("fits", self.fit_revision().into()),
-            ("isPending", self.is_pending().into()),
+            ("fits", self.fit_revision()),
+            ("isPending", self.is_pending()),
         ])
-    }
-
-    /// Settings of the fit. They differ from `config` until a fit with the settings in `config` has come.
-    #[wasm_bindgen(getter, js_name = fittedConfig, unchecked_return_type = "AlphaCalibratorSettings")]
-    pub fn fitted_config(&self) -> JsValue {
-        settings_to_js(self.0.fitted_settings())
-    }
-
-    /// True while the settings need another fit, which only the simulation with the log can make.
-    #[wasm_bindgen(getter, js_name = isPending)]
-    pub fn is_pending(&self) -> bool {
-        self.0.is_pending()
     }
 
     /// Replaces the log by another one: odometry and reference in the form that `calibrate` takes.
@@ -74,25 +81,13 @@ impl JsAlphaCalibrator {
         Ok(())
     }
 
-    /// Revision of the fit. It changes with each new fit.
-    #[wasm_bindgen(getter, js_name = fits)]
-    pub fn fit_revision(&self) -> u32 {
-        self.0.fit_revision()
-    }
-
-    /// The true values of the simulated log; null for any other log.
-    #[wasm_bindgen(getter, unchecked_return_type = "CalibrationTruth | null")]
-    pub fn truth(&self) -> Result<JsValue, JsValue> {
-        to_plain_js(&self.0.truth())
-    }
-
     /// Squared residuals of the three noises of the model against the square of the distance or of the turn.
     #[wasm_bindgen(unchecked_return_type = "CalibrationPanel[]")]
     pub fn panels(
         &self,
         #[wasm_bindgen(unchecked_param_type = "'distance' | 'turn'")] regressor: &JsValue,
     ) -> Result<JsValue, JsValue> {
-        to_plain_js(&self.0.panels(read_keyword("regressor", regressor)?))
+        Ok(to_plain_js(&self.0.panels(read_keyword("regressor", regressor)?)))
     }
 
     /// One leg by its index, counted from 0; null if there are fewer legs.
@@ -113,23 +108,5 @@ impl JsAlphaCalibrator {
     /// The leg whose path is nearest to a point of the reference and within `radius` of it; −1 for none.
     pub fn nearest(&self, x: f64, y: f64, radius: f64) -> Result<i32, JsValue> {
         nearest_index(x, y, radius, |target, radius| self.0.nearest(target, radius))
-    }
-
-    /// Result of the calibration, without its legs. All α’s are null if the log has too few legs.
-    #[wasm_bindgen(getter, unchecked_return_type = "Omit<Calibration, 'legs'>")]
-    pub fn stats(&self) -> Result<JsValue, JsValue> {
-        calibration_to_js(self.0.calibration(), None)
-    }
-
-    /// Copies of the legs, in the form that `calibrate` returns.
-    #[wasm_bindgen(getter, unchecked_return_type = "CalibrationLegs")]
-    pub fn legs(&self) -> JsValue {
-        columns_to_js(self.0.calibration())
-    }
-
-    /// Number of legs.
-    #[wasm_bindgen(getter)]
-    pub fn count(&self) -> usize {
-        self.0.legs().len()
     }
 }

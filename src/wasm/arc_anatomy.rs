@@ -2,7 +2,7 @@
 
 use super::fields::check_range;
 use super::pictures::read_bounds;
-use super::simulation_class::simulation_class;
+use super::simulation_class::{getters, simulation_class};
 use super::values::{js_object, to_plain_js, triple_array};
 use crate::sim::arc_anatomy::{ArcAnatomy, form_errors};
 use js_sys::Float64Array;
@@ -13,12 +13,20 @@ simulation_class! {
     JsArcAnatomy(ArcAnatomy), "ArcAnatomy", "ArcAnatomySettings", "Partial<ArcAnatomySettings>"
 }
 
+getters! {
+    JsArcAnatomy, "ArcAnatomy", |it| {
+        stats: "AnatomyStats" = to_plain_js(&it.stats());
+        table: "AnatomyTable" = to_plain_js(&it.table());
+        paths: "AnatomyPaths" = to_plain_js(&it.paths());
+    }
+}
+
 #[wasm_bindgen(js_class = ArcAnatomy)]
 impl JsArcAnatomy {
     /// Errors of the forms of the arc at small turn rates: exercise 1.
     #[wasm_bindgen(js_name = formErrors, unchecked_return_type = "FormErrors")]
     pub fn form_errors() -> Result<JsValue, JsValue> {
-        to_plain_js(&form_errors())
+        Ok(to_plain_js(&form_errors()))
     }
 
     /// Returns everything that is shown besides the surface, in one call.
@@ -26,25 +34,10 @@ impl JsArcAnatomy {
     pub fn read(&self) -> Result<JsValue, JsValue> {
         Ok(js_object(&[
             ("config", self.config()),
-            ("stats", self.stats()?),
-            ("table", self.table()?),
-            ("paths", self.paths()?),
+            ("stats", self.stats()),
+            ("table", self.table()),
+            ("paths", self.paths()),
         ]))
-    }
-
-    #[wasm_bindgen(getter, unchecked_return_type = "AnatomyStats")]
-    pub fn stats(&self) -> Result<JsValue, JsValue> {
-        to_plain_js(&self.0.stats())
-    }
-
-    #[wasm_bindgen(getter, unchecked_return_type = "AnatomyTable")]
-    pub fn table(&self) -> Result<JsValue, JsValue> {
-        to_plain_js(&self.0.table())
-    }
-
-    #[wasm_bindgen(getter, unchecked_return_type = "AnatomyPaths")]
-    pub fn paths(&self) -> Result<JsValue, JsValue> {
-        to_plain_js(&self.0.paths())
     }
 
     /// Heat map over the positions of a rectangle (m), for the heading of the final pose; null if no heat map is selected.
@@ -57,7 +50,7 @@ impl JsArcAnatomy {
         #[wasm_bindgen(js_name = yMax)] y_max: f64,
     ) -> Result<JsValue, JsValue> {
         let [min, max] = read_bounds([x_min, y_min, x_max, y_max])?;
-        to_plain_js(&self.0.surface(min, max))
+        Ok(to_plain_js(&self.0.surface(min, max)))
     }
 
     /// Poses after a fraction of the time, 0 to 1: x, y (m) and θ (rad) on the commanded arc, on the arc that v̂ and ω̂

@@ -4,12 +4,12 @@ use std::ops::RangeInclusive;
 
 use super::fields::{check_range, not_shown_error, read_integer, read_keyword};
 use super::pictures::{RADIUS_RANGE, pixel_view, read_grid, read_ramps};
-use super::simulation_class::cloud_simulation_class;
+use super::simulation_class::{cloud_simulation_class, getters};
 use super::values::{flat_float_array, js_array, js_object, to_plain_js, triple_array};
 use crate::geom::se2::SE2;
 use crate::geom::unbend::unbend_line;
 use crate::sim::View;
-use crate::sim::banana::{BananaMachine, MAX_CURVE_POINTS, MAX_SAMPLES, OUTLINE_SEGMENTS, Settings};
+use crate::sim::banana::{BananaMachine, MAX_CURVE_POINTS, MAX_SAMPLES, OUTLINE_SEGMENTS};
 use crate::sim::settings::QUANTITY_RANGE;
 use crate::sim::views::MORPH_RANGE;
 use crate::stats::{ExponentialContour, ExponentialMoments};
@@ -34,6 +34,33 @@ cloud_simulation_class! {
     JsBananaMachine(BananaMachine), "BananaMachine", "BananaMachineSettings", "Partial<BananaMachineSettings>", MAX_SAMPLES
 }
 
+getters! {
+    JsBananaMachine, "BananaMachine", |it| {
+        /// The noise parameters of each model. A model that is not selected keeps its own.
+        alphas_of_models as alphasOfModels: "{ velocity: number[]; odometry: number[] }" = js_object(&[
+            ("velocity", js_array(&it.settings().velocity_alphas)),
+            ("odometry", js_array(&it.settings().odometry_alphas)),
+        ]);
+        /// True if the robots turn by less than a full circle, so that exponential coordinates are defined. Otherwise statistics and
+        /// contours in them are undefined.
+        is_chart_defined as chartHolds: "boolean" = it.is_chart_defined();
+        /// x, y (m), θ (rad) of each sample shown; a copy.
+        poses: "Float64Array" = triple_array(it.poses());
+        /// Exponential coordinates ξ of each sample shown: three numbers, along and lateral (m) and heading (rad). A copy.
+        twists: "Float64Array" = triple_array(it.twists());
+        /// Motion executed by each of the samples that are shown: v̂ (m/s), ω̂, γ̂ (rad/s); under the odometry model the legs δ̂_rot1
+        /// (rad), δ̂_trans (m), δ̂_rot2 (rad). A copy.
+        executed_motions as executed: "Float64Array" = triple_array(it.executed_motions());
+        /// Noise-free odometry reading of the command.
+        reading: "OdomDelta" = to_plain_js(&it.reading());
+        stats: "Stats" = to_plain_js(it.stats());
+        table: "Table" = to_plain_js(&it.table());
+        contours: "Contours" = to_plain_js(&it.contours());
+        /// Up to two positions inside the 2σ ellipse where no robot stops, as x, y pairs in m; empty if the outlines nearly coincide.
+        gaps: "Float64Array" = flat_float_array(&it.gaps());
+    }
+}
+
 #[wasm_bindgen(js_class = BananaMachine)]
 impl JsBananaMachine {
     /// Returns everything that is shown besides the robots, in one call.
@@ -43,40 +70,16 @@ impl JsBananaMachine {
     pub fn read(&self) -> Result<JsValue, JsValue> {
         Ok(js_object(&[
             ("config", self.config()),
-            ("shown", self.shown_count().into()),
-            ("block", self.block_size().into()),
-            ("stats", self.stats()?),
-            ("contours", self.contours()?),
-            ("gaps", self.gaps().into()),
-            ("table", self.table()?),
-            ("chartHolds", self.is_chart_defined().into()),
+            ("shown", self.shown_count()),
+            ("block", self.block_size()),
+            ("stats", self.stats()),
+            ("contours", self.contours()),
+            ("gaps", self.gaps()),
+            ("table", self.table()),
+            ("chartHolds", self.is_chart_defined()),
             ("alphasOfModels", self.alphas_of_models()),
-            ("reading", self.reading()?),
+            ("reading", self.reading()),
         ]))
-    }
-
-    /// The noise parameters of each model. A model that is not selected keeps its own.
-    #[wasm_bindgen(
-        getter,
-        js_name = alphasOfModels,
-        unchecked_return_type = "{ velocity: number[]; odometry: number[] }"
-    )]
-    pub fn alphas_of_models(&self) -> JsValue {
-        let Settings { velocity_alphas, odometry_alphas, .. } = self.0.settings();
-        js_object(&[("velocity", js_array(velocity_alphas)), ("odometry", js_array(odometry_alphas))])
-    }
-
-    /// True if the robots turn by less than a full circle, so that exponential coordinates are defined. Otherwise statistics and
-    /// contours in them are undefined.
-    #[wasm_bindgen(getter, js_name = chartHolds)]
-    pub fn is_chart_defined(&self) -> bool {
-        self.0.is_chart_defined()
-    }
-
-    /// x, y (m), θ (rad) of each sample shown; a copy.
-    #[wasm_bindgen(getter)]
-    pub fn poses(&self) -> Float64Array {
-        triple_array(self.0.poses())
     }
 
     /// Poses as in `poses`, of the first `count` samples, or of all if there are fewer.
@@ -89,46 +92,6 @@ impl JsBananaMachine {
     #[wasm_bindgen(js_name = firstTwists)]
     pub fn first_twists(&self, count: usize) -> Float64Array {
         triple_array(self.0.twists().take(count))
-    }
-
-    /// Exponential coordinates ξ of each sample shown: three numbers, along and lateral (m) and heading (rad). A copy.
-    #[wasm_bindgen(getter)]
-    pub fn twists(&self) -> Float64Array {
-        triple_array(self.0.twists())
-    }
-
-    /// Motion executed by each of the samples that are shown: v̂ (m/s), ω̂, γ̂ (rad/s); under the odometry model the legs δ̂_rot1
-    /// (rad), δ̂_trans (m), δ̂_rot2 (rad). A copy.
-    #[wasm_bindgen(getter, js_name = executed)]
-    pub fn executed_motions(&self) -> Float64Array {
-        triple_array(self.0.executed_motions())
-    }
-
-    /// Noise-free odometry reading of the command.
-    #[wasm_bindgen(getter, unchecked_return_type = "OdomDelta")]
-    pub fn reading(&self) -> Result<JsValue, JsValue> {
-        to_plain_js(&self.0.reading())
-    }
-
-    #[wasm_bindgen(getter, unchecked_return_type = "Stats")]
-    pub fn stats(&self) -> Result<JsValue, JsValue> {
-        to_plain_js(self.0.stats())
-    }
-
-    #[wasm_bindgen(getter, unchecked_return_type = "Table")]
-    pub fn table(&self) -> Result<JsValue, JsValue> {
-        to_plain_js(&self.0.table())
-    }
-
-    #[wasm_bindgen(getter, unchecked_return_type = "Contours")]
-    pub fn contours(&self) -> Result<JsValue, JsValue> {
-        to_plain_js(&self.0.contours())
-    }
-
-    /// Up to two positions inside the 2σ ellipse where no robot stops, as x, y pairs in m; empty if the outlines nearly coincide.
-    #[wasm_bindgen(getter)]
-    pub fn gaps(&self) -> Float64Array {
-        flat_float_array(&self.0.gaps())
     }
 
     /// Exact cross-track skew at 2 to 10 000 evenly spaced turn rates, rad/s; NaN where undefined.
@@ -150,7 +113,7 @@ impl JsBananaMachine {
     pub fn inspect(&self, index: f64) -> Result<JsValue, JsValue> {
         let index = read_integer("index", index, 0..=MAX_SAMPLES as u64)? as usize;
         let sample = self.0.inspect(index).ok_or_else(|| not_shown_error(index, self.0.shown_count()))?;
-        to_plain_js(&sample)
+        Ok(to_plain_js(&sample))
     }
 
     /// Heading (rad) of a sample by its index, counted from 0.

@@ -6,7 +6,7 @@ use super::log::read_logs;
 use crate::calibrate::{Drive, ERROR_COUNT, LegLength, Model, Options, calibrate};
 use crate::models::OdometryRule;
 use crate::sim::alpha_calibrator::{Log, Model as ModelChoice};
-use js_sys::RangeError;
+use js_sys::{RangeError, Reflect};
 use std::ops::RangeInclusive;
 use wasm_bindgen::prelude::*;
 
@@ -73,7 +73,9 @@ pub fn js_calibrate(
     let drives: Vec<Drive> =
         logs.iter().map(|Log { odometry, reference }| Drive { odometry, reference }).collect();
     let calibration = calibrate(&drives, &options).map_err(|error| RangeError::new(&error.to_string()))?;
-    calibration_to_js(&calibration, Some(columns_to_js(&calibration)))
+    let result = calibration_to_js(&calibration);
+    Reflect::set(&result, &"legs".into(), &columns_to_js(&calibration))?;
+    Ok(result)
 }
 
 fn read_model(fields: &Fields) -> Result<Model, JsValue> {

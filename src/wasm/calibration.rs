@@ -5,7 +5,6 @@ use crate::calibrate::{
     Calibration, Diagnostics, ERROR_COUNT, Estimate, LostLegs, NotIdentifiable, Persistence, Recommendation,
     SystematicError,
 };
-use js_sys::Reflect;
 use serde::Serialize;
 use tsify::Tsify;
 use wasm_bindgen::prelude::*;
@@ -117,10 +116,10 @@ pub struct CalibrationStats<'a> {
     recommended: Option<&'a Recommendation>,
 }
 
-/// Makes an object of a calibration, with its legs where they are given.
-pub fn calibration_to_js(calibration: &Calibration, legs: Option<JsValue>) -> Result<JsValue, JsValue> {
+/// Makes an object of a calibration, without its legs.
+pub fn calibration_to_js(calibration: &Calibration) -> JsValue {
     let [position_std, yaw_std] = calibration.reference_noise;
-    let stats = to_plain_js(&CalibrationStats {
+    to_plain_js(&CalibrationStats {
         alphas: &calibration.alphas,
         intervals: &calibration.intervals,
         not_identifiable: &calibration.not_identifiable,
@@ -131,11 +130,7 @@ pub fn calibration_to_js(calibration: &Calibration, legs: Option<JsValue>) -> Re
         log_likelihood: calibration.log_likelihood,
         diagnostics: &calibration.diagnostics,
         recommended: calibration.recommended.as_ref(),
-    })?;
-    if let Some(legs) = legs {
-        Reflect::set(&stats, &"legs".into(), &legs)?;
-    }
-    Ok(stats)
+    })
 }
 
 fn systematic_errors(calibration: &Calibration) -> SystematicErrors {

@@ -2,13 +2,13 @@
 
 use super::fields::{not_shown_error, read_integer};
 use super::pictures::nearest_index;
-use super::simulation_class::cloud_simulation_class;
+use super::simulation_class::{cloud_simulation_class, getters};
 use super::values::{flat_float_array, js_object, number_or_null, to_plain_js, triple_array};
 use crate::models::Compounding;
-use crate::sim::dead_reckoning::{DeadReckoning, MAX_SAMPLES, MAX_STEPS, MeasuredMoments, Settings};
+use crate::sim::dead_reckoning::{DeadReckoning, MAX_SAMPLES, MAX_STEPS, Settings};
 use crate::sim::settings::Keywords;
 use js_sys::{Array, Float64Array};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
@@ -28,6 +28,40 @@ cloud_simulation_class! {
     "Partial<DeadReckoningSettings> & { headingNoise?: number }", MAX_SAMPLES
 }
 
+getters! {
+    JsDeadReckoning, "DeadReckoning", |it| {
+        /// Level h of the heading noise; null where α₃ to α₆ are not those of a level.
+        heading_noise as headingNoise: "number | null" = number_or_null(it.settings().heading_noise());
+        stats: "ReckoningStats" = to_plain_js(&it.stats());
+        /// Predicted divided by measured variance of along, lateral and heading after each step, three numbers a step; NaN if
+        /// undefined.
+        ratios: "ByRecursion<Float64Array>" =
+            js_by_recursion(|order| triple_array(it.comparison(order).ratios.iter().copied()));
+        /// Predicted variances of along, lateral (m²) and heading (rad²) after each step, three numbers a step; NaN if
+        /// undefined.
+        predicted: "ByRecursion<Float64Array>" = js_by_recursion(|order| {
+            let variances_of = |cov: &Matrix3<f64>| cov.diagonal();
+            let covariances = it.predicted_covariances(order).iter();
+            triple_array(covariances.map(|cov| cov.as_ref().map_or(Vector3::repeat(f64::NAN), variances_of)))
+        });
+        /// Measured variances, in the form of `predicted`.
+        measured: "Float64Array" = triple_array(it.measured_moments().iter().map(|moments| moments.cov.diagonal()));
+        /// Standard errors of the measured variances, relative to them.
+        relative_errors as relativeErrors: "Float64Array" =
+            triple_array(it.measured_moments().iter().map(|moments| moments.relative_error));
+        /// Path driven without noise, as x, y pairs (m) from the start.
+        commanded: "Float64Array" = flat_float_array(&it.commanded_path());
+        /// Variances of a straight drive as functions of its duration, at this speed and noise. Each drive is one command.
+        straight_growth as straightGrowth: "StraightGrowth" = to_plain_js(&it.straight_growth());
+        /// x, y (m), θ (rad) of the commanded pose after each step.
+        nominal: "Float64Array" = triple_array(it.nominal_poses().iter().copied());
+        /// x, y (m), θ (rad) of the first robots after the selected step, 600 at most; a copy.
+        poses: "Float64Array" = flat_float_array(it.poses(it.settings().step));
+        /// Exponential coordinates (along and lateral in m, heading in rad) of the robots of `poses`, relative to the commanded pose; a copy.
+        twists: "Float64Array" = triple_array(it.twists());
+    }
+}
+
 #[wasm_bindgen(js_class = DeadReckoning)]
 impl JsDeadReckoning {
     /// Returns everything that is shown, in one call. There is a milestone after each quarter of the path, except at the current step.
@@ -43,103 +77,24 @@ impl JsDeadReckoning {
         let milestones = quarters_of(steps).filter(|after| *after != step).map(milestone_after);
         Ok(js_object(&[
             ("config", self.config()),
-            ("shown", self.shown_count().into()),
-            ("block", self.block_size().into()),
-            ("stats", self.stats()?),
+            ("shown", self.shown_count()),
+            ("block", self.block_size()),
+            ("stats", self.stats()),
             ("ratios", self.ratios()),
-            ("relativeErrors", self.relative_errors().into()),
-            ("commanded", self.commanded().into()),
-            ("nominal", self.nominal().into()),
-            ("poses", self.poses().into()),
-            ("twists", self.twists().into()),
+            ("relativeErrors", self.relative_errors()),
+            ("commanded", self.commanded()),
+            ("nominal", self.nominal()),
+            ("poses", self.poses()),
+            ("twists", self.twists()),
             ("outlines", self.outlines(step.into())?),
             ("milestones", milestones.collect::<Result<Array, JsValue>>()?.into()),
         ]))
-    }
-
-    /// Level h of the heading noise; null where α₃ to α₆ are not those of a level.
-    #[wasm_bindgen(getter, js_name = headingNoise, unchecked_return_type = "number | null")]
-    pub fn heading_noise(&self) -> JsValue {
-        number_or_null(self.0.settings().heading_noise())
-    }
-
-    #[wasm_bindgen(getter, unchecked_return_type = "ReckoningStats")]
-    pub fn stats(&self) -> Result<JsValue, JsValue> {
-        to_plain_js(&self.0.stats())
-    }
-
-    /// Predicted divided by measured variance of along, lateral and heading after each step, three numbers a step; NaN if
-    /// undefined.
-    #[wasm_bindgen(getter, unchecked_return_type = "ByRecursion<Float64Array>")]
-    pub fn ratios(&self) -> JsValue {
-        js_by_recursion(|order| triple_array(self.0.comparison(order).ratios.iter().copied()))
-    }
-
-    /// Predicted variances of along, lateral (m²) and heading (rad²) after each step, three numbers a step; NaN if
-    /// undefined.
-    #[wasm_bindgen(getter, unchecked_return_type = "ByRecursion<Float64Array>")]
-    pub fn predicted(&self) -> JsValue {
-        let undefined_variances = Vector3::repeat(f64::NAN);
-        js_by_recursion(|order| {
-            triple_array(
-                self.0
-                    .predicted_covariances(order)
-                    .iter()
-                    .map(|cov| cov.map_or(undefined_variances, |cov| cov.diagonal())),
-            )
-        })
-    }
-
-    /// Measured variances, in the form of `predicted`.
-    #[wasm_bindgen(getter)]
-    pub fn measured(&self) -> Float64Array {
-        triple_array(
-            self.0.measured_moments().iter().map(|measured: &MeasuredMoments| measured.cov.diagonal()),
-        )
-    }
-
-    /// Standard errors of the measured variances, relative to them.
-    #[wasm_bindgen(getter, js_name = relativeErrors)]
-    pub fn relative_errors(&self) -> Float64Array {
-        triple_array(
-            self.0.measured_moments().iter().map(|measured: &MeasuredMoments| measured.relative_error),
-        )
-    }
-
-    /// Path driven without noise, as x, y pairs (m) from the start.
-    #[wasm_bindgen(getter)]
-    pub fn commanded(&self) -> Float64Array {
-        flat_float_array(&self.0.commanded_path())
-    }
-
-    /// Variances of a straight drive as functions of its duration, at this speed and noise. Each drive is one command.
-    #[wasm_bindgen(getter, js_name = straightGrowth, unchecked_return_type = "StraightGrowth")]
-    pub fn straight_growth(&self) -> Result<JsValue, JsValue> {
-        to_plain_js(&self.0.straight_growth())
-    }
-
-    /// x, y (m), θ (rad) of the commanded pose after each step.
-    #[wasm_bindgen(getter)]
-    pub fn nominal(&self) -> Float64Array {
-        triple_array(self.0.nominal_poses().iter().copied())
-    }
-
-    /// x, y (m), θ (rad) of the first robots after the selected step, 600 at most; a copy.
-    #[wasm_bindgen(getter)]
-    pub fn poses(&self) -> Float64Array {
-        flat_float_array(self.0.poses(self.0.settings().step))
     }
 
     /// Poses as in `poses`, after another step from 1 to 200; empty if the path is shorter.
     #[wasm_bindgen(js_name = posesAfter)]
     pub fn poses_after(&self, step: f64) -> Result<Float64Array, JsValue> {
         Ok(flat_float_array(self.0.poses(read_integer("step", step, 1..=MAX_STEPS)? as u32)))
-    }
-
-    /// Exponential coordinates (along and lateral in m, heading in rad) of the robots of `poses`, relative to the commanded pose; a copy.
-    #[wasm_bindgen(getter)]
-    pub fn twists(&self) -> Float64Array {
-        triple_array(self.0.twists())
     }
 
     /// x, y (m), θ (rad) of one robot after each step, counted from 0.
@@ -157,7 +112,7 @@ impl JsDeadReckoning {
     /// Outlines of a step, 1 to 200, by the selected recursion; null where the path is shorter.
     #[wasm_bindgen(unchecked_return_type = "StepOutlines | null")]
     pub fn outlines(&self, step: f64) -> Result<JsValue, JsValue> {
-        to_plain_js(&self.0.outlines(read_integer("step", step, 1..=MAX_STEPS)? as u32))
+        Ok(to_plain_js(&self.0.outlines(read_integer("step", step, 1..=MAX_STEPS)? as u32)))
     }
 }
 

@@ -4,7 +4,7 @@ use super::fields::{
     Fields, array_item, array_length, check_range, read_array, read_boolean, read_group_in_range,
     read_integer, read_keyword, read_number,
 };
-use super::values::{group_to_js, js_array, js_object, number_or_null, to_plain_js, triple_array};
+use super::values::{js_array, js_object, number_or_null, pose_to_js, to_plain_js, triple_array};
 use crate::geom::arc::invert_arc;
 use crate::geom::se2::SE2;
 use crate::models::{
@@ -81,6 +81,24 @@ export interface Propagation {
 }
 "#;
 
+#[wasm_bindgen]
+extern "C" {
+    #[wasm_bindgen(typescript_type = "Start")]
+    pub type JsPose;
+    #[wasm_bindgen(typescript_type = "Command")]
+    pub type JsCommand;
+    #[wasm_bindgen(typescript_type = "OdomDelta")]
+    pub type JsReading;
+    #[wasm_bindgen(typescript_type = "Twist")]
+    pub type JsTwist;
+    #[wasm_bindgen(typescript_type = "VelocityModelOptions")]
+    pub type JsVelocityModelOptions;
+    #[wasm_bindgen(typescript_type = "OdometryModelOptions")]
+    pub type JsOdometryModelOptions;
+    #[wasm_bindgen(typescript_type = "Propagation")]
+    pub type JsPropagation;
+}
+
 /// Maximum number of steps of `propagate`, which take a fraction of a second.
 const MAX_STEPS: u64 = 100_000;
 
@@ -91,9 +109,7 @@ pub struct JsVelocityModel(VelocityModel);
 #[wasm_bindgen(js_class = VelocityModel)]
 impl JsVelocityModel {
     #[wasm_bindgen(constructor)]
-    pub fn new(
-        #[wasm_bindgen(unchecked_param_type = "VelocityModelOptions")] options: &JsValue,
-    ) -> Result<Self, JsValue> {
+    pub fn new(options: &JsVelocityModelOptions) -> Result<Self, JsValue> {
         let fields = Fields::new("options", "", options, &["alphas", "noise"])?;
         Ok(Self(VelocityModel { alphas: VelocityAlphas(read_alphas(&fields)?), noise: read_noise(&fields)? }))
     }
@@ -106,9 +122,7 @@ pub struct JsOdometryModel(ConfiguredOdometry);
 #[wasm_bindgen(js_class = OdometryModel)]
 impl JsOdometryModel {
     #[wasm_bindgen(constructor)]
-    pub fn new(
-        #[wasm_bindgen(unchecked_param_type = "OdometryModelOptions")] options: &JsValue,
-    ) -> Result<Self, JsValue> {
+    pub fn new(options: &JsOdometryModelOptions) -> Result<Self, JsValue> {
         let fields = Fields::new("options", "", options, &["alphas", "noise", "reverseAware"])?;
         let model = OdometryModel { alphas: OdomAlphas(read_alphas(&fields)?), noise: read_noise(&fields)? };
         let reverse_aware = fields.optional("reverseAware", read_boolean)?.unwrap_or(false);
@@ -116,10 +130,10 @@ impl JsOdometryModel {
     }
 }
 
-/// Declares the methods of the JavaScript class of a motion model. `$control` is the TypeScript type of a command or a reading, which the
+/// Declares the methods of the JavaScript class of a motion model. `$control` is the type of a command or a reading, which the
 /// function `$read_control` reads.
 macro_rules! model_methods {
-    ($class:ident, $name:literal, $control:literal, $read_control:ident, $(#[$prob_doc:meta])+) => {
+    ($class:ident, $name:literal, $control:ident, $read_control:ident, $(#[$prob_doc:meta])+) => {
         #[wasm_bindgen(js_class = $name)]
         impl $class {
             $(#[$prob_doc])+
@@ -127,9 +141,9 @@ macro_rules! model_methods {
             /// A noise of variance 0 has the factor 1 if its residual is 0 up to rounding (1e-7), and 0 otherwise.
             pub fn prob(
                 &self,
-                #[wasm_bindgen(unchecked_param_type = "Start")] next: &JsValue,
-                #[wasm_bindgen(unchecked_param_type = $control)] control: &JsValue,
-                #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
+                next: &JsPose,
+                control: &$control,
+                start: &JsPose,
             ) -> Result<f64, JsValue> {
                 let (next, control, start) =
                     (read_pose("next", next)?, $read_control(control)?, read_pose("start", start)?);
@@ -140,9 +154,9 @@ macro_rules! model_methods {
             #[wasm_bindgen(js_name = poseDensity, unchecked_return_type = "number | null")]
             pub fn pose_density(
                 &self,
-                #[wasm_bindgen(unchecked_param_type = "Start")] next: &JsValue,
-                #[wasm_bindgen(unchecked_param_type = $control)] control: &JsValue,
-                #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
+                next: &JsPose,
+                control: &$control,
+                start: &JsPose,
             ) -> Result<JsValue, JsValue> {
                 let (next, control, start) =
                     (read_pose("next", next)?, $read_control(control)?, read_pose("start", start)?);
@@ -152,8 +166,8 @@ macro_rules! model_methods {
             /// Samples the pose after the motion, as x, y, θ triples. Equal seeds (whole numbers) give equal samples.
             pub fn sample(
                 &self,
-                #[wasm_bindgen(unchecked_param_type = $control)] control: &JsValue,
-                #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
+                control: &$control,
+                start: &JsPose,
                 count: f64,
                 seed: f64,
             ) -> Result<Float64Array, JsValue> {
@@ -166,22 +180,18 @@ macro_rules! model_methods {
     };
 }
 model_methods! {
-    JsVelocityModel, "VelocityModel", "Command", read_command,
+    JsVelocityModel, "VelocityModel", JsCommand, read_command,
     /// Scoring function of Table 5.1, with a signed radius, for the arc that turns by at most half a circle.
 }
 model_methods! {
-    JsOdometryModel, "OdometryModel", "OdomDelta", read_legs,
+    JsOdometryModel, "OdometryModel", JsReading, read_legs,
     /// Scoring function of Table 5.5, with the variances of the hypothetical legs.
 }
 
 /// Arc that leaves `start` along its heading and reaches the position of `next` in `dt` seconds (Table 5.1, with a
 /// signed radius). Of the arcs on that circle, the one that turns by at most half a circle is returned.
 #[wasm_bindgen(js_name = invertArc, unchecked_return_type = "ArcInversion")]
-pub fn js_invert_arc(
-    #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
-    #[wasm_bindgen(unchecked_param_type = "Start")] next: &JsValue,
-    dt: f64,
-) -> Result<JsValue, JsValue> {
+pub fn js_invert_arc(start: &JsPose, next: &JsPose, dt: f64) -> Result<JsValue, JsValue> {
     let (start, next, dt) =
         (read_pose("start", start)?, read_pose("next", next)?, check_range("dt", dt, &DURATION_RANGE)?);
     let inversion = invert_arc(&start, &next, dt);
@@ -203,19 +213,14 @@ pub fn js_invert_arc(
 
 /// The three legs between two poses of the odometry frame (Table 5.5, lines 2–4). A turn on the spot is all in `rot2`.
 #[wasm_bindgen(unchecked_return_type = "OdomDelta")]
-pub fn decompose(
-    #[wasm_bindgen(unchecked_param_type = "Start")] start: &JsValue,
-    #[wasm_bindgen(unchecked_param_type = "Start")] next: &JsValue,
-) -> Result<JsValue, JsValue> {
-    to_plain_js(&OdomDelta::from_poses(&read_pose("start", start)?, &read_pose("next", next)?))
+pub fn decompose(start: &JsPose, next: &JsPose) -> Result<JsValue, JsValue> {
+    Ok(to_plain_js(&OdomDelta::from_poses(&read_pose("start", start)?, &read_pose("next", next)?)))
 }
 
 /// Covariance, in exponential coordinates about the noise-free pose, after a command was driven several times. The
 /// fourth order is an expansion; noise that is too large for it is refused.
 #[wasm_bindgen(unchecked_return_type = "number[][]")]
-pub fn propagate(
-    #[wasm_bindgen(unchecked_param_type = "Propagation")] options: &JsValue,
-) -> Result<Array, JsValue> {
+pub fn propagate(options: &JsPropagation) -> Result<Array, JsValue> {
     let fields =
         Fields::new("options", "", options, &["sigma", "command", "alphas", "compounding", "steps"])?;
     let mut sigma = fields.optional("sigma", read_covariance)?.unwrap_or_default();
@@ -244,66 +249,49 @@ pub fn propagate(
 
 /// Exponential map: the pose to which a twist leads from the origin in one unit of time.
 #[wasm_bindgen(js_namespace = se2, unchecked_return_type = "Start")]
-pub fn exp(#[wasm_bindgen(unchecked_param_type = "Twist")] twist: &JsValue) -> Result<JsValue, JsValue> {
+pub fn exp(twist: &JsTwist) -> Result<JsValue, JsValue> {
     Ok(pose_to_js(SE2::exp(&read_twist("twist", twist)?)))
 }
 
 /// Logarithm: the twist that leads from the origin to a pose in one unit of time, with a turn of at most half a circle.
 #[wasm_bindgen(js_namespace = se2, unchecked_return_type = "number[]")]
-pub fn log(
-    #[wasm_bindgen(js_name = pose, unchecked_param_type = "Start")] of: &JsValue,
-) -> Result<JsValue, JsValue> {
-    Ok(js_array(read_pose("pose", of)?.log().as_slice()))
+pub fn log(pose: &JsPose) -> Result<JsValue, JsValue> {
+    Ok(js_array(read_pose("pose", pose)?.log().as_slice()))
 }
 
 /// a · b: the pose `b`, given in the frame of `a`, in the reference frame of `a`.
 #[wasm_bindgen(js_namespace = se2, unchecked_return_type = "Start")]
-pub fn compose(
-    #[wasm_bindgen(unchecked_param_type = "Start")] a: &JsValue,
-    #[wasm_bindgen(unchecked_param_type = "Start")] b: &JsValue,
-) -> Result<JsValue, JsValue> {
+pub fn compose(a: &JsPose, b: &JsPose) -> Result<JsValue, JsValue> {
     Ok(pose_to_js(read_pose("a", a)? * read_pose("b", b)?))
 }
 
 /// Inverse: the origin in the frame of a pose.
 #[wasm_bindgen(js_namespace = se2, unchecked_return_type = "Start")]
-pub fn inverse(
-    #[wasm_bindgen(js_name = pose, unchecked_param_type = "Start")] of: &JsValue,
-) -> Result<JsValue, JsValue> {
-    Ok(pose_to_js(read_pose("pose", of)?.inverse()))
+pub fn inverse(pose: &JsPose) -> Result<JsValue, JsValue> {
+    Ok(pose_to_js(read_pose("pose", pose)?.inverse()))
 }
 
 /// x ⊞ τ = x · exp(τ).
 #[wasm_bindgen(js_namespace = se2, unchecked_return_type = "Start")]
-pub fn boxplus(
-    #[wasm_bindgen(js_name = pose, unchecked_param_type = "Start")] of: &JsValue,
-    #[wasm_bindgen(unchecked_param_type = "Twist")] twist: &JsValue,
-) -> Result<JsValue, JsValue> {
-    Ok(pose_to_js(read_pose("pose", of)?.boxplus(read_twist("twist", twist)?)))
+pub fn boxplus(pose: &JsPose, twist: &JsTwist) -> Result<JsValue, JsValue> {
+    Ok(pose_to_js(read_pose("pose", pose)?.boxplus(read_twist("twist", twist)?)))
 }
 
 /// a ⊟ b = log(b⁻¹ · a): the twist that leads from `b` to `a`.
 #[wasm_bindgen(js_namespace = se2, unchecked_return_type = "number[]")]
-pub fn boxminus(
-    #[wasm_bindgen(unchecked_param_type = "Start")] a: &JsValue,
-    #[wasm_bindgen(unchecked_param_type = "Start")] b: &JsValue,
-) -> Result<JsValue, JsValue> {
+pub fn boxminus(a: &JsPose, b: &JsPose) -> Result<JsValue, JsValue> {
     Ok(js_array(read_pose("a", a)?.boxminus(&read_pose("b", b)?).as_slice()))
 }
 
 /// Adjoint of a pose, three rows of three.
 #[wasm_bindgen(js_namespace = se2, unchecked_return_type = "number[][]")]
-pub fn adjoint(
-    #[wasm_bindgen(js_name = pose, unchecked_param_type = "Start")] of: &JsValue,
-) -> Result<Array, JsValue> {
-    Ok(matrix_rows(&read_pose("pose", of)?.adjoint()))
+pub fn adjoint(pose: &JsPose) -> Result<Array, JsValue> {
+    Ok(matrix_rows(&read_pose("pose", pose)?.adjoint()))
 }
 
 /// Right Jacobian J_r of a twist, three rows of three: exp(τ + δ) is exp(τ) · exp(J_r δ) to first order.
 #[wasm_bindgen(js_namespace = se2, js_name = rightJacobian, unchecked_return_type = "number[][]")]
-pub fn right_jacobian(
-    #[wasm_bindgen(unchecked_param_type = "Twist")] twist: &JsValue,
-) -> Result<Array, JsValue> {
+pub fn right_jacobian(twist: &JsTwist) -> Result<Array, JsValue> {
     Ok(matrix_rows(&SE2::right_jacobian(&read_twist("twist", twist)?)))
 }
 
@@ -368,10 +356,6 @@ fn read_covariance(field: &str, value: &JsValue) -> Result<Matrix3<f64>, JsValue
         Err(_) => "some direction has a negative variance",
     };
     Err(RangeError::new(&format!("{field} is no covariance: {refusal_reason}; allowed are {allowed}")).into())
-}
-
-fn pose_to_js(pose: SE2) -> JsValue {
-    group_to_js(&mut <[f64; 3]>::from(pose))
 }
 
 fn matrix_rows(matrix: &Matrix3<f64>) -> Array {

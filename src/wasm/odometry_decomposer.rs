@@ -2,8 +2,8 @@
 
 use super::fields::{check_range, read_integer};
 use super::pictures::nearest_index;
-use super::simulation_class::cloud_simulation_class;
-use super::values::{flat_float_array, group_to_js, js_object, to_plain_js, triple_array};
+use super::simulation_class::{cloud_simulation_class, getters};
+use super::values::{flat_float_array, js_object, pose_to_js, to_plain_js, triple_array};
 use crate::sim::odometry_decomposer::{CurvePoint, MAX_CURVE_POINTS, MAX_SAMPLES, OdometryDecomposer};
 use crate::sim::settings::QUANTITY_RANGE;
 use js_sys::Float64Array;
@@ -26,6 +26,26 @@ cloud_simulation_class! {
     "Partial<OdometryDecomposerSettings>", MAX_SAMPLES
 }
 
+getters! {
+    JsOdometryDecomposer, "OdometryDecomposer", |it| {
+        /// x, y (m), θ (rad) of each outcome shown, in the odometry frame; a copy.
+        poses: "Float64Array" = triple_array(it.poses().iter().copied());
+        /// Noise-free reading as four poses x, y, θ: at the start, after the first rotation, after the drive, after the
+        /// second rotation.
+        leg_poses as linkage: "Float64Array" = triple_array(it.leg_poses());
+        /// Pose of the robot at the selected phase.
+        robot: "Start" = pose_to_js(it.robot_pose());
+        /// Legs and noises of the reading by each rule.
+        rules: "RuleNoise[]" = to_plain_js(&it.rule_noises());
+        stats: "DecomposerStats" = to_plain_js(&it.stats());
+        drifted: "Drifted" = {
+            let drifted = it.drifted_odometry();
+            let poses = triple_array([drifted.frame, drifted.from, drifted.to]);
+            js_object(&[("poses", poses.into()), ("legs", to_plain_js(&drifted.legs))])
+        };
+    }
+}
+
 #[wasm_bindgen(js_class = OdometryDecomposer)]
 impl JsOdometryDecomposer {
     /// Returns everything that is shown, in one call. `ghosts` are the leg_poses of the first outcomes.
@@ -35,29 +55,16 @@ impl JsOdometryDecomposer {
     pub fn read(&self) -> Result<JsValue, JsValue> {
         Ok(js_object(&[
             ("config", self.config()),
-            ("shown", self.shown_count().into()),
-            ("block", self.block_size().into()),
-            ("stats", self.stats()?),
-            ("rules", self.rules()?),
-            ("poses", self.poses().into()),
-            ("linkage", self.leg_poses().into()),
+            ("shown", self.shown_count()),
+            ("block", self.block_size()),
+            ("stats", self.stats()),
+            ("rules", self.rules()),
+            ("poses", self.poses()),
+            ("linkage", self.leg_poses()),
             ("robot", self.robot()),
-            ("drifted", self.drifted()?),
+            ("drifted", self.drifted()),
             ("ghosts", self.sample_leg_poses(MAX_SHOWN_LINKAGES)?.into()),
         ]))
-    }
-
-    /// x, y (m), θ (rad) of each outcome shown, in the odometry frame; a copy.
-    #[wasm_bindgen(getter)]
-    pub fn poses(&self) -> Float64Array {
-        triple_array(self.0.poses().iter().copied())
-    }
-
-    /// Noise-free reading as four poses x, y, θ: at the start, after the first rotation, after the drive, after the
-    /// second rotation.
-    #[wasm_bindgen(getter, js_name = linkage)]
-    pub fn leg_poses(&self) -> Float64Array {
-        triple_array(self.0.leg_poses())
     }
 
     /// Leg poses of the first `count` outcomes shown, one after the other in the form of `linkage`.
@@ -65,23 +72,6 @@ impl JsOdometryDecomposer {
     pub fn sample_leg_poses(&self, count: f64) -> Result<Float64Array, JsValue> {
         let leg_poses = self.0.sample_leg_poses(read_integer("count", count, 0..=MAX_SAMPLES)? as usize);
         Ok(triple_array(leg_poses.into_iter().flatten()))
-    }
-
-    /// Pose of the robot at the selected phase.
-    #[wasm_bindgen(getter, unchecked_return_type = "Start")]
-    pub fn robot(&self) -> JsValue {
-        group_to_js(&mut <[f64; 3]>::from(self.0.robot_pose()))
-    }
-
-    /// Legs and noises of the reading by each rule.
-    #[wasm_bindgen(getter, unchecked_return_type = "RuleNoise[]")]
-    pub fn rules(&self) -> Result<JsValue, JsValue> {
-        to_plain_js(&self.0.rule_noises())
-    }
-
-    #[wasm_bindgen(getter, unchecked_return_type = "DecomposerStats")]
-    pub fn stats(&self) -> Result<JsValue, JsValue> {
-        to_plain_js(&self.0.stats())
     }
 
     /// Standard deviations for lengths of the drive from 0 to `longest` m. For each of `count` points: the length, the
@@ -95,13 +85,6 @@ impl JsOdometryDecomposer {
         Ok(flat_float_array(
             &self.0.deviation_curve(longest, count).into_iter().map(point_to_array).collect::<Vec<_>>(),
         ))
-    }
-
-    #[wasm_bindgen(getter, unchecked_return_type = "Drifted")]
-    pub fn drifted(&self) -> Result<JsValue, JsValue> {
-        let drifted = self.0.drifted_odometry();
-        let poses = triple_array([drifted.frame, drifted.from, drifted.to]);
-        Ok(js_object(&[("poses", poses.into()), ("legs", to_plain_js(&drifted.legs)?)]))
     }
 
     /// The index of the outcome that ends nearest to a point and within `radius` of it; −1 for none.

@@ -56,6 +56,15 @@ macro_rules! cloud_simulation_class {
             $class($simulation), $name, $settings, $options
         }
 
+        $crate::wasm::simulation_class::getters! {
+            $class, $name, |simulation| {
+                /// Number of samples shown, 0 to `config.samples`.
+                shown_count as shown: "number" = simulation.shown_count();
+                /// Number of samples that `addSamples` adds within a few milliseconds.
+                block_size as block: "number" = simulation.block_size();
+            }
+        }
+
         #[wasm_bindgen(js_class = $name)]
         impl $class {
             /// A simulation as the constructor makes it, which shows no samples yet.
@@ -63,12 +72,6 @@ macro_rules! cloud_simulation_class {
                 #[wasm_bindgen(unchecked_optional_param_type = $options)] options: &JsValue,
             ) -> Result<Self, JsValue> {
                 Ok(Self($simulation::with_shown_count($crate::wasm::fields::read_initial_settings(options)?, 0)?))
-            }
-
-            /// Number of samples shown, 0 to `config.samples`.
-            #[wasm_bindgen(getter, js_name = shown)]
-            pub fn shown_count(&self) -> usize {
-                self.0.shown_count()
             }
 
             /// Changes the given settings and returns all settings. Shows the first block of `goal` samples (Infinity: all samples)
@@ -91,14 +94,28 @@ macro_rules! cloud_simulation_class {
                 let count = $crate::wasm::fields::read_integer("count", count, 0..=$max_samples as u64)?;
                 Ok(self.0.add_samples(count as usize))
             }
-
-            /// Number of samples that `addSamples` adds within a few milliseconds.
-            #[wasm_bindgen(getter, js_name = block)]
-            pub fn block_size(&self) -> usize {
-                self.0.block_size()
-            }
         }
     };
 }
 
-pub(super) use {cloud_simulation_class, simulation_class};
+/// Declares getters of the class of a simulation, each with its name, its TypeScript type and an expression of the simulation. `as` gives
+/// the name in JavaScript, if it differs.
+macro_rules! getters {
+    ($class:ident, $name:literal, |$simulation:ident| {
+        $($(#[$doc:meta])* $getter:ident $(as $key:ident)?: $type:literal = $value:expr;)+
+    }) => {
+        #[wasm_bindgen(js_class = $name)]
+        impl $class {
+            $(
+                $(#[$doc])*
+                #[wasm_bindgen(getter, $(js_name = $key,)? unchecked_return_type = $type)]
+                pub fn $getter(&self) -> JsValue {
+                    let $simulation = &self.0;
+                    $value.into()
+                }
+            )+
+        }
+    };
+}
+
+pub(super) use {cloud_simulation_class, getters, simulation_class};

@@ -3,15 +3,15 @@
 use super::fields::{quote, read_integer, read_keyword};
 use super::maps::{read_map, read_plan};
 use super::pictures::{nearest_index, pixel_view, read_grid, read_ramps};
-use super::simulation_class::cloud_simulation_class;
+use super::simulation_class::{cloud_simulation_class, getters};
 use super::values::{
-    flat_float_array, float_array, group_to_js, js_object, number_or_null, to_plain_js, triple_array,
+    ToJs, flat_float_array, js_object, number_or_null, pose_to_js, to_plain_js, triple_array,
 };
 use crate::geom::segment::Segment;
 use crate::map::{Cell, FloorPlan, MAX_DRAWS, Sampler};
 use crate::sim::settings::Keyword;
 use crate::sim::squeeze::{Attempt, MAX_SAMPLES, MAX_STEPS, MAX_TRIAL_PARTS, MapSqueeze, max_draws};
-use js_sys::{Array, Float64Array, RangeError, Uint8Array, Uint8ClampedArray};
+use js_sys::{Array, Float64Array, RangeError, Uint8ClampedArray};
 use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
@@ -44,6 +44,45 @@ cloud_simulation_class! {
     "Partial<MapSqueezeSettings> & { noise?: number }", MAX_SAMPLES
 }
 
+getters! {
+    JsMapSqueeze, "MapSqueeze", |it| {
+        /// Level n of the noise parameters; null if they are not in the ratios of a level.
+        noise: "number | null" = number_or_null(it.settings().noise());
+        plan: "Plan" = {
+            let wall_coordinates = |Segment { from, to }: &Segment| [from[0], from[1], to[0], to[1]];
+            let walls: Vec<_> = it.plan().walls().iter().map(wall_coordinates).collect();
+            js_object(&[("bounds", it.plan().bounds().to_js()), ("walls", walls.to_js())])
+        };
+        /// Cells of the map; null for a plan of walls.
+        grid: "Grid | null" = {
+            let Some(grid) = it.plan().grid() else { return JsValue::NULL };
+            let [columns, rows] = grid.size();
+            let cell_flags_of = |kind| grid.cells().map(|cell| u8::from(cell == kind)).collect::<Vec<_>>().to_js();
+            js_object(&[
+                ("columns", (columns as f64).into()),
+                ("rows", (rows as f64).into()),
+                ("resolution", grid.resolution().into()),
+                ("origin", <[f64; 3]>::from(grid.origin()).to_js()),
+                ("occupied", cell_flags_of(Cell::Occupied)),
+                ("unknown", cell_flags_of(Cell::Unknown)),
+            ])
+        };
+        /// Free start pose: in the middle of the largest square that is known to be free, heading where the path is free
+        /// for longest. If the robot does not fit there, another pose where it fits; null if there is none.
+        find_free_pose as openPlace: "Start | null" = it.find_free_pose().map_or(JsValue::NULL, pose_to_js);
+        /// True if the robot collides with nothing at its start pose.
+        is_start_free as startFree: "boolean" = it.is_start_free();
+        /// Noise-free path of the command, as x, y pairs.
+        commanded: "Float64Array" = flat_float_array(&it.commanded_arc().points());
+        /// x, y (m), θ (rad) of each attempt shown; a copy.
+        poses: "Float64Array" = triple_array(it.attempts().iter().map(|attempt| attempt.pose));
+        /// Result of each attempt as one byte: 1 for a free end, plus 2 for a free path, plus 4 if it is accepted.
+        verdicts: "Uint8Array" =
+            it.attempts().iter().map(Attempt::verdict_bits).collect::<Vec<_>>().to_js();
+        stats: "SqueezeStats" = to_plain_js(&it.stats());
+    }
+}
+
 #[wasm_bindgen(js_class = MapSqueeze)]
 impl JsMapSqueeze {
     /// Returns everything that is shown besides the map, in one call. `paths` are of the first samples accepted through a wall.
@@ -56,50 +95,15 @@ impl JsMapSqueeze {
         let paths = through_wall.map(|(index, _)| self.path(index as f64));
         Ok(js_object(&[
             ("config", self.config()),
-            ("shown", self.shown_count().into()),
-            ("block", self.block_size().into()),
-            ("stats", self.stats()?),
-            ("verdicts", Uint8Array::from(&self.verdicts()[..]).into()),
-            ("poses", self.poses().into()),
-            ("commanded", self.commanded().into()),
-            ("startFree", self.is_start_free().into()),
+            ("shown", self.shown_count()),
+            ("block", self.block_size()),
+            ("stats", self.stats()),
+            ("verdicts", self.verdicts()),
+            ("poses", self.poses()),
+            ("commanded", self.commanded()),
+            ("startFree", self.is_start_free()),
             ("paths", paths.collect::<Result<Array, JsValue>>()?.into()),
         ]))
-    }
-
-    /// Level n of the noise parameters; null if they are not in the ratios of a level.
-    #[wasm_bindgen(getter, unchecked_return_type = "number | null")]
-    pub fn noise(&self) -> JsValue {
-        number_or_null(self.0.settings().noise())
-    }
-
-    #[wasm_bindgen(getter, unchecked_return_type = "Plan")]
-    pub fn plan(&self) -> JsValue {
-        let wall_coordinates = |Segment { from, to }: &Segment| [from[0], from[1], to[0], to[1]];
-        let walls: Vec<_> = self.0.plan().walls().iter().map(wall_coordinates).collect();
-        js_object(&[
-            ("bounds", float_array(&self.0.plan().bounds())),
-            ("walls", flat_float_array(&walls).into()),
-        ])
-    }
-
-    /// Cells of the map; null for a plan of walls.
-    #[wasm_bindgen(getter, unchecked_return_type = "Grid | null")]
-    pub fn grid(&self) -> JsValue {
-        let Some(grid) = self.0.plan().grid() else { return JsValue::NULL };
-        let ([columns, rows], origin) = (grid.size(), grid.origin());
-        let cell_flags_of = |kind| {
-            let cell_flags: Vec<u8> = grid.cells().map(|cell| u8::from(cell == kind)).collect();
-            Uint8Array::from(&cell_flags[..]).into()
-        };
-        js_object(&[
-            ("columns", (columns as f64).into()),
-            ("rows", (rows as f64).into()),
-            ("resolution", grid.resolution().into()),
-            ("origin", float_array(&<[f64; 3]>::from(origin))),
-            ("occupied", cell_flags_of(Cell::Occupied)),
-            ("unknown", cell_flags_of(Cell::Unknown)),
-        ])
     }
 
     /// { bounds: [x, y, x, y], walls: [[x, y, x, y], …] } in m, as a JSON floor plan has them; undefined for the apartment.
@@ -124,47 +128,10 @@ impl JsMapSqueeze {
         Ok(self.0.set_grid(read_map(description, image)?)?)
     }
 
-    /// Free start pose: in the middle of the largest square that is known to be free, heading where the path is free
-    /// for longest. If the robot does not fit there, another pose where it fits; null if there is none.
-    #[wasm_bindgen(getter, js_name = openPlace, unchecked_return_type = "Start | null")]
-    pub fn find_free_pose(&self) -> JsValue {
-        let free_pose = self.0.find_free_pose();
-        free_pose.map_or(JsValue::NULL, |place| group_to_js(&mut <[f64; 3]>::from(place)))
-    }
-
-    /// True if the robot collides with nothing at its start pose.
-    #[wasm_bindgen(getter, js_name = startFree)]
-    pub fn is_start_free(&self) -> bool {
-        self.0.is_start_free()
-    }
-
-    /// Noise-free path of the command, as x, y pairs.
-    #[wasm_bindgen(getter)]
-    pub fn commanded(&self) -> Float64Array {
-        flat_float_array(&self.0.commanded_arc().points())
-    }
-
-    /// x, y (m), θ (rad) of each attempt shown; a copy.
-    #[wasm_bindgen(getter)]
-    pub fn poses(&self) -> Float64Array {
-        triple_array(self.0.attempts().iter().map(|attempt| attempt.pose))
-    }
-
-    /// Result of each attempt as one byte: 1 for a free end, plus 2 for a free path, plus 4 if it is accepted.
-    #[wasm_bindgen(getter)]
-    pub fn verdicts(&self) -> Vec<u8> {
-        self.0.attempts().iter().map(Attempt::verdict_bits).collect()
-    }
-
     /// Path driven in an attempt, as x, y pairs; empty if the attempt is not shown.
     pub fn path(&self, index: f64) -> Result<Float64Array, JsValue> {
         let arcs = self.0.arcs(read_integer("index", index, 0..=MAX_SAMPLES as u64)? as usize);
         Ok(flat_float_array(&arcs.iter().flat_map(|arc| arc.points()).collect::<Vec<_>>()))
-    }
-
-    #[wasm_bindgen(getter, unchecked_return_type = "SqueezeStats")]
-    pub fn stats(&self) -> Result<JsValue, JsValue> {
-        to_plain_js(&self.0.stats())
     }
 
     /// Draws `count` accepted samples with a sampler and discards them, to measure the time. Throws if too many draws are rejected.
@@ -186,7 +153,7 @@ impl JsMapSqueeze {
                 quote(sampler.get()),
             ))
         })?;
-        to_plain_js(&cost)
+        Ok(to_plain_js(&cost))
     }
 
     /// Density of the ends of the attempts shown, as RGBA pixels of a grid, row by row from the top. The colours are three

@@ -1,5 +1,6 @@
 //! Conversion of Rust values to JavaScript values.
 
+use crate::geom::se2::SE2;
 use crate::sim::settings::{DeclaredSettings, Group, Keyword, Keywords, Setting};
 use js_sys::{Array, Float64Array, Object, Uint8Array};
 use nalgebra::{Matrix3, Vector3};
@@ -7,9 +8,10 @@ use serde::{Serialize, Serializer};
 use wasm_bindgen::prelude::*;
 
 /// Converts a value to a plain JavaScript value, in which None is null.
-pub fn to_plain_js<T: Serialize>(value: &T) -> Result<JsValue, JsValue> {
+pub fn to_plain_js<T: Serialize>(value: &T) -> JsValue {
     let serializer = serde_wasm_bindgen::Serializer::new().serialize_missing_as_null(true);
-    Ok(value.serialize(&serializer)?)
+    // Results have no maps, of which the keys might not be texts, so that the conversion succeeds.
+    value.serialize(&serializer).unwrap_or(JsValue::NULL)
 }
 
 /// Conversion to a JavaScript value of another kind than serde makes, such as a Float64Array.
@@ -89,6 +91,11 @@ pub fn group_to_js(group: &mut dyn Group) -> JsValue {
         .map(|(i, field)| (field.declaration.key, (*group.number(i)).into()))
         .collect();
     js_object(&entries)
+}
+
+/// Makes an object of the coordinates of a pose.
+pub fn pose_to_js(pose: SE2) -> JsValue {
+    group_to_js(&mut <[f64; 3]>::from(pose))
 }
 
 /// Makes a plain array of numbers.

@@ -25,21 +25,6 @@ pub struct SinCos {
     pub cos: f64x4,
 }
 
-/// Terms of the SE(2) logarithm that depend on the heading, as functions of the half heading h = ω/2.
-#[derive(Clone, Copy)]
-pub struct LogTerms {
-    /// h minus whole half circles, so that it is within a quarter circle of the requested branch.
-    pub half_heading: f64x4,
-    /// h·cot h of `half_heading`.
-    pub half_cotangent: f64x4,
-    /// sin h/h of `half_heading`.
-    pub sinc: f64x4,
-    /// sin h. The signs of sine and cosine are reversed if an odd number of half circles was subtracted.
-    pub sin: f64x4,
-    /// cos h.
-    pub cos: f64x4,
-}
-
 /// Polynomials with their coefficients in memory. A WebAssembly engine loads such a coefficient with one instruction; a
 /// constant in the code would take three.
 #[derive(Clone, Copy, Debug)]
@@ -69,9 +54,14 @@ impl Trigonometry {
     }
 
     /// Returns the sines and cosines of any finite angles (rad). A lane up to a quarter turn gets the bits of
-    /// [`Trigonometry::sin_cos_small_angle`].
+    /// [`Trigonometry::sin_cos_small_angle`], unless another lane is beyond a million radians.
     #[inline(never)]
     pub fn sin_cos_any_angle(&self, x: f64x4) -> SinCos {
+        if any_lane_beyond(x, MAX_REDUCED_ANGLE) {
+            let of_lanes = |function: fn(f64) -> f64| f64x4::from(x.to_array().map(function));
+            let [sinc, sin, cos] = [super::sinc::sinc, libm::sin, libm::cos].map(of_lanes);
+            return SinCos { sinc, sin, cos };
+        }
         let half_circles = half_circle_count(x);
         let reduced_sin_cos = self.sin_cos_small_angle(subtract_half_circles(x, half_circles));
         // Difference from the nearest even number: ±1 if the number of half circles is odd.
@@ -79,42 +69,20 @@ impl Trigonometry {
         let parity_sign = f64x4::splat(1.0) - 2.0 * parity.abs();
         let (sin, cos) = (reduced_sin_cos.sin * parity_sign, reduced_sin_cos.cos * parity_sign);
         let sinc = half_circles.simd_eq(f64x4::splat(0.0)).bitselect(reduced_sin_cos.sinc, sin / x);
-        if !any_lane_beyond(x, MAX_REDUCED_ANGLE) {
-            return SinCos { sinc, sin, cos };
-        }
-        let with_scalar_results = |vector_results: f64x4, scalar: fn(f64) -> f64| {
-            from_lanes(|i| {
-                let angle = x.to_array()[i];
-                if angle.abs() > MAX_REDUCED_ANGLE { scalar(angle) } else { vector_results.to_array()[i] }
-            })
-        };
-        SinCos {
-            sinc: with_scalar_results(sinc, super::sinc::sinc),
-            sin: with_scalar_results(sin, libm::sin),
-            cos: with_scalar_results(cos, libm::cos),
-        }
+        SinCos { sinc, sin, cos }
     }
 
-    /// Returns the terms of the SE(2) logarithm for half headings (rad) within a quarter turn of 0, which are on the requested branch.
-    #[inline(always)]
-    pub fn log_terms_small_angle(&self, half_heading: f64x4) -> LogTerms {
-        let (sinc, cos) = self.sinc_cos(half_heading * half_heading);
-        LogTerms { half_heading, half_cotangent: cos / sinc, sinc, sin: half_heading * sinc, cos }
-    }
-
-    /// Returns the terms of the SE(2) logarithm for any half headings (rad), on the branch nearest to the half heading `near` (rad).
-    /// Half headings that [`Trigonometry::log_terms_small_angle`] accepts get the same bits as from it.
+    /// Returns half headings h (rad) minus whole half circles, so that each is within a quarter circle of `near` (rad), with their sines
+    /// and cosines. The signs of sine and cosine are reversed if an odd number of half circles was subtracted. Half headings within a
+    /// quarter turn of 0 and of `near` get the bits of [`Trigonometry::sin_cos_small_angle`].
     #[inline(never)]
-    pub fn log_terms_any_angle(&self, half_heading: f64x4, near: f64) -> LogTerms {
+    pub fn sin_cos_on_branch(&self, half_heading: f64x4, near: f64) -> (f64x4, SinCos) {
         let mut half_on_branch = subtract_half_circles(half_heading, half_circle_count(half_heading - near));
         if any_lane_beyond(half_heading - near, MAX_REDUCED_ANGLE) {
             let wrapped_near = |half_heading: f64| near + 0.5 * wrap_angle(2.0 * (half_heading - near));
-            let is_beyond_reduction = (half_heading - near).abs().simd_gt(f64x4::splat(MAX_REDUCED_ANGLE));
-            half_on_branch = is_beyond_reduction
-                .bitselect(from_lanes(|i| wrapped_near(half_heading.to_array()[i])), half_on_branch);
+            half_on_branch = half_heading.to_array().map(wrapped_near).into();
         }
-        let SinCos { sinc, sin, cos } = self.sin_cos_any_angle(half_on_branch);
-        LogTerms { half_heading: half_on_branch, half_cotangent: cos / sinc, sinc, sin, cos }
+        (half_on_branch, self.sin_cos_any_angle(half_on_branch))
     }
 
     /// Returns (sin x/x, cos x) from z = x², for |x| up to a quarter turn. Exact at 0.

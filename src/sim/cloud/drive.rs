@@ -1,6 +1,6 @@
 //! Common form of both models for a start at the origin: a distance in a direction, and a final heading.
 
-use crate::geom::lanes::{LogTerms, SinCos, Trigonometry, any_lane_set};
+use crate::geom::lanes::{SinCos, Trigonometry, any_lane_set};
 use crate::models::{OdomDelta, RotTransRot, VelocityCmd, VelocityModel};
 use crate::stats::two_pass::{FourArcs, FourPoses, JacobianScale, ReferenceCoordinates};
 use std::f64::consts::FRAC_PI_2;
@@ -133,8 +133,8 @@ impl Drive {
     /// Returns the arcs that lead to the points (x, y), which lie in the directions of these bearings.
     #[inline(never)]
     fn arcs_to_points(&self, bearing: f64x4, [x, y]: [f64x4; 2]) -> FourArcs {
-        let LogTerms { half_heading: half_turn, sinc, sin, cos, .. } =
-            self.trigonometry.log_terms_any_angle(bearing, self.half_commanded_turn);
+        let (half_turn, SinCos { sinc, sin, cos }) =
+            self.trigonometry.sin_cos_on_branch(bearing, self.half_commanded_turn);
         FourArcs { length: (x * cos + y * sin) / sinc, half_turn, sinc }
     }
 
@@ -143,11 +143,11 @@ impl Drive {
     #[inline(always)]
     pub fn poses(&self, motions: &Motions, ends: &[f64x4; 2]) -> FourPoses {
         let turn = if self.is_outside_short_formulas(motions) {
-            self.trigonometry.log_terms_any_angle(motions.half_heading, self.half_commanded_turn)
+            self.trigonometry.sin_cos_on_branch(motions.half_heading, self.half_commanded_turn)
         } else {
-            self.trigonometry.log_terms_small_angle(motions.half_heading)
+            (motions.half_heading, self.trigonometry.sin_cos_small_angle(motions.half_heading))
         };
-        with_logarithms(ends, turn)
+        with_logarithms(*ends, turn)
     }
 
     /// Returns the points to which a morph takes the ends of four motions: see [`crate::geom::unbend`].
@@ -176,8 +176,8 @@ impl Drive {
         let motions = self.motions(unit_noise);
         let bearing_sin_cos = self.trigonometry.sin_cos_any_angle(motions.bearing);
         let ends = self.end_points_on_bearing(&motions, &bearing_sin_cos);
-        let turn = self.trigonometry.log_terms_any_angle(motions.half_heading, self.half_commanded_turn);
-        (with_logarithms(&ends, turn), self.arcs_to_points(motions.bearing, ends))
+        let turn = self.trigonometry.sin_cos_on_branch(motions.half_heading, self.half_commanded_turn);
+        (with_logarithms(ends, turn), self.arcs_to_points(motions.bearing, ends))
     }
 
     /// Returns the coordinates of the noise-free end, which are subtracted in all sums, and the scales of the Jacobians.
@@ -204,8 +204,10 @@ impl Drive {
 
 /// Returns the poses at `ends` with the half headings of `turn`, and their logarithms.
 #[inline(always)]
-fn with_logarithms(ends: &[f64x4; 2], turn: LogTerms) -> FourPoses {
-    let ([x, y], LogTerms { half_heading, half_cotangent, sinc, sin, cos }) = (*ends, turn);
+fn with_logarithms([x, y]: [f64x4; 2], turn: (f64x4, SinCos)) -> FourPoses {
+    let (half_heading, SinCos { sinc, sin, cos }) = turn;
+    // h·cot h of the half heading h.
+    let half_cotangent = cos / sinc;
     let (along, lateral) = (half_cotangent * x + half_heading * y, half_cotangent * y - half_heading * x);
     FourPoses { x, y, along, lateral, half_heading, half_sin: sin, half_cos: cos, sinc }
 }

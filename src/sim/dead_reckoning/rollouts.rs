@@ -1,7 +1,7 @@
 //! Monte Carlo rollouts: many robots drive one command repeatedly, four at a time. Sums after each step give mean and covariance.
 
 use super::settings::Settings;
-use crate::geom::lanes::{LANES, LogTerms, SinCos, Trigonometry, any_lane_set, first_lanes_mask};
+use crate::geom::lanes::{LANES, SinCos, Trigonometry, any_lane_set, first_lanes_mask};
 use crate::geom::se2::SE2;
 use crate::models::TangentNoiseModel;
 use crate::noise::{NoiseKind, four_uniform_triples};
@@ -116,11 +116,12 @@ impl StepInErrorFrame {
         let y = robots.y + chord_length * (heading_sin * cos + heading_cos * sin) - self.end[1];
         let half_turn = robots.half_heading + (turn_noise + *third * self.half_last_turn_std);
         let is_far = any_lane_set(half_turn.abs().simd_gt(f64x4::splat(MAX_SHORT_FORMULA_ANGLE)));
-        let LogTerms { half_heading, half_cotangent, sin, cos, .. } = if is_far {
-            self.trigonometry.log_terms_any_angle(half_turn, 0.0)
+        let (half_heading, SinCos { sinc, sin, cos }) = if is_far {
+            self.trigonometry.sin_cos_on_branch(half_turn, 0.0)
         } else {
-            self.trigonometry.log_terms_small_angle(half_turn)
+            (half_turn, self.trigonometry.sin_cos_small_angle(half_turn))
         };
+        let half_cotangent = cos / sinc;
         let (x, y) = (x * self.cos + y * self.sin, y * self.cos - x * self.sin);
         *robots = ErrorPoses { x, y, half_heading, sin, cos };
         [half_cotangent * x + half_heading * y, half_cotangent * y - half_heading * x, half_heading * 2.0]

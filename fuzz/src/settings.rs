@@ -36,7 +36,7 @@ fn set_any_value(setting: Setting, input: &mut Input) {
             slots.iter_mut().for_each(|slot| *slot = input.number_near(&allowed))
         }
         // A level outside of its range is refused earlier, before it is converted to the numbers that it sets.
-        Setting::Level(slot, allowed) => slot.set(input.number_within(allowed)),
+        Setting::Level(mut slot, allowed) => slot.set(input.number_within(allowed)),
         Setting::Group(group) => {
             for (i, field) in group.fields().iter().enumerate() {
                 *group.number(i) = input.number_near(&field.allowed);

@@ -1,6 +1,7 @@
 //! Settings of the widgets, declared by `settings!`, and checks of their values.
 
-use std::ops::{ControlFlow, RangeInclusive};
+use super::noise_level::NoiseLevel;
+use std::ops::RangeInclusive;
 use thiserror::Error;
 
 /// Error for a setting whose value is not allowed. The message has the field, the value and the allowed values.
@@ -131,8 +132,8 @@ pub enum Setting<'a> {
     Keyword(&'a mut dyn Keyword),
     /// List of fixed length, whose numbers have one range.
     Numbers(&'a mut [f64], RangeInclusive<f64>),
-    /// Number that sets several others in fixed ratios, with its range.
-    Level(&'a mut dyn Level, RangeInclusive<f64>),
+    /// Noise level, which sets several numbers in fixed ratios, with its range.
+    Level(NoiseLevel<'a>, RangeInclusive<f64>),
     /// Several numbers with names.
     Group(&'a mut dyn Group),
 }
@@ -178,16 +179,6 @@ pub trait Integer {
     fn get(&self) -> u64;
     /// Sets the number, which must be in the range of the type.
     fn set(&mut self, integer: u64);
-}
-
-/// Number that sets several others in fixed ratios, such as a noise level.
-pub trait Level {
-    /// Returns the level; None if the other numbers are not in the ratios of a level.
-    fn get(&self) -> Option<f64>;
-    /// Sets the level: the other numbers become the level times their ratios.
-    fn set(&mut self, level: f64);
-    /// Returns the ratios of the numbers to the level. They belong to the last numbers of the list.
-    fn weights(&self) -> Vec<f64>;
 }
 
 /// Enum whose values have keywords in settings, attributes and states.
@@ -309,8 +300,8 @@ macro_rules! integer {
 }
 integer!(u32, u64, usize);
 
-/// Visitor that is called for each setting, and may stop the loop.
-pub type Visitor<'a> = dyn FnMut(&'static Declaration, Setting) -> ControlFlow<()> + 'a;
+/// Visitor that is called for each setting.
+pub type Visitor<'a> = dyn FnMut(&'static Declaration, Setting) + 'a;
 
 /// Settings of a widget that can be visited one by one. `settings!` implements it.
 pub trait DeclaredSettings: Copy + Default {
@@ -318,7 +309,7 @@ pub trait DeclaredSettings: Copy + Default {
     const KEYS: &'static [&'static str];
 
     /// Calls `visit` for each setting, in the order of declaration.
-    fn visit_settings(&mut self, visit: &mut Visitor) -> ControlFlow<()>;
+    fn visit_settings(&mut self, visit: &mut Visitor);
 
     /// Calls `visit` for each setting, in the order of declaration, until it returns an error.
     ///
@@ -328,15 +319,13 @@ pub trait DeclaredSettings: Copy + Default {
         &mut self,
         mut visit: impl FnMut(&'static Declaration, Setting) -> Result<(), E>,
     ) -> Result<(), E> {
-        let mut first_error = None;
-        let _ = self.visit_settings(&mut |declaration, setting| match visit(declaration, setting) {
-            Ok(()) => ControlFlow::Continue(()),
-            Err(error) => {
-                first_error = Some(error);
-                ControlFlow::Break(())
+        let mut result = Ok(());
+        self.visit_settings(&mut |declaration, setting| {
+            if result.is_ok() {
+                result = visit(declaration, setting);
             }
         });
-        first_error.map_or(Ok(()), Err)
+        result
     }
 }
 
@@ -409,7 +398,7 @@ macro_rules! settings {
         impl $crate::sim::settings::DeclaredSettings for $name {
             const KEYS: &'static [&'static str] = &[$(settings!(@key $field $($key)?)),+];
 
-            fn visit_settings(&mut self, visit: &mut $crate::sim::settings::Visitor) -> std::ops::ControlFlow<()> {
+            fn visit_settings(&mut self, visit: &mut $crate::sim::settings::Visitor) {
                 use $crate::sim::settings::{Settable, declaration};
                 $(visit(
                     const {
@@ -420,8 +409,7 @@ macro_rules! settings {
                     },
                     settings!(@place self $field $($accessor)?)
                         .setting(settings!(@allowed self $($range $(, $max)?)?)),
-                )?;)+
-                std::ops::ControlFlow::Continue(())
+                );)+
             }
         }
     };

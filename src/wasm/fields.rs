@@ -4,7 +4,7 @@
 use crate::sim::settings::{
     Group, Keyword, Keywords, Rules, Setting, SettingsError, check_group, check_integer, check_real,
 };
-use js_sys::{Array, Number, RangeError, Reflect, TypeError};
+use js_sys::{Array, JSON, Number, RangeError, Reflect, TypeError};
 use std::ops::RangeInclusive;
 use wasm_bindgen::prelude::*;
 
@@ -121,6 +121,19 @@ pub fn read_array<const N: usize>(field: &str, value: &JsValue) -> Result<[f64; 
     Ok(result)
 }
 
+/// Reads an array of exactly N numbers, each in the given range.
+pub fn read_array_in_range<const N: usize>(
+    field: &str,
+    value: &JsValue,
+    allowed: &RangeInclusive<f64>,
+) -> Result<[f64; N], JsValue> {
+    let numbers = read_array(field, value)?;
+    for (i, number) in numbers.iter().enumerate() {
+        check_real(&format!("{field}[{i}]"), *number, allowed)?;
+    }
+    Ok(numbers)
+}
+
 fn fill_array(field: &str, value: &JsValue, numbers: &mut [f64]) -> Result<(), JsValue> {
     let expected = format!("an array of {} numbers", numbers.len());
     let length = array_length(field, value, &expected)?;
@@ -191,7 +204,9 @@ fn read_setting(field: &str, value: &JsValue, setting: Setting) -> Result<(), Js
         Setting::Keyword(slot) => set_keyword(field, value, slot)?,
         Setting::Numbers(slots, _) => fill_array(field, value, slots)?,
         // Checked before the level is converted to its numbers, because a later error would name one of these.
-        Setting::Level(slot, allowed) => slot.set(check_range(field, read_number(field, value)?, &allowed)?),
+        Setting::Level(mut slot, allowed) => {
+            slot.set(check_range(field, read_number(field, value)?, &allowed)?)
+        }
         Setting::Group(group) => read_group(field, value, group)?,
     }
     Ok(())
@@ -243,15 +258,7 @@ fn shorten(text: &str) -> String {
 
 /// Returns a text in quotation marks. `Debug` would include Unicode tables, which would be 5 % of the module.
 pub fn quote(text: &str) -> String {
-    let mut result = String::from('"');
-    for character in text.chars() {
-        if matches!(character, '"' | '\\') {
-            result.push('\\');
-        }
-        result.push(character);
-    }
-    result.push('"');
-    result
+    JSON::stringify(&text.into()).map_or_else(|_| String::new(), String::from)
 }
 
 /// Describes a value in an error message.

@@ -1,8 +1,8 @@
 //! Plans and grids from JavaScript.
 
 use super::fields::{
-    Fields, array_item, array_length, check_range, number_text, read_array, read_boolean, read_integer,
-    read_keyword, read_number, type_error,
+    Fields, array_item, array_length, check_range, number_text, read_array, read_array_in_range,
+    read_boolean, read_integer, read_keyword, read_number, type_error,
 };
 use crate::geom::se2::SE2;
 use crate::geom::segment::Segment;
@@ -61,10 +61,7 @@ pub fn read_plan(plan: &JsValue) -> Result<FloorPlan, JsValue> {
 pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid, JsValue> {
     let fields = Fields::with_any_keys("description", "", description)?;
     let resolution = check_range("resolution", fields.number("resolution")?, &RESOLUTION_RANGE)?;
-    let origin: [f64; 3] = read_array("origin", &fields.value("origin")?)?;
-    for (i, coordinate) in origin.iter().enumerate() {
-        check_range(&format!("origin[{i}]"), *coordinate, &QUANTITY_RANGE)?;
-    }
+    let origin: [f64; 3] = read_array_in_range("origin", &fields.value("origin")?, &QUANTITY_RANGE)?;
     let negate = fields.optional("negate", |field, value| {
         if value.as_bool().is_some() {
             return read_boolean(field, value);
@@ -86,8 +83,7 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
     let free_thresh = free_thresh.unwrap_or(defaults.free_thresh.min(occupied_thresh));
     let negate = negate.unwrap_or(defaults.negate);
     let interpretation = Interpretation { mode, negate, occupied_thresh, free_thresh };
-    let [x, y, yaw] = origin;
-    let origin = SE2::new(x, y, yaw);
+    let origin = SE2::from(origin);
     if let Some(file) = image.dyn_ref::<Uint8Array>() {
         read_integer("image.length", f64::from(file.length()), 0..=MAX_BYTES as u64)?;
         return Ok(read_grid(&file.to_vec(), &interpretation, resolution, origin)?);

@@ -1,7 +1,7 @@
 //! Motion models, arc inversion and SE(2) of the chapter for JavaScript, for exercises.
 
 use super::fields::{
-    Fields, array_item, array_length, check_range, read_array, read_boolean, read_group_in_range,
+    Fields, array_item, array_length, check_range, read_array_in_range, read_boolean, read_group_in_range,
     read_integer, read_keyword, read_number,
 };
 use super::values::{js_array, js_object, number_or_null, pose_to_js, to_plain_js, triple_array};
@@ -13,7 +13,7 @@ use crate::models::{
 };
 use crate::noise::NoiseKind;
 use crate::sim::banana::MAX_SAMPLES;
-use crate::sim::settings::{ALPHA_RANGE, DURATION_RANGE, MAX_SEED, QUANTITY_RANGE, check_real};
+use crate::sim::settings::{ALPHA_RANGE, DURATION_RANGE, MAX_SEED, QUANTITY_RANGE};
 use js_sys::{Array, Float64Array, RangeError};
 use nalgebra::{Matrix3, Vector3};
 use rand::SeedableRng;
@@ -296,11 +296,7 @@ pub fn right_jacobian(twist: &JsTwist) -> Result<Array, JsValue> {
 }
 
 fn read_alphas<const N: usize>(fields: &Fields) -> Result<[f64; N], JsValue> {
-    let alphas = read_array("alphas", &fields.value("alphas")?)?;
-    for (i, alpha) in alphas.iter().enumerate() {
-        check_real(&format!("alphas[{i}]"), *alpha, &ALPHA_RANGE)?;
-    }
-    Ok(alphas)
+    read_array_in_range("alphas", &fields.value("alphas")?, &ALPHA_RANGE)
 }
 
 fn read_noise(fields: &Fields) -> Result<NoiseKind, JsValue> {
@@ -326,16 +322,7 @@ fn read_legs(value: &JsValue) -> Result<OdomDelta, JsValue> {
 }
 
 fn read_twist(field: &str, value: &JsValue) -> Result<Vector3<f64>, JsValue> {
-    Ok(Vector3::from(read_quantities(field, value)?))
-}
-
-/// Reads three numbers in the range of the models.
-fn read_quantities(field: &str, value: &JsValue) -> Result<[f64; 3], JsValue> {
-    let numbers = read_array(field, value)?;
-    for (i, number) in numbers.iter().enumerate() {
-        check_real(&format!("{field}[{i}]"), *number, &QUANTITY_RANGE)?;
-    }
-    Ok(numbers)
+    Ok(read_array_in_range(field, value, &QUANTITY_RANGE)?.into())
 }
 
 /// Reads a covariance, three rows of three.
@@ -347,7 +334,8 @@ fn read_covariance(field: &str, value: &JsValue) -> Result<Matrix3<f64>, JsValue
     }
     let mut matrix = Matrix3::zeros();
     for i in 0..3 {
-        let row = read_quantities(&format!("{field}[{i}]"), &array_item(value, i)?)?;
+        let row: [f64; 3] =
+            read_array_in_range(&format!("{field}[{i}]"), &array_item(value, i)?, &QUANTITY_RANGE)?;
         matrix.set_row(i, &Vector3::from(row).transpose());
     }
     let refusal_reason = match covariance_root(&matrix) {

@@ -57,11 +57,10 @@ impl<T: Keywords> ToJs for T {
 /// Makes an object of the settings of a widget, without settings that are alternative forms of others.
 pub fn settings_to_js<S: DeclaredSettings>(settings: &S) -> JsValue {
     let (mut entries, mut settings) = (Vec::new(), *settings);
-    let _ = settings.try_visit_settings(|declaration, setting| {
+    settings.visit_settings(&mut |declaration, setting| {
         if declaration.of.is_none() {
             entries.push((declaration.key, setting_to_js(setting)));
         }
-        Ok::<_, ()>(())
     });
     js_object(&entries)
 }

@@ -3,9 +3,7 @@
 use crate::models::{Compounding, VelocityAlphas, VelocityCmd, VelocityModel};
 use crate::noise::NoiseKind;
 use crate::sim::noise_level::NoiseLevel;
-use crate::sim::settings::{
-    ALPHA_RANGE, Keywords, Level, MAX_SEED, Rules, SettingsError, check_integer, settings,
-};
+use crate::sim::settings::{ALPHA_RANGE, Keywords, MAX_SEED, Rules, SettingsError, check_integer, settings};
 
 impl Keywords for Compounding {
     const KEYWORDS: &'static [(&'static str, Self)] =
@@ -63,7 +61,7 @@ settings! {
 pub const ALPHA_SENTENCES: [&str; 6] = ["Noise parameter of the velocity model."; 6];
 
 impl Settings {
-    fn heading_noise_level_mut(&mut self) -> NoiseLevel<'_, 4> {
+    fn heading_noise_level_mut(&mut self) -> NoiseLevel<'_> {
         let [_, _, heading_alphas @ ..] = &mut self.alphas;
         NoiseLevel(heading_alphas)
     }

@@ -5,8 +5,7 @@ use crate::map::{Sampler, UnknownCells};
 use crate::models::VelocityCmd;
 use crate::sim::noise_level::{NoiseLevel, alphas_of_noise_level};
 use crate::sim::settings::{
-    ALPHA_RANGE, Keywords, Level, MAX_SEED, QUANTITY_RANGE, Rules, SettingsError, check_integer, group,
-    settings,
+    ALPHA_RANGE, Keywords, MAX_SEED, QUANTITY_RANGE, Rules, SettingsError, check_integer, group, settings,
 };
 use std::f64::consts::FRAC_PI_2;
 
@@ -72,7 +71,7 @@ settings! {
 }
 
 impl Settings {
-    fn noise_level(&mut self) -> NoiseLevel<'_, 6> {
+    fn noise_level(&mut self) -> NoiseLevel<'_> {
         NoiseLevel(&mut self.alphas)
     }
 

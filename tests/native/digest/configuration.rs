@@ -35,12 +35,11 @@ impl Configuration<'_> {
         let unknown_key = given_settings.keys().find(|key| !S::KEYS.contains(&key.as_str()));
         assert!(unknown_key.is_none(), "{}/{} has {unknown_key:?}", self.widget, self.name);
         let (mut settings, mut given_keys) = (defaults, Vec::new());
-        let _ = settings.try_visit_settings(|declaration, setting| {
+        settings.visit_settings(&mut |declaration, setting| {
             if let Some(value) = given_settings.get(declaration.key) {
                 given_keys.push(declaration.key);
                 set_from_json(setting, value);
             }
-            Ok::<_, ()>(())
         });
         settings.adjust(&defaults, &given_keys);
         settings
@@ -77,7 +76,7 @@ fn set_from_json(setting: Setting, value: &Value) {
             assert_eq!(given_numbers.len(), slots.len(), "{value}");
             slots.iter_mut().zip(given_numbers).for_each(|(slot, value)| *slot = number_of(value));
         }
-        Setting::Level(slot, _) => slot.set(number_of(value)),
+        Setting::Level(mut slot, _) => slot.set(number_of(value)),
         Setting::Group(group) => {
             for (i, field) in group.fields().iter().enumerate() {
                 *group.number(i) = number_of(&value[field.declaration.key]);

@@ -8,7 +8,7 @@ use motion::sim::settings::{Declaration, DeclaredSettings, Field, Group, Setting
 use motion::sim::squeeze::{ACCEPTED_BIT, END_FREE_BIT, MAX_TRIAL_PARTS, PATH_FREE_BIT};
 use motion::sim::{alpha_calibrator, arc_anatomy, banana, dead_reckoning, odometry_decomposer, squeeze};
 use std::fmt::Write;
-use std::ops::{ControlFlow, RangeInclusive};
+use std::ops::RangeInclusive;
 
 const SETTINGS_JS_PATH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/www/settings.js");
 
@@ -169,9 +169,8 @@ fn object_lines(objects: impl IntoIterator<Item = String>) -> String {
 fn declaration_lines(mut defaults: impl DeclaredSettings, number_sentences: &[&str]) -> String {
     let mut objects = Vec::new();
     let shared_keys = shared_field_keys(&mut defaults);
-    let _ = defaults.visit_settings(&mut |declaration, setting| {
+    defaults.visit_settings(&mut |declaration, setting| {
         append_setting(declaration, setting, number_sentences, &shared_keys, &mut objects);
-        ControlFlow::Continue(())
     });
     object_lines(objects)
 }
@@ -180,14 +179,13 @@ fn declaration_lines(mut defaults: impl DeclaredSettings, number_sentences: &[&s
 /// key.
 fn shared_field_keys(defaults: &mut impl DeclaredSettings) -> Vec<&'static str> {
     let (mut seen_keys, mut shared_keys) = (Vec::new(), Vec::new());
-    let _ = defaults.visit_settings(&mut |_, setting| {
+    defaults.visit_settings(&mut |_, setting| {
         if let Setting::Group(group) = setting {
             for Field { declaration, .. } in group.fields() {
                 if seen_keys.contains(&declaration.key) { &mut shared_keys } else { &mut seen_keys }
                     .push(declaration.key);
             }
         }
-        ControlFlow::Continue(())
     });
     shared_keys
 }
@@ -229,7 +227,7 @@ fn append_setting(
         }
         Setting::Level(level, allowed) => {
             let default_value = level.get().map_or("null".to_owned(), |level| level.to_string());
-            let weights = level.weights();
+            let weights: Vec<f64> = level.weights().collect();
             append(format!(
                 "weights: {weights:?}, type: 'number', nullable: true, {unit}{}, default: {default_value}",
                 range_entries(&allowed)

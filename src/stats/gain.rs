@@ -26,11 +26,6 @@ pub struct LikelihoodGain {
     pub floor: f64,
 }
 
-impl LikelihoodGain {
-    /// Undefined gains.
-    pub const UNDEFINED: Self = Self { pose: f64::NAN, floor: f64::NAN };
-}
-
 /// Gain with its standard errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeasuredGain {

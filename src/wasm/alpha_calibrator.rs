@@ -6,7 +6,7 @@ use super::log::read_logs;
 use super::pictures::nearest_index;
 use super::simulation_class::{getters, simulation_class};
 use super::values::{ToJs, js_object, settings_to_js, to_plain_js};
-use crate::sim::alpha_calibrator::{AlphaCalibrator, LegView, RestoreError};
+use crate::sim::alpha_calibrator::{AlphaCalibrator, LegView};
 use js_sys::TypeError;
 use wasm_bindgen::prelude::*;
 
@@ -43,18 +43,14 @@ impl JsAlphaCalibrator {
         #[wasm_bindgen(unchecked_param_type = "Partial<AlphaCalibratorSettings>")] settings: &JsValue,
         saved: &[u8],
     ) -> Result<Self, JsValue> {
-        match AlphaCalibrator::restore(read_initial_settings(settings)?, saved) {
-            Ok(simulation) => Ok(Self(simulation)),
-            Err(RestoreError::Settings(error)) => Err(error.into()),
-            Err(RestoreError::Bytes) => {
-                Err(TypeError::new("saved is no fit; allowed is that of another simulation").into())
-            }
-        }
+        let calibration = postcard::from_bytes(saved)
+            .map_err(|_| TypeError::new("saved is no fit; allowed is that of another simulation"))?;
+        Ok(Self(AlphaCalibrator::restore(read_initial_settings(settings)?, calibration)?))
     }
 
     /// The fit as bytes, from which `restored` makes a simulation.
     pub fn save(&self) -> Vec<u8> {
-        self.0.save()
+        postcard::to_allocvec(self.0.calibration()).unwrap_or_default()
     }
 
     /// Settings, and the revision of the fit. `stats` and `legs` change only if that revision changes.

@@ -33,15 +33,6 @@ pub struct Log {
     pub reference: Trajectory,
 }
 
-/// Reason why a fit cannot be restored.
-#[derive(Clone, Debug, PartialEq)]
-pub enum RestoreError {
-    /// A setting is out of range.
-    Settings(SettingsError),
-    /// The bytes are not those of a fit.
-    Bytes,
-}
-
 js_structs! {
     /// True values of the simulated log.
     #[derive(Clone, Copy, Debug, PartialEq)]
@@ -115,11 +106,9 @@ impl AlphaCalibrator {
     /// [pending](AlphaCalibrator::is_pending).
     ///
     /// # Errors
-    /// [`RestoreError`] for settings out of range, or for bytes that are not a fit.
-    pub fn restore(settings: Settings, saved: &[u8]) -> Result<Self, RestoreError> {
-        let calibration: Calibration = postcard::from_bytes(saved).map_err(|_| RestoreError::Bytes)?;
+    /// [`SettingsError`] for the first setting out of range.
+    pub fn restore(settings: Settings, calibration: Calibration) -> Result<Self, SettingsError> {
         Self::from_source(settings, Source::Restored, OnceCell::from(calibration))
-            .map_err(RestoreError::Settings)
     }
 
     fn from_source(
@@ -129,11 +118,6 @@ impl AlphaCalibrator {
     ) -> Result<Self, SettingsError> {
         settings.check()?;
         Ok(Self { settings, source, fit: Fit { settings, calibration }, fit_revision: 1 })
-    }
-
-    /// Returns the fit as bytes, which [`AlphaCalibrator::restore`] reads.
-    pub fn save(&self) -> Vec<u8> {
-        postcard::to_allocvec(self.calibration()).unwrap_or_default()
     }
 
     /// Returns the settings.

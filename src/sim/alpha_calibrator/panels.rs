@@ -67,7 +67,7 @@ fn panel(model: Model, calibration: &Calibration, component: usize, regressor: R
     let component_alphas = model.component_alphas()[component];
     let alpha = component_alphas[position_in_component];
     let slope = alphas[alpha];
-    let leg_points: Vec<[f64; 4]> = observations
+    let leg_points: Vec<[f64; 3]> = observations
         .iter()
         .zip(leg_fits)
         .filter(|(observation, fit)| !observation.residuals[component].is_nan() && !fit.is_outlier)
@@ -80,7 +80,7 @@ fn panel(model: Model, calibration: &Calibration, component: usize, regressor: R
             let other_variance = variance - slope.unwrap_or(0.0) * coefficient;
             let squared_innovation = fit.standardized[component] * fit.standardized[component] * variance;
             // The square of a normal variate of variance v has variance 2v².
-            [coefficient, squared_innovation - other_variance, 1.0, 2.0 * variance * variance]
+            [coefficient, squared_innovation - other_variance, 2.0 * variance * variance]
         })
         .collect();
     let mut panel =
@@ -95,17 +95,15 @@ fn panel(model: Model, calibration: &Calibration, component: usize, regressor: R
     let mut previous_limit = f64::NEG_INFINITY;
     for bin in regressors.chunks(bin_size) {
         let bin_limit = bin[bin.len() - 1];
-        let bin: Vec<&[f64; 4]> =
+        let bin: Vec<&[f64; 3]> =
             leg_points.iter().filter(|point| point[0] > previous_limit && point[0] <= bin_limit).collect();
         previous_limit = bin_limit;
-        let sum =
-            |term: &dyn Fn(&[f64; 4]) -> f64| bin.iter().map(|point| point[2] * term(point)).sum::<f64>();
-        let total_weight = sum(&|_| 1.0);
-        let [x, y] = [sum(&|point| point[0]) / total_weight, sum(&|point| point[1]) / total_weight];
-        let mean_variance =
-            sum(&|point| (point[1] - y) * (point[1] - y)) / (total_weight * (total_weight - 1.0));
-        let model_variance = sum(&|point| point[2] * point[3]) / (total_weight * total_weight);
-        if bin.len() >= MIN_LEGS_PER_BIN && total_weight > 1.0 {
+        let count = bin.len() as f64;
+        let sum = |term: &dyn Fn(&[f64; 3]) -> f64| bin.iter().map(|point| term(point)).sum::<f64>();
+        let [x, y] = [0, 1].map(|column| sum(&|point| point[column]) / count);
+        let mean_variance = sum(&|point| (point[1] - y) * (point[1] - y)) / (count * (count - 1.0));
+        let model_variance = sum(&|point| point[2]) / (count * count);
+        if bin.len() >= MIN_LEGS_PER_BIN {
             panel.x.push(x);
             panel.y.push(y);
             panel.error.push(mean_variance.max(model_variance).sqrt());

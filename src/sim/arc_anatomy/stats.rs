@@ -64,7 +64,7 @@ js_structs! {
 }
 
 impl Factor {
-    fn of(noise: NoiseKind, Residual { estimate, residual, variance }: Residual) -> Self {
+    fn of(noise: NoiseKind, (estimate, residual, variance): (f64, f64, Variance)) -> Self {
         let (value, peak) = (noise.prob(residual, variance), noise.prob(0.0, variance));
         let deviation = variance.0.sqrt();
         let deviations = match (deviation == 0.0, value > 0.0) {
@@ -121,21 +121,14 @@ pub(super) fn selected_inversion(settings: &Settings) -> ArcInversion {
     ArcInversion { v_hat: v_hat.abs().copysign(omega_hat), ..inversion }
 }
 
-/// Residual that one of the three noises has to explain.
-struct Residual {
-    estimate: f64,
-    residual: f64,
-    variance: Variance,
-}
-
-fn residuals(settings: &Settings, estimates: &ArcInversion) -> [Residual; 3] {
-    let Settings { command, .. } = settings;
+/// Returns the estimate, the residual and the variance of each of the three noises.
+fn residuals(settings: &Settings, estimates: &ArcInversion) -> [(f64, f64, Variance); 3] {
     let ArcInversion { v_hat, omega_hat, gamma_hat } = *estimates;
-    let [v, omega, gamma] = settings.model().variances(command);
+    let [v, omega, gamma] = settings.model().variances(&settings.command);
     [
-        Residual { estimate: v_hat, residual: command.v - v_hat, variance: v },
-        Residual { estimate: omega_hat, residual: command.omega - omega_hat, variance: omega },
-        Residual { estimate: gamma_hat, residual: gamma_hat, variance: gamma },
+        (v_hat, settings.command.v - v_hat, v),
+        (omega_hat, settings.command.omega - omega_hat, omega),
+        (gamma_hat, gamma_hat, gamma),
     ]
 }
 
@@ -143,7 +136,7 @@ fn residuals(settings: &Settings, estimates: &ArcInversion) -> [Residual; 3] {
 pub(super) fn prob(settings: &Settings) -> f64 {
     product_or_zero(
         residuals(settings, &selected_inversion(settings))
-            .map(|Residual { residual, variance, .. }| settings.noise.prob(residual, variance)),
+            .map(|(_, residual, variance)| settings.noise.prob(residual, variance)),
     )
 }
 

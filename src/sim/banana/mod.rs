@@ -5,8 +5,8 @@ mod settings;
 mod stats;
 
 pub use settings::*;
+use stats::DefinedCharts;
 pub use stats::{Contours, Coverage, Sample, Stats, Table, TableColumn};
-use stats::{DefinedCharts, ExecutedMotion};
 
 use super::cloud::drive::Drive;
 use super::cloud::picture::{self, Ramp};
@@ -74,13 +74,16 @@ impl ModelWithInput {
         }
     }
 
-    fn executed_motion(&self, unit_noise: [f64; 3]) -> ExecutedMotion {
+    /// Returns v̂, ω̂ and γ̂, or the three legs of the odometry model.
+    fn executed_motion(&self, unit_noise: [f64; 3]) -> [f64; 3] {
         match self {
             Self::Velocity(model, command) => {
-                ExecutedMotion::Arc { arc: model.executed_motion(command, unit_noise), dt: command.dt }
+                let ArcInversion { v_hat, omega_hat, gamma_hat } = model.executed_motion(command, unit_noise);
+                [v_hat, omega_hat, gamma_hat]
             }
             Self::Odometry(model, reading) => {
-                ExecutedMotion::Legs(model.executed_motion(reading, unit_noise))
+                let OdomDelta { rot1, trans, rot2 } = model.executed_motion(reading, unit_noise);
+                [rot1, trans, rot2]
             }
         }
     }
@@ -155,24 +158,21 @@ cloud_simulation!(BananaMachine);
 impl BananaMachine {
     fn empty(settings: Settings) -> Result<Self, SettingsError> {
         let drive = settings.model_with_input(settings.command).drive(&settings.command);
-        let cloud = Cloud::new(settings.seed, settings.noise, drive);
-        let mut simulation = Self { settings, cloud, stats: Stats::UNDEFINED, picture: Vec::new() };
-        simulation.reserve_memory(&settings)?;
-        Ok(simulation)
+        let mut cloud = Cloud::new(settings.seed, settings.noise, drive);
+        cloud.reserve(settings.samples).map_err(|_| SettingsError::out_of_memory(settings.samples))?;
+        let cloud_stats = cloud.drive_and_summarize(settings.seed, settings.noise, drive, 0);
+        let stats = Stats::of(0, &cloud_stats, DefinedCharts { pose: false, arc: false });
+        Ok(Self { settings, cloud, stats, picture: Vec::new() })
     }
 
     /// Changes the settings and shows the first block of `target_count` samples. [`BananaMachine::add_samples`] shows the others.
     /// Errors are those of [`BananaMachine::new`], and change nothing.
     pub fn configure_first(&mut self, settings: Settings, target_count: usize) -> Result<(), SettingsError> {
         settings.check()?;
-        self.reserve_memory(&settings)?;
+        self.cloud.reserve(settings.samples).map_err(|_| SettingsError::out_of_memory(settings.samples))?;
         self.settings = settings;
         self.show_samples(target_count.min(settings.samples).min(FIRST_BLOCK_SAMPLES));
         Ok(())
-    }
-
-    fn reserve_memory(&mut self, settings: &Settings) -> Result<(), SettingsError> {
-        self.cloud.reserve(settings.samples).map_err(|_| SettingsError::out_of_memory(settings.samples))
     }
 
     fn show_samples(&mut self, count: usize) {
@@ -350,15 +350,16 @@ impl BananaMachine {
     /// Returns sample `index` of the samples shown.
     pub fn inspect(&self, index: usize) -> Option<Sample> {
         let pose = self.pose(index)?;
-        let undefined_arc = ArcInversion { v_hat: f64::NAN, omega_hat: f64::NAN, gamma_hat: f64::NAN };
-        let executed = self
-            .settings
-            .model_with_input(self.settings.command)
-            .executed_motion(self.cloud.unit_noise(index));
-        let (ArcInversion { v_hat, omega_hat, gamma_hat }, legs, path) = match executed {
-            ExecutedMotion::Arc { arc, dt } => (arc, None, arc_points(arc.v_hat * dt, arc.omega_hat * dt)),
-            ExecutedMotion::Legs(legs) => {
-                (undefined_arc, Some(legs), vec![[START_POSE.x(), START_POSE.y()], [pose.x(), pose.y()]])
+        let model_with_input = self.settings.model_with_input(self.settings.command);
+        let executed = model_with_input.executed_motion(self.cloud.unit_noise(index));
+        let ([v_hat, omega_hat, gamma_hat], legs, path) = match model_with_input {
+            ModelWithInput::Velocity(_, VelocityCmd { dt, .. }) => {
+                (executed, None, arc_points(executed[0] * dt, executed[1] * dt))
+            }
+            ModelWithInput::Odometry(..) => {
+                let [rot1, trans, rot2] = executed;
+                let path = vec![[START_POSE.x(), START_POSE.y()], [pose.x(), pose.y()]];
+                ([f64::NAN; 3], Some(OdomDelta { rot1, trans, rot2 }), path)
             }
         };
         let (pose, twist) = (pose.into(), self.twist(&pose).into());
@@ -369,12 +370,8 @@ impl BananaMachine {
     /// δ̂_rot1 (rad), δ̂_trans (m) and δ̂_rot2 (rad).
     pub fn executed_motions(&self) -> impl ExactSizeIterator<Item = [f64; 3]> {
         let model_with_input = self.settings.model_with_input(self.settings.command);
-        (0..self.shown_count()).map(move |index| {
-            match model_with_input.executed_motion(self.cloud.unit_noise(index)) {
-                ExecutedMotion::Arc { arc, .. } => [arc.v_hat, arc.omega_hat, arc.gamma_hat],
-                ExecutedMotion::Legs(OdomDelta { rot1, trans, rot2 }) => [rot1, trans, rot2],
-            }
-        })
+        (0..self.shown_count())
+            .map(move |index| model_with_input.executed_motion(self.cloud.unit_noise(index)))
     }
 
     /// Returns the noise-free odometry reading of the command.

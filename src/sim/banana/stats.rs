@@ -1,7 +1,6 @@
 //! Statistics of a cloud of the Banana Machine, as the widget shows them.
 
 use super::OUTLINE_SEGMENTS;
-use crate::geom::arc::ArcInversion;
 use crate::js::js_structs;
 use crate::models::OdomDelta;
 use crate::sim::cloud::START_POSE;
@@ -10,7 +9,7 @@ use crate::stats::{
     CartesianMoments, Ellipse, ExponentialContour, ExponentialMoments, LikelihoodGain,
     predicted_cross_track_skew,
 };
-use nalgebra::{ArrayStorage, Matrix3, Vector3};
+use nalgebra::{Matrix3, Vector3};
 
 js_structs! {
     /// Statistics of the samples shown. They are NaN if all samples are equal, or if there are too few.
@@ -62,60 +61,41 @@ pub struct DefinedCharts {
 }
 
 impl Stats {
-    /// Statistics of a cloud without samples.
-    pub const UNDEFINED: Self = {
-        let (mean, cov) = (
-            Vector3::new(f64::NAN, f64::NAN, f64::NAN),
-            Matrix3::from_array_storage(ArrayStorage([[f64::NAN; 3]; 3])),
-        );
-        Self {
-            n: 0,
-            cartesian: CartesianMoments { mean, cov },
-            exponential: ExponentialMoments { mean, cov },
-            cross_track_skew: f64::NAN,
-            cross_track_skew_error: f64::NAN,
-            gaussian_skew: f64::NAN,
-            rho_cross_heading: f64::NAN,
-            coverage: Coverage { ellipse: f64::NAN, exponential: f64::NAN },
-            likelihood_gain: LikelihoodGain::UNDEFINED,
-            likelihood_gain_error: LikelihoodGain::UNDEFINED,
-            area_ratio: f64::NAN,
-            area_ratio_error: f64::NAN,
-        }
-    };
-
     /// Returns the statistics of a cloud of `n` samples. Those in coordinates that are undefined for the cloud are NaN.
     pub fn of(n: usize, cloud: &CloudStats, defined: DefinedCharts) -> Self {
-        let CloudStats { cartesian, exponential, cross_track, gain, .. } = *cloud;
+        let CloudStats { cartesian, cross_track, gain, .. } = *cloud;
+        let one_if = |is_defined: bool| if is_defined { 1.0 } else { f64::NAN };
+        let [pose_factor, arc_factor] = [defined.pose, defined.arc].map(one_if);
+        let exponential = ExponentialMoments {
+            mean: cloud.exponential.mean * pose_factor,
+            cov: cloud.exponential.cov * pose_factor,
+        };
+        let defined_gain = |LikelihoodGain { pose, floor }: LikelihoodGain| LikelihoodGain {
+            pose: pose * pose_factor,
+            floor: floor * arc_factor,
+        };
         let ellipse = Ellipse::from_moments(&cartesian);
-        let mut stats = Self {
+        // The shape is undefined if all positions are equal. Exponential coordinates may then differ, because of the headings.
+        let shape_factor = one_if(defined.pose && !ellipse.is_point());
+        let contour = ExponentialContour::new(&exponential, &START_POSE);
+        let area_ratio = contour.area_ratio(&ellipse, OUTLINE_SEGMENTS);
+        Self {
             n,
             cartesian,
+            exponential,
             cross_track_skew: cross_track.skew,
             cross_track_skew_error: cross_track.skew_error,
+            gaussian_skew: shape_factor * predicted_cross_track_skew(&exponential.mean, &exponential.cov),
             rho_cross_heading: cross_track.rho_heading,
-            coverage: Coverage { ellipse: cloud.inside_ellipse, exponential: f64::NAN },
-            likelihood_gain: gain.value,
-            likelihood_gain_error: gain.error,
-            ..Self::UNDEFINED
-        };
-        if defined.pose {
-            stats.exponential = exponential;
-            // The shape is undefined if all positions are equal. Exponential coordinates may then differ, because of the headings.
-            if !ellipse.is_point() {
-                stats.gaussian_skew = predicted_cross_track_skew(&exponential.mean, &exponential.cov);
-                stats.coverage.exponential = cloud.inside_exponential;
-            }
-            let contour = ExponentialContour::new(&exponential, &START_POSE);
-            stats.area_ratio = contour.area_ratio(&ellipse, OUTLINE_SEGMENTS);
-            stats.area_ratio_error = stats.area_ratio * cloud.log_area_error;
+            coverage: Coverage {
+                ellipse: cloud.inside_ellipse,
+                exponential: shape_factor * cloud.inside_exponential,
+            },
+            likelihood_gain: defined_gain(gain.value),
+            likelihood_gain_error: defined_gain(gain.error),
+            area_ratio,
+            area_ratio_error: area_ratio * cloud.log_area_error,
         }
-        let gains = [&mut stats.likelihood_gain, &mut stats.likelihood_gain_error];
-        for LikelihoodGain { pose, floor } in gains {
-            *pose = if defined.pose { *pose } else { f64::NAN };
-            *floor = if defined.arc { *floor } else { f64::NAN };
-        }
-        stats
     }
 }
 
@@ -184,13 +164,4 @@ js_structs! {
         /// Path as x, y pairs in m from the start.
         pub path: Vec<[f64; 2]> as "Float64Array",
     }
-}
-
-/// Motion that a robot executed instead of the command.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum ExecutedMotion {
-    /// Arc and final turn, both of duration `dt` (s).
-    Arc { arc: ArcInversion, dt: f64 },
-    /// Three legs of the odometry model, which has no arc.
-    Legs(OdomDelta),
 }

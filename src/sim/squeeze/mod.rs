@@ -7,7 +7,7 @@ mod tally;
 
 pub use super::noise_level::alphas_of_noise_level;
 pub use driver::{ACCEPTED_BIT, Attempt, END_FREE_BIT, PATH_FREE_BIT};
-pub use picture::{OUTCOME_KIND_COUNT, OutcomeKind};
+pub use picture::OUTCOME_KIND_COUNT;
 pub use settings::*;
 pub use tally::{Stats, Tally};
 

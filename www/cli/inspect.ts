@@ -14,11 +14,7 @@ const FORMAT_NAMES: Partial<Record<Recording['format'], string>> = { mcap: 'MCAP
 
 export interface GivenRecording { recording: Recording; path: string }
 
-/**
- * Returns the contents of recordings, and the command that calibrates from them, or a sentence about what is missing.
- *
- * @param statedOptions options about units and columns, which the proposed command repeats
- */
+/** Returns the contents of recordings, and the command that calibrates from them with the stated options, or a sentence about what is missing. */
 export async function inspect(givenRecordings: GivenRecording[], statedOptions: [name: string, value: string][], onProgress?: (share: number | undefined) => void) {
   const recordings: Awaited<ReturnType<typeof contentsOf>>[] = [];
   for (const { recording } of givenRecordings) recordings.push(await contentsOf(recording, onProgress));

@@ -158,13 +158,7 @@ function matchField(path: string): ColumnMeaning | undefined {
   return undefined;
 }
 
-/**
- * Groups the columns of a table.
- *
- * @param names of the columns
- * @param isTime checks whether a column without a name holds times
- * @returns groups in the order of their columns, without columns of other quantities
- */
+/** Groups the columns of a table, without those of other quantities. `isTime` checks whether a column without a name holds times. */
 export function groupColumns(names: string[], isTime: (index: number) => boolean = () => false): Group[] {
   const groups = new Map<string, Group>();
   // PlotJuggler puts the topic before each name. A topic may have the name of its message's fields, as in /mocap/pose and /cmd_vel.
@@ -216,12 +210,7 @@ function clocksOf({ columns: { seconds, subseconds }, timeColumns }: Group): Clo
   return singleColumnClocks.length > 0 || !timePartColumn ? singleColumnClocks : [clockOf(timePartColumn)];
 }
 
-/**
- * Returns the columns of a group from which a log is read: x, y and heading, or v and omega.
- *
- * @param wantedKind kind of the log: `commands` prefers commands to poses, and `poses` excludes commands; by default poses come first
- * @throws {LogError} if a field is missing, or two columns can be the same field
- */
+/** Returns the columns of a log: x, y and heading, or v and omega. Throws a LogError if one is missing, or if two may be the same field. */
 export function logLayoutOf(group: Group | undefined, names: string[], place: ErrorPlace, wantedKind: LogKind | undefined) {
   const columnNames = listNames(names.map((name) => name.trim()));
   const ask: Question = { what: 'columns', choices: [], columns: names };

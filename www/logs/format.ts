@@ -90,13 +90,7 @@ function separatorOf(lines: string[]): string {
   return [';', '\t', ',', '|', ' '].map((separator) => ({ separator, score: scoreOf(separator) })).reduce((best, candidate) => (candidate.score > best.score ? candidate : best)).separator;
 }
 
-/**
- * Detects the format.
- *
- * @param lines first lines of the file, with at least one row if the file has any
- * @param columns names of the columns, if the user states them
- * @throws {LogError} if the columns are ambiguous
- */
+/** Detects the format from the first lines, with at least one row if the file has any. Throws a LogError if the columns are ambiguous. */
 export function detectTableFormat(lines: string[], file: string, columns: string[] | undefined): Format {
   const filledLines = lines.map((line, i) => ({ line, number: i + 1 })).filter(({ line }) => line.trim() !== '');
   const isComment = ({ line }: { line: string }) => /^\s*(#|%|\/\/)/.test(line);

@@ -115,9 +115,7 @@ export class Chain {
 
   /**
    * Passes on a pose for each message of the changing transform that is nearest to the child. All other links have their latest transforms. A
-   * transform that never changes also holds before its first message.
-   *
-   * @returns false if no transform ever changes
+   * transform that never changes also holds before its first message. Returns false if no transform ever changes.
    */
   poses(onPose: (reading: Sample, recordedTransform: RecordedTransform) => void): boolean {
     const transforms = new Map<string, Transform>();

@@ -43,10 +43,7 @@ export function matchLogs(odometry: Log[], reference: Log[]): [Log, Log][] {
   return odometry.map((one, i) => [one, reference[i]]);
 }
 
-/**
- * Pairs two logs of one drive, with times after the same start. Throws a LogError if the reference has no poses, does not follow the robot or
- * is the odometry itself, or if one of the logs needs a correction.
- */
+/** Pairs two logs of one drive, with times after the same start. Throws a LogError if they do not fit, or if one needs a correction. */
 export function pairLogs(odometry: Log, reference: Log): Drive {
   const referencePlace = { file: reference.name };
   if (reference.kind === 'commands') throw new LogError(referencePlace, (texts) => texts.noColumns('poses', 't, v, omega'));
@@ -71,10 +68,7 @@ export function pairLogs(odometry: Log, reference: Log): Drive {
   return { ...logs, reference: { ...brokenReference, summary: { ...brokenReference.summary, notes } } };
 }
 
-/**
- * Returns the reference with breaks at the rows that repeat a pose while the odometry moves on: motion capture that has lost the robot may
- * repeat its last pose. Both logs must have the same start time.
- */
+/** Returns the reference with breaks where it repeats a pose while the odometry moves on: motion capture may have lost the robot. */
 function breakFrozenPoses(reference: Log, odometry: Log): Log {
   const { t, x, y, theta, breaks } = reference.data as Poses;
   let odometryPath: Path | undefined;

@@ -11,11 +11,7 @@ export interface Path { t: number[]; poses: Pose[]; breaks: Set<number> }
 /** Returns an angle between −π and π. */
 export const wrapAngle = (angle: number) => angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
 
-/**
- * Returns the path of poses, or of commands that start at the origin.
- *
- * @param every number of rows per pose of the path; the last row also has one
- */
+/** Returns the path of poses, or of commands from the origin, with a pose for each `every` rows and one for the last row. */
 export function pathOf(data: Poses | Commands, every = 1): Path {
   const { t, breaks } = data;
   const path: Path = { t: [], poses: [], breaks: new Set() };

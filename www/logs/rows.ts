@@ -82,16 +82,7 @@ export class Rows {
     this.#isBroken = true;
   }
 
-  /**
-   * Adds a row, or drops it.
-   *
-   * @param time in seconds
-   * @param a x, or v
-   * @param b y, or omega
-   * @param c heading, or 0
-   * @param line or number of the message
-   * @param otherTime time by the other clock, which is used if the first one stands still
-   */
+  /** Adds a row, or drops it: x, y and heading, or v, ω and 0. `otherTime` is that of the clock that is used if the first one stands still. */
   add(time: number, a: number, b: number, c: number, line: number, otherTime = 0): void {
     if (!(Number.isFinite(time) && Math.max(Math.abs(a), Math.abs(b), Math.abs(c)) <= MAX_VALUE)) return this.drop('notFinite', line);
     this.count += 1;
@@ -107,12 +98,7 @@ export class Rows {
     this.#isBroken = false;
   }
 
-  /**
-   * Returns the log with the rows that were added.
-   *
-   * @param options answers to questions about units
-   * @throws {LogError} if the remaining rows are no log, or their units are in doubt
-   */
+  /** Returns the log with the rows that were added. Throws a LogError if they are no log, or their units are in doubt. */
   end(name: string, kind: LogKind, { units: assumed, clocks, ...decisions }: LogFacts, options: OpenOptions = {}): Log {
     const usesOtherClock = clocks[1] !== undefined && this.#isClockStill();
     if (usesOtherClock) this.#times = this.#columns.otherTime;
@@ -272,10 +258,7 @@ export class Rows {
   }
 }
 
-/**
- * Returns the distance (m) of two paths whose poses alternate, as of two robots in one log; 0 for a single path. Of alternating paths many poses
- * are far from the next one, and near one a few rows later.
- */
+/** Returns the distance (m) of two paths whose poses alternate: many are far from the next one, and near one a few rows later. 0 for one path. */
 function distanceOfPaths(t: Float64Array, x: Float64Array, y: Float64Array): number {
   const distancesOver = (rows: number) => sampleEvenly(x.length - rows, (i) => Math.sqrt((x[i + rows] - x[i]) ** 2 + (y[i + rows] - y[i]) ** 2));
   const longStep = quantile(distancesOver(1), 0.9);

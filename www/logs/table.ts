@@ -141,11 +141,7 @@ function clockReader({ columns: [{ at }, subseconds], unit: namedUnit }: Clock, 
   return { judged, read };
 }
 
-/**
- * Returns a reader of the log of one series, line by line.
- *
- * @param upAxis vertical axis, if the format does not define it
- */
+/** Returns a reader of the log of one series, line by line. `upAxis` is the vertical axis, if the format does not define it. */
 function logReader(name: string, place: ErrorPlace, format: Format, group: Group, layout: ReturnType<typeof logLayoutOf>, options: OpenOptions, upAxis?: 'Y' | 'Z') {
   const { separator, hasDecimalCommas, isSparse, header, names } = format;
   const { clocks, columns, fields, kind, length, angle } = layout;

@@ -41,10 +41,7 @@ const [USUAL_RATES, POSSIBLE_RATES] = [[0.2, 2000], [0.05, 5000]] as const;
 /** Minimum and maximum speed of moving robots, m/s or rad/s. */
 const [MIN_SPEED, MAX_SPEED] = [0.005, 20.5];
 
-/**
- * Speed (m/s) above which a log may be that of a slow robot in centimetres. It then has larger accelerations (m/s²) than tyres can have. Above the
- * second speed the unit is always asked for.
- */
+/** Speed (m/s) above which lengths with accelerations (m/s²) of no tyre may be centimetres, and speed above which their unit is always asked for. */
 const [DOUBTFUL_SPEED, MAX_ACCELERATION, MAX_VEHICLE_SPEED] = [5, 10, 50];
 
 /** Most usual speed of a robot, m/s. */
@@ -64,13 +61,7 @@ const isInRange = (value: number, [low, high]: readonly [number, number]) => val
 /** Returns the unit of a time since 1970 by its size; undefined for smaller times. */
 export const epochTimeUnitOf = (time: number): TimeUnit | undefined => MIN_EPOCH_TIMES.find(([, minTime]) => Math.abs(time) >= minTime)?.[0];
 
-/**
- * Judges the units, and converts the columns to s, m and rad.
- *
- * @param assumed units of the columns by names, the size of the times, the format or usage
- * @param options units that the user stated, which are not judged
- * @throws {LogError} with a question, if a unit is in doubt; without one, if headings turn the other way than the path
- */
+/** Judges the units that no name or option states, and converts the columns to s, m and rad. Throws a LogError if a unit is in doubt. */
 export function judgeUnits(place: ErrorPlace, kind: LogKind, columns: Columns, assumed: Units, options: OpenOptions): Units {
   const { t, a, b, c } = columns;
   const isJudged = t.length >= MIN_ROWS;

@@ -1,7 +1,4 @@
-/**
- * Worker that opens recordings, reads logs and calibrates. If the page cannot start a worker, `serveRequests` runs on a port in the page's
- * thread.
- */
+/** Worker that opens recordings, reads logs and calibrates. If a page cannot start a worker, `serveRequests` runs in the thread of the page. */
 
 import type { SharedCore } from '../core.ts';
 import type { AlphaCalibrator, AlphaCalibratorSettings, CalibrationLog, Motion } from '../types.d.ts';

@@ -62,9 +62,7 @@ export abstract class MessageFile<Id> {
 
   /**
    * Reads blocks at the positions of an index, or without an index one after the other. Damaged blocks are noted. Without an index, the blocks
-   * after one whose end is unknown cannot be found.
-   *
-   * @param readBlock calls `setEnd` when it knows the end of the block
+   * after one whose end is unknown cannot be found. `readBlock` calls `setEnd` when it knows the end of the block.
    */
   protected async readBlocks(positions: number[] | undefined, start: number, readBlock: (at: number, setEnd: (end: number) => void) => Promise<void>, onProgress?: OnBlock): Promise<void> {
     const { size } = this.source;
@@ -87,10 +85,7 @@ export const MAX_BLOCK_BYTES = 2 ** 26;
 /** Size of the pieces that are read at once, and number of pieces that are read in advance. */
 const [PIECE_BYTES, PIECES_AHEAD] = [2 ** 22, 3];
 
-/**
- * Returns a function that reads bytes of a source. Positions must increase from call to call. During sequential reads the next pieces are
- * requested in advance, which saves a quarter of the time in a browser.
- */
+/** Returns a reader of bytes at increasing positions. It requests the next pieces in advance, which saves a quarter of the time in a browser. */
 export function readAhead(source: Source): (from: number, to: number) => Promise<Uint8Array> {
   const pieces = new Map<number, Uint8Array | Promise<Uint8Array>>();
   let lastPiece = -1;

@@ -1,9 +1,10 @@
 /** Search for the odometry and the reference of each drive in recordings. */
 
+import { min } from 'd3-array';
 import { GOAL_NAMES, findCandidates, likeliestFrames, seriesNamesFor, roleByName, seriesNamed, readableSeries } from './candidates.ts';
 import { LogError, listNames } from './log-error.ts';
 import { ROLES, framesOption, framesText, type LogChoice, type FramePair, type Log, type LogKind, type Recording, type Role, type Series } from './log.ts';
-import { pairLogs, matchLogs, withStart, type Drive } from './pairs.ts';
+import { pairLogs, matchLogs, type Drive } from './pairs.ts';
 
 export type { Drive };
 
@@ -178,12 +179,12 @@ export async function readDrives({ drives, unpaired }: Pick<LogPlan, 'drives' | 
     const [{ recording }] = parts;
     logs.push(...(await recording.read(parts.map(({ choice }) => choice), (share) => onProgress?.((i + share) / readGroups.length))));
   }
-  const unpairedLogs = logs.splice(2 * drives.length);
+  const start = min(logs, (log) => log.start) ?? 0;
+  const logsFromStart = logs.map((log): Log => ({ ...log, start, data: { ...log.data, t: log.data.t.map((time) => time + (log.start - start)) } }));
+  const unpairedLogs = logsFromStart.splice(2 * drives.length);
   const logPairs: [Log, Log][] = [
-    ...drives.map((_, i): [Log, Log] => [logs[2 * i], logs[2 * i + 1]]),
+    ...drives.map((_, i): [Log, Log] => [logsFromStart[2 * i], logsFromStart[2 * i + 1]]),
     ...matchLogs(unpairedLogs.slice(0, unpaired.odometry.length), unpairedLogs.slice(unpaired.odometry.length)),
   ];
-  const pairedDrives = logPairs.map(([odometry, reference]) => pairLogs(odometry, reference));
-  const [{ odometry: { start } }] = pairedDrives;
-  return pairedDrives.map(({ odometry, reference }) => ({ odometry: withStart(odometry, start), reference: withStart(reference, start) }));
+  return logPairs.map(([odometry, reference]) => pairLogs(odometry, reference));
 }

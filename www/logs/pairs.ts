@@ -5,7 +5,7 @@ import { isLocalizer, roleByName } from './candidates.ts';
 import { correctionOf, questionOf } from './corrections.ts';
 import { LogError } from './log-error.ts';
 import { framesText, type Log, type Note, type Poses, type Role, type Warning } from './log.ts';
-import { pathOf, poseAt, wrapAngle, type Path } from './path.ts';
+import { pathOf, poseAt, wrapAngle } from './path.ts';
 
 /** Two logs of one drive, with times after the same start. */
 export interface Drive { odometry: Log; reference: Log }
@@ -43,18 +43,16 @@ export function matchLogs(odometry: Log[], reference: Log[]): [Log, Log][] {
   return odometry.map((one, i) => [one, reference[i]]);
 }
 
-/** Pairs two logs of one drive, with times after the same start. Throws a LogError if they do not fit, or if one needs a correction. */
+/** Pairs two logs of one drive, whose times are after one start. Throws a LogError if they do not fit, or if one needs a correction. */
 export function pairLogs(odometry: Log, reference: Log): Drive {
   const referencePlace = { file: reference.name };
   if (reference.kind === 'commands') throw new LogError(referencePlace, (texts) => texts.noColumns('poses', 't, v, omega'));
   const { frames } = reference.summary;
   if (frames?.parent === 'odom') throw new LogError(referencePlace, (texts) => texts.ownReference(framesText(frames)));
-  const commonStart = Math.min(odometry.start, reference.start);
-  const commonOdometry = withStart(odometry, commonStart);
-  const brokenReference = breakFrozenPoses(withStart(reference, commonStart), commonOdometry);
+  const brokenReference = breakFrozenPoses(reference, odometry);
   if (brokenReference.summary.used < 2) throw new LogError(referencePlace, (texts) => texts.held);
-  const logs = { odometry: commonOdometry, reference: brokenReference };
-  const correction = correctionOf(commonOdometry, brokenReference);
+  const logs = { odometry, reference: brokenReference };
+  const correction = correctionOf(odometry, brokenReference);
   if (correction) {
     const [log, otherLog] = correction.at === 'odometry' ? [odometry, reference] : [reference, odometry];
     throw new LogError({ file: log.name }, (texts) => texts.correction(correction, otherLog.name), questionOf(correction, logs));
@@ -71,14 +69,13 @@ export function pairLogs(odometry: Log, reference: Log): Drive {
 /** Returns the reference with breaks where it repeats a pose while the odometry moves on: motion capture may have lost the robot. */
 function breakFrozenPoses(reference: Log, odometry: Log): Log {
   const { t, x, y, theta, breaks } = reference.data as Poses;
-  let odometryPath: Path | undefined;
+  const odometryPath = pathOf(odometry.data);
   const frozenRows: number[] = [];
   const rowsAfterFrozen: number[] = [];
   for (let from = 0, to; from < t.length; from = to) {
     for (to = from + 1; to < t.length && x[to] === x[from] && y[to] === y[from] && theta[to] === theta[from]; ) to += 1;
     const [start, end] = [t[from] + END_MARGIN_SECONDS, t[to - 1] - END_MARGIN_SECONDS];
     if (!(end > start)) continue;
-    odometryPath ??= pathOf(odometry.data);
     const [[startX, startY, startHeading], [endX, endY, endHeading]] = [poseAt(odometryPath, start), poseAt(odometryPath, end)];
     if (Math.hypot(endX - startX, endY - startY) + Math.abs(wrapAngle(endHeading - startHeading)) <= MIN_ODOMETRY_MOTION) continue;
     for (let row = from + 1; row < to; row++) frozenRows.push(row);
@@ -95,12 +92,6 @@ function breakFrozenPoses(reference: Log, odometry: Log): Log {
 
 export const warningsOf = (logs: Pick<Log, 'summary'>[]): Warning[] =>
   (['localizer', 'swapped'] as const).filter((warning) => logs.some(({ summary }) => summary.notes.some(({ name }) => name === warning)));
-
-/** Returns a log with its times in seconds after another start. */
-export function withStart(log: Log, start: number): Log {
-  const startDifference = log.start - start;
-  return startDifference === 0 ? log : { ...log, start, data: { ...log.data, t: log.data.t.map((time) => time + startDifference) } };
-}
 
 /** Returns the logs of drives in the form that the core takes: arrays if there are several drives. */
 export function calibrationLogOf(drives: Drive[]): Pick<CalibrationLog, Role> {

@@ -248,11 +248,9 @@ export async function pauseEarly(page, name) {
 
 /** Opens every disclosure of a widget. @param {Locator} widget */
 export async function openDisclosures(widget) {
-  await widget.evaluate(({ shadowRoot }) => {
-    for (const disclosure of shadowRoot?.querySelectorAll('details') ?? []) disclosure.open ||= disclosure.matches('[part=fold]');
-  });
-  // Contents are rendered after the browser's `toggle` event.
   await widget.evaluate(async ({ shadowRoot }) => {
+    for (const disclosure of shadowRoot?.querySelectorAll('details') ?? []) disclosure.open ||= disclosure.matches('[part=fold]');
+    // Contents are rendered after the browser's `toggle` event.
     while (shadowRoot?.querySelector('details[open] > .folded:empty')) await new Promise(requestAnimationFrame);
   });
   await waitForFrames(widget.page());

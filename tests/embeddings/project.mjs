@@ -5,6 +5,7 @@
  * @module
  */
 
+import { execFileSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
 import { cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { basename, delimiter, join } from 'node:path';
@@ -116,16 +117,19 @@ export async function installPythonPackages(directory, { run }, wheels) {
   if (wheels.length > 0) await run(pip, [...pipArguments, '--force-reinstall', '--no-deps', ...wheels]);
 }
 
-/** Packs the npm package from the present build, once, and returns its path. */
-const packTarball = once(async () => {
-  const { stdout } = await runPacking('npm', ['pack', ROOT, '--ignore-scripts', '--silent', '--pack-destination', makeEmptyDirectory('npm')]);
-  return join(SCRATCH_DIRECTORY, 'packed/npm', stdout.trim());
-});
+/** Packs the present build as npm would publish it, and returns the path of the package. @param {string} directory */
+export function packInto(directory) {
+  const packageName = execFileSync('npm', ['pack', ROOT, '--ignore-scripts', '--silent', '--pack-destination', directory], { encoding: 'utf8' });
+  return join(directory, packageName.trim());
+}
+
+/** Packs the npm package, once, and returns its path. */
+const packTarball = once(async () => packInto(makeEmptyDirectory('npm')));
 
 /** Builds the wheel of the Python package, once, and returns its path. */
 const buildWheel = once(async () => {
   const directory = makeEmptyDirectory('python');
-  await runPacking('python3', ['-m', 'pip', 'wheel', '--quiet', '--no-deps', '--wheel-dir', directory, join(ROOT, 'python')]);
+  execFileSync('python3', ['-m', 'pip', 'wheel', '--quiet', '--no-deps', '--wheel-dir', directory, join(ROOT, 'python')]);
   return join(directory, readdirSync(directory)[0]);
 });
 
@@ -136,9 +140,6 @@ function makeEmptyDirectory(registry) {
   mkdirSync(directory, { recursive: true });
   return directory;
 }
-
-/** Runs a program that packs the package. @param {string} command @param {string[]} args */
-const runPacking = (command, args) => mustRun(`${command} cannot pack the package: see above.`, command, args, { quiet: true, seconds: 300 });
 
 /** Returns the tools for a copy of an example. @param {string} directory @param {Record<string, string>} env @returns {Tools} */
 function toolsIn(directory, env) {

@@ -49,7 +49,7 @@ async function startFirefox() {
 
 /** Starts WebKit's MiniBrowser on a virtual screen. @returns {Promise<Engine>} */
 async function startWebKit() {
-  const { driver, browser, display } = await ensureWebKit();
+  const { driver, display } = await ensureWebKit();
   // Xvfb takes the first free display number, and prints it when it is ready.
   const screenProcess = startProgram(display, ['-displayfd', '1', '-screen', '0', '1600x1200x24', '-nolisten', 'tcp']);
   const displayNumber = await screenProcess.said(/^(\d+)\n/m);
@@ -57,8 +57,8 @@ async function startWebKit() {
   mkdirSync(join(configDirectory, 'gtk-3.0'));
   writeFileSync(join(configDirectory, 'gtk-3.0/settings.ini'), '[Settings]\ngtk-enable-animations=false\n');
   const env = { DISPLAY: `:${displayNumber}`, XDG_CONFIG_HOME: configDirectory };
-  const capabilities = { browserName: 'MiniBrowser', 'webkitgtk:browserOptions': { binary: browser, args: ['--automation'] } };
-  return startEngine(driver, env, capabilities, async () => {
+  // The driver starts its own MiniBrowser.
+  return startEngine(driver, env, { browserName: 'MiniBrowser' }, async () => {
     await screenProcess.stop();
     rmSync(configDirectory, { recursive: true });
   });

@@ -1,8 +1,7 @@
 // Finds Firefox and WebKit for `npm run test:engines`, or installs them by apt.
 
-import { existsSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
-import { UserError, findProgram, isProgram, mustRun, printStep, run } from '../../scripts/process.mjs';
+import { UserError, findProgram, mustRun, printStep, run } from '../../scripts/process.mjs';
 import { CACHE_DIRECTORY, aptInstall, ensureNativeRust } from '../../scripts/toolchain.mjs';
 
 const FIREFOX_NAMES = ['firefox-esr', 'firefox'];
@@ -10,9 +9,6 @@ const FIREFOX_MISSING_MESSAGE =
   'Firefox or its geckodriver is missing: install them (on Debian `sudo apt-get install firefox-esr`), or set FIREFOX to its path.';
 const WEBKIT_MISSING_MESSAGE =
   'WebKit is missing, or what shows and drives it: on Debian and Ubuntu `sudo apt-get install webkit2gtk-driver xvfb`.';
-
-/** Directories in which distributions keep MiniBrowser, in a folder by architecture and version. */
-const LIBRARY_DIRECTORIES = ['/usr/lib', '/usr/libexec', '/usr/lib64'];
 
 /** Returns the programs of Firefox. Installs them if they are missing. @returns {Promise<{ firefox: string, driver: string }>} */
 export async function ensureFirefox() {
@@ -37,29 +33,11 @@ async function ensureGeckodriver() {
   return join(bin, 'geckodriver');
 }
 
-/** @typedef {{ driver: string, browser: string, display: string }} WebKit programs of WebKit; `display` starts a virtual screen */
-
-/** Returns the programs of WebKit. Installs them if they are missing. @returns {Promise<WebKit>} */
+/** Returns the driver of WebKit, and the program of a virtual screen. Installs them if they are missing. */
 export async function ensureWebKit() {
-  const existingPrograms = findWebKit();
-  if (existingPrograms !== undefined) return existingPrograms;
-  await aptInstall(['webkit2gtk-driver', 'xvfb'], WEBKIT_MISSING_MESSAGE);
-  const installedPrograms = findWebKit();
-  if (installedPrograms === undefined) throw new UserError(WEBKIT_MISSING_MESSAGE);
-  return installedPrograms;
-}
-
-/** Returns the programs of WebKit if all are found. @returns {WebKit | undefined} */
-function findWebKit() {
-  const [driver, display, browser] = [findProgram('WebKitWebDriver'), findProgram('Xvfb'), findMiniBrowser()];
-  return driver && display && browser ? { driver, display, browser } : undefined;
-}
-
-/** Returns the path of WebKit's newest MiniBrowser. @returns {string | undefined} */
-function findMiniBrowser() {
-  const subdirectoriesOf = (/** @type {string} */ directory) =>
-    existsSync(directory) ? readdirSync(directory, { withFileTypes: true }).filter((entry) => entry.isDirectory()).map(({ name }) => join(directory, name)) : [];
-  const libraryDirectories = LIBRARY_DIRECTORIES.flatMap((directory) => [directory, ...subdirectoriesOf(directory).filter((path) => /-linux-gnu/.test(path))]);
-  const webkitDirectories = libraryDirectories.flatMap(subdirectoriesOf).filter((path) => /\/webkit(2gtk|gtk)-[\d.]+$/.test(path));
-  return webkitDirectories.sort().reverse().map((path) => join(path, 'MiniBrowser')).find(isProgram);
+  const findWebKit = () => ['WebKitWebDriver', 'Xvfb'].map((name) => findProgram(name));
+  if (findWebKit().includes(undefined)) await aptInstall(['webkit2gtk-driver', 'xvfb'], WEBKIT_MISSING_MESSAGE);
+  const [driver, display] = findWebKit();
+  if (driver === undefined || display === undefined) throw new UserError(WEBKIT_MISSING_MESSAGE);
+  return { driver, display };
 }

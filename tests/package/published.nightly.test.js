@@ -9,7 +9,7 @@ import { after, before, test } from 'node:test';
 import { publint } from 'publint';
 import { formatMessage } from 'publint/utils';
 import { ROOT } from '../../scripts/process.mjs';
-import { packInto } from './support.js';
+import { packInto } from '../embeddings/project.mjs';
 
 const packageManifest = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
 

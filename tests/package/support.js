@@ -15,16 +15,10 @@ import { CHROME_ARGUMENTS, findChrome } from '../../scripts/browser.mjs';
 import { ROOT } from '../../scripts/process.mjs';
 import { serve } from '../../scripts/serve.mjs';
 import { recordMessages, untilComplete } from '../embeddings/checks.mjs';
+import { packInto } from '../embeddings/project.mjs';
 
 /** Files of dist/ that an author copies next to a page. */
 const COPIED_FILES = ['motion-widgets.iife.js', 'motion-widgets.css', 'embed.html', 'embed.css', 'embed.js'];
-
-/** Packs the package into a directory, and returns the path of the tarball. @param {string} directory */
-export function packInto(directory) {
-  // The package has been built already.
-  const tarballName = execFileSync('npm', ['pack', ROOT, '--ignore-scripts', '--silent', '--pack-destination', directory], { encoding: 'utf8' });
-  return join(directory, tarballName.trim());
-}
 
 /** Copies the examples to a directory, and installs only the packed package there. @param {string} directory */
 function installPackage(directory) {

@@ -1,4 +1,4 @@
-// Imports between the folders of www/: only those that doc/implementation-notes.md allows.
+// Imports between the folders of www/: only those that doc/implementation-notes.md allows. The linter finds circles of imports.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
@@ -29,20 +29,6 @@ const imports = Object.entries(metafile.inputs).flatMap(([importer, { imports }]
 test('all scripts of the page are looked at', () => {
   assert.ok(imports.length > 150, `${imports.length} imports`);
   for (const layer of LAYERS) assert.ok(imports.some(([, imported]) => imported.startsWith(layer)), layer);
-});
-
-test('no import runs in a circle', () => {
-  /** @type {Map<string, 'open' | 'done'>} */
-  const visitStates = new Map();
-  /** @param {string} file @param {string[]} pathToFile */
-  const visitFile = (file, pathToFile) => {
-    assert.notEqual(visitStates.get(file), 'open', [...pathToFile, file].join(' → '));
-    if (visitStates.has(file)) return;
-    visitStates.set(file, 'open');
-    for (const [importer, imported] of imports) if (importer === file) visitFile(imported, [...pathToFile, file]);
-    visitStates.set(file, 'done');
-  };
-  for (const [importer] of imports) visitFile(importer, []);
 });
 
 test('no import runs up, and none from one widget to another', () => {

@@ -3,13 +3,13 @@
 import { html } from 'lit';
 import { words } from '../../messages/registry.ts';
 import { group, radioGroup, formatMarkup } from '../../ui/controls.ts';
-import { NO_VALUE, integer, fixed, percent, formatRounded } from '../../ui/format.ts';
+import { NO_VALUE, integer, fixed, percent, formatPowerOfTen, formatRounded } from '../../ui/format.ts';
 import { plot, type Curve } from '../../ui/plot.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
 import { subscriptOf } from '../shared/sliders.ts';
 import { adviceOf, formatAlphaOrBound, isZero, missingMotion } from './lines.ts';
 import { NOISE_COMPONENTS, type Regressor } from './settings.ts';
-import { checkText, expectedRangeText, checkMessage, localized, rangeText, scaleByPowerOf1000 } from './words.ts';
+import { checkText, expectedRangeText, checkMessage, localized, rangeText } from './words.ts';
 import type { CalibrationPanel } from '../../types.d.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
@@ -92,7 +92,9 @@ function panelPlot({ alpha, x, y, error, slope, interval }: CalibrationPanel, ki
   // The axis has half as much space for error bars as for the bins and the line. A longer bar is cut, so that it does not compress all others.
   const [minSquare, maxSquare] = [Math.min(0, ...y), Math.max(x.length ? 1e-12 : 1, (slope ?? 0) * axisEnd, ...y)];
   const [axisBottom, axisTop] = [1.5 * minSquare, 1.5 * maxSquare];
-  const { scaled: scale, unit } = scaleByPowerOf1000(Math.max(axisTop, -axisBottom));
+  // Small numbers are scaled by a power of 1000, so that labels fit next to the axis.
+  const exponent = Math.min(0, 3 * Math.floor(Math.log10(Math.max(axisTop, -axisBottom)) / 3));
+  const scale = (value: number) => value * 10 ** -exponent;
   const subscript = subscriptOf(alpha);
   const [low, high] = interval ?? [NaN, NaN];
   const slopeMiddle = (low + high) / 2;
@@ -103,7 +105,7 @@ function panelPlot({ alpha, x, y, error, slope, interval }: CalibrationPanel, ki
   return {
     label: texts.label(kind, String(alpha + 1), slope === null ? NO_VALUE : localized(formatAlphaOrBound(slope, interval))),
     x: { name: axis, from: 0, to: axisEnd },
-    y: { name: `${kind}, ${texts.axis}${unit && ` (${unit})`}`, from: scale(axisBottom), to: scale(axisTop) },
+    y: { name: `${kind}, ${texts.axis}${exponent < 0 ? ` (${formatPowerOfTen(exponent)})` : ''}`, from: scale(axisBottom), to: scale(axisTop) },
     curves: [...slopeLines, { name: texts.bins, role: 'ink', x: [], y: [] }],
     points: x.map((value, i) => ({ role: 'ink' as const, x: value, y: scale(y[i]), error: scale(error[i]) })),
   };

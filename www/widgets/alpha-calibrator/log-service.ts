@@ -7,16 +7,9 @@ import type { WorkerAnswer, PostedFailure, OnProgress, OpenedRecording, WorkerRe
 import type { AlphaCalibratorSettings, CalibrationLog } from '../../types.d.ts';
 
 /** Error of a log that the worker posted, with its sentence in each language. */
-export class LogFailure extends Error {
-  sentences: PostedFailure['sentences'];
-  file: PostedFailure['file'];
-  ask: PostedFailure['ask'];
+export type LogFailure = Error & PostedFailure;
 
-  constructor({ message, ...failure }: PostedFailure) {
-    super(message);
-    Object.assign(this, failure);
-  }
-}
+const logFailureOf = (failure: PostedFailure): LogFailure => Object.assign(new Error(failure.message), failure);
 
 /** Returns true if a request was aborted, which needs no message. */
 export const isAbortError = (error: unknown) => error instanceof DOMException && error.name === 'AbortError';
@@ -47,7 +40,7 @@ export class LogService {
     // A copied `File` has no path.
     const { recordings, skipped } = await this.#ask<{ recordings: OpenedRecording[]; skipped: PostedFailure[] }>('open', [files.map((file) => ({ file, path: file.path ?? '' })), answers]);
     this.isOpen = true;
-    return { recordings, skipped: skipped.map((failure) => new LogFailure(failure)) };
+    return { recordings, skipped: skipped.map(logFailureOf) };
   }
 
   /** Reads the drives of a plan for the opened recordings. */
@@ -84,7 +77,7 @@ export class LogService {
         if (workerLink !== this.#workerLink) return;
         port.onmessage = ({ data }: MessageEvent<WorkerAnswer>) => {
           if ('progress' in data) onProgress?.(data.progress);
-          else if ('failure' in data) reject(new LogFailure(data.failure));
+          else if ('failure' in data) reject(logFailureOf(data.failure));
           else resolve(data.result as Result);
         };
         port.postMessage({ method, parameters } satisfies WorkerRequest);
@@ -122,7 +115,7 @@ async function connectService(tag: string): Promise<WorkerLink> {
 
 /** Posts the core to a port, and waits for the answer. */
 const startSession = <Port extends Worker | MessagePort>(port: Port, core: SharedCore) => new Promise<Port>((resolve, reject) => {
-  port.onmessage = ({ data }: MessageEvent<WorkerAnswer>) => ('failure' in data ? reject(new LogFailure(data.failure)) : resolve(port));
+  port.onmessage = ({ data }: MessageEvent<WorkerAnswer>) => ('failure' in data ? reject(logFailureOf(data.failure)) : resolve(port));
   Object.assign(port, { onerror: (event: ErrorEvent) => {
     event.preventDefault();
     reject(event);

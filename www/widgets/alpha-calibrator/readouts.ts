@@ -17,13 +17,14 @@ const WHISKER_ROW = { width: 200, height: 24, middle: 12, inset: 12 };
 /** Maximum number of intervals between labels of the axis. */
 const MAX_AXIS_INTERVALS = 4;
 
-/** Icons of the ratings. */
-const RATING_ICONS = { consistent: '✓', questionable: '!', unusable: '✕' };
+/** Icons and colours of the ratings. */
+const RATING_LOOKS = { consistent: ['✓', 'posterior'], questionable: ['!', 'prediction'], unusable: ['✕', 'accent'] };
 
 /** Returns the badge that rates the α's, the finding, and the number of legs. On a wide page it has at most two lines. */
 export function verdictHtml({ viewModel, logName, warnings }: Figure) {
   const { rating, badge, finding } = judgementOf(viewModel, warnings);
-  return html`<span class="badge ${rating}"><span aria-hidden="true">${RATING_ICONS[rating]}</span> ${badge}</span>
+  const [icon, role] = RATING_LOOKS[rating];
+  return html`<span class="badge" data-role=${role}><span aria-hidden="true">${icon}</span> ${badge}</span>
     <strong>${finding}</strong> <span class="muted">${legsText(viewModel, logName)}</span>`;
 }
 
@@ -107,8 +108,8 @@ function whiskerSvg({ at }: ReturnType<typeof logarithmicAxis>, value: number, i
   const { width, height, middle } = WHISKER_ROW;
   const [low, high] = (interval ?? [value, value]).map(at);
   return html`<svg viewBox="0 0 ${width} ${height}" preserveAspectRatio="none" aria-hidden="true">
-    ${truth === undefined ? nothing : svg`<path stroke="var(--truth)" stroke-width="3" d="M${at(truth)} 2V${height - 2}" />`}
-    <path fill="none" stroke="var(--prediction)" stroke-width="1.9" d="M${low} ${middle}H${high}M${low} ${middle - 4}v8M${high} ${middle - 4}v8" />
-    <path stroke="var(--prediction)" stroke-width="5" stroke-linecap="round" d="M${at(value)} ${middle}h0" />
+    ${truth === undefined ? nothing : svg`<path vector-effect="non-scaling-stroke" stroke="var(--truth)" stroke-width="3" d="M${at(truth)} 2V${height - 2}" />`}
+    <path vector-effect="non-scaling-stroke" fill="none" stroke="var(--prediction)" stroke-width="1.9" d="M${low} ${middle}H${high}M${low} ${middle - 4}v8M${high} ${middle - 4}v8" />
+    <path vector-effect="non-scaling-stroke" stroke="var(--prediction)" stroke-width="5" stroke-linecap="round" d="M${at(value)} ${middle}h0" />
   </svg>`;
 }

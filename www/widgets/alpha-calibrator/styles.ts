@@ -70,19 +70,11 @@ export const styles = css`
     margin-inline-end: 0.4em;
     padding: 0.1em 0.6em;
     border-radius: 3px;
-    background: var(--prediction);
+    background: var(--role);
     color: var(--paper);
     font-weight: bold;
     line-height: 1;
     forced-color-adjust: none;
-  }
-
-  .badge.consistent {
-    background: var(--posterior);
-  }
-
-  .badge.unusable {
-    background: var(--accent);
   }
 
   :host([presentation]) .views {
@@ -179,10 +171,6 @@ export const styles = css`
     display: block;
     width: 100%;
     height: 1.2em;
-  }
-
-  .alphas path {
-    vector-effect: non-scaling-stroke;
   }
 
   .alphas .scale {

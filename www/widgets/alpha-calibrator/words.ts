@@ -69,12 +69,6 @@ export const noiseNames = (model: ViewModel['config']['model']) => words.alphas[
 /** Converts a number as printed in files (1.5e-7) to the decimal sign of the language and a power of ten. */
 export const localized = (number: string) => number.replace('.', fixed(0.5, 1)[1]).replace(/e(-?\d+)$/, (_, exponent) => `·${formatPowerOfTen(Number(exponent))}`);
 
-/** Scales small numbers by a power of 1000, so that labels fit next to an axis. `unit` is that power as text, and empty for numbers from 1 on. */
-export function scaleByPowerOf1000(highest: number): { scaled: (value: number) => number, unit: string } {
-  const exponent = Math.min(0, 3 * Math.floor(Math.log10(highest) / 3));
-  return { scaled: (value) => value * 10 ** -exponent, unit: exponent < 0 ? formatPowerOfTen(exponent) : '' };
-}
-
 /** Returns the number of legs and outliers of the named log in a sentence; empty if there are no legs. */
 export function legsText({ legs }: ViewModel, log: string) {
   if (legs.count === 0) return '';

@@ -48,10 +48,10 @@ export function overviewMapHtml(picture: import('./picture.ts').FloorPicture, { 
   const shownSize = [extent.xMax - extent.xMin, extent.yMax - extent.yMin];
   if (!picture.isClose || shownSize[0] * shownSize[1] > MAX_SHOWN_FRACTION * width * height) return nothing;
   return html`<svg class="overview" viewBox=${`${xMin} ${-yMax} ${width} ${height}`} aria-hidden="true">
-    <g transform="scale(1 -1)">
-      <path stroke="var(--muted)" d=${picture.wallPathData} />
-      <polyline stroke="var(--prior)" stroke-width="2" points=${[...commanded].join(' ')} />
-      <rect stroke="var(--ink)" x=${extent.xMin} y=${extent.yMin} width=${shownSize[0]} height=${shownSize[1]} />
+    <g transform="scale(1 -1)" fill="none">
+      <path vector-effect="non-scaling-stroke" stroke="var(--muted)" d=${picture.wallPathData} />
+      <polyline vector-effect="non-scaling-stroke" stroke="var(--prior)" stroke-width="2" points=${[...commanded].join(' ')} />
+      <rect vector-effect="non-scaling-stroke" stroke="var(--ink)" x=${extent.xMin} y=${extent.yMin} width=${shownSize[0]} height=${shownSize[1]} />
     </g>
   </svg>`;
 }

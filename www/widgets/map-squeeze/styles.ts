@@ -123,11 +123,6 @@ export const styles = css`
     :host(:not([presentation])) .overview {
       display: block;
       width: 11em;
-      fill: none;
-    }
-
-    .overview > * > * {
-      vector-effect: non-scaling-stroke;
     }
   }
 

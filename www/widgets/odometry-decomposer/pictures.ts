@@ -93,13 +93,12 @@ function spreadEllipses({ palette }: Brush, { linkage, rules, config }: Scene) {
   }).filter(({ points }) => hasLength(points));
 }
 
-class OutcomesPicture extends SamplesPicture<Scene> {
-  view: View = new View({ top: LABELS_ABOVE, snug: true });
-
-  paintMark(brush: Brush, { marked }: Scene) {
-    if (marked) drawMark(brush, { x: marked[0], y: marked[1], heading: marked[2] });
-  }
+function drawMarked(brush: Brush, { marked }: Scene) {
+  if (marked) drawMark(brush, { x: marked[0], y: marked[1], heading: marked[2] });
 }
+
+/** Pose from whose heading a turn starts, the turn (rad), and the radius of its arc, pixels. */
+type Turn = [Pose, turn: number, radius: number];
 
 /** Returns the radii of the arcs of both turns, pixels. */
 const turnRadii = (view: Pick<View, 'scaleX'>) => [0, 1].map((arc) => turnHandleDistance(view, ROBOT_RADIUS) + ARC_GAPS.handle + arc * ARC_GAPS.arcs);
@@ -109,8 +108,9 @@ const turnArcPoints = ({ x, y, theta }: Pose, turn: number, radius: number) =>
   turnDirections(theta, turn).flatMap((direction) => [x + radius * Math.cos(direction), y + radius * Math.sin(direction)]);
 
 /** Picture in the odometry frame: the legs as a linkage, and the effect of noise on it. */
-export class LegsPicture extends OutcomesPicture {
+export class LegsPicture extends SamplesPicture<Scene> {
   name = 'plane';
+  view: View = new View({ top: LABELS_ABOVE, snug: true });
 
   fit(scene: Scene) {
     const { view } = this;
@@ -139,6 +139,7 @@ export class LegsPicture extends OutcomesPicture {
     const [startPose, turnedPose, drivenPose] = [0, 1, 2].map((index) => poseAt(linkage, index));
     drawAxes(brush, AXIS_NAMES, legendEntriesOf(brush, scene, ['legs', 'deviation', 'outcomes']));
     const [firstRadius, secondRadius] = turnRadii(this.view);
+    const turns: Turn[] = [[startPose, legs.rot1, firstRadius], [drivenPose, legs.rot2, secondRadius]];
     const styles = lineStyles(brush, LINE_STYLES);
     const showsDeviation = overlays.includes('deviation');
     const { colour } = styles.deviation;
@@ -158,20 +159,18 @@ export class LegsPicture extends OutcomesPicture {
       }
       if (config.phase < 3) this.#paintRobot(brush, scene.robot);
       if (overlays.includes('legs')) {
-        for (const [turnPose, turn, turnRadius] of ([[startPose, legs.rot1, firstRadius], [drivenPose, legs.rot2, secondRadius]] as [Pose, number, number][])) {
-          if (Math.abs(turn) >= MIN_DRAWN_TURN) drawTurn(brush, turnPose, turn, turnRadius, styles.legs.colour);
-        }
+        for (const [turnPose, turn, turnRadius] of turns) if (Math.abs(turn) >= MIN_DRAWN_TURN) drawTurn(brush, turnPose, turn, turnRadius, styles.legs.colour);
       }
-      this.paintMark(brush, scene);
+      drawMarked(brush, scene);
     });
-    const turnArcs = [turnArcPoints(startPose, legs.rot1, firstRadius / this.view.scaleX), turnArcPoints(drivenPose, legs.rot2, secondRadius / this.view.scaleX)].map((points) => Float64Array.from(points));
-    if (overlays.includes('legs')) drawLabelsAbove(brush, this.#labels(brush, scene, firstRadius, secondRadius));
+    const turnArcs = turns.map(([turnPose, turn, turnRadius]) => Float64Array.from(turnArcPoints(turnPose, turn, turnRadius / this.view.scaleX)));
+    if (overlays.includes('legs')) drawLabelsAbove(brush, this.#labels(brush, scene, turns));
     drawCallouts(brush, ellipses.map(({ callout }) => callout), { shapeCentre: [drivenPose.x, drivenPose.y], lines: [...ellipses.map(({ points }) => points), ...turnArcs] });
   };
 
-  /** Returns labels with the value and standard deviation of each leg that is long enough to see. The arcs of both turns have radii in pixels. */
-  #labels({ view, palette: { prior: colour } }: Brush, { linkage, legs, deviations }: Scene, firstRadius: number, secondRadius: number) {
-    const [startPose, drivenPose] = [0, 2].map((index) => poseAt(linkage, index));
+  /** Returns labels with the value and standard deviation of each leg that is long enough to see. */
+  #labels({ view, palette: { prior: colour } }: Brush, { legs, deviations }: Scene, turns: Turn[]) {
+    const [startPose, drivenPose] = turns.map(([turnPose]) => turnPose);
     const legLabel = (sub: 'rot1' | 'trans' | 'rot2', unit: string, place: { x: number, y: number }) => ({
       ...place,
       symbol: 'δ',
@@ -180,7 +179,7 @@ export class LegsPicture extends OutcomesPicture {
       colour,
     });
     // The point of an arc that is nearest to the labels, and inside the axes.
-    const leaderEnd = ({ x, y, theta }: Pose, turn: number, radius: number) => {
+    const leaderEnd = ([{ x, y, theta }, turn, radius]: Turn) => {
       const endCandidates = LEADER_ENDS.map((share) => view.ray({ x, y, theta: theta + share * turn }, radius)[1])
         .map(([placeX, placeY]) => ({ x: placeX, y: placeY }))
         .sort((one, other) => one.y - other.y);
@@ -188,9 +187,9 @@ export class LegsPicture extends OutcomesPicture {
     };
     const driveMiddle = { x: view.toPixelX((startPose.x + drivenPose.x) / 2), y: view.toPixelY((startPose.y + drivenPose.y) / 2) };
     return [
-      ...(Math.abs(legs.rot1) < MIN_DRAWN_TURN ? [] : [legLabel('rot1', 'rad', leaderEnd(startPose, legs.rot1, firstRadius))]),
+      ...(Math.abs(legs.rot1) < MIN_DRAWN_TURN ? [] : [legLabel('rot1', 'rad', leaderEnd(turns[0]))]),
       ...(legs.trans * view.scaleX < MIN_LABELLED_DRIVE ? [] : [legLabel('trans', 'm', driveMiddle)]),
-      ...(Math.abs(legs.rot2) < MIN_DRAWN_TURN ? [] : [legLabel('rot2', 'rad', leaderEnd(drivenPose, legs.rot2, secondRadius))]),
+      ...(Math.abs(legs.rot2) < MIN_DRAWN_TURN ? [] : [legLabel('rot2', 'rad', leaderEnd(turns[1]))]),
     ];
   }
 
@@ -210,8 +209,9 @@ export class LegsPicture extends OutcomesPicture {
 }
 
 /** Picture of the world, in which the odometry frame drifts. */
-export class WorldPicture extends OutcomesPicture {
+export class WorldPicture extends SamplesPicture<Scene> {
   name = 'world';
+  view: View = new View({ top: LABELS_ABOVE, snug: true });
 
   fit(scene: Scene) {
     const { poses } = scene.drifted;
@@ -223,7 +223,7 @@ export class WorldPicture extends OutcomesPicture {
   }
 
   paint: SamplesPicture<Scene>['paint'] = (brush, scene) => {
-    const { palette } = brush;
+    const { palette, context, view } = brush;
     const { overlays } = scene;
     const [frame, odometryStart, odometryEnd] = [0, 1, 2].map((index) => poseAt(scene.drifted.poses, index));
     const [startPose, predictedPose] = [poseAt(scene.linkage, 0), poseAt(scene.linkage, 3)];
@@ -231,15 +231,20 @@ export class WorldPicture extends OutcomesPicture {
     drawAxes(brush, AXIS_NAMES, legendEntriesOf(brush, scene, ['prediction', 'odometry', 'difference']));
     clipToPlot(brush, () => {
       if (overlays.includes('odometry')) {
-        this.#paintFrame(brush, frame);
+        const axisLength = FRAME_AXIS_LENGTH * view.scaleX;
+        const [, yAxisEnd] = view.ray({ ...frame, theta: frame.theta + Math.PI / 2 }, axisLength);
+        strokeLine(context, [yAxisEnd, ...view.ray(frame, axisLength)], { colour: palette.prior, width: 1.25 });
         drawSegment(brush, odometryStart, odometryEnd, styles.odometry);
-        for (const pose of [odometryStart, odometryEnd]) this.#paintOdometry(brush, pose);
+        for (const pose of [odometryStart, odometryEnd]) {
+          drawRobotOutline(brush, pose.x, pose.y, ROBOT_RADIUS, palette.prior);
+          strokeLine(context, view.ray(pose, ROBOT_RADIUS * view.scaleX + 8), { colour: palette.prior, width: 1.5 });
+        }
       }
       drawOutcomes(brush, scene);
       if (overlays.includes('prediction')) drawSegment(brush, startPose, predictedPose, styles.prediction);
       if (overlays.includes('difference')) drawSegment(brush, odometryEnd, predictedPose, styles.difference);
       drawDraggableRobot(brush, startPose, ROBOT_RADIUS, palette.truth);
-      this.paintMark(brush, scene);
+      drawMarked(brush, scene);
     });
     const { left, bottom } = this.view.frame;
     const { outcomesBy, rules } = words.decomposer;
@@ -249,18 +254,6 @@ export class WorldPicture extends OutcomesPicture {
       ...(overlays.includes('odometry') ? this.#labels(brush, [odometryStart, odometryEnd], 'x̄', [palette.prior, palette.prior]) : []),
     ]);
   };
-
-  #paintFrame({ context, view, palette }: Brush, frame: Pose) {
-    const axisLength = FRAME_AXIS_LENGTH * view.scaleX;
-    const [, yAxisEnd] = view.ray({ ...frame, theta: frame.theta + Math.PI / 2 }, axisLength);
-    strokeLine(context, [yAxisEnd, ...view.ray(frame, axisLength)], { colour: palette.prior, width: 1.25 });
-  }
-
-  #paintOdometry(brush: Brush, pose: Pose) {
-    const { context, view, palette } = brush;
-    drawRobotOutline(brush, pose.x, pose.y, ROBOT_RADIUS, palette.prior);
-    strokeLine(context, view.ray(pose, ROBOT_RADIUS * view.scaleX + 8), { colour: palette.prior, width: 1.5 });
-  }
 
   /** Returns the labels of the poses before and after the motion; only the second if both are at one place on the screen. */
   #labels({ view }: Brush, poses: Pose[], symbol: string, colours: string[]) {

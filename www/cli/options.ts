@@ -30,8 +30,7 @@ Logs: ROS 1 bags, rosbag2 (MCAP, SQLite, folders), CSV and other tables, TUM.
   --odometry-frames P,C      parent and child frame, of a topic of transforms: odom,base_link
   --reference-frames P,C     the same for the reference: map,base_link
   --columns NAMES            names of the columns of a table without a header: t,x,y,yaw or t,v,omega
-  --odometry-columns NAMES   the same for the odometry only
-  --reference-columns NAMES  the same for the reference only
+  --odometry-columns NAMES, --reference-columns NAMES   the same for one of the logs
   --time-unit UNIT           s, ms, us or ns; default: judged. Where the two files differ: that of the odometry
                              and of the reference, as in --time-unit ms,s
   --length-unit UNIT         m, cm or mm; likewise

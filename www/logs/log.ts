@@ -81,16 +81,11 @@ export interface Question {
   columns?: string[];
 }
 
-interface Breaks {
-  /** Rising indices of rows before which the path is unknown: after unusable rows, and at jumps. The core finds gaps by itself. */
-  breaks: Uint32Array;
-}
-
-/** Poses in s, m and rad. */
-export interface Poses extends Breaks { t: Float64Array; x: Float64Array; y: Float64Array; theta: Float64Array }
+/** Poses in s, m and rad. `breaks` has the rising indices of rows before which the path is unknown: after unusable rows, and at jumps. */
+export interface Poses { t: Float64Array; x: Float64Array; y: Float64Array; theta: Float64Array; breaks: Uint32Array }
 
 /** Commands in s, m/s and rad/s. */
-export interface Commands extends Breaks { t: Float64Array; v: Float64Array; omega: Float64Array }
+export interface Commands { t: Float64Array; v: Float64Array; omega: Float64Array; breaks: Uint32Array }
 
 /** Log of one robot, as plain data that a worker can post. */
 export interface Log {

@@ -31,8 +31,9 @@ type ErrorReason = ConstructorParameters<typeof LogError>[1];
 const MAX_TILT_SPREAD = 0.5;
 
 export async function openTable(source: Source, options: OpenOptions = {}): Promise<Recording> {
-  const encoding = await detectEncoding(source);
-  const headText = new TextDecoder(encoding).decode(await readBytes(source, 0, Math.min(HEAD_BYTES, source.size)), { stream: true });
+  const headBytes = await readBytes(source, 0, Math.min(HEAD_BYTES, source.size));
+  const encoding = detectEncoding(headBytes);
+  const headText = new TextDecoder(encoding).decode(headBytes, { stream: true });
   if (headText.slice(0, CHECKED_CHARACTERS).includes('\0')) throw new LogError({ file: source.name }, (texts) => texts.binary);
   const headLines = headText.split('\n');
   // The last line may be incomplete. It is dropped unless it is the only one.
@@ -74,8 +75,7 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
 const columnNames = ({ columns }: Group) => Object.values(columns).toSorted((a, b) => a.at - b.at).map(({ name }) => name);
 
 /** Returns the encoding of a text. Signs are a byte order mark, the zeros of UTF-16, and bytes that UTF-8 does not have. */
-async function detectEncoding(source: Source): Promise<string> {
-  const bytes = await readBytes(source, 0, Math.min(HEAD_BYTES, source.size));
+function detectEncoding(bytes: Uint8Array): string {
   const [first, second, third, fourth] = bytes;
   if ((first === 0xff && second === 0xfe) || (first !== 0 && second === 0 && third !== 0 && fourth === 0)) return 'utf-16le';
   if (first === 0xfe && second === 0xff) return 'utf-16be';

@@ -4,7 +4,7 @@ import { group, sort, sum } from 'd3-array';
 import type { Channel, Container, Message } from './formats/container.ts';
 import { Chain, FrameTree } from './frames.ts';
 import { LogError, truncate, listNames, reasonOf, type Words } from './log-error.ts';
-import { LOG_TIME, framesOption, framesText, type FramePair, type LogChoice, type Log, type Note, type OpenOptions, type Question, type Recording, type Series } from './log.ts';
+import { LOG_TIME, framesText, type FramePair, type LogChoice, type Log, type Note, type OpenOptions, type Recording, type Series } from './log.ts';
 import { readTransforms, isReadable, logKindOfType, poseReader, type Sample } from './messages.ts';
 import { Rows } from './rows.ts';
 
@@ -24,7 +24,7 @@ export async function recordingOf(name: string, container: Container, options: O
   return { name, format, series, read };
 
   async function read(choices: LogChoice[], onProgress?: (share: number) => void): Promise<Log[]> {
-    const choiceReaders = choices.map((choice) => topicReader(name, container, choice, series));
+    const choiceReaders = choices.map((choice) => topicReader(name, container, choice));
     const readersByChannel = new Map(container.channels.map((channel) => [channel, choiceReaders.filter((reader) => reader.wants(channel))]));
     const passMessage = (message: Message) => {
       for (const reader of readersByChannel.get(message.channel) ?? []) reader.addMessage(message);
@@ -68,17 +68,13 @@ async function listSeries(container: Container): Promise<Series[]> {
 }
 
 /** Returns a reader of one topic. For a topic of transforms it also reads the static transforms. */
-function topicReader(file: string, container: Container, choice: LogChoice, series: Series[]) {
+function topicReader(file: string, container: Container, choice: LogChoice) {
   const { series: topic, frames } = choice;
-  const refuse: Refuse = (reason, ask) => {
-    throw new LogError({ file, topic }, reason, ask);
+  const refuse: Refuse = (reason) => {
+    throw new LogError({ file, topic }, reason);
   };
   const type = readableTypeOf(container, choice, refuse);
   const kind = logKindOfType(type);
-  if (kind === 'transforms' && !frames) {
-    const candidates = series.find(({ name }) => name === topic)?.frames ?? [];
-    refuse((texts) => texts.frames(listNames(candidates.map(framesText))), { what: 'frames', choices: candidates.map(framesOption) });
-  }
   const rows = new Rows({ file, topic });
   const chain = frames && new Chain(frames);
   const readSample = poseReader(type);
@@ -139,7 +135,7 @@ function topicReader(file: string, container: Container, choice: LogChoice, seri
 const otherFramesOf = ({ tree }: Chain, { parent, child }: FramePair) =>
   listNames(tree.findPoseFrames().filter((ends) => ends.parent !== parent || ends.child !== child).map(framesText));
 
-type Refuse = (reason: (texts: Words['refused']) => string, ask?: Question) => never;
+type Refuse = (reason: (texts: Words['refused']) => string) => never;
 
 /** Returns the type of a topic, which must be the only one that can be read. */
 function readableTypeOf({ channels }: Container, { series, kind: wantedKind, frames }: LogChoice, refuse: Refuse): string {

@@ -20,7 +20,7 @@ import { ensureFirefox, ensureWebKit } from './programs.mjs';
  * @property {<G, R>(work: (given: G) => R | Promise<R>, given: G) => Promise<R>} ask calls a function in the page; it has no access
  *   to variables around it, and its argument and result are JSON
  * @property {(points: [x: number, y: number][]) => Promise<unknown>} drag with the left button along points, in CSS pixels of the window
- * @property {(key: 'ArrowRight' | 'ArrowLeft' | 'ArrowUp' | 'ArrowDown') => Promise<unknown>} press a key, for the element with the focus
+ * @property {(...keys: (keyof typeof KEY_CODES)[]) => Promise<unknown>} press keys one after the other, for the element with the focus
  * @property {() => Promise<Uint8Array>} screenshot as PNG
  * @property {() => Promise<unknown>} close
  */
@@ -129,7 +129,7 @@ async function openSession(url, capabilities, stop) {
       for (const [x, y] of points) dragActions.move({ x, y, duration: 40 });
       await dragActions.release().perform();
     },
-    press: (key) => driverSession.actions().sendKeys(KEY_CODES[key]).perform(),
+    press: (...keys) => driverSession.actions().sendKeys(...keys.map((key) => KEY_CODES[key])).perform(),
     screenshot: async () => Buffer.from(await driverSession.takeScreenshot(), 'base64'),
     async close() {
       await driverSession.quit();

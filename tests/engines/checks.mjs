@@ -10,7 +10,7 @@ import { join } from 'node:path';
 import { ROOT } from '../../scripts/process.mjs';
 import { settings } from '../../www/settings.js';
 import { findDifferences } from '../digest/digest.js';
-import { figures, createSimulation } from './figures.mjs';
+import { createSimulation, handlesByTag } from './figures.mjs';
 import { simulationStateOf } from './inside.js';
 
 /** @typedef {import('./browsers.mjs').Engine} Engine */
@@ -55,11 +55,6 @@ class Page {
   async open(tag) {
     await this.engine.open(this.address);
     if (tag !== undefined) await this.untilSettled(tag);
-  }
-
-  /** Presses keys one after the other, without waiting for pictures. @param {Parameters<Engine['press']>[0][]} keys */
-  async press(...keys) {
-    for (const key of keys) await this.engine.press(key);
   }
 
   /** Waits until a figure has settled, and checks that its pictures are not blank. @param {string} tag */
@@ -111,9 +106,8 @@ export async function runChecks(name, engine, address) {
 
   await runCheck('the digest', () => checkDigest(page));
   for (const tag of Object.keys(settings)) {
-    const { handles } = figures[tag];
     await runCheck(`${tag} opens`, () => checkOpening(page, tag));
-    for (const handle of handles) {
+    for (const handle of handlesByTag[tag] ?? []) {
       await runCheck(`${tag} is dragged by its handle "${handle.name}"`, () => checkDragging(page, tag, handle));
       await runCheck(`the handle "${handle.name}" of ${tag} follows the keyboard`, () => checkHandleKeys(page, tag, handle));
     }
@@ -179,7 +173,7 @@ async function checkHandleKeys(page, tag, { name }) {
   await page.open(tag);
   const { hash: hashBefore } = await page.ask('stateOf', tag);
   assert.ok(await page.ask('focus', { tag, selector: `.handle.${name}` }), 'It does not take the focus.');
-  await page.press('ArrowUp', 'ArrowUp', 'ArrowLeft');
+  await page.engine.press('ArrowUp', 'ArrowUp', 'ArrowLeft');
   await page.untilSettled(tag);
   const { hash } = await compareWithNode(page, tag);
   assert.notEqual(hash, hashBefore, 'Nothing has moved.');
@@ -195,7 +189,7 @@ async function checkSliderKeys(page, tag) {
     const readSlider = async () => (await page.ask('sliderStatesOf', tag)).find((slider) => slider.key === key);
     const sliderBefore = await readSlider();
     assert.ok(sliderBefore && (await page.ask('focus', { tag, selector: `#${key}` })), `${key} does not take the focus.`);
-    await page.press('ArrowRight', 'ArrowRight', 'ArrowLeft');
+    await page.engine.press('ArrowRight', 'ArrowRight', 'ArrowLeft');
     await page.untilSettled(tag);
     const sliderAfter = await readSlider();
     const expectedPosition = Math.min(sliderBefore.shown + 2 * sliderBefore.step, sliderBefore.end) - sliderBefore.step;

@@ -15,35 +15,25 @@ import { toPascalCase } from '../../scripts/declarations.mjs';
  *   dragged to the place `to`
  */
 
-/** Handles of the figures by tag; Dead Reckoning has no handles. @type {Record<string, { handles: Handle[] }>} */
-export const figures = {
-  'banana-machine': {
-    handles: [{ name: 'end', to: [0.8, 0.4], placeOf: ({ contours }) => [...contours.command.slice(-2)] }],
-  },
-  'map-squeeze': {
-    handles: [
-      { name: 'body', to: [2.4, 2.3], placeOf: ({ config: { start } }) => [start.x, start.y] },
-      {
-        name: 'turn',
-        to: [2.6, 3.3],
-        placeOf({ config: { start } }, [x, y]) {
-          const startDistance = Math.hypot(x - start.x, y - start.y);
-          return [start.x + startDistance * Math.cos(start.theta), start.y + startDistance * Math.sin(start.theta)];
-        },
+/** Handles of the figures by tag; two figures have none. @type {Record<string, Handle[] | undefined>} */
+export const handlesByTag = {
+  'banana-machine': [{ name: 'end', to: [0.8, 0.4], placeOf: ({ contours }) => [...contours.command.slice(-2)] }],
+  'map-squeeze': [
+    { name: 'body', to: [2.4, 2.3], placeOf: ({ config: { start } }) => [start.x, start.y] },
+    {
+      name: 'turn',
+      to: [2.6, 3.3],
+      placeOf({ config: { start } }, [x, y]) {
+        const startDistance = Math.hypot(x - start.x, y - start.y);
+        return [start.x + startDistance * Math.cos(start.theta), start.y + startDistance * Math.sin(start.theta)];
       },
-    ],
-  },
-  'arc-anatomy': {
-    handles: [{ name: 'body.next', to: [0.8, 0.7], placeOf: ({ config: { next } }) => [next.x, next.y] }],
-  },
-  'odometry-decomposer': {
-    handles: [
-      { name: 'body.from', to: [0.3, -0.2], placeOf: ({ config: { from } }) => [from.x, from.y] },
-      { name: 'body.to', to: [0.9, 1.2], placeOf: ({ config: { to } }) => [to.x, to.y] },
-    ],
-  },
-  'dead-reckoning': { handles: [] },
-  'alpha-calibrator': { handles: [] },
+    },
+  ],
+  'arc-anatomy': [{ name: 'body.next', to: [0.8, 0.7], placeOf: ({ config: { next } }) => [next.x, next.y] }],
+  'odometry-decomposer': [
+    { name: 'body.from', to: [0.3, -0.2], placeOf: ({ config: { from } }) => [from.x, from.y] },
+    { name: 'body.to', to: [0.9, 1.2], placeOf: ({ config: { to } }) => [to.x, to.y] },
+  ],
 };
 
 /** Returns the simulation of a figure, in Node. @param {string} tag @param {any} config @returns {Promise<any>} */

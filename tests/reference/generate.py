@@ -21,10 +21,9 @@ HERE = pathlib.Path(__file__).parent
 rng = random.Random(2005)
 
 
-def split(value, rest_format="%.3e"):
-    """A high-precision number as two columns, its nearest double and the rest."""
-    head = float(value)
-    return [head, rest_format % float(value - mpf(head))]
+def columns(*values, rest_format="%.3e"):
+    """High-precision numbers as two columns each, the nearest double and the rest."""
+    return [cell for value in values for cell in (float(value), rest_format % float(value - mpf(float(value))))]
 
 
 def write(name, header, rows):
@@ -89,20 +88,15 @@ def group_tables():
         x, y = s * a - c * b, c * a + s * b
         jacobian = right_jacobian((a, b, w))
         inverse = jacobian**-1
-        row = [*floats]
-        for value in (x, y):
-            row += split(value)
         for m in (jacobian, inverse):
             assert abs(m[0, 0] - m[1, 1]) < 1e-30 and abs(m[0, 1] + m[1, 0]) < 1e-30
-            for i, j in ((0, 0), (0, 1), (0, 2), (1, 2)):
-                row += split(m[i, j])
-        rows.append(row)
+        entries = [m[e] for m in (jacobian, inverse) for e in ((0, 0), (0, 1), (0, 2), (1, 2))]
+        rows.append([*floats, *columns(x, y, *entries)])
 
         # The logarithm of the *rounded* pose, whose exact value is another number than ξ.
         px, py = mpf(float(x)), mpf(float(y))
         det = s * s + c * c
-        logs.append([float(px), float(py), floats[2]]
-                    + split((s * px + c * py) / det) + split((s * py - c * px) / det))
+        logs.append([float(px), float(py), floats[2], *columns((s * px + c * py) / det, (s * py - c * px) / det)])
     write("group.csv", header, rows)
     write("log.csv", ["x", "y", "w", "a", "a_lo", "b", "b_lo"], logs)
 
@@ -120,7 +114,7 @@ def quantile_table():
             # z with P(Z < z) = q + 1/2
             normal = sqrt(mpf(2)) * erfinv(2 * mpf(q))
             triangular = sqrt(mpf(6)) * (1 - sqrt(1 - 2 * mpf(q)))
-        rows.append([q] + split(normal) + split(triangular))
+        rows.append([q, *columns(normal, triangular)])
     write("quantile.csv", ["q", "normal", "normal_lo", "triangular", "triangular_lo"], rows)
 
 
@@ -339,13 +333,11 @@ def likelihood_gains(kind, alphas, v, omega, dt):
 
 def gain_table():
     straight = (0.002, 0.002, 0.1, 0.1, 0.002, 0.002)
-    cases = [(k, OPENING, c) for k in ("normal", "triangular")
-             for c in [(1.0, 0.5, 1.0), (1.0, 1.2, 1.4), (1.0, 0.0, 2.0), (0.06, 1.5, 1.0), (-0.7, -1.1, 1.3)]]
-    cases += [(k, straight, (1.0, 0.0, 2.0)) for k in ("normal", "triangular")]
-    cases += [(k, CANONICAL, (1.0, 0.5, 1.0)) for k in ("normal", "triangular")]
     # Lengths that are known to a fortieth: far from 0, their mean logarithm is that of a series.
     sure = (0.0005, 0.0005, 0.05, 0.09, 0.01, 0.01)
-    cases += [(k, sure, (1.0, 0.5, 1.0)) for k in ("normal", "triangular")]
+    commands = [(1.0, 0.5, 1.0), (1.0, 1.2, 1.4), (1.0, 0.0, 2.0), (0.06, 1.5, 1.0), (-0.7, -1.1, 1.3)]
+    groups = [(OPENING, commands), (straight, commands[2:3]), (CANONICAL, commands[:1]), (sure, commands[:1])]
+    cases = [(k, al, c) for al, group in groups for k in ("normal", "triangular") for c in group]
     rows = [[k, *al, *c, *("%.9g" % x for x in likelihood_gains(k, al, *c))] for k, al, c in cases]
     write("likelihood_gain.csv",
           ["kind", "a1", "a2", "a3", "a4", "a5", "a6", "v", "omega", "dt", "pose", "floor", "area_ratio"], rows)
@@ -405,8 +397,7 @@ def double_double_table():
     with mp.workdps(60):
         for angle in [ours.choice([-1.0, 1.0]) * angle for angle in angles]:
             exact = mpf(angle)
-            values = (sin(exact), cos(exact), sin(exact) / exact)
-            rows.append([angle] + [column for value in values for column in split(value, "%r")])
+            rows.append([angle, *columns(sin(exact), cos(exact), sin(exact) / exact, rest_format="%r")])
     write("double_double.csv", ["angle", "sin", "sin_lo", "cos", "cos_lo", "sinc", "sinc_lo"], rows)
 
 

@@ -102,9 +102,11 @@ fn turns_of_steps(trajectory: &Trajectory, start: f64, step: f64, count: usize) 
         let before = headings[sample.saturating_sub(1)];
         Some(before + fraction * (headings[sample] - before))
     };
+    let time_of_step = |i: usize| start + i as f64 * step;
+    let step_headings: Vec<Option<f64>> = (0..=count).map(|i| heading_at(time_of_step(i))).collect();
     let turn_of_step = |i: usize| {
-        let [from, to] = [i, i + 1].map(|i| start + i as f64 * step);
-        Some(heading_at(to)? - heading_at(from)?).filter(|_| !trajectory.has_gap(from, to))
+        let turn = step_headings[i + 1]? - step_headings[i]?;
+        Some(turn).filter(|_| !trajectory.has_gap(time_of_step(i), time_of_step(i + 1)))
     };
     (0..count).map(turn_of_step).collect()
 }

@@ -261,8 +261,10 @@ fn path_difference(sample: &Sample, systematic: &Systematic, piece_length: f64) 
     let (mut square_sum, mut freedom, mut length_sum) = (0.0, 0.0, 0.0);
     let (mut points, mut length, base) = (Vec::new(), 0.0, systematic.base());
     for (i, leg) in sample.legs.iter().enumerate() {
-        points.push([leg.odometry[1], leg.reference[1] * base].map(|pose| Complex::new(pose.x(), pose.y())));
-        length += distance(&leg.odometry[0].between(&leg.odometry[1]));
+        let [start, end, reference_end] = [leg.odometry[0], leg.odometry[1], leg.reference[1] * base]
+            .map(|pose| Complex::new(pose.x(), pose.y()));
+        points.push([end, reference_end]);
+        length += (end - start).norm();
         if length >= piece_length || sample.legs.get(i + 1).is_none_or(|next| !next.follows) {
             if points.len() > 2 {
                 let piece_freedom = points.len() as f64 - 2.0;

@@ -141,6 +141,8 @@ struct LegEnd {
     /// Time by the clock of the odometry, s.
     time: f64,
     odometry: SE2,
+    /// Velocity by the odometry.
+    velocity: Vector3<f64>,
     /// Pose by the reference, with the relative variance of its error; None if the reference has no pose here.
     reference: Option<(SE2, f64)>,
 }
@@ -194,7 +196,7 @@ impl Drive<'_> {
             let find_end = || {
                 let known_pose = reference_pose.map(|pose| (pose, 1.0));
                 let reference = known_pose.or_else(|| reference.interpolated(time + clock_offset));
-                LegEnd { time, odometry: pose, reference }
+                LegEnd { time, odometry: pose, velocity: odometry.velocity(time), reference }
             };
             let has_break = leg_start.is_some_and(|start| odometry.has_break(start.time, time));
             lost.across_breaks += usize::from(has_break);
@@ -231,7 +233,7 @@ impl Drive<'_> {
                 legs.push(Leg {
                     times: [start.time, time],
                     odometry: poses,
-                    velocities: [start.time, time].map(|time| odometry.velocity(time)),
+                    velocities: [start.velocity, end.velocity],
                     reference: [start_reference, end_reference],
                     interpolation_variances: [start_variance, end_variance],
                     follows: had_followed,

@@ -126,15 +126,8 @@ fn exercise_4_prints_the_effect_of_each_alpha() {
 fn exercise_5_prints_the_fractions_through_walls() {
     let settings_with = |n: f64, omega: f64, sampler: Sampler| {
         let command = VelocityCmd { omega, ..squeeze::Settings::default().command };
-        let alphas = alphas_of_noise_level(n);
-        squeeze::Settings {
-            command,
-            alphas,
-            sampler,
-            steps: sampler.parts(),
-            samples: 20_000,
-            ..Default::default()
-        }
+        let (alphas, steps, samples) = (alphas_of_noise_level(n), sampler.parts(), 20_000);
+        squeeze::Settings { command, alphas, sampler, steps, samples, ..Default::default() }
     };
     let stats_of = |settings| MapSqueeze::new(settings).expect("valid settings").stats();
     for n in ["0.02", "0.05", "0.12", "0.4"] {

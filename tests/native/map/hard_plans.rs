@@ -57,12 +57,8 @@ fn hard_plans(count: usize) -> Vec<(&'static str, Vec<Segment>)> {
         (
             "long ones anywhere",
             make_walls(&mut |_| {
-                clamped_wall(
-                    random_coordinate(),
-                    random_coordinate(),
-                    random_coordinate(),
-                    random_coordinate(),
-                )
+                let [x0, y0, x1, y1] = std::array::from_fn(|_| random_coordinate());
+                clamped_wall(x0, y0, x1, y1)
             }),
         ),
         ("a mesh", {

@@ -215,16 +215,17 @@ fn the_free_pose_is_in_the_largest_free_square() {
         let straight_arc = Arc { start: free_pose, length: 0.5, turn: 0.0 };
         assert!(plan.test_arc(&straight_arc, 0.0).free && free_pose.theta().abs() < 0.5, "{free_pose:?}");
     }
+    let free_pose_of = |rows: [&str; 3], unknown_cells, clearance| {
+        let plan = FloorPlan::from_grid(grid_from_drawing(&rows, unknown_cells)).expect("a small grid");
+        plan.find_free_pose(clearance)
+    };
     // A robot that just fits cannot move. The heading is then 0.
-    let one_cell_plan = FloorPlan::from_grid(grid_from_drawing(&["###", "#.#", "###"], UnknownCells::Free))
-        .expect("a small grid");
-    assert_eq!(one_cell_plan.find_free_pose(0.0499).expect("there is room").theta(), 0.0);
+    let free_pose = free_pose_of(["###", "#.#", "###"], UnknownCells::Free, 0.0499);
+    assert_eq!(free_pose.expect("there is room").theta(), 0.0);
     // All cells are unknown, and count as free or blocked as the setting says.
-    let unknown_grid = grid_from_drawing(&["???", "???", "???"], UnknownCells::Free);
-    let free_pose =
-        FloorPlan::from_grid(unknown_grid).expect("no walls").find_free_pose(0.1).expect("there is room");
+    let free_pose = free_pose_of(["???"; 3], UnknownCells::Free, 0.1).expect("there is room");
     assert!((free_pose.x() - 0.05).abs() + (free_pose.y() - 0.05).abs() < 1e-12, "the first: {free_pose:?}");
-    let blocked_grid = grid_from_drawing(&["???", "???", "???"], UnknownCells::Blocked);
+    let blocked_grid = grid_from_drawing(&["???"; 3], UnknownCells::Blocked);
     assert!(blocked_grid.cells().all(|cell| cell == Cell::Unknown), "the cells themselves are unchanged");
-    assert_eq!(FloorPlan::from_grid(blocked_grid).expect("four walls").find_free_pose(0.1), None);
+    assert_eq!(free_pose_of(["???"; 3], UnknownCells::Blocked, 0.1), None);
 }

@@ -87,23 +87,19 @@ fn every_kind_of_image_is_decoded_exactly() {
                 let expected_pixels: Vec<[u8; 4]> = samples
                     .chunks(color.samples())
                     .map(|pixel| {
+                        let bytes: Vec<u8> = pixel.iter().map(|sample| to_byte(*sample)).collect();
                         let opacity = if has_transparent_colour && pixel == first_pixel { 0 } else { 255 };
-                        match *pixel {
-                            [index] if color == ColorType::Indexed => {
-                                let index = usize::from(index);
-                                let opacity = opacities
-                                    .get(index)
-                                    .copied()
-                                    .filter(|_| has_transparent_colour)
-                                    .unwrap_or(255);
-                                [palette[3 * index], palette[3 * index + 1], palette[3 * index + 2], opacity]
+                        match *bytes {
+                            [_] if color == ColorType::Indexed => {
+                                let index = usize::from(pixel[0]);
+                                let opacity = opacities.get(index).filter(|_| has_transparent_colour);
+                                let [red, green, blue] = [0, 1, 2].map(|k| palette[3 * index + k]);
+                                [red, green, blue, opacity.copied().unwrap_or(255)]
                             }
-                            [grey] => [to_byte(grey), to_byte(grey), to_byte(grey), opacity],
-                            [grey, opacity] => {
-                                [to_byte(grey), to_byte(grey), to_byte(grey), to_byte(opacity)]
-                            }
-                            [red, green, blue] => [to_byte(red), to_byte(green), to_byte(blue), opacity],
-                            [red, green, blue, opacity] => [red, green, blue, opacity].map(to_byte),
+                            [grey] => [grey, grey, grey, opacity],
+                            [grey, opacity] => [grey, grey, grey, opacity],
+                            [red, green, blue] => [red, green, blue, opacity],
+                            [red, green, blue, opacity] => [red, green, blue, opacity],
                             _ => unreachable!("four samples at most"),
                         }
                     })

@@ -55,7 +55,6 @@ fn prob_is_the_density_of_the_samples() {
                 integral += interval_integral;
             }
             assert!((integral - 1.0).abs() < 1e-9, "{kind:?} b² = {variance}: integral {integral}");
-            assert_eq!(kind.prob(0.3 * std, Variance(variance)), kind.prob(-0.3 * std, Variance(variance)));
         }
         // With variance 1 the densities at 0 are 1/√(2π) and 1/√6.
         let peak = kind.prob(0.0, Variance(1.0));
@@ -95,7 +94,6 @@ fn quantiles_match_references_to_1e_15() {
                 relative_error <= 1e-15,
                 "{kind:?} quantile({q}) = {z}: relative error {relative_error:e}"
             );
-            assert_eq!(kind.quantile(-q), -z, "the distribution is symmetric");
         }
     }
 }

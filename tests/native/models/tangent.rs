@@ -67,14 +67,8 @@ fn log_prob_is_a_gaussian_in_exponential_coordinates() {
 #[test]
 fn without_noise_in_the_arc_the_density_is_finite() {
     for [along_variance, turn_variance] in [[0.0, 0.025], [0.025, 0.0], [0.0, 0.0]] {
-        let alphas = VelocityAlphas([
-            0.8 * along_variance,
-            0.8 * along_variance,
-            0.8 * turn_variance,
-            0.8 * turn_variance,
-            0.01,
-            0.01,
-        ]);
+        let [along_alpha, turn_alpha] = [along_variance, turn_variance].map(|variance| 0.8 * variance);
+        let alphas = VelocityAlphas([along_alpha, along_alpha, turn_alpha, turn_alpha, 0.01, 0.01]);
         let tangent_model = TangentNoiseModel::from_velocity(&velocity_model(alphas), &U).unwrap();
         let log_prob = tangent_model.log_prob(&SE2::exp(&TangentNoiseModel::twist(&U)), &U, &SE2::identity());
         let variances = Vector3::new(along_variance.max(1e-12), turn_variance.max(1e-12), 0.0125);
@@ -180,22 +174,12 @@ fn first_order_transforms_the_noise_inside_the_arc_only() {
         |model: &TangentNoiseModel| model.propagate(&Matrix3::zeros(), &tau, Compounding::FirstOrder);
     let separate_turn_model =
         TangentNoiseModel::from_velocity(&velocity_model(FULL_RANK_ALPHAS), &U).unwrap();
-    assert!(
-        (cov_after_one_step(&separate_turn_model)
-            - (right_jacobian * arc_cov * right_jacobian.transpose() + turn_cov))
-            .amax()
-            < 1e-15
-    );
     let merged_turn_model = TangentNoiseModel::new(arc_cov + turn_cov).unwrap();
-    assert!(
-        (cov_after_one_step(&merged_turn_model)
-            - right_jacobian * (arc_cov + turn_cov) * right_jacobian.transpose())
-        .amax()
-            < 1e-15
-    );
-    assert!(
-        (cov_after_one_step(&separate_turn_model) - cov_after_one_step(&merged_turn_model)).amax() > 1e-4
-    );
+    let [separate_cov, merged_cov] = [&separate_turn_model, &merged_turn_model].map(cov_after_one_step);
+    let transformed = |cov: Matrix3<f64>| right_jacobian * cov * right_jacobian.transpose();
+    assert!((separate_cov - (transformed(arc_cov) + turn_cov)).amax() < 1e-15);
+    assert!((merged_cov - transformed(arc_cov + turn_cov)).amax() < 1e-15);
+    assert!((separate_cov - merged_cov).amax() > 1e-4);
 }
 
 fn cov_after_twenty_steps(model: &TangentNoiseModel, order: Compounding) -> Matrix3<f64> {

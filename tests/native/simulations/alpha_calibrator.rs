@@ -13,6 +13,11 @@ fn simulation(settings: Settings) -> AlphaCalibrator {
     AlphaCalibrator::new(settings).expect("allowed")
 }
 
+/// Returns the poses of the base at start and end of a leg, by the reference.
+fn base_poses(calibration: &Calibration, leg_index: usize) -> [SE2; 2] {
+    calibration.legs[leg_index].reference.map(|pose| pose * calibration.corrected.base())
+}
+
 /// Returns for the four α's and the six systematic errors whether their intervals contain the true values.
 fn do_intervals_contain_truth(simulation: &AlphaCalibrator) -> [bool; 10] {
     let calibration = simulation.calibration();
@@ -181,8 +186,7 @@ fn a_leg_is_shown_in_the_frame_of_its_start() {
     let calibration = simulation.calibration();
     let leg_index = 100;
     let leg_view = simulation.leg(leg_index).expect("a leg");
-    let [start_pose, end_pose] =
-        calibration.legs[leg_index].reference.map(|pose| pose * calibration.corrected.base());
+    let [start_pose, end_pose] = base_poses(calibration, leg_index);
     let leg_motion = start_pose.inverse() * end_pose;
     assert_eq!(leg_view.ended, [leg_motion.x(), leg_motion.y(), leg_motion.theta()]);
     let [rot1, trans, rot2] = calibration.observations[leg_index].reading;
@@ -206,17 +210,13 @@ fn a_leg_is_shown_in_the_frame_of_its_start() {
             / outcome_count
     };
     let drive_variance = variance(&|[x, y, _]| libm::hypot(*x, *y));
-    assert!(
-        (drive_variance / variances.trans.0 - 1.0).abs() < 4.0 * (2.0 / outcome_count).sqrt(),
-        "{drive_variance}, {}",
-        variances.trans.0
-    );
     let turn_variance = variance(&|[_, _, theta]| *theta);
-    let expected_turn_variance = variances.rot1.0 + variances.rot2.0;
-    assert!(
-        (turn_variance / expected_turn_variance - 1.0).abs() < 4.0 * (2.0 / outcome_count).sqrt(),
-        "{turn_variance}, {expected_turn_variance}"
-    );
+    for (computed, expected) in
+        [(drive_variance, variances.trans.0), (turn_variance, variances.rot1.0 + variances.rot2.0)]
+    {
+        let tolerance = 4.0 * (2.0 / outcome_count).sqrt();
+        assert!((computed / expected - 1.0).abs() < tolerance, "{computed}, {expected}");
+    }
     assert!(simulation.leg(calibration.legs.len()).is_none());
 }
 
@@ -224,14 +224,11 @@ fn a_leg_is_shown_in_the_frame_of_its_start() {
 fn the_nearest_leg_passes_through_the_point() {
     let simulation = simulation(Settings::default());
     let calibration = simulation.calibration();
-    let [start_pose, end_pose] =
-        calibration.legs[7].reference.map(|pose| pose * calibration.corrected.base());
+    let [start_pose, end_pose] = base_poses(calibration, 7);
     let midpoint = [0.5 * (start_pose.x() + end_pose.x()), 0.5 * (start_pose.y() + end_pose.y())];
     let nearest_index = simulation.nearest(midpoint, 1e-9).expect("it leads through there");
-    let nearest_poses =
-        calibration.legs[nearest_index].reference.map(|pose| pose * calibration.corrected.base());
     let distance = |a: [f64; 2], b: [f64; 2]| libm::hypot(a[0] - b[0], a[1] - b[1]);
-    let [start, end] = nearest_poses.map(|pose| [pose.x(), pose.y()]);
+    let [start, end] = base_poses(calibration, nearest_index).map(|pose| [pose.x(), pose.y()]);
     assert!(distance(start, midpoint) + distance(midpoint, end) - distance(start, end) < 1e-9);
     assert_eq!(simulation.nearest([1e6, 0.0], 1.0), None);
     assert_eq!(simulation.nearest(midpoint, 0.0), None);

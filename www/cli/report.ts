@@ -40,6 +40,7 @@ export function reportText({ calibration, options, logs, start, driveStarts, dat
   const { legs, lost, diagnostics: { checks, windows } } = calibration;
   const { model = 'odometry', rule = 'thrun' } = options;
   const failedChecks = failedChecksOf(checks);
+  const windowRows = windows.map(({ length, count, coverage, nees }: any) => [`of ${formatNumber(length)} m`, String(count), formatPercent(coverage), formatNumber(nees)]);
   const lostLegTexts = LOST_LEG_CAUSES.filter((cause) => lost[cause] > 0).map((cause) => `${lost[cause]} ${en.lost[cause]}`);
   const excludedLegLines = [...(lostLegTexts.length ? [`lost legs: ${lostLegTexts.join(', ')}`] : []), ...outlierLines(legs, driveStarts)];
   const uncoloredReport = [
@@ -56,7 +57,7 @@ export function reportText({ calibration, options, logs, start, driveStarts, dat
     ...failedChecks.map(({ name, message }) => `${name}: ${message}`),
     '',
     ...(excludedLegLines.length ? [...excludedLegLines, ''] : []),
-    ...alignRows([['held-out windows', 'number', 'covered', 'squared error / variance (NEES)'], ...windows.map(windowRow)]),
+    ...alignRows([['held-out windows', 'number', 'covered', 'squared error / variance (NEES)'], ...windowRows]),
     '',
     ...nav2Section({ calibration, options, logs, start, driveStarts, date }),
     '',
@@ -142,10 +143,6 @@ function checkRow({ name, value, expected: [low, high], passed }: any): string[]
   const digitCount = [3, 4, 6, 17].find((count) => passed || [low, high].every((bound) => formatNumber(value, count) !== formatNumber(bound, count)));
   const boundsText = low === -Infinity ? `≤ ${formatNumber(high, digitCount)}` : high === Infinity ? `≥ ${formatNumber(low, digitCount)}` : `${formatNumber(low, digitCount)} to ${formatNumber(high, digitCount)}`;
   return [name, value === Infinity ? '∞' : formatNumber(value, digitCount), boundsText, passed ? 'ok' : 'FAILED'];
-}
-
-function windowRow({ length, count, coverage, nees }: any): string[] {
-  return [`of ${formatNumber(length)} m`, String(count), formatPercent(coverage), formatNumber(nees)];
 }
 
 /** Lists outliers by their times after the start of the odometry. */

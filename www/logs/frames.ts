@@ -76,15 +76,8 @@ export class FrameTree {
   }
 }
 
-/** Transform of one link of a chain, with its message. */
-interface RecordedTransform {
-  link: string;
-  isStatic: boolean;
-  stampedTransform: StampedTransform;
-  /** Time of recording, s. */
-  recordTime: number;
-  number: number;
-}
+/** Transform of one link of a chain, with the time of recording (s) and the number of its message. */
+interface RecordedTransform { link: string; isStatic: boolean; stampedTransform: StampedTransform; recordTime: number; number: number }
 
 /** Poses of one frame relative to another one, composed of the transforms on the chain between them. */
 export class Chain {

@@ -26,10 +26,7 @@ export interface Series {
   frames?: FramePair[];
 }
 
-export interface FramePair {
-  parent: string;
-  child: string;
-}
+export interface FramePair { parent: string; child: string }
 
 export const framesText = ({ parent, child }: FramePair) => `${parent} → ${child}`;
 

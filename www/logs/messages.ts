@@ -5,26 +5,12 @@ import { unzstdMessage } from './formats/zstd.ts';
 import type { Series } from './log.ts';
 import { headingOf, isRotation } from './quaternion.ts';
 
-export interface Sample {
-  /** Time of the stamp, s; 0 for a type without a stamp. */
-  time: number;
-  /** x, or v. */
-  a: number;
-  /** y, or omega. */
-  b: number;
-  /** Heading, or 0. */
-  c: number;
-  isRotation: boolean;
-}
+/** Pose (x, y and heading) or command (v, omega and 0). `time` is that of the stamp in s, or 0. `isRotation` is true if the quaternion has length 1. */
+export interface Sample { time: number; a: number; b: number; c: number; isRotation: boolean }
 
 export type Transform = [x: number, y: number, z: number, qx: number, qy: number, qz: number, qw: number];
 
-export interface StampedTransform {
-  time: number;
-  parent: string;
-  child: string;
-  transform: Transform;
-}
+export interface StampedTransform { time: number; parent: string; child: string; transform: Transform }
 
 /** Number of bytes of the CDR header. Its second byte is 0 for big-endian and 1 for little-endian. Values are aligned relative to its end. */
 const CDR_HEADER_BYTES = 4;

@@ -4,7 +4,7 @@ import { group, sort, sum } from 'd3-array';
 import type { Channel, Container, Message } from './formats/container.ts';
 import { Chain, FrameTree } from './frames.ts';
 import { LogError, truncate, listNames, reasonOf, type Words } from './log-error.ts';
-import { LOG_TIME, framesText, type FramePair, type LogChoice, type Log, type Note, type OpenOptions, type Recording, type Series } from './log.ts';
+import { LOG_TIME, framesText, type LogChoice, type Log, type Note, type OpenOptions, type Recording, type Series } from './log.ts';
 import { readTransforms, isReadable, logKindOfType, poseReader, type Sample } from './messages.ts';
 import { Rows } from './rows.ts';
 
@@ -114,8 +114,10 @@ function topicReader(file: string, container: Container, choice: LogChoice) {
       if (messageCount === 0 && lossReason) refuse((texts) => texts.damaged(lossReason, format));
       if (damagedCount > 0 && damagedCount === messageCount) throw new LogError({ file, topic, line: 1 }, (texts) => texts.message(damageReason));
       if (chain && !chain.isConnected) refuse((texts) => texts.noChain(framesText(frames), listNames(chain.tree.links.map(framesText))));
-      const hasChanged = chain?.poses((pose, { recordTime, number }) => add(pose, recordTime, number)) ?? true;
-      if (!hasChanged) refuse((texts) => texts.constant(framesText(frames as FramePair), otherFramesOf(chain as Chain, frames as FramePair)));
+      if (chain && !chain.poses((pose, { recordTime, number }) => add(pose, recordTime, number))) {
+        const otherFrames = chain.tree.findPoseFrames().map(framesText).filter((otherText) => otherText !== framesText(frames));
+        refuse((texts) => texts.constant(framesText(frames), listNames(otherFrames)));
+      }
       const logKind = kind === 'commands' ? 'commands' : 'poses';
       const notes: Note[] = [
         ...(damage.size > 0 ? [{ name: 'damaged' as const, values: [damage.size, lossReason as string] }] : []),
@@ -130,10 +132,6 @@ function topicReader(file: string, container: Container, choice: LogChoice) {
     },
   };
 }
-
-/** Lists the frames of a chain's tree, other than the given ones, that may be a path of the robot. */
-const otherFramesOf = ({ tree }: Chain, { parent, child }: FramePair) =>
-  listNames(tree.findPoseFrames().filter((ends) => ends.parent !== parent || ends.child !== child).map(framesText));
 
 type Refuse = (reason: (texts: Words['refused']) => string) => never;
 

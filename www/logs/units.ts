@@ -7,18 +7,8 @@ import { quantile, sampleEvenly } from './quantile.ts';
 
 export type Units = Summary['units'];
 
-/** Columns of a log, in the units of the file. */
-export interface Columns {
-  /** Seconds that were subtracted from all times. */
-  start: number;
-  t: Float64Array;
-  /** x, or v. */
-  a: Float64Array;
-  /** y, or omega. */
-  b: Float64Array;
-  /** Heading, or 0. */
-  c: Float64Array;
-}
+/** Columns of a log in the units of the file: x, y and heading, or v, omega and 0. `start` is what was subtracted from all times, s. */
+export interface Columns { start: number; t: Float64Array; a: Float64Array; b: Float64Array; c: Float64Array }
 
 /** Decimal exponent of the number of units in a second, by unit of time. */
 export const UNIT_EXPONENTS = { s: 0, ms: 3, us: 6, ns: 9 } as const;

@@ -24,10 +24,7 @@ interface Row {
   next: number;
 }
 
-interface Table {
-  root: number;
-  columns: string[];
-}
+interface Table { root: number; columns: string[] }
 
 const decodeText = (value: SqliteValue) => (value instanceof Uint8Array ? new TextDecoder().decode(value) : '');
 

@@ -23,15 +23,13 @@ function widgetFromQuery(query: URLSearchParams) {
   return widget;
 }
 
-function postHeight() {
-  const height = Math.ceil(document.body.getBoundingClientRect().height);
-  // Any page may know the height of a frame that it embeds.
-  parent.postMessage({ type: 'motion-widgets:height', height }, '*');
-}
-
 try {
   document.body.append(widgetFromQuery(new URLSearchParams(location.search)));
 } catch (error) {
   document.body.append(errorParagraph('This address', error));
 }
-new ResizeObserver(postHeight).observe(document.body);
+new ResizeObserver(() => {
+  const height = Math.ceil(document.body.getBoundingClientRect().height);
+  // Any page may know the height of a frame that it embeds.
+  parent.postMessage({ type: 'motion-widgets:height', height }, '*');
+}).observe(document.body);

@@ -37,15 +37,10 @@ function defineWidgetsIn(root: ParentNode) {
   }
 }
 
-const observer: MutationObserver | undefined =
-  typeof MutationObserver === 'undefined'
-    ? undefined
-    : new MutationObserver((changes) => {
-        for (const { addedNodes } of changes) {
-          for (const node of addedNodes) if (node instanceof Element) defineWidgetsIn(node);
-        }
-        if (undefinedTags.size === 0) observer?.disconnect();
-      });
+const observer: MutationObserver | undefined = globalThis.MutationObserver && new MutationObserver((changes) => {
+  for (const { addedNodes } of changes) for (const node of addedNodes) if (node instanceof Element) defineWidgetsIn(node);
+  if (undefinedTags.size === 0) observer?.disconnect();
+});
 
 const watchedRoots: WeakSet<Node> = new WeakSet();
 

@@ -15,9 +15,5 @@ export function createWidget(name: unknown): HTMLElement {
 }
 
 /** Returns a paragraph with the error instead of a figure. `requester` names the page or cell that requested the figure. */
-export function errorParagraph(requester: string, error: unknown) {
-  const sentence = document.createElement('p');
-  sentence.setAttribute('role', 'alert');
-  sentence.textContent = `${requester} shows no figure: ${(error as Error).message}.`;
-  return sentence;
-}
+export const errorParagraph = (requester: string, error: unknown) =>
+  Object.assign(document.createElement('p'), { role: 'alert', textContent: `${requester} shows no figure: ${(error as Error).message}.` });

@@ -48,7 +48,7 @@ export function settingSlider(figure: Figure, key: string, overrides?: RowOverri
     value: value ? value(config) : (setting.get(config) as number),
     show: (shown) => formatEditable(shown, decimals) + (unit ? ` ${unit}` : ''),
     effect: effect && formatMarkup(effect),
-    input: (number) => requestValue(figure, key, number),
+    input: (number) => figure.settings.request((requested) => setting.change(number, requested)),
     commit: () => figure.gesture.commit(),
     ...overrides,
   });
@@ -222,11 +222,6 @@ export function sampleField(figure: CloudFigure, id: 'robot' | 'sample', shown: 
     </label>
     <output for=${id} role=${refusalText ? 'alert' : nothing}>${refusalText || selected || html`<i class="muted">${markHint}</i>`}</output>
   </p>`;
-}
-
-function requestValue(figure: Figure, key: string, value: unknown) {
-  const setting = figure.definition.attributes[key];
-  figure.settings.request((requested) => setting.change(value, requested));
 }
 
 const declarationOf = (figure: Figure, key: string): Declaration & AllowedNumbers =>

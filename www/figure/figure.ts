@@ -36,7 +36,7 @@ export type Figure = FigureElement<any, any>;
 addEnglish(en);
 
 /**
- * Figure with one simulation object of the core. A widget defines its simulation, readings, pictures, HTML and export.
+ * Figure with one simulation object of the core. A widget defines its simulation, view model, pictures, HTML and export.
  *
  * Attributes and properties have the values that the figure shows, also after changes by the user, and set them; properties accept texts.
  * A value out of range causes an `error` event that names the field, the value and what is allowed, and the last valid value stays;

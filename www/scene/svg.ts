@@ -28,8 +28,6 @@ export class SvgContext {
   #path = '';
   #dash: number[] = [];
   #elements: string[] = [];
-  /** Number of groups that each `restore` closes. */
-  #openGroups: number[] = [];
   #clipCount = 0;
   #idPrefix;
   #measuringContext = new OffscreenCanvas(1, 1).getContext('2d') as OffscreenCanvasRenderingContext2D;
@@ -48,11 +46,11 @@ export class SvgContext {
   clearRect() {}
 
   save() {
-    this.#openGroups.push(0);
+    this.#elements.push('<g>');
   }
 
   restore() {
-    this.#elements.push('</g>'.repeat(this.#openGroups.pop() ?? 0));
+    this.#elements.push('</g>');
   }
 
   beginPath() {
@@ -97,8 +95,8 @@ export class SvgContext {
 
   clip() {
     const id = `${this.#idPrefix}-clip${++this.#clipCount}`;
-    this.#elements.push(`<clipPath id="${id}"><path d="${this.#path}"/></clipPath><g clip-path="url(#${id})">`);
-    if (this.#openGroups.length) this.#openGroups[this.#openGroups.length - 1]++;
+    // The latest element is the group of `save`.
+    this.#elements.splice(-1, 1, `<clipPath id="${id}"><path d="${this.#path}"/></clipPath><g clip-path="url(#${id})">`);
   }
 
   setLineDash(dash: number[]) {

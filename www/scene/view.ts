@@ -192,10 +192,8 @@ function roundUpToNiceSize(size: number): number {
   return niceFactor * decade;
 }
 
-const EMPTY_EXTENT: Readonly<Extent> = { xMin: Infinity, yMin: Infinity, xMax: -Infinity, yMax: -Infinity };
-
 /** Returns the smallest extent that contains points and `initialExtent`. x and y are the first two of each `stride` numbers. */
-export function extentAround(numbers: ArrayLike<number>, stride: number, initialExtent: Extent = EMPTY_EXTENT) {
+export function extentAround(numbers: ArrayLike<number>, stride: number, initialExtent: Extent = { xMin: Infinity, yMin: Infinity, xMax: -Infinity, yMax: -Infinity }) {
   const bounds = { ...initialExtent };
   for (let i = 0; i < numbers.length; i += stride) {
     bounds.xMin = Math.min(bounds.xMin, numbers[i]);

@@ -44,7 +44,7 @@ export const sliderStyles = css`
 
   /* In wide figures the label, the track and the value are in one row. Fixed column widths align the sliders of all groups. */
   @container (min-width: 56em) {
-    .slider {
+    .slider:not(:where(.with-button *)) {
       grid-template: 'name track value' auto / 14em 1fr minmax(5.5em, max-content);
       align-items: center;
     }
@@ -56,10 +56,6 @@ export const sliderStyles = css`
     grid-template-columns: minmax(min-content, 1fr) auto;
     column-gap: 0.75em;
     align-items: center;
-  }
-
-  .with-button .slider {
-    grid-template: 'name value' auto 'track track' auto / 1fr auto;
   }
 
   .slider > :first-child {

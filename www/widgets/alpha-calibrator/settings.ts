@@ -4,9 +4,6 @@ import { checkedInteger, checkedWord } from '../../figure/checks.ts';
 import { definitionOf } from '../../figure/definition.ts';
 import type { AlphaCalibratorSettings } from '../../types.d.ts';
 
-/** Dash of the odometry, CSS pixels. */
-const ODOMETRY_DASH = [2.5, 3.5];
-
 /** Styles of the lines and marks in the pictures: first the classes of legs, the most usual first, then all others. */
 export const LINE_STYLES = {
   likely: { role: 'truth', width: 1.5, dash: [] },
@@ -14,7 +11,7 @@ export const LINE_STYLES = {
   unlikely: { role: 'prediction', width: 3.25, dash: [] },
   implausible: { role: 'accent', width: 4.5, dash: [] },
   outlier: { role: 'ink', width: 1.25, mark: 'ring' },
-  odometry: { role: 'prior', width: 1.25, dash: ODOMETRY_DASH },
+  odometry: { role: 'prior', width: 1.25, dash: [2.5, 3.5] },
   predicted: { role: 'prediction', width: 2, dash: [7, 4] },
   reference: { role: 'ink', width: 2.25, dash: [] },
 } satisfies Record<string, import('../../scene/draw.ts').LineStyle>;
@@ -39,13 +36,11 @@ export const documentation: import('../../figure/attributes.ts').Documentation =
   },
 };
 
-/** Combinations of model and rule, which are one choice on screen but two settings. */
-const MODEL_RULES = ['thrun', 'nav2', 'beluga', 'omni', 'velocity'] as const;
-
 /** Leg length to which the true α's of the simulated log apply, and with which the element opens. */
 export const SIMULATED_LEGS = { distance: 0.25, angle: 0.2 };
 
-export type ModelRule = (typeof MODEL_RULES)[number];
+/** Combination of model and rule, which is one choice on screen but two settings. */
+export type ModelRule = keyof typeof import('./en.ts').en.kinds;
 
 export const modelRuleOf = ({ model, rule }: AlphaCalibratorSettings): ModelRule => (model === 'velocity' ? 'velocity' : rule);
 

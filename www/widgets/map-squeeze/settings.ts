@@ -14,8 +14,6 @@ export const PRESET_SETTING = presetPropertyOf(presets['map-squeeze'], settingDe
 /** Pose of the robot where a map has been left. */
 export const OPENING_POSE = presets['map-squeeze'][0].start;
 
-const VIEW_NAMES = ['close', 'whole'];
-
 /** Marks and lines of the picture. */
 export const LINE_STYLES = {
   accepted: { role: 'cloud', mark: 'dot' },
@@ -39,7 +37,7 @@ export const definition = definitionOf('map-squeeze', {
   // Presets are places in the apartment.
   preset: { ...PRESET_SETTING, get: (config) => (config.map ? null : PRESET_SETTING.get(config)) },
   elementFields: {
-    view: { converter: WORD_CONVERTER, words: VIEW_NAMES, opening: 'close' },
+    view: { converter: WORD_CONVERTER, words: ['close', 'whole'], opening: 'close' },
     /** Map of the user; null for the apartment. A simulation has checked it. */
     map: { opening: null, check: (_, map) => map },
   },

@@ -141,22 +141,18 @@ testEach('code to embed opens the settings of a state, with its attributes in an
       /** @type {any} */ (element).setState(newState);
       const codeContainer = document.createElement('div');
       codeContainer.innerHTML = /** @type {AnyElement} */ (element).embedCode().split('\n')[1];
-      const [embeddedCopy] = codeContainer.children;
+      const embeddedCopy = /** @type {HTMLElement} */ (codeContainer.firstElementChild);
       const reorderedCopy = document.createElement(element.localName);
       for (const { name, value } of [...embeddedCopy.attributes].reverse()) reorderedCopy.setAttribute(name, value);
-      const containers = [embeddedCopy, reorderedCopy].map((copy) => {
-        const container = document.createElement('div');
-        container.style.cssText = 'position: fixed; inset: 0';
-        container.append(copy);
-        return container;
-      });
       const loadPromises = [embeddedCopy, reorderedCopy].map((copy) => new Promise((resolve) => copy.addEventListener('load', resolve)));
-      element.before(...containers);
+      // A figure in the window starts at once.
+      for (const copy of [embeddedCopy, reorderedCopy]) copy.style.cssText = 'position: fixed; inset: 0';
+      element.before(embeddedCopy, reorderedCopy);
       await Promise.all(loadPromises);
       // After a change of its state, a calibrator fits its log in later frames.
       while (/** @type {any} */ (element).isBusy) await new Promise(requestAnimationFrame);
       const configs = [element, embeddedCopy, reorderedCopy].map((figure) => /** @type {AnyElement} */ (figure).simulation.config);
-      for (const container of containers) container.remove();
+      for (const copy of [embeddedCopy, reorderedCopy]) copy.remove();
       return configs;
     }, /** @type {any} */ (state));
     for (const copiedConfig of copiedConfigs) expect(copiedConfig, `seed ${seed}`).toEqual(originalConfig);
@@ -193,12 +189,8 @@ test('properties that were set before the element was defined are taken up, in a
       Object.assign(document.createElement(tag), Object.fromEntries(entries))));
     const loadPromises = figures.map((figure) => new Promise((resolve) => figure.addEventListener('load', resolve)));
     await import(/** @type {any} */ ('/motion-widgets.js'));
-    document.body.append(...figures.map((figure) => {
-      const container = document.createElement('div');
-      container.style.cssText = 'position: fixed; inset: 0';
-      container.append(figure);
-      return container;
-    }));
+    for (const figure of figures) figure.style.cssText = 'position: fixed; inset: 0';
+    document.body.append(...figures);
     await Promise.all(loadPromises);
     const namesByFigure = propertyCases.flatMap(([, , checkedNames]) => [checkedNames, checkedNames]);
     return figures.map((figure, i) => namesByFigure[i].map((name) => Reflect.get(figure, name)));

@@ -125,18 +125,13 @@ fn models_score_and_draw_as_in_rust() {
         "the option has an effect"
     );
 
-    assert_eq!(
-        it.get::<Vec<f64>>("it.velocity.sample(it.command, it.start, 5, 9)"),
-        sampled_coordinates(&VELOCITY_MODEL, &COMMAND)
-    );
-    assert_eq!(
-        it.get::<Vec<f64>>("it.odometry.sample(it.control, it.start, 5, 9)"),
-        sampled_coordinates(&ODOMETRY_MODEL, &READING)
-    );
-    assert_eq!(
-        it.get::<Vec<f64>>("it.aware.sample(it.reverse, it.start, 5, 9)"),
-        sampled_coordinates(&reverse_aware_model, &REVERSE_READING)
-    );
+    for (call, expected) in [
+        ("velocity.sample(it.command", sampled_coordinates(&VELOCITY_MODEL, &COMMAND)),
+        ("odometry.sample(it.control", sampled_coordinates(&ODOMETRY_MODEL, &READING)),
+        ("aware.sample(it.reverse", sampled_coordinates(&reverse_aware_model, &REVERSE_READING)),
+    ] {
+        assert_eq!(it.get::<Vec<f64>>(&format!("it.{call}, it.start, 5, 9)")), expected, "{call}");
+    }
     it.assert("it.aware.sample(it.reverse, it.start, 5, 9) instanceof Float64Array");
     // Without a last turn the poses lie on a surface, and have no density over x, y and θ.
     let model_without_last_turn = "new motion.VelocityModel({ alphas: [0.02, 0.02, 0.02, 0.02, 0, 0] })";

@@ -140,12 +140,20 @@ fn legs_that_are_longer_than_asked_for_are_reported() {
     assert_fails(SamplingDense, &calibrate_log(&[odometry, sparse_reference], &sim.options()));
 }
 
+/// A tenth of the legs are outliers. The kurtosis of Student's t is infinite with four degrees of freedom, and 9 with five. If the noise grows
+/// in the second half, a fit to the first half covers only two thirds of it.
 #[test]
-fn many_outliers_are_reported() {
-    assert_fails(
-        OutliersFew,
-        &calibrate_simulation(&Simulation { jump_fraction: 0.1, ..good_simulation(600, 6) }),
-    );
+fn violations_of_the_model_are_reported() {
+    let noise_factor: fn(f64) -> f64 = |fraction| if fraction < 0.5 { 1.0 } else { 1.5 };
+    let with_violation = |violation, seed| Simulation { violation, ..good_simulation(600, seed) };
+    for (name, simulation) in [
+        (OutliersFew, Simulation { jump_fraction: 0.1, ..good_simulation(600, 6) }),
+        (TailsNormal, with_violation(Violation::HeavyTails(4), 10)),
+        (TailsNormal, with_violation(Violation::HeavyTails(5), 10)),
+        (HoldoutCovered, with_violation(Violation::Changing(noise_factor), 11)),
+    ] {
+        assert_fails(name, &calibrate_simulation(&simulation));
+    }
 }
 
 /// One jump of 10 m is fitted as noise. The fit to the half of the log without the jump predicts much less noise.
@@ -258,24 +266,6 @@ fn errors_that_persist_are_correlated_and_leave_windows_uncovered() {
     let correlation = calibration.persistence.correlation.value;
     assert!((correlation - 0.7).abs() < 0.08, "{correlation}");
     assert!(calibration.recommended.expect("usable").inflation > 1.5);
-}
-
-/// The kurtosis of Student's t is infinite with four degrees of freedom, and 9 with five.
-#[test]
-fn heavy_tails_are_reported() {
-    for degrees_of_freedom in [4, 5] {
-        let sim =
-            Simulation { violation: Violation::HeavyTails(degrees_of_freedom), ..good_simulation(600, 10) };
-        assert_fails(TailsNormal, &calibrate_simulation(&sim));
-    }
-}
-
-/// The noise grows in the second half. A fit to the first half covers only two thirds of the second half.
-#[test]
-fn noise_that_changes_is_not_covered_by_the_other_half() {
-    let noise_factor: fn(f64) -> f64 = |fraction| if fraction < 0.5 { 1.0 } else { 1.5 };
-    let sim = Simulation { violation: Violation::Changing(noise_factor), ..good_simulation(600, 11) };
-    assert_fails(HoldoutCovered, &calibrate_simulation(&sim));
 }
 
 /// Returns the number of consistent logs among `log_count` simulated logs, and prints the checks that failed.

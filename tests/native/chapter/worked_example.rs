@@ -8,10 +8,7 @@ use crate::common::{MAX_STANDARD_ERRORS, with_standard_error};
 use approx::assert_relative_eq;
 use motion::geom::se2::SE2;
 use motion::stats::{CartesianMoments, ExactMoments, ExponentialMoments};
-use motion::{
-    MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, TangentNoiseModel, VelocityAlphas,
-    VelocityCmd, VelocityModel,
-};
+use motion::{MotionModel, NoiseKind, TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel};
 use nalgebra::{Matrix3, Vector3};
 use rand::{SeedableRng, rngs::SmallRng};
 
@@ -154,17 +151,4 @@ fn a_last_turn_adds_variance_to_the_lateral_coordinate() {
         let (measured, standard_error) = with_standard_error(&cloud, exponential_variance(axis));
         assert_sampled(&format!("axis {axis}"), measured, standard_error, printed, 4);
     }
-}
-
-#[test]
-fn the_odometry_model_has_the_printed_names() {
-    let model = OdometryModel { alphas: OdomAlphas([0.0; 4]), noise: NoiseKind::Triangular };
-    let (start_pose, end_pose) = (SE2::identity(), SE2::new(0.958_851, 0.244_835, 0.5));
-    let reading = OdomDelta::from_poses(&start_pose, &end_pose);
-    assert_relative_eq!(reading.rot1, 0.25, epsilon = 1e-6);
-    assert_relative_eq!(reading.trans, 2.0 * 2.0 * 0.25f64.sin(), epsilon = 1e-6);
-    assert_relative_eq!(reading.rot2, 0.25, epsilon = 1e-6);
-    let sampled_end = model.sample(&reading, &start_pose, &mut SmallRng::seed_from_u64(1));
-    assert_relative_eq!(sampled_end.x(), end_pose.x(), epsilon = 1e-15);
-    assert_relative_eq!(sampled_end.y(), end_pose.y(), epsilon = 1e-15);
 }

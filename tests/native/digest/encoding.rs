@@ -87,9 +87,6 @@ encode_fields! {
     A B C D E;
     A B C D E F;
     A B C D E F G;
-    A B C D E F G H;
-    A B C D E F G H I;
-    A B C D E F G H I J;
 }
 
 /// Named part of a simulation's results, with its hash.

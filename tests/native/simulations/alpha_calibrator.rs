@@ -19,26 +19,20 @@ fn base_poses(calibration: &Calibration, leg_index: usize) -> [SE2; 2] {
 }
 
 /// Returns for the four α's and the six systematic errors whether their intervals contain the true values.
-fn do_intervals_contain_truth(simulation: &AlphaCalibrator) -> [bool; 10] {
+fn do_intervals_contain_truth(simulation: &AlphaCalibrator) -> Vec<bool> {
     let calibration = simulation.calibration();
-    let true_parameters = simulation.truth().expect("a simulated log");
-    let [lever_ahead, lever_left] = true_parameters.lever_arm;
-    let true_errors = [
-        true_parameters.clock_offset,
-        true_parameters.mount_yaw,
-        lever_ahead,
-        lever_left,
-        true_parameters.distance_scale,
-        true_parameters.turn_scale,
-    ];
-    std::array::from_fn(|i| {
-        let (true_value, interval) = match i {
-            0..4 => (true_parameters.alphas[i], calibration.intervals[i]),
-            _ => (true_errors[i - 4], calibration.interval_of(SystematicError::ALL[i - 4])),
-        };
+    let truth = simulation.truth().expect("a simulated log");
+    let [lever_ahead, lever_left] = truth.lever_arm;
+    let [distance_scale, turn_scale] = [truth.distance_scale, truth.turn_scale];
+    let true_errors =
+        [truth.clock_offset, truth.mount_yaw, lever_ahead, lever_left, distance_scale, turn_scale];
+    let error_intervals = SystematicError::ALL.map(|error| calibration.interval_of(error));
+    let intervals = calibration.intervals.iter().copied().chain(error_intervals);
+    let contains_value = |(interval, value): (Option<[f64; 2]>, f64)| {
         let [low, high] = interval.expect("the log turns and drives");
-        (low..=high).contains(&true_value)
-    })
+        (low..=high).contains(&value)
+    };
+    intervals.zip(truth.alphas.into_iter().chain(true_errors)).map(contains_value).collect()
 }
 
 #[test]

@@ -116,11 +116,8 @@ fn the_prediction_does_not_depend_on_the_drift() {
             .hypot(drifted_odometry.to.y() - fixed_odometry.to.y())
             > 2.0
     );
-    let leg_differences = [
-        drifted_odometry.legs.rot1 - fixed_odometry.legs.rot1,
-        drifted_odometry.legs.trans - fixed_odometry.legs.trans,
-        drifted_odometry.legs.rot2 - fixed_odometry.legs.rot2,
-    ];
+    let [a, b] = [&drifted_odometry, &fixed_odometry].map(|odometry| odometry.legs);
+    let leg_differences = [a.rot1 - b.rot1, a.trans - b.trans, a.rot2 - b.rot2];
     assert!(leg_differences.iter().all(|difference| difference.abs() < 1e-14), "{leg_differences:?}");
 }
 

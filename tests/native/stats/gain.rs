@@ -73,18 +73,13 @@ fn jacobian_determinant(map: impl Fn(&DVector<f64>) -> DVector<f64>, at: &DVecto
 /// The gain of its position compares a Gaussian in arc coordinates with one in x, y.
 fn robot_gains(cloud: &[SE2], turn: f64) -> [Vec<f64>; 2] {
     let mean_heading = CartesianMoments::from_poses(cloud).mean.z;
-    let pose_vectors: Vec<_> = cloud
-        .iter()
-        .map(|p| DVector::from_vec(vec![p.x(), p.y(), wrap_angle(p.theta() - mean_heading)]))
-        .collect();
-    let position_vectors: Vec<_> = cloud.iter().map(|p| DVector::from_vec(vec![p.x(), p.y()])).collect();
-    let twist_vectors: Vec<_> =
-        cloud.iter().map(|p| DVector::from_column_slice(p.log_near(turn).as_slice())).collect();
-    let arc_vectors: Vec<_> = cloud
-        .iter()
-        .map(|p| arc_with_turn_near(&SE2::identity(), p, turn))
-        .map(|(length, turn)| DVector::from_vec(vec![length, turn]))
-        .collect();
+    let vectors = |coordinates: &dyn Fn(&SE2) -> Vec<f64>| -> Vec<DVector<f64>> {
+        cloud.iter().map(|pose| DVector::from_vec(coordinates(pose))).collect()
+    };
+    let pose_vectors = vectors(&|p| vec![p.x(), p.y(), wrap_angle(p.theta() - mean_heading)]);
+    let position_vectors = vectors(&|p| vec![p.x(), p.y()]);
+    let twist_vectors = vectors(&|p| p.log_near(turn).as_slice().to_vec());
+    let arc_vectors = vectors(&|p| <[f64; 2]>::from(arc_with_turn_near(&SE2::identity(), p, turn)).to_vec());
     let pose_of_twist = |xi: &DVector<f64>| {
         let pose = SE2::exp(&Vector3::new(xi[0], xi[1], xi[2]));
         DVector::from_vec(vec![pose.x(), pose.y(), xi[2]])

@@ -252,6 +252,8 @@ test('copies a link, and the code to embed with the address of the script', asyn
 
 test('the menu shows what the clipboard does not take @nightly', async ({ page }) => {
   await page.addInitScript(() => Object.defineProperty(navigator, 'clipboard', { value: undefined }));
+  // In a lower window, the open disclosure covers a part of the legend when the page has scrolled.
+  await page.setViewportSize({ width: 1280, height: 1300 });
   const widget = await mount(page, 'map-squeeze', { attributes: 'seed="4"' });
   await widget.getByText('Numbers and data').click();
   await widget.getByRole('button', { name: 'Copy embed code' }).click();

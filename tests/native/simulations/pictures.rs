@@ -74,7 +74,7 @@ fn cells_have_the_colour_of_their_most_frequent_outcome() {
         let mut cell_counts = vec![[0u32; OUTCOME_KIND_COUNT]; grid.columns * grid.rows];
         for attempt in simulation.attempts() {
             if let Some(cell_index) = cell_index(&grid, [attempt.pose.x(), attempt.pose.y()]) {
-                cell_counts[cell_index][attempt.outcome_kind() as usize] += 1;
+                cell_counts[cell_index][attempt.outcome_kind()] += 1;
             }
         }
         let cell_totals: Vec<u32> =

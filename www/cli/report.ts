@@ -39,6 +39,9 @@ export const logSummaries = (logs: ReadLog[]): string =>
 export function reportText({ calibration, options, logs, start, driveStarts, date }: CalibrationResult, isColored = false): string {
   const { legs, lost, diagnostics: { checks, windows } } = calibration;
   const { model = 'odometry', rule = 'thrun' } = options;
+  const { distance, angle, duration } = options.legs;
+  const lengthText = duration === undefined ? en.nav2.moved(formatNumber(distance), formatNumber(angle)) : en.nav2.lasted(formatNumber(duration));
+  const { yaml, reason } = nav2Yaml({ calibration, options, logs, start, driveStarts, date });
   const failedChecks = failedChecksOf(checks);
   const windowRows = windows.map(({ length, count, coverage, nees }: any) => [`of ${formatNumber(length)} m`, String(count), formatPercent(coverage), formatNumber(nees)]);
   const lostLegTexts = LOST_LEG_CAUSES.filter((cause) => lost[cause] > 0).map((cause) => `${lost[cause]} ${en.lost[cause]}`);
@@ -47,7 +50,7 @@ export function reportText({ calibration, options, logs, start, driveStarts, dat
     '',
     ...verdictLines({ calibration, options, logs }),
     '',
-    `${legs.count} legs ${legLengthText(options.legs)}; model ${model}${model === 'odometry' ? `, rule ${rule}` : ''}`,
+    `${legs.count} legs ${lengthText}; model ${model}${model === 'odometry' ? `, rule ${rule}` : ''}`,
     '',
     ...alphaTable(calibration, model),
     '',
@@ -59,7 +62,7 @@ export function reportText({ calibration, options, logs, start, driveStarts, dat
     ...(excludedLegLines.length ? [...excludedLegLines, ''] : []),
     ...alignRows([['held-out windows', 'number', 'covered', 'squared error / variance (NEES)'], ...windowRows]),
     '',
-    ...nav2Section({ calibration, options, logs, start, driveStarts, date }),
+    ...(reason ? [reason] : [...ruleWarning({ options }), '# nav2_params.yaml', yaml.trimEnd()]),
     '',
   ].join('\n');
   return isColored ? uncoloredReport.replaceAll(/^Consistent|\bok$/gm, colorize(GREEN)).replace(/^Questionable/m, colorize(YELLOW)).replaceAll(/^Unusable|\bFAILED$/gm, colorize(RED)) : uncoloredReport;
@@ -95,10 +98,6 @@ function verdictSentence({ alphas, diagnostics: { verdict, checks } }: any, hasW
 }
 
 const alphaNames = (indices: number[]) => new Intl.ListFormat('en').format(indices.map((i) => `alpha${i + 1}`));
-
-function legLengthText({ distance, angle, duration }: { distance?: number; angle?: number; duration?: number }): string {
-  return duration === undefined ? en.nav2.moved(formatNumber(distance ?? null), formatNumber(angle ?? null)) : en.nav2.lasted(formatNumber(duration));
-}
 
 /** Returns the table of the α's, and the reason for the inflation. */
 function alphaTable({ alphas, intervals, recommended }: any, model: string): string[] {
@@ -153,11 +152,6 @@ function outlierLines({ count, times, outliers }: any, driveStarts: number[]): s
     return `${(times[2 * leg] - driveStart).toFixed(2)} s${driveStarts.length > 1 ? ` of drive ${driveStarts.indexOf(driveStart) + 1}` : ''}`;
   }).join(', ');
   return outlierLegs.length ? [`outliers: ${outlierLegs.length} of ${count} legs, at ${timeTexts}${outlierLegs.length > MAX_LISTED_OUTLIERS ? ', …' : ''} after the start`] : [];
-}
-
-function nav2Section(result: CalibrationResult): string[] {
-  const { yaml, reason } = nav2Yaml(result);
-  return reason ? [reason] : [...ruleWarning(result), '# nav2_params.yaml', yaml.trimEnd()];
 }
 
 /** Returns a warning if the α's were fitted by another rule than that of Nav2's AMCL. */

@@ -24,10 +24,7 @@ export interface PostedFailure {
 export type OnProgress = (share: number) => void;
 
 /** Request of the page: a method of `LogSession`, and its parameters. The page waits for the result or the failure before the next request. */
-export interface WorkerRequest {
-  method: 'open' | 'read' | 'calibrate';
-  parameters: unknown[];
-}
+export interface WorkerRequest { method: 'open' | 'read' | 'calibrate'; parameters: unknown[] }
 
 /** Answer to a request. Answers with progress precede the result or the failure. */
 export type WorkerAnswer = { progress: number } | { result: unknown } | { failure: PostedFailure };

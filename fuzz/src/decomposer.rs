@@ -76,8 +76,8 @@ fn assert_deviation_curve(simulation: &OdometryDecomposer, max_distance: f64, co
     let points = simulation.deviation_curve(max_distance, count);
     assert_eq!(points.len(), count);
     for point in points {
-        assertions::assert_finite("curve", &[point.trans, point.cross_track, point.lever, point.along]);
-        assert!(point.cross_track >= 0.0 && point.lever >= 0.0 && point.along >= 0.0, "{point:?}");
+        assertions::assert_finite("curve", &point);
+        assert!(point[1..].iter().all(|deviation| *deviation >= 0.0), "{point:?}");
     }
 }
 

@@ -100,26 +100,22 @@ impl Trigonometry {
     }
 }
 
-/// Returns true if a lane is greater than `limit` in absolute value.
 #[inline(always)]
 fn any_lane_beyond(x: f64x4, limit: f64) -> bool {
     any_lane_set(x.abs().simd_gt(f64x4::splat(limit)))
 }
 
-/// Returns true if a lane of a mask is set.
 #[inline(always)]
 pub(crate) fn any_lane_set(mask: f64x4) -> bool {
     let [low, high] = lane_halves(mask);
     (low | high).any()
 }
 
-/// Returns the first two lanes and the last two.
 #[inline(always)]
 pub(crate) fn lane_halves(lanes: f64x4) -> [f64x2; 2] {
     bytemuck::cast(lanes)
 }
 
-/// Returns a vector from a function of the lane's index.
 pub(crate) fn from_lanes(value_of_lane: impl FnMut(usize) -> f64) -> f64x4 {
     f64x4::new(std::array::from_fn(value_of_lane))
 }
@@ -184,7 +180,6 @@ fn half_circle_count(x: f64x4) -> f64x4 {
     is_small.bitselect(f64x4::splat(0.0), x * FRAC_1_PI + ROUND_TO_INTEGER - ROUND_TO_INTEGER)
 }
 
-/// Returns x − kπ.
 #[inline(always)]
 fn subtract_half_circles(x: f64x4, half_circles: f64x4) -> f64x4 {
     PI_PARTS.iter().fold(x, |remainder, part| remainder - half_circles * *part)

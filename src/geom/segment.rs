@@ -72,7 +72,6 @@ impl Segment {
             .fold(0.0, f64::max)
     }
 
-    /// Returns the segment in the frame of an arc.
     fn in_arc_frame(&self, arc: &LocalArc) -> Self {
         Self { from: arc.transform(self.from), to: arc.transform(self.to) }
     }

@@ -32,7 +32,6 @@ pub(super) static WALLS: [Segment; 18] = [
     wall(9.6, 7.4, 10.9, 7.4),
 ];
 
-/// Returns the wall between two ends, m.
 const fn wall(x0: f64, y0: f64, x1: f64, y1: f64) -> Segment {
     Segment { from: [x0, y0], to: [x1, y1] }
 }

@@ -264,7 +264,6 @@ impl MapConditioned<'_> {
         })
     }
 
-    /// Returns the first draw that is accepted, and the verdict on its end.
     fn draw_until_accepted<R: Rng + ?Sized>(
         &self,
         command: &NoisyCommand,

@@ -120,7 +120,6 @@ struct FieldBuilder {
     measured: Vec<(f64, Candidate)>,
 }
 
-/// Block of `size` · `size` cells.
 #[derive(Clone, Copy, Debug)]
 struct Block {
     first_cell: [usize; 2],

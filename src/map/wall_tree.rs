@@ -115,7 +115,6 @@ impl WallTree {
         }
     }
 
-    /// Returns the range of the walls of a node.
     fn wall_range(&self, node_index: usize) -> Range<usize> {
         let depth = node_index.ilog2();
         let (wall_count, index_in_level) = (self.walls.len() as u64, (node_index - (1 << depth)) as u64);
@@ -141,12 +140,10 @@ impl WallTree {
         &self.nodes[node_index]
     }
 
-    /// Returns the number of walls.
     pub fn wall_count(&self) -> usize {
         self.walls.len()
     }
 
-    /// Returns true if the node is a leaf.
     pub fn is_leaf(&self, node_index: usize) -> bool {
         node_index >> self.depth > 0 || self.nodes[node_index].has_equal_walls
     }

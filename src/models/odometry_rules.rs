@@ -24,11 +24,6 @@ pub enum OdometryRule {
     Omni,
 }
 
-impl OdometryRule {
-    /// All rules.
-    pub const ALL: [Self; 4] = [Self::Table, Self::Nav2, Self::Beluga, Self::Omni];
-}
-
 /// Distance (m) below which deployed localizers treat a reading as a turn on the spot. The direction of so short a motion is only
 /// jitter of the encoders. A larger bound would lose the bearing of a slow robot's forward motion.
 pub const MAX_SPIN_DISTANCE: f64 = 0.01;
@@ -50,6 +45,9 @@ pub struct LegVariances {
 }
 
 impl OdometryRule {
+    /// All rules.
+    pub const ALL: [Self; 4] = [Self::Table, Self::Nav2, Self::Beluga, Self::Omni];
+
     /// Returns the legs that the rule makes of a reading: the same motion to within [`MAX_SPIN_DISTANCE`], with the whole turn
     /// in the second rotation where the rule calls it a spin.
     pub fn legs(self, reading: &OdomDelta) -> OdomDelta {
@@ -123,11 +121,11 @@ impl LegVariances {
     pub fn executed_motion(&self, legs: &OdomDelta, [across, along, turn]: [f64; 3]) -> ExecutedLegs {
         ExecutedLegs {
             legs: OdomDelta {
-                rot1: legs.rot1 - std_from_variance(self.rot1) * across,
-                trans: legs.trans - std_from_variance(self.trans) * along,
-                rot2: legs.rot2 - std_from_variance(self.rot2) * turn,
+                rot1: legs.rot1 - self.rot1.0.sqrt() * across,
+                trans: legs.trans - self.trans.0.sqrt() * along,
+                rot2: legs.rot2 - self.rot2.0.sqrt() * turn,
             },
-            strafe: -std_from_variance(self.strafe) * across,
+            strafe: -self.strafe.0.sqrt() * across,
         }
     }
 
@@ -140,13 +138,9 @@ impl LegVariances {
     /// Returns the variance (rad²) of the turn made, unwrapped, for a `correlation` of the noises of the two rotations:
     /// σ₁² + σ₂² + 2ρσ₁σ₂.
     pub fn heading_variance(&self, correlation: f64) -> f64 {
-        let [rot1_std, rot2_std] = [self.rot1, self.rot2].map(std_from_variance);
+        let [rot1_std, rot2_std] = [self.rot1, self.rot2].map(|variance| variance.0.sqrt());
         // A sum of squares is never negative. The three terms might add up to slightly less than 0 for equal variances and ρ = −1.
         let correlated_std = rot1_std + correlation * rot2_std;
         correlated_std * correlated_std + (1.0 - correlation * correlation) * rot2_std * rot2_std
     }
-}
-
-fn std_from_variance(variance: Variance) -> f64 {
-    variance.0.sqrt()
 }

@@ -68,7 +68,6 @@ impl VelocityModel {
         }
     }
 
-    /// Returns the standard deviations of v̂, ω̂ and γ̂.
     pub(crate) fn noise_stds(&self, u: &VelocityCmd) -> [f64; 3] {
         self.variances(u).map(|variance| variance.0.sqrt())
     }

@@ -72,7 +72,6 @@ fn tail_quantile_lanes(q: f64x4) -> f64x4 {
     rational_function(r - 1.6, &MIDDLE_NUMERATOR, &MIDDLE_DENOMINATOR).copysign(q)
 }
 
-/// Returns p(r)/q(r), coefficients from the constant term up.
 #[inline(always)]
 fn rational_function<T>(r: T, numerator: &[f64; 8], denominator: &[f64; 8]) -> T
 where

@@ -59,7 +59,6 @@ impl SettingsError {
     }
 }
 
-/// Returns a number as JavaScript would print it.
 fn format_number(value: f64) -> String {
     if value.is_infinite() {
         return if value > 0.0 { "Infinity" } else { "-Infinity" }.to_owned();

@@ -50,7 +50,6 @@ impl CrossTrack {
         Self::from_moments(poses.len(), &TrackMoments { products, squared_extent, resultant })
     }
 
-    /// Returns the statistics of `count` poses from their moments.
     pub(super) fn from_moments(count: usize, moments: &TrackMoments) -> Self {
         let TrackMoments { products, squared_extent, resultant } = *moments;
         let [ad, ad2, m2, m3, d4, d5, d6, ss, sd, sd2, sd3, t, tt, td] = products;

@@ -98,7 +98,6 @@ impl PolarMotion {
         }
     }
 
-    /// Returns the quadrature nodes of a noise with this standard deviation.
     fn nodes(&self, std: f64, breaks: [f64; 2]) -> Vec<Node> {
         if std == 0.0 {
             return vec![Node { value: 0.0, weight: 1.0 }];
@@ -166,7 +165,6 @@ impl PolarMotion {
         ((Vector3::new(mean.x, mean.z + 2.0 * bearing, 0.0), cov), mean_log.mean())
     }
 
-    /// Returns the mean of ln|driven length|.
     fn mean_log_length(&self) -> f64 {
         let [mean, std] = self.length.map(f64::abs);
         if std == 0.0 {

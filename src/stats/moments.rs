@@ -74,7 +74,6 @@ pub(crate) fn non_negative(variance: f64) -> f64 {
     if variance < 0.0 { 0.0 } else { variance }
 }
 
-/// Returns the mean and covariance over n − 1, in two passes.
 fn mean_and_cov(
     vectors: impl Iterator<Item = Vector3<f64>> + Clone,
     count: usize,

@@ -45,7 +45,6 @@ fn compensated_total(total: f64x2, compensation: f64x2) -> f64 {
     (a + b) + (c + d)
 }
 
-/// Adds four values of each quantity to its block.
 #[inline(always)]
 pub fn add_to_block<const N: usize>(block: &mut [f64x2; N], terms: [f64x4; N]) {
     for i in 0..N {

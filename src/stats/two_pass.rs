@@ -90,7 +90,6 @@ impl FirstPass {
         add_to_block(&mut self.sums.block, terms);
     }
 
-    /// Multiplies the products by the Jacobians of four poses.
     #[inline(always)]
     pub fn multiply_jacobians(&mut self, poses: &FourPoses, arcs: &FourArcs) {
         let lane_product = |lanes: f64x4| {
@@ -194,7 +193,6 @@ impl FirstPass {
     }
 }
 
-/// Result of the first pass.
 #[derive(Clone, Copy, Debug)]
 pub struct FirstPassMoments {
     position: [f64; 2],
@@ -205,7 +203,6 @@ pub struct FirstPassMoments {
     /// Length of the mean of the unit vectors in the directions of the headings.
     resultant: f64,
     pub exponential: ExponentialMoments,
-    /// Moments of the arcs.
     arc: MeanAndCov,
     /// Mean logarithms of the Jacobians of [`FourRobots`].
     log_jacobians: [f64; 2],
@@ -215,7 +212,6 @@ pub struct FirstPassMoments {
 #[derive(Clone, Debug)]
 pub struct SecondPass {
     first_pass: FirstPassMoments,
-    /// Sine and cosine of the mean heading.
     heading_sin_cos: (f64, f64),
     ellipse: Ellipse,
     twist_ellipse: Ellipse,

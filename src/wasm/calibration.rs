@@ -72,16 +72,12 @@ pub struct SystematicValue<Value, Interval> {
 /// - True distances are distanceScale times those of the odometry, and true turns turnScale times those of the odometry.
 #[derive(Serialize, Tsify)]
 #[serde(rename_all = "camelCase")]
+#[tsify(missing_as_null)]
 pub struct SystematicErrors {
-    #[tsify(type = "SystematicValue<number | null, Interval | null>")]
     clock_offset: SystematicValue<Option<f64>, Option<[f64; 2]>>,
-    #[tsify(type = "SystematicValue<number | null, Interval | null>")]
     mount_yaw: SystematicValue<Option<f64>, Option<[f64; 2]>>,
-    #[tsify(type = "SystematicValue<[number | null, number | null], [Interval | null, Interval | null]>")]
     lever_arm: SystematicValue<[Option<f64>; 2], [Option<[f64; 2]>; 2]>,
-    #[tsify(type = "SystematicValue<number | null, Interval | null>")]
     distance_scale: SystematicValue<Option<f64>, Option<[f64; 2]>>,
-    #[tsify(type = "SystematicValue<number | null, Interval | null>")]
     turn_scale: SystematicValue<Option<f64>, Option<[f64; 2]>>,
 }
 

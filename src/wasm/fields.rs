@@ -42,12 +42,13 @@ impl<'a> Fields<'a> {
     }
 
     /// Returns the fields of an object that may also have other keys.
-    pub fn with_any_keys(name: &str, prefix: &'a str, object: &'a JsValue) -> Result<Self, JsValue> {
-        if object.is_object() {
-            Ok(Self { object, prefix })
-        } else {
-            Err(type_error(name, object, "an object"))
-        }
+    pub fn with_any_keys(
+        name: &str,
+        prefix: &'a str,
+        object: &'a JsValue,
+        allowed: &str,
+    ) -> Result<Self, JsValue> {
+        if object.is_object() { Ok(Self { object, prefix }) } else { Err(type_error(name, object, allowed)) }
     }
 
     pub fn path(&self, key: &str) -> String {
@@ -75,18 +76,15 @@ impl<'a> Fields<'a> {
     }
 }
 
-/// Reads any number.
 pub fn read_number(field: &str, value: &JsValue) -> Result<f64, JsValue> {
     value.as_f64().ok_or_else(|| type_error(field, value, "a number"))
 }
 
-/// Checks that a number is in the given range.
 pub fn check_range(field: &str, number: f64, allowed: &RangeInclusive<f64>) -> Result<f64, JsValue> {
     check_real(field, number, allowed)?;
     Ok(number)
 }
 
-/// Checks that a number is an integer in the given range.
 pub fn read_integer(field: &str, number: f64, allowed: RangeInclusive<u64>) -> Result<u64, JsValue> {
     Ok(check_integer(field, number, &allowed)?)
 }
@@ -97,7 +95,6 @@ pub fn not_shown_error(index: usize, shown: usize) -> JsValue {
     RangeError::new(&format!("index is {index}; allowed is {allowed}")).into()
 }
 
-/// Reads one of the keywords of an enum.
 pub fn read_keyword<T: Keywords>(field: &str, value: &JsValue) -> Result<T, JsValue> {
     let mut result = T::KEYWORDS[0].1;
     set_keyword(field, value, &mut result)?;
@@ -121,7 +118,6 @@ pub fn read_array<const N: usize>(field: &str, value: &JsValue) -> Result<[f64; 
     Ok(result)
 }
 
-/// Reads an array of exactly N numbers, each in the given range.
 pub fn read_array_in_range<const N: usize>(
     field: &str,
     value: &JsValue,
@@ -158,7 +154,6 @@ fn read_group(field: &str, value: &JsValue, group: &mut dyn Group) -> Result<(),
     Ok(())
 }
 
-/// Reads all numbers of a group, each in its range.
 pub fn read_group_in_range(field: &str, value: &JsValue, group: &mut dyn Group) -> Result<(), JsValue> {
     read_group(field, value, group)?;
     Ok(check_group(field, group)?)
@@ -216,7 +211,6 @@ pub fn read_boolean(field: &str, value: &JsValue) -> Result<bool, JsValue> {
     value.as_bool().ok_or_else(|| type_error(field, value, "true or false"))
 }
 
-/// Returns the length of an array or typed array.
 pub fn array_length(field: &str, value: &JsValue, expected: &str) -> Result<usize, JsValue> {
     if !value.is_object() {
         return Err(type_error(field, value, expected));
@@ -226,7 +220,6 @@ pub fn array_length(field: &str, value: &JsValue, expected: &str) -> Result<usiz
     Ok(check_integer(&format!("{field}.length"), length, &(0..=u64::from(u32::MAX)))? as usize)
 }
 
-/// Returns item `index` of an array.
 pub fn array_item(value: &JsValue, index: usize) -> Result<JsValue, JsValue> {
     Reflect::get_u32(value, index as u32)
 }
@@ -261,7 +254,6 @@ pub fn quote(text: &str) -> String {
     JSON::stringify(&text.into()).map_or_else(|_| String::new(), String::from)
 }
 
-/// Describes a value in an error message.
 fn describe_value(value: &JsValue) -> String {
     if let Some(text) = value.as_string() {
         return quote(&shorten(&text));

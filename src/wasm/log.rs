@@ -1,6 +1,6 @@
 //! Reader of the logs that JavaScript passes: odometry and reference.
 
-use super::fields::{Fields, array_item, array_length, number_text, read_integer, read_number, type_error};
+use super::fields::{Fields, array_item, array_length, number_text, read_integer, read_number};
 use crate::calibrate::{Trajectory, TrajectoryError};
 use crate::geom::se2::SE2;
 use crate::sim::alpha_calibrator::Log;
@@ -57,7 +57,6 @@ pub fn read_logs(odometry: &JsValue, reference: &JsValue) -> Result<Vec<Log>, Js
     Ok(odometry.into_iter().zip(reference).map(|(odometry, reference)| Log { odometry, reference }).collect())
 }
 
-/// Reads one trajectory, or an array of them.
 fn read_drives(
     field: &str,
     value: &JsValue,
@@ -73,21 +72,12 @@ fn read_drives(
     (0..drive_count).map(|i| read(&format!("{field}[{i}]"), &array_item(value, i)?)).collect()
 }
 
-/// Reads poses or commands.
 fn read_odometry(field: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
     let prefix = format!("{field}.");
-    if !value.is_object() {
-        let allowed = "an object with keys from t, x, y, theta, breaks or from t, v, omega, breaks";
-        return Err(type_error(field, value, allowed));
-    }
-    let fields = Fields::with_any_keys(field, &prefix, value)?;
+    let allowed = "an object with keys from t, x, y, theta, breaks or from t, v, omega, breaks";
+    let fields = Fields::with_any_keys(field, &prefix, value, allowed)?;
     if fields.value("v")?.is_undefined() && fields.value("omega")?.is_undefined() {
-        return trajectory_of_poses(&Fields::new(
-            field,
-            &prefix,
-            value,
-            &["t", "x", "y", "theta", "breaks"],
-        )?);
+        return read_poses(field, value);
     }
     let fields = Fields::new(field, &prefix, value, &["t", "v", "omega", "breaks"])?;
     let columns = read_columns(&fields, ["t", "v", "omega"])?;
@@ -96,13 +86,9 @@ fn read_odometry(field: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
     checked_trajectory(&fields, Trajectory::from_commands(commands))
 }
 
-/// Reads poses.
 fn read_poses(field: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
     let prefix = format!("{field}.");
-    trajectory_of_poses(&Fields::new(field, &prefix, value, &["t", "x", "y", "theta", "breaks"])?)
-}
-
-fn trajectory_of_poses(fields: &Fields) -> Result<Trajectory, JsValue> {
+    let fields = &Fields::new(field, &prefix, value, &["t", "x", "y", "theta", "breaks"])?;
     let columns = read_columns(fields, ["t", "x", "y", "theta"])?;
     let [t, x, y, theta] = &columns;
     let poses = x.iter().zip(y).zip(theta).map(|((x, y), theta)| SE2::new(*x, *y, *theta));
@@ -134,7 +120,6 @@ fn checked_trajectory(
     with_stated_breaks(fields, trajectory)
 }
 
-/// Adds the breaks that the caller states.
 fn with_stated_breaks(fields: &Fields, mut trajectory: Trajectory) -> Result<Trajectory, JsValue> {
     let (field, breaks) = (fields.path("breaks"), fields.value("breaks")?);
     if breaks.is_undefined() {

@@ -59,7 +59,7 @@ pub fn read_plan(plan: &JsValue) -> Result<FloorPlan, JsValue> {
 /// Reads a map as `map_server` does: from an image (the bytes of a file, or pixels), and the fields of its YAML file
 /// with their defaults.
 pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid, JsValue> {
-    let fields = Fields::with_any_keys("description", "", description)?;
+    let fields = Fields::with_any_keys("description", "", description, "an object")?;
     let resolution = check_range("resolution", fields.number("resolution")?, &RESOLUTION_RANGE)?;
     let origin: [f64; 3] = read_array_in_range("origin", &fields.value("origin")?, &QUANTITY_RANGE)?;
     let negate = fields.optional("negate", |field, value| {
@@ -96,7 +96,7 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
 /// Reads width, height, and red, green, blue and opacity of each pixel of an ImageData. An object with the same properties will
 /// do, because Node has no such class.
 fn read_pixels(image: &JsValue) -> Result<(usize, usize, Vec<u8>), JsValue> {
-    let fields = Fields::with_any_keys("image", "image.", image)?;
+    let fields = Fields::with_any_keys("image", "image.", image, "an object")?;
     let width = read_integer("image.width", fields.number("width")?, 1..=MAX_PIXELS as u64)? as usize;
     let height =
         read_integer("image.height", fields.number("height")?, 1..=(MAX_PIXELS / width) as u64)? as usize;

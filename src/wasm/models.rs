@@ -325,7 +325,6 @@ fn read_twist(field: &str, value: &JsValue) -> Result<Vector3<f64>, JsValue> {
     Ok(read_array_in_range(field, value, &QUANTITY_RANGE)?.into())
 }
 
-/// Reads a covariance, three rows of three.
 fn read_covariance(field: &str, value: &JsValue) -> Result<Matrix3<f64>, JsValue> {
     let allowed = "three rows of three numbers, symmetric, of no negative variance";
     let count = array_length(field, value, allowed)?;

@@ -4,7 +4,7 @@ use super::fields::{check_range, read_integer};
 use super::pictures::nearest_index;
 use super::simulation_class::{cloud_simulation_class, getters};
 use super::values::{flat_float_array, js_object, pose_to_js, to_plain_js, triple_array};
-use crate::sim::odometry_decomposer::{CurvePoint, MAX_CURVE_POINTS, MAX_SAMPLES, OdometryDecomposer};
+use crate::sim::odometry_decomposer::{MAX_CURVE_POINTS, MAX_SAMPLES, OdometryDecomposer};
 use crate::sim::settings::QUANTITY_RANGE;
 use js_sys::Float64Array;
 use wasm_bindgen::prelude::*;
@@ -80,11 +80,7 @@ impl JsOdometryDecomposer {
     pub fn curve(&self, longest: f64, count: f64) -> Result<Float64Array, JsValue> {
         let longest = check_range("longest", longest, &(0.0..=*QUANTITY_RANGE.end()))?;
         let count = read_integer("count", count, 1..=MAX_CURVE_POINTS)? as usize;
-        let point_to_array =
-            |CurvePoint { trans, cross_track, lever, along }| [trans, cross_track, lever, along];
-        Ok(flat_float_array(
-            &self.0.deviation_curve(longest, count).into_iter().map(point_to_array).collect::<Vec<_>>(),
-        ))
+        Ok(flat_float_array(&self.0.deviation_curve(longest, count)))
     }
 
     /// The index of the outcome that ends nearest to a point and within `radius` of it; −1 for none.

@@ -10,7 +10,6 @@ use wasm_bindgen::prelude::*;
 /// Allowed radii around a point. NaN is refused.
 pub const RADIUS_RANGE: RangeInclusive<f64> = 0.0..=f64::INFINITY;
 
-/// Makes a view of pixels in the core's memory.
 pub fn pixel_view(pixels: &[[u8; 4]]) -> Uint8ClampedArray {
     let (start, length) = (pixels.as_ptr() as u32, pixels.as_flattened().len() as u32);
     let create_view = || {

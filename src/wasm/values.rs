@@ -92,12 +92,10 @@ pub fn group_to_js(group: &mut dyn Group) -> JsValue {
     js_object(&entries)
 }
 
-/// Makes an object of the coordinates of a pose.
 pub fn pose_to_js(pose: SE2) -> JsValue {
     group_to_js(&mut <[f64; 3]>::from(pose))
 }
 
-/// Makes a plain array of numbers.
 pub fn js_array(numbers: &[f64]) -> JsValue {
     numbers.iter().copied().map(JsValue::from).collect::<Array>().into()
 }
@@ -112,13 +110,11 @@ pub fn triple_array<T: Into<[f64; 3]>>(triples: impl IntoIterator<Item = T>) -> 
     flat_float_array(&triples.into_iter().map(Into::into).collect::<Vec<[f64; 3]>>())
 }
 
-/// Makes a Float64Array of numbers.
 #[inline(never)]
 pub fn float_array(numbers: &[f64]) -> JsValue {
     Float64Array::from(numbers).into()
 }
 
-/// Makes a plain object.
 #[inline(never)]
 pub fn js_object(entries: &[(&str, JsValue)]) -> JsValue {
     let entries: Array = entries.iter().map(|(key, value)| Array::of2(&(*key).into(), value)).collect();

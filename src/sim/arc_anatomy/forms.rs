@@ -56,7 +56,6 @@ pub fn form_errors() -> FormErrors {
     }
 }
 
-/// Returns the root mean square errors of the arc, the straight line and the chord.
 fn rms_errors_at(omega: f64) -> [f64; 3] {
     let mut squared_errors = [0.0; 3];
     for i in 0..HEADING_COUNT {

@@ -132,7 +132,6 @@ fn residuals(settings: &Settings, estimates: &ArcInversion) -> [(f64, f64, Varia
     ]
 }
 
-/// Returns p of the final pose.
 pub(super) fn prob(settings: &Settings) -> f64 {
     product_or_zero(
         residuals(settings, &selected_inversion(settings))

@@ -229,8 +229,8 @@ impl BananaMachine {
         let VelocityCmd { omega, dt, .. } = self.settings.command;
         let is_defined = |deviation: f64| (omega * dt).abs() + MIN_CIRCLE_SIGMAS * deviation < TAU;
         DefinedCharts {
-            pose: is_defined(self.cloud.turn_deviation()),
-            arc: is_defined(self.cloud.arc_deviation()),
+            pose: is_defined(self.cloud.drive().turn_deviation()),
+            arc: is_defined(self.cloud.drive().arc_deviation()),
         }
     }
 
@@ -400,7 +400,6 @@ impl BananaMachine {
     }
 }
 
-/// Returns the points of an arc from the start.
 fn arc_points(length: f64, turn: f64) -> Vec<[f64; 2]> {
     Arc { start: START_POSE, length, turn }.points()
 }

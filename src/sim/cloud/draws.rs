@@ -22,7 +22,6 @@ const FARTHEST_SQUARED_DISTANCE: f64 = 20.0;
 /// 65 536, and all. With fewer the first digit of standard errors would be wrong; more would take time.
 const SUBSAMPLE_GROUPS: [usize; 3] = [512, 16_384, usize::MAX];
 
-/// Returns the entry of [`SUBSAMPLE_GROUPS`] for a group of four draws.
 #[inline(never)]
 fn subsample_groups([a, b, c]: &[f64x4; 3]) -> usize {
     let squared_distances = *a * *a + *b * *b + *c * *c;
@@ -66,12 +65,10 @@ impl Draws {
         }
     }
 
-    /// Reserves memory for the draws of `count` samples.
     pub fn reserve(&mut self, count: usize) -> Result<(), TryReserveError> {
         self.unit_noise.try_reserve_exact(count.div_ceil(LANES).saturating_sub(self.unit_noise.len()))
     }
 
-    /// Discards the draws if the seed or the kind of noise has changed.
     pub fn reset_if_changed(&mut self, seed: u64, noise: NoiseKind) {
         if self.seed != seed || self.noise != noise {
             let unit_noise = std::mem::take(&mut self.unit_noise);
@@ -143,7 +140,6 @@ impl Draws {
         })
     }
 
-    /// Returns the unit noise of one sample.
     pub fn noise_of_sample(&self, index: usize) -> [f64; 3] {
         self.unit_noise[index / LANES].map(|lanes| lanes.to_array()[index % LANES])
     }

@@ -160,7 +160,6 @@ impl Drive {
         [along * cos - lateral * sin, along * sin + lateral * cos + half_heading * (2.0 * morph)]
     }
 
-    /// Tests whether an angle is outside the range of the short formulas.
     #[inline(always)]
     fn is_outside_short_formulas(&self, motions: &Motions) -> bool {
         let [interval_middle, interval_half_width] = self.short_formula_interval;

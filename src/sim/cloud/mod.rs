@@ -39,7 +39,6 @@ impl Cloud {
         Self { draws: Draws::new(seed, noise), drive, positions: Vec::new(), shown_count: 0 }
     }
 
-    /// Reserves memory for `count` samples.
     pub fn reserve(&mut self, count: usize) -> Result<(), TryReserveError> {
         self.draws.reserve(count)?;
         let groups = count.div_ceil(LANES);
@@ -97,27 +96,18 @@ impl Cloud {
         sums
     }
 
-    /// Returns the standard deviation of the turn, rad.
-    pub fn turn_deviation(&self) -> f64 {
-        self.drive.turn_deviation()
+    pub fn drive(&self) -> &Drive {
+        &self.drive
     }
 
-    /// Returns the standard deviation (rad) of the turn of the arc that ends at the robot.
-    pub fn arc_deviation(&self) -> f64 {
-        self.drive.arc_deviation()
-    }
-
-    /// Returns the number of samples shown.
     pub fn shown_count(&self) -> usize {
         self.shown_count
     }
 
-    /// Returns the unit noise of a sample.
     pub fn unit_noise(&self, index: usize) -> [f64; 3] {
         self.draws.noise_of_sample(index)
     }
 
-    /// Returns the pose of a sample that is shown.
     #[inline(always)]
     pub fn pose(&self, index: usize) -> SE2 {
         let [group, lane] = [index / LANES, index % LANES];

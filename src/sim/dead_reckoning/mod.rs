@@ -265,12 +265,10 @@ fn by_recursion<T>(of: impl Fn(Compounding) -> T) -> ByRecursion<T> {
     ByRecursion { chapter, first_order, fourth_order }
 }
 
-/// Returns the index of a recursion in [`RECURSIONS`].
 fn index_of_recursion(order: Compounding) -> usize {
     RECURSIONS.iter().position(|recursion| *recursion == order).unwrap_or_default()
 }
 
-/// Returns the 2σ ellipse of ξ along and lateral.
 fn ellipse_of_xi(mean: &Vector3<f64>, cov: &Matrix3<f64>) -> Vec<[f64; 2]> {
     Ellipse::new(mean.xy(), cov.fixed_view::<2, 2>(0, 0).into_owned()).boundary(OUTLINE_SEGMENTS)
 }

@@ -184,7 +184,6 @@ impl Rollouts {
         moments_of(&sums)
     }
 
-    /// Drives the next block and adds the first `count` of its robots.
     #[inline(never)]
     fn drive_next_block(&mut self, count: usize, sums: &mut [Sums<SUMMED_TERMS>]) {
         let Self { step, block_rng, driven_count, nominal, poses, .. } = self;
@@ -209,7 +208,6 @@ impl Rollouts {
         }
     }
 
-    /// Returns the commanded pose after each step.
     pub fn nominal_poses(&self) -> &[SE2] {
         &self.nominal
     }

@@ -73,19 +73,6 @@ pub struct DriftedOdometry {
     pub legs: OdomDelta,
 }
 
-/// Point of the curves of standard deviations against the length of the drive.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CurvePoint {
-    /// Length of the drive, m.
-    pub trans: f64,
-    /// Standard deviation of the end position across the bearing, m.
-    pub cross_track: f64,
-    /// Contribution of the first rotation alone, m.
-    pub lever: f64,
-    /// Standard deviation of the drive's length, m.
-    pub along: f64,
-}
-
 /// Simulation of the widget: settings, draws, and the outcomes shown.
 #[derive(Clone, Debug)]
 pub struct OdometryDecomposer {
@@ -233,9 +220,10 @@ impl OdometryDecomposer {
         }
     }
 
-    /// Returns the standard deviations for lengths of the drive from 0 to `max_length` (m), with both rotations as
-    /// measured.
-    pub fn deviation_curve(&self, max_length: f64, count: usize) -> Vec<CurvePoint> {
+    /// Returns `count` points for lengths of the drive from 0 to `max_length` (m), with both rotations as measured. Each has the length,
+    /// the standard deviation of the end position across the bearing, the contribution of the first rotation alone to it, and the
+    /// standard deviation of the length, all in m.
+    pub fn deviation_curve(&self, max_length: f64, count: usize) -> Vec<[f64; 4]> {
         let Settings { rule, alphas, noise, .. } = self.settings;
         let reading = self.reading();
         let length_step = max_length / count.saturating_sub(1).max(1) as f64;
@@ -243,12 +231,8 @@ impl OdometryDecomposer {
             .map(|i| {
                 let trans = length_step * i as f64;
                 let variances = rule.variances(&OdomDelta { trans, ..reading }, &alphas);
-                CurvePoint {
-                    trans,
-                    cross_track: variances.cross_track_variance(trans, noise).sqrt(),
-                    lever: trans * variances.rot1.0.sqrt(),
-                    along: variances.trans.0.sqrt(),
-                }
+                let cross_track = variances.cross_track_variance(trans, noise).sqrt();
+                [trans, cross_track, trans * variances.rot1.0.sqrt(), variances.trans.0.sqrt()]
             })
             .collect()
     }

@@ -61,7 +61,6 @@ const BLOCK_PARTS: usize = 4096;
 cloud_simulation!(MapSqueeze);
 
 impl MapSqueeze {
-    /// Creates a simulation in the apartment.
     fn empty(settings: Settings) -> Result<Self, SettingsError> {
         let mut simulation = Self {
             plan: FloorPlan::apartment(),
@@ -265,7 +264,6 @@ pub fn max_draws(parts: usize) -> usize {
     MAX_DRAWS + MAX_MEAN_DRAWS_PER_PART * parts
 }
 
-/// Returns the model with these settings, conditioned on a plan by a sampler.
 fn conditioned_model<'a>(settings: &Settings, plan: &'a FloorPlan, sampler: Sampler) -> MapConditioned<'a> {
     let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise: NoiseKind::Normal };
     MapConditioned { model, plan, clearance: settings.clearance, sampler }

@@ -3,7 +3,7 @@
 use crate::common::{NOISE_KINDS, pose_distance, seeded_rng};
 use motion::geom::se2::SE2;
 use motion::models::OdometryRule;
-use motion::sim::odometry_decomposer::{CurvePoint, OdometryDecomposer, OdometryPose, PRESETS, Settings};
+use motion::sim::odometry_decomposer::{OdometryDecomposer, OdometryPose, PRESETS, Settings};
 use motion::{MotionModel, OdomAlphas, OdometryModel};
 
 pub fn simulation(settings: Settings) -> OdometryDecomposer {
@@ -130,10 +130,10 @@ fn the_curve_contains_the_values_of_the_readouts() {
         let drive_distance = simulation.legs().trans;
         let curve_points = simulation.deviation_curve(2.0 * drive_distance, 3);
         assert_eq!(
-            curve_points.iter().map(|point| point.trans).collect::<Vec<_>>(),
+            curve_points.iter().map(|[trans, ..]| *trans).collect::<Vec<_>>(),
             [0.0, drive_distance, 2.0 * drive_distance]
         );
-        let CurvePoint { cross_track, lever, along, .. } = curve_points[1];
+        let [_, cross_track, lever, along] = curve_points[1];
         assert_eq!((cross_track, lever), (stats.exact_cross_track, stats.lever));
         let rule_noise =
             simulation.rule_noises().into_iter().find(|noise| noise.rule == rule).expect("all rules");
@@ -141,9 +141,6 @@ fn the_curve_contains_the_values_of_the_readouts() {
         assert_eq!(simulation.deviation_curve(1.0, 1).len(), 1);
     }
     let noisy_simulation = simulation(Settings { alphas: [2.0, 2.0, 0.0, 0.0, 0.0], ..Settings::default() });
-    let long_drive_point = noisy_simulation.deviation_curve(10.0, 2)[1];
-    assert!(
-        long_drive_point.cross_track < long_drive_point.trans
-            && long_drive_point.lever > 10.0 * long_drive_point.trans
-    );
+    let [trans, cross_track, lever, _] = noisy_simulation.deviation_curve(10.0, 2)[1];
+    assert!(cross_track < trans && lever > 10.0 * trans);
 }

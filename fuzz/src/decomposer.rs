@@ -98,8 +98,8 @@ fn assert_results(simulation: &OdometryDecomposer) {
     simulation.poses().iter().for_each(|pose| assertions::assert_pose("an outcome", pose));
     simulation.leg_poses().iter().for_each(|pose| assertions::assert_pose("a leg pose", pose));
     assertions::assert_pose("the robot", &simulation.robot_pose());
-    let DriftedOdometry { frame, from, to, legs } = simulation.drifted_odometry();
-    [frame, from, to].iter().for_each(|pose| assertions::assert_pose("drifted", pose));
+    let DriftedOdometry { poses, legs } = simulation.drifted_odometry();
+    poses.into_iter().for_each(|pose| assertions::assert_pose("drifted", &pose.into()));
     assert_legs("drifted legs", &legs);
     assert_legs("reading", &simulation.reading());
 

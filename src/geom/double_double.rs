@@ -36,18 +36,6 @@ fn two_sum(a: f64, b: f64) -> DoubleDouble {
     DoubleDouble { high, low: (a - (high - rounded_b)) + (b - rounded_b) }
 }
 
-/// Returns a · b without rounding error, as long as nothing under- or overflows.
-fn two_product(a: f64, b: f64) -> DoubleDouble {
-    let split_in_halves = |x: f64| {
-        let scaled_x = SPLITTER * x;
-        let high = scaled_x - (scaled_x - x);
-        [high, x - high]
-    };
-    let high = a * b;
-    let ([a1, a2], [b1, b2]) = (split_in_halves(a), split_in_halves(b));
-    DoubleDouble { high, low: ((a1 * b1 - high) + a1 * b2 + a2 * b1) + a2 * b2 }
-}
-
 impl From<f64> for DoubleDouble {
     fn from(high: f64) -> Self {
         Self { high, low: 0.0 }
@@ -82,15 +70,22 @@ impl Mul for DoubleDouble {
     type Output = Self;
     /// Returns the product, with a relative error of at most 2⁻¹⁰².
     fn mul(self, other: Self) -> Self {
-        let product = two_product(self.high, other.high);
+        let product = Self::product(self.high, other.high);
         quick_two_sum(product.high, product.low + (self.high * other.low + self.low * other.high))
     }
 }
 
 impl DoubleDouble {
-    /// Returns the product of two doubles, exact.
+    /// Returns a · b without rounding error, as long as nothing under- or overflows.
     pub fn product(a: f64, b: f64) -> Self {
-        two_product(a, b)
+        let split_in_halves = |x: f64| {
+            let scaled_x = SPLITTER * x;
+            let high = scaled_x - (scaled_x - x);
+            [high, x - high]
+        };
+        let high = a * b;
+        let ([a1, a2], [b1, b2]) = (split_in_halves(a), split_in_halves(b));
+        Self { high, low: ((a1 * b1 - high) + a1 * b2 + a2 * b1) + a2 * b2 }
     }
 
     /// Returns the nearest double.
@@ -101,7 +96,7 @@ impl DoubleDouble {
     /// Returns the quotient by a double, with a relative error of at most 2⁻¹⁰⁴.
     pub fn divided_by(self, divisor: f64) -> Self {
         let high = self.high / divisor;
-        let remainder = self - two_product(high, divisor);
+        let remainder = self - Self::product(high, divisor);
         quick_two_sum(high, remainder.high / divisor)
     }
 
@@ -124,8 +119,8 @@ impl DoubleDouble {
         let mut sine = a * sine;
         let mut versine = (angle_squared * versine).divided_by(2.0);
         for _ in 0..HALVING_COUNT {
-            let cosine = Self::from(1.0) - versine;
-            (sine, versine) = (times_two(sine * cosine), times_two(sine * sine));
+            let (half_sine, half_versine) = (sine * (Self::from(1.0) - versine), sine * sine);
+            (sine, versine) = (half_sine + half_sine, half_versine + half_versine);
         }
         (sine, Self::from(1.0) - versine)
     }
@@ -141,8 +136,4 @@ impl DoubleDouble {
         let remainder = sine - self * Self::from(quotient);
         quick_two_sum(quotient, remainder.high / self.high)
     }
-}
-
-fn times_two(x: DoubleDouble) -> DoubleDouble {
-    DoubleDouble { high: 2.0 * x.high, low: 2.0 * x.low }
 }

@@ -63,15 +63,6 @@ pub fn read_pgm(bytes: &[u8]) -> Result<Image<f32>, PgmError> {
     Ok(Image { width, height, pixels })
 }
 
-/// Parses decimal digits; None for a number larger than [`MAX_PIXELS`].
-fn parse_decimal(token: &[u8]) -> Option<usize> {
-    let value = token.iter().try_fold(0, |value: usize, digit| {
-        let digit = digit.is_ascii_digit().then(|| usize::from(digit - b'0'))?;
-        Some(value * 10 + digit).filter(|value| *value <= MAX_PIXELS)
-    })?;
-    (!token.is_empty()).then_some(value)
-}
-
 /// Reader of the words of a header, and of plain pixels.
 struct TokenReader<'a> {
     bytes: &'a [u8],
@@ -104,7 +95,9 @@ impl<'a> TokenReader<'a> {
 
     fn read_number(&mut self, field: &'static str, min: usize, max: usize) -> Result<usize, PgmError> {
         let token = self.next_token();
-        parse_decimal(token)
+        let digits = str::from_utf8(token).ok().filter(|_| token.iter().all(u8::is_ascii_digit));
+        digits
+            .and_then(|digits| digits.parse().ok())
             .filter(|number| (min..=max).contains(number))
             .ok_or_else(|| self.error(field, token, format!("a whole number from {min} to {max}")))
     }

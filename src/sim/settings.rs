@@ -150,10 +150,8 @@ impl Setting<'_> {
                 check_integer(key, *integer as f64, &allowed).map(|_| ())
             }
             Self::Numbers(numbers, allowed) => {
-                match numbers.iter().position(|number| !allowed.contains(number)) {
-                    Some(i) => check_real(&format!("{key}[{i}]"), numbers[i], &allowed),
-                    None => Ok(()),
-                }
+                let mut numbers = numbers.iter().enumerate();
+                numbers.try_for_each(|(i, number)| check_real(&format!("{key}[{i}]"), *number, &allowed))
             }
             Self::Group(group) => check_group(key, group),
             // The numbers that a level stands for are checked instead of the level.
@@ -164,10 +162,7 @@ impl Setting<'_> {
 
 pub(crate) fn check_group(key: &str, group: &mut dyn Group) -> Result<(), SettingsError> {
     for (i, Field { declaration, allowed }) in group.fields().iter().enumerate() {
-        let value = *group.number(i);
-        if !allowed.contains(&value) {
-            return check_real(&format!("{key}.{}", declaration.key), value, allowed);
-        }
+        check_real(&format!("{key}.{}", declaration.key), *group.number(i), allowed)?;
     }
     Ok(())
 }

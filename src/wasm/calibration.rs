@@ -1,6 +1,6 @@
 //! Calibrations as plain JavaScript values.
 
-use super::values::{float_array, js_object, to_plain_js};
+use super::values::{float_array, js_object, to_plain_js, triple_array};
 use crate::calibrate::{
     Calibration, Diagnostics, ERROR_COUNT, Estimate, LostLegs, NotIdentifiable, Persistence, Recommendation,
     SystematicError,
@@ -157,33 +157,21 @@ fn systematic_errors(calibration: &Calibration) -> SystematicErrors {
 /// Makes arrays of the legs of a calibration, one leg after the other in each.
 pub fn columns_to_js(calibration: &Calibration) -> JsValue {
     let Calibration { legs, observations, leg_fits, corrected, .. } = calibration;
-    let empty_column = |width: usize| Vec::with_capacity(width * legs.len());
-    let [mut times, mut odometry, mut reference] = [2, 6, 6].map(empty_column);
-    let [mut readings, mut residuals, mut standardized, mut stds] = [3; 4].map(empty_column);
-    let [mut squared_distances, mut outliers] = [1; 2].map(empty_column);
     let base = corrected.base();
-    for ((leg, observation), fit) in legs.iter().zip(observations).zip(leg_fits) {
-        times.extend_from_slice(&leg.times);
-        for [read, pose] in [0, 1].map(|end| [leg.odometry[end], leg.reference[end] * base]) {
-            odometry.extend_from_slice(&<[f64; 3]>::from(read));
-            reference.extend_from_slice(&<[f64; 3]>::from(pose));
-        }
-        readings.extend_from_slice(&observation.reading);
-        residuals.extend_from_slice(&observation.residuals);
-        standardized.extend_from_slice(&fit.standardized);
-        stds.extend_from_slice(&fit.stds);
-        squared_distances.push(fit.squared);
-        outliers.push(f64::from(u8::from(fit.is_outlier)));
-    }
+    let odometry_poses = legs.iter().flat_map(|leg| leg.odometry);
+    let reference_poses = legs.iter().flat_map(|leg| leg.reference.map(|pose| pose * base));
+    let times: Vec<f64> = legs.iter().flat_map(|leg| leg.times).collect();
+    let squared_distances: Vec<f64> = leg_fits.iter().map(|fit| fit.squared).collect();
+    let outliers: Vec<f64> = leg_fits.iter().map(|fit| f64::from(u8::from(fit.is_outlier))).collect();
     js_object(&[
         ("count", (legs.len() as f64).into()),
         ("times", float_array(&times)),
-        ("odometry", float_array(&odometry)),
-        ("reference", float_array(&reference)),
-        ("readings", float_array(&readings)),
-        ("residuals", float_array(&residuals)),
-        ("standardized", float_array(&standardized)),
-        ("stds", float_array(&stds)),
+        ("odometry", triple_array(odometry_poses).into()),
+        ("reference", triple_array(reference_poses).into()),
+        ("readings", triple_array(observations.iter().map(|observation| observation.reading)).into()),
+        ("residuals", triple_array(observations.iter().map(|observation| observation.residuals)).into()),
+        ("standardized", triple_array(leg_fits.iter().map(|fit| fit.standardized)).into()),
+        ("stds", triple_array(leg_fits.iter().map(|fit| fit.stds)).into()),
         ("squared", float_array(&squared_distances)),
         ("outliers", float_array(&outliers)),
     ])

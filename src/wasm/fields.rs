@@ -154,9 +154,11 @@ fn read_group(field: &str, value: &JsValue, group: &mut dyn Group) -> Result<(),
     Ok(())
 }
 
-pub fn read_group_in_range(field: &str, value: &JsValue, group: &mut dyn Group) -> Result<(), JsValue> {
-    read_group(field, value, group)?;
-    Ok(check_group(field, group)?)
+/// Reads all numbers of a group, each in its range, into `group`.
+pub fn read_group_in_range<G: Group>(field: &str, value: &JsValue, mut group: G) -> Result<G, JsValue> {
+    read_group(field, value, &mut group)?;
+    check_group(field, &mut group)?;
+    Ok(group)
 }
 
 /// Returns the initial settings of a simulation: the defaults, with the values in `options`.

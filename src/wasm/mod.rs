@@ -55,8 +55,8 @@ pub fn js_command_reaching(
     morph: Option<f64>,
 ) -> Result<JsValue, JsValue> {
     let (x, y) = (check_range("x", x, &QUANTITY_RANGE)?, check_range("y", y, &QUANTITY_RANGE)?);
-    let mut current_command = VelocityCmd { v: 0.0, omega: 0.0, dt: 0.0 };
-    read_group_in_range("command", command, &mut current_command)?;
+    let zero_command = VelocityCmd { v: 0.0, omega: 0.0, dt: 0.0 };
+    let current_command = read_group_in_range("command", command, zero_command)?;
     let morph = check_range("morph", morph.unwrap_or(0.0), &MORPH_RANGE)?;
     let VelocityCmd { v, omega, .. } = command_drawn_at([x, y], &current_command, morph);
     Ok(js_object(&[("v", v.into()), ("omega", omega.into())]))

@@ -304,21 +304,15 @@ fn read_noise(fields: &Fields) -> Result<NoiseKind, JsValue> {
 }
 
 fn read_pose(field: &str, value: &JsValue) -> Result<SE2, JsValue> {
-    let mut pose = [0.0; 3];
-    read_group_in_range(field, value, &mut pose)?;
-    Ok(pose.into())
+    Ok(read_group_in_range(field, value, [0.0; 3])?.into())
 }
 
 fn read_command(value: &JsValue) -> Result<VelocityCmd, JsValue> {
-    let mut command = VelocityCmd { v: 0.0, omega: 0.0, dt: 0.0 };
-    read_group_in_range("command", value, &mut command)?;
-    Ok(command)
+    read_group_in_range("command", value, VelocityCmd { v: 0.0, omega: 0.0, dt: 0.0 })
 }
 
 fn read_legs(value: &JsValue) -> Result<OdomDelta, JsValue> {
-    let mut legs = OdomDelta { rot1: 0.0, trans: 0.0, rot2: 0.0 };
-    read_group_in_range("control", value, &mut legs)?;
-    Ok(legs)
+    read_group_in_range("control", value, OdomDelta { rot1: 0.0, trans: 0.0, rot2: 0.0 })
 }
 
 fn read_twist(field: &str, value: &JsValue) -> Result<Vector3<f64>, JsValue> {

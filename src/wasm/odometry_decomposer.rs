@@ -9,17 +9,6 @@ use crate::sim::settings::QUANTITY_RANGE;
 use js_sys::Float64Array;
 use wasm_bindgen::prelude::*;
 
-#[wasm_bindgen(typescript_custom_section)]
-const TYPESCRIPT_TYPES: &str = r#"
-/** The odometry in the world, where its frame has drifted. */
-export interface Drifted {
-  /** Poses x, y (m), θ (rad) of the frame, and of the two odometry poses in the world, one after the other. */
-  poses: Float64Array;
-  /** Legs that are computed from these poses. */
-  legs: OdomDelta;
-}
-"#;
-
 cloud_simulation_class! {
     /// An odometry reading as rotate, drive, rotate, and its noise under the rules of several localizers.
     JsOdometryDecomposer(OdometryDecomposer), "OdometryDecomposer", "OdometryDecomposerSettings",
@@ -38,11 +27,7 @@ getters! {
         /// Legs and noises of the reading by each rule.
         rules: "RuleNoise[]" = to_plain_js(&it.rule_noises());
         stats: "DecomposerStats" = to_plain_js(&it.stats());
-        drifted: "Drifted" = {
-            let drifted = it.drifted_odometry();
-            let poses = triple_array([drifted.frame, drifted.from, drifted.to]);
-            js_object(&[("poses", poses.into()), ("legs", to_plain_js(&drifted.legs))])
-        };
+        drifted: "Drifted" = to_plain_js(&it.drifted_odometry());
     }
 }
 

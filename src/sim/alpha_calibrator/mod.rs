@@ -171,17 +171,14 @@ impl AlphaCalibrator {
         self.fit.calibration.get_or_init(|| {
             let Settings { seed, .. } = self.fit.settings;
             let options = self.fit.settings.options();
-            let fit_logs = |logs: &[Log]| {
-                let drives: Vec<Drive> =
-                    logs.iter().map(|Log { odometry, reference }| Drive { odometry, reference }).collect();
-                calibrate(&drives, &options)
+            let logs = match &self.source {
+                Source::Simulated => &[example::simulated_log(seed)],
+                Source::Loaded(logs) => &logs[..],
+                Source::Restored => &[],
             };
-            match &self.source {
-                Source::Simulated => fit_logs(&[example::simulated_log(seed)]).ok(),
-                Source::Loaded(logs) => fit_logs(logs).ok(),
-                Source::Restored => None,
-            }
-            .unwrap_or_else(|| Calibration::empty(options.model))
+            let drives: Vec<Drive> =
+                logs.iter().map(|Log { odometry, reference }| Drive { odometry, reference }).collect();
+            calibrate(&drives, &options).unwrap_or_else(|_| Calibration::empty(options.model))
         })
     }
 

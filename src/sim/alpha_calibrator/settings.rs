@@ -80,35 +80,7 @@ impl Settings {
         with_other_prediction.copy_prediction_settings(other);
         with_other_prediction == *other
     }
-}
 
-impl Rules for Settings {
-    /// Changes the rule if the model was changed to one that does not have it, or the model if the rule was changed.
-    fn adjust(&mut self, _: &Self, changed_keys: &[&str]) {
-        let model_fits_rule = self.is_omnidirectional() == (self.rule == OdometryRule::Omni);
-        match [changed_keys.contains(&"model"), changed_keys.contains(&"rule")] {
-            [true, false] if !model_fits_rule => {
-                self.rule = if self.is_omnidirectional() { OdometryRule::Omni } else { OdometryRule::Table };
-            }
-            [false, true] if !model_fits_rule => {
-                self.model =
-                    if self.rule == OdometryRule::Omni { Model::Omnidirectional } else { Model::Odometry };
-            }
-            _ => {}
-        }
-    }
-
-    fn check_combinations(&self) -> Result<(), SettingsError> {
-        if self.is_omnidirectional() == (self.rule == OdometryRule::Omni) {
-            return Ok(());
-        }
-        let allowed = if self.is_omnidirectional() { "omni" } else { "thrun, nav2 or beluga" };
-        let allowed = AllowedValues::Keyword { given: self.rule.get(), allowed };
-        Err(SettingsError { field: "rule".to_owned(), value: f64::NAN, allowed })
-    }
-}
-
-impl Settings {
     /// Returns the motion model, with the rule for the noise of odometry.
     pub fn model(&self) -> calibrate::Model {
         match self.model {
@@ -142,5 +114,31 @@ impl Settings {
 
     fn is_omnidirectional(&self) -> bool {
         self.model == Model::Omnidirectional
+    }
+}
+
+impl Rules for Settings {
+    /// Changes the rule if the model was changed to one that does not have it, or the model if the rule was changed.
+    fn adjust(&mut self, _: &Self, changed_keys: &[&str]) {
+        let model_fits_rule = self.is_omnidirectional() == (self.rule == OdometryRule::Omni);
+        match [changed_keys.contains(&"model"), changed_keys.contains(&"rule")] {
+            [true, false] if !model_fits_rule => {
+                self.rule = if self.is_omnidirectional() { OdometryRule::Omni } else { OdometryRule::Table };
+            }
+            [false, true] if !model_fits_rule => {
+                self.model =
+                    if self.rule == OdometryRule::Omni { Model::Omnidirectional } else { Model::Odometry };
+            }
+            _ => {}
+        }
+    }
+
+    fn check_combinations(&self) -> Result<(), SettingsError> {
+        if self.is_omnidirectional() == (self.rule == OdometryRule::Omni) {
+            return Ok(());
+        }
+        let allowed = if self.is_omnidirectional() { "omni" } else { "thrun, nav2 or beluga" };
+        let allowed = AllowedValues::Keyword { given: self.rule.get(), allowed };
+        Err(SettingsError { field: "rule".to_owned(), value: f64::NAN, allowed })
     }
 }

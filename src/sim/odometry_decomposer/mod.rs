@@ -36,6 +36,15 @@ js_structs! {
         pub heading: f64,
     }
 
+    /// The odometry in the world, where its frame has drifted.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct DriftedOdometry as "Drifted" {
+        /// Poses x, y (m), θ (rad) of the frame, and of the two odometry poses in the world, one after the other.
+        pub poses: Vec<[f64; 3]> as "Float64Array",
+        /// Legs that are computed from these poses.
+        pub legs: OdomDelta,
+    }
+
     /// Statistics of the outcomes shown, and exact values under the current rule. Statistics are NaN without outcomes.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Stats as "DecomposerStats" {
@@ -58,19 +67,6 @@ js_structs! {
         /// Exact standard deviation of the heading for independent rotations.
         pub independent_heading: f64,
     }
-}
-
-/// Odometry poses in the world, in which the odometry frame has drifted, and the legs computed from these poses.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DriftedOdometry {
-    /// Pose of the odometry frame in the world.
-    pub frame: SE2,
-    /// Odometry pose before the motion, in the world.
-    pub from: SE2,
-    /// Odometry pose after the motion, in the world.
-    pub to: SE2,
-    /// Rotation, drive and rotation between them.
-    pub legs: OdomDelta,
 }
 
 /// Simulation of the widget: settings, draws, and the outcomes shown.
@@ -241,7 +237,8 @@ impl OdometryDecomposer {
     pub fn drifted_odometry(&self) -> DriftedOdometry {
         let frame = SE2::exp(&(Vector3::from(DRIFT_TWIST) * self.settings.drift));
         let (from, to) = (frame * self.start_pose(), frame * SE2::from(self.settings.to));
-        DriftedOdometry { frame, from, to, legs: self.settings.rule.legs(&OdomDelta::from_poses(&from, &to)) }
+        let legs = self.settings.rule.legs(&OdomDelta::from_poses(&from, &to));
+        DriftedOdometry { poses: [frame, from, to].map(Into::into).to_vec(), legs }
     }
 
     /// Returns the outcome shown that ends nearest to a point (m), within `radius`.

@@ -38,17 +38,12 @@ pub struct MapSqueeze {
     plan: FloorPlan,
     settings: Settings,
     draws: Draws,
-    shown: ShownAttempts,
-    /// Latest picture. The page reads it in place.
-    picture: Vec<[u8; 4]>,
-}
-
-/// Attempts that are shown, with the number of each outcome.
-#[derive(Clone, Debug, Default)]
-struct ShownAttempts {
+    /// Attempts that are shown, with the number of each outcome.
     attempts: Vec<Attempt>,
     tally: Tally,
     gave_up: bool,
+    /// Latest picture. The page reads it in place.
+    picture: Vec<[u8; 4]>,
 }
 
 /// Average number of draws for a part of a motion at which the simulation gives up: an acceptance of 5 %. With a smaller
@@ -66,7 +61,9 @@ impl MapSqueeze {
             plan: FloorPlan::apartment(),
             settings,
             draws: Draws::new(settings.seed, NoiseKind::Normal),
-            shown: ShownAttempts::default(),
+            attempts: Vec::new(),
+            tally: Tally::default(),
+            gave_up: false,
             picture: Vec::new(),
         };
         simulation.reserve_memory(&settings)?;
@@ -75,8 +72,8 @@ impl MapSqueeze {
 
     fn reserve_memory(&mut self, settings: &Settings) -> Result<(), SettingsError> {
         let memory_error = |_| SettingsError::out_of_memory(settings.samples);
-        let missing_attempts = settings.samples.saturating_sub(self.shown.attempts.len());
-        self.shown.attempts.try_reserve_exact(missing_attempts).map_err(memory_error)?;
+        let missing_attempts = settings.samples.saturating_sub(self.attempts.len());
+        self.attempts.try_reserve_exact(missing_attempts).map_err(memory_error)?;
         self.draws.reserve(settings.samples).map_err(memory_error)
     }
 
@@ -131,8 +128,8 @@ impl MapSqueeze {
     }
 
     fn clear_attempts(&mut self) {
-        self.shown.attempts.clear();
-        (self.shown.tally, self.shown.gave_up) = (Tally::default(), false);
+        self.attempts.clear();
+        (self.tally, self.gave_up) = (Tally::default(), false);
     }
 
     /// Makes attempts up to a number. If nearly every draw collides, the simulation gives up, and further calls make none.
@@ -140,8 +137,7 @@ impl MapSqueeze {
         self.draws.reset_if_changed(self.settings.seed, NoiseKind::Normal);
         self.draws.extend_to(target_count);
         let part_count = self.settings.parts() as usize;
-        let Self { plan, settings, draws, shown, .. } = self;
-        let ShownAttempts { attempts, tally, gave_up } = shown;
+        let Self { plan, settings, draws, attempts, tally, gave_up, .. } = self;
         let model = conditioned_model(settings, plan, settings.sampler);
         let driver = Driver::new(&model, settings, draws);
         while attempts.len() < target_count && !*gave_up {
@@ -163,29 +159,29 @@ impl MapSqueeze {
 
     /// Returns the attempts shown, in sample order.
     pub fn attempts(&self) -> &[Attempt] {
-        &self.shown.attempts
+        &self.attempts
     }
 
     /// Returns the number of attempts shown.
     pub fn shown_count(&self) -> usize {
-        self.shown.attempts.len()
+        self.attempts.len()
     }
 
     /// Returns the counts over the attempts that are shown.
     pub fn tally(&self) -> &Tally {
-        &self.shown.tally
+        &self.tally
     }
 
     /// Returns true if the simulation stopped short of its samples because too few draws were accepted.
     pub fn gave_up(&self) -> bool {
-        self.shown.gave_up
+        self.gave_up
     }
 
     /// Returns the statistics of the attempts shown.
     pub fn stats(&self) -> Stats {
-        let tally = &self.shown.tally;
+        let tally = &self.tally;
         Stats {
-            attempts: self.shown.attempts.len(),
+            attempts: self.attempts.len(),
             drawn: tally.draws,
             accepted: tally.accepted,
             acceptance_rate: tally.acceptance_rate(self.settings.parts()),
@@ -194,7 +190,7 @@ impl MapSqueeze {
             through_wall_interval: tally.through_wall_interval(),
             draws_per_accepted: ratio(tally.draws, tally.accepted),
             wall_tests_per_accepted: ratio(tally.wall_tests, tally.accepted),
-            gave_up: self.shown.gave_up,
+            gave_up: self.gave_up,
         }
     }
 
@@ -202,19 +198,19 @@ impl MapSqueeze {
     /// attempt in a cell selects the ramp. The colour is ramp[255·√(count/max_count)], where `count` is the number of attempts in
     /// the cell and `max_count` the largest count of all cells. Empty cells are transparent.
     pub fn paint(&mut self, grid: &Grid, ramps: &[Ramp; OUTCOME_KIND_COUNT]) -> &[[u8; 4]] {
-        self.picture = picture::paint_attempts(&self.shown.attempts, grid, ramps);
+        self.picture = picture::paint_attempts(&self.attempts, grid, ramps);
         &self.picture
     }
 
     /// Returns the attempt that ends nearest to a point (m) and within `radius` of it.
     pub fn nearest(&self, target: [f64; 2], radius: f64) -> Option<usize> {
-        let positions = self.shown.attempts.iter().map(|attempt| [attempt.pose.x(), attempt.pose.y()]);
+        let positions = self.attempts.iter().map(|attempt| [attempt.pose.x(), attempt.pose.y()]);
         nearest_index(positions, target, [radius, radius])
     }
 
     /// Returns the arcs driven in an attempt that is shown.
     pub fn arcs(&self, index: usize) -> Vec<Arc> {
-        if index >= self.shown.attempts.len() {
+        if index >= self.attempts.len() {
             return Vec::new();
         }
         let model = conditioned_model(&self.settings, &self.plan, self.settings.sampler);

@@ -153,7 +153,7 @@ impl Arc {
 /// Pose with the sine and cosine of its heading, for many arcs that start there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct PreparedPose {
-    pose: SE2,
+    pub pose: SE2,
     sin: f64,
     cos: f64,
 }
@@ -173,10 +173,6 @@ impl PreparedPose {
     pub fn new(pose: SE2) -> Self {
         let (sin, cos) = libm::sincos(pose.theta());
         Self { pose, sin, cos }
-    }
-
-    pub fn pose(&self) -> SE2 {
-        self.pose
     }
 
     /// Transforms a point from the frame of the pose to the reference frame.

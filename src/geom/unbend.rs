@@ -24,18 +24,14 @@ pub fn unbend(twist: &Vector3<f64>, morph: f64) -> [f64; 2] {
 /// Returns the 2 × 3 Jacobian of [`unbend`] with respect to the twist.
 pub fn unbend_jacobian(twist: &Vector3<f64>, morph: f64) -> Matrix2x3<f64> {
     let bend_factor = 1.0 - morph;
-    let mut jacobian =
-        position_jacobian(&Vector3::new(twist.x, bend_factor * twist.y, bend_factor * twist.z));
+    let bent_twist = Vector3::new(twist.x, bend_factor * twist.y, bend_factor * twist.z);
+    // The Jacobian of the position of exp(ξ) with respect to ξ has the upper rows of R(ω)·J_r(ξ).
+    let rotation = SE2::new(0.0, 0.0, bent_twist.z).adjoint();
+    let mut jacobian = (rotation * SE2::right_jacobian(&bent_twist)).fixed_view::<2, 3>(0, 0).into_owned();
     jacobian.column_mut(1).scale_mut(bend_factor);
     jacobian.column_mut(2).scale_mut(bend_factor);
     jacobian[(1, 2)] += morph;
     jacobian
-}
-
-/// Returns the 2 × 3 Jacobian of the position of exp(ξ) with respect to ξ: the upper rows of R(ω)·J_r(ξ).
-fn position_jacobian(twist: &Vector3<f64>) -> Matrix2x3<f64> {
-    let rotation = SE2::new(0.0, 0.0, twist.z).adjoint();
-    (rotation * SE2::right_jacobian(twist)).fixed_view::<2, 3>(0, 0).into_owned()
 }
 
 /// Returns the points to which a morph takes a line of positions. Each position counts as the end of the arc whose turn is nearest

@@ -140,7 +140,7 @@ impl DrawTester<'_> {
     /// Returns the arc that is driven under these unit noises.
     pub fn arc(&self, unit_noise: [f64; 3]) -> Arc {
         let [length, turn, _] = self.command.executed_motion(unit_noise);
-        Arc { start: self.start.pose(), length, turn }
+        Arc { start: self.start.pose, length, turn }
     }
 }
 

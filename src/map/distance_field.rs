@@ -16,8 +16,8 @@ pub(super) struct DistanceField {
     columns: usize,
     /// Index of the last column and of the last row.
     last_cell: [f64; 2],
-    /// Half the diagonal of a cell, m.
-    radius: f64,
+    /// Half the diagonal of a cell, m: the resolution of the field.
+    pub radius: f64,
     /// Uncertainty of the distance from the middle of a cell, m.
     uncertainty: f64,
     /// Lower bounds row by row from the bottom, m. Negative if a wall passes through the cell or its neighbour, −∞ if the
@@ -56,11 +56,6 @@ impl DistanceField {
             builder.fill_block(tree, occupied_grid, block);
         }
         builder.field
-    }
-
-    /// Returns half the diagonal of a cell, m: the resolution of the field.
-    pub fn radius(&self) -> f64 {
-        self.radius
     }
 
     /// Returns a lower bound (m) on the distance from a point inside the bounds to the nearest wall.
@@ -139,7 +134,7 @@ impl FieldBuilder {
     fn new(tree: &WallTree, bounds: [f64; 4]) -> Self {
         let [left, bottom, right, top] = bounds;
         let (width, height) = (right - left, top - bottom);
-        let cell_count = (CELLS_PER_WALL * tree.wall_count() as f64).clamp(MIN_CELLS, MAX_CELLS);
+        let cell_count = (CELLS_PER_WALL * tree.walls.len() as f64).clamp(MIN_CELLS, MAX_CELLS);
         // A narrow map could otherwise get more than `cell_count` cells in a single row.
         let cell_side = (width * height / cell_count).sqrt().max(width.max(height) / cell_count);
         let [columns, rows] = [width, height].map(|length| (length / cell_side).ceil() as usize + 1);
@@ -249,10 +244,10 @@ impl FieldBuilder {
             if measured_count > MAX_WALLS_PER_BLOCK + MAX_WALLS_PER_CELL * size * size {
                 return None;
             }
-            let distance_to_wall = |wall: usize| tree.wall(wall).squared_distance_to_point(point).sqrt();
+            let distance_to_wall = |wall: usize| tree.walls[wall].squared_distance_to_point(point).sqrt();
             let lower_bound = match candidate {
                 Candidate::Wall(wall) => distance_to_wall(wall as usize),
-                Candidate::Node(node) => tree.node(node as usize).lower_bound(point),
+                Candidate::Node(node) => tree.nodes[node as usize].lower_bound(point),
             };
             if lower_bound > least_upper_bound + max_excess {
                 continue;
@@ -269,7 +264,7 @@ impl FieldBuilder {
             match candidate {
                 Candidate::Node(node)
                     if lower_bound < least_upper_bound - uncertainty
-                        || tree.node(node as usize).thickness > 0.5 * max_excess =>
+                        || tree.nodes[node as usize].thickness > 0.5 * max_excess =>
                 {
                     if tree.is_leaf(node as usize) {
                         unmeasured.extend(

@@ -338,7 +338,7 @@ impl ArcSweep<'_> {
             return false;
         }
         // A part no longer than the diagonal of a cell is not divided, because the field is too coarse. Walls near it are measured.
-        let is_divisible = half_part_length > distance_field.radius();
+        let is_divisible = half_part_length > distance_field.radius;
         let [x, y] = part_middles.map(|lanes| lanes.to_array());
         (0..LANES).all(|i| {
             distances[i] > needed_distance

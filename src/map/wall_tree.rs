@@ -11,8 +11,8 @@ use std::ops::Range;
 #[derive(Clone, Debug)]
 pub(super) struct WallTree {
     /// Walls in an order in which those of each node are contiguous.
-    walls: Vec<Segment>,
-    nodes: Vec<Node>,
+    pub walls: Vec<Segment>,
+    pub nodes: Vec<Node>,
     /// Number of times that the walls are halved.
     depth: u32,
     /// Upper bound on the rounding error of any distance on the map, m.
@@ -130,18 +130,6 @@ impl WallTree {
         } else {
             wall_range
         }
-    }
-
-    pub fn wall(&self, wall: usize) -> &Segment {
-        &self.walls[wall]
-    }
-
-    pub fn node(&self, node_index: usize) -> &Node {
-        &self.nodes[node_index]
-    }
-
-    pub fn wall_count(&self) -> usize {
-        self.walls.len()
     }
 
     pub fn is_leaf(&self, node_index: usize) -> bool {

@@ -87,12 +87,6 @@ pub trait RotTransRot {
         }
     }
 
-    /// Returns the pose reached from `x` when the noises of the three legs take the values `unit_noise` times their
-    /// standard deviations: Table 5.6 after its three draws.
-    fn apply_noise(&self, u: &OdomDelta, x: &SE2, unit_noise: [f64; 3]) -> SE2 {
-        self.executed_motion(u, unit_noise).apply(x)
-    }
-
     /// Returns the covariance of (x, y, θ) that an EKF carries: the three legs linearized at the reading, 3 × 3, in the
     /// frame of `x` (m², m·rad, rad²).
     fn cartesian_cov(&self, u: &OdomDelta, x: &SE2) -> Matrix3<f64> {
@@ -145,7 +139,7 @@ impl<M: RotTransRot> MotionModel for M {
 
     fn sample<R: Rng + ?Sized>(&self, u: &OdomDelta, x: &SE2, rng: &mut R) -> SE2 {
         let unit_noise = std::array::from_fn(|_| self.noise().quantile(centred_uniform(rng)));
-        self.apply_noise(u, x, unit_noise)
+        self.executed_motion(u, unit_noise).apply(x)
     }
 }
 

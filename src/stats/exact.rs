@@ -34,7 +34,7 @@ struct UnitMotion {
 pub(super) struct UnitMotionMoments {
     /// First value of u. Sums contain differences from it, so that few digits are lost if u varies little.
     reference: Option<[f64; 2]>,
-    weight_sum: f64,
+    pub weight_sum: f64,
     weighted_sum: Vector3<f64>,
     square_sum: Matrix3<f64>,
 }

@@ -91,7 +91,7 @@ impl PolarMotion {
         let one_if_defined = |turn: f64, reach: f64| if turn.abs() + reach < TAU { 1.0 } else { f64::NAN };
         let pose_factor = one_if_defined(turn, self.integration_limit(bearing_turn_std, last_turn_std));
         let floor_factor = one_if_defined(2.0 * bearing, self.integration_limit(2.0 * bearing_std, 0.0));
-        let gain = gaussians.gain();
+        let gain = gaussians.gain;
         ExactGain {
             value: LikelihoodGain { pose: gain.pose * pose_factor, floor: gain.floor * floor_factor },
             exponential: ExponentialMoments { mean: twist.0 * pose_factor, cov: twist.1 * pose_factor },
@@ -118,7 +118,7 @@ impl PolarMotion {
     fn twist_moments(&self) -> (MeanAndCov, f64) {
         let ([bearing, bearing_std], [turn, bearing_turn_std, last_turn_std]) = (self.bearing, self.turn);
         let max_excess_turn = self.integration_limit(bearing_turn_std, last_turn_std);
-        let (mut moments, mut mean_log) = (UnitMotionMoments::default(), MeanLog::default());
+        let (mut moments, mut log_sum) = (UnitMotionMoments::default(), 0.0);
         let last_turn_nodes = self.nodes(last_turn_std, NO_BREAKS);
         for bearing_node in self.nodes(bearing_std, NO_BREAKS) {
             let bearing = bearing + bearing_std * bearing_node.value;
@@ -133,19 +133,19 @@ impl PolarMotion {
                 let twist_sinc = sinc(half_turn);
                 let (sin, cos) = libm::sincos(bearing - half_turn);
                 let scaled_direction = [cos, sin].map(|component| component * (chord_ratio / twist_sinc));
-                mean_log.add(weight, twist_sinc * twist_sinc);
+                log_sum += weight * libm::log(twist_sinc * twist_sinc);
                 moments.add(weight, scaled_direction, excess_turn);
             }
         }
         let (mean, cov) = moments.mean_and_cov(self.length);
-        ((mean + Vector3::z() * turn, cov), mean_log.mean())
+        ((mean + Vector3::z() * turn, cov), log_sum / moments.weight_sum)
     }
 
     /// Returns the moments of the length and turn φ of the arc that ends at the robot's final position. Also returns the
     /// mean of ln|c·sinc²(φ/2)|, with c the length of that arc divided by the driven length.
     fn arc_moments(&self) -> (MeanAndCov, f64) {
         let ([bearing, bearing_std], half_commanded_turn) = (self.bearing, 0.5 * self.turn[0]);
-        let (mut moments, mut mean_log) = (UnitMotionMoments::default(), MeanLog::default());
+        let (mut moments, mut log_sum) = (UnitMotionMoments::default(), 0.0);
         // Statistics of a cloud use the arc whose turn is nearest to the commanded one. That arc is driven in the opposite
         // direction if the bearing differs from half the commanded turn by more than π/2.
         let breaks =
@@ -157,12 +157,12 @@ impl PolarMotion {
             let drive_sign = if libm::remainder(half_circles, 2.0) == 0.0 { 1.0 } else { -1.0 };
             let half_sinc = sinc(half_turn);
             let length_ratio = drive_sign * if self.is_arc { sinc(driven_bearing) } else { 1.0 } / half_sinc;
-            mean_log.add(node.weight, (length_ratio * half_sinc * half_sinc).abs());
+            log_sum += node.weight * libm::log((length_ratio * half_sinc * half_sinc).abs());
             moments.add(node.weight, [length_ratio, 0.0], 2.0 * (half_turn - bearing));
         }
         let (mean, cov) = moments.mean_and_cov(self.length);
         let cov = Matrix3::new(cov[(0, 0)], cov[(0, 2)], 0.0, cov[(0, 2)], cov[(2, 2)], 0.0, 0.0, 0.0, 0.0);
-        ((Vector3::new(mean.x, mean.z + 2.0 * bearing, 0.0), cov), mean_log.mean())
+        ((Vector3::new(mean.x, mean.z + 2.0 * bearing, 0.0), cov), log_sum / moments.weight_sum)
     }
 
     fn mean_log_length(&self) -> f64 {
@@ -174,25 +174,6 @@ impl PolarMotion {
             NoiseKind::Normal => libm::log(std) + normal_mean_log(mean / std),
             NoiseKind::Triangular => triangular_mean_log(mean, 6f64.sqrt() * std),
         }
-    }
-}
-
-/// Weighted mean of logarithms.
-#[derive(Default)]
-struct MeanLog {
-    weight_sum: f64,
-    log_sum: f64,
-}
-
-impl MeanLog {
-    #[inline(never)]
-    fn add(&mut self, weight: f64, value: f64) {
-        self.weight_sum += weight;
-        self.log_sum += weight * libm::log(value);
-    }
-
-    fn mean(&self) -> f64 {
-        self.log_sum / self.weight_sum
     }
 }
 

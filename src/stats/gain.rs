@@ -55,7 +55,7 @@ pub(super) struct ChartGaussians {
     cartesian: Gaussian,
     twist: Gaussian,
     arc: Gaussian,
-    gain: LikelihoodGain,
+    pub gain: LikelihoodGain,
     /// Geometric mean of the Jacobian dx dy over ds dφ.
     mean_jacobian: f64,
 }
@@ -78,10 +78,6 @@ impl ChartGaussians {
         };
         let gain = LikelihoodGain { pose: gain_in(3, &twist), floor: gain_in(2, &arc) };
         Self { cartesian, twist, arc, gain, mean_jacobian: libm::exp(log_jacobians[1]) }
-    }
-
-    pub fn gain(&self) -> LikelihoodGain {
-        self.gain
     }
 }
 

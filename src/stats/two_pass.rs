@@ -52,7 +52,7 @@ pub type JacobianScale = [f64; 2];
 #[derive(Clone, Debug)]
 pub struct FirstPass {
     reference: ReferenceCoordinates,
-    scale: JacobianScale,
+    pub scale: JacobianScale,
     sums: Sums<16>,
     /// Corrections for irregular arcs, which are not the driven ones (see `Drive::end_points`). Each adds the values
     /// of its arc, and subtracts those of the driven arc, which are in the sums of the unit noise.
@@ -186,10 +186,6 @@ impl FirstPass {
         let has_lost_digits =
             (0..5).any(|i| means[i] * means[i] > 0.99 * mean_squares[i] && mean_squares[i] > 0.0);
         has_lost_digits.then(|| std::array::from_fn(|i| self.reference[i] + means.get(i).unwrap_or(&0.0)))
-    }
-
-    pub fn jacobian_scale(&self) -> JacobianScale {
-        self.scale
     }
 }
 

@@ -101,7 +101,7 @@ fn checked_trajectory(
     fields: &Fields,
     trajectory: Result<Trajectory, TrajectoryError>,
 ) -> Result<Trajectory, JsValue> {
-    let trajectory = trajectory.map_err(|error| {
+    let mut trajectory = trajectory.map_err(|error| {
         let (sample, problem) = match error {
             TrajectoryError::NotFinite { sample } => (
                 sample,
@@ -117,10 +117,6 @@ fn checked_trajectory(
         let field = fields.path("");
         JsValue::from(RangeError::new(&format!("{}: sample {sample} {problem}", field.trim_end_matches('.'))))
     })?;
-    with_stated_breaks(fields, trajectory)
-}
-
-fn with_stated_breaks(fields: &Fields, mut trajectory: Trajectory) -> Result<Trajectory, JsValue> {
     let (field, breaks) = (fields.path("breaks"), fields.value("breaks")?);
     if breaks.is_undefined() {
         return Ok(trajectory);

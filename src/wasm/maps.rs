@@ -7,8 +7,8 @@ use super::fields::{
 use crate::geom::se2::SE2;
 use crate::geom::segment::Segment;
 use crate::map::{
-    FloorPlan, FloorPlanError, Image, ImageError, Interpretation, MAX_BYTES, MAX_PIXELS, MapMode,
-    OccupancyGrid, RESOLUTION_RANGE, read_grid,
+    FloorPlan, FloorPlanError, Image, Interpretation, MAX_BYTES, MAX_PIXELS, MapMode, OccupancyGrid,
+    RESOLUTION_RANGE, read_grid,
 };
 use crate::sim::settings::{Keywords, QUANTITY_RANGE};
 use js_sys::{Float64Array, RangeError, Uint8Array, Uint8ClampedArray};
@@ -22,12 +22,6 @@ impl Keywords for MapMode {
 impl From<FloorPlanError> for JsValue {
     fn from(error: FloorPlanError) -> Self {
         RangeError::new(&error.message(number_text)).into()
-    }
-}
-
-impl From<ImageError> for JsValue {
-    fn from(error: ImageError) -> Self {
-        RangeError::new(&error.to_string()).into()
     }
 }
 
@@ -86,7 +80,8 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
     let origin = SE2::from(origin);
     if let Some(file) = image.dyn_ref::<Uint8Array>() {
         read_integer("image.length", f64::from(file.length()), 0..=MAX_BYTES as u64)?;
-        return Ok(read_grid(&file.to_vec(), &interpretation, resolution, origin)?);
+        return read_grid(&file.to_vec(), &interpretation, resolution, origin)
+            .map_err(|error| RangeError::new(&error.to_string()).into());
     }
     let (width, height, data) = read_pixels(image)?;
     let pixels = data.as_chunks::<4>().0.to_vec();

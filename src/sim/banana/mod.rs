@@ -190,7 +190,7 @@ impl BananaMachine {
 
     /// Returns the number of samples shown.
     pub fn shown_count(&self) -> usize {
-        self.cloud.shown_count()
+        self.cloud.shown_count
     }
 
     /// Returns the samples shown, in sample order.
@@ -229,8 +229,8 @@ impl BananaMachine {
         let VelocityCmd { omega, dt, .. } = self.settings.command;
         let is_defined = |deviation: f64| (omega * dt).abs() + MIN_CIRCLE_SIGMAS * deviation < TAU;
         DefinedCharts {
-            pose: is_defined(self.cloud.drive().turn_deviation()),
-            arc: is_defined(self.cloud.drive().arc_deviation()),
+            pose: is_defined(self.cloud.drive.turn_deviation()),
+            arc: is_defined(self.cloud.drive.arc_deviation()),
         }
     }
 

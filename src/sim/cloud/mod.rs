@@ -29,9 +29,9 @@ const BLOCK_GROUPS: usize = 64;
 #[derive(Clone, Debug)]
 pub struct Cloud {
     draws: Draws,
-    drive: Drive,
+    pub drive: Drive,
     positions: Vec<[f64x4; 2]>,
-    shown_count: usize,
+    pub shown_count: usize,
 }
 
 impl Cloud {
@@ -59,7 +59,7 @@ impl Cloud {
         let (reference, scale) = drive.nominal_coordinates();
         let mut first_pass = self.run_first_pass(FirstPass::new(reference, scale));
         if let Some(better) = first_pass.better_reference(shown_count) {
-            first_pass = self.run_first_pass(FirstPass::new(better, first_pass.jacobian_scale()));
+            first_pass = self.run_first_pass(FirstPass::new(better, first_pass.scale));
         }
         let regular_sums = drive.sums_of_regular_deviations(self.draws.pair_sums(shown_count));
         let mut second_pass = SecondPass::new(first_pass.moments(shown_count, regular_sums), &START_POSE);
@@ -94,14 +94,6 @@ impl Cloud {
             sums.flush_block();
         }
         sums
-    }
-
-    pub fn drive(&self) -> &Drive {
-        &self.drive
-    }
-
-    pub fn shown_count(&self) -> usize {
-        self.shown_count
     }
 
     pub fn unit_noise(&self, index: usize) -> [f64; 3] {

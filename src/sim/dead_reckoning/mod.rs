@@ -165,7 +165,7 @@ impl DeadReckoning {
 
     /// Returns the commanded pose after each step.
     pub fn nominal_poses(&self) -> &[SE2] {
-        self.rollouts.nominal_poses()
+        &self.rollouts.nominal
     }
 
     /// Returns x, y (m) and θ (rad) of the robots in the picture, [`MAX_SHOWN_ROBOTS`] at most, after a step; empty where there is

@@ -76,7 +76,7 @@ pub struct Rollouts {
     /// Sums over the robots of complete blocks, after each step.
     sums: Vec<Sums<SUMMED_TERMS>>,
     /// Commanded pose after each step.
-    nominal: Vec<SE2>,
+    pub nominal: Vec<SE2>,
     /// Poses x, y (m) and θ (rad) of the first robots, step after step.
     poses: Vec<[f64; 3]>,
 }
@@ -206,10 +206,6 @@ impl Rollouts {
                 *pose = block.groups[i / LANES].pose(i % LANES, nominal);
             }
         }
-    }
-
-    pub fn nominal_poses(&self) -> &[SE2] {
-        &self.nominal
     }
 
     /// Returns x, y (m) and θ (rad) of the first `count` robots, [`MAX_SHOWN_ROBOTS`] at most, after step `k`, counted from 1.

@@ -177,7 +177,8 @@ fn cartesian_cov_is_the_linearized_motion() {
     let x = SE2::new(4.0, 1.0, -1.2);
     let odometry_model = odometry_model(NoiseKind::Normal);
     for u in odometry_readings() {
-        let jacobian = derivative_by_noise([0.0; 3], |unit| odometry_model.apply_noise(&u, &x, unit));
+        let jacobian =
+            derivative_by_noise([0.0; 3], |unit| odometry_model.executed_motion(&u, unit).apply(&x));
         let cov = odometry_model.cartesian_cov(&u, &x);
         assert!((cov - jacobian * jacobian.transpose()).amax() < 1e-8, "{u:?}\n{cov}");
     }

@@ -1,7 +1,6 @@
 //! The simulation of the Odometry Decomposer: common random numbers, poses of the legs, drift of the odometry frame, and deviation curve.
 
 use crate::common::{NOISE_KINDS, pose_distance, seeded_rng};
-use motion::geom::se2::SE2;
 use motion::models::OdometryRule;
 use motion::sim::odometry_decomposer::{OdometryDecomposer, OdometryPose, PRESETS, Settings};
 use motion::{MotionModel, OdomAlphas, OdometryModel};

@@ -111,8 +111,8 @@ impl Ellipse {
 pub struct ExponentialContour {
     start: SE2,
     mean: Vector3<f64>,
-    /// The contour in (along, heading).
-    ellipse: Ellipse,
+    /// The contour in (along, heading), m, rad.
+    pub ellipse: Ellipse,
     /// G with G·Gᵀ = Σ.
     cov_root: Matrix3<f64>,
 }
@@ -131,11 +131,6 @@ impl ExponentialContour {
         }
     }
 
-    /// Returns the contour in (along, heading): m, rad.
-    pub fn ellipse(&self) -> &Ellipse {
-        &self.ellipse
-    }
-
     /// Returns the closed outline in the plane as `segments` chords: `segments` + 1 points, the last equal to the
     /// first.
     pub fn boundary(&self, segments: usize) -> Vec<[f64; 2]> {
@@ -143,7 +138,7 @@ impl ExponentialContour {
     }
 
     /// Returns the closed outline at a morph, in the frame of the start. At 0 it is [`ExponentialContour::boundary`], and at 1 the
-    /// boundary of [`ExponentialContour::ellipse`].
+    /// boundary of `ellipse`.
     pub fn morphed_boundary(&self, segments: usize, morph: f64) -> Vec<[f64; 2]> {
         self.silhouette_twists(segments, morph).map(|twist| unbend(&twist, morph)).collect()
     }

@@ -54,29 +54,16 @@ pub fn add_to_block<const N: usize>(block: &mut [f64x2; N], terms: [f64x4; N]) {
 }
 
 /// Sums of two quantities, and of their squares and product: a, b, a², a·b, b².
-#[derive(Clone, Debug)]
-pub struct PairSums(Sums<5>);
+pub type PairSums = Sums<5>;
 
 impl PairSums {
-    pub fn new() -> Self {
-        Self(Sums::new())
-    }
-
     pub fn add(&mut self, [a, b]: [f64x4; 2], mask: f64x4) {
         let (a, b) = (a & mask, b & mask);
-        add_to_block(&mut self.0.block, [a, b, a * a, a * b, b * b]);
+        add_to_block(&mut self.block, [a, b, a * a, a * b, b * b]);
     }
 
     pub fn subtract(&mut self, [a, b]: [f64x4; 2], mask: f64x4) {
         let (a, b) = (a & mask, b & mask);
-        add_to_block(&mut self.0.block, [-a, -b, -(a * a), -(a * b), -(b * b)]);
-    }
-
-    pub fn flush_block(&mut self) {
-        self.0.flush_block();
-    }
-
-    pub fn totals(&self) -> [f64; 5] {
-        self.0.totals()
+        add_to_block(&mut self.block, [-a, -b, -(a * a), -(a * b), -(b * b)]);
     }
 }

@@ -236,7 +236,7 @@ impl SecondPass {
             first_pass,
             heading_sin_cos: libm::sincos(first_pass.mean_turn),
             ellipse: Ellipse::new(first_pass.position.into(), Matrix2::new(xx, xy, xy, yy)),
-            twist_ellipse: *ExponentialContour::new(&first_pass.exponential, start).ellipse(),
+            twist_ellipse: ExponentialContour::new(&first_pass.exponential, start).ellipse,
             sums: Sums::new(),
         }
     }

@@ -32,7 +32,7 @@ impl BananaMachine {
             .map(|point| {
                 let [x, y] = plane_ellipse.interpolate_from_centre(point, GAP_FRACTION);
                 let (length, turn) = arc_with_turn_near(&START_POSE, &SE2::new(x, y, 0.0), mean.z);
-                ([x, y], contour.ellipse().distance([length, turn]), length < mean.x)
+                ([x, y], contour.ellipse.distance([length, turn]), length < mean.x)
             })
             .filter(|(_, distance, _)| *distance > MIN_GAP_DISTANCE)
             .collect();

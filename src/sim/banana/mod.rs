@@ -342,7 +342,7 @@ impl BananaMachine {
             ),
             linearized: Ellipse::from_moments(&self.linearized_moments()).boundary(OUTLINE_SEGMENTS),
             exponential: outline_or_empty(has_exponential, contour.boundary(OUTLINE_SEGMENTS)),
-            twist_ellipse: outline_or_empty(has_exponential, contour.ellipse().boundary(OUTLINE_SEGMENTS)),
+            twist_ellipse: outline_or_empty(has_exponential, contour.ellipse.boundary(OUTLINE_SEGMENTS)),
             additive: Ellipse::from_moments(&self.additive_moments()).boundary(OUTLINE_SEGMENTS),
         }
     }

@@ -41,8 +41,8 @@ pub struct Draws {
     noise: NoiseKind,
     /// Generator with the same stream on every target, which `SmallRng` does not guarantee.
     rng: Xoshiro256PlusPlus,
-    /// Draws in groups of four samples.
-    unit_noise: Vec<[f64x4; 3]>,
+    /// Draws in groups of four samples. The last group may have additional samples.
+    pub unit_noise: Vec<[f64x4; 3]>,
     /// Sums over the first `summed_groups` groups, in complete blocks. They stay valid while a slider moves the robots.
     sums: PairSums,
     summed_groups: usize,
@@ -119,11 +119,6 @@ impl Draws {
         }
         all_sums.flush_block();
         all_sums.totals()
-    }
-
-    /// Returns all unit noise drawn so far, in groups of four samples. The last group may have additional samples.
-    pub fn groups(&self) -> &[[f64x4; 3]] {
-        &self.unit_noise
     }
 
     /// Returns the weighted subsample of the first `count` robots, in groups of four: unit noise, and the number of robots

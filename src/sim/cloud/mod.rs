@@ -65,7 +65,7 @@ impl Cloud {
         let mut second_pass = SecondPass::new(first_pass.moments(shown_count, regular_sums), &START_POSE);
         for parts in sample_blocks(shown_count) {
             for (groups, mask) in parts {
-                let noise = &self.draws.groups()[groups.clone()];
+                let noise = &self.draws.unit_noise[groups.clone()];
                 add_to_second_pass(&drive, noise, &self.positions[groups], mask, &mut second_pass);
             }
             second_pass.flush_block();
@@ -88,7 +88,7 @@ impl Cloud {
                 positions.resize(end, [f64x4::splat(0.0); 2]);
             }
             for (groups, mask) in parts {
-                let noise = &draws.groups()[groups.clone()];
+                let noise = &draws.unit_noise[groups.clone()];
                 add_to_first_pass(drive, noise, &mut positions[groups], mask, &mut sums);
             }
             sums.flush_block();
@@ -104,7 +104,7 @@ impl Cloud {
     pub fn pose(&self, index: usize) -> SE2 {
         let [group, lane] = [index / LANES, index % LANES];
         let [x, y] = self.positions[group].map(|lanes| lanes.to_array()[lane]);
-        let half_heading = self.drive.motions(&self.draws.groups()[group]).half_heading;
+        let half_heading = self.drive.motions(&self.draws.unit_noise[group]).half_heading;
         SE2::new(x, y, 2.0 * half_heading.to_array()[lane])
     }
 
@@ -114,12 +114,12 @@ impl Cloud {
         let points_of_group = move |group: usize| match view {
             View::Plane => self.positions[group],
             View::Twist => {
-                let motions = self.drive.motions(&self.draws.groups()[group]);
+                let motions = self.drive.motions(&self.draws.unit_noise[group]);
                 let poses = self.drive.poses(&motions, &self.positions[group]);
                 [poses.along, poses.half_heading * 2.0]
             }
             View::Morph(morph) => {
-                let motions = self.drive.motions(&self.draws.groups()[group]);
+                let motions = self.drive.motions(&self.draws.unit_noise[group]);
                 self.drive.morphed_points(&motions, &self.positions[group], morph)
             }
         };

@@ -4,7 +4,6 @@ use crate::geom::se2::SE2;
 use crate::models::{OdometryRule, RuleAlphas};
 use crate::noise::NoiseKind;
 use crate::sim::settings::{ALPHA_RANGE, Keywords, MAX_SEED, QUANTITY_RANGE, Rules, group, settings};
-use std::ops::RangeInclusive;
 
 impl Keywords for OdometryRule {
     const KEYWORDS: &'static [(&'static str, Self)] =
@@ -33,15 +32,6 @@ group!(OdometryPose as OdometryPose([x, y, theta]) => {
 /// Maximum number of outcomes. All of them move within a frame, and more dots would not be distinguishable.
 pub const MAX_SAMPLES: u64 = 5000;
 
-/// Range of the correlation.
-const CORRELATION_RANGE: RangeInclusive<f64> = -1.0..=1.0;
-
-/// Range of the phase, from the start to the end of the three legs.
-const PHASE_RANGE: RangeInclusive<f64> = 0.0..=3.0;
-
-/// Range of the time (s) for which the odometry frame drifts; up to eleven days, like other durations.
-const DRIFT_RANGE: RangeInclusive<f64> = 0.0..=1e6;
-
 settings! {
     /// Settings of the user.
     pub struct Settings {
@@ -56,11 +46,11 @@ settings! {
         /// Distribution of the noise; the variances are the same.
         noise: NoiseKind = NoiseKind::Normal;
         /// Correlation of the noises of the two rotations, which the rules take to be independent.
-        correlation: f64 = 0.0, in CORRELATION_RANGE;
+        correlation: f64 = 0.0, in -1.0..=1.0;
         /// Time for which the frame of the odometry has drifted away from the world.
-        drift: f64 = 40.0, "s", in DRIFT_RANGE;
+        drift: f64 = 40.0, "s", in 0.0..=1e6;
         /// Progress of the robot: in the first rotation up to 1, in the drive up to 2, in the second rotation up to 3.
-        phase: f64 = 3.0, in PHASE_RANGE;
+        phase: f64 = 3.0, in 0.0..=3.0;
         /// Number of outcomes in the whole cloud.
         samples: usize = 500, in 1..=MAX_SAMPLES;
         // Among the seeds 0 to 39, the default has the initial standard deviations nearest to the exact ones.

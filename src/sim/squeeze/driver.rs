@@ -67,7 +67,7 @@ impl<'a> Driver<'a> {
         let conditioned = self.settings.conditioned;
         let (group, first_lane) = (indices.start / LANES, indices.start % LANES);
         let lane_range = first_lane..LANES.min(first_lane + indices.len());
-        self.draw_tester.test_lanes(&self.draws.groups()[group], lane_range, |draw| {
+        self.draw_tester.test_lanes(&self.draws.unit_noise[group], lane_range, |draw| {
             let deciding_verdict = self.model.deciding_verdict(&draw);
             let attempt = Attempt {
                 pose: draw.pose,

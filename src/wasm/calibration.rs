@@ -162,16 +162,17 @@ pub fn columns_to_js(calibration: &Calibration) -> JsValue {
     let reference_poses = legs.iter().flat_map(|leg| leg.reference.map(|pose| pose * base));
     let times: Vec<f64> = legs.iter().flat_map(|leg| leg.times).collect();
     let squared_distances: Vec<f64> = leg_fits.iter().map(|fit| fit.squared).collect();
+    let triples_of = |triple: &dyn Fn(usize) -> [f64; 3]| triple_array((0..legs.len()).map(triple)).into();
     let outliers: Vec<f64> = leg_fits.iter().map(|fit| f64::from(u8::from(fit.is_outlier))).collect();
     js_object(&[
         ("count", (legs.len() as f64).into()),
         ("times", float_array(&times)),
         ("odometry", triple_array(odometry_poses).into()),
         ("reference", triple_array(reference_poses).into()),
-        ("readings", triple_array(observations.iter().map(|observation| observation.reading)).into()),
-        ("residuals", triple_array(observations.iter().map(|observation| observation.residuals)).into()),
-        ("standardized", triple_array(leg_fits.iter().map(|fit| fit.standardized)).into()),
-        ("stds", triple_array(leg_fits.iter().map(|fit| fit.stds)).into()),
+        ("readings", triples_of(&|leg| observations[leg].reading)),
+        ("residuals", triples_of(&|leg| observations[leg].residuals)),
+        ("standardized", triples_of(&|leg| leg_fits[leg].standardized)),
+        ("stds", triples_of(&|leg| leg_fits[leg].stds)),
         ("squared", float_array(&squared_distances)),
         ("outliers", float_array(&outliers)),
     ])

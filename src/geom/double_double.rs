@@ -119,8 +119,8 @@ impl DoubleDouble {
         let mut sine = a * sine;
         let mut versine = (angle_squared * versine).divided_by(2.0);
         for _ in 0..HALVING_COUNT {
-            let (half_sine, half_versine) = (sine * (Self::from(1.0) - versine), sine * sine);
-            (sine, versine) = (half_sine + half_sine, half_versine + half_versine);
+            let cosine = Self::from(1.0) - versine;
+            (sine, versine) = (times_two(sine * cosine), times_two(sine * sine));
         }
         (sine, Self::from(1.0) - versine)
     }
@@ -136,4 +136,8 @@ impl DoubleDouble {
         let remainder = sine - self * Self::from(quotient);
         quick_two_sum(quotient, remainder.high / self.high)
     }
+}
+
+fn times_two(x: DoubleDouble) -> DoubleDouble {
+    DoubleDouble { high: 2.0 * x.high, low: 2.0 * x.low }
 }

@@ -3,8 +3,8 @@
 use super::fields::{check_range, read_integer};
 use super::pictures::nearest_index;
 use super::simulation_class::{cloud_simulation_class, getters};
-use super::values::{flat_float_array, js_object, pose_to_js, to_plain_js, triple_array};
-use crate::sim::odometry_decomposer::{MAX_CURVE_POINTS, MAX_SAMPLES, OdometryDecomposer};
+use super::values::{ToJs, flat_float_array, js_object, pose_to_js, to_plain_js, triple_array};
+use crate::sim::odometry_decomposer::{DriftedOdometry, MAX_CURVE_POINTS, MAX_SAMPLES, OdometryDecomposer};
 use crate::sim::settings::QUANTITY_RANGE;
 use js_sys::Float64Array;
 use wasm_bindgen::prelude::*;
@@ -27,7 +27,10 @@ getters! {
         /// Legs and noises of the reading by each rule.
         rules: "RuleNoise[]" = to_plain_js(&it.rule_noises());
         stats: "DecomposerStats" = to_plain_js(&it.stats());
-        drifted: "Drifted" = to_plain_js(&it.drifted_odometry());
+        drifted: "Drifted" = {
+            let DriftedOdometry { poses, legs } = it.drifted_odometry();
+            js_object(&[("poses", poses.to_js()), ("legs", to_plain_js(&legs))])
+        };
     }
 }
 

@@ -1,6 +1,6 @@
 //! Calibrations as plain JavaScript values.
 
-use super::values::{float_array, js_object, to_plain_js, triple_array};
+use super::values::{float_array, js_object, to_plain_js};
 use crate::calibrate::{
     Calibration, Diagnostics, ERROR_COUNT, Estimate, LostLegs, NotIdentifiable, Persistence, Recommendation,
     SystematicError,
@@ -157,22 +157,33 @@ fn systematic_errors(calibration: &Calibration) -> SystematicErrors {
 /// Makes arrays of the legs of a calibration, one leg after the other in each.
 pub fn columns_to_js(calibration: &Calibration) -> JsValue {
     let Calibration { legs, observations, leg_fits, corrected, .. } = calibration;
+    let empty_column = |width: usize| Vec::with_capacity(width * legs.len());
+    let [mut times, mut odometry, mut reference] = [2, 6, 6].map(empty_column);
+    let [mut readings, mut residuals, mut standardized, mut stds] = [3; 4].map(empty_column);
+    let [mut squared_distances, mut outliers] = [1; 2].map(empty_column);
     let base = corrected.base();
-    let odometry_poses = legs.iter().flat_map(|leg| leg.odometry);
-    let reference_poses = legs.iter().flat_map(|leg| leg.reference.map(|pose| pose * base));
-    let times: Vec<f64> = legs.iter().flat_map(|leg| leg.times).collect();
-    let squared_distances: Vec<f64> = leg_fits.iter().map(|fit| fit.squared).collect();
-    let triples_of = |triple: &dyn Fn(usize) -> [f64; 3]| triple_array((0..legs.len()).map(triple)).into();
-    let outliers: Vec<f64> = leg_fits.iter().map(|fit| f64::from(u8::from(fit.is_outlier))).collect();
+    for ((leg, observation), fit) in legs.iter().zip(observations).zip(leg_fits) {
+        times.extend_from_slice(&leg.times);
+        for [read, pose] in [0, 1].map(|end| [leg.odometry[end], leg.reference[end] * base]) {
+            odometry.extend_from_slice(&<[f64; 3]>::from(read));
+            reference.extend_from_slice(&<[f64; 3]>::from(pose));
+        }
+        readings.extend_from_slice(&observation.reading);
+        residuals.extend_from_slice(&observation.residuals);
+        standardized.extend_from_slice(&fit.standardized);
+        stds.extend_from_slice(&fit.stds);
+        squared_distances.push(fit.squared);
+        outliers.push(f64::from(u8::from(fit.is_outlier)));
+    }
     js_object(&[
         ("count", (legs.len() as f64).into()),
         ("times", float_array(&times)),
-        ("odometry", triple_array(odometry_poses).into()),
-        ("reference", triple_array(reference_poses).into()),
-        ("readings", triples_of(&|leg| observations[leg].reading)),
-        ("residuals", triples_of(&|leg| observations[leg].residuals)),
-        ("standardized", triples_of(&|leg| leg_fits[leg].standardized)),
-        ("stds", triples_of(&|leg| leg_fits[leg].stds)),
+        ("odometry", float_array(&odometry)),
+        ("reference", float_array(&reference)),
+        ("readings", float_array(&readings)),
+        ("residuals", float_array(&residuals)),
+        ("standardized", float_array(&standardized)),
+        ("stds", float_array(&stds)),
         ("squared", float_array(&squared_distances)),
         ("outliers", float_array(&outliers)),
     ])

@@ -158,7 +158,7 @@ impl CheckName {
                 "The odometry's scale of distances is not a constant, so it was not corrected unless asked for. Check wheel diameters, load and slip in turns; calibrate the wheels, then the noise."
             }
             Self::TurnScaleConstant => {
-                "The odometry's scale of turns is not a constant, so it was not corrected unless asked for. Check the track width and slip on this floor."
+                "The odometry's scale of turns is not a constant, so it was not corrected unless asked for. Check the track width and slip on this floor, and try longer legs: noise hides small turns."
             }
             Self::InflationBounded => {
                 "No inflation up to 30 covers the errors over 1 m: they are no noise of the wheels. Find their cause first: outliers that were kept, a reference that jumps or drifts, slip."
@@ -387,9 +387,12 @@ pub(super) fn scale_checks(fit: &Fit, correlation: f64) -> (Vec<Check>, ErrorMas
             Some((a - b, tolerance))
         };
         let halves = compare_groups(&|leg| leg < first_half_count);
-        let turns = compare_groups(&is_turning).filter(|_| scale == SystematicError::DistanceScale);
+        let other = match scale {
+            SystematicError::DistanceScale => compare_groups(&is_turning),
+            _ => compare_long_turns(fit, correlation),
+        };
         let relative_size = |(difference, tolerance): &(f64, f64)| difference.abs() / tolerance;
-        let comparisons = halves.into_iter().chain(turns);
+        let comparisons = halves.into_iter().chain(other);
         let largest_difference = comparisons.max_by(|a, b| relative_size(a).total_cmp(&relative_size(b)));
         let (difference, tolerance) = largest_difference.unwrap_or((0.0, NEGLIGIBLE_SCALE_DIFFERENCE));
         let check = Check::new(name, difference, [-tolerance, tolerance]);
@@ -397,6 +400,44 @@ pub(super) fn scale_checks(fit: &Fit, correlation: f64) -> (Vec<Check>, ErrorMas
         checks.push(check);
     }
     (checks, is_constant)
+}
+
+/// Number of neighbouring legs whose turns are added up.
+const RUN_LEGS: usize = 8;
+
+/// Returns the scale of turns of single legs minus that of runs of [`RUN_LEGS`] legs, and the tolerance of this difference.
+///
+/// Noise of the odometry makes the scale of small turns too small (regression dilution). Over a run, turns add up more than their noise.
+fn compare_long_turns(Fit { sample, maximum, .. }: &Fit, correlation: f64) -> Option<(f64, f64)> {
+    // Turns by the corrected odometry and by the reference.
+    let (mut runs, mut run, mut run_legs) = (Vec::new(), [0.0; 2], 0);
+    for (i, leg) in sample.legs.iter().enumerate() {
+        if !leg.follows || sample.outliers[i] || run_legs == RUN_LEGS {
+            (run, run_legs) = ([0.0; 2], 0);
+        }
+        if sample.outliers[i] {
+            continue;
+        }
+        run[0] += sample.observations[i].expected.theta();
+        run[1] += sample.systematic.motion(leg).theta();
+        run_legs += 1;
+        if run_legs == RUN_LEGS {
+            runs.push(run);
+        }
+    }
+    if runs.len() < MIN_GROUP_LEGS {
+        return None;
+    }
+    let square_sum: f64 = runs.iter().map(|[read, _]| read * read).sum();
+    let slope = runs.iter().map(|[read, measured]| read * measured).sum::<f64>() / square_sum;
+    let score_squares = runs.iter().map(|[read, measured]| (read * (measured - slope * read)).powi(2));
+    let slope_std = score_squares.sum::<f64>().sqrt() / square_sum;
+    let scale = SystematicError::TurnScale as usize;
+    let std = maximum.expansion.filtered.error_stds(correlation)[scale];
+    let turn_scale = sample.systematic.turn_scale;
+    let tolerance =
+        NEGLIGIBLE_SCALE_DIFFERENCE.max(MAX_SCALE_STD_ERRORS * libm::hypot(std, turn_scale * slope_std));
+    Some((turn_scale * (1.0 - slope), tolerance))
 }
 
 /// Returns the scale of the selected legs minus that of all legs, and the standard error of this difference. Other systematic errors are

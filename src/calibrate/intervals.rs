@@ -47,12 +47,12 @@ pub(super) fn intervals(
         }
         let Maximum { parameters, expansion, free, .. } = maximum;
         let deviance_root = |distance: f64| {
-            let step_of = |covariance: &Information| {
-                let newton_step = covariance * expansion.score;
+            let step_of = |covariance: &Information, score: &Parameters| {
+                let newton_step = covariance * score;
                 let correction = (distance - newton_step[parameter]) / covariance[(parameter, parameter)];
                 newton_step + covariance.column(parameter) * correction
             };
-            let step = feasible_step(parameters, &expansion.information, free, step_of);
+            let step = feasible_step(parameters, expansion, free, step_of);
             let candidate = (parameters + step).map(|parameter| parameter.max(0.0));
             let log_likelihood = residuals.filtered(&candidate).log_likelihood;
             (2.0 * (expansion.filtered.log_likelihood - log_likelihood)).max(0.0).sqrt()

@@ -21,6 +21,9 @@ const MIN_GAIN: f64 = 1e-5;
 
 const MAX_STEPS: usize = 60;
 
+/// Relative rounding error of a step that makes a variance 0.
+const ROUNDING_TOLERANCE: f64 = 1e-9;
+
 /// Maximum number of halvings of a scoring step. A step of the minorize-maximize algorithm then replaces it.
 const MAX_HALVINGS: i32 = 4;
 
@@ -31,9 +34,8 @@ const MAX_HALVINGS: i32 = 4;
 pub(super) fn maximize(residuals: &Residuals, start: Parameters, free: &FreeMask) -> Maximum {
     let (mut parameters, mut expansion) = (start, residuals.expansion(residuals.filtered(&start)));
     for _ in 0..MAX_STEPS {
-        let Expansion { score, information, .. } = &expansion;
-        let step = feasible_step(&parameters, information, free, |covariance| covariance * score);
-        if 0.5 * score.dot(&step) < MIN_GAIN {
+        let step = feasible_step(&parameters, &expansion, free, |covariance, score| covariance * score);
+        if 0.5 * expansion.score.dot(&step) < MIN_GAIN {
             break;
         }
         let halvings = (0..=MAX_HALVINGS).map(|halvings| parameters + step * 0.5_f64.powi(halvings));
@@ -54,19 +56,22 @@ pub(super) fn maximize(residuals: &Residuals, start: Parameters, free: &FreeMask
     Maximum { parameters, expansion, free: *free, covariance }
 }
 
-/// Returns a step of the parameters, which `step_of` computes from the inverse information. A variance of 0 that would become negative stays 0,
-/// and the step is computed again without it.
+/// Returns a step of the parameters, which `step_of` computes from the inverse information and the score. A variance that would become negative
+/// becomes 0, and the steps of the others are computed again for that.
 pub(super) fn feasible_step(
     parameters: &Parameters,
-    information: &Information,
+    Expansion { score, information, .. }: &Expansion,
     free: &FreeMask,
-    step_of: impl Fn(&Information) -> Parameters,
+    step_of: impl Fn(&Information, &Parameters) -> Parameters,
 ) -> Parameters {
-    let mut active = *free;
+    let (mut active, mut step_to_zero) = (*free, Parameters::zeros());
     loop {
-        let step = step_of(&masked_inverse(information, &active).0);
-        match (0..PARAMETER_COUNT).find(|parameter| parameters[*parameter] == 0.0 && step[*parameter] < 0.0) {
-            Some(blocked) => active[blocked] = false,
+        let remaining_score = score - information * step_to_zero;
+        let step = step_of(&masked_inverse(information, &active).0, &remaining_score) + step_to_zero;
+        let is_negative =
+            |i: &usize| active[*i] && parameters[*i] + step[*i] < -ROUNDING_TOLERANCE * parameters[*i];
+        match (0..PARAMETER_COUNT).find(is_negative) {
+            Some(i) => (active[i], step_to_zero[i]) = (false, -parameters[i]),
             None => return step,
         }
     }

@@ -253,6 +253,27 @@ fn a_turn_scale_that_changes_is_no_constant() {
     assert_not_constant(TurnScaleConstant, SystematicError::TurnScale, &calibration);
 }
 
+/// The encoders' noise per leg is as large as its turn, which hides half of the scale. Turns of many legs have one sign.
+#[test]
+fn a_turn_scale_of_noisy_encoders_is_not_corrected() {
+    let sim = Simulation {
+        leg_velocity: Some(|leg| {
+            [0.3 + 0.1 * (leg % 3) as f64, if leg / 16 % 2 == 0 { 0.15 } else { -0.15 }]
+        }),
+        ..good_simulation(600, 8)
+    };
+    let mut rng = seeded_rng(8);
+    let mut heading_error = 0.0;
+    let [odometry, reference] = sim.log();
+    let noisy_odometry = with_poses(&odometry, |pose| {
+        heading_error += NoiseKind::Normal.sample(Variance(4e-4), &mut rng);
+        SE2::new(pose.x(), pose.y(), pose.theta() + heading_error)
+    });
+    let calibration = calibrate_log(&[noisy_odometry, reference], &sim.options());
+    assert!(calibration.systematic.turn_scale < 0.9, "{}", calibration.systematic.turn_scale);
+    assert_not_constant(TurnScaleConstant, SystematicError::TurnScale, &calibration);
+}
+
 #[test]
 fn errors_that_persist_are_correlated_and_leave_windows_uncovered() {
     let calibration = calibrate_simulation(&Simulation {

@@ -2,7 +2,8 @@
 //!
 //! The models are those of an online book's chapter "Probabilistic Motion Models". The chapter follows Thrun, Burgard and Fox,
 //! *Probabilistic Robotics*, chapter 5, and Long et al., "The Banana Distribution is Gaussian", RSS 2012. The crate also has
-//! statistics of clouds of poses, and the simulations of the chapter's widgets.
+//! statistics of clouds of poses, and the simulations of the chapter's widgets. The examples also need the crates `rand` and
+//! `rand_xoshiro`.
 //!
 //! ```
 //! use motion::geom::se2::SE2;

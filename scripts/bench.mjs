@@ -65,7 +65,7 @@ async function measureInChromium(executablePath, options) {
   const figuresAddress = `${address}benches/page.html`;
   try {
     printStep('First cloud');
-    const startTimes = await timeStarts(browser, figuresAddress, options.quick ? 5 : 11);
+    const startDurations = await timeStarts(browser, figuresAddress, options.quick ? 5 : 11);
     printStep('Drags');
     const dragTimes = await timeDrags(browser, figuresAddress, options.quick ? 10 : 40);
     printStep('Refresh and calibration');
@@ -78,7 +78,7 @@ async function measureInChromium(executablePath, options) {
       const [{ load }, { measureCore }] = await Promise.all([import(core), import(suite)]);
       return measureCore(await load(), given);
     }, { modules: [`${address}dist/core.js`, `${address}benches/suite.js`], given: options });
-    return { chromium: chromiumTimings, start: startTimes, drags: dragTimes };
+    return { chromium: chromiumTimings, start: startDurations, drags: dragTimes };
   } finally {
     await browser.close();
     close();

@@ -195,8 +195,8 @@ async function compileStreamed(source: URL | string) {
 function readNodeFile(source: URL | string): Promise<BufferSource> | undefined {
   if (/^(https?|data|blob):/.test(String(source))) return undefined;
   // An import of node:fs would fail in bundlers for browsers.
-  const nodeFiles = globalThis.process?.getBuiltinModule?.('node:fs/promises');
-  return nodeFiles?.readFile(String(source).startsWith('file:') ? new URL(source) : source);
+  const nodeFileSystem = globalThis.process?.getBuiltinModule?.('node:fs/promises');
+  return nodeFileSystem?.readFile(String(source).startsWith('file:') ? new URL(source) : source);
 }
 
 /**

@@ -110,21 +110,21 @@ pub const MAX_DRAWS: usize = 10_000;
 
 /// Collision tests of draws from one pose under one command.
 #[derive(Clone, Copy, Debug)]
-pub struct DrawTester<'a> {
+pub struct CollisionTester<'a> {
     conditioned_model: &'a MapConditioned<'a>,
     command: NoisyCommand,
     start: PreparedPose,
     trigonometry: Trigonometry,
 }
 
-impl DrawTester<'_> {
+impl CollisionTester<'_> {
     /// Returns the draw for three random numbers of variance 1, with the results of both collision tests.
     pub fn test_draw(&self, unit_noise: [f64; 3]) -> Draw {
         self.test_motion(self.command.motion(&self.start, unit_noise))
     }
 
     /// Tests some lanes of four samples, and calls `visit` with each result. The poses may differ by rounding from those of
-    /// [`DrawTester::test_draw`].
+    /// [`CollisionTester::test_draw`].
     pub fn test_lanes(&self, unit_noise: &[f64x4; 3], lanes: Range<usize>, visit: impl FnMut(Draw)) {
         let motion = self.command.four_motions(&self.start, &self.trigonometry, unit_noise);
         lanes.map(|lane| self.test_motion(motion(lane))).for_each(visit);
@@ -293,9 +293,9 @@ impl MapConditioned<'_> {
     }
 
     /// Prepares tests of many draws from one pose: common terms are computed once.
-    pub fn draw_tester(&self, u: &VelocityCmd, x: &SE2) -> DrawTester<'_> {
+    pub fn collision_tester(&self, u: &VelocityCmd, x: &SE2) -> CollisionTester<'_> {
         let (command, start) = (self.noisy_command(u), PreparedPose::new(*x));
-        DrawTester { conditioned_model: self, command, start, trigonometry: Trigonometry::default() }
+        CollisionTester { conditioned_model: self, command, start, trigonometry: Trigonometry::default() }
     }
 
     /// Returns the result of the test that decides on a draw.

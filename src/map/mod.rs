@@ -13,7 +13,7 @@ mod png;
 mod wall_tree;
 
 pub use conditioned::{
-    AcceptedMotion, Cost, Draw, DrawTester, MAX_DRAWS, MapConditioned, NoAcceptedSample, Sampler,
+    AcceptedMotion, CollisionTester, Cost, Draw, MAX_DRAWS, MapConditioned, NoAcceptedSample, Sampler,
 };
 pub use floor_plan::{FloorPlan, FloorPlanError, Verdict};
 pub use image_file::{ImageError, read_grid};

@@ -181,7 +181,8 @@ impl ExponentialContour {
     /// great circle perpendicular to the principal direction of k approximates the silhouette.
     fn silhouette_twists(&self, segments: usize, morph: f64) -> impl Iterator<Item = Vector3<f64>> {
         let twist_at = move |u: &Vector3<f64>| self.mean + self.cov_root * u * CONTOUR_SIGMAS;
-        // Sums k·kᵀ over the six ends of the axes. The cross product weights k by the area that H·G maps to the plane.
+        // Sum of k·kᵀ over the six ends of the axes. Each k is the cross product of the two rows of H·G: its length is the area of a unit square
+        // of the ellipsoid on the plane.
         let mut null_direction_scatter = Matrix3::zeros();
         for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
             for end in [axis, -axis] {

@@ -20,10 +20,10 @@ impl CartesianMoments {
     pub fn from_poses(poses: &[SE2]) -> Self {
         let heading = mean_heading(poses);
         // Subtracts the first pose, so that equal poses have residuals of exactly 0.
-        let relative_to_first = |pose: &SE2| {
+        let offset_of = |pose: &SE2| {
             Vector3::new(pose.x() - poses[0].x(), pose.y() - poses[0].y(), wrap_angle(pose.theta() - heading))
         };
-        let (mean_offset, cov) = mean_and_cov(poses.iter().map(relative_to_first), poses.len());
+        let (mean_offset, cov) = mean_and_cov(poses.iter().map(offset_of), poses.len());
         let (x, y) = poses.first().map_or((f64::NAN, f64::NAN), |first| (first.x(), first.y()));
         Self { mean: Vector3::new(x + mean_offset.x, y + mean_offset.y, heading), cov }
     }

@@ -10,7 +10,7 @@ use wasm_bindgen::prelude::*;
 /// Converts a value to a plain JavaScript value, in which None is null.
 pub fn to_plain_js<T: Serialize>(value: &T) -> JsValue {
     let serializer = serde_wasm_bindgen::Serializer::new().serialize_missing_as_null(true);
-    // Results have no maps, of which the keys might not be texts, so that the conversion succeeds.
+    // It succeeds: only maps with keys that are not texts would fail, and results contain none.
     value.serialize(&serializer).unwrap_or(JsValue::NULL)
 }
 

@@ -27,7 +27,7 @@ const isOnBorder = (/** @type {number} */ column, /** @type {number} */ row) =>
 
 const YAML_FIELDS = { image: 'room.pgm', resolution: 0.05, origin: '[0.0, 0.0, 0.0]', negate: 0, occupied_thresh: 0.65, free_thresh: 0.1 };
 
-const errorMessageOf = (/** @type {Locator} */ widget) => widget.locator('.own-map [role=alert]');
+const mapErrorOf = (/** @type {Locator} */ widget) => widget.locator('.own-map [role=alert]');
 const currentMapOf = (/** @type {Locator} */ widget) => widget.locator('.own-map .present');
 
 /** Chooses files, as a user does. @param {Locator} widget @param {MapFile[]} files */
@@ -116,11 +116,11 @@ test('a floor plan can be written on the page', async ({ page }) => {
   await expect(currentMapOf(widget)).toHaveText('Pasted plan: 6.0 m × 4.0 m, 6 walls.');
   await planField.fill('{"bounds": [0, 0, 3, 3],\n"walls": [[0, 0, 3, 3]}');
   await useButton.click();
-  await expect(errorMessageOf(widget)).toHaveText(/^Pasted plan: .+; expected is \{"bounds": .+ in metres\.$/);
+  await expect(mapErrorOf(widget)).toHaveText(/^Pasted plan: .+; expected is \{"bounds": .+ in metres\.$/);
   expect((await squeezeResultsOf(widget)).bounds).toEqual([0, 0, 6, 4]);
   await planField.fill(JSON.stringify({ bounds: [0, 0, 3, 3], walls: [[0, 0, 3, 3]] }));
   await useButton.click();
-  await expect(errorMessageOf(widget)).toBeHidden();
+  await expect(mapErrorOf(widget)).toBeHidden();
   expect((await squeezeResultsOf(widget)).walls).toEqual([0, 0, 3, 3]);
 });
 
@@ -159,16 +159,16 @@ test('a map that is refused is reported in a sentence, and the present map stays
   const widget = await openSqueeze(page);
   const resultsBefore = await squeezeResultsOf(widget);
   await chooseFiles(widget, [roomYaml]);
-  await expect(errorMessageOf(widget)).toHaveText(/^room\.yaml: image names room\.pgm, which is not there; expected are both files/);
+  await expect(mapErrorOf(widget)).toHaveText(/^room\.yaml: image names room\.pgm, which is not there; expected are both files/);
   // This image has a valid header and too few pixels. The page accepts it, and the core refuses it.
   await chooseFiles(widget, [roomYaml, makeMapFile('room.pgm', 'P5\n60 40\n255\nabc')]);
-  await expect(errorMessageOf(widget)).toHaveText(/^room\.pgm.*(2400|60 × 40)/);
+  await expect(mapErrorOf(widget)).toHaveText(/^room\.pgm.*(2400|60 × 40)/);
   expect(await squeezeResultsOf(widget)).toEqual(resultsBefore);
   await expect(currentMapOf(widget)).toContainText('The apartment');
   await expectAccessible(page);
   await chooseFiles(widget, [roomYaml, imageFile]);
   await expect(currentMapOf(widget)).toContainText('room.yaml');
-  await expect(errorMessageOf(widget)).toBeHidden();
+  await expect(mapErrorOf(widget)).toBeHidden();
 });
 
 test('a map set by a page is shown, an equal one changes nothing, and an incomplete one is refused', async ({ page }) => {

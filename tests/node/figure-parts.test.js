@@ -21,7 +21,7 @@ test('a view that was fitted to a tiny canvas zooms in on a larger one, and keep
     return view.extent.xMax - view.extent.xMin;
   };
   view.resize(100, 60);
-  // A mark of some pixels needs many metres there.
+  // In a tiny view a mark of some pixels needs many metres.
   assert.ok(fitTo(20) >= 40);
   view.resize(600, 400);
   assert.ok(fitTo(1) < 10);

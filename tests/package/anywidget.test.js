@@ -1,4 +1,4 @@
-// Module for notebooks (anywidget), with models as Jupyter notebooks and MyST books provide them.
+// Tests of the module for notebooks (anywidget). Its trait models are those of Jupyter notebooks and MyST books.
 
 import assert from 'node:assert/strict';
 import { join } from 'node:path';

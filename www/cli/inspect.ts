@@ -48,12 +48,12 @@ async function contentsOf(recording: Recording, onProgress?: (share: number | un
 }
 
 export function inspectionText({ recordings, missing, command }: Awaited<ReturnType<typeof inspect>>): string {
-  const contentLines = recordings.flatMap(({ name, format, series, refused }) => {
+  const recordingLines = recordings.flatMap(({ name, format, series, refused }) => {
     const tableRows = series.map(({ name: seriesName, type, rows: count, uses, summary }) => [seriesName || '(all columns)', isTable({ format }) ? truncate(type) : type, String(count || ''), summary ? `${summary.rate.toPrecision(3)} Hz` : '', uses.join(' or ')]);
     const summaryLines = series.flatMap(({ name: seriesName, sentences = [] }) => sentences.map((line, i) => (i > 0 ? `  ${line}` : seriesName ? `${seriesName}: ${line}` : line)));
     return [`${name}: ${FORMAT_NAMES[format] ?? format}`, ...[...alignRows([[isTable({ format }) ? 'columns' : 'topic', 'type', 'rows', 'rate', 'could be'], ...tableRows]), ...summaryLines].map((line) => `  ${line}`), ...refused];
   });
-  return [...contentLines, ...(missing ? [missing] : []), ...(command ? ['', `  ${command}`] : []), ''].join('\n');
+  return [...recordingLines, ...(missing ? [missing] : []), ...(command ? ['', `  ${command}`] : []), ''].join('\n');
 }
 
 /** Returns the logs that can be read from a series, several for transforms, each with texts about its possible roles. */

@@ -38,7 +38,7 @@ export class CopyMenu extends FigureController {
       ${this.messageHtml('code')}`, 'copies', 'copies');
   }
 
-  /** Returns the message of a button, unless its text has changed since. */
+  /** Returns the message about the last copy, unless the button would copy another text now. */
   messageHtml(kind: string, text?: string) {
     const shownCopy = this.#lastCopy?.kind === kind && this.#lastCopy.text === (text ?? this.#lastCopy.text) ? this.#lastCopy : undefined;
     return html`<output class="copied">${shownCopy ? `${shownCopy.isCopied ? words.copies.done : words.copies.byHand} ${shownCopy.note}` : nothing}</output>

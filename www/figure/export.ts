@@ -12,7 +12,7 @@ export interface ExportData {
   description: string;
   /** Settings that are exported, after the tag of the element. */
   settings: object;
-  /** Numbers of the table, row after row, by the names of their columns, which have units and spaces between. */
+  /** Numbers of the table, row after row, by the names of their columns in one text, such as 'x_m y_m theta_rad'. */
   columns: Record<string, ArrayLike<number>>;
   /** Sentences about a copied link and about copied attributes, such as on state that they lack. */
   linkNote?: string;

@@ -62,7 +62,8 @@ export class FrameTree {
       const ancestors = this.#ancestors(child);
       const isMoving = movingFrames.has(child);
       const hasMovingDescendant = isMoving && children.some((other) => other !== child && movingFrames.has(other) && this.#ancestors(other).includes(child));
-      // The frames between a base and the nearest travelling frame move with the base. They are skipped as parents of its poses.
+      // In odom → base_footprint → base_link only base_footprint may move. Its pose in odom is then that of base_link: frames up to the moving one
+      // are no parents.
       const skipCount = isMoving || !BASE_FRAME.test(child) ? 0 : ancestors.findIndex((frame) => movingFrames.has(frame)) + 1;
       return hasMovingDescendant || (!isMoving && skipCount === 0) ? [] : ancestors.slice(skipCount).map((parent) => ({ parent, child }));
     });

@@ -31,7 +31,7 @@ const MIN_GAP_STEPS = 5;
 /** Minimum speed of a jump, as a multiple of the 90 % quantile of the speeds of a moving robot. */
 const JUMP_FACTOR = 8;
 
-/** Minimum number of different poses from which the usual number of rows of a pose is found. */
+/** Number of different poses from which a log shows how often it usually repeats a pose. */
 const MIN_POSES = 20;
 
 /** Minimum ratio of a pose's rows to the usual number for a robot that stands. A localizer also repeats poses of a robot that has moved little. */

@@ -86,7 +86,7 @@ impl ArcAnatomy {
         let xi = next.boxminus(&start);
         let pose_on_twist_path = |i: usize, count: usize| start.boxplus(xi * (i as f64 / count as f64));
         let position_of = |pose: SE2| [pose.x(), pose.y()];
-        let tick_segment = |i: usize| {
+        let lateral_velocity_segment = |i: usize| {
             let pose = pose_on_twist_path(i, TWIST_PATH_TICKS);
             let [x, y] = PreparedPose::new(pose).transform([0.0, xi.y]);
             [pose.x(), pose.y(), x, y]
@@ -98,7 +98,7 @@ impl ArcAnatomy {
             lie: (0..=TWIST_PATH_CHORDS)
                 .map(|i| position_of(pose_on_twist_path(i, TWIST_PATH_CHORDS)))
                 .collect(),
-            ticks: (0..=TWIST_PATH_TICKS).map(tick_segment).collect(),
+            ticks: (0..=TWIST_PATH_TICKS).map(lateral_velocity_segment).collect(),
         }
     }
 

@@ -90,8 +90,9 @@ impl Drive {
         }
     }
 
-    /// Returns the ends (x, y) of four motions, the arcs that lead there, and true if the arcs are regular. Regular arcs are
-    /// the driven ones: their length and half turn differ from the noise-free ones by [`Drive::regular_deviations`].
+    /// Returns the ends (x, y) of four motions, the arcs that lead there, and true if the arcs are
+    /// regular. The length and half turn of a regular arc differ from the noise-free ones by [`Drive::regular_deviations`]; only then is it the
+    /// arc that the robot drove.
     #[inline(always)]
     pub fn end_points(&self, motions: &Motions) -> ([f64x4; 2], FourArcs, bool) {
         let Motions { length, bearing, .. } = *motions;

@@ -115,8 +115,9 @@ impl StepInErrorFrame {
         let x = robots.x + chord_length * (heading_cos * cos - heading_sin * sin) - self.end[0];
         let y = robots.y + chord_length * (heading_sin * cos + heading_cos * sin) - self.end[1];
         let half_turn = robots.half_heading + (turn_noise + *third * self.half_last_turn_std);
-        let is_far = any_lane_set(half_turn.abs().simd_gt(f64x4::splat(MAX_SHORT_FORMULA_ANGLE)));
-        let (half_heading, SinCos { sinc, sin, cos }) = if is_far {
+        let is_outside_short_formula =
+            any_lane_set(half_turn.abs().simd_gt(f64x4::splat(MAX_SHORT_FORMULA_ANGLE)));
+        let (half_heading, SinCos { sinc, sin, cos }) = if is_outside_short_formula {
             self.trigonometry.sin_cos_on_branch(half_turn, 0.0)
         } else {
             (half_turn, self.trigonometry.sin_cos_small_angle(half_turn))

@@ -4,7 +4,7 @@ use super::settings::Settings;
 use crate::geom::arc::Arc;
 use crate::geom::lanes::LANES;
 use crate::geom::se2::SE2;
-use crate::map::{AcceptedMotion, Cost, DrawTester, MapConditioned, NoAcceptedSample, Sampler};
+use crate::map::{AcceptedMotion, CollisionTester, Cost, MapConditioned, NoAcceptedSample, Sampler};
 use crate::sim::cloud::draws::Draws;
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -47,14 +47,19 @@ impl Attempt {
 /// Driver that makes attempts, each from its own noise.
 pub struct Driver<'a> {
     model: &'a MapConditioned<'a>,
-    draw_tester: DrawTester<'a>,
+    collision_tester: CollisionTester<'a>,
     settings: &'a Settings,
     draws: &'a Draws,
 }
 
 impl<'a> Driver<'a> {
     pub fn new(model: &'a MapConditioned, settings: &'a Settings, draws: &'a Draws) -> Self {
-        Self { model, draw_tester: model.draw_tester(&settings.command, &settings.start()), settings, draws }
+        Self {
+            model,
+            collision_tester: model.collision_tester(&settings.command, &settings.start()),
+            settings,
+            draws,
+        }
     }
 
     /// Makes attempts from the start of `indices`: up to four, in the lanes of a SIMD vector, or one with the sub-stepped sampler.
@@ -67,7 +72,7 @@ impl<'a> Driver<'a> {
         let conditioned = self.settings.conditioned;
         let (group, first_lane) = (indices.start / LANES, indices.start % LANES);
         let lane_range = first_lane..LANES.min(first_lane + indices.len());
-        self.draw_tester.test_lanes(&self.draws.unit_noise[group], lane_range, |draw| {
+        self.collision_tester.test_lanes(&self.draws.unit_noise[group], lane_range, |draw| {
             let deciding_verdict = self.model.deciding_verdict(&draw);
             let attempt = Attempt {
                 pose: draw.pose,
@@ -85,7 +90,7 @@ impl<'a> Driver<'a> {
         let mut arcs = Vec::new();
         match self.settings.sampler {
             Sampler::SubStepped(_) => _ = self.drive_parts(index, &mut |arc| arcs.push(*arc)),
-            _ => arcs.push(self.draw_tester.arc(self.draws.noise_of_sample(index))),
+            _ => arcs.push(self.collision_tester.arc(self.draws.noise_of_sample(index))),
         }
         arcs
     }

@@ -59,8 +59,8 @@ fn a_reference_with_other_units_or_axes_or_of_another_drive_is_unusable() {
         ("columns swapped", |pose| SE2::new(pose.y(), pose.x(), pose.theta())),
         ("millimetres", |pose| SE2::new(1e3 * pose.x(), 1e3 * pose.y(), pose.theta())),
     ];
-    let changed_references = pose_changes.map(|(name, change)| (name, with_poses(&reference, change)));
-    for (name, reference) in changed_references.into_iter().chain([("another drive", other_reference)]) {
+    let corrupted_references = pose_changes.map(|(name, change)| (name, with_poses(&reference, change)));
+    for (name, reference) in corrupted_references.into_iter().chain([("another drive", other_reference)]) {
         let calibration = calibrate_log(&[odometry.clone(), reference], &sim.options());
         assert!(names_of_failed_checks(&calibration).contains(&ReferenceMatches), "{name}");
         assert_unusable(&calibration, name);
@@ -156,7 +156,8 @@ fn violations_of_the_model_are_reported() {
     }
 }
 
-/// One jump of 10 m is fitted as noise. The fit to the half of the log without the jump predicts much less noise.
+/// One jump of 10 m is fitted as noise. The fit to the half without the jump predicts so much less noise that no factor on its α's covers the
+/// other half.
 #[test]
 fn a_log_that_no_inflation_covers_is_unusable() {
     let sim = good_simulation(600, 12);

@@ -170,13 +170,13 @@ fn testing_the_geodesic_changes_the_documented_fraction_of_verdicts() {
             let conditioned =
                 MapConditioned { model, plan: &plan, clearance: 0.13, sampler: Sampler::Endpoint };
             let command = VelocityCmd { v: 1.0, omega, dt: 2.0 };
-            let draw_tester = conditioned.draw_tester(&command, &start_pose);
+            let collision_tester = conditioned.collision_tester(&command, &start_pose);
             let mut rng = seeded_rng(93);
             let (mut accepted_count, mut differing_count) = (0u32, 0u32);
             for _ in 0..40_000 {
                 let unit_noise =
                     std::array::from_fn(|_| NoiseKind::Normal.quantile(centred_uniform(&mut rng)));
-                let draw = draw_tester.test_draw(unit_noise);
+                let draw = collision_tester.test_draw(unit_noise);
                 if !draw.end_verdict.free {
                     continue;
                 }

@@ -56,7 +56,7 @@ fn fractions_equal_the_published_ones() {
         let (start_pose, command) = (start_of_preset(name), VelocityCmd { omega, ..STRAIGHT_COMMAND });
         let mut rng = seeded_rng(5);
         let tested_draws: Vec<_> = (0..DRAW_COUNT)
-            .map(|_| endpoint_model.draw_tester(&command, &start_pose).test_draw(unit_noise(&mut rng)))
+            .map(|_| endpoint_model.collision_tester(&command, &start_pose).test_draw(unit_noise(&mut rng)))
             .collect();
         let accepted_count = tested_draws.iter().filter(|draw| draw.end_verdict.free).count();
         let through_wall_count =

@@ -73,7 +73,8 @@ fn the_reference_noise_is_estimated_unless_it_is_stated() {
     assert!((position_std.0 - 0.004).abs() < 1e-12, "{position_std:?}");
 }
 
-/// Panels are compared with means of squared innovations, from which the variance due to the other α and the reference is subtracted.
+/// The plots (panels) of squared residuals, one for each α, are compared with means of squared innovations, from which the variance due to the
+/// other α of the residual and to the reference is subtracted.
 #[test]
 fn panels_are_means_of_squared_innovations() {
     let simulation = simulation(Settings::default());

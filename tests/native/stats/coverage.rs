@@ -100,13 +100,13 @@ fn fraction_through_walls(settings: &squeeze::Settings) -> f64 {
     let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise: NoiseKind::Normal };
     let conditioned =
         MapConditioned { model, plan: &plan, clearance: settings.clearance, sampler: Sampler::Endpoint };
-    let draw_tester = conditioned.draw_tester(&settings.command, &SE2::new(x, y, theta));
+    let collision_tester = conditioned.collision_tester(&settings.command, &SE2::new(x, y, theta));
     let unit_noise_at = |i: usize| ((i as f64 + 0.5) / NODE_COUNT as f64 * 2.0 - 1.0) * MAX_SIGMAS;
     let (mut free_end_weight, mut blocked_path_weight) = (0.0, 0.0);
     for v in (0..NODE_COUNT).map(unit_noise_at) {
         for omega in (0..NODE_COUNT).map(unit_noise_at) {
             let weight = libm::exp(-0.5 * (v * v + omega * omega));
-            let tested_draw = draw_tester.test_draw([v, omega, 0.0]);
+            let tested_draw = collision_tester.test_draw([v, omega, 0.0]);
             if tested_draw.end_verdict.free {
                 free_end_weight += weight;
                 blocked_path_weight += if tested_draw.path_verdict.free { 0.0 } else { weight };

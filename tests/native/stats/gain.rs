@@ -26,7 +26,8 @@ fn poses(simulation: &BananaMachine) -> Vec<SE2> {
     simulation.poses().collect()
 }
 
-/// Returns the likelihood gain of poses with its standard error, and the gain of positions (x, y) with its standard error.
+/// Returns the gain of log-likelihood of a Gaussian in exponential coordinates over one in (x, y, θ), with its standard error, and the same
+/// for positions (x, y).
 fn gains_with_errors(stats: &Stats) -> [[f64; 2]; 2] {
     let (gain, error) = (stats.likelihood_gain, stats.likelihood_gain_error);
     [[gain.pose, error.pose], [gain.floor, error.floor]]

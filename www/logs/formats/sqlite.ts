@@ -157,11 +157,11 @@ class Rosbag2 extends MessageFile<SqliteValue> implements Container {
 
   /** Returns the number of bytes of a row on its own page. The other bytes are on overflow pages. */
   #localBytes(length: number): number {
-    const maxLocal = this.#usableBytes - 35;
-    if (length <= maxLocal) return length;
-    const minLocal = Math.floor(((this.#usableBytes - 12) * 32) / 255) - 23;
-    const preferredLocal = minLocal + ((length - minLocal) % (this.#usableBytes - 4));
-    return preferredLocal <= maxLocal ? preferredLocal : minLocal;
+    const maxLocalBytes = this.#usableBytes - 35;
+    if (length <= maxLocalBytes) return length;
+    const minLocalBytes = Math.floor(((this.#usableBytes - 12) * 32) / 255) - 23;
+    const preferredLocalBytes = minLocalBytes + ((length - minLocalBytes) % (this.#usableBytes - 4));
+    return preferredLocalBytes <= maxLocalBytes ? preferredLocalBytes : minLocalBytes;
   }
 
   /** Returns all bytes of a row, including those on overflow pages. */

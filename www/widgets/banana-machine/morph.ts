@@ -88,7 +88,7 @@ export class MorphView extends View {
     return this.endViews[this.morph > 0 ? 1 : 0].hasTarget;
   }
 
-  /** Sets the extent to which the view zooms at an end of the morph. */
+  /** Sets the region that the view shows at an end of the morph. */
   fitEnd(neededExtent: Extent, end: 0 | 1) {
     const view = this.endViews[end];
     view.hasZoomedOut = false;

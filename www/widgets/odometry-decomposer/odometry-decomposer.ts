@@ -19,7 +19,7 @@ import { headlineHtml, outcomeReadouts, spreadPlot } from './readouts.ts';
 import { LINE_STYLES, definition, sliderSpecs, NOISE_SLIDERS, SAMPLE_COUNTS } from './settings.ts';
 import { styles } from './styles.ts';
 import { viewModelOf, type ViewModel } from './view-model.ts';
-import { driftDistance, captionOf, legsText, worldText } from './words.ts';
+import { driftDistance, captionOf, legsPictureText, worldText } from './words.ts';
 import type { OdometryDecomposer as Simulation } from '../../types.d.ts';
 
 /** Returns the table of standard deviations by noise model. Values that differ from Table 5.6 are bold. */
@@ -95,7 +95,7 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
   get exportData() {
     const { config, poses } = this.currentViewModel;
     return {
-      description: legsText(this.viewModel),
+      description: legsPictureText(this.viewModel),
       settings: config,
       columns: { 'x_m y_m theta_rad': poses },
     };
@@ -112,7 +112,7 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
     return html`
       <div class="views">
         ${titledPicture(texts.legsTitle, html`<div class="stage" part="picture">
-          ${pictureCanvas(this, this.#legsPicture, legsText(viewModel))} ${this.#handles.map((handle) => handle.render())}
+          ${pictureCanvas(this, this.#legsPicture, legsPictureText(viewModel))} ${this.#handles.map((handle) => handle.render())}
         </div>`, 'legs')}
         ${titledPicture(texts.worldTitle, html`<div class="stage">${pictureCanvas(this, this.#worldPicture, worldText(viewModel))}</div>`)}
         ${this.renderer.afterFirstPicture(() => html`

@@ -32,7 +32,7 @@ export function driftDistance({ drifted, linkage }: ViewModel) {
   return Math.hypot(odometryPose.x - predictedPose.x, odometryPose.y - predictedPose.y);
 }
 
-export function legsText(viewModel: ViewModel) {
+export function legsPictureText(viewModel: ViewModel) {
   const { legs: { rot1, trans, rot2 }, config: { to }, stats } = viewModel;
   const texts = words.decomposer;
   const outcomesText = stats.n === 0 ? texts.none : texts.outcomes(integer(stats.n), fixed(stats.crossTrack, 2), fixed(stats.heading, 2));

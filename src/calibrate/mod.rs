@@ -70,7 +70,6 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
     let mut error_stds = systematic.maximum.expansion.filtered.error_stds(correlation);
     let (scale_checks, is_constant) = checks::scale_checks(&systematic, correlation);
     let is_usable: ErrorMask = std::array::from_fn(|i| options.correct[i].unwrap_or(is_constant[i]));
-    let is_corrected: ErrorMask = std::array::from_fn(|i| systematic.sample.estimated[i] && is_usable[i]);
     if is_constant.contains(&false) {
         // Scales that are not corrected must not change the other errors.
         let allowed = std::array::from_fn(|i| is_constant[i] || is_usable[i]);
@@ -81,6 +80,7 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
             error_stds[error as usize] = stds[error as usize];
         }
     }
+    let is_corrected: ErrorMask = std::array::from_fn(|i| systematic.sample.estimated[i] && is_usable[i]);
     let mut corrected = Systematic::NONE;
     for error in SystematicError::ALL.into_iter().filter(|error| is_corrected[*error as usize]) {
         *corrected.get_mut(error) = errors.get(error);

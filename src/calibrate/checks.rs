@@ -173,7 +173,7 @@ impl CheckName {
                 "The α's of one half of the log do not fit the other: floor, load or speed changed, or the reference drifts. Calibrate for each condition, with a reference that does not drift."
             }
             Self::Window1Covered | Self::Window2Covered | Self::Window5Covered => {
-                "Over windows of this length the fitted α's do not predict the error: it grows differently, as with unequal wheels or a reference that drifts. Recommended α's hold over 1 m: use them if the filter corrects its pose that often."
+                "Over windows of this length the fitted α's do not predict the error: it grows differently, as with unequal wheels, a heading that errs along a leg, or a reference that drifts. Recommended α's hold over 1 m: use them if the filter corrects its pose that often."
             }
         }
     }

@@ -6,7 +6,7 @@ use super::likelihood::{POSITION_VARIANCE, Parameters, Residuals, Term, YAW_VARI
 use super::optimizer::{FreeMask, Maximum, maximize};
 use super::options::{CalibrateError, Drive, Options};
 use super::residuals::Observation;
-use super::systematic::{ErrorMask, Systematic, SystematicError};
+use super::systematic::{ERROR_COUNT, ErrorMask, Systematic, SystematicError};
 use super::trajectory::median;
 use crate::geom::se2::wrap_angle;
 use std::ops::Range;
@@ -74,10 +74,10 @@ impl Sample {
     }
 
     /// Fits the variances, in rounds: the residuals depend on the systematic errors, their weights on the variances, and outliers on both.
-    /// The first round starts at the given variances, or at a guess. With `log`, each round also chooses which of the estimated systematic errors
-    /// are identifiable, and corrects them by generalized least squares. Without, they stay as they are.
+    /// The first round starts at the given variances, or at a guess. With `log`, each round also chooses the systematic errors that are
+    /// identifiable, and corrects them by generalized least squares. Without, they stay as they are.
     fn fit(mut self, log: Option<&Log>, mut parameters: Option<Parameters>) -> Result<Fit, CalibrateError> {
-        let (all_legs, allowed) = (0..self.legs.len(), self.estimated);
+        let all_legs = 0..self.legs.len();
         for round in 1.. {
             self.update_observations(
                 parameters.map_or(f64::INFINITY, |found| found[POSITION_VARIANCE].sqrt()),
@@ -85,7 +85,7 @@ impl Sample {
             let start_parameters = parameters.unwrap_or_else(|| self.initial_guess());
             if log.is_some() {
                 let solution = self.inlier_residuals(all_legs.clone()).filtered(&start_parameters);
-                self.estimated = identifiable_errors(&solution.information, allowed);
+                self.estimated = identifiable_errors(&solution.information);
             }
             let has_new_outliers = self.mark_outliers(&start_parameters, round);
             let residuals = self.inlier_residuals(all_legs.clone());
@@ -223,17 +223,13 @@ fn with_max_legs(legs: &[Leg]) -> Vec<Leg> {
     blocks.flat_map(legs_of_block).collect()
 }
 
-/// Fits the systematic errors of a mask that are identifiable.
-pub(super) fn fit_systematic(
-    log: &Log,
-    options: &Options,
-    allowed: ErrorMask,
-) -> Result<Fit, CalibrateError> {
+/// Fits all identifiable systematic errors.
+pub(super) fn fit_systematic(log: &Log, options: &Options) -> Result<Fit, CalibrateError> {
     let initial_errors = log.initial_errors();
     let (legs, _) = log.legs(options, initial_errors.clock_offset)?;
     let legs = with_max_legs(&legs);
     let systematic = Systematic { mount_yaw: Systematic::initial_mount_yaw(&legs), ..initial_errors };
-    Sample::new(legs, &systematic, allowed, options).fit(Some(log), None)
+    Sample::new(legs, &systematic, [true; ERROR_COUNT], options).fit(Some(log), None)
 }
 
 /// Fits the variances with only the given errors corrected. Also returns the sample of all legs, because the fit may use only some of them.

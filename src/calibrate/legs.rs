@@ -173,6 +173,7 @@ impl Drive<'_> {
             if self.has_sparse_reference() {
                 leg.times[end] -= change;
                 leg.odometry[end] = self.odometry.pose_at(leg.times[end])?;
+                leg.velocities[end] = self.odometry.velocity(leg.times[end]);
             } else {
                 (leg.reference[end], leg.interpolation_variances[end]) =
                     self.reference.interpolated(leg.times[end] + clock_offset)?;

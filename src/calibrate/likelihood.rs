@@ -346,9 +346,8 @@ pub(super) fn reference_covariance(parameters: &Parameters) -> Matrix3<f64> {
 
 /// Returns the mask of the systematic errors that are identifiable. The error with the largest standard error relative to its limit is left
 /// out, until none exceeds its limit.
-pub(super) fn identifiable_errors(information: &ErrorMatrix, allowed: ErrorMask) -> ErrorMask {
-    let mut mask: ErrorMask =
-        std::array::from_fn(|error| allowed[error] && information[(error, error)] > 0.0);
+pub(super) fn identifiable_errors(information: &ErrorMatrix) -> ErrorMask {
+    let mut mask = SystematicError::ALL.map(|error| information[(error as usize, error as usize)] > 0.0);
     loop {
         let (covariance, _) = masked_inverse(information, &mask);
         let relative_std = |error: &usize| {

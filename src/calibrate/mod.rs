@@ -63,24 +63,15 @@ use likelihood::{POSITION_VARIANCE, YAW_VARIANCE};
 /// ```
 pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, CalibrateError> {
     let log = Log::new(drives)?;
-    let mut systematic = fit_systematic(&log, options, [true; ERROR_COUNT])?;
-    let mut errors = systematic.sample.systematic;
+    let systematic = fit_systematic(&log, options)?;
+    let errors = systematic.sample.systematic;
     let persistence = persistence(&systematic);
     let correlation = persistence.correlation.value;
-    let mut error_stds = systematic.maximum.expansion.filtered.error_stds(correlation);
+    let error_stds = systematic.maximum.expansion.filtered.error_stds(correlation);
     let (scale_checks, is_constant) = checks::scale_checks(&systematic, correlation);
-    let is_usable: ErrorMask = std::array::from_fn(|i| options.correct[i].unwrap_or(is_constant[i]));
-    if is_constant.contains(&false) {
-        // Scales that are not corrected must not change the other errors.
-        let allowed = std::array::from_fn(|i| is_constant[i] || is_usable[i]);
-        systematic = fit_systematic(&log, options, allowed)?;
-        let stds = systematic.maximum.expansion.filtered.error_stds(correlation);
-        for error in SystematicError::ALL.into_iter().filter(|error| allowed[*error as usize]) {
-            *errors.get_mut(error) = systematic.sample.systematic.get(error);
-            error_stds[error as usize] = stds[error as usize];
-        }
-    }
-    let is_corrected: ErrorMask = std::array::from_fn(|i| systematic.sample.estimated[i] && is_usable[i]);
+    let is_corrected: ErrorMask = std::array::from_fn(|i| {
+        systematic.sample.estimated[i] && options.correct[i].unwrap_or(is_constant[i])
+    });
     let mut corrected = Systematic::NONE;
     for error in SystematicError::ALL.into_iter().filter(|error| is_corrected[*error as usize]) {
         *corrected.get_mut(error) = errors.get(error);

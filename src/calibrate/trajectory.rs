@@ -39,10 +39,6 @@ pub enum TrajectoryError {
 /// Number of median periods above which a period is a pause. Shorter gaps are only dropped messages.
 const MAX_PERIOD_RATIO: f64 = 5.0;
 
-/// Time (s) on both sides of a sample over which its velocity is a mean. The noise of single steps would bias the clock offset, because it is
-/// also in the residuals.
-const VELOCITY_SPAN: f64 = 0.1;
-
 /// Longest step (s) between the poses to which a held command is integrated. Legs end at these poses.
 const MAX_COMMAND_STEP: f64 = 0.1;
 
@@ -137,17 +133,25 @@ impl Trajectory {
         self.poses.first().map(|_| 0.0).into_iter().chain(steps).collect()
     }
 
-    /// Returns the velocity (m/s ahead and to the left, rad/s) at a time (s): the mean over [`VELOCITY_SPAN`] on both sides of the first sample that
-    /// is not earlier, or over one step if steps are longer.
+    /// Returns the velocity (m/s ahead and to the left, rad/s) at a time (s), interpolated between the samples before and after it.
+    ///
+    /// The noise of a step is in its velocity and in the residuals of legs. Interpolated velocities contain as much noise of the leg that ends as
+    /// of the leg that begins. Velocities of the next sample alone would bias the clock offset.
     pub(super) fn velocity(&self, time: f64) -> Vector3<f64> {
-        let sample = self.times.partition_point(|row_time| *row_time < time).min(self.times.len() - 1);
-        let is_near = |other: usize| {
-            (self.times[other] - self.times[sample]).abs() <= VELOCITY_SPAN || other.abs_diff(sample) == 1
-        };
-        let from = (1..=sample).rev().take_while(|i| is_near(i - 1) && !self.has_gap_before(*i)).last();
-        let to =
-            (sample + 1..self.times.len()).take_while(|i| is_near(*i) && !self.has_gap_before(*i)).last();
-        let (from, to) = (from.map_or(sample, |i| i - 1), to.unwrap_or(sample));
+        match self.locate(time) {
+            Some((sample, 1.0)) => self.velocity_of_sample(sample),
+            Some((sample, fraction)) => {
+                self.velocity_of_sample(sample - 1).lerp(&self.velocity_of_sample(sample), fraction)
+            }
+            None => Vector3::zeros(),
+        }
+    }
+
+    /// Returns the mean velocity over the steps before and after a sample.
+    fn velocity_of_sample(&self, sample: usize) -> Vector3<f64> {
+        let last = self.times.len() - 1;
+        let from = if sample > 0 && !self.has_gap_before(sample) { sample - 1 } else { sample };
+        let to = if sample < last && !self.has_gap_before(sample + 1) { sample + 1 } else { sample };
         if from == to {
             return Vector3::zeros();
         }

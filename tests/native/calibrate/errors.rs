@@ -1,7 +1,7 @@
 //! Systematic errors: their estimates, and their correction, after which they do not change the α's.
 
 use super::simulated::{ALPHAS, MODELS, Simulation};
-use super::{NAV2, calibrate_log, calibrate_simulation, default_options, trajectory};
+use super::{NAV2, calibrate_log, calibrate_simulation, default_options, trajectory, with_noisy_steps};
 use crate::common::seeded_rng;
 use motion::calibrate::{
     CalibrateError, Calibration, Drive, LegLength, Model, Options, Systematic, SystematicError, Trajectory,
@@ -199,6 +199,33 @@ fn errors_of_a_robot_without_noise_are_exact() {
 }
 
 /// Four drives, each with a quarter of the legs and its own clock, give intervals as narrow as one drive with all legs.
+/// The reference has half the rate of the odometry, so that legs end between steps of the odometry. Noise of such a step is in the residuals and
+/// in the velocities.
+#[test]
+fn noise_of_the_odometry_does_not_bias_the_clock_offset() {
+    const CLOCK_OFFSET: f64 = 0.06;
+    const STEP_SECONDS: f64 = 0.05;
+    let (mut error_sum, mut variance_sum) = (0.0, 0.0);
+    for seed in 1..=8 {
+        let mut pose = SE2::identity();
+        let truth = trajectory((0..12_000).map(|row| {
+            let time = STEP_SECONDS * f64::from(row);
+            let wave = |rate: f64| (rate * time).sin();
+            let v = 0.4 + 0.15 * wave(2.0) + 0.1 * wave(0.91);
+            let omega = 0.5 * wave(1.3) + 0.4 * wave(0.41) + 0.3 * wave(3.17);
+            pose = pose.boxplus(Vector3::new(v, 0.0, omega) * STEP_SECONDS);
+            (time, pose)
+        }));
+        let reference = truth.samples().step_by(2).map(|(time, pose)| (time + CLOCK_OFFSET, pose));
+        let log = [with_noisy_steps(&truth, [0.0015, 0.005], seed), trajectory(reference)];
+        let Calibration { systematic, systematic_stds, .. } = calibrate_log(&log, &default_options(NAV2));
+        let std = systematic_stds[SystematicError::ClockOffset as usize].expect("identifiable");
+        error_sum += systematic.clock_offset - CLOCK_OFFSET;
+        variance_sum += std * std;
+    }
+    assert!(error_sum.abs() < 4.0 * variance_sum.sqrt(), "{error_sum} {}", variance_sum.sqrt());
+}
+
 #[test]
 fn four_drives_are_as_informative_as_one_of_the_same_length() {
     let simulation_with_clock = |clock_offset: f64, count: usize, seed: u64| {

@@ -9,9 +9,12 @@ mod logs;
 mod simulated;
 mod windows;
 
+use crate::common::seeded_rng;
 use motion::calibrate::{Calibration, Drive, Model, Options, Trajectory, calibrate};
 use motion::geom::se2::SE2;
 use motion::models::OdometryRule;
+use motion::{NoiseKind, Variance};
+use nalgebra::Vector3;
 use simulated::Simulation;
 
 const NAV2: Model = Model::Odometry(OdometryRule::Nav2);
@@ -32,4 +35,15 @@ fn default_options(model: Model) -> Options {
 
 fn trajectory(samples: impl IntoIterator<Item = (f64, SE2)>) -> Trajectory {
     Trajectory::new(samples.into_iter().collect::<Vec<_>>()).expect("times rise")
+}
+
+/// Returns odometry with normal noise of each step, with these standard deviations ahead (m) and in the heading (rad).
+fn with_noisy_steps(odometry: &Trajectory, stds: [f64; 2], seed: u64) -> Trajectory {
+    let (mut rng, mut pose) = (seeded_rng(seed), SE2::identity());
+    let samples: Vec<(f64, SE2)> = odometry.samples().collect();
+    trajectory(samples.windows(2).map(|pair| {
+        let [ahead, turn] = stds.map(|std| NoiseKind::Normal.sample(Variance(std * std), &mut rng));
+        pose = pose.boxplus(pair[1].1.boxminus(&pair[0].1) + Vector3::new(ahead, 0.0, turn));
+        (pair[1].0, pose)
+    }))
 }

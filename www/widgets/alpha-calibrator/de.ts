@@ -21,7 +21,7 @@ const MESSAGES: Record<string, string> = {
     'Die Odometrie bewegt sich seitwärts, oder rückwärts nach Tabelle 5.6: Ihre Positionen rauschen, ihr Koordinatensystem liegt nicht auf der Achse, oder der Roboter fährt rückwärts. α₁ und α₄ sind zu klein. Odometrie der Räder in der Mitte ihrer Achse verwenden, oder die Regel von Nav2.',
   'distance-scale-constant':
     'Der Skalenfaktor der Strecke ist keine Konstante und wurde nicht korrigiert. Raddurchmesser, Last und Schlupf in Kurven prüfen; erst die Räder kalibrieren, dann das Rauschen.',
-  'turn-scale-constant': 'Der Skalenfaktor der Drehung ist keine Konstante und wurde nicht korrigiert. Spurweite und Schlupf auf diesem Boden prüfen.',
+  'turn-scale-constant': 'Der Skalenfaktor der Drehung ist keine Konstante und wurde nicht korrigiert. Spurweite und Schlupf auf diesem Boden prüfen, und längere Etappen wählen: Rauschen verbirgt kleine Drehungen.',
   'inflation-bounded':
     'Keine Vergrößerung bis 30 deckt die Fehler über 1 m: Sie sind kein Rauschen der Räder. Zuerst die Ursache suchen: behaltene Ausreißer, eine springende oder driftende Referenz, Schlupf.',
   'residuals-uncorrelated':
@@ -32,7 +32,7 @@ const MESSAGES: Record<string, string> = {
     'Die α der einen Hälfte der Aufzeichnung passen nicht zur anderen: Boden, Last oder Geschwindigkeit haben sich geändert, oder die Referenz driftet. Für jede Bedingung kalibrieren, mit einer Referenz, die nicht driftet.',
   ...Object.fromEntries([1, 2, 5].map((length) => [
     `window-${length}m-covered`,
-    'Über Fenster dieser Länge sagen die angepassten α den Fehler nicht vorher: Er wächst anders, wie bei ungleichen Raddurchmessern oder einer driftenden Referenz. Empfohlene α gelten über 1 m: verwenden, wenn das Filter seine Pose so oft korrigiert.',
+    'Über Fenster dieser Länge sagen die angepassten α den Fehler nicht vorher: Er wächst anders, wie bei ungleichen Raddurchmessern, einer Richtung, die schon während der Etappe abweicht, oder einer driftenden Referenz. Empfohlene α gelten über 1 m: verwenden, wenn das Filter seine Pose so oft korrigiert.',
   ])),
 };
 
@@ -214,8 +214,8 @@ export const de: typeof import('./en.ts').en = {
     json: 'Alles als JSON speichern',
     none: 'Keine Zeilen für nav2_params.yaml: Nav2 hat kein Geschwindigkeitsmodell, oder es werden keine α’s empfohlen. In JSON steht alles.',
     otherRule: 'Nicht nach der Regel von Nav2 angepasst, die nav2 heißt.',
-    notIdentifiable: 'von dieser Aufzeichnung nicht bestimmt',
-    zero: (upperBound) => `nicht signifikant von 0 verschieden, höchstens ${upperBound}`,
+    notIdentifiable: 'von dieser Aufzeichnung nicht bestimmt; Nav2 nimmt seinen Standardwert',
+    zero: 'obere Grenze seines 95-%-Intervalls: nicht signifikant von 0 verschieden',
     tooLarge: 'unplausibel (> 1): Prüfungen und Ausreißer ansehen',
     of: (legs, length, log, date) => `${legsWithCount(legs)} ${length}, ${log}, ${date}`,
     moved: (distance, angle) => `von ${distance} m oder ${angle} rad`,

@@ -126,9 +126,11 @@ export function nav2Lines({ calibration, count, model, rule, legs, log, warnings
   const alphaLines = alphas.map((alpha: number | null, i: number) => {
     const interval = intervals[i];
     if (alpha === null) return `# alpha${i + 1}: ${texts.notIdentifiable}`;
-    if (isZero(alpha, interval)) return `# alpha${i + 1}: ${texts.zero(formatUpperEnd(scaleInterval(interval, inflation)))}`;
-    const formattedAlpha = formatEstimate(inflation * alpha, scaleInterval(interval, inflation));
-    if (inflation * alpha > MAX_PLAUSIBLE_ALPHA) return `# alpha${i + 1}: ${formattedAlpha}, ${texts.tooLarge}`;
+    const [scaledInterval, isBound] = [scaleInterval(interval, inflation), isZero(alpha, interval)];
+    const formattedAlpha = isBound ? formatUpperEnd(scaledInterval) : formatEstimate(inflation * alpha, scaledInterval);
+    // Without a line, Nav2 would use its default, which is far above such a bound.
+    if (isBound && (scaledInterval?.[1] ?? Infinity) <= MAX_PLAUSIBLE_ALPHA) return `alpha${i + 1}: ${withDecimalPoint(formattedAlpha)}  # ${texts.zero}`;
+    if (isBound || inflation * alpha > MAX_PLAUSIBLE_ALPHA) return `# alpha${i + 1}: ${formattedAlpha}, ${texts.tooLarge}`;
     return `alpha${i + 1}: ${withDecimalPoint(formattedAlpha)}  # ${texts.fitted(formatEstimate(alpha, interval), formatInterval(interval))}`;
   });
   // A line break in a file's name would end the comment.

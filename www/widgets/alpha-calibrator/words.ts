@@ -1,7 +1,7 @@
 /** Texts of the Alpha Calibrator in the current language. */
 
 import { addEnglish, words } from '../../messages/registry.ts';
-import { integer, fixed, percent, formatPowerOfTen } from '../../ui/format.ts';
+import { integer, fixed, percent, formatPowerOfTen, formatSignificant } from '../../ui/format.ts';
 import { en } from './en.ts';
 import { subscriptOf } from '../shared/sliders.ts';
 import { correctionAdvice, failedChecksOf, missingAlphas } from './lines.ts';
@@ -43,7 +43,7 @@ export const checkMessage = ({ name, value, expected: [low], passed, message }: 
 /** Prints the value of a check, or a limit of it. */
 export function checkText(name: CalibrationCheck['name'], value: number) {
   if (!Number.isFinite(value)) return Number.isNaN(value) ? percent(value) : '∞';
-  return name === 'enough-legs' ? integer(value) : FRACTION_CHECKS.test(name) ? percent(value) : fixed(value, 3);
+  return name === 'enough-legs' ? integer(value) : FRACTION_CHECKS.test(name) ? percent(value) : formatSignificant(value, 3);
 }
 
 export const rangeText = (low: string, high: string) => `${low} – ${high}`;

@@ -31,7 +31,7 @@ import { importTypeScript } from './typescript.mjs';
 /** TypeScript types by type of setting. Words (enumerations) and groups (several numbers) have generated types. @type {Record<string, string>} */
 const TYPE_NAMES = { number: 'number', whole: 'number', boolean: 'boolean', numbers: 'number[]' };
 
-/** Properties and state of every element with a cloud. @type {import('../www/figure/attributes.ts').Documentation} */
+/** Properties and state of every element with a cloud. @type {import('../www/figure/definition.ts').Documentation} */
 const CLOUD_DOCUMENTATION = {
   properties: {
     marked: { type: 'number | null', sentence: 'The sample that is marked, counted from 0.' },
@@ -105,9 +105,9 @@ export function describeWidgets() {
 /** Returns the description of a widget. @param {string} tag @returns {Promise<Widget>} */
 async function describeWidget(tag) {
   // Static imports would fail in a bare clone, in which the libraries of these modules are not installed yet.
-  const { COMMON_ATTRS, NUMBER_CONVERTER, WORD_LIST_CONVERTER } = await importTypeScript('www/figure/attributes.ts');
+  const { COMMON_ATTRS, NUMBER_CONVERTER, WORD_LIST_CONVERTER } = await importTypeScript('www/figure/definition.ts');
   const { definition: { attributes, declarations, elementFields }, documentation } = await importTypeScript(`www/widgets/${tag}/settings.ts`);
-  /** @type {import('../www/figure/attributes.ts').Documentation[]} */
+  /** @type {import('../www/figure/definition.ts').Documentation[]} */
   const documentations = [...('marked' in elementFields ? [CLOUD_DOCUMENTATION] : []), ...(documentation ? [documentation] : [])];
   const { classes } = await readClassComments();
   const elementClass = classes.get(`${toPascalCase(tag)}Element`);

@@ -71,7 +71,7 @@ function fieldOf(declaration) {
 
 /** Returns the type of a figure with the public members of its class. @param {import('./declarations.mjs').Widget[]} widgets */
 async function figureTypes([{ attributes }]) {
-  const { COMMON_ATTRS } = await importTypeScript('www/figure/attributes.ts');
+  const { COMMON_ATTRS } = await importTypeScript('www/figure/definition.ts');
   const { classes } = await readClassComments();
   /** @type {any[]} */
   const publicMembers = classes.get('FigureElement').members.filter((/** @type {any} */ { privacy }) => privacy === 'public');
@@ -104,7 +104,7 @@ const LISTENER_FIELDS = ['add', 'remove'].flatMap((verb) => {
 
 /** Returns the types of an element and of its state. @param {import('./declarations.mjs').Widget} widget */
 async function elementTypesOf({ tag, className, attributes, properties, state }) {
-  const { COMMON_ATTRS } = await importTypeScript('www/figure/attributes.ts');
+  const { COMMON_ATTRS } = await importTypeScript('www/figure/definition.ts');
   const baseType = `FigureElement<${className}State, ${className}['stats']>`;
   const widgetField = { name: 'widget', type: `'${tag}'`, description: '' };
   // Members of every figure are in FigureElement.

@@ -8,7 +8,7 @@
 
 import './de.ts';
 import './widgets/index.ts';
-import { COMMON_ATTRS } from './figure/attributes.ts';
+import { COMMON_ATTRS } from './figure/definition.ts';
 import { includesFields } from './figure/checks.ts';
 import { GLOBAL_ATTRIBUTES, createWidget, errorParagraph } from './named.ts';
 

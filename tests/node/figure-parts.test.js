@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { WORD_LIST_CONVERTER, propertiesOf, selectAttributes } from '../../www/figure/attributes.ts';
+import { WORD_LIST_CONVERTER, propertiesOf, selectAttributes } from '../../www/figure/definition.ts';
 import { View } from '../../www/scene/view.ts';
 import { settings } from '../../www/settings.js';
 import { scaleRatioTexts } from '../../www/widgets/dead-reckoning/pictures.ts';

@@ -1,4 +1,4 @@
-/** Notice over the lower edge of the figure or the window: the progress of long work with a button that stops it, or a sentence. It moves no content. */
+/** Messages to the user: a notice, which everybody sees, and announcements for screen readers. */
 
 import { css, html, nothing } from 'lit';
 import { words } from '../messages/registry.ts';
@@ -48,6 +48,7 @@ export const noticeStyles = css`
   }
 `;
 
+/** Notice over the lower edge of the figure or the window: the progress of long work with a button that stops it, or a sentence. It moves no content. */
 export class Notice extends FigureController {
   #sentenceText = '';
   #stopWork: (() => void) | undefined;
@@ -105,5 +106,36 @@ export class Notice extends FigureController {
     return html`<div class="notice"><div class="sentence">
       <span role="alert">${this.#sentenceText}</span> ${button(words.close, () => this.show(''))}
     </div></div>`;
+  }
+}
+
+/** Announcements for screen readers after completed changes. */
+export class Announcer {
+  #isDue = false;
+  #announcedText = '';
+  /** Latest announced outcome. */
+  #latestOutcome: string | undefined;
+
+  /** Requests an announcement of the next outcome. */
+  announceNext() {
+    this.#isDue = true;
+  }
+
+  /** Announces an outcome if one was requested. `sentence` is only called if needed. */
+  setOutcome(sentence: () => string) {
+    if (!this.#isDue && !this.#latestOutcome) return;
+    const text = sentence();
+    // An outcome that the page caused clears the announced one without an announcement.
+    this.#announcedText = this.#latestOutcome = this.#isDue || text === this.#latestOutcome ? text : '';
+    this.#isDue = false;
+  }
+
+  announce(text: string) {
+    this.#latestOutcome = undefined;
+    this.#announcedText = text;
+  }
+
+  render() {
+    return html`<p class="visually-hidden" role="status">${this.#announcedText}</p>`;
   }
 }

@@ -1,9 +1,9 @@
 /** Synchronization of attributes and properties with the settings: values of the page are applied, and changed settings are written as attributes. */
 
-import { COMMON_ATTRS, defaultConfig } from './attributes.ts';
 import { includesFields, withFieldRenamed, checkedWord } from './checks.ts';
 import { cloudProperties } from './cloud.ts';
 import { FigureController } from './controller.ts';
+import { COMMON_ATTRS, defaultConfig } from './definition.ts';
 import type { Figure } from './figure.ts';
 import type { Values } from './settings.ts';
 

@@ -1,4 +1,4 @@
-/** Drawing of a figure: its pictures, and then its text, on the screen while it is visible, and in print. */
+/** Drawing of a figure: its pictures, and then its text, on the screen while it is visible, and in print. A figure starts near the viewport. */
 
 import { nothing } from 'lit';
 import { onLanguage } from '../messages/registry.ts';
@@ -19,6 +19,9 @@ const MAX_PICTURES_MS = 8;
 
 const MAX_TEXT_DELAY_MS = 100;
 
+/** Distance from the viewport at which a figure starts. Less would show empty frames; more would start unseen figures. */
+const NEAR_MARGIN_CSS = '600px';
+
 /** Longest time step of an animation, ms. After a pause it continues without a jump. */
 const MAX_TIME_STEP_MS = 100;
 
@@ -26,6 +29,8 @@ export const prefersReducedMotion = () => matchMedia('(prefers-reduced-motion: r
 
 export class Renderer extends FigureController {
   isVisible = false;
+  #isNear = false;
+  #visibleObserver: IntersectionObserver | undefined;
   #hasRenderedText = false;
   /** Pictures to draw, the one that has waited longest first. */
   #undrawn: Set<AnyPicture> = new Set();
@@ -49,6 +54,58 @@ export class Renderer extends FigureController {
     // An element that is removed during print gets no event at its end.
     if (this.isPrinting !== printQuery.matches) this.#print(printQuery.matches);
     onLanguage(this.host, () => this.#languageChanged(), signal);
+    this.#observeVisibility(signal);
+    // The script that defines the element may still call `load(source)`.
+    queueMicrotask(() => {
+      this.#checkPosition();
+      this.#observeContent();
+    });
+  }
+
+  hostDisconnected() {
+    this.#isNear = false;
+    // A later update must not make the disconnected observer observe again.
+    this.#visibleObserver = undefined;
+    this.#setVisible(false);
+  }
+
+  #observeVisibility(signal: AbortSignal) {
+    const visibilityOf = new Map<Element, boolean>();
+    const setVisible = (entries: IntersectionObserverEntry[]) => {
+      for (const { target, isIntersecting } of entries) visibilityOf.set(target, isIntersecting);
+      if (entries.length > 0) this.#setVisible([...visibilityOf.values()].includes(true));
+    };
+    const visibleObserver = (this.#visibleObserver = new IntersectionObserver(setVisible));
+    const updateNear = (entries: IntersectionObserverEntry[]) => {
+      // A start depends on the visibility, but the order of the observers' callbacks is undefined.
+      setVisible(visibleObserver.takeRecords());
+      for (const { isIntersecting } of entries) this.#setNear(isIntersecting);
+    };
+    const nearObserver = new IntersectionObserver(updateNear, { rootMargin: NEAR_MARGIN_CSS });
+    for (const observer of [visibleObserver, nearObserver]) {
+      observer.observe(this.host);
+      signal.addEventListener('abort', () => observer.disconnect());
+    }
+  }
+
+  /** Observes the content too. A sticky picture stays in sight while the page scrolls on, outside of the element's box. */
+  #observeContent() {
+    const content = this.host.shadowRoot?.querySelector('.simulation');
+    if (content) this.#visibleObserver?.observe(content);
+  }
+
+  /** Checks the position of the figure now: the observers report it a frame later. */
+  #checkPosition() {
+    const { top, bottom } = this.host.getBoundingClientRect();
+    // The box of a removed element is all 0.
+    if (top >= innerHeight || bottom <= 0) return;
+    this.#setVisible(true);
+    this.#setNear(true);
+  }
+
+  #setNear(isNear: boolean) {
+    if (isNear && !this.#isNear) void this.host.runtime.start();
+    this.#isNear = isNear;
   }
 
   #languageChanged() {
@@ -59,6 +116,7 @@ export class Renderer extends FigureController {
 
   hostUpdated() {
     const { host } = this;
+    this.#observeContent();
     host.resolveSettled();
     if (!host.canvases.elements) host.colours.update();
     if (!host.simulation || host.canvases.elements) return;
@@ -67,7 +125,7 @@ export class Renderer extends FigureController {
     if (this.isPrinting) this.#print(true);
   }
 
-  setVisible(isVisible: boolean) {
+  #setVisible(isVisible: boolean) {
     if (!isVisible && (this.isOpening || this.#textPendingSince !== undefined)) this.#renderText();
     const hasAppeared = isVisible && !this.isVisible;
     this.isVisible = isVisible;

@@ -1,8 +1,8 @@
 /** State of the figure as plain data. It is kept after a trap. */
 
 import { checkedObject, refusalError, checkedWord } from './checks.ts';
-import { validatedValue } from './definition.ts';
 import { FigureController } from './controller.ts';
+import { validatedValue } from './definition.ts';
 import type { Values } from './settings.ts';
 
 export const STATE_VERSION = 1;

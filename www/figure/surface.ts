@@ -1,8 +1,8 @@
-/** HTML of a figure: its content, or its placeholder, or the message of a failure. */
+/** HTML of a figure: its content, or its placeholder, or the message of a failure; the keyboard focus and the heights of texts in it. */
 
 import { html, noChange, nothing } from 'lit';
 import { language, useLanguageOf, words } from '../messages/registry.ts';
-import { moveFocusInto } from './focus.ts';
+import { FigureController } from './controller.ts';
 import type { Figure } from './figure.ts';
 
 const RIGHT_TO_LEFT = /^(ar|ckb|dv|fa|he|ps|sd|ug|ur|yi)\b/i;
@@ -87,3 +87,86 @@ function stopUsedKey(event: KeyboardEvent) {
 
 /** Stops the events of native controls, because the element fires its own. */
 const stopPropagation = (event: Event) => event.stopPropagation();
+
+const FOCUSABLE = ':is(button, input, select, textarea):enabled:not([tabindex]), summary, [tabindex="0"]';
+
+function focusableIn(root: ParentNode): HTMLElement[] {
+  return ([...root.querySelectorAll(FOCUSABLE)] as HTMLElement[]).filter((element) => element.checkVisibility());
+}
+
+/** Keyboard focus. It stays in the figure when the focused control is removed, disabled or hidden. */
+export class Focus extends FigureController {
+  /** Focused control and its ancestors, the nearest first. */
+  #focusPath: Element[] = [];
+
+  hostUpdate() {
+    this.#focusPath = [];
+    const focusedControl = (this.host.renderRoot as ShadowRoot | undefined)?.activeElement;
+    // The placeholder moves the focus itself.
+    if (!focusedControl || focusedControl.matches('.reserved')) return;
+    for (let element = focusedControl as Element | null; element; element = element.parentElement) this.#focusPath.push(element);
+  }
+
+  hostUpdated() {
+    const [previousControl, ...ancestors] = this.#focusPath;
+    if (!previousControl || (previousControl.isConnected && previousControl.checkVisibility() && !previousControl.matches(':disabled'))) return;
+    for (const ancestor of ancestors) {
+      const [nextControl] = ancestor.isConnected ? focusableIn(ancestor) : [];
+      if (!nextControl) continue;
+      nextControl.focus({ preventScroll: true });
+      return;
+    }
+  }
+}
+
+/** Moves the focus into the figure, to the end that is nearer to `origin`. */
+async function moveFocusInto(figure: Figure, origin: EventTarget | null) {
+  await figure.runtime.start();
+  // Waits for the controls, which are rendered after the first picture.
+  while (figure.renderer.isOpening) await new Promise(requestAnimationFrame);
+  await figure.updateComplete;
+  // After the removal of the focused placeholder, the focus is on the body unless the user has moved it.
+  if (!figure.simulation || document.activeElement !== document.body) return;
+  const focusableElements = focusableIn(figure.renderRoot);
+  // With Shift+Tab the focus comes from an element below the figure.
+  const comesFromBelow = origin instanceof Node && figure.compareDocumentPosition(origin) & Node.DOCUMENT_POSITION_FOLLOWING;
+  focusableElements.at(comesFromBelow ? -1 : 0)?.focus();
+}
+
+const CHANGING_TEXTS = ':is(p, dl, li, .result):not(.result > *, .slider *, details *, .about, .on-paper)';
+
+/**
+ * Heights of the texts above the controls, so that a control stays in its place while the user drags it: the largest height of each text at
+ * the present width of the figure and in the present language.
+ */
+export class TextHeights extends FigureController {
+  #textElements: Set<HTMLElement> = new Set();
+  #sizeObserver: ResizeObserver | undefined;
+  #lastWidth = 0;
+  #language = '';
+
+  hostUpdated() {
+    this.#sizeObserver ??= new ResizeObserver((entries) => this.#keepHeights(entries));
+    for (const textElement of this.host.renderRoot.querySelectorAll<HTMLElement>(CHANGING_TEXTS)) {
+      if (!this.#textElements.has(textElement)) this.#sizeObserver.observe(textElement);
+      this.#textElements.add(textElement);
+    }
+  }
+
+  /** Keeps new heights, which are never below the kept ones, or measures all texts again. */
+  #keepHeights(entries: ResizeObserverEntry[]) {
+    const { clientWidth } = this.host;
+    if (clientWidth === this.#lastWidth && language === this.#language) {
+      for (const { target, contentRect } of entries) (target as HTMLElement).style.minHeight = `${contentRect.height}px`;
+      return;
+    }
+    [this.#lastWidth, this.#language] = [clientWidth, language];
+    // Changing a size now would call the observer again in this frame.
+    requestAnimationFrame(() => {
+      this.#sizeObserver?.disconnect();
+      for (const textElement of this.#textElements) textElement.style.minHeight = '';
+      this.#textElements.clear();
+      this.hostUpdated();
+    });
+  }
+}

@@ -2,9 +2,8 @@
 
 import { html } from 'lit';
 import { checkedObject } from '../../figure/checks.ts';
-import { pictureCanvas, disclosures, titledPicture, settingRadios, editableSlider, settingSlider } from '../../figure/controls.ts';
+import { pictureCanvas, disclosures, titledPicture, settingRadios, editableSlider, settingSlider, legend } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
-import { legend } from '../../figure/overlays.ts';
 import { define } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
 import { pointInView } from '../../scene/canvas.ts';

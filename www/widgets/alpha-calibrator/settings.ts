@@ -29,7 +29,7 @@ export type Regressor = (typeof REGRESSORS)[number];
 /** Maximum index of a leg in a shared link. The number of legs is not known before the fit, so that it cannot be the limit. */
 const MAX_LEG_INDEX = 9_999_999;
 
-export const documentation: import('../../figure/attributes.ts').Documentation = {
+export const documentation: import('../../figure/definition.ts').Documentation = {
   state: {
     leg: { type: 'number | null', sentence: 'The leg that is shown, from 0; null, or one that is not there, for the largest residual that is no outlier.' },
     regressor: { type: "'turn' | 'distance'", sentence: 'The motion that squared residuals are drawn against.' },

@@ -1,9 +1,8 @@
 /** <arc-anatomy>: the arc between two poses, and how likely it is after a command. */
 
 import { html, nothing } from 'lit';
-import { pictureCanvas, disclosures, titledPicture, settingCheckbox, settingRadios, settingSliders } from '../../figure/controls.ts';
+import { pictureCanvas, disclosures, titledPicture, settingCheckbox, settingRadios, settingSliders, legend, swatchHtml } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
-import { legend, swatchHtml } from '../../figure/overlays.ts';
 import { define } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
 import { button, group, formatMarkup } from '../../ui/controls.ts';

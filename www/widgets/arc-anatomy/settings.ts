@@ -27,7 +27,7 @@ export const CONTOUR_STYLES = {
 
 export type LineName = keyof typeof LINE_STYLES;
 
-export const documentation: import('../../figure/attributes.ts').Documentation = {
+export const documentation: import('../../figure/definition.ts').Documentation = {
   state: {
     line: { type: 'number', sentence: 'The highlighted line of Table 5.1, from 1; 0 for none.' },
     underway: { type: 'number', sentence: 'Share of the command’s duration that the robot has driven, in per cent.' },

@@ -3,9 +3,8 @@
 import { html, nothing } from 'lit';
 import { checkedObject } from '../../figure/checks.ts';
 import { enterCloud } from '../../figure/cloud.ts';
-import { pictureCanvas, disclosures, titledPicture, cloudButtons, samplesSlider, settingCheckbox, settingRadios, settingSlider, settingSliders } from '../../figure/controls.ts';
+import { pictureCanvas, disclosures, titledPicture, cloudButtons, samplesSlider, settingCheckbox, settingRadios, settingSlider, settingSliders, legend } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
-import { legend } from '../../figure/overlays.ts';
 import { define } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
 import { hasLength } from '../../scene/draw.ts';

@@ -1,8 +1,7 @@
 /** The Banana Machine's settings: their attributes, their part of the state, and their sliders. */
 
-import { NUMBER_CONVERTER } from '../../figure/attributes.ts';
+import { NUMBER_CONVERTER, definitionOf } from '../../figure/definition.ts';
 import { checkedInteger } from '../../figure/checks.ts';
-import { definitionOf } from '../../figure/definition.ts';
 import { openingAlphas } from '../../settings.js';
 import { COMMAND_DASH, alphaSliders, commandSliders } from '../shared/sliders.ts';
 
@@ -19,7 +18,7 @@ export type LineName = keyof typeof LINE_STYLES;
 
 export const OVERLAY_NAMES = Object.keys(LINE_STYLES) as LineName[];
 
-export const documentation: import('../../figure/attributes.ts').Documentation = {
+export const documentation: import('../../figure/definition.ts').Documentation = {
   state: {
     alphas: { type: '{ velocity: number[]; odometry: number[] }', sentence: 'Six of the velocity model, and four of the odometry model.' },
     pinned: { type: 'BananaMachineSettings | null', sentence: 'Settings whose outlines and numbers are pinned.' },

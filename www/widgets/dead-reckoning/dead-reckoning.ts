@@ -2,9 +2,8 @@
 
 import { html } from 'lit';
 import { Cloud, enterCloud } from '../../figure/cloud.ts';
-import { pictureCanvas, settingRadios, disclosures, titledPicture, cloudControls, settingSlider, settingSliders } from '../../figure/controls.ts';
+import { pictureCanvas, settingRadios, disclosures, titledPicture, cloudControls, settingSlider, settingSliders, legend } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
-import { legend } from '../../figure/overlays.ts';
 import { define } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
 import { Memo } from '../../scene/memo.ts';

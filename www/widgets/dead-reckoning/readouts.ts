@@ -1,8 +1,7 @@
 /** Readouts of Dead Reckoning: chart of predicted over measured covariance by step, and table of the steps with wrong predictions (misses). */
 
 import { html } from 'lit';
-import { sampleField } from '../../figure/controls.ts';
-import { legend } from '../../figure/overlays.ts';
+import { sampleField, legend } from '../../figure/controls.ts';
 import { words } from '../../messages/registry.ts';
 import { formatMarkup } from '../../ui/controls.ts';
 import { NO_VALUE, fixed, integer, formatSignificant } from '../../ui/format.ts';

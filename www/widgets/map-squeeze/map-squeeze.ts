@@ -2,9 +2,8 @@
 
 import { html, nothing } from 'lit';
 import { Cloud, enterCloud } from '../../figure/cloud.ts';
-import { pictureCanvas, disclosures, titledPicture, settingCheckbox, settingRadios, cloudControls, sampleField, settingSlider, settingSliders } from '../../figure/controls.ts';
+import { pictureCanvas, disclosures, titledPicture, settingCheckbox, settingRadios, cloudControls, sampleField, settingSlider, settingSliders, legend } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
-import { legend } from '../../figure/overlays.ts';
 import { define } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
 import { Memo } from '../../scene/memo.ts';

@@ -1,7 +1,7 @@
 /** Handles of walls, for the pointer or keys: edges of doorways move along their walls, and whole walls move across their direction. */
 
 import { html, nothing } from 'lit';
-import { swatchHtml } from '../../figure/overlays.ts';
+import { swatchHtml } from '../../figure/controls.ts';
 import { FigureController } from '../../figure/controller.ts';
 import { words } from '../../messages/registry.ts';
 import { Handle, stepsOfKey, turnsOfKey } from '../../scene/handle.ts';

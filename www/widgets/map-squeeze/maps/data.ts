@@ -1,7 +1,7 @@
 /** Maps as plain data, the form in which a state contains a map of the user. */
 
 import { checkedObject, refusalError, withFieldRenamed, checkedInteger } from '../../../figure/checks.ts';
-import { fromBase64, toBase64 } from '../../../figure/packing.ts';
+import { fromBase64, toBase64 } from '../../../figure/link.ts';
 import { limits } from '../../../settings.js';
 import type { Cells } from '../../../scene/walls.ts';
 import type { MapData, MapSqueeze } from '../../../types.d.ts';

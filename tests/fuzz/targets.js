@@ -12,7 +12,7 @@ import { toPascalCase } from '../../scripts/declarations.mjs';
 import { selectAttributes, propertiesOf } from '../../www/figure/definition.ts';
 import { packJson, unpack } from '../../www/figure/link.ts';
 import { settings } from '../../www/settings.js';
-import { LogError } from '../../www/logs/log-error.ts';
+import { LogError } from '../../www/logs/log.ts';
 import { openRecordings } from '../../www/logs/open.ts';
 import { applyMap, gridOf, mapDataOf } from '../../www/widgets/map-squeeze/maps/data.ts';
 import { odometryMessageOf, poseOf, recordingOf, stampOf, transformMessageOf, twistOf } from '../mcap.js';

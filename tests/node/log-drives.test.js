@@ -3,11 +3,11 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { german } from '../../www/logs/de.ts';
-import { planDrives, readDrives } from '../../www/logs/drives.ts';
+import { planDrives } from '../../www/logs/drives.ts';
 import { english } from '../../www/logs/en.ts';
 import { openRecordings } from '../../www/logs/open.ts';
-import { pairLogs } from '../../www/logs/pairs.ts';
-import { summarySentences } from '../../www/logs/summary.ts';
+import { pairLogs, readDrives } from '../../www/logs/pairs.ts';
+import { summarySentences } from '../../www/logs/log.ts';
 import { refusalErrorOf, refusalSentenceOf } from './log-support.js';
 
 /** @import { Recording } from '../../www/logs/log.ts' */

@@ -7,10 +7,9 @@ import { test } from 'node:test';
 import { gunzipSync } from 'node:zlib';
 import xxhash from 'xxhash-wasm';
 import { UNSUPPORTED_FORMATS, english } from '../../www/logs/en.ts';
-import { unlz4 } from '../../www/logs/formats/lz4.ts';
-import type { LogChoice, Commands, Log, Poses, Recording, Source } from '../../www/logs/log.ts';
+import { unlz4 } from '../../www/logs/formats/decompression.ts';
+import { summarySentences, type LogChoice, type Commands, type Log, type Poses, type Recording, type Source } from '../../www/logs/log.ts';
 import { openRecordings } from '../../www/logs/open.ts';
-import { summarySentences } from '../../www/logs/summary.ts';
 import { odometryMessageOf, recordingOf, transformMessageOf, type Message } from '../mcap.js';
 import { refusalErrorOf, refusalSentenceOf } from './log-support.js';
 

@@ -6,7 +6,7 @@ import { planDrives } from '../../www/logs/drives.ts';
 import { english } from '../../www/logs/en.ts';
 import { readAhead } from '../../www/logs/formats/container.ts';
 import { openRecordings } from '../../www/logs/open.ts';
-import { summarySentences } from '../../www/logs/summary.ts';
+import { summarySentences } from '../../www/logs/log.ts';
 import { odometryMessageOf, poseOf, recordingOf, stampOf, transformMessageOf, twistOf } from '../mcap.js';
 import { randomGenerator } from '../random.js';
 import { readLog, refusalSentenceOf } from './log-support.js';

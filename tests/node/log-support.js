@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { german } from '../../www/logs/de.ts';
-import { LogError } from '../../www/logs/log-error.ts';
+import { LogError } from '../../www/logs/log.ts';
 import { openRecordings } from '../../www/logs/open.ts';
 
 /**

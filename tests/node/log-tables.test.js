@@ -6,7 +6,7 @@ import { test } from 'node:test';
 import { openRecordings } from '../../www/logs/open.ts';
 import { german } from '../../www/logs/de.ts';
 import { english } from '../../www/logs/en.ts';
-import { summarySentences } from '../../www/logs/summary.ts';
+import { summarySentences } from '../../www/logs/log.ts';
 
 /**
  * @import { LogChoice, OpenOptions } from '../../www/logs/log.ts'

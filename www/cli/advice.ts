@@ -1,7 +1,6 @@
 /** Advice on the command-line option that resolves an error. */
 
-import { LogError, truncate } from '../logs/log-error.ts';
-import { UNITS } from '../logs/log.ts';
+import { LogError, truncate, UNITS } from '../logs/log.ts';
 
 /** Quotes a text as one argument of a shell command, if necessary. */
 export const quoteForShell = (text: string): string => (/^[\w./,@%+=:-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);

@@ -3,8 +3,7 @@
 import { openAsBlob } from 'node:fs';
 import { readFile, readdir, stat } from 'node:fs/promises';
 import { basename, join, relative, resolve } from 'node:path';
-import { LogError } from '../logs/log-error.ts';
-import type { Recording, Source } from '../logs/log.ts';
+import { LogError, type Recording, type Source } from '../logs/log.ts';
 import { openRecordings } from '../logs/open.ts';
 import type { InputPath } from './options.ts';
 

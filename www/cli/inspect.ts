@@ -1,12 +1,9 @@
 /** Command `inspect`: lists the contents of recordings, and proposes the command for the calibration. */
 
 import { group } from 'd3-array';
-import { findCandidates, isLocalizer, isTable } from '../logs/candidates.ts';
-import { planDrives, type RecordingChoice } from '../logs/drives.ts';
+import { findCandidates, isLocalizer, isTable, planDrives, type RecordingChoice } from '../logs/drives.ts';
 import { english } from '../logs/en.ts';
-import { LogError, truncate } from '../logs/log-error.ts';
-import { ROLES, framesOption, framesText, type LogChoice, type Recording, type Role, type Summary } from '../logs/log.ts';
-import { summarySentences } from '../logs/summary.ts';
+import { LogError, truncate, ROLES, framesOption, framesText, summarySentences, type LogChoice, type Recording, type Role, type Summary } from '../logs/log.ts';
 import { optionAdvice, quoteForShell } from './advice.ts';
 import { alignRows } from './report.ts';
 

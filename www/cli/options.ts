@@ -2,8 +2,7 @@
 
 import { basename, dirname } from 'node:path';
 import { parseArgs } from 'node:util';
-import { truncate } from '../logs/log-error.ts';
-import { ROLES, UNITS, type FramePair, type OpenOptions, type Role } from '../logs/log.ts';
+import { truncate, ROLES, UNITS, type FramePair, type OpenOptions, type Role } from '../logs/log.ts';
 import { SYSTEMATIC_ERRORS } from '../widgets/alpha-calibrator/lines.ts';
 import { quoteForShell } from './advice.ts';
 

@@ -1,7 +1,7 @@
 /** Picture of the drives: both paths, the ends of legs, and outliers, as SVG. */
 
 import { bisectLeft, extent, ticks } from 'd3-array';
-import type { Drive } from '../logs/drives.ts';
+import type { Drive } from '../logs/pairs.ts';
 import { alignedPath, pathOf, poseAt, svgPathData, type Path } from '../logs/path.ts';
 import { escapeXml } from '../scene/svg.ts';
 

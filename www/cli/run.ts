@@ -1,11 +1,10 @@
 /** Commands `calibrate` and `inspect`. */
 
 import { writeFile } from 'node:fs/promises';
-import { planDrives, readDrives, type Drive } from '../logs/drives.ts';
+import { planDrives } from '../logs/drives.ts';
 import { english } from '../logs/en.ts';
-import { LogError, truncate } from '../logs/log-error.ts';
-import { calibrationLogOf } from '../logs/pairs.ts';
-import { summarySentences } from '../logs/summary.ts';
+import { LogError, truncate, summarySentences } from '../logs/log.ts';
+import { calibrationLogOf, readDrives, type Drive } from '../logs/pairs.ts';
 import { optionAdvice } from './advice.ts';
 import { recordingsOf } from './files.ts';
 import { inspect, inspectionText, type GivenRecording } from './inspect.ts';

@@ -1,7 +1,6 @@
 /** Columns of a table, recognized by their names, in groups with a common prefix. */
 
-import { LogError, truncate, listNames, type ErrorPlace } from './log-error.ts';
-import { UNITS, type AngleUnit, type LengthUnit, type LogKind, type Question, type Series, type TimeUnit } from './log.ts';
+import { LogError, truncate, listNames, UNITS, type ErrorPlace, type AngleUnit, type LengthUnit, type LogKind, type Question, type Series, type TimeUnit } from './log.ts';
 
 export type Field = 't' | 'seconds' | 'subseconds' | 'x' | 'y' | 'z' | 'yaw' | 'qx' | 'qy' | 'qz' | 'qw' | 'v' | 'omega' | 'frame' | 'child' | 'source';
 

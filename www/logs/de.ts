@@ -1,9 +1,8 @@
 /** Sentences about logs, in German. */
 
-import type { Correction } from './corrections.ts';
+import type { Correction } from './pairs.ts';
 import { REPAIR_COMMANDS } from './en.ts';
-import type { Words } from './log-error.ts';
-import type { UnitBasis, DropCause, Summary } from './log.ts';
+import type { Words, UnitBasis, DropCause, Summary } from './log.ts';
 
 const FIELD_NAMES: Record<string, string> = { t: 'Zeit', x: 'x', y: 'y', yaw: 'Gierwinkel', qx: 'qx', qy: 'qy', qz: 'qz', qw: 'qw', v: 'Geschwindigkeit v', omega: 'Drehrate ω' };
 

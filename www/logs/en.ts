@@ -1,6 +1,6 @@
 /** Sentences about logs, in English. */
 
-import type { Correction } from './corrections.ts';
+import type { Correction } from './pairs.ts';
 import type { UnitBasis, DropCause, Recording, Role, Summary } from './log.ts';
 
 const FIELD_NAMES: Record<string, string> = { t: 'time', x: 'x', y: 'y', yaw: 'yaw', qx: 'qx', qy: 'qy', qz: 'qz', qw: 'qw', v: 'speed v', omega: 'turn rate ω' };

@@ -1,4 +1,6 @@
-/** Logs of robots, the recordings that they are read from, and their summaries. */
+/** Logs of robots, the recordings that they are read from, their summaries, and their errors. */
+
+import { english } from './en.ts';
 
 /** File, or other bytes with a name. `path` is the path of a file in a dropped folder. */
 export type Source = Pick<File, 'name' | 'size' | 'slice'> & { path?: string };
@@ -139,3 +141,89 @@ export interface Summary {
 
 /** Name of the clock of messages without stamps: the time of recording. */
 export const LOG_TIME = 'log time';
+
+type Label = keyof Words['found']['labels'];
+
+/** Returns the lines of a log's summary by their labels. */
+export function summaryLines({ summary }: Log, texts: Words['found']): Partial<Record<Label, string[]>> {
+  const { rows, used, dropped, seconds, rate, distance, units, clock, columns, frames, gaps, jumps, notes } = summary;
+  return {
+    rows: [texts.rows(used, rows, seconds, rate, distance)],
+    ...(columns && { columns: [Object.values(columns).join(', ')], units: [texts.units(units)] }),
+    ...(frames && { frames: [framesText(frames)] }),
+    ...(clock === LOG_TIME && { clock: [texts.recorded] }),
+    dropped: (Object.entries(dropped) as [DropCause, { count: number; first: number }][]).map(([cause, { count, first }]) => texts.dropped(cause, count, columns ? first : 0)),
+    gaps: [gaps.count ? texts.gaps(gaps.count, gaps.first, gaps.longest) : texts.noGaps],
+    ...(jumps.count && { jumps: [texts.jumps(jumps.count, jumps.first)] }),
+    notes: notes.map(({ name, values }) => {
+      const noteText: string | ((...values: any[]) => string) = texts.notes[name];
+      return typeof noteText === 'string' ? noteText : noteText(...values);
+    }),
+  };
+}
+
+/** Returns the summary of a log as sentences, the one about its rows first. */
+export function summarySentences(log: Log, texts: Words['found']): string[] {
+  const { rows = [], ...otherLines } = summaryLines(log, texts);
+  return [...rows, ...Object.entries(otherLines).flatMap(([label, lines]) => lines.map((line) => `${texts.labels[label as Label]}: ${line}`))];
+}
+
+export type Words = typeof english;
+
+export interface ErrorPlace {
+  file: string;
+  /** Number of a line, or of a message of the topic, from 1. */
+  line?: number;
+  topic?: string;
+}
+
+/** Maximum number of quoted characters in a sentence: of a name or value, and of a library's message. */
+const [MAX_QUOTED, MAX_REASON] = [40, 100];
+
+/** Error of a log. Its message is one sentence that names the file, the line or topic, the value, and what is expected. */
+export class LogError extends Error {
+  place: ErrorPlace;
+  /** Question whose answer resolves the error. */
+  ask?: Question;
+  /** Returns the message in the language of the given words. */
+  sentence: (texts: Words) => string;
+
+  /** @param reason returns the end of the sentence in the language of the given words */
+  constructor(place: ErrorPlace, reason: (texts: Words['refused']) => string, ask?: Question) {
+    const sentenceOf = (texts: Words) => `${texts.place(truncate(place.file), place.line ?? 0, truncate(place.topic ?? ''))}: ${reason(texts.refused)}`;
+    super(sentenceOf(english));
+    this.name = 'LogError';
+    this.place = place;
+    this.ask = ask;
+    this.sentence = sentenceOf;
+  }
+}
+
+/** Shortens a text to one line for quotation in a sentence. */
+export function truncate(text: string, maxLength = MAX_QUOTED): string {
+  // oxlint-disable-next-line no-control-regex
+  const shortLine = text.slice(0, maxLength + 1).replaceAll(/[\0-\x1f\x7f-\x9f\u2028\u2029]/g, '\ufffd');
+  return shortLine.length > maxLength ? `${shortLine.slice(0, maxLength)}…` : shortLine;
+}
+
+/** Returns the message of a library's error, for a sentence. */
+export function reasonOf(error: unknown): string {
+  const message = error instanceof Error ? error.message : String(error);
+  return truncate(message.replace(/ \[(library=[^\]]*|no header)\]$/, ''), MAX_REASON);
+}
+
+/** Returns a text with the first eight names of a list, for a sentence. */
+export function listNames(names: string[]): string {
+  const maxNames = 8;
+  return [...names.slice(0, maxNames).map((name) => truncate(name)), ...(names.length > maxNames ? ['…'] : [])].join(', ');
+}
+
+/** Reads bytes of a source; rejects with a LogError if the file has been moved or changed since it was chosen. */
+export async function readBytes(source: Source, from: number, to: number): Promise<Uint8Array<ArrayBuffer>> {
+  try {
+    return new Uint8Array(await source.slice(from, to).arrayBuffer());
+  } catch (error) {
+    const reason = error instanceof Error ? error.name : String(error);
+    throw new LogError({ file: source.name }, (texts) => texts.gone(reason));
+  }
+}

@@ -1,9 +1,9 @@
 /** Readers of ROS 1 and ROS 2 messages with poses, commands or transforms. They ignore later fields, such as covariances. */
 
 import { dataViewOf, type Channel, type Message } from './formats/container.ts';
-import { unzstdMessage } from './formats/zstd.ts';
+import { unzstdMessage } from './formats/decompression.ts';
 import type { Series } from './log.ts';
-import { headingOf, isRotation } from './quaternion.ts';
+import { headingOf, isRotation } from './path.ts';
 
 /** Pose (x, y and heading) or command (v, omega and 0). `time` is that of the stamp in s, or 0. `isRotation` is true if the quaternion has length 1. */
 export interface Sample { time: number; a: number; b: number; c: number; isRotation: boolean }

@@ -1,9 +1,8 @@
-/** Opens recordings. The first bytes of a file determine its format. */
+/** Opens recordings. The first bytes of a file determine its format. A recording of rosbag2 may consist of several files, which its metadata.yaml lists. */
 
 import type { UNSUPPORTED_FORMATS } from './en.ts';
 import type { Container } from './formats/container.ts';
-import { LogError, readBytes } from './log-error.ts';
-import type { OpenOptions, Recording, Source } from './log.ts';
+import { LogError, listNames, readBytes, reasonOf, type OpenOptions, type Recording, type Source } from './log.ts';
 import { openTable } from './table.ts';
 
 type FileFormat = 'mcap' | 'rosbag' | 'sqlite' | 'zstd' | 'metadata';
@@ -42,7 +41,7 @@ export async function openRecordings(files: Source[], options: OpenOptions | ((f
   for (const file of files) {
     await reportSkipped(async () => {
       const fileFormat = await detectFormat(file);
-      const openedSource = fileFormat === 'zstd' ? await (await import('./formats/zstd.ts')).unzstdFile(file) : file;
+      const openedSource = fileFormat === 'zstd' ? await (await import('./formats/decompression.ts')).unzstdFile(file) : file;
       formatByFile.set(openedSource, fileFormat === 'zstd' ? await detectFormat(openedSource) : fileFormat);
     });
   }
@@ -50,7 +49,6 @@ export async function openRecordings(files: Source[], options: OpenOptions | ((f
   const recordings: Recording[] = [];
   for (const metadata of openedSources.filter((source) => formatByFile.get(source) === 'metadata')) {
     await reportSkipped(async () => {
-      const { listedFiles, joinedContainer } = await import('./formats/folder.ts');
       formatByFile.delete(metadata);
       const { name, files: listed } = await listedFiles(metadata, openedSources);
       const partFormats = listed.map((source) => formatByFile.get(source));
@@ -82,4 +80,52 @@ async function openContainer(source: Source, format: FileFormat | undefined): Pr
   if (format === 'rosbag') return (await import('./formats/rosbag.ts')).openRosbag(source);
   if (format === 'sqlite') return (await import('./formats/sqlite.ts')).openSqlite(source);
   throw new LogError({ file: source.name }, (texts) => texts.notRosbag2);
+}
+
+const MAX_METADATA_BYTES = 2 ** 24;
+
+const folderOf = ({ path = '' }: Source) => path.replace(/[^/]*$/, '');
+const baseName = (path: string) => path.replace(/^.*\//, '');
+
+/** Returns the files that a metadata.yaml lists, in its folder. */
+async function listedFiles(metadata: Source, sources: Source[]): Promise<{ name: string; files: Source[] }> {
+  const errorPlace = { file: metadata.path || metadata.name };
+  const fileNames: string[] = [];
+  try {
+    const { load } = await import('js-yaml');
+    const text = new TextDecoder().decode(await readBytes(metadata, 0, Math.min(metadata.size, MAX_METADATA_BYTES)));
+    const { rosbag2_bagfile_information: { relative_file_paths: paths } } = load(text) as { rosbag2_bagfile_information: { relative_file_paths: unknown[] } };
+    fileNames.push(...paths.map((path) => baseName(String(path))));
+  } catch (error) {
+    if (error instanceof LogError) throw error;
+    throw new LogError(errorPlace, (texts) => texts.damaged(reasonOf(error)));
+  }
+  const filesInFolder = sources.filter((source) => folderOf(source) === folderOf(metadata));
+  // A decompressed file has no ".zstd" at the end of its name.
+  const files = fileNames.map((name) => filesInFolder.find((source) => source.name === name || `${source.name}.zstd` === name));
+  const missingNames = fileNames.filter((_, i) => !files[i]);
+  if (missingNames.length > 0 || files.length === 0) throw new LogError(errorPlace, (texts) => texts.noFiles(listNames(missingNames)));
+  const folder = baseName(folderOf(metadata).replace(/\/$/, ''));
+  return { name: folder || fileNames[0], files: files as Source[] };
+}
+
+/** Returns a container with the messages of several containers, one after the other. */
+function joinedContainer(parts: Container[]): Container {
+  return {
+    format: parts[0].format,
+    channels: parts.flatMap(({ channels }) => channels),
+    get cutReason() {
+      return parts.find(({ cutReason }) => cutReason)?.cutReason;
+    },
+    get damage() {
+      return new Map(parts.flatMap(({ damage }, i) => [...damage].map(([position, reason]): [number, string] => [2 ** 48 * i + position, reason])));
+    },
+    async read(isWanted, onMessage, onProgress) {
+      for (const [i, part] of parts.entries()) {
+        let isStopped = false;
+        await part.read(isWanted, onMessage, (share) => (isStopped = onProgress?.((i + share) / parts.length) === true));
+        if (isStopped) return;
+      }
+    },
+  };
 }

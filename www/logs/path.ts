@@ -1,4 +1,4 @@
-/** Paths of logs in the plane. */
+/** Arithmetic of logs: paths in the plane, quaternions, and quantiles of long columns. */
 
 import { bisectLeft, mean } from 'd3-array';
 import type { Commands, Poses } from './log.ts';
@@ -65,3 +65,66 @@ export function alignedPath(path: Path, target: Path, offset = 0): Path {
   ];
   return { ...path, poses: path.poses.map(movedPose) };
 }
+
+/** Minimum distance (m) between points whose distances are added up, so that the noise of poses at rest is left out. */
+const MIN_STEP = 0.05;
+
+/** Returns the distance driven (m), without the jumps before the rows `jumps`. */
+export function distanceOf(data: Poses | Commands, jumps: number[]): number {
+  const { t } = data;
+  let distance = 0;
+  if ('v' in data) {
+    for (let i = 1; i < t.length; i++) distance += Math.abs(data.v[i - 1]) * (t[i] - t[i - 1]);
+    return distance;
+  }
+  const { x, y } = data;
+  for (let i = 1, last = 0, next = 0; i < t.length; i++) {
+    const stepLength = Math.hypot(x[i] - x[last], y[i] - y[last]);
+    const isJump = jumps[next] === i;
+    if (isJump) next += 1;
+    else if (stepLength < MIN_STEP) continue;
+    else distance += stepLength;
+    last = i;
+  }
+  return distance;
+}
+
+type Quaternion = [x: number, y: number, z: number, w: number];
+
+/** Largest deviation from length 1 that rounding explains. */
+const LENGTH_TOLERANCE = 0.1;
+
+/** Number of steps per radian to which headings are rounded. */
+const HEADING_STEPS_PER_RADIAN = 1e12;
+
+/** Returns the angle about the vertical axis, for quaternions of any length. */
+export function headingOf(qx: number, qy: number, qz: number, qw: number): number {
+  // The arc tangent differs between engines in its last bits. Rounding makes results equal everywhere.
+  return Math.round(Math.atan2(2 * (qw * qz + qx * qy), qw * qw + qx * qx - qy * qy - qz * qz) * HEADING_STEPS_PER_RADIAN) / HEADING_STEPS_PER_RADIAN;
+}
+
+/** Returns true if a quaternion has length 1. A quaternion with NaN passes, because its row is dropped as not finite. */
+export function isRotation(qx: number, qy: number, qz: number, qw: number): boolean {
+  return !(Math.abs(Math.sqrt(qx * qx + qy * qy + qz * qz + qw * qw) - 1) > LENGTH_TOLERANCE);
+}
+
+export const hamiltonProduct = ([ax, ay, az, aw]: Quaternion, [bx, by, bz, bw]: Quaternion): Quaternion => [
+  aw * bx + ax * bw + ay * bz - az * by,
+  aw * by - ax * bz + ay * bw + az * bx,
+  aw * bz + ax * by - ay * bx + az * bw,
+  aw * bw - ax * bx - ay * by - az * bz,
+];
+
+/** Maximum number of items from which a quantile is computed. */
+const MAX_ITEMS = 10_000;
+
+/** Evaluates `value` at evenly spaced indices below `count`, at most `MAX_ITEMS` of them. */
+export function sampleEvenly(count: number, value: (i: number) => number): Float64Array {
+  const stride = Math.max(1, Math.ceil(count / MAX_ITEMS));
+  const values = new Float64Array(Math.max(0, Math.ceil(count / stride)));
+  for (let i = 0; i < values.length; i++) values[i] = value(i * stride);
+  return values;
+}
+
+/** Sorts the values in place and returns a quantile of them; NaN of no values. */
+export const quantile = (values: Float64Array, fraction: number) => values.sort()[Math.floor(fraction * (values.length - 1))] ?? NaN;

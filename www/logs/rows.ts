@@ -1,12 +1,9 @@
 /** Rows of a log. Unusable rows are dropped, with the cause. */
 
 import { group, max, min, range, sum } from 'd3-array';
-import { LogError, type ErrorPlace } from './log-error.ts';
-import type { DropCause, Log, LogKind, Note, OpenOptions, Summary } from './log.ts';
-import { wrapAngle } from './path.ts';
-import { quantile, sampleEvenly } from './quantile.ts';
-import { distanceOf } from './summary.ts';
-import { type Columns, type Units, epochTimeUnitOf, judgeUnits } from './units.ts';
+import { LogError, type ErrorPlace, type DropCause, type Log, type LogKind, type Note, type OpenOptions, type Summary } from './log.ts';
+import { distanceOf, quantile, sampleEvenly, wrapAngle } from './path.ts';
+import { epochTimeUnitOf, judgeUnits, type Columns, type Units } from './units.ts';
 
 /** Facts about a log that the reader of its format provides. */
 interface LogFacts {

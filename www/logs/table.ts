@@ -1,13 +1,10 @@
 /** Reader of logs in text tables of robots, recorders and spreadsheets. */
 
 import { least } from 'd3-array';
-import { type Clock, type Group, logLayoutOf } from './columns.ts';
-import { type Format, splitCells, detectTableFormat } from './format.ts';
-import { LogError, readBytes, truncate, listNames, type ErrorPlace, type Words } from './log-error.ts';
-import type { Log, Note, OpenOptions, Question, Recording, Series, Source, Summary, TimeUnit } from './log.ts';
-import { parseDate, parseNumber, parseTime } from './numbers.ts';
-import { quantile, sampleEvenly } from './quantile.ts';
-import { headingOf, isRotation } from './quaternion.ts';
+import { logLayoutOf, type Clock, type Group } from './columns.ts';
+import { splitCells, detectTableFormat, parseDate, parseNumber, parseTime, type Format } from './format.ts';
+import { LogError, readBytes, truncate, listNames, type ErrorPlace, type Words, type Log, type Note, type OpenOptions, type Question, type Recording, type Series, type Source, type Summary, type TimeUnit } from './log.ts';
+import { quantile, sampleEvenly, headingOf, isRotation } from './path.ts';
 import { Rows } from './rows.ts';
 import { UNIT_EXPONENTS, epochTimeUnitOf } from './units.ts';
 

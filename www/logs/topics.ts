@@ -3,9 +3,8 @@
 import { group, sort, sum } from 'd3-array';
 import type { Channel, Container, Message } from './formats/container.ts';
 import { Chain, FrameTree } from './frames.ts';
-import { LogError, truncate, listNames, reasonOf, type Words } from './log-error.ts';
-import { LOG_TIME, framesText, type LogChoice, type Log, type Note, type OpenOptions, type Recording, type Series } from './log.ts';
-import { readTransforms, isReadable, logKindOfType, poseReader, type Sample } from './messages.ts';
+import { LogError, truncate, listNames, reasonOf, LOG_TIME, framesText, type Words, type LogChoice, type Log, type Note, type OpenOptions, type Recording, type Series } from './log.ts';
+import { isReadable, logKindOfType, poseReader, readTransforms, type Sample } from './messages.ts';
 import { Rows } from './rows.ts';
 
 /** Maximum number of messages with transforms that are read to find the frames. */

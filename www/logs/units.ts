@@ -1,9 +1,8 @@
 /** Units of a log, judged by names, sizes and the motion of the robot. If they are in doubt, the log is refused with a question. */
 
 import { sort } from 'd3-array';
-import { LogError, type ErrorPlace } from './log-error.ts';
-import { UNITS, type AngleUnit, type LogKind, type OpenOptions, type Summary, type TimeUnit } from './log.ts';
-import { quantile, sampleEvenly } from './quantile.ts';
+import { LogError, UNITS, type ErrorPlace, type AngleUnit, type LogKind, type OpenOptions, type Summary, type TimeUnit } from './log.ts';
+import { quantile, sampleEvenly } from './path.ts';
 
 export type Units = Summary['units'];
 

@@ -3,10 +3,10 @@
 import type { SharedCore } from '../core.ts';
 import type { AlphaCalibrator, AlphaCalibratorSettings, CalibrationLog, Motion } from '../types.d.ts';
 import { german } from './de.ts';
-import { readDrives, type Drive, type RecordingChoice, type LogPlan } from './drives.ts';
+import type { RecordingChoice, LogPlan } from './drives.ts';
+import { readDrives, type Drive } from './pairs.ts';
 import { english } from './en.ts';
-import { LogError } from './log-error.ts';
-import type { OpenOptions, Question, Recording, Source } from './log.ts';
+import { LogError, type OpenOptions, type Question, type Recording, type Source } from './log.ts';
 import { openRecordings } from './open.ts';
 
 /** Recording as posted to the page: without its methods, but with its index (`place`) among the opened recordings. */

@@ -1,7 +1,6 @@
 /** Containers of messages: the interface that the readers of all formats share. */
 
-import type { Recording, Source } from '../log.ts';
-import { LogError, readBytes, reasonOf } from '../log-error.ts';
+import { LogError, readBytes, reasonOf, type Recording, type Source } from '../log.ts';
 
 export interface Channel {
   topic: string;

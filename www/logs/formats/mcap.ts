@@ -2,11 +2,9 @@
 
 import { crc32 } from '@foxglove/crc';
 import { McapIndexedReader, McapStreamReader } from '@mcap/core';
-import { readBytes } from '../log-error.ts';
-import type { Source } from '../log.ts';
+import { readBytes, type Source } from '../log.ts';
 import { MAX_BLOCK_BYTES, MessageFile, readAhead, uint53, dataViewOf, type Container, type IsWanted, type OnBlock, type OnMessage } from './container.ts';
-import { unlz4 } from './lz4.ts';
-import { loadZstd, unzstd } from './zstd.ts';
+import { unlz4, loadZstd, unzstd } from './decompression.ts';
 
 /** Opcodes of records, and the number of bytes of opcode and length before the content of a record. */
 const [SCHEMA, CHANNEL, MESSAGE, CHUNK, DATA_END] = [3, 4, 5, 6, 15];

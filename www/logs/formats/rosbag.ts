@@ -1,9 +1,8 @@
 /** Connections and messages of ROS 1 bags. http://wiki.ros.org/Bags/Format/2.0 */
 
-import { LogError, readBytes } from '../log-error.ts';
-import type { Source } from '../log.ts';
+import { LogError, readBytes, type Source } from '../log.ts';
 import { MAX_BLOCK_BYTES, MessageFile, readAhead, dataViewOf, uint53, type Container, type IsWanted, type OnBlock, type OnMessage } from './container.ts';
-import { unlz4 } from './lz4.ts';
+import { unlz4 } from './decompression.ts';
 
 /** Values of the field "op" of records. */
 const [MESSAGE, BAG, CHUNK, CHUNK_INFO, CONNECTION] = [2, 3, 5, 6, 7];

@@ -1,9 +1,8 @@
 /** Topics and messages of rosbag2's SQLite databases. https://www.sqlite.org/fileformat.html */
 
-import { LogError, readBytes } from '../log-error.ts';
-import type { Source } from '../log.ts';
+import { LogError, readBytes, type Source } from '../log.ts';
 import { MessageFile, readAhead, dataViewOf, type Channel, type Container, type IsWanted, type OnBlock, type OnMessage } from './container.ts';
-import { loadZstd } from './zstd.ts';
+import { loadZstd } from './decompression.ts';
 
 const [INTERIOR_PAGE, LEAF_PAGE] = [5, 13];
 

@@ -3,14 +3,13 @@
 import { html, nothing, svg } from 'lit';
 import { guard } from 'lit/directives/guard.js';
 import { live } from 'lit/directives/live.js';
-import { findCandidates, readableSeries } from '../../logs/candidates.ts';
-import { ROLES, UNITS, framesText, type LogChoice, type Question, type Recording, type Role } from '../../logs/log.ts';
+import { findCandidates, readableSeries } from '../../logs/drives.ts';
+import type { Drive } from '../../logs/pairs.ts';
+import { ROLES, UNITS, framesText, summaryLines, type LogChoice, type Question, type Recording, type Role } from '../../logs/log.ts';
 import { alignedPath, pathOf, svgPathData, type Path } from '../../logs/path.ts';
-import { summaryLines } from '../../logs/summary.ts';
 import { language } from '../../messages/registry.ts';
 import { radioGroup } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
-import type { Drive } from '../../logs/drives.ts';
 import type { AlphaCalibratorElement } from './alpha-calibrator.ts';
 import type { OpenQuestion, ChosenFiles, LogOpener, LogWords } from './open.ts';
 

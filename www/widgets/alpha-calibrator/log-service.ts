@@ -1,7 +1,8 @@
 /** Client of the worker that reads and calibrates logs. If the page cannot start a worker, the same module runs in the page's thread. */
 
 import { instantiateShared, sharedCore, startWorker, type SharedCore } from '../../core.ts';
-import type { Drive, LogPlan } from '../../logs/drives.ts';
+import type { LogPlan } from '../../logs/drives.ts';
+import type { Drive } from '../../logs/pairs.ts';
 import type { OpenOptions, Source } from '../../logs/log.ts';
 import type { WorkerAnswer, PostedFailure, OnProgress, OpenedRecording, WorkerRequest } from '../../logs/worker.ts';
 import type { AlphaCalibratorSettings, CalibrationLog } from '../../types.d.ts';

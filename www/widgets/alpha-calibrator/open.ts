@@ -7,14 +7,15 @@ import { button } from '../../ui/controls.ts';
 import { formatEditable } from '../../ui/format.ts';
 import { FileOpener } from '../shared/files.ts';
 import { isAbortError, type LogFailure } from './log-service.ts';
-import type { Drive, LogPlan, UserChoices } from '../../logs/drives.ts';
+import type { LogPlan, UserChoices } from '../../logs/drives.ts';
+import type { Drive } from '../../logs/pairs.ts';
 import type { OpenOptions, Question, Recording, Role } from '../../logs/log.ts';
 import type { CalibrationLog } from '../../types.d.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 export type LogWords = typeof import('../../logs/en.ts').english;
 
-type LogError = import('../../logs/log-error.ts').LogError;
+type LogError = import('../../logs/log.ts').LogError;
 
 type LogModules = Awaited<ReturnType<typeof loadLogModules>>;
 
@@ -229,10 +230,10 @@ function logNameOf({ drives, unpaired }: LogPlan, logModules: LogModules) {
 }
 
 async function loadLogModules() {
-  const [candidates, drives, pairs, choice, { english: en }, { german: de }] = await Promise.all([
-    import('../../logs/candidates.ts'), import('../../logs/drives.ts'), import('../../logs/pairs.ts'), import('./log-choice.ts'), import('../../logs/en.ts'), import('../../logs/de.ts'),
+  const [drives, pairs, choice, { english: en }, { german: de }] = await Promise.all([
+    import('../../logs/drives.ts'), import('../../logs/pairs.ts'), import('./log-choice.ts'), import('../../logs/en.ts'), import('../../logs/de.ts'),
   ]);
-  return { ...candidates, ...drives, ...pairs, ...choice, en, de };
+  return { ...drives, ...pairs, ...choice, en, de };
 }
 
 /** Returns the drop zone for logs. Below it are the choosers, the progress or name of the log, and the reason for a refusal. */

@@ -4,8 +4,7 @@
 import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { filesOf } from './bundle.mjs';
-import { ROOT, UserError, isProgram, once, printStep, run } from './process.mjs';
+import { ROOT, UserError, filesOf, isProgram, once, printStep, run } from './process.mjs';
 import { CACHE_DIRECTORY, readManifestValue, ensureNativeRust } from './toolchain.mjs';
 
 const BINDGEN_CRATE = 'scripts/bind';

@@ -4,11 +4,11 @@ import { createHash } from 'node:crypto';
 import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { homedir } from 'node:os';
 import { join } from 'node:path';
+import { pathToFileURL } from 'node:url';
 import { ensureBindProgram } from './bindgen.mjs';
-import { WIDGET_TAGS, bundle, filesOf } from './bundle.mjs';
 import { EXAMPLE_LOGS, writeExampleLog } from './example-log.mjs';
 import { cratesOf } from './licences.mjs';
-import { ROOT, mustRun, printStep, run, runAsScript, settleAll } from './process.mjs';
+import { ROOT, filesOf, mustRun, printStep, run, runAsScript, settleAll } from './process.mjs';
 import { ensurePackages, ensureRustForWasm } from './toolchain.mjs';
 
 const pathOf = (/** @type {string} */ path) => join(ROOT, path);
@@ -39,13 +39,15 @@ const CORE_SOURCES = [
  */
 export async function build({ local = false } = {}) {
   const coreHash = hashOfFiles(CORE_SOURCES);
-  const coreProducts = ['build/motion.js', 'build/motion.wasm', 'build/core.d.ts', 'build/crates.json'];
-  const figureProducts = WIDGET_TAGS.flatMap((tag) => [`build/${tag}.js`, `build/${tag}.wasm`]);
+  const coreProducts = ['build/motion.js', 'build/motion.wasm', 'build/core.d.ts', 'build/crates.json', 'build/settings.js'];
   const isPublishedCurrent = isCurrent('build/core.sha256', coreHash, coreProducts);
   const compiledHash = local && !isPublishedCurrent ? `${coreHash} local` : coreHash;
   // Packages are installed first: without a network that fails at once, and compiling takes minutes.
   await ensurePackages();
-  await buildIfStale('build/core.sha256', compiledHash, coreProducts, () => buildCores(['motion'], local));
+  await buildIfStale('build/core.sha256', compiledHash, coreProducts, () => buildCores(['declarations', 'motion'], local));
+  // A static import would fail in a bare clone, which has no build/settings.js yet.
+  const { WIDGET_TAGS, bundle } = await import('./bundle.mjs');
+  const figureProducts = WIDGET_TAGS.flatMap((tag) => [`build/${tag}.js`, `build/${tag}.wasm`]);
   if (!local) await buildIfStale('build/figures.sha256', coreHash, figureProducts, () => buildCores(WIDGET_TAGS, false));
   const tagsWithCore = compiledHash === coreHash && isCurrent('build/figures.sha256', coreHash, figureProducts) ? WIDGET_TAGS : [];
   const pagesHash = hashOfFiles(['www', 'package.json', 'package-lock.json', ...PAGE_SCRIPTS], compiledHash + tagsWithCore);
@@ -84,7 +86,8 @@ function isCurrent(stamp, sourceHash, products) {
 /**
  * Builds cores, each a module and its glue.
  *
- * @param {string[]} coreNames "motion" for the whole core, or the tags of figures, whose cores have their own simulation alone
+ * @param {string[]} coreNames "motion" for the whole core, "declarations" for the declared settings, or the tags of figures, whose cores have
+ *   their own simulation alone
  * @param {boolean} local
  */
 async function buildCores(coreNames, local) {
@@ -101,6 +104,7 @@ async function buildCores(coreNames, local) {
   }
   await settleAll(finishPromises);
   if (!coreNames.includes('motion')) return;
+  await writeSettings();
   copyFileSync(pathOf('build/bound/motion/motion.d.ts'), pathOf('build/core.d.ts'));
   writeFileSync(pathOf('build/motion.wasm.d.ts'), BUNDLED_CORE_TYPES);
 }
@@ -109,7 +113,7 @@ async function buildCores(coreNames, local) {
  * Compiles a core.
  *
  * @param {Awaited<ReturnType<typeof ensureRustForWasm>>} rust
- * @param {string} name the tag of a widget, or "motion" for the whole core
+ * @param {string} name as in `buildCores`
  * @param {boolean} local
  * @returns {Promise<string>} the path of the module as rustc leaves it
  */
@@ -132,6 +136,15 @@ async function compileCore(rust, name, local) {
     writeFileSync(pathOf('build/crates.json'), JSON.stringify(cratesOf(crateTree, cargoMetadata)));
   }
   return join(cargoMetadata.target_directory, `wasm32-unknown-unknown/${cargoProfile}/motion.wasm`);
+}
+
+/** Writes build/settings.js: constants of the core that pages need before they load it, and scripts that generate types and tables. */
+async function writeSettings() {
+  const { default: createCore } = await import(pathToFileURL(pathOf('build/declarations.js')).href);
+  const constants = (await createCore(new WebAssembly.Module(readFileSync(pathOf('build/declarations.wasm'))))).constants();
+  const typeLines = "/** @typedef {import('./bound/declarations/motion.d.ts').Declaration} Declaration */\n\n/** @type {Record<string, Declaration[]>} */\n";
+  const constantLines = Object.entries(constants).map(([name, value]) => `export const ${name} = ${JSON.stringify(value, null, 1)};\n`);
+  writeFileSync(pathOf('build/settings.js'), typeLines + constantLines.join('\n'));
 }
 
 /** Writes the module and the glue of a bound core. @param {string} name @param {boolean} local */

@@ -1,13 +1,13 @@
 // Bundles www/ to dist/: variants for a page, a bundler, an iframe, a local file and Node. doc/embedding.md describes them.
 
 import { createHash } from 'node:crypto';
-import { appendFileSync, chmodSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { appendFileSync, chmodSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join, relative } from 'node:path';
-import * as declared from '../www/settings.js';
+import * as declared from '../build/settings.js';
 import { describeWidgets } from './declarations.mjs';
 import { licenceTextOf, packagesOf } from './licences.mjs';
 import { createManifest } from './manifest.mjs';
-import { ROOT, UserError, printStep } from './process.mjs';
+import { ROOT, UserError, filesOf, printStep } from './process.mjs';
 import { writePython } from './python.mjs';
 import { writeComponents } from './react.mjs';
 import { withTables } from './tables.mjs';
@@ -209,7 +209,7 @@ export async function bundle({ tags = WIDGET_TAGS, transformScript = (_, script)
             onLoad({ filter: /./, namespace: 'core' }, () => ({ contents: MODULE_SOURCES.bytes(moduleBytes, SHIFTED_CHARACTERS[options.charset === 'ascii' ? 'ascii' : 'utf8']) }));
             // A page without workers runs the worker's script itself.
             if (form === 'external') onResolve({ filter: /\/logs\/worker\.ts$/ }, () => ({ path: `./${basename(LOG_WORKER_PATH)}`, external: true }));
-            onLoad({ filter: /[/\\]www[/\\]settings\.js$/ }, () => ({ contents: minimalDeclarations(), loader: 'js' }));
+            onLoad({ filter: /[/\\]build[/\\]settings\.js$/ }, () => ({ contents: minimalDeclarations(), loader: 'js' }));
             onLoad({ filter: /[/\\]www[/\\]address\.ts$/ }, ({ path }) => ({
               contents: options.format === 'iife' ? ADDRESS_MODULES.classic : options.splitting ? ADDRESS_MODULES.chunk : readFileSync(path, 'utf8'),
               loader: 'js',
@@ -328,15 +328,6 @@ const withoutIndentation = (/** @type {string} */ script) => script.replaceAll(/
  */
 function withNonAsciiEscaped(script) {
   return script.replaceAll(/[^\0-\x7f]/g, (unit) => `\\u${unit.charCodeAt(0).toString(16).padStart(4, '0')}`);
-}
-
-/** Returns the files in a directory, sorted, or a file. @param {string} path from the root */
-export function filesOf(path) {
-  if (statSync(pathOf(path)).isFile()) return [path];
-  return readdirSync(pathOf(path), { withFileTypes: true, recursive: true })
-    .filter((entry) => entry.isFile())
-    .map((entry) => relative(ROOT, join(entry.parentPath, entry.name)))
-    .sort();
 }
 
 /**

@@ -1,13 +1,13 @@
 // Descriptions of the widgets for the scripts that generate types, tables and the manifest: from the settings of the core,
 // from each widget's settings.ts, and from the comments of the elements' classes.
 
-import { presets, settings } from '../www/settings.js';
+import { presets, settings } from '../build/settings.js';
 import { checkScriptName } from './names.mjs';
 import { ROOT, once } from './process.mjs';
 import { importTypeScript } from './typescript.mjs';
 
 /**
- * @typedef {import('../www/settings.js').Declaration} Declaration
+ * @typedef {import('../build/settings.js').Declaration} Declaration
  *
  * @typedef {object} Field
  * @property {string} name

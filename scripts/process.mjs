@@ -1,9 +1,9 @@
-// Runs other programs, and reports in one sentence what is missing. This script imports only Node built-ins, because it runs in a bare clone.
+// Runs other programs, reports in one sentence what is missing, and lists files. This script imports only Node built-ins, because it runs in a bare clone.
 
 import { AsyncLocalStorage } from 'node:async_hooks';
 import { spawn } from 'node:child_process';
-import { accessSync, constants, realpathSync, statSync } from 'node:fs';
-import { basename, delimiter, join } from 'node:path';
+import { accessSync, constants, readdirSync, realpathSync, statSync } from 'node:fs';
+import { basename, delimiter, join, relative } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 export const ROOT = fileURLToPath(new URL('..', import.meta.url));
@@ -236,4 +236,13 @@ export function isProgram(path) {
   } catch {
     return false;
   }
+}
+
+/** Returns the files in a directory, sorted, or a file. @param {string} path from the root */
+export function filesOf(path) {
+  if (statSync(join(ROOT, path)).isFile()) return [path];
+  return readdirSync(join(ROOT, path), { withFileTypes: true, recursive: true })
+    .filter((entry) => entry.isFile())
+    .map((entry) => relative(ROOT, join(entry.parentPath, entry.name)))
+    .sort();
 }

@@ -3,14 +3,14 @@
 
 import { copyFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { settings } from '../www/settings.js';
+import { settings } from '../build/settings.js';
 import { readClassComments, joinLines, describeWidgets } from './declarations.mjs';
 import { pythonNameOf } from './names.mjs';
 import { ROOT } from './process.mjs';
 import { importTypeScript } from './typescript.mjs';
 
 /**
- * @typedef {import('../www/settings.js').Declaration} Declaration
+ * @typedef {import('../build/settings.js').Declaration} Declaration
  * @typedef {import('./declarations.mjs').Field} Field
  */
 

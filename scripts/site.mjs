@@ -4,8 +4,7 @@
 import { cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join, posix } from 'node:path';
 import { build } from './build.mjs';
-import { WIDGET_TAGS, filesOf } from './bundle.mjs';
-import { ROOT, UserError, mustRun, printStep, runAsScript } from './process.mjs';
+import { ROOT, UserError, filesOf, mustRun, printStep, runAsScript } from './process.mjs';
 import { escapeHtml } from './tables.mjs';
 import { ensurePackages, ensureNativeRust } from './toolchain.mjs';
 
@@ -25,9 +24,6 @@ const TOP_LINKS = {
   'doc/index.html': 'Documents',
 };
 
-/** Pattern of a figure with its content. */
-const FIGURE_RE = new RegExp(`<(${WIDGET_TAGS.join('|')})[^>]*>.*?</\\1>`, 'gs');
-
 /** Returns the address of the page of a document. */
 const pagePathOf = (/** @type {string} */ path) => path.replace(/^README\.md$/, 'start.md').replace(/\bREADME\.md$/, 'index.md').replace(/md$/, 'html');
 
@@ -44,10 +40,10 @@ const navigationHtmlOf = (page) => {
 };
 
 /** Returns the address that inline code in a document links to: a page of the site, or for a tag a page with this figure only. */
-function linkAddressOf(/** @type {string} */ code) {
+function linkAddressOf(/** @type {string} */ code, /** @type {string[]} */ figureTags) {
   if (code in TOP_LINKS) return code;
   const [, widget, attributeText] = code.match(/^<([a-z-]+)((?: [a-z-]+(?:="[^"]*")?)+)>$/) ?? [];
-  if (!WIDGET_TAGS.includes(widget)) return undefined;
+  if (!figureTags.includes(widget)) return undefined;
   const attributes = [...attributeText.matchAll(/([a-z-]+)(?:="([^"]*)")?/g)].map(([, name, value = '']) => [name, value]);
   return `embed.html?${new URLSearchParams([['widget', widget], ...attributes])}`;
 }
@@ -58,8 +54,10 @@ function linkAddressOf(/** @type {string} */ code) {
  * @param {typeof import('marked')} marked
  * @param {string} document
  * @param {string[]} documents
+ * @param {string[]} figureTags
  */
-function renderPage({ Marked }, document, documents) {
+function renderPage({ Marked }, document, documents, figureTags) {
+  const figurePattern = new RegExp(`<(${figureTags.join('|')})[^>]*>.*?</\\1>`, 'gs');
   const pagePath = pagePathOf(document);
   const siteLinkOf = (/** @type {string} */ href) => {
     if (/^(https?:|#)/.test(href)) return href;
@@ -78,12 +76,12 @@ function renderPage({ Marked }, document, documents) {
       },
       image: ({ href, text }) => `<img src="${escapeHtml(href)}" alt="${escapeHtml(text)}">`,
       codespan({ text }) {
-        const address = linkAddressOf(text);
+        const address = linkAddressOf(text, figureTags);
         const codeHtml = `<code>${escapeHtml(text)}</code>`;
         return address ? `<a href="${relativeLinkTo(pagePath, escapeHtml(address))}">${codeHtml}</a>` : codeHtml;
       },
       code({ text, lang }) {
-        const liveFigures = lang === 'html' ? (text.match(FIGURE_RE) ?? []).filter((figure) => !figure.includes('[') && !shownFigures.has(figure)) : [];
+        const liveFigures = lang === 'html' ? (text.match(figurePattern) ?? []).filter((figure) => !figure.includes('[') && !shownFigures.has(figure)) : [];
         for (const figure of liveFigures) shownFigures.add(figure);
         return `<pre><code>${escapeHtml(text)}</code></pre>\n${liveFigures.join('\n')}\n`;
       },
@@ -126,6 +124,8 @@ function checkLinks() {
 
 await runAsScript(import.meta.url, async () => {
   await build();
+  // The tags come from settings that the build writes.
+  const { WIDGET_TAGS } = await import('./bundle.mjs');
   await ensurePackages('scripts');
   const rustTools = await ensureNativeRust();
   printStep('Documenting the crate');
@@ -143,7 +143,7 @@ await runAsScript(import.meta.url, async () => {
   const markedModule = await import('marked');
   const documentPaths = ['README.md', ...filesOf('doc').filter((path) => path.endsWith('.md'))];
   mkdirSync(join(SITE_DIRECTORY, 'doc/embedding'), { recursive: true });
-  for (const documentPath of documentPaths) writeFileSync(join(SITE_DIRECTORY, pagePathOf(documentPath)), renderPage(markedModule, documentPath, documentPaths));
+  for (const documentPath of documentPaths) writeFileSync(join(SITE_DIRECTORY, pagePathOf(documentPath)), renderPage(markedModule, documentPath, documentPaths, WIDGET_TAGS));
   cpSync(join(ROOT, 'doc/morph.webp'), join(SITE_DIRECTORY, 'doc/morph.webp'));
   checkLinks();
   console.log('\nThe site is in build/site/.');

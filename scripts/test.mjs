@@ -9,8 +9,7 @@ import { join } from 'node:path';
 import { ensureTestRunner } from './bindgen.mjs';
 import { CHROME_ARGUMENTS, ensureBrowser } from './browser.mjs';
 import { build } from './build.mjs';
-import { filesOf } from './bundle.mjs';
-import { ROOT, UserError, withCollectedOutput, once, printStep, run, runAsScript, settleAll } from './process.mjs';
+import { ROOT, UserError, filesOf, withCollectedOutput, once, printStep, run, runAsScript, settleAll } from './process.mjs';
 import { ensureLints, ensurePackages, ensureNativeRust, ensureRustForWasm } from './toolchain.mjs';
 
 /** @typedef {{ passed: number, failed: number, skipped: number }} Tally */

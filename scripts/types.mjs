@@ -3,7 +3,7 @@
 
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { settings } from '../www/settings.js';
+import { settings } from '../build/settings.js';
 import { readClassComments, descriptionOf, joinLines, toPascalCase, typeTextOf, unionTypeOf, describeWidgets } from './declarations.mjs';
 import { ROOT } from './process.mjs';
 import { importTypeScript } from './typescript.mjs';
@@ -64,7 +64,7 @@ function settingsInterfaceOf(tag) {
   return asInterface(`${toPascalCase(tag)}Settings`, settings[tag].filter((declaration) => !declaration.in && !declaration.of).map(fieldOf));
 }
 
-/** Returns a setting as a field. @param {import('../www/settings.js').Declaration} declaration */
+/** Returns a setting as a field. @param {import('../build/settings.js').Declaration} declaration */
 function fieldOf(declaration) {
   return { name: declaration.field ?? declaration.key, type: typeTextOf(declaration), description: descriptionOf(declaration) };
 }

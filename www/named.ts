@@ -1,6 +1,6 @@
 /** Creates elements by name, for frames and notebooks. */
 
-import { settings } from './settings.js';
+import { settings } from '../build/settings.js';
 
 const TAGS = Object.keys(settings);
 

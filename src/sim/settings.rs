@@ -108,12 +108,12 @@ pub struct Declaration {
     pub key: &'static str,
     /// Key of the setting that this setting sets in another form: `alphas` for a noise level.
     pub of: Option<&'static str>,
-    // The module for browsers omits the sentence and the unit, because no page shows them, and they would make the module larger.
+    // Modules for pages omit the sentence and the unit, because no page shows them, and they would make the module larger.
     /// Description of the setting.
-    #[cfg(not(target_arch = "wasm32"))]
+    #[cfg(widget = "declarations")]
     pub sentence: &'static str,
     /// Unit; "" for a number without one.
-    #[cfg(not(target_arch = "wasm32"))]
+    #[cfg(widget = "declarations")]
     pub unit: &'static str,
 }
 
@@ -423,9 +423,9 @@ macro_rules! declaration {
         $crate::sim::settings::Declaration {
             key: $key,
             of: $crate::sim::settings::declaration!(@of $($original)?),
-            #[cfg(not(target_arch = "wasm32"))]
+            #[cfg(widget = "declarations")]
             sentence: $sentence.trim_ascii(),
-            #[cfg(not(target_arch = "wasm32"))]
+            #[cfg(widget = "declarations")]
             unit: concat!($($unit)?),
         }
     };

@@ -65,7 +65,7 @@ pub fn settings_to_js<S: DeclaredSettings>(settings: &S) -> JsValue {
     js_object(&entries)
 }
 
-fn setting_to_js(setting: Setting) -> JsValue {
+pub fn setting_to_js(setting: Setting) -> JsValue {
     match setting {
         Setting::Number(number, _) => (*number).into(),
         Setting::Integer(integer, _) => (integer.get() as f64).into(),

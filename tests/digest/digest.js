@@ -5,7 +5,7 @@
  * @module
  */
 
-import { presets } from '../../www/settings.js';
+import { presets } from '../../build/settings.js';
 
 /**
  * @typedef {import('../../www/types.d.ts').Motion} Motion

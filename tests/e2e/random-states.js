@@ -4,7 +4,7 @@
  * @module
  */
 
-import { settings } from '../../www/settings.js';
+import { settings } from '../../build/settings.js';
 import { randomGenerator } from '../random.js';
 
 export const STATE_SEEDS = [1, 2, 3, 4, 5, 6, 7, 8];

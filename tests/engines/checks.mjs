@@ -8,7 +8,7 @@ import assert from 'node:assert/strict';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { ROOT } from '../../scripts/process.mjs';
-import { settings } from '../../www/settings.js';
+import { settings } from '../../build/settings.js';
 import { findDifferences } from '../digest/digest.js';
 import { createSimulation, handlesByTag } from './figures.mjs';
 import { simulationStateOf } from './inside.js';

@@ -11,7 +11,7 @@ import { load } from '../../dist/core.js';
 import { toPascalCase } from '../../scripts/declarations.mjs';
 import { selectAttributes, propertiesOf } from '../../www/figure/definition.ts';
 import { packJson, unpack } from '../../www/figure/link.ts';
-import { settings } from '../../www/settings.js';
+import { settings } from '../../build/settings.js';
 import { LogError } from '../../www/logs/log.ts';
 import { openRecordings } from '../../www/logs/open.ts';
 import { applyMap, gridOf, mapDataOf } from '../../www/widgets/map-squeeze/maps/data.ts';

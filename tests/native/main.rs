@@ -50,10 +50,6 @@ mod models {
     mod tangent;
     mod velocity;
 }
-/// Declared settings and the schema generated from them.
-mod settings {
-    mod javascript;
-}
 /// The simulation of each figure.
 mod simulations {
     mod alpha_calibrator;

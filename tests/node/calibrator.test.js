@@ -8,7 +8,7 @@ import { viewCornersOf } from '../../www/widgets/alpha-calibrator/pictures.ts';
 import { legClassesOf, isTruthComparable } from '../../www/widgets/alpha-calibrator/view-model.ts';
 import { SIMULATED_LEGS } from '../../www/widgets/alpha-calibrator/settings.ts';
 import { localized } from '../../www/widgets/alpha-calibrator/words.ts';
-import { settings } from '../../www/settings.js';
+import { settings } from '../../build/settings.js';
 
 test('a leg has the class of its p-value, by as many noises as it shows', () => {
   const residuals = Float64Array.of(0, 0, 0, 0, 0, NaN, 0, NaN, NaN);

@@ -6,7 +6,7 @@ import { readFile } from 'node:fs/promises';
 import { test } from 'node:test';
 import { toPascalCase } from '../../scripts/declarations.mjs';
 import { MAX_VALUE } from '../../www/logs/rows.ts';
-import { settings } from '../../www/settings.js';
+import { settings } from '../../build/settings.js';
 import { importFreshModule } from './support.js';
 
 test('importing and loading touch neither the DOM nor the network, and load gives one module', async () => {
@@ -62,7 +62,7 @@ test('a page finds every name of the contract', async () => {
   assert.deepEqual(Object.keys(motion.se2).sort(), se2);
 });
 
-test('a simulation opens with the settings that www/settings.js declares', async () => {
+test('a simulation opens with the settings that its declarations give', async () => {
   const motion = await (await importFreshModule()).load();
   for (const [tag, declaredSettings] of Object.entries(settings)) {
     const SimulationClass = motion[toPascalCase(tag)];

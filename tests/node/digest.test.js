@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { test } from 'node:test';
-import { presets, settings } from '../../www/settings.js';
+import { presets, settings } from '../../build/settings.js';
 import { findDifferences, computeDigest, resultFunctions } from '../digest/digest.js';
 import { importFreshModule } from './support.js';
 

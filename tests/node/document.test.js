@@ -5,10 +5,9 @@ import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';
 import { dirname, join } from 'node:path';
 import { test } from 'node:test';
-import { filesOf } from '../../scripts/bundle.mjs';
 import { LEG_LIMIT, TRUE_MODEL } from '../../scripts/example-log.mjs';
-import { ROOT } from '../../scripts/process.mjs';
-import { presets } from '../../www/settings.js';
+import { ROOT, filesOf } from '../../scripts/process.mjs';
+import { presets } from '../../build/settings.js';
 
 const readText = (/** @type {string} */ path) => readFileSync(new URL(`../../${path}`, import.meta.url), 'utf8');
 

@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { WORD_LIST_CONVERTER, propertiesOf, selectAttributes } from '../../www/figure/definition.ts';
 import { View } from '../../www/scene/view.ts';
-import { settings } from '../../www/settings.js';
+import { settings } from '../../build/settings.js';
 import { scaleRatioTexts } from '../../www/widgets/dead-reckoning/pictures.ts';
 
 test('boolean attributes may be empty or "true", and lists may have any space', () => {

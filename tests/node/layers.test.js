@@ -5,7 +5,7 @@ import { readFileSync } from 'node:fs';
 import { dirname } from 'node:path';
 import { test } from 'node:test';
 import { build } from 'esbuild';
-import { settings } from '../../www/settings.js';
+import { settings } from '../../build/settings.js';
 
 /** Layers from top to bottom: a file imports from its own layer and from lower ones. */
 const LAYERS = ['www/widgets', 'www/figure', 'www/scene', 'www/ui', 'www/messages'];

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { crc32 } from 'node:zlib';
-import { limits } from '../../www/settings.js';
+import { limits } from '../../build/settings.js';
 import { mapYamlFile, fileWith, simulationWithMap, refusalMessageOf } from './map-support.js';
 
 const PGM = fileWith('map.pgm', 'P5 2 1 255\n\x00\x7f');

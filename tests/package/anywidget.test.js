@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { ROOT } from '../../scripts/process.mjs';
-import { settings } from '../../www/settings.js';
+import { settings } from '../../build/settings.js';
 import { serveDirectory } from './support.js';
 
 const site = serveDirectory(() => join(ROOT, 'dist'));

@@ -4,8 +4,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { filesOf } from '../../scripts/bundle.mjs';
-import { ROOT } from '../../scripts/process.mjs';
+import { ROOT, filesOf } from '../../scripts/process.mjs';
 import { loadEngine, findEngineNames } from '../embeddings/project.mjs';
 
 const embeddingDocuments = filesOf('doc').filter((path) => /embedding.*\.md$/.test(path)).map((path) => readFileSync(join(ROOT, path), 'utf8')).join('\n');

@@ -6,7 +6,7 @@ import { cpSync, existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { ROOT } from '../../scripts/process.mjs';
-import { settings } from '../../www/settings.js';
+import { settings } from '../../build/settings.js';
 import { serveProject } from './support.js';
 
 const project = serveProject();

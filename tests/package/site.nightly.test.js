@@ -4,8 +4,7 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { join } from 'node:path';
 import { test } from 'node:test';
-import { filesOf } from '../../scripts/bundle.mjs';
-import { ROOT } from '../../scripts/process.mjs';
+import { ROOT, filesOf } from '../../scripts/process.mjs';
 import { serveDirectory } from './support.js';
 
 const site = serveDirectory(() => {

@@ -6,7 +6,7 @@ import { join } from 'node:path';
 import { test } from 'node:test';
 import { brotliCompressSync, constants } from 'node:zlib';
 import { ROOT } from '../../scripts/process.mjs';
-import { settings } from '../../www/settings.js';
+import { settings } from '../../build/settings.js';
 
 const pathOf = (/** @type {string} */ path) => join(ROOT, path);
 

@@ -8,7 +8,7 @@ import { integer, formatLimit, parseNumber, formatEditable } from '../ui/format.
 import { sliderRow, type SliderRow } from '../ui/slider.ts';
 import { exportButtons } from './export.ts';
 import type { LineStyle } from '../scene/draw.ts';
-import type { Declaration } from '../settings.js';
+import type { Declaration } from '../../build/settings.js';
 import type { Figure } from './figure.ts';
 
 /** Appearance of a numeric setting. */

@@ -1,6 +1,6 @@
 /** Definition of a widget: its settings with their sliders, its properties and attributes, and the state of its element. */
 
-import { presets, settings, type Declaration } from '../settings.js';
+import { presets, settings, type Declaration } from '../../build/settings.js';
 import { checkedInteger, checkedNumber, checkedSubset, checkedWord, includesFields } from './checks.ts';
 import type { LineStyle } from '../scene/draw.ts';
 import type { SliderSpec } from './controls.ts';
@@ -24,7 +24,7 @@ export interface Property {
   path?: string;
   /** Names of the attributes that this one determines, as a preset does. They are written only while this attribute has no value. */
   coveredAttributes?: string[];
-  /** Allowed words, if the declarations of www/settings.js do not list them. */
+  /** Allowed words, if the declarations do not list them. */
   words?: readonly string[];
   /** Range of a number, if the declarations do not have it. */
   min?: number;
@@ -118,12 +118,8 @@ function commonFactorOf(numbers: number[], weights: number[]): number | null {
 const KEPT_BY_PRESETS = ['samples', 'seed'];
 
 /** Returns the configuration that a figure opens with: the defaults of its settings. */
-export function defaultConfig(declarations: Declaration[]) {
-  let config: Values = {};
-  for (const setting of declarations) {
-    if (!setting.of) config = { ...config, ...propertyOf(setting).change(setting.type === 'group' ? {} : setting.default, config) };
-  }
-  return config;
+export function defaultConfig(declarations: Declaration[]): Values {
+  return Object.fromEntries(declarations.filter((setting) => !setting.in && !setting.of).map((setting) => [setting.key, setting.default]));
 }
 
 /** Returns the attribute of a figure's presets. A preset sets all settings except samples and seed. Settings that it does not list get defaults. */

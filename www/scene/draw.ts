@@ -1,7 +1,7 @@
 /** Drawing of robots, densities, outlines and rings. All functions are stateless. */
 
 import { greatest } from 'd3-array';
-import { limits } from '../settings.js';
+import { limits } from '../../build/settings.js';
 import { colourChannels } from '../ui/theme.ts';
 import { lineLegendEntry, type LegendEntry } from './axes.ts';
 import { addLine, drawDisc, paintWithOpacity, strokeLine, strokePath, type Brush, type LineStroke } from './canvas.ts';

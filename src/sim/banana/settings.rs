@@ -61,8 +61,8 @@ settings! {
     }
 }
 
-/// Descriptions of the attributes `alpha1`, `alpha2`, …, which a native test writes to `www/settings.js`.
-#[cfg(not(target_arch = "wasm32"))]
+/// Descriptions of the attributes `alpha1`, `alpha2`, …, for build/settings.js.
+#[cfg(widget = "declarations")]
 pub const ALPHA_SENTENCES: [&str; 6] = {
     let (present_model, velocity_model) =
         ("Noise parameter of the present model.", "Noise parameter of the velocity model.");

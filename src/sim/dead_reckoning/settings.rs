@@ -56,8 +56,8 @@ settings! {
     }
 }
 
-/// Descriptions of the attributes `alpha1`, `alpha2`, …, which a native test writes to `www/settings.js`.
-#[cfg(not(target_arch = "wasm32"))]
+/// Descriptions of the attributes `alpha1`, `alpha2`, …, for build/settings.js.
+#[cfg(widget = "declarations")]
 pub const ALPHA_SENTENCES: [&str; 6] = ["Noise parameter of the velocity model."; 6];
 
 impl Settings {

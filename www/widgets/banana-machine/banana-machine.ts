@@ -9,7 +9,7 @@ import { define } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
 import { hasLength } from '../../scene/draw.ts';
 import { Memo } from '../../scene/memo.ts';
-import { openingAlphas } from '../../settings.js';
+import { openingAlphas } from '../../../build/settings.js';
 import { clamp } from '../../ui/clamp.ts';
 import { button, formatMarkup, radioButton, group, toggle } from '../../ui/controls.ts';
 import { fixed, formatEditable } from '../../ui/format.ts';

@@ -2,7 +2,7 @@
 
 import { NUMBER_CONVERTER, definitionOf } from '../../figure/definition.ts';
 import { checkedInteger } from '../../figure/checks.ts';
-import { openingAlphas } from '../../settings.js';
+import { openingAlphas } from '../../../build/settings.js';
 import { COMMAND_DASH, alphaSliders, commandSliders } from '../shared/sliders.ts';
 
 /** Styles of the lines in the pictures. */

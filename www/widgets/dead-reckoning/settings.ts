@@ -1,7 +1,7 @@
 /** Dead Reckoning's settings: their attributes, their part of the state, and their sliders. */
 
 import { defaultConfig, definitionOf } from '../../figure/definition.ts';
-import { settings } from '../../settings.js';
+import { settings } from '../../../build/settings.js';
 import { ALPHA_SLIDER, COMMAND_DASH, alphaSliders, commandSliders } from '../shared/sliders.ts';
 import type { DeadReckoningSettings } from '../../types.d.ts';
 

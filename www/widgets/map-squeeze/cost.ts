@@ -1,6 +1,6 @@
 /** Measured cost of each sampler on this device. */
 
-import { limits } from '../../settings.js';
+import { limits } from '../../../build/settings.js';
 import { SAMPLERS } from './settings.ts';
 import type { MapSqueeze, SamplerName } from '../../types.d.ts';
 

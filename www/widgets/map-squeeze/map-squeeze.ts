@@ -7,7 +7,7 @@ import { FigureElement } from '../../figure/figure.ts';
 import { define } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
 import { Memo } from '../../scene/memo.ts';
-import { verdict as bits } from '../../settings.js';
+import { verdict as bits } from '../../../build/settings.js';
 import { button, group, radioGroup } from '../../ui/controls.ts';
 import { PoseHandles } from '../shared/pose-handles.ts';
 import { presetButtons, startOverButton } from '../shared/presets.ts';

@@ -9,7 +9,7 @@ import { drawLabel, drawLeader } from '../../scene/labels.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
 import { View, extentAround } from '../../scene/view.ts';
 import { WallLayer, cellCorner, type Cells } from '../../scene/walls.ts';
-import { limits } from '../../settings.js';
+import { limits } from '../../../build/settings.js';
 import { clamp } from '../../ui/clamp.ts';
 import { drawDraggableRobot, drawRobotOutline } from '../shared/robot.ts';
 import { LINE_STYLES } from './settings.ts';

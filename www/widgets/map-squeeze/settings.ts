@@ -1,7 +1,7 @@
 /** Map Squeeze's settings: their attributes, their part of the state, and their sliders. */
 
 import { WORD_CONVERTER, presetPropertyOf, definitionOf } from '../../figure/definition.ts';
-import { presets, settings } from '../../settings.js';
+import { presets, settings } from '../../../build/settings.js';
 import { COMMAND_DASH, commandSliders } from '../shared/sliders.ts';
 import type { SamplerName } from '../../types.d.ts';
 

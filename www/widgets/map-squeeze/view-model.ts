@@ -1,7 +1,7 @@
 /** View model of Map Squeeze. */
 
 import { words } from '../../messages/registry.ts';
-import { verdict as bits } from '../../settings.js';
+import { verdict as bits } from '../../../build/settings.js';
 import { integer, fixed, percent } from '../../ui/format.ts';
 import type { MapSqueeze, SqueezeSettings, SqueezeStats } from '../../types.d.ts';
 

@@ -3,7 +3,7 @@
  */
 
 import { addEnglish, words } from '../../messages/registry.ts';
-import { verdict as bits } from '../../settings.js';
+import { verdict as bits } from '../../../build/settings.js';
 import { integer, fixed, percent } from '../../ui/format.ts';
 import { commandText } from '../shared/sliders.ts';
 import { en } from './en.ts';

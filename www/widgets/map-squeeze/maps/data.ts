@@ -2,7 +2,7 @@
 
 import { checkedObject, refusalError, withFieldRenamed, checkedInteger } from '../../../figure/checks.ts';
 import { fromBase64, toBase64 } from '../../../figure/link.ts';
-import { limits } from '../../../settings.js';
+import { limits } from '../../../../build/settings.js';
 import type { Cells } from '../../../scene/walls.ts';
 import type { MapData, MapSqueeze } from '../../../types.d.ts';
 

@@ -1,7 +1,7 @@
 /** Map files of the user: a JSON floor plan, or a pair of files as for ROS map_server. */
 
 import { YAMLException, load } from 'js-yaml';
-import { limits } from '../../../settings.js';
+import { limits } from '../../../../build/settings.js';
 import type { MapSqueeze } from '../../../types.d.ts';
 
 export type RefusalWords = import('../../../messages/registry.ts').Messages['squeeze']['refused'];

@@ -12,10 +12,9 @@ import { View, extentAround } from '../../scene/view.ts';
 import { clamp } from '../../ui/clamp.ts';
 import { fixed } from '../../ui/format.ts';
 import { drawDraggableRobot, drawRobotOutline } from '../shared/robot.ts';
-import { CONTOUR_STYLES, LINE_STYLES, type LineName } from './settings.ts';
+import { CONTOUR_STYLES, LINE_STYLES, type LineName, type ViewModel } from './settings.ts';
 import type { ArcAnatomy, ArcWithCircle, Pose, AnatomySurface } from '../../types.d.ts';
 import type { Palette } from '../../ui/theme.ts';
-import type { ViewModel } from './words.ts';
 
 export type Scene = ViewModel & { simulation: ArcAnatomy, overlays: LineName[], line: number, underway: Float64Array | undefined };
 

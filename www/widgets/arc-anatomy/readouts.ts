@@ -1,15 +1,56 @@
-/** Readouts of Arc Anatomy: the likelihood, its three factors as bars, Table 5.1, and errors of three forms of the arc. */
+/** Readouts of Arc Anatomy, sentences and text equivalents: the likelihood, its factors as bars, Table 5.1, and errors of three forms of the arc. */
 
 import { html, nothing, svg } from 'lit';
-import { words } from '../../messages/registry.ts';
+import { addEnglish, words } from '../../messages/registry.ts';
 import { clamp } from '../../ui/clamp.ts';
 import { formatMarkup } from '../../ui/controls.ts';
-import { fixed, formatPowerOfTen } from '../../ui/format.ts';
+import { fixed, percent, formatPowerOfTen, formatSignificant } from '../../ui/format.ts';
 import { plot } from '../../ui/plot.ts';
 import { readoutList } from '../../ui/readouts.ts';
-import { TABLE_LINES } from './settings.ts';
-import { densityText, isTiny, shareText, type ViewModel } from './words.ts';
-import type { FormErrors, Motion } from '../../types.d.ts';
+import { commandText } from '../shared/sliders.ts';
+import { en } from './en.ts';
+import { TABLE_LINES, type ViewModel } from './settings.ts';
+import type { FormErrors, Motion, Pose } from '../../types.d.ts';
+
+addEnglish({ anatomy: en });
+
+/** Limit below which numbers are printed as powers of ten: p is a product of three densities, and spans many decades. */
+const MIN_PLAIN_NUMBER = 0.0005;
+
+function scientificText(value: number) {
+  const [mantissa, exponent] = value.toExponential(1).split('e').map(Number);
+  return `${fixed(mantissa, 1)}·${formatPowerOfTen(exponent)}`;
+}
+
+/** Returns true if a number is printed as a power of ten. */
+const isTiny = (value: number) => value > 0 && value < MIN_PLAIN_NUMBER;
+
+const shareText = (share: number) => (isTiny(share) ? scientificText(share) : percent(share));
+
+const densityText = (density: number) => (isTiny(density) ? scientificText(density) : formatSignificant(density, 3));
+
+/** Returns a sentence about the factor that makes p small. */
+export function captionOf({ config, stats: { factors, weakest, share, driven, inverted } }: ViewModel) {
+  const texts = words.anatomy.verdict;
+  const { deviations, share: keptShare, deviation } = factors[weakest];
+  const estimateName = `${words.anatomy.bars.names[weakest]} ${['v̂', 'ω̂', 'γ̂'][weakest]}`;
+  if (config.printed && driven.arcLength !== inverted.arcLength) return texts.printed(fixed(factors[0].estimate, 2), shareText(share));
+  if (share === 1) return texts.peak;
+  if (deviation === 0) return texts.noiseless(estimateName);
+  return texts.off(estimateName, fixed(Math.abs(deviations), 1), shareText(keptShare), shareText(share));
+}
+
+const poseText = ({ x, y, theta }: Pose) => words.anatomy.pose(fixed(x, 2), fixed(y, 2), fixed(theta, 2));
+
+export function pictureText(viewModel: ViewModel) {
+  const { config, stats: { inverted } } = viewModel;
+  const texts = words.anatomy.picture;
+  return [
+    texts.poses(poseText(config.start), commandText(config.command), poseText(config.next)),
+    inverted.center === null ? texts.straight : texts.arc(fixed(inverted.radius, 2), inverted.radius > 0),
+    captionOf(viewModel),
+  ].join(' ');
+}
 
 /** Scale of the bars: maximum number of standard deviations to either side, and pixels per standard deviation. */
 const BAR_SCALE = { max: 4, pixels: 22 };

@@ -1,8 +1,12 @@
-/** Arc Anatomy's settings: their attributes, their part of the state, and their sliders. */
+/** Arc Anatomy's settings: their attributes, their part of the state, and their sliders; line styles, and the view model. */
 
 import { checkedInteger, checkedNumber } from '../../figure/checks.ts';
 import { definitionOf } from '../../figure/definition.ts';
 import { COMMAND_DASH, alphaSliders, commandSliders } from '../shared/sliders.ts';
+import type { ArcAnatomy } from '../../types.d.ts';
+
+/** Values of the simulation that the picture and the readouts need. */
+export type ViewModel = ReturnType<ArcAnatomy['read']>;
 
 /** Number of lines of Table 5.1. */
 export const TABLE_LINES = 9;

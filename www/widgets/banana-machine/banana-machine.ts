@@ -1,6 +1,6 @@
 /** <banana-machine>: one command, thousands of outcomes, and the coordinates in which they are nearly a Gaussian. */
 
-import { html, nothing } from 'lit';
+import { html, nothing, css } from 'lit';
 import { checkedObject } from '../../figure/checks.ts';
 import { enterCloud } from '../../figure/cloud.ts';
 import { pictureCanvas, disclosures, titledPicture, cloudButtons, samplesSlider, settingCheckbox, settingRadios, settingSlider, settingSliders, legend } from '../../figure/controls.ts';
@@ -8,6 +8,7 @@ import { FigureElement } from '../../figure/figure.ts';
 import { define } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
 import { hasLength } from '../../scene/draw.ts';
+import { Handle, stepsOfKey } from '../../scene/handle.ts';
 import { Memo } from '../../scene/memo.ts';
 import { openingAlphas } from '../../../build/settings.js';
 import { clamp } from '../../ui/clamp.ts';
@@ -17,17 +18,52 @@ import { plot } from '../../ui/plot.ts';
 import { Player } from '../shared/player.ts';
 import { presetButtons } from '../shared/presets.ts';
 import { subscriptOf } from '../shared/sliders.ts';
-import { ArcHandle } from './handle.ts';
 import { IntroducedCloud } from './introduction.ts';
 import { MORPH_MS, lineMorphOf, morphControl, outlinesAt, morphedPoint } from './morph.ts';
 import { PlanePicture, TwistPicture } from './pictures.ts';
-import { markedRobotField, otherReadouts, mainReadouts, twistTable, workedExampleTable } from './readouts.ts';
-import { LINE_STYLES, OVERLAY_NAMES, definition, sliderSpecs, COMMAND_SLIDERS, SAMPLE_COUNTS } from './settings.ts';
-import { styles } from './styles.ts';
-import { viewModelOf, viewModelOfSettings, type ViewModel } from './view-model.ts';
-import { calloutsOf, captionOf, floorTitle, planeText, twistCaption, twistText } from './words.ts';
-import type { BananaMachine as Simulation, BananaMachineSettings as Settings, Inspection } from '../../types.d.ts';
+import { markedRobotField, otherReadouts, mainReadouts, twistTable, workedExampleTable, calloutsOf, captionOf, floorTitle, planeText, twistCaption, twistText } from './readouts.ts';
+import { sliderSpecs, LINE_STYLES, OVERLAY_NAMES, definition, COMMAND_SLIDERS, SAMPLE_COUNTS, viewModelOf, viewModelOfSettings, type ViewModel } from './settings.ts';
 import type { Values } from '../../figure/settings.ts';
+import type { BananaMachine as Simulation, BananaMachineSettings as Settings, Inspection } from '../../types.d.ts';
+
+/** Displacement of the end of the arc per press of an arrow key, metres. */
+const KEY_STEP = 0.02;
+
+class ArcHandle extends Handle {
+  constructor(figure: BananaMachineElement) {
+    super('end', {
+      view: () => figure.pictures[0].view,
+      drag: (x, y) => figure.moveArcEnd(x, y),
+      key: (event) => {
+        const keySteps = stepsOfKey(event);
+        if (!keySteps || !figure.simulation) return false;
+        const [x, y] = figure.visibleArcEnd;
+        // The straight arc reaches furthest.
+        const maxX = sliderSpecs.v.max * figure.settings.requested.command.dt;
+        figure.moveArcEnd(clamp(x + KEY_STEP * keySteps[0], -maxX, maxX), y + KEY_STEP * keySteps[1]);
+        return true;
+      },
+      commit: () => figure.gesture.commit(),
+    });
+  }
+
+  /** Renders the handle, with a hint to drag it if the introduction asks for that. */
+  render({ v, omega }: import('../../types.d.ts').Command, isAsking: boolean) {
+    const texts = words.banana;
+    const { min, max } = sliderSpecs.omega;
+    const isAtLimit = [v - sliderSpecs.v.min, sliderSpecs.v.max - v, omega - min, max - omega].some((margin) => margin <= 0);
+    return this.handleHtml({
+      name: texts.handle,
+      keys: texts.handleKeys,
+      title: words.pose.moveTitle,
+      range: [min, max],
+      now: omega,
+      text: `v = ${fixed(v, 2)} m/s, ω = ${fixed(omega, 2)} rad/s`,
+      stop: isAtLimit && texts.slidersEnd,
+      hint: isAsking && texts.handleHint,
+    });
+  }
+}
 
 /** Columns of the executed command in a table. */
 const EXECUTED_COLUMNS = {
@@ -85,6 +121,94 @@ function alphaSlider(figure: BananaMachineElement, alphaNumber: number, [name, e
     },
   });
 }
+
+const styles = css`
+  /* A narrow figure has one picture: the one with the morph, which can show both. */
+  @container (width < 30em) {
+    .views > .twist {
+      display: none;
+    }
+  }
+
+  /* On a phone the title, which judges the ellipse, stays visible with the picture. */
+  @media (min-height: 40em) {
+    @container (width < 30em) {
+      .panel-title {
+        position: sticky;
+        top: var(--top);
+        z-index: 3;
+        background: var(--paper);
+      }
+
+      .stage[part='picture'] {
+        top: calc(var(--top) + 1.3em);
+      }
+    }
+  }
+
+  /* Margin for the fade below the pictures. */
+  .morphing {
+    display: flex;
+    flex-wrap: wrap;
+    align-items: start;
+    gap: 0.5em 1em;
+    margin-top: 0.7em;
+  }
+
+  /* The ends have their names below the track. */
+  .morph {
+    --thumb: var(--posterior);
+    flex: 1;
+    display: grid;
+    grid-template-columns: auto auto 1fr;
+    column-gap: 0.75em;
+  }
+
+  .morph button {
+    grid-row: span 2;
+  }
+
+  .morph input {
+    grid-column: 2 / -1;
+  }
+
+  .morph .floor {
+    grid-column: 2;
+  }
+
+  .morph .twist {
+    text-align: end;
+  }
+
+  /* The three main readouts, in columns of equal width where there is room. */
+  .surface .simulation > .readouts {
+    display: grid;
+    gap: 0.4em 1.25em;
+  }
+
+  @container (min-width: 30em) {
+    .views {
+      grid-template-columns: 1fr 1fr;
+      column-gap: 1em;
+    }
+
+    .surface .simulation > .readouts {
+      grid-template-columns: repeat(3, 1fr);
+    }
+  }
+
+  @container (min-width: 38em) {
+    canvas {
+      aspect-ratio: 1.45;
+    }
+  }
+
+  @container (min-width: 56em) {
+    canvas {
+      aspect-ratio: 1.6;
+    }
+  }
+`;
 
 /**
  * One command, thousands of outcomes, and the coordinates in which they are close to an ordinary Gaussian.

@@ -8,7 +8,7 @@ import { View, type Extent } from '../../scene/view.ts';
 import { percent } from '../../ui/format.ts';
 import { track } from '../../ui/slider.ts';
 import type { Motion } from '../../types.d.ts';
-import type { ViewModel } from './view-model.ts';
+import type { ViewModel } from './settings.ts';
 
 /** Lines on the floor, or their images under the morph. */
 export type Outlines = Omit<ViewModel['contours'], 'twistEllipse'>;

@@ -12,8 +12,7 @@ import { Density } from '../../scene/pixels.ts';
 import { View, extentOf } from '../../scene/view.ts';
 import { integer } from '../../ui/format.ts';
 import { drawMorphGrid, MorphView, morphedPoint, type Outlines } from './morph.ts';
-import { deviationOf, type ViewModel } from './view-model.ts';
-import { LINE_STYLES, type LineName } from './settings.ts';
+import { deviationOf, type ViewModel, LINE_STYLES, type LineName } from './settings.ts';
 import type { BananaMachine, Moments } from '../../types.d.ts';
 import { addLine, drawDisc, paintWithOpacity, strokePath, type Brush } from '../../scene/canvas.ts';
 

@@ -1,9 +1,11 @@
-/** The Banana Machine's settings: their attributes, their part of the state, and their sliders. */
+/** The Banana Machine's settings: their attributes, their part of the state, and their sliders; line styles, and the view model. */
 
 import { NUMBER_CONVERTER, definitionOf } from '../../figure/definition.ts';
-import { checkedInteger } from '../../figure/checks.ts';
+import { checkedInteger, withFieldRenamed } from '../../figure/checks.ts';
+import { words } from '../../messages/registry.ts';
 import { openingAlphas } from '../../../build/settings.js';
 import { COMMAND_DASH, alphaSliders, commandSliders } from '../shared/sliders.ts';
+import type { BananaMachine as Simulation, BananaMachineSettings as Settings, Motion, Stats, Table } from '../../types.d.ts';
 
 /** Styles of the lines in the pictures. */
 export const LINE_STYLES = {
@@ -46,3 +48,72 @@ export const definition = definitionOf('banana-machine', {
 
 /** Sample counts that the slider offers, in the steps 1–2–5 of a logarithmic scale. Clouds beyond a million would lag behind the finger. */
 export const SAMPLE_COUNTS = [1, 2, 3, 4, 5].flatMap((decade) => [1, 2, 5].map((step) => step * 10 ** decade)).concat(1_000_000);
+
+export type ViewModel = ReturnType<typeof viewModelOf>;
+
+/** Standard deviation (m or rad) up to which poses count as equal, because it may be rounding of the quadrature. */
+const MIN_SPREAD = 1e-9;
+
+export function viewModelOf(simulation: Simulation) {
+  const results = simulation.read();
+  const { config, stats, contours, table, chartHolds } = results;
+  return {
+    ...results,
+    note: cloudNote(config, table, stats, chartHolds),
+    exactSkew: table.exact.crossTrackSkew,
+    gain: gaussianGain(stats, table),
+    /** Command as an odometry reading; null under the velocity model. */
+    reading: config.model === 'odometry' ? results.reading : null,
+    /** End of the commanded arc, metres. */
+    end: [...contours.command.slice(-2)] as [number, number],
+  };
+}
+
+/** Returns the view model of a new simulation with these settings; throws a TypeError or RangeError that names a field of `state.pinned`. */
+export function viewModelOfSettings(motion: Motion, settings: Settings): ViewModel {
+  let simulation;
+  try {
+    simulation = new motion.BananaMachine(settings);
+    return viewModelOf(simulation);
+  } catch (error) {
+    throw withFieldRenamed(error, 'state.pinned.', '');
+  } finally {
+    simulation?.free();
+  }
+}
+
+/**
+ * Returns the gain of log-likelihood by the Gaussian in exponential coordinates over that in (x, y, θ). If its covariance is singular, that
+ * gain is unbounded, and the gain of arc coordinates over (x, y) is returned.
+ */
+function gaussianGain({ n, likelihoodGain, likelihoodGainError }: Stats, { exact }: Table) {
+  const isUnbounded = exact.likelihoodGain.pose === Infinity;
+  const gainKind = isUnbounded ? 'floor' : 'pose';
+  return { n, unbounded: isUnbounded, value: likelihoodGain[gainKind], error: likelihoodGainError[gainKind], exact: exact.likelihoodGain[gainKind], wraps: 4 * Math.sqrt(exact.cov[2][2]) > Math.PI };
+}
+
+/** Returns the standard deviation of a variance. Rounding may have made the variance slightly negative. */
+export function deviationOf(variance: number) {
+  return Math.sqrt(Math.max(0, variance));
+}
+
+/** Returns the kind of spread according to the exact covariance: one pose, one position with many headings, or a cloud. */
+export function spreadKind({ exact: { cov } }: Table): 'point' | 'headings' | 'cloud' {
+  if (deviationOf(Math.max(cov[0][0], cov[1][1])) > MIN_SPREAD) return 'cloud';
+  return deviationOf(cov[2][2]) > MIN_SPREAD ? 'headings' : 'point';
+}
+
+/**
+ * Returns a sentence about an unusual cloud, with the settings that cause it; empty for a usual cloud. `chartHolds` is false if robots turn
+ * so far that exponential coordinates are undefined.
+ */
+function cloudNote({ model, command, reverseAware }: Settings, table: Table, stats: Stats, chartHolds: boolean): string {
+  const { notes } = words.banana;
+  const kindOfSpread = spreadKind(table);
+  const { v, omega } = command;
+  if (kindOfSpread === 'point') return v === 0 && omega === 0 ? notes.still : notes.silent;
+  if (kindOfSpread === 'headings') return notes.headings;
+  if (!chartHolds) return notes.circle;
+  if (model === 'odometry' && v < 0 && !reverseAware) return notes.backwards;
+  return stats.n > 2 && Object.values(stats.coverage).some(Number.isNaN) ? notes.line : '';
+}

@@ -11,7 +11,7 @@ import { OUTLINE_STYLES } from './settings.ts';
 import { drawDisc, paintWithOpacity, type Brush } from '../../scene/canvas.ts';
 
 /** View model of both pictures, with the poses of the selected robot after each step. */
-export type Scene = import('./view-model.ts').ViewModel & { marked: Float64Array | undefined, overlays: string[] };
+export type Scene = import('./settings.ts').ViewModel & { marked: Float64Array | undefined, overlays: string[] };
 
 /** Number of standard deviations of a cloud that a view shows. */
 const SHOWN_DEVIATIONS = 3.2;

@@ -1,16 +1,86 @@
-/** Readouts of Dead Reckoning: chart of predicted over measured covariance by step, and table of the steps with wrong predictions (misses). */
+/** Readouts of Dead Reckoning, sentences and text equivalents: chart of predicted over measured variance by step, and table of wrong predictions (misses). */
 
+import { greatest, max } from 'd3-array';
 import { html } from 'lit';
 import { sampleField, legend } from '../../figure/controls.ts';
-import { words } from '../../messages/registry.ts';
+import { addEnglish, words } from '../../messages/registry.ts';
 import { formatMarkup } from '../../ui/controls.ts';
-import { NO_VALUE, fixed, integer, formatSignificant } from '../../ui/format.ts';
+import { NO_VALUE, integer, fixed, formatWithError, formatSignificant } from '../../ui/format.ts';
 import { plot, type Role } from '../../ui/plot.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
-import { COMPONENTS, type ViewModel } from './view-model.ts';
-import { CURVE_STYLES, RECURSIONS } from './settings.ts';
-import { shownComponentsOf, finalErrorText, ratioText, worstComponentAt } from './words.ts';
+import { commandText } from '../shared/sliders.ts';
+import { en } from './en.ts';
+import { COMPONENTS, CURVE_STYLES, RECURSIONS, type ViewModel } from './settings.ts';
 import type { Misses } from '../../types.d.ts';
+
+addEnglish({ reckoning: en });
+
+/** Steps at which the caption gives the ratio of the worst component. */
+const CAPTION_STEPS = [1, 2, 5];
+
+/** Prints a fraction in per cent, with a sign unless it rounds to 0. */
+function signedPercent(share: number, printedPercent: string = fixed(100 * share, 1)) {
+  if (Number.isNaN(share)) return NO_VALUE;
+  return `${100 * share >= 0.05 ? '+' : ''}${printedPercent}\u202f%`;
+}
+
+/** Returns the relative error of the predicted variance after the last step, as text. */
+const finalErrorText = ({ end, error }: { end: number, error: number }) => signedPercent(end, formatWithError(100 * end, 100 * error, 1));
+
+/** Returns a caption that says how well the recursion predicts the components that are shown. */
+export function captionOf({ config: { compounding }, stats: { misses, n }, condition, curves }: ViewModel, overlays: string[]) {
+  const texts = words.reckoning;
+  if (condition !== 'certain') return texts.conditions[condition];
+  const recursionMisses = misses[compounding];
+  if (recursionMisses.every(({ first }) => first === null)) return texts.right(integer(n));
+  // The component whose ratio is furthest from 1 at the end, and the one whose ratio is furthest from 1 at any step.
+  const endAxis = worstAxisOf(overlays, (axis) => Math.abs(recursionMisses[axis].end));
+  const worstAxis = worstAxisOf(overlays, (axis) => max(curves[axis].ratio, (ratio) => Math.abs(ratio - 1)) ?? NaN);
+  const ratioList = ratiosAtSteps(Array.from(curves[worstAxis].ratio));
+  return texts.wrong(texts.of[COMPONENTS[worstAxis]], ratioList, signedPercent(recursionMisses[endAxis].end), texts.of[COMPONENTS[endAxis]]);
+}
+
+/** Returns the index of the shown component whose miss (error of the prediction) is greatest; NaN is not a miss. */
+function worstAxisOf(overlays: string[], missOf: (axis: number) => number) {
+  const shownAxes = shownComponentsOf(overlays).map((name) => COMPONENTS.indexOf(name));
+  return greatest(shownAxes, missOf) ?? shownAxes[0];
+}
+
+const ratiosAtSteps = (ratios: number[]) =>
+  CAPTION_STEPS.filter((step) => step <= ratios.length).map((step) => `${fixed(ratios[step - 1], 2)} (${words.reckoning.atStepMark(step)})`).join(', ');
+
+/** Returns the components whose curves are shown, or all components if no curve is shown. */
+function shownComponentsOf(overlays: string[]): readonly (typeof COMPONENTS)[number][] {
+  const selectedComponents = COMPONENTS.filter((name) => overlays.includes(name));
+  return selectedComponents.length > 0 ? selectedComponents : COMPONENTS;
+}
+
+/** Returns the component whose ratio at the selected step is furthest from 1, of those shown. */
+function worstComponentAt({ config: { step }, curves }: ViewModel, overlays: string[]) {
+  const axis = worstAxisOf(overlays, (i) => Math.abs(curves[i].ratio[step - 1] - 1));
+  return { component: COMPONENTS[axis], ratio: curves[axis].ratio[step - 1], error: curves[axis].error[step - 1] };
+}
+
+function ratioText({ config: { step, compounding }, curves }: ViewModel, overlays: string[]) {
+  const texts = words.reckoning;
+  const ratioTexts = shownComponentsOf(overlays).map((name) => {
+    const { ratio, error } = curves[COMPONENTS.indexOf(name)];
+    return `${texts.overlays[name]} ${formatWithError(ratio[step - 1], error[step - 1], 2)}`;
+  });
+  return texts.ratioText(texts.recursions[compounding], String(step), ratioTexts.join(', '));
+}
+
+export function planeText({ config, shown, pose }: ViewModel) {
+  const { command, steps, step, compounding } = config;
+  const texts = words.reckoning;
+  return texts.plane(commandText(command), String(steps), integer(shown), String(step), fixed(pose[0], 2), fixed(pose[1], 2), texts.recursions[compounding]);
+}
+
+export function stepText({ config: { step, compounding }, stats: { measured, predicted } }: ViewModel) {
+  const texts = words.reckoning;
+  const planeDeviations = (cov: number[][] | null) => [0, 1].map((axis) => fixed(Math.sqrt(cov?.[axis][axis] ?? NaN), 4));
+  return texts.stepText(String(step), planeDeviations(measured.cov), planeDeviations(predicted[compounding]));
+}
 
 /** Allowed heights of the plot, so that its axis does not change with every step of a drag. */
 const CHART_HEIGHTS = [1.2, 1.6, 2, 3, 5, 10];

@@ -1,6 +1,6 @@
 /** <odometry-decomposer>: an odometry reading as rotate, drive, rotate, and the noise that localizers add to it. */
 
-import { html } from 'lit';
+import { html, css } from 'lit';
 import { Cloud, enterCloud } from '../../figure/cloud.ts';
 import { pictureCanvas, disclosures, titledPicture, settingRadios, cloudControls, settingSlider, settingSliders, legend } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
@@ -14,11 +14,8 @@ import { Player } from '../shared/player.ts';
 import { PoseHandles } from '../shared/pose-handles.ts';
 import { presetButtons } from '../shared/presets.ts';
 import { LegsPicture, ROBOT_RADIUS, WorldPicture } from './pictures.ts';
-import { headlineHtml, outcomeReadouts, spreadPlot } from './readouts.ts';
-import { LINE_STYLES, definition, sliderSpecs, NOISE_SLIDERS, SAMPLE_COUNTS } from './settings.ts';
-import { styles } from './styles.ts';
-import { viewModelOf, type ViewModel } from './view-model.ts';
-import { driftDistance, captionOf, legsPictureText, worldText } from './words.ts';
+import { headlineHtml, outcomeReadouts, spreadPlot, driftDistance, captionOf, legsPictureText, worldText } from './readouts.ts';
+import { LINE_STYLES, definition, sliderSpecs, NOISE_SLIDERS, SAMPLE_COUNTS, viewModelOf, type ViewModel } from './settings.ts';
 import type { OdometryDecomposer as Simulation } from '../../types.d.ts';
 
 /** Returns the table of standard deviations by noise model. Values that differ from Table 5.6 are bold. */
@@ -56,6 +53,94 @@ function noiseControls(figure: OdometryDecomposerElement) {
     </div>
     <p>${formatMarkup(words.decomposer.hinges)}</p>`;
 }
+
+const styles = css`
+  /* On a phone, the handles of two robots need space side by side. */
+  .legs canvas {
+    aspect-ratio: 1;
+  }
+
+  @container (30em <= width < 38em) {
+    .stage canvas {
+      aspect-ratio: 8 / 5;
+    }
+  }
+
+  /* The legs next to the world, each with its text. */
+  @container (min-width: 38em) {
+    .views {
+      grid-template-columns: minmax(0, 3fr) minmax(0, 2fr);
+      column-gap: 1.5em;
+    }
+
+    /* Both pictures are as high as the window allows. */
+    :host(:not([presentation])) .stage {
+      height: clamp(12.5em, 100svh - 32.5em, min(45svh, 24em));
+    }
+
+    canvas {
+      height: 100%;
+    }
+
+    .plays {
+      display: grid;
+      grid-template-columns: 1fr 1fr;
+      column-gap: 2.5em;
+    }
+  }
+
+  @container (min-width: 56em) {
+    :host(:not([presentation])) .stage {
+      height: clamp(16.4em, 100svh - 28.6em, min(45svh, 24em));
+    }
+  }
+
+  @container (38em <= width < 50em) {
+    /* All presets are in one row. */
+    .presets {
+      --beside: 0.45em;
+      gap: 0.35em;
+    }
+
+    .summary .readouts {
+      max-width: 8.5em;
+    }
+
+    .views .caption {
+      font-size: 0.92em;
+      line-height: 1.25;
+    }
+  }
+
+  .playable > button {
+    /* The button is centred on the slider's track, not on track and hint together. */
+    margin-bottom: 1em;
+  }
+
+  .rules table {
+    max-width: none;
+    margin-bottom: 0.5em;
+  }
+
+  .rules .choice {
+    min-height: max(24px, 1.6em);
+  }
+
+  /* Bold, and on a tint. */
+  .rules td:has(strong) {
+    background: color-mix(in srgb, var(--prediction) 16%, var(--paper));
+  }
+
+  .rules :is(td, thead th:not(:first-child)) {
+    padding-inline: clamp(0.05em, 4cqi - 1.1em, 0.54em);
+  }
+
+  @container (width < 24em) {
+    .rules thead th:not(:first-child) {
+      font-size: 0.86em;
+    }
+  }
+`;
 
 /**
  * Odometry read as rotate, drive, rotate, with the noise that localizers add to each part.

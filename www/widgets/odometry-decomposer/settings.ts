@@ -1,7 +1,8 @@
-/** The Odometry Decomposer's settings: their attributes, their part of the state, and their sliders. */
+/** The Odometry Decomposer's settings: their attributes, their part of the state, and their sliders; line styles, and the view model. */
 
 import { definitionOf } from '../../figure/definition.ts';
 import { alphaSliders } from '../shared/sliders.ts';
+import type { OdometryDecomposer, RuleNoise } from '../../types.d.ts';
 
 /** Styles of the lines and marks in the pictures. */
 export const LINE_STYLES = {
@@ -28,3 +29,18 @@ export const sliderSpecs: Record<string, import('../../figure/controls.ts').Slid
 export const definition = definitionOf('odometry-decomposer', { messageKey: 'decomposer', lines: LINE_STYLES, sliderSpecs });
 
 export const SAMPLE_COUNTS = [10, 20, 50, 100, 200, 500, 1000, 2000, 5000];
+
+export type ViewModel = ReturnType<typeof viewModelOf>;
+
+export function viewModelOf(simulation: OdometryDecomposer) {
+  const results = simulation.read();
+  // Legs and standard deviations of the current rule.
+  const { legs, deviations: [rot1, trans, rot2, strafe] } = results.rules.find(({ rule }) => rule === results.config.rule) as RuleNoise;
+  return { ...results, legs, deviations: { rot1, trans, rot2, strafe } };
+}
+
+/** Returns one of several poses in an array of x, y, θ triples. */
+export function poseAt(triples: Float64Array, index: number) {
+  const [x, y, theta] = triples.subarray(3 * index, 3 * index + 3);
+  return { x, y, theta };
+}

@@ -1,6 +1,7 @@
 /** <map-squeeze>: motion conditioned on a map, and walls on the path that a test of the end pose does not see. */
 
 import { html, nothing } from 'lit';
+import { instantiate } from '../../core.ts';
 import { Cloud, enterCloud } from '../../figure/cloud.ts';
 import { pictureCanvas, disclosures, titledPicture, settingCheckbox, settingRadios, cloudControls, sampleField, settingSlider, settingSliders, legend } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
@@ -9,23 +10,20 @@ import { words } from '../../messages/registry.ts';
 import { Memo } from '../../scene/memo.ts';
 import { verdict as bits } from '../../../build/settings.js';
 import { button, group, radioGroup } from '../../ui/controls.ts';
+import { FileOpener } from '../shared/files.ts';
 import { PoseHandles } from '../shared/pose-handles.ts';
 import { presetButtons, startOverButton } from '../shared/presets.ts';
-import { measureCosts } from './cost.ts';
+import { measureCosts, overviewMapHtml, costTable, tallyReadouts, captionOf, headlineOf, mapText, pictureText, verdictText } from './readouts.ts';
 import { applyMap, gridOf, mapDataOf } from './maps/data.ts';
-import { MapOpener, EXTENSIONS } from './maps/open.ts';
 import { FloorPicture } from './picture.ts';
-import { overviewMapHtml, costTable, tallyReadouts } from './readouts.ts';
-import { LINE_STYLES, OPENING_POSE, PRESET_SETTING, definition, COMMAND_SLIDERS, MAX_SAMPLES, SAMPLE_COUNTS } from './settings.ts';
+import { LINE_STYLES, OPENING_POSE, PRESET_SETTING, definition, COMMAND_SLIDERS, MAX_SAMPLES, SAMPLE_COUNTS, outcomeIndex, viewModelOf, type ViewModel } from './settings.ts';
 import { styles } from './styles.ts';
-import { outcomeIndex, viewModelOf, type ViewModel } from './view-model.ts';
 import { WallHandles } from './wall-handles.ts';
 import { wallContact } from './walls.ts';
-import { captionOf, headlineOf, mapText, pictureText, verdictText } from './words.ts';
 import type { Values } from '../../figure/settings.ts';
 import type { Cells } from '../../scene/walls.ts';
 import type { MapData, MapSqueeze as Simulation, Pose } from '../../types.d.ts';
-import type { UserMap } from './maps/files.ts';
+import type { DecodePng, MapFileError, UserMap } from './maps/files.ts';
 
 /** Example of a floor plan: a room with a gap in its wall. */
 const EXAMPLE_PLAN = `{
@@ -67,14 +65,60 @@ function robotAndMapControls(figure: MapSqueezeElement, hasUnknown: boolean) {
     ${radioGroup(settings.view.name, 'view', views, figure.state.elementState.view, (view) => figure.gesture.choose('view', view))}`);
 }
 
+/** Extensions of map files. */
+const MAP_FILE_EXTENSIONS = ['.json', '.yaml', '.yml', '.pgm', '.png'];
+
+/** Size of map files in bytes above which a message is shown while it is read. */
+const LARGE_MAP_BYTES = 1_000_000;
+
+/** Decodes a PNG image with the whole core, because the core of the figure has no decoder. */
+const decodePng: DecodePng = async (bytes) => (await instantiate()).readMapImage(bytes);
+
+/** Opener of maps of the user: chosen, dropped or pasted. Shows why the latest one was refused. */
+class MapOpener extends FileOpener<MapSqueezeElement> {
+  /** Disclosure with the current map and the reason why another one was refused. */
+  id = 'more';
+  /** True while a large file is being read. */
+  isReading = false;
+
+  async choose(files: File[]) {
+    if (files.reduce((sum, { size }) => sum + size, 0) > LARGE_MAP_BYTES) {
+      this.isReading = true;
+      this.host.announcer.announce(words.squeeze.own.reading);
+      this.host.requestUpdate();
+      // Waits for two frames, because the message is on the screen only after the first one was drawn.
+      for (let frame = 0; frame < 2; frame++) await new Promise(requestAnimationFrame);
+    }
+    await this.#open(({ readMapFiles }) => readMapFiles(files, decodePng));
+    this.isReading = false;
+    this.host.requestUpdate();
+  }
+
+  paste(text: string) {
+    this.#open(({ readPlan }) => readPlan(words.squeeze.pasted, text));
+  }
+
+  #open(readMap: (reader: typeof import('./maps/files.ts')) => UserMap | Promise<UserMap>) {
+    return this.runAttempt(async (isLatest) => {
+      const map = await readMap(await import('./maps/files.ts'));
+      if (isLatest()) this.host.openMap(map);
+    });
+  }
+
+  explain({ message, sentence }: Error & Partial<MapFileError>) {
+    const { refused } = words.squeeze;
+    return sentence ? sentence(refused) : refused.cannot(message);
+  }
+}
+
 /** Returns the controls for a map of the user's own, with the name and size of the present map. */
-function userMapControls(figure: MapSqueezeElement, opener: import('./maps/open.ts').MapOpener, mapText: string) {
+function userMapControls(figure: MapSqueezeElement, opener: MapOpener, mapText: string) {
   const texts = words.squeeze.own;
   const pasteMap = () => opener.paste((figure.renderRoot.querySelector('#map-text') as HTMLTextAreaElement).value);
   return group(texts.legend, html`<div class="own-map figures">
     <div>
       <p>${texts.text}</p>
-      <p>${opener.button('map-files', texts.files, EXTENSIONS)}</p>
+      <p>${opener.button('map-files', texts.files, MAP_FILE_EXTENSIONS)}</p>
       <p ?hidden=${!opener.isReading}>${texts.reading}</p>
       ${opener.refusalNoteHtml}
       <p class="present muted">${mapText}.</p>

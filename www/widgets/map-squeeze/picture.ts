@@ -12,10 +12,9 @@ import { WallLayer, cellCorner, type Cells } from '../../scene/walls.ts';
 import { limits } from '../../../build/settings.js';
 import { clamp } from '../../ui/clamp.ts';
 import { drawDraggableRobot, drawRobotOutline } from '../shared/robot.ts';
-import { LINE_STYLES } from './settings.ts';
+import { LINE_STYLES, type ViewModel } from './settings.ts';
 import type { MapSqueeze, Plan } from '../../types.d.ts';
 import { addLine, drawDisc, fillPath, paintWithOpacity, strokePath, type Brush } from '../../scene/canvas.ts';
-import type { ViewModel } from './view-model.ts';
 
 export interface Scene extends ViewModel {
   simulation: MapSqueeze;

@@ -1,15 +1,62 @@
-/** Map Squeeze's readouts: counts of the samples, the selected one, the cost of each sampler, and the whole map beside a close view. */
+/** Map Squeeze's readouts, sentences and text equivalents: outcomes of the samples, the measured cost of each sampler, and the map beside a close view. */
 
 import { html, nothing } from 'lit';
-import { words } from '../../messages/registry.ts';
+import { addEnglish, words } from '../../messages/registry.ts';
+import { verdict as bits, limits } from '../../../build/settings.js';
 import { button } from '../../ui/controls.ts';
-import { integer, fixed, formatRounded } from '../../ui/format.ts';
+import { integer, fixed, percent, formatRounded } from '../../ui/format.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
-import { SAMPLES_PER_SECOND, type SampleCost } from './cost.ts';
-import { SAMPLERS } from './settings.ts';
-import type { SamplerName } from '../../types.d.ts';
+import { commandText } from '../shared/sliders.ts';
+import { en } from './en.ts';
+import { throughWallText, SAMPLERS, type ViewModel } from './settings.ts';
+import type { MapSqueeze, Plan, SamplerName, SqueezeSettings as Settings, SqueezeStats as Stats } from '../../types.d.ts';
 import type { MapSqueezeElement as Figure } from './map-squeeze.ts';
-import type { ViewModel } from './view-model.ts';
+
+addEnglish({ squeeze: en });
+
+/** Returns the text of a verdict, whose bits are in `verdict` of settings.js. */
+export function verdictText(verdict: number, config: Settings) {
+  const hasBit = (bit: number) => (verdict & bit) !== 0;
+  const { overlays, verdict: reasons } = words.squeeze;
+  const isAccepted = hasBit(bits.accepted);
+  if (!isAccepted && config.sampler === 'sub-stepped') return `${overlays.rejected}: ${reasons.part}`;
+  const outcomeText = isAccepted ? overlays.accepted : overlays.rejected;
+  if (!hasBit(bits.endFree)) return `${outcomeText}: ${reasons.end}`;
+  if (hasBit(bits.pathFree)) return `${outcomeText}: ${reasons.free}`;
+  return `${isAccepted ? overlays.through : outcomeText}: ${reasons.way}`;
+}
+
+/** Returns the headline: the share of accepted motions that went through a wall. */
+export function headlineOf({ attempts, accepted, throughWall }: Pick<Stats, 'attempts' | 'accepted' | 'throughWall'>) {
+  const texts = words.squeeze.headline;
+  if (attempts === 0) return texts.untried;
+  if (accepted === 0) return texts.nothing;
+  return throughWall === 0 ? texts.none : texts.share(percent(throughWall / accepted));
+}
+
+/** Returns the caption: the counts of the samples, or why the robot cannot move. */
+export function captionOf({ config: { conditioned, sampler }, stats, note }: ViewModel) {
+  const { accepted, attempts, gaveUp } = stats;
+  const texts = words.squeeze;
+  // If the robot cannot move, the note contains the number of motions.
+  if (note && (accepted === 0 || gaveUp)) return note;
+  if (attempts === 0) return `${texts.headline.untried}.`;
+  const testedText = texts.tested[conditioned ? sampler : 'off'](integer(accepted), integer(attempts));
+  return `${testedText}; ${throughWallText(stats, conditioned && sampler === 'whole-arc')}. ${note}`.trim();
+}
+
+/** Returns the name of a map with its size. */
+export function mapText(name: string, { bounds, walls }: Plan) {
+  const [left, bottom, right, top] = bounds;
+  return words.squeeze.mapText(name, fixed(right - left, 1), fixed(top - bottom, 1), integer(walls.length / 4));
+}
+
+/** Returns the text equivalent of the picture, with the map as `mapText` has it. */
+export function pictureText(viewModel: ViewModel, map: string) {
+  const { start: { x, y, theta }, command } = viewModel.config;
+  const texts = words.squeeze;
+  return [texts.picture(map), texts.robotAt(fixed(x, 2), fixed(y, 2), fixed(theta, 2), commandText(command)), captionOf(viewModel)].join(' ');
+}
 
 export function tallyReadouts({ stats, paths: { length: paths } }: ViewModel) {
   const { tally: texts } = words.squeeze;
@@ -19,6 +66,37 @@ export function tallyReadouts({ stats, paths: { length: paths } }: ViewModel) {
     [texts.draws, fixed(stats.drawsPerAccepted, 2)],
     [texts.tests, fixed(stats.wallTestsPerAccepted, 2)],
   ]);
+}
+
+/** Cost of one accepted sample, with its time in microseconds; or the reason that there is none. */
+type SampleCost = { micros: number, draws: number, wallTests: number } | 'wedged';
+
+/** Samples per second in the chapter's exercise: 2000 particles, 20 updates per second. */
+const SAMPLES_PER_SECOND = 2000 * 20;
+
+/** Minimum duration of the measured run, ms. Clocks of browsers may have steps of 1 ms. */
+const MIN_RUN_MS = 20;
+
+/** Measures each sampler, in less than half a second together. */
+export const measureCosts = (simulation: MapSqueeze, steps: number) =>
+  Object.fromEntries(SAMPLERS.map((sampler) => [sampler, measureCost(simulation, sampler, sampler === 'sub-stepped' ? steps : 1)])) as Record<SamplerName, SampleCost>;
+
+/** Doubles the number of samples until a run is long enough to be measured. */
+function measureCost(simulation: MapSqueeze, sampler: SamplerName, subStepCount: number): SampleCost {
+  const maxCount = Math.floor(limits.trial / subStepCount);
+  let sampleCount = 1;
+  try {
+    for (;;) {
+      const startTime = performance.now();
+      const { draws, wallTests } = simulation.trial(sampler, subStepCount, sampleCount);
+      const elapsedMs = performance.now() - startTime;
+      if (elapsedMs >= MIN_RUN_MS || sampleCount === maxCount) return { micros: (1000 * elapsedMs) / sampleCount, draws: draws / sampleCount, wallTests: wallTests / sampleCount };
+      sampleCount = Math.min(maxCount, 2 * sampleCount);
+    }
+  } catch (error) {
+    if (!(error instanceof RangeError && error.message.includes('wedged'))) throw error;
+    return 'wedged';
+  }
 }
 
 /** Returns the button that measures the cost of each sampler, and the table of the costs. */
@@ -41,7 +119,7 @@ const coreShareText = (micros: number) => `${formatRounded(100 * micros * 1e-6 *
 const MAX_SHOWN_FRACTION = 0.6;
 
 /** Returns the overview, or nothing if the picture already shows most of the map. */
-export function overviewMapHtml(picture: import('./picture.ts').FloorPicture, { config, commanded }: import('./view-model.ts').ViewModel) {
+export function overviewMapHtml(picture: import('./picture.ts').FloorPicture, { config, commanded }: import('./settings.ts').ViewModel) {
   const { xMin, yMin, xMax, yMax } = picture.knownExtentAround(config.start);
   const [width, height] = [xMax - xMin, yMax - yMin];
   const { extent } = picture.view;

@@ -1,6 +1,7 @@
 // Descriptions of the widgets for the scripts that generate types, tables and the manifest: from the settings of the core,
 // from each widget's settings.ts, and from the comments of the elements' classes.
 
+import { isDeepStrictEqual } from 'node:util';
 import { presets, settings } from '../build/settings.js';
 import { checkScriptName } from './names.mjs';
 import { ROOT, once } from './process.mjs';
@@ -161,16 +162,7 @@ function fieldOf(declaration) {
 
 /** Returns the preset that the widget opens with, if there is one. @param {string} tag */
 function openingPresetOf(tag) {
-  const openingValues = Object.fromEntries(settings[tag].map(({ key, in: group, field, default: value }) => [field ? `${group}.${field}` : key, value]));
-  /** @returns {boolean} */
-  const isOpeningPreset = (/** @type {object} */ fields, group = '') =>
-    Object.entries(fields).every(
-      ([key, value]) => key === 'name' || value === null || (typeof value === 'object' ? isOpeningPreset(value, key) : value === (openingValues[`${group}.${key}`] ?? openingValues[key])),
-    );
-  return presetsOf(tag).find((preset) => isOpeningPreset(preset))?.name;
-}
-
-/** Returns the presets of a widget. @param {string} tag @returns {(Record<string, unknown> & { name: string })[]} */
-function presetsOf(tag) {
-  return /** @type {Record<string, any[]>} */ (presets)[tag] ?? [];
+  const defaultOf = (/** @type {string} */ name) => settings[tag].find(({ key }) => key === name)?.default;
+  const presetsOfTag = presets[/** @type {keyof typeof presets} */ (tag)];
+  return presetsOfTag.find((preset) => Object.entries(preset.settings).every(([key, value]) => isDeepStrictEqual(value, defaultOf(key))))?.name;
 }

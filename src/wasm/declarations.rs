@@ -1,9 +1,9 @@
 //! Declarations of all settings and presets, in a module that the build scripts run. Pages need them before they load the core.
 
-use super::values::{group_to_js, js_array, js_object, setting_to_js};
+use super::values::{js_array, js_object, setting_to_js, settings_to_js};
 use crate::map::{MAX_BYTES, MAX_PIXELS};
 use crate::sim::picture::RAMP_STEPS;
-use crate::sim::settings::{Declaration, DeclaredSettings, Field, Group, Setting};
+use crate::sim::settings::{Declaration, DeclaredSettings, Field, Setting};
 use crate::sim::squeeze::{ACCEPTED_BIT, END_FREE_BIT, MAX_TRIAL_PARTS, PATH_FREE_BIT};
 use crate::sim::{alpha_calibrator, arc_anatomy, banana, dead_reckoning, odometry_decomposer, squeeze};
 use js_sys::{Array, Reflect};
@@ -99,58 +99,43 @@ fn declared_settings() -> JsValue {
     ])
 }
 
-/// Returns the presets of each widget by its tag: objects with a name and values of settings.
+/// Returns the presets of each widget by its tag, each with its name and all settings.
 fn presets() -> JsValue {
     js_object(&[
         (
             "banana-machine",
-            object_array(banana::PRESETS.map(|preset| {
-                named(
-                    preset.name,
-                    [number_entries(preset.command), vec![("alphas", js_array(&preset.alphas))]],
-                )
+            named_settings(banana::PRESETS.map(|banana::Preset { name, command, alphas }| {
+                (name, banana::Settings { command, velocity_alphas: alphas, ..Default::default() })
             })),
         ),
         (
             "map-squeeze",
-            object_array(
+            named_settings(
                 squeeze::PRESETS
-                    .map(|(name, start)| named(name, [vec![("start", group_to_js(&mut { start }))]])),
+                    .map(|(name, start)| (name, squeeze::Settings { start, ..Default::default() })),
             ),
         ),
         (
             "arc-anatomy",
-            object_array(arc_anatomy::PRESETS.map(|arc_anatomy::Preset { name, command, next }| {
-                let next_pose = vec![
-                    ("nextX", next.x.into()),
-                    ("nextY", next.y.into()),
-                    ("nextTheta", next.theta.into()),
-                ];
-                named(name, [number_entries(command), next_pose])
+            named_settings(arc_anatomy::PRESETS.map(|arc_anatomy::Preset { name, command, next }| {
+                (name, arc_anatomy::Settings { command, next, ..Default::default() })
             })),
         ),
         (
             "odometry-decomposer",
-            object_array(odometry_decomposer::PRESETS.map(
+            named_settings(odometry_decomposer::PRESETS.map(
                 |odometry_decomposer::Preset { name, from, to }| {
-                    let pose_object = |mut pose| group_to_js(&mut pose);
-                    named(name, [vec![("from", pose_object(from)), ("to", pose_object(to))]])
+                    (name, odometry_decomposer::Settings { from, to, ..Default::default() })
                 },
             )),
         ),
         (
             "dead-reckoning",
-            object_array(dead_reckoning::PRESETS.map(
+            named_settings(dead_reckoning::PRESETS.map(
                 |dead_reckoning::Preset { name, command, steps, step, alphas }| {
-                    named(
-                        name,
-                        [vec![
-                            ("command", group_to_js(&mut { command })),
-                            ("steps", steps.into()),
-                            ("step", step.into()),
-                            ("alphas", js_array(&alphas)),
-                        ]],
-                    )
+                    let settings =
+                        dead_reckoning::Settings { command, steps, step, alphas, ..Default::default() };
+                    (name, settings)
                 },
             )),
         ),
@@ -158,22 +143,15 @@ fn presets() -> JsValue {
     ])
 }
 
+fn named_settings<S: DeclaredSettings, const N: usize>(presets: [(&str, S); N]) -> JsValue {
+    let to_object = |(name, settings): (&str, S)| {
+        js_object(&[("name", name.into()), ("settings", settings_to_js(&settings))])
+    };
+    presets.into_iter().map(to_object).collect::<Array>().into()
+}
+
 fn number_object(entries: &[(&'static str, f64)]) -> JsValue {
     js_object(&entries.iter().map(|&(key, number)| (key, number.into())).collect::<Vec<_>>())
-}
-
-fn object_array(objects: impl IntoIterator<Item = JsValue>) -> JsValue {
-    objects.into_iter().collect::<Array>().into()
-}
-
-fn named<const N: usize>(name: &str, entries: [Vec<Entry>; N]) -> JsValue {
-    js_object(&[vec![("name", name.into())], entries.concat()].concat())
-}
-
-/// Returns the numbers of a group by their keys.
-fn number_entries(mut group: impl Group) -> Vec<Entry> {
-    let numbers = group.fields().iter().enumerate();
-    numbers.map(|(i, field)| (field.declaration.key, (*group.number(i)).into())).collect()
 }
 
 /// Returns the declarations of settings, and of each number of a group or list. `number_sentences` describe the numbers of a list.

@@ -21,10 +21,13 @@ import { presets } from '../../build/settings.js';
 /** Bits that replace those of every NaN (not a number). The reason is in tests/native/digest/encoding.rs. */
 const NAN_BITS = 0x7ff8_0000_0000_0000n;
 
+/** Returns the settings of a widget's preset; an empty object if the configuration has no preset. @param {keyof typeof presets} tag @param {string} [preset] @returns {Record<string, any>} */
+const settingsOfPreset = (tag, preset) => presets[tag].find(({ name }) => name === preset)?.settings ?? {};
+
 /** Functions that return the results of each widget's simulation, by parts. @type {Record<string, (motion: Motion, document: Configurations, configuration: Configuration) => Record<string, Encodable>>} */
 export const resultFunctions = {
   'banana-machine'({ BananaMachine, commandReaching }, configurations, { preset, bounds = configurations.widgets['banana-machine'].bounds, settings }) {
-    const [presetCommand] = presets['banana-machine'].filter(({ name }) => name === preset).map(({ v, omega, dt }) => ({ v, omega, dt }));
+    const { command: presetCommand } = settingsOfPreset('banana-machine', preset);
     const simulation = new BananaMachine({ command: presetCommand, ...settings });
     const { shown, config: { command } } = simulation;
     const [xMin, yMin, xMax, yMax] = bounds;
@@ -56,8 +59,8 @@ export const resultFunctions = {
   },
 
   'map-squeeze'({ MapSqueeze }, configurations, { preset, map, bounds = configurations.widgets['map-squeeze'].bounds, settings }) {
-    const startPose = presets['map-squeeze'].find(({ name }) => name === preset)?.start;
-    const simulation = new MapSqueeze({ start: startPose, ...settings });
+    const { start } = settingsOfPreset('map-squeeze', preset);
+    const simulation = new MapSqueeze({ start, ...settings });
     const { plan, description, image } = map === undefined ? {} : configurations.maps[map];
     if (plan) simulation.setPlan(plan);
     if (description) simulation.setGrid(description, new TextEncoder().encode(`${configurations.images[image].join('\n')}\n`));
@@ -89,8 +92,8 @@ export const resultFunctions = {
   },
 
   'arc-anatomy'({ ArcAnatomy }, configurations, { preset, bounds = configurations.widgets['arc-anatomy'].bounds, settings }) {
-    const { v, omega, dt, nextX, nextY, nextTheta } = presets['arc-anatomy'].find(({ name }) => name === (preset ?? 'left')) ?? presets['arc-anatomy'][0];
-    const simulation = new ArcAnatomy({ command: { v, omega, dt }, next: { x: nextX, y: nextY, theta: nextTheta }, ...settings });
+    const { command, next } = settingsOfPreset('arc-anatomy', preset);
+    const simulation = new ArcAnatomy({ command, next, ...settings });
     const [xMin, yMin, xMax, yMax] = bounds;
     const results = {
       statistics: simulation.stats,
@@ -104,8 +107,8 @@ export const resultFunctions = {
   },
 
   'dead-reckoning'({ DeadReckoning }, _, { preset, settings }) {
-    const { command, steps, alphas } = presets['dead-reckoning'].find(({ name }) => name === preset) ?? {};
-    const simulation = new DeadReckoning({ command, steps, alphas: alphas ?? undefined, ...settings });
+    const { command, steps, alphas } = settingsOfPreset('dead-reckoning', preset);
+    const simulation = new DeadReckoning({ command, steps, alphas, ...settings });
     const { shown, config, headingNoise, stats } = simulation;
     const results = {
       statistics: { shown, headingNoise, stats },
@@ -156,7 +159,7 @@ export const resultFunctions = {
   },
 
   'odometry-decomposer'({ OdometryDecomposer }, _, { preset, settings }) {
-    const { from, to } = presets['odometry-decomposer'].find(({ name }) => name === preset) ?? {};
+    const { from, to } = settingsOfPreset('odometry-decomposer', preset);
     const simulation = new OdometryDecomposer({ from, to, ...settings });
     const { shown, stats, poses, linkage, robot, rules, drifted } = simulation;
     const results = {

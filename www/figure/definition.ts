@@ -122,17 +122,14 @@ export function defaultConfig(declarations: Declaration[]): Values {
   return Object.fromEntries(declarations.filter((setting) => !setting.in && !setting.of).map((setting) => [setting.key, setting.default]));
 }
 
-/** Returns the attribute of a figure's presets. A preset sets all settings except samples and seed. Settings that it does not list get defaults. */
-export function presetPropertyOf(presets: readonly ({ name: string } & Record<string, any>)[], declarations: Declaration[]): Attribute {
+/** Returns the attribute of a figure's presets. A preset sets all settings except samples and seed. */
+export function presetPropertyOf(presets: readonly { name: string, settings: Values }[], declarations: Declaration[]): Attribute {
   const presetNames = presets.map(({ name }) => name);
-  const properties = propertiesOf(declarations);
-  const presetSettings = presets.map(({ name: _, ...presetValues }) => {
-    const presetConfig = Object.entries(presetValues).reduce((config, [key, value]) => ({ ...config, ...properties[key].change(value, config) }), defaultConfig(declarations));
-    return Object.fromEntries(Object.entries(presetConfig).filter(([key]) => !KEPT_BY_PRESETS.includes(key)));
-  });
+  const isSet = (key: string) => !KEPT_BY_PRESETS.includes(key);
+  const presetSettings = presets.map(({ settings }) => Object.fromEntries(Object.entries(settings).filter(([key]) => isSet(key))));
   return {
     converter: WORD_CONVERTER,
-    coveredAttributes: Object.keys(selectAttributes(properties)).filter((key) => !KEPT_BY_PRESETS.includes(key)),
+    coveredAttributes: Object.keys(selectAttributes(propertiesOf(declarations))).filter(isSet),
     words: presetNames,
     get: (config) => presetNames[presetSettings.findIndex((settings) => includesFields(config, settings))] ?? null,
     change: (name) => presetSettings[presetNames.indexOf(checkedWord('preset', name, presetNames))],

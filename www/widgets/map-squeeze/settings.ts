@@ -13,7 +13,7 @@ const settingDeclarations = settings['map-squeeze'];
 export const PRESET_SETTING = presetPropertyOf(presets['map-squeeze'], settingDeclarations);
 
 /** Pose of the robot where a map has been left. */
-export const OPENING_POSE = presets['map-squeeze'][0].start;
+export const OPENING_POSE = presets['map-squeeze'][0].settings.start;
 
 /** Marks and lines of the picture. */
 export const LINE_STYLES = {

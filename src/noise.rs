@@ -65,7 +65,7 @@ impl NoiseKind {
     /// Returns a draw of variance `b2`; 0 where the variance is 0, NaN where it is negative or NaN. Consumes one 64-bit
     /// number of `rng`.
     pub fn sample<R: Rng + ?Sized>(self, b2: Variance, rng: &mut R) -> f64 {
-        self.quantile(centred_uniform(rng)) * b2.0.sqrt()
+        self.quantile(draw_centred_uniform(rng)) * b2.0.sqrt()
     }
 
     /// Returns the density of the noise of variance `b2` at the residual `a`, in the inverse of a's unit.
@@ -102,9 +102,9 @@ impl NoiseKind {
     }
 
     /// Replaces each number q by its quantile, with the same bits as [`NoiseKind::quantile`].
-    pub(crate) fn quantiles(self, numbers: &mut [f64x4]) {
+    pub(crate) fn replace_by_quantiles(self, numbers: &mut [f64x4]) {
         match self {
-            Self::Normal => quantile::normal_quantiles(numbers),
+            Self::Normal => quantile::replace_by_normal_quantiles(numbers),
             Self::Triangular => numbers
                 .iter_mut()
                 .for_each(|q| *q = *q * (SQRT_6 * 2.0) / (1.0 + (1.0 - 2.0 * q.abs()).sqrt())),
@@ -145,12 +145,13 @@ pub(crate) fn wrapped_prob(noise: NoiseKind, a: f64, b2: Variance) -> f64 {
         NoiseKind::Triangular => {
             let half_width = SQRT_6 * sd;
             // Sums half_width − x over x = first, first + 2π, … up to half_width: the triangle's terms on one side of its peak.
-            let sum_on_side = |first: f64| {
+            let density_sum_on_side = |first: f64| {
                 let term_count = ((half_width - first) / TAU).ceil().max(0.0);
                 term_count * (half_width - first) - TAU * term_count * (term_count - 1.0) / 2.0
             };
             let abs_angle = a.abs();
-            (sum_on_side(abs_angle) + sum_on_side(TAU - abs_angle)) / (half_width * half_width)
+            (density_sum_on_side(abs_angle) + density_sum_on_side(TAU - abs_angle))
+                / (half_width * half_width)
         }
     }
 }
@@ -158,18 +159,18 @@ pub(crate) fn wrapped_prob(noise: NoiseKind, a: f64, b2: Variance) -> f64 {
 /// Returns a uniform number in (−½, ½). It is one of the 2⁵³ odd multiples of 2⁻⁵⁴, all equally likely. So the distribution is
 /// exactly symmetric, and contains neither 0 nor the ends, whose quantiles are infinite.
 #[inline(always)]
-pub fn centred_uniform<R: Rng + ?Sized>(rng: &mut R) -> f64 {
+pub fn draw_centred_uniform<R: Rng + ?Sized>(rng: &mut R) -> f64 {
     const NUMBER_SPACING: f64 = 1.0 / (1u64 << 53) as f64;
     let signed_integer = rng.next_u64() as i64 >> 11;
     (signed_integer as f64 + 0.5) * NUMBER_SPACING
 }
 
-/// Returns three numbers of [`centred_uniform`] for each of four samples, drawn sample by sample.
+/// Returns three numbers of [`draw_centred_uniform`] for each of four samples, drawn sample by sample.
 #[inline(always)]
-pub(crate) fn four_uniform_triples<R: Rng + ?Sized>(rng: &mut R) -> [f64x4; 3] {
-    let mut triples = [[0.0; LANES]; 3];
+pub(crate) fn draw_four_uniform_triples<R: Rng + ?Sized>(rng: &mut R) -> [f64x4; 3] {
+    let mut uniform_triples = [[0.0; LANES]; 3];
     for lane in 0..LANES {
-        triples.iter_mut().for_each(|variate| variate[lane] = centred_uniform(rng));
+        uniform_triples.iter_mut().for_each(|variate| variate[lane] = draw_centred_uniform(rng));
     }
-    triples.map(f64x4::from)
+    uniform_triples.map(f64x4::from)
 }

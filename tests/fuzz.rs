@@ -72,16 +72,16 @@ regressions! {
 fn run_on_corpus_and_mutations(name: &str, target: Target, every: usize, mutations: u32) {
     let corpus_text = read_to_string(repository_root().join("fuzz/corpus").join(name).with_extension("txt"))
         .expect("a file");
-    let corpus: Vec<_> = corpus_text.lines().map(bytes_from_hex).collect();
-    assert!(corpus.len() > 20, "{} inputs of {name}", corpus.len());
-    corpus.iter().step_by(every).for_each(|bytes| run_target(target, bytes));
+    let corpus_inputs: Vec<_> = corpus_text.lines().map(bytes_from_hex).collect();
+    assert!(corpus_inputs.len() > 20, "{} inputs of {name}", corpus_inputs.len());
+    corpus_inputs.iter().step_by(every).for_each(|bytes| run_target(target, bytes));
     let mut rng = seeded_rng(2911);
     for _ in 0..mutations {
-        let mut bytes = random_item(&corpus, &mut rng).clone();
+        let mut mutant = random_item(&corpus_inputs, &mut rng).clone();
         for _ in 0..=random_below(4, &mut rng) {
-            mutate(&mut bytes, &corpus, &mut rng);
+            mutate(&mut mutant, &corpus_inputs, &mut rng);
         }
-        run_target(target, &bytes);
+        run_target(target, &mutant);
     }
 }
 
@@ -90,8 +90,8 @@ fn repository_root() -> &'static Path {
 }
 
 fn bytes_from_hex(hex: &str) -> Vec<u8> {
-    let byte_at = |at| u8::from_str_radix(&hex[at..at + 2], 16).expect("two hexadecimal digits");
-    (0..hex.len()).step_by(2).map(byte_at).collect()
+    let parse_byte_at = |at| u8::from_str_radix(&hex[at..at + 2], 16).expect("two hexadecimal digits");
+    (0..hex.len()).step_by(2).map(parse_byte_at).collect()
 }
 
 fn run_target(target: Target, bytes: &[u8]) {

@@ -139,5 +139,5 @@ fn assert_cell_of_pixel(interpretation: &Interpretation, pixel: Pixel) {
         MapMode::Trinary if occupancy > free_thresh => Cell::Unknown,
         _ => Cell::Free,
     };
-    assert_eq!(interpretation.cell(pixel), expected, "{interpretation:?} of {pixel:?}");
+    assert_eq!(interpretation.classify_pixel(pixel), expected, "{interpretation:?} of {pixel:?}");
 }

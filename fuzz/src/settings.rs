@@ -39,7 +39,7 @@ fn set_any_value(setting: Setting, input: &mut Input) {
         Setting::Level(mut slot, allowed) => slot.set(input.number_within(allowed)),
         Setting::Group(group) => {
             for (i, field) in group.fields().iter().enumerate() {
-                *group.number(i) = input.number_near(&field.allowed);
+                *group.number_mut(i) = input.number_near(&field.allowed);
             }
         }
     }
@@ -88,5 +88,5 @@ fn assert_in_range<S: Rules>(settings: &S) {
 
 fn is_group_in_range(group: &mut dyn Group) -> bool {
     let fields = group.fields().iter().enumerate();
-    fields.fold(true, |all, (i, field)| all && field.allowed.contains(group.number(i)))
+    fields.fold(true, |all, (i, field)| all && field.allowed.contains(group.number_mut(i)))
 }

@@ -43,7 +43,7 @@ pub fn run(bytes: &[u8]) {
 /// Divided commands are rarely tested: a robot that cannot move in one part of the command takes 10 000 draws.
 fn limit_size(settings: Settings, with_parts: bool) -> Settings {
     let steps = settings.steps.min(MAX_COMMAND_PARTS);
-    let sampler = if with_parts { settings.sampler.with_parts(steps) } else { without_parts(settings.sampler) };
+    let sampler = if with_parts { settings.sampler.with_part_count(steps) } else { without_parts(settings.sampler) };
     Settings { samples: settings.samples.min(MAX_SAMPLES), steps, sampler, ..settings }
 }
 
@@ -113,7 +113,7 @@ fn assert_same_if_added_in_blocks(simulation: &mut MapSqueeze, input: &mut Input
     simulation_in_one_call.configure(settings).expect("allowed");
     let block_size = 1 + input.next_below(MAX_SAMPLES);
     simulation.configure_first(settings, block_size).expect("allowed");
-    while simulation.shown_count() < settings.samples && !simulation.gave_up() {
+    while simulation.shown_count() < settings.samples && !simulation.has_given_up() {
         simulation.add_samples(block_size);
     }
     assert_eq!(simulation.attempts(), simulation_in_one_call.attempts());
@@ -163,7 +163,7 @@ fn assert_results(simulation: &MapSqueeze) {
         assert_eq!(attempt.accepted, should_be_accepted, "{attempt:?}");
         let arcs = simulation.arcs(index);
         if attempt.accepted || !settings.conditioned {
-            assert_eq!(arcs.len(), settings.parts() as usize);
+            assert_eq!(arcs.len(), settings.part_count() as usize);
         }
         for arc in &arcs {
             assertions::assert_finite("arc", &[arc.length, arc.turn]);

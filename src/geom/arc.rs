@@ -14,7 +14,7 @@ use wide::f64x4;
 
 /// Returns the end (x, y) of an arc of signed length `length` (m) that turns by `turn` (rad), in the frame of its
 /// start: x forward, y left. (s·sin φ/φ, s·(1 − cos φ)/φ), with (1 − cos φ)/φ = sin(φ/2)·sinc(φ/2).
-pub fn chord(length: f64, turn: f64) -> (f64, f64) {
+pub fn arc_end(length: f64, turn: f64) -> (f64, f64) {
     let (forward, left) = chord_factors(turn);
     (length * forward, length * left)
 }
@@ -145,7 +145,7 @@ impl Arc {
             length,
             turn,
             curvature,
-            end: chord(length, turn).into(),
+            end: arc_end(length, turn).into(),
         }
     }
 }
@@ -181,7 +181,7 @@ impl PreparedPose {
         [self.pose.x() + (self.cos * x - self.sin * y), self.pose.y() + (self.sin * x + self.cos * y)]
     }
 
-    /// Returns the arc of [`chord`], composed with the pose.
+    /// Returns the arc of [`arc_end`], composed with the pose.
     #[inline(always)]
     pub fn drive(&self, length: f64, turn: f64) -> DrivenArc {
         let half_turn = 0.5 * turn;
@@ -346,12 +346,12 @@ impl LocalArc {
     }
 
     /// Returns κ|p|²/2 − y: 0 on the circle (or line), positive outside (or to the right).
-    pub fn circle_equation(&self, [x, y]: [f64; 2]) -> f64 {
+    pub fn circle_equation_value(&self, [x, y]: [f64; 2]) -> f64 {
         0.5 * self.curvature * (x * x + y * y) - y
     }
 
     /// Returns true if the point of the circle nearest to `point` belongs to the arc.
-    pub fn has_nearest_point(&self, [x, y]: [f64; 2]) -> bool {
+    pub fn contains_nearest_circle_point(&self, [x, y]: [f64; 2]) -> bool {
         if self.curvature == 0.0 {
             return (0.0..=self.length).contains(&x);
         }
@@ -363,11 +363,11 @@ impl LocalArc {
     pub fn distance_to_point(&self, point: [f64; 2]) -> f64 {
         let distance_to_ends =
             libm::hypot(point[0], point[1]).min(libm::hypot(point[0] - self.end[0], point[1] - self.end[1]));
-        if !self.has_nearest_point(point) {
+        if !self.contains_nearest_circle_point(point) {
             return distance_to_ends;
         }
         // |p − c| − 1/κ = (|p − c|² − 1/κ²)/(|p − c| + 1/κ). The quotient is expanded by κ, because the centre c may be far away.
         let scaled_centre_distance = libm::hypot(self.curvature * point[0], 1.0 - self.curvature * point[1]);
-        (2.0 * self.circle_equation(point) / (1.0 + scaled_centre_distance)).abs().min(distance_to_ends)
+        (2.0 * self.circle_equation_value(point) / (1.0 + scaled_centre_distance)).abs().min(distance_to_ends)
     }
 }

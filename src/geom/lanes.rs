@@ -1,6 +1,6 @@
 //! Sine and cosine of four angles at once, with the same bits on every target.
 //!
-//! The scalar functions of this crate come from `libm`, and agree with these to [`ACCURACY`]. The polynomials use only +, −, ×,
+//! The scalar functions of this crate come from `libm`, and agree with these to [`MAX_SIN_COS_ERROR`]. The polynomials use only +, −, ×,
 //! ÷ and comparisons, without fused operations, and so round equally on all targets.
 
 use super::angle::wrap_angle;
@@ -12,7 +12,7 @@ pub const LANES: usize = 4;
 
 /// Maximum absolute error of sine, cosine and sinc: about 2.5 units in the last place of 1. The error of the
 /// polynomials is at most 1.9e-16; the rest is rounding.
-pub const ACCURACY: f64 = 6e-16;
+pub const MAX_SIN_COS_ERROR: f64 = 6e-16;
 
 /// sin x/x, sin x and cos x of four angles.
 #[derive(Clone, Copy)]
@@ -50,16 +50,16 @@ impl Trigonometry {
     /// Returns the sines and cosines of any finite angles (rad). Angles up to a quarter turn are fastest.
     #[inline(always)]
     pub fn sin_cos(&self, x: f64x4) -> SinCos {
-        if any_lane_beyond(x, FRAC_PI_2) { self.sin_cos_any_angle(x) } else { self.sin_cos_small_angle(x) }
+        if is_any_lane_beyond(x, FRAC_PI_2) { self.sin_cos_any_angle(x) } else { self.sin_cos_small_angle(x) }
     }
 
     /// Returns the sines and cosines of any finite angles (rad). A lane up to a quarter turn gets the bits of
     /// [`Trigonometry::sin_cos_small_angle`], unless another lane is beyond a million radians.
     #[inline(never)]
     pub fn sin_cos_any_angle(&self, x: f64x4) -> SinCos {
-        if any_lane_beyond(x, MAX_REDUCED_ANGLE) {
-            let of_lanes = |function: fn(f64) -> f64| f64x4::from(x.to_array().map(function));
-            let [sinc, sin, cos] = [super::sinc::sinc, libm::sin, libm::cos].map(of_lanes);
+        if is_any_lane_beyond(x, MAX_REDUCED_ANGLE) {
+            let map_lanes = |function: fn(f64) -> f64| f64x4::from(x.to_array().map(function));
+            let [sinc, sin, cos] = [super::sinc::sinc, libm::sin, libm::cos].map(map_lanes);
             return SinCos { sinc, sin, cos };
         }
         let half_circles = half_circle_count(x);
@@ -78,9 +78,9 @@ impl Trigonometry {
     #[inline(never)]
     pub fn sin_cos_on_branch(&self, half_heading: f64x4, near: f64) -> (f64x4, SinCos) {
         let mut half_on_branch = subtract_half_circles(half_heading, half_circle_count(half_heading - near));
-        if any_lane_beyond(half_heading - near, MAX_REDUCED_ANGLE) {
-            let wrapped_near = |half_heading: f64| near + 0.5 * wrap_angle(2.0 * (half_heading - near));
-            half_on_branch = half_heading.to_array().map(wrapped_near).into();
+        if is_any_lane_beyond(half_heading - near, MAX_REDUCED_ANGLE) {
+            let wrap_near = |half_heading: f64| near + 0.5 * wrap_angle(2.0 * (half_heading - near));
+            half_on_branch = half_heading.to_array().map(wrap_near).into();
         }
         (half_on_branch, self.sin_cos_any_angle(half_on_branch))
     }
@@ -101,18 +101,18 @@ impl Trigonometry {
 }
 
 #[inline(always)]
-fn any_lane_beyond(x: f64x4, limit: f64) -> bool {
-    any_lane_set(x.abs().simd_gt(f64x4::splat(limit)))
+fn is_any_lane_beyond(x: f64x4, limit: f64) -> bool {
+    is_any_lane_set(x.abs().simd_gt(f64x4::splat(limit)))
 }
 
 #[inline(always)]
-pub(crate) fn any_lane_set(mask: f64x4) -> bool {
-    let [low, high] = lane_halves(mask);
+pub(crate) fn is_any_lane_set(mask: f64x4) -> bool {
+    let [low, high] = split_lanes(mask);
     (low | high).any()
 }
 
 #[inline(always)]
-pub(crate) fn lane_halves(lanes: f64x4) -> [f64x2; 2] {
+pub(crate) fn split_lanes(lanes: f64x4) -> [f64x2; 2] {
     bytemuck::cast(lanes)
 }
 

@@ -49,7 +49,7 @@ impl Segment {
 
     /// Returns [`Segment::distance_to_arc`] for an arc that is prepared for several segments.
     pub(crate) fn distance_to_local_arc(&self, arc: &LocalArc) -> f64 {
-        let local_segment = self.in_arc_frame(arc);
+        let local_segment = self.transform_to_arc_frame(arc);
         if local_segment.crosses_arc(arc) { 0.0 } else { local_segment.distance_without_crossing(arc) }
     }
 
@@ -72,7 +72,7 @@ impl Segment {
             .fold(0.0, f64::max)
     }
 
-    fn in_arc_frame(&self, arc: &LocalArc) -> Self {
+    fn transform_to_arc_frame(&self, arc: &LocalArc) -> Self {
         Self { from: arc.transform(self.from), to: arc.transform(self.to) }
     }
 
@@ -83,7 +83,7 @@ impl Segment {
         // Points of the segment on the circle: the circle's equation is quadratic along it.
         let a = 0.5 * arc.curvature * dot(direction, direction);
         let b = arc.curvature * dot(from, direction) - direction[1];
-        let c = arc.circle_equation(from);
+        let c = arc.circle_equation_value(from);
         // b² − 4ac, rearranged against cancellation if the wall is much longer than the radius.
         let line_offset = arc.curvature * (from[0] * direction[1] - from[1] * direction[0]);
         let discriminant = direction[1] * direction[1] - line_offset * (line_offset + 2.0 * direction[0]);
@@ -93,7 +93,7 @@ impl Segment {
         let q = -0.5 * (b + discriminant.sqrt().copysign(b));
         [q / a, c / q].into_iter().any(|t| {
             (0.0..=1.0).contains(&t)
-                && arc.has_nearest_point([from[0] + t * direction[0], from[1] + t * direction[1]])
+                && arc.contains_nearest_circle_point([from[0] + t * direction[0], from[1] + t * direction[1]])
         })
     }
 

@@ -5,7 +5,7 @@ use crate::geom::arc::{Arc, DrivenArc, PreparedPose};
 use crate::geom::lanes::Trigonometry;
 use crate::geom::se2::SE2;
 use crate::models::{VelocityCmd, VelocityModel};
-use crate::noise::centred_uniform;
+use crate::noise::draw_centred_uniform;
 use rand::Rng;
 use std::ops::{Add, Mul, Range};
 use thiserror::Error;
@@ -25,12 +25,12 @@ pub enum Sampler {
 
 impl Sampler {
     /// Returns the number of parts of a motion.
-    pub fn parts(self) -> u32 {
+    pub fn part_count(self) -> u32 {
         if let Self::SubStepped(parts) = self { parts } else { 1 }
     }
 
     /// Returns this sampler with another number of parts, if it splits motions.
-    pub fn with_parts(self, parts: u32) -> Self {
+    pub fn with_part_count(self, parts: u32) -> Self {
         if let Self::SubStepped(_) = self { Self::SubStepped(parts) } else { self }
     }
 }
@@ -212,7 +212,7 @@ impl MapConditioned<'_> {
         mut visit_arc: impl FnMut(&Arc),
     ) -> Result<AcceptedMotion, NoAcceptedSample> {
         let (mut end_free, mut path_free, mut cost) = (true, true, Cost::default());
-        let pose = self.drive(u, x, rng, conditioned, &mut cost, &mut |driven, end| {
+        let pose = self.drive_parts(u, x, rng, conditioned, &mut cost, &mut |driven, end| {
             visit_arc(&driven.arc);
             end_free = end.free;
             path_free = path_free && self.plan.test_arc_after_end(driven, end, self.clearance).free;
@@ -224,14 +224,14 @@ impl MapConditioned<'_> {
     ///
     /// # Errors
     /// [`NoAcceptedSample`] after [`MAX_DRAWS`] rejected draws.
-    pub fn cost<R: Rng + ?Sized>(
+    pub fn sampling_cost<R: Rng + ?Sized>(
         &self,
         u: &VelocityCmd,
         x: &SE2,
         rng: &mut R,
     ) -> Result<Cost, NoAcceptedSample> {
         let mut cost = Cost::default();
-        self.drive(u, x, rng, true, &mut cost, &mut |_, _| ())?;
+        self.drive_parts(u, x, rng, true, &mut cost, &mut |_, _| ())?;
         Ok(cost)
     }
 
@@ -239,13 +239,13 @@ impl MapConditioned<'_> {
         NoisyCommand { u: *u, noise_stds: self.model.noise_stds(u) }
     }
 
-    fn unit_noise<R: Rng + ?Sized>(&self, rng: &mut R) -> [f64; 3] {
-        std::array::from_fn(|_| self.model.noise.quantile(centred_uniform(rng)))
+    fn draw_unit_noise<R: Rng + ?Sized>(&self, rng: &mut R) -> [f64; 3] {
+        std::array::from_fn(|_| self.model.noise.quantile(draw_centred_uniform(rng)))
     }
 
     /// Draws each part of a motion until it is accepted. Calls `along` with its arc and the verdict on its end, and returns the last
     /// end pose.
-    fn drive<R: Rng + ?Sized>(
+    fn drive_parts<R: Rng + ?Sized>(
         &self,
         u: &VelocityCmd,
         x: &SE2,
@@ -254,7 +254,7 @@ impl MapConditioned<'_> {
         cost: &mut Cost,
         visit_part: &mut dyn FnMut(&DrivenArc, Verdict),
     ) -> Result<SE2, NoAcceptedSample> {
-        let part_count = self.sampler.parts().max(1);
+        let part_count = self.sampler.part_count().max(1);
         let command = self.noisy_command(&VelocityCmd { dt: u.dt / f64::from(part_count), ..*u });
         (0..part_count).try_fold(*x, |pose, _| {
             let (pose, arc, end) =
@@ -273,7 +273,7 @@ impl MapConditioned<'_> {
         cost: &mut Cost,
     ) -> Result<(SE2, DrivenArc, Verdict), NoAcceptedSample> {
         for _ in 0..MAX_DRAWS {
-            let (end_pose, driven_arc) = command.motion(start, self.unit_noise(rng));
+            let (end_pose, driven_arc) = command.motion(start, self.draw_unit_noise(rng));
             let end_verdict = self.plan.test_point(driven_arc.end, self.clearance);
             cost.draws += 1;
             if !conditioned {

@@ -79,8 +79,8 @@ impl DistanceField {
         let zero = f64x4::splat(0.0);
         // The bounds of both cells are correct on their border, so that rounding may select either.
         let [column, row] = [0, 1].map(|axis| {
-            let cell = (points[axis] - self.min_corner[axis]) * self.cells_per_metre - 0.5;
-            cell.fast_max(zero).fast_min(f64x4::splat(self.last_cell[axis])) + ROUND_TO_INTEGER
+            let cell_coordinate = (points[axis] - self.min_corner[axis]) * self.cells_per_metre - 0.5;
+            cell_coordinate.fast_max(zero).fast_min(f64x4::splat(self.last_cell[axis])) + ROUND_TO_INTEGER
                 - ROUND_TO_INTEGER
         });
         // Adding this number to a small integer puts that integer into the last bits of the sum.
@@ -92,10 +92,10 @@ impl DistanceField {
     pub fn upper_bound(&self, lower_bound: f64) -> f64 {
         // With the distance d from the middle of the cell to the nearest wall, `lower_bound` is d − radius. The upper bound is
         // d + radius. In an undivided block d is only known up to a factor of (1 + 1/8)/(1 − 1/8).
-        let radius = 1.001 * self.radius;
+        let cell_radius = 1.001 * self.radius;
         let upper_bound = (UNDIVIDED_DISTANCE + 1.0) / (UNDIVIDED_DISTANCE - 1.0)
-            * (lower_bound + radius + self.uncertainty)
-            + radius;
+            * (lower_bound + cell_radius + self.uncertainty)
+            + cell_radius;
         if lower_bound == f64::from(NOT_COMPUTED) { f64::INFINITY } else { upper_bound }
     }
 }
@@ -139,13 +139,14 @@ impl FieldBuilder {
         let cell_side = (width * height / cell_count).sqrt().max(width.max(height) / cell_count);
         let [columns, rows] = [width, height].map(|length| (length / cell_side).ceil() as usize + 1);
         let radius = FRAC_1_SQRT_2 * cell_side;
-        let candidates = if tree.is_leaf(1) {
+        let root_candidates = if tree.is_leaf(1) {
             tree.distinct_walls(1).map(|wall| Candidate::Wall(wall as u32)).collect()
         } else {
             vec![Candidate::Node(1)]
         };
-        let size = columns.max(rows).next_power_of_two();
-        let whole_block = Block { first_cell: [0, 0], size, candidate_range: [0, candidates.len()] };
+        let whole_block_size = columns.max(rows).next_power_of_two();
+        let whole_block =
+            Block { first_cell: [0, 0], size: whole_block_size, candidate_range: [0, root_candidates.len()] };
         Self {
             field: DistanceField {
                 min_corner: [left, bottom],
@@ -159,7 +160,7 @@ impl FieldBuilder {
             rows,
             cell_side,
             rounding_slack: rounding_bound(&bounds),
-            candidates,
+            candidates: root_candidates,
             blocks: vec![whole_block],
             unmeasured: Vec::new(),
             measured: Vec::new(),
@@ -173,17 +174,18 @@ impl FieldBuilder {
             return;
         }
         let [right, top] = [(left + size).min(self.field.columns), (bottom + size).min(self.rows)];
-        let centre = self.block_centre(block.first_cell, size);
-        let radius = size as f64 * self.field.radius;
+        let block_centre = self.block_centre(block.first_cell, size);
+        let block_radius = size as f64 * self.field.radius;
         let uncertainty = size as f64 * self.field.uncertainty;
         // Keeps the candidates of the block around this one; those after them belong to blocks that are done.
         self.candidates.truncate(candidate_range[1]);
-        let Some([min_distance, max_distance]) = self.measure_candidates(tree, centre, block, uncertainty)
+        let Some([min_distance, max_distance]) =
+            self.measure_candidates(tree, block_centre, block, uncertainty)
         else {
             return;
         };
-        if size > 1 && min_distance <= UNDIVIDED_DISTANCE * radius + uncertainty / BLOCK_UNCERTAINTY {
-            let max_lower_bound = max_distance + 2.0 * radius + self.rounding_slack;
+        if size > 1 && min_distance <= UNDIVIDED_DISTANCE * block_radius + uncertainty / BLOCK_UNCERTAINTY {
+            let max_lower_bound = max_distance + 2.0 * block_radius + self.rounding_slack;
             self.candidates.extend(
                 self.measured
                     .iter()
@@ -202,13 +204,15 @@ impl FieldBuilder {
             return;
         }
         // If `min_distance > radius`, no wall passes through the block, so that it is inside or outside of all outlines as a whole.
-        let is_in_blocked_cell = min_distance > radius
-            && occupied_grid.is_some_and(|occupied_grid| occupied_grid.is_blocked_at(centre));
+        let is_in_blocked_cell = min_distance > block_radius
+            && occupied_grid.is_some_and(|occupied_grid| occupied_grid.is_blocked_at(block_centre));
         for row in bottom..top {
             for column in left..right {
                 let [x, y] = self.block_centre([column, row], 1);
                 let max_offset = self.field.radius
-                    + ((x - centre[0]) * (x - centre[0]) + (y - centre[1]) * (y - centre[1])).sqrt();
+                    + ((x - block_centre[0]) * (x - block_centre[0])
+                        + (y - block_centre[1]) * (y - block_centre[1]))
+                        .sqrt();
                 // The bound is reduced by a factor of 1e-6, which is more than the rounding to an f32.
                 let cell_bound = if is_in_blocked_cell {
                     f64::NEG_INFINITY

@@ -5,7 +5,7 @@ use super::distance_field::{DistanceField, rounding_bound};
 use super::occupancy::OccupancyGrid;
 use super::wall_tree::{Node, WallTree};
 use crate::geom::arc::{Arc, ArcPiece, DrivenArc, LocalArc, PreparedPose};
-use crate::geom::lanes::{LANES, any_lane_set};
+use crate::geom::lanes::{LANES, is_any_lane_set};
 use crate::geom::segment::Segment;
 use std::cell::OnceCell;
 use std::ops::RangeInclusive;
@@ -198,7 +198,7 @@ impl FloorPlan {
             return Verdict::BLOCKED;
         }
         let mut wall_tests = 0;
-        let is_free = self.all_near_walls(
+        let is_free = self.are_near_walls_clear(
             point,
             clearance,
             &mut wall_tests,
@@ -217,8 +217,8 @@ impl FloorPlan {
 
     /// Tests an arc as [`FloorPlan::test_arc`] does, after its end was tested. The result includes the cost of that test.
     pub(super) fn test_arc_after_end(&self, driven: &DrivenArc, end: Verdict, clearance: f64) -> Verdict {
-        let start = [driven.arc.start.x(), driven.arc.start.y()];
-        if !end.free || self.leaves_bounds(driven) || self.is_in_blocked_cell(start) {
+        let start_point = [driven.arc.start.x(), driven.arc.start.y()];
+        if !end.free || self.leaves_bounds(driven) || self.is_in_blocked_cell(start_point) {
             return Verdict { free: false, ..end };
         }
         let mut sweep = ArcSweep {
@@ -236,9 +236,9 @@ impl FloorPlan {
 
     fn collision_index(&self) -> &CollisionIndex {
         self.collision_index.get_or_init(|| {
-            let tree = WallTree::new(&self.walls, self.bounds);
-            let distance_field = DistanceField::new(&tree, self.bounds, self.occupied_grid.as_ref());
-            CollisionIndex { tree, distance_field }
+            let wall_tree = WallTree::new(&self.walls, self.bounds);
+            let distance_field = DistanceField::new(&wall_tree, self.bounds, self.occupied_grid.as_ref());
+            CollisionIndex { tree: wall_tree, distance_field }
         })
     }
 
@@ -288,7 +288,7 @@ impl FloorPlan {
 
     /// Tests whether `free` holds for every wall whose bounding box is within `reach` (m) of the point in both coordinates.
     /// Nodes of the tree for which `is_node_clear` holds are skipped.
-    fn all_near_walls(
+    fn are_near_walls_clear(
         &self,
         [x, y]: [f64; 2],
         reach: f64,
@@ -329,11 +329,11 @@ impl ArcSweep<'_> {
         let needed_distance = self.clearance + piece.max_error + half_part_length;
         let part_middles = piece.points_at(f64x4::new([1.0, 3.0, 5.0, 7.0]) * half_part_length + start);
         let lower_bounds = distance_field.lower_bounds(&part_middles);
-        if !any_lane_set(lower_bounds.simd_le(f64x4::splat(needed_distance))) {
+        if !is_any_lane_set(lower_bounds.simd_le(f64x4::splat(needed_distance))) {
             return true;
         }
-        let distances = lower_bounds.to_array();
-        let min_lower_bound = distances.into_iter().fold(f64::INFINITY, f64::min);
+        let distance_bounds = lower_bounds.to_array();
+        let min_lower_bound = distance_bounds.into_iter().fold(f64::INFINITY, f64::min);
         if distance_field.upper_bound(min_lower_bound) <= self.clearance - piece.max_error {
             return false;
         }
@@ -341,23 +341,23 @@ impl ArcSweep<'_> {
         let is_divisible = half_part_length > distance_field.radius;
         let [x, y] = part_middles.map(|lanes| lanes.to_array());
         (0..LANES).all(|i| {
-            distances[i] > needed_distance
+            distance_bounds[i] > needed_distance
                 || if is_divisible {
                     let part_start = start + (2 * i) as f64 * half_part_length;
                     self.is_free(piece, part_start, part_start + 2.0 * half_part_length)
                 } else {
-                    self.walls_are_clear([x[i], y[i]], half_part_length + piece.max_error, piece.max_error)
+                    self.are_walls_clear([x[i], y[i]], half_part_length + piece.max_error, piece.max_error)
                 }
         })
     }
 
     /// Tests whether all walls near a part of the arc keep the clearance. For most walls the distance to the middle of the part is
     /// enough to decide.
-    fn walls_are_clear(&mut self, middle: [f64; 2], reach: f64, error: f64) -> bool {
+    fn are_walls_clear(&mut self, middle: [f64; 2], reach: f64, error: f64) -> bool {
         let (arc, clearance) = (self.arc, self.clearance);
         let prepared_arc = || self.local_arc.get_or_init(|| arc.local_arc());
         let (clear_distance, blocked_distance) = (reach + clearance, (clearance - error).max(0.0));
-        self.plan.all_near_walls(
+        self.plan.are_near_walls_clear(
             middle,
             clear_distance,
             &mut self.wall_tests,

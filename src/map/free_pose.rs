@@ -19,11 +19,11 @@ impl FloorPlan {
         let raster = self.grid().map_or_else(|| Cow::Owned(self.rasterize()), Cow::Borrowed);
         let disc_fits = |point: &[f64; 2]| self.test_point(*point, clearance).free;
         let [columns, rows] = raster.size();
-        let middles =
+        let middle_coordinates =
             (0..rows).flat_map(|row| (0..columns).map(move |column| [column as f64 + 0.5, row as f64 + 0.5]));
-        let mut square_middles = middles.map(|middle| raster.point(middle));
-        let largest_square = middle_of_largest_free_square(&raster).map(|middle| raster.point(middle));
-        let [x, y] = largest_square.filter(disc_fits).or_else(|| square_middles.find(disc_fits))?;
+        let mut middle_points = middle_coordinates.map(|middle| raster.world_point(middle));
+        let largest_square = middle_of_largest_free_square(&raster).map(|middle| raster.world_point(middle));
+        let [x, y] = largest_square.filter(disc_fits).or_else(|| middle_points.find(disc_fits))?;
         Some(SE2::new(x, y, heading_of_longest_path(&raster, [x, y], disc_fits)))
     }
 
@@ -31,40 +31,40 @@ impl FloorPlan {
     fn rasterize(&self) -> OccupancyGrid {
         let [left, bottom, right, top] = self.bounds();
         let (width, height) = (right - left, top - bottom);
-        let side = (width.max(height) / SQUARES_ALONG_SIDE).min(width).min(height);
-        let [columns, rows] = [width, height].map(|length| (length / side) as usize);
+        let cell_side = (width.max(height) / SQUARES_ALONG_SIDE).min(width).min(height);
+        let [columns, rows] = [width, height].map(|length| (length / cell_side) as usize);
         let is_free = |i: usize| {
             let [column, row] = [i % columns, rows - 1 - i / columns].map(|index| index as f64 + 0.5);
-            let square_middle = [left + column * side, bottom + row * side];
-            self.distance_field().lower_bound(square_middle) > 0.75 * side
+            let square_middle = [left + column * cell_side, bottom + row * cell_side];
+            self.distance_field().lower_bound(square_middle) > 0.75 * cell_side
         };
         let pixels = (0..columns * rows).map(|i| f32::from(u8::from(is_free(i)))).collect();
         let image = Image { width: columns, height: rows, pixels };
-        OccupancyGrid::new(&image, &Interpretation::default(), side, SE2::new(left, bottom, 0.0))
+        OccupancyGrid::new(&image, &Interpretation::default(), cell_side, SE2::new(left, bottom, 0.0))
     }
 }
 
 /// Returns the middle of the largest square that consists of free squares, in squares from the lower left corner; None if none is
 /// free. Of equally large ones it takes the first, row by row, by their upper right corners.
 fn middle_of_largest_free_square(grid: &OccupancyGrid) -> Option<[f64; 2]> {
-    let ([columns, rows], mut largest_side, mut middle) = (grid.size(), 0, None);
+    let ([columns, rows], mut largest_side, mut largest_square_middle) = (grid.size(), 0, None);
     // Side of the largest free square that ends at each column of the previous row.
-    let mut sides = vec![0u32; columns];
+    let mut square_sides = vec![0u32; columns];
     for row in 0..rows {
         let [mut left, mut lower_left] = [0, 0];
-        for (column, side) in sides.iter_mut().enumerate() {
-            let below = *side;
+        for (column, side) in square_sides.iter_mut().enumerate() {
+            let side_below = *side;
             let is_free = grid.is_known_free(column, row);
-            *side = if is_free { 1 + below.min(left).min(lower_left) } else { 0 };
-            (left, lower_left) = (*side, below);
+            *side = if is_free { 1 + side_below.min(left).min(lower_left) } else { 0 };
+            (left, lower_left) = (*side, side_below);
             if *side > largest_side {
                 largest_side = *side;
                 let half_side = 0.5 * f64::from(largest_side);
-                middle = Some([column, row].map(|index| index as f64 + 1.0 - half_side));
+                largest_square_middle = Some([column, row].map(|index| index as f64 + 1.0 - half_side));
             }
         }
     }
-    middle
+    largest_square_middle
 }
 
 /// Returns the heading along which the path over free squares is longest.

@@ -97,7 +97,7 @@ impl From<[u8; 4]> for Pixel {
 
 impl Interpretation {
     /// Returns the state of the cell that a pixel shows.
-    pub fn cell(&self, pixel: Pixel) -> Cell {
+    pub fn classify_pixel(&self, pixel: Pixel) -> Cell {
         let Pixel { shade, opacity } = pixel;
         let occupancy = if self.negate { shade } else { 1.0 - shade };
         // Thresholds are rounded to f32, as the shade is, so that a pixel at a threshold is not beyond it.
@@ -149,15 +149,15 @@ impl OccupancyGrid {
         let Image { width, height, ref pixels } = *image;
         let has_transparency = pixels.iter().any(|pixel| (*pixel).into().opacity < 1.0);
         let opacity_is_colour = has_transparency && interpretation.mode == MapMode::Trinary;
-        let cell_of = |pixel: &P| {
+        let to_cell = |pixel: &P| {
             let mut pixel: Pixel = (*pixel).into();
             if opacity_is_colour {
                 pixel.shade = (3.0 * pixel.shade + pixel.opacity) / 4.0;
             }
-            interpretation.cell(pixel)
+            interpretation.classify_pixel(pixel)
         };
         // The first row of an image is its highest, the first of a grid its lowest.
-        let cells = pixels.chunks(width.max(1)).rev().flatten().map(cell_of).collect();
+        let cells = pixels.chunks(width.max(1)).rev().flatten().map(to_cell).collect();
         let (to_local, unknown) = (PreparedPose::new(origin.inverse()), UnknownCells::default());
         Self { width, height, resolution, origin, to_local, cells, unknown }
     }
@@ -208,15 +208,15 @@ impl OccupancyGrid {
     /// Returns the corners of the grid, counter-clockwise from the origin.
     pub fn corners(&self) -> [[f64; 2]; 4] {
         let (width, height) = (self.width, self.height);
-        [(0, 0), (width, 0), (width, height), (0, height)].map(|(column, row)| self.corner(column, row))
+        [(0, 0), (width, 0), (width, height), (0, height)].map(|(column, row)| self.corner_point(column, row))
     }
 
-    fn corner(&self, column: usize, row: usize) -> [f64; 2] {
-        self.point([column as f64, row as f64])
+    fn corner_point(&self, column: usize, row: usize) -> [f64; 2] {
+        self.world_point([column as f64, row as f64])
     }
 
     /// Returns the point of the plane at these coordinates, counted in cells from the origin.
-    pub(super) fn point(&self, [column, row]: [f64; 2]) -> [f64; 2] {
+    pub(super) fn world_point(&self, [column, row]: [f64; 2]) -> [f64; 2] {
         let (x, y) = (column * self.resolution, row * self.resolution);
         let point = self.origin * SE2::new(x, y, 0.0);
         [point.x(), point.y()]
@@ -261,14 +261,18 @@ impl OccupancyGrid {
             }
             let (mut row_start, mut was_left_different) = (None, false);
             for (column, outline_start) in outline_starts.iter_mut().enumerate() {
-                let [blocked, below_blocked] = [cells, cells_below].map(|row| self.is_blocked(row, column));
-                if let Some(from) = update_outline(&mut row_start, below_blocked != blocked, column) {
+                let [is_cell_blocked, is_below_blocked] =
+                    [cells, cells_below].map(|row| self.is_blocked(row, column));
+                if let Some(from) =
+                    update_outline(&mut row_start, is_below_blocked != is_cell_blocked, column)
+                {
                     walls.push(self.wall_between([from, row], [column, row]));
                 }
-                if let Some(start) = update_outline(outline_start, was_left_different != blocked, row) {
+                if let Some(start) = update_outline(outline_start, was_left_different != is_cell_blocked, row)
+                {
                     vertical_walls.push([column, start, row]);
                 }
-                was_left_different = blocked;
+                was_left_different = is_cell_blocked;
             }
             if walls.len() + vertical_walls.len() > max_count {
                 return Err(max_count + 1);
@@ -284,7 +288,7 @@ impl OccupancyGrid {
     }
 
     fn wall_between(&self, from: [usize; 2], to: [usize; 2]) -> Segment {
-        Segment { from: self.corner(from[0], from[1]), to: self.corner(to[0], to[1]) }
+        Segment { from: self.corner_point(from[0], from[1]), to: self.corner_point(to[0], to[1]) }
     }
 }
 

@@ -35,7 +35,7 @@ pub fn read_pgm(bytes: &[u8]) -> Result<Image<f32>, PgmError> {
     let is_plain = match reader.next_token() {
         b"P5" => false,
         b"P2" => true,
-        token => return Err(reader.error("the magic number", token, "P5 or P2".to_owned())),
+        token => return Err(reader.create_error("the magic number", token, "P5 or P2".to_owned())),
     };
     let width = reader.read_number("the width", 1, MAX_PIXELS)?;
     let height = reader.read_number("the height", 1, MAX_PIXELS / width)?;
@@ -53,9 +53,9 @@ pub fn read_pgm(bytes: &[u8]) -> Result<Image<f32>, PgmError> {
         bytes[reader.position..].starts_with(b"\r\n") && bytes.len() >= reader.position + 2 + raster_bytes;
     let available_raster = bytes.get(reader.position + if is_crlf { 2 } else { 1 }..).unwrap_or_default();
     let Some(raster) = available_raster.get(..raster_bytes) else {
-        let allowed = format!("{raster_bytes} for {width} × {height} pixels");
+        let allowed_text = format!("{raster_bytes} for {width} × {height} pixels");
         let (field, value) = ("the length of the raster in bytes", available_raster.len().to_string());
-        return Err(PgmError { field, line: reader.line, value, allowed });
+        return Err(PgmError { field, line: reader.line, value, allowed: allowed_text });
     };
     // The higher byte of two comes first.
     let value_of = |pixel: &[u8]| pixel.iter().fold(0, |value, byte| 256 * value + usize::from(*byte));
@@ -99,20 +99,20 @@ impl<'a> TokenReader<'a> {
         digits
             .and_then(|digits| digits.parse().ok())
             .filter(|number| (min..=max).contains(number))
-            .ok_or_else(|| self.error(field, token, format!("a whole number from {min} to {max}")))
+            .ok_or_else(|| self.create_error(field, token, format!("a whole number from {min} to {max}")))
     }
 
-    fn error(&self, field: &'static str, token: &[u8], allowed: String) -> PgmError {
+    fn create_error(&self, field: &'static str, token: &[u8], allowed: String) -> PgmError {
         // Other bytes may be pixels of another image format. A message cannot show them.
         let printable_char = |byte: &u8| {
             if byte.is_ascii_graphic() { char::from(*byte) } else { char::REPLACEMENT_CHARACTER }
         };
-        let mut value = String::from("missing");
+        let mut value_text = String::from("missing");
         if !token.is_empty() {
             let quoted_token: String = token.iter().take(MAX_QUOTED_CHARACTERS).map(printable_char).collect();
-            value =
+            value_text =
                 format!("\"{quoted_token}{}\"", if token.len() > MAX_QUOTED_CHARACTERS { "…" } else { "" });
         }
-        PgmError { field, line: self.line, value, allowed }
+        PgmError { field, line: self.line, value: value_text, allowed }
     }
 }

@@ -36,8 +36,8 @@ pub enum PngError {
 /// [`PngError`] for an image that is cut short, damaged or too large.
 pub fn read_png(bytes: &[u8]) -> Result<Image<[u8; 4]>, PngError> {
     let mut cursor = Cursor::new(bytes);
-    let size = Decoder::new(&mut cursor).read_header_info().map(Info::size);
-    let (width, height) = size.map_err(|_| damage_error(&cursor))?;
+    let image_size = Decoder::new(&mut cursor).read_header_info().map(Info::size);
+    let (width, height) = image_size.map_err(|_| damage_error(&cursor))?;
     if u64::from(width) * u64::from(height) > MAX_PIXELS as u64 {
         return Err(PngError::TooLarge { width, height });
     }
@@ -62,7 +62,7 @@ fn decode_pixels(cursor: &mut Cursor<&[u8]>) -> Result<Vec<[u8; 4]>, DecodingErr
     reader.next_frame(&mut samples)?;
     reader.finish()?;
     if depth == BitDepth::Sixteen {
-        samples = samples.as_chunks().0.iter().map(|pair| nearest_byte(u16::from_be_bytes(*pair))).collect();
+        samples = samples.as_chunks().0.iter().map(|pair| round_to_byte(u16::from_be_bytes(*pair))).collect();
     }
     let with_full_opacity = |[red, green, blue]: [u8; 3]| [red, green, blue, u8::MAX];
     Ok(match kind {
@@ -77,6 +77,6 @@ fn decode_pixels(cursor: &mut Cursor<&[u8]>) -> Result<Vec<[u8; 4]>, DecodingErr
 }
 
 /// Scales 16 bits to 8 with rounding, by the factor 65535/255 = 257.
-fn nearest_byte(sample: u16) -> u8 {
+fn round_to_byte(sample: u16) -> u8 {
     ((u32::from(sample) + 128) / 257) as u8
 }

@@ -35,7 +35,7 @@ pub(super) struct Node {
 const MAX_LEAF_WALLS: usize = 16;
 const MAX_SINGLE_LEAF_WALLS: usize = 32;
 
-const POINT: Segment = Segment { from: [0.0; 2], to: [0.0; 2] };
+const ORIGIN: Segment = Segment { from: [0.0; 2], to: [0.0; 2] };
 
 impl WallTree {
     /// Creates the tree of the walls, all of which are inside `bounds`.
@@ -48,14 +48,14 @@ impl WallTree {
         let mut tree = Self {
             walls: walls.to_vec(),
             // Node 0 is unused. The root is always visited.
-            nodes: vec![Node { hull_axis: POINT, thickness: f64::INFINITY, has_equal_walls: false }; 2],
+            nodes: vec![Node { hull_axis: ORIGIN, thickness: f64::INFINITY, has_equal_walls: false }; 2],
             depth: leaf_count.ilog2(),
             rounding_slack: 1e-9 * bounds.iter().fold(0.0, |largest: f64, bound| largest.max(bound.abs())),
         };
         for parent in 1..leaf_count {
             tree.divide_in_half(parent);
-            let children = [2 * parent, 2 * parent + 1].map(|child| tree.make_node(child));
-            tree.nodes.extend(children);
+            let child_nodes = [2 * parent, 2 * parent + 1].map(|child| tree.make_node(child));
+            tree.nodes.extend(child_nodes);
         }
         tree
     }
@@ -64,46 +64,54 @@ impl WallTree {
     /// most: x or y of the midpoint, or x or y of the direction.
     fn divide_in_half(&mut self, node_index: usize) {
         let (wall_range, middle) = (self.wall_range(node_index), self.wall_range(2 * node_index).end);
-        let walls = &mut self.walls[wall_range.clone()];
-        let mut ranges = [[f64::INFINITY, f64::NEG_INFINITY]; 4];
-        for wall in &*walls {
-            for ([min, max], key) in ranges.iter_mut().zip(sort_keys(wall)) {
+        let node_walls = &mut self.walls[wall_range.clone()];
+        let mut key_ranges = [[f64::INFINITY, f64::NEG_INFINITY]; 4];
+        for wall in &*node_walls {
+            for ([min, max], key) in key_ranges.iter_mut().zip(sort_keys(wall)) {
                 (*min, *max) = (min.min(key), max.max(key));
             }
         }
-        let widths = ranges.map(|[min, max]| max - min);
-        let axis = (1..4).fold(0, |widest, axis| if widths[axis] > widths[widest] { axis } else { widest });
-        select_smallest(walls, middle - wall_range.start, axis);
+        let key_range_widths = key_ranges.map(|[min, max]| max - min);
+        let widest_key_index =
+            (1..4).fold(
+                0,
+                |widest, axis| if key_range_widths[axis] > key_range_widths[widest] { axis } else { widest },
+            );
+        select_smallest(node_walls, middle - wall_range.start, widest_key_index);
     }
 
     fn make_node(&self, node_index: usize) -> Node {
         let walls = &self.walls[self.wall_range(node_index)];
         // The capsule lies along the mean direction of the walls or along an axis, whichever makes it narrowest.
         let key_sum = walls.iter().map(sort_keys).fold([0.0; 2], |[x, y], key| [x + key[2], y + key[3]]);
-        let length = libm::hypot(key_sum[0], key_sum[1]);
-        let mean_direction =
-            if length > 0.0 { key_sum.map(|coordinate| coordinate / length) } else { [1.0, 0.0] };
-        let axes = [mean_direction, [1.0, 0.0], [0.0, 1.0]];
+        let key_sum_length = libm::hypot(key_sum[0], key_sum[1]);
+        let mean_direction = if key_sum_length > 0.0 {
+            key_sum.map(|coordinate| coordinate / key_sum_length)
+        } else {
+            [1.0, 0.0]
+        };
+        let candidate_axes = [mean_direction, [1.0, 0.0], [0.0, 1.0]];
         let mut extents = [[f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY]; 3];
         for end in walls.iter().flat_map(|wall| [wall.from, wall.to]) {
-            for ([x, y], [back, right, front, left]) in axes.iter().zip(&mut extents) {
+            for ([x, y], [back, right, front, left]) in candidate_axes.iter().zip(&mut extents) {
                 let (along, across) = (end[0] * x + end[1] * y, end[1] * x - end[0] * y);
                 (*back, *right) = (back.min(along), right.min(across));
                 (*front, *left) = (front.max(along), left.max(across));
             }
         }
-        let mut narrowest = (f64::INFINITY, POINT);
-        for ([x, y], [back, right, front, left]) in axes.into_iter().zip(extents) {
+        let mut narrowest_capsule = (f64::INFINITY, ORIGIN);
+        for ([x, y], [back, right, front, left]) in candidate_axes.into_iter().zip(extents) {
             let (axis_offset, width) = (0.5 * (right + left), left - right);
             // The ends of a capsule are round, so that its axis is shorter than the walls at both ends.
-            let shortening = (0.25 * width).min(0.5 * (front - back));
+            let axis_shortening = (0.25 * width).min(0.5 * (front - back));
             let point_at = |along: f64| [along * x - axis_offset * y, along * y + axis_offset * x];
-            if width < narrowest.0 {
-                let axis = Segment { from: point_at(back + shortening), to: point_at(front - shortening) };
-                narrowest = (width, axis);
+            if width < narrowest_capsule.0 {
+                let axis =
+                    Segment { from: point_at(back + axis_shortening), to: point_at(front - axis_shortening) };
+                narrowest_capsule = (width, axis);
             }
         }
-        let hull_axis = narrowest.1;
+        let hull_axis = narrowest_capsule.1;
         // No point of a wall is further from the capsule's axis than the further end of the wall.
         let wall_ends = walls.iter().flat_map(|wall| [wall.from, wall.to]);
         let max_distance =
@@ -189,13 +197,13 @@ fn select_smallest(walls: &mut [Segment], count: usize, key_index: usize) {
             return;
         }
         let key_of = |wall: &Segment| sort_keys(wall)[key_index];
-        let pivot = key_of(&walls[(low + high) / 2]);
+        let pivot_key = key_of(&walls[(low + high) / 2]);
         let (mut left, mut right) = (low, high);
         loop {
-            while key_of(&walls[left]) < pivot {
+            while key_of(&walls[left]) < pivot_key {
                 left += 1;
             }
-            while key_of(&walls[right - 1]) > pivot {
+            while key_of(&walls[right - 1]) > pivot_key {
                 right -= 1;
             }
             if left < right {

@@ -1,9 +1,9 @@
 //! The velocity motion model: Tables 5.1 and 5.3.
 
 use super::{MotionModel, TangentNoiseModel};
-use crate::geom::arc::{ArcInversion, chord, invert_arc};
+use crate::geom::arc::{ArcInversion, arc_end, invert_arc};
 use crate::geom::se2::SE2;
-use crate::noise::{NoiseKind, Variance, centred_uniform, product_or_zero, wrapped_prob};
+use crate::noise::{NoiseKind, Variance, draw_centred_uniform, product_or_zero, wrapped_prob};
 use nalgebra::{Matrix3, Vector3};
 use rand::Rng;
 use std::f64::consts::TAU;
@@ -82,7 +82,7 @@ impl VelocityModel {
     /// Returns the pose reached from `x` with these unit noises: Table 5.3 after its three draws.
     pub fn apply_noise(&self, u: &VelocityCmd, x: &SE2, unit_noise: [f64; 3]) -> SE2 {
         let ArcInversion { v_hat, omega_hat, gamma_hat } = self.executed_motion(u, unit_noise);
-        let (forward, left) = chord(v_hat * u.dt, omega_hat * u.dt);
+        let (forward, left) = arc_end(v_hat * u.dt, omega_hat * u.dt);
         *x * SE2::new(forward, left, (omega_hat + gamma_hat) * u.dt)
     }
 
@@ -166,7 +166,7 @@ impl MotionModel for VelocityModel {
     }
 
     fn sample<R: Rng + ?Sized>(&self, u: &VelocityCmd, x: &SE2, rng: &mut R) -> SE2 {
-        let unit_noise = std::array::from_fn(|_| self.noise.quantile(centred_uniform(rng)));
+        let unit_noise = std::array::from_fn(|_| self.noise.quantile(draw_centred_uniform(rng)));
         self.apply_noise(u, x, unit_noise)
     }
 

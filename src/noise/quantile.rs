@@ -2,7 +2,7 @@
 //! precision form PPND16.
 #![expect(clippy::excessive_precision, reason = "the digits as published")]
 
-use crate::geom::lanes::{LANES, any_lane_set, from_lanes, log};
+use crate::geom::lanes::{LANES, from_lanes, is_any_lane_set, log};
 use std::ops::{Add, Div, Mul};
 use wide::{bytemuck, f64x4};
 
@@ -30,13 +30,13 @@ pub(super) fn normal_quantile(q: f64) -> f64 {
 const CHUNK_VECTORS: usize = 256;
 
 /// Replaces each number q by its quantile, with the same bits as [`normal_quantile`].
-pub(super) fn normal_quantiles(numbers: &mut [f64x4]) {
-    numbers.chunks_mut(CHUNK_VECTORS).for_each(replace_by_quantiles);
+pub(super) fn replace_by_normal_quantiles(numbers: &mut [f64x4]) {
+    numbers.chunks_mut(CHUNK_VECTORS).for_each(replace_chunk_by_quantiles);
 }
 
 /// Replaces the numbers of a chunk by their quantiles. One number in seven is in a tail, and every second vector has one. Gathering
 /// these numbers into full vectors saves most of their cost, and unpredictable branches.
-fn replace_by_quantiles(numbers: &mut [f64x4]) {
+fn replace_chunk_by_quantiles(numbers: &mut [f64x4]) {
     let mut tail_numbers = [0.0; LANES * CHUNK_VECTORS + LANES];
     let mut tail_indices = [0u16; LANES * CHUNK_VECTORS + LANES];
     let mut tail_count = 0;
@@ -66,7 +66,7 @@ fn replace_by_quantiles(numbers: &mut [f64x4]) {
 #[inline(always)]
 fn tail_quantile_lanes(q: f64x4) -> f64x4 {
     let r = (-log(f64x4::splat(0.5) - q.abs())).sqrt();
-    if any_lane_set(r.simd_gt(f64x4::splat(5.0))) {
+    if is_any_lane_set(r.simd_gt(f64x4::splat(5.0))) {
         return q.to_array().map(normal_quantile).into();
     }
     rational_function(r - 1.6, &MIDDLE_NUMERATOR, &MIDDLE_DENOMINATOR).copysign(q)

@@ -16,8 +16,8 @@ pub struct NoiseLevel<'a>(pub &'a mut [f64]);
 impl NoiseLevel<'_> {
     /// Returns the ratios of the α's to the level.
     pub fn weights(&self) -> impl Iterator<Item = f64> + use<> {
-        let count = self.0.len();
-        (0..count).map(move |i| if i + 2 < count { 1.0 } else { 0.25 })
+        let alpha_count = self.0.len();
+        (0..alpha_count).map(move |i| if i + 2 < alpha_count { 1.0 } else { 0.25 })
     }
 
     /// Returns the level; None if the α's are not in the ratios of a level.

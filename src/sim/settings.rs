@@ -40,22 +40,22 @@ impl SettingsError {
         Self { field: "samples".to_owned(), value: samples as f64, allowed: AllowedValues::FitsInMemory }
     }
 
-    /// Returns the message, with numbers as `number` prints them. In WebAssembly JavaScript prints them, because Rust's code
+    /// Returns the message, with numbers as `format_number` prints them. In WebAssembly JavaScript prints them, because Rust's code
     /// for printing floats would take an eighth of the module.
-    pub fn message(&self, number: impl Fn(f64) -> String) -> String {
-        let allowed = match &self.allowed {
+    pub fn message(&self, format_number: impl Fn(f64) -> String) -> String {
+        let allowed_text = match &self.allowed {
             AllowedValues::Keyword { given, allowed } => {
                 return format!("{} is {given}; allowed is {allowed}", self.field);
             }
             AllowedValues::Real(range) => {
-                format!("a number from {} to {}", number(*range.start()), number(*range.end()))
+                format!("a number from {} to {}", format_number(*range.start()), format_number(*range.end()))
             }
             AllowedValues::Integer(range) => {
                 format!("a whole number from {} to {}", range.start(), range.end())
             }
             AllowedValues::FitsInMemory => "a number for which there is memory".to_owned(),
         };
-        format!("{} is {}; allowed is {allowed}", self.field, number(self.value))
+        format!("{} is {}; allowed is {allowed_text}", self.field, format_number(self.value))
     }
 }
 
@@ -150,8 +150,9 @@ impl Setting<'_> {
                 check_integer(key, *integer as f64, &allowed).map(|_| ())
             }
             Self::Numbers(numbers, allowed) => {
-                let mut numbers = numbers.iter().enumerate();
-                numbers.try_for_each(|(i, number)| check_real(&format!("{key}[{i}]"), *number, &allowed))
+                let mut indexed_numbers = numbers.iter().enumerate();
+                indexed_numbers
+                    .try_for_each(|(i, number)| check_real(&format!("{key}[{i}]"), *number, &allowed))
             }
             Self::Group(group) => check_group(key, group),
             // The numbers that a level stands for are checked instead of the level.
@@ -162,7 +163,7 @@ impl Setting<'_> {
 
 pub(crate) fn check_group(key: &str, group: &mut dyn Group) -> Result<(), SettingsError> {
     for (i, Field { declaration, allowed }) in group.fields().iter().enumerate() {
-        check_real(&format!("{key}.{}", declaration.key), *group.number(i), allowed)?;
+        check_real(&format!("{key}.{}", declaration.key), *group.number_mut(i), allowed)?;
     }
     Ok(())
 }
@@ -193,10 +194,10 @@ pub trait Keyword {
 
 impl<T: Keywords> Keyword for T {
     fn get(&self) -> &'static str {
-        let kind = std::mem::discriminant(self);
+        let discriminant = std::mem::discriminant(self);
         T::KEYWORDS
             .iter()
-            .find(|(_, value)| std::mem::discriminant(value) == kind)
+            .find(|(_, value)| std::mem::discriminant(value) == discriminant)
             .map_or("", |(keyword, _)| keyword)
     }
 
@@ -215,7 +216,7 @@ pub trait Group {
     /// Returns the declarations of the numbers.
     fn fields(&self) -> &'static [Field];
     /// Returns the number of the field with this index. Panics if there is no such field.
-    fn number(&mut self, index: usize) -> &mut f64;
+    fn number_mut(&mut self, index: usize) -> &mut f64;
 }
 
 /// Declaration of a number of a [`Group`].
@@ -446,7 +447,7 @@ macro_rules! group {
                 FIELDS
             }
 
-            fn number(&mut self, index: usize) -> &mut f64 {
+            fn number_mut(&mut self, index: usize) -> &mut f64 {
                 let $pattern = self;
                 [$($key),+].into_iter().nth(index).expect("a number of the group")
             }

@@ -66,15 +66,15 @@ impl Ellipse {
         self.cov_root[(0, 0)] == 0.0 && self.cov_root[(1, 1)] == 0.0
     }
 
-    /// Returns the closed outline as `segments` chords: `segments` + 1 points, the last equal to the first.
-    pub fn boundary(&self, segments: usize) -> Vec<[f64; 2]> {
-        unit_circle_points(segments)
+    /// Returns the closed outline as `segment_count` chords: `segments` + 1 points, the last equal to the first.
+    pub fn boundary(&self, segment_count: usize) -> Vec<[f64; 2]> {
+        unit_circle_points(segment_count)
             .map(|direction| (self.centre + self.cov_root * direction * CONTOUR_SIGMAS).into())
             .collect()
     }
 
     /// Returns the Mahalanobis distance of a point from the centre, in standard deviations.
-    pub fn distance(&self, [first, second]: [f64; 2]) -> f64 {
+    pub fn mahalanobis_distance(&self, [first, second]: [f64; 2]) -> f64 {
         (self.whitening_matrix * (Vector2::new(first, second) - self.centre)).norm()
     }
 
@@ -131,30 +131,30 @@ impl ExponentialContour {
         }
     }
 
-    /// Returns the closed outline in the plane as `segments` chords: `segments` + 1 points, the last equal to the
+    /// Returns the closed outline in the plane as `segment_count` chords: `segments` + 1 points, the last equal to the
     /// first.
-    pub fn boundary(&self, segments: usize) -> Vec<[f64; 2]> {
-        self.outline(segments).map(|(_, point)| point).collect()
+    pub fn boundary(&self, segment_count: usize) -> Vec<[f64; 2]> {
+        self.outline(segment_count).map(|(_, point)| point).collect()
     }
 
     /// Returns the closed outline at a morph, in the frame of the start. At 0 it is [`ExponentialContour::boundary`], and at 1 the
     /// boundary of `ellipse`.
-    pub fn morphed_boundary(&self, segments: usize, morph: f64) -> Vec<[f64; 2]> {
-        self.silhouette_twists(segments, morph).map(|twist| unbend(&twist, morph)).collect()
+    pub fn morphed_boundary(&self, segment_count: usize, morph: f64) -> Vec<[f64; 2]> {
+        self.silhouette_twists(segment_count, morph).map(|twist| unbend(&twist, morph)).collect()
     }
 
-    /// Returns the area of an `ellipse` in the plane divided by that of this outline, both drawn as `segments` chords. NaN if
+    /// Returns the area of an `ellipse` in the plane divided by that of this outline, both drawn as `segment_count` chords. NaN if
     /// the ellipse, or the contour in (along, heading), has no area.
     ///
     /// Motions in reverse make the outline cross itself. Its area is then the sum of both loops.
     #[inline(never)]
-    pub fn area_ratio(&self, ellipse: &Ellipse, segments: usize) -> f64 {
+    pub fn area_ratio(&self, ellipse: &Ellipse, segment_count: usize) -> f64 {
         if !ellipse.has_area() || !self.ellipse.has_area() {
             return f64::NAN;
         }
         // The sum of twice the areas of the triangles from the start to each chord. Motions in reverse have the other sign.
         let (mut doubled_area, mut previous_point) = (0.0, [0.0; 2]);
-        for (i, (along, [x, y])) in self.outline(segments).enumerate() {
+        for (i, (along, [x, y])) in self.outline(segment_count).enumerate() {
             let [x, y] = [x - self.start.x(), y - self.start.y()];
             if i > 0 {
                 let doubled_triangle = previous_point[0] * y - previous_point[1] * x;
@@ -163,12 +163,12 @@ impl ExponentialContour {
             previous_point = [x, y];
         }
         // A circle drawn as n chords has sinc(2π/n) times its area.
-        ellipse.area() * sinc(TAU / segments as f64) / (0.5 * doubled_area.abs())
+        ellipse.area() * sinc(TAU / segment_count as f64) / (0.5 * doubled_area.abs())
     }
 
     /// Returns the coordinate of ξ along the track (m), and the position, of each point of the outline.
-    fn outline(&self, segments: usize) -> impl Iterator<Item = (f64, [f64; 2])> {
-        self.silhouette_twists(segments, 0.0).map(|twist| {
+    fn outline(&self, segment_count: usize) -> impl Iterator<Item = (f64, [f64; 2])> {
+        self.silhouette_twists(segment_count, 0.0).map(|twist| {
             let pose = self.start.boxplus(twist);
             (twist.x, [pose.x(), pose.y()])
         })
@@ -179,7 +179,7 @@ impl ExponentialContour {
     /// The ellipsoid is ξ = m + 2·G·u with |u| = 1, and H(ξ) = ∂position/∂ξ. On the silhouette u is
     /// perpendicular to the null vector k with H(ξ)·G·k = 0. The direction of k varies little over the ellipsoid. So the
     /// great circle perpendicular to the principal direction of k approximates the silhouette.
-    fn silhouette_twists(&self, segments: usize, morph: f64) -> impl Iterator<Item = Vector3<f64>> {
+    fn silhouette_twists(&self, segment_count: usize, morph: f64) -> impl Iterator<Item = Vector3<f64>> {
         let twist_at = move |u: &Vector3<f64>| self.mean + self.cov_root * u * CONTOUR_SIGMAS;
         // Sum of k·kᵀ over the six ends of the axes. Each k is the cross product of the two rows of H·G: its length is the area of a unit square
         // of the ellipsoid on the plane.
@@ -193,10 +193,11 @@ impl ExponentialContour {
         }
         let null_direction = principal_direction(&null_direction_scatter);
         // Two directions that span the circle. The coordinate axis least parallel to k makes the first well-conditioned.
-        let axis = Matrix3::identity().column(null_direction.iamin()).into_owned();
-        let circle_x = (axis - null_direction * axis.dot(&null_direction)).normalize();
+        let least_parallel_axis = Matrix3::identity().column(null_direction.iamin()).into_owned();
+        let circle_x =
+            (least_parallel_axis - null_direction * least_parallel_axis.dot(&null_direction)).normalize();
         let circle_y = null_direction.cross(&circle_x);
-        unit_circle_points(segments)
+        unit_circle_points(segment_count)
             .map(move |direction| twist_at(&(circle_x * direction.x + circle_y * direction.y)))
     }
 
@@ -224,10 +225,10 @@ fn principal_direction(matrix: &Matrix3<f64>) -> Vector3<f64> {
     longest_column.and_then(|column| column.try_normalize(0.0)).unwrap_or_else(Vector3::y)
 }
 
-fn unit_circle_points(segments: usize) -> impl Iterator<Item = Vector2<f64>> {
-    (0..=segments).map(move |i| {
+fn unit_circle_points(segment_count: usize) -> impl Iterator<Item = Vector2<f64>> {
+    (0..=segment_count).map(move |i| {
         // The last point has the index of the first, so that the outline is closed exactly.
-        let (sin, cos) = libm::sincos(TAU * (i % segments) as f64 / segments as f64);
+        let (sin, cos) = libm::sincos(TAU * (i % segment_count) as f64 / segment_count as f64);
         Vector2::new(cos, sin)
     })
 }

@@ -35,17 +35,17 @@ impl CrossTrack {
     pub fn from_poses(poses: &[SE2]) -> Self {
         let CartesianMoments { mean, .. } = CartesianMoments::from_poses(poses);
         let (sin, cos) = libm::sincos(mean.z);
-        let mut sums = [0.0; 16];
+        let mut term_sums = [0.0; 16];
         for pose in poses {
             let (dx, dy, t) = (pose.x() - mean.x, pose.y() - mean.y, wrap_angle(pose.theta() - mean.z));
             let (s, c) = libm::sincos(t);
-            let [products @ .., squared_distance, resultant] = &mut sums;
+            let [products @ .., squared_distance, resultant] = &mut term_sums;
             let terms = track_products(dx * cos + dy * sin, dy * cos - dx * sin, s, t);
             products.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
             *squared_distance += dx * dx + dy * dy;
             *resultant += c;
         }
-        let [products @ .., squared_spread, resultant] = sums.map(|sum| sum / poses.len() as f64);
+        let [products @ .., squared_spread, resultant] = term_sums.map(|sum| sum / poses.len() as f64);
         let squared_extent = squared_spread + mean.xy().norm_squared();
         Self::from_moments(poses.len(), &TrackMoments { products, squared_extent, resultant })
     }

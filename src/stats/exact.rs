@@ -81,7 +81,7 @@ impl ExactMoments {
             UnitMotion { weight: node.weight, end, excess_turn }
         });
         let (motions, dt2) = (motions.collect::<Vec<_>>(), u.dt * u.dt);
-        Self::combine(&motions, u.v * u.dt, dt2 * v_variance, u.omega * u.dt, dt2 * gamma_variance)
+        Self::combine_motions(&motions, u.v * u.dt, dt2 * v_variance, u.omega * u.dt, dt2 * gamma_variance)
     }
 
     /// Returns the moments of the odometry model. Given the first rotation, the position is δ̂_trans along it, linear
@@ -93,13 +93,19 @@ impl ExactMoments {
             let (sin, cos) = libm::sincos(u.rot1 + excess_turn);
             UnitMotion { weight: node.weight, end: [cos, sin], excess_turn }
         });
-        Self::combine(&motions.collect::<Vec<_>>(), u.trans, trans_variance, u.rot1 + u.rot2, rot2_variance)
+        Self::combine_motions(
+            &motions.collect::<Vec<_>>(),
+            u.trans,
+            trans_variance,
+            u.rot1 + u.rot2,
+            rot2_variance,
+        )
     }
 
     /// Combines the motions with the mean and variance of the length, and with the mean `turn` (rad). `last_turn_variance` is added
     /// to the heading variance.
     #[inline(never)]
-    fn combine(
+    fn combine_motions(
         motions: &[UnitMotion],
         length: f64,
         length_variance: f64,

@@ -116,13 +116,15 @@ impl LogDensityDifferences {
         let cartesian_log_volumes = [2, 1].map(|last| cartesian.log_volumes[last]);
         let (curved_log_volumes, gains) =
             ([twist.log_volumes[2], arc.log_volumes[1]], [gain.pose, gain.floor]);
-        let distances = [cartesian_distances[2] - twist_distance, cartesian_distances[1] - arc_distance];
+        let squared_distance_differences =
+            [cartesian_distances[2] - twist_distance, cartesian_distances[1] - arc_distance];
         for i in 0..2 {
             let log_ratio = cartesian_log_volumes[i] - curved_log_volumes[i] - gains[i];
-            let differences = (distances[i] * 0.5 - log(robots.jacobians[i]) + log_ratio) & has_robot;
-            self.squared_deviations[i] += differences * differences * weights;
+            let log_density_differences =
+                (squared_distance_differences[i] * 0.5 - log(robots.jacobians[i]) + log_ratio) & has_robot;
+            self.squared_deviations[i] += log_density_differences * log_density_differences * weights;
         }
-        let (u, h) = (robots.jacobians[1] / *mean_jacobian - 1.0, distances[1] * 0.5);
+        let (u, h) = (robots.jacobians[1] / *mean_jacobian - 1.0, squared_distance_differences[1] * 0.5);
         for (sum, term) in self.area_sums.iter_mut().zip([u, u * u, h * u, h * h]) {
             *sum += (term & has_robot) * weights;
         }
@@ -185,11 +187,11 @@ impl Gaussian {
     /// Returns the squared Mahalanobis distances of four points in the first, the first two and all three coordinates.
     #[inline(never)]
     fn squared_distances(&self, points: &[f64x4; 3]) -> [f64x4; 3] {
-        let mut offsets: [f64x4; 3] = std::array::from_fn(|j| points[j] - self.mean[j]);
+        let mut centred_points: [f64x4; 3] = std::array::from_fn(|j| points[j] - self.mean[j]);
         let mut sum = f64x4::splat(0.0);
         std::array::from_fn(|j| {
-            let whitened_offset = offsets[j] * self.cov_root[(j, j)];
-            (j + 1..3).for_each(|row| offsets[row] -= whitened_offset * self.cov_root[(row, j)]);
+            let whitened_offset = centred_points[j] * self.cov_root[(j, j)];
+            (j + 1..3).for_each(|row| centred_points[row] -= whitened_offset * self.cov_root[(row, j)]);
             sum += whitened_offset * whitened_offset;
             sum
         })

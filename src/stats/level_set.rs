@@ -8,7 +8,7 @@ const NO_EDGE: usize = usize::MAX;
 ///
 /// `values` are finite, at the points of a grid, row by row with `columns` in each row. Points of lines are (column, row) in steps of
 /// the grid, from its first point. A line ends where it began, or at the border of the grid.
-pub fn level_set(values: &[f64], columns: usize, level: f64) -> Vec<Vec<[f64; 2]>> {
+pub fn trace_level_set(values: &[f64], columns: usize, level: f64) -> Vec<Vec<[f64; 2]>> {
     let row_count = values.len() / columns.max(1);
     // The previous and the next edge of a line, for each edge of the grid that it crosses. Edge 2i leads from point i to the next
     // point in its row; edge 2i + 1 leads to the point in the next row.
@@ -31,8 +31,8 @@ pub fn level_set(values: &[f64], columns: usize, level: f64) -> Vec<Vec<[f64; 2]
             match (crossed_edges.next(), crossed_edges.next(), crossed_edges.next()) {
                 (Some(edge_a), Some(edge_b), None) => link_edges(edge_a, edge_b),
                 (Some(_), Some(_), Some(_)) => {
-                    let centre_is_above = corner_values.iter().sum::<f64>() > 4.0 * level;
-                    let first_corner = if centre_is_above == is_above[0] { 0 } else { 1 };
+                    let is_centre_above = corner_values.iter().sum::<f64>() > 4.0 * level;
+                    let first_corner = if is_centre_above == is_above[0] { 0 } else { 1 };
                     link_edges(cell_edges[first_corner], cell_edges[(first_corner + 1) % 4]);
                     link_edges(cell_edges[first_corner + 2], cell_edges[(first_corner + 3) % 4]);
                 }
@@ -47,7 +47,7 @@ pub fn level_set(values: &[f64], columns: usize, level: f64) -> Vec<Vec<[f64; 2]
         let (column, row) = ((i % columns) as f64, (i / columns) as f64);
         if is_vertical { [column, row + fraction] } else { [column + fraction, row] }
     };
-    let mut lines = Vec::new();
+    let mut contour_lines = Vec::new();
     let border_edges = (0..edge_links.len())
         .filter(|edge| edge_links[*edge][0] != NO_EDGE && edge_links[*edge][1] == NO_EDGE);
     // Lines that end at the border are followed first. The remaining lines are closed.
@@ -70,7 +70,7 @@ pub fn level_set(values: &[f64], columns: usize, level: f64) -> Vec<Vec<[f64; 2]
             line.push(crossing_point(next_edge));
             edge = next_edge;
         }
-        lines.push(line);
+        contour_lines.push(line);
     }
-    lines
+    contour_lines
 }

@@ -16,6 +16,6 @@ pub use cross_track::{CrossTrack, cross_track_skew};
 pub use exact::{ExactMoments, predicted_cross_track_skew};
 pub use exact_gain::ExactGain;
 pub use gain::{LikelihoodGain, MeasuredGain};
-pub use level_set::level_set;
+pub use level_set::trace_level_set;
 pub(crate) use moments::non_negative;
 pub use moments::{CartesianMoments, ExponentialMoments};

@@ -10,7 +10,7 @@ use super::gain::{ChartGaussians, FourRobots, LogDensityDifferences, MeanAndCov,
 use super::moments::{CartesianMoments, ExponentialMoments, non_negative};
 use super::sums::{PairSums, Sums, add_to_block};
 use crate::geom::angle::wrap_angle;
-use crate::geom::lanes::{LANES, any_lane_set, lane_halves};
+use crate::geom::lanes::{LANES, is_any_lane_set, split_lanes};
 use crate::geom::se2::SE2;
 use nalgebra::{Matrix2, Matrix3, Vector3};
 use std::f64::consts::{LN_2, PI, TAU};
@@ -93,7 +93,7 @@ impl FirstPass {
     #[inline(always)]
     pub fn multiply_jacobians(&mut self, poses: &FourPoses, arcs: &FourArcs) {
         let lane_product = |lanes: f64x4| {
-            let [low, high] = lane_halves(lanes);
+            let [low, high] = split_lanes(lanes);
             low * high
         };
         let (twist, arc) = (lane_product(poses.sinc), lane_product(arcs.sinc));
@@ -249,7 +249,7 @@ impl SecondPass {
         // The names a, d, s and t are those of `TrackMoments`.
         let d = (y * cos - x * sin) & mask;
         let a = (x * cos + y * sin) & mask;
-        let t = wrapped_difference(poses.half_heading * 2.0 - self.first_pass.mean_turn) & mask;
+        let t = wrap_turns(poses.half_heading * 2.0 - self.first_pass.mean_turn) & mask;
         // sin(θ − h), from the double angle of θ/2.
         let theta_sin = poses.half_sin * poses.half_cos * 2.0;
         let theta_cos = 1.0 - poses.half_sin * poses.half_sin * 2.0;
@@ -299,7 +299,7 @@ impl SecondPass {
         let mut density_differences = LogDensityDifferences::new(gaussians);
         for (poses, arcs, weights) in sample {
             let FourPoses { x, y, along, lateral, half_heading, sinc, .. } = poses;
-            let turn = wrapped_difference(half_heading * 2.0 - self.first_pass.mean_turn);
+            let turn = wrap_turns(half_heading * 2.0 - self.first_pass.mean_turn);
             let robots = FourRobots {
                 cartesian: [x, y, turn],
                 twist: [along, lateral, half_heading * 2.0],
@@ -327,7 +327,11 @@ impl SecondPass {
 
 /// Wraps differences of angles to [−π, π]. The differences must be within [−3π, 3π].
 #[inline(always)]
-fn wrapped_difference(turn: f64x4) -> f64x4 {
+fn wrap_turns(turn: f64x4) -> f64x4 {
     let is_far = turn.abs().simd_gt(f64x4::splat(PI));
-    if any_lane_set(is_far) { is_far.bitselect(turn - f64x4::splat(TAU).copysign(turn), turn) } else { turn }
+    if is_any_lane_set(is_far) {
+        is_far.bitselect(turn - f64x4::splat(TAU).copysign(turn), turn)
+    } else {
+        turn
+    }
 }

@@ -104,8 +104,8 @@ impl JsBananaMachine {
     ) -> Result<Vec<f64>, JsValue> {
         let first_omega = check_range("omegaMin", omega_min, &QUANTITY_RANGE)?;
         let last_omega = check_range("omegaMax", omega_max, &QUANTITY_RANGE)?;
-        let points = read_integer("points", points, 2..=MAX_CURVE_POINTS)?;
-        Ok(self.0.skew_curve(first_omega, last_omega, points as usize))
+        let point_count = read_integer("points", points, 2..=MAX_CURVE_POINTS)?;
+        Ok(self.0.skew_curve(first_omega, last_omega, point_count as usize))
     }
 
     /// Sample by its index, counted from 0, among those shown.

@@ -58,16 +58,16 @@ pub fn js_calibrate(
     const KEYS: [&str; 9] =
         ["odometry", "reference", "model", "rule", "legs", "outliers", "correct", "positionStd", "yawStd"];
     let fields = Fields::new("options", "", options, &KEYS)?;
-    let std_of = |key: &str| {
-        fields.optional(key, |path, value| check_range(path, read_number(path, value)?, &STD_RANGE))
+    let read_std = |key: &str| {
+        fields.read_optional(key, |path, value| check_range(path, read_number(path, value)?, &STD_RANGE))
     };
     let options = Options {
         model: read_model(&fields)?,
-        legs: fields.optional("legs", read_leg_length)?.unwrap_or(LegLength::AMCL),
-        outliers: fields.optional("outliers", read_keyword)?.unwrap_or_default(),
-        correct: fields.optional("correct", read_corrections)?.unwrap_or_default(),
-        position_std: std_of("positionStd")?,
-        yaw_std: std_of("yawStd")?,
+        legs: fields.read_optional("legs", read_leg_length)?.unwrap_or(LegLength::AMCL),
+        outliers: fields.read_optional("outliers", read_keyword)?.unwrap_or_default(),
+        correct: fields.read_optional("correct", read_corrections)?.unwrap_or_default(),
+        position_std: read_std("positionStd")?,
+        yaw_std: read_std("yawStd")?,
     };
     let logs = read_logs(&fields.value("odometry")?, &fields.value("reference")?)?;
     let drives: Vec<Drive> =
@@ -79,8 +79,8 @@ pub fn js_calibrate(
 }
 
 fn read_model(fields: &Fields) -> Result<Model, JsValue> {
-    let model_name: Option<ModelChoice> = fields.optional("model", read_keyword)?;
-    let rule: Option<OdometryRule> = fields.optional("rule", read_keyword)?;
+    let model_name: Option<ModelChoice> = fields.read_optional("model", read_keyword)?;
+    let rule: Option<OdometryRule> = fields.read_optional("rule", read_keyword)?;
     let is_omni = rule == Some(OdometryRule::Omni);
     let rule_fits_model = match model_name {
         None => true,
@@ -89,8 +89,8 @@ fn read_model(fields: &Fields) -> Result<Model, JsValue> {
         Some(ModelChoice::Velocity) => rule.is_none(),
     };
     if !rule_fits_model {
-        let message = "rule does not go with the model; allowed is thrun, nav2 or beluga with odometry, omni with omnidirectional, and none with velocity";
-        return Err(RangeError::new(message).into());
+        let error_message = "rule does not go with the model; allowed is thrun, nav2 or beluga with odometry, omni with omnidirectional, and none with velocity";
+        return Err(RangeError::new(error_message).into());
     }
     Ok(match model_name {
         Some(ModelChoice::Velocity) => Model::Velocity,
@@ -102,7 +102,8 @@ fn read_model(fields: &Fields) -> Result<Model, JsValue> {
 fn read_leg_length(field: &str, value: &JsValue) -> Result<LegLength, JsValue> {
     let fields = Fields::new(field, "legs.", value, &["distance", "angle", "duration"])?;
     let [distance, angle, duration] = ["distance", "angle", "duration"].map(|key| {
-        fields.optional(key, |path, value| check_range(path, read_number(path, value)?, &LEG_LENGTH_RANGE))
+        fields
+            .read_optional(key, |path, value| check_range(path, read_number(path, value)?, &LEG_LENGTH_RANGE))
     });
     let (distance, angle) = (distance?, angle?);
     match duration? {
@@ -124,13 +125,13 @@ fn read_corrections(field: &str, value: &JsValue) -> Result<[Option<bool>; ERROR
     }
     let keys = SYSTEMATIC_ERROR_KEYS.map(|(key, _)| key);
     if !value.is_object() {
-        let allowed = format!("true, false or an object with keys from {}", keys.join(", "));
-        return Err(type_error(field, value, &allowed));
+        let allowed_text = format!("true, false or an object with keys from {}", keys.join(", "));
+        return Err(type_error(field, value, &allowed_text));
     }
     let fields = Fields::new(field, "correct.", value, &keys)?;
     let mut correct = [None; ERROR_COUNT];
     for (key, errors) in SYSTEMATIC_ERROR_KEYS {
-        let is_corrected = fields.optional(key, read_boolean)?;
+        let is_corrected = fields.read_optional(key, read_boolean)?;
         errors.iter().for_each(|error| correct[*error as usize] = is_corrected);
     }
     Ok(correct)

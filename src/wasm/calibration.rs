@@ -131,9 +131,10 @@ pub fn calibration_to_js(calibration: &Calibration) -> JsValue {
 
 fn systematic_errors(calibration: &Calibration) -> SystematicErrors {
     let Calibration { systematic, systematic_stds, is_constant, is_corrected, .. } = calibration;
-    let value_of = |error: SystematicError| systematic_stds[error as usize].map(|_| systematic.get(error));
-    let scalar = |error: SystematicError| SystematicValue {
-        value: value_of(error),
+    let optional_value =
+        |error: SystematicError| systematic_stds[error as usize].map(|_| systematic.get(error));
+    let scalar_value = |error: SystematicError| SystematicValue {
+        value: optional_value(error),
         interval: calibration.interval_of(error),
         constant: is_constant[error as usize],
         corrected: is_corrected[error as usize],
@@ -141,16 +142,16 @@ fn systematic_errors(calibration: &Calibration) -> SystematicErrors {
     let lever_arm = [SystematicError::LeverArmAhead, SystematicError::LeverArmLeft];
     let has_any = |mask: &[bool; ERROR_COUNT]| lever_arm.iter().any(|error| mask[*error as usize]);
     SystematicErrors {
-        clock_offset: scalar(SystematicError::ClockOffset),
-        mount_yaw: scalar(SystematicError::MountYaw),
+        clock_offset: scalar_value(SystematicError::ClockOffset),
+        mount_yaw: scalar_value(SystematicError::MountYaw),
         lever_arm: SystematicValue {
-            value: lever_arm.map(value_of),
+            value: lever_arm.map(optional_value),
             interval: lever_arm.map(|error| calibration.interval_of(error)),
             constant: has_any(is_constant),
             corrected: has_any(is_corrected),
         },
-        distance_scale: scalar(SystematicError::DistanceScale),
-        turn_scale: scalar(SystematicError::TurnScale),
+        distance_scale: scalar_value(SystematicError::DistanceScale),
+        turn_scale: scalar_value(SystematicError::TurnScale),
     }
 }
 

@@ -40,9 +40,9 @@ getters! {
         /// Predicted variances of along, lateral (m²) and heading (rad²) after each step, three numbers a step; NaN if
         /// undefined.
         predicted: "ByRecursion<Float64Array>" = js_by_recursion(|order| {
-            let variances_of = |cov: &Matrix3<f64>| cov.diagonal();
+            let to_variances = |cov: &Matrix3<f64>| cov.diagonal();
             let covariances = it.predicted_covariances(order).iter();
-            triple_array(covariances.map(|cov| cov.as_ref().map_or(Vector3::repeat(f64::NAN), variances_of)))
+            triple_array(covariances.map(|cov| cov.as_ref().map_or(Vector3::repeat(f64::NAN), to_variances)))
         });
         /// Measured variances, in the form of `predicted`.
         measured: "Float64Array" = triple_array(it.measured_moments().iter().map(|moments| moments.cov.diagonal()));
@@ -125,7 +125,7 @@ fn quarters_of(steps: u32) -> impl Iterator<Item = u32> {
 }
 
 fn js_by_recursion(of: impl Fn(Compounding) -> Float64Array) -> JsValue {
-    let entries: Vec<_> =
+    let recursion_entries: Vec<_> =
         Compounding::KEYWORDS.iter().map(|(word, order)| (*word, of(*order).into())).collect();
-    js_object(&entries)
+    js_object(&recursion_entries)
 }

@@ -23,12 +23,12 @@ pub struct Fields<'a> {
 
 impl<'a> Fields<'a> {
     pub fn new(name: &str, prefix: &'a str, object: &'a JsValue, known: &[&str]) -> Result<Self, JsValue> {
-        let allowed = || format!("an object with keys from {}", known.join(", "));
+        let allowed_text = || format!("an object with keys from {}", known.join(", "));
         if Array::is_array(object) {
-            return Err(TypeError::new(&format!("{name} is an array; allowed is {}", allowed())).into());
+            return Err(TypeError::new(&format!("{name} is an array; allowed is {}", allowed_text())).into());
         }
         if !object.is_object() {
-            return Err(type_error(name, object, &allowed()));
+            return Err(type_error(name, object, &allowed_text()));
         }
         for key in Reflect::own_keys(object)?.iter().filter_map(|key| key.as_string()) {
             if !known.contains(&key.as_str()) {
@@ -61,7 +61,7 @@ impl<'a> Fields<'a> {
     }
 
     /// Reads a field with the function `read`; None if the field is missing or undefined.
-    pub fn optional<T>(
+    pub fn read_optional<T>(
         &self,
         key: &str,
         read: impl FnOnce(&str, &JsValue) -> Result<T, JsValue>,
@@ -90,21 +90,21 @@ pub fn read_integer(field: &str, number: f64, allowed: RangeInclusive<u64>) -> R
 }
 
 /// Returns the error for the index of a sample that is not shown.
-pub fn not_shown_error(index: usize, shown: usize) -> JsValue {
-    let allowed = format!("one of the {shown} samples shown, counted from 0");
-    RangeError::new(&format!("index is {index}; allowed is {allowed}")).into()
+pub fn not_shown_error(index: usize, shown_count: usize) -> JsValue {
+    let allowed_text = format!("one of the {shown_count} samples shown, counted from 0");
+    RangeError::new(&format!("index is {index}; allowed is {allowed_text}")).into()
 }
 
 pub fn read_keyword<T: Keywords>(field: &str, value: &JsValue) -> Result<T, JsValue> {
-    let mut result = T::KEYWORDS[0].1;
-    set_keyword(field, value, &mut result)?;
-    Ok(result)
+    let mut parsed_value = T::KEYWORDS[0].1;
+    set_keyword(field, value, &mut parsed_value)?;
+    Ok(parsed_value)
 }
 
 fn set_keyword(field: &str, value: &JsValue, word: &mut dyn Keyword) -> Result<(), JsValue> {
     let allowed = |word: &dyn Keyword| word.all().into_iter().map(quote).collect::<Vec<_>>().join(" or ");
-    let text = value.as_string().ok_or_else(|| type_error(field, value, &allowed(word)))?;
-    if word.set(&text) {
+    let keyword = value.as_string().ok_or_else(|| type_error(field, value, &allowed(word)))?;
+    if word.set(&keyword) {
         return Ok(());
     }
     Err(RangeError::new(&format!("{field} is {}; allowed is {}", describe_value(value), allowed(word)))
@@ -131,10 +131,13 @@ pub fn read_array_in_range<const N: usize>(
 }
 
 fn fill_array(field: &str, value: &JsValue, numbers: &mut [f64]) -> Result<(), JsValue> {
-    let expected = format!("an array of {} numbers", numbers.len());
-    let length = array_length(field, value, &expected)?;
-    if length != numbers.len() {
-        return Err(RangeError::new(&format!("{field} has length {length}; allowed is {expected}")).into());
+    let expected_text = format!("an array of {} numbers", numbers.len());
+    let given_length = array_length(field, value, &expected_text)?;
+    if given_length != numbers.len() {
+        return Err(RangeError::new(&format!(
+            "{field} has length {given_length}; allowed is {expected_text}"
+        ))
+        .into());
     }
     for (i, slot) in numbers.iter_mut().enumerate() {
         *slot = read_number(&format!("{field}[{i}]"), &array_item(value, i)?)?;
@@ -146,10 +149,10 @@ fn fill_array(field: &str, value: &JsValue, numbers: &mut [f64]) -> Result<(), J
 /// would mean another motion.
 fn read_group(field: &str, value: &JsValue, group: &mut dyn Group) -> Result<(), JsValue> {
     let keys: Vec<&str> = group.fields().iter().map(|field| field.declaration.key).collect();
-    let prefix = format!("{field}.");
-    let fields = Fields::new(field, &prefix, value, &keys)?;
+    let path_prefix = format!("{field}.");
+    let fields = Fields::new(field, &path_prefix, value, &keys)?;
     for (i, key) in keys.iter().enumerate() {
-        *group.number(i) = fields.number(key)?;
+        *group.number_mut(i) = fields.number(key)?;
     }
     Ok(())
 }

@@ -73,13 +73,13 @@ fn read_drives(
 }
 
 fn read_odometry(field: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
-    let prefix = format!("{field}.");
-    let allowed = "an object with keys from t, x, y, theta, breaks or from t, v, omega, breaks";
-    let fields = Fields::with_any_keys(field, &prefix, value, allowed)?;
+    let path_prefix = format!("{field}.");
+    let allowed_text = "an object with keys from t, x, y, theta, breaks or from t, v, omega, breaks";
+    let fields = Fields::with_any_keys(field, &path_prefix, value, allowed_text)?;
     if fields.value("v")?.is_undefined() && fields.value("omega")?.is_undefined() {
         return read_poses(field, value);
     }
-    let fields = Fields::new(field, &prefix, value, &["t", "v", "omega", "breaks"])?;
+    let fields = Fields::new(field, &path_prefix, value, &["t", "v", "omega", "breaks"])?;
     let columns = read_columns(&fields, ["t", "v", "omega"])?;
     let [t, v, omega] = &columns;
     let commands = t.iter().zip(v).zip(omega).map(|((t, v), omega)| (*t, *v, *omega));
@@ -108,9 +108,10 @@ fn checked_trajectory(
                 "has a time or a coordinate that is not finite; allowed are finite numbers".to_owned(),
             ),
             TrajectoryError::NotLater { sample, before } => {
-                let before = number_text(before);
-                let problem =
-                    format!("is not later than the one before, at {before} s; allowed are times that rise");
+                let previous_text = number_text(before);
+                let problem = format!(
+                    "is not later than the one before, at {previous_text} s; allowed are times that rise"
+                );
                 (sample, problem)
             }
         };
@@ -141,33 +142,35 @@ fn read_columns<const N: usize>(fields: &Fields, keys: [&str; N]) -> Result<[Vec
     let mut columns = [const { Vec::new() }; N];
     for (i, key) in keys.into_iter().enumerate() {
         let (path, value) = (fields.path(key), fields.value(key)?);
-        let expected = "an array of numbers";
-        let rows = array_length(&path, &value, expected)?;
+        let expected_text = "an array of numbers";
+        let row_count = array_length(&path, &value, expected_text)?;
         let allowed = if i == 0 { 2..=MAX_ROWS } else { columns[0].len()..=columns[0].len() };
-        if !allowed.contains(&rows) {
+        if !allowed.contains(&row_count) {
             let allowed = if i == 0 {
                 format!("2 to {MAX_ROWS}")
             } else {
                 format!("{}, as of {}", columns[0].len(), fields.path(keys[0]))
             };
-            return Err(RangeError::new(&format!("{path} has length {rows}; allowed is {allowed}")).into());
+            return Err(
+                RangeError::new(&format!("{path} has length {row_count}; allowed is {allowed}")).into()
+            );
         }
-        columns[i] = read_numbers_of_column(&path, &value, rows)?;
+        columns[i] = read_numbers_of_column(&path, &value, row_count)?;
         for (row, number) in columns[i].iter().enumerate() {
-            let range = if i == 0 { &TIME_RANGE } else { &COORDINATE_RANGE };
-            if !range.contains(number) {
-                check_real(&format!("{path}[{row}]"), *number, range)?;
+            let column_range = if i == 0 { &TIME_RANGE } else { &COORDINATE_RANGE };
+            if !column_range.contains(number) {
+                check_real(&format!("{path}[{row}]"), *number, column_range)?;
             }
         }
     }
     Ok(columns)
 }
 
-fn read_numbers_of_column(path: &str, value: &JsValue, rows: usize) -> Result<Vec<f64>, JsValue> {
+fn read_numbers_of_column(path: &str, value: &JsValue, row_count: usize) -> Result<Vec<f64>, JsValue> {
     if let Some(doubles) = value.dyn_ref::<Float64Array>() {
         return Ok(doubles.to_vec());
     }
-    let read_numbers = (0..rows).map(|row| {
+    let read_numbers = (0..row_count).map(|row| {
         let item = array_item(value, row)?;
         item.as_f64().map_or_else(|| read_number(&format!("{path}[{row}]"), &item), Ok)
     });

@@ -33,11 +33,11 @@ pub fn read_plan(plan: &JsValue) -> Result<FloorPlan, JsValue> {
     let walls = fields.value("walls")?;
     if let Some(walls) = walls.dyn_ref::<Float64Array>() {
         if !walls.length().is_multiple_of(4) {
-            let allowed = "an array of walls, or a Float64Array of four numbers a wall";
-            return Err(type_error("walls", walls, allowed));
+            let allowed_text = "an array of walls, or a Float64Array of four numbers a wall";
+            return Err(type_error("walls", walls, allowed_text));
         }
-        let segment_of = |wall: &[f64; 4]| Segment { from: [wall[0], wall[1]], to: [wall[2], wall[3]] };
-        return Ok(FloorPlan::new(walls.to_vec().as_chunks().0.iter().map(segment_of).collect(), bounds)?);
+        let to_segment = |wall: &[f64; 4]| Segment { from: [wall[0], wall[1]], to: [wall[2], wall[3]] };
+        return Ok(FloorPlan::new(walls.to_vec().as_chunks().0.iter().map(to_segment).collect(), bounds)?);
     }
     let wall_count = array_length("walls", &walls, "an array of walls, each [x, y, x, y]")?;
     if wall_count > FloorPlan::MAX_WALLS {
@@ -56,14 +56,14 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
     let fields = Fields::with_any_keys("description", "", description, "an object")?;
     let resolution = check_range("resolution", fields.number("resolution")?, &RESOLUTION_RANGE)?;
     let origin: [f64; 3] = read_array_in_range("origin", &fields.value("origin")?, &QUANTITY_RANGE)?;
-    let negate = fields.optional("negate", |field, value| {
+    let negate = fields.read_optional("negate", |field, value| {
         if value.as_bool().is_some() {
             return read_boolean(field, value);
         }
         Ok(read_integer(field, read_number(field, value)?, 0..=1)? == 1)
     })?;
     let read_threshold = |key: &str| {
-        fields.optional(key, |field, value| check_range(field, read_number(field, value)?, &(0.0..=1.0)))
+        fields.read_optional(key, |field, value| check_range(field, read_number(field, value)?, &(0.0..=1.0)))
     };
     let defaults = Interpretation::default();
     let occupied_thresh = read_threshold("occupied_thresh")?.unwrap_or(defaults.occupied_thresh);
@@ -73,7 +73,7 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
         let message = format!("free_thresh is {free_text}; allowed is at most occupied_thresh, {limit_text}");
         return Err(RangeError::new(&message).into());
     }
-    let mode = fields.optional("mode", read_keyword)?.unwrap_or(defaults.mode);
+    let mode = fields.read_optional("mode", read_keyword)?.unwrap_or(defaults.mode);
     let free_thresh = free_thresh.unwrap_or(defaults.free_thresh.min(occupied_thresh));
     let negate = negate.unwrap_or(defaults.negate);
     let interpretation = Interpretation { mode, negate, occupied_thresh, free_thresh };

@@ -125,7 +125,7 @@ impl JsOdometryModel {
     pub fn new(options: &JsOdometryModelOptions) -> Result<Self, JsValue> {
         let fields = Fields::new("options", "", options, &["alphas", "noise", "reverseAware"])?;
         let model = OdometryModel { alphas: OdomAlphas(read_alphas(&fields)?), noise: read_noise(&fields)? };
-        let reverse_aware = fields.optional("reverseAware", read_boolean)?.unwrap_or(false);
+        let reverse_aware = fields.read_optional("reverseAware", read_boolean)?.unwrap_or(false);
         Ok(Self(ConfiguredOdometry { model, reverse_aware }))
     }
 }
@@ -223,12 +223,14 @@ pub fn decompose(start: &JsPose, next: &JsPose) -> Result<JsValue, JsValue> {
 pub fn propagate(options: &JsPropagation) -> Result<Array, JsValue> {
     let fields =
         Fields::new("options", "", options, &["sigma", "command", "alphas", "compounding", "steps"])?;
-    let mut sigma = fields.optional("sigma", read_covariance)?.unwrap_or_default();
+    let mut sigma = fields.read_optional("sigma", read_covariance)?.unwrap_or_default();
     let command = read_command(&fields.value("command")?)?;
     let model = VelocityModel { alphas: VelocityAlphas(read_alphas(&fields)?), noise: NoiseKind::Normal };
-    let order = fields.optional("compounding", read_keyword)?.unwrap_or(Compounding::Chapter);
+    let order = fields.read_optional("compounding", read_keyword)?.unwrap_or(Compounding::Chapter);
     let steps = fields
-        .optional("steps", |field, value| read_integer(field, read_number(field, value)?, 1..=MAX_STEPS))?
+        .read_optional("steps", |field, value| {
+            read_integer(field, read_number(field, value)?, 1..=MAX_STEPS)
+        })?
         .unwrap_or(1);
     // Arguments in range cannot give a negative or infinite variance.
     let noise_model = TangentNoiseModel::from_velocity(&model, &command)
@@ -300,7 +302,7 @@ fn read_alphas<const N: usize>(fields: &Fields) -> Result<[f64; N], JsValue> {
 }
 
 fn read_noise(fields: &Fields) -> Result<NoiseKind, JsValue> {
-    Ok(fields.optional("noise", read_keyword)?.unwrap_or(NoiseKind::Normal))
+    Ok(fields.read_optional("noise", read_keyword)?.unwrap_or(NoiseKind::Normal))
 }
 
 fn read_pose(field: &str, value: &JsValue) -> Result<SE2, JsValue> {
@@ -320,10 +322,12 @@ fn read_twist(field: &str, value: &JsValue) -> Result<Vector3<f64>, JsValue> {
 }
 
 fn read_covariance(field: &str, value: &JsValue) -> Result<Matrix3<f64>, JsValue> {
-    let allowed = "three rows of three numbers, symmetric, of no negative variance";
-    let count = array_length(field, value, allowed)?;
+    let allowed_text = "three rows of three numbers, symmetric, of no negative variance";
+    let count = array_length(field, value, allowed_text)?;
     if count != 3 {
-        return Err(RangeError::new(&format!("{field} has length {count}; allowed are {allowed}")).into());
+        return Err(
+            RangeError::new(&format!("{field} has length {count}; allowed are {allowed_text}")).into()
+        );
     }
     let mut matrix = Matrix3::zeros();
     for i in 0..3 {
@@ -336,7 +340,8 @@ fn read_covariance(field: &str, value: &JsValue) -> Result<Matrix3<f64>, JsValue
         Err(TangentNoiseError::NotSymmetric) => "it differs from its transpose",
         Err(_) => "some direction has a negative variance",
     };
-    Err(RangeError::new(&format!("{field} is no covariance: {refusal_reason}; allowed are {allowed}")).into())
+    Err(RangeError::new(&format!("{field} is no covariance: {refusal_reason}; allowed are {allowed_text}"))
+        .into())
 }
 
 fn matrix_rows(matrix: &Matrix3<f64>) -> Array {

@@ -62,13 +62,13 @@ impl JsOdometryDecomposer {
         Ok(triple_array(leg_poses.into_iter().flatten()))
     }
 
-    /// Standard deviations for lengths of the drive from 0 to `longest` m. For each of `count` points: the length, the
+    /// Standard deviations for lengths of the drive from 0 to `max_length` m. For each of `count` points: the length, the
     /// standard deviation across the bearing, the contribution of the first rotation, and the standard deviation of the
     /// length, all in m.
     pub fn curve(&self, longest: f64, count: f64) -> Result<Float64Array, JsValue> {
-        let longest = check_range("longest", longest, &(0.0..=*QUANTITY_RANGE.end()))?;
+        let max_length = check_range("longest", longest, &(0.0..=*QUANTITY_RANGE.end()))?;
         let count = read_integer("count", count, 1..=MAX_CURVE_POINTS)? as usize;
-        Ok(flat_float_array(&self.0.deviation_curve(longest, count)))
+        Ok(flat_float_array(&self.0.deviation_curve(max_length, count)))
     }
 
     /// The index of the outcome that ends nearest to a point and within `radius` of it; −1 for none.

@@ -57,14 +57,14 @@ getters! {
         grid: "Grid | null" = {
             let Some(grid) = it.plan().grid() else { return JsValue::NULL };
             let [columns, rows] = grid.size();
-            let cell_flags_of = |kind| grid.cells().map(|cell| u8::from(cell == kind)).collect::<Vec<_>>().to_js();
+            let cell_flags = |kind| grid.cells().map(|cell| u8::from(cell == kind)).collect::<Vec<_>>().to_js();
             js_object(&[
                 ("columns", (columns as f64).into()),
                 ("rows", (rows as f64).into()),
                 ("resolution", grid.resolution().into()),
                 ("origin", <[f64; 3]>::from(grid.origin()).to_js()),
-                ("occupied", cell_flags_of(Cell::Occupied)),
-                ("unknown", cell_flags_of(Cell::Unknown)),
+                ("occupied", cell_flags(Cell::Occupied)),
+                ("unknown", cell_flags(Cell::Unknown)),
             ])
         };
         /// Free start pose: in the middle of the largest square that is known to be free, heading where the path is free
@@ -143,10 +143,10 @@ impl JsMapSqueeze {
         count: f64,
     ) -> Result<JsValue, JsValue> {
         let steps = read_integer("steps", steps, 1..=MAX_STEPS)?;
-        let sampler = read_keyword::<Sampler>("sampler", sampler)?.with_parts(steps as u32);
+        let sampler = read_keyword::<Sampler>("sampler", sampler)?.with_part_count(steps as u32);
         let count = read_integer("count", count, 1..=MAX_TRIAL_PARTS / steps)? as usize;
         let cost = self.0.sampling_trial(sampler, count).map_err(|no_sample| {
-            let max_total_draws = max_draws(sampler.parts() as usize * count);
+            let max_total_draws = max_draws(sampler.part_count() as usize * count);
             RangeError::new(&format!(
                 "sampler is {}, by which {no_sample}; allowed is one of at most {MAX_DRAWS} draws an accepted sample and {max_total_draws} \
                  for {count} of them",

@@ -87,7 +87,7 @@ pub fn group_to_js(group: &mut dyn Group) -> JsValue {
         .fields()
         .iter()
         .enumerate()
-        .map(|(i, field)| (field.declaration.key, (*group.number(i)).into()))
+        .map(|(i, field)| (field.declaration.key, (*group.number_mut(i)).into()))
         .collect();
     js_object(&entries)
 }

@@ -93,76 +93,88 @@ impl Controller {
 /// Leg that is being simulated.
 struct CurrentLeg {
     /// Pose by the odometry at the start of the leg.
-    odometry: SE2,
+    odometry_start: SE2,
     /// True pose at the start of the leg.
-    truth: SE2,
+    true_start: SE2,
     /// Times, and noise-free motions since the start of the leg.
     motions: Vec<(f64, SE2)>,
 }
 
 /// Returns the simulated log of a seed.
-pub fn simulated_log(seed: u64) -> Log {
+pub fn simulate_log(seed: u64) -> Log {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     let [x, y] = target_position(0.0);
     let start_pose = SE2::new(x, y, 1.6);
     let mut controller = Controller { phase: 0.0, remaining_turn: 0.0, next_turn_time: 6.0 };
-    let mut odometry = vec![(0.0, SE2::identity())];
-    let mut truth = vec![(0.0, start_pose)];
-    let mut current_leg =
-        CurrentLeg { odometry: SE2::identity(), truth: start_pose, motions: vec![(0.0, SE2::identity())] };
+    let mut odometry_poses = vec![(0.0, SE2::identity())];
+    let mut true_poses = vec![(0.0, start_pose)];
+    let mut current_leg = CurrentLeg {
+        odometry_start: SE2::identity(),
+        true_start: start_pose,
+        motions: vec![(0.0, SE2::identity())],
+    };
     for row in 1..ROW_COUNT {
         let time = ROW_INTERVAL * row as f64;
         let (_, motion) = current_leg.motions[current_leg.motions.len() - 1];
         // The robot steers by its odometry. Steering by the true pose would correct the errors, and correlate them with the turns.
-        let [v, omega] = controller.next_speeds(time, &(start_pose * odometry[row - 1].1), &mut rng);
+        let [v, omega] = controller.next_speeds(time, &(start_pose * odometry_poses[row - 1].1), &mut rng);
         let next_motion = motion * SE2::exp(&Vector3::new(v * ROW_INTERVAL, 0.0, omega * ROW_INTERVAL));
-        let twist = Vector3::new(v * ROW_INTERVAL / DISTANCE_SCALE, 0.0, omega * ROW_INTERVAL / TURN_SCALE);
-        let pose = odometry[row - 1].1 * SE2::exp(&twist);
-        odometry.push((time, pose));
+        let odometry_twist =
+            Vector3::new(v * ROW_INTERVAL / DISTANCE_SCALE, 0.0, omega * ROW_INTERVAL / TURN_SCALE);
+        let odometry_pose = odometry_poses[row - 1].1 * SE2::exp(&odometry_twist);
+        odometry_poses.push((time, odometry_pose));
         current_leg.motions.push((time, next_motion));
-        let has_moved = |from: f64, to: f64| (to - from).abs() > LEG_DISTANCE;
-        let has_turned = wrap_angle(pose.theta() - current_leg.odometry.theta()).abs() > LEG_ANGLE;
-        if has_moved(current_leg.odometry.x(), pose.x())
-            || has_moved(current_leg.odometry.y(), pose.y())
+        let has_moved_far = |from: f64, to: f64| (to - from).abs() > LEG_DISTANCE;
+        let has_turned =
+            wrap_angle(odometry_pose.theta() - current_leg.odometry_start.theta()).abs() > LEG_ANGLE;
+        if has_moved_far(current_leg.odometry_start.x(), odometry_pose.x())
+            || has_moved_far(current_leg.odometry_start.y(), odometry_pose.y())
             || has_turned
         {
-            let end = finish_leg(&current_leg, &mut truth, &mut rng);
-            current_leg = CurrentLeg { odometry: pose, truth: end, motions: vec![(time, SE2::identity())] };
+            let end = finish_leg(&current_leg, &mut true_poses, &mut rng);
+            current_leg = CurrentLeg {
+                odometry_start: odometry_pose,
+                true_start: end,
+                motions: vec![(time, SE2::identity())],
+            };
         }
     }
     // Rows after the last complete leg have no noise.
-    truth.extend(
-        current_leg.motions.iter().skip(1).map(|(time, motion)| (*time, current_leg.truth * *motion)),
+    true_poses.extend(
+        current_leg.motions.iter().skip(1).map(|(time, motion)| (*time, current_leg.true_start * *motion)),
     );
-    let trajectory = |samples| {
+    let create_trajectory = |samples| {
         // The times increase, so that the trajectory is valid.
         let Ok(trajectory) = Trajectory::new(samples) else { unreachable!() };
         trajectory
     };
-    Log { odometry: trajectory(odometry), reference: trajectory(reference_samples(&truth, &mut rng)) }
+    Log {
+        odometry: create_trajectory(odometry_poses),
+        reference: create_trajectory(simulate_reference(&true_poses, &mut rng)),
+    }
 }
 
 /// Appends the true poses of a finished leg, and returns its true end. Each row adds an independent part of the noise. If the
 /// noise of a leg were spread evenly over its rows, legs with other boundaries would have too little noise.
 fn finish_leg(leg: &CurrentLeg, truth: &mut Vec<(f64, SE2)>, rng: &mut Xoshiro256PlusPlus) -> SE2 {
     let [a1, a2, a3, a4] = TRUE_ALPHAS;
-    let motions = &leg.motions[1..];
-    let (_, leg_motion) = leg.motions[motions.len()];
-    let reading = OdomDelta::from_poses(&SE2::identity(), &leg_motion);
-    let variances = OdometryRule::Table.variances(&reading, &[a1, a2, a3, a4, 0.0]);
-    let variance_per_row = Variance(1.0 / motions.len() as f64);
+    let row_motions = &leg.motions[1..];
+    let (_, leg_motion) = leg.motions[row_motions.len()];
+    let leg_reading = OdomDelta::from_poses(&SE2::identity(), &leg_motion);
+    let leg_variances = OdometryRule::Table.variances(&leg_reading, &[a1, a2, a3, a4, 0.0]);
+    let variance_per_row = Variance(1.0 / row_motions.len() as f64);
     let mut unit_noise = [0.0; 3];
     let mut end = leg_motion;
-    for (time, motion) in motions {
+    for (time, motion) in row_motions {
         unit_noise.iter_mut().for_each(|noise| *noise += NoiseKind::Normal.sample(variance_per_row, rng));
-        [.., end] = variances.executed_motion(&reading, unit_noise).poses(&SE2::identity());
-        truth.push((*time, leg.truth * motion.boxplus(end.boxminus(&leg_motion))));
+        [.., end] = leg_variances.executed_motion(&leg_reading, unit_noise).poses(&SE2::identity());
+        truth.push((*time, leg.true_start * motion.boxplus(end.boxminus(&leg_motion))));
     }
-    leg.truth * end
+    leg.true_start * end
 }
 
 /// Returns the true trajectory as the reference measures it.
-fn reference_samples(truth: &[(f64, SE2)], rng: &mut Xoshiro256PlusPlus) -> Vec<(f64, SE2)> {
+fn simulate_reference(truth: &[(f64, SE2)], rng: &mut Xoshiro256PlusPlus) -> Vec<(f64, SE2)> {
     let mut jump_offset = SE2::identity();
     let mut remaining_rows = 0;
     truth
@@ -175,10 +187,13 @@ fn reference_samples(truth: &[(f64, SE2)], rng: &mut Xoshiro256PlusPlus) -> Vec<
                 jump_offset = SE2::new(JUMP_SIZE * libm::cos(bearing), JUMP_SIZE * libm::sin(bearing), 0.0);
                 remaining_rows = JUMP_ROWS;
             }
-            let offset = if remaining_rows > 0 { jump_offset } else { SE2::identity() };
+            let current_offset = if remaining_rows > 0 { jump_offset } else { SE2::identity() };
             let sensor_pose = *pose * SE2::new(LEVER_ARM[0], LEVER_ARM[1], MOUNT_YAW);
-            let measured_pose =
-                SE2::new(sensor_pose.x() + offset.x(), sensor_pose.y() + offset.y(), sensor_pose.theta());
+            let measured_pose = SE2::new(
+                sensor_pose.x() + current_offset.x(),
+                sensor_pose.y() + current_offset.y(),
+                sensor_pose.theta(),
+            );
             (time + CLOCK_OFFSET, measured_pose)
         })
         .collect()

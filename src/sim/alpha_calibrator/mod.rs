@@ -15,7 +15,7 @@ use crate::geom::segment::Segment;
 use crate::js::js_structs;
 use crate::models::{OdomDelta, RuleAlphas, VelocityAlphas, VelocityCmd, VelocityModel};
 use crate::stats::{CartesianMoments, Ellipse};
-use panels::panels;
+use panels::create_panels;
 use std::cell::OnceCell;
 
 /// Number of end poses that are predicted for a leg.
@@ -172,7 +172,7 @@ impl AlphaCalibrator {
             let Settings { seed, .. } = self.fit.settings;
             let options = self.fit.settings.options();
             let logs = match &self.source {
-                Source::Simulated => &[example::simulated_log(seed)],
+                Source::Simulated => &[example::simulate_log(seed)],
                 Source::Loaded(logs) => &logs[..],
                 Source::Restored => &[],
             };
@@ -201,23 +201,24 @@ impl AlphaCalibrator {
 
     /// Returns the panels of squared residuals against their regressors.
     pub fn panels(&self, regressor: Regressor) -> [Panel; 3] {
-        panels(self.fit.settings.model(), self.calibration(), regressor)
+        create_panels(self.fit.settings.model(), self.calibration(), regressor)
     }
 
     /// Returns one leg in the frame of its start; None if the index is too large.
     pub fn leg(&self, index: usize) -> Option<LegView> {
         let leg = self.legs().get(index)?;
-        let reading = self.calibration().observations[index].reading;
+        let leg_reading = self.calibration().observations[index].reading;
         let mut draws = Draws::new(self.fit.settings.seed, self.fit.settings.noise);
         draws.extend_to(OUTCOME_COUNT);
         let outcomes: Vec<[f64; 3]> = (0..OUTCOME_COUNT)
-            .map(|index| self.outcome_pose(&reading, draws.noise_of_sample(index)))
+            .map(|index| self.outcome_pose(&leg_reading, draws.noise_of_sample(index)))
             .map(Into::into)
             .collect();
-        let poses: Vec<SE2> = outcomes.iter().map(|pose| SE2::from(*pose)).collect();
-        let ellipse = Ellipse::from_moments(&CartesianMoments::from_poses(&poses));
-        let outline = if ellipse.has_area() { ellipse.boundary(OUTLINE_SEGMENTS) } else { vec![] };
-        let odometry_end = self.outcome_pose(&reading, [0.0; 3]);
+        let outcome_poses: Vec<SE2> = outcomes.iter().map(|pose| SE2::from(*pose)).collect();
+        let outcome_ellipse = Ellipse::from_moments(&CartesianMoments::from_poses(&outcome_poses));
+        let outline =
+            if outcome_ellipse.has_area() { outcome_ellipse.boundary(OUTLINE_SEGMENTS) } else { vec![] };
+        let odometry_end = self.outcome_pose(&leg_reading, [0.0; 3]);
         let reference_end = self.calibration().corrected.motion(leg);
         Some(LegView { outcomes, outline, read: odometry_end.into(), ended: reference_end.into() })
     }
@@ -254,8 +255,8 @@ impl AlphaCalibrator {
             let [from, to] = leg.reference.map(|pose| pose * corrected_errors.base());
             Segment { from: [from.x(), from.y()], to: [to.x(), to.y()] }.distance_to_point(point)
         };
-        let distances = self.legs().iter().map(path_distance).enumerate();
-        distances
+        let path_distances = self.legs().iter().map(path_distance).enumerate();
+        path_distances
             .filter(|(_, path_distance)| *path_distance < radius)
             .min_by(|(_, a), (_, b)| a.total_cmp(b))
             .map(|(index, _)| index)

@@ -56,17 +56,17 @@ fn is_translation_first(model: Model, component: usize) -> bool {
 }
 
 /// Returns the panel of each of the three noise components.
-pub fn panels(model: Model, calibration: &Calibration, regressor: Regressor) -> [Panel; 3] {
-    [0, 1, 2].map(|component| panel(model, calibration, component, regressor))
+pub fn create_panels(model: Model, calibration: &Calibration, regressor: Regressor) -> [Panel; 3] {
+    [0, 1, 2].map(|component| create_panel(model, calibration, component, regressor))
 }
 
-fn panel(model: Model, calibration: &Calibration, component: usize, regressor: Regressor) -> Panel {
+fn create_panel(model: Model, calibration: &Calibration, component: usize, regressor: Regressor) -> Panel {
     let Calibration { alphas, intervals, observations, leg_fits, .. } = calibration;
     let position_in_component =
         usize::from(is_translation_first(model, component) != (regressor == Regressor::Distance));
     let component_alphas = model.component_alphas()[component];
-    let alpha = component_alphas[position_in_component];
-    let slope = alphas[alpha];
+    let alpha_index = component_alphas[position_in_component];
+    let slope = alphas[alpha_index];
     let leg_points: Vec<[f64; 3]> = observations
         .iter()
         .zip(leg_fits)
@@ -76,33 +76,41 @@ fn panel(model: Model, calibration: &Calibration, component: usize, regressor: R
         .filter(|(observation, _)| !observation.moves_sideways(model))
         .map(|(observation, fit)| {
             let coefficient = observation.coefficients[component][position_in_component];
-            let variance = fit.stds[component] * fit.stds[component];
-            let other_variance = variance - slope.unwrap_or(0.0) * coefficient;
-            let squared_innovation = fit.standardized[component] * fit.standardized[component] * variance;
+            let total_variance = fit.stds[component] * fit.stds[component];
+            let other_variance = total_variance - slope.unwrap_or(0.0) * coefficient;
+            let squared_innovation =
+                fit.standardized[component] * fit.standardized[component] * total_variance;
             // The square of a normal variate of variance v has variance 2v².
-            [coefficient, squared_innovation - other_variance, 2.0 * variance * variance]
+            [coefficient, squared_innovation - other_variance, 2.0 * total_variance * total_variance]
         })
         .collect();
-    let mut panel =
-        Panel { alpha, x: Vec::new(), y: Vec::new(), error: Vec::new(), slope, interval: intervals[alpha] };
+    let mut panel = Panel {
+        alpha: alpha_index,
+        x: Vec::new(),
+        y: Vec::new(),
+        error: Vec::new(),
+        slope,
+        interval: intervals[alpha_index],
+    };
     // A panel has no bins if its α is not identified, for example the α of rotation for legs that hardly turn.
     if slope.is_none() {
         return panel;
     }
-    let mut regressors: Vec<f64> = leg_points.iter().map(|point| point[0]).collect();
-    regressors.sort_unstable_by(f64::total_cmp);
+    let mut regressor_values: Vec<f64> = leg_points.iter().map(|point| point[0]).collect();
+    regressor_values.sort_unstable_by(f64::total_cmp);
     let bin_size = leg_points.len().div_ceil(BIN_COUNT).max(MIN_LEGS_PER_BIN);
     let mut previous_limit = f64::NEG_INFINITY;
-    for bin in regressors.chunks(bin_size) {
+    for bin in regressor_values.chunks(bin_size) {
         let bin_limit = bin[bin.len() - 1];
         let bin: Vec<&[f64; 3]> =
             leg_points.iter().filter(|point| point[0] > previous_limit && point[0] <= bin_limit).collect();
         previous_limit = bin_limit;
-        let count = bin.len() as f64;
-        let sum = |term: &dyn Fn(&[f64; 3]) -> f64| bin.iter().map(|point| term(point)).sum::<f64>();
-        let [x, y] = [0, 1].map(|column| sum(&|point| point[column]) / count);
-        let mean_variance = sum(&|point| (point[1] - y) * (point[1] - y)) / (count * (count - 1.0));
-        let model_variance = sum(&|point| point[2]) / (count * count);
+        let leg_count = bin.len() as f64;
+        let sum_over_bin = |term: &dyn Fn(&[f64; 3]) -> f64| bin.iter().map(|point| term(point)).sum::<f64>();
+        let [x, y] = [0, 1].map(|column| sum_over_bin(&|point| point[column]) / leg_count);
+        let mean_variance =
+            sum_over_bin(&|point| (point[1] - y) * (point[1] - y)) / (leg_count * (leg_count - 1.0));
+        let model_variance = sum_over_bin(&|point| point[2]) / (leg_count * leg_count);
         if bin.len() >= MIN_LEGS_PER_BIN {
             panel.x.push(x);
             panel.y.push(y);

@@ -137,8 +137,8 @@ impl Rules for Settings {
         if self.is_omnidirectional() == (self.rule == OdometryRule::Omni) {
             return Ok(());
         }
-        let allowed = if self.is_omnidirectional() { "omni" } else { "thrun, nav2 or beluga" };
-        let allowed = AllowedValues::Keyword { given: self.rule.get(), allowed };
+        let allowed_rules = if self.is_omnidirectional() { "omni" } else { "thrun, nav2 or beluga" };
+        let allowed = AllowedValues::Keyword { given: self.rule.get(), allowed: allowed_rules };
         Err(SettingsError { field: "rule".to_owned(), value: f64::NAN, allowed })
     }
 }

@@ -1,6 +1,6 @@
 //! Exercise 1: rounding and truncation errors of the arc, the straight line and the chord at small turn rates.
 
-use crate::geom::arc::chord;
+use crate::geom::arc::arc_end;
 use crate::geom::double_double::DoubleDouble;
 use crate::js::js_structs;
 use std::f64::consts::TAU;
@@ -60,9 +60,10 @@ fn rms_errors_at(omega: f64) -> [f64; 3] {
     let mut squared_errors = [0.0; 3];
     for i in 0..HEADING_COUNT {
         // The headings avoid the axes, along which one of the coordinates would be exact.
-        let theta = TAU * (f64::from(i) + 0.37) / f64::from(HEADING_COUNT) - 0.5 * TAU;
-        let true_end = exact_end(theta, omega);
-        let form_ends = [arc_form(theta, omega), straight_form(theta), chord_form(theta, omega)];
+        let heading = TAU * (f64::from(i) + 0.37) / f64::from(HEADING_COUNT) - 0.5 * TAU;
+        let true_end = exact_end(heading, omega);
+        let form_ends =
+            [arc_form_end(heading, omega), straight_form_end(heading), chord_form_end(heading, omega)];
         for (square, end) in squared_errors.iter_mut().zip(form_ends) {
             for (coordinate, exact_coordinate) in end.into_iter().zip(true_end) {
                 let coordinate_error = (DoubleDouble::from(coordinate) - exact_coordinate).to_f64();
@@ -73,7 +74,7 @@ fn rms_errors_at(omega: f64) -> [f64; 3] {
     squared_errors.map(|square| (square / f64::from(HEADING_COUNT)).sqrt())
 }
 
-fn arc_form(theta: f64, omega: f64) -> [f64; 2] {
+fn arc_form_end(theta: f64, omega: f64) -> [f64; 2] {
     let radius = SPEED / omega;
     let end_heading = theta + omega * DURATION;
     [
@@ -82,13 +83,13 @@ fn arc_form(theta: f64, omega: f64) -> [f64; 2] {
     ]
 }
 
-fn straight_form(theta: f64) -> [f64; 2] {
+fn straight_form_end(theta: f64) -> [f64; 2] {
     let length = SPEED * DURATION;
     [length * libm::cos(theta), length * libm::sin(theta)]
 }
 
-fn chord_form(theta: f64, omega: f64) -> [f64; 2] {
-    let (ahead, left) = chord(SPEED * DURATION, omega * DURATION);
+fn chord_form_end(theta: f64, omega: f64) -> [f64; 2] {
+    let (ahead, left) = arc_end(SPEED * DURATION, omega * DURATION);
     let (sin, cos) = libm::sincos(theta);
     [cos * ahead - sin * left, sin * ahead + cos * left]
 }
@@ -96,7 +97,7 @@ fn chord_form(theta: f64, omega: f64) -> [f64; 2] {
 /// Returns the end of the motion in double-double arithmetic.
 pub fn exact_end(theta: f64, omega: f64) -> [DoubleDouble; 2] {
     let half_turn = DoubleDouble::product(0.5 * omega, DURATION);
-    let distance = DoubleDouble::product(SPEED, DURATION) * half_turn.sinc();
+    let chord_length = DoubleDouble::product(SPEED, DURATION) * half_turn.sinc();
     let (sin, cos) = (DoubleDouble::from(theta) + half_turn).sin_cos();
-    [distance * cos, distance * sin]
+    [chord_length * cos, chord_length * sin]
 }

@@ -122,7 +122,7 @@ pub(super) fn selected_inversion(settings: &Settings) -> ArcInversion {
 }
 
 /// Returns the estimate, the residual and the variance of each of the three noises.
-fn residuals(settings: &Settings, estimates: &ArcInversion) -> [(f64, f64, Variance); 3] {
+fn noise_residuals(settings: &Settings, estimates: &ArcInversion) -> [(f64, f64, Variance); 3] {
     let ArcInversion { v_hat, omega_hat, gamma_hat } = *estimates;
     let [v, omega, gamma] = settings.model().variances(&settings.command);
     [
@@ -134,7 +134,7 @@ fn residuals(settings: &Settings, estimates: &ArcInversion) -> [(f64, f64, Varia
 
 pub(super) fn prob(settings: &Settings) -> f64 {
     product_or_zero(
-        residuals(settings, &selected_inversion(settings))
+        noise_residuals(settings, &selected_inversion(settings))
             .map(|(_, residual, variance)| settings.noise.prob(residual, variance)),
     )
 }
@@ -143,17 +143,18 @@ impl Stats {
     pub(super) fn of(settings: &Settings) -> Self {
         let Settings { command, noise, .. } = settings;
         let (start, next, model) = (settings.start(), settings.next(), settings.model());
-        let estimates = selected_inversion(settings);
+        let estimated_controls = selected_inversion(settings);
         let inverted_arc = signed_inversion(settings);
-        let factors = residuals(settings, &estimates).map(|residual| Factor::of(*noise, residual));
+        let factors =
+            noise_residuals(settings, &estimated_controls).map(|residual| Factor::of(*noise, residual));
         let abs_deviation = |i: &usize| factors[*i].deviations.abs();
         let weakest = (0..3).rev().max_by(|a, b| abs_deviation(a).total_cmp(&abs_deviation(b))).unwrap_or(0);
         let arc = |v: f64, omega: f64| Arc { start, length: v * command.dt, turn: omega * command.dt };
         Self {
             commanded: ArcWithCircle::of(&arc(command.v, command.omega)),
             inverted: ArcWithCircle::of(&arc(inverted_arc.v_hat, inverted_arc.omega_hat)),
-            driven: ArcWithCircle::of(&arc(estimates.v_hat, estimates.omega_hat)),
-            last_turn: estimates.gamma_hat * command.dt,
+            driven: ArcWithCircle::of(&arc(estimated_controls.v_hat, estimated_controls.omega_hat)),
+            last_turn: estimated_controls.gamma_hat * command.dt,
             factors,
             weakest,
             prob: prob(settings),

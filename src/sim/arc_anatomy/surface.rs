@@ -4,7 +4,7 @@ use super::stats::prob;
 use super::{FinalPose, Settings, SurfaceKind};
 use crate::js::js_structs;
 use crate::models::MotionModel;
-use crate::stats::level_set;
+use crate::stats::trace_level_set;
 
 /// Maximum number of exponentials for a heat map, which take some milliseconds on a phone. The density sums over the full turns
 /// that noise may cause. If there are many turns, the heat map has fewer and larger cells.
@@ -41,8 +41,9 @@ impl Surface {
             return None;
         }
         let (model, start) = (settings.model(), settings.start());
-        let windings = f64::from(2 * model.max_windings(&settings.command) + 1);
-        let max_cells = MAX_EXPONENTIALS / (3.0 + 2.0 * windings + MAX_LAST_TURNS.min(windings + 2.0));
+        let winding_count = f64::from(2 * model.max_windings(&settings.command) + 1);
+        let max_cells =
+            MAX_EXPONENTIALS / (3.0 + 2.0 * winding_count + MAX_LAST_TURNS.min(winding_count + 2.0));
         let [width, height] = [max[0] - min[0], max[1] - min[1]];
         let columns = (max_cells * width / height).sqrt().max(1.0).min(max_cells).floor();
         let rows = (max_cells / columns).max(1.0).floor();
@@ -51,7 +52,7 @@ impl Surface {
         let cell_centre = |[column, row]: [f64; 2]| {
             [min[0] + (column + 0.5) * cell_size[0], max[1] - (row + 0.5) * cell_size[1]]
         };
-        let values_of = |function: &dyn Fn(&Settings) -> f64| -> Vec<f64> {
+        let evaluate_cells = |function: &dyn Fn(&Settings) -> f64| -> Vec<f64> {
             let cell_value = |i: usize| {
                 let [x, y] = cell_centre([(i % columns) as f64, (i / columns) as f64]);
                 let next = FinalPose { x, y, theta: settings.next.theta };
@@ -60,11 +61,11 @@ impl Surface {
             };
             (0..columns * rows).map(cell_value).collect()
         };
-        let prob = values_of(&prob);
-        let density = values_of(&|settings| {
+        let prob_values = evaluate_cells(&prob);
+        let density_values = evaluate_cells(&|settings| {
             model.pose_density(&settings.next(), &settings.command, &start).unwrap_or(0.0)
         });
-        let shown_values = if settings.map == SurfaceKind::Prob { &prob } else { &density };
+        let shown_values = if settings.map == SurfaceKind::Prob { &prob_values } else { &density_values };
         let maximum_of = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
         let shown_maximum = maximum_of(shown_values);
         let shade_of = |value: &f64| {
@@ -79,15 +80,15 @@ impl Surface {
                 .iter()
                 .filter(|_| max_value > 0.0)
                 .map(|fraction| libm::log(fraction * max_value));
-            let contour_lines = log_levels.flat_map(|level| level_set(&log_values, columns, level));
+            let contour_lines = log_levels.flat_map(|level| trace_level_set(&log_values, columns, level));
             contour_lines.map(|line| line.into_iter().map(cell_centre).collect()).collect()
         };
         Some(Self {
             columns,
             rows,
             shades: shown_values.iter().map(shade_of).collect(),
-            prob: contours_of(&prob),
-            density: contours_of(&density),
+            prob: contours_of(&prob_values),
+            density: contours_of(&density_values),
         })
     }
 }

@@ -25,19 +25,20 @@ impl BananaMachine {
         }
         let plane_ellipse = Ellipse::from_moments(&stats.cartesian);
         let contour = ExponentialContour::new(&stats.exponential, &START_POSE);
-        let mean = stats.exponential.mean;
-        let candidates: Vec<_> = plane_ellipse
+        let twist_mean = stats.exponential.mean;
+        let gap_candidates: Vec<_> = plane_ellipse
             .boundary(OUTLINE_SEGMENTS)
             .into_iter()
             .map(|point| {
                 let [x, y] = plane_ellipse.interpolate_from_centre(point, GAP_FRACTION);
-                let (length, turn) = arc_with_turn_near(&START_POSE, &SE2::new(x, y, 0.0), mean.z);
-                ([x, y], contour.ellipse.distance([length, turn]), length < mean.x)
+                let (length, turn) = arc_with_turn_near(&START_POSE, &SE2::new(x, y, 0.0), twist_mean.z);
+                ([x, y], contour.ellipse.mahalanobis_distance([length, turn]), length < twist_mean.x)
             })
             .filter(|(_, distance, _)| *distance > MIN_GAP_DISTANCE)
             .collect();
         let furthest_candidate = |is_near_side: bool| {
-            let side_candidates = candidates.iter().filter(|(_, _, is_before)| *is_before == is_near_side);
+            let side_candidates =
+                gap_candidates.iter().filter(|(_, _, is_before)| *is_before == is_near_side);
             side_candidates.max_by(|(_, a, _), (_, b, _)| a.total_cmp(b))
         };
         let mut gaps: Vec<_> = [true, false].into_iter().filter_map(furthest_candidate).collect();

@@ -95,7 +95,7 @@ impl ModelWithInput {
         }
     }
 
-    fn drive(&self, command: &VelocityCmd) -> Drive {
+    fn create_drive(&self, command: &VelocityCmd) -> Drive {
         match self {
             Self::Velocity(model, command) => Drive::of_velocity(model, command),
             Self::Odometry(model, reading) => Drive::of_odometry(model, reading, command.omega * command.dt),
@@ -157,7 +157,7 @@ cloud_simulation!(BananaMachine);
 
 impl BananaMachine {
     fn empty(settings: Settings) -> Result<Self, SettingsError> {
-        let drive = settings.model_with_input(settings.command).drive(&settings.command);
+        let drive = settings.model_with_input(settings.command).create_drive(&settings.command);
         let mut cloud = Cloud::new(settings.seed, settings.noise, drive);
         cloud.reserve(settings.samples).map_err(|_| SettingsError::out_of_memory(settings.samples))?;
         let cloud_stats = cloud.drive_and_summarize(settings.seed, settings.noise, drive, 0);
@@ -177,7 +177,7 @@ impl BananaMachine {
 
     fn show_samples(&mut self, count: usize) {
         let Settings { seed, noise, command, .. } = self.settings;
-        let drive = self.settings.model_with_input(command).drive(&command);
+        let drive = self.settings.model_with_input(command).create_drive(&command);
         let cloud_stats = self.cloud.drive_and_summarize(seed, noise, drive, count);
         self.stats = Stats::of(count, &cloud_stats, self.defined_charts());
     }
@@ -260,8 +260,8 @@ impl BananaMachine {
     /// Returns the moments of additive noise, the model that the chapter argues against: x_t = x̄ + ε with the noise-free end
     /// x̄ and ε ~ N(0, [`ADDITIVE_DEVIATION`]²·I) in x and y. It does not depend on the command and the α's.
     pub fn additive_moments(&self) -> CartesianMoments {
-        let variance = ADDITIVE_DEVIATION * ADDITIVE_DEVIATION;
-        let cov = Matrix3::from_diagonal(&Vector3::new(variance, variance, 0.0));
+        let additive_variance = ADDITIVE_DEVIATION * ADDITIVE_DEVIATION;
+        let cov = Matrix3::from_diagonal(&Vector3::new(additive_variance, additive_variance, 0.0));
         CartesianMoments { cov, ..self.linearized_moments() }
     }
 
@@ -310,11 +310,11 @@ impl BananaMachine {
         TableColumn { mean, cov, cross_track_skew, likelihood_gain: gain.value, area_ratio }
     }
 
-    /// Returns the exact cross-track skew at `points` evenly spaced turn rates from `first` to `last` (rad/s), with all other
+    /// Returns the exact cross-track skew at `point_count` evenly spaced turn rates from `first` to `last` (rad/s), with all other
     /// settings unchanged.
-    pub fn skew_curve(&self, first: f64, last: f64, points: usize) -> Vec<f64> {
-        let omega_step = (last - first) / (points.max(2) - 1) as f64;
-        (0..points)
+    pub fn skew_curve(&self, first: f64, last: f64, point_count: usize) -> Vec<f64> {
+        let omega_step = (last - first) / (point_count.max(2) - 1) as f64;
+        (0..point_count)
             .map(|i| {
                 let omega = first + omega_step * i as f64;
                 self.settings
@@ -351,13 +351,13 @@ impl BananaMachine {
     pub fn inspect(&self, index: usize) -> Option<Sample> {
         let pose = self.pose(index)?;
         let model_with_input = self.settings.model_with_input(self.settings.command);
-        let executed = model_with_input.executed_motion(self.cloud.unit_noise(index));
+        let executed_motion = model_with_input.executed_motion(self.cloud.unit_noise(index));
         let ([v_hat, omega_hat, gamma_hat], legs, path) = match model_with_input {
             ModelWithInput::Velocity(_, VelocityCmd { dt, .. }) => {
-                (executed, None, arc_points(executed[0] * dt, executed[1] * dt))
+                (executed_motion, None, arc_points(executed_motion[0] * dt, executed_motion[1] * dt))
             }
             ModelWithInput::Odometry(..) => {
-                let [rot1, trans, rot2] = executed;
+                let [rot1, trans, rot2] = executed_motion;
                 let path = vec![[START_POSE.x(), START_POSE.y()], [pose.x(), pose.y()]];
                 ([f64::NAN; 3], Some(OdomDelta { rot1, trans, rot2 }), path)
             }
@@ -379,14 +379,14 @@ impl BananaMachine {
         OdomDelta::from_poses(&START_POSE, &command_end(&self.settings.command))
     }
 
-    /// Counts the shown samples in each cell of a grid over a view: see [`picture::density`].
+    /// Counts the shown samples in each cell of a grid over a view: see [`picture::count_samples_in_cells`].
     pub fn density(&self, view: View, grid: &Grid) -> Vec<u32> {
-        picture::density(&self.cloud, view, grid)
+        picture::count_samples_in_cells(&self.cloud, view, grid)
     }
 
-    /// Paints the density of the shown samples: see [`picture::paint`].
+    /// Paints the density of the shown samples: see [`picture::paint_cell_counts`].
     pub fn paint(&mut self, view: View, grid: &Grid, ramp: &Ramp) -> &[[u8; 4]] {
-        self.picture = picture::paint(&self.density(view, grid), ramp);
+        self.picture = picture::paint_cell_counts(&self.density(view, grid), ramp);
         &self.picture
     }
 
@@ -396,7 +396,7 @@ impl BananaMachine {
             let (x, y) = (x.to_array(), y.to_array());
             (0..LANES).map(move |lane| [x[lane], y[lane]])
         };
-        nearest_index(self.cloud.groups(view).flat_map(points_of_group), target, radii)
+        nearest_index(self.cloud.point_groups(view).flat_map(points_of_group), target, radii)
     }
 }
 

@@ -64,8 +64,8 @@ impl Stats {
     /// Returns the statistics of a cloud of `n` samples. Those in coordinates that are undefined for the cloud are NaN.
     pub fn of(n: usize, cloud: &CloudStats, defined: DefinedCharts) -> Self {
         let CloudStats { cartesian, cross_track, gain, .. } = *cloud;
-        let one_if = |is_defined: bool| if is_defined { 1.0 } else { f64::NAN };
-        let [pose_factor, arc_factor] = [defined.pose, defined.arc].map(one_if);
+        let one_if_defined = |is_defined: bool| if is_defined { 1.0 } else { f64::NAN };
+        let [pose_factor, arc_factor] = [defined.pose, defined.arc].map(one_if_defined);
         let exponential = ExponentialMoments {
             mean: cloud.exponential.mean * pose_factor,
             cov: cloud.exponential.cov * pose_factor,
@@ -76,7 +76,7 @@ impl Stats {
         };
         let ellipse = Ellipse::from_moments(&cartesian);
         // The shape is undefined if all positions are equal. Exponential coordinates may then differ, because of the headings.
-        let shape_factor = one_if(defined.pose && !ellipse.is_point());
+        let shape_factor = one_if_defined(defined.pose && !ellipse.is_point());
         let contour = ExponentialContour::new(&exponential, &START_POSE);
         let area_ratio = contour.area_ratio(&ellipse, OUTLINE_SEGMENTS);
         Self {

@@ -1,8 +1,8 @@
 //! Common random numbers: the unit noise of every sample, drawn once for a seed.
 
 use super::BLOCK_GROUPS;
-use crate::geom::lanes::{LANES, any_lane_set, first_lanes_mask};
-use crate::noise::{NoiseKind, four_uniform_triples};
+use crate::geom::lanes::{LANES, first_lanes_mask, is_any_lane_set};
+use crate::noise::{NoiseKind, draw_four_uniform_triples};
 use crate::stats::sums::PairSums;
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -23,11 +23,11 @@ const FARTHEST_SQUARED_DISTANCE: f64 = 20.0;
 const SUBSAMPLE_GROUPS: [usize; 3] = [512, 16_384, usize::MAX];
 
 #[inline(never)]
-fn subsample_groups([a, b, c]: &[f64x4; 3]) -> usize {
+fn subsample_group_limit([a, b, c]: &[f64x4; 3]) -> usize {
     let squared_distances = *a * *a + *b * *b + *c * *c;
     let distance_class = [FAR_SQUARED_DISTANCE, FARTHEST_SQUARED_DISTANCE]
         .iter()
-        .filter(|threshold| any_lane_set(squared_distances.simd_gt(f64x4::splat(**threshold))))
+        .filter(|threshold| is_any_lane_set(squared_distances.simd_gt(f64x4::splat(**threshold))))
         .count();
     SUBSAMPLE_GROUPS[distance_class]
 }
@@ -43,10 +43,10 @@ pub struct Draws {
     rng: Xoshiro256PlusPlus,
     /// Draws in groups of four samples. The last group may have additional samples.
     pub unit_noise: Vec<[f64x4; 3]>,
-    /// Sums over the first `summed_groups` groups, in complete blocks. They stay valid while a slider moves the robots.
+    /// Sums over the first `summed_group_count` groups, in complete blocks. They stay valid while a slider moves the robots.
     sums: PairSums,
-    summed_groups: usize,
-    /// Indices of the groups whose noise is farthest from 0 among the first `summed_groups`, in ascending order. Those
+    summed_group_count: usize,
+    /// Indices of the groups whose noise is farthest from 0 among the first `summed_group_count`, in ascending order. Those
     /// below `SUBSAMPLE_GROUPS[1]` enter the subsample with the far groups, and are not listed.
     farthest_groups: Vec<usize>,
 }
@@ -60,7 +60,7 @@ impl Draws {
             rng,
             unit_noise: Vec::new(),
             sums: PairSums::new(),
-            summed_groups: 0,
+            summed_group_count: 0,
             farthest_groups: Vec::new(),
         }
     }
@@ -82,23 +82,25 @@ impl Draws {
         let Self { noise, rng, unit_noise, .. } = self;
         let (first_group, end_group) = (unit_noise.len(), count.div_ceil(LANES));
         while unit_noise.len() < end_group {
-            unit_noise.push(four_uniform_triples(rng));
+            unit_noise.push(draw_four_uniform_triples(rng));
         }
-        noise.quantiles(unit_noise.get_mut(first_group..).unwrap_or_default().as_flattened_mut());
+        noise.replace_by_quantiles(unit_noise.get_mut(first_group..).unwrap_or_default().as_flattened_mut());
     }
 
     /// Adds the complete blocks among the first `group_count` groups to the sums, and lists the groups whose noise is farthest from 0.
     #[inline(never)]
     pub fn sum_blocks_to(&mut self, group_count: usize) {
-        while group_count >= self.summed_groups + BLOCK_GROUPS {
-            let block_noise = self.unit_noise[self.summed_groups..][..BLOCK_GROUPS].iter();
+        while group_count >= self.summed_group_count + BLOCK_GROUPS {
+            let block_noise = self.unit_noise[self.summed_group_count..][..BLOCK_GROUPS].iter();
             block_noise.for_each(|noise| self.sums.add([noise[0], noise[1]], first_lanes_mask(LANES)));
             self.sums.flush_block();
-            let block_range = self.summed_groups.max(SUBSAMPLE_GROUPS[1])..self.summed_groups + BLOCK_GROUPS;
+            let block_range =
+                self.summed_group_count.max(SUBSAMPLE_GROUPS[1])..self.summed_group_count + BLOCK_GROUPS;
             self.farthest_groups.extend(
-                block_range.filter(|group| subsample_groups(&self.unit_noise[*group]) > SUBSAMPLE_GROUPS[1]),
+                block_range
+                    .filter(|group| subsample_group_limit(&self.unit_noise[*group]) > SUBSAMPLE_GROUPS[1]),
             );
-            self.summed_groups += BLOCK_GROUPS;
+            self.summed_group_count += BLOCK_GROUPS;
         }
     }
 
@@ -106,14 +108,14 @@ impl Draws {
     #[inline(never)]
     pub fn pair_sums(&mut self, count: usize) -> [f64; 5] {
         let group_count = count / LANES;
-        if self.summed_groups > group_count {
-            (self.sums, self.summed_groups) = (PairSums::new(), 0);
+        if self.summed_group_count > group_count {
+            (self.sums, self.summed_group_count) = (PairSums::new(), 0);
             self.farthest_groups.clear();
         }
         self.sum_blocks_to(group_count);
         let mut all_sums = self.sums.clone();
         for (group, noise) in
-            self.unit_noise[..count.div_ceil(LANES)].iter().enumerate().skip(self.summed_groups)
+            self.unit_noise[..count.div_ceil(LANES)].iter().enumerate().skip(self.summed_group_count)
         {
             all_sums.add([noise[0], noise[1]], first_lanes_mask(count - LANES * group));
         }
@@ -124,14 +126,17 @@ impl Draws {
     /// Returns the weighted subsample of the first `count` robots, in groups of four: unit noise, and the number of robots
     /// that each robot represents. Lanes beyond `count` have the weight 0. A cloud of up to 2048 robots is sampled completely.
     pub fn weighted_subsample(&self, count: usize) -> impl Iterator<Item = (&[f64x4; 3], f64x4)> {
-        let groups = count.div_ceil(LANES);
-        let later_groups =
-            self.farthest_groups.iter().copied().chain(self.summed_groups.max(SUBSAMPLE_GROUPS[1])..groups);
-        (0..groups.min(SUBSAMPLE_GROUPS[1])).chain(later_groups).filter_map(move |group| {
-            let noise = &self.unit_noise[group];
-            let group_limit = subsample_groups(noise);
-            let weight = f64x4::splat((groups as f64 / group_limit as f64).max(1.0));
-            (group < group_limit).then(|| (noise, weight & first_lanes_mask(count - LANES * group)))
+        let group_count = count.div_ceil(LANES);
+        let later_groups = self
+            .farthest_groups
+            .iter()
+            .copied()
+            .chain(self.summed_group_count.max(SUBSAMPLE_GROUPS[1])..group_count);
+        (0..group_count.min(SUBSAMPLE_GROUPS[1])).chain(later_groups).filter_map(move |group| {
+            let group_noise = &self.unit_noise[group];
+            let group_limit = subsample_group_limit(group_noise);
+            let weight = f64x4::splat((group_count as f64 / group_limit as f64).max(1.0));
+            (group < group_limit).then(|| (group_noise, weight & first_lanes_mask(count - LANES * group)))
         })
     }
 

@@ -1,6 +1,6 @@
 //! Common form of both models for a start at the origin: a distance in a direction, and a final heading.
 
-use crate::geom::lanes::{SinCos, Trigonometry, any_lane_set};
+use crate::geom::lanes::{SinCos, Trigonometry, is_any_lane_set};
 use crate::models::{OdomDelta, RotTransRot, VelocityCmd, VelocityModel};
 use crate::stats::two_pass::{FourArcs, FourPoses, JacobianScale, ReferenceCoordinates};
 use std::f64::consts::FRAC_PI_2;
@@ -91,7 +91,7 @@ impl Drive {
     }
 
     /// Returns the ends (x, y) of four motions, the arcs that lead there, and true if the arcs are
-    /// regular. The length and half turn of a regular arc differ from the noise-free ones by [`Drive::regular_deviations`]; only then is it the
+    /// regular. The length and half turn of a regular arc differ from the noise-free ones by [`Drive::regular_arc_deviations`]; only then is it the
     /// arc that the robot drove.
     #[inline(always)]
     pub fn end_points(&self, motions: &Motions) -> ([f64x4; 2], FourArcs, bool) {
@@ -102,28 +102,28 @@ impl Drive {
         } else {
             self.trigonometry.sin_cos_small_angle(bearing)
         };
-        let ends = self.end_points_on_bearing(motions, &bearing_sin_cos);
+        let end_positions = self.end_points_on_bearing(motions, &bearing_sin_cos);
         if is_outside_short_formulas || !self.is_arc {
-            return (ends, self.arcs_to_points(bearing, ends), false);
+            return (end_positions, self.arcs_to_points(bearing, end_positions), false);
         }
-        (ends, FourArcs { length, half_turn: bearing, sinc: bearing_sin_cos.sinc }, true)
+        (end_positions, FourArcs { length, half_turn: bearing, sinc: bearing_sin_cos.sinc }, true)
     }
 
     #[inline(always)]
     fn end_points_on_bearing(&self, motions: &Motions, bearing_sin_cos: &SinCos) -> [f64x4; 2] {
-        let distance = if self.is_arc { motions.length * bearing_sin_cos.sinc } else { motions.length };
-        [distance * bearing_sin_cos.cos, distance * bearing_sin_cos.sin]
+        let chord_length = if self.is_arc { motions.length * bearing_sin_cos.sinc } else { motions.length };
+        [chord_length * bearing_sin_cos.cos, chord_length * bearing_sin_cos.sin]
     }
 
     /// Returns the deviations that noise adds to the length and half turn of regular arcs (see [`Drive::end_points`]).
     #[inline(always)]
-    pub fn regular_deviations(&self, unit_noise: &[f64x4; 3]) -> [f64x4; 2] {
+    pub fn regular_arc_deviations(&self, unit_noise: &[f64x4; 3]) -> [f64x4; 2] {
         let noise_scale = if self.is_arc { [self.length[1], self.bearing[1]] } else { [0.0; 2] };
         [unit_noise[0] * noise_scale[0], unit_noise[1] * noise_scale[1]]
     }
 
-    /// Returns the sums of [`Drive::regular_deviations`] from those of the unit noise.
-    pub fn sums_of_regular_deviations(&self, [a, b, aa, ab, bb]: [f64; 5]) -> [f64; 5] {
+    /// Returns the sums of [`Drive::regular_arc_deviations`] from those of the unit noise.
+    pub fn sums_of_regular_arc_deviations(&self, [a, b, aa, ab, bb]: [f64; 5]) -> [f64; 5] {
         if !self.is_arc {
             return [0.0; 5];
         }
@@ -166,7 +166,7 @@ impl Drive {
         let [interval_middle, interval_half_width] = self.short_formula_interval;
         let is_beyond =
             |angle: f64x4| (angle - interval_middle).abs().simd_gt(f64x4::splat(interval_half_width));
-        any_lane_set(is_beyond(motions.bearing) | is_beyond(motions.half_heading))
+        is_any_lane_set(is_beyond(motions.bearing) | is_beyond(motions.half_heading))
     }
 
     /// Returns the poses of four robots and the arcs to them, by formulas for any angle. The loops over all robots of a

@@ -41,8 +41,8 @@ impl Cloud {
 
     pub fn reserve(&mut self, count: usize) -> Result<(), TryReserveError> {
         self.draws.reserve(count)?;
-        let groups = count.div_ceil(LANES);
-        self.positions.try_reserve_exact(groups.saturating_sub(self.positions.len()))
+        let group_count = count.div_ceil(LANES);
+        self.positions.try_reserve_exact(group_count.saturating_sub(self.positions.len()))
     }
 
     /// Drives the first `shown_count` samples, and returns their statistics. Their memory must be reserved.
@@ -61,7 +61,7 @@ impl Cloud {
         if let Some(better) = first_pass.better_reference(shown_count) {
             first_pass = self.run_first_pass(FirstPass::new(better, first_pass.scale));
         }
-        let regular_sums = drive.sums_of_regular_deviations(self.draws.pair_sums(shown_count));
+        let regular_sums = drive.sums_of_regular_arc_deviations(self.draws.pair_sums(shown_count));
         let mut second_pass = SecondPass::new(first_pass.moments(shown_count, regular_sums), &START_POSE);
         for parts in sample_blocks(shown_count) {
             for (groups, mask) in parts {
@@ -110,7 +110,7 @@ impl Cloud {
 
     /// Returns the points of each group of four samples in a view. In the last group, lanes without a sample are infinitely far away.
     #[inline(always)]
-    pub fn groups(&self, view: View) -> impl Iterator<Item = [f64x4; 2]> {
+    pub fn point_groups(&self, view: View) -> impl Iterator<Item = [f64x4; 2]> {
         let points_of_group = move |group: usize| match view {
             View::Plane => self.positions[group],
             View::Twist => {
@@ -134,10 +134,10 @@ impl Cloud {
 /// Returns blocks of the groups of four of `count` samples, at least one block. A block has a range of complete groups, and a
 /// range of incomplete ones. Each range has the mask of its samples.
 fn sample_blocks(count: usize) -> impl Iterator<Item = [(Range<usize>, f64x4); 2]> {
-    let groups = count.div_ceil(LANES);
+    let group_count = count.div_ceil(LANES);
     let lane_mask = first_lanes_mask(count % LANES);
-    (0..groups.div_ceil(BLOCK_GROUPS).max(1)).map(move |i| {
-        let (start, end) = (BLOCK_GROUPS * i, groups.min(BLOCK_GROUPS * (i + 1)));
+    (0..group_count.div_ceil(BLOCK_GROUPS).max(1)).map(move |i| {
+        let (start, end) = (BLOCK_GROUPS * i, group_count.min(BLOCK_GROUPS * (i + 1)));
         let full_groups = start.max(end.min(count / LANES));
         [(start..full_groups, first_lanes_mask(LANES)), (full_groups..end, lane_mask)]
     })
@@ -165,7 +165,7 @@ fn add_to_first_pass(
             sums.multiply_masked_jacobians(&poses, &arcs, mask);
         }
         if !is_regular {
-            sums.add_irregular(&arcs, drive.regular_deviations(noise), mask);
+            sums.add_irregular(&arcs, drive.regular_arc_deviations(noise), mask);
         }
     }
 }

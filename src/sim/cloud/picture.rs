@@ -12,22 +12,22 @@ pub const RAMP_STEPS: usize = 256;
 
 /// Counts the shown samples in each cell, row by row from the top (largest second coordinate). Samples outside are not
 /// counted.
-pub fn density(cloud: &Cloud, view: View, grid: &Grid) -> Vec<u32> {
+pub fn count_samples_in_cells(cloud: &Cloud, view: View, grid: &Grid) -> Vec<u32> {
     let (Grid { min, max, .. }, per_unit) = (*grid, grid.cells_per_unit());
-    let mut counts = vec![0; grid.columns * grid.rows];
-    cloud.groups(view).for_each(|[x, y]| {
+    let mut cell_counts = vec![0; grid.columns * grid.rows];
+    cloud.point_groups(view).for_each(|[x, y]| {
         let column = ((x - min[0]) * per_unit[0]).floor().to_array();
         let row = ((max[1] - y) * per_unit[1]).floor().to_array();
-        for cell in (0..LANES).filter_map(|lane| grid.index_of(column[lane], row[lane])) {
-            counts[cell] += 1;
+        for cell in (0..LANES).filter_map(|lane| grid.cell_index(column[lane], row[lane])) {
+            cell_counts[cell] += 1;
         }
     });
-    counts
+    cell_counts
 }
 
 /// Paints a density, one pixel for each cell: ramp[255·√(count/max_count)], transparent for empty cells. With the square
 /// root the sparse ends of a cloud stay visible.
-pub fn paint(counts: &[u32], ramp: &Ramp) -> Vec<[u8; 4]> {
+pub fn paint_cell_counts(counts: &[u32], ramp: &Ramp) -> Vec<[u8; 4]> {
     let max_count = counts.iter().copied().max().unwrap_or(0);
     counts.iter().map(|count| if *count == 0 { [0; 4] } else { ramp[ramp_step(*count, max_count)] }).collect()
 }

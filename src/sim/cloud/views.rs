@@ -64,7 +64,7 @@ impl Grid {
 
     /// Returns the index of the cell in a column and row, row by row from the top; None outside of the grid.
     #[inline(always)]
-    pub(in crate::sim) fn index_of(&self, column: f64, row: f64) -> Option<usize> {
+    pub(in crate::sim) fn cell_index(&self, column: f64, row: f64) -> Option<usize> {
         let is_inside = column >= 0.0 && column < self.columns as f64 && row >= 0.0 && row < self.rows as f64;
         is_inside.then(|| row as usize * self.columns + column as usize)
     }
@@ -81,8 +81,8 @@ pub fn nearest_index(
         let (dx, dy) = ((x - target[0]) / radii[0], (y - target[1]) / radii[1]);
         dx * dx + dy * dy
     };
-    let distances = points.into_iter().map(squared_distance).enumerate();
-    distances
+    let squared_distances = points.into_iter().map(squared_distance).enumerate();
+    squared_distances
         .filter(|(_, distance)| *distance <= 1.0)
         .min_by(|(_, a), (_, b)| a.total_cmp(b))
         .map(|(index, _)| index)

@@ -40,8 +40,8 @@ pub struct DeadReckoning {
     /// Number of robots driven.
     shown_count: usize,
     /// Predicted covariances after each step, by each of [`RECURSIONS`]; None where undefined.
-    predicted: [Vec<Option<Matrix3<f64>>>; 3],
-    measured: Vec<MeasuredMoments>,
+    predicted_covariances: [Vec<Option<Matrix3<f64>>>; 3],
+    measured_moments: Vec<MeasuredMoments>,
     comparisons: [Comparison; 3],
 }
 
@@ -100,10 +100,10 @@ impl DeadReckoning {
             value: f64::from(settings.steps),
             allowed: AllowedValues::FitsInMemory,
         })?;
-        let predicted = RECURSIONS.map(|order| propagate_covariances(&settings, order));
-        let measured = rollouts.measured_moments(0);
-        let comparisons = compare_all(&settings, &predicted, &measured);
-        Ok(Self { settings, rollouts, shown_count: 0, predicted, measured, comparisons })
+        let predicted_covariances = RECURSIONS.map(|order| propagate_covariances(&settings, order));
+        let measured_moments = rollouts.measured_moments(0);
+        let comparisons = compare_recursions(&settings, &predicted_covariances, &measured_moments);
+        Ok(Self { settings, rollouts, shown_count: 0, predicted_covariances, measured_moments, comparisons })
     }
 
     /// Changes the settings and drives the first block of `target_count` robots. [`DeadReckoning::add_samples`] drives the others.
@@ -119,7 +119,7 @@ impl DeadReckoning {
         self.show_samples(
             target_count
                 .min(settings.samples)
-                .min(self.block_for_steps(FIRST_BLOCK_STEPS).max(self.shown_count)),
+                .min(self.block_size_for_steps(FIRST_BLOCK_STEPS).max(self.shown_count)),
         );
         Ok(())
     }
@@ -130,16 +130,17 @@ impl DeadReckoning {
         }
         self.rollouts.drive_blocks_to(count);
         self.shown_count = count;
-        self.measured = self.rollouts.measured_moments(count);
-        self.comparisons = compare_all(&self.settings, &self.predicted, &self.measured);
+        self.measured_moments = self.rollouts.measured_moments(count);
+        self.comparisons =
+            compare_recursions(&self.settings, &self.predicted_covariances, &self.measured_moments);
     }
 
     /// Returns the number of robots that are driven within a few milliseconds.
     pub fn block_size(&self) -> usize {
-        self.block_for_steps(BLOCK_STEPS)
+        self.block_size_for_steps(BLOCK_STEPS)
     }
 
-    fn block_for_steps(&self, steps: usize) -> usize {
+    fn block_size_for_steps(&self, steps: usize) -> usize {
         (steps / self.settings.steps as usize).next_multiple_of(BLOCK_ROLLOUTS)
     }
 
@@ -150,12 +151,12 @@ impl DeadReckoning {
 
     /// Returns the moments of the robots after each step; the first is of step 1.
     pub fn measured_moments(&self) -> &[MeasuredMoments] {
-        &self.measured
+        &self.measured_moments
     }
 
     /// Returns the covariance that a recursion predicts after each step; None from the step on at which it is undefined.
     pub fn predicted_covariances(&self, order: Compounding) -> &[Option<Matrix3<f64>>] {
-        &self.predicted[index_of_recursion(order)]
+        &self.predicted_covariances[index_of_recursion(order)]
     }
 
     /// Returns the comparison of a recursion with the robots.
@@ -165,7 +166,7 @@ impl DeadReckoning {
 
     /// Returns the commanded pose after each step.
     pub fn nominal_poses(&self) -> &[SE2] {
-        &self.rollouts.nominal
+        &self.rollouts.nominal_poses
     }
 
     /// Returns x, y (m) and θ (rad) of the robots in the picture, [`MAX_SHOWN_ROBOTS`] at most, after a step; empty where there is
@@ -201,8 +202,10 @@ impl DeadReckoning {
         Stats {
             n: self.shown_count(),
             measured: ExponentialMoments { mean, cov },
-            predicted: by_recursion(|order| self.predicted_covariances(order)[step_index].map(Into::into)),
-            misses: by_recursion(|order| self.comparison(order).misses),
+            predicted: evaluate_recursions(|order| {
+                self.predicted_covariances(order)[step_index].map(Into::into)
+            }),
+            misses: evaluate_recursions(|order| self.comparison(order).misses),
         }
     }
 
@@ -228,13 +231,13 @@ impl DeadReckoning {
     /// Returns the outlines after a step, by the selected recursion; None if there is no such step.
     pub fn outlines(&self, step: u32) -> Option<Outlines> {
         let Settings { steps, compounding, .. } = self.settings;
-        (1..=steps).contains(&step).then(|| self.outlines_at(step as usize - 1, compounding))
+        (1..=steps).contains(&step).then(|| self.outlines_at_index(step as usize - 1, compounding))
     }
 
-    fn outlines_at(&self, index: usize, compounding: Compounding) -> Outlines {
+    fn outlines_at_index(&self, index: usize, compounding: Compounding) -> Outlines {
         let pose = self.nominal_poses()[index];
         let MeasuredMoments { mean, cov, .. } = &self.measured_moments()[index];
-        let measured = if self.shown_count() < 2 { vec![] } else { ellipse_of_xi(mean, cov) };
+        let measured = if self.shown_count() < 2 { vec![] } else { xi_ellipse_outline(mean, cov) };
         let Some(cov) = self.predicted_covariances(compounding)[index] else {
             return Outlines { ellipse: vec![], exponential: vec![], predicted: vec![], measured };
         };
@@ -246,13 +249,13 @@ impl DeadReckoning {
         Outlines {
             ellipse: ellipse.boundary(OUTLINE_SEGMENTS),
             exponential: ExponentialContour::new(&xi_moments, &pose).boundary(OUTLINE_SEGMENTS),
-            predicted: ellipse_of_xi(&Vector3::zeros(), &cov),
+            predicted: xi_ellipse_outline(&Vector3::zeros(), &cov),
             measured,
         }
     }
 }
 
-fn compare_all(
+fn compare_recursions(
     settings: &Settings,
     predicted: &[Vec<Option<Matrix3<f64>>>; 3],
     measured: &[MeasuredMoments],
@@ -260,7 +263,7 @@ fn compare_all(
     predicted.each_ref().map(|covs| Comparison::new(settings, covs, measured))
 }
 
-fn by_recursion<T>(of: impl Fn(Compounding) -> T) -> ByRecursion<T> {
+fn evaluate_recursions<T>(of: impl Fn(Compounding) -> T) -> ByRecursion<T> {
     let [chapter, first_order, fourth_order] = RECURSIONS.map(of);
     ByRecursion { chapter, first_order, fourth_order }
 }
@@ -269,6 +272,6 @@ fn index_of_recursion(order: Compounding) -> usize {
     RECURSIONS.iter().position(|recursion| *recursion == order).unwrap_or_default()
 }
 
-fn ellipse_of_xi(mean: &Vector3<f64>, cov: &Matrix3<f64>) -> Vec<[f64; 2]> {
+fn xi_ellipse_outline(mean: &Vector3<f64>, cov: &Matrix3<f64>) -> Vec<[f64; 2]> {
     Ellipse::new(mean.xy(), cov.fixed_view::<2, 2>(0, 0).into_owned()).boundary(OUTLINE_SEGMENTS)
 }

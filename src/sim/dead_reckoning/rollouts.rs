@@ -1,10 +1,10 @@
 //! Monte Carlo rollouts: many robots drive one command repeatedly, four at a time. Sums after each step give mean and covariance.
 
 use super::settings::Settings;
-use crate::geom::lanes::{LANES, SinCos, Trigonometry, any_lane_set, first_lanes_mask};
+use crate::geom::lanes::{LANES, SinCos, Trigonometry, first_lanes_mask, is_any_lane_set};
 use crate::geom::se2::SE2;
 use crate::models::TangentNoiseModel;
-use crate::noise::{NoiseKind, four_uniform_triples};
+use crate::noise::{NoiseKind, draw_four_uniform_triples};
 use crate::sim::cloud::drive::MAX_SHORT_FORMULA_ANGLE;
 use crate::stats::non_negative;
 use crate::stats::sums::{Sums, add_to_block};
@@ -76,7 +76,7 @@ pub struct Rollouts {
     /// Sums over the robots of complete blocks, after each step.
     sums: Vec<Sums<SUMMED_TERMS>>,
     /// Commanded pose after each step.
-    pub nominal: Vec<SE2>,
+    pub nominal_poses: Vec<SE2>,
     /// Poses x, y (m) and θ (rad) of the first robots, step after step.
     poses: Vec<[f64; 3]>,
 }
@@ -104,7 +104,7 @@ impl StepInErrorFrame {
 
     /// Drives four robots by one step, and returns their ξ.
     #[inline(always)]
-    fn drive(&self, robots: &mut ErrorPoses, [first, second, third]: &[f64x4; 3]) -> [f64x4; 3] {
+    fn drive_one_step(&self, robots: &mut ErrorPoses, [first, second, third]: &[f64x4; 3]) -> [f64x4; 3] {
         let length = *first * self.length[1] + self.length[0];
         let turn_noise = *second * self.half_turn[1];
         let SinCos { sinc, sin, cos } = self.trigonometry.sin_cos(turn_noise + self.half_turn[0]);
@@ -116,7 +116,7 @@ impl StepInErrorFrame {
         let y = robots.y + chord_length * (heading_sin * cos + heading_cos * sin) - self.end[1];
         let half_turn = robots.half_heading + (turn_noise + *third * self.half_last_turn_std);
         let is_outside_short_formula =
-            any_lane_set(half_turn.abs().simd_gt(f64x4::splat(MAX_SHORT_FORMULA_ANGLE)));
+            is_any_lane_set(half_turn.abs().simd_gt(f64x4::splat(MAX_SHORT_FORMULA_ANGLE)));
         let (half_heading, SinCos { sinc, sin, cos }) = if is_outside_short_formula {
             self.trigonometry.sin_cos_on_branch(half_turn, 0.0)
         } else {
@@ -135,18 +135,18 @@ impl Rollouts {
     /// # Errors
     /// [`TryReserveError`] if memory does not suffice for the robots in the picture.
     pub fn new(settings: &Settings) -> Result<Self, TryReserveError> {
-        let steps = settings.steps as usize;
+        let step_count = settings.steps as usize;
         let mut poses = Vec::new();
-        poses.try_reserve_exact(steps * MAX_SHOWN_ROBOTS)?;
-        poses.resize(steps * MAX_SHOWN_ROBOTS, [0.0; 3]);
+        poses.try_reserve_exact(step_count * MAX_SHOWN_ROBOTS)?;
+        poses.resize(step_count * MAX_SHOWN_ROBOTS, [0.0; 3]);
         let twist = TangentNoiseModel::twist(&settings.command);
         Ok(Self {
             step: StepInErrorFrame::new(settings),
             seed: settings.seed,
             block_rng: Xoshiro256PlusPlus::seed_from_u64(settings.seed),
             driven_count: 0,
-            sums: vec![Sums::new(); steps],
-            nominal: (1..=steps).map(|k| SE2::exp(&(twist * k as f64))).collect(),
+            sums: vec![Sums::new(); step_count],
+            nominal_poses: (1..=step_count).map(|k| SE2::exp(&(twist * k as f64))).collect(),
             poses,
         })
     }
@@ -187,17 +187,17 @@ impl Rollouts {
 
     #[inline(never)]
     fn drive_next_block(&mut self, count: usize, sums: &mut [Sums<SUMMED_TERMS>]) {
-        let Self { step, block_rng, driven_count, nominal, poses, .. } = self;
+        let Self { step, block_rng, driven_count, nominal_poses: nominal, poses, .. } = self;
         let mut block = RobotBlock::new(block_rng.clone());
         for (k, (sums, nominal)) in sums.iter_mut().zip(nominal).enumerate() {
-            block.drive(step);
+            block.drive_one_step(step);
             for (i, xi) in block.noise_or_xi.iter().enumerate() {
                 let remaining_lanes = count.saturating_sub(LANES * i);
                 if remaining_lanes >= LANES {
                     add_to_sums(sums, *xi);
                 } else {
-                    let mask = first_lanes_mask(remaining_lanes);
-                    add_to_sums(sums, xi.map(|lane_values| lane_values & mask));
+                    let lane_mask = first_lanes_mask(remaining_lanes);
+                    add_to_sums(sums, xi.map(|lane_values| lane_values & lane_mask));
                 }
             }
             sums.flush_block();
@@ -221,10 +221,10 @@ impl Rollouts {
         let (group, lane) = (index % BLOCK_ROLLOUTS / LANES, index % LANES);
         let mut block = RobotBlock::new(skipped_rng);
         let pose_after = |nominal| {
-            block.drive(&self.step);
+            block.drive_one_step(&self.step);
             block.groups[group].pose(lane, nominal)
         };
-        self.nominal.iter().map(pose_after).collect()
+        self.nominal_poses.iter().map(pose_after).collect()
     }
 }
 
@@ -249,17 +249,17 @@ struct RobotBlock {
 impl RobotBlock {
     fn new(rng: Xoshiro256PlusPlus) -> Self {
         let [zero, one] = [0.0, 1.0].map(f64x4::splat);
-        let start = ErrorPoses { x: zero, y: zero, half_heading: zero, sin: zero, cos: one };
-        Self { rng, groups: [start; BLOCK_GROUPS], noise_or_xi: [[zero; 3]; BLOCK_GROUPS] }
+        let zero_errors = ErrorPoses { x: zero, y: zero, half_heading: zero, sin: zero, cos: one };
+        Self { rng, groups: [zero_errors; BLOCK_GROUPS], noise_or_xi: [[zero; 3]; BLOCK_GROUPS] }
     }
 
     #[inline(never)]
-    fn drive(&mut self, step: &StepInErrorFrame) {
+    fn drive_one_step(&mut self, step: &StepInErrorFrame) {
         let Self { rng, groups, noise_or_xi } = self;
-        noise_or_xi.iter_mut().for_each(|draw| *draw = four_uniform_triples(rng));
-        NoiseKind::Normal.quantiles(noise_or_xi.as_flattened_mut());
+        noise_or_xi.iter_mut().for_each(|draw| *draw = draw_four_uniform_triples(rng));
+        NoiseKind::Normal.replace_by_quantiles(noise_or_xi.as_flattened_mut());
         for (robots, draw) in groups.iter_mut().zip(noise_or_xi) {
-            *draw = step.drive(robots, draw);
+            *draw = step.drive_one_step(robots, draw);
         }
     }
 }

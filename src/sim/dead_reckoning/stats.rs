@@ -85,8 +85,8 @@ pub fn propagate_covariances(settings: &Settings, order: Compounding) -> Vec<Opt
 /// Returns the largest standard deviations of ξ (m, m, rad) that count as 0.
 fn negligible_stds(settings: &Settings) -> Vector3<f64> {
     let u = &settings.command;
-    let length = NEGLIGIBLE_STD * (u.v * u.dt).abs() * f64::from(settings.steps);
-    Vector3::new(length, length, NEGLIGIBLE_STD)
+    let negligible_length = NEGLIGIBLE_STD * (u.v * u.dt).abs() * f64::from(settings.steps);
+    Vector3::new(negligible_length, negligible_length, NEGLIGIBLE_STD)
 }
 
 fn variance_ratio(

@@ -109,9 +109,9 @@ impl OdometryDecomposer {
         self.shown_count = count;
         self.draws.reset_if_changed(self.settings.seed, self.settings.noise);
         self.draws.extend_to(self.shown_count);
-        let start = self.start_pose();
+        let start_pose = self.start_pose();
         self.poses =
-            self.executed_motions(self.shown_count).map(|executed| executed.poses(&start)[3]).collect();
+            self.executed_motions(self.shown_count).map(|executed| executed.poses(&start_pose)[3]).collect();
     }
 
     /// Returns the odometry reading: the motion from the first odometry pose to the second.
@@ -156,18 +156,20 @@ impl OdometryDecomposer {
 
     /// Returns the leg_poses of the first outcomes shown, as [`OdometryDecomposer::leg_poses`].
     pub fn sample_leg_poses(&self, count: usize) -> Vec<[SE2; 4]> {
-        let start = self.start_pose();
-        self.executed_motions(count.min(self.shown_count)).map(|executed| executed.poses(&start)).collect()
+        let start_pose = self.start_pose();
+        self.executed_motions(count.min(self.shown_count))
+            .map(|executed| executed.poses(&start_pose))
+            .collect()
     }
 
     /// Returns the pose of the robot at the selected phase of the motion.
     pub fn robot_pose(&self) -> SE2 {
-        let done_fraction = |phase_before: f64| (self.settings.phase - phase_before).clamp(0.0, 1.0);
+        let completed_fraction = |phase_before: f64| (self.settings.phase - phase_before).clamp(0.0, 1.0);
         let OdomDelta { rot1, trans, rot2 } = self.legs();
         let legs = OdomDelta {
-            rot1: done_fraction(0.0) * rot1,
-            trans: done_fraction(1.0) * trans,
-            rot2: done_fraction(2.0) * rot2,
+            rot1: completed_fraction(0.0) * rot1,
+            trans: completed_fraction(1.0) * trans,
+            rot2: completed_fraction(2.0) * rot2,
         };
         legs.apply(&self.start_pose())
     }
@@ -194,12 +196,12 @@ impl OdometryDecomposer {
     pub fn stats(&self) -> Stats {
         let Settings { noise, correlation, .. } = self.settings;
         let (legs, variances) = (self.legs(), self.variances());
-        let outcomes = self.executed_motions(self.shown_count);
-        let cross_track_offsets = outcomes.clone().map(|ExecutedLegs { legs: executed, strafe }| {
+        let executed_motions = self.executed_motions(self.shown_count);
+        let cross_track_offsets = executed_motions.clone().map(|ExecutedLegs { legs: executed, strafe }| {
             let (sin, cos) = libm::sincos(executed.rot1 - legs.rot1);
             executed.trans * sin + strafe * cos
         });
-        let turn_offsets = outcomes
+        let turn_offsets = executed_motions
             .map(|ExecutedLegs { legs: executed, .. }| executed.rot1 - legs.rot1 + executed.rot2 - legs.rot2);
         let [cross_track, cross_track_error] = rms_with_error(cross_track_offsets, self.shown_count);
         let [heading, heading_error] = rms_with_error(turn_offsets, self.shown_count);
@@ -225,20 +227,20 @@ impl OdometryDecomposer {
         let length_step = max_length / count.saturating_sub(1).max(1) as f64;
         (0..count)
             .map(|i| {
-                let trans = length_step * i as f64;
-                let variances = rule.variances(&OdomDelta { trans, ..reading }, &alphas);
-                let cross_track = variances.cross_track_variance(trans, noise).sqrt();
-                [trans, cross_track, trans * variances.rot1.0.sqrt(), variances.trans.0.sqrt()]
+                let drive_length = length_step * i as f64;
+                let variances = rule.variances(&OdomDelta { trans: drive_length, ..reading }, &alphas);
+                let cross_track = variances.cross_track_variance(drive_length, noise).sqrt();
+                [drive_length, cross_track, drive_length * variances.rot1.0.sqrt(), variances.trans.0.sqrt()]
             })
             .collect()
     }
 
     /// Returns the odometry poses in the world. Their frame has moved by exp(t·d) in the drift time t.
     pub fn drifted_odometry(&self) -> DriftedOdometry {
-        let frame = SE2::exp(&(Vector3::from(DRIFT_TWIST) * self.settings.drift));
-        let (from, to) = (frame * self.start_pose(), frame * SE2::from(self.settings.to));
+        let drifted_frame = SE2::exp(&(Vector3::from(DRIFT_TWIST) * self.settings.drift));
+        let (from, to) = (drifted_frame * self.start_pose(), drifted_frame * SE2::from(self.settings.to));
         let legs = self.settings.rule.legs(&OdomDelta::from_poses(&from, &to));
-        DriftedOdometry { poses: [frame, from, to].map(Into::into).to_vec(), legs }
+        DriftedOdometry { poses: [drifted_frame, from, to].map(Into::into).to_vec(), legs }
     }
 
     /// Returns the outcome shown that ends nearest to a point (m), within `radius`.

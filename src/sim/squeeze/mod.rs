@@ -86,7 +86,7 @@ impl MapSqueeze {
     /// number if the simulation had given up.
     pub fn set_plan(&mut self, plan: FloorPlan) {
         self.plan = plan;
-        let attempt_count = if self.gave_up() { self.settings.samples } else { self.shown_count() };
+        let attempt_count = if self.has_given_up() { self.settings.samples } else { self.shown_count() };
         self.clear_attempts();
         self.add_samples(attempt_count);
     }
@@ -136,7 +136,7 @@ impl MapSqueeze {
     fn show_samples(&mut self, target_count: usize) {
         self.draws.reset_if_changed(self.settings.seed, NoiseKind::Normal);
         self.draws.extend_to(target_count);
-        let part_count = self.settings.parts() as usize;
+        let part_count = self.settings.part_count() as usize;
         let Self { plan, settings, draws, attempts, tally, gave_up, .. } = self;
         let model = conditioned_model(settings, plan, settings.sampler);
         let driver = Driver::new(&model, settings, draws);
@@ -154,7 +154,7 @@ impl MapSqueeze {
 
     /// Returns the number of attempts that are made within a few milliseconds.
     pub fn block_size(&self) -> usize {
-        (BLOCK_PARTS / self.settings.parts() as usize).max(1)
+        (BLOCK_PARTS / self.settings.part_count() as usize).max(1)
     }
 
     /// Returns the attempts shown, in sample order.
@@ -173,7 +173,7 @@ impl MapSqueeze {
     }
 
     /// Returns true if the simulation stopped short of its samples because too few draws were accepted.
-    pub fn gave_up(&self) -> bool {
+    pub fn has_given_up(&self) -> bool {
         self.gave_up
     }
 
@@ -184,7 +184,7 @@ impl MapSqueeze {
             attempts: self.attempts.len(),
             drawn: tally.draws,
             accepted: tally.accepted,
-            acceptance_rate: tally.acceptance_rate(self.settings.parts()),
+            acceptance_rate: tally.acceptance_rate(self.settings.part_count()),
             through_wall: tally.through_wall,
             through_wall_rate: tally.through_wall_rate(),
             through_wall_interval: tally.through_wall_interval(),
@@ -225,9 +225,9 @@ impl MapSqueeze {
         let model = conditioned_model(&self.settings, &self.plan, sampler);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(self.settings.seed);
         let mut total_cost = Cost::default();
-        let part_count = sampler.parts() as usize * count;
+        let part_count = sampler.part_count() as usize * count;
         for _ in 0..count {
-            let cost = model.cost(&self.settings.command, &self.settings.start(), &mut rng)?;
+            let cost = model.sampling_cost(&self.settings.command, &self.settings.start(), &mut rng)?;
             total_cost.draws += cost.draws;
             total_cost.wall_tests += cost.wall_tests;
             if total_cost.draws > max_draws(part_count) {

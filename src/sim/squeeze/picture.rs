@@ -21,16 +21,20 @@ pub fn paint_attempts(attempts: &[Attempt], grid: &Grid, ramps: &[Ramp; OUTCOME_
     for attempt in attempts {
         let column = ((attempt.pose.x() - min[0]) * per_metre[0]).floor();
         let row = ((max[1] - attempt.pose.y()) * per_metre[1]).floor();
-        if let Some(cell) = grid.index_of(column, row) {
+        if let Some(cell) = grid.cell_index(column, row) {
             cell_counts[cell][attempt.outcome_kind()] += 1;
         }
     }
     let total_count = |counts: &[u32; OUTCOME_KIND_COUNT]| counts.iter().sum::<u32>();
     let highest_count = cell_counts.iter().map(total_count).max().unwrap_or(0);
     let cell_colour = |counts: &[u32; OUTCOME_KIND_COUNT]| {
-        let count = total_count(counts);
-        let kind = (0..OUTCOME_KIND_COUNT).max_by_key(|kind| counts[*kind]).unwrap_or(0);
-        if count == 0 { [0; 4] } else { ramps[kind][ramp_step(count, highest_count)] }
+        let attempt_count = total_count(counts);
+        let most_frequent_kind = (0..OUTCOME_KIND_COUNT).max_by_key(|kind| counts[*kind]).unwrap_or(0);
+        if attempt_count == 0 {
+            [0; 4]
+        } else {
+            ramps[most_frequent_kind][ramp_step(attempt_count, highest_count)]
+        }
     };
     cell_counts.iter().map(cell_colour).collect()
 }

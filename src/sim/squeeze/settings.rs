@@ -81,8 +81,8 @@ impl Settings {
     }
 
     /// Returns the number of parts of an attempt.
-    pub fn parts(&self) -> u32 {
-        self.sampler.parts()
+    pub fn part_count(&self) -> u32 {
+        self.sampler.part_count()
     }
 
     pub(super) fn start(&self) -> SE2 {
@@ -93,11 +93,11 @@ impl Settings {
 impl Rules for Settings {
     /// Copies the setting `steps` into the sub-stepped sampler. Other samplers leave it unchanged.
     fn adjust(&mut self, _: &Self, _: &[&str]) {
-        self.sampler = self.sampler.with_parts(self.steps);
+        self.sampler = self.sampler.with_part_count(self.steps);
     }
 
     fn check_combinations(&self) -> Result<(), SettingsError> {
-        let part_count = check_integer("steps", f64::from(self.parts()), &(1..=MAX_STEPS))?;
+        let part_count = check_integer("steps", f64::from(self.part_count()), &(1..=MAX_STEPS))?;
         check_integer("samples", self.samples as f64, &(1..=MAX_SAMPLES as u64 / part_count)).map(|_| ())
     }
 }

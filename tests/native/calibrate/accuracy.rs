@@ -89,17 +89,17 @@ fn run_study(model: Model, scenario: &Scenario, log_count: usize) -> StudyResult
         }
     }
     study.ratios.iter_mut().chain(&mut study.stds).for_each(|sample| sample.sort_unstable_by(f64::total_cmp));
-    let median_ratios: Vec<f64> = study.ratios.iter().map(|ratios| median(ratios)).collect();
+    let median_ratios: Vec<f64> = study.ratios.iter().map(|ratios| sorted_median(ratios)).collect();
     let StudyResults { covered_counts, errors_covered, stds_covered, .. } = &study;
-    let stds = [0, 1].map(|index| median(&study.stds[index]));
+    let median_stds = [0, 1].map(|index| sorted_median(&study.stds[index]));
     println!(
-        "{}, {model:?}: {median_ratios:.3?}, covered {covered_counts:?}, σ {stds:.4?} {stds_covered:?}, errors {errors_covered:?}",
+        "{}, {model:?}: {median_ratios:.3?}, covered {covered_counts:?}, σ {median_stds:.4?} {stds_covered:?}, errors {errors_covered:?}",
         scenario.name
     );
     study
 }
 
-fn median(sorted: &[f64]) -> f64 {
+fn sorted_median(sorted: &[f64]) -> f64 {
     sorted[sorted.len() / 2]
 }
 
@@ -117,18 +117,18 @@ fn three_standard_errors(fraction: f64, log_count: usize) -> f64 {
 
 /// Reports the fraction of intervals that contain the truth, if it is outside of 92 to 98 % by more than three standard errors.
 fn report_wrong_coverage(name: &str, covered_count: usize, log_count: usize) -> Option<String> {
-    let fraction = covered_count as f64 / log_count as f64;
+    let covered_fraction = covered_count as f64 / log_count as f64;
     let allowed_fractions =
         0.92 - three_standard_errors(0.92, log_count)..=0.98 + three_standard_errors(0.98, log_count);
-    (!allowed_fractions.contains(&fraction))
+    (!allowed_fractions.contains(&covered_fraction))
         .then(|| format!("{covered_count} of {log_count} intervals hold {name}"))
 }
 
 /// Reports α's whose medians are off by more than the allowed bias plus three standard errors, and α's with wrong intervals.
 fn report_wrong_alphas(model: Model, scenario: &Scenario, study: &StudyResults) -> Vec<String> {
-    let reports_of_alpha = |alpha: usize| {
+    let report_alpha = |alpha: usize| {
         let (ratios, name) = (&study.ratios[alpha], format!("α{}", alpha + 1));
-        let (median_ratio, standard_error) = (median(ratios), standard_error_of_median(ratios));
+        let (median_ratio, standard_error) = (sorted_median(ratios), standard_error_of_median(ratios));
         let is_off = ratios.len() < study.log_count
             || (median_ratio - 1.0).abs() > scenario.allowed_bias + 3.0 * standard_error;
         let median_report = is_off.then(|| {
@@ -136,8 +136,8 @@ fn report_wrong_alphas(model: Model, scenario: &Scenario, study: &StudyResults) 
         });
         [median_report, report_wrong_coverage(&name, study.covered_counts[alpha], study.log_count)]
     };
-    let reports = (0..study.covered_counts.len()).flat_map(reports_of_alpha).flatten();
-    reports.map(|report| format!("{}, {model:?}: {report}", scenario.name)).collect()
+    let alpha_reports = (0..study.covered_counts.len()).flat_map(report_alpha).flatten();
+    alpha_reports.map(|report| format!("{}, {model:?}: {report}", scenario.name)).collect()
 }
 
 /// Asserts that the α's of every model are right in a hundred logs, and that `further_reports` reports nothing.
@@ -156,7 +156,7 @@ fn assert_right_in_every_model(scenario: &Scenario, further_reports: impl Fn(&St
 
 /// Reports a standard deviation of the reference that is off by more than 10 % plus three standard errors.
 fn report_wrong_std(study: &StudyResults, component: usize, true_std: f64) -> Vec<String> {
-    let median_std = median(&study.stds[component]);
+    let median_std = sorted_median(&study.stds[component]);
     let tolerance = 0.1 * true_std + 3.0 * standard_error_of_median(&study.stds[component]);
     let is_off = (median_std - true_std).abs() > tolerance;
     is_off.then(|| format!("median of std {component}: {median_std}")).into_iter().collect()
@@ -206,14 +206,14 @@ fn alphas_are_right_with_an_unstated_noise_of_20_mm_and_20_mrad() {
 #[ignore = "nightly: 500 calibrations"]
 fn alphas_and_errors_are_right_with_five_systematic_errors() {
     assert_right_in_every_model(&SYSTEMATIC_ERRORS, |study| {
-        let report_of_error = |error: SystematicError| {
+        let report_error = |error: SystematicError| {
             report_wrong_coverage(
                 &format!("{error:?}"),
                 study.errors_covered[error as usize],
                 study.log_count,
             )
         };
-        SystematicError::ALL.into_iter().filter_map(report_of_error).collect()
+        SystematicError::ALL.into_iter().filter_map(report_error).collect()
     });
 }
 

@@ -1,7 +1,7 @@
 //! Diagnostic checks of a calibration. Each fails on a log that violates it, and all pass on good logs.
 
 use super::simulated::{MODELS, Simulation, Violation};
-use super::{NAV2, calibrate_log, calibrate_simulation, trajectory, with_noisy_steps};
+use super::{NAV2, calibrate_log, calibrate_simulation, new_trajectory, with_noisy_steps};
 use crate::common::seeded_rng;
 use motion::calibrate::CheckName::{self, *};
 use motion::calibrate::{
@@ -28,8 +28,8 @@ fn assert_fails(name: CheckName, calibration: &Calibration) {
     assert!(failing_checks.contains(&name), "{name:?} is not among {failing_checks:?}");
     assert!(calibration.diagnostics.checks.iter().all(|check| check.passed == check.message.is_empty()));
     assert_eq!(calibration.diagnostics.verdict, Verdict::Questionable, "{name:?}");
-    let recommended = calibration.recommended.as_ref().expect("it is usable");
-    assert!(recommended.inflation >= 1.0 && !recommended.reason.is_empty());
+    let recommended_alphas = calibration.recommended.as_ref().expect("it is usable");
+    assert!(recommended_alphas.inflation >= 1.0 && !recommended_alphas.reason.is_empty());
 }
 
 /// Asserts that the log was judged unusable, and gives no recommendation.
@@ -43,7 +43,7 @@ fn assert_unusable(calibration: &Calibration, description: &str) {
 
 /// Returns a trajectory whose poses are changed, and whose times are not.
 fn with_poses(log: &Trajectory, mut pose: impl FnMut(SE2) -> SE2) -> Trajectory {
-    trajectory(log.samples().map(|(time, old)| (time, pose(old))))
+    new_trajectory(log.samples().map(|(time, old)| (time, pose(old))))
 }
 
 #[test]
@@ -61,7 +61,7 @@ fn a_reference_with_other_units_or_axes_or_of_another_drive_is_unusable() {
     ];
     let corrupted_references = pose_changes.map(|(name, change)| (name, with_poses(&reference, change)));
     for (name, reference) in corrupted_references.into_iter().chain([("another drive", other_reference)]) {
-        let calibration = calibrate_log(&[odometry.clone(), reference], &sim.options());
+        let calibration = calibrate_log(&[odometry.clone(), reference], &sim.calibration_options());
         assert!(names_of_failed_checks(&calibration).contains(&ReferenceMatches), "{name}");
         assert_unusable(&calibration, name);
     }
@@ -75,15 +75,18 @@ fn a_copy_of_the_odometry_is_no_reference() {
         let [odometry, _] = sim.log();
         let round_to_digits = |value: f64| (value * 10_f64.powi(digits)).round() / 10_f64.powi(digits);
         let copied_samples = odometry.samples().map(|(time, pose)| {
-            let copy = SE2::new(3.0, 1.0, 0.5) * SE2::new(1.02 * pose.x(), 1.02 * pose.y(), pose.theta());
-            let [x, y, theta] = [copy.x(), copy.y(), copy.theta()].map(round_to_digits);
+            let transformed_pose =
+                SE2::new(3.0, 1.0, 0.5) * SE2::new(1.02 * pose.x(), 1.02 * pose.y(), pose.theta());
+            let [x, y, theta] =
+                [transformed_pose.x(), transformed_pose.y(), transformed_pose.theta()].map(round_to_digits);
             (time + 0.1, SE2::new(x, y, theta))
         });
-        let calibration = calibrate_log(&[odometry.clone(), trajectory(copied_samples)], &sim.options());
-        let message = &calibration.diagnostics.checks[0].message;
+        let calibration =
+            calibrate_log(&[odometry.clone(), new_trajectory(copied_samples)], &sim.calibration_options());
+        let failure_message = &calibration.diagnostics.checks[0].message;
         assert!(
-            message.starts_with("The reference has the errors of the odometry: "),
-            "{leg_count} legs, {digits} digits: {message}"
+            failure_message.starts_with("The reference has the errors of the odometry: "),
+            "{leg_count} legs, {digits} digits: {failure_message}"
         );
         assert_unusable(&calibration, "a copy");
     }
@@ -127,8 +130,8 @@ fn lost_legs_are_reported() {
     let sim = good_simulation(600, 4);
     let [odometry, reference] = sim.log();
     let reference_with_gaps =
-        trajectory(reference.samples().filter(|(time, _)| time.rem_euclid(90.0) > 30.0));
-    assert_fails(LegsLost, &calibrate_log(&[odometry, reference_with_gaps], &sim.options()));
+        new_trajectory(reference.samples().filter(|(time, _)| time.rem_euclid(90.0) > 30.0));
+    assert_fails(LegsLost, &calibrate_log(&[odometry, reference_with_gaps], &sim.calibration_options()));
 }
 
 /// The reference has only one row in two seconds.
@@ -136,8 +139,8 @@ fn lost_legs_are_reported() {
 fn legs_that_are_longer_than_asked_for_are_reported() {
     let sim = good_simulation(600, 5);
     let [odometry, reference] = sim.log();
-    let sparse_reference = trajectory(reference.samples().step_by(40));
-    assert_fails(SamplingDense, &calibrate_log(&[odometry, sparse_reference], &sim.options()));
+    let sparse_reference = new_trajectory(reference.samples().step_by(40));
+    assert_fails(SamplingDense, &calibrate_log(&[odometry, sparse_reference], &sim.calibration_options()));
 }
 
 /// A tenth of the legs are outliers. The kurtosis of Student's t is infinite with four degrees of freedom, and 9 with five. If the noise grows
@@ -145,12 +148,12 @@ fn legs_that_are_longer_than_asked_for_are_reported() {
 #[test]
 fn violations_of_the_model_are_reported() {
     let noise_factor: fn(f64) -> f64 = |fraction| if fraction < 0.5 { 1.0 } else { 1.5 };
-    let with_violation = |violation, seed| Simulation { violation, ..good_simulation(600, seed) };
+    let simulate_violation = |violation, seed| Simulation { violation, ..good_simulation(600, seed) };
     for (name, simulation) in [
         (OutliersFew, Simulation { jump_fraction: 0.1, ..good_simulation(600, 6) }),
-        (TailsNormal, with_violation(Violation::HeavyTails(4), 10)),
-        (TailsNormal, with_violation(Violation::HeavyTails(5), 10)),
-        (HoldoutCovered, with_violation(Violation::Changing(noise_factor), 11)),
+        (TailsNormal, simulate_violation(Violation::HeavyTails(4), 10)),
+        (TailsNormal, simulate_violation(Violation::HeavyTails(5), 10)),
+        (HoldoutCovered, simulate_violation(Violation::Changing(noise_factor), 11)),
     ] {
         assert_fails(name, &calibrate_simulation(&simulation));
     }
@@ -167,8 +170,8 @@ fn a_log_that_no_inflation_covers_is_unusable() {
     let jumped_samples = reference
         .samples()
         .map(|(time, pose)| (time, if time < jump_time { pose } else { jump_of_reference * pose }));
-    let options = Options { outliers: Outliers::Keep, ..sim.options() };
-    let calibration = calibrate_log(&[odometry, trajectory(jumped_samples)], &options);
+    let options = Options { outliers: Outliers::Keep, ..sim.calibration_options() };
+    let calibration = calibrate_log(&[odometry, new_trajectory(jumped_samples)], &options);
     assert_eq!(names_of_failed_checks(&calibration)[0], InflationBounded);
     assert_unusable(&calibration, "a jump");
 }
@@ -178,16 +181,17 @@ fn a_log_that_no_inflation_covers_is_unusable() {
 fn calibrate_with_scales(sim: &Simulation, scale: impl Fn(f64, &Vector3<f64>) -> [f64; 2]) -> Calibration {
     let [odometry, reference] = sim.log();
     let odometry_rows: Vec<(f64, SE2)> = odometry.samples().collect();
-    let duration = odometry_rows[odometry_rows.len() - 1].0;
+    let log_duration = odometry_rows[odometry_rows.len() - 1].0;
     let mut pose = SE2::identity();
     let mut scaled_odometry = vec![(odometry_rows[0].0, pose)];
     for pair in odometry_rows.windows(2) {
         let twist = pair[1].1.boxminus(&pair[0].1);
-        let [distance_scale, turn_scale] = scale(pair[1].0 / duration, &(twist / (pair[1].0 - pair[0].0)));
+        let [distance_scale, turn_scale] =
+            scale(pair[1].0 / log_duration, &(twist / (pair[1].0 - pair[0].0)));
         pose = pose.boxplus(Vector3::new(twist.x / distance_scale, 0.0, twist.z / turn_scale));
         scaled_odometry.push((pair[1].0, pose));
     }
-    calibrate_log(&[trajectory(scaled_odometry), reference], &sim.options())
+    calibrate_log(&[new_trajectory(scaled_odometry), reference], &sim.calibration_options())
 }
 
 /// Noisy odometry, and the odometry of a point 5 cm ahead of the axle, move sideways in turns on the spot. Nav2's AMCL treats a leg of
@@ -202,12 +206,16 @@ fn odometry_that_moves_sideways_is_reported_if_the_rule_takes_its_direction() {
         with_poses(&odometry, |pose| SE2::new(pose.x() + draw_noise(), pose.y() + draw_noise(), pose.theta()))
     };
     let shifted_odometry = with_poses(&odometry, |pose| pose * SE2::new(0.05, 0.0, 0.0));
-    let result_of_sideways_check = |odometry: &Trajectory, model: Model| {
-        let calibration =
-            calibrate_log(&[odometry.clone(), reference.clone()], &Options { model, ..sim.options() });
-        let mut checks = calibration.diagnostics.checks.into_iter();
-        let check = checks.find(|check| check.name == SidewaysRare);
-        check.inspect(|check| assert_eq!(check.passed, check.message.is_empty())).map(|check| check.passed)
+    let run_sideways_check = |odometry: &Trajectory, model: Model| {
+        let calibration = calibrate_log(
+            &[odometry.clone(), reference.clone()],
+            &Options { model, ..sim.calibration_options() },
+        );
+        let mut remaining_checks = calibration.diagnostics.checks.into_iter();
+        let sideways_check = remaining_checks.find(|check| check.name == SidewaysRare);
+        sideways_check
+            .inspect(|check| assert_eq!(check.passed, check.message.is_empty()))
+            .map(|check| check.passed)
     };
     let [table_model, omni_model] = [OdometryRule::Table, OdometryRule::Omni].map(Model::Odometry);
     for (odometry, model, expected) in [
@@ -218,7 +226,7 @@ fn odometry_that_moves_sideways_is_reported_if_the_rule_takes_its_direction() {
         (&shifted_odometry, omni_model, None),
         (&shifted_odometry, Model::Velocity, None),
     ] {
-        assert_eq!(result_of_sideways_check(odometry, model), expected, "{model:?}");
+        assert_eq!(run_sideways_check(odometry, model), expected, "{model:?}");
     }
     // Table 5.6 treats a backward drive as half a turn, a forward drive and half a turn.
     let reversing_simulation = Simulation {
@@ -226,7 +234,8 @@ fn odometry_that_moves_sideways_is_reported_if_the_rule_takes_its_direction() {
         ..good_simulation(300, 12)
     };
     let is_sideways_motion_reported = |model| {
-        let calibration = calibrate_log(&reversing_simulation.log(), &Options { model, ..sim.options() });
+        let calibration =
+            calibrate_log(&reversing_simulation.log(), &Options { model, ..sim.calibration_options() });
         names_of_failed_checks(&calibration).contains(&SidewaysRare)
     };
     assert_eq!([table_model, NAV2].map(is_sideways_motion_reported), [true, false]);
@@ -241,16 +250,17 @@ fn assert_not_constant(name: CheckName, error: SystematicError, calibration: &Ca
 /// The distance scale is 1 on straight legs and 0.85 on turning legs. Both estimates have a standard error of 0.01.
 #[test]
 fn a_distance_scale_that_differs_in_turns_is_no_constant() {
-    let scales_at = |_, velocity: &Vector3<f64>| [if velocity.z.abs() > 0.05 { 0.85 } else { 1.0 }, 1.0];
-    let calibration = calibrate_with_scales(&good_simulation(600, 7), scales_at);
+    let odometry_scales_at =
+        |_, velocity: &Vector3<f64>| [if velocity.z.abs() > 0.05 { 0.85 } else { 1.0 }, 1.0];
+    let calibration = calibrate_with_scales(&good_simulation(600, 7), odometry_scales_at);
     assert_not_constant(DistanceScaleConstant, SystematicError::DistanceScale, &calibration);
 }
 
 /// The turn scales of the two halves of the log differ by 0.1. Their estimates have standard errors of a few hundredths.
 #[test]
 fn a_turn_scale_that_changes_is_no_constant() {
-    let scales_at = |fraction: f64, _: &Vector3<f64>| [1.0, if fraction < 0.5 { 1.0 } else { 1.1 }];
-    let calibration = calibrate_with_scales(&good_simulation(600, 8), scales_at);
+    let odometry_scales_at = |fraction: f64, _: &Vector3<f64>| [1.0, if fraction < 0.5 { 1.0 } else { 1.1 }];
+    let calibration = calibrate_with_scales(&good_simulation(600, 8), odometry_scales_at);
     assert_not_constant(TurnScaleConstant, SystematicError::TurnScale, &calibration);
 }
 
@@ -264,8 +274,10 @@ fn a_turn_scale_of_noisy_encoders_is_not_corrected() {
         ..good_simulation(600, 8)
     };
     let [odometry, reference] = sim.log();
-    let calibration =
-        calibrate_log(&[with_noisy_steps(&odometry, [0.001, 0.03], 8), reference], &sim.options());
+    let calibration = calibrate_log(
+        &[with_noisy_steps(&odometry, [0.001, 0.03], 8), reference],
+        &sim.calibration_options(),
+    );
     assert!(calibration.systematic.turn_scale < 0.9, "{}", calibration.systematic.turn_scale);
     assert_not_constant(TurnScaleConstant, SystematicError::TurnScale, &calibration);
 }
@@ -288,12 +300,12 @@ fn errors_that_persist_are_correlated_and_leave_windows_uncovered() {
 /// Returns the number of consistent logs among `log_count` simulated logs, and prints the checks that failed.
 fn count_consistent(model: Model, log_count: u64) -> usize {
     let mut failing_checks = Vec::new();
-    let calibration_of = |seed: u64| calibrate_simulation(&Simulation::of(model, 600, 3000 + seed));
+    let calibrate_good_log = |seed: u64| calibrate_simulation(&Simulation::of(model, 600, 3000 + seed));
     let is_consistent = |calibration: &Calibration| {
         failing_checks.extend(names_of_failed_checks(calibration));
         calibration.diagnostics.verdict == Verdict::Consistent
     };
-    let consistent_count = (0..log_count).map(calibration_of).filter(is_consistent).count();
+    let consistent_count = (0..log_count).map(calibrate_good_log).filter(is_consistent).count();
     println!("{model:?}: {consistent_count} of {log_count} are consistent; failed: {failing_checks:?}");
     consistent_count
 }

@@ -1,7 +1,7 @@
 //! Systematic errors: their estimates, and their correction, after which they do not change the α's.
 
 use super::simulated::{ALPHAS, MODELS, Simulation};
-use super::{NAV2, calibrate_log, calibrate_simulation, default_options, trajectory, with_noisy_steps};
+use super::{NAV2, calibrate_log, calibrate_simulation, default_options, new_trajectory, with_noisy_steps};
 use crate::common::seeded_rng;
 use motion::calibrate::{
     CalibrateError, Calibration, Drive, LegLength, Model, Options, Systematic, SystematicError, Trajectory,
@@ -63,50 +63,50 @@ fn clocks_are_aligned_by_the_turns_of_a_broken_reference() {
     let row_count = reference.samples().len();
     let mut rng = seeded_rng(2);
     let mut frame_heading = 0.0;
-    let restarting_reference = trajectory(reference.samples().enumerate().map(|(row, (time, pose))| {
+    let restarting_reference = new_trajectory(reference.samples().enumerate().map(|(row, (time, pose))| {
         if row % 400 == 0 {
             frame_heading = rng.random_range(-3.0..3.0);
         }
         (time, SE2::new(0.0, 0.0, frame_heading) * pose)
     }));
     let partly_visible_reference =
-        trajectory(reference.samples().filter(|(time, _)| time.rem_euclid(60.0) < 20.0));
-    let short_reference = trajectory(reference.samples().skip(row_count / 2).take(row_count / 5));
+        new_trajectory(reference.samples().filter(|(time, _)| time.rem_euclid(60.0) < 20.0));
+    let short_reference = new_trajectory(reference.samples().skip(row_count / 2).take(row_count / 5));
     for reference in [
         restarting_reference.with_breaks_before((0..row_count).step_by(400)),
         partly_visible_reference,
         short_reference,
     ] {
-        let calibration = calibrate_log(&[odometry.clone(), reference], &simulation.options());
+        let calibration = calibrate_log(&[odometry.clone(), reference], &simulation.calibration_options());
         assert_recovers(&calibration, SystematicError::ClockOffset, 3.2);
     }
 }
 
 #[test]
 fn trajectories_without_a_common_time_are_refused() {
-    let calibration_result = |odometry: &Trajectory, reference: &Trajectory| {
+    let calibrate_logs = |odometry: &Trajectory, reference: &Trajectory| {
         calibrate(&[Drive { odometry, reference }], &default_options(NAV2))
             .map(|calibration| calibration.systematic)
     };
-    let delayed_trajectory =
-        |log: &Trajectory, s: f64| trajectory(log.samples().map(|(time, pose)| (time + s, pose)));
+    let delay_trajectory =
+        |log: &Trajectory, s: f64| new_trajectory(log.samples().map(|(time, pose)| (time + s, pose)));
     let [odometry, _] = Simulation::of(NAV2, 500, 6).log();
     let [_, other_reference] = Simulation::of(NAV2, 500, 7).log();
     assert_eq!(
-        calibration_result(&odometry, &delayed_trajectory(&other_reference, 1e6)),
+        calibrate_logs(&odometry, &delay_trajectory(&other_reference, 1e6)),
         Err(CalibrateError::NoCommonTime)
     );
     // Straight drives have no turns that could align the clocks. Their clocks are assumed equal, provided that the times overlap.
     let straight_drive = |start_time: f64| {
         let row_indices = (0..1000).map(f64::from);
-        trajectory(row_indices.map(|row| (start_time + 0.1 * row, SE2::new(0.05 * row, 0.0, 0.0))))
+        new_trajectory(row_indices.map(|row| (start_time + 0.1 * row, SE2::new(0.05 * row, 0.0, 0.0))))
     };
     assert_eq!(
-        calibration_result(&straight_drive(0.0), &straight_drive(70.0)).map(|fit| fit.clock_offset),
+        calibrate_logs(&straight_drive(0.0), &straight_drive(70.0)).map(|fit| fit.clock_offset),
         Ok(0.0)
     );
     assert_eq!(
-        calibration_result(&straight_drive(0.0), &straight_drive(100.0)),
+        calibrate_logs(&straight_drive(0.0), &straight_drive(100.0)),
         Err(CalibrateError::NoCommonTime)
     );
 }
@@ -115,9 +115,9 @@ fn trajectories_without_a_common_time_are_refused() {
 fn too_few_legs_are_refused() {
     let simulation = Simulation::of(Model::Velocity, 7, 1);
     let [odometry, reference] = simulation.log();
-    let calibration_result =
-        calibrate(&[Drive { odometry: &odometry, reference: &reference }], &simulation.options());
-    assert!(matches!(calibration_result, Err(CalibrateError::TooFewLegs { legs: 6 | 7 })));
+    let calibrate_logs =
+        calibrate(&[Drive { odometry: &odometry, reference: &reference }], &simulation.calibration_options());
+    assert!(matches!(calibrate_logs, Err(CalibrateError::TooFewLegs { legs: 6 | 7 })));
 }
 
 /// A mount yaw of 0.07 rad changes each rotation of a leg by 0.07 rad. On legs of a quarter of a metre this has the effect of an α₂ of 0.08,
@@ -127,18 +127,18 @@ fn an_uncorrected_error_appears_as_noise_of_the_wheels_or_of_the_reference() {
     let simulation = simulation_with_errors(NAV2, 600, Systematic { mount_yaw: 0.07, ..Systematic::NONE });
     let log = simulation.log();
     let exact_reference_options =
-        Options { position_std: Some(0.0), yaw_std: Some(0.0), ..simulation.options() };
-    let fit_without_correction =
+        Options { position_std: Some(0.0), yaw_std: Some(0.0), ..simulation.calibration_options() };
+    let calibrate_uncorrected =
         |options: Options| calibrate_log(&log, &Options { correct: [Some(false); 6], ..options });
     let [corrected_fit, fit_with_estimated_noise, uncorrected_fit] = [
         calibrate_log(&log, &exact_reference_options),
-        fit_without_correction(simulation.options()),
-        fit_without_correction(exact_reference_options),
+        calibrate_uncorrected(simulation.calibration_options()),
+        calibrate_uncorrected(exact_reference_options),
     ];
-    let alpha2 = |calibration: &Calibration| calibration.alphas[1].expect("identifiable");
-    let added_alpha2 = alpha2(&uncorrected_fit) - alpha2(&corrected_fit);
+    let get_alpha2 = |calibration: &Calibration| calibration.alphas[1].expect("identifiable");
+    let added_alpha2 = get_alpha2(&uncorrected_fit) - get_alpha2(&corrected_fit);
     assert!((0.05..0.2).contains(&added_alpha2), "{added_alpha2}");
-    let alpha2_ratio = alpha2(&fit_with_estimated_noise) / alpha2(&corrected_fit);
+    let alpha2_ratio = get_alpha2(&fit_with_estimated_noise) / get_alpha2(&corrected_fit);
     assert!((0.7..1.5).contains(&alpha2_ratio), "{alpha2_ratio}");
     let yaw_std = fit_with_estimated_noise.reference_noise[1].value;
     assert!((yaw_std / 0.07 - 1.0).abs() < 0.1, "{yaw_std}");
@@ -171,19 +171,19 @@ fn errors_of_a_robot_without_noise_are_exact() {
     let (mut pose, mut odometry_samples) = (SE2::identity(), Vec::new());
     for row in 0..20_000_u32 {
         odometry_samples.push((0.01 * f64::from(row), pose));
-        let phase = row as usize / 170;
-        let turn_rate = [0.7, -0.5, 0.9][phase / 3 % 3];
-        let twist = [[0.0, turn_rate], [0.4, 0.0], [0.4, 0.3]][phase % 3];
+        let drive_section = row as usize / 170;
+        let turn_rate = [0.7, -0.5, 0.9][drive_section / 3 % 3];
+        let twist = [[0.0, turn_rate], [0.4, 0.0], [0.4, 0.3]][drive_section % 3];
         pose = pose.boxplus(Vector3::new(twist[0], 0.0, twist[1]) * 0.01);
     }
-    let odometry = trajectory(odometry_samples.iter().copied().step_by(2));
+    let odometry = new_trajectory(odometry_samples.iter().copied().step_by(2));
     for (first, every) in [(0, 2), (0, 10), (7, 50), (7, 100)] {
         let delayed_samples = odometry_samples
             .iter()
             .skip(first)
             .step_by(every)
             .map(|(time, pose)| (time + CLOCK_OFFSET, *pose));
-        let log = [odometry.clone(), trajectory(delayed_samples)];
+        let log = [odometry.clone(), new_trajectory(delayed_samples)];
         let calibration =
             calibrate_log(&log, &Options { correct: [Some(true); 6], ..default_options(MODELS[0]) });
         let true_errors = Systematic { clock_offset: CLOCK_OFFSET, ..Systematic::NONE };
@@ -208,16 +208,16 @@ fn noise_of_the_odometry_does_not_bias_the_clock_offset() {
     let (mut error_sum, mut variance_sum) = (0.0, 0.0);
     for seed in 1..=8 {
         let mut pose = SE2::identity();
-        let truth = trajectory((0..12_000).map(|row| {
+        let true_trajectory = new_trajectory((0..12_000).map(|row| {
             let time = STEP_SECONDS * f64::from(row);
-            let wave = |rate: f64| (rate * time).sin();
-            let v = 0.4 + 0.15 * wave(2.0) + 0.1 * wave(0.91);
-            let omega = 0.5 * wave(1.3) + 0.4 * wave(0.41) + 0.3 * wave(3.17);
+            let sine_wave = |rate: f64| (rate * time).sin();
+            let v = 0.4 + 0.15 * sine_wave(2.0) + 0.1 * sine_wave(0.91);
+            let omega = 0.5 * sine_wave(1.3) + 0.4 * sine_wave(0.41) + 0.3 * sine_wave(3.17);
             pose = pose.boxplus(Vector3::new(v, 0.0, omega) * STEP_SECONDS);
             (time, pose)
         }));
-        let reference = truth.samples().step_by(2).map(|(time, pose)| (time + CLOCK_OFFSET, pose));
-        let log = [with_noisy_steps(&truth, [0.0015, 0.005], seed), trajectory(reference)];
+        let reference = true_trajectory.samples().step_by(2).map(|(time, pose)| (time + CLOCK_OFFSET, pose));
+        let log = [with_noisy_steps(&true_trajectory, [0.0015, 0.005], seed), new_trajectory(reference)];
         let Calibration { systematic, systematic_stds, .. } = calibrate_log(&log, &default_options(NAV2));
         let std = systematic_stds[SystematicError::ClockOffset as usize].expect("identifiable");
         error_sum += systematic.clock_offset - CLOCK_OFFSET;
@@ -228,25 +228,26 @@ fn noise_of_the_odometry_does_not_bias_the_clock_offset() {
 
 #[test]
 fn four_drives_are_as_informative_as_one_of_the_same_length() {
-    let simulation_with_clock = |clock_offset: f64, count: usize, seed: u64| {
+    let simulate_with_clock_offset = |clock_offset: f64, count: usize, seed: u64| {
         let true_errors = Systematic { clock_offset, ..Systematic::NONE };
         Simulation { seed, ..simulation_with_errors(NAV2, count, true_errors) }
     };
-    let logs: Vec<[Trajectory; 2]> = [0.0, 0.4, -3.0, 900.0]
+    let drive_logs: Vec<[Trajectory; 2]> = [0.0, 0.4, -3.0, 900.0]
         .into_iter()
         .zip(20..)
-        .map(|(offset, seed)| simulation_with_clock(offset, 300, seed).log())
+        .map(|(offset, seed)| simulate_with_clock_offset(offset, 300, seed).log())
         .collect();
-    let drives: Vec<Drive> = logs.iter().map(|[odometry, reference]| Drive { odometry, reference }).collect();
+    let drives: Vec<Drive> =
+        drive_logs.iter().map(|[odometry, reference]| Drive { odometry, reference }).collect();
     let fit_of_four_drives = calibrate(&drives, &default_options(NAV2)).expect("legs enough");
-    let fit_of_one_drive = calibrate_simulation(&simulation_with_clock(0.0, 1200, 20));
+    let fit_of_one_drive = calibrate_simulation(&simulate_with_clock_offset(0.0, 1200, 20));
     assert!(fit_of_four_drives.legs.len() > 1190, "{}", fit_of_four_drives.legs.len());
     for (alpha, truth) in ALPHAS.into_iter().enumerate().take(4) {
-        let relative_width = |calibration: &Calibration| {
+        let mean_relative_width = |calibration: &Calibration| {
             let [low, high] = calibration.intervals[alpha].expect("identifiable");
             (high - low) / calibration.alphas[alpha].expect("identifiable")
         };
-        let width_ratio = relative_width(&fit_of_four_drives) / relative_width(&fit_of_one_drive);
+        let width_ratio = mean_relative_width(&fit_of_four_drives) / mean_relative_width(&fit_of_one_drive);
         assert!((width_ratio - 1.0).abs() < 0.3, "α{}: {width_ratio}", alpha + 1);
         // Standard errors are at most 9 %, and four of them are allowed.
         let alpha_ratio = fit_of_four_drives.alphas[alpha].expect("identifiable") / truth;
@@ -259,7 +260,7 @@ fn four_drives_are_as_informative_as_one_of_the_same_length() {
 #[test]
 fn encoder_jitter_of_a_standing_robot_does_not_change_the_scales() {
     let mut rng = seeded_rng(5);
-    let mut uniform_noise = |limit: f64| rng.random_range(-limit..limit);
+    let mut draw_uniform_noise = |limit: f64| rng.random_range(-limit..limit);
     let (mut odometry_pose, mut true_pose, mut log_rows) = (SE2::identity(), SE2::identity(), Vec::new());
     for row in 0..16_000_usize {
         let phase = row / 40;
@@ -269,18 +270,19 @@ fn encoder_jitter_of_a_standing_robot_does_not_change_the_scales() {
             _ => [0.0, 0.0],
         };
         let twist = Vector3::new(twist[0], 0.0, twist[1]) * 0.05;
-        let encoder_jitter = SE2::new(uniform_noise(0.003), uniform_noise(0.003), uniform_noise(0.003));
+        let encoder_jitter =
+            SE2::new(draw_uniform_noise(0.003), draw_uniform_noise(0.003), draw_uniform_noise(0.003));
         log_rows.push([(0.05 * row as f64, odometry_pose * encoder_jitter), (0.05 * row as f64, true_pose)]);
         odometry_pose = odometry_pose.boxplus(twist);
         let is_moving = twist.norm() > 0.0;
         let motion_noise = if is_moving {
-            Vector3::new(uniform_noise(0.004), 0.0, uniform_noise(0.008))
+            Vector3::new(draw_uniform_noise(0.004), 0.0, draw_uniform_noise(0.008))
         } else {
             Vector3::zeros()
         };
         true_pose = true_pose.boxplus(twist + motion_noise);
     }
-    let log = [0, 1].map(|trajectory_index| trajectory(log_rows.iter().map(|row| row[trajectory_index])));
+    let log = [0, 1].map(|trajectory_index| new_trajectory(log_rows.iter().map(|row| row[trajectory_index])));
     let options = Options { legs: LegLength::Duration { duration: 0.5 }, ..default_options(NAV2) };
     let calibration = calibrate_log(&log, &options);
     assert_recovers(&calibration, SystematicError::TurnScale, 1.0);

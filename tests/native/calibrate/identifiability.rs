@@ -105,16 +105,16 @@ fn assert_reasons(models: &[Model]) {
         }
     }
     // Three standard errors of a fraction of 0.95 are allowed.
-    let fraction = f64::from(covered_count) / f64::from(interval_count);
+    let covered_fraction = f64::from(covered_count) / f64::from(interval_count);
     let standard_error = (0.95 * 0.05 / f64::from(interval_count)).sqrt();
-    assert!(fraction > 0.95 - 3.0 * standard_error, "{fraction}");
+    assert!(covered_fraction > 0.95 - 3.0 * standard_error, "{covered_fraction}");
 }
 
 /// The reference noise is set to 100 m and 100 rad. An α of 1 adds only about 0.3 m and 0.3 rad of noise to a leg.
 #[test]
 fn a_reference_that_hides_the_noise_of_the_wheels_is_too_noisy() {
     let sim = Simulation::of(NAV2, 400, 32);
-    let options = Options { position_std: Some(100.0), yaw_std: Some(100.0), ..sim.options() };
+    let options = Options { position_std: Some(100.0), yaw_std: Some(100.0), ..sim.calibration_options() };
     let calibration = calibrate_log(&sim.log(), &options);
     assert_eq!(calibration.not_identifiable, [Some(ReferenceTooNoisy); 4]);
     assert_eq!(calibration.diagnostics.verdict, Verdict::Unusable);

@@ -20,15 +20,15 @@ fn simulation_of_bends(count: usize) -> Simulation {
 fn jacobian_of(function: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Matrix3<f64> {
     const H: f64 = 1e-6;
     let jacobian_column = |axis: usize| {
-        let offset = Vector3::from_fn(|k, _| if k == axis { H } else { 0.0 });
-        let mut difference = function(offset) - function(-offset);
-        difference.iter_mut().for_each(|angle| *angle = wrap_angle(*angle));
-        difference / (2.0 * H)
+        let noise_offset = Vector3::from_fn(|k, _| if k == axis { H } else { 0.0 });
+        let mut central_difference = function(noise_offset) - function(-noise_offset);
+        central_difference.iter_mut().for_each(|angle| *angle = wrap_angle(*angle));
+        central_difference / (2.0 * H)
     };
     Matrix3::from_columns(&[0, 1, 2].map(jacobian_column))
 }
 
-fn coordinates(pose: &SE2) -> Vector3<f64> {
+fn pose_coordinates(pose: &SE2) -> Vector3<f64> {
     Vector3::new(pose.x(), pose.y(), pose.theta())
 }
 
@@ -39,7 +39,7 @@ fn rot_trans_rot(motion: &Vector3<f64>) -> Vector3<f64> {
 
 /// Returns the Jacobian of (rot1, trans, rot2) with respect to the motion, at the expected motion.
 fn reading_jacobian(leg: &Leg, corrected: &Systematic) -> Matrix3<f64> {
-    let expected_motion = coordinates(&expected_motion(leg, corrected));
+    let expected_motion = pose_coordinates(&expected_motion(leg, corrected));
     jacobian_of(|offset| rot_trans_rot(&(expected_motion + offset)))
 }
 
@@ -59,7 +59,7 @@ fn pose_jacobian(leg: &Leg, corrected: &Systematic, end: usize) -> Matrix3<f64> 
         let mut poses = leg.reference;
         poses[end] = poses[end] * SE2::new(error.x, error.y, error.z);
         let [start_pose, end_pose] = poses.map(|pose| pose * corrected.base());
-        coordinates(&(start_pose.inverse() * end_pose))
+        pose_coordinates(&(start_pose.inverse() * end_pose))
     };
     reading_jacobian(leg, corrected) * jacobian_of(motion_with_pose_error)
 }
@@ -75,7 +75,7 @@ fn error_derivative(leg: &Leg, corrected: &Systematic, error: SystematicError) -
         let mount_pose = |e: &Systematic| SE2::new(e.lever_arm[0], e.lever_arm[1], e.mount_yaw);
         let reference_motion = mount_pose(corrected).inverse() * odometry_motion * mount_pose(corrected);
         let measured_motion = changed_errors.base().inverse() * (reference_motion * changed_errors.base());
-        coordinates(&measured_motion) - coordinates(&expected_motion(leg, &changed_errors))
+        pose_coordinates(&measured_motion) - pose_coordinates(&expected_motion(leg, &changed_errors))
     };
     reading_jacobian(leg, corrected) * (motion_error(H) - motion_error(-H)) / (2.0 * H)
 }
@@ -90,7 +90,7 @@ fn dense_log_likelihood(calibration: &Calibration, errors: &[SystematicError]) -
     // `pose_count` counts poses of the reference. A leg starts at the end of the previous leg if it follows it, and otherwise at a new pose.
     let (mut pose_jacobians, mut pose_count) = (DMatrix::zeros(residual_count, 3 * (residual_count + 3)), 0);
     let mut covariance = DMatrix::zeros(residual_count, residual_count);
-    let mut residuals = DVector::zeros(residual_count);
+    let mut stacked_residuals = DVector::zeros(residual_count);
     let mut design_matrix = DMatrix::zeros(residual_count, errors.len());
     for (i, (leg, observation)) in legs.iter().zip(observations).enumerate() {
         if !leg.follows {
@@ -109,7 +109,7 @@ fn dense_log_likelihood(calibration: &Calibration, errors: &[SystematicError]) -
             let [first_coefficient, second_coefficient] = observation.coefficients[k];
             covariance[(3 * i + k, 3 * i + k)] =
                 first_alpha * first_coefficient + second_alpha * second_coefficient;
-            residuals[3 * i + k] = observation.residuals[k];
+            stacked_residuals[3 * i + k] = observation.residuals[k];
         }
         for (column, error) in errors.iter().enumerate() {
             design_matrix
@@ -125,9 +125,9 @@ fn dense_log_likelihood(calibration: &Calibration, errors: &[SystematicError]) -
     let log_det = |cholesky: &nalgebra::Cholesky<f64, nalgebra::Dyn>| {
         2.0 * cholesky.l().diagonal().map(libm::log).sum()
     };
-    let weighted_residuals = cholesky.solve(&residuals);
+    let weighted_residuals = cholesky.solve(&stacked_residuals);
     let mut deviance = log_det(&cholesky)
-        + residuals.dot(&weighted_residuals)
+        + stacked_residuals.dot(&weighted_residuals)
         + (residual_count - errors.len()) as f64 * libm::log(TAU);
     if !errors.is_empty() {
         let information = (design_matrix.transpose() * cholesky.solve(&design_matrix))
@@ -151,8 +151,9 @@ fn the_recursion_gives_the_likelihood_of_the_dense_covariance() {
         SystematicError::TurnScale,
     ];
     for errors in [&corrected_errors[..0], &corrected_errors] {
-        let correct = SystematicError::ALL.map(|error| Some(errors.contains(&error)));
-        let calibration = calibrate_log(&sim.log(), &Options { correct, ..sim.options() });
+        let corrected_errors = SystematicError::ALL.map(|error| Some(errors.contains(&error)));
+        let calibration =
+            calibrate_log(&sim.log(), &Options { correct: corrected_errors, ..sim.calibration_options() });
         assert_eq!(calibration.leg_fits.iter().filter(|fit| fit.is_outlier).count(), 0);
         let (log_likelihood, expected) =
             (calibration.log_likelihood, dense_log_likelihood(&calibration, errors));
@@ -170,7 +171,7 @@ fn an_interval_ends_where_the_profile_likelihood_has_fallen() {
         position_std: Some(0.0),
         yaw_std: Some(0.0),
         outliers: Outliers::Keep,
-        ..sim.options()
+        ..sim.calibration_options()
     };
     let calibration = calibrate_log(&sim.log(), &exact_options);
     let n = calibration.legs.len() as f64;
@@ -196,21 +197,22 @@ fn an_interval_ends_where_the_profile_likelihood_has_fallen() {
 #[test]
 fn alphas_and_their_intervals_scale_with_the_noise() {
     for model in [MODELS[1], MODELS[3]] {
-        let fit_with_noise = |noise_factor: f64| {
+        let calibrate_scaled_noise = |noise_factor: f64| {
             let sim =
                 Simulation { violation: Violation::Scaled(noise_factor), ..Simulation::of(model, 1000, 103) };
-            let exact_options = Options { position_std: Some(0.0), yaw_std: Some(0.0), ..sim.options() };
+            let exact_options =
+                Options { position_std: Some(0.0), yaw_std: Some(0.0), ..sim.calibration_options() };
             let Calibration { alphas, intervals, .. } = calibrate_log(&sim.log(), &exact_options);
-            let divided_by_square = |number: f64| number / (noise_factor * noise_factor);
+            let divide_by_squared_factor = |number: f64| number / (noise_factor * noise_factor);
             let bounds_and_alphas = alphas.into_iter().zip(intervals).map(|(alpha, interval)| {
                 let [low, high] = interval.expect("identifiable");
-                [low, alpha.expect("identifiable"), high].map(divided_by_square)
+                [low, alpha.expect("identifiable"), high].map(divide_by_squared_factor)
             });
             bounds_and_alphas.collect::<Vec<_>>()
         };
-        let bounds_of_larger_noise = fit_with_noise(0.01);
+        let bounds_of_larger_noise = calibrate_scaled_noise(0.01);
         for (k, (smaller, expected)) in
-            fit_with_noise(0.001).into_iter().zip(bounds_of_larger_noise).enumerate()
+            calibrate_scaled_noise(0.001).into_iter().zip(bounds_of_larger_noise).enumerate()
         {
             for (number, expected_number) in smaller.into_iter().zip(expected) {
                 let tolerance = 0.025 * (expected[2] - expected[0]);
@@ -230,13 +232,17 @@ fn the_noise_of_the_reference_maximizes_the_likelihood() {
     let sim = Simulation { reference_stds: [0.02, 0.02], ..Simulation::of(NAV2, 400, 5) };
     let log = sim.log();
     // Systematic errors are not corrected, so that all likelihoods are of the same residuals.
-    let fit_with_stds = |position_std: Option<f64>, yaw_std: Option<f64>| {
-        calibrate_log(&log, &Options { correct: [Some(false); 6], position_std, yaw_std, ..sim.options() })
+    let calibrate_with_stds = |position_std: Option<f64>, yaw_std: Option<f64>| {
+        calibrate_log(
+            &log,
+            &Options { correct: [Some(false); 6], position_std, yaw_std, ..sim.calibration_options() },
+        )
     };
-    let fit_with_estimated_noise = fit_with_stds(None, None);
+    let fit_with_estimated_noise = calibrate_with_stds(None, None);
     let [position_std, yaw_std] = fit_with_estimated_noise.reference_noise.map(|std| std.value);
-    let log_likelihood_at =
-        |position_std: f64, yaw_std: f64| fit_with_stds(Some(position_std), Some(yaw_std)).log_likelihood;
+    let log_likelihood_at = |position_std: f64, yaw_std: f64| {
+        calibrate_with_stds(Some(position_std), Some(yaw_std)).log_likelihood
+    };
     let max_log_likelihood = fit_with_estimated_noise.log_likelihood;
     assert!(
         (log_likelihood_at(position_std, yaw_std) - max_log_likelihood).abs() < 1e-3,

@@ -1,6 +1,6 @@
 //! Trajectories, and their division into legs.
 
-use super::trajectory;
+use super::new_trajectory;
 use motion::calibrate::{Leg, LegLength, LostLegs, Trajectory, split_into_legs};
 use motion::geom::se2::{SE2, wrap_angle};
 use nalgebra::Vector3;
@@ -9,12 +9,12 @@ const AMCL_LEG: LegLength = LegLength::Displacement { distance: 0.25, angle: 0.2
 
 /// Returns the trajectory of a robot that drives straight ahead, with a row every 0.1 s.
 fn straight_drive(row_count: usize, step_length: f64) -> Trajectory {
-    trajectory((0..row_count).map(|row| (0.1 * row as f64, SE2::new(step_length * row as f64, 0.0, 0.0))))
+    new_trajectory((0..row_count).map(|row| (0.1 * row as f64, SE2::new(step_length * row as f64, 0.0, 0.0))))
 }
 
 /// Returns the trajectory without the rows between the first and last row given.
 fn without_rows_between(trajectory: &Trajectory, first_row: usize, last_row: usize) -> Trajectory {
-    super::trajectory(
+    super::new_trajectory(
         trajectory
             .samples()
             .enumerate()
@@ -44,12 +44,12 @@ fn legs_end_as_amcl_ends_them() {
     }
     // Each axis has its own limit. A motion of 0.24 m along both axes ends no leg, although its distance is 0.34 m.
     let diagonal_drive =
-        trajectory([(0.0, 0.0), (0.1, 0.24), (0.2, 0.26)].map(|(t, x)| (t, SE2::new(x, x, 0.0))));
+        new_trajectory([(0.0, 0.0), (0.1, 0.24), (0.2, 0.26)].map(|(t, x)| (t, SE2::new(x, x, 0.0))));
     assert_eq!(split_into_legs(&diagonal_drive, &diagonal_drive, AMCL_LEG, 0.0).0[0].times, [0.0, 0.2]);
     // Headings on both sides of π differ by a small angle.
     let turning_drive =
         [(0.0, 3.1), (0.1, -3.1), (0.2, -2.9)].map(|(t, theta)| (t, SE2::new(0.0, 0.0, theta)));
-    let turning_drive = trajectory(turning_drive);
+    let turning_drive = new_trajectory(turning_drive);
     assert_eq!(split_into_legs(&turning_drive, &turning_drive, AMCL_LEG, 0.0).0[0].times, [0.0, 0.2]);
     let timed_legs = split_into_legs(&odometry, &odometry, LegLength::Duration { duration: 0.5 }, 0.0).0;
     assert_eq!(timed_legs.len(), 8);
@@ -58,16 +58,16 @@ fn legs_end_as_amcl_ends_them() {
 /// Ten steps of 0.02 rad equal the limit of 0.2 rad, except for the rounding of doubles or of text with six decimals.
 #[test]
 fn rounding_does_not_decide_where_a_leg_ends() {
-    let times_of_legs = |round_heading: fn(f64) -> f64| {
-        let heading = |row: usize| round_heading(wrap_angle(0.123_456_7 + 0.02 * row as f64));
+    let leg_end_times = |round_heading: fn(f64) -> f64| {
+        let rounded_heading = |row: usize| round_heading(wrap_angle(0.123_456_7 + 0.02 * row as f64));
         let turning_drive =
-            trajectory((0..400).map(|row| (0.1 * row as f64, SE2::new(0.0, 0.0, heading(row)))));
+            new_trajectory((0..400).map(|row| (0.1 * row as f64, SE2::new(0.0, 0.0, rounded_heading(row)))));
         leg_times(&split_into_legs(&turning_drive, &turning_drive, AMCL_LEG, 0.0).0)
     };
-    let exact_leg_times = times_of_legs(|heading| heading);
+    let exact_leg_times = leg_end_times(|rounded_heading| rounded_heading);
     // A leg does not end at exactly the limit. Each leg therefore has eleven steps.
     assert_eq!(exact_leg_times.len(), 36);
-    assert_eq!(times_of_legs(|heading| (heading * 1e6).round() / 1e6), exact_leg_times);
+    assert_eq!(leg_end_times(|rounded_heading| (rounded_heading * 1e6).round() / 1e6), exact_leg_times);
 }
 
 /// A leg normally has five steps. A leg with a pause of six steps after its first step is 0.44 m long. With the pause after the fourth
@@ -99,7 +99,7 @@ fn lost_legs_are_counted_by_cause() {
     let drive = straight_drive(101, 0.05);
     let all_legs = split_into_legs(&drive, &drive, AMCL_LEG, 0.0).0;
     // The reference has the rows from 12 to 66. It begins after two of sixteen legs and ends before the last five.
-    let shorter_reference = trajectory(drive.samples().skip(12).take(55));
+    let shorter_reference = new_trajectory(drive.samples().skip(12).take(55));
     let (legs, lost_legs) = split_into_legs(&drive, &shorter_reference, AMCL_LEG, 0.0);
     assert_eq!(leg_times(&legs), leg_times(&all_legs[2..11]));
     assert!(
@@ -107,7 +107,7 @@ fn lost_legs_are_counted_by_cause() {
         "{lost_legs:?}"
     );
     // The robot stands still for 4 s, in four legs of a second.
-    let drive_with_stop = trajectory(drive.samples().map(|(time, pose)| {
+    let drive_with_stop = new_trajectory(drive.samples().map(|(time, pose)| {
         (time, SE2::new(if time < 3.0 { pose.x() } else { 1.5 + (pose.x() - 3.5).max(0.0) }, 0.0, 0.0))
     }));
     let (legs, lost_legs) =
@@ -152,7 +152,7 @@ fn no_velocity_spans_a_declared_jump() {
         .samples()
         .enumerate()
         .map(|(row, (time, pose))| (time, SE2::new(pose.x(), jump_offset(row), 0.0)));
-    let drive_with_jumps = trajectory(rows).with_breaks_before([40, 43]);
+    let drive_with_jumps = new_trajectory(rows).with_breaks_before([40, 43]);
     // Some legs consist of the three rows between the jumps.
     let leg_length = LegLength::Displacement { distance: 0.15, angle: 0.2 };
     let legs = split_into_legs(&drive_with_jumps, &drive_with_jumps, leg_length, 0.0).0;
@@ -165,11 +165,12 @@ fn no_velocity_spans_a_declared_jump() {
 #[test]
 fn a_leg_ends_at_a_sample_of_the_sparser_trajectory() {
     let drive = straight_drive(1001, 0.05);
-    let every_nth_row = |first: usize, step: usize| trajectory(drive.samples().skip(first).step_by(step));
+    let keep_every_nth_row =
+        |first: usize, step: usize| new_trajectory(drive.samples().skip(first).step_by(step));
     let has_sample_at = |samples: &Trajectory, time: f64| sample_times(samples).contains(&time);
     // The sparse drive has a sample each 0.4 s or each 0.8 s. A leg of half a second ends at the next sample.
     for (step, duration) in [(4, 0.5), (8, 0.8)] {
-        let sparse_drive = every_nth_row(3, step);
+        let sparse_drive = keep_every_nth_row(3, step);
         let leg_length = LegLength::Duration { duration: 0.5 };
         let legs = split_into_legs(&drive, &sparse_drive, leg_length, 0.0).0;
         assert!(legs.len() > 100);
@@ -192,7 +193,7 @@ fn a_leg_ends_at_a_sample_of_the_sparser_trajectory() {
 fn poses_between_samples_lie_on_an_arc() {
     let twist = Vector3::new(0.5, 0.1, 0.8);
     let start_pose = SE2::new(2.0, 1.0, 3.0);
-    let arc_trajectory = trajectory([(1.0, start_pose), (2.0, start_pose.boxplus(twist))]);
+    let arc_trajectory = new_trajectory([(1.0, start_pose), (2.0, start_pose.boxplus(twist))]);
     let pose = arc_trajectory.pose_at(1.25).expect("inside");
     assert!(pose.boxminus(&start_pose.boxplus(twist * 0.25)).norm() < 1e-12);
     assert_eq!([0.99, 2.01].map(|time| arc_trajectory.pose_at(time)), [None; 2]);
@@ -200,17 +201,17 @@ fn poses_between_samples_lie_on_an_arc() {
 
 #[test]
 fn times_must_rise_and_numbers_must_be_finite() {
-    let error_message = |samples: &[(f64, f64)]| {
+    let rejection_message = |samples: &[(f64, f64)]| {
         let poses = samples.iter().map(|(time, x)| (*time, SE2::new(*x, 0.0, 0.0)));
         Trajectory::new(poses).err().map(|error| error.to_string())
     };
-    assert_eq!([error_message(&[]), error_message(&[(1.0, 2.0)])], [None, None]);
+    assert_eq!([rejection_message(&[]), rejection_message(&[(1.0, 2.0)])], [None, None]);
     let not_later_message = "sample 2 is not later than the one before, at 1 s; allowed are times that rise";
-    assert_eq!(error_message(&[(0.0, 0.0), (1.0, 0.0), (1.0, 0.0)]).as_deref(), Some(not_later_message));
+    assert_eq!(rejection_message(&[(0.0, 0.0), (1.0, 0.0), (1.0, 0.0)]).as_deref(), Some(not_later_message));
     let not_finite_message =
         "sample 1 has a time or a coordinate that is not finite; allowed are finite numbers";
-    assert_eq!(error_message(&[(0.0, 0.0), (f64::NAN, 0.0)]).as_deref(), Some(not_finite_message));
-    assert_eq!(error_message(&[(0.0, 0.0), (1.0, f64::INFINITY)]).as_deref(), Some(not_finite_message));
+    assert_eq!(rejection_message(&[(0.0, 0.0), (f64::NAN, 0.0)]).as_deref(), Some(not_finite_message));
+    assert_eq!(rejection_message(&[(0.0, 0.0), (1.0, f64::INFINITY)]).as_deref(), Some(not_finite_message));
     assert!(Trajectory::from_commands([(0.0, 1.0, 0.0), (1.0, f64::NAN, 0.0)]).is_err());
 }
 
@@ -239,7 +240,7 @@ fn a_long_command_is_split_into_legs_between_its_rows() {
     assert_eq!(lost_legs, LostLegs::default());
     assert!(legs.len() > 60, "{}", legs.len());
     for leg in legs {
-        let distance = leg.odometry[1].x() - leg.odometry[0].x();
-        assert!(0.25 < distance && distance <= 0.325, "{distance}");
+        let leg_distance = leg.odometry[1].x() - leg.odometry[0].x();
+        assert!(0.25 < leg_distance && leg_distance <= 0.325, "{leg_distance}");
     }
 }

@@ -21,7 +21,7 @@ const NAV2: Model = Model::Odometry(OdometryRule::Nav2);
 
 /// Returns the calibration of a simulated log.
 fn calibrate_simulation(simulation: &Simulation) -> Calibration {
-    calibrate_log(&simulation.log(), &simulation.options())
+    calibrate_log(&simulation.log(), &simulation.calibration_options())
 }
 
 /// Returns the calibration of odometry and reference.
@@ -30,18 +30,18 @@ fn calibrate_log([odometry, reference]: &[Trajectory; 2], options: &Options) -> 
 }
 
 fn default_options(model: Model) -> Options {
-    Simulation::of(model, 0, 0).options()
+    Simulation::of(model, 0, 0).calibration_options()
 }
 
-fn trajectory(samples: impl IntoIterator<Item = (f64, SE2)>) -> Trajectory {
+fn new_trajectory(samples: impl IntoIterator<Item = (f64, SE2)>) -> Trajectory {
     Trajectory::new(samples.into_iter().collect::<Vec<_>>()).expect("times rise")
 }
 
 /// Returns odometry with normal noise of each step, with these standard deviations ahead (m) and in the heading (rad).
 fn with_noisy_steps(odometry: &Trajectory, stds: [f64; 2], seed: u64) -> Trajectory {
     let (mut rng, mut pose) = (seeded_rng(seed), SE2::identity());
-    let samples: Vec<(f64, SE2)> = odometry.samples().collect();
-    trajectory(samples.windows(2).map(|pair| {
+    let odometry_samples: Vec<(f64, SE2)> = odometry.samples().collect();
+    new_trajectory(odometry_samples.windows(2).map(|pair| {
         let [ahead, turn] = stds.map(|std| NoiseKind::Normal.sample(Variance(std * std), &mut rng));
         pose = pose.boxplus(pair[1].1.boxminus(&pair[0].1) + Vector3::new(ahead, 0.0, turn));
         (pair[1].0, pose)

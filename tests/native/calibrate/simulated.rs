@@ -1,6 +1,6 @@
 //! Logs of simulated robots whose α's and systematic errors are known.
 
-use super::trajectory;
+use super::new_trajectory;
 use crate::common::seeded_rng;
 use motion::calibrate::{
     LegLength, Model, Options, Outliers, Systematic, SystematicError as Error, Trajectory,
@@ -71,7 +71,7 @@ impl Simulation {
     }
 
     /// Returns the options for a calibration of the log.
-    pub fn options(&self) -> Options {
+    pub fn calibration_options(&self) -> Options {
         let Self { model, leg_length, .. } = *self;
         Options {
             model,
@@ -119,13 +119,15 @@ impl Simulation {
                 base_start * executed_motion(self.model, &ALPHAS, &leg_motion, time - start_time, unit_noise);
             // The noise of a leg is distributed evenly over its rows.
             let leg_noise = (leg_motion.inverse() * base_start.inverse() * base_end).log();
-            let progress = |time: f64| (time - start_time) / (leg_rows.len() as f64 * STEP_SECONDS);
+            let leg_progress = |time: f64| (time - start_time) / (leg_rows.len() as f64 * STEP_SECONDS);
             base_poses.extend(
-                leg_rows.iter().map(|(t, pose)| (*t, base_start * pose.boxplus(leg_noise * progress(*t)))),
+                leg_rows
+                    .iter()
+                    .map(|(t, pose)| (*t, base_start * pose.boxplus(leg_noise * leg_progress(*t)))),
             );
             if rng.random_bool(self.jump_fraction) {
-                let direction = rng.random_range(-3.0..3.0);
-                let jump = SE2::new(0.5 * libm::cos(direction), 0.5 * libm::sin(direction), 0.0);
+                let jump_direction = rng.random_range(-3.0..3.0);
+                let jump = SE2::new(0.5 * libm::cos(jump_direction), 0.5 * libm::sin(jump_direction), 0.0);
                 let (_, last_pose) = base_poses.last_mut().expect("some");
                 *last_pose = jump * *last_pose;
             }
@@ -135,20 +137,20 @@ impl Simulation {
         let [lever_ahead, lever_left] = self.systematic_errors.lever_arm;
         let mount_pose = SE2::new(lever_ahead, lever_left, self.systematic_errors.mount_yaw);
         let [position_variance, yaw_variance] = self.reference_stds.map(|std| Variance(std * std));
-        let mut reference_error = |variance| NoiseKind::Normal.sample(variance, &mut rng);
+        let mut draw_reference_error = |variance| NoiseKind::Normal.sample(variance, &mut rng);
         let reference = base_poses.iter().map(|(t, pose)| {
             let sensor_pose = *pose * mount_pose;
             let [x, y, theta] = [
-                reference_error(position_variance),
-                reference_error(position_variance),
-                reference_error(yaw_variance),
+                draw_reference_error(position_variance),
+                draw_reference_error(position_variance),
+                draw_reference_error(yaw_variance),
             ];
             (
                 t + self.systematic_errors.clock_offset,
                 SE2::new(sensor_pose.x() + x, sensor_pose.y() + y, sensor_pose.theta() + theta),
             )
         });
-        [trajectory(odometry), trajectory(reference)]
+        [new_trajectory(odometry), new_trajectory(reference)]
     }
 
     /// Returns v and ω of a straight drive, a bend, a turn on the spot, or a drive in reverse if the rule allows it.
@@ -166,19 +168,19 @@ impl Simulation {
     /// Returns the three unit noises of a leg. `fraction` is the position of the leg in the log, from 0 to 1.
     fn next_unit_noise(&self, fraction: f64, previous: [f64; 3], rng: &mut impl Rng) -> [f64; 3] {
         previous.map(|previous| {
-            let unit_draw = NoiseKind::Normal.sample(Variance(1.0), rng);
+            let normal_draw = NoiseKind::Normal.sample(Variance(1.0), rng);
             match self.violation {
-                Violation::None => unit_draw,
+                Violation::None => normal_draw,
                 Violation::HeavyTails(degrees_of_freedom) => {
                     let draw_normal = |_| NoiseKind::Normal.sample(Variance(1.0), rng);
                     let chi_squared: f64 = (0..degrees_of_freedom).map(draw_normal).map(|z| z * z).sum();
-                    unit_draw * f64::sqrt((degrees_of_freedom as f64 - 2.0) / chi_squared)
+                    normal_draw * f64::sqrt((degrees_of_freedom as f64 - 2.0) / chi_squared)
                 }
                 Violation::Autoregressive(correlation) => {
-                    correlation * previous + (1.0 - correlation * correlation).sqrt() * unit_draw
+                    correlation * previous + (1.0 - correlation * correlation).sqrt() * normal_draw
                 }
-                Violation::Scaled(times) => times * unit_draw,
-                Violation::Changing(deviation) => deviation(fraction) * unit_draw,
+                Violation::Scaled(times) => times * normal_draw,
+                Violation::Changing(deviation) => deviation(fraction) * normal_draw,
             }
         })
     }
@@ -192,20 +194,20 @@ pub fn executed_motion(
     dt: f64,
     next_unit_noise: [f64; 3],
 ) -> SE2 {
-    let origin = SE2::identity();
+    let origin_pose = SE2::identity();
     match model {
         Model::Odometry(rule) => {
-            let odom_delta = OdomDelta::from_poses(&origin, reading_motion);
-            let alphas = std::array::from_fn(|k| alphas[k]);
-            rule.variances(&odom_delta, &alphas)
+            let odom_delta = OdomDelta::from_poses(&origin_pose, reading_motion);
+            let model_alphas = std::array::from_fn(|k| alphas[k]);
+            rule.variances(&odom_delta, &model_alphas)
                 .executed_motion(&rule.legs(&odom_delta), next_unit_noise)
-                .poses(&origin)[3]
+                .poses(&origin_pose)[3]
         }
         Model::Velocity => {
             let twist = reading_motion.log();
             let command = VelocityCmd { v: twist.x / dt, omega: twist.z / dt, dt };
             let model = VelocityModel { alphas: VelocityAlphas(*alphas), noise: NoiseKind::Normal };
-            model.apply_noise(&command, &origin, next_unit_noise)
+            model.apply_noise(&command, &origin_pose, next_unit_noise)
         }
     }
 }

@@ -23,26 +23,26 @@ fn odometry_motion(leg: &Leg) -> SE2 {
 
 /// Returns true if the reference motion over some legs is inside of the 95 % ellipsoid of sampled motions, in exponential coordinates.
 fn is_covered(model: Model, alphas: &[f64; 6], legs: &[Leg], rng: &mut impl Rng) -> bool {
-    let composed_motion =
+    let compose_motions =
         |motions: &mut dyn Iterator<Item = SE2>| motions.fold(SE2::identity(), |pose, motion| pose * motion);
-    let odom_motion = composed_motion(&mut legs.iter().map(odometry_motion));
+    let odom_motion = compose_motions(&mut legs.iter().map(odometry_motion));
     let mut sample_motion = |leg| {
         let unit_noise = std::array::from_fn(|_| NoiseKind::Normal.sample(Variance(1.0), rng));
         executed_motion(model, alphas, &odometry_motion(leg), leg.duration(), unit_noise)
     };
-    let samples: Vec<Vector3<f64>> = (0..SAMPLES_PER_WINDOW)
-        .map(|_| composed_motion(&mut legs.iter().map(&mut sample_motion)).boxminus(&odom_motion))
+    let window_samples: Vec<Vector3<f64>> = (0..SAMPLES_PER_WINDOW)
+        .map(|_| compose_motions(&mut legs.iter().map(&mut sample_motion)).boxminus(&odom_motion))
         .collect();
-    let mean = samples.iter().sum::<Vector3<f64>>() / SAMPLES_PER_WINDOW as f64;
-    let scatter_matrix = samples
+    let window_mean = window_samples.iter().sum::<Vector3<f64>>() / SAMPLES_PER_WINDOW as f64;
+    let scatter_matrix = window_samples
         .iter()
-        .map(|sample_motion| (sample_motion - mean) * (sample_motion - mean).transpose())
+        .map(|sample_motion| (sample_motion - window_mean) * (sample_motion - window_mean).transpose())
         .sum::<Matrix3<f64>>();
     let reference_motion = legs[0].reference[0].inverse() * legs[legs.len() - 1].reference[1];
-    let deviation = reference_motion.boxminus(&odom_motion) - mean;
+    let reference_deviation = reference_motion.boxminus(&odom_motion) - window_mean;
     let inverse_covariance =
         (scatter_matrix / SAMPLES_PER_WINDOW as f64).try_inverse().expect("noise in all directions");
-    deviation.dot(&(inverse_covariance * deviation)) < CHI2_95
+    reference_deviation.dot(&(inverse_covariance * reference_deviation)) < CHI2_95
 }
 
 /// Returns the number of covered windows and the number of all windows, in logs that were not used for the fit.
@@ -78,11 +78,11 @@ fn count_covered_windows(model: Model, violation: Violation, log_count: u64) -> 
 /// Reports a coverage outside of 93 to 97 % by more than three standard errors.
 fn report_wrong_coverage(model: Model, violation: Violation, log_count: u64) -> Option<String> {
     let [covered_count, window_count] = count_covered_windows(model, violation, log_count);
-    let fraction = covered_count as f64 / window_count as f64;
+    let covered_fraction = covered_count as f64 / window_count as f64;
     // The α's of a log and their inflation have standard errors of 5 % each, together 7 %. A relative error of the variances changes the
     // coverage of 95 % by 0.14 of that error, here by 0.01.
     let standard_error = (0.93 * 0.07 / window_count as f64 + 0.01_f64.powi(2) / log_count as f64).sqrt();
-    let is_right = (0.93 - 3.0 * standard_error..=0.97 + 3.0 * standard_error).contains(&fraction);
+    let is_right = (0.93 - 3.0 * standard_error..=0.97 + 3.0 * standard_error).contains(&covered_fraction);
     (!is_right)
         .then(|| format!("{model:?}, {violation:?}: {covered_count} of {window_count} windows are covered"))
 }
@@ -99,7 +99,7 @@ fn recommended_alphas_cover_a_metre_of_a_new_log() {
 #[test]
 #[ignore = "nightly: 400 calibrations"]
 fn recommended_alphas_of_every_model_cover_a_metre_of_new_logs() {
-    let reports_of = |model| TESTED_VIOLATIONS.map(|violation| report_wrong_coverage(model, violation, 40));
-    let reports: Vec<String> = MODELS.into_iter().flat_map(reports_of).flatten().collect();
+    let report_model = |model| TESTED_VIOLATIONS.map(|violation| report_wrong_coverage(model, violation, 40));
+    let reports: Vec<String> = MODELS.into_iter().flat_map(report_model).flatten().collect();
     assert!(reports.is_empty(), "{}", reports.join("\n"));
 }

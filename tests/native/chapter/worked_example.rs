@@ -17,7 +17,7 @@ const ALPHAS: VelocityAlphas = VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.0, 0.0]
 const MODEL: VelocityModel = VelocityModel { alphas: ALPHAS, noise: NoiseKind::Normal };
 const SAMPLE_COUNT: usize = 200_000;
 
-fn cloud_of(model: &VelocityModel) -> Vec<SE2> {
+fn sample_cloud(model: &VelocityModel) -> Vec<SE2> {
     let mut rng = SmallRng::seed_from_u64(7);
     (0..SAMPLE_COUNT).map(|_| model.sample(&U, &SE2::identity(), &mut rng)).collect()
 }
@@ -68,12 +68,12 @@ fn linearized_moments_equal_the_printed_table() {
     assert_printed(cov[(1, 2)] / (cov[(1, 1)] * cov[(2, 2)]).sqrt(), 0.887, 3, "ρyθ");
     // The columns of the Jacobian are the derivatives of the arc with respect to v and ω. With a single α of 1 the covariance is the
     // outer product of one column.
-    let covariance_of = |alphas: [f64; 6]| {
+    let linearized_covariance = |alphas: [f64; 6]| {
         let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal };
         model.cartesian_cov(&U, &SE2::identity())
     };
-    let covariance_by_v = covariance_of([1.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
-    let covariance_by_omega = covariance_of([0.0, 0.0, 1.0, 0.0, 0.0, 0.0]);
+    let covariance_by_v = linearized_covariance([1.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    let covariance_by_omega = linearized_covariance([0.0, 0.0, 1.0, 0.0, 0.0, 0.0]);
     assert_printed(covariance_by_v[(0, 0)].sqrt(), 0.958851, 6, "∂x/∂v");
     assert_printed(covariance_by_v[(1, 0)] / covariance_by_v[(0, 0)].sqrt(), 0.244835, 6, "∂y/∂v");
     assert_eq!(covariance_by_v[(2, 2)], 0.0);
@@ -99,7 +99,7 @@ fn exact_moments_equal_the_printed_table() {
 /// Compares estimates from 200 000 samples with the numbers that the chapter prints for its samples, and with exact values.
 #[test]
 fn measured_moments_agree_with_the_printed_table() {
-    let cloud = cloud_of(&MODEL);
+    let cloud = sample_cloud(&MODEL);
     let exact_moments = ExactMoments::of_velocity(&MODEL, &U);
     let exact_correlation =
         exact_moments.cov[(1, 2)] / (exact_moments.cov[(1, 1)] * exact_moments.cov[(2, 2)]).sqrt();
@@ -131,8 +131,11 @@ fn measured_moments_agree_with_the_printed_table() {
         );
         assert_sampled(quantity, measured, standard_error, printed, decimals);
     }
-    let moments = ExponentialMoments::from_poses(&cloud, &SE2::identity());
-    assert!(moments.mean.y.abs() < 1e-15 && moments.cov[(1, 1)] < 1e-30, "printed 0.0000 and 0.00000");
+    let exponential_moments = ExponentialMoments::from_poses(&cloud, &SE2::identity());
+    assert!(
+        exponential_moments.mean.y.abs() < 1e-15 && exponential_moments.cov[(1, 1)] < 1e-30,
+        "printed 0.0000 and 0.00000"
+    );
 }
 
 /// With the last turn γ̂ included in R_u the heading variance is correct, and the lateral coordinate gets a small additional
@@ -140,11 +143,11 @@ fn measured_moments_agree_with_the_printed_table() {
 #[test]
 fn a_last_turn_adds_variance_to_the_lateral_coordinate() {
     let model = VelocityModel { alphas: VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.005, 0.005]), ..MODEL };
-    let cloud = cloud_of(&model);
-    let tangent = TangentNoiseModel::from_velocity(&model, &U).unwrap();
-    let predicted = tangent.compound(&Matrix3::zeros(), &TangentNoiseModel::twist(&U));
-    assert_relative_eq!(predicted[(2, 2)], 0.03125, epsilon = 1e-16);
-    assert_eq!(predicted[(1, 1)], 0.0);
+    let cloud = sample_cloud(&model);
+    let tangent_model = TangentNoiseModel::from_velocity(&model, &U).unwrap();
+    let predicted_cov = tangent_model.compound(&Matrix3::zeros(), &TangentNoiseModel::twist(&U));
+    assert_relative_eq!(predicted_cov[(2, 2)], 0.03125, epsilon = 1e-16);
+    assert_eq!(predicted_cov[(1, 1)], 0.0);
     let exponential_variance =
         |i| move |poses: &[SE2]| ExponentialMoments::from_poses(poses, &SE2::identity()).cov[(i, i)];
     for (axis, printed) in [(2, 0.0312), (1, 0.0016)] {

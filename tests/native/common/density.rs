@@ -42,9 +42,9 @@ impl PolarGrid {
     ) -> Self {
         let (dx, dy) = (middle.x() - start.x(), middle.y() - start.y());
         let bearing = if dx.hypot(dy) > 0.0 { dy.atan2(dx) } else { start.theta() };
-        let centre = [dx.hypot(dy), bearing, middle.theta() - slope * bearing];
+        let cell_centre = [dx.hypot(dy), bearing, middle.theta() - slope * bearing];
         let cell_size = [0, 1, 2].map(|axis| 2.0 * half_extent[axis] / cell_counts[axis] as f64);
-        Self { start: *start, slope, centre, cell_size, cell_counts }
+        Self { start: *start, slope, centre: cell_centre, cell_size, cell_counts }
     }
 
     /// Returns the box of all poses within `radius` of the start.
@@ -53,7 +53,7 @@ impl PolarGrid {
     }
 
     /// Returns c, β and θ of a pose.
-    fn coordinates(&self, pose: &SE2) -> [f64; 3] {
+    fn grid_coordinates(&self, pose: &SE2) -> [f64; 3] {
         let (dx, dy) = (pose.x() - self.start.x(), pose.y() - self.start.y());
         let bearing_offset = wrap_angle(dy.atan2(dx) - self.centre[1]);
         let (distance, bearing_offset) = if bearing_offset.abs() <= PI / 2.0 {
@@ -100,7 +100,7 @@ impl PolarGrid {
     }
 
     /// Returns the integral over the whole box.
-    pub fn integral(&self, density: impl Fn(&SE2) -> f64) -> f64 {
+    pub fn integrate_density(&self, density: impl Fn(&SE2) -> f64) -> f64 {
         self.cell_masses(density).iter().sum()
     }
 
@@ -109,7 +109,7 @@ impl PolarGrid {
         let mut pose_counts = vec![0.0; self.cell_counts.iter().product()];
         for pose in poses {
             let mut flat_index = Some(0);
-            for (axis, coordinate) in self.coordinates(pose).into_iter().enumerate() {
+            for (axis, coordinate) in self.grid_coordinates(pose).into_iter().enumerate() {
                 let cell_index = ((coordinate - self.lower_bound(axis, 0)) / self.cell_size[axis]).floor();
                 let is_inside = cell_index >= 0.0 && cell_index < self.cell_counts[axis] as f64;
                 flat_index = flat_index
@@ -139,12 +139,12 @@ impl PolarGrid {
     /// samples that changes χ² by about 1, and the limit is above 100.
     fn chi_square(&self, poses: &[SE2], density: impl Fn(&SE2) -> f64) -> (f64, f64) {
         let n = poses.len() as f64;
-        let mut observed = self.pose_counts(poses);
-        let mut expected: Vec<f64> = self.cell_masses(density).iter().map(|mass| mass * n).collect();
-        observed.push(n - observed.iter().sum::<f64>());
-        expected.push(n - expected.iter().sum::<f64>());
+        let mut observed_counts = self.pose_counts(poses);
+        let mut expected_counts: Vec<f64> = self.cell_masses(density).iter().map(|mass| mass * n).collect();
+        observed_counts.push(n - observed_counts.iter().sum::<f64>());
+        expected_counts.push(n - expected_counts.iter().sum::<f64>());
         let (sparse_cells, full_cells): (Vec<_>, Vec<_>) =
-            observed.into_iter().zip(expected).partition(|(_, expected)| *expected < 20.0);
+            observed_counts.into_iter().zip(expected_counts).partition(|(_, expected)| *expected < 20.0);
         let pooled_cell = sparse_cells.iter().fold((0.0, 0.0), |(o, e), cell| (o + cell.0, e + cell.1));
         assert!(full_cells.len() > 40, "{} cells test little", full_cells.len());
         assert!(

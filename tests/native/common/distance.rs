@@ -17,11 +17,11 @@ pub fn position_along(arc: &Arc, f: f64) -> Point {
     [cos * forward - sin * left, sin * forward + cos * left]
 }
 
-pub fn difference(a: Point, b: Point) -> Point {
+pub fn subtract_points(a: Point, b: Point) -> Point {
     [a[0] - b[0], a[1] - b[1]]
 }
 
-pub fn cross(a: Point, b: Point) -> f64 {
+pub fn cross_product(a: Point, b: Point) -> f64 {
     a[0] * b[1] - a[1] * b[0]
 }
 
@@ -30,7 +30,7 @@ pub fn norm(a: Point) -> f64 {
 }
 
 pub fn distance_to_segment(p: Point, [a, b]: [Point; 2]) -> f64 {
-    let (d, r) = (difference(b, a), difference(p, a));
+    let (d, r) = (subtract_points(b, a), subtract_points(p, a));
     let length = norm(d);
     if length == 0.0 {
         return norm(r);
@@ -40,15 +40,17 @@ pub fn distance_to_segment(p: Point, [a, b]: [Point; 2]) -> f64 {
     if distance_along <= 0.0 {
         norm(r)
     } else if distance_along >= length {
-        norm(difference(p, b))
+        norm(subtract_points(p, b))
     } else {
-        cross(direction, r).abs()
+        cross_product(direction, r).abs()
     }
 }
 
 pub fn distance_of_segments(p: [Point; 2], q: [Point; 2]) -> f64 {
     let are_on_both_sides = |[a, b]: [Point; 2], [c, d]: [Point; 2]| {
-        cross(difference(b, a), difference(c, a)) * cross(difference(b, a), difference(d, a)) < 0.0
+        cross_product(subtract_points(b, a), subtract_points(c, a))
+            * cross_product(subtract_points(b, a), subtract_points(d, a))
+            < 0.0
     };
     if are_on_both_sides(p, q) && are_on_both_sides(q, p) {
         return 0.0;
@@ -68,7 +70,7 @@ pub fn distance_of_segments(p: [Point; 2], q: [Point; 2]) -> f64 {
 /// pieces, because all pieces may be equally near the centre of the circle.
 pub fn distance_by_halving(arc: &Arc, wall: &Segment) -> [f64; 2] {
     let arc_start = [arc.start.x(), arc.start.y()];
-    let wall_ends = [difference(wall.from, arc_start), difference(wall.to, arc_start)];
+    let wall_ends = [subtract_points(wall.from, arc_start), subtract_points(wall.to, arc_start)];
     let piece_count = (arc.turn.abs() / 0.5).ceil().max(1.0) as u32;
     let mut piece_fraction = 1.0 / f64::from(piece_count);
     let mut piece_starts: Vec<f64> = (0..piece_count).map(|i| f64::from(i) * piece_fraction).collect();
@@ -89,7 +91,9 @@ pub fn distance_by_halving(arc: &Arc, wall: &Segment) -> [f64; 2] {
         let min_distance = starts_and_distances
             .iter()
             .fold(f64::INFINITY, |smallest, (_, distance)| smallest.min(*distance));
-        if max_deviation <= 0.1 * f64::EPSILON * extent(arc, wall) || starts_and_distances.len() > 1000 {
+        if max_deviation <= 0.1 * f64::EPSILON * max_coordinate(arc, wall)
+            || starts_and_distances.len() > 1000
+        {
             return [min_distance - max_deviation, min_distance + max_deviation];
         }
         piece_fraction *= 0.5;
@@ -103,10 +107,10 @@ pub fn distance_by_halving(arc: &Arc, wall: &Segment) -> [f64; 2] {
 
 /// Returns the extent of an arc and a wall (m), to which the rounding of their distance is proportional. It is at least 15 m, the size of
 /// the coordinates of random walls.
-pub fn extent(arc: &Arc, wall: &Segment) -> f64 {
+pub fn max_coordinate(arc: &Arc, wall: &Segment) -> f64 {
     let arc_start = [arc.start.x(), arc.start.y()];
-    norm(difference(wall.from, arc_start))
-        .max(norm(difference(wall.to, arc_start)))
+    norm(subtract_points(wall.from, arc_start))
+        .max(norm(subtract_points(wall.to, arc_start)))
         .max(arc.length.abs())
         .max(15.0)
 }

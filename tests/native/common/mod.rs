@@ -25,13 +25,13 @@ pub fn seeded_rng(seed: u64) -> Xoshiro256PlusPlus {
 }
 
 /// Returns a number that is uniform in [low, high).
-pub fn uniform(rng: &mut impl Rng, low: f64, high: f64) -> f64 {
+pub fn draw_uniform(rng: &mut impl Rng, low: f64, high: f64) -> f64 {
     low + (high - low) * (rng.next_u64() >> 11) as f64 / (1u64 << 53) as f64
 }
 
 /// Returns a number of either sign, with a magnitude that is log-uniform in [low, high).
-pub fn signed_log_uniform(rng: &mut impl Rng, low: f64, high: f64) -> f64 {
-    let magnitude = uniform(rng, low.ln(), high.ln()).exp();
+pub fn draw_signed_log_uniform(rng: &mut impl Rng, low: f64, high: f64) -> f64 {
+    let magnitude = draw_uniform(rng, low.ln(), high.ln()).exp();
     if rng.next_u64() >> 63 == 0 { magnitude } else { -magnitude }
 }
 
@@ -64,7 +64,7 @@ pub fn settings_of_preset(name: &str) -> Settings {
 
 /// Returns true if a closed outline winds around a point.
 pub fn winds_around(outline: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
-    let windings: i32 = outline
+    let winding_count: i32 = outline
         .windows(2)
         .map(|ends| {
             let [[ax, ay], [bx, by]] = [ends[0], ends[1]];
@@ -72,7 +72,7 @@ pub fn winds_around(outline: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
             i32::from(ay <= y && by > y && is_left) - i32::from(ay > y && by <= y && !is_left)
         })
         .sum();
-    windings != 0
+    winding_count != 0
 }
 
 // ------------------------------------------------------------------------------------------- reference tables
@@ -91,9 +91,9 @@ pub struct ReferenceRow<'a> {
 
 impl ReferenceTable {
     pub fn parse(text: &'static str) -> Self {
-        let mut lines = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
-        let column_names = lines.next().expect("a header");
-        let rows: Vec<_> = lines.collect();
+        let mut line_fields = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
+        let column_names = line_fields.next().expect("a header");
+        let rows: Vec<_> = line_fields.collect();
         assert!(!rows.is_empty(), "a table without rows");
         Self { column_names, rows }
     }
@@ -104,21 +104,21 @@ impl ReferenceTable {
 }
 
 impl ReferenceRow<'_> {
-    pub fn text(&self, column: &str) -> &'static str {
+    pub fn cell_text(&self, column: &str) -> &'static str {
         let index = self.table.column_names.iter().position(|name| *name == column);
         self.cells[index.unwrap_or_else(|| panic!("no column {column}"))]
     }
 
-    pub fn number(&self, column: &str) -> f64 {
-        self.text(column).parse().expect("a number")
+    pub fn cell_number(&self, column: &str) -> f64 {
+        self.cell_text(column).parse().expect("a number")
     }
 
-    pub fn numbers<const N: usize>(&self, column_names: [&str; N]) -> [f64; N] {
-        column_names.map(|column| self.number(column))
+    pub fn cell_numbers<const N: usize>(&self, column_names: [&str; N]) -> [f64; N] {
+        column_names.map(|column| self.cell_number(column))
     }
 
     pub fn noise_kind(&self) -> NoiseKind {
-        match self.text("kind") {
+        match self.cell_text("kind") {
             "normal" => NoiseKind::Normal,
             "triangular" => NoiseKind::Triangular,
             other => panic!("unknown kind {other}"),
@@ -127,7 +127,7 @@ impl ReferenceRow<'_> {
 
     /// Returns the absolute error of `computed`. The reference is the sum of two columns: the nearest double and a remainder (`_lo`).
     pub fn deviation(&self, column: &str, computed: f64) -> f64 {
-        ((computed - self.number(column)) - self.number(&format!("{column}_lo"))).abs()
+        ((computed - self.cell_number(column)) - self.cell_number(&format!("{column}_lo"))).abs()
     }
 }
 
@@ -141,8 +141,8 @@ pub fn kolmogorov_smirnov(mut sample: Vec<f64>, cdf: impl Fn(f64) -> f64) -> f64
     sample.sort_by(f64::total_cmp);
     let n = sample.len() as f64;
     let distance = sample.iter().enumerate().map(|(i, &value)| {
-        let probability = cdf(value);
-        (probability - i as f64 / n).max((i + 1) as f64 / n - probability)
+        let cumulative_probability = cdf(value);
+        (cumulative_probability - i as f64 / n).max((i + 1) as f64 / n - cumulative_probability)
     });
     distance.fold(0.0, f64::max) * n.sqrt()
 }

@@ -34,15 +34,15 @@ const THIN_SPACE: char = '\u{202f}';
 impl Text {
     /// Returns the text of a page without its markup.
     pub fn of_page(html: &str) -> Self {
-        let mut text = String::new();
+        let mut plain_text = String::new();
         for markup_and_text in html.split('<') {
             // The first part has no markup before it.
-            text.push_str(markup_and_text.split_once('>').map_or(markup_and_text, |(_, text)| text));
+            plain_text.push_str(markup_and_text.split_once('>').map_or(markup_and_text, |(_, text)| text));
         }
         for (entity, character) in [("&nbsp;", " "), ("&#8239;", "\u{202f}"), ("&lt;", "<"), ("&gt;", ">")] {
-            text = text.replace(entity, character);
+            plain_text = plain_text.replace(entity, character);
         }
-        Self::of_document(&text)
+        Self::of_document(&plain_text)
     }
 
     pub fn of_document(text: &str) -> Self {
@@ -50,21 +50,21 @@ impl Text {
     }
 
     /// Returns the numbers that stand at each `#` of a sentence. The text must contain the sentence exactly once.
-    pub fn numbers<const N: usize>(&self, sentence: &str) -> [PrintedNumber; N] {
+    pub fn sentence_numbers<const N: usize>(&self, sentence: &str) -> [PrintedNumber; N] {
         let sentence_parts: Vec<&str> = sentence.split('#').collect();
         assert_eq!(sentence_parts.len(), N + 1, "numbers in: {sentence}");
-        let occurrences: Vec<Vec<PrintedNumber>> = self
+        let number_lists: Vec<Vec<PrintedNumber>> = self
             .0
             .match_indices(sentence_parts[0])
             .filter_map(|(at, _)| numbers_in(&self.0[at..], &sentence_parts))
             .collect();
-        assert_eq!(occurrences.len(), 1, "times that the text says: {sentence}");
-        std::array::from_fn(|i| occurrences[0][i])
+        assert_eq!(number_lists.len(), 1, "times that the text says: {sentence}");
+        std::array::from_fn(|i| number_lists[0][i])
     }
 
     /// Asserts that the printed numbers equal computed ones.
     pub fn assert_numbers<const N: usize>(&self, sentence: &str, computed: [f64; N]) {
-        self.numbers::<N>(sentence)
+        self.sentence_numbers::<N>(sentence)
             .iter()
             .zip(computed)
             .for_each(|(printed, computed)| printed.assert_near(computed, 0.0));
@@ -72,35 +72,36 @@ impl Text {
 
     /// Asserts that the text contains a sentence exactly once.
     pub fn assert_contains(&self, sentence: &str) {
-        let [] = self.numbers(sentence);
+        let [] = self.sentence_numbers(sentence);
     }
 }
 
 fn is_thousands(word: &str) -> bool {
-    let digits = word.trim_end_matches([',', '.', ':']);
-    digits.len() == 3 && digits.chars().all(|c| c.is_ascii_digit())
+    let word_digits = word.trim_end_matches([',', '.', ':']);
+    word_digits.len() == 3 && word_digits.chars().all(|c| c.is_ascii_digit())
 }
 
 /// Returns the numbers between the parts of a sentence. Returns None if the text does not begin with the sentence.
 fn numbers_in(text: &str, parts: &[&str]) -> Option<Vec<PrintedNumber>> {
-    let mut remainder = text.strip_prefix(parts[0])?;
+    let mut remaining_text = text.strip_prefix(parts[0])?;
     parts[1..]
         .iter()
         .map(|part| {
             let is_in_number = |c: char| c.is_ascii_digit() || ['−', '.', THIN_SPACE].contains(&c);
-            let mut number_end = remainder.find(|c| !is_in_number(c)).unwrap_or(remainder.len());
+            let mut number_end = remaining_text.find(|c| !is_in_number(c)).unwrap_or(remaining_text.len());
             // Documents separate thousands by a plain space.
-            if remainder[number_end..].starts_with(' ')
-                && remainder[number_end + 1..].split(' ').next().is_some_and(is_thousands)
+            if remaining_text[number_end..].starts_with(' ')
+                && remaining_text[number_end + 1..].split(' ').next().is_some_and(is_thousands)
             {
                 number_end += 4;
             }
             // The period at the end of a sentence is not a decimal point.
-            number_end -= usize::from(remainder[..number_end].ends_with('.'));
-            let digits: String = remainder[..number_end].replace('−', "-").replace([THIN_SPACE, ' '], "");
-            let decimals = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len() as i32);
-            remainder = remainder[number_end..].strip_prefix(part)?;
-            Some(PrintedNumber { value: digits.parse().ok()?, rounding: 0.5 * 10f64.powi(-decimals) })
+            number_end -= usize::from(remaining_text[..number_end].ends_with('.'));
+            let digits: String =
+                remaining_text[..number_end].replace('−', "-").replace([THIN_SPACE, ' '], "");
+            let decimal_count = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len() as i32);
+            remaining_text = remaining_text[number_end..].strip_prefix(part)?;
+            Some(PrintedNumber { value: digits.parse().ok()?, rounding: 0.5 * 10f64.powi(-decimal_count) })
         })
         .collect()
 }

@@ -21,10 +21,10 @@ pub fn parsed_configurations() -> Value {
 
 /// Returns every configuration of every widget.
 pub fn configurations_of(document: &Value) -> impl Iterator<Item = Configuration<'_>> {
-    let widgets = document["widgets"].as_object().expect("widgets");
-    widgets.iter().flat_map(move |(widget, entry)| {
-        let configurations = entry["configurations"].as_object().expect("configurations");
-        configurations.iter().map(move |(name, value)| Configuration { document, widget, name, value })
+    let widgets_json = document["widgets"].as_object().expect("widgets");
+    widgets_json.iter().flat_map(move |(widget, entry)| {
+        let configurations_json = entry["configurations"].as_object().expect("configurations");
+        configurations_json.iter().map(move |(name, value)| Configuration { document, widget, name, value })
     })
 }
 
@@ -54,12 +54,12 @@ impl Configuration<'_> {
     pub fn grid(&self) -> Grid {
         let bounds = self.value.get("bounds").unwrap_or(&self.document["widgets"][self.widget]["bounds"]);
         let [x_min, y_min, x_max, y_max] = numbers_of(bounds);
-        let pixels_of = |key| self.document["picture"][key].as_u64().expect("a size") as usize;
+        let picture_size = |key| self.document["picture"][key].as_u64().expect("a size") as usize;
         Grid {
             min: [x_min, y_min],
             max: [x_max, y_max],
-            columns: pixels_of("columns"),
-            rows: pixels_of("rows"),
+            columns: picture_size("columns"),
+            rows: picture_size("rows"),
         }
     }
 }
@@ -79,7 +79,7 @@ fn set_from_json(setting: Setting, value: &Value) {
         Setting::Level(mut slot, _) => slot.set(number_of(value)),
         Setting::Group(group) => {
             for (i, field) in group.fields().iter().enumerate() {
-                *group.number(i) = number_of(&value[field.declaration.key]);
+                *group.number_mut(i) = number_of(&value[field.declaration.key]);
             }
         }
     }

@@ -94,10 +94,10 @@ pub struct HashedPart(pub &'static str, pub String);
 
 impl HashedPart {
     pub fn new(name: &'static str, results: impl Encode) -> Self {
-        let mut bytes = Vec::new();
-        results.encode(&mut bytes);
+        let mut encoded_bytes = Vec::new();
+        results.encode(&mut encoded_bytes);
         // 64 bits of the hash are enough: one change in 10¹⁹ would go unnoticed.
-        Self(name, hex(&Sha256::digest(bytes))[..16].to_owned())
+        Self(name, hex(&Sha256::digest(encoded_bytes))[..16].to_owned())
     }
 }
 

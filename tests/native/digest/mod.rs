@@ -28,11 +28,14 @@ fn the_same_seed_gives_the_same_bits() {
             .lines()
             .find_map(|golden_hashes| golden_hashes.strip_prefix(&line_prefix))
             .unwrap_or_default();
-        let is_known = |HashedPart(part, hash): &HashedPart| {
+        let is_golden = |HashedPart(part, hash): &HashedPart| {
             golden_hashes.split(' ').any(|golden_hash| golden_hash == format!("{part}:{hash}"))
         };
         differing_parts.extend(
-            hashed_parts.iter().filter(|part| !is_known(part)).map(|part| format!("{line_prefix}{}", part.0)),
+            hashed_parts
+                .iter()
+                .filter(|part| !is_golden(part))
+                .map(|part| format!("{line_prefix}{}", part.0)),
         );
     }
     assert!(
@@ -47,15 +50,15 @@ fn the_same_seed_gives_the_same_bits() {
 #[test]
 fn the_changelog_names_the_digest() {
     let golden_bytes = std::fs::read(format!("{DIGEST_DIRECTORY}/golden.txt")).expect("golden.txt");
-    let digest = hex(&Sha256::digest(&golden_bytes));
+    let golden_digest = hex(&Sha256::digest(&golden_bytes));
     let changelog =
         std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/CHANGELOG.md")).expect("a changelog");
     // The newest digest comes first.
     let printed_digest =
-        changelog.split(|c: char| !c.is_ascii_hexdigit()).find(|word| word.len() == digest.len());
+        changelog.split(|c: char| !c.is_ascii_hexdigit()).find(|word| word.len() == golden_digest.len());
     assert_eq!(
         printed_digest,
-        Some(digest.as_str()),
-        "a line under the newest heading of CHANGELOG.md has to say what changed, and that the digest is now {digest}"
+        Some(golden_digest.as_str()),
+        "a line under the newest heading of CHANGELOG.md has to say what changed, and that the digest is now {golden_digest}"
     );
 }

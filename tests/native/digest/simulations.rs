@@ -16,11 +16,12 @@ use nalgebra::Vector3;
 use serde_json::Value;
 
 pub fn banana_machine(configuration: &Configuration) -> Vec<HashedPart> {
-    let mut defaults = banana::Settings::default();
+    let mut default_settings = banana::Settings::default();
     if let Some(preset) = configuration.preset(&banana::PRESETS, |preset| preset.name) {
-        defaults.command = preset.command;
+        default_settings.command = preset.command;
     }
-    let mut simulation = BananaMachine::new(configuration.settings(defaults)).expect("a valid setting");
+    let mut simulation =
+        BananaMachine::new(configuration.settings(default_settings)).expect("a valid setting");
     let (reading, contours, table) = (simulation.reading(), simulation.contours(), simulation.table());
     let stats = *simulation.stats();
     let gain_fields = |gain: LikelihoodGain| (gain.pose, gain.floor);
@@ -38,7 +39,7 @@ pub fn banana_machine(configuration: &Configuration) -> Vec<HashedPart> {
     );
     let table_columns =
         (column_values(table.linearized), column_values(table.exact), column_values(table.measured));
-    let outlines = (
+    let encoded_outlines = (
         flat_list(&contours.command),
         flat_list(&contours.ellipse),
         flat_list(&contours.linearized),
@@ -49,7 +50,7 @@ pub fn banana_machine(configuration: &Configuration) -> Vec<HashedPart> {
     let mut paint_view = |view| flat_list(simulation.paint(view, &configuration.grid(), &test_ramp(0)));
     let [plane_pixels, twist_pixels] = [View::Plane, View::Twist].map(&mut paint_view);
     vec![
-        HashedPart::new("poses", simulation.poses().flat_map(coordinates).collect::<Vec<_>>()),
+        HashedPart::new("poses", simulation.poses().flat_map(pose_coordinates).collect::<Vec<_>>()),
         HashedPart::new("twists", simulation.twists().flat_map(<[f64; 3]>::from).collect::<Vec<_>>()),
         HashedPart::new("executed", simulation.executed_motions().flatten().collect::<Vec<_>>()),
         HashedPart::new(
@@ -62,7 +63,7 @@ pub fn banana_machine(configuration: &Configuration) -> Vec<HashedPart> {
             ),
         ),
         HashedPart::new("table", (table_columns, table.tangent.map(|moments| (moments.mean, moments.cov)))),
-        HashedPart::new("contours", outlines),
+        HashedPart::new("contours", encoded_outlines),
         HashedPart::new("plane", plane_pixels),
         HashedPart::new("twist", twist_pixels),
     ]
@@ -90,9 +91,9 @@ pub fn map_squeeze(configuration: &Configuration) -> Vec<HashedPart> {
         let [columns, rows] = grid.size();
         let [are_occupied, are_unknown] = [Cell::Occupied, Cell::Unknown]
             .map(|kind| grid.cells().map(|cell| cell == kind).collect::<Vec<_>>());
-        (columns, rows, grid.resolution(), coordinates(grid.origin()), are_occupied, are_unknown)
+        (columns, rows, grid.resolution(), pose_coordinates(grid.origin()), are_occupied, are_unknown)
     });
-    let statistics = (
+    let encoded_stats = (
         (stats.attempts, stats.drawn, stats.accepted, stats.acceptance_rate),
         (stats.through_wall, stats.through_wall_rate, stats.through_wall_interval),
         (stats.draws_per_accepted, stats.wall_tests_per_accepted, stats.gave_up),
@@ -101,12 +102,12 @@ pub fn map_squeeze(configuration: &Configuration) -> Vec<HashedPart> {
         HashedPart::new("map", (plan.bounds(), flat_list(wall_ends.as_flattened()), grid_fields)),
         HashedPart::new(
             "poses",
-            attempts.iter().flat_map(|attempt| coordinates(attempt.pose)).collect::<Vec<_>>(),
+            attempts.iter().flat_map(|attempt| pose_coordinates(attempt.pose)).collect::<Vec<_>>(),
         ),
         HashedPart::new("verdicts", attempts.iter().map(Attempt::verdict_bits).collect::<Vec<_>>()),
         HashedPart::new(
             "statistics",
-            (attempts.len(), simulation.is_start_free(), simulation.find_free_pose(), noise, statistics),
+            (attempts.len(), simulation.is_start_free(), simulation.find_free_pose(), noise, encoded_stats),
         ),
         HashedPart::new(
             "picture",
@@ -135,18 +136,24 @@ pub fn dead_reckoning(configuration: &Configuration) -> Vec<HashedPart> {
         }),
     ]
     .map(<(_, _, _)>::from);
-    let measured = values_by_step(&|k| simulation.measured_moments()[k].cov.diagonal());
+    let measured_variances = values_by_step(&|k| simulation.measured_moments()[k].cov.diagonal());
     let relative_errors = values_by_step(&|k| simulation.measured_moments()[k].relative_error);
-    let misses = [stats.misses.chapter, stats.misses.first_order, stats.misses.fourth_order].map(|axes| {
-        axes.map(|Misses { decidable, first, last, end, error }| (decidable, first, last, end, error))
-    });
-    let predictions = (stats.predicted.chapter, stats.predicted.first_order, stats.predicted.fourth_order);
-    let statistics =
-        (stats.n, (stats.measured.mean, stats.measured.cov), predictions, <(_, _, _)>::from(misses));
+    let encoded_misses =
+        [stats.misses.chapter, stats.misses.first_order, stats.misses.fourth_order].map(|axes| {
+            axes.map(|Misses { decidable, first, last, end, error }| (decidable, first, last, end, error))
+        });
+    let encoded_predictions =
+        (stats.predicted.chapter, stats.predicted.first_order, stats.predicted.fourth_order);
+    let statistics = (
+        stats.n,
+        (stats.measured.mean, stats.measured.cov),
+        encoded_predictions,
+        <(_, _, _)>::from(encoded_misses),
+    );
     let outlines = simulation.outlines(settings.step).expect("a step");
     vec![
         HashedPart::new("statistics", (simulation.shown_count(), settings.heading_noise(), statistics)),
-        HashedPart::new("steps", (ratios, predicted, measured, relative_errors)),
+        HashedPart::new("steps", (ratios, predicted, measured_variances, relative_errors)),
         HashedPart::new(
             "poses",
             (
@@ -172,7 +179,7 @@ pub fn alpha_calibrator(configuration: &Configuration) -> Vec<HashedPart> {
     let simulation = AlphaCalibrator::new(settings).expect("a valid setting");
     let calibration = simulation.calibration();
     let estimate_fields = |Estimate { value, interval }: &Estimate| (*value, *interval);
-    let error_value = |error: SystematicError| {
+    let error_estimate = |error: SystematicError| {
         calibration.systematic_stds[error as usize].map(|_| calibration.systematic.get(error))
     };
     let error_interval = |error: SystematicError| calibration.interval_of(error);
@@ -182,52 +189,53 @@ pub fn alpha_calibrator(configuration: &Configuration) -> Vec<HashedPart> {
         (constant, corrected)
     };
     let error_fields =
-        |error| (error_value(error), error_interval(error), is_constant_and_corrected(&[error]));
+        |error| (error_estimate(error), error_interval(error), is_constant_and_corrected(&[error]));
     let lever_arm = [SystematicError::LeverArmAhead, SystematicError::LeverArmLeft];
     let systematic_errors = (
         // The number of errors comes first, because JavaScript has them as a list. The lever arm is one error with two coordinates.
         5usize,
         error_fields(SystematicError::ClockOffset),
         error_fields(SystematicError::MountYaw),
-        (lever_arm.map(error_value), lever_arm.map(error_interval), is_constant_and_corrected(&lever_arm)),
+        (lever_arm.map(error_estimate), lever_arm.map(error_interval), is_constant_and_corrected(&lever_arm)),
         error_fields(SystematicError::DistanceScale),
         error_fields(SystematicError::TurnScale),
     );
     let reference_noise = calibration.reference_noise.each_ref().map(estimate_fields);
-    let checks: Vec<_> = calibration
+    let encoded_checks: Vec<_> = calibration
         .diagnostics
         .checks
         .iter()
         .map(|check| (check.value, check.expected, check.passed))
         .collect();
-    let windows: Vec<_> = calibration
+    let encoded_windows: Vec<_> = calibration
         .diagnostics
         .windows
         .iter()
         .map(|window| (window.length, window.count, window.coverage, window.nees))
         .collect();
-    let recommended = calibration
+    let encoded_recommendation = calibration
         .recommended
         .as_ref()
         .map(|Recommendation { alphas, inflation, .. }| (alphas.clone(), *inflation));
-    let truth = simulation.truth().map(|truth| {
+    let encoded_truth = simulation.truth().map(|truth| {
         let alphas = (truth.alphas, truth.clock_offset, truth.mount_yaw);
         (alphas, truth.lever_arm, truth.distance_scale, truth.turn_scale)
     });
-    let persistence = (estimate_fields(&calibration.persistence.correlation), calibration.persistence.length);
+    let encoded_persistence =
+        (estimate_fields(&calibration.persistence.correlation), calibration.persistence.length);
     vec![
         HashedPart::new(
             "alphas",
             (calibration.alphas.clone(), calibration.intervals.clone(), calibration.log_likelihood),
         ),
         HashedPart::new("systematic", systematic_errors),
-        HashedPart::new("noise", (reference_noise, persistence)),
-        HashedPart::new("diagnostics", (checks, windows, recommended)),
-        HashedPart::new("truth", truth),
+        HashedPart::new("noise", (reference_noise, encoded_persistence)),
+        HashedPart::new("diagnostics", (encoded_checks, encoded_windows, encoded_recommendation)),
+        HashedPart::new("truth", encoded_truth),
     ]
 }
 
-fn coordinates(pose: SE2) -> [f64; 3] {
+fn pose_coordinates(pose: SE2) -> [f64; 3] {
     [pose.x(), pose.y(), pose.theta()]
 }
 

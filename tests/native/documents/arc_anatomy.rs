@@ -13,7 +13,7 @@ fn without_wedge(settings: Settings) -> Settings {
 
 #[test]
 fn the_last_turn_explains_the_low_probability() {
-    let [printed_sigma_count, printed_factor_percentage, printed_product_percentage] = page().numbers(
+    let [printed_sigma_count, printed_factor_percentage, printed_product_percentage] = page().sentence_numbers(
         "The last turn is off by # standard deviations: that factor alone leaves # % of its peak, all three leave # %.",
     );
     let Stats { factors, weakest, share, .. } = stats(Settings::default());
@@ -21,8 +21,8 @@ fn the_last_turn_explains_the_low_probability() {
     printed_sigma_count.assert_near(factors[2].deviations, 0.0);
     printed_factor_percentage.assert_percent(factors[2].share, 0.0);
     printed_product_percentage.assert_percent(share, 0.0);
-    let [printed_remaining_percentage] =
-        page().numbers("With the heading of the arc the wedge is gone: # % are left, and the position");
+    let [printed_remaining_percentage] = page()
+        .sentence_numbers("With the heading of the arc the wedge is gone: # % are left, and the position");
     let Stats { factors, share, .. } = stats(without_wedge(Settings::default()));
     printed_remaining_percentage.assert_percent(share, 0.0);
     assert!((factors[2].share - 1.0).abs() < 1e-12);
@@ -31,7 +31,7 @@ fn the_last_turn_explains_the_low_probability() {
 #[test]
 fn the_printed_table_gives_no_probability_to_centres_on_the_right() {
     let [printed_speed]: [PrintedNumber; 1] =
-        page().numbers("and v̂, the speed along the arc, comes out as # m/s in a right turn.");
+        page().sentence_numbers("and v̂, the speed along the arc, comes out as # m/s in a right turn.");
     for name in ["right", "reverse"] {
         let settings = Settings { printed: true, ..settings_of_preset(name) };
         let Stats { factors, share, inverted, .. } = stats(settings);
@@ -40,7 +40,7 @@ fn the_printed_table_gives_no_probability_to_centres_on_the_right() {
         printed_speed.assert_near(-factors[0].estimate.abs(), 0.0);
         assert!(factors[0].estimate * settings.command.v < 0.0);
         // With the unsigned radius of the printed table, contours of equal score stay near the start. With the signed radius they do not.
-        let max_distance = |settings: Settings| {
+        let max_distance_to_start = |settings: Settings| {
             let heat_map = ArcAnatomy::new(Settings { map: SurfaceKind::Prob, ..settings })
                 .expect("valid settings")
                 .surface([-2.0, -2.0], [2.0, 2.0])
@@ -48,9 +48,9 @@ fn the_printed_table_gives_no_probability_to_centres_on_the_right() {
             heat_map.prob.iter().flatten().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max)
         };
         assert!(
-            max_distance(settings) < 0.5 && max_distance(settings_of_preset(name)) > 1.0,
+            max_distance_to_start(settings) < 0.5 && max_distance_to_start(settings_of_preset(name)) > 1.0,
             "{}",
-            max_distance(settings)
+            max_distance_to_start(settings)
         );
     }
 }

@@ -21,11 +21,11 @@ fn the_presets_are_those_in_the_document() {
         ("banana", "Banana"),
         ("worked", "Worked example"),
     ] {
-        let printed: [PrintedNumber; 9] =
-            statistics_document().numbers(&format!("| {label} | #, #, # | #, #, #, #, #, # |"));
+        let printed_numbers: [PrintedNumber; 9] =
+            statistics_document().sentence_numbers(&format!("| {label} | #, #, # | #, #, #, #, #, # |"));
         let Settings { command: c, velocity_alphas: [a1, a2, a3, a4, a5, a6], .. } = settings_of_preset(name);
         assert_eq!(
-            printed.map(|number| number.value),
+            printed_numbers.map(|number| number.value),
             [c.v, c.omega, c.dt, a1, a2, a3, a4, a5, a6],
             "{name}"
         );
@@ -37,7 +37,7 @@ fn the_presets_are_those_in_the_document() {
 fn numbers_in_the_table_and_on_the_page_are_those_of_the_simulation() {
     const ROBOT_COUNT: usize = 300_000;
     let coverage_error = MAX_STANDARD_ERRORS * (0.117 / ROBOT_COUNT as f64).sqrt();
-    let simulation_of = |name| simulation(Settings { samples: ROBOT_COUNT, ..settings_of_preset(name) });
+    let simulate_preset = |name| simulation(Settings { samples: ROBOT_COUNT, ..settings_of_preset(name) });
     let assert_row = |simulation: &BananaMachine, printed_row: [PrintedNumber; 4]| {
         let [printed_floor_gain, printed_area_ratio, printed_ellipse_percentage, printed_skew] = printed_row;
         let exact_column = simulation.table().exact;
@@ -48,8 +48,8 @@ fn numbers_in_the_table_and_on_the_page_are_those_of_the_simulation() {
         exact_column
     };
     let worked_row =
-        statistics_document().numbers("| 1, 0.5, 1; α₁₋₄ = 0.02, α₅,₆ = 0 | ∞ | # | # | # % | # |");
-    assert_row(&simulation_of("worked"), worked_row);
+        statistics_document().sentence_numbers("| 1, 0.5, 1; α₁₋₄ = 0.02, α₅,₆ = 0 | ∞ | # | # | # % | # |");
+    assert_row(&simulate_preset("worked"), worked_row);
     let [(gentle_exact, _), (hard_exact, hard_simulation), (banana_exact, _)] = [
         ("gentle", "| 1, 0.5, 1; (0.05, 0.05, 0.05, 0.09, 0.01, 0.01)"),
         ("hard", "| 1, 1.2, 1.4; the same"),
@@ -57,13 +57,13 @@ fn numbers_in_the_table_and_on_the_page_are_those_of_the_simulation() {
     ]
     .map(|(name, row_start)| {
         let [printed_pose_gain, printed_row @ ..]: [PrintedNumber; 5] =
-            statistics_document().numbers(&format!("{row_start} | # | # | # | # % | # |"));
-        let simulation = simulation_of(name);
+            statistics_document().sentence_numbers(&format!("{row_start} | # | # | # | # % | # |"));
+        let simulation = simulate_preset(name);
         let exact_column = assert_row(&simulation, printed_row);
         printed_pose_gain.assert_near(exact_column.likelihood_gain.pose, 0.0);
         (exact_column, simulation)
     });
-    let [printed_ellipse_percentage, printed_outline_percentage, printed_skew, printed_gaussian_skew] = page().numbers(
+    let [printed_ellipse_percentage, printed_outline_percentage, printed_skew, printed_gaussian_skew] = page().sentence_numbers(
         "do not give the ellipse away, # % and # %. The cross-track skew, the lopsidedness across the path, does: #, \
          where any Gaussian in (x, y) has #, and so has the banana.",
     );
@@ -101,17 +101,21 @@ fn the_ellipse_covers_floor_where_few_robots_stop() {
     );
     let simulation = simulation(Settings { samples: 300_000, ..settings_of_preset("banana") });
     let contours = simulation.contours();
-    let are_inside = |at| [&contours.ellipse, &contours.exponential].map(|outline| winds_around(outline, at));
+    let is_inside_outlines =
+        |at| [&contours.ellipse, &contours.exponential].map(|outline| winds_around(outline, at));
     const CELL_SIZE: f64 = 0.02;
     let cell_indices = (0..250).flat_map(|column| (0..250).map(move |row| (column, row)));
     let cells_inside: Vec<[bool; 2]> = cell_indices
-        .map(|(column, row)| are_inside([f64::from(column) * CELL_SIZE, f64::from(row) * CELL_SIZE - 2.5]))
+        .map(|(column, row)| {
+            is_inside_outlines([f64::from(column) * CELL_SIZE, f64::from(row) * CELL_SIZE - 2.5])
+        })
         .collect();
     let robots_inside: Vec<[bool; 2]> =
-        simulation.poses().map(|pose| are_inside([pose.x(), pose.y()])).collect();
-    let robot_density = |inside: [bool; 2]| {
-        let count_of = |points: &[[bool; 2]]| points.iter().filter(|point| **point == inside).count() as f64;
-        count_of(&robots_inside) / (count_of(&cells_inside) * CELL_SIZE * CELL_SIZE)
+        simulation.poses().map(|pose| is_inside_outlines([pose.x(), pose.y()])).collect();
+    let robot_density = |inside_outlines: [bool; 2]| {
+        let count_points =
+            |points: &[[bool; 2]]| points.iter().filter(|point| **point == inside_outlines).count() as f64;
+        count_points(&robots_inside) / (count_points(&cells_inside) * CELL_SIZE * CELL_SIZE)
     };
     let density_ratio = robot_density([false, true]) / robot_density([true, false]);
     assert_eq!(density_ratio.round(), 7.0, "{density_ratio}");
@@ -129,33 +133,33 @@ fn a_tenth_of_the_time_leaves_less_than_a_tenth_of_the_cloud() {
     };
     let [long_drive_simulation, short_drive_simulation] = [long_drive_settings, short_drive_settings]
         .map(|settings| simulation(Settings { samples: 10, ..settings }));
-    let cloud_size = |simulation: &BananaMachine| {
+    let largest_std = |simulation: &BananaMachine| {
         let cov = simulation.table().exact.cov;
         (cov[(0, 0)] + cov[(1, 1)]).sqrt()
     };
     assert!(
-        cloud_size(&short_drive_simulation) < 0.1 * cloud_size(&long_drive_simulation),
+        largest_std(&short_drive_simulation) < 0.1 * largest_std(&long_drive_simulation),
         "{} {}",
-        cloud_size(&short_drive_simulation),
-        cloud_size(&long_drive_simulation)
+        largest_std(&short_drive_simulation),
+        largest_std(&long_drive_simulation)
     );
 }
 
 #[test]
 fn the_predicted_skew_misses_under_the_odometry_model() {
     let [robot_count, min_standard_errors] =
-        page().numbers("and the prediction misses: with # robots by more than # standard errors.");
+        page().sentence_numbers("and the prediction misses: with # robots by more than # standard errors.");
     let settings = Settings { samples: robot_count.value as usize, ..settings_of_preset("gentle") };
     let mut velocity_alphas = settings.velocity_alphas;
     velocity_alphas[4..].fill(0.0);
-    let miss_in_standard_errors = |settings| {
+    let skew_miss_in_standard_errors = |settings| {
         let simulation = simulation(settings);
         let stats = simulation.stats();
         (stats.cross_track_skew - stats.gaussian_skew).abs() / stats.cross_track_skew_error
     };
-    assert!(miss_in_standard_errors(Settings { velocity_alphas, ..settings }) < MAX_STANDARD_ERRORS);
+    assert!(skew_miss_in_standard_errors(Settings { velocity_alphas, ..settings }) < MAX_STANDARD_ERRORS);
     assert!(
-        miss_in_standard_errors(Settings { model: ModelKind::Odometry, ..settings })
+        skew_miss_in_standard_errors(Settings { model: ModelKind::Odometry, ..settings })
             > min_standard_errors.value
     );
 }

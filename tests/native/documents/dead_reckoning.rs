@@ -16,14 +16,14 @@ fn simulation_of_preset(name: &str) -> DeadReckoning {
 /// Returns the predicted variances of an axis after each step, divided by those of the fourth order, which are accurate to a few
 /// thousandths.
 fn ratios_to_fourth_order(simulation: &DeadReckoning, order: Compounding, axis: usize) -> Vec<f64> {
-    let variances = |order| {
+    let predicted_variances = |order| {
         simulation
             .predicted_covariances(order)
             .iter()
             .map(move |variance| variance.expect("a covariance")[(axis, axis)])
     };
-    variances(order)
-        .zip(variances(Compounding::FourthOrder))
+    predicted_variances(order)
+        .zip(predicted_variances(Compounding::FourthOrder))
         .map(|(variance, exact_variance)| variance / exact_variance)
         .collect()
 }
@@ -37,12 +37,12 @@ fn missed_steps(ratios: &[f64]) -> Vec<usize> {
 fn printed_losses_of_variance_equal_those_of_the_simulation() {
     let initial_simulation = simulation(Settings::default());
     let [printed_loss]: [PrintedNumber; 1] =
-        page().numbers("what its own loses by the end: # % of the variance along the track");
+        page().sentence_numbers("what its own loses by the end: # % of the variance along the track");
     let comparison = initial_simulation.comparison(Compounding::Chapter);
     printed_loss.assert_percent(-comparison.misses[0].end, 0.0);
     printed_loss
         .assert_percent(1.0 - ratios_to_fourth_order(&initial_simulation, Compounding::Chapter, 0)[19], 0.0);
-    let [printed_along_loss, printed_lateral_loss]: [PrintedNumber; 2] = page().numbers(
+    let [printed_along_loss, printed_lateral_loss]: [PrintedNumber; 2] = page().sentence_numbers(
         "After the chapter’s 20 steps the variance along the track is # % below that of 50\u{202f}000 robots. Across the track \
          it is 0 after step 1, and # % too small at the end.",
     );
@@ -57,7 +57,7 @@ fn printed_losses_of_variance_equal_those_of_the_simulation() {
     assert_eq!(comparison.ratios[0].y, 0.0);
     assert!(initial_simulation.measured_moments()[0].cov[(1, 1)] > 0.0);
     let [printed_ratio_at_2, printed_ratio_at_5]: [PrintedNumber; 2] =
-        page().numbers("At step 2 it predicts # of the lateral variance, at step 5 #.");
+        page().sentence_numbers("At step 2 it predicts # of the lateral variance, at step 5 #.");
     for ratios in [
         ratios_to_fourth_order(&initial_simulation, Compounding::Chapter, 1),
         comparison.ratios.iter().map(|ratio| ratio.y).collect(),
@@ -79,13 +79,13 @@ fn printed_losses_of_variance_equal_those_of_the_simulation() {
 /// the tails are heavy.
 #[test]
 fn ratios_and_crossings_are_those_of_exercise_7() {
-    let document = exercises_document();
+    let exercises_text = exercises_document();
     let simulations = ["chapter", "doubled"].map(simulation_of_preset);
     for k in [1, 2, 5, 10, 20] {
-        let ratios_of =
+        let error_ratios =
             |order| [0, 1, 2].map(|axis| ratios_to_fourth_order(&simulations[0], order, axis)[k - 1]);
-        let [[a, b, c], [d, e, f]] = [Compounding::Chapter, Compounding::FirstOrder].map(ratios_of);
-        document.assert_numbers(&format!("| {k} | # | # | # | # | # | # |"), [a, b, c, d, e, f]);
+        let [[a, b, c], [d, e, f]] = [Compounding::Chapter, Compounding::FirstOrder].map(error_ratios);
+        exercises_text.assert_numbers(&format!("| {k} | # | # | # | # | # | # |"), [a, b, c, d, e, f]);
     }
     let first_missed_steps = simulations.map(|simulation| {
         let tolerance = MAX_STANDARD_ERRORS * (2.3 / simulation.settings().samples as f64).sqrt();
@@ -102,7 +102,7 @@ fn ratios_and_crossings_are_those_of_exercise_7() {
         );
         f64::from(first_missed_step)
     });
-    document.assert_numbers(
+    exercises_text.assert_numbers(
         "off by more than 5 % from step # on. With the heading's standard deviation doubled (α₃ to α₆ four times as \
          large) it is from step # on",
         first_missed_steps,
@@ -119,26 +119,27 @@ fn ratios_and_crossings_are_those_of_exercise_7() {
 #[test]
 fn the_crossing_times_are_those_of_exercise_2() {
     let initial_simulation = simulation(Settings { samples: 1, ..Settings::default() });
-    let growth = initial_simulation.straight_growth();
-    let last_index = growth.durations.len() - 1;
+    let straight_growth = initial_simulation.straight_growth();
+    let last_index = straight_growth.durations.len() - 1;
     let growth_exponent = |stds: &[f64]| {
-        (stds[last_index] / stds[0]).ln() / (growth.durations[last_index] / growth.durations[0]).ln()
+        (stds[last_index] / stds[0]).ln()
+            / (straight_growth.durations[last_index] / straight_growth.durations[0]).ln()
     };
-    let growth_exponents =
-        [&growth.along_first_order, &growth.across_first_order].map(|stds| growth_exponent(stds));
+    let growth_exponents = [&straight_growth.along_first_order, &straight_growth.across_first_order]
+        .map(|stds| growth_exponent(stds));
     let heading_alpha = 4.0 * initial_simulation.settings().heading_noise().expect("a level");
     let alphas = [0.02, 0.02, heading_alpha, heading_alpha, heading_alpha / 4.0, heading_alpha / 4.0];
     let doubled_simulation = simulation(Settings { alphas, samples: 1, ..Settings::default() });
-    let crossing_times =
-        [&growth, &doubled_simulation.straight_growth()].map(|growth| growth.crossing.expect("a crossing"));
-    let document = exercises_document();
+    let crossing_times = [&straight_growth, &doubled_simulation.straight_growth()]
+        .map(|straight_growth| straight_growth.crossing.expect("a crossing"));
+    let exercises_text = exercises_document();
     page().assert_numbers(
         "along the track with the power #, across it with the power #. They cross",
         growth_exponents,
     );
-    document.assert_numbers("grows with the power # of Δt, across it with #. ", growth_exponents);
+    exercises_text.assert_numbers("grows with the power # of Δt, across it with #. ", growth_exponents);
     page().assert_numbers("They cross after # s; with the heading σ doubled, after # s.", crossing_times);
-    document.assert_numbers(
+    exercises_text.assert_numbers(
         "with α₁ = α₃ after # s, and with the heading's σ doubled (α₃ four times as large) after # s",
         crossing_times,
     );
@@ -154,7 +155,8 @@ fn with_two_hundred_steps_the_recursion_misses_for_half_a_second() {
     assert!(missed_steps(&ratios_to_fourth_order(&fine_simulation, Compounding::Chapter, 0)).is_empty());
     for (simulation, half_seconds) in [(&fine_simulation, 1.0), (&chapter_simulation, 6.0)] {
         let missed_steps = missed_steps(&ratios_to_fourth_order(simulation, Compounding::Chapter, 1));
-        let duration = *missed_steps.last().expect("it misses") as f64 * simulation.settings().command.dt;
-        assert_eq!((2.0 * duration).round(), half_seconds, "{duration}");
+        let miss_duration =
+            *missed_steps.last().expect("it misses") as f64 * simulation.settings().command.dt;
+        assert_eq!((2.0 * miss_duration).round(), half_seconds, "{miss_duration}");
     }
 }

@@ -40,28 +40,31 @@ fn rms_error_of_arc_form(omega: f64, dt: f64) -> f64 {
 #[test]
 fn exercise_1_prints_the_errors_of_the_straight_line_branch() {
     let dt = 0.1;
-    let line_error = |omega: f64| 0.5 * omega * dt * dt;
+    let expected_line_error = |omega: f64| 0.5 * omega * dt * dt;
     // The error varies strongly with ω. Its geometric mean over a tenth of a decade is therefore compared.
-    let error_ratio = |omega: f64| {
+    let line_to_arc_error_ratio = |omega: f64| {
         let turn_rates = (0..20).map(|i| omega * 10f64.powf(f64::from(i) / 200.0 - 0.05));
-        (turn_rates.map(|omega| (rms_error_of_arc_form(omega, dt) / line_error(omega)).ln()).sum::<f64>()
+        (turn_rates
+            .map(|omega| (rms_error_of_arc_form(omega, dt) / expected_line_error(omega)).ln())
+            .sum::<f64>()
             / 20.0)
             .exp()
     };
-    let crossover_turn_rate =
-        (0..400).map(|i| 1e-9 * 10f64.powf(f64::from(i) / 100.0)).find(|omega| error_ratio(*omega) < 1.0);
-    let [printed_crossover, printed_estimate]: [PrintedNumber; 2] =
-        exercises_document().numbers("below |ω̂| = # × 10⁻⁷ rad/s, where the estimate √(2ε)/Δt says # × 10⁻⁷");
+    let crossover_turn_rate = (0..400)
+        .map(|i| 1e-9 * 10f64.powf(f64::from(i) / 100.0))
+        .find(|omega| line_to_arc_error_ratio(*omega) < 1.0);
+    let [printed_crossover, printed_estimate]: [PrintedNumber; 2] = exercises_document()
+        .sentence_numbers("below |ω̂| = # × 10⁻⁷ rad/s, where the estimate √(2ε)/Δt says # × 10⁻⁷");
     printed_crossover.assert_near(crossover_turn_rate.expect("a crossover") / 1e-7, 0.0);
     printed_estimate.assert_near((2.0 * f64::EPSILON).sqrt() / dt / 1e-7, 0.0);
     let [printed_line_error, printed_arc_error, printed_ratio]: [PrintedNumber; 3] = exercises_document()
-        .numbers(
+        .sentence_numbers(
             "the straight line is off by # nm, and the arc form by # nm. Switching so early costs # times",
         );
-    let (line_error, arc_error) = (line_error(1e-6), rms_error_of_arc_form(1e-6, dt));
-    printed_line_error.assert_near(line_error / 1e-9, 0.0);
+    let (expected_line_error, arc_error) = (expected_line_error(1e-6), rms_error_of_arc_form(1e-6, dt));
+    printed_line_error.assert_near(expected_line_error / 1e-9, 0.0);
     printed_arc_error.assert_near(arc_error / 1e-9, 0.0);
-    printed_ratio.assert_near(line_error / arc_error, 0.0);
+    printed_ratio.assert_near(expected_line_error / arc_error, 0.0);
     exercises_document().assert_contains("up to half a micrometre where Δt is a second");
     let arc_end = Arc { start: SE2::identity(), length: 1.0, turn: 1e-6 }.end();
     assert!(((arc_end.x() - 1.0).hypot(arc_end.y()) - 0.5e-6).abs() < 1e-12, "{arc_end:?}");
@@ -73,21 +76,24 @@ fn exercise_3_prints_the_jacobian_determinant() {
     let model = velocity_model([0.02, 0.02, 0.02, 0.02, 0.01, 0.01]);
     let x = SE2::identity();
     let noise_free_end = x.boxplus(TangentNoiseModel::twist(&U));
-    let [printed_determinant]: [PrintedNumber; 1] =
-        exercises_document().numbers("At the noise-free end of the worked example's command it is #, and");
+    let [printed_determinant]: [PrintedNumber; 1] = exercises_document()
+        .sentence_numbers("At the noise-free end of the worked example's command it is #, and");
     let stds = model.variances(&U).map(|variance| variance.0.sqrt());
     let noise_jacobian = derivative_by_noise([0.0; 3], |unit| model.apply_noise(&U, &x, unit));
-    let determinant = noise_jacobian.determinant() / stds.iter().product::<f64>();
-    printed_determinant.assert_near(determinant, 0.0);
+    let unit_jacobian_determinant = noise_jacobian.determinant() / stds.iter().product::<f64>();
+    printed_determinant.assert_near(unit_jacobian_determinant, 0.0);
     let prob_ratio = model.prob(&noise_free_end, &U, &x)
         / model.pose_density(&noise_free_end, &U, &x).expect("noise of full rank");
-    assert!((prob_ratio / determinant - 1.0).abs() < 1e-8, "{prob_ratio} {determinant}");
+    assert!(
+        (prob_ratio / unit_jacobian_determinant - 1.0).abs() < 1e-8,
+        "{prob_ratio} {unit_jacobian_determinant}"
+    );
 
-    let odometry = OdometryModel { alphas: OdomAlphas([0.02; 4]), noise: NoiseKind::Normal };
+    let odometry_model = OdometryModel { alphas: OdomAlphas([0.02; 4]), noise: NoiseKind::Normal };
     let u = OdomDelta { rot1: 0.3, trans: 0.8, rot2: 0.2 };
-    let density = odometry.pose_density(&u.apply(&x), &u, &x).expect("noise of full rank");
+    let density = odometry_model.pose_density(&u.apply(&x), &u, &x).expect("noise of full rank");
     let peak_factors: f64 =
-        odometry.variances(&u).map(|variance| NoiseKind::Normal.prob(0.0, variance)).iter().product();
+        odometry_model.variances(&u).map(|variance| NoiseKind::Normal.prob(0.0, variance)).iter().product();
     assert!((density / peak_factors * u.trans - 1.0).abs() < 1e-12);
 }
 
@@ -111,7 +117,7 @@ fn exercise_4_prints_the_effect_of_each_alpha() {
         "headings spread with a variance of # rad²",
         "its curve has a cross-track skew of #, which",
     ]
-    .map(|sentence| exercises_document().numbers::<1>(sentence)[0]);
+    .map(|sentence| exercises_document().sentence_numbers::<1>(sentence)[0]);
     assert_eq!(printed_alpha.value, 0.09);
     let [exact_with_alpha4, exact_with_alpha6] =
         [3, 5].map(|index| exact_and_is_one_pose(index, turning_command).0);
@@ -126,21 +132,21 @@ fn exercise_4_prints_the_effect_of_each_alpha() {
 fn exercise_5_prints_the_fractions_through_walls() {
     let settings_with = |n: f64, omega: f64, sampler: Sampler| {
         let command = VelocityCmd { omega, ..squeeze::Settings::default().command };
-        let (alphas, steps, samples) = (alphas_of_noise_level(n), sampler.parts(), 20_000);
+        let (alphas, steps, samples) = (alphas_of_noise_level(n), sampler.part_count(), 20_000);
         squeeze::Settings { command, alphas, sampler, steps, samples, ..Default::default() }
     };
-    let stats_of = |settings| MapSqueeze::new(settings).expect("valid settings").stats();
+    let squeeze_stats = |settings| MapSqueeze::new(settings).expect("valid settings").stats();
     for n in ["0.02", "0.05", "0.12", "0.4"] {
-        let printed: [PrintedNumber; 5] =
-            exercises_document().numbers(&format!("| {n} | # | # | # | # | # |"));
-        for (printed, omega) in printed.into_iter().zip([0.0, 0.2, 0.4, 0.6, 0.8]) {
+        let printed_numbers: [PrintedNumber; 5] =
+            exercises_document().sentence_numbers(&format!("| {n} | # | # | # | # | # |"));
+        for (printed, omega) in printed_numbers.into_iter().zip([0.0, 0.2, 0.4, 0.6, 0.8]) {
             let settings = settings_with(n.parse().expect("a number"), omega, Sampler::Endpoint);
-            printed.assert_percent(stats_of(settings).through_wall_rate, 0.0);
+            printed.assert_percent(squeeze_stats(settings).through_wall_rate, 0.0);
         }
     }
     exercises_document().assert_contains("Noise alone, up to 0.4, never gets it to 40 %.");
     for i in [8, 24, 40, 56, 80] {
-        let stats = stats_of(settings_with(0.005 * f64::from(i), 0.0, Sampler::Endpoint));
+        let stats = squeeze_stats(settings_with(0.005 * f64::from(i), 0.0, Sampler::Endpoint));
         assert!(stats.through_wall_rate < 0.4, "{i}: {}", stats.through_wall_rate);
     }
     let [printed_arc_draws, printed_quarters_draws, printed_quarters_percentage, printed_eighths_draws]: [PrintedNumber; 4] = [
@@ -149,17 +155,17 @@ fn exercise_5_prints_the_fractions_through_walls() {
         "draws, and # % still go through one",
         "eight cost # draws",
     ]
-    .map(|sentence| exercises_document().numbers::<1>(sentence)[0]);
-    let stats_of_sampler = |sampler| stats_of(settings_with(0.12, 0.6, sampler));
-    let whole_arc_stats = stats_of_sampler(Sampler::WholeArc);
+    .map(|sentence| exercises_document().sentence_numbers::<1>(sentence)[0]);
+    let sampler_stats = |sampler| squeeze_stats(settings_with(0.12, 0.6, sampler));
+    let whole_arc_stats = sampler_stats(Sampler::WholeArc);
     printed_arc_draws.assert_near(whole_arc_stats.draws_per_accepted, 0.0);
     assert_eq!(whole_arc_stats.through_wall, 0);
-    let [quarters_stats, eighths_stats] = [4, 8].map(|parts| stats_of_sampler(Sampler::SubStepped(parts)));
+    let [quarters_stats, eighths_stats] = [4, 8].map(|parts| sampler_stats(Sampler::SubStepped(parts)));
     printed_quarters_draws.assert_near(quarters_stats.draws_per_accepted, 0.0);
     printed_quarters_percentage.assert_percent(quarters_stats.through_wall_rate, 0.0);
     printed_eighths_draws.assert_near(eighths_stats.draws_per_accepted, 0.0);
     let [draws_per_second]: [PrintedNumber; 1] =
-        exercises_document().numbers("at 20 Hz that is # draws a second");
+        exercises_document().sentence_numbers("at 20 Hz that is # draws a second");
     // The number is printed in thousands.
     assert!((draws_per_second.value - 2000.0 * 20.0 * whole_arc_stats.draws_per_accepted).abs() <= 500.0);
 }
@@ -167,21 +173,21 @@ fn exercise_5_prints_the_fractions_through_walls() {
 #[test]
 fn exercise_6_prints_the_skew_of_the_triangular_sampler() {
     let heading_variance = Variance(0.025);
-    let [printed_limit, printed_tail]: [PrintedNumber; 2] =
-        exercises_document().numbers("√6·b is # rad for the heading, beyond which # % of normal draws are");
+    let [printed_limit, printed_tail]: [PrintedNumber; 2] = exercises_document()
+        .sentence_numbers("√6·b is # rad for the heading, beyond which # % of normal draws are");
     printed_limit.assert_near((6.0 * heading_variance.0).sqrt(), 0.0);
-    let sampled_poses = |noise| {
+    let sample_poses = |noise| {
         let model = VelocityModel { alphas: VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.0, 0.0]), noise };
         let mut rng = seeded_rng(7);
         (0..200_000).map(move |_| model.sample(&U, &SE2::identity(), &mut rng))
     };
     printed_tail.assert_percent(2.0 * unit_cdf(NoiseKind::Normal, -6f64.sqrt()), 0.0);
     assert!(
-        sampled_poses(NoiseKind::Triangular)
+        sample_poses(NoiseKind::Triangular)
             .all(|pose| (pose.theta() - 0.5).abs() <= printed_limit.value + printed_limit.rounding)
     );
     let printed_skews: [PrintedNumber; 2] =
-        exercises_document().numbers("the skew is # with normal noise and # with triangular noise");
+        exercises_document().sentence_numbers("the skew is # with normal noise and # with triangular noise");
     for (printed_skew, noise) in printed_skews.into_iter().zip([NoiseKind::Normal, NoiseKind::Triangular]) {
         let simulation = BananaMachine::new(Settings { noise, samples: 10, ..settings_of_preset("worked") })
             .expect("valid settings");

@@ -5,19 +5,19 @@ use crate::simulations::odometry_decomposer::{settings_of_preset, simulation};
 use motion::models::OdometryRule::{self, Beluga, Nav2, Omni, Table};
 use motion::sim::odometry_decomposer::{OdometryPose, RuleNoise, Settings};
 
-fn noise_of(settings: Settings, rule: OdometryRule) -> RuleNoise {
+fn rule_noise(settings: Settings, rule: OdometryRule) -> RuleNoise {
     simulation(settings).rule_noises().into_iter().find(|noise| noise.rule == rule).expect("all rules")
 }
 
 #[test]
 fn the_lever_grows_faster_than_the_drive() {
     // The page states the exact standard deviation at the end, not lever arm times angle.
-    let [printed_rot1_std, printed_lateral_std, printed_growth] = page().numbers(
+    let [printed_rot1_std, printed_lateral_std, printed_growth] = page().sentence_numbers(
         "the noise of the first rotation: ± # rad at the start are ± # m across at the end. Twice as far it is # times as much",
     );
     let settings = settings_of_preset("all");
     let stats = simulation(settings).stats();
-    printed_rot1_std.assert_near(noise_of(settings, Table).deviations[0], 0.0);
+    printed_rot1_std.assert_near(rule_noise(settings, Table).deviations[0], 0.0);
     printed_lateral_std.assert_near(stats.exact_cross_track, 0.0);
     let OdometryPose([x, y, theta]) = settings.to;
     let long_drive_settings = Settings { to: OdometryPose([2.0 * x, 2.0 * y, theta]), ..settings };
@@ -29,14 +29,15 @@ fn the_lever_grows_faster_than_the_drive() {
 
 #[test]
 fn only_the_table_adds_noise_of_two_half_turns_in_reverse() {
-    let [printed_table_std, printed_localizer_std] =
-        page().numbers("adds ± # rad and more; the localizers AMCL of Nav2 and Beluga add ± # for either.");
-    let deviations_of = |rule| noise_of(settings_of_preset("reverse"), rule).deviations;
-    let [rot1_std, _, rot2_std, _] = deviations_of(Table);
+    let [printed_table_std, printed_localizer_std] = page().sentence_numbers(
+        "adds ± # rad and more; the localizers AMCL of Nav2 and Beluga add ± # for either.",
+    );
+    let rule_deviations = |rule| rule_noise(settings_of_preset("reverse"), rule).deviations;
+    let [rot1_std, _, rot2_std, _] = rule_deviations(Table);
     printed_table_std.assert_near(rot1_std, 0.0);
     assert!(rot2_std > rot1_std);
     for rule in [Nav2, Beluga] {
-        let [rot1_std, _, rot2_std, _] = deviations_of(rule);
+        let [rot1_std, _, rot2_std, _] = rule_deviations(rule);
         printed_localizer_std.assert_near(rot1_std, 0.0);
         printed_localizer_std.assert_near(rot2_std, 0.0);
     }
@@ -44,12 +45,14 @@ fn only_the_table_adds_noise_of_two_half_turns_in_reverse() {
 
 #[test]
 fn correlation_changes_the_heading_deviation_from_difference_to_sum() {
-    let [printed_min_std, printed_max_std] =
-        page().numbers("No outcome moves, and the standard deviation of the heading goes from # to # rad.");
-    let simulation_with = |correlation| simulation(Settings { correlation, ..settings_of_preset("all") });
-    printed_min_std.assert_near(simulation_with(-1.0).stats().exact_heading, 0.0);
-    printed_max_std.assert_near(simulation_with(1.0).stats().exact_heading, 0.0);
-    for (a, b) in simulation_with(-1.0).poses().iter().zip(simulation_with(1.0).poses()) {
+    let [printed_min_std, printed_max_std] = page().sentence_numbers(
+        "No outcome moves, and the standard deviation of the heading goes from # to # rad.",
+    );
+    let simulate_correlation =
+        |correlation| simulation(Settings { correlation, ..settings_of_preset("all") });
+    printed_min_std.assert_near(simulate_correlation(-1.0).stats().exact_heading, 0.0);
+    printed_max_std.assert_near(simulate_correlation(1.0).stats().exact_heading, 0.0);
+    for (a, b) in simulate_correlation(-1.0).poses().iter().zip(simulate_correlation(1.0).poses()) {
         assert_eq!((a.x(), a.y()), (b.x(), b.y()));
     }
 }
@@ -57,15 +60,15 @@ fn correlation_changes_the_heading_deviation_from_difference_to_sum() {
 /// Checks the table of doc/model.md, which has the standard deviations of the legs for three odometry readings.
 #[test]
 fn the_variances_of_the_rules_are_those_in_the_document() {
-    let presets = [("reverse", "reverse"), ("spin", "spin"), ("rest", "at rest")];
-    let rules = [(Table, "Table 5.6"), (Nav2, "Nav2, Beluga"), (Omni, "omnidirectional")];
+    let preset_row_names = [("reverse", "reverse"), ("spin", "spin"), ("rest", "at rest")];
+    let rule_column_names = [(Table, "Table 5.6"), (Nav2, "Nav2, Beluga"), (Omni, "omnidirectional")];
     for ((preset, row_name), (rule, rule_name)) in
-        presets.into_iter().flat_map(|preset| rules.map(|rule| (preset, rule)))
+        preset_row_names.into_iter().flat_map(|preset| rule_column_names.map(|rule| (preset, rule)))
     {
-        let stds = noise_of(settings_of_preset(preset), rule).deviations;
+        let stds = rule_noise(settings_of_preset(preset), rule).deviations;
         model_document().assert_numbers(&format!("| {row_name} | {rule_name} | # | # | # | # |"), stds);
         if rule == Nav2 {
-            assert_eq!(noise_of(settings_of_preset(preset), Beluga).deviations, stds);
+            assert_eq!(rule_noise(settings_of_preset(preset), Beluga).deviations, stds);
         }
     }
 }
@@ -73,7 +76,7 @@ fn the_variances_of_the_rules_are_those_in_the_document() {
 #[test]
 fn encoders_at_rest_are_noisy_by_the_table_alone() {
     let [printed_heading_std] =
-        page().numbers("the heading of a robot that has not moved is uncertain by ± # rad,");
+        page().sentence_numbers("the heading of a robot that has not moved is uncertain by ± # rad,");
     page().assert_contains("The encoders have jittered by half a centimetre.");
     let settings_at_rest = settings_of_preset("rest");
     assert_eq!((1000.0 * settings_at_rest.to.0[0].hypot(settings_at_rest.to.0[1])).round(), 5.0);

@@ -6,19 +6,19 @@ use crate::common::{MAX_STANDARD_ERRORS, seeded_rng};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::map::{FloorPlan, MapConditioned, Sampler};
-use motion::noise::centred_uniform;
+use motion::noise::draw_centred_uniform;
 use motion::sim::squeeze::{MapSqueeze, PRESETS, Settings, alphas_of_noise_level};
 use motion::{NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
 
 /// Indices in `PRESETS` of the starts at the doorway, at the wall and in the corridor.
-const DOORWAY: usize = 0;
-const WALL: usize = 1;
-const CORRIDOR: usize = 2;
+const DOORWAY_PRESET: usize = 0;
+const WALL_PRESET: usize = 1;
+const CORRIDOR_PRESET: usize = 2;
 
 /// Returns the initial settings with another start, sampler and turn rate.
 fn settings(preset: usize, sampler: Sampler, omega: f64) -> Settings {
     let command = VelocityCmd { omega, ..Settings::default().command };
-    let steps = sampler.parts();
+    let steps = sampler.part_count();
     let samples = 100_000.min(800_000 / steps as usize);
     Settings { start: PRESETS[preset].1, sampler, steps, command, samples, seed: 3, ..Settings::default() }
 }
@@ -30,7 +30,7 @@ fn simulation(settings: Settings) -> MapSqueeze {
 /// Returns the fraction of accepted samples whose path crosses a wall, and its standard error.
 fn fraction_through_wall(settings: Settings) -> (f64, f64) {
     let simulation = simulation(settings);
-    assert!(!simulation.gave_up(), "{settings:?}");
+    assert!(!simulation.has_given_up(), "{settings:?}");
     let (fraction, count) = (simulation.tally().through_wall_rate(), simulation.tally().accepted as f64);
     // A fraction of 0 would have a standard error of 0. The error of one sample through the wall is used instead.
     (fraction, ((fraction * (1.0 - fraction)).max(1.0 / count) / count).sqrt())
@@ -55,13 +55,13 @@ fn assert_less(smaller: (f64, f64), larger: (f64, f64), description: &str) {
 
 #[test]
 fn most_accepted_samples_lie_behind_the_wall() {
-    let [printed_fraction] = page().numbers(
+    let [printed_fraction] = page().sentence_numbers(
         "Drive at a wall # % of what is accepted went through a wall, where the robot could never have gone. Test the \
          whole arc, and only what stopped short of the wall is left.",
     );
-    assert_printed(fraction_through_wall(settings(WALL, Sampler::Endpoint, 0.0)), printed_fraction);
+    assert_printed(fraction_through_wall(settings(WALL_PRESET, Sampler::Endpoint, 0.0)), printed_fraction);
     let fraction_behind_wall = |sampler| {
-        let simulation = simulation(settings(WALL, sampler, 0.0));
+        let simulation = simulation(settings(WALL_PRESET, sampler, 0.0));
         let accepted_y: Vec<f64> =
             simulation.attempts().iter().filter(|a| a.accepted).map(|a| a.pose.y()).collect();
         // The wall ahead is at y = 3.8. Robots that turn aside also end before it.
@@ -73,42 +73,43 @@ fn most_accepted_samples_lie_behind_the_wall() {
 
 #[test]
 fn a_third_of_the_accepted_motions_went_through_a_wall_at_the_doorway() {
-    let [printed_noise_level, printed_fraction] =
-        page().numbers("straight ahead at noise level #, # % of the accepted motions went through a wall.");
+    let [printed_noise_level, printed_fraction] = page().sentence_numbers(
+        "straight ahead at noise level #, # % of the accepted motions went through a wall.",
+    );
     assert_eq!(Settings::default().alphas, alphas_of_noise_level(printed_noise_level.value));
-    assert_printed(fraction_through_wall(settings(DOORWAY, Sampler::Endpoint, 0.0)), printed_fraction);
+    assert_printed(fraction_through_wall(settings(DOORWAY_PRESET, Sampler::Endpoint, 0.0)), printed_fraction);
 }
 
 #[test]
 #[ignore = "nightly: 30 clouds of 100,000"]
 fn fractions_through_walls_by_substeps_are_those_in_the_documents() {
-    let printed_fractions = model_document().numbers(
+    let printed_fractions = model_document().sentence_numbers(
         "On a straight command it falls with k: to # % at k = 16 facing the doorway, and to # % in the corridor.",
     );
     for (place, printed_fraction) in
-        [DOORWAY, CORRIDOR].into_iter().zip::<[PrintedNumber; 2]>(printed_fractions)
+        [DOORWAY_PRESET, CORRIDOR_PRESET].into_iter().zip::<[PrintedNumber; 2]>(printed_fractions)
     {
         assert_printed(fraction_in_parts(place, 16, 0.0), printed_fraction);
         assert!(fraction_in_parts(place, 64, 0.0).0 < 1e-3, "nearly nothing at the end of the slider");
     }
-    let [printed_omega, printed_endpoint, printed_parts, printed_part_count] = page().numbers(
+    let [printed_omega, printed_endpoint, printed_parts, printed_part_count] = page().sentence_numbers(
         "With ω = # more pass at first, from # % by the endpoint test to # % in # parts, and only then fewer.",
     );
     assert_printed(
-        fraction_through_wall(settings(DOORWAY, Sampler::Endpoint, printed_omega.value)),
+        fraction_through_wall(settings(DOORWAY_PRESET, Sampler::Endpoint, printed_omega.value)),
         printed_endpoint,
     );
     assert_printed(
-        fraction_in_parts(DOORWAY, printed_part_count.value as u32, printed_omega.value),
+        fraction_in_parts(DOORWAY_PRESET, printed_part_count.value as u32, printed_omega.value),
         printed_parts,
     );
-    let [d1, d4, d6, d8, d16, c1, c4, c6, c8, c12] = model_document().numbers(
+    let [d1, d4, d6, d8, d16, c1, c4, c6, c8, c12] = model_document().sentence_numbers(
         "At the doorway it is # % at k = 1, # % at 4, # % at 6, # % at 8, and # % at 16. In the corridor it rises from # % \
          over # and # % to # % at k = 8, and falls to # % at 12.",
     );
     for (place, endpoint, printed_fractions) in [
-        (DOORWAY, d1, [(4, d4), (6, d6), (8, d8), (16, d16)]),
-        (CORRIDOR, c1, [(4, c4), (6, c6), (8, c8), (12, c12)]),
+        (DOORWAY_PRESET, d1, [(4, d4), (6, d6), (8, d8), (16, d16)]),
+        (CORRIDOR_PRESET, c1, [(4, c4), (6, c6), (8, c8), (12, c12)]),
     ] {
         assert_printed(
             fraction_through_wall(settings(place, Sampler::Endpoint, printed_omega.value)),
@@ -123,31 +124,34 @@ fn fractions_through_walls_by_substeps_are_those_in_the_documents() {
 #[test]
 #[ignore = "nightly: clouds of 100,000"]
 fn more_substeps_facing_the_wall_send_more_samples_through_it() {
-    let fractions = [2, 4, 8].map(|parts| fraction_in_parts(WALL, parts, 0.0));
-    fractions.windows(2).for_each(|pair| assert_less(pair[0], pair[1], "more parts"));
-    let [printed_with_endpoint, printed_with_2_parts, printed_with_4_parts, printed_with_8_parts, printed_wedged_parts] = model_document().numbers(
+    let through_wall_fractions = [2, 4, 8].map(|parts| fraction_in_parts(WALL_PRESET, parts, 0.0));
+    through_wall_fractions.windows(2).for_each(|pair| assert_less(pair[0], pair[1], "more parts"));
+    let [printed_with_endpoint, printed_with_2_parts, printed_with_4_parts, printed_with_8_parts, printed_wedged_parts] = model_document().sentence_numbers(
         "it rises from # % at k = 1 to # %, # % and # % at k = 2, 4 and 8. From k = # on, so few parts reach across that \
          the widget gives up.",
     );
-    assert_printed(fraction_through_wall(settings(WALL, Sampler::Endpoint, 0.0)), printed_with_endpoint);
-    fractions
+    assert_printed(
+        fraction_through_wall(settings(WALL_PRESET, Sampler::Endpoint, 0.0)),
+        printed_with_endpoint,
+    );
+    through_wall_fractions
         .into_iter()
         .zip([printed_with_2_parts, printed_with_4_parts, printed_with_8_parts])
         .for_each(|(fraction, printed)| assert_printed(fraction, printed));
     let [printed_first_parts, printed_last_parts, printed_first_fraction, printed_last_fraction] =
-        page().numbers("go from # parts to #. The share through the wall rises, from # % to # %:");
+        page().sentence_numbers("go from # parts to #. The share through the wall rises, from # % to # %:");
     assert_eq!((printed_first_parts.value, printed_last_parts.value), (2.0, 8.0));
-    assert_printed(fractions[0], printed_first_fraction);
-    assert_printed(fractions[2], printed_last_fraction);
+    assert_printed(through_wall_fractions[0], printed_first_fraction);
+    assert_printed(through_wall_fractions[2], printed_last_fraction);
     page().assert_contains(
         "From 16 parts on hardly one is long enough to jump, and the robot stands wedged before the wall.",
     );
     assert_eq!(printed_wedged_parts.value, 16.0);
-    assert!(!simulation(settings(WALL, Sampler::SubStepped(12), 0.0)).gave_up());
+    assert!(!simulation(settings(WALL_PRESET, Sampler::SubStepped(12), 0.0)).has_given_up());
     for parts in [16, 24, 32, 64] {
         for samples in [600, 10_000] {
-            let settings = Settings { samples, ..settings(WALL, Sampler::SubStepped(parts), 0.0) };
-            assert!(simulation(settings).gave_up(), "{parts} parts");
+            let settings = Settings { samples, ..settings(WALL_PRESET, Sampler::SubStepped(parts), 0.0) };
+            assert!(simulation(settings).has_given_up(), "{parts} parts");
         }
     }
 }
@@ -156,7 +160,7 @@ fn more_substeps_facing_the_wall_send_more_samples_through_it() {
 #[test]
 #[ignore = "nightly: clouds of 100,000"]
 fn testing_the_geodesic_changes_the_documented_fraction_of_verdicts() {
-    let [min_percent, max_percent, doorway_min, doorway_max] = model_document().numbers(
+    let [min_percent, max_percent, doorway_min, doorway_max] = model_document().sentence_numbers(
         "between # and # % of the accepted samples get the other verdict (n from 0.12 to 0.2, ω from 0 to 1; the doorway \
          # to # %)",
     );
@@ -167,34 +171,35 @@ fn testing_the_geodesic_changes_the_documented_fraction_of_verdicts() {
         for (n, omega) in [(0.12, 0.0), (0.12, 0.5), (0.12, 1.0), (0.2, 0.0), (0.2, 0.5), (0.2, 1.0)] {
             let model =
                 VelocityModel { alphas: VelocityAlphas(alphas_of_noise_level(n)), noise: NoiseKind::Normal };
-            let conditioned =
+            let conditioned_model =
                 MapConditioned { model, plan: &plan, clearance: 0.13, sampler: Sampler::Endpoint };
             let command = VelocityCmd { v: 1.0, omega, dt: 2.0 };
-            let collision_tester = conditioned.collision_tester(&command, &start_pose);
+            let collision_tester = conditioned_model.collision_tester(&command, &start_pose);
             let mut rng = seeded_rng(93);
             let (mut accepted_count, mut differing_count) = (0u32, 0u32);
             for _ in 0..40_000 {
                 let unit_noise =
-                    std::array::from_fn(|_| NoiseKind::Normal.quantile(centred_uniform(&mut rng)));
-                let draw = collision_tester.test_draw(unit_noise);
-                if !draw.end_verdict.free {
+                    std::array::from_fn(|_| NoiseKind::Normal.quantile(draw_centred_uniform(&mut rng)));
+                let tested_draw = collision_tester.test_draw(unit_noise);
+                if !tested_draw.end_verdict.free {
                     continue;
                 }
                 // The geodesic exp(s·ξ), 0 ≤ s ≤ 1, is also an arc. It starts in the direction of (ξ along, ξ lateral).
-                let xi = draw.pose.boxminus(&start_pose);
+                let xi = tested_draw.pose.boxminus(&start_pose);
                 let geodesic_start = SE2::new(x, y, theta + xi.y.atan2(xi.x));
-                let geodesic = Arc { start: geodesic_start, length: xi.xy().norm(), turn: xi.z };
+                let geodesic_arc = Arc { start: geodesic_start, length: xi.xy().norm(), turn: xi.z };
                 accepted_count += 1;
-                differing_count += u32::from(plan.test_arc(&geodesic, 0.13).free != draw.path_verdict.free);
+                differing_count +=
+                    u32::from(plan.test_arc(&geodesic_arc, 0.13).free != tested_draw.path_verdict.free);
             }
-            let fraction = f64::from(differing_count) / f64::from(accepted_count);
-            let tolerance =
-                MAX_STANDARD_ERRORS * (fraction * (1.0 - fraction) / f64::from(accepted_count)).sqrt();
+            let differing_fraction = f64::from(differing_count) / f64::from(accepted_count);
+            let tolerance = MAX_STANDARD_ERRORS
+                * (differing_fraction * (1.0 - differing_fraction) / f64::from(accepted_count)).sqrt();
             let min_percent = if place == "doorway" { doorway_min } else { min_percent };
             let (min_percent, max_percent) = (min_percent.value / 100.0, max_percent.value / 100.0);
             assert!(
-                fraction + tolerance > min_percent && fraction - tolerance < max_percent,
-                "{place}, n = {n}, ω = {omega}: {fraction}"
+                differing_fraction + tolerance > min_percent && differing_fraction - tolerance < max_percent,
+                "{place}, n = {n}, ω = {omega}: {differing_fraction}"
             );
         }
     }

@@ -1,7 +1,9 @@
 //! Distance between a driven arc and a wall, compared with an independent reference without the equation of a circle.
 
-use crate::common::distance::{Point, difference, distance_by_halving, extent, norm, position_along};
-use crate::common::{seeded_rng, signed_log_uniform, uniform};
+use crate::common::distance::{
+    Point, distance_by_halving, max_coordinate, norm, position_along, subtract_points,
+};
+use crate::common::{draw_signed_log_uniform, draw_uniform, seeded_rng};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
@@ -11,27 +13,28 @@ use std::f64::consts::{PI, TAU};
 // ------------------------------------------------------------------------------------------------- random pairs
 
 fn random_point(rng: &mut impl Rng, reach: f64) -> Point {
-    [uniform(rng, -reach, reach), uniform(rng, -reach, reach)]
+    [draw_uniform(rng, -reach, reach), draw_uniform(rng, -reach, reach)]
 }
 
 fn random_arc(rng: &mut impl Rng, length: f64, turn: f64) -> Arc {
     let [x, y] = random_point(rng, 5.0);
-    Arc { start: SE2::new(x, y, uniform(rng, -PI, PI)), length, turn }
+    Arc { start: SE2::new(x, y, draw_uniform(rng, -PI, PI)), length, turn }
 }
 
 /// Returns an arc of up to 8 m in either direction, which turns by up to two circles to either side.
 fn any_arc(rng: &mut impl Rng) -> Arc {
-    let (length, turn) = (uniform(rng, -8.0, 8.0), uniform(rng, -2.0 * TAU, 2.0 * TAU));
+    let (length, turn) = (draw_uniform(rng, -8.0, 8.0), draw_uniform(rng, -2.0 * TAU, 2.0 * TAU));
     random_arc(rng, length, turn)
 }
 
 fn nearly_straight_arc(rng: &mut impl Rng) -> Arc {
-    let (length, turn) = (uniform(rng, -8.0, 8.0), signed_log_uniform(rng, 1e-18, 1e-3));
+    let (length, turn) = (draw_uniform(rng, -8.0, 8.0), draw_signed_log_uniform(rng, 1e-18, 1e-3));
     random_arc(rng, length, turn)
 }
 
 fn turn_almost_on_the_spot(rng: &mut impl Rng) -> Arc {
-    let (length, turn) = (signed_log_uniform(rng, 1e-15, 1e-1), uniform(rng, -2.0 * TAU, 2.0 * TAU));
+    let (length, turn) =
+        (draw_signed_log_uniform(rng, 1e-15, 1e-1), draw_uniform(rng, -2.0 * TAU, 2.0 * TAU));
     random_arc(rng, length, turn)
 }
 
@@ -46,13 +49,13 @@ fn absolute_position(arc: &Arc, relative_point: Point) -> Point {
 
 /// Returns a wall along a tangent of the arc, at a tiny distance.
 fn tangent_wall(rng: &mut impl Rng, arc: &Arc) -> Segment {
-    let f = uniform(rng, 0.0, 1.0);
+    let f = draw_uniform(rng, 0.0, 1.0);
     let heading = arc.start.theta() + f * arc.turn;
     let [x, y] = position_along(arc, f);
-    let offset = signed_log_uniform(rng, 1e-15, 1e-1);
-    let tangent_point = [x - offset * heading.sin(), y + offset * heading.cos()];
-    let mut next_end = || {
-        let distance_along = uniform(rng, -5.0, 5.0);
+    let tangent_offset = draw_signed_log_uniform(rng, 1e-15, 1e-1);
+    let tangent_point = [x - tangent_offset * heading.sin(), y + tangent_offset * heading.cos()];
+    let mut draw_end = || {
+        let distance_along = draw_uniform(rng, -5.0, 5.0);
         absolute_position(
             arc,
             [
@@ -61,18 +64,18 @@ fn tangent_wall(rng: &mut impl Rng, arc: &Arc) -> Segment {
             ],
         )
     };
-    Segment { from: next_end(), to: next_end() }
+    Segment { from: draw_end(), to: draw_end() }
 }
 
 /// Returns a wall that ends near the end of the arc, or extends beyond it.
 fn wall_near_end(rng: &mut impl Rng, arc: &Arc) -> Segment {
     let [x, y] = position_along(arc, f64::from(rng.next_u32() % 2));
-    let mut offset = || signed_log_uniform(rng, 1e-15, 1e-1);
-    let near_end = absolute_position(arc, [x + offset(), y + offset()]);
+    let mut draw_offset = || draw_signed_log_uniform(rng, 1e-15, 1e-1);
+    let near_end = absolute_position(arc, [x + draw_offset(), y + draw_offset()]);
     let other_end = if rng.next_u32().is_multiple_of(2) {
         random_point(rng, 8.0)
     } else {
-        let (heading, reach) = (uniform(rng, -PI, PI), uniform(rng, -3.0, 3.0));
+        let (heading, reach) = (draw_uniform(rng, -PI, PI), draw_uniform(rng, -3.0, 3.0));
         [near_end[0] + reach * heading.cos(), near_end[1] + reach * heading.sin()]
     };
     Segment { from: near_end, to: other_end }
@@ -81,10 +84,10 @@ fn wall_near_end(rng: &mut impl Rng, arc: &Arc) -> Segment {
 /// Returns a wall with an end near the centre of the arc's circle, where all points of the circle are equally near.
 fn wall_from_centre(rng: &mut impl Rng, arc: &Arc) -> Segment {
     let (radius, theta) = (arc.length / arc.turn, arc.start.theta());
-    let mut offset = || signed_log_uniform(rng, 1e-16, 1e-1);
+    let mut offset = || draw_signed_log_uniform(rng, 1e-16, 1e-1);
     let near_end = absolute_position(arc, [offset() - radius * theta.sin(), offset() + radius * theta.cos()]);
-    let reach = uniform(rng, 0.0, 1.2) * radius;
-    let heading = uniform(rng, -PI, PI);
+    let reach = draw_uniform(rng, 0.0, 1.2) * radius;
+    let heading = draw_uniform(rng, -PI, PI);
     Segment { from: near_end, to: [near_end[0] + reach * heading.cos(), near_end[1] + reach * heading.sin()] }
 }
 
@@ -98,16 +101,16 @@ type ArcGenerator = fn(&mut rand_xoshiro::Xoshiro256PlusPlus) -> Arc;
 type WallGenerator = fn(&mut rand_xoshiro::Xoshiro256PlusPlus, &Arc) -> Segment;
 
 const STRAIGHT_ARC: ArcGenerator = |rng| {
-    let length = uniform(rng, -8.0, 8.0);
+    let length = draw_uniform(rng, -8.0, 8.0);
     random_arc(rng, length, 0.0)
 };
 const TURN_ON_THE_SPOT: ArcGenerator = |rng| {
-    let turn = uniform(rng, -TAU, TAU);
+    let turn = draw_uniform(rng, -TAU, TAU);
     random_arc(rng, 0.0, turn)
 };
 /// Generator of arcs of up to a kilometre around a circle of any radius.
 const LONG_ARC: ArcGenerator = |rng| {
-    let (length, turn) = (signed_log_uniform(rng, 1.0, 1e3), signed_log_uniform(rng, 1e-6, 30.0));
+    let (length, turn) = (draw_signed_log_uniform(rng, 1.0, 1e3), draw_signed_log_uniform(rng, 1e-6, 30.0));
     random_arc(rng, length, turn)
 };
 
@@ -143,7 +146,7 @@ fn the_distance_to_an_arc_matches_bisection() {
             let wall = make_wall(&mut rng, &arc);
             let distance = wall.distance_to_arc(&arc);
             let [low, high] = distance_by_halving(&arc, &wall);
-            let tolerance = 8.0 * f64::EPSILON * extent(&arc, &wall);
+            let tolerance = 8.0 * f64::EPSILON * max_coordinate(&arc, &wall);
             assert!(
                 (low - tolerance..=high + tolerance).contains(&distance),
                 "{name}: {distance:e} instead of {low:e} to {high:e}: {arc:?} {wall:?}"
@@ -169,17 +172,20 @@ fn the_distance_to_an_arc_matches_bisection() {
 fn chords_of_an_arc_stay_within_a_twentieth_of_a_millimetre() {
     for (length, turn) in [(1.0, 1.0), (-2.0, 0.3), (1.0, -2.0 * TAU), (3.0, 0.004), (1.0, 0.0)] {
         let arc = Arc { start: SE2::new(1.0, -2.0, 0.7), length, turn };
-        let points = arc.points();
-        let chord_count = points.len() - 1;
-        assert_eq!(points[0], [arc.start.x(), arc.start.y()]);
+        let chord_points = arc.points();
+        let chord_count = chord_points.len() - 1;
+        assert_eq!(chord_points[0], [arc.start.x(), arc.start.y()]);
         assert!(
-            norm(difference(points[chord_count], absolute_position(&arc, position_along(&arc, 1.0)))) < 1e-14
+            norm(subtract_points(
+                chord_points[chord_count],
+                absolute_position(&arc, position_along(&arc, 1.0))
+            )) < 1e-14
         );
-        for (i, ends) in points.windows(2).enumerate() {
+        for (i, ends) in chord_points.windows(2).enumerate() {
             let chord_middle = [0, 1].map(|axis| 0.5 * (ends[0][axis] + ends[1][axis]));
             let arc_middle =
                 absolute_position(&arc, position_along(&arc, (i as f64 + 0.5) / chord_count as f64));
-            let chord_deviation = norm(difference(chord_middle, arc_middle));
+            let chord_deviation = norm(subtract_points(chord_middle, arc_middle));
             let max_deviation = 0.02 * 0.02 / 8.0 * (length / turn.abs().max(0.02)).abs() * 1.001;
             assert!(chord_deviation <= max_deviation, "{turn}: {chord_deviation}");
         }

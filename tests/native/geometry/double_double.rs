@@ -16,7 +16,7 @@ fn reference_rows() -> impl Iterator<Item = [f64; 7]> {
 }
 
 /// Returns the absolute difference between a value and a reference, which consists of a high and a low part.
-fn deviation(value: DoubleDouble, high: f64, low: f64) -> f64 {
+fn relative_deviation(value: DoubleDouble, high: f64, low: f64) -> f64 {
     (value - DoubleDouble { high, low }).to_f64().abs()
 }
 
@@ -26,9 +26,9 @@ fn sine_cosine_and_sinc_match_fifty_digit_references() {
     for [angle, sin_high, sin_low, cos_high, cos_low, sinc_high, sinc_low] in reference_rows() {
         let angle = DoubleDouble::from(angle);
         let (sin, cos) = angle.sin_cos();
-        assert!(deviation(sin, sin_high, sin_low) <= 1e-30, "sin {}", angle.high);
-        assert!(deviation(cos, cos_high, cos_low) <= 1e-30, "cos {}", angle.high);
-        assert!(deviation(angle.sinc(), sinc_high, sinc_low) <= 1e-30, "sinc {}", angle.high);
+        assert!(relative_deviation(sin, sin_high, sin_low) <= 1e-30, "sin {}", angle.high);
+        assert!(relative_deviation(cos, cos_high, cos_low) <= 1e-30, "cos {}", angle.high);
+        assert!(relative_deviation(angle.sinc(), sinc_high, sinc_low) <= 1e-30, "sinc {}", angle.high);
         row_count += 1;
     }
     assert!(row_count >= 60);

@@ -3,7 +3,7 @@
 //! The laws hold up to rounding. Every law below composes at most four maps, each accurate to a few units in the last place of the
 //! largest coordinate. `LAW_TOLERANCE` allows 32 units.
 
-use crate::common::{ReferenceTable, pose_distance, seeded_rng, uniform};
+use crate::common::{ReferenceTable, draw_uniform, pose_distance, seeded_rng};
 use motion::geom::se2::SE2;
 use nalgebra::{Matrix3, Vector3};
 use std::f64::consts::{PI, TAU};
@@ -37,15 +37,15 @@ fn composition_places_the_second_pose_in_the_frame_of_the_first() {
 fn the_logarithm_near_a_turn_uses_the_branch_of_that_turn() {
     let mut rng = seeded_rng(6);
     for _ in 0..2000 {
-        let mut draw_within = |limit: f64| uniform(&mut rng, -limit, limit);
+        let mut draw_within = |limit: f64| draw_uniform(&mut rng, -limit, limit);
         let twist = Vector3::new(draw_within(3.0), draw_within(3.0), draw_within(2.0 * PI - 0.3));
         let pose = SE2::exp(&twist);
         let turn = twist.z + draw_within(3.0);
-        let logarithm = pose.log_near(turn);
+        let pose_log = pose.log_near(turn);
         // The factor 1/sinc(ω/2) amplifies the rounding of the pose, up to 20 times at 0.3 rad from a full turn.
         assert!(
-            (logarithm - twist).amax() < 20.0 * LAW_TOLERANCE * twist.norm().max(1.0),
-            "log_near({turn}) of exp({twist}) = {logarithm}"
+            (pose_log - twist).amax() < 20.0 * LAW_TOLERANCE * twist.norm().max(1.0),
+            "log_near({turn}) of exp({twist}) = {pose_log}"
         );
         assert_eq!(pose.log_near(pose.theta()), pose.log());
         let other_logarithm = pose.log_near(twist.z + TAU);
@@ -56,9 +56,9 @@ fn the_logarithm_near_a_turn_uses_the_branch_of_that_turn() {
 /// The reference covers the ranges of |ω| in which series or closed forms can lose digits.
 #[test]
 fn exp_and_jacobians_match_the_references() {
-    let table = ReferenceTable::parse(include_str!("../../reference/group.csv"));
-    for row in table.rows() {
-        let twist = Vector3::from(row.numbers(["a", "b", "w"]));
+    let reference_table = ReferenceTable::parse(include_str!("../../reference/group.csv"));
+    for row in reference_table.rows() {
+        let twist = Vector3::from(row.cell_numbers(["a", "b", "w"]));
         let tolerance = RELATIVE_ACCURACY * twist.norm().max(1.0);
         let assert_near = |column: &str, computed: f64| {
             let error = row.deviation(column, computed);
@@ -88,14 +88,14 @@ fn exp_and_jacobians_match_the_references() {
 #[test]
 fn log_matches_the_references() {
     for row in ReferenceTable::parse(include_str!("../../reference/log.csv")).rows() {
-        let pose = SE2::new(row.number("x"), row.number("y"), row.number("w"));
+        let pose = SE2::new(row.cell_number("x"), row.cell_number("y"), row.cell_number("w"));
         let twist = pose.log();
         let tolerance = RELATIVE_ACCURACY
-            * Vector3::new(row.number("a"), row.number("b"), row.number("w")).norm().max(1.0);
+            * Vector3::new(row.cell_number("a"), row.cell_number("b"), row.cell_number("w")).norm().max(1.0);
         for (column, computed) in [("a", twist.x), ("b", twist.y)] {
             let error = row.deviation(column, computed);
             assert!(error <= tolerance, "{column} of log {pose:?}: off by {error:e}, allowed {tolerance:e}");
         }
-        assert_eq!(twist.z, row.number("w"));
+        assert_eq!(twist.z, row.cell_number("w"));
     }
 }

@@ -1,25 +1,26 @@
 //! Sine and cosine of four angles: accuracy over the whole range, and independence of the lanes.
 
 use crate::common::seeded_rng;
-use motion::geom::lanes::{ACCURACY, Trigonometry};
+use motion::geom::lanes::{MAX_SIN_COS_ERROR, Trigonometry};
 use motion::geom::se2::wrap_angle;
 use rand::RngExt;
 use std::f64::consts::{FRAC_PI_2, PI};
 use wide::f64x4;
 
 /// Returns angles of either sign that are log-uniform over 32 decades, and angles near multiples of a quarter turn.
-fn angles() -> Vec<f64> {
+fn tested_angles() -> Vec<f64> {
     let mut rng = seeded_rng(9);
-    let mut angles = vec![0.0, -0.0, FRAC_PI_2, -FRAC_PI_2, PI, -PI, f64::MIN_POSITIVE, 3e6, -3e6, 3.1e6];
+    let mut tested_angles =
+        vec![0.0, -0.0, FRAC_PI_2, -FRAC_PI_2, PI, -PI, f64::MIN_POSITIVE, 3e6, -3e6, 3.1e6];
     for _ in 0..20_000 {
         let magnitude = libm::pow(10.0, rng.random_range(-17.0..15.0));
-        angles.push(if rng.random() { magnitude } else { -magnitude });
-        angles.push(rng.random_range(-2.0 * PI..2.0 * PI));
+        tested_angles.push(if rng.random() { magnitude } else { -magnitude });
+        tested_angles.push(rng.random_range(-2.0 * PI..2.0 * PI));
         // Multiples of a quarter turn, and angles next to them.
         let quarter_turns = f64::from(rng.random_range(-2000..2000)) * FRAC_PI_2;
-        angles.push(quarter_turns + libm::pow(10.0, rng.random_range(-16.0..0.0)));
+        tested_angles.push(quarter_turns + libm::pow(10.0, rng.random_range(-16.0..0.0)));
     }
-    angles
+    tested_angles
 }
 
 fn first_lane(lanes: f64x4) -> f64 {
@@ -29,16 +30,16 @@ fn first_lane(lanes: f64x4) -> f64 {
 #[test]
 fn sines_and_cosines_agree_with_libm_over_the_whole_range() {
     let trigonometry = Trigonometry::default();
-    for angle in angles() {
+    for angle in tested_angles() {
         let sin_cos = trigonometry.sin_cos_any_angle(f64x4::splat(angle));
         let sinc = if angle == 0.0 { 1.0 } else { libm::sin(angle) / angle };
-        assert!((first_lane(sin_cos.sin) - libm::sin(angle)).abs() <= ACCURACY, "sin {angle}");
-        assert!((first_lane(sin_cos.cos) - libm::cos(angle)).abs() <= ACCURACY, "cos {angle}");
-        assert!((first_lane(sin_cos.sinc) - sinc).abs() <= ACCURACY, "sinc {angle}");
+        assert!((first_lane(sin_cos.sin) - libm::sin(angle)).abs() <= MAX_SIN_COS_ERROR, "sin {angle}");
+        assert!((first_lane(sin_cos.cos) - libm::cos(angle)).abs() <= MAX_SIN_COS_ERROR, "cos {angle}");
+        assert!((first_lane(sin_cos.sinc) - sinc).abs() <= MAX_SIN_COS_ERROR, "sinc {angle}");
         if angle.abs() <= FRAC_PI_2 {
             // No digits are lost towards 0.
             assert!(
-                (first_lane(sin_cos.sin) - libm::sin(angle)).abs() <= ACCURACY * angle.abs(),
+                (first_lane(sin_cos.sin) - libm::sin(angle)).abs() <= MAX_SIN_COS_ERROR * angle.abs(),
                 "sin {angle}"
             );
         }
@@ -49,19 +50,19 @@ fn sines_and_cosines_agree_with_libm_over_the_whole_range() {
 fn half_headings_lie_on_the_requested_branch() {
     let trigonometry = Trigonometry::default();
     for branch_centre in [0.0, 0.25, -1.5, 1.7, -2.9] {
-        for half_heading in angles().into_iter().step_by(7) {
+        for half_heading in tested_angles().into_iter().step_by(7) {
             let (branch_half, sin_cos) =
                 trigonometry.sin_cos_on_branch(f64x4::splat(half_heading), branch_centre);
             let expected_half_turn = branch_centre + 0.5 * wrap_angle(2.0 * (half_heading - branch_centre));
             let half_turn = first_lane(branch_half);
             // Reducing the angle by half circles causes rounding in proportion to their number. At the end of the branch
             // either side is correct.
-            let rounding_tolerance = ACCURACY * (1.0 + half_heading.abs());
-            let deviation = (half_turn - expected_half_turn)
+            let rounding_tolerance = MAX_SIN_COS_ERROR * (1.0 + half_heading.abs());
+            let half_turn_deviation = (half_turn - expected_half_turn)
                 .abs()
                 .min(((half_turn - expected_half_turn).abs() - PI).abs());
             assert!(
-                deviation <= rounding_tolerance,
+                half_turn_deviation <= rounding_tolerance,
                 "{half_heading} near {branch_centre}: {half_turn} is not {expected_half_turn}"
             );
             assert!(
@@ -79,7 +80,8 @@ fn half_headings_lie_on_the_requested_branch() {
             let tolerance = 4.0 * rounding_tolerance * (1.0 + half_turn.abs())
                 / (sin * sin / (half_turn * half_turn).min(1.0)).max(1e-300);
             assert!(
-                (first_lane(sin_cos.cos / sin_cos.sinc) - cotangent).abs() <= tolerance.max(4.0 * ACCURACY),
+                (first_lane(sin_cos.cos / sin_cos.sinc) - cotangent).abs()
+                    <= tolerance.max(4.0 * MAX_SIN_COS_ERROR),
                 "{half_heading} {branch_centre}"
             );
         }

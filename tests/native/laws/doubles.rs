@@ -40,7 +40,7 @@ pub fn finite_doubles() -> impl Strategy<Value = f64> {
 
 /// Returns limits of common ranges, with either sign, and their neighbouring doubles.
 fn range_limits() -> impl Strategy<Value = f64> {
-    const LIMITS: [f64; 15] = [
+    const SPECIAL_LIMITS: [f64; 15] = [
         0.0,
         f64::from_bits(1),
         f64::MIN_POSITIVE,
@@ -57,11 +57,11 @@ fn range_limits() -> impl Strategy<Value = f64> {
         9_007_199_254_740_993.0,
         f64::MAX,
     ];
-    (0..LIMITS.len(), any::<bool>(), -1..=1).prop_map(|(i, negative, neighbour)| {
+    (0..SPECIAL_LIMITS.len(), any::<bool>(), -1..=1).prop_map(|(i, negative, neighbour)| {
         let limit = match neighbour {
-            -1 => LIMITS[i].next_down(),
-            0 => LIMITS[i],
-            _ => LIMITS[i].next_up().min(f64::MAX),
+            -1 => SPECIAL_LIMITS[i].next_down(),
+            0 => SPECIAL_LIMITS[i],
+            _ => SPECIAL_LIMITS[i].next_up().min(f64::MAX),
         };
         if negative { -limit } else { limit }
     })
@@ -79,13 +79,13 @@ pub fn doubles_up_to(max_abs: f64) -> impl Strategy<Value = f64> {
 /// Largest coordinate of the poses and twists. Its sums, and its products with an angle, do not overflow.
 pub const MAX_COORDINATE: f64 = 1e300;
 
-pub fn poses() -> impl Strategy<Value = SE2> {
+pub fn any_pose() -> impl Strategy<Value = SE2> {
     (doubles_up_to(MAX_COORDINATE), doubles_up_to(MAX_COORDINATE), doubles_up_to(PI))
         .prop_map(|(x, y, theta)| SE2::new(x, y, theta))
 }
 
 /// Returns twists that turn by up to `max`.
-pub fn twists(max_turn: f64) -> impl Strategy<Value = Vector3<f64>> {
+pub fn any_twist(max_turn: f64) -> impl Strategy<Value = Vector3<f64>> {
     (doubles_up_to(MAX_COORDINATE), doubles_up_to(MAX_COORDINATE), doubles_up_to(max_turn))
         .prop_map(|(x, y, turn)| Vector3::new(x, y, turn))
 }

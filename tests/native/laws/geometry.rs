@@ -3,7 +3,9 @@
 //! A law may be off by a few units in the last place for each map that it composes. The tolerance is 32 units, as in `group_laws.rs`,
 //! relative to the size of the arguments, which may be 10⁻³⁰⁸ or 10³⁰⁰.
 
-use super::doubles::{assert_same_pose, config_with_cases, finite_doubles, poses, position_extent, twists};
+use super::doubles::{
+    any_pose, any_twist, assert_same_pose, config_with_cases, finite_doubles, position_extent,
+};
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::geom::sinc::sinc;
 use nalgebra::{Matrix3, Vector3};
@@ -30,7 +32,7 @@ proptest! {
     }
 
     #[test]
-    fn composition_is_associative_and_has_inverses(a in poses(), b in poses(), c in poses()) {
+    fn composition_is_associative_and_has_inverses(a in any_pose(), b in any_pose(), c in any_pose()) {
         let total_extent = position_extent(&a) + position_extent(&b) + position_extent(&c);
         assert_same_pose(&((a * b) * c), &(a * (b * c)), TOLERANCE_UNITS, total_extent)?;
         assert_same_pose(&(a * a.inverse()), &SE2::identity(), TOLERANCE_UNITS, position_extent(&a))?;
@@ -42,14 +44,14 @@ proptest! {
 
     /// The law holds for any turn. Beyond half a turn, heading and arc have a rounding error of 10⁻¹⁶ of the turn.
     #[test]
-    fn a_twist_and_its_reverse_cancel(twist in twists(f64::MAX)) {
+    fn a_twist_and_its_reverse_cancel(twist in any_twist(f64::MAX)) {
         let pose = SE2::exp(&twist);
         prop_assert!(pose.x().is_finite() && pose.y().is_finite());
         assert_same_pose(&SE2::exp(&-twist), &pose.inverse(), TOLERANCE_UNITS, twist.x.abs() + twist.y.abs())?;
     }
 
     #[test]
-    fn exp_inverts_log(pose in poses()) {
+    fn exp_inverts_log(pose in any_pose()) {
         let twist = pose.log();
         prop_assert!(twist.z.abs() <= PI && twist.x.is_finite() && twist.y.is_finite());
         assert_same_pose(&SE2::exp(&twist), &pose, TOLERANCE_UNITS, 2.0 * position_extent(&pose))?;
@@ -57,7 +59,7 @@ proptest! {
 
     /// Turns are on the principal branch. The turn is returned exactly.
     #[test]
-    fn log_inverts_exp(twist in twists(3.1)) {
+    fn log_inverts_exp(twist in any_twist(3.1)) {
         let logarithm = SE2::exp(&twist).log();
         let tolerance = TOLERANCE_UNITS * f64::EPSILON * (twist.x.abs() + twist.y.abs()) + f64::MIN_POSITIVE;
         prop_assert_eq!(logarithm.z, twist.z);
@@ -65,7 +67,7 @@ proptest! {
     }
 
     #[test]
-    fn boxplus_inverts_boxminus(a in poses(), b in poses()) {
+    fn boxplus_inverts_boxminus(a in any_pose(), b in any_pose()) {
         let total_extent = position_extent(&a) + position_extent(&b);
         assert_same_pose(&a.boxplus(b.boxminus(&a)), &b, TOLERANCE_UNITS, 2.0 * total_extent)?;
         prop_assert_eq!(a.boxplus(Vector3::zeros()), a);
@@ -73,14 +75,14 @@ proptest! {
     }
 
     #[test]
-    fn adjoints_compose_as_poses_do(a in poses(), b in poses()) {
+    fn adjoints_compose_as_poses_do(a in any_pose(), b in any_pose()) {
         assert_close(&(a * b).adjoint(), &(a.adjoint() * b.adjoint()), position_extent(&a) + position_extent(&b))?;
         assert_close(&(a.adjoint() * a.inverse().adjoint()), &Matrix3::identity(), position_extent(&a))?;
     }
 
     /// x · exp(τ) = exp(Ad τ) · x.
     #[test]
-    fn the_adjoint_moves_a_twist_from_the_right_to_the_left(pose in poses(), twist in twists(PI)) {
+    fn the_adjoint_moves_a_twist_from_the_right_to_the_left(pose in any_pose(), twist in any_twist(PI)) {
         prop_assume!(position_extent(&pose) < 1e290);
         let left_twist = pose.adjoint() * twist;
         let total_extent = position_extent(&pose) + twist.x.abs() + twist.y.abs() + left_twist.x.abs() + left_twist.y.abs();
@@ -89,7 +91,7 @@ proptest! {
 
     /// The inverse Jacobian diverges at a full turn. This law is tested up to half a turn.
     #[test]
-    fn jacobians_have_inverses(twist in twists(PI)) {
+    fn jacobians_have_inverses(twist in any_twist(PI)) {
         let (jacobian, inverse_jacobian) = (SE2::right_jacobian(&twist), SE2::right_jacobian_inverse(&twist));
         let twist_extent = twist.x.abs() + twist.y.abs();
         assert_close(&(jacobian * inverse_jacobian), &Matrix3::identity(), twist_extent)?;
@@ -102,7 +104,7 @@ proptest! {
     /// J_l = Ad(exp ξ)·J_r, and J_l(ξ) = J_r(−ξ): Solà et al., eq. 75 and 76. The adjoint has the wrapped heading, which equals the turn
     /// only up to half a turn.
     #[test]
-    fn the_left_jacobian_is_the_right_jacobian_of_the_reversed_twist(twist in twists(PI)) {
+    fn the_left_jacobian_is_the_right_jacobian_of_the_reversed_twist(twist in any_twist(PI)) {
         let left_jacobian = SE2::exp(&twist).adjoint() * SE2::right_jacobian(&twist);
         assert_close(&left_jacobian, &SE2::right_jacobian(&-twist), twist.x.abs() + twist.y.abs())?;
     }
@@ -113,13 +115,13 @@ fn assert_close(a: &Matrix3<f64>, b: &Matrix3<f64>, size: f64) -> Result<(), Tes
     for i in 0..3 {
         for j in 0..3 {
             let tolerance_scale = if j == 2 { 1.0 + size } else { 1.0 };
-            let difference = (a[(i, j)] - b[(i, j)]).abs();
+            let entry_difference = (a[(i, j)] - b[(i, j)]).abs();
             prop_assert!(
-                difference <= TOLERANCE_UNITS * f64::EPSILON * tolerance_scale,
+                entry_difference <= TOLERANCE_UNITS * f64::EPSILON * tolerance_scale,
                 "{} {}: off by {:e}",
                 a,
                 b,
-                difference
+                entry_difference
             );
         }
     }

@@ -6,7 +6,7 @@ use proptest::collection::vec;
 use proptest::prelude::*;
 
 /// Returns allowed separators between two words of a header.
-fn separators() -> impl Strategy<Value = String> {
+fn any_separator() -> impl Strategy<Value = String> {
     prop_oneof![
         "[ \t\r\n]{1,3}",
         "[ ]?#[ -~]{0,12}\n",
@@ -21,7 +21,7 @@ proptest! {
     #[test]
     fn pgm_headers_may_have_any_white_space_and_comments(
         (width, height) in (1..6usize, 1..6usize), max_value in 1..=65_535u32, seeds in vec(any::<u32>(), 36),
-        separators in vec(separators(), 40), cut_position in any::<usize>(),
+        separators in vec(any_separator(), 40), cut_position in any::<usize>(),
     ) {
         let grey_values: Vec<u32> = seeds.into_iter().take(width * height).map(|seed| seed % (max_value + 1)).collect();
         let mut plain_file = "P2".to_owned();
@@ -31,8 +31,8 @@ proptest! {
         }
         let mut binary_file = format!("P5{}{width}{}{height}{}{max_value}\n", separators[0], separators[1], separators[2]).into_bytes();
         for value in &grey_values {
-            let bytes = value.to_be_bytes();
-            binary_file.extend(if max_value < 256 { &bytes[3..] } else { &bytes[2..] });
+            let number_bytes = value.to_be_bytes();
+            binary_file.extend(if max_value < 256 { &number_bytes[3..] } else { &number_bytes[2..] });
         }
         let image = read_pgm(plain_file.as_bytes()).expect("a plain file");
         prop_assert!(image.pixels == read_pgm(&binary_file).expect("a binary file").pixels);

@@ -20,13 +20,13 @@ fn numbers_in(range: std::ops::RangeInclusive<f64>) -> impl Strategy<Value = f64
     doubles_up_to(high).prop_map(move |number| if low >= 0.0 { number.abs().max(low) } else { number })
 }
 
-fn alphas<const N: usize>() -> impl Strategy<Value = [f64; N]> {
+fn any_alphas<const N: usize>() -> impl Strategy<Value = [f64; N]> {
     proptest::collection::vec(prop_oneof![3 => 0.0..1.0, 2 => numbers_in(ALPHA_RANGE), 1 => Just(0.0)], N)
         .prop_map(|alphas| std::array::from_fn(|i| alphas[i]))
 }
 
 /// Returns commands in the range of the settings.
-fn commands() -> impl Strategy<Value = VelocityCmd> {
+fn any_command() -> impl Strategy<Value = VelocityCmd> {
     (doubles_up_to(1e6), doubles_up_to(1e6), numbers_in(DURATION_RANGE))
         .prop_map(|(v, omega, dt)| VelocityCmd { v, omega, dt })
 }
@@ -46,7 +46,7 @@ fn odometry_readings() -> impl Strategy<Value = OdomDelta> {
 
 /// Returns possible values of a uniform draw: odd multiples of 2⁻⁵⁴. The smallest and largest absolute values are frequent.
 fn uniform_draws() -> impl Strategy<Value = f64> {
-    let spacing = 1.0 / (1u64 << 53) as f64;
+    let number_spacing = 1.0 / (1u64 << 53) as f64;
     prop_oneof![
         any::<i64>().prop_map(|bits| bits >> 11),
         (0i64..64).prop_map(|i| (1 << 52) - 1 - i),
@@ -54,7 +54,7 @@ fn uniform_draws() -> impl Strategy<Value = f64> {
         -64i64..64,
         (0u32..53, any::<i64>()).prop_map(|(shift, bits)| bits >> 11 >> shift),
     ]
-    .prop_map(move |mantissa| (mantissa as f64 + 0.5) * spacing)
+    .prop_map(move |mantissa| (mantissa as f64 + 0.5) * number_spacing)
 }
 
 proptest! {
@@ -88,7 +88,7 @@ proptest! {
 
     #[test]
     fn velocity_likelihoods_are_never_negative_or_nan(
-        kind in noise_kinds(), alphas in alphas(), u in commands(), x in start_poses(), next in start_poses(),
+        kind in noise_kinds(), alphas in any_alphas(), u in any_command(), x in start_poses(), next in start_poses(),
     ) {
         let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: kind };
         assert_likelihoods_not_negative_or_nan(&model, &u, &x, &next)?;
@@ -98,7 +98,7 @@ proptest! {
 
     #[test]
     fn odometry_likelihoods_are_never_negative_or_nan(
-        kind in noise_kinds(), alphas in alphas(), u in odometry_readings(), x in start_poses(), next in start_poses(), is_reverse_aware in any::<bool>(),
+        kind in noise_kinds(), alphas in any_alphas(), u in odometry_readings(), x in start_poses(), next in start_poses(), is_reverse_aware in any::<bool>(),
     ) {
         let model = OdometryModel { alphas: OdomAlphas(alphas), noise: kind };
         if is_reverse_aware {
@@ -109,7 +109,7 @@ proptest! {
     }
 
     #[test]
-    fn exponential_likelihoods_are_never_nan(alphas in alphas(), u in commands(), x in start_poses(), next in start_poses()) {
+    fn exponential_likelihoods_are_never_nan(alphas in any_alphas(), u in any_command(), x in start_poses(), next in start_poses()) {
         let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal };
         let tangent_model = TangentNoiseModel::from_velocity(&model, &u).expect("variances of settings");
         let log_prob = tangent_model.log_prob(&next, &u, &x);

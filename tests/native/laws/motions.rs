@@ -1,7 +1,7 @@
 //! Arcs and odometry readings that are computed from two poses and lead from one to the other.
 
-use super::doubles::{assert_same_pose, config_with_cases, doubles_up_to, poses, position_extent};
-use motion::geom::arc::{Arc, arc_with_turn_near, chord, invert_arc};
+use super::doubles::{any_pose, assert_same_pose, config_with_cases, doubles_up_to, position_extent};
+use motion::geom::arc::{Arc, arc_end, arc_with_turn_near, invert_arc};
 use motion::geom::se2::SE2;
 use motion::models::OdomDelta;
 use proptest::prelude::*;
@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 /// Tolerance in units in the last place. Each map tested here composes up to eight maps with errors of a few units.
 const TOLERANCE_UNITS: f64 = 64.0;
 
-fn durations() -> impl Strategy<Value = f64> {
+fn any_duration() -> impl Strategy<Value = f64> {
     prop_oneof![1e-6..1e6, Just(1e-6), Just(1e6), Just(1.0)]
 }
 
@@ -19,12 +19,12 @@ proptest! {
 
     /// For any two poses, the inverted controls lead from one to the other.
     #[test]
-    fn an_inverted_arc_ends_at_the_given_pose(x in poses(), next in poses(), dt in durations()) {
+    fn an_inverted_arc_ends_at_the_given_pose(x in any_pose(), next in any_pose(), dt in any_duration()) {
         let inversion = invert_arc(&x, &next, dt);
         let [length, turn, last_turn] = [inversion.v_hat, inversion.omega_hat, inversion.gamma_hat].map(|rate| rate * dt);
         let max_turn = PI * (1.0 + 2.0 * f64::EPSILON);
         prop_assert!(turn.abs() <= max_turn && last_turn.abs() <= max_turn, "{:?}", inversion);
-        let (forward, left) = chord(length, turn);
+        let (forward, left) = arc_end(length, turn);
         let end_pose = x * SE2::new(forward, left, turn + last_turn);
         assert_same_pose(&end_pose, &next, TOLERANCE_UNITS, position_extent(&x) + position_extent(&next))?;
     }
@@ -32,8 +32,8 @@ proptest! {
     /// The start is the origin, whose coordinates add no rounding. Turns stay below half a turn, where rounding would decide
     /// between forward and reverse.
     #[test]
-    fn inverting_a_driven_arc_returns_its_controls(length in doubles_up_to(1e300), turn in doubles_up_to(3.1), last_turn in doubles_up_to(3.1), dt in durations()) {
-        let (forward, left) = chord(length, turn);
+    fn inverting_a_driven_arc_returns_its_controls(length in doubles_up_to(1e300), turn in doubles_up_to(3.1), last_turn in doubles_up_to(3.1), dt in any_duration()) {
+        let (forward, left) = arc_end(length, turn);
         // The bearing of a shorter chord is inaccurate.
         prop_assume!(forward.hypot(left) > 1e-290 && forward.hypot(left) < 1e290);
         let inversion = invert_arc(&SE2::identity(), &SE2::new(forward, left, turn + last_turn), dt);
@@ -54,13 +54,13 @@ proptest! {
         prop_assume!(length.abs() < 1e6);
         prop_assert!(turn == 0.0 || (turn - near_turn).abs() <= PI * (1.0 + 1e-12), "{}", turn);
         let end_pose = Arc { start: SE2::identity(), length, turn }.end();
-        let distance = (end_pose.x() - x).hypot(end_pose.y() - y);
-        prop_assert!(distance <= TOLERANCE_UNITS * f64::EPSILON * (length.abs() + position_extent(&target_pose)), "{:e}", distance);
+        let end_position_error = (end_pose.x() - x).hypot(end_pose.y() - y);
+        prop_assert!(end_position_error <= TOLERANCE_UNITS * f64::EPSILON * (length.abs() + position_extent(&target_pose)), "{:e}", end_position_error);
     }
 
     /// A displacement below a nanometre counts as 0 in an odometry reading.
     #[test]
-    fn an_odometry_reading_leads_to_the_second_pose(prev in poses(), curr in poses()) {
+    fn an_odometry_reading_leads_to_the_second_pose(prev in any_pose(), curr in any_pose()) {
         let reading = OdomDelta::from_poses(&prev, &curr);
         prop_assert!(reading.trans >= 0.0 && [reading.rot1, reading.rot2].iter().all(|turn| -PI < *turn && *turn <= PI));
         let total_extent = position_extent(&prev) + position_extent(&curr);

@@ -14,20 +14,20 @@ use std::f64::consts::PI;
 const RELATIVE_ROUNDING: f64 = 256.0 * f64::EPSILON;
 
 /// Returns robots around a pose, with headings that differ by less than a quarter turn. Their mean heading is therefore well defined.
-fn clouds() -> impl Strategy<Value = Vec<SE2>> {
-    let robot = (-1.0..1.0, -1.0..1.0, -1.5..1.5);
-    (vec(robot, 1..50), (-5.0..5.0, -5.0..5.0, -PI..PI)).prop_map(|(robots, (x, y, theta))| {
+fn any_cloud() -> impl Strategy<Value = Vec<SE2>> {
+    let robot_coordinates = (-1.0..1.0, -1.0..1.0, -1.5..1.5);
+    (vec(robot_coordinates, 1..50), (-5.0..5.0, -5.0..5.0, -PI..PI)).prop_map(|(robots, (x, y, theta))| {
         let centre = SE2::new(x, y, theta);
         robots.into_iter().map(|(x, y, theta)| centre * SE2::new(x, y, theta)).collect()
     })
 }
 
-fn frames() -> impl Strategy<Value = SE2> {
+fn any_frame() -> impl Strategy<Value = SE2> {
     (-10.0..10.0, -10.0..10.0, -PI..PI).prop_map(|(x, y, theta)| SE2::new(x, y, theta))
 }
 
 /// Returns covariances L·Lᵀ with entries of common size, of full or lower rank.
-fn covariances() -> impl Strategy<Value = Matrix3<f64>> {
+fn any_covariance() -> impl Strategy<Value = Matrix3<f64>> {
     vec(prop_oneof![3 => -1.0..1.0, 1 => Just(0.0)], 6).prop_map(|l| {
         let cov_root = Matrix3::new(l[0], 0.0, 0.0, l[1], l[2], 0.0, l[3], l[4], l[5]);
         cov_root * cov_root.transpose()
@@ -46,7 +46,7 @@ proptest! {
 
     /// In another frame the cloud has the transformed mean and the same covariance, rotated.
     #[test]
-    fn moments_transform_with_the_frame(cloud in clouds(), frame in frames()) {
+    fn moments_transform_with_the_frame(cloud in any_cloud(), frame in any_frame()) {
         let moved_cloud: Vec<SE2> = cloud.iter().map(|pose| frame * *pose).collect();
         let [moments, moved_moments] = [&cloud, &moved_cloud].map(|cloud| CartesianMoments::from_poses(cloud));
         let expected_mean = frame * SE2::new(moments.mean.x, moments.mean.y, moments.mean.z);
@@ -63,7 +63,7 @@ proptest! {
     /// A change of the unit by a power of two, from 10⁻³⁰ m to 10³⁰ m, changes no bit of dimensionless results. A
     /// mirror image changes their sign only.
     #[test]
-    fn cross_track_statistics_do_not_depend_on_the_unit(cloud in clouds(), power in -100..100i32, is_mirrored in any::<bool>()) {
+    fn cross_track_statistics_do_not_depend_on_the_unit(cloud in any_cloud(), power in -100..100i32, is_mirrored in any::<bool>()) {
         let (unit, sign) = (2f64.powi(power), if is_mirrored { -1.0 } else { 1.0 });
         let scaled_cloud: Vec<SE2> =
             cloud.iter().map(|pose| SE2::new(unit * pose.x(), sign * unit * pose.y(), sign * pose.theta())).collect();
@@ -76,12 +76,12 @@ proptest! {
     /// Points of the outline are tested after moving them by a billionth towards the centre and away from it.
     #[test]
     fn ellipses_contain_points_inside_their_outline_only(a in 0.01..10.0f64, b in 0.01..10.0f64, rho in -0.99..0.99f64, power in -300..300i32, centre in (-9.0..9.0, -9.0..9.0)) {
-        let unit = 2f64.powi(power);
-        let cov = Matrix2::new(a * a, rho * a * b, rho * a * b, b * b) * (unit * unit);
-        let centre = Vector2::new(centre.0, centre.1) * unit;
+        let length_unit = 2f64.powi(power);
+        let cov = Matrix2::new(a * a, rho * a * b, rho * a * b, b * b) * (length_unit * length_unit);
+        let centre = Vector2::new(centre.0, centre.1) * length_unit;
         let ellipse = Ellipse::new(centre, cov);
-        let area: f64 = 4.0 * PI * a * b * (1.0 - rho * rho).sqrt() * unit * unit;
-        prop_assert!(ellipse.has_area() && (ellipse.area() - area).abs() <= 1e-12 * area, "{} {}", ellipse.area(), area);
+        let expected_area: f64 = 4.0 * PI * a * b * (1.0 - rho * rho).sqrt() * length_unit * length_unit;
+        prop_assert!(ellipse.has_area() && (ellipse.area() - expected_area).abs() <= 1e-12 * expected_area, "{} {}", ellipse.area(), expected_area);
         prop_assert!(ellipse.contains(centre.into()));
         let outline = ellipse.boundary(32);
         prop_assert_eq!(outline.first(), outline.last());
@@ -92,7 +92,7 @@ proptest! {
     }
 
     #[test]
-    fn matrices_that_are_not_covariances_are_refused(cov in covariances(), entry in (0..3usize, 0..3usize), number in any_double(), reduction in 0.01..1.0) {
+    fn matrices_that_are_not_covariances_are_refused(cov in any_covariance(), entry in (0..3usize, 0..3usize), number in any_double(), reduction in 0.01..1.0) {
         let mut changed_cov = cov;
         changed_cov[entry] = number;
         match TangentNoiseModel::new(changed_cov) {

@@ -5,7 +5,7 @@ use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
 use motion::map::{FloorPlan, MAX_DRAWS, MapConditioned, Sampler};
-use motion::noise::centred_uniform;
+use motion::noise::draw_centred_uniform;
 use motion::sim::squeeze::{PRESETS, alphas_of_noise_level};
 use motion::{MotionModel, NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -27,18 +27,18 @@ fn start_of_preset(name: &str) -> SE2 {
 }
 
 fn unit_noise(rng: &mut Xoshiro256PlusPlus) -> [f64; 3] {
-    std::array::from_fn(|_| NoiseKind::Normal.quantile(centred_uniform(rng)))
+    std::array::from_fn(|_| NoiseKind::Normal.quantile(draw_centred_uniform(rng)))
 }
 
 // -------------------------------------------------------------------------------------- the chapter's numbers
 
 /// Asserts that a fraction equals a published fraction. Both come from 60 000 draws, and the published fraction is rounded.
 fn assert_fraction(name: &str, accepted_count: usize, total_count: usize, published_fraction: f64) {
-    let fraction = accepted_count as f64 / total_count as f64;
+    let computed_fraction = accepted_count as f64 / total_count as f64;
     let standard_error = (2.0 * published_fraction * (1.0 - published_fraction) / total_count as f64).sqrt();
     assert!(
-        (fraction - published_fraction).abs() < MAX_STANDARD_ERRORS * standard_error + 0.0005,
-        "{name}: {fraction} instead of {published_fraction}"
+        (computed_fraction - published_fraction).abs() < MAX_STANDARD_ERRORS * standard_error + 0.0005,
+        "{name}: {computed_fraction} instead of {published_fraction}"
     );
 }
 
@@ -83,7 +83,7 @@ fn samples_are_those_of_table_5_7() {
             let (start_pose, conditioned) = (start_of_preset(name), conditioned_model(&plan, sampler));
             let (mut rng, mut expected_rng) = (seeded_rng(9), seeded_rng(9));
             for _ in 0..1000 {
-                let sample = conditioned.sample(&command, &start_pose, &mut rng).expect("it fits");
+                let accepted_motion = conditioned.sample(&command, &start_pose, &mut rng).expect("it fits");
                 let mut draw_count = 0;
                 let pose = loop {
                     let mut noise_rng = expected_rng.clone();
@@ -103,8 +103,8 @@ fn samples_are_those_of_table_5_7() {
                         break pose;
                     }
                 };
-                assert!(crate::common::pose_distance(&pose, &sample.pose) < 1e-14);
-                assert_eq!(sample.cost.draws, draw_count);
+                assert!(crate::common::pose_distance(&pose, &accepted_motion.pose) < 1e-14);
+                assert_eq!(accepted_motion.cost.draws, draw_count);
             }
         }
     }
@@ -112,8 +112,8 @@ fn samples_are_those_of_table_5_7() {
 
 /// Returns a plan of 20 cm by 20 cm, in which a robot with a radius of 13 cm fits nowhere.
 pub fn too_small_room() -> FloorPlan {
-    let corners = [[2.0, 2.0], [2.2, 2.0], [2.2, 2.2], [2.0, 2.2]];
-    let walls = (0..4).map(|i| Segment { from: corners[i], to: corners[(i + 1) % 4] }).collect();
+    let room_corners = [[2.0, 2.0], [2.2, 2.0], [2.2, 2.2], [2.0, 2.2]];
+    let walls = (0..4).map(|i| Segment { from: room_corners[i], to: room_corners[(i + 1) % 4] }).collect();
     FloorPlan::new(walls, [1.9, 1.9, 2.3, 2.3]).expect("a valid plan")
 }
 

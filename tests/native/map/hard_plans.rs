@@ -1,6 +1,6 @@
 //! Plans with many walls in one place. A collision check must measure the distance to few of them.
 
-use crate::common::{seeded_rng, uniform};
+use crate::common::{draw_uniform, seeded_rng};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
@@ -8,7 +8,7 @@ use motion::map::FloorPlan;
 use rand::Rng;
 use std::f64::consts::{PI, TAU};
 
-const ROOM: [f64; 4] = [0.0, 0.0, 10.0, 10.0];
+const ROOM_BOUNDS: [f64; 4] = [0.0, 0.0, 10.0, 10.0];
 
 fn clamped_wall(x0: f64, y0: f64, x1: f64, y1: f64) -> Segment {
     let [x0, y0, x1, y1] = [x0, y0, x1, y1].map(|x| x.clamp(0.0, 10.0));
@@ -20,16 +20,16 @@ fn hard_plans(count: usize) -> Vec<(&'static str, Vec<Segment>)> {
     let mut rng = seeded_rng(9800);
     let make_walls =
         |make: &mut dyn FnMut(f64) -> Segment| (0..count).map(|i| make(i as f64 / count as f64)).collect();
-    let diagonal = |width: f64| move |s: f64| clamped_wall(width * s, 0.0, 10.0, 10.0 - width * s);
+    let diagonal_wall = |width: f64| move |s: f64| clamped_wall(width * s, 0.0, 10.0, 10.0 - width * s);
     let ray = |s: f64, reach: f64| {
         let (sin, cos) = (TAU * s).sin_cos();
         clamped_wall(5.0, 5.0, 5.0 + reach * cos, 5.0 + reach * sin)
     };
-    let mut random_coordinate = move || uniform(&mut rng, 0.0, 10.0);
+    let mut random_coordinate = move || draw_uniform(&mut rng, 0.0, 10.0);
     vec![
-        ("equal diagonals", make_walls(&mut diagonal(0.0))),
-        ("nearly equal diagonals", make_walls(&mut diagonal(1e-9))),
-        ("diagonals close together", make_walls(&mut diagonal(0.1))),
+        ("equal diagonals", make_walls(&mut diagonal_wall(0.0))),
+        ("nearly equal diagonals", make_walls(&mut diagonal_wall(1e-9))),
+        ("diagonals close together", make_walls(&mut diagonal_wall(0.1))),
         ("equal but for their direction", {
             let mut is_forward = false;
             make_walls(&mut |_| {
@@ -49,8 +49,8 @@ fn hard_plans(count: usize) -> Vec<(&'static str, Vec<Segment>)> {
             "tangents to a circle",
             make_walls(&mut |s| {
                 let (sin, cos) = (TAU * s).sin_cos();
-                let point_at = |t: f64| [5.0 + 0.5 * cos - t * sin, 5.0 + 0.5 * sin + t * cos];
-                let ([x0, y0], [x1, y1]) = (point_at(-3.0), point_at(3.0));
+                let point_on_line = |t: f64| [5.0 + 0.5 * cos - t * sin, 5.0 + 0.5 * sin + t * cos];
+                let ([x0, y0], [x1, y1]) = (point_on_line(-3.0), point_on_line(3.0));
                 clamped_wall(x0, y0, x1, y1)
             }),
         ),
@@ -77,10 +77,15 @@ fn hard_plans(count: usize) -> Vec<(&'static str, Vec<Segment>)> {
 
 fn random_arc(rng: &mut impl Rng) -> Arc {
     let is_central = rng.next_u32().is_multiple_of(2);
-    let [x, y] =
-        std::array::from_fn(|_| if is_central { uniform(rng, 4.9, 5.1) } else { uniform(rng, 2.0, 8.0) });
-    let length = [0.001, 0.3, 2.0][(rng.next_u32() % 3) as usize];
-    Arc { start: SE2::new(x, y, uniform(rng, -PI, PI)), length, turn: uniform(rng, -1.0, 1.0) }
+    let [x, y] = std::array::from_fn(|_| {
+        if is_central { draw_uniform(rng, 4.9, 5.1) } else { draw_uniform(rng, 2.0, 8.0) }
+    });
+    let wall_length = [0.001, 0.3, 2.0][(rng.next_u32() % 3) as usize];
+    Arc {
+        start: SE2::new(x, y, draw_uniform(rng, -PI, PI)),
+        length: wall_length,
+        turn: draw_uniform(rng, -1.0, 1.0),
+    }
 }
 
 /// Maximum mean number of walls whose distance is measured for an arc.
@@ -89,7 +94,7 @@ const MAX_MEAN_WALL_TESTS: usize = FloorPlan::MAX_WALLS / 200;
 #[test]
 fn a_collision_check_in_a_hard_plan_measures_few_walls() {
     for (name, walls) in hard_plans(FloorPlan::MAX_WALLS) {
-        let plan = FloorPlan::new(walls, ROOM).expect("allowed");
+        let plan = FloorPlan::new(walls, ROOM_BOUNDS).expect("allowed");
         assert_eq!(plan.walls().len(), FloorPlan::MAX_WALLS);
         let mut rng = seeded_rng(9802);
         let wall_tests: usize = (0..300).map(|_| plan.test_arc(&random_arc(&mut rng), 0.13).wall_tests).sum();

@@ -1,6 +1,6 @@
 //! Occupancy grids: exact distances to cells, outlines, unknown cells, and free poses.
 
-use crate::common::{seeded_rng, uniform};
+use crate::common::{draw_uniform, seeded_rng};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
@@ -10,8 +10,8 @@ use motion::map::{
 use rand::Rng;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-const BLACK: Pixel = Pixel { shade: 0.0, opacity: 1.0 };
-const WHITE: Pixel = Pixel { shade: 1.0, opacity: 1.0 };
+const BLACK_PIXEL: Pixel = Pixel { shade: 0.0, opacity: 1.0 };
+const WHITE_PIXEL: Pixel = Pixel { shade: 1.0, opacity: 1.0 };
 
 /// Description of a grid by its cells.
 struct GridCells {
@@ -25,17 +25,18 @@ struct GridCells {
 }
 
 impl GridCells {
-    fn random(rng: &mut impl Rng) -> Self {
+    fn new_random(rng: &mut impl Rng) -> Self {
         let (width, height) = (1 + (rng.next_u32() % 12) as usize, 1 + (rng.next_u32() % 12) as usize);
-        let density = uniform(rng, 0.05, 0.9);
-        let occupied = (0..width * height).map(|_| uniform(rng, 0.0, 1.0) < density).collect();
-        let yaw = if rng.next_u32().is_multiple_of(3) { FRAC_PI_2 } else { uniform(rng, -PI, PI) };
-        let origin = [uniform(rng, -50.0, 50.0), uniform(rng, -50.0, 50.0), yaw];
-        Self { width, height, occupied, resolution: uniform(rng, 0.02, 0.5), origin }
+        let occupied_fraction = draw_uniform(rng, 0.05, 0.9);
+        let occupied = (0..width * height).map(|_| draw_uniform(rng, 0.0, 1.0) < occupied_fraction).collect();
+        let yaw = if rng.next_u32().is_multiple_of(3) { FRAC_PI_2 } else { draw_uniform(rng, -PI, PI) };
+        let origin = [draw_uniform(rng, -50.0, 50.0), draw_uniform(rng, -50.0, 50.0), yaw];
+        Self { width, height, occupied, resolution: draw_uniform(rng, 0.02, 0.5), origin }
     }
 
     fn grid(&self) -> OccupancyGrid {
-        let pixels = self.occupied.iter().map(|occupied| if *occupied { BLACK } else { WHITE }).collect();
+        let pixels =
+            self.occupied.iter().map(|occupied| if *occupied { BLACK_PIXEL } else { WHITE_PIXEL }).collect();
         let image = Image { width: self.width, height: self.height, pixels };
         let [x, y, yaw] = self.origin;
         OccupancyGrid::new(&image, &Interpretation::default(), self.resolution, SE2::new(x, y, yaw))
@@ -74,18 +75,18 @@ fn distances_to_walls_equal_distances_to_cells() {
     let mut rng = seeded_rng(9900);
     let (mut inside_count, mut outside_count) = (0, 0);
     for _ in 0..100 {
-        let cells = GridCells::random(&mut rng);
-        let plan = FloorPlan::from_grid(cells.grid()).expect("a small grid");
+        let grid_cells = GridCells::new_random(&mut rng);
+        let plan = FloorPlan::from_grid(grid_cells.grid()).expect("a small grid");
         let [left, bottom, right, top] = plan.bounds();
         for _ in 0..50 {
-            let column = uniform(&mut rng, 0.0, cells.width as f64);
-            let row = uniform(&mut rng, 0.0, cells.height as f64);
-            let point = cells.to_map(column, row);
+            let column = draw_uniform(&mut rng, 0.0, grid_cells.width as f64);
+            let row = draw_uniform(&mut rng, 0.0, grid_cells.height as f64);
+            let point = grid_cells.to_map(column, row);
             assert!((left..=right).contains(&point[0]) && (bottom..=top).contains(&point[1]));
-            let cell_distance = cells.distance_to_occupied(point);
+            let cell_distance = grid_cells.distance_to_occupied(point);
             if cell_distance == 0.0 {
                 assert!(
-                    cells.grid().is_blocked_at(point) && !plan.test_point(point, 0.0).free,
+                    grid_cells.grid().is_blocked_at(point) && !plan.test_point(point, 0.0).free,
                     "inside a cell"
                 );
                 inside_count += 1;
@@ -98,7 +99,7 @@ fn distances_to_walls_equal_distances_to_cells() {
                 wall_distance == cell_distance || (wall_distance - cell_distance).abs() < 1e-13,
                 "{wall_distance}, {cell_distance}"
             );
-            let clearance = uniform(&mut rng, 0.0, 1.0);
+            let clearance = draw_uniform(&mut rng, 0.0, 1.0);
             if (clearance - cell_distance).abs() > 1e-12 {
                 assert_eq!(plan.test_point(point, clearance).free, cell_distance > clearance);
             }
@@ -155,9 +156,9 @@ fn a_grid_of_too_many_walls_is_refused() {
     // The grid has 160 · 160 single cells with four sides each.
     let error = FloorPlan::from_grid(single_cells.grid()).err();
     assert_eq!(error, Some(FloorPlanError::TooManySides(20_001)));
-    let message = error.map(|error| error.to_string()).unwrap_or_default();
+    let error_message = error.map(|error| error.to_string()).unwrap_or_default();
     assert_eq!(
-        message,
+        error_message,
         "image has blocked cells with 20001 sides or more; allowed are at most 20000: remove specks or use larger cells"
     );
 }
@@ -165,12 +166,12 @@ fn a_grid_of_too_many_walls_is_refused() {
 /// The error message names the origin, which is a field of the map.
 #[test]
 fn a_grid_outside_the_range_of_coordinates_is_refused() {
-    let grid_at = |resolution, origin| {
+    let create_grid = |resolution, origin| {
         GridCells { width: 3, height: 2, occupied: vec![false; 6], resolution, origin }.grid()
     };
-    assert!(FloorPlan::from_grid(grid_at(0.5, [-1e6, 1e6 - 1.0, 0.0])).is_ok());
+    assert!(FloorPlan::from_grid(create_grid(0.5, [-1e6, 1e6 - 1.0, 0.0])).is_ok());
     for (resolution, origin) in [(0.5, [1e6 - 1.0, 0.0, 0.0]), (4e4, [0.0; 3]), (0.004, [0.0; 3])] {
-        let error = FloorPlan::from_grid(grid_at(resolution, origin)).err();
+        let error = FloorPlan::from_grid(create_grid(resolution, origin)).err();
         assert!(matches!(error, Some(FloorPlanError::BadGrid(_))), "{error:?}");
         let message = error.map(|error| error.to_string()).unwrap_or_default();
         assert!(message.starts_with("origin has the cells from ["), "{message}");
@@ -182,12 +183,12 @@ fn a_grid_outside_the_range_of_coordinates_is_refused() {
 /// Returns a grid with cells of 10 cm that are drawn as `#` (occupied), `?` (unknown) and `.` (free). The first row is at the
 /// top.
 fn grid_from_drawing(rows: &[&str], unknown: UnknownCells) -> OccupancyGrid {
-    let shade_of = |cell| match cell {
+    let cell_shade = |cell| match cell {
         '#' => 0.0,
         '?' => 0.5,
         _ => 1.0,
     };
-    let pixels = rows.iter().flat_map(|row| row.chars()).map(shade_of).collect();
+    let pixels = rows.iter().flat_map(|row| row.chars()).map(cell_shade).collect();
     let image = Image::<f32> { width: rows[0].len(), height: rows.len(), pixels };
     OccupancyGrid::new(&image, &Interpretation::default(), 0.1, SE2::identity()).with_unknown(unknown)
 }
@@ -215,17 +216,17 @@ fn the_free_pose_is_in_the_largest_free_square() {
         let straight_arc = Arc { start: free_pose, length: 0.5, turn: 0.0 };
         assert!(plan.test_arc(&straight_arc, 0.0).free && free_pose.theta().abs() < 0.5, "{free_pose:?}");
     }
-    let free_pose_of = |rows: [&str; 3], unknown_cells, clearance| {
+    let find_free_pose_in_rows = |rows: [&str; 3], unknown_cells, clearance| {
         let plan = FloorPlan::from_grid(grid_from_drawing(&rows, unknown_cells)).expect("a small grid");
         plan.find_free_pose(clearance)
     };
     // A robot that just fits cannot move. The heading is then 0.
-    let free_pose = free_pose_of(["###", "#.#", "###"], UnknownCells::Free, 0.0499);
+    let free_pose = find_free_pose_in_rows(["###", "#.#", "###"], UnknownCells::Free, 0.0499);
     assert_eq!(free_pose.expect("there is room").theta(), 0.0);
     // All cells are unknown, and count as free or blocked as the setting says.
-    let free_pose = free_pose_of(["???"; 3], UnknownCells::Free, 0.1).expect("there is room");
+    let free_pose = find_free_pose_in_rows(["???"; 3], UnknownCells::Free, 0.1).expect("there is room");
     assert!((free_pose.x() - 0.05).abs() + (free_pose.y() - 0.05).abs() < 1e-12, "the first: {free_pose:?}");
     let blocked_grid = grid_from_drawing(&["???"; 3], UnknownCells::Blocked);
     assert!(blocked_grid.cells().all(|cell| cell == Cell::Unknown), "the cells themselves are unchanged");
-    assert_eq!(free_pose_of(["???"; 3], UnknownCells::Blocked, 0.1), None);
+    assert_eq!(find_free_pose_in_rows(["???"; 3], UnknownCells::Blocked, 0.1), None);
 }

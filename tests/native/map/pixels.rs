@@ -14,10 +14,10 @@ fn pixels_are_read_as_map_server_reads_them() {
     let scale_mode = Interpretation { mode: MapMode::Scale, ..trinary_mode };
     let raw_mode = Interpretation { mode: MapMode::Raw, ..trinary_mode };
     let with_occupied_threshold = |occupied_thresh| Interpretation { occupied_thresh, ..trinary_mode };
-    let negated_with_threshold =
+    let negate_with_threshold =
         |occupied_thresh| Interpretation { negate: true, ..with_occupied_threshold(occupied_thresh) };
     let with_free_threshold = |free_thresh| Interpretation { free_thresh, ..trinary_mode };
-    let cases = [
+    let interpretation_cases = [
         ("black", trinary_mode, grey_pixel(0), Cell::Occupied),
         ("white", trinary_mode, grey_pixel(255), Cell::Free),
         (
@@ -30,8 +30,8 @@ fn pixels_are_read_as_map_server_reads_them() {
         ("occupancy 0.651", trinary_mode, grey_pixel(89), Cell::Occupied),
         ("occupancy 0.647", trinary_mode, grey_pixel(90), Cell::Unknown),
         ("transparent black", trinary_mode, transparent_pixel(0), Cell::Occupied),
-        ("black, negated", negated_with_threshold(0.65), grey_pixel(0), Cell::Free),
-        ("white, negated", negated_with_threshold(0.65), grey_pixel(255), Cell::Occupied),
+        ("black, negated", negate_with_threshold(0.65), grey_pixel(0), Cell::Free),
+        ("white, negated", negate_with_threshold(0.65), grey_pixel(255), Cell::Occupied),
         ("at the threshold", with_occupied_threshold(0.6), grey_pixel(102), Cell::Unknown),
         ("past it", with_occupied_threshold(0.6), grey_pixel(101), Cell::Occupied),
         ("nothing is above 1", with_occupied_threshold(1.0), grey_pixel(0), Cell::Unknown),
@@ -54,14 +54,18 @@ fn pixels_are_read_as_map_server_reads_them() {
         ("raw does not negate", Interpretation { negate: true, ..raw_mode }, grey_pixel(100), Cell::Occupied),
         ("raw does not negate", Interpretation { negate: true, ..raw_mode }, grey_pixel(155), Cell::Unknown),
     ];
-    for (name, interpretation, grey_pixel, cell) in cases {
-        assert_eq!(interpretation.cell(grey_pixel), cell, "{name}: {interpretation:?} {grey_pixel:?}");
+    for (name, interpretation, grey_pixel, cell) in interpretation_cases {
+        assert_eq!(
+            interpretation.classify_pixel(grey_pixel),
+            cell,
+            "{name}: {interpretation:?} {grey_pixel:?}"
+        );
     }
 }
 
 // ----------------------------------------------------------------------------------------------------------- PGM
 
-fn shades(image: &Image<f32>) -> &[f32] {
+fn image_shades(image: &Image<f32>) -> &[f32] {
     assert_eq!(image.pixels.len(), image.width * image.height);
     &image.pixels
 }
@@ -69,17 +73,27 @@ fn shades(image: &Image<f32>) -> &[f32] {
 #[test]
 fn pgm_rasters_may_hold_any_bytes() {
     let image_with_trailer = read_pgm(b"P5 2 1 5\n\x00\x05anything that follows").expect("a valid file");
-    assert_eq!(shades(&image_with_trailer), [0.0, 1.0]);
+    assert_eq!(image_shades(&image_with_trailer), [0.0, 1.0]);
     // The first byte of the raster may look like white space or a comment.
-    assert_eq!(shades(&read_pgm(b"P5 2 1 255\n\n#").expect("two pixels")), [10.0 / 255.0, 35.0 / 255.0]);
-    assert_eq!(shades(&read_pgm(b"P5 1 1 100\n\xff").expect("a pixel too bright")), [1.0]);
+    assert_eq!(
+        image_shades(&read_pgm(b"P5 2 1 255\n\n#").expect("two pixels")),
+        [10.0 / 255.0, 35.0 / 255.0]
+    );
+    assert_eq!(image_shades(&read_pgm(b"P5 1 1 100\n\xff").expect("a pixel too bright")), [1.0]);
     // Editors on Windows end the lines of a header with two characters.
     for header in ["P5\r\n2 1\r\n5\r\n", "P5\r\n# by hand\r\n2 1 5\r\n", "P5 2 1 5\r\n"] {
-        let file = [header.as_bytes(), &[0, 5]].concat();
-        assert_eq!(shades(&read_pgm(&file).expect("a header of Windows")), [0.0, 1.0], "{header:?}");
+        let file_bytes = [header.as_bytes(), &[0, 5]].concat();
+        assert_eq!(
+            image_shades(&read_pgm(&file_bytes).expect("a header of Windows")),
+            [0.0, 1.0],
+            "{header:?}"
+        );
     }
     // If the file has exactly the expected length, the line feed after the carriage return is the first pixel.
-    assert_eq!(shades(&read_pgm(b"P5 2 1 255\r\n#").expect("two pixels")), [10.0 / 255.0, 35.0 / 255.0]);
+    assert_eq!(
+        image_shades(&read_pgm(b"P5 2 1 255\r\n#").expect("two pixels")),
+        [10.0 / 255.0, 35.0 / 255.0]
+    );
 }
 
 /// The error message names the line, the field, its value and what is allowed.
@@ -121,14 +135,14 @@ fn errors_of_malformed_pgm_files_name_line_field_and_value() {
     for (file, sentence) in cases {
         assert_eq!(read_pgm(file).expect_err("malformed").to_string(), sentence, "{}", file.escape_ascii());
     }
-    let header = format!("P2\n{MAX_PIXELS} 1\n255\n");
-    assert_eq!(read_pgm(header.as_bytes()).expect_err("no pixels").field, "a pixel");
+    let file_header = format!("P2\n{MAX_PIXELS} 1\n255\n");
+    assert_eq!(read_pgm(file_header.as_bytes()).expect_err("no pixels").field, "a pixel");
 }
 
 /// In mode trinary, `map_server` averages opacity with the colours, if the image has transparency.
 #[test]
 fn transparency_counts_as_a_colour_in_trinary() {
-    let occupied_cells = |pixels: &[(f32, f32)]| -> Vec<bool> {
+    let are_cells_occupied = |pixels: &[(f32, f32)]| -> Vec<bool> {
         let pixels: Vec<Pixel> = pixels.iter().map(|&(shade, opacity)| Pixel { shade, opacity }).collect();
         let image = Image { width: pixels.len(), height: 1, pixels };
         let grid = OccupancyGrid::new(&image, &Interpretation::default(), 0.05, SE2::identity());
@@ -136,11 +150,11 @@ fn transparency_counts_as_a_colour_in_trinary() {
     };
     // Opaque black then has the shade (0 + 0 + 0 + 1)/4 = 0.25, dark grey of 60/255 has 0.43, and transparent white 0.75.
     assert_eq!(
-        occupied_cells(&[(0.0, 1.0), (60.0 / 255.0, 1.0), (1.0, 0.0), (0.0, 0.0)]),
+        are_cells_occupied(&[(0.0, 1.0), (60.0 / 255.0, 1.0), (1.0, 0.0), (0.0, 0.0)]),
         [true, false, false, true]
     );
     assert_eq!(
-        occupied_cells(&[(0.0, 1.0), (60.0 / 255.0, 1.0), (1.0, 1.0)]),
+        are_cells_occupied(&[(0.0, 1.0), (60.0 / 255.0, 1.0), (1.0, 1.0)]),
         [true, true, false],
         "no transparency"
     );

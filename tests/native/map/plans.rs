@@ -1,6 +1,6 @@
 //! Floor plans: validity, the apartment, and collision tests that skip no wall.
 
-use crate::common::{seeded_rng, signed_log_uniform, uniform};
+use crate::common::{draw_signed_log_uniform, draw_uniform, seeded_rng};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
@@ -8,25 +8,25 @@ use motion::map::{FloorPlan, FloorPlanError, Image, Interpretation, OccupancyGri
 use rand::Rng;
 use std::f64::consts::{PI, TAU};
 
-const ROOM: [f64; 4] = [0.0, 0.0, 10.0, 10.0];
+const ROOM_BOUNDS: [f64; 4] = [0.0, 0.0, 10.0, 10.0];
 
-fn wall(x0: f64, y0: f64, x1: f64, y1: f64) -> Segment {
+fn new_wall(x0: f64, y0: f64, x1: f64, y1: f64) -> Segment {
     Segment { from: [x0, y0], to: [x1, y1] }
 }
 
 fn random_point([left, bottom, right, top]: [f64; 4], rng: &mut impl Rng) -> [f64; 2] {
-    [uniform(rng, left, right), uniform(rng, bottom, top)]
+    [draw_uniform(rng, left, right), draw_uniform(rng, bottom, top)]
 }
 
 /// Returns a straight or curved, long or short arc, forward or in reverse.
 fn random_arc_from(start: [f64; 2], rng: &mut impl Rng) -> Arc {
     let turn = match rng.next_u32() % 3 {
-        0 => signed_log_uniform(rng, 1e-18, 1e-3),
+        0 => draw_signed_log_uniform(rng, 1e-18, 1e-3),
         1 => 0.0,
-        _ => uniform(rng, -TAU, TAU),
+        _ => draw_uniform(rng, -TAU, TAU),
     };
-    let length = uniform(rng, -3.0, 3.0);
-    Arc { start: SE2::new(start[0], start[1], uniform(rng, -PI, PI)), length, turn }
+    let length = draw_uniform(rng, -3.0, 3.0);
+    Arc { start: SE2::new(start[0], start[1], draw_uniform(rng, -PI, PI)), length, turn }
 }
 
 /// Returns walls whose coordinates extend by at most `max_extent` m, a third of them along the axes.
@@ -36,8 +36,8 @@ fn random_walls(count: usize, max_extent: f64, bounds: [f64; 4], rng: &mut impl 
         .map(|_| {
             let start_point = random_point(bounds, rng);
             let mut end_point = [
-                start_point[0] + uniform(rng, -max_extent, max_extent),
-                start_point[1] + uniform(rng, -max_extent, max_extent),
+                start_point[0] + draw_uniform(rng, -max_extent, max_extent),
+                start_point[1] + draw_uniform(rng, -max_extent, max_extent),
             ];
             if rng.next_u32().is_multiple_of(3) {
                 let axis = (rng.next_u32() % 2) as usize;
@@ -55,12 +55,13 @@ fn random_walls(count: usize, max_extent: f64, bounds: [f64; 4], rng: &mut impl 
 
 #[test]
 fn plans_with_too_many_walls_are_refused() {
-    let wall_segment = wall(1.0, 1.0, 9.0, 1.0);
-    let error = FloorPlan::new(vec![wall_segment; FloorPlan::MAX_WALLS + 1], ROOM).expect_err("too many");
+    let wall_segment = new_wall(1.0, 1.0, 9.0, 1.0);
+    let error =
+        FloorPlan::new(vec![wall_segment; FloorPlan::MAX_WALLS + 1], ROOM_BOUNDS).expect_err("too many");
     assert_eq!(error, FloorPlanError::TooManyWalls(20_001));
     assert_eq!(error.to_string(), "walls has a length of 20001 or more; allowed is at most 20000");
     for wall_count in [0, 1, 16, 17, FloorPlan::MAX_WALLS] {
-        let plan = FloorPlan::new(vec![wall_segment; wall_count], ROOM).expect("allowed");
+        let plan = FloorPlan::new(vec![wall_segment; wall_count], ROOM_BOUNDS).expect("allowed");
         assert_eq!(plan.walls().len(), wall_count);
         assert_eq!(plan.test_point([5.0, 1.5], 0.51).free, wall_count == 0);
         assert!(plan.test_point([5.0, 1.5], 0.49).free);
@@ -76,31 +77,34 @@ fn collision_results_equal_those_of_a_loop_over_all_walls() {
     let mut rng = seeded_rng(9650);
     let diagonal_walls = |count: u32| -> Vec<Segment> {
         let end_coordinates = |offset: f64| (offset.min(10.0), (offset - 10.0).max(0.0));
-        let offsets = (0..count).map(|i| 20.0 * (f64::from(i) + 0.5) / f64::from(count));
-        offsets.map(end_coordinates).map(|(larger, smaller)| wall(smaller, larger, larger, smaller)).collect()
+        let wall_offsets = (0..count).map(|i| 20.0 * (f64::from(i) + 0.5) / f64::from(count));
+        wall_offsets
+            .map(end_coordinates)
+            .map(|(larger, smaller)| new_wall(smaller, larger, larger, smaller))
+            .collect()
     };
     let binary_pixel = |dark: bool| Pixel { shade: if dark { 0.0 } else { 1.0 }, opacity: 1.0 };
     let pixels: Vec<_> = (0..1600).map(|_| binary_pixel(rng.next_u32().is_multiple_of(40))).collect();
     let image = Image { width: 40, height: 40, pixels };
     let grid = OccupancyGrid::new(&image, &Interpretation::default(), 0.25, SE2::new(3.0, -2.0, 0.4));
-    let plan_of_room = |walls| FloorPlan::new(walls, ROOM).expect("a valid plan");
-    let long_walls = random_walls(12, 10.0, ROOM, &mut rng);
-    let plans = [
+    let new_room_plan = |walls| FloorPlan::new(walls, ROOM_BOUNDS).expect("a valid plan");
+    let long_walls = random_walls(12, 10.0, ROOM_BOUNDS, &mut rng);
+    let tested_plans = [
         FloorPlan::apartment(),
-        plan_of_room(diagonal_walls(20)),
-        plan_of_room(diagonal_walls(300)),
-        plan_of_room(long_walls),
-        plan_of_room(vec![wall(2.0, 2.0, 9.0, 9.0); 300]),
+        new_room_plan(diagonal_walls(20)),
+        new_room_plan(diagonal_walls(300)),
+        new_room_plan(long_walls),
+        new_room_plan(vec![new_wall(2.0, 2.0, 9.0, 9.0); 300]),
         FloorPlan::from_grid(grid).expect("a small grid"),
     ];
-    for (plan_index, plan) in plans.iter().enumerate() {
+    for (plan_index, plan) in tested_plans.iter().enumerate() {
         let [left, bottom, right, top] = plan.bounds();
         let box_corners = [[left, bottom], [right, bottom], [right, top], [left, top]];
         let corners = plan.grid().map_or(box_corners, OccupancyGrid::corners);
         let mut verdict_counts = [0; 3];
         for _ in 0..3_000 {
             let start_point = random_point(plan.bounds(), &mut rng);
-            let length_factor = signed_log_uniform(&mut rng, 1e-3, 1.0);
+            let length_factor = draw_signed_log_uniform(&mut rng, 1e-3, 1.0);
             let arc = random_arc_from(start_point, &mut rng);
             let turn = if rng.next_u32().is_multiple_of(3) { 2.0 * arc.turn } else { arc.turn };
             let arc = Arc { length: length_factor * arc.length, turn, ..arc };
@@ -120,9 +124,9 @@ fn collision_results_equal_those_of_a_loop_over_all_walls() {
                     (x1 - x0) * (point[1] - y0) - (y1 - y0) * (point[0] - x0) >= 0.0
                 })
             };
-            let edges = (0..4).map(|i| Segment { from: corners[i], to: corners[(i + 1) % 4] });
+            let map_edges = (0..4).map(|i| Segment { from: corners[i], to: corners[(i + 1) % 4] });
             let does_cross_edge =
-                edges.map(|edge| edge.distance_to_arc(&arc)).fold(f64::INFINITY, f64::min) == 0.0;
+                map_edges.map(|edge| edge.distance_to_arc(&arc)).fold(f64::INFINITY, f64::min) == 0.0;
             let is_in_occupied_cell = |point| plan.grid().is_some_and(|grid| grid.is_blocked_at(point));
             let is_end_free =
                 is_on_map(arc_end) && !is_in_occupied_cell(arc_end) && distance_to_end > clearance;
@@ -149,7 +153,7 @@ fn collision_results_equal_those_of_a_loop_over_all_walls() {
 
 #[test]
 fn touching_a_wall_is_not_free() {
-    let plan = FloorPlan::new(vec![wall(1.0, 2.0, 9.0, 2.0)], ROOM).expect("a valid plan");
+    let plan = FloorPlan::new(vec![new_wall(1.0, 2.0, 9.0, 2.0)], ROOM_BOUNDS).expect("a valid plan");
     assert!(!plan.test_point([5.0, 2.25], 0.25).free);
     assert!(plan.test_point([5.0, 2.25], 0.2499).free);
     assert!(!plan.test_point([5.0, 2.0], 0.0).free, "a point on the wall");
@@ -186,7 +190,7 @@ fn the_free_pose_is_in_the_largest_free_square() {
             "not at the edge: {free_pose:?}"
         );
     }
-    let walls = (0..=20).map(|i| wall(0.0, 0.5 * f64::from(i), 10.0, 0.5 * f64::from(i))).collect();
-    let plan_with_narrow_gaps = FloorPlan::new(walls, ROOM).expect("a valid plan");
+    let walls = (0..=20).map(|i| new_wall(0.0, 0.5 * f64::from(i), 10.0, 0.5 * f64::from(i))).collect();
+    let plan_with_narrow_gaps = FloorPlan::new(walls, ROOM_BOUNDS).expect("a valid plan");
     assert!(plan_with_narrow_gaps.find_free_pose(0.3).is_none(), "walls are half a metre apart everywhere");
 }

@@ -17,7 +17,7 @@ struct Format {
 /// Returns the file of an image. The samples of a pixel are adjacent.
 fn encoded_png(format: &Format, width: u32, samples: &[u16]) -> Vec<u8> {
     let row_length = width as usize * format.color.samples();
-    let mut raster = Vec::new();
+    let mut packed_rows = Vec::new();
     for row in samples.chunks(row_length) {
         let row_bits: String =
             row.iter().map(|sample| format!("{sample:0width$b}", width = format.bits as usize)).collect();
@@ -25,10 +25,10 @@ fn encoded_png(format: &Format, width: u32, samples: &[u16]) -> Vec<u8> {
             let byte_value = byte.iter().fold(0, |byte, digit| 2 * byte + (digit - b'0'));
             byte_value << (8 - byte.len())
         });
-        raster.extend(row_bytes);
+        packed_rows.extend(row_bytes);
     }
-    let mut file = Vec::new();
-    let mut encoder = Encoder::new(&mut file, width, (samples.len() / row_length) as u32);
+    let mut file_bytes = Vec::new();
+    let mut encoder = Encoder::new(&mut file_bytes, width, (samples.len() / row_length) as u32);
     encoder.set_color(format.color);
     encoder.set_depth(BitDepth::from_u8(format.bits as u8).expect("a depth"));
     encoder.set_filter(Filter::Adaptive);
@@ -40,14 +40,14 @@ fn encoded_png(format: &Format, width: u32, samples: &[u16]) -> Vec<u8> {
     if let Some(transparency) = &format.transparency {
         encoder.set_trns(transparency.clone());
     }
-    encoder.write_header().expect("a header").write_image_data(&raster).expect("an image");
-    file
+    encoder.write_header().expect("a header").write_image_data(&packed_rows).expect("an image");
+    file_bytes
 }
 
 /// Returns the file of an opaque grey image of 8 bits.
 fn grey_png(width: u32, samples: &[u16]) -> Vec<u8> {
-    let format = Format { color: ColorType::Grayscale, bits: 8, palette: None, transparency: None };
-    encoded_png(&format, width, samples)
+    let grey_format = Format { color: ColorType::Grayscale, bits: 8, palette: None, transparency: None };
+    encoded_png(&grey_format, width, samples)
 }
 
 #[test]
@@ -87,13 +87,13 @@ fn every_kind_of_image_is_decoded_exactly() {
                 let expected_pixels: Vec<[u8; 4]> = samples
                     .chunks(color.samples())
                     .map(|pixel| {
-                        let bytes: Vec<u8> = pixel.iter().map(|sample| to_byte(*sample)).collect();
+                        let sample_bytes: Vec<u8> = pixel.iter().map(|sample| to_byte(*sample)).collect();
                         let opacity = if has_transparent_colour && pixel == first_pixel { 0 } else { 255 };
-                        match *bytes {
+                        match *sample_bytes {
                             [_] if color == ColorType::Indexed => {
-                                let index = usize::from(pixel[0]);
-                                let opacity = opacities.get(index).filter(|_| has_transparent_colour);
-                                let [red, green, blue] = [0, 1, 2].map(|k| palette[3 * index + k]);
+                                let palette_index = usize::from(pixel[0]);
+                                let opacity = opacities.get(palette_index).filter(|_| has_transparent_colour);
+                                let [red, green, blue] = [0, 1, 2].map(|k| palette[3 * palette_index + k]);
                                 [red, green, blue, opacity.copied().unwrap_or(255)]
                             }
                             [grey] => [grey, grey, grey, opacity],

@@ -6,7 +6,7 @@ use crate::common::{
 };
 use motion::{NoiseKind, Variance};
 
-fn sample_of_noise(kind: NoiseKind, variance: f64, count: usize, seed: u64) -> Vec<f64> {
+fn draw_noise_sample(kind: NoiseKind, variance: f64, count: usize, seed: u64) -> Vec<f64> {
     let mut rng = seeded_rng(seed);
     (0..count).map(|_| kind.sample(Variance(variance), &mut rng)).collect()
 }
@@ -15,7 +15,7 @@ fn sample_of_noise(kind: NoiseKind, variance: f64, count: usize, seed: u64) -> V
 fn samples_follow_the_exact_distribution() {
     for kind in NOISE_KINDS {
         for (seed, variance) in [(1, 1.0), (2, 0.025), (3, 1e-8), (4, 400.0)] {
-            let sample = sample_of_noise(kind, variance, SAMPLE_COUNT, seed);
+            let sample = draw_noise_sample(kind, variance, SAMPLE_COUNT, seed);
             let ks_statistic = kolmogorov_smirnov(sample, |a| unit_cdf(kind, a / variance.sqrt()));
             assert!(
                 ks_statistic < MAX_KOLMOGOROV_SMIRNOV,
@@ -37,14 +37,14 @@ fn prob_is_the_density_of_the_samples() {
             let mut integral = 0.0;
             for interval in 0..interval_count {
                 let interval_start = -integration_limit + interval as f64 * interval_width;
-                let step = interval_width / 64.0;
+                let integration_step = interval_width / 64.0;
                 let interval_integral: f64 = (0..=64)
                     .map(|i| {
                         let weight = if i == 0 || i == 64 { 1.0 } else { 2.0 + 2.0 * (i % 2) as f64 };
-                        weight * kind.prob(interval_start + i as f64 * step, Variance(variance))
+                        weight * kind.prob(interval_start + i as f64 * integration_step, Variance(variance))
                     })
                     .sum::<f64>()
-                    * step
+                    * integration_step
                     / 3.0;
                 let cdf_increase = unit_cdf(kind, (interval_start + interval_width) / std)
                     - unit_cdf(kind, interval_start / std);
@@ -86,10 +86,10 @@ fn with_zero_variance_samples_are_zero_and_prob_is_zero_or_one() {
 #[test]
 fn quantiles_match_references_to_1e_15() {
     for row in ReferenceTable::parse(include_str!("../../reference/quantile.csv")).rows() {
-        let q = row.number("q");
+        let q = row.cell_number("q");
         for (kind, column) in [(NoiseKind::Normal, "normal"), (NoiseKind::Triangular, "triangular")] {
             let z = kind.quantile(q);
-            let relative_error = row.deviation(column, z) / row.number(column);
+            let relative_error = row.deviation(column, z) / row.cell_number(column);
             assert!(
                 relative_error <= 1e-15,
                 "{kind:?} quantile({q}) = {z}: relative error {relative_error:e}"

@@ -1,7 +1,7 @@
 //! The odometry model: decomposition, scoring, density and sampler, and the option for robots that reverse.
 
 use crate::common::density::PolarGrid;
-use crate::common::{NOISE_KINDS, derivative_by_noise, seeded_rng, uniform};
+use crate::common::{NOISE_KINDS, derivative_by_noise, draw_uniform, seeded_rng};
 use motion::geom::se2::SE2;
 use motion::{
     ConfiguredOdometry, MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel, RotTransRot, Variance,
@@ -52,9 +52,9 @@ fn a_spin_on_the_spot_counts_as_the_second_rotation() {
     }
     // A translation of a nanometre or more has a direction.
     let prev = SE2::identity();
-    let reading_at = |distance: f64| OdomDelta::from_poses(&prev, &SE2::new(0.0, distance, 0.5));
-    assert_eq!(reading_at(1e-9f64.next_down()), odom_delta(0.0, 0.0, 0.5));
-    assert_eq!(reading_at(1e-9), odom_delta(FRAC_PI_2, 1e-9, 0.5 - FRAC_PI_2));
+    let reading_of_distance = |distance: f64| OdomDelta::from_poses(&prev, &SE2::new(0.0, distance, 0.5));
+    assert_eq!(reading_of_distance(1e-9f64.next_down()), odom_delta(0.0, 0.0, 0.5));
+    assert_eq!(reading_of_distance(1e-9), odom_delta(FRAC_PI_2, 1e-9, 0.5 - FRAC_PI_2));
     let u = odom_delta(0.0, 0.0, 0.8);
     assert_eq!(odometry_model(NoiseKind::Normal).pose_density(&u.apply(&prev), &u, &prev), None);
 }
@@ -67,8 +67,9 @@ fn prob_is_the_score_of_table_5_5() {
     for kind in NOISE_KINDS {
         for u in odometry_readings() {
             for _ in 0..200 {
-                let mut perturbed = |value: f64| value + uniform(&mut rng, -0.4, 0.4);
-                let executed_legs = odom_delta(perturbed(u.rot1), perturbed(u.trans), perturbed(u.rot2));
+                let mut perturb_value = |value: f64| value + draw_uniform(&mut rng, -0.4, 0.4);
+                let executed_legs =
+                    odom_delta(perturb_value(u.rot1), perturb_value(u.trans), perturb_value(u.rot2));
                 let [r1, t, r2] = table_variances(&executed_legs, f64::abs);
                 let expected_score = kind.prob(u.rot1 - executed_legs.rot1, Variance(r1))
                     * kind.prob(u.trans - executed_legs.trans, Variance(t))
@@ -121,7 +122,7 @@ fn the_pose_density_divides_by_the_jacobian() {
         for u in odometry_readings() {
             let table_variances = table_variances(&u, f64::abs);
             for _ in 0..100 {
-                let leg_noise = table_variances.map(|b2| uniform(&mut rng, -1.0, 1.0) * b2.sqrt());
+                let leg_noise = table_variances.map(|b2| draw_uniform(&mut rng, -1.0, 1.0) * b2.sqrt());
                 let executed_legs =
                     odom_delta(u.rot1 - leg_noise[0], u.trans - leg_noise[1], u.rot2 - leg_noise[2]);
                 let [r1, t, r2] =
@@ -156,7 +157,7 @@ fn the_pose_density_integrates_to_one_for_large_noise() {
         let odometry_model = OdometryModel { alphas: OdomAlphas([0.9, 0.9, 1.1, 0.4]), noise: kind };
         let radius = u.trans + 7.0 * (1.1 * u.trans.powi(2) + 0.4 * (u.rot1.powi(2) + u.rot2.powi(2))).sqrt();
         let integral = PolarGrid::around_start(&x, 1.0, radius, [14, 8, 8])
-            .integral(|pose| odometry_model.pose_density(pose, &u, &x).unwrap());
+            .integrate_density(|pose| odometry_model.pose_density(pose, &u, &x).unwrap());
         assert!((integral - 1.0).abs() < tolerance, "{kind:?} {u:?}: {integral}");
     }
 }

@@ -4,7 +4,7 @@
 use crate::common::{MAX_STANDARD_ERRORS, NOISE_KINDS, SAMPLE_COUNT, seeded_rng};
 use motion::geom::se2::SE2;
 use motion::models::{LegVariances, MAX_SPIN_DISTANCE, OdometryRule, RuleAlphas};
-use motion::noise::centred_uniform;
+use motion::noise::draw_centred_uniform;
 use motion::stats::quadrature::nodes;
 use motion::{OdomDelta, Variance};
 use std::f64::consts::FRAC_PI_2;
@@ -40,7 +40,7 @@ fn the_variances_of_each_rule_match_its_source() {
     let spin_reading = odom_delta(0.0, 0.0, 2.2);
     // The encoders jitter by half a centimetre, to the left and backwards, with a turn of 0.01 rad.
     let jitter_reading = odom_delta(2.0, 0.005, -1.99);
-    let cases = [
+    let variance_cases = [
         (Table, bend_reading, bend_variances),
         (Nav2, bend_reading, bend_variances),
         (Beluga, bend_reading, bend_variances),
@@ -60,7 +60,7 @@ fn the_variances_of_each_rule_match_its_source() {
         (Beluga, jitter_reading, [0.000005, 0.0000475, 0.000015, 0.0]),
         (Omni, jitter_reading, [0.0, 0.0000475, 0.000015, 0.0000525]),
     ];
-    for (rule, reading, expected) in cases {
+    for (rule, reading, expected) in variance_cases {
         for (computed, expected) in leg_variances(rule, reading).into_iter().zip(expected) {
             assert!(
                 (computed - expected).abs() < 2e-9,
@@ -72,16 +72,16 @@ fn the_variances_of_each_rule_match_its_source() {
 
 #[test]
 fn nav2_and_beluga_differ_at_exactly_a_centimetre_only() {
-    let reading_with_trans = |trans| odom_delta(1.0, trans, -0.4);
+    let new_reading = |trans| odom_delta(1.0, trans, -0.4);
     for (trans, nav2_rot1, beluga_rot1) in [
         (MAX_SPIN_DISTANCE.next_down(), 0.0, 0.0),
         (MAX_SPIN_DISTANCE, 1.0, 0.0),
         (MAX_SPIN_DISTANCE.next_up(), 1.0, 1.0),
     ] {
-        let rot1_of = |rule: OdometryRule| rule.legs(&reading_with_trans(trans)).rot1;
-        assert_eq!([rot1_of(Nav2), rot1_of(Beluga)], [nav2_rot1, beluga_rot1], "{trans}");
+        let rule_rot1 = |rule: OdometryRule| rule.legs(&new_reading(trans)).rot1;
+        assert_eq!([rule_rot1(Nav2), rule_rot1(Beluga)], [nav2_rot1, beluga_rot1], "{trans}");
         for rule in OdometryRule::ALL {
-            let OdomDelta { rot1, rot2, .. } = rule.legs(&reading_with_trans(trans));
+            let OdomDelta { rot1, rot2, .. } = rule.legs(&new_reading(trans));
             assert!((rot1 + rot2 - 0.6).abs() < 1e-15, "{rule:?} loses a turn");
         }
     }
@@ -93,12 +93,12 @@ fn the_mean_squared_sine_is_that_of_the_noise() {
     for kind in NOISE_KINDS {
         for exponent in -60..=4 {
             let std = 10f64.powf(f64::from(exponent) / 10.0);
-            let expected: f64 =
+            let expected_mean_square: f64 =
                 nodes(kind).iter().map(|node| node.weight * (std * node.value).sin().powi(2)).sum();
-            let computed = kind.mean_squared_sine(Variance(std * std));
+            let computed_mean_square = kind.mean_squared_sine(Variance(std * std));
             assert!(
-                (computed / expected - 1.0).abs() < 1e-10,
-                "{kind:?} at {std}: {computed}, not {expected}"
+                (computed_mean_square / expected_mean_square - 1.0).abs() < 1e-10,
+                "{kind:?} at {std}: {computed_mean_square}, not {expected_mean_square}"
             );
         }
         assert_eq!(kind.mean_squared_sine(Variance(0.0)), 0.0);
@@ -109,16 +109,17 @@ fn the_mean_squared_sine_is_that_of_the_noise() {
 /// The mean square of n outcomes with kurtosis κ has the relative standard error √((κ − 1)/n). κ is estimated from the outcomes.
 #[test]
 fn exact_variances_match_samples() {
-    let readings = [odom_delta(0.7, 1.5, 0.5), odom_delta(3.0, 1.0, -3.0), odom_delta(0.2, 0.3, FRAC_PI_2)];
+    let tested_readings =
+        [odom_delta(0.7, 1.5, 0.5), odom_delta(3.0, 1.0, -3.0), odom_delta(0.2, 0.3, FRAC_PI_2)];
     for (kind, rule) in NOISE_KINDS.into_iter().flat_map(|kind| OdometryRule::ALL.map(|rule| (kind, rule))) {
-        for reading in readings {
+        for reading in tested_readings {
             let (legs, leg_variances) = (rule.legs(&reading), rule.variances(&reading, &[0.05; 5]));
             let mut rng = seeded_rng(192);
-            let mut draw_unit_noise = || kind.quantile(centred_uniform(&mut rng));
+            let mut draw_unit_noise = || kind.quantile(draw_centred_uniform(&mut rng));
             let start_pose = SE2::new(0.4, -0.2, 1.0);
             let bearing = start_pose.theta() + legs.rot1;
             let correlation: f64 = -0.6;
-            let outcomes: Vec<[f64; 2]> = (0..SAMPLE_COUNT)
+            let sampled_outcomes: Vec<[f64; 2]> = (0..SAMPLE_COUNT)
                 .map(|_| {
                     let [a, b, c] = [draw_unit_noise(), draw_unit_noise(), draw_unit_noise()];
                     let executed_motion = leg_variances.executed_motion(
@@ -138,7 +139,8 @@ fn exact_variances_match_samples() {
             ];
             for (k, exact_variances) in exact_variances.into_iter().enumerate() {
                 let mean_power = |power| {
-                    outcomes.iter().map(|outcome| outcome[k].powi(power)).sum::<f64>() / SAMPLE_COUNT as f64
+                    sampled_outcomes.iter().map(|outcome| outcome[k].powi(power)).sum::<f64>()
+                        / SAMPLE_COUNT as f64
                 };
                 let (mean_square, mean_fourth_power) = (mean_power(2), mean_power(4));
                 let standard_error =

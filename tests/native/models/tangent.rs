@@ -1,8 +1,8 @@
 //! Gaussian noise in exponential coordinates: density, sampler, and covariances propagated along a path.
 
 use crate::common::{
-    MAX_KOLMOGOROV_SMIRNOV, ReferenceTable, SAMPLE_COUNT, chi_square_limit, kolmogorov_smirnov, seeded_rng,
-    uniform, unit_cdf,
+    MAX_KOLMOGOROV_SMIRNOV, ReferenceTable, SAMPLE_COUNT, chi_square_limit, draw_uniform, kolmogorov_smirnov,
+    seeded_rng, unit_cdf,
 };
 use motion::geom::se2::SE2;
 use motion::{
@@ -28,8 +28,8 @@ fn full_cov() -> Matrix3<f64> {
 
 /// Returns log N(d; 0, cov), computed with the inverse of the covariance.
 fn log_gaussian_density(d: &Vector3<f64>, cov: &Matrix3<f64>) -> f64 {
-    let inverse = cov.try_inverse().unwrap();
-    -0.5 * (d.dot(&(inverse * d)) + cov.determinant().ln() + 3.0 * (2.0 * PI).ln())
+    let inverse_cov = cov.try_inverse().unwrap();
+    -0.5 * (d.dot(&(inverse_cov * d)) + cov.determinant().ln() + 3.0 * (2.0 * PI).ln())
 }
 
 fn start_poses() -> [SE2; 2] {
@@ -42,10 +42,12 @@ fn log_prob_is_a_gaussian_in_exponential_coordinates() {
     for x in start_poses() {
         let tangent_model = TangentNoiseModel::new(full_cov()).unwrap();
         for _ in 0..500 {
-            let deviation = Vector3::from_fn(|_, _| uniform(&mut rng, -1.0, 1.0));
-            let next_pose = x.boxplus(Vector3::new(1.0, 0.0, 0.5) + deviation);
-            let (log_prob, expected_log_prob) =
-                (tangent_model.log_prob(&next_pose, &U, &x), log_gaussian_density(&deviation, &full_cov()));
+            let twist_deviation = Vector3::from_fn(|_, _| draw_uniform(&mut rng, -1.0, 1.0));
+            let next_pose = x.boxplus(Vector3::new(1.0, 0.0, 0.5) + twist_deviation);
+            let (log_prob, expected_log_prob) = (
+                tangent_model.log_prob(&next_pose, &U, &x),
+                log_gaussian_density(&twist_deviation, &full_cov()),
+            );
             assert!((log_prob - expected_log_prob).abs() < 1e-8, "{log_prob}, not {expected_log_prob}");
         }
     }
@@ -92,7 +94,7 @@ fn the_tangent_form_has_the_density_of_the_velocity_model() {
             let u = VelocityCmd { v, omega, dt: 1.2 };
             let tangent_model = TangentNoiseModel::from_velocity(&velocity_model(alphas), &u).unwrap();
             for _ in 0..200 {
-                let unit_noise = [(); 3].map(|()| uniform(&mut rng, -2.0, 2.0));
+                let unit_noise = [(); 3].map(|()| draw_uniform(&mut rng, -2.0, 2.0));
                 let next_pose = velocity_model(alphas).apply_noise(&u, &x, unit_noise);
                 let half_turn = 0.5 * next_pose.boxminus(&x).z;
                 let log_volume = 2.0 * (half_turn.sin() / half_turn).ln();
@@ -121,17 +123,18 @@ fn sampler_and_density_agree() {
         .map(|_| inverse_cov_root * (tangent_model.sample(&U, &x, &mut rng).boxminus(&x) - tau))
         .collect();
     for axis in 0..3 {
-        let component = whitened_samples.iter().map(|w| w[axis]).collect();
-        let ks_statistic = kolmogorov_smirnov(component, |z| unit_cdf(NoiseKind::Normal, z));
+        let whitened_component = whitened_samples.iter().map(|w| w[axis]).collect();
+        let ks_statistic = kolmogorov_smirnov(whitened_component, |z| unit_cdf(NoiseKind::Normal, z));
         assert!(ks_statistic < MAX_KOLMOGOROV_SMIRNOV, "axis {axis}: √n·D = {ks_statistic}");
     }
     // Quartiles of χ² with three degrees of freedom.
-    const QUARTILES: [f64; 3] = [1.212_532_903_045_966, 2.365_973_884_375_339, 4.108_344_935_632_316];
+    const CHI_SQUARE_QUARTILES: [f64; 3] =
+        [1.212_532_903_045_966, 2.365_973_884_375_339, 4.108_344_935_632_316];
     let mut sample_counts = [0.0; 32];
     for w in &whitened_samples {
-        let octant = (0..3).map(|axis| usize::from(w[axis] > 0.0) << axis).sum::<usize>();
-        sample_counts
-            [4 * octant + QUARTILES.iter().filter(|quartile| w.norm_squared() > **quartile).count()] += 1.0;
+        let octant_index = (0..3).map(|axis| usize::from(w[axis] > 0.0) << axis).sum::<usize>();
+        sample_counts[4 * octant_index
+            + CHI_SQUARE_QUARTILES.iter().filter(|quartile| w.norm_squared() > **quartile).count()] += 1.0;
     }
     let expected_count = SAMPLE_COUNT as f64 / 32.0;
     let chi_square: f64 =
@@ -146,15 +149,15 @@ fn compound_is_the_chapters_recursion() {
     for r in [full_cov(), Matrix3::from_diagonal(&Vector3::new(0.025, 0.0, 0.025))] {
         let tangent_model = TangentNoiseModel::new(r).unwrap();
         for _ in 0..100 {
-            let mut draw_within = |limit: f64| uniform(&mut rng, -limit, limit);
+            let mut draw_within = |limit: f64| draw_uniform(&mut rng, -limit, limit);
             let tau = Vector3::new(draw_within(2.0), draw_within(2.0), draw_within(3.0));
             let sigma_root = Matrix3::from_fn(|_, _| draw_within(1.0));
             let sigma = sigma_root * sigma_root.transpose();
             let inverse_adjoint = SE2::exp(&tau).adjoint().try_inverse().unwrap();
             let expected_cov = inverse_adjoint * sigma * inverse_adjoint.transpose() + r;
-            let compounded = tangent_model.compound(&sigma, &tau);
-            assert!((compounded - expected_cov).amax() < 1e-12, "{compounded}{expected_cov}");
-            assert_eq!(tangent_model.propagate(&sigma, &tau, Compounding::Chapter), compounded);
+            let compounded_cov = tangent_model.compound(&sigma, &tau);
+            assert!((compounded_cov - expected_cov).amax() < 1e-12, "{compounded_cov}{expected_cov}");
+            assert_eq!(tangent_model.propagate(&sigma, &tau, Compounding::Chapter), compounded_cov);
         }
     }
     // The chapter's R contains the variance of γ̂.
@@ -176,9 +179,9 @@ fn first_order_transforms_the_noise_inside_the_arc_only() {
         TangentNoiseModel::from_velocity(&velocity_model(FULL_RANK_ALPHAS), &U).unwrap();
     let merged_turn_model = TangentNoiseModel::new(arc_cov + turn_cov).unwrap();
     let [separate_cov, merged_cov] = [&separate_turn_model, &merged_turn_model].map(cov_after_one_step);
-    let transformed = |cov: Matrix3<f64>| right_jacobian * cov * right_jacobian.transpose();
-    assert!((separate_cov - (transformed(arc_cov) + turn_cov)).amax() < 1e-15);
-    assert!((merged_cov - transformed(arc_cov + turn_cov)).amax() < 1e-15);
+    let transform_cov = |cov: Matrix3<f64>| right_jacobian * cov * right_jacobian.transpose();
+    assert!((separate_cov - (transform_cov(arc_cov) + turn_cov)).amax() < 1e-15);
+    assert!((merged_cov - transform_cov(arc_cov + turn_cov)).amax() < 1e-15);
     assert!((separate_cov - merged_cov).amax() > 1e-4);
 }
 
@@ -195,9 +198,9 @@ fn twenty_steps_match_the_references() {
     for (row, order) in
         table.rows().zip([Compounding::Chapter, Compounding::FirstOrder, Compounding::FourthOrder])
     {
-        let [aa, ab, aw, bb, bw, ww] = row.numbers(["caa", "cab", "caw", "cbb", "cbw", "cww"]);
+        let [aa, ab, aw, bb, bw, ww] = row.cell_numbers(["caa", "cab", "caw", "cbb", "cbw", "cww"]);
         let expected_cov = Matrix3::new(aa, ab, aw, ab, bb, bw, aw, bw, ww);
         let sigma = cov_after_twenty_steps(&tangent_model, order);
-        assert!((sigma - expected_cov).amax() < 1e-14, "{}: {sigma}{expected_cov}", row.text("order"));
+        assert!((sigma - expected_cov).amax() < 1e-14, "{}: {sigma}{expected_cov}", row.cell_text("order"));
     }
 }

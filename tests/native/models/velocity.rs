@@ -1,7 +1,7 @@
 //! The velocity model: scoring, density and sampler.
 
 use crate::common::density::PolarGrid;
-use crate::common::{NOISE_KINDS, derivative_by_noise, seeded_rng, uniform};
+use crate::common::{NOISE_KINDS, derivative_by_noise, draw_uniform, seeded_rng};
 use motion::geom::se2::SE2;
 use motion::{MotionModel, NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
 use nalgebra::Vector3;
@@ -23,10 +23,10 @@ fn noise_free_end(u: &VelocityCmd, x: &SE2) -> SE2 {
 }
 
 /// Returns commands with all signs of v and ω, straight drives, and turns on the spot.
-fn commands() -> Vec<VelocityCmd> {
-    let signs = [(1.0, 0.5), (1.0, -0.5), (-1.0, 0.5), (-1.0, -0.5)];
-    let mut all_commands: Vec<_> = signs.map(|(v, omega)| velocity_command(v, omega, 1.0)).to_vec();
-    all_commands.extend(signs.map(|(v, omega)| velocity_command(0.3 * v, 4.0 * omega, 0.8)));
+fn new_commands() -> Vec<VelocityCmd> {
+    let command_signs = [(1.0, 0.5), (1.0, -0.5), (-1.0, 0.5), (-1.0, -0.5)];
+    let mut all_commands: Vec<_> = command_signs.map(|(v, omega)| velocity_command(v, omega, 1.0)).to_vec();
+    all_commands.extend(command_signs.map(|(v, omega)| velocity_command(0.3 * v, 4.0 * omega, 0.8)));
     all_commands.extend(
         [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)].map(|(v, omega)| velocity_command(v, omega, 1.3)),
     );
@@ -44,7 +44,7 @@ fn prob_falls_off_as_the_noise_does() {
         [(NoiseKind::Normal, (-0.5f64).exp()), (NoiseKind::Triangular, 1.0 - 1.0 / 6f64.sqrt())]
     {
         let velocity_model = velocity_model(ALPHAS_WITH_LAST_TURN, kind);
-        for u in commands().into_iter().filter(|u| u.v != 0.0) {
+        for u in new_commands().into_iter().filter(|u| u.v != 0.0) {
             for x in start_poses() {
                 let peak = velocity_model.prob(&noise_free_end(&u, &x), &u, &x);
                 for control in 0..3 {
@@ -69,7 +69,7 @@ fn without_noise_samples_are_exact_and_there_is_no_density() {
     let mut rng = seeded_rng(53);
     for kind in NOISE_KINDS {
         let noise_free_model = velocity_model(VelocityAlphas([0.0; 6]), kind);
-        for u in commands() {
+        for u in new_commands() {
             for x in start_poses() {
                 let end_pose = noise_free_end(&u, &x);
                 assert_eq!(noise_free_model.sample(&u, &x, &mut rng), end_pose);
@@ -113,7 +113,7 @@ fn samples_far_from_the_origin_have_a_positive_score() {
     ] {
         for alphas in [ALPHAS_WITHOUT_LAST_TURN, VelocityAlphas([0.0; 6])] {
             for _ in 0..1000 {
-                let mut draw_within = |limit: f64| uniform(&mut rng, -limit, limit);
+                let mut draw_within = |limit: f64| draw_uniform(&mut rng, -limit, limit);
                 let x = SE2::new(draw_within(distance), draw_within(distance), draw_within(PI));
                 let unit_noise = [draw_within(2.0), draw_within(2.0), 0.0];
                 let end_pose = velocity_model(alphas, NoiseKind::Normal).apply_noise(&u, &x, unit_noise);
@@ -145,13 +145,13 @@ fn the_pose_density_integrates_to_one_for_large_noise() {
         let velocity_model = velocity_model(large_alphas, kind);
         // No robot is further away than the length of its arc, and none drives seven standard deviations more than commanded.
         let radius = (v.abs() + 7.0 * velocity_model.variances(&u)[0].0.sqrt()) * u.dt;
-        let integral_with_cells = |cells| {
+        let integrate_over_cells = |cells| {
             PolarGrid::around_start(&x, 2.0, radius, [cells; 3])
-                .integral(|pose| velocity_model.pose_density(pose, &u, &x).unwrap())
+                .integrate_density(|pose| velocity_model.pose_density(pose, &u, &x).unwrap())
         };
         // Arcs of a full turn end near the start. The integrand has a corner there, and the error is proportional to the width
         // of a cell. Extrapolation from two numbers of cells removes that error.
-        let extrapolated_integral = 2.0 * integral_with_cells(12) - integral_with_cells(6);
+        let extrapolated_integral = 2.0 * integrate_over_cells(12) - integrate_over_cells(6);
         assert!((extrapolated_integral - 1.0).abs() < tolerance, "{kind:?} {u:?}: {extrapolated_integral}");
     }
 }
@@ -169,16 +169,20 @@ fn the_noise_of_the_last_turn_does_not_change_the_density_of_positions() {
             let alpha5 = std * std;
             let velocity_model =
                 velocity_model(VelocityAlphas([0.05, 0.05, 0.05, 0.09, alpha5, 0.0]), NoiseKind::Normal);
-            let spacing = TAU / f64::from(HEADING_COUNT);
-            let poses =
-                (0..HEADING_COUNT).map(|i| SE2::new(position.x(), position.y(), spacing * f64::from(i)));
-            poses.map(|pose| velocity_model.pose_density(&pose, &u, &x).unwrap()).sum::<f64>() * spacing
+            let heading_spacing = TAU / f64::from(HEADING_COUNT);
+            let poses = (0..HEADING_COUNT)
+                .map(|i| SE2::new(position.x(), position.y(), heading_spacing * f64::from(i)));
+            poses.map(|pose| velocity_model.pose_density(&pose, &u, &x).unwrap()).sum::<f64>()
+                * heading_spacing
         };
-        let expected = density_of_position(0.1);
-        assert!(expected > 0.01);
+        let expected_density = density_of_position(0.1);
+        assert!(expected_density > 0.01);
         for std in [0.5, 3.0, 8.99, 9.01, 30.0, 1000.0] {
-            let computed = density_of_position(std);
-            assert!((computed / expected - 1.0).abs() < 1e-11, "{std}: {computed}, not {expected}");
+            let computed_density = density_of_position(std);
+            assert!(
+                (computed_density / expected_density - 1.0).abs() < 1e-11,
+                "{std}: {computed_density}, not {expected_density}"
+            );
         }
     }
 }
@@ -214,7 +218,7 @@ fn the_tables_prob_differs_from_the_density_by_a_few_percent() {
 
 #[test]
 fn cartesian_cov_is_the_linearized_arc() {
-    for u in commands() {
+    for u in new_commands() {
         for x in start_poses() {
             for alphas in [ALPHAS_WITHOUT_LAST_TURN, ALPHAS_WITH_LAST_TURN] {
                 let velocity_model = velocity_model(alphas, NoiseKind::Normal);

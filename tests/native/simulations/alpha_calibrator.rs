@@ -95,9 +95,9 @@ fn panels_are_means_of_squared_innovations() {
     assert_eq!([rot1_panel.alpha, trans_panel.alpha, rot2_panel.alpha], [0, 3, 0]);
     assert_eq!(simulation.panels(Regressor::Distance).map(|panel| panel.alpha), [1, 2, 1]);
     assert_eq!((trans_panel.slope, trans_panel.interval), (alphas[3], intervals[3]));
-    let slope = alphas[3].expect("the log turns");
+    let fitted_slope = alphas[3].expect("the log turns");
     // By the rule of Table 5.6 the variance of `trans` is α₃·trans² + α₄·(rot1² + rot2²).
-    let mut points: Vec<[f64; 2]> = observations
+    let mut regression_points: Vec<[f64; 2]> = observations
         .iter()
         .zip(leg_fits)
         .filter(|(_, fit)| !fit.is_outlier)
@@ -105,27 +105,29 @@ fn panels_are_means_of_squared_innovations() {
             let [rot1, _, rot2] = observation.reading;
             let squared_turns = rot1 * rot1 + rot2 * rot2;
             let [variance, innovation] = [fit.stds[1].powi(2), fit.standardized[1] * fit.stds[1]];
-            [squared_turns, innovation * innovation - (variance - slope * squared_turns)]
+            [squared_turns, innovation * innovation - (variance - fitted_slope * squared_turns)]
         })
         .collect();
-    points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    let bin_size = points.len().div_ceil(8);
+    regression_points.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let bin_size = regression_points.len().div_ceil(8);
     // Legs that turned by equal amounts are in the same bin.
     let bin_end_index = |i: usize| {
-        points.partition_point(|point| point[0] <= points[(i * bin_size).min(points.len()) - 1][0])
+        regression_points.partition_point(|point| {
+            point[0] <= regression_points[(i * bin_size).min(regression_points.len()) - 1][0]
+        })
     };
     for i in 0..8 {
-        let bin = &points[if i == 0 { 0 } else { bin_end_index(i) }..bin_end_index(i + 1)];
-        let mean = |axis: usize| bin.iter().map(|point| point[axis]).sum::<f64>() / bin.len() as f64;
+        let bin = &regression_points[if i == 0 { 0 } else { bin_end_index(i) }..bin_end_index(i + 1)];
+        let bin_mean = |axis: usize| bin.iter().map(|point| point[axis]).sum::<f64>() / bin.len() as f64;
         assert!(
-            (trans_panel.x[i] - mean(0)).abs() < 1e-12 && (trans_panel.y[i] - mean(1)).abs() < 1e-12,
+            (trans_panel.x[i] - bin_mean(0)).abs() < 1e-12 && (trans_panel.y[i] - bin_mean(1)).abs() < 1e-12,
             "bin {i}"
         );
     }
     assert_eq!(trans_panel.x.len(), 8);
     // Because the model is true, the bins differ from the line by their errors only.
     let chi_square_term =
-        |i: usize| ((trans_panel.y[i] - slope * trans_panel.x[i]) / trans_panel.error[i]).powi(2);
+        |i: usize| ((trans_panel.y[i] - fitted_slope * trans_panel.x[i]) / trans_panel.error[i]).powi(2);
     assert!(
         (0..8).map(chi_square_term).sum::<f64>() < 26.1,
         "χ² of 8 bins exceeds 26.1 in one of a thousand logs"
@@ -153,9 +155,9 @@ fn the_error_bars_of_panels_hold_the_fitted_lines() {
             }
         }
     }
-    let fraction = |count: usize| count as f64 / bin_count as f64;
+    let fraction_of_bins = |count: usize| count as f64 / bin_count as f64;
     assert!(
-        fraction(count_over_2) < 0.0455 && fraction(count_over_3) < 0.0027,
+        fraction_of_bins(count_over_2) < 0.0455 && fraction_of_bins(count_over_3) < 0.0027,
         "{count_over_2} and {count_over_3} of {bin_count}"
     );
 }
@@ -208,19 +210,20 @@ fn a_leg_is_shown_in_the_frame_of_its_start() {
     // Outcomes are drawn by the rule, with variances that are inflated by four.
     let mut alphas = [0.0; 5];
     alphas.iter_mut().zip(&calibration.alphas).for_each(|(alpha, fitted)| *alpha = fitted.expect("known"));
-    let variances =
+    let leg_variances =
         OdometryRule::Table.variances(&OdomDelta { rot1, trans, rot2 }, &alphas.map(|alpha| 4.0 * alpha));
     let outcome_count = leg_view.outcomes.len() as f64;
-    let variance = |quantity: &dyn Fn(&[f64; 3]) -> f64| {
+    let outcome_variance = |quantity: &dyn Fn(&[f64; 3]) -> f64| {
         let mean = leg_view.outcomes.iter().map(quantity).sum::<f64>() / outcome_count;
         leg_view.outcomes.iter().map(|outcome| (quantity(outcome) - mean).powi(2)).sum::<f64>()
             / outcome_count
     };
-    let drive_variance = variance(&|[x, y, _]| libm::hypot(*x, *y));
-    let turn_variance = variance(&|[_, _, theta]| *theta);
-    for (computed, expected) in
-        [(drive_variance, variances.trans.0), (turn_variance, variances.rot1.0 + variances.rot2.0)]
-    {
+    let drive_variance = outcome_variance(&|[x, y, _]| libm::hypot(*x, *y));
+    let turn_variance = outcome_variance(&|[_, _, theta]| *theta);
+    for (computed, expected) in [
+        (drive_variance, leg_variances.trans.0),
+        (turn_variance, leg_variances.rot1.0 + leg_variances.rot2.0),
+    ] {
         let tolerance = 4.0 * (2.0 / outcome_count).sqrt();
         assert!((computed / expected - 1.0).abs() < tolerance, "{computed}, {expected}");
     }
@@ -244,16 +247,16 @@ fn the_nearest_leg_passes_through_the_point() {
 #[test]
 fn changing_the_model_or_the_rule_adjusts_the_other() {
     use motion::sim::settings::Rules;
-    let settings_after = |change: fn(&mut Settings), named: &str| {
+    let change_settings = |change: fn(&mut Settings), named: &str| {
         let settings_before = Settings::default();
         let mut settings = settings_before;
         change(&mut settings);
         settings.adjust(&settings_before, &[named]);
         settings
     };
-    assert_eq!(settings_after(|s| s.model = Model::Omnidirectional, "model").rule, OdometryRule::Omni);
-    assert_eq!(settings_after(|s| s.rule = OdometryRule::Omni, "rule").model, Model::Omnidirectional);
-    assert_eq!(settings_after(|s| s.rule = OdometryRule::Nav2, "rule").model, Model::Odometry);
+    assert_eq!(change_settings(|s| s.model = Model::Omnidirectional, "model").rule, OdometryRule::Omni);
+    assert_eq!(change_settings(|s| s.rule = OdometryRule::Omni, "rule").model, Model::Omnidirectional);
+    assert_eq!(change_settings(|s| s.rule = OdometryRule::Nav2, "rule").model, Model::Odometry);
     let conflicting_settings =
         Settings { model: Model::Odometry, rule: OdometryRule::Omni, ..Settings::default() };
     let error_message =
@@ -269,23 +272,23 @@ fn a_restored_fit_equals_the_saved_one_to_the_last_bit() {
     let fit = postcard::from_bytes(&saved_fit).expect("a fit");
     let mut restored_simulation = AlphaCalibrator::restore(settings, fit).expect("allowed");
     // Missing residuals are NaN, which does not equal itself. Results are therefore compared as text.
-    let results_of = |fit: &AlphaCalibrator| {
+    let fit_results = |fit: &AlphaCalibrator| {
         let panels = [Regressor::Turn, Regressor::Distance].map(|regressor| fit.panels(regressor));
         format!("{:?} {panels:?} {:?} {:?}", fit.calibration(), fit.leg(5), fit.nearest([0.5, 1.0], 3.0))
     };
-    let results_before = results_of(&simulation);
+    let results_before = fit_results(&simulation);
     assert!(
-        results_of(&restored_simulation) == results_before
+        fit_results(&restored_simulation) == results_before
             && restored_simulation.truth().is_none()
             && !restored_simulation.is_pending()
     );
     // A new inflation changes only predictions. Another rule needs the log.
     restored_simulation.configure(Settings { inflation: 2.0, ..settings }).expect("allowed");
-    assert!(!restored_simulation.is_pending() && results_of(&restored_simulation) != results_before);
+    assert!(!restored_simulation.is_pending() && fit_results(&restored_simulation) != results_before);
     restored_simulation.configure(Settings::default()).expect("allowed");
     assert!(
         restored_simulation.is_pending()
-            && results_of(&restored_simulation) == results_before
+            && fit_results(&restored_simulation) == results_before
             && *restored_simulation.fitted_settings() == settings
     );
 }

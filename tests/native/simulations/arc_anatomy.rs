@@ -1,6 +1,6 @@
 //! The simulation of Arc Anatomy: inverted arcs are compared with the printed table, the model, and numeric derivatives.
 
-use crate::common::{NOISE_KINDS, seeded_rng, uniform};
+use crate::common::{NOISE_KINDS, draw_uniform, seeded_rng};
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::sim::arc_anatomy::{ArcAnatomy, FinalPose, PRESETS, Settings, Stats};
 use motion::{MotionModel, NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
@@ -29,13 +29,17 @@ fn start_and_next_pose(settings: &Settings) -> (SE2, SE2) {
 fn random_settings(seed: u64) -> impl Iterator<Item = Settings> {
     let mut rng = seeded_rng(seed);
     std::iter::repeat_with(move || {
-        let mut uniform_up_to = |limit: f64| uniform(&mut rng, -limit, limit);
-        let start = [uniform_up_to(3.0), uniform_up_to(3.0), uniform_up_to(PI)];
-        let next = FinalPose { x: uniform_up_to(3.0), y: uniform_up_to(3.0), theta: uniform_up_to(PI) };
+        let mut draw_uniform_up_to = |limit: f64| draw_uniform(&mut rng, -limit, limit);
+        let start = [draw_uniform_up_to(3.0), draw_uniform_up_to(3.0), draw_uniform_up_to(PI)];
+        let next = FinalPose {
+            x: draw_uniform_up_to(3.0),
+            y: draw_uniform_up_to(3.0),
+            theta: draw_uniform_up_to(PI),
+        };
         let command = VelocityCmd {
-            v: uniform_up_to(1.5),
-            omega: uniform_up_to(2.0),
-            dt: 0.1 + uniform_up_to(1.0).abs(),
+            v: draw_uniform_up_to(1.5),
+            omega: draw_uniform_up_to(2.0),
+            dt: 0.1 + draw_uniform_up_to(1.0).abs(),
         };
         Settings { start, next, command, ..Settings::default() }
     })
@@ -66,9 +70,9 @@ fn the_printed_option_computes_the_lines_of_the_table() {
         // The table loses digits if the radius is much larger than the distance, and for nearly full circles.
         let error_factor = 1.0 + expected_lines[0].abs() + expected_lines[3].abs();
         for (line, expected) in expected_lines.iter().enumerate() {
-            let deviation = (computed_lines[line] - expected).abs();
+            let line_deviation = (computed_lines[line] - expected).abs();
             assert!(
-                deviation <= 1e-12 * error_factor * error_factor / settings.command.dt,
+                line_deviation <= 1e-12 * error_factor * error_factor / settings.command.dt,
                 "line {}: {} for {expected}, {settings:?}",
                 line + 1,
                 computed_lines[line]
@@ -160,9 +164,9 @@ fn a_last_turn_gives_the_twist_a_lateral_velocity() {
         let [along, lateral, _] = simulation.stats().xi;
         let time_step = 1e-5;
         for (i, tick) in simulation.paths().ticks.iter().enumerate().take(8) {
-            let progress = 0.125 * i as f64 + time_step;
+            let path_fraction = 0.125 * i as f64 + time_step;
             let [pose_before, middle_pose, pose_after] =
-                [progress - time_step, progress, progress + time_step]
+                [path_fraction - time_step, path_fraction, path_fraction + time_step]
                     .map(|progress| simulation.poses_at(progress)[2]);
             let velocity = [
                 (pose_after.x() - pose_before.x()) / (2.0 * time_step),

@@ -1,7 +1,7 @@
 //! The simulation of the Banana Machine: common random numbers, settings and results.
 
 use crate::common::{MAX_STANDARD_ERRORS, NOISE_KINDS, pose_distance, seeded_rng, settings_of_preset};
-use motion::geom::lanes::ACCURACY;
+use motion::geom::lanes::MAX_SIN_COS_ERROR;
 use motion::geom::se2::SE2;
 use motion::sim::View;
 use motion::sim::banana::{
@@ -64,7 +64,7 @@ fn results_as_text(simulation: &BananaMachine) -> String {
 }
 
 /// Accuracy of a pose after a metre or two. The factors of its coordinates have the accuracy of a sine or cosine.
-const POSE_ACCURACY: f64 = 4.0 * ACCURACY;
+const POSE_ACCURACY: f64 = 4.0 * MAX_SIN_COS_ERROR;
 
 /// The poses equal samples of the model with the same seed, forward and in reverse.
 #[test]
@@ -101,37 +101,37 @@ fn the_cloud_equals_samples_of_the_model() {
 fn changed_settings_move_the_same_robots() {
     let first_settings = Settings { samples: 300, ..settings_of_preset("gentle") };
     let mut simulation = simulation(first_settings);
-    let unit_noises_of = |simulation: &BananaMachine| -> Vec<[f64; 3]> {
+    let unit_noises = |simulation: &BananaMachine| -> Vec<[f64; 3]> {
         let settings = simulation.settings();
         let model = VelocityModel { alphas: VelocityAlphas(settings.velocity_alphas), noise: settings.noise };
         let [v_std, omega_std, gamma_std] = model.variances(&settings.command).map(|b2| b2.0.sqrt());
         (0..300)
             .map(|i| {
-                let sample = simulation.inspect(i).unwrap();
+                let inspected_sample = simulation.inspect(i).unwrap();
                 [
-                    (sample.v_hat - settings.command.v) / v_std,
-                    (sample.omega_hat - settings.command.omega) / omega_std,
-                    sample.gamma_hat / gamma_std,
+                    (inspected_sample.v_hat - settings.command.v) / v_std,
+                    (inspected_sample.omega_hat - settings.command.omega) / omega_std,
+                    inspected_sample.gamma_hat / gamma_std,
                 ]
             })
             .collect()
     };
-    let initial_noises = unit_noises_of(&simulation);
+    let initial_noises = unit_noises(&simulation);
     let command = VelocityCmd { v: -0.6, omega: 1.1, dt: 0.7 };
     for settings in [
         Settings { velocity_alphas: [0.01, 0.2, 0.03, 0.04, 0.3, 0.2], ..first_settings },
         Settings { command, ..first_settings },
     ] {
         simulation.configure(settings).unwrap();
-        for (a, b) in unit_noises_of(&simulation).iter().zip(&initial_noises) {
+        for (a, b) in unit_noises(&simulation).iter().zip(&initial_noises) {
             assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-9), "{a:?} was {b:?}");
         }
     }
     simulation.configure(first_settings).unwrap();
-    assert_eq!(unit_noises_of(&simulation), initial_noises, "and back again to the bit");
+    assert_eq!(unit_noises(&simulation), initial_noises, "and back again to the bit");
     simulation.configure(Settings { seed: 8, ..first_settings }).unwrap();
     assert!(
-        unit_noises_of(&simulation).iter().zip(&initial_noises).all(|(a, b)| a != b),
+        unit_noises(&simulation).iter().zip(&initial_noises).all(|(a, b)| a != b),
         "a new seed changes it"
     );
 }
@@ -186,9 +186,9 @@ fn isolating_an_alpha_sets_the_others_to_zero() {
     let straight_settings =
         Settings { command: PRESETS[0].command, samples: 1000, ..settings_of_preset("gentle") };
     let commanded_end = SE2::new(2.0, 0.0, 0.0);
-    let isolated_simulation = |alpha| simulation(Settings { isolate: Some(alpha), ..straight_settings });
+    let simulate_isolated = |alpha| simulation(Settings { isolate: Some(alpha), ..straight_settings });
     for alpha in [4, 6] {
-        let simulation = isolated_simulation(alpha);
+        let simulation = simulate_isolated(alpha);
         assert!(
             simulation.poses().all(|pose| pose == commanded_end),
             "α₄ and α₆ are silent where nothing is turned"
@@ -197,19 +197,16 @@ fn isolating_an_alpha_sets_the_others_to_zero() {
         assert_eq!(simulation.stats().cartesian.cov, Matrix3::zeros(), "no spread is exactly none");
     }
     assert!(
-        isolated_simulation(1).poses().all(|pose| (pose.y(), pose.theta()) == (0.0, 0.0)),
+        simulate_isolated(1).poses().all(|pose| (pose.y(), pose.theta()) == (0.0, 0.0)),
         "α₁ turns nobody"
     );
     assert!(
-        isolated_simulation(3).poses().all(|pose| (pose.log().x - 2.0).abs() < 1e-14),
+        simulate_isolated(3).poses().all(|pose| (pose.log().x - 2.0).abs() < 1e-14),
         "α₃ fans arcs of one length"
     );
-    assert!(
-        isolated_simulation(5).poses().all(|pose| (pose.x(), pose.y()) == (2.0, 0.0)),
-        "α₅ moves nothing"
-    );
-    assert!(isolated_simulation(5).poses().any(|pose| pose.theta().abs() > 0.1), "and turns");
-    let mut reconfigured_simulation = isolated_simulation(3);
+    assert!(simulate_isolated(5).poses().all(|pose| (pose.x(), pose.y()) == (2.0, 0.0)), "α₅ moves nothing");
+    assert!(simulate_isolated(5).poses().any(|pose| pose.theta().abs() > 0.1), "and turns");
+    let mut reconfigured_simulation = simulate_isolated(3);
     assert_eq!(
         reconfigured_simulation.settings().velocity_alphas,
         straight_settings.velocity_alphas,
@@ -245,7 +242,7 @@ fn the_reaching_command_ends_at_the_target() {
 /// Exponential coordinates are infinite for a full turn. Only statistics in these coordinates are then undefined.
 #[test]
 fn exponential_statistics_are_undefined_near_a_full_turn() {
-    let simulation_with_turn = |omega: f64| {
+    let simulate_turn = |omega: f64| {
         let command = VelocityCmd { v: 1.0, omega, dt: 3.0 };
         simulation(Settings {
             command,
@@ -256,7 +253,7 @@ fn exponential_statistics_are_undefined_near_a_full_turn() {
     };
     // The standard deviation of the heading is 3·√(0.02·(1 + ω²)), 0.6 and 0.9 rad.
     for (omega, is_defined) in [(0.9, true), (2.0, false), (-2.0, false)] {
-        let simulation = simulation_with_turn(omega);
+        let simulation = simulate_turn(omega);
         assert_eq!(simulation.is_chart_defined(), is_defined, "ω = {omega}");
         let (stats, contours) = (simulation.stats(), simulation.contours());
         let exponential_values = [stats.gaussian_skew, stats.coverage.exponential, stats.exponential.mean.x];
@@ -275,18 +272,18 @@ fn exponential_statistics_are_undefined_near_a_full_turn() {
 fn both_views_find_the_nearest_sample() {
     let simulation = simulation(Settings { samples: 3000, ..settings_of_preset("gentle") });
     for view in [View::Plane, View::Twist] {
-        let points: Vec<[f64; 2]> = simulation
+        let view_points: Vec<[f64; 2]> = simulation
             .poses()
             .zip(simulation.twists())
             .map(|(pose, twist)| if view == View::Plane { [pose.x(), pose.y()] } else { [twist.x, twist.z] })
             .collect();
-        assert_eq!(simulation.nearest(view, points[17], [1e-9, 1e-9]), Some(17));
+        assert_eq!(simulation.nearest(view, view_points[17], [1e-9, 1e-9]), Some(17));
         assert_eq!(simulation.nearest(view, [50.0, 50.0], [1.0, 1.0]), None);
         // The outermost sample is found from a target just inside of the search radius, and not from a target just outside.
         let rightmost_index =
-            (0..points.len()).max_by(|&a, &b| points[a][0].total_cmp(&points[b][0])).unwrap();
+            (0..view_points.len()).max_by(|&a, &b| view_points[a][0].total_cmp(&view_points[b][0])).unwrap();
         let position_right_of_rightmost =
-            |distance| [points[rightmost_index][0] + distance, points[rightmost_index][1]];
+            |distance| [view_points[rightmost_index][0] + distance, view_points[rightmost_index][1]];
         assert_eq!(
             simulation.nearest(view, position_right_of_rightmost(0.0099), [0.01, 1e-9]),
             Some(rightmost_index)
@@ -330,8 +327,8 @@ fn a_reverse_aware_robot_has_no_noise_of_half_turns() {
     let [alpha1, alpha2, ..] = odometry_settings.odometry_alphas;
     let reading = simulations[0].reading();
     // Without the option, both rotations are half a turn minus half the turn of the command. With it, they are half the turn of the command.
-    let rotations = [reading.rot1.abs(), PI - reading.rot1.abs()];
-    for (simulation, rotation) in simulations.iter().zip(rotations) {
+    let possible_rotations = [reading.rot1.abs(), PI - reading.rot1.abs()];
+    for (simulation, rotation) in simulations.iter().zip(possible_rotations) {
         let heading_variance = 2.0 * (alpha1 * rotation * rotation + alpha2 * reading.trans * reading.trans);
         assert!((simulation.exact_moments().cov[(2, 2)] / heading_variance - 1.0).abs() < 1e-12);
         assert!((simulation.linearized_moments().cov[(2, 2)] / heading_variance - 1.0).abs() < 1e-12);

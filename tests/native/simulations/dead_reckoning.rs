@@ -19,7 +19,7 @@ fn settings_with_robots(samples: usize) -> Settings {
 
 /// Returns settings where approximations fail, such as sharp turns, reverse, large noise, and headings beyond half a turn.
 fn challenging_settings() -> Vec<Settings> {
-    let with_command = |v: f64, omega: f64, dt: f64, alphas| Settings {
+    let settings_with_command = |v: f64, omega: f64, dt: f64, alphas| Settings {
         command: VelocityCmd { v, omega, dt },
         alphas,
         steps: 12,
@@ -28,27 +28,30 @@ fn challenging_settings() -> Vec<Settings> {
     let default_alphas = Settings::default().alphas;
     vec![
         settings_with_robots(700),
-        with_command(-1.0, 0.5, 0.2, default_alphas),
-        with_command(1.0, -2.0, 1.0, default_alphas),
-        with_command(1.0, 0.0, 0.5, default_alphas),
-        with_command(0.0, 1.5, 0.4, default_alphas),
-        with_command(0.3, 7.0, 1.0, [0.1; 6]),
-        with_command(1.0, 0.5, 0.2, [0.0; 6]),
-        with_command(1.0, 0.5, 0.2, [0.5, 0.1, 20.0, 4.0, 3.0, 1.0]),
+        settings_with_command(-1.0, 0.5, 0.2, default_alphas),
+        settings_with_command(1.0, -2.0, 1.0, default_alphas),
+        settings_with_command(1.0, 0.0, 0.5, default_alphas),
+        settings_with_command(0.0, 1.5, 0.4, default_alphas),
+        settings_with_command(0.3, 7.0, 1.0, [0.1; 6]),
+        settings_with_command(1.0, 0.5, 0.2, [0.0; 6]),
+        settings_with_command(1.0, 0.5, 0.2, [0.5, 0.1, 20.0, 4.0, 3.0, 1.0]),
         Settings { per: NoisePer::Path, ..settings_with_robots(700) },
     ]
 }
 
 /// Asserts that two poses are equal up to rounding, which is proportional to `scale`.
 fn assert_same_pose([x, y, theta]: [f64; 3], expected: &SE2, scale: f64) {
-    let difference = SE2::new(x, y, theta).boxminus(expected);
-    assert!(difference.amax() < 1e-13 * scale, "({x}, {y}, {theta}), not {expected:?}: {difference}");
+    let pose_difference = SE2::new(x, y, theta).boxminus(expected);
+    assert!(
+        pose_difference.amax() < 1e-13 * scale,
+        "({x}, {y}, {theta}), not {expected:?}: {pose_difference}"
+    );
 }
 
 /// Paths that are computed in lanes equal poses that are composed one by one, from the same random numbers.
 #[test]
 fn lanes_agree_with_poses_composed_one_by_one() {
-    use motion::noise::centred_uniform;
+    use motion::noise::draw_centred_uniform;
     for settings in challenging_settings() {
         let simulation = simulation(settings);
         let (u, model) = (settings.command, settings.model());
@@ -61,7 +64,7 @@ fn lanes_agree_with_poses_composed_one_by_one() {
         let mut path_size = 1.0;
         for rollout_pose in rollout_poses {
             let uniform_draws: Vec<[f64; 3]> =
-                (0..256).map(|_| std::array::from_fn(|_| centred_uniform(&mut block_rng))).collect();
+                (0..256).map(|_| std::array::from_fn(|_| draw_centred_uniform(&mut block_rng))).collect();
             let unit_noise = uniform_draws[1].map(|q| NoiseKind::Normal.quantile(q));
             let previous_pose = pose;
             pose = model.apply_noise(&u, &pose, unit_noise);
@@ -80,11 +83,11 @@ fn moments_are_those_of_the_cloud() {
     for (i, settings) in challenging_settings().into_iter().enumerate() {
         let simulation = simulation(settings);
         let n = settings.samples as f64;
-        let paths: Vec<_> =
+        let rollout_paths: Vec<_> =
             (0..settings.samples).map(|index| simulation.rollout(index).expect("a robot")).collect();
         for k in [0, settings.steps as usize / 2, settings.steps as usize - 1] {
             let nominal_pose = simulation.nominal_poses()[k];
-            let twists: Vec<Vector3<f64>> = paths
+            let twists: Vec<Vector3<f64>> = rollout_paths
                 .iter()
                 .map(|path| SE2::new(path[k][0], path[k][1], path[k][2]).boxminus(&nominal_pose))
                 .collect();
@@ -94,24 +97,24 @@ fn moments_are_those_of_the_cloud() {
                 .map(|twist| (twist - expected_mean) * (twist - expected_mean).transpose())
                 .sum::<Matrix3<f64>>()
                 / (n - 1.0);
-            let measured = simulation.measured_moments()[k];
+            let measured_moments = simulation.measured_moments()[k];
             let tolerance = 1e-11 * (1.0 + expected_cov.amax());
             assert!(
-                (measured.mean - expected_mean).amax() < tolerance,
+                (measured_moments.mean - expected_mean).amax() < tolerance,
                 "{i}, {k}: {} {expected_mean}",
-                measured.mean
+                measured_moments.mean
             );
             assert!(
-                (measured.cov - expected_cov).amax() < tolerance,
+                (measured_moments.cov - expected_cov).amax() < tolerance,
                 "{i}, {k}: {} {expected_cov}",
-                measured.cov
+                measured_moments.cov
             );
             for axis in 0..3 {
                 let central_moment = |p: i32| {
                     twists.iter().map(|twist| (twist[axis] - expected_mean[axis]).powi(p)).sum::<f64>() / n
                 };
                 let expected_std_error = ((central_moment(4) / central_moment(2).powi(2) - 1.0) / n).sqrt();
-                let relative_std_error = measured.relative_error[axis];
+                let relative_std_error = measured_moments.relative_error[axis];
                 if central_moment(2) > 1e-20 {
                     assert!(
                         (relative_std_error / expected_std_error - 1.0).abs() < 1e-6,
@@ -131,23 +134,27 @@ fn ratios_and_misses_are_counted() {
     for order in RECURSIONS {
         let comparison = simulation.comparison(order);
         for (axis, misses) in comparison.misses.iter().enumerate() {
-            let ratios: Vec<f64> = (0..20)
+            let expected_ratios: Vec<f64> = (0..20)
                 .map(|k| {
-                    let predicted = simulation.predicted_covariances(order)[k].expect("a covariance");
-                    predicted[(axis, axis)] / simulation.measured_moments()[k].cov[(axis, axis)]
+                    let predicted_cov = simulation.predicted_covariances(order)[k].expect("a covariance");
+                    predicted_cov[(axis, axis)] / simulation.measured_moments()[k].cov[(axis, axis)]
                 })
                 .collect();
             assert!(
-                comparison.ratios.iter().zip(&ratios).all(|(ratio_row, ratio)| ratio_row[axis] == *ratio)
+                comparison
+                    .ratios
+                    .iter()
+                    .zip(&expected_ratios)
+                    .all(|(ratio_row, ratio)| ratio_row[axis] == *ratio)
             );
             let missed_steps: Vec<u32> =
-                (1..=20).filter(|k| (ratios[*k as usize - 1] - 1.0).abs() > 0.05).collect();
+                (1..=20).filter(|k| (expected_ratios[*k as usize - 1] - 1.0).abs() > 0.05).collect();
             assert!(misses.decidable);
             assert_eq!(
                 (misses.first, misses.last),
                 (missed_steps.first().copied(), missed_steps.last().copied())
             );
-            assert_eq!(misses.end, ratios[19] - 1.0);
+            assert_eq!(misses.end, expected_ratios[19] - 1.0);
         }
     }
 }
@@ -180,24 +187,24 @@ fn misses_are_reported_with_enough_robots_only() {
 /// A component without variance has no relative error, however small the numbers are.
 #[test]
 fn a_zero_variance_has_no_relative_error() {
-    let relative_errors_of = |settings| simulation(settings).measured_moments()[1].relative_error;
+    let relative_errors = |settings| simulation(settings).measured_moments()[1].relative_error;
     for samples in [1, 2] {
         assert!(
-            relative_errors_of(Settings { alphas: [0.0; 6], ..settings_with_robots(samples) })
+            relative_errors(Settings { alphas: [0.0; 6], ..settings_with_robots(samples) })
                 .iter()
                 .all(|error| error.is_nan())
         );
     }
-    assert!(relative_errors_of(settings_with_robots(1)).iter().all(|error| error.is_nan()));
+    assert!(relative_errors(settings_with_robots(1)).iter().all(|error| error.is_nan()));
     // Two robots always have a kurtosis of 1. The formula would therefore give an error of 0.
     assert!(
-        relative_errors_of(settings_with_robots(2))
+        relative_errors(settings_with_robots(2))
             .iter()
             .all(|error| error.is_finite() && *error >= 2f64.sqrt())
     );
     // Robots that only turn have no variance along the track.
     let command_on_the_spot = VelocityCmd { v: 0.0, omega: 0.5, dt: 0.2 };
-    let [along, _, heading] = relative_errors_of(Settings {
+    let [along, _, heading] = relative_errors(Settings {
         command: command_on_the_spot,
         alphas: [0.0, 0.0, 0.0, 0.02, 0.0, 0.0],
         ..settings_with_robots(300)
@@ -347,8 +354,8 @@ fn variances_of_a_straight_drive_cross_where_the_formula_says() {
         let command = VelocityCmd { v, omega: 0.3, dt: 0.2 };
         let alphas = [along_alpha, 1e-6, turn_alpha, 1e-6, 0.0, 0.0];
         let simulation = simulation(Settings { command, alphas, ..settings_with_robots(1) });
-        let growth = simulation.straight_growth();
-        let crossing_time = growth.crossing.expect("a crossing");
+        let straight_growth = simulation.straight_growth();
+        let crossing_time = straight_growth.crossing.expect("a crossing");
         let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal };
         let exact_variance_ratio = |dt: f64| {
             let cov =
@@ -357,17 +364,18 @@ fn variances_of_a_straight_drive_cross_where_the_formula_says() {
         };
         let (mut low, mut high) = (1e-3, 1e3);
         for _ in 0..100 {
-            let middle = f64::sqrt(low * high);
-            if exact_variance_ratio(middle) < 1.0 { low = middle } else { high = middle }
+            let middle_time = f64::sqrt(low * high);
+            if exact_variance_ratio(middle_time) < 1.0 { low = middle_time } else { high = middle_time }
         }
         // The formula is exact to first order in the noise. Its relative error is a few times the variances, 1e-6.
         assert!((crossing_time / low - 1.0).abs() < 1e-4, "{crossing_time}, found {low}");
         // Exact variances equal first-order variances while headings are small, here for three seconds.
-        for (first_order, exact_variances) in
-            [(&growth.along_first_order, &growth.along), (&growth.across_first_order, &growth.across)]
-        {
+        for (first_order, exact_variances) in [
+            (&straight_growth.along_first_order, &straight_growth.along),
+            (&straight_growth.across_first_order, &straight_growth.across),
+        ] {
             for ((first_order_variance, exact_variance), dt) in
-                first_order.iter().zip(exact_variances).zip(&growth.durations)
+                first_order.iter().zip(exact_variances).zip(&straight_growth.durations)
             {
                 assert!(
                     *dt > 3.0 || (exact_variance / first_order_variance - 1.0).abs() < 2e-3,
@@ -376,11 +384,11 @@ fn variances_of_a_straight_drive_cross_where_the_formula_says() {
             }
         }
     }
-    let crossing_time_of = |v, alphas| {
+    let crossing_time_of_simulation = |v, alphas| {
         let command = VelocityCmd { v, ..Settings::default().command };
         simulation(Settings { command, alphas, ..settings_with_robots(1) }).straight_growth().crossing
     };
     for (v, alphas) in [(0.0, [0.02; 6]), (1.0, [0.0; 6]), (1.0, [0.02, 0.0, 0.0, 0.0, 0.0, 0.0])] {
-        assert_eq!(crossing_time_of(v, alphas), None, "{v} {alphas:?}");
+        assert_eq!(crossing_time_of_simulation(v, alphas), None, "{v} {alphas:?}");
     }
 }

@@ -45,24 +45,29 @@ fn assert_exact_moments(poses: &[SE2], cartesian: &CartesianMoments, cross_track
         exact_mean(poses.iter().map(|pose| libm::cos(pose.theta()))),
     );
     let mean_heading = libm::atan2(sin, cos);
-    let centre = [exact_mean(poses.iter().map(SE2::x)), exact_mean(poses.iter().map(SE2::y))];
+    let mean_position = [exact_mean(poses.iter().map(SE2::x)), exact_mean(poses.iter().map(SE2::y))];
     assert_close("mean heading", cartesian.mean.z, mean_heading, 1.0);
-    assert_close("mean x", cartesian.mean.x, centre[0], 1.0);
-    assert_close("mean y", cartesian.mean.y, centre[1], 1.0);
+    assert_close("mean x", cartesian.mean.x, mean_position[0], 1.0);
+    assert_close("mean y", cartesian.mean.y, mean_position[1], 1.0);
 
     let pose_residuals = || {
         poses.iter().map(|pose| {
-            Vector3::new(pose.x() - centre[0], pose.y() - centre[1], wrap_angle(pose.theta() - mean_heading))
+            Vector3::new(
+                pose.x() - mean_position[0],
+                pose.y() - mean_position[1],
+                wrap_angle(pose.theta() - mean_heading),
+            )
         })
     };
     let mean_heading_residual = exact_mean(pose_residuals().map(|r| r.z));
     for i in 0..3 {
         for j in 0..3 {
-            let centred_component =
+            let subtract_expected_mean =
                 |r: Vector3<f64>, k: usize| if k == 2 { r.z - mean_heading_residual } else { r[k] };
-            let expected_cov =
-                exact_mean(pose_residuals().map(|r| centred_component(r, i) * centred_component(r, j))) * n
-                    / (n - 1.0);
+            let expected_cov = exact_mean(
+                pose_residuals().map(|r| subtract_expected_mean(r, i) * subtract_expected_mean(r, j)),
+            ) * n
+                / (n - 1.0);
             let std_product = (cartesian.cov[(i, i)] * cartesian.cov[(j, j)]).sqrt();
             assert_close(&format!("cov {i}{j}"), cartesian.cov[(i, j)], expected_cov, std_product);
         }
@@ -84,13 +89,13 @@ fn assert_exact_moments(poses: &[SE2], cartesian: &CartesianMoments, cross_track
         * (expected_skew * along_lateral_mean / lateral_variance
             - along_lateral_square_mean / (lateral_variance * lateral_std))
         / mean_resultant_length;
-    let influence = |(_, d, turn): (f64, f64, f64)| {
+    let influence_on_skew = |(_, d, turn): (f64, f64, f64)| {
         let z = d / lateral_std;
         z * z * z - expected_skew - 3.0 * z - 1.5 * expected_skew * (z * z - 1.0)
             + heading_factor * libm::sin(turn)
     };
     let expected_skew_error =
-        (exact_mean(all_track_coordinates().map(|track| influence(track).powi(2))) / n).sqrt();
+        (exact_mean(all_track_coordinates().map(|track| influence_on_skew(track).powi(2))) / n).sqrt();
     assert_close("skew error", cross_track[1], expected_skew_error, expected_skew_error);
     let heading_variance = exact_mean(pose_residuals().map(|r| (r.z - mean_heading_residual).powi(2)));
     let expected_correlation = exact_mean(all_track_coordinates().map(|(_, d, turn)| d * turn))
@@ -106,10 +111,10 @@ fn assert_exact_stats(simulation: &BananaMachine) {
     let cross_track = [stats.cross_track_skew, stats.cross_track_skew_error, stats.rho_cross_heading];
     assert_exact_moments(&poses, &cartesian, cross_track);
 
-    let twist_of =
+    let pose_twist =
         |pose: &SE2| pose.log_near(simulation.settings().command.omega * simulation.settings().command.dt);
-    let twists = || poses.iter().map(twist_of);
-    let twist_mean = Vector3::from_fn(|i, _| exact_mean(twists().map(|twist_of| twist_of[i])));
+    let twists = || poses.iter().map(pose_twist);
+    let twist_mean = Vector3::from_fn(|i, _| exact_mean(twists().map(|pose_twist| pose_twist[i])));
     // Exponential coordinates are undefined if robots turn by a full circle.
     for i in if simulation.is_chart_defined() { 0..3 } else { 0..0 } {
         assert_close(&format!("twist {i}"), exponential.mean[i], twist_mean[i], 1.0);
@@ -145,7 +150,7 @@ fn small_and_unusual_clouds_agree_with_exact_sums() {
         assert_exact_stats(simulation);
         let poses: Vec<SE2> = simulation.poses().collect();
         let CrossTrack { skew, skew_error, rho_heading } = CrossTrack::from_poses(&poses);
-        let cartesian = CartesianMoments::from_poses(&poses);
-        assert_exact_moments(&poses, &cartesian, [skew, skew_error, rho_heading]);
+        let cartesian_moments = CartesianMoments::from_poses(&poses);
+        assert_exact_moments(&poses, &cartesian_moments, [skew, skew_error, rho_heading]);
     });
 }

@@ -38,15 +38,15 @@ fn nearest_finds_robots_at_their_morphed_positions() {
         let simulation = simulation(Settings { samples: 103, ..settings });
         for (index, (pose, twist)) in simulation.poses().zip(simulation.twists()).enumerate() {
             for morph in MORPH_FRACTIONS {
-                let position = unbend(&twist, morph);
+                let morphed_position = unbend(&twist, morph);
                 assert_eq!(
-                    simulation.nearest(View::from_morph(morph), position, [1e-10; 2]),
+                    simulation.nearest(View::from_morph(morph), morphed_position, [1e-10; 2]),
                     Some(index),
                     "{morph}"
                 );
                 let bend_factor = 1.0 - morph;
                 let [x, y] = end_of_constant_twist([twist.x, bend_factor * twist.y, bend_factor * twist.z]);
-                assert!(distance(position, [x, y + morph * twist.z]) < 1e-5, "{morph}: {twist}");
+                assert!(distance(morphed_position, [x, y + morph * twist.z]) < 1e-5, "{morph}: {twist}");
             }
             assert!(distance(unbend(&twist, 0.0), [pose.x(), pose.y()]) < 1e-12);
             assert_eq!(unbend(&twist, 1.0), [twist.x, twist.z]);
@@ -109,7 +109,7 @@ fn the_morphed_outline_equals_that_of_each_view_at_its_end() {
     let contour = ExponentialContour::new(&stats.exponential, &SE2::identity());
     assert_eq!(contour.morphed_boundary(OUTLINE_SEGMENTS, 0.0), simulation.contours().exponential);
     for point in contour.morphed_boundary(OUTLINE_SEGMENTS, 1.0) {
-        assert!((contour.ellipse.distance(point) - 2.0).abs() < 1e-9);
+        assert!((contour.ellipse.mahalanobis_distance(point) - 2.0).abs() < 1e-9);
     }
 }
 
@@ -117,8 +117,8 @@ fn the_morphed_outline_equals_that_of_each_view_at_its_end() {
 #[test]
 fn a_morphed_line_stays_connected_or_is_omitted() {
     let circle_at = |x: f64| -> Vec<[f64; 2]> {
-        let angles = (0..=128).map(|i| std::f64::consts::TAU * f64::from(i) / 128.0);
-        angles.map(|angle| [x + 0.5 * angle.cos(), 0.5 * angle.sin()]).collect()
+        let circle_angles = (0..=128).map(|i| std::f64::consts::TAU * f64::from(i) / 128.0);
+        circle_angles.map(|angle| [x + 0.5 * angle.cos(), 0.5 * angle.sin()]).collect()
     };
     for morph in MORPH_FRACTIONS {
         assert!(unbend_line(&circle_at(0.1), 0.3, morph).is_empty());

@@ -35,24 +35,21 @@ fn the_outcomes_equal_samples_of_the_model() {
 /// If only α₃ is above 0, the drives differ in length by fixed random numbers times √α₃.
 #[test]
 fn changed_settings_move_the_same_outcomes() {
-    let with_alpha3_only =
+    let settings_with_alpha3_only =
         |a3: f64| Settings { alphas: [0.0, 0.0, a3, 0.0, 0.0], ..settings_of_preset("drive-turn") };
-    let mut simulation = simulation(with_alpha3_only(0.01));
-    let excess_lengths_of = |simulation: &OdometryDecomposer| -> Vec<f64> {
+    let mut simulation = simulation(settings_with_alpha3_only(0.01));
+    let excess_lengths = |simulation: &OdometryDecomposer| -> Vec<f64> {
         simulation.poses().iter().map(|pose| pose.x() - 1.5).collect()
     };
-    let lengths_before = excess_lengths_of(&simulation);
-    simulation.configure(with_alpha3_only(0.04)).expect("a valid setting");
-    for (length_before, length_after) in lengths_before.iter().zip(excess_lengths_of(&simulation)) {
+    let lengths_before = excess_lengths(&simulation);
+    simulation.configure(settings_with_alpha3_only(0.04)).expect("a valid setting");
+    for (length_before, length_after) in lengths_before.iter().zip(excess_lengths(&simulation)) {
         assert!((2.0 * length_before - length_after).abs() < 1e-14);
     }
     // A larger cloud begins with the smaller one.
-    let settings_with_more_samples = Settings { samples: 900, ..with_alpha3_only(0.01) };
+    let settings_with_more_samples = Settings { samples: 900, ..settings_with_alpha3_only(0.01) };
     simulation.configure_first(settings_with_more_samples, 700).expect("a valid setting");
-    assert_eq!(
-        (simulation.poses().len(), &excess_lengths_of(&simulation)[..500]),
-        (700, &lengths_before[..])
-    );
+    assert_eq!((simulation.poses().len(), &excess_lengths(&simulation)[..500]), (700, &lengths_before[..]));
     assert_eq!(simulation.add_samples(usize::MAX), 900);
 }
 
@@ -101,9 +98,8 @@ fn the_leg_poses_follow_the_legs_of_the_reading() {
 /// The prediction depends only on the relative motion. A drift of the odometry frame does not change it.
 #[test]
 fn the_prediction_does_not_depend_on_the_drift() {
-    let simulation_with_drift = |drift| simulation(Settings { drift, ..Settings::default() });
-    let (simulation_without_drift, simulation_with_long_drift) =
-        (simulation_with_drift(0.0), simulation_with_drift(300.0));
+    let simulate_drift = |drift| simulation(Settings { drift, ..Settings::default() });
+    let (simulation_without_drift, simulation_with_long_drift) = (simulate_drift(0.0), simulate_drift(300.0));
     assert_eq!(simulation_without_drift.poses(), simulation_with_long_drift.poses());
     assert_eq!(simulation_without_drift.rule_noises(), simulation_with_long_drift.rule_noises());
     let [fixed_odometry, drifted_odometry] =

@@ -38,9 +38,9 @@ fn pixels_show_the_density_of_the_cloud() {
     let mut simulation = BananaMachine::new(settings).expect("a valid setting");
     let positions: Vec<[f64; 2]> = simulation.poses().map(|pose| [pose.x(), pose.y()]).collect();
     let twists: Vec<[f64; 2]> = simulation.twists().map(|twist| [twist.x, twist.z]).collect();
-    let case_of = |view, points| move |grid| (view, points, grid);
-    let plane_cases = grids_over([0.75, -0.2], [1.2, 0.4]).map(case_of(View::Plane, &positions));
-    let twist_cases = grids_over([0.75, 0.1], [1.2, 0.7]).map(case_of(View::Twist, &twists));
+    let new_case = |view, points| move |grid| (view, points, grid);
+    let plane_cases = grids_over([0.75, -0.2], [1.2, 0.4]).map(new_case(View::Plane, &positions));
+    let twist_cases = grids_over([0.75, 0.1], [1.2, 0.7]).map(new_case(View::Twist, &twists));
     for (view, points, grid) in plane_cases.into_iter().chain(twist_cases) {
         let mut cell_counts = vec![0u32; grid.columns * grid.rows];
         points

@@ -22,7 +22,7 @@ fn results_as_text(simulation: &MapSqueeze) -> String {
     format!(
         "{settings:?} {:?} {tally:?} {} {:?}",
         simulation.attempts(),
-        simulation.gave_up(),
+        simulation.has_given_up(),
         simulation.plan().walls()
     )
 }
@@ -33,22 +33,23 @@ fn changed_samplers_and_maps_move_no_sample() {
     let settings = Settings { samples: 3000, ..Settings::default() };
     let mut simulation = simulation(settings);
     let (results_before, poses_before) = (results_as_text(&simulation), poses(&simulation));
-    let verdicts_of = |simulation: &MapSqueeze| -> Vec<[bool; 2]> {
+    let attempt_verdicts = |simulation: &MapSqueeze| -> Vec<[bool; 2]> {
         simulation.attempts().iter().map(|attempt| [attempt.end_free, attempt.path_free]).collect()
     };
-    let verdicts_before = verdicts_of(&simulation);
+    let verdicts_before = attempt_verdicts(&simulation);
     assert!(simulation.attempts().iter().all(|attempt| attempt.accepted == attempt.end_free));
     simulation.configure(Settings { sampler: Sampler::WholeArc, ..settings }).expect("valid");
     assert!(simulation.attempts().iter().all(|attempt| attempt.accepted == attempt.path_free));
     assert_eq!(
-        (poses(&simulation), verdicts_of(&simulation)),
+        (poses(&simulation), attempt_verdicts(&simulation)),
         (poses_before.clone(), verdicts_before.clone())
     );
     assert_eq!(simulation.tally().through_wall, 0);
     for sampler in [Sampler::Endpoint, Sampler::WholeArc] {
         simulation.configure(Settings { conditioned: false, sampler, ..settings }).expect("valid");
         assert!(
-            (poses(&simulation), verdicts_of(&simulation)) == (poses_before.clone(), verdicts_before.clone()),
+            (poses(&simulation), attempt_verdicts(&simulation))
+                == (poses_before.clone(), verdicts_before.clone()),
             "{sampler:?}"
         );
         assert_eq!(simulation.tally().accepted, 3000, "no attempt is rejected");
@@ -152,9 +153,9 @@ fn the_simulation_stops_after_a_bounded_number_of_draws() {
     let settings =
         Settings { start: [2.1, 2.1, 0.0], sampler: Sampler::SubStepped(4), ..Settings::default() };
     let mut simulation = simulation(settings);
-    assert!(!simulation.gave_up());
+    assert!(!simulation.has_given_up());
     simulation.set_plan(too_small_room());
-    assert!(simulation.gave_up());
+    assert!(simulation.has_given_up());
     let tally = *simulation.tally();
     assert_eq!((tally.accepted, tally.through_wall), (0, 0));
     assert!((MAX_DRAWS..=3 * MAX_DRAWS).contains(&tally.draws), "{tally:?}");
@@ -164,7 +165,7 @@ fn the_simulation_stops_after_a_bounded_number_of_draws() {
     assert_eq!(simulation.add_samples(100), attempt_count, "it stops for good");
     assert_eq!(*simulation.tally(), tally);
     simulation.configure(Settings { sampler: Sampler::Endpoint, ..settings }).expect("valid");
-    assert!(!simulation.gave_up());
+    assert!(!simulation.has_given_up());
     assert_eq!((simulation.attempts().len(), simulation.tally().accepted), (600, 0));
     assert_eq!(simulation.tally().acceptance_rate(1), 0.0);
     assert!(simulation.tally().through_wall_rate().is_nan());
@@ -173,9 +174,9 @@ fn the_simulation_stops_after_a_bounded_number_of_draws() {
         assert_eq!(simulation.sampling_trial(sampler, 10).expect_err("no room").0.draws, MAX_DRAWS);
     }
     simulation.configure(settings).expect("valid");
-    assert!(simulation.gave_up());
+    assert!(simulation.has_given_up());
     simulation.set_plan(FloorPlan::apartment());
-    assert!(!simulation.gave_up());
+    assert!(!simulation.has_given_up());
     assert_eq!((simulation.attempts().len(), simulation.tally().accepted), (600, 600));
 }
 
@@ -188,16 +189,20 @@ fn a_trial_reports_its_cost_and_changes_nothing() {
     let start_pose = SE2::new(x, y, theta);
     let results_before = results_as_text(&simulation);
     for sampler in SAMPLERS {
-        let cost = simulation.sampling_trial(sampler, 500).expect("it fits");
+        let trial_cost = simulation.sampling_trial(sampler, 500).expect("it fits");
         let plan = FloorPlan::apartment();
-        let conditioned = MapConditioned { model, plan: &plan, clearance: 0.13, sampler };
+        let conditioned_model = MapConditioned { model, plan: &plan, clearance: 0.13, sampler };
         let mut rng = seeded_rng(7);
         let mut expected_cost = (0, 0);
         for _ in 0..500 {
-            let sample = conditioned.sample(&STRAIGHT_COMMAND, &start_pose, &mut rng).expect("it fits");
-            expected_cost = (expected_cost.0 + sample.cost.draws, expected_cost.1 + sample.cost.wall_tests);
+            let accepted_motion =
+                conditioned_model.sample(&STRAIGHT_COMMAND, &start_pose, &mut rng).expect("it fits");
+            expected_cost = (
+                expected_cost.0 + accepted_motion.cost.draws,
+                expected_cost.1 + accepted_motion.cost.wall_tests,
+            );
         }
-        assert_eq!((cost.draws, cost.wall_tests), expected_cost);
+        assert_eq!((trial_cost.draws, trial_cost.wall_tests), expected_cost);
     }
     assert_eq!(results_as_text(&simulation), results_before);
 }
@@ -211,12 +216,17 @@ fn the_interval_is_the_wilson_interval() {
     for (through_wall, accepted, low, high) in
         [(81, 263, 0.2553, 0.3662), (15, 148, 0.0624, 0.1605), (0, 20, 0.0, 0.1611), (1, 29, 0.0061, 0.1718)]
     {
-        let interval = Tally { accepted, through_wall, ..Tally::default() }.through_wall_interval();
-        assert!((interval[0] - low).abs() < 5e-5 && (interval[1] - high).abs() < 5e-5, "{interval:?}");
+        let through_wall_interval =
+            Tally { accepted, through_wall, ..Tally::default() }.through_wall_interval();
+        assert!(
+            (through_wall_interval[0] - low).abs() < 5e-5 && (through_wall_interval[1] - high).abs() < 5e-5,
+            "{through_wall_interval:?}"
+        );
         let complement_tally = Tally { accepted, through_wall: accepted - through_wall, ..Tally::default() };
         let [rest_low, rest_high] = complement_tally.through_wall_interval();
         assert!(
-            (rest_low + interval[1] - 1.0).abs() < 1e-15 && (rest_high + interval[0] - 1.0).abs() < 1e-15
+            (rest_low + through_wall_interval[1] - 1.0).abs() < 1e-15
+                && (rest_high + through_wall_interval[0] - 1.0).abs() < 1e-15
         );
     }
 }

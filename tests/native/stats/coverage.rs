@@ -59,15 +59,22 @@ fn fractions_within_standard_errors(settings: Settings, repetitions: u64) -> [f6
 #[test]
 #[ignore = "nightly: thousands of clouds"]
 fn standard_errors_cover_95_percent() {
-    let small = |settings| (Settings { samples: ROBOT_COUNT, ..settings }, REPETITION_COUNT);
+    let with_small_cloud = |settings| (Settings { samples: ROBOT_COUNT, ..settings }, REPETITION_COUNT);
     for (cloud_name, (settings, repetitions)) in [
-        ("gentle arc", small(settings_of_preset("gentle"))),
-        ("hard arc", small(Settings { noise: NoiseKind::Triangular, ..settings_of_preset("hard") })),
-        ("odometry", small(Settings { model: ModelKind::Odometry, ..settings_of_preset("gentle") })),
+        ("gentle arc", with_small_cloud(settings_of_preset("gentle"))),
+        (
+            "hard arc",
+            with_small_cloud(Settings { noise: NoiseKind::Triangular, ..settings_of_preset("hard") }),
+        ),
+        (
+            "odometry",
+            with_small_cloud(Settings { model: ModelKind::Odometry, ..settings_of_preset("gentle") }),
+        ),
         ("banana", (settings_of_preset("banana"), LARGE_CLOUD_REPETITION_COUNT)),
     ] {
-        let fractions = fractions_within_standard_errors(settings, repetitions);
-        for (statistic, fraction) in ["skew", "gain of poses", "gain on the floor"].into_iter().zip(fractions)
+        let covered_fractions = fractions_within_standard_errors(settings, repetitions);
+        for (statistic, fraction) in
+            ["skew", "gain of poses", "gain on the floor"].into_iter().zip(covered_fractions)
         {
             assert_covered(&format!("{statistic}, {cloud_name}"), fraction, repetitions);
         }
@@ -77,9 +84,9 @@ fn standard_errors_cover_95_percent() {
 #[test]
 #[ignore = "nightly: thousands of clouds"]
 fn intervals_of_small_clouds_contain_the_exact_skew_as_often_as_printed() {
-    let text = Text::of_document(include_str!("../../../doc/statistics.md"));
-    let [small_cloud_percentage, small_cloud_size, larger_cloud_percentage, larger_cloud_size] = text
-        .numbers(
+    let document_text = Text::of_document(include_str!("../../../doc/statistics.md"));
+    let [small_cloud_percentage, small_cloud_size, larger_cloud_percentage, larger_cloud_size] =
+        document_text.sentence_numbers(
             "1.96 errors hold the exact one in # of 100 clouds of #, in # of #, and in 95 of 5000 and more",
         );
     for (printed_percentage, robot_count) in
@@ -98,9 +105,9 @@ fn fraction_through_walls(settings: &squeeze::Settings) -> f64 {
     const MAX_SIGMAS: f64 = 6.0;
     let (plan, [x, y, theta]) = (FloorPlan::apartment(), settings.start);
     let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise: NoiseKind::Normal };
-    let conditioned =
+    let conditioned_model =
         MapConditioned { model, plan: &plan, clearance: settings.clearance, sampler: Sampler::Endpoint };
-    let collision_tester = conditioned.collision_tester(&settings.command, &SE2::new(x, y, theta));
+    let collision_tester = conditioned_model.collision_tester(&settings.command, &SE2::new(x, y, theta));
     let unit_noise_at = |i: usize| ((i as f64 + 0.5) / NODE_COUNT as f64 * 2.0 - 1.0) * MAX_SIGMAS;
     let (mut free_end_weight, mut blocked_path_weight) = (0.0, 0.0);
     for v in (0..NODE_COUNT).map(unit_noise_at) {

@@ -2,7 +2,7 @@
 
 use crate::common::{NOISE_KINDS, ReferenceTable, mean, variance};
 use crate::simulations::banana::check_varied_clouds;
-use motion::geom::arc::{arc_with_turn_near, chord};
+use motion::geom::arc::{arc_end, arc_with_turn_near};
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::sim::banana::{BananaMachine, PRESETS, Preset, Settings, Stats};
 use motion::stats::{CartesianMoments, ExactGain};
@@ -43,13 +43,14 @@ fn assert_close(name: &str, computed: f64, expected: f64, tolerance: f64) {
 /// Returns the log-density of each point under the Gaussian with the moments of all points, by inverse and determinant.
 fn log_densities(points: &[DVector<f64>]) -> Vec<f64> {
     let (n, dimension) = (points.len() as f64, points[0].len());
-    let mean = points.iter().sum::<DVector<f64>>() / n;
-    let outer_product = |p: &DVector<f64>| (p - &mean) * (p - &mean).transpose();
+    let mean_vector = points.iter().sum::<DVector<f64>>() / n;
+    let outer_product = |p: &DVector<f64>| (p - &mean_vector) * (p - &mean_vector).transpose();
     let cov = points.iter().map(outer_product).sum::<DMatrix<f64>>() / (n - 1.0);
     let (inverse_cov, normalization) =
         (cov.clone().try_inverse().unwrap(), (TAU.powi(dimension as i32) * cov.determinant()).sqrt());
-    let log_density_at =
-        |p: &DVector<f64>| -0.5 * (p - &mean).dot(&(&inverse_cov * (p - &mean))) - normalization.ln();
+    let log_density_at = |p: &DVector<f64>| {
+        -0.5 * (p - &mean_vector).dot(&(&inverse_cov * (p - &mean_vector))) - normalization.ln()
+    };
     points.iter().map(log_density_at).collect()
 }
 
@@ -58,13 +59,13 @@ fn jacobian_determinant(map: impl Fn(&DVector<f64>) -> DVector<f64>, at: &DVecto
     const STEP: f64 = 1e-3;
     let jacobian_columns: Vec<DVector<f64>> = (0..at.len())
         .map(|i| {
-            let difference = |steps: f64| {
+            let central_difference = |steps: f64| {
                 let mut shifted_points = [at.clone(), at.clone()];
                 shifted_points[0][i] += steps * STEP;
                 shifted_points[1][i] -= steps * STEP;
                 (map(&shifted_points[0]) - map(&shifted_points[1])) / (2.0 * steps * STEP)
             };
-            (4.0 * difference(1.0) - difference(2.0)) / 3.0
+            (4.0 * central_difference(1.0) - central_difference(2.0)) / 3.0
         })
         .collect();
     DMatrix::from_columns(&jacobian_columns).determinant()
@@ -74,19 +75,20 @@ fn jacobian_determinant(map: impl Fn(&DVector<f64>) -> DVector<f64>, at: &DVecto
 /// The gain of its position compares a Gaussian in arc coordinates with one in x, y.
 fn robot_gains(cloud: &[SE2], turn: f64) -> [Vec<f64>; 2] {
     let mean_heading = CartesianMoments::from_poses(cloud).mean.z;
-    let vectors = |coordinates: &dyn Fn(&SE2) -> Vec<f64>| -> Vec<DVector<f64>> {
+    let to_vectors = |coordinates: &dyn Fn(&SE2) -> Vec<f64>| -> Vec<DVector<f64>> {
         cloud.iter().map(|pose| DVector::from_vec(coordinates(pose))).collect()
     };
-    let pose_vectors = vectors(&|p| vec![p.x(), p.y(), wrap_angle(p.theta() - mean_heading)]);
-    let position_vectors = vectors(&|p| vec![p.x(), p.y()]);
-    let twist_vectors = vectors(&|p| p.log_near(turn).as_slice().to_vec());
-    let arc_vectors = vectors(&|p| <[f64; 2]>::from(arc_with_turn_near(&SE2::identity(), p, turn)).to_vec());
+    let pose_vectors = to_vectors(&|p| vec![p.x(), p.y(), wrap_angle(p.theta() - mean_heading)]);
+    let position_vectors = to_vectors(&|p| vec![p.x(), p.y()]);
+    let twist_vectors = to_vectors(&|p| p.log_near(turn).as_slice().to_vec());
+    let arc_vectors =
+        to_vectors(&|p| <[f64; 2]>::from(arc_with_turn_near(&SE2::identity(), p, turn)).to_vec());
     let pose_of_twist = |xi: &DVector<f64>| {
         let pose = SE2::exp(&Vector3::new(xi[0], xi[1], xi[2]));
         DVector::from_vec(vec![pose.x(), pose.y(), xi[2]])
     };
     let position_of_arc = |arc: &DVector<f64>| {
-        let (x, y) = chord(arc[0], arc[1]);
+        let (x, y) = arc_end(arc[0], arc[1]);
         DVector::from_vec(vec![x, y])
     };
     let log_density_gains =
@@ -132,16 +134,16 @@ fn the_gain_equals_its_definition_over_all_poses() {
 #[test]
 fn exact_gains_match_the_references() {
     for row in ReferenceTable::parse(include_str!("../../reference/likelihood_gain.csv")).rows() {
-        let velocity_alphas = row.numbers(["a1", "a2", "a3", "a4", "a5", "a6"]);
-        let [v, omega, dt] = row.numbers(["v", "omega", "dt"]);
+        let velocity_alphas = row.cell_numbers(["a1", "a2", "a3", "a4", "a5", "a6"]);
+        let [v, omega, dt] = row.cell_numbers(["v", "omega", "dt"]);
         let command = VelocityCmd { v, omega, dt };
         let settings =
             Settings { command, velocity_alphas, noise: row.noise_kind(), samples: 1, ..Settings::default() };
         let exact_column = BananaMachine::new(settings).expect("a valid setting").table().exact;
         let case_name = format!("{command:?} {velocity_alphas:?}");
-        assert_close(&case_name, exact_column.likelihood_gain.pose, row.number("pose"), 1e-6);
-        assert_close(&case_name, exact_column.likelihood_gain.floor, row.number("floor"), 1e-6);
-        assert_close(&case_name, exact_column.area_ratio, row.number("area_ratio"), 1e-4);
+        assert_close(&case_name, exact_column.likelihood_gain.pose, row.cell_number("pose"), 1e-6);
+        assert_close(&case_name, exact_column.likelihood_gain.floor, row.cell_number("floor"), 1e-6);
+        assert_close(&case_name, exact_column.area_ratio, row.cell_number("area_ratio"), 1e-4);
         let model = VelocityModel { alphas: VelocityAlphas(velocity_alphas), noise: row.noise_kind() };
         assert_eq!(ExactGain::of_velocity(&model, &command).value.floor, exact_column.likelihood_gain.floor);
     }
@@ -205,13 +207,13 @@ fn the_area_ratio_is_that_of_the_drawn_outlines() {
 fn the_error_of_the_area_ratio_matches_its_deviation_over_clouds() {
     const CLOUD_COUNT: usize = 300;
     for Preset { name, command, alphas } in PRESETS {
-        let stats_of = |seed: usize| {
+        let stats_of_seed = |seed: usize| {
             let seed = seed as u64;
             let settings =
                 Settings { command, velocity_alphas: alphas, samples: 1000, seed, ..Settings::default() };
             *BananaMachine::new(settings).expect("a valid setting").stats()
         };
-        let stats_of_clouds: Vec<Stats> = (0..CLOUD_COUNT).map(stats_of).collect();
+        let stats_of_clouds: Vec<Stats> = (0..CLOUD_COUNT).map(stats_of_seed).collect();
         let ratio_std =
             variance(&stats_of_clouds.iter().map(|cloud| cloud.area_ratio).collect::<Vec<_>>()).sqrt();
         let mean_error =

@@ -1,15 +1,15 @@
 //! Contour lines of known fields, and of the heat maps of Arc Anatomy.
 
-use crate::common::{seeded_rng, uniform};
+use crate::common::{draw_uniform, seeded_rng};
 use motion::geom::se2::SE2;
 use motion::sim::arc_anatomy::{ArcAnatomy, CONTOUR_LEVELS, Settings, Surface, SurfaceKind};
-use motion::stats::level_set;
+use motion::stats::trace_level_set;
 use motion::{MotionModel, NoiseKind, VelocityAlphas, VelocityModel};
 
 #[test]
 fn the_mean_of_the_corners_decides_how_a_saddle_is_connected() {
     for (level, are_low_corners_cut_off) in [(0.4, true), (0.6, false)] {
-        let contour_lines = level_set(&[1.0, 0.0, 0.0, 1.0], 2, level);
+        let contour_lines = trace_level_set(&[1.0, 0.0, 0.0, 1.0], 2, level);
         assert_eq!(contour_lines.len(), 2);
         // Two lines cut off either both low corners or both high corners.
         let is_cut_off = |corner: [f64; 2]| {
@@ -32,14 +32,14 @@ fn the_mean_of_the_corners_decides_how_a_saddle_is_connected() {
 fn contours_of_noise_contain_every_crossing() {
     let mut rng = seeded_rng(21);
     let (columns, rows) = (23, 17);
-    let field: Vec<f64> = (0..columns * rows).map(|_| uniform(&mut rng, -1.0, 1.0)).collect();
+    let random_field: Vec<f64> = (0..columns * rows).map(|_| draw_uniform(&mut rng, -1.0, 1.0)).collect();
     let mut crossing_count = 0;
     for i in 0..columns * rows {
-        let is_crossed = |k: usize| usize::from((field[i] > 0.2) != (field[k] > 0.2));
+        let is_crossed = |k: usize| usize::from((random_field[i] > 0.2) != (random_field[k] > 0.2));
         crossing_count += if i % columns + 1 < columns { is_crossed(i + 1) } else { 0 };
         crossing_count += if i / columns + 1 < rows { is_crossed(i + columns) } else { 0 };
     }
-    let contour_lines = level_set(&field, columns, 0.2);
+    let contour_lines = trace_level_set(&random_field, columns, 0.2);
     let mut point_count = 0;
     for line in &contour_lines {
         let is_closed = line.len() > 2 && line.first() == line.last();
@@ -56,8 +56,8 @@ fn contours_of_noise_contain_every_crossing() {
 
 #[test]
 fn small_or_flat_fields_have_no_lines() {
-    for (field, columns) in [(vec![], 0), (vec![1.0], 1), (vec![1.0, 0.0], 2), (vec![1.0; 12], 4)] {
-        assert!(level_set(&field, columns, 0.5).is_empty());
+    for (random_field, columns) in [(vec![], 0), (vec![1.0], 1), (vec![1.0, 0.0], 2), (vec![1.0; 12], 4)] {
+        assert!(trace_level_set(&random_field, columns, 0.5).is_empty());
     }
 }
 
@@ -76,7 +76,7 @@ fn contours_lie_at_the_levels_of_the_models() {
     assert!(columns * rows == shades.len() && (5_000..=10_000).contains(&shades.len()));
     let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise: NoiseKind::Normal };
     let origin = SE2::identity();
-    let density_at = |[x, y]: [f64; 2], kind: SurfaceKind| {
+    let density_at_point = |[x, y]: [f64; 2], kind: SurfaceKind| {
         let next_pose = SE2::new(x, y, settings.next.theta);
         match kind {
             SurfaceKind::Prob => model.prob(&next_pose, &settings.command, &origin),
@@ -88,10 +88,11 @@ fn contours_lie_at_the_levels_of_the_models() {
         [-0.5 + 2.5 * column / columns as f64, 1.5 - 2.5 * row / rows as f64]
     };
     for (lines, kind) in [(&prob, SurfaceKind::Prob), (&density, SurfaceKind::Density)] {
-        let max_density = (0..shades.len()).map(|i| density_at(cell_centre(i), kind)).fold(0.0, f64::max);
+        let max_density =
+            (0..shades.len()).map(|i| density_at_point(cell_centre(i), kind)).fold(0.0, f64::max);
         assert!(lines.len() >= CONTOUR_LEVELS.len());
         for point in lines.iter().flatten().filter(|[x, y]| x.hypot(*y) > 0.7) {
-            let relative_density = density_at(*point, kind) / max_density;
+            let relative_density = density_at_point(*point, kind) / max_density;
             let nearest_level = CONTOUR_LEVELS.into_iter().min_by(|a, b| {
                 (relative_density / a).ln().abs().total_cmp(&(relative_density / b).ln().abs())
             });
@@ -102,9 +103,9 @@ fn contours_lie_at_the_levels_of_the_models() {
         }
     }
     let max_density =
-        (0..shades.len()).map(|i| density_at(cell_centre(i), SurfaceKind::Density)).fold(0.0, f64::max);
+        (0..shades.len()).map(|i| density_at_point(cell_centre(i), SurfaceKind::Density)).fold(0.0, f64::max);
     for (i, shade) in shades.iter().enumerate() {
-        let expected_shade = 255.0 * density_at(cell_centre(i), SurfaceKind::Density) / max_density;
+        let expected_shade = 255.0 * density_at_point(cell_centre(i), SurfaceKind::Density) / max_density;
         assert!((f64::from(*shade) - expected_shade).abs() <= 0.5 + 1e-9);
     }
 }

@@ -1,6 +1,6 @@
 //! Moments, skews and contours of clouds, and exact moments of models.
 
-use crate::common::{MAX_STANDARD_ERRORS, ReferenceTable, seeded_rng, uniform};
+use crate::common::{MAX_STANDARD_ERRORS, ReferenceTable, draw_uniform, seeded_rng};
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::sim::banana::{BananaMachine, Settings};
 use motion::stats::{
@@ -49,9 +49,9 @@ fn the_exponential_contour_covers_two_deviations() {
     );
 
     let contour = ExponentialContour::new(&exact_moments, &start_pose);
-    let outline = contour.boundary(48);
-    assert_eq!(outline.first(), outline.last());
-    for &[x, y] in &outline {
+    let shadow_outline = contour.boundary(48);
+    assert_eq!(shadow_outline.first(), shadow_outline.last());
+    for &[x, y] in &shadow_outline {
         // In exponential coordinates the outline is the 2σ ellipse of (along, heading).
         let inversion = motion::invert_arc(&start_pose, &SE2::new(x, y, 0.0), 1.0);
         let squared_sigmas = ((inversion.v_hat - 1.0).powi(2) + (inversion.omega_hat - 0.5).powi(2)) / 0.025;
@@ -68,27 +68,28 @@ fn the_exponential_contour_covers_two_deviations() {
 /// heading. The nearest to the mean is two standard deviations away, or a little less.
 #[test]
 fn the_outline_is_nearly_the_shadow_of_the_ellipsoid() {
-    let cases = [
+    let moment_cases = [
         (
             Vector3::new(1.0, 0.0, 0.5),
             Matrix3::new(0.06, 0.001, 0.002, 0.001, 0.003, -0.006, 0.002, -0.006, 0.08),
         ),
         (Vector3::new(1.4, 0.1, -1.2), Matrix3::new(0.05, 0.0, 0.01, 0.0, 0.02, 0.01, 0.01, 0.01, 0.1)),
     ];
-    for (mean, cov) in cases {
+    for (mean, cov) in moment_cases {
         let start_pose = SE2::new(2.0, -1.0, 0.7);
         let inverse_cov = cov.try_inverse().unwrap();
         let heading_std = f64::sqrt(cov[(2, 2)]);
         for [x, y] in ExponentialContour::new(&ExponentialMoments { mean, cov }, &start_pose).boundary(48) {
             let distance_with_heading = |heading: f64| {
                 let relative_pose = start_pose.inverse() * SE2::new(x, y, start_pose.theta() + heading);
-                let offset = relative_pose.log_near(heading) - mean;
-                offset.dot(&(inverse_cov * offset)).sqrt()
+                let twist_offset = relative_pose.log_near(heading) - mean;
+                twist_offset.dot(&(inverse_cov * twist_offset)).sqrt()
             };
             // The distance is minimized over 4001 headings within three standard deviations. Their spacing makes the minimum
             // too large by less than 1e-5.
-            let headings = (0..=4000).map(|i| mean.z + heading_std * 3.0 * (f64::from(i) / 2000.0 - 1.0));
-            let min_distance = headings.map(distance_with_heading).fold(f64::INFINITY, f64::min);
+            let tested_headings =
+                (0..=4000).map(|i| mean.z + heading_std * 3.0 * (f64::from(i) / 2000.0 - 1.0));
+            let min_distance = tested_headings.map(distance_with_heading).fold(f64::INFINITY, f64::min);
             assert!((1.9..2.0 + 1e-5).contains(&min_distance), "({x}, {y}): {min_distance}");
         }
     }
@@ -97,46 +98,50 @@ fn the_outline_is_nearly_the_shadow_of_the_ellipsoid() {
 #[test]
 fn predicted_skews_match_the_references() {
     for row in ReferenceTable::parse(include_str!("../../reference/pushed_skew.csv")).rows() {
-        let mean = Vector3::from(row.numbers(["a", "b", "w"]));
-        let [aa, ab, aw, bb, bw, ww] = row.numbers(["caa", "cab", "caw", "cbb", "cbw", "cww"]);
+        let mean = Vector3::from(row.cell_numbers(["a", "b", "w"]));
+        let [aa, ab, aw, bb, bw, ww] = row.cell_numbers(["caa", "cab", "caw", "cbb", "cbw", "cww"]);
         let cov = Matrix3::new(aa, ab, aw, ab, bb, bw, aw, bw, ww);
         let skew = predicted_cross_track_skew(&mean, &cov);
         assert!(
-            (skew - row.number("skew")).abs() < 1e-12,
+            (skew - row.cell_number("skew")).abs() < 1e-12,
             "{mean} {cov}: {skew}, not {}",
-            row.number("skew")
+            row.cell_number("skew")
         );
     }
 }
 
 fn assert_moments_of_row(exact_moments: &ExactMoments, row: &crate::common::ReferenceRow<'_>) {
     let (mean, cov) = (exact_moments.mean, exact_moments.cov);
-    let means = [("mx", mean.x), ("my", mean.y)];
-    let covariances =
+    let named_means = [("mx", mean.x), ("my", mean.y)];
+    let named_covariances =
         [("sxx", 0, 0), ("sxy", 0, 1), ("syy", 1, 1), ("sxt", 0, 2), ("syt", 1, 2), ("stt", 2, 2)]
             .map(|(name, i, j)| (name, cov[(i, j)]));
-    for (name, value) in means.into_iter().chain(covariances) {
-        assert!((value - row.number(name)).abs() < 1e-14, "{name}: {value}, not {}", row.number(name));
+    for (name, value) in named_means.into_iter().chain(named_covariances) {
+        assert!(
+            (value - row.cell_number(name)).abs() < 1e-14,
+            "{name}: {value}, not {}",
+            row.cell_number(name)
+        );
     }
     assert!((exact_moments.cov - exact_moments.cov.transpose()).amax() < 1e-15);
     let skew = exact_moments.cross_track_skew;
-    assert!((skew - row.number("skew")).abs() < 1e-12, "skew {skew}, not {}", row.number("skew"));
+    assert!((skew - row.cell_number("skew")).abs() < 1e-12, "skew {skew}, not {}", row.cell_number("skew"));
 }
 
 #[test]
 fn exact_moments_match_the_references() {
     for row in ReferenceTable::parse(include_str!("../../reference/velocity_moments.csv")).rows() {
-        let alphas = VelocityAlphas(row.numbers(["a1", "a2", "a3", "a4", "a5", "a6"]));
-        let [v, omega, dt] = row.numbers(["v", "omega", "dt"]);
+        let alphas = VelocityAlphas(row.cell_numbers(["a1", "a2", "a3", "a4", "a5", "a6"]));
+        let [v, omega, dt] = row.cell_numbers(["v", "omega", "dt"]);
         let model = VelocityModel { alphas, noise: row.noise_kind() };
         let exact_moments = ExactMoments::of_velocity(&model, &VelocityCmd { v, omega, dt });
         assert!((exact_moments.mean.z - wrap_angle(omega * dt)).abs() < 1e-15);
         assert_moments_of_row(&exact_moments, &row);
     }
     for row in ReferenceTable::parse(include_str!("../../reference/odometry_moments.csv")).rows() {
-        let [rot1, trans, rot2] = row.numbers(["rot1", "trans", "rot2"]);
+        let [rot1, trans, rot2] = row.cell_numbers(["rot1", "trans", "rot2"]);
         let model = OdometryModel {
-            alphas: OdomAlphas(row.numbers(["a1", "a2", "a3", "a4"])),
+            alphas: OdomAlphas(row.cell_numbers(["a1", "a2", "a3", "a4"])),
             noise: row.noise_kind(),
         };
         let exact_moments = ExactMoments::of_odometry(&model, &OdomDelta { rot1, trans, rot2 });
@@ -148,30 +153,30 @@ fn exact_moments_match_the_references() {
 /// In clouds without a width, the skew, its error and the correlation are NaN, and no robot is inside a contour.
 #[test]
 fn degenerate_clouds_give_nan() {
-    let poses_on_line = |heading: f64| {
+    let create_poses_on_line = |heading: f64| {
         let mut rng = seeded_rng(145);
         (0..100)
             .map(|_| {
-                let s = uniform(&mut rng, -1.0, 1.0);
+                let s = draw_uniform(&mut rng, -1.0, 1.0);
                 SE2::new(0.1 + s * heading.cos(), 0.7 + s * heading.sin(), heading)
             })
             .collect::<Vec<_>>()
     };
-    for cloud in [vec![], poses_on_line(2.0), poses_on_line(-0.3)] {
+    for cloud in [vec![], create_poses_on_line(2.0), create_poses_on_line(-0.3)] {
         let cross_track = CrossTrack::from_poses(&cloud);
         for value in
             [cross_track.skew, cross_track.skew_error, cross_track.rho_heading, cross_track_skew(&cloud)]
         {
             assert!(value.is_nan(), "{cross_track:?}");
         }
-        let cartesian = CartesianMoments::from_poses(&cloud);
-        let exponential = ExponentialMoments::from_poses(&cloud, &SE2::identity());
-        assert_eq!(cartesian.mean.iter().any(|m| m.is_nan()), cloud.is_empty());
-        assert_eq!(exponential.mean.iter().any(|m| m.is_nan()), cloud.is_empty());
-        let ellipse = Ellipse::from_moments(&cartesian);
+        let cartesian_moments = CartesianMoments::from_poses(&cloud);
+        let exponential_moments = ExponentialMoments::from_poses(&cloud, &SE2::identity());
+        assert_eq!(cartesian_moments.mean.iter().any(|m| m.is_nan()), cloud.is_empty());
+        assert_eq!(exponential_moments.mean.iter().any(|m| m.is_nan()), cloud.is_empty());
+        let ellipse = Ellipse::from_moments(&cartesian_moments);
         assert!(cloud.iter().all(|pose| !ellipse.contains([pose.x(), pose.y()])));
         assert_eq!(ellipse.boundary(16).len(), 17);
-        assert_eq!(ExponentialContour::new(&exponential, &SE2::identity()).boundary(16).len(), 17);
+        assert_eq!(ExponentialContour::new(&exponential_moments, &SE2::identity()).boundary(16).len(), 17);
     }
     // Two poses have no skew, because every pair has the same shape. Three poses have a skew.
     let three_poses = [SE2::new(0.0, 0.1, 0.0), SE2::new(1.0, -0.1, 0.0), SE2::new(0.5, -0.1, 0.0)];
@@ -223,9 +228,8 @@ fn a_width_of_the_size_of_position_rounding_counts_as_zero() {
     const TINY_WIDTH: f64 = 1e-10;
     let skew_around = |[x, y]: [f64; 2]| {
         let mut rng = seeded_rng(146);
-        let mut random_offset = || uniform(&mut rng, -TINY_WIDTH, TINY_WIDTH);
-        let poses: Vec<SE2> =
-            (0..100).map(|_| SE2::new(x + random_offset(), y + random_offset(), 0.3)).collect();
+        let mut draw_offset = || draw_uniform(&mut rng, -TINY_WIDTH, TINY_WIDTH);
+        let poses: Vec<SE2> = (0..100).map(|_| SE2::new(x + draw_offset(), y + draw_offset(), 0.3)).collect();
         cross_track_skew(&poses)
     };
     for centre in [[1e3, 0.0], [-1e3, 0.0], [0.0, 1e3], [1e3, -1e3]] {

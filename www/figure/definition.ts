@@ -143,8 +143,8 @@ export interface ElementField extends Pick<Property, 'converter' | 'words' | 'mi
   isResetByPreset?: true;
   /** True if the field is a property, but not an attribute. */
   isProperty?: true;
-  /** Returns a value after a check; throws if it is invalid. An attribute is checked by its words or its range. */
-  check?: (field: string, value: any, selectableCount: number) => any;
+  /** Returns a value after a check; throws a TypeError or RangeError if it is invalid. */
+  check: (field: string, value: any, selectableCount: number) => unknown;
 }
 
 export interface Definition {
@@ -180,10 +180,11 @@ const cloudFields: Record<string, ElementField> = {
 export function definitionOf(tag: string, { lines, opening = Object.keys(lines), preset, elementFields: widgetFields, ...otherOptions }: DefinitionOptions): Definition {
   const declarations = settings[tag];
   const widgetPresets = presets[tag as keyof typeof presets];
+  const overlays = Object.keys(lines);
   const elementFields: Record<string, ElementField> = {
     ...(declarations.some(({ key }) => key === 'samples') && cloudFields),
     ...widgetFields,
-    overlays: { converter: WORD_LIST_CONVERTER, words: Object.keys(lines), opening },
+    overlays: { converter: WORD_LIST_CONVERTER, words: overlays, opening, check: (field, names) => checkedSubset(field, names, overlays) },
   };
   const properties: Properties = {
     ...(widgetPresets.length > 0 && { preset: preset ?? presetPropertyOf(widgetPresets, declarations) }),
@@ -193,11 +194,4 @@ export function definitionOf(tag: string, { lines, opening = Object.keys(lines),
     if (converter || isProperty) properties[key] = { ...fieldProperty(key, converter), words, min, max };
   }
   return { ...otherOptions, tag, declarations, properties, attributes: selectAttributes(properties), elementFields };
-}
-
-/** Returns a value for a field of the state of the element after a check; throws a TypeError or RangeError if it is invalid. */
-export function validatedValue({ converter, words = [], min = -Infinity, max = Infinity, check }: ElementField, field: string, value: unknown, selectableCount: number) {
-  if (check) return check(field, value, selectableCount);
-  if (converter === NUMBER_CONVERTER) return checkedNumber(field, value, min, max);
-  return converter === WORD_LIST_CONVERTER ? checkedSubset(field, value, words) : checkedWord(field, value, words);
 }

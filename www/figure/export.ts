@@ -40,16 +40,14 @@ function drawScene({ scene, pictures: [firstPicture], exportPicture, canvases, c
 }
 
 export async function pngOf(element: Figure): Promise<Blob> {
-  const image = document.createElement('canvas');
-  const context = image.getContext('2d') as CanvasRenderingContext2D;
+  const image = new OffscreenCanvas(1, 1);
+  const context = image.getContext('2d') as OffscreenCanvasRenderingContext2D;
   drawScene(element, PNG_RATIO, (size) => Object.assign(image, size) && context);
   context.resetTransform();
   context.globalCompositeOperation = 'destination-over';
   context.fillStyle = element.colours.palette.paper;
   context.fillRect(0, 0, image.width, image.height);
-  return new Promise((resolve, reject) => {
-    image.toBlob((blob) => (blob ? resolve(blob) : reject(new Error('The browser makes no PNG image of it.'))));
-  });
+  return image.convertToBlob();
 }
 
 /** Returns a hash that makes ids unique on a page, and equal for equal figures. */

@@ -7,7 +7,6 @@ import { layoutStyles } from '../ui/layout.ts';
 import { plotStyles } from '../ui/plot.ts';
 import { presentationStyles } from '../ui/presentation.ts';
 import { theme } from '../ui/theme.ts';
-import { Canvases } from './canvases.ts';
 import { checkedWord } from './checks.ts';
 import { Colours } from './colours.ts';
 import { COMMON_ATTRS, type HEADING_LEVELS, type THEMES } from './definition.ts';
@@ -17,14 +16,12 @@ import { Link } from './link.ts';
 import { Announcer, Notice, noticeStyles } from './notice.ts';
 import { Presentation } from './presentation.ts';
 import { Reflection } from './reflection.ts';
-import { Renderer } from './renderer.ts';
+import { Canvases, Renderer } from './renderer.ts';
 import { reservedHeight } from './reserved-height.ts';
 import { Runtime } from './runtime.ts';
-import { Settings } from './settings.ts';
-import { STATE_VERSION, State } from './state.ts';
+import { STATE_VERSION, Settings, State, type Values } from './settings.ts';
 import { Focus, TextHeights, figureHtml } from './surface.ts';
 import type { FigureState, Motion } from '../types.d.ts';
-import type { Values } from './settings.ts';
 
 export type Figure = FigureElement<any, any>;
 
@@ -189,7 +186,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   /** Stores the state, and announces the outcome of a change unless the cloud is still growing. */
   finishChange() {
     if (this.cloud?.isSettled ?? true) this.announcer.setOutcome(() => this.announcement(this.viewModel));
-    this.state.storeState();
+    this.state.lastValidState = this.snapshot();
   }
 
   /** View model of the simulation after all pending changes are applied. */

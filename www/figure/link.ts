@@ -26,7 +26,7 @@ export class Link extends FigureController {
 
   #addressChanged = () => {
     if (this.#isOwnPart(fragmentParts()[0])) this.#scrollHere();
-    void this.#applyAddress();
+    void this.applyAddress();
   };
 
   #isOwnPart(part = '') {
@@ -39,13 +39,8 @@ export class Link extends FigureController {
     void host.updateComplete.then(() => host.scrollIntoView());
   }
 
-  /** Reads the initial state from the address, before the first simulation is created. */
-  async prepare() {
-    if (!this.host.state.lastValidState) await this.#applyAddress();
-  }
-
   /** Applies the state in the page's address, if any, now or as soon as there is a simulation. */
-  async #applyAddress() {
+  async applyAddress() {
     const { host } = this;
     const part = fragmentParts().find((fragmentPart) => this.#isOwnPart(fragmentPart));
     if (part === undefined) return;
@@ -133,17 +128,14 @@ export async function packJson(data: object): Promise<string> {
 export async function unpack(text: string): Promise<unknown> {
   try {
     const bytes = fromBase64(text.replaceAll('-', '+').replaceAll('_', '/'));
-    const chunks = [];
     let byteCount = 0;
+    const checkSize = (chunk: Uint8Array, controller: TransformStreamDefaultController) => {
+      byteCount += chunk.length;
+      if (byteCount > MAX_BYTES) controller.error();
+      else controller.enqueue(chunk);
+    };
     const decompressedStream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate-raw'));
-    for (const reader = decompressedStream.getReader(); ; ) {
-      const { done, value } = await reader.read();
-      if (done) break;
-      byteCount += value.length;
-      if (byteCount > MAX_BYTES) throw new RangeError();
-      chunks.push(value);
-    }
-    return JSON.parse(await new Blob(chunks).text());
+    return await new Response(decompressedStream.pipeThrough(new TransformStream({ transform: checkSize }))).json();
   } catch {
     throw refusalError('state in the address', text, 'what shareLink gives');
   }

@@ -14,16 +14,14 @@ export class Reflection extends FigureController {
   #order = ['preset', 'map', ...Object.keys(this.#properties), 'log'];
   /** Assignments before there was a simulation. The key is the name of a property, or a new object for each state. */
   #earlyAssignments: Map<unknown, { value?: unknown, apply: () => void }> = new Map();
-  /** True after the first connection: an element that is moved in the page keeps its settings. */
-  #hasConnected = false;
   #isWriting = false;
   #previousTexts: Map<string, string> | undefined;
 
   /** Applies properties that were set before the element was upgraded, or that a server wrote as text. */
   hostConnected() {
     const host = this.host as unknown as Record<string, unknown>;
-    if (!this.#hasConnected) this.#applyListAttributes(host);
-    this.#hasConnected = true;
+    // An element that is moved in the page keeps its settings.
+    if (!host.hasUpdated) this.#applyListAttributes(host);
     for (const name of Object.keys(host)) {
       if (!(name in Object.getPrototypeOf(host))) continue;
       const assignedValue = host[name];

@@ -2,9 +2,9 @@
 
 import { nothing } from 'lit';
 import { onLanguage } from '../messages/registry.ts';
-import { clamp } from '../ui/clamp.ts';
-import { hasPixels } from './canvases.ts';
+import { clamp } from '../ui/format.ts';
 import { FigureController } from './controller.ts';
+import type { Surface } from '../scene/canvas.ts';
 
 type AnyPicture = import('../scene/picture.ts').Picture<any>;
 
@@ -34,15 +34,12 @@ export class Renderer extends FigureController {
   #hasRenderedText = false;
   /** Pictures to draw, the one that has waited longest first. */
   #undrawn: Set<AnyPicture> = new Set();
-  #hasPicturesLeft = false;
   /** Time of the first picture that is newer than the text; undefined if the text is up to date. */
   #textPendingSince: number | undefined;
   #frameRequest: number | undefined;
   /** Time of the request or, during an animation, of the previous frame. */
   #previousTime = 0;
   isPrinting = false;
-  /** True during a callback of the size observer. Text is not rendered then, because it could change sizes again. */
-  #isResizing: boolean | undefined;
 
   hostConnected() {
     const { signal } = this.host.connection;
@@ -129,7 +126,6 @@ export class Renderer extends FigureController {
     if (!isVisible && (this.isOpening || this.#textPendingSince !== undefined)) this.#renderText();
     const hasAppeared = isVisible && !this.isVisible;
     this.isVisible = isVisible;
-    this.#hasPicturesLeft = false;
     // No events report changes of colours while the figure is out of the viewport.
     if (hasAppeared) this.host.colours.update();
     else if (!isVisible && this.host.isAwaited) this.requestFrame();
@@ -176,7 +172,7 @@ export class Renderer extends FigureController {
 
   /** True if pictures or text have to follow in later frames. */
   get isBehind() {
-    return this.#hasPicturesLeft || this.#textPendingSince !== undefined;
+    return (this.isVisible && this.#undrawn.size > 0) || this.#textPendingSince !== undefined;
   }
 
   /** True until a visible figure has drawn its first picture and rendered its text. */
@@ -189,16 +185,17 @@ export class Renderer extends FigureController {
     return this.isOpening ? nothing : content();
   }
 
-  #drawNow(elapsedMs: number) {
+  /** Draws. Text is not rendered in a callback of the size observer, because it could change sizes again. */
+  #drawNow(elapsedMs: number, isResizing = false) {
     // In a closed disclosure all sizes are 0.
     if (!this.host.simulation || !this.host.canvases.elements?.some(hasPixels)) return;
     this.host.runtime.attemptOrFail(() => {
-      this.#draw(elapsedMs);
-      if (this.host.simulation) this.host.runtime.confirmHealthy();
+      this.#draw(elapsedMs, isResizing);
+      if (this.host.simulation) this.host.runtime.hasTrapped = false;
     });
   }
 
-  #draw(elapsedMs: number) {
+  #draw(elapsedMs: number, isResizing: boolean) {
     const host = this.host;
     const { viewModel } = host;
     const startTimeMs = performance.now();
@@ -211,9 +208,7 @@ export class Renderer extends FigureController {
     const { isPressed, previousViewModel } = host.gesture;
     const options = { elapsed: elapsedMs, atOnce: this.isPrinting || prefersReducedMotion(), previousViewModel, highlight: host.highlight, handles: this.isPrinting };
     let isMoving = false;
-    this.#hasPicturesLeft = false;
     for (const picture of this.#undrawn) {
-      if (this.#hasPicturesLeft) break;
       this.#undrawn.delete(picture);
       const canvas = host.canvases.canvasOf(picture);
       // A figure may have replaced its picture.
@@ -221,20 +216,20 @@ export class Renderer extends FigureController {
       // A drag keeps the scale of pictures with handles, so that they stay under the pointer.
       const isStill = isPressed && canvas.parentElement!.querySelector('.handle') !== null;
       isMoving = picture.draw(host.canvases.surfaceOf(canvas), scene, host.colours.palette, { ...options, still: isStill }) || isMoving;
-      this.#hasPicturesLeft = this.#undrawn.size > 0 && (!this.#isResizing || this.isOpening) && performance.now() - startTimeMs > MAX_PICTURES_MS;
+      if ((!isResizing || this.isOpening) && performance.now() - startTimeMs > MAX_PICTURES_MS) break;
     }
     host.placeHandles(scene);
     const nowMs = performance.now();
     const pendingSinceMs = this.#textPendingSince;
     // The first picture is drawn without text.
-    if (this.isOpening ? pendingSinceMs : !this.#isResizing && (nowMs - startTimeMs < MAX_SAME_FRAME_MS || nowMs - (pendingSinceMs ?? nowMs) > MAX_TEXT_DELAY_MS)) this.#renderText();
+    if (this.isOpening ? pendingSinceMs : !isResizing && (nowMs - startTimeMs < MAX_SAME_FRAME_MS || nowMs - (pendingSinceMs ?? nowMs) > MAX_TEXT_DELAY_MS)) this.#renderText();
     else {
       this.#textPendingSince ??= startTimeMs;
       this.#schedule();
     }
     host.resolveSettled();
     const isPlaying = host.player?.advance(elapsedMs);
-    if (this.#hasPicturesLeft) this.#schedule();
+    if (this.#undrawn.size > 0) this.#schedule();
     if (isPlaying || isMoving || host.cloud?.isSettled === false) this.requestFrame();
   }
 
@@ -255,9 +250,7 @@ export class Renderer extends FigureController {
     this.host.canvases.update(this.isPrinting);
     this.host.colours.resolve();
     this.#addPictures();
-    this.#isResizing = true;
-    this.#drawNow(0);
-    this.#isResizing = false;
+    this.#drawNow(0, true);
   }
 
   /** Draws for print, in light colours and with all samples, or for the screen again. A print starts a figure that is far from the viewport. */
@@ -275,5 +268,89 @@ export class Renderer extends FigureController {
     else host.canvases.measure();
     this.drawResized();
     this.#renderText();
+  }
+}
+
+/** Pixels per CSS pixel in print. */
+const PRINT_RATIO = 2;
+
+/** Returns true if a canvas has pixels. Narrow figures hide some canvases. */
+const hasPixels = ({ width, height }: HTMLCanvasElement) => Math.min(width, height) > 0;
+
+/** Canvases of a figure, and their sizes in device pixels. */
+export class Canvases extends FigureController {
+  /** Canvases that are observed; undefined until they are rendered. */
+  elements: HTMLCanvasElement[] | undefined;
+  /** Cached widths in CSS pixels. Reading them in a frame would cause a reflow. */
+  #widths: WeakMap<HTMLCanvasElement, number> = new WeakMap();
+  #observer = new ResizeObserver((entries) => this.#resize(entries));
+
+  hostConnected() {
+    this.#followPixels(this.host.connection.signal);
+  }
+
+  find() {
+    this.elements = [...this.host.renderRoot.querySelectorAll('canvas')];
+    this.measure();
+  }
+
+  /** Stops observing the canvases, which are no longer rendered. */
+  release() {
+    this.#observer.disconnect();
+    this.elements = undefined;
+  }
+
+  /** Measures the canvases again after a change of the pixel ratio. WebKit's observer does not report device pixels. */
+  #followPixels(signal: AbortSignal) {
+    const onRatioChange = () => {
+      this.measure();
+      this.#followPixels(signal);
+    };
+    matchMedia(`(resolution:${devicePixelRatio}dppx)`).addEventListener('change', onRatioChange, { once: true, signal });
+  }
+
+  /** Observes the sizes of the canvases. The observer also reports the present sizes. */
+  measure() {
+    this.#observer.disconnect();
+    for (const canvas of this.elements ?? []) {
+      try {
+        this.#observer.observe(canvas, { box: 'device-pixel-content-box' });
+      } catch {
+        this.#observer.observe(canvas);
+      }
+    }
+  }
+
+  /** Sets the size of each canvas in device pixels. In print the pixels determine the layout, so that the observer would be called again. */
+  #resize(entries: ResizeObserverEntry[]) {
+    if (this.host.renderer.isPrinting) return;
+    for (const { target, contentRect, devicePixelContentBoxSize } of entries) {
+      const canvas = target as HTMLCanvasElement;
+      const { inlineSize: width, blockSize: height } = devicePixelContentBoxSize?.[0] ?? { inlineSize: 0, blockSize: 0 };
+      const [nearWidth, nearHeight] = [devicePixelRatio * contentRect.width, devicePixelRatio * contentRect.height];
+      // Chromium gives CSS pixels for device pixels when developer tools imitate the screen of a phone.
+      const isExact = Math.max(Math.abs(width - nearWidth), Math.abs(height - nearHeight)) < 1;
+      [canvas.width, canvas.height] = (isExact ? [width, height] : [nearWidth, nearHeight]).map(Math.round);
+    }
+    this.host.renderer.drawResized();
+  }
+
+  /** Caches the widths in the layout, and sets the sizes in pixels for print. */
+  update(isPrinting: boolean) {
+    for (const canvas of this.elements ?? []) {
+      const { clientWidth, clientHeight } = canvas;
+      this.#widths.set(canvas, clientWidth);
+      if (isPrinting) Object.assign(canvas, { width: PRINT_RATIO * clientWidth, height: PRINT_RATIO * clientHeight });
+    }
+  }
+
+  canvasOf({ name }: { name: string }) {
+    return this.elements?.find(({ className }) => className === name) as HTMLCanvasElement;
+  }
+
+  surfaceOf(canvas: HTMLCanvasElement): Surface {
+    const { width, height } = canvas;
+    const clientWidth = this.#widths.get(canvas) ?? canvas.clientWidth;
+    return { width, height, clientWidth, fontStyle: getComputedStyle(canvas), context: canvas.getContext('2d') as CanvasRenderingContext2D };
   }
 }

@@ -10,8 +10,8 @@ export class Runtime extends FigureController {
   failure: string | undefined;
   #hasLoaded = false;
   #startPromise: Promise<void> | undefined;
-  /** True from a trap to the next picture. */
-  #hasTrapped = false;
+  /** True from a trap until a picture was drawn. A trap in between ends the figure. */
+  hasTrapped = false;
 
   hostConnected() {
     precompile();
@@ -25,10 +25,11 @@ export class Runtime extends FigureController {
 
   async #create() {
     try {
-      const [motion] = await Promise.all([instantiateFor(this.host.localName), this.host.link.prepare()]);
-      const simulation = this.host.createSimulation(motion, this.host.state.lastValidState);
+      const { localName, link, state } = this.host;
+      const [motion] = await Promise.all([instantiateFor(localName), state.lastValidState ?? link.applyAddress()]);
+      const simulation = this.host.createSimulation(motion, state.lastValidState);
       Object.assign(this, { motion, simulation, failure: undefined });
-      this.host.state.resume();
+      state.resume();
       await this.#showContent();
     } catch (error) {
       this.fail(error);
@@ -71,11 +72,6 @@ export class Runtime extends FigureController {
   /** Runs work as `attempt` does; an error is reported. */
   attemptOrReport = (work: () => void) => this.attempt(work, (error) => this.report(error));
 
-  /** Marks the core as working after a picture was drawn, so that the figure recovers from a later trap again. */
-  confirmHealthy() {
-    this.#hasTrapped = false;
-  }
-
   /** Fires an `error` event, and warns on the console if no listener prevents that. */
   report(error: unknown) {
     const message = messageOf(error);
@@ -85,20 +81,20 @@ export class Runtime extends FigureController {
 
   fail(error: unknown) {
     this.#abandon();
-    this.#hasTrapped = false;
+    this.hasTrapped = false;
     this.host.canvases.release();
     this.failure = messageOf(error);
     this.report(error);
     this.host.requestUpdate();
   }
 
-  /** Replaces the core after a trap, because its memory may be damaged. A second trap before a picture ends the figure. */
+  /** Replaces the core after a trap, because its memory may be damaged. */
   #recover(trap: unknown) {
-    if (this.#hasTrapped) {
+    if (this.hasTrapped) {
       this.fail(trap);
       return;
     }
-    this.#hasTrapped = true;
+    this.hasTrapped = true;
     this.#abandon();
     this.report(trap);
     void this.start();

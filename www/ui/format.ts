@@ -1,4 +1,4 @@
-/** Numbers in the current language: a true minus sign, thin spaces between thousands, and a dash for NaN. */
+/** Numbers, and their texts in the current language: a true minus sign, thin spaces between thousands, and a dash for NaN. */
 
 import { language } from '../messages/registry.ts';
 
@@ -102,4 +102,9 @@ export function formatWithError(value: number, error: number, decimals: number):
 /** Prints the label of an axis tick, with as many decimals as the step between ticks needs. */
 export function tick(value: number, step: number) {
   return fixed(value, Math.max(0, -Math.floor(Math.log10(step) + 1e-9)));
+}
+
+/** Returns the nearest value from `min` to `max`. */
+export function clamp(value: number, min: number, max: number) {
+  return Math.min(max, Math.max(min, value));
 }

@@ -1,7 +1,7 @@
 /** The Banana Machine's settings: their attributes, their part of the state, and their sliders; line styles, and the view model. */
 
+import { checkedInteger, checkedNumber, withFieldRenamed } from '../../figure/checks.ts';
 import { NUMBER_CONVERTER, definitionOf } from '../../figure/definition.ts';
-import { checkedInteger, withFieldRenamed } from '../../figure/checks.ts';
 import { words } from '../../messages/registry.ts';
 import { openingAlphas } from '../../../build/settings.js';
 import { COMMAND_DASH, alphaSliders, commandSliders } from '../shared/sliders.ts';
@@ -41,7 +41,7 @@ export const definition = definitionOf('banana-machine', {
     isolateChoice: { opening: 4, check: (field, number) => checkedInteger(field, number, 1, openingAlphas.velocity.length) },
     /** Settings of the simulation whose outlines are pinned; null for none. `BananaMachineElement.createSimulation` checks them. */
     pinned: { opening: null, check: (_, pinned) => pinned },
-    morph: { converter: NUMBER_CONVERTER, min: 0, max: 1, opening: 0, isResetByPreset: true },
+    morph: { converter: NUMBER_CONVERTER, min: 0, max: 1, opening: 0, isResetByPreset: true, check: (field, morph) => checkedNumber(field, morph, 0, 1) },
   },
   dependentDefaults: ({ model }) => ({ alphas: openingAlphas[model as keyof typeof openingAlphas] }),
 });

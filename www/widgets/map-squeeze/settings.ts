@@ -1,5 +1,6 @@
 /** Map Squeeze's settings: their attributes, their part of the state, and their sliders; line styles, and the view model. */
 
+import { checkedWord } from '../../figure/checks.ts';
 import { WORD_CONVERTER, presetPropertyOf, definitionOf } from '../../figure/definition.ts';
 import { words } from '../../messages/registry.ts';
 import { presets, settings, verdict as bits } from '../../../build/settings.js';
@@ -26,6 +27,9 @@ export const LINE_STYLES = {
 
 export const COMMAND_SLIDERS = commandSliders(4);
 
+/** Parts of the map that the picture shows. */
+const VIEWS = ['close', 'whole'];
+
 export const definition = definitionOf('map-squeeze', {
   messageKey: 'squeeze',
   lines: LINE_STYLES,
@@ -38,7 +42,7 @@ export const definition = definitionOf('map-squeeze', {
   // Presets are places in the apartment.
   preset: { ...PRESET_SETTING, get: (config) => (config.map ? null : PRESET_SETTING.get(config)) },
   elementFields: {
-    view: { converter: WORD_CONVERTER, words: ['close', 'whole'], opening: 'close' },
+    view: { converter: WORD_CONVERTER, words: VIEWS, opening: VIEWS[0], check: (field, view) => checkedWord(field, view, VIEWS) },
     /** Map of the user; null for the apartment. A simulation has checked it. */
     map: { opening: null, check: (_, map) => map },
   },

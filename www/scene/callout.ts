@@ -1,7 +1,7 @@
 /** Callouts: sentences in a picture, each with a line to the point that it is about. */
 
 import { least, pairs } from 'd3-array';
-import { clamp } from '../ui/clamp.ts';
+import { clamp } from '../ui/format.ts';
 import { paintWithOpacity } from './canvas.ts';
 import { drawLeader } from './labels.ts';
 import type { Box, Brush } from './canvas.ts';

@@ -1,6 +1,6 @@
 /** Labels in pictures: a symbol with its subscript, and a text. */
 
-import { clamp } from '../ui/clamp.ts';
+import { clamp } from '../ui/format.ts';
 import { drawDisc, paintWithOpacity, strokeLine, type Brush } from './canvas.ts';
 
 /** Font size of a subscript relative to the text, and its offset below the baseline, pixels. */

@@ -3,7 +3,7 @@
  * file flips y.
  */
 
-import { clamp } from '../ui/clamp.ts';
+import { clamp } from '../ui/format.ts';
 
 /** Axis-aligned part of a view's world. */
 export type Extent = { xMin: number, yMin: number, xMax: number, yMax: number };

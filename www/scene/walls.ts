@@ -1,6 +1,6 @@
 /** Cached drawing of the walls of a map. There may be thousands of walls, and they change only with the map, the view or the colours. */
 
-import { clamp } from '../ui/clamp.ts';
+import { clamp } from '../ui/format.ts';
 import { colourChannels } from '../ui/theme.ts';
 import { addLine, paintWithOpacity, hiddenContext, strokePath, strokeLine, type Brush } from './canvas.ts';
 import { Layer, strokeInBatches, type Painter } from './layer.ts';

@@ -2,9 +2,8 @@
 
 import { ticks } from 'd3-array';
 import { css, html, nothing, svg, unsafeCSS } from 'lit';
-import { clamp } from './clamp.ts';
 import { formatMarkup } from './controls.ts';
-import { formatPowerOfTen, tick } from './format.ts';
+import { clamp, formatPowerOfTen, tick } from './format.ts';
 import { track } from './slider.ts';
 
 const CHART_WIDTH = 380;

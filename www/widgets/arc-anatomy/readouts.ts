@@ -2,9 +2,8 @@
 
 import { html, nothing, svg } from 'lit';
 import { addEnglish, words } from '../../messages/registry.ts';
-import { clamp } from '../../ui/clamp.ts';
 import { formatMarkup } from '../../ui/controls.ts';
-import { fixed, percent, formatPowerOfTen, formatSignificant } from '../../ui/format.ts';
+import { clamp, fixed, percent, formatPowerOfTen, formatSignificant } from '../../ui/format.ts';
 import { plot } from '../../ui/plot.ts';
 import { readoutList } from '../../ui/readouts.ts';
 import { commandText } from '../shared/sliders.ts';

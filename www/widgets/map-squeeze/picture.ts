@@ -10,7 +10,7 @@ import { SamplesPicture } from '../../scene/picture.ts';
 import { View, extentAround } from '../../scene/view.ts';
 import { WallLayer, cellCorner, type Cells } from '../../scene/walls.ts';
 import { limits } from '../../../build/settings.js';
-import { clamp } from '../../ui/clamp.ts';
+import { clamp } from '../../ui/format.ts';
 import { drawDraggableRobot, drawRobotOutline } from '../shared/robot.ts';
 import { LINE_STYLES, type ViewModel } from './settings.ts';
 import type { MapSqueeze, Plan } from '../../types.d.ts';

@@ -6,8 +6,7 @@ import { FigureController } from '../../figure/controller.ts';
 import { words } from '../../messages/registry.ts';
 import { Handle, stepsOfKey, turnsOfKey } from '../../scene/handle.ts';
 import { Memo } from '../../scene/memo.ts';
-import { clamp } from '../../ui/clamp.ts';
-import { fixed } from '../../ui/format.ts';
+import { clamp, fixed } from '../../ui/format.ts';
 import { wallGrips, wallsAfterMove, type Grip } from './walls.ts';
 import type { View } from '../../scene/view.ts';
 

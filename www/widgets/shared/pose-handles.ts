@@ -3,8 +3,7 @@
 import { FigureController } from '../../figure/controller.ts';
 import { words } from '../../messages/registry.ts';
 import { Handle, stepsOfKey, turnsOfKey } from '../../scene/handle.ts';
-import { clamp } from '../../ui/clamp.ts';
-import { fixed } from '../../ui/format.ts';
+import { clamp, fixed } from '../../ui/format.ts';
 import { turnHandleDistance } from './robot.ts';
 import type { View } from '../../scene/view.ts';
 import type { Pose } from '../../types.d.ts';

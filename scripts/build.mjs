@@ -45,7 +45,7 @@ export async function build({ local = false } = {}) {
   // Packages are installed first: without a network that fails at once, and compiling takes minutes.
   await ensurePackages();
   await buildIfStale('build/core.sha256', compiledHash, coreProducts, () => buildCores(['declarations', 'motion'], local));
-  // A static import would fail in a bare clone, which has no build/settings.js yet.
+  // It imports packages, and build/settings.js: a static import would fail in a bare clone.
   const { WIDGET_TAGS, bundle } = await import('./bundle.mjs');
   const figureProducts = WIDGET_TAGS.flatMap((tag) => [`build/${tag}.js`, `build/${tag}.wasm`]);
   if (!local) await buildIfStale('build/figures.sha256', coreHash, figureProducts, () => buildCores(WIDGET_TAGS, false));

@@ -3,6 +3,7 @@
 import { createHash } from 'node:crypto';
 import { appendFileSync, chmodSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { basename, dirname, join, relative } from 'node:path';
+import { build, transformSync } from 'esbuild';
 import * as declared from '../build/settings.js';
 import { describeWidgets } from './declarations.mjs';
 import { licenceTextOf, packagesOf } from './licences.mjs';
@@ -167,7 +168,6 @@ export async function bundle({ tags = WIDGET_TAGS, transformScript = (_, script)
   writeFileSync(pathOf('build/widgets.js'), await widgetLoaders());
   const moduleBytes = readFileSync(pathOf('build/motion.wasm'));
   const bytesScript = hashedFileOf('motion-bytes', '.js', MODULE_SOURCES.bytes(moduleBytes, SHIFTED_CHARACTERS.utf8));
-  const { build, transformSync } = await import('esbuild');
   /**
    * Bundles scripts of www/ for dist/.
    *
@@ -267,7 +267,6 @@ export async function bundle({ tags = WIDGET_TAGS, transformScript = (_, script)
     const text = readFileSync(pathOf(path), 'utf8');
     writeOutput(pathOf(join('dist', relative('www', path))), path.endsWith('.html') ? withTables(text, elementDeclarations, widgetDescriptions) : text);
   }
-  // The module needs Lit, which is not installed in a bare clone. A static import would fail there.
   const { preUpgradeCss } = await importTypeScript('www/figure/reserved-height.ts');
   // Without scripts no height is reserved.
   const reservedHeightCss = `@media (scripting:enabled){\n${preUpgradeCss()}\n}`;

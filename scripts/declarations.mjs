@@ -105,7 +105,6 @@ export function describeWidgets() {
 
 /** Returns the description of a widget. @param {string} tag @returns {Promise<Widget>} */
 async function describeWidget(tag) {
-  // Static imports would fail in a bare clone, in which the libraries of these modules are not installed yet.
   const { COMMON_ATTRS, NUMBER_CONVERTER, WORD_LIST_CONVERTER } = await importTypeScript('www/figure/definition.ts');
   const { definition: { attributes, declarations, elementFields }, documentation } = await importTypeScript(`www/widgets/${tag}/settings.ts`);
   /** @type {import('../www/figure/definition.ts').Documentation[]} */

@@ -2,13 +2,10 @@
 
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
-import { once, ROOT } from './process.mjs';
+import { register } from 'tsx/esm/api';
+import { ROOT } from './process.mjs';
 
-/** Installs the loader. A bare clone has it only after the packages are installed. */
-const registerLoader = once(async () => (await import('tsx/esm/api')).register());
+register();
 
 /** Imports a module. @param {string} path from the root @returns {Promise<any>} */
-export async function importTypeScript(path) {
-  await registerLoader();
-  return import(pathToFileURL(join(ROOT, path)).href);
-}
+export const importTypeScript = (path) => import(pathToFileURL(join(ROOT, path)).href);

@@ -38,8 +38,8 @@ export class Baseline {
     const [vv, ww] = [v * v, omega * omega];
     const stdDevs = [a1 * vv + a2 * ww, a3 * vv + a4 * ww, a5 * vv + a6 * ww].map(Math.sqrt);
     const halfTurn = 0.5 * omega * dt;
-    const chord = halfTurn === 0 ? v * dt : (v * dt * Math.sin(halfTurn)) / halfTurn;
-    const noiseFree = { x: chord * Math.cos(halfTurn), y: chord * Math.sin(halfTurn), l: v * dt, t: 2 * halfTurn };
+    const chordLength = halfTurn === 0 ? v * dt : (v * dt * Math.sin(halfTurn)) / halfTurn;
+    const noiseFree = { x: chordLength * Math.cos(halfTurn), y: chordLength * Math.sin(halfTurn), l: v * dt, t: 2 * halfTurn };
     const sums = driveCloud(this.unitNoise, this.cloud, [v, omega, dt], stdDevs, noiseFree);
     const means = Object.fromEntries(SUM_NAMES.map((name, i) => [name, sums[i] / n]));
     const covarianceOf = (/** @type {string} */ a, /** @type {string} */ b) => (n / (n - 1)) * ((means[a + b] ?? means[b + a]) - means[a] * means[b]);
@@ -54,7 +54,7 @@ export class Baseline {
       this.pixels = new Uint32Array(columns * rows);
     }
     this.counts.fill(0);
-    const whiteningOf = (/** @type {number[][]} */ cov, /** @type {number} */ j) => {
+    const whiteningFactorsOf = (/** @type {number[][]} */ cov, /** @type {number} */ j) => {
       const l00 = Math.sqrt(cov[0][0]);
       const l10 = cov[0][j] / l00;
       const l11 = Math.sqrt(cov[j][j] - l10 * l10);
@@ -62,7 +62,7 @@ export class Baseline {
       return [0.5 / l00, (-0.5 * l10) / (l00 * l11), 0.5 / l11];
     };
     const centre = [means.x, means.y, means.l, means.t];
-    const normalization = [...centre, ...whiteningOf(cartesian.cov, 1), ...whiteningOf(exponential.cov, 2), Math.sin(heading), Math.cos(heading)];
+    const normalization = [...centre, ...whiteningFactorsOf(cartesian.cov, 1), ...whiteningFactorsOf(exponential.cov, 2), Math.sin(heading), Math.cos(heading)];
     const [pixelsPerMetreX, pixelsPerMetreY] = [columns / (view.xMax - view.xMin), rows / (view.yMax - view.yMin)];
     const [inEllipse, inExponential, sumOfSquares, sumOfCubes, maxCount] = countCells(
       this.cloud, this.counts, normalization, [(noiseFree.x - view.xMin) * pixelsPerMetreX, pixelsPerMetreX, (view.yMax - noiseFree.y) * pixelsPerMetreY, pixelsPerMetreY, columns, rows],
@@ -108,9 +108,9 @@ function driveCloud(noise, cloud, command, deviations, origin) {
   for (let i = 0, j = 0; i < noise.length; i += 3, j += 4) {
     const drivenLength = (v + sdV * noise[i]) * dt;
     const halfTurn = 0.5 * (omega + sdOmega * noise[i + 1]) * dt;
-    const chord = halfTurn === 0 ? drivenLength : (drivenLength * Math.sin(halfTurn)) / halfTurn;
-    const x = chord * Math.cos(halfTurn);
-    const y = chord * Math.sin(halfTurn);
+    const chordLength = halfTurn === 0 ? drivenLength : (drivenLength * Math.sin(halfTurn)) / halfTurn;
+    const x = chordLength * Math.cos(halfTurn);
+    const y = chordLength * Math.sin(halfTurn);
     let t = 2 * halfTurn + sdGamma * noise[i + 2] * dt - t0;
     if (t > Math.PI || t < -Math.PI) t -= 2 * Math.PI * Math.round(t / (2 * Math.PI));
     // l and m are exponential coordinates: the length along the arc and the lateral offset.

@@ -7,7 +7,7 @@
  */
 
 /** Factor by which Chromium slows the processor. */
-export const SLOWDOWN = 4;
+export const CPU_SLOWDOWN = 4;
 
 /** Selector of sliders and handles. Handles of walls are excluded, because they change the map instead of a setting. */
 const DRAGGED_SELECTOR = '.slider input[type=range], .handle:not(.jamb, .side)';
@@ -32,20 +32,20 @@ export async function timeDrags(browser, address, steps) {
   await page.evaluate(() => document.body.append(document.createElement('map-squeeze')));
   const cdpSession = await context.newCDPSession(page);
   /** @type {Drag[]} */
-  const drags = [];
+  const dragTimings = [];
   for (const widget of ['banana-machine', 'map-squeeze']) {
     await page.locator(widget).scrollIntoViewIfNeeded();
     await page.waitForFunction((tag) => document.querySelector(tag)?.shadowRoot?.querySelector('.slider'), widget);
     await page.locator(widget).evaluate((element) => element.scrollIntoView({ block: 'start' }));
     const draggedCount = await page.locator(widget).locator(DRAGGED_SELECTOR).count();
-    await cdpSession.send('Emulation.setCPUThrottlingRate', { rate: SLOWDOWN });
+    await cdpSession.send('Emulation.setCPUThrottlingRate', { rate: CPU_SLOWDOWN });
     for (let i = 0; i < draggedCount; i++) {
-      drags.push({ widget, ...(await page.evaluate(timeDrag, { widget, selector: DRAGGED_SELECTOR, i, steps })) });
+      dragTimings.push({ widget, ...(await page.evaluate(timeDrag, { widget, selector: DRAGGED_SELECTOR, i, steps })) });
     }
     await cdpSession.send('Emulation.setCPUThrottlingRate', { rate: 1 });
   }
   await context.close();
-  return drags;
+  return dragTimings;
 }
 
 /** Measures the times of one drag. Runs in the page. @param {{ widget: string, selector: string, i: number, steps: number }} options */
@@ -66,7 +66,7 @@ async function timeDrag({ widget, selector, i, steps }) {
     clearRect.apply(this, box);
   };
   /** Returns the time at which the page has finished the current frame, when it reads the first message after it. @returns {Promise<number>} */
-  const untilFrameDone = () =>
+  const waitForFrameEnd = () =>
     new Promise((resolve) => {
       const { port1, port2 } = new MessageChannel();
       port1.onmessage = () => resolve(performance.now());
@@ -77,7 +77,7 @@ async function timeDrag({ widget, selector, i, steps }) {
     new Promise((resolve) => {
       const observer = new MutationObserver(() => {
         observer.disconnect();
-        resolve(untilFrameDone());
+        resolve(waitForFrameEnd());
       });
       const attributeFilter = ['aria-label', 'aria-valuetext'];
       observer.observe(shadowRoot, { subtree: true, characterData: true, childList: true, attributes: true, attributeFilter });
@@ -103,7 +103,7 @@ async function timeDrag({ widget, selector, i, steps }) {
     const picturePromise = new Promise((resolve) =>
       requestAnimationFrame(() => {
         frameStart = performance.now();
-        resolve(untilFrameDone());
+        resolve(waitForFrameEnd());
       }),
     );
     const textPromise = waitForTextChange();
@@ -113,7 +113,7 @@ async function timeDrag({ widget, selector, i, steps }) {
     for (let frameNumber = 1; pictureCount === picturesBefore || JSON.stringify(figure.simulation.config) === configBefore; frameNumber++) {
       if (frameNumber === MAX_FRAMES) throw new Error(`A step of ${draggedElement.id || draggedElement.className} has no picture after ${MAX_FRAMES} frames.`);
       await new Promise(requestAnimationFrame);
-      pictureTime = await untilFrameDone();
+      pictureTime = await waitForFrameEnd();
     }
     const textTime = await textPromise;
     if (step < 0) continue;

@@ -42,13 +42,13 @@ export async function measureCore(motion, { quick, log }) {
     refreshTimings.push({ samples, ...(await raceContenders({ core: refreshCore, baseline: refreshBaseline }, secondsPerRace)) });
     simulation.free();
   }
-  const [odometry, reference] = [log.odometry, log.reference].map(columnsOf);
+  const [odometry, reference] = [log.odometry, log.reference].map(parseCSVColumns);
   const { calibration } = await raceContenders({ calibration: () => void motion.calibrate({ odometry, reference }) }, secondsPerRace);
   return { refresh: refreshTimings, calibration };
 }
 
 /** Parses a log. @param {string} csv */
-function columnsOf(csv) {
+function parseCSVColumns(csv) {
   const csvRows = csv.trim().split('\n').slice(1).map((line) => line.split(',').map(Number));
   const [t, x, y, theta] = [0, 1, 2, 3].map((i) => Float64Array.from(csvRows, (row) => row[i]));
   return { t, x, y, theta };

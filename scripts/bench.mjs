@@ -8,7 +8,7 @@ import { CHROME_ARGUMENTS, ensureBrowser } from './browser.mjs';
 import { build } from './build.mjs';
 import { EXAMPLE_LOGS } from './example-log.mjs';
 import { ROOT, UserError, printStep, run, runAsScript } from './process.mjs';
-import { serve } from './serve.mjs';
+import { startServer } from './serve.mjs';
 import { ensureNativeRust } from './toolchain.mjs';
 import { formatReport } from '../benches/report.js';
 
@@ -60,7 +60,7 @@ async function measureInChromium(executablePath, options) {
   const { chromium: chromiumLauncher } = await import('@playwright/test');
   const { timeDrags } = await import('../benches/drag.js');
   const { timeStarts } = await import('../benches/start.js');
-  const { address, close } = await serve(ROOT.replace(/[\\/]$/, ''), { port: 0, headers: ISOLATION_HEADERS });
+  const { address, close } = await startServer(ROOT.replace(/[\\/]$/, ''), { port: 0, headers: ISOLATION_HEADERS });
   const browser = await chromiumLauncher.launch({ executablePath, args: CHROME_ARGUMENTS });
   const figuresAddress = `${address}benches/page.html`;
   try {

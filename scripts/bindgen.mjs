@@ -4,16 +4,16 @@
 import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { ROOT, UserError, filesOf, isProgram, once, printStep, run } from './process.mjs';
+import { ROOT, UserError, filesOf, isProgram, runOnce, printStep, run } from './process.mjs';
 import { CACHE_DIRECTORY, readManifestValue, ensureNativeRust } from './toolchain.mjs';
 
 const BINDGEN_CRATE = 'scripts/bind';
 
 /** Returns the path of the program that generates the glue of the core. The first call builds it. */
-export const ensureBindProgram = once(() => compileProgram('bind', []));
+export const ensureBindProgram = runOnce(() => compileProgram('bind', []));
 
 /** Returns the path of the program that runs WebAssembly tests in a browser. The first call builds it. */
-export const ensureTestRunner = once(async () => {
+export const ensureTestRunner = runOnce(async () => {
   // Most of its crates are compiled for the other program already.
   await ensureBindProgram();
   return compileProgram('test-runner', ['--features', 'test-runner']);
@@ -42,11 +42,11 @@ async function compileProgram(name, features) {
 
 /** Returns the version of wasm-bindgen. The core and the programs need exactly the same version. @returns {string} */
 function requireSameVersion() {
-  const version = readManifestValue('Cargo.lock', /^name = "wasm-bindgen"\nversion = "(.+)"$/m);
+  const bindgenVersion = readManifestValue('Cargo.lock', /^name = "wasm-bindgen"\nversion = "(.+)"$/m);
   const binderVersion = readManifestValue(`${BINDGEN_CRATE}/Cargo.lock`, /^name = "wasm-bindgen-cli-support"\nversion = "(.+)"$/m);
-  if (version === binderVersion) return version;
+  if (bindgenVersion === binderVersion) return bindgenVersion;
   throw new UserError(
-    `The core has wasm-bindgen ${version} and ${BINDGEN_CRATE} has ${binderVersion}: write "=${version}" into ${BINDGEN_CRATE}/Cargo.toml, ` +
+    `The core has wasm-bindgen ${bindgenVersion} and ${BINDGEN_CRATE} has ${binderVersion}: write "=${bindgenVersion}" into ${BINDGEN_CRATE}/Cargo.toml, ` +
       `run \`cargo update --manifest-path ${BINDGEN_CRATE}/Cargo.toml\` and start again.`,
   );
 }

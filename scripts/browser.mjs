@@ -75,13 +75,13 @@ export function findChrome(names = CHROME_NAMES) {
  */
 async function checkPair(chrome, driver) {
   if (chrome === undefined || driver === undefined) return undefined;
-  const [version, driverVersion] = await Promise.all([versionOf(chrome), versionOf(driver)]);
+  const [version, driverVersion] = await Promise.all([readVersion(chrome), readVersion(driver)]);
   if (version === undefined || version.split('.')[0] !== driverVersion?.split('.')[0]) return undefined;
   return { chrome, driver, version };
 }
 
 /** Returns the version that a program prints; undefined if it does not run. @param {string} program */
-async function versionOf(program) {
+async function readVersion(program) {
   const { stdout } = await run(program, ['--version'], { quiet: true, seconds: 30 });
   return stdout.match(/\d+(\.\d+){3}/)?.[0];
 }
@@ -103,8 +103,8 @@ async function installChromeForTesting() {
   printStep('Downloading Chrome for Testing');
   const chrome = await downloadProgram(browsersDirectory, 'chrome@stable');
   if (chrome === undefined) return undefined;
-  if ((await versionOf(chrome)) === undefined) await installLibraries();
-  const driver = await downloadProgram(browsersDirectory, `chromedriver@${await versionOf(chrome)}`);
+  if ((await readVersion(chrome)) === undefined) await installLibraries();
+  const driver = await downloadProgram(browsersDirectory, `chromedriver@${await readVersion(chrome)}`);
   writeFileSync(pathsFile, JSON.stringify({ chrome, driver }));
   return checkPair(chrome, driver);
 }

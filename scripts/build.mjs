@@ -7,11 +7,11 @@ import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { ensureBindProgram } from './bindgen.mjs';
 import { EXAMPLE_LOGS, writeExampleLog } from './example-log.mjs';
-import { cratesOf } from './licences.mjs';
+import { listCrates } from './licences.mjs';
 import { ROOT, filesOf, mustRun, printStep, run, runAsScript, settleAll } from './process.mjs';
 import { ensurePackages, ensureRustForWasm } from './toolchain.mjs';
 
-const pathOf = (/** @type {string} */ path) => join(ROOT, path);
+const absolutePath = (/** @type {string} */ path) => join(ROOT, path);
 
 const PAGE_SCRIPTS = ['bundle', 'declarations', 'manifest', 'names', 'python', 'react', 'tables', 'types', 'typescript'].map((name) => `scripts/${name}.mjs`);
 
@@ -58,7 +58,7 @@ export async function build({ local = false } = {}) {
 /** Returns a hash of names and contents. @param {string[]} paths of files and directories @param {string} [seed] */
 function hashOfFiles(paths, seed = '') {
   const hash = createHash('sha256').update(seed);
-  for (const path of paths.flatMap(filesOf)) hash.update(`\0${path}\0`).update(readFileSync(pathOf(path)));
+  for (const path of paths.flatMap(filesOf)) hash.update(`\0${path}\0`).update(readFileSync(absolutePath(path)));
   return hash.digest('hex');
 }
 
@@ -72,15 +72,15 @@ function hashOfFiles(paths, seed = '') {
  */
 async function buildIfStale(stamp, sourceHash, products, buildProducts) {
   if (isCurrent(stamp, sourceHash, products)) return;
-  mkdirSync(pathOf('build'), { recursive: true });
-  rmSync(pathOf(stamp), { force: true });
+  mkdirSync(absolutePath('build'), { recursive: true });
+  rmSync(absolutePath(stamp), { force: true });
   await buildProducts();
-  writeFileSync(pathOf(stamp), sourceHash);
+  writeFileSync(absolutePath(stamp), sourceHash);
 }
 
 /** Returns true if products were built from sources with this hash. @param {string} stamp @param {string} sourceHash @param {string[]} products */
 function isCurrent(stamp, sourceHash, products) {
-  return [stamp, ...products].every((path) => existsSync(pathOf(path))) && readFileSync(pathOf(stamp), 'utf8') === sourceHash;
+  return [stamp, ...products].every((path) => existsSync(absolutePath(path))) && readFileSync(absolutePath(stamp), 'utf8') === sourceHash;
 }
 
 /**
@@ -99,14 +99,14 @@ async function buildCores(coreNames, local) {
   for (const coreName of coreNames) {
     // Cargo writes all cores to one path: each is bound before the next is compiled. Optimization runs meanwhile.
     const [modulePath, binderPath] = await settleAll([compileCore(rustTools, coreName, local), binderPromise, packagesPromise]);
-    await mustRun('wasm-bindgen failed: see above.', binderPath, [modulePath, pathOf(`build/bound/${coreName}`)]);
+    await mustRun('wasm-bindgen failed: see above.', binderPath, [modulePath, absolutePath(`build/bound/${coreName}`)]);
     finishPromises.push(finishCore(coreName, local));
   }
   await settleAll(finishPromises);
   if (!coreNames.includes('motion')) return;
   await writeSettings();
-  copyFileSync(pathOf('build/bound/motion/motion.d.ts'), pathOf('build/core.d.ts'));
-  writeFileSync(pathOf('build/motion.wasm.d.ts'), BUNDLED_CORE_TYPES);
+  copyFileSync(absolutePath('build/bound/motion/motion.d.ts'), absolutePath('build/core.d.ts'));
+  writeFileSync(absolutePath('build/motion.wasm.d.ts'), BUNDLED_CORE_TYPES);
 }
 
 /**
@@ -129,27 +129,27 @@ async function compileCore(rust, name, local) {
   const cargoOptions = ['--quiet', '--locked', '--profile', cargoProfile, '--lib', '--crate-type', 'cdylib', ...(local ? [] : ['--config', remapOption])];
   const widgetOptions = name === 'motion' ? [] : ['--', '--cfg', 'widget', '--cfg', `widget="${name}"`];
   await mustRun('The core does not compile: see the errors above.', cargoPath, ['rustc', ...cargoOptions, ...rust.target, ...widgetOptions], { env: rust.env });
-  const outputOfCargo = async (/** @type {string[]} */ ...question) => (await run(cargoPath, [...question, '--locked'], { env: rust.env, quiet: true })).stdout;
+  const outputOfCargo = async (/** @type {string[]} */ ...cargoArguments) => (await run(cargoPath, [...cargoArguments, '--locked'], { env: rust.env, quiet: true })).stdout;
   const cargoMetadata = JSON.parse(await outputOfCargo('metadata', '--format-version', '1'));
   if (name === 'motion') {
     const crateTree = await outputOfCargo('tree', '--target', 'wasm32-unknown-unknown', '--edges', 'normal,no-proc-macro', '--prefix', 'none');
-    writeFileSync(pathOf('build/crates.json'), JSON.stringify(cratesOf(crateTree, cargoMetadata)));
+    writeFileSync(absolutePath('build/crates.json'), JSON.stringify(listCrates(crateTree, cargoMetadata)));
   }
   return join(cargoMetadata.target_directory, `wasm32-unknown-unknown/${cargoProfile}/motion.wasm`);
 }
 
 /** Writes build/settings.js: constants of the core that pages need before they load it, and scripts that generate types and tables. */
 async function writeSettings() {
-  const { default: createCore } = await import(pathToFileURL(pathOf('build/declarations.js')).href);
-  const constants = (await createCore(new WebAssembly.Module(readFileSync(pathOf('build/declarations.wasm'))))).constants();
+  const { default: createCore } = await import(pathToFileURL(absolutePath('build/declarations.js')).href);
+  const constants = (await createCore(new WebAssembly.Module(readFileSync(absolutePath('build/declarations.wasm'))))).constants();
   const typeLines = "/** @typedef {import('./bound/declarations/motion.d.ts').Declaration} Declaration */\n\n/** @type {Record<string, Declaration[]>} */\n";
   const constantLines = Object.entries(constants).map(([name, value]) => `export const ${name} = ${JSON.stringify(value, null, 1)};\n`);
-  writeFileSync(pathOf('build/settings.js'), typeLines + constantLines.join('\n'));
+  writeFileSync(absolutePath('build/settings.js'), typeLines + constantLines.join('\n'));
 }
 
 /** Writes the module and the glue of a bound core. @param {string} name @param {boolean} local */
 async function finishCore(name, local) {
-  copyFileSync(pathOf(`build/bound/${name}/motion_bg.wasm`), pathOf(`build/${name}.wasm`));
+  copyFileSync(absolutePath(`build/bound/${name}/motion_bg.wasm`), absolutePath(`build/${name}.wasm`));
   if (!local) await shrinkModule(`build/${name}.wasm`);
   await writeGlue(name, local ? readBoundNames(name) : await shortenNames(name));
 }
@@ -157,7 +157,7 @@ async function finishCore(name, local) {
 /** Makes a module smaller, in place. @param {string} path */
 async function shrinkModule(path) {
   await silencePanics(path);
-  await optimize(path);
+  await optimizeModule(path);
 }
 
 /**
@@ -169,7 +169,7 @@ async function silencePanics(path) {
   // The name is a variable, because the package is installed for full builds only: the type checker would look for a constant name.
   const packageName = 'binaryen';
   const { default: binaryen } = await import(packageName);
-  const binaryenModule = binaryen.readBinary(readFileSync(pathOf(path)));
+  const binaryenModule = binaryen.readBinary(readFileSync(absolutePath(path)));
   const { BulkMemory, Multivalue, MutableGlobals, NontrappingFPToInt, ReferenceTypes, SignExt, SIMD128 } = binaryen.Features;
   binaryenModule.setFeatures(BulkMemory | Multivalue | MutableGlobals | NontrappingFPToInt | ReferenceTypes | SignExt | SIMD128);
   const { Function: functionWrapper } = binaryen;
@@ -181,7 +181,7 @@ async function silencePanics(path) {
       functionWrapper.setBody(panicFunction, binaryenModule.unreachable());
     }
   }
-  writeFileSync(pathOf(path), binaryenModule.emitBinary());
+  writeFileSync(absolutePath(path), binaryenModule.emitBinary());
   binaryenModule.dispose();
 }
 
@@ -189,12 +189,12 @@ async function silencePanics(path) {
 const OPTIMIZER_PASSES = ['-O3', '--converge', '--rse', '--vacuum', '--coalesce-locals', '--reorder-locals'];
 
 /** Optimizes a module in place, and returns what the optimizer prints. @param {string} path @param {string[]} passes */
-async function optimize(path, passes = OPTIMIZER_PASSES) {
+async function optimizeModule(path, passes = OPTIMIZER_PASSES) {
   // Features that rustc enables for this target by default, and SIMD from .cargo/config.toml.
   const wasmFeatures = ['bulk-memory', 'multivalue', 'mutable-globals', 'nontrapping-float-to-int', 'reference-types', 'sign-ext', 'simd'];
   const { stdout } = await mustRun('wasm-opt failed: see above.', process.execPath, [
-    pathOf('node_modules/binaryen/bin/wasm-opt'), ...passes, ...wasmFeatures.map((name) => `--enable-${name}`), pathOf(path),
-    '-o', pathOf(path)], { quiet: true });
+    absolutePath('node_modules/binaryen/bin/wasm-opt'), ...passes, ...wasmFeatures.map((name) => `--enable-${name}`), absolutePath(path),
+    '-o', absolutePath(path)], { quiet: true });
   return stdout;
 }
 
@@ -208,7 +208,7 @@ async function optimize(path, passes = OPTIMIZER_PASSES) {
 
 /** Returns the names that wasm-bindgen has given to imports and exports. @param {string} name of the core @returns {Names} */
 function readBoundNames(name) {
-  const wasmModule = new WebAssembly.Module(readFileSync(pathOf(`build/${name}.wasm`)));
+  const wasmModule = new WebAssembly.Module(readFileSync(absolutePath(`build/${name}.wasm`)));
   return {
     imports: WebAssembly.Module.imports(wasmModule).map((entry) => [entry.module, entry.name, entry.name]),
     exports: WebAssembly.Module.exports(wasmModule).map((entry) => [entry.name, entry.name]),
@@ -217,7 +217,7 @@ function readBoundNames(name) {
 
 /** Shortens the names in the module, which saves some 2 kB on the wire. @param {string} name of the core @returns {Promise<Names>} */
 async function shortenNames(name) {
-  const { imports, exports } = JSON.parse(await optimize(`build/${name}.wasm`, ['--minify-imports-and-exports-and-modules']));
+  const { imports, exports } = JSON.parse(await optimizeModule(`build/${name}.wasm`, ['--minify-imports-and-exports-and-modules']));
   return { exports, imports: imports.map((/** @type {string[]} */ [, importName, short]) => ['a', importName, short]) };
 }
 
@@ -238,7 +238,7 @@ async function writeGlue(name, glueNames) {
     // wasm-bindgen adds the members of a namespace one by one. Bundlers take that for side effects, and keep unused namespaces.
     [/^export const (\w+) = \{\};\n((?:\1\.\w+ = \w+;\n)+)/gm, 'export const $1 = /* @__PURE__ */ (($1) => {\n$2return $1;\n})({});\n'],
   ]);
-  const bindgenGlue = readFileSync(pathOf(`build/bound/${name}/motion_bg.js`), 'utf8');
+  const bindgenGlue = readFileSync(absolutePath(`build/bound/${name}/motion_bg.js`), 'utf8');
   // The core of a widget has no namespaces.
   const missingChange = name === 'motion' && glueChanges.find(([pattern]) => !bindgenGlue.match(pattern));
   if (missingChange) throw new Error(`wasm-bindgen's glue has no ${missingChange[0]}, which scripts/build.mjs replaces.`);
@@ -247,7 +247,7 @@ async function writeGlue(name, glueNames) {
   const { build: bundleScript } = await import('esbuild');
   const gluePlugin = { name: 'glue', setup: (/** @type {import('esbuild').PluginBuild} */ { onLoad }) => onLoad({ filter: /motion_bg\.js$/ }, () => ({ contents: changedGlue })) };
   const { outputFiles } = await bundleScript({
-    stdin: { contents: `export { ${[...exportNames, ...glueNames.imports.map(([, importName]) => importName), '__wbg_set_wasm']} } from './motion_bg.js';`, resolveDir: pathOf(`build/bound/${name}`) },
+    stdin: { contents: `export { ${[...exportNames, ...glueNames.imports.map(([, importName]) => importName), '__wbg_set_wasm']} } from './motion_bg.js';`, resolveDir: absolutePath(`build/bound/${name}`) },
     bundle: true,
     format: 'esm',
     write: false,
@@ -266,9 +266,9 @@ async function writeGlue(name, glueNames) {
     `return { ${exportNames} };`,
     '};',
   ];
-  writeFileSync(pathOf(`build/${name}.js`), `${moduleLines.join('\n')}\n`);
+  writeFileSync(absolutePath(`build/${name}.js`), `${moduleLines.join('\n')}\n`);
   const declarationLine = 'declare const instantiate: (module: WebAssembly.Module) => Promise<typeof import("./simulations.d.ts")>;\n';
-  writeFileSync(pathOf(`build/${name}.d.ts`), `${declarationLine}export default instantiate;\n`);
+  writeFileSync(absolutePath(`build/${name}.d.ts`), `${declarationLine}export default instantiate;\n`);
 }
 
 await runAsScript(import.meta.url, async () => {

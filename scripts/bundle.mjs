@@ -6,7 +6,7 @@ import { basename, dirname, join, relative } from 'node:path';
 import { build, transformSync } from 'esbuild';
 import * as declared from '../build/settings.js';
 import { describeWidgets } from './declarations.mjs';
-import { licenceTextOf, packagesOf } from './licences.mjs';
+import { readLicenceTexts, listBundledPackages } from './licences.mjs';
 import { createManifest } from './manifest.mjs';
 import { ROOT, UserError, filesOf, printStep } from './process.mjs';
 import { writePython } from './python.mjs';
@@ -15,7 +15,7 @@ import { withTables } from './tables.mjs';
 import { writeTypes } from './types.mjs';
 import { importTypeScript } from './typescript.mjs';
 
-const pathOf = (/** @type {string} */ path) => join(ROOT, path);
+const absolutePath = (/** @type {string} */ path) => join(ROOT, path);
 
 /** Files of www/ that are copied to dist/. */
 const COPIED_FILES_RE = /\.(html|css)$/;
@@ -116,7 +116,7 @@ const MODULE_SOURCES = {
 };
 
 /** Returns the module that a widget needs, without the simulations of others. @param {string} tag */
-const moduleFileOf = (tag) => hashedFileOf(tag, '.wasm', readFileSync(pathOf(`build/${tag}.wasm`)));
+const moduleFileOf = (tag) => hashedFileOf(tag, '.wasm', readFileSync(absolutePath(`build/${tag}.wasm`)));
 
 /**
  * Returns a file of dist/chunks/ with a hash of its contents in the name.
@@ -165,8 +165,8 @@ export async function bundle({ tags = WIDGET_TAGS, transformScript = (_, script)
   printStep('Bundling the pages');
   await writeTypes();
   await writeComponents();
-  writeFileSync(pathOf('build/widgets.js'), await widgetLoaders());
-  const moduleBytes = readFileSync(pathOf('build/motion.wasm'));
+  writeFileSync(absolutePath('build/widgets.js'), await widgetLoaders());
+  const moduleBytes = readFileSync(absolutePath('build/motion.wasm'));
   const bytesScript = hashedFileOf('motion-bytes', '.js', MODULE_SOURCES.bytes(moduleBytes, SHIFTED_CHARACTERS.utf8));
   /**
    * Bundles scripts of www/ for dist/.
@@ -179,7 +179,7 @@ export async function bundle({ tags = WIDGET_TAGS, transformScript = (_, script)
     build({
       entryPoints: Object.entries(entryPoints).map(([out, path]) => ({ in: join('www', path), out })),
       absWorkingDir: ROOT,
-      outdir: pathOf('dist'),
+      outdir: absolutePath('dist'),
       bundle: true,
       minify: true,
       // The published package has no source maps.
@@ -187,7 +187,7 @@ export async function bundle({ tags = WIDGET_TAGS, transformScript = (_, script)
       format: 'esm',
       target: 'es2022',
       charset: 'utf8',
-      inject: [pathOf('www/without-dom.ts')],
+      inject: [absolutePath('www/without-dom.ts')],
       // Modules are always strict; a classic script needs the directive.
       tsconfigRaw: { compilerOptions: { alwaysStrict: options.format === 'iife' } },
       plugins: [
@@ -251,7 +251,7 @@ export async function bundle({ tags = WIDGET_TAGS, transformScript = (_, script)
     throw new UserError('The pages do not bundle: see the messages above.');
   }
 
-  rmSync(pathOf('dist'), { recursive: true, force: true });
+  rmSync(absolutePath('dist'), { recursive: true, force: true });
   const writeOutput = (/** @type {string} */ path, /** @type {string | Uint8Array} */ contents) => {
     mkdirSync(dirname(path), { recursive: true });
     writeFileSync(path, contents);
@@ -264,29 +264,29 @@ export async function bundle({ tags = WIDGET_TAGS, transformScript = (_, script)
   const elementDeclarations = elementManifest.modules.flatMap(({ declarations }) => declarations);
   const widgetDescriptions = await describeWidgets();
   for (const path of filesOf('www').filter((path) => COPIED_FILES_RE.test(path))) {
-    const text = readFileSync(pathOf(path), 'utf8');
-    writeOutput(pathOf(join('dist', relative('www', path))), path.endsWith('.html') ? withTables(text, elementDeclarations, widgetDescriptions) : text);
+    const text = readFileSync(absolutePath(path), 'utf8');
+    writeOutput(absolutePath(join('dist', relative('www', path))), path.endsWith('.html') ? withTables(text, elementDeclarations, widgetDescriptions) : text);
   }
   const { preUpgradeCss } = await importTypeScript('www/figure/reserved-height.ts');
   // Without scripts no height is reserved.
   const reservedHeightCss = `@media (scripting:enabled){\n${preUpgradeCss()}\n}`;
   // Slides have a large font, which is too large for figures. `:where` has no specificity: any rule of a page takes precedence.
   const slideCss = `:where(.reveal) :where(${WIDGET_TAGS}){font-size:.28em;text-align:start}`;
-  appendFileSync(pathOf('dist/motion-widgets.css'), `\n:where(${WIDGET_TAGS}){margin-block:1em}\n${slideCss}\n${reservedHeightCss}\n`);
-  writeOutput(pathOf('dist/motion.wasm'), moduleBytes);
-  for (const { path, contents } of [bytesScript, ...tags.map(moduleFileOf)]) writeOutput(pathOf(path), contents);
+  appendFileSync(absolutePath('dist/motion-widgets.css'), `\n:where(${WIDGET_TAGS}){margin-block:1em}\n${slideCss}\n${reservedHeightCss}\n`);
+  writeOutput(absolutePath('dist/motion.wasm'), moduleBytes);
+  for (const { path, contents } of [bytesScript, ...tags.map(moduleFileOf)]) writeOutput(absolutePath(path), contents);
   const typingPaths = { core: 'www/types.d.ts', simulations: 'build/simulations.d.ts', elements: 'build/elements.d.ts', react: 'build/react.d.ts', solid: 'build/solid.d.ts', svelte: 'build/svelte.d.ts' };
-  for (const [name, path] of Object.entries(typingPaths)) writeOutput(pathOf(`dist/${name}.d.ts`), withLocalImports(readFileSync(pathOf(path), 'utf8')));
-  writeOutput(pathOf('dist/external.d.ts'), ELEMENT_DECLARATIONS);
-  for (const name of ['de', 'motion-widgets.css']) writeOutput(pathOf(`dist/${name}.d.ts`), 'export {};\n');
-  chmodSync(pathOf('dist/cli.js'), 0o755);
-  writeOutput(pathOf('dist/classroom.html'), inlinedPage('index.html'));
-  writeOutput(pathOf('dist/custom-elements.json'), `${JSON.stringify(elementManifest, null, 1)}\n`);
+  for (const [name, path] of Object.entries(typingPaths)) writeOutput(absolutePath(`dist/${name}.d.ts`), withLocalImports(readFileSync(absolutePath(path), 'utf8')));
+  writeOutput(absolutePath('dist/external.d.ts'), ELEMENT_DECLARATIONS);
+  for (const name of ['de', 'motion-widgets.css']) writeOutput(absolutePath(`dist/${name}.d.ts`), 'export {};\n');
+  chmodSync(absolutePath('dist/cli.js'), 0o755);
+  writeOutput(absolutePath('dist/classroom.html'), inlinedPage('index.html'));
+  writeOutput(absolutePath('dist/custom-elements.json'), `${JSON.stringify(elementManifest, null, 1)}\n`);
   // Sizes of the bundles, which tests/package/sizes.nightly.test.js reads.
   const bundleOutputs = Object.assign({}, ...bundles.map(({ metafile }) => metafile.outputs));
-  writeOutput(pathOf('build/outputs.json'), JSON.stringify(bundleOutputs));
-  const crates = JSON.parse(readFileSync(pathOf('build/crates.json'), 'utf8'));
-  writeOutput(pathOf('dist/LICENSE-third-party.txt'), licenceTextOf([...packagesOf(bundleOutputs), ...crates]));
+  writeOutput(absolutePath('build/outputs.json'), JSON.stringify(bundleOutputs));
+  const crates = JSON.parse(readFileSync(absolutePath('build/crates.json'), 'utf8'));
+  writeOutput(absolutePath('dist/LICENSE-third-party.txt'), readLicenceTexts([...listBundledPackages(bundleOutputs), ...crates]));
   await writePython();
 }
 
@@ -305,14 +305,14 @@ const STYLES_RE = new RegExp(String.raw`(?<=\b(?:css|unsafeCSS\()\x60)(?:[^\x60$
 function withMinifiedStyles(script, transform) {
   return script.replace(STYLES_RE, (style) => {
     /** @type {string[]} */
-    const expressions = [];
+    const templateExpressions = [];
     const plainStyle = style.replace(EXPRESSIONS_RE, (expression, at) => {
-      const placeholder = `expression${expressions.push(expression)}`;
+      const placeholder = `expression${templateExpressions.push(expression)}`;
       return /(^|\n) *$/.test(style.slice(0, at)) ? `@${placeholder};` : placeholder;
     });
     const { code: minifiedStyle, warnings } = transform(plainStyle, { loader: 'css', minify: true });
     if (warnings.length > 0) throw new UserError(`Style that cannot be read: ${warnings[0].text} in ${plainStyle}`);
-    return minifiedStyle.trim().replace(/@expression(\d+);|expression(\d+)/g, (_, statement, value) => expressions[Number(statement ?? value) - 1]);
+    return minifiedStyle.trim().replace(/@expression(\d+);|expression(\d+)/g, (_, statement, value) => templateExpressions[Number(statement ?? value) - 1]);
   });
 }
 
@@ -347,9 +347,9 @@ async function widgetLoaders() {
 /** Returns the declarations of settings without their documentation, which no page shows. */
 function minimalDeclarations() {
   const omittedKeys = ['sentence', 'nullable'];
-  const toJson = (/** @type {unknown} */ value) => JSON.stringify(value, (key, member) => (omittedKeys.includes(key) ? undefined : member));
+  const toDeclaredJSON = (/** @type {unknown} */ value) => JSON.stringify(value, (key, member) => (omittedKeys.includes(key) ? undefined : member));
   return Object.entries(declared)
-    .map(([name, value]) => `export const ${name} = ${toJson(value)};\n`)
+    .map(([name, value]) => `export const ${name} = ${toDeclaredJSON(value)};\n`)
     .join('');
 }
 
@@ -417,7 +417,7 @@ function withoutModule(text) {
  * @param {string} name
  */
 function inlinedPage(name) {
-  const readDistFile = (/** @type {string} */ path) => readFileSync(pathOf(join('dist', path)), 'utf8').replace(/\n?\/\/# sourceMappingURL=\S+\s*$/, '');
+  const readDistFile = (/** @type {string} */ path) => readFileSync(absolutePath(join('dist', path)), 'utf8').replace(/\n?\/\/# sourceMappingURL=\S+\s*$/, '');
   const styleLink = /<link rel="stylesheet" href="\.\/([\w.-]+)" \/>/g;
   const scriptTag = /<script type="module" src="\.\/([\w.-]+)"><\/script>/g;
   const pageHtml = readDistFile(name);

@@ -82,7 +82,7 @@ const roundPose = ({ x, y, theta }) => [Number(x.toFixed(4)), Number(y.toFixed(4
  *
  * @param {[number, number, number][]} rows
  */
-function legEndsOf(rows) {
+function findLegEnds(rows) {
   const legEnds = [0];
   for (const [i, [x, y, theta]] of rows.entries()) {
     const [x0, y0, theta0] = rows[legEnds[legEnds.length - 1]];
@@ -104,14 +104,14 @@ function simulateTruth(motion, measuredPoses, seed) {
   const { se2 } = motion;
   const roundedPoses = measuredPoses.map(roundPose);
   const scalePose = (/** @type {Pose} */ { x, y, theta }) => ({ x: TRUE_MODEL.distanceScale * x, y: TRUE_MODEL.distanceScale * y, theta });
-  const poseOf = (/** @type {[number, number, number]} */ [x, y, theta]) => ({ x, y, theta });
+  const poseFromArray = (/** @type {[number, number, number]} */ [x, y, theta]) => ({ x, y, theta });
   const odometryModel = new motion.OdometryModel({ alphas: TRUE_MODEL.alphas });
   const truePoses = [scalePose(measuredPoses[0])];
-  const legEnds = legEndsOf(roundedPoses);
+  const legEnds = findLegEnds(roundedPoses);
   for (const [legIndex, endRow] of legEnds.entries()) {
     if (legIndex === 0) continue;
     const startRow = legEnds[legIndex - 1];
-    const [legStart, legGoal] = [startRow, endRow].map((row) => scalePose(poseOf(roundedPoses[row])));
+    const [legStart, legGoal] = [startRow, endRow].map((row) => scalePose(poseFromArray(roundedPoses[row])));
     const trueStart = truePoses[startRow];
     const [x, y, theta] = odometryModel.sample(motion.decompose(legStart, legGoal), trueStart, 1, seed + legIndex);
     const motionFromStart = (/** @type {Pose} */ pose) => se2.compose(se2.inverse(legStart), pose);

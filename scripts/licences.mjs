@@ -16,7 +16,7 @@ const STANDARD_LIBRARY_NOTICE = 'The standard library of Rust (MIT OR Apache-2.0
  * @param {{ packages: any[] }} metadata output of `cargo metadata`, with all crates that any target or feature would need
  * @returns {Package[]}
  */
-export function cratesOf(tree, { packages }) {
+export function listCrates(tree, { packages }) {
   const crateLines = new Set(tree.match(/^\S+ v\S+/gm));
   return packages
     .filter(({ name, version, source }) => source !== null && crateLines.has(`${name} v${version}`))
@@ -29,7 +29,7 @@ export function cratesOf(tree, { packages }) {
  * @param {Record<string, import('esbuild').Metafile['outputs'][string]>} outputs
  * @returns {Package[]}
  */
-export function packagesOf(outputs) {
+export function listBundledPackages(outputs) {
   const bundledFiles = Object.values(outputs).flatMap(({ inputs }) => Object.keys(inputs).filter((path) => inputs[path].bytesInOutput > 0));
   const packageDirectories = bundledFiles.flatMap((path) => path.match(/^.*node_modules\/(?:@[^/]+\/)?[^/]+/) ?? []);
   return [...new Set(packageDirectories)].map((path) => {
@@ -40,7 +40,7 @@ export function packagesOf(outputs) {
 }
 
 /** Returns each licence text once, below the packages that have it. @param {Package[]} packages */
-export function licenceTextOf(packages) {
+export function readLicenceTexts(packages) {
   /** @type {Map<string, string[]>} */
   const packagesByText = new Map();
   for (const { name, version, licence, directory } of packages) {
@@ -51,7 +51,7 @@ export function licenceTextOf(packages) {
     const licenceText = readFileSync(join(directory, licenceFile), 'utf8').replaceAll('\r', '').trim();
     packagesByText.set(licenceText, [...(packagesByText.get(licenceText) ?? []), `${name} ${version} (${licence})`]);
   }
-  const sections = [...packagesByText].map(([text, names]) => [names.sort().join('\n'), text]);
-  const sectionTexts = sections.sort(([a], [b]) => (a < b ? -1 : 1)).map((parts) => parts.join('\n\n'));
+  const licenceSections = [...packagesByText].map(([text, names]) => [names.sort().join('\n'), text]);
+  const sectionTexts = licenceSections.sort(([a], [b]) => (a < b ? -1 : 1)).map((parts) => parts.join('\n\n'));
   return `${['The bundles of motion-widgets carry parts of these works.', STANDARD_LIBRARY_NOTICE, ...sectionTexts].join(`\n\n${'-'.repeat(72)}\n\n`)}\n`;
 }

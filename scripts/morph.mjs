@@ -6,7 +6,7 @@ import { join } from 'node:path';
 import { CHROME_ARGUMENTS, ensureBrowser } from './browser.mjs';
 import { build } from './build.mjs';
 import { ROOT, findProgram, mustRun, runAsScript } from './process.mjs';
-import { serve } from './serve.mjs';
+import { startServer } from './serve.mjs';
 import { aptInstall } from './toolchain.mjs';
 
 /** Width of the figure, at which it shows one picture, and size of its letters. */
@@ -23,7 +23,7 @@ await runAsScript(import.meta.url, async () => {
   await build({ local: true });
   const { chromium } = await import('@playwright/test');
   const browser = await chromium.launch({ executablePath: (await ensureBrowser()).chrome, args: CHROME_ARGUMENTS });
-  const { address, close } = await serve(join(ROOT, 'dist'), { port: 0 });
+  const { address, close } = await startServer(join(ROOT, 'dist'), { port: 0 });
   const frameDirectory = mkdtempSync(join(tmpdir(), 'morph-'));
   try {
     if (findProgram('img2webp') === undefined) await aptInstall(['webp'], MISSING_WEBP_MESSAGE);

@@ -50,7 +50,7 @@ export function printStep(text) {
  * @param {() => Promise<T>} work
  * @returns {() => Promise<T>}
  */
-export function once(work) {
+export function runOnce(work) {
   /** @type {Promise<T> | undefined} */
   let resultPromise;
   return () => (resultPromise ??= work());
@@ -61,9 +61,9 @@ export function taskQueue() {
   /** @type {Promise<unknown>} */
   let lastTask = Promise.resolve();
   return (work) => {
-    const result = lastTask.then(work);
-    lastTask = result.catch(() => {});
-    return result;
+    const taskResult = lastTask.then(work);
+    lastTask = taskResult.catch(() => {});
+    return taskResult;
   };
 }
 
@@ -160,7 +160,7 @@ export function run(command, args, { env = {}, cwd = ROOT, seconds, quiet = fals
       detached: seconds !== undefined,
     });
     let stdout = '';
-    let output = '';
+    let combinedOutput = '';
     let timedOut = false;
     const startTime = Date.now();
     const silenceTimer = collectedOutputStore.getStore() ? undefined : setInterval(() => {
@@ -178,12 +178,12 @@ export function run(command, args, { env = {}, cwd = ROOT, seconds, quiet = fals
     }
     childProcess.stdout.setEncoding('utf8').on('data', (text) => {
       stdout += text;
-      output += text;
+      combinedOutput += text;
       silenceTimer?.refresh();
       if (!quiet) print(text);
     });
     childProcess.stderr.setEncoding('utf8').on('data', (text) => {
-      output += text;
+      combinedOutput += text;
       silenceTimer?.refresh();
       if (!quiet) print(text, process.stderr);
     });
@@ -191,7 +191,7 @@ export function run(command, args, { env = {}, cwd = ROOT, seconds, quiet = fals
       clearTimeout(limitTimer);
       clearInterval(silenceTimer);
       if (processGroupId !== undefined) forgetGroup(processGroupId);
-      resolve({ ok, timedOut, stdout, output });
+      resolve({ ok, timedOut, stdout, output: combinedOutput });
     };
     childProcess.on('error', () => settleRun(false));
     childProcess.on('close', (code) => settleRun(code === 0));

@@ -66,22 +66,22 @@ function traitCallOf({ name, type, allowed }, tag) {
   const declaration = settings[tag].find(({ key }) => key === name);
   if (declaration) return traitCallOfSetting(declaration, tag);
   if (type === 'number' && allowed) return `Number(${allowed.replace(' to ', ', ')})`;
-  const words = [...type.matchAll(/'([^']+)'/g)].map(([, word]) => quote(word)).join(', ');
-  if (type.includes('[]')) return `Sequence(Word(${words}))`;
-  if (words) return `Word(${words})`;
+  const allowedWords = [...type.matchAll(/'([^']+)'/g)].map(([, word]) => quote(word)).join(', ');
+  if (type.includes('[]')) return `Sequence(Word(${allowedWords}))`;
+  if (allowedWords) return `Word(${allowedWords})`;
   const optionalTrait = { boolean: TRAITS_WITHOUT_RANGE.Bool, number: 'Whole(0)' }[type.replace(' | null', '')];
   return optionalTrait ?? TRAITS_WITHOUT_RANGE.Dict;
 }
 
 /** Returns the type of a setting, as Python source. @param {Declaration} declaration @param {string} tag @returns {string} */
-function traitCallOfSetting({ key, type, words = [], fields = [], min, max }, tag) {
+function traitCallOfSetting({ key, type, words: allowedWords = [], fields = [], min, max }, tag) {
   const rangeText = `${min}, ${max}`;
   switch (type) {
     case 'number': return `Number(${rangeText})`;
     case 'whole': return `Whole(${rangeText})`;
     case 'numbers': return `Sequence(Number(${rangeText}))`;
     case 'boolean': return TRAITS_WITHOUT_RANGE.Bool;
-    case 'word': return `Word(${words.map(quote).join(', ')})`;
+    case 'word': return `Word(${allowedWords.map(quote).join(', ')})`;
     case 'group': {
       const nameOf = (/** @type {Declaration} */ member) => member.field ?? member.key;
       const fieldsOfGroup = settings[tag].filter((member) => member.in === key && fields.includes(nameOf(member)));
@@ -92,8 +92,8 @@ function traitCallOfSetting({ key, type, words = [], fields = [], min, max }, ta
 
 /** Returns the words that a trait takes, as a sentence. @param {string} trait */
 function wordSentenceOf(trait) {
-  const [, isList, words] = trait.match(/^(Sequence\()?Word\(([^)]+)\)/) ?? [];
-  return words ? ` ${isList ? 'Some' : 'One'} of ${words}.` : '';
+  const [, isList, allowedWords] = trait.match(/^(Sequence\()?Word\(([^)]+)\)/) ?? [];
+  return allowedWords ? ` ${isList ? 'Some' : 'One'} of ${allowedWords}.` : '';
 }
 
 /** Constants of JavaScript that have other names in Python. @type {Record<string, string>} */

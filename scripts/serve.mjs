@@ -15,7 +15,7 @@ import { ROOT, UserError, runAsScript } from './process.mjs';
  * @param {Record<string, string>} [options.headers] headers of every response
  * @returns {Promise<{ address: string, close: () => void }>}
  */
-export async function serve(directory, { port, base: basePath = '/', headers = {} } = {}) {
+export async function startServer(directory, { port, base: basePath = '/', headers = {} } = {}) {
   // A static import would fail in a bare clone, in which sirv is not installed yet.
   const { default: sirv } = await import('sirv');
   const serveFile = sirv(directory, { dev: true, etag: true, setHeaders: (response) => response.setHeaders(new Map(Object.entries(headers))) });
@@ -60,6 +60,6 @@ function readRequestedPort() {
 await runAsScript(import.meta.url, async () => {
   const port = readRequestedPort();
   await build({ local: true });
-  const { address } = await serve(join(ROOT, 'dist'), { port });
+  const { address } = await startServer(join(ROOT, 'dist'), { port });
   console.log(`\nThe widgets are at ${address} (Ctrl-C stops).`);
 });

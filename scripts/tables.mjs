@@ -45,11 +45,11 @@ export function withTables(page, elements, widgets) {
  * @param {string} kind
  * @param {string} caption
  * @param {string[]} headings
- * @param {(element: Element) => Item[]} itemsOf
+ * @param {(element: Element) => Item[]} itemsOfElement
  */
-function itemTableHtml(elements, kind, caption, headings, itemsOf) {
-  const itemsByName = new Map(elements.flatMap(itemsOf).map((item) => [item.name, item]));
-  const elementsWithItem = (/** @type {string} */ name) => elements.filter((element) => itemsOf(element).some((item) => item.name === name));
+function itemTableHtml(elements, kind, caption, headings, itemsOfElement) {
+  const itemsByName = new Map(elements.flatMap(itemsOfElement).map((item) => [item.name, item]));
+  const elementsWithItem = (/** @type {string} */ name) => elements.filter((element) => itemsOfElement(element).some((item) => item.name === name));
   const itemRows = [...itemsByName.values()].map(({ name, description }) => {
     const owningElements = elementsWithItem(name);
     const ownersText = owningElements.length < elements.length ? ` Only ${owningElements.map(({ tagName }) => codeHtml(`<${tagName}>`)).join(' and ')}.` : '';

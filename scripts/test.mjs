@@ -9,7 +9,7 @@ import { join } from 'node:path';
 import { ensureTestRunner } from './bindgen.mjs';
 import { CHROME_ARGUMENTS, ensureBrowser } from './browser.mjs';
 import { build } from './build.mjs';
-import { ROOT, UserError, filesOf, withCollectedOutput, once, printStep, run, runAsScript, settleAll } from './process.mjs';
+import { ROOT, UserError, filesOf, withCollectedOutput, runOnce, printStep, run, runAsScript, settleAll } from './process.mjs';
 import { ensureLints, ensurePackages, ensureNativeRust, ensureRustForWasm } from './toolchain.mjs';
 
 /** @typedef {{ passed: number, failed: number, skipped: number }} Tally */
@@ -28,12 +28,12 @@ const IS_NIGHTLY = process.argv.includes('--all');
 /** Time limit of a part, s, so that a hanging test does not stop the run. */
 const TIME_LIMIT_SECONDS = IS_NIGHTLY ? 3600 : 1200;
 
-const pathOf = (/** @type {string} */ path) => join(ROOT, path);
+const absolutePath = (/** @type {string} */ path) => join(ROOT, path);
 /** @type {('tests' | 'tests/package' | 'tests/engines')[]} workspaces of package.json that the tests need */
 const TEST_WORKSPACES = IS_NIGHTLY ? ['tests', 'tests/package', 'tests/engines'] : ['tests'];
 
 /** Builds dist/ and installs the packages of the tests. Daily tests use the common core in all figures; nightly ones also the core of each figure. */
-const ensureBuilt = once(() => settleAll([build({ local: !IS_NIGHTLY }), ...TEST_WORKSPACES.map((name) => ensurePackages(name))]));
+const ensureBuilt = runOnce(() => settleAll([build({ local: !IS_NIGHTLY }), ...TEST_WORKSPACES.map((name) => ensurePackages(name))]));
 
 /** Versions of the tools that the parts of this test run have used so far. */
 const toolVersions = new Set([`Node ${process.versions.node}`]);
@@ -50,7 +50,7 @@ async function ensureWasmRust() {
   return rustTools;
 }
 
-const ensureTestBrowser = once(async () => {
+const ensureTestBrowser = runOnce(async () => {
   const foundBrowser = await ensureBrowser();
   toolVersions.add(`Chromium ${foundBrowser.version}`);
   return foundBrowser;
@@ -72,10 +72,10 @@ const createProgramJob = ([name, ...args], env) => () => run(name, args, { env, 
  * @param {string[]} args
  * @param {Record<string, string>} [env]
  */
-const createNpmJob = (path, args, env) => createProgramJob([process.execPath, pathOf(join('node_modules', path)), ...args], env);
+const createNpmJob = (path, args, env) => createProgramJob([process.execPath, absolutePath(join('node_modules', path)), ...args], env);
 
 /** Returns a job that runs a script of this repository. @param {string} path */
-const createScriptJob = (path) => createProgramJob([process.execPath, pathOf(path)]);
+const createScriptJob = (path) => createProgramJob([process.execPath, absolutePath(path)]);
 
 /**
  * Returns a job that runs cargo.
@@ -145,7 +145,7 @@ const TEST_PARTS = {
   rust: {
     async prepare(programArgs) {
       // Incremental compilation makes the first compilation 18 % slower in processor time.
-      const env = existsSync(pathOf('target/debug')) ? undefined : { CARGO_INCREMENTAL: '0' };
+      const env = existsSync(absolutePath('target/debug')) ? undefined : { CARGO_INCREMENTAL: '0' };
       return createCargoJob(await ensureRust(), ['test', '--locked', '--no-fail-fast', ...programArgs, ...(IS_NIGHTLY ? ['--', '--include-ignored'] : [])], env);
     },
     counts: COUNT_PATTERNS.cargo,
@@ -208,20 +208,20 @@ async function runParts(args) {
   if (partName !== undefined && !Object.hasOwn(TEST_PARTS, partName)) {
     throw new UserError(`"${partName}" is no part of the tests: \`npm test -- PART\` takes ${Object.keys(TEST_PARTS).join(', ')}.`);
   }
-  rmSync(pathOf('test-results'), { recursive: true, force: true });
-  mkdirSync(pathOf('test-results'));
+  rmSync(absolutePath('test-results'), { recursive: true, force: true });
+  mkdirSync(absolutePath('test-results'));
   if (partName !== undefined) return summarize([await runPart(partName, moreArguments)]);
 
   // Installation starts now, because some lanes need the tools late. A part that needs a missing one reports it.
   for (const ensureTool of [ensureTestBrowser, ensureTestRunner]) ensureTool().catch(() => {});
   /** @type {Outcome[]} */
-  const outcomes = [];
+  const partOutcomes = [];
   await Promise.all(
     PART_LANES.map(async (names) => {
-      for (const name of names) outcomes.push(await withCollectedOutput(() => runPart(name, [])));
+      for (const name of names) partOutcomes.push(await withCollectedOutput(() => runPart(name, [])));
     }),
   );
-  return summarize(outcomes);
+  return summarize(partOutcomes);
 }
 
 /**
@@ -241,10 +241,10 @@ async function runPart(name, programArgs) {
     startTime = Date.now();
     const { ok, output, timedOut } = await job();
     const totalOf = (/** @type {RegExp} */ number) => [...output.matchAll(number)].reduce((sum, [, count]) => sum + Number(count), 0);
-    const tally = counts && { passed: totalOf(counts.passed), failed: totalOf(counts.failed), skipped: totalOf(counts.skipped) };
-    const ranNoTest = tally !== undefined && tally.passed + tally.failed === 0;
-    const note = timedOut ? `ended after ${TIME_LIMIT_SECONDS} s` : ranNoTest ? 'no test ran' : undefined;
-    return { name, ok: ok && !ranNoTest && !tally?.failed, seconds: elapsedSeconds(), output, tally, note };
+    const testCounts = counts && { passed: totalOf(counts.passed), failed: totalOf(counts.failed), skipped: totalOf(counts.skipped) };
+    const ranNoTest = testCounts !== undefined && testCounts.passed + testCounts.failed === 0;
+    const shownRemark = timedOut ? `ended after ${TIME_LIMIT_SECONDS} s` : ranNoTest ? 'no test ran' : undefined;
+    return { name, ok: ok && !ranNoTest && !testCounts?.failed, seconds: elapsedSeconds(), output, tally: testCounts, note: shownRemark };
   } catch (error) {
     printStep(`${name}: ${error instanceof UserError ? error.message : (error instanceof Error && error.stack) || error}`);
     return { name, ok: false, seconds: elapsedSeconds(), note: 'not run: see above' };
@@ -258,7 +258,7 @@ async function runPart(name, programArgs) {
  * @param {import('./browser.mjs').Browser} browser
  */
 function browserEnvironment(runner, { chrome, driver }) {
-  const capabilitiesFile = pathOf('test-results/webdriver.json');
+  const capabilitiesFile = absolutePath('test-results/webdriver.json');
   const chromeSettings = { binary: chrome, args: ['--headless', ...CHROME_ARGUMENTS] };
   writeFileSync(capabilitiesFile, JSON.stringify({ 'goog:chromeOptions': chromeSettings }));
   return {
@@ -294,24 +294,24 @@ const SHOWN_ERROR_LINES = 60;
 /**
  * Prints the outcomes, and returns true if all parts passed.
  *
- * @param {Outcome[]} outcomes
+ * @param {Outcome[]} partOutcomes
  */
-function summarize(outcomes) {
+function summarize(partOutcomes) {
   printStep('Summary');
   console.log(`${[...toolVersions].join('; ')}\n`);
   let passedCount = 0;
   let failedCount = 0;
-  for (const { name, ok, seconds, tally, note } of outcomes) {
-    const countTexts = tally === undefined ? [] : [`${tally.passed} passed`, `${tally.failed} failed`];
-    if (tally?.skipped) countTexts.push(`${tally.skipped} skipped`);
-    if (note !== undefined) countTexts.push(note);
+  for (const { name, ok, seconds, tally: testCounts, note: shownRemark } of partOutcomes) {
+    const countTexts = testCounts === undefined ? [] : [`${testCounts.passed} passed`, `${testCounts.failed} failed`];
+    if (testCounts?.skipped) countTexts.push(`${testCounts.skipped} skipped`);
+    if (shownRemark !== undefined) countTexts.push(shownRemark);
     console.log(`${ok ? 'ok    ' : 'FAILED'} ${name.padEnd(12)} ${seconds.toFixed(0).padStart(4)} s  ${countTexts.join(', ')}`);
-    passedCount += tally?.passed ?? 0;
+    passedCount += testCounts?.passed ?? 0;
     // A part that fails without a failed test counts as one failed test.
-    failedCount += ok ? 0 : Math.max(1, tally?.failed ?? 0);
+    failedCount += ok ? 0 : Math.max(1, testCounts?.failed ?? 0);
   }
-  for (const { name, ok, output } of outcomes) {
-    if (!ok && output && outcomes.length > 1) console.log(`\n${name}: …\n${output.trimEnd().split('\n').slice(-SHOWN_ERROR_LINES).join('\n')}`);
+  for (const { name, ok, output } of partOutcomes) {
+    if (!ok && output && partOutcomes.length > 1) console.log(`\n${name}: …\n${output.trimEnd().split('\n').slice(-SHOWN_ERROR_LINES).join('\n')}`);
   }
   console.log(`\n${passedCount} passed, ${failedCount} failed`);
   return failedCount === 0;

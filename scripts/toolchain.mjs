@@ -5,7 +5,7 @@ import { createHash } from 'node:crypto';
 import { existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { homedir, tmpdir } from 'node:os';
 import { delimiter, dirname, join } from 'node:path';
-import { ROOT, UserError, findProgram, mustRun, once, printStep, taskQueue, run, runAsScript } from './process.mjs';
+import { ROOT, UserError, findProgram, mustRun, runOnce, printStep, taskQueue, run, runAsScript } from './process.mjs';
 
 const WASM_TARGET = 'wasm32-unknown-unknown';
 const RUSTUP_BIN = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'bin');
@@ -99,7 +99,7 @@ export async function ensurePip() {
  */
 
 /** Finds or installs Rust for this machine: by rustup, or from Debian if rustup's server cannot be reached. */
-export const ensureNativeRust = once(/** @returns {Promise<Rust>} */ async () => {
+export const ensureNativeRust = runOnce(/** @returns {Promise<Rust>} */ async () => {
   let cargo = findProgram('cargo', [RUSTUP_BIN]);
   if (cargo === undefined) {
     if (!(await installRustup())) {
@@ -133,7 +133,7 @@ async function installRustup() {
  * Finds or installs Rust for WebAssembly. The standard library of the target comes from rustup. If rustup's server cannot be reached, Debian's
  * compiler builds that library from Debian's sources.
  */
-export const ensureRustForWasm = once(/** @returns {Promise<Rust>} */ async () => {
+export const ensureRustForWasm = runOnce(/** @returns {Promise<Rust>} */ async () => {
   const nativeToolchain = await ensureNativeRust();
   if (nativeToolchain.bin !== DEBIAN_BIN && (await rustupQueue(() => hasTarget(nativeToolchain)))) {
     return { ...nativeToolchain, target: ['--target', WASM_TARGET], description: `${nativeToolchain.description}, ${WASM_TARGET} of rustup` };
@@ -255,9 +255,9 @@ export async function ensureLints({ bin, env }) {
 
 /** Returns the part of a file that the group of a pattern matches. @param {string} file @param {RegExp} pattern */
 export function readManifestValue(file, pattern) {
-  const match = readFileSync(join(ROOT, file), 'utf8').match(pattern);
-  if (match === null) throw new Error(`${file} has nothing like ${pattern}`);
-  return match[1];
+  const patternMatch = readFileSync(join(ROOT, file), 'utf8').match(pattern);
+  if (patternMatch === null) throw new Error(`${file} has nothing like ${pattern}`);
+  return patternMatch[1];
 }
 
 // `node scripts/toolchain.mjs WORKSPACE` installs packages that another script imports statically.

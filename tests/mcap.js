@@ -94,35 +94,35 @@ export async function recordingOf(messages, { compression = 'none', index = true
   /** @type {Uint8Array[]} */
   const writtenChunks = [];
   let writtenBytes = 0n;
-  const writable = {
+  const byteSink = {
     position: () => writtenBytes,
     write: async (/** @type {Uint8Array} */ bytes) => {
       writtenChunks.push(bytes.slice());
       writtenBytes += BigInt(bytes.length);
     },
   };
-  const writer = new McapWriter({
-    writable, useChunks: chunks, useChunkIndex: index, useMessageIndex: index, useStatistics: index, useSummaryOffsets: index,
+  const mcapWriter = new McapWriter({
+    writable: byteSink, useChunks: chunks, useChunkIndex: index, useMessageIndex: index, useStatistics: index, useSummaryOffsets: index,
     repeatChannels: index, repeatSchemas: index, chunkSize, compressChunk: COMPRESSORS[compression],
   });
-  await writer.start({ profile: 'ros2', library: 'test' });
+  await mcapWriter.start({ profile: 'ros2', library: 'test' });
   /** @type {Map<string, { id: number, writer: MessageWriter }>} */
-  const channels = new Map();
+  const channelsByTopic = new Map();
   let sequenceNumber = 0;
   for (const { topic, type, schema = type, message, t } of messages) {
     const key = [topic, type, schema].join(' ');
-    let channel = channels.get(key);
+    let channel = channelsByTopic.get(key);
     if (!channel) {
-      const schemaId = await writer.registerSchema({ name: schema, encoding: 'ros2msg', data: Buffer.from(`# ${schema}`) });
-      const id = await writer.registerChannel({ topic, schemaId, messageEncoding: encoding, metadata: new Map() });
+      const schemaId = await mcapWriter.registerSchema({ name: schema, encoding: 'ros2msg', data: Buffer.from(`# ${schema}`) });
+      const id = await mcapWriter.registerChannel({ topic, schemaId, messageEncoding: encoding, metadata: new Map() });
       const typeDefinitions = Object.entries(MESSAGE_DEFINITIONS).map(([name, definitions]) => ({ name, definitions }));
       const messageDefinition = typeDefinitions.find(({ name }) => name === type);
       channel = { id, writer: new MessageWriter(messageDefinition ? [messageDefinition, ...typeDefinitions] : typeDefinitions) };
-      channels.set(key, channel);
+      channelsByTopic.set(key, channel);
     }
     const logTime = BigInt(Math.round(t * 1e3)) * 1_000_000n;
-    await writer.addMessage({ channelId: channel.id, sequence: sequenceNumber++, logTime, publishTime: logTime, data: channel.writer.writeMessage(message) });
+    await mcapWriter.addMessage({ channelId: channel.id, sequence: sequenceNumber++, logTime, publishTime: logTime, data: channel.writer.writeMessage(message) });
   }
-  await writer.end();
+  await mcapWriter.end();
   return Buffer.concat(writtenChunks);
 }

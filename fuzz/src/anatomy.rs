@@ -1,7 +1,7 @@
 //! Arc Anatomy under any settings and calls.
 
 use super::input::{Input, is_selected_by_hash};
-use super::settings::{are_allowed, with_changes};
+use super::settings::{are_settings_allowed, change_settings};
 use super::{assertions, banana};
 use motion::geom::se2::SE2;
 use motion::sim::arc_anatomy::{ArcAnatomy, ArcWithCircle, SurfaceKind, Paths, Settings, Stats, Surface, Table};
@@ -13,8 +13,8 @@ const MAX_CALLS: usize = 4;
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
     let should_check_paths = input.next_below(8) == 1;
-    let first_settings = with_changes(&Settings::default(), &mut input);
-    if !are_allowed(&first_settings) {
+    let first_settings = change_settings(&Settings::default(), &mut input);
+    if !are_settings_allowed(&first_settings) {
         assert!(ArcAnatomy::new(first_settings).is_err());
         return;
     }
@@ -24,7 +24,7 @@ pub fn run(bytes: &[u8]) {
             break;
         }
         if input.next_below(3) == 0 {
-            position_at(&simulation, input.number_within(0.0..=1.0));
+            position_at(&simulation, input.draw_number_within(0.0..=1.0));
         } else {
             configure(&mut simulation, &mut input);
         }
@@ -41,8 +41,8 @@ pub fn run(bytes: &[u8]) {
 }
 
 fn configure(simulation: &mut ArcAnatomy, input: &mut Input) {
-    let settings = with_changes(simulation.settings(), input);
-    if are_allowed(&settings) {
+    let settings = change_settings(simulation.settings(), input);
+    if are_settings_allowed(&settings) {
         simulation.configure(settings).expect("allowed");
         return;
     }

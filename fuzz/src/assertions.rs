@@ -29,15 +29,15 @@ pub fn assert_pose(label: &str, pose: &SE2) {
 pub fn assert_moments(label: &str, mean: &Vector3<f64>, cov: &Matrix3<f64>) {
     assert_finite(label, mean.as_slice());
     assert_finite(label, cov.as_slice());
-    let magnitudes = Vector3::from_fn(|i, _| mean[i].abs() + cov[(i, i)].sqrt());
-    let position_magnitude = magnitudes.x + magnitudes.y;
-    let magnitudes = [position_magnitude, position_magnitude, magnitudes.z];
+    let scale_of_coordinates = Vector3::from_fn(|i, _| mean[i].abs() + cov[(i, i)].sqrt());
+    let position_magnitude = scale_of_coordinates.x + scale_of_coordinates.y;
+    let scale_of_coordinates = [position_magnitude, position_magnitude, scale_of_coordinates.z];
     for i in 0..3 {
         assert!(cov[(i, i)] >= 0.0, "{label}: {mean:?} {cov:?}");
         for j in 0..i {
             let max_cov = cov[(i, i)].sqrt() * cov[(j, j)].sqrt();
-            let tolerance = ROUNDING_TOLERANCE * magnitudes[i] * magnitudes[j]
-                + MAX_UNDERFLOWING_DEVIATION * (magnitudes[i] + magnitudes[j]);
+            let tolerance = ROUNDING_TOLERANCE * scale_of_coordinates[i] * scale_of_coordinates[j]
+                + MAX_UNDERFLOWING_DEVIATION * (scale_of_coordinates[i] + scale_of_coordinates[j]);
             assert!((cov[(i, j)] - cov[(j, i)]).abs() <= tolerance, "{label}: {mean:?} {cov:?}");
             assert!(cov[(i, j)].abs() <= max_cov + tolerance, "{label}: {mean:?} {cov:?}");
         }

@@ -2,7 +2,7 @@
 
 use super::input::Input;
 use super::assertions;
-use super::settings::{are_allowed, with_changes};
+use super::settings::{are_settings_allowed, change_settings};
 use motion::geom::se2::SE2;
 use motion::sim::View;
 use motion::sim::banana::{
@@ -19,8 +19,8 @@ const MAX_CALLS: usize = 4;
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
     let [should_check_curves, should_compare_new_simulation] = [0; 2].map(|_| input.next_below(4) == 1);
-    let first_settings = with_changes(&limit_samples(Settings::default()), &mut input);
-    if !are_allowed(&first_settings) {
+    let first_settings = change_settings(&limit_samples(Settings::default()), &mut input);
+    if !are_settings_allowed(&first_settings) {
         assert!(BananaMachine::with_shown_count(first_settings, 0).is_err());
         return;
     }
@@ -68,7 +68,7 @@ fn call_method(simulation: &mut BananaMachine, input: &mut Input) {
         6 => assert_executed_motion(simulation, usize::from(input.next_byte())),
         7 => assert_table(simulation),
         _ => {
-            let [x, y] = [0; 2].map(|_| input.number_within(QUANTITY_RANGE));
+            let [x, y] = [0; 2].map(|_| input.draw_number_within(QUANTITY_RANGE));
             let current_command = simulation.settings().command;
             let reaching_command = command_reaching(x, y, &current_command);
             // The speed may be infinite, because the circle of a nearly straight arc may be too long for a double.
@@ -78,8 +78,8 @@ fn call_method(simulation: &mut BananaMachine, input: &mut Input) {
 }
 
 fn configure(simulation: &mut BananaMachine, input: &mut Input) {
-    let settings = with_changes(simulation.settings(), input);
-    if are_allowed(&settings) {
+    let settings = change_settings(simulation.settings(), input);
+    if are_settings_allowed(&settings) {
         simulation.configure(limit_samples(settings)).expect("allowed");
         return;
     }
@@ -91,8 +91,8 @@ fn configure(simulation: &mut BananaMachine, input: &mut Input) {
 
 /// Asserts that samples that are added in several blocks equal samples that are added in one call.
 fn assert_same_if_added_in_blocks(simulation: &mut BananaMachine, input: &mut Input) {
-    let settings = with_changes(simulation.settings(), input);
-    if !are_allowed(&settings) {
+    let settings = change_settings(simulation.settings(), input);
+    if !are_settings_allowed(&settings) {
         return;
     }
     let mut simulation_in_one_call = simulation.clone();
@@ -219,7 +219,7 @@ fn assert_executed_motion(simulation: &BananaMachine, index: usize) {
     }
     let [x, y] = *sample.path.last().expect("a path has an end");
     // Paths are computed by scalar functions, and poses by SIMD functions. They agree to 2e-15 of the length.
-    let path_length = sample.path.windows(2).map(|ends| distance(ends[0], ends[1])).sum::<f64>();
+    let path_length = sample.path.windows(2).map(|ends| point_distance(ends[0], ends[1])).sum::<f64>();
     let command = simulation.settings().command;
     let commanded_path_length = (command.v * command.dt).abs();
     let max_path_length = sample.legs.map_or((sample.v_hat * command.dt).abs(), |legs| legs.trans.abs());
@@ -228,26 +228,26 @@ fn assert_executed_motion(simulation: &BananaMachine, index: usize) {
     let rounding_factor = 1.0 + (command.omega * command.dt).abs();
     let rounding_error = 1e-14 * (max_path_length * rounding_factor + commanded_path_length) + f64::MIN_POSITIVE;
     assert!(
-        distance([x, y], [sample.pose[0], sample.pose[1]]) <= rounding_error,
+        point_distance([x, y], [sample.pose[0], sample.pose[1]]) <= rounding_error,
         "{sample:?} of {:?}",
         simulation.settings()
     );
 }
 
-fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+fn point_distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
 /// Returns a rectangle of a view with few cells.
 pub fn read_grid(input: &mut Input) -> Grid {
-    let min = [0; 2].map(|_| input.number_within(EXTENT_RANGE));
-    let max = min.map(|lower| input.number_within(lower..=*EXTENT_RANGE.end()));
+    let min = [0; 2].map(|_| input.draw_number_within(EXTENT_RANGE));
+    let max = min.map(|lower| input.draw_number_within(lower..=*EXTENT_RANGE.end()));
     let [columns, rows] = [0; 2].map(|_| 1 + input.next_below(40));
     Grid { min, max, columns, rows }
 }
 
 fn assert_picture(simulation: &mut BananaMachine, input: &mut Input) {
-    let (view, grid) = (input.one_of(&[View::Plane, View::Twist]), read_grid(input));
+    let (view, grid) = (input.choose_one(&[View::Plane, View::Twist]), read_grid(input));
     let cell_counts = simulation.density(view, &grid);
     assert_eq!(cell_counts.len(), grid.columns * grid.rows);
     assert!(cell_counts.iter().sum::<u32>() as usize <= simulation.shown_count(), "{grid:?}: {cell_counts:?}");
@@ -257,12 +257,12 @@ fn assert_picture(simulation: &mut BananaMachine, input: &mut Input) {
 }
 
 fn assert_nearest_pose(simulation: &BananaMachine, input: &mut Input) {
-    let target = [0; 2].map(|_| input.next_number());
-    let radii = [0; 2].map(|_| input.number_within(0.0..=f64::INFINITY));
-    let Some(index) = simulation.nearest(View::Plane, target, radii) else { return };
+    let search_point = [0; 2].map(|_| input.next_number());
+    let search_radii = [0; 2].map(|_| input.draw_number_within(0.0..=f64::INFINITY));
+    let Some(index) = simulation.nearest(View::Plane, search_point, search_radii) else { return };
     let nearest_pose: SE2 = simulation.pose(index).expect("a sample that is shown");
-    let relative_distance_to = |pose: &SE2| ((pose.x() - target[0]) / radii[0]).hypot((pose.y() - target[1]) / radii[1]);
+    let relative_distance_to = |pose: &SE2| ((pose.x() - search_point[0]) / search_radii[0]).hypot((pose.y() - search_point[1]) / search_radii[1]);
     // The square of a distance below 1e-154 underflows to 0.
     let min_relative_distance = simulation.poses().map(|pose| relative_distance_to(&pose)).fold(f64::INFINITY, f64::min);
-    assert!(relative_distance_to(&nearest_pose) <= min_relative_distance * (1.0 + 1e-9) + 1e-150, "{target:?} {radii:?}: {index}");
+    assert!(relative_distance_to(&nearest_pose) <= min_relative_distance * (1.0 + 1e-9) + 1e-150, "{search_point:?} {search_radii:?}: {index}");
 }

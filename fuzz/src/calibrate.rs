@@ -54,12 +54,12 @@ fn read_options(input: &mut Input) -> Options {
         1 => LegLength::Duration { duration: read_leg_size(input) },
         _ => LegLength::Displacement { distance: read_leg_size(input), angle: read_leg_size(input) },
     };
-    let outliers = input.one_of(&[Outliers::Reject, Outliers::Keep]);
+    let outliers = input.choose_one(&[Outliers::Reject, Outliers::Keep]);
     let correction_bits = input.next_byte();
-    let mut read_std = || (input.next_below(3) == 0).then(|| input.number_within(0.0..=1e3));
+    let mut read_std = || (input.next_below(3) == 0).then(|| input.draw_number_within(0.0..=1e3));
     let [position_std, yaw_std] = [read_std(), read_std()];
     Options {
-        model: input.one_of(&MODELS),
+        model: input.choose_one(&MODELS),
         legs: leg_length,
         outliers,
         correct: std::array::from_fn(|error| (correction_bits >> error & 1 == 1).then_some(correction_bits & 64 == 0)),
@@ -70,29 +70,29 @@ fn read_options(input: &mut Input) -> Options {
 
 /// Returns the length of a leg in m, rad or s.
 fn read_leg_size(input: &mut Input) -> f64 {
-    if input.next_bool() { input.one_of(&[0.1, 0.2, 0.25, 0.5]) } else { input.number_within(1e-6..=1e6) }
+    if input.next_bool() { input.choose_one(&[0.1, 0.2, 0.25, 0.5]) } else { input.draw_number_within(1e-6..=1e6) }
 }
 
 type LogRow = (f64, SE2);
 
 /// Returns one of the given numbers, or sometimes any other number.
 fn choice_or_any_number(choices: &[f64], input: &mut Input) -> f64 {
-    let choice = input.next_below(choices.len() + 1);
-    choices.get(choice).copied().unwrap_or_else(|| input.number_within(-1e9..=1e9))
+    let choice_index = input.next_below(choices.len() + 1);
+    choices.get(choice_index).copied().unwrap_or_else(|| input.draw_number_within(-1e9..=1e9))
 }
 
 fn odometry_rows(input: &mut Input, max_rows_of_part: usize) -> Vec<LogRow> {
     let time_step = choice_or_any_number(&[0.05, 0.1, 0.1, 0.5, 1.0], input).abs();
-    let mut rows = vec![(choice_or_any_number(&[0.0, 10.0, 1.7e9], input), SE2::identity())];
+    let mut log_rows = vec![(choice_or_any_number(&[0.0, 10.0, 1.7e9], input), SE2::identity())];
     for _ in 0..=input.next_below(MAX_DRIVE_PARTS) {
         let v = choice_or_any_number(&[0.0, 0.2, 0.5, 0.8, -0.3], input);
         let omega = choice_or_any_number(&[0.0, 0.2, -0.4, 0.9, -0.9], input);
         for _ in 0..1 + usize::from(input.next_byte()) % max_rows_of_part {
-            let (time, pose) = rows[rows.len() - 1];
-            rows.push((time + time_step, pose.boxplus(Vector3::new(v, 0.0, omega) * time_step)));
+            let (time, pose) = log_rows[log_rows.len() - 1];
+            log_rows.push((time + time_step, pose.boxplus(Vector3::new(v, 0.0, omega) * time_step)));
         }
     }
-    rows
+    log_rows
 }
 
 /// Returns the reference: the odometry with an error in each step, and with occasional jumps.

@@ -2,7 +2,7 @@
 
 use super::input::Input;
 use super::assertions;
-use super::settings::{are_allowed, with_changes};
+use super::settings::{are_settings_allowed, change_settings};
 use motion::geom::se2::SE2;
 use motion::models::{OdomDelta, MAX_SPIN_DISTANCE};
 use motion::sim::odometry_decomposer::{DriftedOdometry, OdometryDecomposer, Settings, Stats};
@@ -15,8 +15,8 @@ const MAX_CALLS: usize = 4;
 
 pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
-    let first_settings = with_changes(&limit_samples(Settings::default()), &mut input);
-    if !are_allowed(&first_settings) {
+    let first_settings = change_settings(&limit_samples(Settings::default()), &mut input);
+    if !are_settings_allowed(&first_settings) {
         assert!(OdometryDecomposer::new(first_settings).is_err());
         return;
     }
@@ -53,15 +53,15 @@ fn call_method(simulation: &mut OdometryDecomposer, input: &mut Input) {
             leg_poses.as_flattened().iter().for_each(|pose| assertions::assert_pose("a leg pose", pose));
             assert!(leg_poses.iter().zip(simulation.poses()).all(|(outcome_poses, pose)| outcome_poses[3] == *pose));
         }
-        5 => assert_deviation_curve(simulation, input.number_within(0.0..=*QUANTITY_RANGE.end()), 1 + input.next_below(MAX_CURVE_POINTS)),
+        5 => assert_deviation_curve(simulation, input.draw_number_within(0.0..=*QUANTITY_RANGE.end()), 1 + input.next_below(MAX_CURVE_POINTS)),
         _ => assert_nearest_pose(simulation, input),
     }
 }
 
 fn configure(simulation: &mut OdometryDecomposer, input: &mut Input) {
-    let settings = with_changes(simulation.settings(), input);
+    let settings = change_settings(simulation.settings(), input);
     let (settings_before, poses_before) = (*simulation.settings(), simulation.poses().to_vec());
-    if !are_allowed(&settings) {
+    if !are_settings_allowed(&settings) {
         assert!(simulation.configure(settings).is_err());
         assert_eq!(*simulation.settings(), settings_before);
         assert_eq!(simulation.poses(), poses_before);
@@ -73,23 +73,23 @@ fn configure(simulation: &mut OdometryDecomposer, input: &mut Input) {
 }
 
 fn assert_deviation_curve(simulation: &OdometryDecomposer, max_distance: f64, count: usize) {
-    let points = simulation.deviation_curve(max_distance, count);
-    assert_eq!(points.len(), count);
-    for point in points {
+    let curve_points = simulation.deviation_curve(max_distance, count);
+    assert_eq!(curve_points.len(), count);
+    for point in curve_points {
         assertions::assert_finite("curve", &point);
         assert!(point[1..].iter().all(|deviation| *deviation >= 0.0), "{point:?}");
     }
 }
 
 fn assert_nearest_pose(simulation: &OdometryDecomposer, input: &mut Input) {
-    let target = [0; 2].map(|_| input.next_number());
-    let radius = input.number_within(0.0..=f64::INFINITY);
-    let Some(index) = simulation.nearest(target, radius) else { return };
-    let relative_distance_to = |pose: &SE2| ((pose.x() - target[0]) / radius).hypot((pose.y() - target[1]) / radius);
+    let search_point = [0; 2].map(|_| input.next_number());
+    let search_radius = input.draw_number_within(0.0..=f64::INFINITY);
+    let Some(index) = simulation.nearest(search_point, search_radius) else { return };
+    let relative_distance_to = |pose: &SE2| ((pose.x() - search_point[0]) / search_radius).hypot((pose.y() - search_point[1]) / search_radius);
     let min_relative_distance = simulation.poses().iter().map(relative_distance_to).fold(f64::INFINITY, f64::min);
     // The square of a distance below 1e-154 of the radius underflows to 0.
     let found_relative_distance = relative_distance_to(&simulation.poses()[index]);
-    assert!(found_relative_distance <= min_relative_distance * (1.0 + 1e-9) + 1e-150 && found_relative_distance <= 1.0 + 1e-9, "{target:?} {radius}: {index}");
+    assert!(found_relative_distance <= min_relative_distance * (1.0 + 1e-9) + 1e-150 && found_relative_distance <= 1.0 + 1e-9, "{search_point:?} {search_radius}: {index}");
 }
 
 /// Asserts that all results are finite, or NaN without outcomes.

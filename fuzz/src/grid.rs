@@ -53,12 +53,12 @@ fn middles_and_obstacles(grid: &OccupancyGrid, unknown_cells: UnknownCells) -> V
     let is_blocking =
         |cell: Cell| cell == Cell::Occupied || (cell == Cell::Unknown && unknown_cells == UnknownCells::Blocked);
     let indexed_cells = grid.cells().enumerate();
-    let middle_of = |i: usize| {
+    let cell_middle = |i: usize| {
         let [u, v] = [i % columns, i / columns].map(|at| (at as f64 + 0.5) * cell_side);
         let middle = origin * SE2::new(u, v, 0.0);
         [middle.x(), middle.y()]
     };
-    indexed_cells.map(|(i, cell)| (middle_of(i), is_blocking(cell))).collect()
+    indexed_cells.map(|(i, cell)| (cell_middle(i), is_blocking(cell))).collect()
 }
 
 /// Asserts that each cell contains its middle, and that the total length of the outlines equals the total length of the
@@ -83,8 +83,8 @@ fn assert_outlines(grid: &OccupancyGrid, unknown_cells: UnknownCells) {
             obstacle_side_count += usize::from(is_obstacle_here != is_obstacle_at(column, row.wrapping_sub(1)));
         }
     }
-    let outlines = grid.outlines(usize::MAX).expect("no limit");
-    let total_length: f64 = outlines.iter().map(wall_length).sum();
+    let wall_outlines = grid.outlines(usize::MAX).expect("no limit");
+    let total_length: f64 = wall_outlines.iter().map(wall_length).sum();
     if !middles_and_obstacles.is_empty() {
         assert!((total_length / grid.resolution() - obstacle_side_count as f64).abs() < 1e-3 * (1 + obstacle_side_count) as f64, "{grid:?}");
     }
@@ -96,17 +96,17 @@ fn wall_length(wall: &Segment) -> f64 {
 
 /// Reads a grid of a few cells, and the setting for its unknown cells.
 pub fn read_random_grid(input: &mut Input) -> Option<(OccupancyGrid, UnknownCells)> {
-    let resolution = input.number_near(&RESOLUTION_RANGE);
-    let [x, y, yaw] = [0; 3].map(|_| input.number_near(&QUANTITY_RANGE));
+    let resolution = input.draw_number_near(&RESOLUTION_RANGE);
+    let [x, y, yaw] = [0; 3].map(|_| input.draw_number_near(&QUANTITY_RANGE));
     if !RESOLUTION_RANGE.contains(&resolution) || ![x, y, yaw].iter().all(|number| QUANTITY_RANGE.contains(number)) {
         return None;
     }
     let [width, height] = [0; 2].map(|_| 1 + input.next_below(MAX_SIDE_CELLS));
-    let mode = input.one_of(&[MapMode::Trinary, MapMode::Scale, MapMode::Raw]);
+    let mode = input.choose_one(&[MapMode::Trinary, MapMode::Scale, MapMode::Raw]);
     let negate = input.next_bool();
     let [a, b] = [0; 2].map(|_| f64::from(input.next_byte()) / 255.0);
     let interpretation = Interpretation { mode, negate, occupied_thresh: a.max(b), free_thresh: a.min(b) };
-    let unknown_cells = input.one_of(&[UnknownCells::Free, UnknownCells::Blocked]);
+    let unknown_cells = input.choose_one(&[UnknownCells::Free, UnknownCells::Blocked]);
     let is_opaque = input.next_bool();
     let pixels: Vec<Pixel> = (0..width * height)
         .map(|_| Pixel {
@@ -129,7 +129,7 @@ fn assert_cell_of_pixel(interpretation: &Interpretation, pixel: Pixel) {
     let occupancy = if negate { shade } else { 1.0 - shade };
     let grey_value = (255.0 * shade).round();
     let is_near = |threshold: f64| (occupancy - threshold).abs() < 2.0 * f64::from(f32::EPSILON);
-    let expected = match mode {
+    let expected_cell = match mode {
         MapMode::Raw if grey_value == 100.0 => Cell::Occupied,
         MapMode::Raw if grey_value > 100.0 => Cell::Unknown,
         MapMode::Raw => Cell::Free,
@@ -139,5 +139,5 @@ fn assert_cell_of_pixel(interpretation: &Interpretation, pixel: Pixel) {
         MapMode::Trinary if occupancy > free_thresh => Cell::Unknown,
         _ => Cell::Free,
     };
-    assert_eq!(interpretation.classify_pixel(pixel), expected, "{interpretation:?} of {pixel:?}");
+    assert_eq!(interpretation.classify_pixel(pixel), expected_cell, "{interpretation:?} of {pixel:?}");
 }

@@ -10,9 +10,10 @@ pub struct Input<'a>(pub &'a [u8]);
 /// A single byte cannot select them, because most mutations of an input keep that byte.
 pub fn is_selected_by_hash(interval: u64, bytes: &[u8]) -> bool {
     // FNV-1a.
-    let mix_byte = |hash: u64, byte: &u8| (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);
-    let hash = bytes.iter().fold(0xcbf2_9ce4_8422_2325, mix_byte);
-    (hash >> 32) % interval == 0
+    let mix_byte =
+        |input_hash: u64, byte: &u8| (input_hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);
+    let input_hash = bytes.iter().fold(0xcbf2_9ce4_8422_2325, mix_byte);
+    (input_hash >> 32) % interval == 0
 }
 
 /// Limits of the ranges of settings, and limits of doubles.
@@ -67,7 +68,7 @@ impl Input<'_> {
         usize::from(self.next_byte()) % count
     }
 
-    pub fn one_of<T: Copy>(&mut self, choices: &[T]) -> T {
+    pub fn choose_one<T: Copy>(&mut self, choices: &[T]) -> T {
         choices[self.next_below(choices.len())]
     }
 
@@ -75,7 +76,7 @@ impl Input<'_> {
     pub fn next_number(&mut self) -> f64 {
         match self.next_below(8) {
             0 => f64::from_le_bytes(self.next_bytes()),
-            1 => self.one_of(&LIMIT_NUMBERS),
+            1 => self.choose_one(&LIMIT_NUMBERS),
             2 => f64::from(self.next_byte() as i8),
             3 => f64::from(self.next_byte() as i8) * 10f64.powi(i32::from(self.next_byte() as i8) / 4),
             4 => f64::from(i16::from_le_bytes(self.next_bytes())) * 1e-4,
@@ -84,7 +85,7 @@ impl Input<'_> {
     }
 
     /// Returns a double, mostly in this range.
-    pub fn number_near(&mut self, range: &RangeInclusive<f64>) -> f64 {
+    pub fn draw_number_near(&mut self, range: &RangeInclusive<f64>) -> f64 {
         let number = self.next_number();
         if self.next_below(8) == 0 || number.is_nan() {
             return number;
@@ -93,13 +94,13 @@ impl Input<'_> {
     }
 
     /// Returns a double in this range.
-    pub fn number_within(&mut self, range: RangeInclusive<f64>) -> f64 {
+    pub fn draw_number_within(&mut self, range: RangeInclusive<f64>) -> f64 {
         let number = self.next_number();
         if number.is_nan() { *range.start() } else { number.clamp(*range.start(), *range.end()) }
     }
 
     /// Returns a whole number, mostly in this range.
-    pub fn integer_near(&mut self, range: &RangeInclusive<u64>) -> u64 {
+    pub fn draw_integer_near(&mut self, range: &RangeInclusive<u64>) -> u64 {
         let integer = match self.next_below(4) {
             0 => u64::from_le_bytes(self.next_bytes()),
             1 => u64::from(u16::from_le_bytes(self.next_bytes())),

@@ -26,8 +26,8 @@ pub fn read_plan(input: &mut Input) -> Option<FloorPlan> {
     let bounds: [f64; 4] = if input.next_bool() {
         std::array::from_fn(|_| input.next_number())
     } else {
-        let [left, bottom] = [0, 1].map(|_| input.number_within(-1e6..=1e6));
-        let [width, height] = [0, 1].map(|_| input.number_within(0.01..=1e5));
+        let [left, bottom] = [0, 1].map(|_| input.draw_number_within(-1e6..=1e6));
+        let [width, height] = [0, 1].map(|_| input.draw_number_within(0.01..=1e5));
         [left, bottom, left + width, bottom + height]
     };
     let [left, bottom, right, top] = bounds;
@@ -94,15 +94,15 @@ pub fn random_pose(plan: &FloorPlan, input: &mut Input) -> SE2 {
         let fraction = f64::from(u16::from_le_bytes(input.next_bytes())) / 65_535.0;
         low + (high - low) * fraction
     });
-    SE2::new(x, y, input.number_within(-1e6..=1e6))
+    SE2::new(x, y, input.draw_number_within(-1e6..=1e6))
 }
 
 /// Asserts that the verdicts on an arc and on its end are those of a loop over all walls.
 pub fn assert_collision_verdicts(plan: &FloorPlan, input: &mut Input) {
     let start_pose = random_pose(plan, input);
-    let length = input.number_within(-1e12..=1e12);
-    let turn = input.number_within(-1e12..=1e12);
-    let clearance = input.number_within(0.0..=10.0);
+    let length = input.draw_number_within(-1e12..=1e12);
+    let turn = input.draw_number_within(-1e12..=1e12);
+    let clearance = input.draw_number_within(0.0..=10.0);
     let arc = Arc { start: start_pose, length, turn };
     let tolerance = rounding_error(plan, &arc, clearance);
     let depth_inside = |x: f64, y: f64| depth_inside(plan, [x, y]);
@@ -122,12 +122,12 @@ pub fn assert_collision_verdicts(plan: &FloorPlan, input: &mut Input) {
     let wall_distance = plan.walls().iter().map(|wall| wall.distance_to_arc(&arc)).fold(f64::INFINITY, f64::min);
 
     let is_free = plan.test_arc(&arc, clearance).free;
-    let description = format!("{arc:?} with {clearance} to spare: walls {wall_distance}, edge {min_depth}");
+    let failure_description = format!("{arc:?} with {clearance} to spare: walls {wall_distance}, edge {min_depth}");
     if is_free {
-        assert!(wall_distance > clearance - tolerance && min_depth >= -tolerance && !is_in_obstacle, "through a wall: {description}");
+        assert!(wall_distance > clearance - tolerance && min_depth >= -tolerance && !is_in_obstacle, "through a wall: {failure_description}");
     } else {
         let is_clear = wall_distance > clearance + tolerance && min_depth - max_distance_to_tested_point > tolerance && !is_in_obstacle;
-        assert!(!is_clear, "refused for nothing: {description}");
+        assert!(!is_clear, "refused for nothing: {failure_description}");
     }
 
     let end_pose = arc.end();

@@ -11,7 +11,7 @@ pub fn run(bytes: &[u8]) {
     }
     assert_read_or_refused(bytes);
     // The checksums are corrected, because the reader would otherwise refuse most mutations.
-    assert_read_or_refused(&with_checksums_corrected(bytes));
+    assert_read_or_refused(&correct_checksums(bytes));
 }
 
 fn assert_read_or_refused(bytes: &[u8]) {
@@ -29,8 +29,8 @@ fn assert_read_or_refused(bytes: &[u8]) {
 
 /// Returns the number of pixels according to the header, or 0 if the header is cut short.
 fn pixel_count(bytes: &[u8]) -> usize {
-    let side_at = |offset| number_at(bytes, offset).unwrap_or_default();
-    side_at(16).saturating_mul(side_at(20))
+    let image_side_at = |offset| number_at(bytes, offset).unwrap_or_default();
+    image_side_at(16).saturating_mul(image_side_at(20))
 }
 
 fn number_at(bytes: &[u8], offset: usize) -> Option<usize> {
@@ -39,7 +39,7 @@ fn number_at(bytes: &[u8], offset: usize) -> Option<usize> {
 }
 
 /// Returns the image with the checksum of every complete chunk corrected.
-fn with_checksums_corrected(bytes: &[u8]) -> Vec<u8> {
+fn correct_checksums(bytes: &[u8]) -> Vec<u8> {
     let mut bytes = bytes.to_vec();
     let mut chunk_start = 8;
     while let Some(length) = number_at(&bytes, chunk_start) {

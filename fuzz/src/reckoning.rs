@@ -2,7 +2,7 @@
 
 use super::input::{Input, is_selected_by_hash};
 use super::assertions;
-use super::settings::{are_allowed, with_changes};
+use super::settings::{are_settings_allowed, change_settings};
 use motion::sim::dead_reckoning::{
     DeadReckoning, MAX_SHOWN_ROBOTS, MeasuredMoments, Misses, Outlines, RECURSIONS, Settings, Stats, StraightGrowth,
 };
@@ -19,8 +19,8 @@ pub fn run(bytes: &[u8]) {
     let mut input = Input(bytes);
     let [should_check_straight_growth, should_compare_new_simulation] = [0; 2].map(|_| input.next_below(4) == 1);
     let first_settings = Settings { samples: 3, steps: MAX_STEPS, ..Settings::default() };
-    let first_settings = with_changes(&first_settings, &mut input);
-    if !are_allowed(&first_settings) {
+    let first_settings = change_settings(&first_settings, &mut input);
+    if !are_settings_allowed(&first_settings) {
         assert!(DeadReckoning::with_shown_count(first_settings, 0).is_err());
         return;
     }
@@ -76,8 +76,8 @@ fn call_method(simulation: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> 
 }
 
 fn configure(simulation: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> Settings, input: &mut Input) {
-    let settings = with_changes(simulation.settings(), input);
-    if are_allowed(&settings) {
+    let settings = change_settings(simulation.settings(), input);
+    if are_settings_allowed(&settings) {
         simulation.configure(limit_size(settings)).expect("allowed");
         return;
     }
@@ -88,8 +88,8 @@ fn configure(simulation: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> Se
 
 /// Asserts that robots that are added in several blocks equal robots that are added in one call.
 fn assert_same_if_added_in_blocks(simulation: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> Settings, input: &mut Input) {
-    let settings = with_changes(simulation.settings(), input);
-    if !are_allowed(&settings) {
+    let settings = change_settings(simulation.settings(), input);
+    if !are_settings_allowed(&settings) {
         return;
     }
     let settings = limit_size(settings);
@@ -186,8 +186,8 @@ fn assert_covariance(label: &str, cov: &Matrix3<f64>, rounding: impl Fn(usize, u
 /// Returns the rounding error of a covariance that is computed as the mean of products minus the product of means.
 fn rounding_error_of_sums(MeasuredMoments { mean, cov, .. }: &MeasuredMoments) -> impl Fn(usize, usize) -> f64 + use<> {
     let [along, lateral, heading] = [0, 1, 2].map(|i| mean[i].abs() + cov[(i, i)].sqrt());
-    let magnitudes = [along + lateral, along + lateral, heading];
-    move |i, j| assertions::ROUNDING_TOLERANCE * magnitudes[i] * magnitudes[j] + assertions::MAX_UNDERFLOWING_DEVIATION * (magnitudes[i] + magnitudes[j])
+    let scale_of_coordinates = [along + lateral, along + lateral, heading];
+    move |i, j| assertions::ROUNDING_TOLERANCE * scale_of_coordinates[i] * scale_of_coordinates[j] + assertions::MAX_UNDERFLOWING_DEVIATION * (scale_of_coordinates[i] + scale_of_coordinates[j])
 }
 
 fn assert_misses(misses: &Misses, steps: usize) {
@@ -238,13 +238,13 @@ fn assert_rollout(simulation: &DeadReckoning, index: usize) {
 }
 
 fn assert_nearest_pose(simulation: &DeadReckoning, input: &mut Input) {
-    let target = [0; 2].map(|_| input.next_number());
-    let radius = input.number_within(0.0..=f64::INFINITY);
-    let Some(index) = simulation.nearest(target, radius) else { return };
+    let search_point = [0; 2].map(|_| input.next_number());
+    let search_radius = input.draw_number_within(0.0..=f64::INFINITY);
+    let Some(index) = simulation.nearest(search_point, search_radius) else { return };
     let poses = simulation.poses(simulation.settings().step);
-    let relative_distance_to = |[x, y, _]: &[f64; 3]| ((x - target[0]) / radius).hypot((y - target[1]) / radius);
+    let relative_distance_to = |[x, y, _]: &[f64; 3]| ((x - search_point[0]) / search_radius).hypot((y - search_point[1]) / search_radius);
     let min_relative_distance = poses.iter().map(relative_distance_to).fold(f64::INFINITY, f64::min);
     // The square of a distance below 1e-154 of the radius underflows to 0.
     let found_relative_distance = relative_distance_to(&poses[index]);
-    assert!(found_relative_distance <= min_relative_distance * (1.0 + 1e-9) + 1e-150 && found_relative_distance <= 1.0 + 1e-9, "{target:?} {radius}: {index}");
+    assert!(found_relative_distance <= min_relative_distance * (1.0 + 1e-9) + 1e-150 && found_relative_distance <= 1.0 + 1e-9, "{search_point:?} {search_radius}: {index}");
 }

@@ -4,7 +4,7 @@ use super::input::Input;
 use motion::sim::settings::{AllowedValues, Group, Rules, Setting, SettingsError};
 
 /// Returns the current settings with some of them changed.
-pub fn with_changes<S: Rules>(current: &S, input: &mut Input) -> S {
+pub fn change_settings<S: Rules>(current: &S, input: &mut Input) -> S {
     let (mut settings, mut changed_keys) = (*current, Vec::new());
     let setting_mask = u16::from_le_bytes(input.next_bytes());
     let mut setting_count = 0;
@@ -22,31 +22,31 @@ pub fn with_changes<S: Rules>(current: &S, input: &mut Input) -> S {
 
 fn set_any_value(setting: Setting, input: &mut Input) {
     match setting {
-        Setting::Number(slot, allowed) => *slot = input.number_near(&allowed),
-        Setting::Integer(slot, allowed) => slot.set(input.integer_near(&allowed)),
+        Setting::Number(slot, allowed) => *slot = input.draw_number_near(&allowed),
+        Setting::Integer(slot, allowed) => slot.set(input.draw_integer_near(&allowed)),
         Setting::OptionalInteger(slot, allowed) => {
-            *slot = input.next_bool().then(|| input.integer_near(&allowed) as usize);
+            *slot = input.next_bool().then(|| input.draw_integer_near(&allowed) as usize);
         }
         Setting::Boolean(slot) => *slot = input.next_bool(),
         Setting::Keyword(slot) => {
             let keywords = slot.all();
-            assert!(slot.set(input.one_of(&keywords)) && !slot.set("") && !slot.set("__proto__"));
+            assert!(slot.set(input.choose_one(&keywords)) && !slot.set("") && !slot.set("__proto__"));
         }
         Setting::Numbers(slots, allowed) => {
-            slots.iter_mut().for_each(|slot| *slot = input.number_near(&allowed))
+            slots.iter_mut().for_each(|slot| *slot = input.draw_number_near(&allowed))
         }
         // A level outside of its range is refused earlier, before it is converted to the numbers that it sets.
-        Setting::Level(mut slot, allowed) => slot.set(input.number_within(allowed)),
+        Setting::Level(mut slot, allowed) => slot.set(input.draw_number_within(allowed)),
         Setting::Group(group) => {
             for (i, field) in group.fields().iter().enumerate() {
-                *group.number_mut(i) = input.number_near(&field.allowed);
+                *group.number_mut(i) = input.draw_number_near(&field.allowed);
             }
         }
     }
 }
 
 /// Returns true if the settings are allowed, and checks the message if not.
-pub fn are_allowed<S: Rules>(settings: &S) -> bool {
+pub fn are_settings_allowed<S: Rules>(settings: &S) -> bool {
     let Err(error) = settings.check() else {
         assert_in_range(settings);
         return true;
@@ -59,8 +59,8 @@ pub fn are_allowed<S: Rules>(settings: &S) -> bool {
     match allowed {
         AllowedValues::Real(range) => assert!(!range.contains(value), "{message}"),
         AllowedValues::Integer(range) => {
-            let integer = *value as u64;
-            assert!(integer as f64 != *value || !range.contains(&integer), "{message}");
+            let integer_value = *value as u64;
+            assert!(integer_value as f64 != *value || !range.contains(&integer_value), "{message}");
         }
         AllowedValues::FitsInMemory | AllowedValues::Keyword { .. } => panic!("{message}"),
     }
@@ -87,6 +87,6 @@ fn assert_in_range<S: Rules>(settings: &S) {
 }
 
 fn is_group_in_range(group: &mut dyn Group) -> bool {
-    let fields = group.fields().iter().enumerate();
-    fields.fold(true, |all, (i, field)| all && field.allowed.contains(group.number_mut(i)))
+    let indexed_fields = group.fields().iter().enumerate();
+    indexed_fields.fold(true, |all, (i, field)| all && field.allowed.contains(group.number_mut(i)))
 }

@@ -1,7 +1,7 @@
 //! Map Squeeze under any settings, maps and calls.
 
 use super::input::Input;
-use super::settings::{are_allowed, with_changes};
+use super::settings::{are_settings_allowed, change_settings};
 use super::{assertions, banana, grid, plan};
 use motion::geom::segment::Segment;
 use motion::map::{FloorPlan, Sampler};
@@ -17,10 +17,10 @@ const MAX_CALLS: usize = 3;
 thread_local! {
     /// Simulation in a room with one wall.
     static OPENING_SIMULATION: LazyCell<MapSqueeze> = LazyCell::new(|| {
-        let wall = Segment { from: [0.0, 3.5], to: [2.0, 3.5] };
-        let plan = FloorPlan::new(vec![wall], [0.0, 0.0, 4.0, 5.0]).expect("a plan");
+        let opening_wall = Segment { from: [0.0, 3.5], to: [2.0, 3.5] };
+        let opening_plan = FloorPlan::new(vec![opening_wall], [0.0, 0.0, 4.0, 5.0]).expect("a plan");
         let mut simulation = MapSqueeze::new(limit_size(Settings::default(), false)).expect("the opening state");
-        simulation.set_plan(plan);
+        simulation.set_plan(opening_plan);
         assert!(simulation.is_start_free());
         simulation
     });
@@ -38,16 +38,16 @@ pub fn run(bytes: &[u8]) {
     assert_results(&simulation);
 }
 
-/// Returns the settings with few samples, and with a sampler that divides the command only if `with_parts`.
+/// Returns the settings with few samples, and with a sampler that divides the command only if `allows_sub_steps`.
 ///
 /// Divided commands are rarely tested: a robot that cannot move in one part of the command takes 10 000 draws.
-fn limit_size(settings: Settings, with_parts: bool) -> Settings {
-    let steps = settings.steps.min(MAX_COMMAND_PARTS);
-    let sampler = if with_parts { settings.sampler.with_part_count(steps) } else { without_parts(settings.sampler) };
-    Settings { samples: settings.samples.min(MAX_SAMPLES), steps, sampler, ..settings }
+fn limit_size(settings: Settings, allows_sub_steps: bool) -> Settings {
+    let limited_steps = settings.steps.min(MAX_COMMAND_PARTS);
+    let sampler = if allows_sub_steps { settings.sampler.with_part_count(limited_steps) } else { without_sub_steps(settings.sampler) };
+    Settings { samples: settings.samples.min(MAX_SAMPLES), steps: limited_steps, sampler, ..settings }
 }
 
-fn without_parts(sampler: Sampler) -> Sampler {
+fn without_sub_steps(sampler: Sampler) -> Sampler {
     if let Sampler::SubStepped(_) = sampler { Sampler::WholeArc } else { sampler }
 }
 
@@ -56,8 +56,8 @@ fn call_method(simulation: &mut MapSqueeze, input: &mut Input) {
         0 => configure(simulation, input),
         1 => assert_same_if_added_in_blocks(simulation, input),
         2 => {
-            if let Some(plan) = plan::read_plan(input) {
-                simulation.set_plan(plan);
+            if let Some(opening_plan) = plan::read_plan(input) {
+                simulation.set_plan(opening_plan);
             }
         }
         3 => {
@@ -77,9 +77,9 @@ fn call_method(simulation: &mut MapSqueeze, input: &mut Input) {
         }
         6 => assert_picture(simulation, input),
         7 => {
-            let target = [0; 2].map(|_| input.next_number());
-            let radius = input.number_within(0.0..=f64::INFINITY);
-            let nearest_index = simulation.nearest(target, radius);
+            let search_point = [0; 2].map(|_| input.next_number());
+            let search_radius = input.draw_number_within(0.0..=f64::INFINITY);
+            let nearest_index = simulation.nearest(search_point, search_radius);
             assert!(nearest_index.is_none_or(|index| index < simulation.attempts().len()));
         }
         // A free pose is rarely checked: the search along 72 headings takes as long as ten other calls.
@@ -90,9 +90,9 @@ fn call_method(simulation: &mut MapSqueeze, input: &mut Input) {
 }
 
 fn configure(simulation: &mut MapSqueeze, input: &mut Input) {
-    let settings = with_changes(simulation.settings(), input);
+    let settings = change_settings(simulation.settings(), input);
     let settings_before = *simulation.settings();
-    if are_allowed(&settings) {
+    if are_settings_allowed(&settings) {
         let should_divide_command = input.next_below(16) == 1;
         simulation.configure(limit_size(settings, should_divide_command)).expect("allowed");
         return;
@@ -105,8 +105,8 @@ fn configure(simulation: &mut MapSqueeze, input: &mut Input) {
 
 /// Asserts that attempts that are added in several blocks equal attempts that are added in one call.
 fn assert_same_if_added_in_blocks(simulation: &mut MapSqueeze, input: &mut Input) {
-    let settings = limit_size(with_changes(simulation.settings(), input), false);
-    if !are_allowed(&settings) {
+    let settings = limit_size(change_settings(simulation.settings(), input), false);
+    if !are_settings_allowed(&settings) {
         return;
     }
     let mut simulation_in_one_call = simulation.clone();
@@ -178,8 +178,8 @@ fn assert_results(simulation: &MapSqueeze) {
 
 fn assert_finite_plan(plan: &FloorPlan) {
     assertions::assert_finite("bounds", &plan.bounds());
-    for wall in plan.walls() {
-        assertions::assert_finite("wall", &[wall.from, wall.to].concat());
+    for opening_wall in plan.walls() {
+        assertions::assert_finite("wall", &[opening_wall.from, opening_wall.to].concat());
     }
 }
 

@@ -32,12 +32,12 @@ export const resultFunctions = {
     const { shown, config: { command } } = simulation;
     const [xMin, yMin, xMax, yMax] = bounds;
     const { columns, rows } = configurations.picture;
-    const pictureOf = (/** @type {'plane' | 'twist'} */ view) =>
+    const readPictureOf = (/** @type {'plane' | 'twist'} */ view) =>
       simulation.picture(view, xMin, yMin, xMax, yMax, columns, rows, createRamps(1)).slice();
     // The native digest has no error of the area ratio.
     const stats = { ...simulation.stats, areaRatioError: undefined };
     delete stats.areaRatioError;
-    const results = {
+    const simulationResults = {
       poses: simulation.poses,
       twists: simulation.twists,
       executed: simulation.executed,
@@ -51,11 +51,11 @@ export const resultFunctions = {
         reaching: [[1, 0.5], [-0.3, 0.8], [0, 0], [2, -1.5]].map(([x, y]) => commandReaching(x, y, command)),
       },
       densities: VIEWS.map((view) => simulation.density(view, xMin, yMin, xMax, yMax, columns, rows)),
-      plane: pictureOf('plane'),
-      twist: pictureOf('twist'),
+      plane: readPictureOf('plane'),
+      twist: readPictureOf('twist'),
     };
     simulation.free();
-    return results;
+    return simulationResults;
   },
 
   'map-squeeze'({ MapSqueeze }, configurations, { preset, map, bounds = configurations.widgets['map-squeeze'].bounds, settings }) {
@@ -67,7 +67,7 @@ export const resultFunctions = {
     const { shown, startFree, openPlace, noise, stats } = simulation;
     const [xMin, yMin, xMax, yMax] = bounds;
     const { columns, rows } = configurations.picture;
-    const results = {
+    const simulationResults = {
       map: { ...simulation.plan, grid: simulation.grid },
       poses: simulation.poses,
       verdicts: simulation.verdicts,
@@ -88,14 +88,14 @@ export const resultFunctions = {
       picture: simulation.picture(xMin, yMin, xMax, yMax, columns, rows, createRamps(3)).slice(),
     };
     simulation.free();
-    return results;
+    return simulationResults;
   },
 
   'arc-anatomy'({ ArcAnatomy }, configurations, { preset, bounds = configurations.widgets['arc-anatomy'].bounds, settings }) {
     const { command, next } = settingsOfPreset('arc-anatomy', preset);
     const simulation = new ArcAnatomy({ command, next, ...settings });
     const [xMin, yMin, xMax, yMax] = bounds;
-    const results = {
+    const simulationResults = {
       statistics: simulation.stats,
       table: simulation.table,
       paths: { ...simulation.paths, underway: [0, 0.3, 1].map((share) => simulation.underway(share)) },
@@ -103,14 +103,14 @@ export const resultFunctions = {
       forms: ArcAnatomy.formErrors(),
     };
     simulation.free();
-    return results;
+    return simulationResults;
   },
 
   'dead-reckoning'({ DeadReckoning }, _, { preset, settings }) {
     const { command, steps, alphas } = settingsOfPreset('dead-reckoning', preset);
     const simulation = new DeadReckoning({ command, steps, alphas, ...settings });
     const { shown, config, headingNoise, stats } = simulation;
-    const results = {
+    const simulationResults = {
       statistics: { shown, headingNoise, stats },
       steps: {
         ratios: simulation.ratios, predicted: simulation.predicted, measured: simulation.measured, relativeErrors: simulation.relativeErrors,
@@ -125,14 +125,14 @@ export const resultFunctions = {
       straight: simulation.straightGrowth,
     };
     simulation.free();
-    return results;
+    return simulationResults;
   },
 
   'alpha-calibrator'({ AlphaCalibrator }, _, { settings }) {
     const simulation = new AlphaCalibrator(settings);
     const { stats: { alphas, intervals, systematicErrors, referenceNoise, persistence, logLikelihood, diagnostics, recommended }, legs, truth } = simulation;
     const { checks, windows } = diagnostics;
-    const results = {
+    const simulationResults = {
       alphas: { alphas, intervals, logLikelihood },
       systematic: Object.values(systematicErrors),
       noise: { stds: Object.values(referenceNoise), persistence },
@@ -149,20 +149,20 @@ export const resultFunctions = {
     };
     // The poses at the starts of the legs are the second log.
     const { count, times, odometry, reference } = legs;
-    const columnOf = (/** @type {Float64Array} */ array, /** @type {number} */ size, /** @type {number} */ offset) =>
+    const columnOfArray = (/** @type {Float64Array} */ array, /** @type {number} */ size, /** @type {number} */ offset) =>
       Float64Array.from({ length: count }, (_, leg) => array[size * leg + offset]);
-    const posesOf = (/** @type {Float64Array} */ ends) => ({ t: columnOf(times, 2, 0), x: columnOf(ends, 6, 0), y: columnOf(ends, 6, 1), theta: columnOf(ends, 6, 2) });
-    if (count > 1) simulation.setLog(posesOf(odometry), posesOf(reference));
+    const legPoseColumns = (/** @type {Float64Array} */ ends) => ({ t: columnOfArray(times, 2, 0), x: columnOfArray(ends, 6, 0), y: columnOfArray(ends, 6, 1), theta: columnOfArray(ends, 6, 2) });
+    if (count > 1) simulation.setLog(legPoseColumns(odometry), legPoseColumns(reference));
     const resultsOfLog = [simulation.fits, simulation.stats.alphas, simulation.stats.intervals];
     simulation.free();
-    return { ...results, log: resultsOfLog };
+    return { ...simulationResults, log: resultsOfLog };
   },
 
   'odometry-decomposer'({ OdometryDecomposer }, _, { preset, settings }) {
     const { from, to } = settingsOfPreset('odometry-decomposer', preset);
     const simulation = new OdometryDecomposer({ from, to, ...settings });
     const { shown, stats, poses, linkage, robot, rules, drifted } = simulation;
-    const results = {
+    const simulationResults = {
       poses,
       linkages: { linkage, ghosts: simulation.ghosts(9), robot },
       rules: rules.map(({ legs, deviations, crossTrack, heading }) => ({ legs, deviations, crossTrack, heading })),
@@ -171,7 +171,7 @@ export const resultFunctions = {
       drifted,
     };
     simulation.free();
-    return results;
+    return simulationResults;
   },
 };
 
@@ -209,7 +209,7 @@ function appendNumbers(value, encodedNumbers) {
 }
 
 /** Returns a hash of every bit of a value. @param {Encodable} value */
-export async function hashOf(value) {
+export async function computeHash(value) {
   /** @type {number[]} */
   const encodedNumbers = [];
   appendNumbers(value, encodedNumbers);
@@ -236,7 +236,7 @@ export async function computeDigest(motion, configurations, tags = Object.keys(c
   for (const widget of tags) {
     for (const [name, configuration] of Object.entries(configurations.widgets[widget].configurations)) {
       const resultParts = Object.entries(resultFunctions[widget](motion, configurations, configuration));
-      const partHashes = await Promise.all(resultParts.map(async ([part, value]) => ` ${part}:${await hashOf(value)}`));
+      const partHashes = await Promise.all(resultParts.map(async ([part, value]) => ` ${part}:${await computeHash(value)}`));
       digestLines.push(`${widget}/${name}${partHashes.join('')}\n`);
     }
   }

@@ -1,8 +1,8 @@
 import { spawnSync } from 'node:child_process';
 import { expect, test as testWithWarnings } from '@playwright/test';
 import { recordingOf } from '../mcap.js';
-import { captionOf, chooseTables, chooseRecording, readExampleTable, openCalibrator, exampleRecordingWith, alphaRowsOf, exampleRowsOf, statsOf, simulatedTablesOf } from './calibrator-support.js';
-import { REDUCED_MOTION, dropFiles, stateOf, takeEvents, test, openDisclosures, untilSettled } from './support.js';
+import { captionOf, chooseTables, chooseRecording, readExampleTable, openCalibrator, exampleRecordingWith, alphaRowsOf, exampleRowsOf, readStats, simulatedTablesOf } from './calibrator-support.js';
+import { REDUCED_MOTION, dropFiles, readState, takeEvents, test, openDisclosures, waitUntilSettled } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Locator} Locator
@@ -16,7 +16,7 @@ test('two tables of a user replace the simulated log, and a button brings it bac
   const widget = await openCalibrator(page);
   const logTables = await simulatedTablesOf(widget);
   await chooseTables(widget, { 'truth.csv': logTables.reference, 'odom.csv': logTables.odometry });
-  await untilSettled(widget);
+  await waitUntilSettled(widget);
   expect(await captionOf(widget).innerText()).toMatch(/ \d+ legs of odom\.csv, truth\.csv[.,]/);
   expect(await widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).simulation.truth)).toBeNull();
   await expect(widget.locator('.drop-zone .present')).toHaveText('Log: odom.csv, truth.csv.');
@@ -29,9 +29,9 @@ test('two tables of a user replace the simulated log, and a button brings it bac
   await widget.getByRole('button', { name: 'Back to the simulated log' }).click();
   await expect(captionOf(widget)).toHaveText(/of the simulated log/);
   // A single file is not used until the other file is given too.
-  const alert = widget.getByRole('alert');
+  const errorAlert = widget.getByRole('alert');
   await chooseTables(widget, { 'odom.csv': logTables.odometry });
-  await expect(alert).toHaveText(/^odom\.csv: it has the odometry only, .*; give the reference too\. Drop or choose the other file too,/);
+  await expect(errorAlert).toHaveText(/^odom\.csv: it has the odometry only, .*; give the reference too\. Drop or choose the other file too,/);
   // The α's on screen belong to another log. They are not copied until the user keeps these results.
   const outdatedResultsText = 'The results are still those of the simulated log, not of the files chosen last.';
   await expect(widget.locator('.drop-zone .muted')).toContainText(outdatedResultsText);
@@ -41,13 +41,13 @@ test('two tables of a user replace the simulated log, and a button brings it bac
   for (const resultButton of resultButtons) await expect(resultButton).toBeDisabled();
   await widget.getByRole('button', { name: 'Keep these results' }).click();
   for (const resultButton of resultButtons) await expect(resultButton).toBeEnabled();
-  await expect(alert).toHaveCount(0);
+  await expect(errorAlert).toHaveCount(0);
   await chooseTables(widget, { 'odom.csv': logTables.odometry });
-  await expect(alert).toHaveCount(1);
+  await expect(errorAlert).toHaveCount(1);
   await chooseTables(widget, { 'truth.csv': logTables.reference });
   await expect(captionOf(widget)).toHaveText(/of odom\.csv, truth\.csv[.,]/);
   await chooseTables(widget, { 'odom.csv': '', 'truth.csv': '' });
-  await expect(alert).toHaveText(/^odom\.csv: there is nothing in it/);
+  await expect(errorAlert).toHaveText(/^odom\.csv: there is nothing in it/);
   await expect(widget.locator('.to-do')).toHaveText('The results are still those of odom.csv, truth.csv, not of the files chosen last.');
 });
 
@@ -55,7 +55,7 @@ test('results are those of the command line, to the last bit, and a recording wh
   const widget = await openCalibrator(page);
   await chooseTables(widget, { 'odometry.csv': readExampleTable('odometry'), 'reference.csv': readExampleTable('reference') });
   await expect(captionOf(widget)).toHaveText(/odometry\.csv, reference\.csv[.,]/);
-  await untilSettled(widget);
+  await waitUntilSettled(widget);
   const figureResults = await widget.evaluate((element) => {
     const { simulation: { stats, legs } } = /** @type {AlphaCalibratorElement} */ (element);
     return JSON.stringify({ ...stats, legs }, (_, value) => (ArrayBuffer.isView(value) ? [.../** @type {Float64Array} */ (value)] : value));
@@ -72,8 +72,8 @@ test('results are those of the command line, to the last bit, and a recording wh
   await expect(widget.getByRole('alert')).toHaveText(/^run\.mcap: it is not clear what the reference is: .*\/vicon\/pose \(PoseStamped\)\.$/);
   await widget.getByLabel('Reference', { exact: true }).selectOption('/mocap/pose');
   await expect(captionOf(widget)).toHaveText(/of run\.mcap, \/odom, \/mocap\/pose[.,]/);
-  await untilSettled(widget);
-  const { alphas } = await statsOf(widget);
+  await waitUntilSettled(widget);
+  const { alphas } = await readStats(widget);
   // The recording has quaternions, whose conversion rounds the headings.
   for (const [i, alpha] of cliResults.alphas.entries()) expect(Number(alphas[i]) / alpha).toBeCloseTo(1, 9);
 });
@@ -85,7 +85,7 @@ test('with the velocity model the commands of a file are used, with other models
   const selectModel = async (/** @type {string} */ name, /** @type {string} */ key) => {
     await widget.getByRole('radio', { name }).check();
     await expect.poll(readOdometryKeys).toContain(key);
-    await untilSettled(widget);
+    await waitUntilSettled(widget);
   };
   // The command of a row is driven until the next row.
   const odometryRows = exampleRowsOf('odometry');
@@ -95,8 +95,8 @@ test('with the velocity model the commands of a file are used, with other models
   });
   await chooseTables(widget, { 'odom.csv': ['t,x,y,yaw,v,omega', ...rowsWithCommands].join('\n'), 'truth.csv': readExampleTable('reference') });
   await expect.poll(readOdometryKeys).toContain('omega');
-  await untilSettled(widget);
-  expect((await statsOf(widget)).alphas).toHaveLength(6);
+  await waitUntilSettled(widget);
+  expect((await readStats(widget)).alphas).toHaveLength(6);
   await selectModel('Table 5.6', 'theta');
   await selectModel('velocity', 'omega');
 });
@@ -120,15 +120,15 @@ test('files of several drives are read together, and a user assigns roles that t
 test('names and units of columns that a table does not state are asked for, and the answer holds for that file', async ({ page }) => {
   const widget = await openCalibrator(page);
   const rowsInMillimetres = exampleRowsOf('odometry').map(([t, x, y, yaw]) => [t, 1000 * x, 1000 * y, yaw].join(','));
-  const alert = widget.getByRole('alert');
+  const errorAlert = widget.getByRole('alert');
   await chooseTables(widget, { 'notes.txt': 'hello', 'empty.csv': '' });
-  await expect(alert).toHaveText(/^notes\.txt: it does not look like a log,/);
+  await expect(errorAlert).toHaveText(/^notes\.txt: it does not look like a log,/);
   await expect(widget.locator('.choosers > p')).toHaveText([/^Not used: empty\.csv: there is nothing in it/]);
   await chooseTables(widget, { 'odom.csv': rowsInMillimetres.join('\n'), 'slam.csv': readExampleTable('reference') });
-  await expect(alert).toHaveText(/^odom\.csv, line 1: the table has no header, .* name its 4 columns\.$/);
+  await expect(errorAlert).toHaveText(/^odom\.csv, line 1: the table has no header, .* name its 4 columns\.$/);
   await expect(widget.getByRole('group', { name: 'Columns of odom.csv' }).getByLabel('time', { exact: true })).toBeFocused();
   await widget.getByRole('button', { name: 'Read', exact: true }).press('Enter');
-  await expect(alert).toHaveText(/in m, the robot would drive at .* state the unit of lengths: mm or cm or m\.$/);
+  await expect(errorAlert).toHaveText(/in m, the robot would drive at .* state the unit of lengths: mm or cm or m\.$/);
   await widget.getByRole('radiogroup', { name: 'Unit of lengths in odom.csv' }).getByRole('radio', { name: 'millimetres (mm)' }).check();
   await expect(captionOf(widget)).toHaveText(/of odom\.csv, slam\.csv[.,]/);
   await expect(widget.getByText('Warning: the reference is a localizer’s own estimate.').first()).toBeVisible();
@@ -140,9 +140,9 @@ test('the files of a dropped folder are one recording, and others are not used',
   const base64Recordings = [await exampleRecordingWith(['/mocap/pose']), cameraRecording].map((bytes) => bytes.toString('base64'));
   await widget.locator('section.simulation').evaluate(async (section, encodedRecordings) => {
     const [bytes, cameraBytes] = await Promise.all(encodedRecordings.map(async (base64) => (await fetch(`data:;base64,${base64}`)).arrayBuffer()));
-    const metadata = 'rosbag2_bagfile_information:\n  relative_file_paths: [run_0.mcap]\n';
+    const splitRecordingMetadata = 'rosbag2_bagfile_information:\n  relative_file_paths: [run_0.mcap]\n';
     const journalFile = new File([new Uint8Array([0x37, 0x7f, 0x06, 0x82])], 'run_0.db3-wal');
-    const fileEntries = [new File([bytes], 'run_0.mcap'), new File([metadata], 'metadata.yaml'), new File([cameraBytes], 'camera.mcap'), journalFile].map((file) =>
+    const fileEntries = [new File([bytes], 'run_0.mcap'), new File([splitRecordingMetadata], 'metadata.yaml'), new File([cameraBytes], 'camera.mcap'), journalFile].map((file) =>
       ({ name: file.name, isDirectory: false, fullPath: `/run/${file.name}`, file: (/** @type {(file: File) => void} */ take) => take(file) }));
     const entryBatches = [fileEntries, []];
     const folderEntry = { isDirectory: true, createReader: () => ({ readEntries: (/** @type {(some: unknown) => void} */ take) => take(entryBatches.shift()) }) };
@@ -157,17 +157,17 @@ test('a log without enough legs is refused, and the present log keeps its place 
   const widget = await openCalibrator(page);
   await chooseTables(widget, { 'odometry.csv': readExampleTable('odometry'), 'reference.csv': readExampleTable('reference') });
   await expect(captionOf(widget)).toHaveText(/of odometry\.csv, reference\.csv[.,]/);
-  await untilSettled(widget);
+  await waitUntilSettled(widget);
   const captionBefore = await captionOf(widget).innerText();
-  const { alphas } = await statsOf(widget);
+  const { alphas } = await readStats(widget);
   const standstillTable = Buffer.from('t,x,y,yaw\n0,0,0,0\n1,0,0,0\n2,0,0,0\n');
   await dropFiles(widget.locator('.stage').first(), ['odom.csv', 'truth.csv'].map((name) => ({ name, buffer: standstillTable })));
   // The message is shown in one place only: in the drop zone, which is visible.
   await expect(widget.locator('.drop-zone').getByRole('alert')).toBeInViewport();
   await expect(widget.getByRole('alert')).toHaveText('Log refused: Not enough data: fewer than 8 legs, or the logs do not overlap in time. Take both logs from one drive, choose shorter legs, or drive longer.');
-  await untilSettled(widget);
+  await waitUntilSettled(widget);
   expect(await captionOf(widget).innerText()).toBe(captionBefore);
-  expect((await statsOf(widget)).alphas).toEqual(alphas);
+  expect((await readStats(widget)).alphas).toEqual(alphas);
   await expect(widget.locator('.drop-zone .present')).toContainText('odometry.csv, reference.csv');
   // The results are marked as outdated, until the figure shows its opening log again.
   await expect(widget.locator('.views')).toHaveCSS('filter', 'grayscale(1)');
@@ -198,8 +198,8 @@ test('a log is read and fitted in a worker, and the page stays free', async ({ p
   const widget = await openCalibrator(page);
   await page.evaluate(() => {
     const performanceEntries = /** @type {PerformanceEntry[]} */ ([]);
-    const observer = new PerformanceObserver((list) => void performanceEntries.push(...list.getEntries()));
-    for (const entryType of ['longtask', 'layout-shift']) observer.observe({ type: entryType });
+    const longTaskObserver = new PerformanceObserver((list) => void performanceEntries.push(...list.getEntries()));
+    for (const entryType of ['longtask', 'layout-shift']) longTaskObserver.observe({ type: entryType });
     Object.assign(window, { entries: performanceEntries });
   });
   const startTime = await chooseLongTables(widget);
@@ -215,15 +215,15 @@ test('a log is read and fitted in a worker, and the page stays free', async ({ p
   // The Web Vitals call a layout unstable from 0.1 on.
   expect(layoutShifts.reduce((sum, shift) => sum + shift, 0)).toBeLessThan(0.1);
   // A changed setting starts another fit; the previous result is shown meanwhile.
-  const { alphas } = await statsOf(widget);
+  const { alphas } = await readStats(widget);
   const resultsWhileFitting = await widget.evaluate((element) => {
     const figure = /** @type {any} */ (element);
     figure.distance = 0.5;
     return { distance: figure.distance, alphas: figure.simulation.stats.alphas };
   });
   expect(resultsWhileFitting).toEqual({ distance: 0.5, alphas });
-  await untilSettled(widget);
-  expect((await statsOf(widget)).alphas).not.toEqual(alphas);
+  await waitUntilSettled(widget);
+  expect((await readStats(widget)).alphas).not.toEqual(alphas);
 });
 
 testWithWarnings('where the page’s policy forbids workers, a log is read all the same @nightly', async ({ page }) => {
@@ -242,20 +242,20 @@ testWithWarnings('where the page’s policy forbids workers, a log is read all t
 
 test('reading a log can be stopped, and everything is as it was', async ({ page }) => {
   const widget = await openCalibrator(page);
-  const stateBefore = await stateOf(widget);
+  const stateBefore = await readState(widget);
   await chooseLongTables(widget);
   await expect(widget.locator('.verdict')).toHaveCSS('opacity', '0.4');
   await widget.locator('.drop-zone').getByRole('button', { name: 'Stop' }).click();
   await expect(widget.getByRole('alert')).toHaveText('Stopped: everything is as it was.');
   await expect(widget.locator('.drop-zone progress')).toHaveCount(0);
-  expect(await stateOf(widget)).toEqual(stateBefore);
+  expect(await readState(widget)).toEqual(stateBefore);
   await expect(captionOf(widget)).toHaveText(/of the simulated log/);
   await expect.poll(() => page.workers().length).toBe(0);
 });
 
 test('a log that a page gives is fitted, and is in no state; one that is refused leaves the present one', async ({ page }) => {
   const widget = await openCalibrator(page);
-  const stateBefore = await stateOf(widget);
+  const stateBefore = await readState(widget);
   const captionBefore = await captionOf(widget).innerText();
   const readLeftEdge = () => widget.evaluate((element) => /** @type {any} */ (element).pictures[0].view.extent.xMin);
   const leftEdgeBefore = await readLeftEdge();
@@ -263,8 +263,8 @@ test('a log that a page gives is fitted, and is in no state; one that is refused
     const figure = /** @type {AlphaCalibratorElement} */ (element);
     const { legs } = figure.simulation;
     const t = Array.from({ length: legs.count }, (_, leg) => leg);
-    const componentOf = (/** @type {Float64Array} */ poses, /** @type {number} */ component) => t.map((leg) => poses[6 * leg + component]);
-    const poseColumnsOf = (/** @type {Float64Array} */ legPoses) => ({ t, x: componentOf(legPoses, 0).map((x) => x + 0.01), y: componentOf(legPoses, 1), theta: componentOf(legPoses, 2) });
+    const poseComponentOf = (/** @type {Float64Array} */ poses, /** @type {number} */ component) => t.map((leg) => poses[6 * leg + component]);
+    const poseColumnsOf = (/** @type {Float64Array} */ legPoses) => ({ t, x: poseComponentOf(legPoses, 0).map((x) => x + 0.01), y: poseComponentOf(legPoses, 1), theta: poseComponentOf(legPoses, 2) });
     const pageLog = { name: 'of the page', odometry: poseColumnsOf(legs.odometry), reference: poseColumnsOf(legs.reference) };
     const waitForErrorMessage = () => new Promise((resolve) => {
       figure.addEventListener('error', (event) => {
@@ -287,7 +287,7 @@ test('a log that a page gives is fitted, and is in no state; one that is refused
     const { log, simulation: { count } } = /** @type {AlphaCalibratorElement} */ (element);
     return [log?.name, count > 100];
   })).toEqual(['of the page', true]);
-  expect(await stateOf(widget)).toEqual(stateBefore);
+  expect(await readState(widget)).toEqual(stateBefore);
   // The picture is fitted to the new path, although the previous extent had room for it.
   await expect.poll(readLeftEdge).not.toBe(leftEdgeBefore);
   await chooseTables(widget, { 'odometry.csv': readExampleTable('odometry'), 'reference.csv': readExampleTable('reference') });
@@ -305,7 +305,7 @@ test('a log without legs says so @nightly', async ({ page }) => {
     /** @type {AlphaCalibratorElement} */ (element).log = { odometry: standstillPoses, reference: standstillPoses };
   });
   await expect.poll(() => widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).simulation.count)).toBe(0);
-  await untilSettled(widget);
+  await waitUntilSettled(widget);
   await openDisclosures(widget);
   await expect(captionOf(widget)).toHaveText(/^✕ Do not use\s+Not enough data: fewer than 8 legs, or the logs do not overlap in time\. .* drive longer\.\s*$/);
   await expect(alphaRowsOf(widget).first()).toHaveText(/—/);

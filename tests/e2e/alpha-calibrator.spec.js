@@ -1,7 +1,7 @@
 import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
-import { captionOf, openCalibrator, alphaRowsOf, findFoldedGroup, statsOf } from './calibrator-support.js';
-import { REDUCED_MOTION, boxOf, waitForFrames, pixelCountOf, stateOf, test, openDisclosures, untilSettled } from './support.js';
+import { captionOf, openCalibrator, alphaRowsOf, findFoldedGroup, readStats } from './calibrator-support.js';
+import { REDUCED_MOTION, readBox, waitForFrames, countPixelsOfRole, readState, test, openDisclosures, waitUntilSettled } from './support.js';
 
 test.use(REDUCED_MOTION);
 
@@ -12,9 +12,9 @@ test('opens with the simulated log, labelled as simulated, with its true α’s'
   await expect(alphaRowsOf(widget)).toHaveCount(4);
   await expect(widget.locator('table.alphas [stroke="var(--truth)"]')).toHaveCount(4);
   for (const colorRole of /** @type {const} */ (['truth', 'prediction', 'accent'])) {
-    expect(await pixelCountOf(widget.locator('canvas.plane'), colorRole), colorRole).toBeGreaterThan(20);
+    expect(await countPixelsOfRole(widget.locator('canvas.plane'), colorRole), colorRole).toBeGreaterThan(20);
   }
-  expect(await pixelCountOf(widget.locator('canvas.leg'), 'prediction')).toBeGreaterThan(20);
+  expect(await countPixelsOfRole(widget.locator('canvas.leg'), 'prediction')).toBeGreaterThan(20);
   expect(await widget.evaluate((element) => /** @type {any} */ (element).toCSV())).toMatch(/^# \{"element":"alpha-calibrator","model":/);
 });
 
@@ -22,16 +22,16 @@ test('the true α’s are shown where the fit is of their rule and legs, and now
   const widget = await openCalibrator(page);
   await openDisclosures(widget);
   await widget.getByRole('radio', { name: 'AMCL of Nav2' }).check();
-  await untilSettled(widget);
+  await waitUntilSettled(widget);
   await expect(widget.locator('table.alphas [stroke="var(--truth)"]')).toHaveCount(0);
   await widget.getByRole('radio', { name: 'velocity' }).check();
-  await untilSettled(widget);
+  await waitUntilSettled(widget);
   await expect(alphaRowsOf(widget)).toHaveCount(6);
-  expect(await stateOf(widget)).toMatchObject({ model: 'velocity', rule: 'thrun' });
+  expect(await readState(widget)).toMatchObject({ model: 'velocity', rule: 'thrun' });
   await widget.getByRole('radio', { name: 'omnidirectional' }).check();
-  await untilSettled(widget);
+  await waitUntilSettled(widget);
   await expect(alphaRowsOf(widget)).toHaveCount(5);
-  expect(await stateOf(widget)).toMatchObject({ model: 'omnidirectional', rule: 'omni' });
+  expect(await readState(widget)).toMatchObject({ model: 'omnidirectional', rule: 'omni' });
 });
 
 test('the meaning of each α stands beside it, apart from the numbers, also on a phone, in German and in a wide font', async ({ page }) => {
@@ -52,13 +52,13 @@ test('the meaning of each α stands beside it, apart from the numbers, also on a
     }));
     expect(areBoxesApart, `${width} px, ${letterSpacing} em`).toEqual([true, true, true, true]);
     // Rows of 32 px have the name in one line.
-    if (letterSpacing === 0 && width !== 920) for (const row of await alphaRowsOf(widget).all()) expect((await boxOf(row)).height, `${width} px`).toBeLessThan(34);
+    if (letterSpacing === 0 && width !== 920) for (const row of await alphaRowsOf(widget).all()) expect((await readBox(row)).height, `${width} px`).toBeLessThan(34);
     expect(await page.evaluate(() => document.documentElement.scrollWidth), `${width} px, ${letterSpacing} em`).toBeLessThanOrEqual(width);
   }
   // Labels of the axis do not overlap where the axis is narrowest.
   await page.setViewportSize({ width: 640, height: 900 });
   await page.evaluate(() => void (document.body.style.letterSpacing = '0.1em'));
-  const axisLabelBoxes = await Promise.all((await widget.locator('.scale > span').filter({ visible: true }).all()).map(boxOf));
+  const axisLabelBoxes = await Promise.all((await widget.locator('.scale > span').filter({ visible: true }).all()).map(readBox));
   expect(axisLabelBoxes.length).toBeGreaterThan(1);
   for (const [i, { x, width }] of axisLabelBoxes.slice(0, -1).entries()) expect(x + width).toBeLessThan(axisLabelBoxes[i + 1].x);
 });
@@ -66,13 +66,13 @@ test('the meaning of each α stands beside it, apart from the numbers, also on a
 test('outliers are ringed, and decide the fit where they are not set aside', async ({ page }) => {
   const widget = await openCalibrator(page);
   await openDisclosures(widget);
-  const statsBefore = await statsOf(widget);
-  const inkPixelCount = await pixelCountOf(widget.locator('canvas.plane'), 'ink');
+  const statsBefore = await readStats(widget);
+  const inkPixelCount = await countPixelsOfRole(widget.locator('canvas.plane'), 'ink');
   await widget.getByRole('checkbox', { name: 'outlier', exact: true }).uncheck();
-  expect(await pixelCountOf(widget.locator('canvas.plane'), 'ink')).toBeLessThan(inkPixelCount - 40);
+  expect(await countPixelsOfRole(widget.locator('canvas.plane'), 'ink')).toBeLessThan(inkPixelCount - 40);
   await widget.getByRole('radio', { name: 'fit as noise' }).check();
-  await untilSettled(widget);
-  const statsAfter = await statsOf(widget);
+  await waitUntilSettled(widget);
+  const statsAfter = await readStats(widget);
   // The text of www/index.html contains these numbers.
   const alphaRatios = [1, 2].map((alpha) => Math.round(Number(statsAfter.alphas[alpha]) / Number(statsBefore.alphas[alpha])));
   const outlierCheck = statsBefore.diagnostics.checks.find(({ name }) => name === 'outliers-few');
@@ -85,10 +85,10 @@ test('outliers are ringed, and decide the fit where they are not set aside', asy
 test('a systematic error that is not corrected is named in the advice', async ({ page }) => {
   const widget = await openCalibrator(page);
   await openDisclosures(widget);
-  const statsBefore = await statsOf(widget);
+  const statsBefore = await readStats(widget);
   await widget.getByRole('checkbox', { name: /^mount yaw/ }).uncheck();
-  await untilSettled(widget);
-  const statsAfter = await statsOf(widget);
+  await waitUntilSettled(widget);
+  const statsAfter = await readStats(widget);
   expect(statsAfter.systematicErrors.mountYaw.corrected).toBe(false);
   expect(statsAfter.systematicErrors.mountYaw.value).toBeCloseTo(0.07, 2);
   // The text of www/index.html contains these numbers.
@@ -102,7 +102,7 @@ test('a systematic error that is not corrected is named in the advice', async ({
 test('every check has its value, the values that pass, and what to do where it failed', async ({ page }) => {
   const widget = await openCalibrator(page, 'outliers="keep" lang="de"');
   await openDisclosures(widget);
-  const { diagnostics: { checks } } = await statsOf(widget);
+  const { diagnostics: { checks } } = await readStats(widget);
   const checkRows = findFoldedGroup(widget, 'Prüfungen').locator('tbody tr');
   await expect(checkRows).toHaveCount(checks.length);
   expect(checks.filter(({ passed }) => !passed).length).toBeGreaterThan(1);
@@ -116,13 +116,13 @@ test('a leg is chosen in the picture, by its slider, and from one large residual
   const { worst } = await widget.evaluate((element) => /** @type {any} */ (element).viewModel);
   const nextResidualButton = widget.getByRole('button', { name: 'Next largest residual' });
   await nextResidualButton.click();
-  expect(await stateOf(widget)).toMatchObject({ leg: worst[0] });
+  expect(await readState(widget)).toMatchObject({ leg: worst[0] });
   await nextResidualButton.click();
-  expect(await stateOf(widget)).toMatchObject({ leg: worst[1] });
+  expect(await readState(widget)).toMatchObject({ leg: worst[1] });
   // The thumb moves with the next picture.
   await waitForFrames(page);
   await widget.locator('#leg').press('ArrowRight');
-  expect(await stateOf(widget)).toMatchObject({ leg: worst[1] + 1 });
+  expect(await readState(widget)).toMatchObject({ leg: worst[1] + 1 });
   const canvas = widget.locator('canvas.plane');
   const clickTarget = await widget.evaluate((element) => {
     const { pictures: [{ view }], simulation } = /** @type {any} */ (element);
@@ -131,7 +131,7 @@ test('a leg is chosen in the picture, by its slider, and from one large residual
     return { x: view.toPixelX(legMidpoint[0]), y: view.toPixelY(legMidpoint[1]), leg: simulation.nearest(legMidpoint[0], legMidpoint[1], 1) };
   });
   await canvas.click({ position: { x: clickTarget.x, y: clickTarget.y } });
-  expect(await stateOf(widget)).toMatchObject({ leg: clickTarget.leg });
+  expect(await readState(widget)).toMatchObject({ leg: clickTarget.leg });
   await expect(widget.locator('canvas.leg')).toHaveAttribute('aria-label', new RegExp(`^Leg ${clickTarget.leg + 1} `));
 });
 
@@ -139,7 +139,7 @@ test('an export as a picture has the key, the α’s with their intervals, and t
   const widget = await openCalibrator(page);
   await openDisclosures(widget);
   await widget.getByRole('checkbox', { name: 'mount yaw (rad)' }).uncheck();
-  await untilSettled(widget);
+  await waitUntilSettled(widget);
   const alphaTexts = await alphaRowsOf(widget).evaluateAll((rowElements) => rowElements.map((row) => {
     const [alphaName, value, between, recommended] = ['.of', '.fitted-value', '.between', '.recommended'].map((part) => row.querySelector(part)?.textContent?.trim());
     return `${alphaName}: ${value}, ${between}, recommended ${recommended}`;
@@ -173,46 +173,46 @@ test('the lines for Nav2 have the numbers of the table, and are copied by the bu
   await context.grantPermissions(['clipboard-read', 'clipboard-write']);
   const widget = await openCalibrator(page, 'rule="nav2" distance="0.3"');
   await openDisclosures(widget);
-  const yaml = await widget.locator('textarea.yaml').inputValue();
+  const nav2Yaml = await widget.locator('textarea.yaml').inputValue();
   const alphaTexts = await alphaRowsOf(widget).evaluateAll((rowElements) => rowElements.map((row) => ['.fitted-value', '.between', '.recommended'].map((part) => row.querySelector(part)?.textContent?.trim() ?? '')));
   expect(alphaTexts).toHaveLength(4);
-  alphaTexts.forEach(([fitted, between, recommended], i) => expect(yaml).toContain(`    alpha${i + 1}: ${recommended}  # fitted ${fitted}, 95 % ${between.replace(' – ', ' to ')}\n`));
+  alphaTexts.forEach(([fitted, between, recommended], i) => expect(nav2Yaml).toContain(`    alpha${i + 1}: ${recommended}  # fitted ${fitted}, 95 % ${between.replace(' – ', ' to ')}\n`));
   await page.setViewportSize({ width: 360, height: 400 });
   await widget.getByRole('button', { name: 'Copy for Nav2' }).click();
   await expect(widget.locator('.fitted output')).toHaveText('Copied.');
   await expect(widget.locator('.fitted output')).toBeInViewport({ ratio: 1 });
-  expect(await page.evaluate(() => navigator.clipboard.readText())).toBe(yaml);
+  expect(await page.evaluate(() => navigator.clipboard.readText())).toBe(nav2Yaml);
   await widget.getByRole('radio', { name: 'velocity' }).check();
-  await untilSettled(widget);
+  await waitUntilSettled(widget);
   await expect(widget.locator('textarea.yaml')).toHaveCount(0);
   await widget.getByRole('button', { name: 'Fit for Nav2' }).click();
-  await untilSettled(widget);
-  await expect(widget.locator('textarea.yaml')).toHaveValue(yaml);
+  await waitUntilSettled(widget);
+  await expect(widget.locator('textarea.yaml')).toHaveValue(nav2Yaml);
 });
 
 test('legs of a time, and how well the reference is known, are set by their sliders', async ({ page }) => {
   const widget = await openCalibrator(page, 'rule="nav2"');
   await openDisclosures(widget);
-  const statsBefore = await statsOf(widget);
+  const statsBefore = await readStats(widget);
   const durationSlider = widget.locator('.slider:has(#duration)');
   await expect(durationSlider.locator('.typed')).toHaveValue('—');
   await durationSlider.locator('.typed').fill('0.8');
   await durationSlider.locator('.typed').press('Enter');
-  await untilSettled(widget);
-  expect(await stateOf(widget)).toMatchObject({ duration: 0.8, distance: 0.25, angle: 0.2 });
+  await waitUntilSettled(widget);
+  expect(await readState(widget)).toMatchObject({ duration: 0.8, distance: 0.25, angle: 0.2 });
   await expect(widget.locator('.slider.off:is(:has(#distance), :has(#angle))')).toHaveCount(2);
   await expect(widget.locator('textarea.yaml')).toHaveValue(/# \d+ legs of 0\.8 s of the simulated log/);
   await expect(widget.locator('textarea.yaml')).not.toHaveValue(/update_min/);
   await durationSlider.locator('#duration').fill('0');
-  await untilSettled(widget);
-  expect((await statsOf(widget)).alphas).toEqual(statsBefore.alphas);
+  await waitUntilSettled(widget);
+  expect((await readStats(widget)).alphas).toEqual(statsBefore.alphas);
   // Stated noise of the reference lowers the estimated noise of the wheels.
   await expect(widget.locator('.slider:has(#positionStd) .typed')).toHaveValue('estimated');
   await widget.getByRole('slider', { name: /reference position σ/ }).fill('0.004');
   await widget.getByRole('slider', { name: /reference yaw σ/ }).fill('0.003');
-  await untilSettled(widget);
-  expect(await stateOf(widget)).toMatchObject({ positionStd: 0.004, yawStd: 0.003, duration: 0 });
-  expect(Number((await statsOf(widget)).alphas[3])).toBeLessThan(0.9 * Number(statsBefore.alphas[3]));
+  await waitUntilSettled(widget);
+  expect(await readState(widget)).toMatchObject({ positionStd: 0.004, yawStd: 0.003, duration: 0 });
+  expect(Number((await readStats(widget)).alphas[3])).toBeLessThan(0.9 * Number(statsBefore.alphas[3]));
 });
 
 test('for an α that a log does not determine, the table says why, and what to add', async ({ page }) => {
@@ -220,11 +220,11 @@ test('for an α that a log does not determine, the table says why, and what to a
   await widget.evaluate((element) => {
     const sampleCount = 2000;
     const t = Float64Array.from({ length: sampleCount }, (_, i) => i / 20);
-    const zeros = new Float64Array(sampleCount);
-    const noisyXsOf = (/** @type {number} */ error) => t.map((time, i) => 0.5 * time + error * Math.sin(i * i));
-    Object.assign(element, { log: { odometry: { t, x: noisyXsOf(0), y: zeros, theta: zeros }, reference: { t, x: noisyXsOf(0.002), y: zeros, theta: zeros } } });
+    const zeroColumn = new Float64Array(sampleCount);
+    const noisyXColumn = (/** @type {number} */ error) => t.map((time, i) => 0.5 * time + error * Math.sin(i * i));
+    Object.assign(element, { log: { odometry: { t, x: noisyXColumn(0), y: zeroColumn, theta: zeroColumn }, reference: { t, x: noisyXColumn(0.002), y: zeroColumn, theta: zeroColumn } } });
   });
-  await untilSettled(widget);
+  await waitUntilSettled(widget);
   await expect(alphaRowsOf(widget).nth(0)).toHaveText(/not determined: too little rotation in this log; add ~50 in-place rotations/);
   await expect(alphaRowsOf(widget).nth(2)).not.toHaveText(/not determined/);
 });

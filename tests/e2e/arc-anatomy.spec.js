@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { REDUCED_MOTION, centreOf, waitForFrames, mount, numberIn, pictureOf, pixelCountOf, playSlider, readoutValue, test, openDisclosures } from './support.js';
+import { REDUCED_MOTION, readCentre, waitForFrames, mountFigure, parseNumberIn, readPicture, countPixelsOfRole, playSlider, readoutValue, test, openDisclosures } from './support.js';
 
 /**
  * @import { Locator, Page } from '@playwright/test'
@@ -10,10 +10,10 @@ import { REDUCED_MOTION, centreOf, waitForFrames, mount, numberIn, pictureOf, pi
 test.use(REDUCED_MOTION);
 
 /** Opens a page with the figure. @param {Page} page @param {string} [attributes] */
-const openArcAnatomy = (page, attributes) => mount(page, 'arc-anatomy', { attributes });
+const openArcAnatomy = (page, attributes) => mountFigure(page, 'arc-anatomy', { attributes });
 
 /** Returns the results of the simulation after the next frames. @param {Locator} widget */
-async function resultsOf(widget) {
+async function readResults(widget) {
   await waitForFrames(widget.page());
   return widget.evaluate((element) => {
     const { config, stats, table } = /** @type {ArcAnatomyElement} */ (element).simulation;
@@ -28,7 +28,7 @@ const verdictOf = (/** @type {Locator} */ widget) => widget.locator('.verdict');
 
 test('opens off the arc, and says which factor is the worst', async ({ page }) => {
   const widget = await openArcAnatomy(page);
-  const { config, stats } = await resultsOf(widget);
+  const { config, stats } = await readResults(widget);
   expect(config).toMatchObject({ start: { x: 0, y: 0, theta: 0 }, next: { x: 1.1, y: 0.5, theta: 1.1 }, command: { v: 1, omega: 0.5, dt: 1 } });
   await expect(widget.getByRole('button', { name: 'Left turn' })).toHaveAttribute('aria-pressed', 'true');
   await expect(verdictOf(widget)).toContainText('The last turn γ̂ fits worst: 2.2 standard deviations off');
@@ -37,41 +37,41 @@ test('opens off the arc, and says which factor is the worst', async ({ page }) =
   await expect(factorRows).toHaveCount(3);
   await expect(factorRows.nth(2)).toHaveClass(/weakest/);
   for (const [i, { estimate, deviations, share }] of stats.factors.entries()) {
-    expect(numberIn(((await factorRows.nth(i).locator('.estimate').textContent()) ?? '').split('=')[1].split(' ')[1])).toBeCloseTo(estimate, 2);
-    expect(numberIn(((await factorRows.nth(i).locator('.off').textContent()) ?? '').split('= ')[1])).toBeCloseTo([-1, -1, 1][i] * deviations, 1);
+    expect(parseNumberIn(((await factorRows.nth(i).locator('.estimate').textContent()) ?? '').split('=')[1].split(' ')[1])).toBeCloseTo(estimate, 2);
+    expect(parseNumberIn(((await factorRows.nth(i).locator('.off').textContent()) ?? '').split('= ')[1])).toBeCloseTo([-1, -1, 1][i] * deviations, 1);
     await expect(factorRows.nth(i).locator('.keeps')).toHaveText(`factor: ${(100 * share).toFixed(1)}\u202f% of its peak`);
   }
   await openDisclosures(widget);
-  expect(numberIn(await readoutValue(widget, 'p of the tables').textContent())).toBeCloseTo(stats.prob, 3);
-  expect(numberIn(await readoutValue(widget, 'density').textContent())).toBeCloseTo(stats.density ?? NaN, 3);
+  expect(parseNumberIn(await readoutValue(widget, 'p of the tables').textContent())).toBeCloseTo(stats.prob, 3);
+  expect(parseNumberIn(await readoutValue(widget, 'density').textContent())).toBeCloseTo(stats.density ?? NaN, 3);
   // The pointer must not be on an entry of the legend, which would highlight its line.
   await page.mouse.move(0, 0);
-  for (const colorRole of ['prior', 'prediction', 'accent', 'truth']) expect(await pixelCountOf(canvasOf(widget), colorRole), colorRole).toBeGreaterThan(colorRole === 'accent' ? 10 : 20);
+  for (const colorRole of ['prior', 'prediction', 'accent', 'truth']) expect(await countPixelsOfRole(canvasOf(widget), colorRole), colorRole).toBeGreaterThan(colorRole === 'accent' ? 10 : 20);
 });
 
 test('the robot is dragged and turned by its handles, under the pointer', async ({ page }) => {
   const widget = await openArcAnatomy(page);
-  const centreBefore = await centreOf(bodyHandleOf(widget));
+  const centreBefore = await readCentre(bodyHandleOf(widget));
   await page.mouse.move(centreBefore.x + 4, centreBefore.y + 3);
   await page.mouse.down();
   await page.mouse.move(centreBefore.x - 56, centreBefore.y + 33, { steps: 5 });
   await waitForFrames(page);
-  const centreAfter = await centreOf(bodyHandleOf(widget));
+  const centreAfter = await readCentre(bodyHandleOf(widget));
   expect(Math.abs(centreAfter.x - centreBefore.x + 60)).toBeLessThan(1);
   expect(Math.abs(centreAfter.y - centreBefore.y - 30)).toBeLessThan(1);
   await page.mouse.up();
-  const resultsAfterMove = await resultsOf(widget);
+  const resultsAfterMove = await readResults(widget);
   expect(resultsAfterMove.config.next.x).toBeLessThan(1.1);
   expect(resultsAfterMove.config.next.y).toBeLessThan(0.5);
   expect(resultsAfterMove.config.next.theta).toBe(1.1);
   await expect(widget.getByRole('button', { name: 'Left turn' })).toHaveAttribute('aria-pressed', 'false');
 
-  const [bodyCentre, headingCentre] = [await centreOf(bodyHandleOf(widget)), await centreOf(headingHandleOf(widget))];
+  const [bodyCentre, headingCentre] = [await readCentre(bodyHandleOf(widget)), await readCentre(headingHandleOf(widget))];
   await page.mouse.move(headingCentre.x, headingCentre.y);
   await page.mouse.down();
   await page.mouse.move(bodyCentre.x + 80, bodyCentre.y, { steps: 5 });
   await page.mouse.up();
-  const resultsAfterTurn = await resultsOf(widget);
+  const resultsAfterTurn = await readResults(widget);
   expect(Math.abs(resultsAfterTurn.config.next.theta)).toBeLessThan(1 / 80);
   expect(resultsAfterTurn.stats.driven).toEqual(resultsAfterMove.stats.driven);
   expect(resultsAfterTurn.stats.lastTurn).not.toBe(resultsAfterMove.stats.lastTurn);
@@ -82,26 +82,26 @@ test('the robot moves and turns by keyboard, and stops where the floor ends', as
   const widget = await openArcAnatomy(page, 'nextx="3.98"');
   await bodyHandleOf(widget).press('ArrowUp');
   await bodyHandleOf(widget).press('[');
-  expect((await resultsOf(widget)).config.next).toEqual({ x: 3.98, y: 0.55, theta: 1.1 + Math.PI / 36 });
+  expect((await readResults(widget)).config.next).toEqual({ x: 3.98, y: 0.55, theta: 1.1 + Math.PI / 36 });
   await bodyHandleOf(widget).press('ArrowRight');
-  expect((await resultsOf(widget)).config.next.x).toBe(4);
+  expect((await readResults(widget)).config.next.x).toBe(4);
   await expect(bodyHandleOf(widget)).toHaveAttribute('aria-valuetext', /The floor ends here$/);
 });
 
 test('the start moves and turns, the commanded arc with it, and the robot stays where it is found', async ({ page }) => {
   const widget = await openArcAnatomy(page);
   const [startHandle, startHeadingHandle] = ['Start', 'Heading at the start'].map((name) => widget.getByRole('slider', { name, exact: true }));
-  const resultsBefore = await resultsOf(widget);
+  const resultsBefore = await readResults(widget);
   await startHandle.press('ArrowRight');
   await startHandle.press('ArrowDown');
-  const resultsAfterMove = await resultsOf(widget);
+  const resultsAfterMove = await readResults(widget);
   expect(resultsAfterMove.config.start).toEqual({ x: 0.05, y: -0.05, theta: 0 });
   expect(resultsAfterMove.config.next).toEqual(resultsBefore.config.next);
   const [endX, endY, endTheta] = resultsBefore.stats.commanded.end;
   for (const [i, coordinate] of [endX + 0.05, endY - 0.05, endTheta].entries()) expect(resultsAfterMove.stats.commanded.end[i]).toBeCloseTo(coordinate, 12);
   await expect(widget).toHaveAttribute('startx', '0.05');
   await startHeadingHandle.press('ArrowLeft');
-  expect((await resultsOf(widget)).config.start.theta).toBe(Math.PI / 36);
+  expect((await readResults(widget)).config.start.theta).toBe(Math.PI / 36);
 });
 
 test('the angle at a centre out of sight stands in the picture @nightly', async ({ page }) => {
@@ -131,10 +131,10 @@ test('as printed, a right turn loses p and the verdict says why, and a left turn
   await openDisclosures(widget);
   const printedCheckbox = widget.getByRole('checkbox', { name: 'radius without sign, as printed' });
   await widget.getByRole('button', { name: 'Right turn' }).click();
-  const pictureBefore = await pictureOf(canvasOf(widget));
+  const pictureBefore = await readPicture(canvasOf(widget));
   await printedCheckbox.check();
   await expect(verdictOf(widget)).toContainText('the radius has no sign');
-  expect(await pictureOf(canvasOf(widget))).not.toBe(pictureBefore);
+  expect(await readPicture(canvasOf(widget))).not.toBe(pictureBefore);
   await widget.getByRole('button', { name: 'Left turn' }).click();
   await printedCheckbox.check();
   await expect(verdictOf(widget)).toContainText('fits worst');
@@ -146,40 +146,40 @@ test('each line of the table highlights its construction, and tells its value', 
   const [previousButton, nextButton] = ['Previous line', 'Next line'].map((name) => widget.getByTitle(name));
   const lineText = widget.locator('.stepper p');
   await expect(previousButton).toBeDisabled();
-  const { lines } = (await resultsOf(widget)).table;
-  const pictures = [await pictureOf(canvasOf(widget))];
+  const { lines } = (await readResults(widget)).table;
+  const planePictures = [await readPicture(canvasOf(widget))];
   for (const [i, lineValue] of lines.entries()) {
     await nextButton.click();
     await expect(lineText).toHaveText(new RegExp(`^${i + 1}\\. `));
     const lineContent = (await lineText.textContent()) ?? '';
-    expect(numberIn(/= ([−\d.]+)(?: \S+)?$/.exec(lineContent)?.[1] ?? '')).toBeCloseTo(lineValue, 2);
-    pictures.push(await pictureOf(canvasOf(widget)));
+    expect(parseNumberIn(/= ([−\d.]+)(?: \S+)?$/.exec(lineContent)?.[1] ?? '')).toBeCloseTo(lineValue, 2);
+    planePictures.push(await readPicture(canvasOf(widget)));
   }
   await expect(nextButton).toBeDisabled();
   // The last row is the product that the bars are factors of.
   await expect(widget.locator('.factors')).toHaveClass(/lit/);
   // The lines of x* and y* highlight the same construction: the centre.
-  expect(new Set(pictures.slice(0, 9)).size).toBe(8);
-  expect(pictures[2]).toBe(pictures[3]);
-  expect(pictures[9]).toBe(pictures[0]);
+  expect(new Set(planePictures.slice(0, 9)).size).toBe(8);
+  expect(planePictures[2]).toBe(planePictures[3]);
+  expect(planePictures[9]).toBe(planePictures[0]);
 });
 
 test('heat maps of p and of the density are drawn below the arcs, with the contours of both', async ({ page }) => {
   const widget = await openArcAnatomy(page);
   await openDisclosures(widget);
-  const pictures = [await pictureOf(canvasOf(widget))];
+  const planePictures = [await readPicture(canvasOf(widget))];
   for (const name of ['p', 'density']) {
     await widget.getByRole('radio', { name, exact: true }).check();
-    pictures.push(await pictureOf(canvasOf(widget)));
+    planePictures.push(await readPicture(canvasOf(widget)));
   }
-  expect(new Set(pictures).size).toBe(3);
+  expect(new Set(planePictures).size).toBe(3);
   await expect(widget).toHaveAttribute('map', 'density');
   expect(await widget.evaluate((element) => /** @type {ArcAnatomyElement} */ (element).toSVG())).toContain('<image');
 });
 
 test('entries of the legend are the toggles of the lines', async ({ page }) => {
   const widget = await openArcAnatomy(page);
-  expect(await pixelCountOf(canvasOf(widget), 'posterior')).toBe(0);
+  expect(await countPixelsOfRole(canvasOf(widget), 'posterior')).toBe(0);
   // A toggle with the pointer or the focus on it highlights its line.
   const clickToggle = async (/** @type {string} */ name) => {
     await widget.getByRole('checkbox', { name }).click();
@@ -188,30 +188,30 @@ test('entries of the legend are the toggles of the lines', async ({ page }) => {
     await waitForFrames(page);
   };
   await clickToggle('constant twist');
-  expect(await pixelCountOf(canvasOf(widget), 'posterior')).toBeGreaterThan(20);
+  expect(await countPixelsOfRole(canvasOf(widget), 'posterior')).toBeGreaterThan(20);
   for (const [name, colorRole] of /** @type {const} */ ([['commanded arc', 'prior'], ['the one arc to the robot', 'prediction'], ['last turn', 'accent'], ['constant twist', 'posterior']])) {
-    const pixelCountBefore = await pixelCountOf(canvasOf(widget), colorRole);
+    const pixelCountBefore = await countPixelsOfRole(canvasOf(widget), colorRole);
     await clickToggle(name);
-    expect(await pixelCountOf(canvasOf(widget), colorRole), name).toBeLessThan(pixelCountBefore);
+    expect(await countPixelsOfRole(canvasOf(widget), colorRole), name).toBeLessThan(pixelCountBefore);
   }
   await expect(widget).toHaveAttribute('overlays', 'chord');
 });
 
 test('a robot is drawn on each arc at the time that is chosen @nightly', async ({ page }) => {
   const widget = await openArcAnatomy(page);
-  const pictureAtEnd = await pictureOf(canvasOf(widget));
+  const pictureAtEnd = await readPicture(canvasOf(widget));
   const slider = widget.getByRole('slider', { name: 'time along the arc' });
   await expect(widget.getByRole('button', { name: 'Play' })).toHaveCount(0);
   await slider.fill('40');
   await expect(slider).toHaveAttribute('aria-valuetext', '0.40 of 1.00 s');
-  expect(await pictureOf(canvasOf(widget))).not.toBe(pictureAtEnd);
+  expect(await readPicture(canvasOf(widget))).not.toBe(pictureAtEnd);
   await slider.fill('100');
-  expect(await pictureOf(canvasOf(widget))).toBe(pictureAtEnd);
+  expect(await readPicture(canvasOf(widget))).toBe(pictureAtEnd);
 });
 
 test('the factors are exported as CSV', async ({ page }) => {
   const widget = await openArcAnatomy(page);
-  const { stats } = await resultsOf(widget);
+  const { stats } = await readResults(widget);
   const [settingsLine, headerLine, ...dataLines] = (await widget.evaluate((element) => /** @type {ArcAnatomyElement} */ (element).toCSV())).trim().split('\n');
   expect(JSON.parse(settingsLine.slice(2))).toMatchObject({ element: 'arc-anatomy', next: { x: 1.1, y: 0.5, theta: 1.1 } });
   expect(headerLine).toBe('estimate,residual,standard_deviation,residual_over_deviation,prob,share_of_peak');
@@ -223,9 +223,9 @@ test('the factors are exported as CSV', async ({ page }) => {
 test('exercise 1 is plotted: three forms, the crossover and the chapter’s threshold', async ({ page }) => {
   const widget = await openArcAnatomy(page);
   await openDisclosures(widget);
-  const plot = widget.locator('.plot');
-  await expect(plot.locator('path.curve')).toHaveCount(3);
-  await expect(plot.locator('.marked')).toHaveText(['2·10⁻⁸/Δt', '10⁻⁶']);
+  const errorPlot = widget.locator('.plot');
+  await expect(errorPlot.locator('path.curve')).toHaveCount(3);
+  await expect(errorPlot.locator('.marked')).toHaveText(['2·10⁻⁸/Δt', '10⁻⁶']);
 });
 
 test('without noise it says so, and draws no map @nightly', async ({ page }) => {

@@ -11,11 +11,11 @@ import axe from 'axe-core';
 export async function expectAccessible(page, when, where = ':root') {
   // The Playwright wrapper of axe also checks frames, which takes twice as long. These pages have no frames.
   if (!(await page.evaluate(() => 'axe' in globalThis))) await page.evaluate(axe.source);
-  const violations = await page.evaluate(async (selector) => {
+  const accessibilityViolations = await page.evaluate(async (selector) => {
     const ruleTags = ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice'];
     const { run } = /** @type {typeof axe} */ (Reflect.get(globalThis, 'axe'));
     const axeResults = await run(selector, { runOnly: { type: 'tag', values: ruleTags }, resultTypes: ['violations'] });
     return axeResults.violations.map(({ id, nodes }) => [id, nodes.map(({ html }) => html)]);
   }, where);
-  expect(violations, when).toEqual([]);
+  expect(accessibilityViolations, when).toEqual([]);
 }

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { REDUCED_MOTION, bananaResultsOf, boxOf, centreOf, waitForFrames, numberIn, openBanana, openBananaWithDisclosures, pauseEarly, pictureOf, pixelCountOf, posesOf, readoutValue, readoutDetail, setSliders, test } from './support.js';
+import { REDUCED_MOTION, readBananaResults, readBox, readCentre, waitForFrames, parseNumberIn, openBanana, openBananaWithDisclosures, pauseEarly, readPicture, countPixelsOfRole, readPoses, readoutValue, readoutDetail, setSliders, test } from './support.js';
 
 /** @typedef {import('./support.js').BananaMachineElement} BananaMachineElement */
 /** @typedef {import('@playwright/test').Locator} Locator */
@@ -15,9 +15,9 @@ const GROWTH_STEPS = 150;
 const captionOf = (widget) => widget.locator('p[part=caption]');
 
 /** Returns the three numbers that are printed for the marked robot. @param {Locator} widget */
-async function printedNumbersOfMarked(widget) {
+async function readNumbersOfMarkedSample(widget) {
   const outputText = (await widget.locator('.marked output').textContent()) ?? '';
-  const printedNumbers = [...outputText.matchAll(/= (\S+)/g)].map(([, number]) => numberIn(number));
+  const printedNumbers = [...outputText.matchAll(/= (\S+)/g)].map(([, number]) => parseNumberIn(number));
   expect(printedNumbers).toHaveLength(3);
   return printedNumbers;
 }
@@ -28,45 +28,45 @@ test('the cloud grows by itself, pauses, and goes on', async ({ page }) => {
   const widget = await openBanana(page);
   const playButton = widget.locator('.cloud').getByRole('button', { name: 'Draw samples' });
   await expect(playButton).toBeVisible();
-  const [pausedResults, firstPoses] = [await bananaResultsOf(widget), await posesOf(widget)];
+  const [pausedResults, firstPoses] = [await readBananaResults(widget), await readPoses(widget)];
   expect(pausedResults.shown).toBeGreaterThan(0);
   expect(pausedResults.shown).toBeLessThan(pausedResults.config.samples);
   await waitForFrames(page);
-  expect((await bananaResultsOf(widget)).shown).toBe(pausedResults.shown);
+  expect((await readBananaResults(widget)).shown).toBe(pausedResults.shown);
 
   await playButton.click();
   await widget.getByRole('button', { name: 'Pin' }).click();
-  await expect.poll(async () => (await bananaResultsOf(widget)).shown, { timeout: 20_000 }).toBe(pausedResults.config.samples);
+  await expect.poll(async () => (await readBananaResults(widget)).shown, { timeout: 20_000 }).toBe(pausedResults.config.samples);
   // Numbers pinned while the cloud grows are those of the whole cloud.
   await expect(readoutValue(widget, 'cross-track skew')).toHaveText(/^(.+ ± .+) pinned: \1$/);
   await expect(playButton).toBeVisible();
   // The robots of the paused cloud are the first robots of the complete one.
-  expect((await posesOf(widget)).slice(0, firstPoses.length)).toEqual(firstPoses);
+  expect((await readPoses(widget)).slice(0, firstPoses.length)).toEqual(firstPoses);
 });
 
 test('opens with the whole cloud of the opening command, and shows the numbers of the simulation', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page);
-  const { config, shown: shownCount, stats, table } = await bananaResultsOf(widget);
+  const { config, shown: shownCount, stats, table } = await readBananaResults(widget);
   expect(config).toMatchObject({ model: 'velocity', noise: 'normal', command: { v: 1, omega: 0, dt: 2 }, alphas: OPENING_ALPHAS, isolate: null });
   expect(shownCount).toBe(config.samples);
   expect(Math.abs(table.exact.areaRatio - 1.967)).toBeLessThan(5e-4);
-  const readoutTextOf = async (/** @type {string | RegExp} */ name) => (await readoutValue(widget, name).textContent()) ?? '';
-  const [skew, skewError] = (await readoutTextOf('cross-track skew')).split(' ± ').map(numberIn);
+  const readReadoutText = async (/** @type {string | RegExp} */ name) => (await readoutValue(widget, name).textContent()) ?? '';
+  const [skew, skewError] = (await readReadoutText('cross-track skew')).split(' ± ').map(parseNumberIn);
   expect(skew).toBeCloseTo(stats.crossTrackSkew, 3);
   expect(skewError).toBeCloseTo(stats.crossTrackSkewError, 3);
   await expect(readoutDetail(widget, 'cross-track skew')).toHaveText('exactly 0.000');
-  expect(numberIn(await readoutTextOf('predicts'))).toBeCloseTo(stats.gaussianSkew, 3);
-  expect(numberIn(await readoutTextOf('ρ'))).toBeCloseTo(stats.rhoCrossHeading, 3);
-  expect((await readoutTextOf('robots shown')).split(' of ').map(numberIn)).toEqual([stats.n, config.samples]);
-  const [gain, gainError] = (await readoutTextOf('gain in fit')).split(' ± ').map(numberIn);
+  expect(parseNumberIn(await readReadoutText('predicts'))).toBeCloseTo(stats.gaussianSkew, 3);
+  expect(parseNumberIn(await readReadoutText('ρ'))).toBeCloseTo(stats.rhoCrossHeading, 3);
+  expect((await readReadoutText('robots shown')).split(' of ').map(parseNumberIn)).toEqual([stats.n, config.samples]);
+  const [gain, gainError] = (await readReadoutText('gain in fit')).split(' ± ').map(parseNumberIn);
   expect(gain).toBeCloseTo(stats.likelihoodGain.pose, 3);
   expect(gainError).toBeCloseTo(stats.likelihoodGainError.pose, 3);
-  expect(await readoutTextOf('area covered')).toBe(`${stats.areaRatio.toFixed(2)} ×`);
+  expect(await readReadoutText('area covered')).toBe(`${stats.areaRatio.toFixed(2)} ×`);
   const coverageTexts = [stats.coverage.ellipse, stats.coverage.exponential].map((share) => `${(100 * share).toFixed(1)}\u202f%`);
   await expect(readoutDetail(widget, 'area covered')).toHaveText(`± ${stats.areaRatioError.toPrecision(1)}; inside: ellipse ${coverageTexts.join(', outline ')}`);
   await expect(readoutDetail(widget, 'gain in fit')).toHaveText(`exactly ${table.exact.likelihoodGain.pose.toFixed(3)}; 1 nat: a factor of e`);
   const row = widget.locator('tr').filter({ has: page.getByRole('rowheader', { name: 'Σxx', exact: true }) });
-  const xVariances = (await row.getByRole('cell').allTextContents()).map(numberIn);
+  const xVariances = (await row.getByRole('cell').allTextContents()).map(parseNumberIn);
   for (const [i, tableColumn] of [table.linearized, table.exact, table.measured].entries()) expect(xVariances[i] / tableColumn.cov[0][0]).toBeCloseTo(1, 2);
   // The picture has a text equivalent.
   const floorCanvas = widget.locator('canvas.plane');
@@ -76,17 +76,17 @@ test('opens with the whole cloud of the opening command, and shows the numbers o
 
 test('Clear empties the cloud, Step adds a batch of the same robots', async ({ page }) => {
   const widget = await openBanana(page, 'samples="3000"');
-  const [wholeCloud, poses] = [await bananaResultsOf(widget), await posesOf(widget)];
+  const [wholeCloud, poses] = [await readBananaResults(widget), await readPoses(widget)];
   await widget.getByRole('button', { name: 'Clear' }).click();
-  expect((await bananaResultsOf(widget)).shown).toBe(0);
+  expect((await readBananaResults(widget)).shown).toBe(0);
   await expect(readoutValue(widget, 'cross-track skew')).toHaveText('—');
   await expect(widget.getByRole('img', { name: 'No robots yet' }).first()).toBeVisible();
 
   const batchSize = Math.ceil(wholeCloud.config.samples / GROWTH_STEPS);
   for (const expectedCount of [batchSize, 2 * batchSize]) {
     await widget.getByRole('button', { name: 'Step' }).click();
-    expect((await bananaResultsOf(widget)).shown).toBe(expectedCount);
-    expect(await posesOf(widget)).toEqual(poses.slice(0, 3 * expectedCount));
+    expect((await readBananaResults(widget)).shown).toBe(expectedCount);
+    expect(await readPoses(widget)).toEqual(poses.slice(0, 3 * expectedCount));
   }
 });
 
@@ -94,7 +94,7 @@ test('each overlay has a toggle', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page, 'preset="gentle"');
   const floorCanvas = widget.locator('canvas.plane');
   const twistCanvas = widget.locator('canvas.twist');
-  const pictureBefore = await pictureOf(floorCanvas);
+  const pictureBefore = await readPicture(floorCanvas);
   for (const [label, colorRole] of [
     ['commanded arc', 'prior'],
     ['Gaussian in (x, y)', 'prediction'],
@@ -104,17 +104,17 @@ test('each overlay has a toggle', async ({ page }) => {
   ]) {
     const checkbox = widget.getByRole('checkbox', { name: label });
     const isShown = await checkbox.isChecked();
-    const pixelCountBefore = await pixelCountOf(floorCanvas, colorRole);
+    const pixelCountBefore = await countPixelsOfRole(floorCanvas, colorRole);
     await checkbox.setChecked(!isShown);
     // Pointing at an entry highlights its line.
     await page.mouse.move(0, 0);
-    const pixelCountChange = (await pixelCountOf(floorCanvas, colorRole)) - pixelCountBefore;
+    const pixelCountChange = (await countPixelsOfRole(floorCanvas, colorRole)) - pixelCountBefore;
     expect(isShown ? -pixelCountChange : pixelCountChange, label).toBeGreaterThan(30);
-    if (colorRole === 'posterior') expect(await pixelCountOf(twistCanvas, colorRole)).toBe(0);
+    if (colorRole === 'posterior') expect(await countPixelsOfRole(twistCanvas, colorRole)).toBe(0);
     await checkbox.setChecked(isShown);
     await page.mouse.move(0, 0);
   }
-  expect(await pictureOf(floorCanvas)).toBe(pictureBefore);
+  expect(await readPicture(floorCanvas)).toBe(pictureBefore);
 });
 
 test('a robot pointed at in one view is marked in both, with what it executed', async ({ page }) => {
@@ -122,24 +122,24 @@ test('a robot pointed at in one view is marked in both, with what it executed', 
   const floorCanvas = widget.locator('canvas.plane');
   const twistCanvas = widget.locator('canvas.twist');
   const robotField = widget.getByRole('spinbutton', { name: 'Robot' });
-  const countMarkPixels = async () => [await pixelCountOf(floorCanvas, 'accent'), await pixelCountOf(twistCanvas, 'accent')];
+  const countMarkPixels = async () => [await countPixelsOfRole(floorCanvas, 'accent'), await countPixelsOfRole(twistCanvas, 'accent')];
   expect(await countMarkPixels()).toEqual([0, 0]);
 
   const checkMarkedRobot = async () => {
     const robotIndex = Number(await robotField.inputValue()) - 1;
     const { vHat, omegaHat, gammaHat } = await widget.evaluate((element, i) => /** @type {BananaMachineElement} */ (element).simulation.inspect(i), robotIndex);
-    const printedNumbers = await printedNumbersOfMarked(widget);
+    const printedNumbers = await readNumbersOfMarkedSample(widget);
     for (const [i, executedValue] of [vHat, omegaHat, gammaHat].entries()) expect(printedNumbers[i]).toBeCloseTo(executedValue, 3);
     return robotIndex;
   };
 
-  const handleCentre = await centreOf(widget.locator('.handle'));
+  const handleCentre = await readCentre(widget.locator('.handle'));
   await page.mouse.move(handleCentre.x + 30, handleCentre.y + 20);
   for (const count of await countMarkPixels()) expect(count).toBeGreaterThan(20);
   const indexInPlane = await checkMarkedRobot();
 
   await twistCanvas.scrollIntoViewIfNeeded();
-  const { x, y, width, height } = await boxOf(twistCanvas);
+  const { x, y, width, height } = await readBox(twistCanvas);
   await page.mouse.move(x + width * 0.45, y + height * 0.45);
   for (const count of await countMarkPixels()) expect(count).toBeGreaterThan(20);
   expect(await checkMarkedRobot()).not.toBe(indexInPlane);
@@ -158,7 +158,7 @@ test('the sentence says what holds exactly for the model, and what the robots sh
   // This cloud is symmetric: the skew is exactly 0 for any number of robots, and the ellipse has twice the area.
   await pressPreset('Banana');
   await waitForFrames(page);
-  const { table } = await bananaResultsOf(widget);
+  const { table } = await readBananaResults(widget);
   expect(Math.abs(table.exact.crossTrackSkew)).toBeLessThan(1e-9);
   expect(Math.abs(table.exact.areaRatio - 1.97)).toBeLessThan(0.005);
   // The caption contains the number of the readout.
@@ -178,16 +178,16 @@ test('the sentence says what holds exactly for the model, and what the robots sh
 test('few robots do not show the lean; the Pivot’s bow-tie has its reason @nightly', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page);
   await widget.getByRole('button', { name: 'Pivot' }).click();
-  const { table, config, stats: { exponential: { mean, cov } } } = await bananaResultsOf(widget);
+  const { table, config, stats: { exponential: { mean, cov } } } = await readBananaResults(widget);
   const spreadText = `a drive of ${mean[0].toFixed(2)} m by ${Math.sqrt(cov[0][0]).toFixed(2)} m, ahead of the start and behind it`;
   await expect(captionOf(widget)).toContainText(spreadText);
   expect(Math.abs(table.exact.crossTrackSkew)).toBeGreaterThan(0.01);
-  const behindCount = (await posesOf(widget)).filter((x, i) => i % 3 === 0 && x < 0).length;
+  const behindCount = (await readPoses(widget)).filter((x, i) => i % 3 === 0 && x < 0).length;
   expect(behindCount / config.samples).toBeGreaterThan(0.3);
 
   await widget.getByRole('button', { name: 'Gentle arc' }).click();
   await widget.locator('#samples').fill('3');
-  const { stats, table: tableOfFew } = await bananaResultsOf(widget);
+  const { stats, table: tableOfFew } = await readBananaResults(widget);
   expect(Math.abs(stats.crossTrackSkew)).toBeLessThan(2 * stats.crossTrackSkewError);
   await expect(captionOf(widget)).toHaveText(new RegExp(`^Too few robots to show the lean: .*exactly −${Math.abs(tableOfFew.exact.crossTrackSkew).toFixed(3)}\\.$`));
 });
@@ -214,7 +214,7 @@ test('the odometry model shows the noise of a marked robot’s legs, and has an 
     const { rot1, trans, rot2 } = simulation.reading;
     return [rot1 - legs.rot1, trans - legs.trans, rot2 - legs.rot2];
   });
-  const printedNumbers = await printedNumbersOfMarked(widget);
+  const printedNumbers = await readNumbersOfMarkedSample(widget);
   expectedNoises.forEach((noise, i) => expect(printedNumbers[i]).toBeCloseTo(noise, 3));
 
   await widget.locator('#v').fill('-1');

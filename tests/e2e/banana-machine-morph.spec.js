@@ -1,25 +1,25 @@
 import { expect } from '@playwright/test';
-import { NEW_PAGE_TAG, REDUCED_MOTION, bananaResultsOf, boxOf, centreOf, openBanana, pictureOf, playSlider, propertyOf, readoutValue, showPage, stateOf, test, untilReady } from './support.js';
+import { NEW_PAGE_TAG, REDUCED_MOTION, readBananaResults, readBox, readCentre, openBanana, readPicture, playSlider, readProperty, readoutValue, showPage, readState, test, waitUntilReady } from './support.js';
 
 test.use(REDUCED_MOTION);
 
-const calloutCountOf = (/** @type {import('@playwright/test').Locator} */ widget) => widget.evaluate((element) => /** @type {any} */ (element).scene.callouts.length);
+const countCalloutsOf = (/** @type {import('@playwright/test').Locator} */ widget) => widget.evaluate((element) => /** @type {any} */ (element).scene.callouts.length);
 
 test('one slider carries the floor to exponential coordinates and back, and callouts are on the floor alone', async ({ page }) => {
   const widget = await openBanana(page);
   const floorCanvas = widget.locator('canvas.plane');
   const slider = widget.getByRole('slider', { name: 'From the floor' });
-  const pictures = [await pictureOf(floorCanvas)];
+  const floorPictures = [await readPicture(floorCanvas)];
   for (const [morphText, panelTitle] of [['0.5', 'On the way'], ['1', 'The floor, morphed'], ['0', 'On the floor']]) {
     await slider.fill(morphText);
-    pictures.push(await pictureOf(floorCanvas));
-    expect(/** @type {any} */ (await stateOf(widget)).morph).toBe(Number(morphText));
+    floorPictures.push(await readPicture(floorCanvas));
+    expect(/** @type {any} */ (await readState(widget)).morph).toBe(Number(morphText));
     await expect(widget).toHaveAttribute('morph', morphText);
     await expect(widget.locator('.panel-title').first()).toContainText(panelTitle);
-    expect(await calloutCountOf(widget)).toBe(morphText === '0' ? 2 : 0);
+    expect(await countCalloutsOf(widget)).toBe(morphText === '0' ? 2 : 0);
   }
-  expect(new Set(pictures).size).toBe(3);
-  expect(pictures[3]).toBe(pictures[0]);
+  expect(new Set(floorPictures).size).toBe(3);
+  expect(floorPictures[3]).toBe(floorPictures[0]);
 });
 
 test('a preset brings back the floor, also the present one', async ({ page }) => {
@@ -45,16 +45,16 @@ test('the end of the arc is moved where the morph shows it @nightly', async ({ p
   const handle = widget.locator('.handle');
   await handle.press('ArrowUp');
   await handle.press('ArrowRight');
-  let { command } = (await bananaResultsOf(widget)).config;
+  let { command } = (await readBananaResults(widget)).config;
   expect(command.omega * command.dt).toBeCloseTo(0.02, 9);
   expect(command.v * command.dt).toBeCloseTo(2.02, 9);
   await widget.evaluate((element) => void Reflect.set(element, 'morph', 0.4));
-  const [x, y] = /** @type {number[]} */ (await propertyOf(widget, 'visibleArcEnd'));
+  const [x, y] = /** @type {number[]} */ (await readProperty(widget, 'visibleArcEnd'));
   await handle.press('ArrowUp');
-  const [seenX, seenY] = /** @type {number[]} */ (await propertyOf(widget, 'visibleArcEnd'));
+  const [seenX, seenY] = /** @type {number[]} */ (await readProperty(widget, 'visibleArcEnd'));
   expect(seenX).toBeCloseTo(x, 9);
   expect(seenY).toBeCloseTo(y + 0.02, 9);
-  ({ command } = (await bananaResultsOf(widget)).config);
+  ({ command } = (await readBananaResults(widget)).config);
   expect(command.omega).toBeGreaterThan(0.01);
 });
 
@@ -63,31 +63,31 @@ test('Pin keeps the numbers and outlines to compare with, and lets go of them', 
   const pinButton = widget.getByRole('button', { name: 'Pin' });
   const areaReadout = widget.locator('.readouts div').filter({ hasText: 'area covered' });
   const areaTextBefore = await readoutValue(widget, 'area covered').innerText();
-  const sliderBox = await boxOf(widget.locator('#v'));
+  const sliderBox = await readBox(widget.locator('#v'));
   await pinButton.click();
   await expect(pinButton).toHaveText('Unpin');
-  expect(await boxOf(widget.locator('#v'))).toEqual(sliderBox);
+  expect(await readBox(widget.locator('#v'))).toEqual(sliderBox);
   await widget.getByRole('button', { name: 'Hard arc' }).click();
   await expect(areaReadout).toContainText(`pinned: ${areaTextBefore}`);
   const hiddenCoordinates = await widget.evaluate((element) => {
-    const { scene, pictures } = /** @type {any} */ (element);
-    const { xMin, xMax, yMin, yMax } = pictures[0].view.extent;
+    const { scene, pictures: floorPictures } = /** @type {any} */ (element);
+    const { xMin, xMax, yMin, yMax } = floorPictures[0].view.extent;
     return scene.pinnedAt(0).filter((/** @type {number} */ at, /** @type {number} */ i) => (i % 2 ? at < yMin || at > yMax : at < xMin || at > xMax));
   });
   expect(hiddenCoordinates).toEqual([]);
-  const pinnedState = await stateOf(widget);
+  const pinnedState = await readState(widget);
   expect(pinnedState.pinned).toMatchObject({ command: { v: 1 }, samples: 50_000 });
-  const pictureWithPin = await pictureOf(widget.locator('canvas.plane'));
+  const pictureWithPin = await readPicture(widget.locator('canvas.plane'));
   await pinButton.click();
   await expect(areaReadout).not.toContainText('pinned');
-  expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(pictureWithPin);
+  expect(await readPicture(widget.locator('canvas.plane'))).not.toBe(pictureWithPin);
   await pinButton.click();
   await widget.getByRole('button', { name: 'Start over' }).click();
   await expect(pinButton).toHaveText('Pin');
   const restoreState = (/** @type {object} */ savedState) => widget.evaluate((element, newState) => void (/** @type {any} */ (element).setState(newState)), savedState);
   await restoreState(pinnedState);
   await expect(areaReadout).toContainText(`pinned: ${areaTextBefore}`);
-  expect(await pictureOf(widget.locator('canvas.plane'))).toBe(pictureWithPin);
+  expect(await readPicture(widget.locator('canvas.plane'))).toBe(pictureWithPin);
   await expect(restoreState({ ...pinnedState, pinned: { ...pinnedState.pinned, samples: 0 } })).rejects.toThrow('state.pinned.samples is 0; allowed is');
   await expect(areaReadout).toContainText(`pinned: ${areaTextBefore}`);
   // The pinned gain is that of the poses. It is not compared with a gain on the floor.
@@ -111,14 +111,14 @@ test('the title of the floor agrees with the fit of the ellipse', async ({ page 
   ])) {
     await widget.evaluate((element, settings) => void Object.assign(element, settings), settings);
     await expect(panelTitle).toHaveText(`On the floor: ${fitText}`);
-    expect(await calloutCountOf(widget)).toBe(expectedCallouts);
+    expect(await countCalloutsOf(widget)).toBe(expectedCallouts);
   }
 });
 
 test('callouts are hidden while the cloud is dragged under them @nightly', async ({ page }) => {
   const widget = await openBanana(page);
-  const countCallouts = () => calloutCountOf(widget);
-  const { x, y } = await centreOf(widget.locator('.handle'));
+  const countCallouts = () => countCalloutsOf(widget);
+  const { x, y } = await readCentre(widget.locator('.handle'));
   await page.mouse.move(x, y);
   await page.mouse.down();
   await page.mouse.move(x - 10, y);
@@ -132,9 +132,9 @@ test('a narrow figure has one picture, which shows both ends', async ({ page }) 
   const widget = await openBanana(page);
   await expect(widget.locator('canvas.twist')).toBeHidden();
   const floorCanvas = widget.locator('canvas.plane');
-  const floorPicture = await pictureOf(floorCanvas);
+  const floorPicture = await readPicture(floorCanvas);
   await widget.getByRole('slider', { name: 'From the floor' }).fill('1');
-  expect(await pictureOf(floorCanvas)).not.toBe(floorPicture);
+  expect(await readPicture(floorCanvas)).not.toBe(floorPicture);
 });
 
 test.describe('at first sight', () => {
@@ -147,9 +147,9 @@ test.describe('at first sight', () => {
     await page.waitForFunction(() => /** @type {any} */ (document.querySelector('banana-machine'))?.cloud?.driving?.robots > 0);
     await page.keyboard.press('Shift');
     expect(await countDrivingRobots()).toBeUndefined();
-    await expect.poll(async () => (await bananaResultsOf(page.locator('banana-machine'))).shown).toBeGreaterThan(10);
+    await expect.poll(async () => (await readBananaResults(page.locator('banana-machine'))).shown).toBeGreaterThan(10);
     await page.reload();
-    await untilReady(page.locator('banana-machine'));
+    await waitUntilReady(page.locator('banana-machine'));
     expect(await countDrivingRobots()).toBeUndefined();
   });
 

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { REDUCED_MOTION, bananaResultsOf, centreOf, dragSlider, waitForFrames, openBanana, openBananaWithDisclosures, pictureOf, readoutValue, test, untilSettled } from './support.js';
+import { REDUCED_MOTION, readBananaResults, readCentre, dragSlider, waitForFrames, openBanana, openBananaWithDisclosures, readPicture, readoutValue, test, waitUntilSettled } from './support.js';
 
 test.use(REDUCED_MOTION);
 
@@ -19,14 +19,14 @@ test('a drag keeps the scale under the handle, and that view zooms out after it'
   const widget = await openBanana(page, 'preset="banana"');
   const handle = widget.getByRole('slider', { name: 'End of the commanded arc' });
   const readViewExtent = () => widget.evaluate((element) => ({ .../** @type {any} */ (element).pictures[0].view.extent }));
-  const handleBefore = await centreOf(handle);
+  const handleBefore = await readCentre(handle);
   const extentBefore = await readViewExtent();
   await page.mouse.move(handleBefore.x, handleBefore.y);
   await page.mouse.down();
   for (const [dx, dy] of [[-40, 60], [-90, 120]]) {
     await page.mouse.move(handleBefore.x + dx, handleBefore.y + dy, { steps: 8 });
     await waitForFrames(page);
-    const { x, y } = await centreOf(handle);
+    const { x, y } = await readCentre(handle);
     expect(Math.hypot(x - handleBefore.x - dx, y - handleBefore.y - dy)).toBeLessThan(2);
     expect(await readViewExtent()).toEqual(extentBefore);
     expect(await visibleTwistShareOf(widget)).toBeGreaterThan(0.95);
@@ -59,7 +59,7 @@ test('Home and End move the end of the arc to the ends of v, and no key scrolls 
   await page.evaluate(() => scrollTo(0, 100));
   for (const [key, v] of /** @type {const} */ ([['End', 1.5], ['Home', -1.5], ['PageDown', undefined], ['ArrowDown', undefined]])) {
     await page.keyboard.press(key);
-    const { command } = (await bananaResultsOf(widget)).config;
+    const { command } = (await readBananaResults(widget)).config;
     if (v) expect(command.v).toBeCloseTo(v, 1);
   }
   expect(await page.evaluate(() => scrollY)).toBe(100);
@@ -85,12 +85,12 @@ test('the chart sets ω by pointer and by keyboard', async ({ page }) => {
   const omegaMarker = widget.getByRole('slider', { name: 'Commanded ω on the chart' });
   await omegaMarker.focus();
   await omegaMarker.press('ArrowRight');
-  expect((await bananaResultsOf(widget)).config.command.omega).toBeCloseTo(0.51, 12);
-  const chart = widget.locator('svg.plot');
-  await chart.scrollIntoViewIfNeeded();
-  const { x, y } = await centreOf(chart);
+  expect((await readBananaResults(widget)).config.command.omega).toBeCloseTo(0.51, 12);
+  const skewChart = widget.locator('svg.plot');
+  await skewChart.scrollIntoViewIfNeeded();
+  const { x, y } = await readCentre(skewChart);
   await page.mouse.click(x + 80, y);
-  const { config, table } = await bananaResultsOf(widget);
+  const { config, table } = await readBananaResults(widget);
   expect(config.command.omega).toBeGreaterThan(0.51);
   await expect(omegaMarker).toHaveAttribute('aria-valuetext', new RegExp(`skew −${Math.abs(table.exact.crossTrackSkew).toFixed(3)}`));
 });
@@ -98,17 +98,17 @@ test('the chart sets ω by pointer and by keyboard', async ({ page }) => {
 test('a dragged α moves the same robots, once a frame', async ({ page }) => {
   // All samples are in the first block, so that no later one changes the statistics.
   const widget = await openBananaWithDisclosures(page, `${GENTLE_PRESET} samples="20000"`);
-  const resultsBefore = await bananaResultsOf(widget);
-  const pictureBefore = await pictureOf(widget.locator('canvas.plane'));
+  const resultsBefore = await readBananaResults(widget);
+  const pictureBefore = await readPicture(widget.locator('canvas.plane'));
   const skewTextBefore = await readoutValue(widget, 'cross-track skew').textContent();
   await dragSlider(widget.getByRole('slider', { name: 'α4' }), 0.85);
-  await untilSettled(widget);
-  const resultsAfter = await bananaResultsOf(widget);
+  await waitUntilSettled(widget);
+  const resultsAfter = await readBananaResults(widget);
   const changedAlpha = resultsAfter.config.alphas[3];
   expect(changedAlpha).toBeGreaterThan(0.16);
   expect(resultsAfter.config).toEqual({ ...resultsBefore.config, alphas: resultsBefore.config.alphas.with(3, changedAlpha) });
   expect(resultsAfter.shown).toBe(resultsBefore.shown);
-  expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(pictureBefore);
+  expect(await readPicture(widget.locator('canvas.plane'))).not.toBe(pictureBefore);
   expect(await readoutValue(widget, 'cross-track skew').textContent()).not.toBe(skewTextBefore);
   // Several inputs between two frames cause one change of the statistics.
   const statsChangeCount = await widget.evaluate(async (element) => {
@@ -123,23 +123,23 @@ test('a dragged α moves the same robots, once a frame', async ({ page }) => {
     return statsEventCount;
   });
   expect(statsChangeCount).toBe(1);
-  expect((await bananaResultsOf(widget)).config.alphas[0]).toBe(0.09);
+  expect((await readBananaResults(widget)).config.alphas[0]).toBe(0.09);
 });
 
 test('Isolate leaves one α in effect, shows the others as off, and lets go again', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page, GENTLE_PRESET);
-  const resultsBefore = await bananaResultsOf(widget);
+  const resultsBefore = await readBananaResults(widget);
   await widget.getByLabel('Isolate one').check();
-  expect((await bananaResultsOf(widget)).config).toEqual({ ...resultsBefore.config, isolate: 4 });
+  expect((await readBananaResults(widget)).config).toEqual({ ...resultsBefore.config, isolate: 4 });
   await expect(widget.locator('.slider .value', { hasText: 'off' })).toHaveCount(5);
   await widget.getByRole('radio', { name: 'Only α₁' }).check();
-  expect((await bananaResultsOf(widget)).config.isolate).toBe(1);
+  expect((await readBananaResults(widget)).config.isolate).toBe(1);
   // Moving the slider of another α selects that α.
   await widget.getByRole('slider', { name: 'α3' }).fill('0.06');
-  const { config } = await bananaResultsOf(widget);
+  const { config } = await readBananaResults(widget);
   expect(config).toMatchObject({ isolate: 3, alphas: resultsBefore.config.alphas.with(2, 0.06) });
   await widget.getByLabel('Isolate one').uncheck();
-  expect((await bananaResultsOf(widget)).config.isolate).toBeNull();
+  expect((await readBananaResults(widget)).config.isolate).toBeNull();
   await expect(widget.locator('.slider .value', { hasText: 'off' })).toHaveCount(0);
 });
 
@@ -147,17 +147,17 @@ test('no slider moves under the finger when there is something to note', async (
   await page.setViewportSize({ width: 375, height: 812 });
   const widget = await openBananaWithDisclosures(page, GENTLE_PRESET);
   const slider = widget.locator('#omega');
-  const note = widget.locator('.note');
+  const chapterNote = widget.locator('.note');
   const readSliderTop = async () => {
     await waitForFrames(page);
     return slider.evaluate((element) => element.getBoundingClientRect().top + scrollY);
   };
   const topBefore = await readSliderTop();
   await widget.getByLabel('Isolate one').check();
-  await expect(note).toContainText('they lie on a line');
+  await expect(chapterNote).toContainText('they lie on a line');
   expect(Math.abs((await readSliderTop()) - topBefore)).toBeLessThan(0.5);
   await slider.fill('0');
-  await expect(note).toContainText('no noise at all');
+  await expect(chapterNote).toContainText('no noise at all');
   expect(Math.abs((await readSliderTop()) - topBefore)).toBeLessThan(0.5);
 });
 

@@ -6,7 +6,7 @@
 
 import { readFileSync } from 'node:fs';
 import { odometryMessageOf, poseOf, recordingOf, stampOf } from '../mcap.js';
-import { mount, untilSettled } from './support.js';
+import { mountFigure, waitUntilSettled } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
@@ -17,17 +17,17 @@ import { mount, untilSettled } from './support.js';
 
 /** Opens a page with the figure, and waits until its log is fitted. @param {Page} page @param {string} [attributes] */
 export async function openCalibrator(page, attributes) {
-  const widget = await mount(page, 'alpha-calibrator', {
+  const widget = await mountFigure(page, 'alpha-calibrator', {
     attributes, script: ['motion-widgets', 'de'].map((name) => `<script type="module" src="/${name}.js"></script>`).join(''),
   });
-  await untilSettled(widget);
+  await waitUntilSettled(widget);
   return widget;
 }
 
 export const captionOf = (/** @type {Locator} */ widget) => widget.locator('p[part=caption]');
 export const alphaRowsOf = (/** @type {Locator} */ widget) => widget.locator('table.alphas tbody tr:not([aria-hidden])');
 export const findFoldedGroup = (/** @type {Locator} */ widget, /** @type {string} */ name) => widget.locator('.folded fieldset', { has: widget.page().locator('> legend', { hasText: name }) });
-export const statsOf = (/** @type {Locator} */ widget) => widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).simulation.stats);
+export const readStats = (/** @type {Locator} */ widget) => widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).simulation.stats);
 
 /** Returns two tables of the simulated drive, as a user's files have them. @param {Locator} widget */
 export const simulatedTablesOf = (widget) =>

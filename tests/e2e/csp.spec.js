@@ -2,13 +2,13 @@
 
 import { fileURLToPath } from 'node:url';
 import { expect, test as testWithWarnings } from '@playwright/test';
-import { serve } from '../../scripts/serve.mjs';
-import { waitForFrames, test, openDisclosures, untilReady } from './support.js';
+import { startServer } from '../../scripts/serve.mjs';
+import { waitForFrames, test, openDisclosures, waitUntilReady } from './support.js';
 
 const DIST_DIRECTORY = fileURLToPath(new URL('../../dist', import.meta.url));
 const STRICT_POLICY = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'";
 
-/** @type {Awaited<ReturnType<typeof serve>> | undefined} */
+/** @type {Awaited<ReturnType<typeof startServer>> | undefined} */
 let server;
 
 for (const { afterEach } of [test, testWithWarnings]) {
@@ -27,12 +27,12 @@ for (const { afterEach } of [test, testWithWarnings]) {
  * @returns {Promise<() => Promise<string[]>>} function that returns the violations so far
  */
 async function openUnderPolicy(page, policy, path) {
-  server = await serve(DIST_DIRECTORY, { port: 0, headers: { 'content-security-policy': policy } });
+  server = await startServer(DIST_DIRECTORY, { port: 0, headers: { 'content-security-policy': policy } });
   await page.addInitScript(() => {
-    const violations = /** @type {string[]} */ ([]);
-    Object.assign(globalThis, { violations });
+    const policyViolations = /** @type {string[]} */ ([]);
+    Object.assign(globalThis, { violations: policyViolations });
     addEventListener('securitypolicyviolation', ({ effectiveDirective, blockedURI, sample }) => {
-      violations.push(`${effectiveDirective} ${blockedURI} ${sample}`);
+      policyViolations.push(`${effectiveDirective} ${blockedURI} ${sample}`);
     });
   });
   await page.goto(server.address + path);
@@ -47,7 +47,7 @@ test('a figure asks for nothing that a strict policy forbids, beside a Lit of th
   await page.addInitScript(() => void Reflect.get(window, 'trustedTypes').createPolicy('lit-html', { createHTML: (/** @type {string} */ text) => text }));
   const readViolations = await openUnderPolicy(page, policyWithTrustedTypes('lit-html motion-widgets'), `embed.html?widget=${figureName}`);
   const widget = page.locator(figureName);
-  await untilReady(widget);
+  await waitUntilReady(widget);
   await openDisclosures(widget);
   await widget.getByRole('slider').first().press('ArrowRight');
   await waitForFrames(page);
@@ -63,9 +63,9 @@ testWithWarnings('a Trusted Types policy that is named as that of Lit is enough 
 testWithWarnings('where no Trusted Types policy may be made, a sentence names the one that is missing @nightly', async ({ page }) => {
   const consoleWarning = page.waitForEvent('console', (message) => message.type() === 'warning' && message.text().includes('lacks'));
   await openUnderPolicy(page, policyWithTrustedTypes("'none'"), 'embed.html?widget=banana-machine');
-  const explanation = "This page's Content-Security-Policy forbids the figure's templates: its trusted-types directive lacks motion-widgets.";
-  await expect(page.locator('banana-machine')).toHaveText(`This interactive figure cannot run here. ${explanation}`);
-  expect((await consoleWarning).text()).toContain(explanation);
+  const policyExplanation = "This page's Content-Security-Policy forbids the figure's templates: its trusted-types directive lacks motion-widgets.";
+  await expect(page.locator('banana-machine')).toHaveText(`This interactive figure cannot run here. ${policyExplanation}`);
+  expect((await consoleWarning).text()).toContain(policyExplanation);
 });
 
 testWithWarnings('where WebAssembly is forbidden, a sentence names the directive that is missing', async ({ page }) => {
@@ -116,7 +116,7 @@ testWithWarnings('where WebAssembly may be compiled and not run, as in WebKit, s
     Object.assign(WebAssembly, { instantiate: async () => throwCompileError(), Instance: throwCompileError });
   });
   await openUnderPolicy(page, STRICT_POLICY, 'embed.html?widget=banana-machine');
-  const alert = page.locator('banana-machine').getByRole('alert');
-  await expect(alert).toContainText("lacks 'wasm-unsafe-eval'");
-  await expect(alert).not.toContainText('Refused');
+  const errorAlert = page.locator('banana-machine').getByRole('alert');
+  await expect(errorAlert).toContainText("lacks 'wasm-unsafe-eval'");
+  await expect(errorAlert).not.toContainText('Refused');
 });

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { REDUCED_MOTION, dragSlider, waitForFrames, mount, pictureOf, pixelCountOf, readoutValue, readoutDetail, test, openDisclosures, untilSettled } from './support.js';
+import { REDUCED_MOTION, dragSlider, waitForFrames, mountFigure, readPicture, countPixelsOfRole, readoutValue, readoutDetail, test, openDisclosures, waitUntilSettled } from './support.js';
 
 /**
  * @import { Locator, Page } from '@playwright/test'
@@ -11,13 +11,13 @@ test.use(REDUCED_MOTION);
 
 /** Opens a page with the figure, and waits for all of its robots. @param {Page} page @param {string} [attributes] */
 async function openDeadReckoning(page, attributes) {
-  const widget = await mount(page, 'dead-reckoning', { attributes });
-  await untilSettled(widget);
+  const widget = await mountFigure(page, 'dead-reckoning', { attributes });
+  await waitUntilSettled(widget);
   return widget;
 }
 
 /** @param {Locator} widget */
-const configOf = (widget) => widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).simulation.config);
+const readConfig = (widget) => widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).simulation.config);
 const captionOf = (/** @type {Locator} */ widget) => widget.locator('p[part=caption]');
 const plotOf = (/** @type {Locator} */ widget) => widget.locator('.ratios svg.plot');
 
@@ -27,14 +27,14 @@ const plotOf = (/** @type {Locator} */ widget) => widget.locator('.ratios svg.pl
  * @param {Locator} widget
  * @param {number} [recursion] index of its column
  */
-async function missedStepsOf(widget, recursion = 0) {
+async function readMissedSteps(widget, recursion = 0) {
   await openDisclosures(widget);
   return Promise.all([0, 2, 4].map((row) => widget.locator('.folds tbody tr').nth(row).locator('td').nth(recursion).textContent()));
 }
 
 test('opens with the chapter’s 6 % along the track, and says that the lateral variance misses more before', async ({ page }) => {
   const widget = await openDeadReckoning(page);
-  expect(await configOf(widget)).toMatchObject({
+  expect(await readConfig(widget)).toMatchObject({
     command: { v: 1, omega: 0.5, dt: 0.2 }, steps: 20, step: 20, alphas: [0.02, 0.02, 0.02, 0.02, 0.005, 0.005], compounding: 'chapter', samples: 50_000,
   });
   await expect(captionOf(widget)).toHaveText(
@@ -42,12 +42,12 @@ test('opens with the chapter’s 6 % along the track, and says that the lateral 
   );
   await expect(readoutValue(widget, 'predicted along-track variance')).toHaveText('0.94');
   await expect(readoutDetail(widget, 'predicted along-track variance')).toHaveText('± 0.01 of the measured, at step 20, 50\u202f000 robots');
-  expect(await missedStepsOf(widget)).toEqual(['steps 15–20', 'steps 1–15', 'never']);
+  expect(await readMissedSteps(widget)).toEqual(['steps 15–20', 'steps 1–15', 'never']);
   await expect(widget.locator('.folded svg.plot')).toHaveAttribute('aria-label', /Equal to first order after 2.00 s\.$/);
   await expect(widget.getByRole('row', { name: 'along the track, at the end' }).locator('td').first()).toHaveText('−6.1 ± 0.6\u202f%');
   await expect(plotOf(widget)).toHaveAttribute('aria-label', /At step 20: along the track 0.939 ± 0.006, lateral 0.970 ± 0.006, heading/);
   for (const [canvasClass, colorRole] of [['plane', 'prior'], ['plane', 'posterior'], ['twist', 'posterior'], ['twist', 'truth']]) {
-    expect(await pixelCountOf(widget.locator(`canvas.${canvasClass}`), colorRole), `${colorRole} in ${canvasClass}`).toBeGreaterThan(10);
+    expect(await countPixelsOfRole(widget.locator(`canvas.${canvasClass}`), colorRole), `${colorRole} in ${canvasClass}`).toBeGreaterThan(10);
   }
 });
 
@@ -55,11 +55,11 @@ test('the line of the chart walks along the path, from the keyboard too, and dri
   const widget = await openDeadReckoning(page);
   const stepSlider = widget.getByRole('slider', { name: 'selected step', exact: true });
   const variancesBefore = await widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).simulation.measured);
-  const takePictures = () => Promise.all(['plane', 'twist'].map((name) => pictureOf(widget.locator(`canvas.${name}`))));
+  const takePictures = () => Promise.all(['plane', 'twist'].map((name) => readPicture(widget.locator(`canvas.${name}`))));
   const [floorPictureAtEnd, twistPictureAtEnd] = await takePictures();
   await stepSlider.press('ArrowLeft');
   await waitForFrames(page);
-  expect((await configOf(widget)).step).toBe(19);
+  expect((await readConfig(widget)).step).toBe(19);
   const [floorPicture, twistPicture] = await takePictures();
   expect(floorPicture).not.toBe(floorPictureAtEnd);
   expect(twistPicture).not.toBe(twistPictureAtEnd);
@@ -71,7 +71,7 @@ test('the line of the chart walks along the path, from the keyboard too, and dri
   await expect(plotOf(widget)).toContainText('step 1');
   await dragSlider(stepSlider, 0.5);
   await waitForFrames(page);
-  expect((await configOf(widget)).step).toBe(10);
+  expect((await readConfig(widget)).step).toBe(10);
 });
 
 test('with J_r, and to fourth order, every component is right', async ({ page }) => {
@@ -79,41 +79,41 @@ test('with J_r, and to fourth order, every component is right', async ({ page })
   for (const [i, name] of ['with Jᵣ, the turn during a step', 'fourth order'].entries()) {
     await widget.getByRole('radio', { name }).check();
     await waitForFrames(page);
-    expect(await missedStepsOf(widget, i + 1)).toEqual(['never', 'never', 'never']);
+    expect(await readMissedSteps(widget, i + 1)).toEqual(['never', 'never', 'never']);
     await expect(captionOf(widget)).toHaveText('Within 5 % of what 50\u202f000 robots do, in every component at every step.');
   }
-  expect((await configOf(widget)).compounding).toBe('fourth-order');
+  expect((await readConfig(widget)).compounding).toBe('fourth-order');
 });
 
 test('entries of the legends hide curves and outlines', async ({ page }) => {
   const widget = await openDeadReckoning(page, 'overlays="lateral tolerance measured exponential"');
   await expect(widget.locator('[part=caption]')).toHaveText(/^At the end the predicted lateral variance is off by [−+][\d.]+\s%\. Before, the lateral one is /);
   await expect(plotOf(widget).locator('path.curve, circle')).toHaveCount(2);
-  const twistPicture = await pictureOf(widget.locator('canvas.twist'));
+  const twistPicture = await readPicture(widget.locator('canvas.twist'));
   await widget.getByRole('checkbox', { name: 'measured' }).uncheck();
   await widget.getByRole('checkbox', { name: 'lateral' }).uncheck();
   await expect(widget).toHaveAttribute('overlays', 'tolerance exponential');
   await expect(plotOf(widget).locator('path.curve, circle')).toHaveCount(0);
   await waitForFrames(page);
-  expect(await pictureOf(widget.locator('canvas.twist'))).not.toBe(twistPicture);
+  expect(await readPicture(widget.locator('canvas.twist'))).not.toBe(twistPicture);
 });
 
 test('presets are paths, and tell which one it is', async ({ page }) => {
   const widget = await openDeadReckoning(page);
-  const presetButtonNamed = (/** @type {string} */ name) => widget.getByRole('button', { name });
-  await expect(presetButtonNamed('The chapter’s 20 steps')).toHaveAttribute('aria-pressed', 'true');
-  await presetButtonNamed('Heading σ doubled').click();
-  await untilSettled(widget);
-  expect((await configOf(widget)).alphas).toEqual([0.02, 0.02, 0.08, 0.08, 0.02, 0.02]);
-  expect((await missedStepsOf(widget))[0]).toBe('steps 9–20');
+  const presetButtonOf = (/** @type {string} */ name) => widget.getByRole('button', { name });
+  await expect(presetButtonOf('The chapter’s 20 steps')).toHaveAttribute('aria-pressed', 'true');
+  await presetButtonOf('Heading σ doubled').click();
+  await waitUntilSettled(widget);
+  expect((await readConfig(widget)).alphas).toEqual([0.02, 0.02, 0.08, 0.08, 0.02, 0.02]);
+  expect((await readMissedSteps(widget))[0]).toBe('steps 9–20');
   await expect(widget).toHaveAttribute('preset', 'doubled');
-  await presetButtonNamed('Same path, 200 steps').click();
-  await untilSettled(widget);
-  expect(await configOf(widget)).toMatchObject({ steps: 200, command: { dt: 0.02 } });
-  expect((await missedStepsOf(widget))[0]).toBe('never');
+  await presetButtonOf('Same path, 200 steps').click();
+  await waitUntilSettled(widget);
+  expect(await readConfig(widget)).toMatchObject({ steps: 200, command: { dt: 0.02 } });
+  expect((await readMissedSteps(widget))[0]).toBe('never');
   await widget.locator('#headingNoise').press('ArrowRight');
-  await untilSettled(widget);
-  expect((await configOf(widget)).alphas).toEqual([0.02, 0.02, 0.025, 0.025, 0.00625, 0.00625]);
+  await waitUntilSettled(widget);
+  expect((await readConfig(widget)).alphas).toEqual([0.02, 0.02, 0.025, 0.025, 0.00625, 0.00625]);
   await expect(widget).not.toHaveAttribute('preset');
 });
 
@@ -122,8 +122,8 @@ test('more steps are shorter ones of the same path, seen from the same place', a
   const commandedEndOf = (/** @type {Locator} */ figure) => figure.evaluate((element) => [.../** @type {DeadReckoningElement} */ (element).simulation.commanded.slice(-2)]);
   const [xBefore, yBefore] = await commandedEndOf(widget);
   await dragSlider(widget.locator('#steps'), 0.5);
-  await untilSettled(widget);
-  const { steps, step, command } = await configOf(widget);
+  await waitUntilSettled(widget);
+  const { steps, step, command } = await readConfig(widget);
   expect(steps).toBeGreaterThan(80);
   expect(Math.abs(steps * command.dt - 4)).toBeLessThan(1e-12);
   expect(Math.abs(step / steps - 0.5)).toBeLessThan(0.02);
@@ -134,11 +134,11 @@ test('more steps are shorter ones of the same path, seen from the same place', a
 test('with too few robots nothing is known, and without robots the caption says so @nightly', async ({ page }) => {
   const widget = await openDeadReckoning(page, 'samples="1000"');
   await expect(captionOf(widget)).toHaveText('Too few robots to tell 5 %: the bands are wider than that.');
-  expect(await missedStepsOf(widget)).toEqual(['too few', 'too few', 'too few']);
+  expect(await readMissedSteps(widget)).toEqual(['too few', 'too few', 'too few']);
   await widget.getByRole('button', { name: 'Clear' }).click();
   await waitForFrames(page);
   await expect(captionOf(widget)).toHaveText('No robots yet.');
-  expect(await missedStepsOf(widget)).toEqual(['—', '—', '—']);
+  expect(await readMissedSteps(widget)).toEqual(['—', '—', '—']);
   await widget.getByRole('button', { name: 'Step', exact: true }).click();
   await waitForFrames(page);
   expect(await widget.evaluate((element) => /** @type {DeadReckoningElement} */ (element).simulation.shown)).toBe(7);
@@ -149,7 +149,7 @@ test('no noise has no ratio, and a fourth order without a covariance neither @ni
   await expect(captionOf(widget)).toHaveText(/^No noise:/);
   await expect(plotOf(widget)).toHaveAttribute('aria-label', /along the track —/);
   await widget.evaluate((element) => Object.assign(element, { headingNoise: 60, compounding: 'fourth-order', step: 20 }));
-  await untilSettled(widget);
+  await waitUntilSettled(widget);
   await expect(captionOf(widget)).toHaveText(/has left no covariance/);
 });
 
@@ -157,10 +157,10 @@ test('a robot that is chosen by its number shows its path', async ({ page }) => 
   const widget = await openDeadReckoning(page, 'step="20"');
   await openDisclosures(widget);
   const floorCanvas = widget.locator('canvas.plane');
-  const pixelCountBefore = await pixelCountOf(floorCanvas, 'accent');
+  const pixelCountBefore = await countPixelsOfRole(floorCanvas, 'accent');
   await widget.getByRole('spinbutton', { name: 'Robot' }).fill('40000');
   await waitForFrames(page);
-  expect(await pixelCountOf(floorCanvas, 'accent')).toBeGreaterThan(pixelCountBefore + 100);
+  expect(await countPixelsOfRole(floorCanvas, 'accent')).toBeGreaterThan(pixelCountBefore + 100);
   const endPose = await widget.evaluate((element) => [.../** @type {DeadReckoningElement} */ (element).simulation.rollout(39_999)].slice(-3));
   await expect(widget.locator('.marked output')).toContainText(`x ${endPose[0].toFixed(3)} m`);
 });

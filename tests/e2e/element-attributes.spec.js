@@ -2,7 +2,7 @@ import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
 import { STATE_SEEDS, randomStates } from './random-states.js';
 import { ALL_NAMES, FIGURE_FACTS, TWO_NAMES } from './figures.js';
-import { REDUCED_MOTION, setProperty, waitForFrames, mount, propertyOf, showPage, takeEvents, test, testEach, openDisclosures, untilReady } from './support.js';
+import { REDUCED_MOTION, setProperty, waitForFrames, mountFigure, readProperty, showPage, takeEvents, test, testEach, openDisclosures, waitUntilReady } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
 
@@ -17,9 +17,9 @@ test('attributes of every kind say how the figure opens', async ({ page }) => {
        clearance="0.2" samples="77" seed="5" view="close"></map-squeeze>`,
   );
   const [banana, squeeze] = TWO_NAMES.map((name) => page.locator(name));
-  await untilReady(banana);
+  await waitUntilReady(banana);
   await squeeze.scrollIntoViewIfNeeded();
-  await untilReady(squeeze);
+  await waitUntilReady(squeeze);
   const config = await banana.evaluate((element) => Reflect.get(element, 'simulation').config);
   expect(config).toMatchObject({
     model: 'odometry',
@@ -30,7 +30,7 @@ test('attributes of every kind say how the figure opens', async ({ page }) => {
     seed: 11,
   });
   expect(config.alphas[3]).toBe(0.125);
-  expect(await propertyOf(banana, 'overlays')).toEqual(['command', 'linearized']);
+  expect(await readProperty(banana, 'overlays')).toEqual(['command', 'linearized']);
   expect(await squeeze.evaluate((element) => Reflect.get(element, 'simulation').config)).toMatchObject({
     start: { x: 3.25, y: 2.6, theta: Math.PI / 2 },
     alphas: [0.2, 0.2, 0.2, 0.2, 0.05, 0.05],
@@ -41,59 +41,59 @@ test('attributes of every kind say how the figure opens', async ({ page }) => {
     samples: 77,
     seed: 5,
   });
-  expect(await propertyOf(squeeze, 'view')).toBe('close');
+  expect(await readProperty(squeeze, 'view')).toBe('close');
   expect((await takeEvents(page)).map(({ name, target }) => [name, target])).toEqual(TWO_NAMES.map((name) => ['load', name]));
 });
 
 test('attributes stay as written until a setting changes, and then reflect it', async ({ page }) => {
   await showPage(page, '<banana-machine preset="hard" seed="3"></banana-machine><map-squeeze></map-squeeze>');
   const [banana, squeeze] = TWO_NAMES.map((name) => page.locator(name));
-  await untilReady(banana);
+  await waitUntilReady(banana);
   await openDisclosures(banana);
-  const attributesOf = (/** @type {import('@playwright/test').Locator} */ widget) =>
+  const readAttributes = (/** @type {import('@playwright/test').Locator} */ widget) =>
     widget.evaluate((element) => Object.fromEntries([...element.attributes].map(({ name, value }) => [name, value])));
-  expect(await attributesOf(banana)).toEqual({ preset: 'hard', seed: '3' });
+  expect(await readAttributes(banana)).toEqual({ preset: 'hard', seed: '3' });
   // Reflected values of the preset "hard", which no longer applies.
   const alphaAttributes = { alpha1: '0.05', alpha2: '0.05', alpha3: '0.05', alpha4: '0.09', alpha5: '0.01', alpha6: '0.01' };
   await banana.locator('#v').fill('0.5');
   await waitForFrames(page);
-  expect(await attributesOf(banana)).toEqual({ v: '0.5', omega: '1.2', dt: '1.4', seed: '3', ...alphaAttributes });
+  expect(await readAttributes(banana)).toEqual({ v: '0.5', omega: '1.2', dt: '1.4', seed: '3', ...alphaAttributes });
   await banana.getByRole('button', { name: 'Pivot' }).click();
   await waitForFrames(page);
-  expect(await attributesOf(banana)).toEqual({ preset: 'pivot', v: '0.06', omega: '1.5', dt: '1', seed: '3', ...alphaAttributes });
+  expect(await readAttributes(banana)).toEqual({ preset: 'pivot', v: '0.06', omega: '1.5', dt: '1', seed: '3', ...alphaAttributes });
   await banana.getByLabel('Isolate one').check();
   await banana.getByRole('checkbox', { name: 'linearized' }).check();
   await waitForFrames(page);
-  expect(await attributesOf(banana)).toMatchObject({ isolate: '4', overlays: 'command ellipse exponential linearized' });
+  expect(await readAttributes(banana)).toMatchObject({ isolate: '4', overlays: 'command ellipse exponential linearized' });
   await banana.getByLabel('Isolate one').uncheck();
   await waitForFrames(page);
-  expect(await attributesOf(banana)).not.toHaveProperty('isolate');
+  expect(await readAttributes(banana)).not.toHaveProperty('isolate');
 
   await squeeze.scrollIntoViewIfNeeded();
-  await untilReady(squeeze);
+  await waitUntilReady(squeeze);
   await openDisclosures(squeeze);
   await squeeze.getByRole('button', { name: 'Facing a wall' }).click();
   await squeeze.getByLabel('Check samples against the map').uncheck();
   await waitForFrames(page);
-  expect(await attributesOf(squeeze)).toEqual({ x: '3.3', conditioned: 'false' });
+  expect(await readAttributes(squeeze)).toEqual({ x: '3.3', conditioned: 'false' });
 });
 
 test('attributes follow the controls of a figure, and lead back to the default where they are removed', async ({ page, figureName }) => {
-  const widget = await mount(page, figureName);
+  const widget = await mountFigure(page, figureName);
   const { sliderId, sliderValues: [firstValue, secondValue] } = FIGURE_FACTS[figureName];
-  const defaultValue = await propertyOf(widget, sliderId);
+  const defaultValue = await readProperty(widget, sliderId);
   await widget.locator(`#${sliderId}`).fill(String(firstValue));
   await expect(widget).toHaveAttribute(sliderId, String(firstValue));
-  expect(await propertyOf(widget, sliderId)).toBe(firstValue);
+  expect(await readProperty(widget, sliderId)).toBe(firstValue);
   await widget.evaluate((element, [key, value]) => element.setAttribute(key, value), [sliderId, String(secondValue)]);
-  expect(await propertyOf(widget, sliderId)).toBe(secondValue);
+  expect(await readProperty(widget, sliderId)).toBe(secondValue);
   await expect(widget.locator(`#${sliderId}`)).toHaveValue(String(secondValue));
   await widget.evaluate((element, key) => element.removeAttribute(key), sliderId);
-  expect(await propertyOf(widget, sliderId)).toBe(defaultValue);
+  expect(await readProperty(widget, sliderId)).toBe(defaultValue);
 });
 
 test('attributes that are refused are reported in the words of the core, and the last good value stays', async ({ page }) => {
-  const widget = await mount(page, 'banana-machine', { attributes: 'v="fast" omega="0.7" model="walking" samples="0" overlays="ellipse stars"' });
+  const widget = await mountFigure(page, 'banana-machine', { attributes: 'v="fast" omega="0.7" model="walking" samples="0" overlays="ellipse stars"' });
   const errorMessages = (await takeEvents(page, ['error'])).map(({ message }) => message);
   expect(errorMessages).toEqual([
     'model is "walking"; allowed is "velocity" or "odometry"',
@@ -101,21 +101,21 @@ test('attributes that are refused are reported in the words of the core, and the
     'samples is 0; allowed is a whole number from 1 to 10000000',
     'overlays[1] is "stars"; allowed is "command" or "ellipse" or "exponential" or "linearized" or "additive"',
   ]);
-  const readProperties = async () => Promise.all(['v', 'omega', 'model', 'samples'].map((name) => propertyOf(widget, name)));
+  const readProperties = async () => Promise.all(['v', 'omega', 'model', 'samples'].map((name) => readProperty(widget, name)));
   expect(await readProperties()).toEqual([1, 0.7, 'velocity', 50000]);
   // A blank attribute is neither a number nor zero.
   await widget.evaluate((element) => element.setAttribute('omega', ' '));
   expect((await takeEvents(page, ['error'])).map(({ message }) => message)).toEqual(['command.omega is " "; allowed is a number']);
-  expect(await propertyOf(widget, 'omega')).toBe(0.7);
+  expect(await readProperty(widget, 'omega')).toBe(0.7);
   await widget.evaluate((element) => element.setAttribute('dt', '3'));
-  expect(await propertyOf(widget, 'dt')).toBe(3);
+  expect(await readProperty(widget, 'dt')).toBe(3);
   await widget.getByRole('button', { name: 'Pivot' }).click();
   expect(await readProperties()).toEqual([0.06, 1.5, 'velocity', 50000]);
 });
 
 test('elements in the table of doc/embedding/figures.md have the attributes that it shows', async ({ page, figureName }) => {
-  const markdown = readFileSync(new URL('../../doc/embedding/figures.md', import.meta.url), 'utf8');
-  const tableExamples = [...markdown.matchAll(/^\| [^|]* \| `<([a-z-]+)( [^`]*)>` \|$/gm)].map(([, name, attributes]) => ({ name, attributes }));
+  const figuresDocument = readFileSync(new URL('../../doc/embedding/figures.md', import.meta.url), 'utf8');
+  const tableExamples = [...figuresDocument.matchAll(/^\| [^|]* \| `<([a-z-]+)( [^`]*)>` \|$/gm)].map(([, name, attributes]) => ({ name, attributes }));
   expect(new Set(tableExamples.map(({ name }) => name)).size).toBe(ALL_NAMES.length);
   await showPage(page, tableExamples.map(({ name, attributes }) => `<${name} class="example" ${attributes}></${name}>`).join(''));
   const unknownAttributes = await page.locator('.example').evaluateAll((exampleElements) => exampleElements.flatMap(({ attributes, constructor }) =>
@@ -123,7 +123,7 @@ test('elements in the table of doc/embedding/figures.md have the attributes that
   expect(unknownAttributes).toEqual([]);
   for (const widget of await page.locator(`${figureName}.example`).all()) {
     await widget.scrollIntoViewIfNeeded();
-    await untilReady(widget);
+    await waitUntilReady(widget);
   }
   expect(await takeEvents(page, ['error'])).toEqual([]);
 });
@@ -134,7 +134,7 @@ const VALUES_WITHOUT_ATTRIBUTES = { 'map-squeeze': { map: null, alphas: [0.2, 0.
 testEach('code to embed opens the settings of a state, with its attributes in any order', async (page, name, isFull) => {
   await showPage(page, `<${name}></${name}>`);
   const widget = page.locator(name).first();
-  await untilReady(widget);
+  await waitUntilReady(widget);
   for (const seed of isFull ? STATE_SEEDS : STATE_SEEDS.slice(0, 2)) {
     const state = { ...randomStates(seed)[name], ...Reflect.get(VALUES_WITHOUT_ATTRIBUTES, name) };
     const [originalConfig, ...copiedConfigs] = await widget.evaluate(async (element, newState) => {
@@ -151,9 +151,9 @@ testEach('code to embed opens the settings of a state, with its attributes in an
       await Promise.all(loadPromises);
       // After a change of its state, a calibrator fits its log in later frames.
       while (/** @type {any} */ (element).isBusy) await new Promise(requestAnimationFrame);
-      const configs = [element, embeddedCopy, reorderedCopy].map((figure) => /** @type {AnyElement} */ (figure).simulation.config);
+      const figureConfigs = [element, embeddedCopy, reorderedCopy].map((figure) => /** @type {AnyElement} */ (figure).simulation.config);
       for (const copy of [embeddedCopy, reorderedCopy]) copy.remove();
-      return configs;
+      return figureConfigs;
     }, /** @type {any} */ (state));
     for (const copiedConfig of copiedConfigs) expect(copiedConfig, `seed ${seed}`).toEqual(originalConfig);
   }
@@ -163,11 +163,11 @@ testEach('code to embed opens the settings of a state, with its attributes in an
 test('a list that is written as text is taken up, and other text is reported', async ({ page }) => {
   await showPage(page, '');
   const errorMessage = await page.evaluate(async () => {
-    const container = document.createElement('div');
-    document.body.prepend(container);
+    const figureContainer = document.createElement('div');
+    document.body.prepend(figureContainer);
     /** @type {Promise<string>} */
-    const messagePromise = new Promise((resolve) => container.addEventListener('error', ({ message }) => resolve(message), true));
-    container.innerHTML = '<banana-machine alphas="0.1,0.2,0.1,0.1,0,0" command="[object Object]"></banana-machine><arc-anatomy alphas="[0.1, 0.2, 0.1, 0.1, 0, 0]"></arc-anatomy>';
+    const messagePromise = new Promise((resolve) => figureContainer.addEventListener('error', ({ message }) => resolve(message), true));
+    figureContainer.innerHTML = '<banana-machine alphas="0.1,0.2,0.1,0.1,0,0" command="[object Object]"></banana-machine><arc-anatomy alphas="[0.1, 0.2, 0.1, 0.1, 0, 0]"></arc-anatomy>';
     return messagePromise;
   });
   expect(errorMessage).toMatch(/^command is "\[object Object\]"; allowed is an object/);
@@ -195,19 +195,19 @@ test('properties that were set before the element was defined are taken up, in a
     const namesByFigure = propertyCases.flatMap(([, , checkedNames]) => [checkedNames, checkedNames]);
     return figures.map((figure, i) => namesByFigure[i].map((name) => Reflect.get(figure, name)));
   });
-  const twice = (/** @type {unknown[]} */ values) => [values, values];
+  const repeatTwice = (/** @type {unknown[]} */ values) => [values, values];
   expect(propertyValues).toEqual([
-    ...twice([3, [0.1, 0.1, 0.1, 0.1, 0, 0], ['ellipse'], 'dark']),
-    ...twice([0.7, 1, 1.4, [0.1, 0.3, 0.1, 0.1]]),
-    ...twice([60_000, 70_000]),
-    ...twice([30, 40]),
-    ...twice([3, { x: 3, y: 1, theta: 0 }]),
+    ...repeatTwice([3, [0.1, 0.1, 0.1, 0.1, 0, 0], ['ellipse'], 'dark']),
+    ...repeatTwice([0.7, 1, 1.4, [0.1, 0.3, 0.1, 0.1]]),
+    ...repeatTwice([60_000, 70_000]),
+    ...repeatTwice([30, 40]),
+    ...repeatTwice([3, { x: 3, y: 1, theta: 0 }]),
   ]);
   expect(await takeEvents(page, ['error'])).toEqual([]);
 });
 
 test('properties that are assigned their own value change nothing @nightly', async ({ page, figureName }) => {
-  const widget = await mount(page, figureName);
+  const widget = await mountFigure(page, figureName);
   await widget.evaluate((element, state) => /** @type {any} */ (element).setState(state), /** @type {any} */ (randomStates(2)[figureName]));
   await takeEvents(page, ['stats']);
   const assignedCount = await widget.evaluate((element, keys) => {
@@ -222,19 +222,19 @@ test('properties that are assigned their own value change nothing @nightly', asy
 });
 
 test('properties take effect at once and reflect, and those that a model lacks are null', async ({ page }) => {
-  const widget = await mount(page, 'banana-machine');
+  const widget = await mountFigure(page, 'banana-machine');
   expect(await setProperty(widget, 'omega', 1.1)).toBe('');
   expect(await widget.getAttribute('omega')).toBe('1.1');
   const meanTurn = await widget.evaluate((element) => /** @type {AnyElement} */ (element).stats?.exponential.mean[2]);
   const { dt } = await widget.evaluate((element) => /** @type {AnyElement} */ (element).getState().command);
   expect(meanTurn).toBeCloseTo(1.1 * dt, 1);
   expect(await setProperty(widget, 'model', 'odometry')).toBe('');
-  expect(await propertyOf(widget, 'alpha5')).toBe(null);
+  expect(await readProperty(widget, 'alpha5')).toBe(null);
   expect(await setProperty(widget, 'alpha5', 0.1)).toContain('alphas has length 5; allowed is an array of 4 numbers');
 });
 
 test('properties that are refused fire an error event that does not bubble, and warn in the console if nobody listens', async ({ page }) => {
-  const widget = await mount(page, 'banana-machine');
+  const widget = await mountFigure(page, 'banana-machine');
   const firedMessages = await widget.evaluate((element) => {
     const firedMessages = /** @type {string[]} */ ([]);
     for (const target of [window, document, document.body]) target.addEventListener('error', () => firedMessages.push('above'));
@@ -248,8 +248,8 @@ test('properties that are refused fire an error event that does not bubble, and 
   await otherPage.goto('/embed.html?widget=banana-machine');
   const warningPromise = otherPage.waitForEvent('console', (message) => message.type() === 'warning');
   await otherPage.locator('banana-machine').evaluate((element) => Object.assign(element, { theme: 'sepia' }));
-  const warning = await warningPromise;
-  expect(warning.text()).toContain('theme is "sepia"; allowed is "auto" or "light" or "dark"');
-  expect(await warning.args()[1].evaluate((element) => element.localName)).toBe('banana-machine');
+  const consoleWarning = await warningPromise;
+  expect(consoleWarning.text()).toContain('theme is "sepia"; allowed is "auto" or "light" or "dark"');
+  expect(await consoleWarning.args()[1].evaluate((element) => element.localName)).toBe('banana-machine');
   await otherPage.close();
 });

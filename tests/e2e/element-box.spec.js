@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { NEW_PAGE_TAG, REDUCED_MOTION, boxOf, waitForFrames, mount, showPage, test, untilReady, untilSettled } from './support.js';
+import { NEW_PAGE_TAG, REDUCED_MOTION, readBox, waitForFrames, mountFigure, showPage, test, waitUntilReady, waitUntilSettled } from './support.js';
 
 /** @typedef {import('@playwright/test').Page} Page */
 
@@ -28,7 +28,7 @@ const CONTAINERS_BY_NAME = {
 };
 
 test('a figure is as wide as it prefers, or as there is room, in every kind of box, before its script and after', NEW_PAGE_TAG, async ({ page, figureName }) => {
-  const sections = Object.entries(CONTAINERS_BY_NAME).map(([box, html]) => {
+  const containerSections = Object.entries(CONTAINERS_BY_NAME).map(([box, html]) => {
     const containerHtml = html === 'X' ? '<X></X>' : html;
     return `<section data-box="${box}" style="display: flow-root">${containerHtml.replace('<X', `<${figureName}`).replace('</X>', `</${figureName}>`)}</section>`;
   });
@@ -38,11 +38,11 @@ test('a figure is as wide as it prefers, or as there is room, in every kind of b
     await waitForFrames(page);
     const figureWidths = await page.locator(figureName).evaluateAll((figureElements) =>
       figureElements.map((element) => [/** @type {HTMLElement} */ (element.closest('section')).dataset.box ?? '', element.getBoundingClientRect().width]));
-    expect(figureWidths).toHaveLength(sections.length);
+    expect(figureWidths).toHaveLength(containerSections.length);
     return figureWidths.filter(([, figureWidth]) => Number(figureWidth) > width + 0.5 || Number(figureWidth) < Math.min(PREFERRED_WIDTH, width) - 0.5);
   };
   for (const scriptTag of ['', '<script type="module" src="/motion-widgets.js"></script>']) {
-    await showPage(page, sections.join(''), { head: pageHead, script: scriptTag });
+    await showPage(page, containerSections.join(''), { head: pageHead, script: scriptTag });
     if (scriptTag) await page.waitForFunction((tag) => customElements.get(tag) !== undefined, figureName);
     for (const w of [320, 600, 1280]) expect.soft(await findWrongWidths(w), `${scriptTag ? 'defined' : 'not defined'}, ${w} px`).toEqual([]);
   }
@@ -63,18 +63,18 @@ const partBoxesOf = (page, name, em) =>
   );
 
 test('a figure is in proportion to the letters around it, whatever the font size of the root', async ({ page, figureName }) => {
-  const layouts = [];
+  const partLayouts = [];
   for (const [rootFontSize, fontSize] of [['100%', 16], ['62.5%', 24]]) {
     await page.setViewportSize({ width: 1400, height: 2400 });
     await showPage(page, `<div style="width: 43.75em"><${figureName}></${figureName}></div>`, {
       head: `<style>html { font-size: ${rootFontSize} } body { margin: 0; font: ${fontSize}px/1.5 Arial, 'Liberation Sans', 'Nimbus Sans', sans-serif }</style>`,
     });
-    await untilReady(page.locator(figureName));
+    await waitUntilReady(page.locator(figureName));
     await expect(page.locator(figureName).locator('.folds')).toBeVisible();
     await waitForFrames(page);
-    layouts.push({ root: rootFontSize, em: fontSize, boxes: await partBoxesOf(page, figureName, Number(fontSize)) });
+    partLayouts.push({ root: rootFontSize, em: fontSize, boxes: await partBoxesOf(page, figureName, Number(fontSize)) });
   }
-  const [firstLayout, ...otherLayouts] = layouts;
+  const [firstLayout, ...otherLayouts] = partLayouts;
   for (const { root, em, boxes } of otherLayouts) {
     expect(boxes.map(({ part }) => part)).toEqual(firstLayout.boxes.map(({ part }) => part));
     // Browsers round the widths of letters to pixels, so that boxes differ by up to a quarter of the font size.
@@ -89,15 +89,15 @@ test('the picture of a figure stays in sight on a phone, below the header of the
     head: '<style>:root { --motion-sticky-top: 56px } body { margin: 0 }</style>',
   });
   const widget = page.locator(figureName);
-  await untilReady(widget);
+  await waitUntilReady(widget);
   const picture = widget.locator('[part=picture]').first();
   await widget.locator('.slider input[type=range]').nth(1).evaluate((element) => element.scrollIntoView({ block: 'start' }));
   await waitForFrames(page);
-  const { y, height } = await boxOf(picture);
+  const { y, height } = await readBox(picture);
   // The picture of the Banana Machine has a title with a verdict on the ellipse, which stays in sight too.
-  const topmostBox = figureName === 'banana-machine' ? await boxOf(widget.locator('.panel-title').first()) : { y };
+  const topmostBox = figureName === 'banana-machine' ? await readBox(widget.locator('.panel-title').first()) : { y };
   expect(topmostBox.y).toBeCloseTo(56, 0);
-  expect((await boxOf(widget.locator('.slider input[type=range]').nth(1))).y).toBeGreaterThanOrEqual(y + height);
+  expect((await readBox(widget.locator('.slider input[type=range]').nth(1))).y).toBeGreaterThanOrEqual(y + height);
 });
 
 for (const name of ['map-squeeze', 'dead-reckoning']) {
@@ -105,7 +105,7 @@ for (const name of ['map-squeeze', 'dead-reckoning']) {
     await page.setViewportSize({ width: 640, height: 400 });
     await showPage(page, `<${name}></${name}><div style="height: 2000px"></div>`);
     const widget = page.locator(name);
-    await untilReady(widget);
+    await waitUntilReady(widget);
     for (const slider of await widget.locator('.slider input[type=range]').all()) {
       await slider.evaluate((element) => element.scrollIntoView({ block: 'start' }));
       await waitForFrames(page);
@@ -122,12 +122,12 @@ test('tables of a figure scroll over the picture that stays in sight, unless a h
   await page.setViewportSize({ width: 640, height: 400 });
   await showPage(page, '<dead-reckoning></dead-reckoning><div style="height: 2000px"></div>');
   const widget = page.locator('dead-reckoning');
-  await untilReady(widget);
+  await waitUntilReady(widget);
   await widget.getByText('Numbers and data').click();
-  const table = widget.locator('#numbers table').first();
-  await table.evaluate((element) => element.scrollIntoView({ block: 'start' }));
+  const numbersTable = widget.locator('#numbers table').first();
+  await numbersTable.evaluate((element) => element.scrollIntoView({ block: 'start' }));
   await waitForFrames(page);
-  const isTableOnTop = () => table.evaluate((element) => {
+  const isTableOnTop = () => numbersTable.evaluate((element) => {
     const { left, top } = element.getBoundingClientRect();
     return element.contains(/** @type {ShadowRoot} */ (element.getRootNode()).elementFromPoint(left + 5, Math.max(top, 0) + 5));
   });
@@ -148,7 +148,7 @@ test.describe('on a screen with two pixels a CSS pixel', () => {
   test('canvases have the pixels of the screen, also one that developer tools imitate', async ({ page, figureName }) => {
     await showPage(page, `<${figureName}></${figureName}>`);
     const widget = page.locator(figureName);
-    await untilReady(widget);
+    await waitUntilReady(widget);
     const pixelRatios = await widget.locator('canvas:visible').evaluateAll((canvases) => canvases.map((canvas) => /** @type {HTMLCanvasElement} */ (canvas).width / canvas.getBoundingClientRect().width));
     expect(pixelRatios.length).toBeGreaterThan(0);
     for (const pixelRatio of pixelRatios) expect(pixelRatio).toBeCloseTo(2, 1);
@@ -172,11 +172,11 @@ for (const [name, lang, width, sliderId, sliderValues] of SLIDERS_BELOW_TEXTS) {
   test(`texts do not move the slider ${sliderId} while it is dragged, and do not overlap: ${name}, ${lang}, ${width} px @nightly`, async ({ page }) => {
     await page.setViewportSize({ width, height: 900 });
     const scriptTag = ['motion-widgets', 'de'].map((scriptName) => `<script type="module" src="/${scriptName}.js"></script>`).join('');
-    const widget = await mount(page, name, { attributes: `lang="${lang}"`, script: scriptTag, head: "<style>body { margin: 16px; font: 16px 'DejaVu Sans', Verdana }</style>" });
+    const widget = await mountFigure(page, name, { attributes: `lang="${lang}"`, script: scriptTag, head: "<style>body { margin: 16px; font: 16px 'DejaVu Sans', Verdana }</style>" });
     const sliderTops = [];
     for (const sliderValue of sliderValues) {
       await widget.locator(`#${sliderId}`).fill(sliderValue);
-      await untilSettled(widget);
+      await waitUntilSettled(widget);
       sliderTops.push(await widget.locator(`#${sliderId}`).evaluate((element) => element.getBoundingClientRect().top + scrollY));
     }
     expect(Math.max(...sliderTops) - Math.min(...sliderTops)).toBeLessThan(0.5);

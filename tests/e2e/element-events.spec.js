@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { FIGURE_FACTS } from './figures.js';
-import { REDUCED_MOTION, setProperty, boxOf, centreOf, dragSlider, waitForFrames, mount, showPage, stateOf, takeEvents, test, testEach, openDisclosures, untilReady, untilSettled } from './support.js';
+import { REDUCED_MOTION, setProperty, readBox, readCentre, dragSlider, waitForFrames, mountFigure, showPage, readState, takeEvents, test, testEach, openDisclosures, waitUntilReady, waitUntilSettled } from './support.js';
 
 /** @typedef {import('@playwright/test').Locator} Locator */
 /** @typedef {import('./figures.js').Name} Name */
@@ -25,7 +25,7 @@ test('a drag fires input at each step and one change at its end, composed, with 
     }
   });
   const widget = page.locator('banana-machine');
-  await untilReady(widget);
+  await waitUntilReady(widget);
   const takeRecordedEvents = () => page.evaluate(() => /** @type {unknown[][]} */ (Reflect.get(window, 'all')).splice(0));
   const openingEvents = await takeRecordedEvents();
   expect(openingEvents.map(([name]) => name).sort()).toEqual(['load', 'stats']);
@@ -37,9 +37,9 @@ test('a drag fires input at each step and one change at its end, composed, with 
   const gestureEvents = recordedEvents.filter(([name]) => name !== 'stats');
   expect(gestureEvents.length).toBeGreaterThan(3);
   expect(gestureEvents.map(([name]) => name)).toEqual([...Array(gestureEvents.length - 1).fill('input'), 'change']);
-  const speeds = gestureEvents.map(([, , v]) => v);
-  expect(speeds.at(-1)).toBe(Number(await widget.locator('#v').inputValue()));
-  expect(new Set(speeds).size).toBeGreaterThan(2);
+  const eventSpeeds = gestureEvents.map(([, , v]) => v);
+  expect(eventSpeeds.at(-1)).toBe(Number(await widget.locator('#v').inputValue()));
+  expect(new Set(eventSpeeds).size).toBeGreaterThan(2);
   expect(recordedEvents.some(([name]) => name === 'stats')).toBe(true);
 });
 
@@ -126,9 +126,9 @@ const USER_ACTIONS = {
 };
 
 testEach('a frame after an input event calls the core at most six times, and a release only for views that zoom in', async (page, name) => {
-  const widget = await mount(page, name);
+  const widget = await mountFigure(page, name);
   await openDisclosures(widget);
-  await untilSettled(widget);
+  await waitUntilSettled(widget);
   await widget.evaluate((element) => {
     const callsByFrame = /** @type {string[][]} */ ([[]]);
     Object.assign(element, { callsByFrame });
@@ -149,13 +149,13 @@ testEach('a frame after an input event calls the core at most six times, and a r
   });
   // Returns the methods of the simulation that were called, as one list for each frame.
   const takeCallsByFrame = async () => {
-    await untilSettled(widget);
+    await waitUntilSettled(widget);
     return widget.evaluate((element) => /** @type {string[][]} */ (Reflect.get(element, 'callsByFrame')).splice(0, Infinity, []));
   };
   const slider = widget.locator(`#${FIGURE_FACTS[name].sliderId}`);
   await slider.scrollIntoViewIfNeeded();
   await takeCallsByFrame();
-  const { x, y, width, height } = await boxOf(slider);
+  const { x, y, width, height } = await readBox(slider);
   const thumbShare = await slider.evaluate((input) => {
     const { value, min, max } = /** @type {HTMLInputElement} */ (input);
     return (Number(value) - Number(min)) / (Number(max) - Number(min));
@@ -172,7 +172,7 @@ testEach('a frame after an input event calls the core at most six times, and a r
 });
 
 testEach('each control of a figure fires one input and one change', async (page, name) => {
-  const widget = await mount(page, name);
+  const widget = await mountFigure(page, name);
   await openDisclosures(widget);
   await takeEvents(page);
   for (const [actionName, runAction] of USER_ACTIONS[name]) {
@@ -182,9 +182,9 @@ testEach('each control of a figure fires one input and one change', async (page,
 });
 
 test('a handle that is dragged fires input at each step and one change', async ({ page, handleFigureName }) => {
-  const widget = await mount(page, handleFigureName);
+  const widget = await mountFigure(page, handleFigureName);
   await takeEvents(page);
-  const { x, y } = await centreOf(widget.locator('.handle').first());
+  const { x, y } = await readCentre(widget.locator('.handle').first());
   await page.mouse.move(x, y);
   await page.mouse.down();
   await page.mouse.move(x + 40, y - 20, { steps: 4 });
@@ -200,28 +200,28 @@ test('a handle that is dragged fires input at each step and one change', async (
 test('changes by the page fire stats alone, also out of sight', async ({ page, figureName }) => {
   await showPage(page, `<${figureName}></${figureName}><div style="height: 4000px"></div>`);
   const widget = page.locator(figureName);
-  await untilReady(widget);
+  await waitUntilReady(widget);
   await takeEvents(page);
   await page.evaluate(() => scrollTo(0, 4000));
   await takeEvents(page, ['stats']);
-  const stateBefore = await stateOf(widget);
+  const stateBefore = await readState(widget);
   const [settingName, settingValue] = FIGURE_FACTS[figureName].otherSetting;
   for (const newValue of [settingValue, null, settingValue, undefined]) {
     expect(await setProperty(widget, settingName, newValue)).toBe('');
     expect(eventNamesOf(await takeEvents(page, ['load', 'input', 'change', 'error', 'stats'])), String(newValue)).toEqual(['stats']);
   }
-  expect(await stateOf(widget)).toEqual(stateBefore);
+  expect(await readState(widget)).toEqual(stateBefore);
   await widget.evaluate((element, [attribute, newValue]) => element.setAttribute(attribute, String(newValue)), FIGURE_FACTS[figureName].otherSetting);
   expect(eventNamesOf(await takeEvents(page, ['load', 'input', 'change', 'error', 'stats']))).toEqual(['stats']);
-  const changedState = await stateOf(widget);
+  const changedState = await readState(widget);
   expect(changedState).not.toEqual(stateBefore);
   await widget.evaluate((element, state) => Reflect.get(element, 'setState').call(element, state), stateBefore);
   expect(eventNamesOf(await takeEvents(page, ['load', 'input', 'change', 'error', 'stats']))).toEqual(['stats']);
-  expect(await stateOf(widget)).toEqual(stateBefore);
+  expect(await readState(widget)).toEqual(stateBefore);
 });
 
 test('events report changes alone, whatever is drawn and asked', async ({ page, figureName }) => {
-  const widget = await mount(page, figureName);
+  const widget = await mountFigure(page, figureName);
   await takeEvents(page, ['stats']);
   await widget.locator('canvas.plane').hover({ position: { x: 100, y: 100 } });
   await page.emulateMedia({ colorScheme: 'dark' });
@@ -240,7 +240,7 @@ test('an arrow key or a space that a control used goes no further; any other key
     'banana-machine': ['#chart-omega', '.to-present'],
   };
   for (const [name, selectors] of Object.entries(selectorsByFigure)) {
-    const widget = await mount(page, name);
+    const widget = await mountFigure(page, name);
     await openDisclosures(widget);
     await page.evaluate(() => {
       const pressedKeys = /** @type {string[]} */ ([]);

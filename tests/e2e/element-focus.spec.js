@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { REDUCED_MOTION, holdRequests, waitForFrames, propertyOf, showPage, test, untilReady } from './support.js';
+import { REDUCED_MOTION, holdRequests, waitForFrames, readProperty, showPage, test, waitUntilReady } from './support.js';
 
 /** @typedef {import('@playwright/test').Page} Page */
 
@@ -27,7 +27,7 @@ async function showFigureFarBelow(page, name) {
   );
   const widget = page.locator(name);
   await widget.locator('.reserved').waitFor({ state: 'attached' });
-  expect(await propertyOf(widget, 'simulation')).toBe(undefined);
+  expect(await readProperty(widget, 'simulation')).toBe(undefined);
   return widget;
 }
 
@@ -37,7 +37,7 @@ for (const [direction, originSelector, key] of /** @type {const} */ ([['above', 
     const readFocusedHtml = () => widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.outerHTML);
     await page.locator(originSelector).focus();
     await page.keyboard.press(key);
-    await untilReady(widget);
+    await waitUntilReady(widget);
     const firstFocusedHtml = await readFocusedHtml();
     await page.locator(originSelector).focus();
     await page.keyboard.press(key);
@@ -55,7 +55,7 @@ test('a figure that starts after the user has moved the focus leaves it there @n
   await moduleRequest;
   await page.keyboard.press('Tab');
   allowModule();
-  await untilReady(widget);
+  await waitUntilReady(widget);
   await waitForFrames(page);
   await expect(page.locator('#after')).toBeFocused();
 });

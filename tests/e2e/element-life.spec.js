@@ -1,7 +1,7 @@
 import { chromium, expect } from '@playwright/test';
 import { CHROME_ARGUMENTS, FULL_CHROME_NAMES, findChrome } from '../../scripts/browser.mjs';
 import { ALL_NAMES, CLOUD_NAMES, FIGURE_FACTS, TWO_NAMES } from './figures.js';
-import { NEW_PAGE_TAG, REDUCED_MOTION, setProperty, boxOf, centreOf, waitForFrames, mount, pictureOf, propertyOf, showPage, stateOf, takeEvents, test, openDisclosures, untilReady } from './support.js';
+import { NEW_PAGE_TAG, REDUCED_MOTION, setProperty, readBox, readCentre, waitForFrames, mountFigure, readPicture, readProperty, showPage, readState, takeEvents, test, openDisclosures, waitUntilReady } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
 /** @typedef {import('@playwright/test').Page} Page */
@@ -11,24 +11,24 @@ test.use(REDUCED_MOTION);
 /** Counts requested frames and compiled modules from the start of a page. @param {Page} page */
 async function countFramesAndModules(page) {
   await page.addInitScript(() => {
-    const counts = { frames: 0, compiled: 0, instances: 0 };
-    Object.assign(window, { counts, quietFrame: requestAnimationFrame.bind(window) });
+    const frameAndModuleCounts = { frames: 0, compiled: 0, instances: 0 };
+    Object.assign(window, { counts: frameAndModuleCounts, quietFrame: requestAnimationFrame.bind(window) });
     const { requestAnimationFrame: requestFrame } = window;
     window.requestAnimationFrame = (callback) => {
-      counts.frames++;
+      frameAndModuleCounts.frames++;
       return requestFrame.call(window, callback);
     };
     const { compile, compileStreaming, instantiate } = WebAssembly;
-    WebAssembly.compile = (...args) => (counts.compiled++, compile.apply(WebAssembly, args));
-    WebAssembly.compileStreaming = (...args) => (counts.compiled++, compileStreaming.apply(WebAssembly, args));
+    WebAssembly.compile = (...args) => (frameAndModuleCounts.compiled++, compile.apply(WebAssembly, args));
+    WebAssembly.compileStreaming = (...args) => (frameAndModuleCounts.compiled++, compileStreaming.apply(WebAssembly, args));
     WebAssembly.instantiate = /** @type {any} */ (
-      (/** @type {[any, any]} */ ...args) => (counts.instances++, instantiate.apply(WebAssembly, args))
+      (/** @type {[any, any]} */ ...args) => (frameAndModuleCounts.instances++, instantiate.apply(WebAssembly, args))
     );
   });
 }
 
 /** Returns the numbers of frames and modules so far. @param {Page} page @returns {Promise<{ frames: number, compiled: number, instances: number }>} */
-const pageCountsOf = (page) => page.evaluate(() => Reflect.get(window, 'counts'));
+const readPageCounts = (page) => page.evaluate(() => Reflect.get(window, 'counts'));
 
 /** Waits for six frames that are not counted. @param {Page} page */
 const waitForSixFrames = (page) =>
@@ -47,13 +47,13 @@ test('figures far from the window fetch and compute nothing, and one module serv
   // Polling is avoided, because it requests frames.
   await page.evaluate((tags) => Promise.all(tags.map((tag) => customElements.whenDefined(tag))).then(() => true), [...TWO_NAMES]);
   await waitForSixFrames(page);
-  expect(await pageCountsOf(page)).toEqual({ frames: 0, compiled: 0, instances: 0 });
+  expect(await readPageCounts(page)).toEqual({ frames: 0, compiled: 0, instances: 0 });
   expect(fetchedPaths.filter((path) => path.endsWith('.wasm'))).toEqual([]);
   for (const name of TWO_NAMES) {
     await page.locator(name).scrollIntoViewIfNeeded();
-    await untilReady(page.locator(name));
+    await waitUntilReady(page.locator(name));
   }
-  expect(await pageCountsOf(page)).toMatchObject({ compiled: 1, instances: TWO_NAMES.length });
+  expect(await readPageCounts(page)).toMatchObject({ compiled: 1, instances: TWO_NAMES.length });
   expect(fetchedPaths.filter((path) => path.endsWith('.wasm'))).toEqual(['/motion.wasm']);
 });
 
@@ -61,7 +61,7 @@ test('a page with one figure fetches the module of that figure @nightly', async 
   for (const name of ALL_NAMES) {
     const moduleRequest = page.waitForRequest(/\.wasm$/);
     await showPage(page, `<${name}></${name}>`, { script: '<script type="module" src="/external.js"></script>' });
-    await untilReady(page.locator(name));
+    await waitUntilReady(page.locator(name));
     expect(new URL((await moduleRequest).url()).pathname).toMatch(new RegExp(`^/chunks/${name}-\\w+\\.wasm$`));
   }
 });
@@ -71,7 +71,7 @@ test('a script that contains the module compiles it while it is evaluated, and n
   // The second import is evaluated in the same task as the first one.
   const countReaderUrl = 'data:text/javascript,window.compiledDuringScript = counts.compiled';
   await showPage(page, '<banana-machine></banana-machine>', { script: `<script type="module">import '/motion-widgets.js'; import '${countReaderUrl}'</script>` });
-  await untilReady(page.locator('banana-machine'));
+  await waitUntilReady(page.locator('banana-machine'));
   expect(await page.evaluate(() => Reflect.get(window, 'compiledDuringScript'))).toBe(1);
   const [hasSimulation, hasPlaceholder] = await page.evaluate(async () => {
     const figure = /** @type {any} */ (document.createElement('banana-machine'));
@@ -83,11 +83,11 @@ test('a script that contains the module compiles it while it is evaluated, and n
 });
 
 test('figures within six hundred pixels of the window start, and others do not', async ({ page }) => {
-  const sections = [560, 620].map((below) => `<div style="position: absolute; top: calc(100vh + ${below}px); width: 600px"><map-squeeze></map-squeeze></div>`);
-  await showPage(page, sections.join(''));
-  const widgets = page.locator('map-squeeze');
-  await untilReady(widgets.nth(0));
-  expect(await propertyOf(widgets.nth(1), 'simulation')).toBe(undefined);
+  const figureSections = [560, 620].map((below) => `<div style="position: absolute; top: calc(100vh + ${below}px); width: 600px"><map-squeeze></map-squeeze></div>`);
+  await showPage(page, figureSections.join(''));
+  const squeezeFigures = page.locator('map-squeeze');
+  await waitUntilReady(squeezeFigures.nth(0));
+  expect(await readProperty(squeezeFigures.nth(1), 'simulation')).toBe(undefined);
 });
 
 test('a cloud that is out of sight asks for no frames, and goes on growing where it was @nightly', async ({ page, cloudFigureName }) => {
@@ -95,9 +95,9 @@ test('a cloud that is out of sight asks for no frames, and goes on growing where
   await countFramesAndModules(page);
   await showPage(page, `<${cloudFigureName}></${cloudFigureName}><div style="height: 6000px"></div>`);
   const widget = page.locator(cloudFigureName);
-  await untilReady(widget);
+  await waitUntilReady(widget);
   const readShownCount = () => widget.evaluate((element) => /** @type {AnyElement} */ (element).simulation.shown);
-  const sampleCount = Number(await propertyOf(widget, 'samples'));
+  const sampleCount = Number(await readProperty(widget, 'samples'));
   await widget.evaluate(async (element) => {
     const statsEvent = new Promise((resolve) => element.addEventListener('stats', resolve, { once: true }));
     /** @type {AnyElement} */ (element).setState({ widget: element.localName, version: 1, shown: 0, playing: true });
@@ -106,12 +106,12 @@ test('a cloud that is out of sight asks for no frames, and goes on growing where
     // Waits for an observer of this test. The observer of the figure reports in the same frame.
     await new Promise((resolve) => new IntersectionObserver(([{ isIntersecting }]) => isIntersecting || resolve(undefined)).observe(element));
   });
-  expect(await propertyOf(widget, 'playing')).toBe(true);
+  expect(await readProperty(widget, 'playing')).toBe(true);
   await waitForSixFrames(page);
-  const countsBefore = [(await pageCountsOf(page)).frames, await readShownCount()];
+  const countsBefore = [(await readPageCounts(page)).frames, await readShownCount()];
   expect(countsBefore[1]).toBeLessThan(sampleCount);
   await waitForSixFrames(page);
-  expect([(await pageCountsOf(page)).frames, await readShownCount()]).toEqual(countsBefore);
+  expect([(await readPageCounts(page)).frames, await readShownCount()]).toEqual(countsBefore);
   await page.evaluate(() => scrollTo(0, 0));
   await expect.poll(readShownCount, { timeout: 20_000 }).toBe(sampleCount);
 });
@@ -130,7 +130,7 @@ test('settled waits for the figure and all of its samples, in sight and far from
 });
 
 test('settled waits for the text that follows a picture on a slow device', async ({ page }) => {
-  const widget = await mount(page, 'banana-machine');
+  const widget = await mountFigure(page, 'banana-machine');
   const cdpSession = await page.context().newCDPSession(page);
   await cdpSession.send('Emulation.setCPUThrottlingRate', { rate: 6 });
   const sliderSpeeds = await widget.evaluate(async (element) => {
@@ -149,17 +149,17 @@ test('settled waits for the text that follows a picture on a slow device', async
 test('a cloud that is half grown stays so over a move and over a removal', async ({ page, cloudFigureName }) => {
   await showPage(page, `<div id="a"><${cloudFigureName}></${cloudFigureName}></div><div id="b"></div>`);
   const widget = page.locator(cloudFigureName);
-  await untilReady(widget);
+  await waitUntilReady(widget);
   // With this seed every robot is inside the view, so that the view does not zoom out.
   await setProperty(widget, 'seed', 11);
   await openDisclosures(widget);
   const pressButton = (/** @type {string} */ button) => widget.locator('.cloud').getByRole('button', { name: button, exact: true }).click();
   await pressButton('Clear');
   for (let i = 0; i < 5; i++) await pressButton('Step');
-  const stateBefore = await stateOf(widget);
+  const stateBefore = await readState(widget);
   expect(/** @type {any} */ (stateBefore).shown).toBeGreaterThan(0);
   expect(/** @type {any} */ (stateBefore).shown).toBeLessThan(/** @type {any} */ (stateBefore).samples);
-  const pictureBefore = await pictureOf(widget.locator('canvas.plane'));
+  const pictureBefore = await readPicture(widget.locator('canvas.plane'));
   const isSameSimulation = await widget.evaluate((element) => {
     const { simulation } = /** @type {AnyElement} */ (element);
     document.querySelector('#b')?.append(element);
@@ -167,33 +167,33 @@ test('a cloud that is half grown stays so over a move and over a removal', async
   });
   expect(isSameSimulation).toBe(true);
   await waitForFrames(page);
-  expect(await stateOf(widget)).toEqual(stateBefore);
+  expect(await readState(widget)).toEqual(stateBefore);
   await widget.evaluate(async (element) => {
     element.remove();
     await new Promise(requestAnimationFrame);
     document.querySelector('#a')?.append(element);
   });
-  await untilReady(widget);
-  expect(await stateOf(widget)).toEqual(stateBefore);
-  await expect.poll(() => pictureOf(widget.locator('canvas.plane'))).toBe(pictureBefore);
+  await waitUntilReady(widget);
+  expect(await readState(widget)).toEqual(stateBefore);
+  await expect.poll(() => readPicture(widget.locator('canvas.plane'))).toBe(pictureBefore);
 });
 
 test('folds, fields and height of a figure stay over a move and over a removal', async ({ page, figureName }) => {
   await showPage(page, `<div id="a"><${figureName}></${figureName}></div><div id="b"></div>`);
   const widget = page.locator(figureName);
-  await untilReady(widget);
+  await waitUntilReady(widget);
   const { fieldInFold } = FIGURE_FACTS[figureName];
-  const folds = widget.locator('details');
-  await expect.poll(() => folds.count()).toBeGreaterThan(1);
+  const disclosures = widget.locator('details');
+  await expect.poll(() => disclosures.count()).toBeGreaterThan(1);
   await openDisclosures(widget);
-  const readOpenFolds = () => folds.evaluateAll((foldElements) => foldElements.map((details) => /** @type {HTMLDetailsElement} */ (details).open));
+  const readOpenFolds = () => disclosures.evaluateAll((foldElements) => foldElements.map((details) => /** @type {HTMLDetailsElement} */ (details).open));
   const openFoldsBefore = await readOpenFolds();
-  const field = folds.nth(fieldInFold.foldIndex).locator(fieldInFold.field);
-  await field.fill(fieldInFold.value);
+  const fieldInDisclosure = disclosures.nth(fieldInFold.foldIndex).locator(fieldInFold.field);
+  await fieldInDisclosure.fill(fieldInFold.value);
   await widget.evaluate((element) => document.querySelector('#b')?.append(element));
   await waitForFrames(page);
   expect(await readOpenFolds()).toEqual(openFoldsBefore);
-  const heightBefore = (await boxOf(widget)).height;
+  const heightBefore = (await readBox(widget)).height;
   const heightsAfter = await widget.evaluate(async (element) => {
     element.remove();
     await new Promise(requestAnimationFrame);
@@ -202,17 +202,17 @@ test('folds, fields and height of a figure stay over a move and over a removal',
     await new Promise(requestAnimationFrame);
     return [...heightsAfter, element.getBoundingClientRect().height];
   });
-  await untilReady(widget);
+  await waitUntilReady(widget);
   expect(await readOpenFolds()).toEqual(openFoldsBefore);
-  await expect(field).toHaveValue(fieldInFold.value);
-  await expect(folds.nth(fieldInFold.foldIndex).locator('.folded')).not.toBeEmpty();
+  await expect(fieldInDisclosure).toHaveValue(fieldInFold.value);
+  await expect(disclosures.nth(fieldInFold.foldIndex).locator('.folded')).not.toBeEmpty();
   // The figure has its former height in both frames.
   expect(heightsAfter).toEqual([heightBefore, heightBefore]);
 });
 
 test('a figure keeps what the user did in the moment before it was removed', async ({ page, figureName }) => {
   const { sliderId, statePath, sliderValues: [sliderValue] } = FIGURE_FACTS[figureName];
-  const widget = await mount(page, figureName);
+  const widget = await mountFigure(page, figureName);
   const stateAfter = await widget.evaluate(async (element, [id, to]) => {
     const slider = /** @type {HTMLInputElement} */ (element.shadowRoot?.querySelector(`#${id}`));
     slider.value = String(to);
@@ -227,16 +227,16 @@ test('a figure keeps what the user did in the moment before it was removed', asy
 test('a figure that is moved while a handle is held lets go of it, and fits its picture @nightly', async ({ page, handleFigureName }) => {
   await showPage(page, `<div id="a" style="width: 1100px"><${handleFigureName}></${handleFigureName}></div><div id="b" style="width: 500px"></div>`);
   const widget = page.locator(handleFigureName);
-  await untilReady(widget);
+  await waitUntilReady(widget);
   const handle = widget.locator('.handle').first();
-  const stateBefore = await stateOf(widget);
-  const { x, y } = await centreOf(handle);
+  const stateBefore = await readState(widget);
+  const { x, y } = await readCentre(handle);
   await page.mouse.move(x, y);
   await page.mouse.down();
   await page.mouse.move(x + 30, y + 20, { steps: 3 });
   await waitForFrames(page);
   await expect(handle).toHaveClass(/held/);
-  const stateAfterDrag = await stateOf(widget);
+  const stateAfterDrag = await readState(widget);
   expect(stateAfterDrag).not.toEqual(stateBefore);
   await takeEvents(page);
   await widget.evaluate((element) => document.querySelector('#b')?.append(element));
@@ -245,14 +245,14 @@ test('a figure that is moved while a handle is held lets go of it, and fits its 
   expect((await takeEvents(page)).map(({ name }) => name)).toEqual(['change']);
   await page.mouse.move(700, 300);
   await waitForFrames(page);
-  expect(await stateOf(widget)).toEqual(stateAfterDrag);
+  expect(await readState(widget)).toEqual(stateAfterDrag);
   await page.mouse.up();
 });
 
 test('a canvas that has got its context back is drawn again', async ({ page, figureName }) => {
-  const widget = await mount(page, figureName);
+  const widget = await mountFigure(page, figureName);
   const canvas = widget.locator('canvas.plane');
-  const pictureBefore = await pictureOf(canvas);
+  const pictureBefore = await readPicture(canvas);
   const blankPicture = await canvas.evaluate((element) => {
     const canvas = /** @type {HTMLCanvasElement} */ (element);
     // A browser that restores a lost context leaves the canvas blank and fires this event.
@@ -262,45 +262,45 @@ test('a canvas that has got its context back is drawn again', async ({ page, fig
     return blankPicture;
   });
   expect(blankPicture).not.toBe(pictureBefore);
-  expect(await pictureOf(canvas)).toBe(pictureBefore);
+  expect(await readPicture(canvas)).toBe(pictureBefore);
 });
 
 test('a figure that comes back is drawn on the screen again, even if it was removed during print', async ({ page, figureName }) => {
-  const widget = await mount(page, figureName);
+  const widget = await mountFigure(page, figureName);
   await page.emulateMedia({ media: 'print' });
   const canvas = widget.locator('canvas.plane');
   await expect(canvas).toHaveJSProperty('width', 2 * (await canvas.evaluate(({ clientWidth }) => clientWidth)));
   const removedFigure = await widget.evaluateHandle((element) => (element.remove(), element));
   await page.emulateMedia({ media: 'screen' });
   await removedFigure.evaluate((element) => document.body.append(element));
-  await untilReady(widget);
+  await waitUntilReady(widget);
   await expect.poll(() => canvas.evaluate((element) => /** @type {HTMLCanvasElement} */ (element).width / element.clientWidth)).toBeCloseTo(1, 1);
 });
 
 test('a figure that was removed and comes back has no more observers, and does not draw its walls anew when it is seen again', NEW_PAGE_TAG, async ({ page }) => {
   await page.addInitScript(() => {
-    const counts = { observers: 0, paths: 0 };
-    Object.assign(window, { counts });
+    const frameAndModuleCounts = { observers: 0, paths: 0 };
+    Object.assign(window, { counts: frameAndModuleCounts });
     const { observe, disconnect } = IntersectionObserver.prototype;
-    const observers = new Set();
+    const intersectionObservers = new Set();
     IntersectionObserver.prototype.observe = function (target) {
-      counts.observers = observers.add(this).size;
+      frameAndModuleCounts.observers = intersectionObservers.add(this).size;
       observe.call(this, target);
     };
     IntersectionObserver.prototype.disconnect = function () {
-      observers.delete(this);
-      counts.observers = observers.size;
+      intersectionObservers.delete(this);
+      frameAndModuleCounts.observers = intersectionObservers.size;
       disconnect.call(this);
     };
     const { beginPath } = OffscreenCanvasRenderingContext2D.prototype;
     OffscreenCanvasRenderingContext2D.prototype.beginPath = function () {
-      counts.paths++;
+      frameAndModuleCounts.paths++;
       beginPath.call(this);
     };
   });
   await showPage(page, '<map-squeeze></map-squeeze><div style="height: 4000px"></div>');
   const widget = page.locator('map-squeeze');
-  await untilReady(widget);
+  await waitUntilReady(widget);
   const readCounts = () => page.evaluate(() => ({ ...Reflect.get(window, 'counts') }));
   const countsBefore = await readCounts();
   expect(Math.min(countsBefore.observers, countsBefore.paths)).toBeGreaterThan(0);
@@ -315,23 +315,23 @@ test('a figure that was removed and comes back has no more observers, and does n
     await new Promise(requestAnimationFrame);
     body.prepend(element);
   });
-  await untilReady(widget);
+  await waitUntilReady(widget);
   expect((await readCounts()).observers).toBe(countsBefore.observers);
 });
 
 test('a figure that was not displayed shows what was set meanwhile @nightly', async ({ page, figureName }) => {
   await showPage(page, `<div id="box"><${figureName}></${figureName}></div>`);
   const widget = page.locator(figureName);
-  await untilReady(widget);
+  await waitUntilReady(widget);
   const canvas = widget.locator('canvas.plane');
-  const pictureBefore = await pictureOf(canvas);
+  const pictureBefore = await readPicture(canvas);
   const setDisplay = (/** @type {string} */ value) => page.locator('#box').evaluate((box, to) => void (/** @type {HTMLElement} */ (box).style.display = to), value);
   await setDisplay('none');
   await waitForFrames(page);
   await setProperty(widget, ...FIGURE_FACTS[figureName].otherSetting);
   await waitForFrames(page);
   await setDisplay('block');
-  await expect.poll(() => pictureOf(canvas)).not.toBe(pictureBefore);
+  await expect.poll(() => readPicture(canvas)).not.toBe(pictureBefore);
   await expect(widget).toHaveAttribute(FIGURE_FACTS[figureName].otherSetting[0].replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`), String(FIGURE_FACTS[figureName].otherSetting[1]));
 });
 
@@ -343,12 +343,12 @@ test('a page that comes back from the back-forward cache is alive @nightly', asy
   await showPage(page, ALL_NAMES.map((name) => `<${name} share></${name}>`).join(''));
   for (const name of ALL_NAMES) {
     await page.locator(name).scrollIntoViewIfNeeded();
-    await untilReady(page.locator(name));
+    await waitUntilReady(page.locator(name));
   }
-  const banana = page.locator('banana-machine');
-  await banana.scrollIntoViewIfNeeded();
-  await setProperty(banana, 'omega', 1.25);
-  const takePictureAndStates = async () => [await pictureOf(banana.locator('canvas.plane')), ...(await Promise.all(ALL_NAMES.map((name) => stateOf(page.locator(name)))))];
+  const bananaFigure = page.locator('banana-machine');
+  await bananaFigure.scrollIntoViewIfNeeded();
+  await setProperty(bananaFigure, 'omega', 1.25);
+  const takePictureAndStates = async () => [await readPicture(bananaFigure.locator('canvas.plane')), ...(await Promise.all(ALL_NAMES.map((name) => readState(page.locator(name)))))];
   const pictureAndStatesBefore = await takePictureAndStates();
   await page.evaluate(() => addEventListener('pageshow', ({ persisted }) => void Object.assign(window, { persisted })));
   await page.goto('/embed.html?widget=map-squeeze');
@@ -356,7 +356,7 @@ test('a page that comes back from the back-forward cache is alive @nightly', asy
   await expect.poll(() => page.evaluate(() => Reflect.get(window, 'persisted'))).toBe(true);
   await waitForFrames(page);
   expect(await takePictureAndStates()).toEqual(pictureAndStatesBefore);
-  await banana.locator('#v').fill('0.4');
+  await bananaFigure.locator('#v').fill('0.4');
   await expect.poll(async () => (await takePictureAndStates())[0]).not.toBe(pictureAndStatesBefore[0]);
   await browser.close();
 });
@@ -364,7 +364,7 @@ test('a page that comes back from the back-forward cache is alive @nightly', asy
 test('figures that were removed leave no memory, no observers and no nodes @nightly', NEW_PAGE_TAG, async ({ page }) => {
   test.setTimeout(200_000);
   await showPage(page, '<banana-machine></banana-machine>');
-  await untilReady(page.locator('banana-machine'));
+  await waitUntilReady(page.locator('banana-machine'));
   await page.evaluate(() => document.body.replaceChildren());
   const cdpSession = await page.context().newCDPSession(page);
   await cdpSession.send('HeapProfiler.enable');

@@ -1,10 +1,10 @@
 import { expect } from '@playwright/test';
-import { REDUCED_MOTION, waitForFrames, mount, propertyOf, stateOf, test, openDisclosures } from './support.js';
+import { REDUCED_MOTION, waitForFrames, mountFigure, readProperty, readState, test, openDisclosures } from './support.js';
 
 test.use(REDUCED_MOTION);
 
 test('a preset sets every setting but samples and seed, and is marked while all hold', async ({ page }) => {
-  const widget = await mount(page, 'map-squeeze', { attributes: 'samples="50" seed="4"' });
+  const widget = await mountFigure(page, 'map-squeeze', { attributes: 'samples="50" seed="4"' });
   const presetButton = widget.locator('.presets button').nth(1);
   await presetButton.click();
   await expect(presetButton).toHaveAttribute('aria-pressed', 'true');
@@ -12,12 +12,12 @@ test('a preset sets every setting but samples and seed, and is marked while all 
   await expect(presetButton).toHaveAttribute('aria-pressed', 'false');
   await presetButton.click();
   await expect(presetButton).toHaveAttribute('aria-pressed', 'true');
-  expect(await Promise.all(['clearance', 'samples', 'seed'].map((key) => propertyOf(widget, key)))).toEqual([0.13, 50, 4]);
+  expect(await Promise.all(['clearance', 'samples', 'seed'].map((key) => readProperty(widget, key)))).toEqual([0.13, 50, 4]);
 });
 
 test('Start over brings back the settings, the seed and the lines as the figure opened', async ({ page }) => {
-  const widget = await mount(page, 'banana-machine', { attributes: 'preset="hard" samples="2000" seed="5" overlays="ellipse"' });
-  const openingState = await stateOf(widget);
+  const widget = await mountFigure(page, 'banana-machine', { attributes: 'preset="hard" samples="2000" seed="5" overlays="ellipse"' });
+  const openingState = await readState(widget);
   await openDisclosures(widget);
   await widget.locator('#alpha4').fill('0.15');
   await widget.getByRole('button', { name: 'Pivot' }).click();
@@ -25,20 +25,20 @@ test('Start over brings back the settings, the seed and the lines as the figure 
   await widget.getByRole('checkbox', { name: 'Gaussian in ξ' }).check();
   await widget.getByRole('button', { name: 'Clear' }).click();
   await waitForFrames(page);
-  expect(await stateOf(widget)).not.toEqual(openingState);
+  expect(await readState(widget)).not.toEqual(openingState);
   await widget.getByRole('button', { name: 'Start over' }).click();
-  await expect.poll(() => stateOf(widget)).toEqual(openingState);
+  await expect.poll(() => readState(widget)).toEqual(openingState);
 });
 
 test('a seed is typed, and one that is none is refused by a sentence', async ({ page, cloudFigureName }) => {
-  const widget = await mount(page, cloudFigureName);
+  const widget = await mountFigure(page, cloudFigureName);
   await openDisclosures(widget);
   const seedField = widget.getByRole('textbox', { name: 'seed', exact: true });
   await seedField.fill('42');
-  await expect.poll(() => propertyOf(widget, 'seed')).toBe(42);
+  await expect.poll(() => readProperty(widget, 'seed')).toBe(42);
   await seedField.fill('4.5');
   await expect(widget.locator('.seed [role=alert]')).toContainText('seed must be a whole number between 0 and');
-  expect(await propertyOf(widget, 'seed')).toBe(42);
+  expect(await readProperty(widget, 'seed')).toBe(42);
   await seedField.blur();
   await expect(seedField).toHaveValue('42');
 });

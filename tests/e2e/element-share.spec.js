@@ -2,7 +2,7 @@ import { expect } from '@playwright/test';
 import { randomGenerator } from '../random.js';
 import { expectAccessible } from './axe.js';
 import { FIGURE_FACTS } from './figures.js';
-import { NEW_PAGE_TAG, REDUCED_MOTION, waitForFrames, mount, propertyOf, showPage, stateOf, takeEvents, test, untilReady } from './support.js';
+import { NEW_PAGE_TAG, REDUCED_MOTION, waitForFrames, mountFigure, readProperty, showPage, readState, takeEvents, test, waitUntilReady } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
 /** @typedef {import('@playwright/test').Locator} Locator */
@@ -10,10 +10,10 @@ import { NEW_PAGE_TAG, REDUCED_MOTION, waitForFrames, mount, propertyOf, showPag
 test.use(REDUCED_MOTION);
 
 /** Returns the link to the state of a figure. @param {Locator} widget */
-const linkOf = (widget) => widget.evaluate((element) => /** @type {AnyElement} */ (element).shareLink());
+const readShareLink = (widget) => widget.evaluate((element) => /** @type {AnyElement} */ (element).shareLink());
 
 /** Returns the fragment of the link to a figure. @param {Locator} widget @returns {Promise<string>} */
-const fragmentOf = async (widget) => new URL(await linkOf(widget)).hash;
+const readLinkFragment = async (widget) => new URL(await readShareLink(widget)).hash;
 
 const THREE_FIGURES_HTML = `<banana-machine share></banana-machine>
   <h2 id="what-to-try" style="margin-top: 3000px">What to try</h2>
@@ -24,7 +24,7 @@ test('two widgets and an anchor share the fragment, and the link shows what was 
   await showPage(page, THREE_FIGURES_HTML, { fragment: '#what-to-try&theme=a%20b' });
   const [firstFigure, secondFigure, thirdFigure] = [0, 1, 2].map((i) => page.locator('banana-machine').nth(i));
   await firstFigure.scrollIntoViewIfNeeded();
-  await untilReady(firstFigure);
+  await waitUntilReady(firstFigure);
   const readHash = () => page.evaluate(() => location.hash);
   expect(await readHash()).toBe('#what-to-try&theme=a%20b');
   const historyLength = await page.evaluate(() => history.length);
@@ -32,32 +32,32 @@ test('two widgets and an anchor share the fragment, and the link shows what was 
   await firstFigure.getByRole('button', { name: 'Hard arc' }).click();
   await expect.poll(readHash).toMatch(/^#what-to-try&theme=a%20b&banana-machine\.1=[\w-]+$/);
   await secondFigure.scrollIntoViewIfNeeded();
-  await untilReady(secondFigure);
+  await waitUntilReady(secondFigure);
   await secondFigure.getByRole('button', { name: 'Pivot' }).click();
   await expect.poll(readHash).toMatch(/^#what-to-try&theme=a%20b&banana-machine\.1=[\w-]+&banana-machine:second%20one=[\w-]+$/);
   await thirdFigure.scrollIntoViewIfNeeded();
-  await untilReady(thirdFigure);
+  await waitUntilReady(thirdFigure);
   const hashBefore = await readHash();
   await thirdFigure.getByRole('button', { name: 'Straight' }).click();
   await waitForFrames(page);
   expect(await readHash()).toBe(hashBefore);
   expect(await page.evaluate(() => history.length)).toBe(historyLength);
 
-  const link = await linkOf(firstFigure);
+  const sharedLink = await readShareLink(firstFigure);
   // A link scrolls to the figure of its first part.
   const [anchor, theme, firstFigurePart, secondFigurePart] = hashBefore.slice(1).split('&');
-  expect(new URL(link).hash).toBe(`#${[firstFigurePart, anchor, theme, secondFigurePart].join('&')}`);
+  expect(new URL(sharedLink).hash).toBe(`#${[firstFigurePart, anchor, theme, secondFigurePart].join('&')}`);
   const newPage = await context.newPage();
-  await showPage(newPage, THREE_FIGURES_HTML, { fragment: new URL(link).hash });
+  await showPage(newPage, THREE_FIGURES_HTML, { fragment: new URL(sharedLink).hash });
   const [firstCopy, secondCopy, thirdCopy] = [0, 1, 2].map((i) => newPage.locator('banana-machine').nth(i));
   for (const [copiedFigure, originalFigure] of [[firstCopy, firstFigure], [secondCopy, secondFigure]]) {
     await copiedFigure.scrollIntoViewIfNeeded();
-    await untilReady(copiedFigure);
-    expect(await stateOf(copiedFigure)).toEqual(await stateOf(originalFigure));
+    await waitUntilReady(copiedFigure);
+    expect(await readState(copiedFigure)).toEqual(await readState(originalFigure));
   }
   await thirdCopy.scrollIntoViewIfNeeded();
-  await untilReady(thirdCopy);
-  expect(/** @type {any} */ (await stateOf(thirdCopy)).command).toEqual({ v: 1, omega: 0, dt: 2 });
+  await waitUntilReady(thirdCopy);
+  expect(/** @type {any} */ (await readState(thirdCopy)).command).toEqual({ v: 1, omega: 0, dt: 2 });
   expect(await takeEvents(newPage, ['error', 'input', 'change'])).toEqual([]);
 });
 
@@ -72,7 +72,7 @@ test('figures in shadow roots, closed ones too, have parts of their own in the f
   const hostsHtml = '<open-host></open-host><open-host></open-host><closed-host id="c"></closed-host><banana-machine></banana-machine>';
   await showPage(page, hostsHtml);
   await page.locator('body > banana-machine').scrollIntoViewIfNeeded();
-  await untilReady(page.locator('body > banana-machine'));
+  await waitUntilReady(page.locator('body > banana-machine'));
   const linkKeys = await page.evaluate(async () => {
     const shadowFigures = [...document.querySelectorAll('open-host, closed-host')].map((host) => Reflect.get(host, 'figure'));
     const figures = /** @type {AnyElement[]} */ ([...shadowFigures, document.querySelector('body > banana-machine')]);
@@ -88,24 +88,24 @@ test('a link leads to the figure that it was copied from, once; a reload leads n
   const pageBody = `${gap}<banana-machine></banana-machine>${gap}<banana-machine></banana-machine>${gap}`;
   await showPage(page, pageBody);
   const figureAt = (/** @type {import('@playwright/test').Page} */ openPage, /** @type {number} */ i) => openPage.locator('banana-machine').nth(i);
-  const figureTopsOf = (/** @type {import('@playwright/test').Page} */ openPage) =>
+  const readFigureTops = (/** @type {import('@playwright/test').Page} */ openPage) =>
     openPage.locator('banana-machine').evaluateAll((figureElements) => figureElements.map((figure) => Math.round(figure.getBoundingClientRect().top)));
   const linkFragments = [];
   for (const i of [0, 1]) {
     await figureAt(page, i).scrollIntoViewIfNeeded();
-    await untilReady(figureAt(page, i));
+    await waitUntilReady(figureAt(page, i));
     // The address contains the state of this figure when the link to the next one is copied.
-    linkFragments.push(await fragmentOf(figureAt(page, i)));
+    linkFragments.push(await readLinkFragment(figureAt(page, i)));
     await page.evaluate((hash) => history.replaceState(null, '', hash), linkFragments[i]);
   }
   expect(linkFragments[1]).toMatch(/^#banana-machine\.2=.*&banana-machine\.1=/);
   // A figure whose state is already in the address gets no second part there.
-  expect(await fragmentOf(figureAt(page, 1))).toBe(linkFragments[1]);
+  expect(await readLinkFragment(figureAt(page, 1))).toBe(linkFragments[1]);
   for (const [i, fragment] of linkFragments.entries()) {
     const newPage = await context.newPage();
     await showPage(newPage, pageBody, { fragment });
-    await untilReady(figureAt(newPage, i));
-    await expect.poll(async () => (await figureTopsOf(newPage))[i]).toBeCloseTo(0);
+    await waitUntilReady(figureAt(newPage, i));
+    await expect.poll(async () => (await readFigureTops(newPage))[i]).toBeCloseTo(0);
     // Elements that are added or moved later do not scroll the page.
     const scrollYAfterMove = await newPage.evaluate(async () => {
       scrollTo(0, 100);
@@ -120,7 +120,7 @@ test('a link leads to the figure that it was copied from, once; a reload leads n
   // A link to a figure on the same page scrolls to it.
   await page.evaluate(() => scrollTo(0, 0));
   await page.evaluate((hash) => (location.hash = hash), linkFragments[0]);
-  await expect.poll(async () => (await figureTopsOf(page))[0]).toBeCloseTo(0);
+  await expect.poll(async () => (await readFigureTops(page))[0]).toBeCloseTo(0);
   await page.evaluate(() => scrollTo(0, 700));
   await page.reload();
   await expect(page.locator('banana-machine:defined')).toHaveCount(2);
@@ -131,16 +131,16 @@ test('a link leads to the figure that it was copied from, once; a reload leads n
 test('a link that is broken is reported, and the figure opens as its attributes say', async ({ page }) => {
   for (const brokenState of ['nonsense!', 'q1YqSy0qzszPU7JSMtAzUKoFAA']) {
     await page.goto('about:blank');
-    const widget = await mount(page, 'banana-machine', { attributes: 'share v="0.5"', fragment: `#banana-machine.1=${brokenState}` });
+    const widget = await mountFigure(page, 'banana-machine', { attributes: 'share v="0.5"', fragment: `#banana-machine.1=${brokenState}` });
     const errorEvents = await takeEvents(page, ['error']);
     expect(errorEvents.length, brokenState).toBe(1);
     expect(errorEvents[0].message).toMatch(/^state.*; allowed (is|are) /);
-    expect(/** @type {any} */ (await stateOf(widget)).command.v).toBe(0.5);
+    expect(/** @type {any} */ (await readState(widget)).command.v).toBe(0.5);
   }
 });
 
 test('a page with a base of its own keeps its address @nightly', async ({ page }) => {
-  const widget = await mount(page, 'map-squeeze', { attributes: 'share', head: '<base href="/somewhere/else/">' });
+  const widget = await mountFigure(page, 'map-squeeze', { attributes: 'share', head: '<base href="/somewhere/else/">' });
   const readAddress = () => page.evaluate(() => location.href);
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
   await expect.poll(readAddress).toMatch(/\/bare\.html#map-squeeze\.1=[\w-]+$/);
@@ -153,66 +153,66 @@ test('a page with a base of its own keeps its address @nightly', async ({ page }
 
 test('a figure without share leaves the address alone, and opens its part of a link and keeps it up to date', NEW_PAGE_TAG, async ({ page, context, figureName }) => {
   const { sliderId, sliderValues, buttonLabel } = FIGURE_FACTS[figureName];
-  const widget = await mount(page, figureName, { fragment: '#elsewhere' });
+  const widget = await mountFigure(page, figureName, { fragment: '#elsewhere' });
   await widget.evaluate((element, [key, value]) => void Reflect.set(element, key, value), /** @type {const} */ ([sliderId, sliderValues[0]]));
   await widget.getByRole('button', { name: buttonLabel, exact: true }).click();
   await waitForFrames(page);
   expect(await page.evaluate(() => location.hash)).toBe('#elsewhere');
-  const link = await linkOf(widget);
-  expect(link.split('#')[0]).toBe(page.url().split('#')[0]);
+  const sharedLink = await readShareLink(widget);
+  expect(sharedLink.split('#')[0]).toBe(page.url().split('#')[0]);
   const newPage = await context.newPage();
-  await showPage(newPage, `<${figureName}></${figureName}>`, { fragment: new URL(link).hash });
-  await untilReady(newPage.locator(figureName));
-  const openedState = await stateOf(newPage.locator(figureName));
-  expect(openedState).toEqual(await stateOf(widget));
+  await showPage(newPage, `<${figureName}></${figureName}>`, { fragment: new URL(sharedLink).hash });
+  await waitUntilReady(newPage.locator(figureName));
+  const openedState = await readState(newPage.locator(figureName));
+  expect(openedState).toEqual(await readState(widget));
   // From then on the address follows the figure, and "back" leaves the page.
   const historyLength = await newPage.evaluate(() => history.length);
   await newPage.locator(figureName).locator(`#${sliderId}`).fill(String(sliderValues[1]));
-  await expect.poll(async () => (await newPage.evaluate(() => location.hash)) === (await fragmentOf(newPage.locator(figureName)))).toBe(true);
-  expect(newPage.url()).not.toBe(link);
+  await expect.poll(async () => (await newPage.evaluate(() => location.hash)) === (await readLinkFragment(newPage.locator(figureName)))).toBe(true);
+  expect(newPage.url()).not.toBe(sharedLink);
   expect(await newPage.evaluate(() => history.length)).toBe(historyLength);
-  const changedState = await stateOf(newPage.locator(figureName));
+  const changedState = await readState(newPage.locator(figureName));
   await newPage.reload();
-  await untilReady(newPage.locator(figureName));
-  expect(await stateOf(newPage.locator(figureName))).toEqual(changedState);
+  await waitUntilReady(newPage.locator(figureName));
+  expect(await readState(newPage.locator(figureName))).toEqual(changedState);
 });
 
 test('a figure with share keeps its state in the address, and follows it', async ({ page, figureName }) => {
   const { sliderId, sliderValues, buttonLabel } = FIGURE_FACTS[figureName];
   await showPage(page, `<${figureName} share></${figureName}><p id="end">The end</p>`);
   const widget = page.locator(figureName);
-  await untilReady(widget);
+  await waitUntilReady(widget);
   const readHash = () => page.evaluate(() => location.hash);
   await widget.locator(`#${sliderId}`).fill(String(sliderValues[0]));
   await expect.poll(readHash).toMatch(new RegExp(`^#${figureName}\\.1=[\\w-]+$`));
-  const [formerHash, stateBefore] = [await readHash(), await stateOf(widget)];
+  const [formerHash, stateBefore] = [await readHash(), await readState(widget)];
   await widget.getByRole('button', { name: buttonLabel, exact: true }).click();
   await expect.poll(readHash).not.toBe(formerHash);
-  expect(await stateOf(widget)).not.toEqual(stateBefore);
+  expect(await readState(widget)).not.toEqual(stateBefore);
   await page.evaluate((fragment) => (location.hash = fragment), formerHash);
-  await expect.poll(() => stateOf(widget)).toEqual(stateBefore);
+  await expect.poll(() => readState(widget)).toEqual(stateBefore);
   // An anchor without a state changes nothing.
   await page.evaluate(() => (location.hash = '#end'));
   await waitForFrames(page);
   expect(await page.evaluate(() => document.querySelector(':target')?.id)).toBe('end');
-  expect(await stateOf(widget)).toEqual(stateBefore);
+  expect(await readState(widget)).toEqual(stateBefore);
   expect(await takeEvents(page, ['error'])).toEqual([]);
   await page.evaluate((fragment) => (location.hash = fragment.slice(0, -9)), formerHash);
   await expect(widget.getByRole('alert')).toHaveText('This link cannot be read: it may be cut off. The figure stays as it was.');
-  expect(await stateOf(widget)).toEqual(stateBefore);
+  expect(await readState(widget)).toEqual(stateBefore);
 });
 
 test.describe('the menu', () => {
   test.use({ permissions: ['clipboard-read', 'clipboard-write'] });
 
 test('copies a link, and the code to embed with the address of the script', async ({ page }) => {
-  const widget = await mount(page, 'banana-machine');
+  const widget = await mountFigure(page, 'banana-machine');
   await widget.getByRole('button', { name: 'Pivot' }).click();
   await waitForFrames(page);
   const readClipboard = () => page.evaluate(() => navigator.clipboard.readText());
   await widget.getByRole('button', { name: 'Copy link' }).click();
   await expect(widget.getByText('Copied.')).toBeVisible();
-  expect(await readClipboard()).toBe(await linkOf(widget));
+  expect(await readClipboard()).toBe(await readShareLink(widget));
   await widget.getByText('Numbers and data').click();
   const embedButton = widget.getByRole('button', { name: 'Copy embed code' });
   await expect(embedButton).toHaveAttribute('title', 'HTML that shows the figure as it is now on a page of your own');
@@ -225,7 +225,7 @@ test('copies a link, and the code to embed with the address of the script', asyn
 });
 
   test('the message says what is not copied: the user’s map in the code to embed, and a large one in a link @nightly', async ({ page }) => {
-    const widget = await mount(page, 'map-squeeze');
+    const widget = await mountFigure(page, 'map-squeeze');
     await widget.getByText('Numbers and data').click();
     await widget.getByRole('button', { name: 'Copy embed code' }).click();
     await expect(widget.getByText('Copied.')).toHaveText('Copied.');
@@ -243,10 +243,10 @@ test('copies a link, and the code to embed with the address of the script', asyn
     await widget.evaluate((element, newMap) => void Object.assign(element, { map: newMap }), map);
     await widget.getByRole('button', { name: 'Copy link' }).click();
     await expect(widget.getByText('Copied.')).toContainText('Your map is too large for a link and is not in it');
-    const [stateBefore, fragment] = [await stateOf(widget), await fragmentOf(widget)];
+    const [stateBefore, fragment] = [await readState(widget), await readLinkFragment(widget)];
     await page.goto('about:blank');
-    const openedFigure = await mount(page, 'map-squeeze', { attributes: 'seed="3"', fragment });
-    expect(await stateOf(openedFigure)).toEqual({ ...stateBefore, map: null, start: await propertyOf(await mount(page, 'map-squeeze'), 'start') });
+    const openedFigure = await mountFigure(page, 'map-squeeze', { attributes: 'seed="3"', fragment });
+    expect(await readState(openedFigure)).toEqual({ ...stateBefore, map: null, start: await readProperty(await mountFigure(page, 'map-squeeze'), 'start') });
   });
 });
 
@@ -254,7 +254,7 @@ test('the menu shows what the clipboard does not take @nightly', async ({ page }
   await page.addInitScript(() => Object.defineProperty(navigator, 'clipboard', { value: undefined }));
   // In a lower window, the open disclosure covers a part of the legend when the page has scrolled.
   await page.setViewportSize({ width: 1280, height: 1300 });
-  const widget = await mount(page, 'map-squeeze', { attributes: 'seed="4"' });
+  const widget = await mountFigure(page, 'map-squeeze', { attributes: 'seed="4"' });
   await widget.getByText('Numbers and data').click();
   await widget.getByRole('button', { name: 'Copy embed code' }).click();
   await expect(widget.getByRole('textbox', { name: 'Copy manually' })).toHaveValue(/<map-squeeze seed="4"><\/map-squeeze>/);
@@ -262,7 +262,7 @@ test('the menu shows what the clipboard does not take @nightly', async ({ page }
 });
 
 test('the code to embed names the script that defined the element', NEW_PAGE_TAG, async ({ page }) => {
-  const widget = await mount(page, 'map-squeeze', { script: '<script defer src="/motion-widgets.iife.js"></script>' });
+  const widget = await mountFigure(page, 'map-squeeze', { script: '<script defer src="/motion-widgets.iife.js"></script>' });
   const embedCode = await widget.evaluate((element) => /** @type {AnyElement} */ (element).embedCode());
   expect(embedCode).toContain(`<script defer src="${new URL(page.url()).origin}/motion-widgets.iife.js"></script>`);
 });
@@ -286,7 +286,7 @@ test('a frame shows the figure of its address, and sends its height', async ({ p
   await showPage(page, `<iframe src="/embed.html?widget=${figureName}&${sliderId}=${sliderValue}" width="700" height="900"></iframe>`, { script: '' });
   const widget = page.frameLocator('iframe').locator(figureName);
   await expect(widget.locator('.folds')).toBeVisible();
-  expect(await propertyOf(widget, sliderId)).toBe(sliderValue);
+  expect(await readProperty(widget, sliderId)).toBe(sliderValue);
   await expect.poll(async () => {
     const [height, reportedHeight] = [await widget.evaluate(() => document.body.getBoundingClientRect().height), await page.evaluate(() => Reflect.get(window, 'heights').at(-1))];
     return Math.abs(height - reportedHeight);

@@ -1,15 +1,15 @@
 import { expect } from '@playwright/test';
-import { REDUCED_MOTION, setProperty, boxOf, mount, propertyOf, showPage, takeEvents, test, untilReady } from './support.js';
+import { REDUCED_MOTION, setProperty, readBox, mountFigure, readProperty, showPage, takeEvents, test, waitUntilReady } from './support.js';
 
 test.use(REDUCED_MOTION);
 
 test('a figure has the title above and the caption below that the page gives it', async ({ page, figureName }) => {
   await showPage(page, `<${figureName} heading-level="3"><span slot="title">Figure 9.3 One command</span><p slot="caption">As <b>measured</b>.</p></${figureName}>`);
   const widget = page.locator(figureName);
-  await untilReady(widget);
+  await waitUntilReady(widget);
   await expect(widget.getByRole('heading', { name: 'Figure 9.3 One command', level: 3 })).toBeVisible();
   await expect(widget.getByRole('region', { name: 'Figure 9.3 One command' })).toBeVisible();
-  const [titleBox, pictureBox, captionBox] = await Promise.all([widget.getByText('Figure 9.3'), widget.locator('canvas').first(), widget.getByText('measured', { exact: true })].map(boxOf));
+  const [titleBox, pictureBox, captionBox] = await Promise.all([widget.getByText('Figure 9.3'), widget.locator('canvas').first(), widget.getByText('measured', { exact: true })].map(readBox));
   expect(titleBox.y + titleBox.height).toBeLessThanOrEqual(pictureBox.y);
   expect(captionBox.y).toBeGreaterThan(pictureBox.y + pictureBox.height);
   await page.emulateMedia({ media: 'print' });
@@ -26,11 +26,11 @@ test('a figure has the title above and the caption below that the page gives it'
 });
 
 test('a heading has one of six levels @nightly', async ({ page }) => {
-  const widget = await mount(page, 'map-squeeze', { attributes: 'heading-level="9"' });
+  const widget = await mountFigure(page, 'map-squeeze', { attributes: 'heading-level="9"' });
   expect((await takeEvents(page, ['error'])).map(({ message }) => message)).toEqual(['heading-level is "9"; allowed is "1" or "2" or "3" or "4" or "5" or "6"']);
   expect(await setProperty(widget, 'headingLevel', 7)).toContain('RangeError: headingLevel is "7"');
   expect(await setProperty(widget, 'headingLevel', 2)).toBe('');
-  expect([await propertyOf(widget, 'headingLevel'), await widget.getAttribute('heading-level')]).toEqual(['2', '2']);
+  expect([await readProperty(widget, 'headingLevel'), await widget.getAttribute('heading-level')]).toEqual(['2', '2']);
   expect(await setProperty(widget, 'headingLevel', null)).toBe('');
   expect(await widget.getAttribute('heading-level')).toBe(null);
 });

@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { STATE_SEEDS, randomStates } from './random-states.js';
-import { REDUCED_MOTION, waitForFrames, mount, showPage, stateOf, takeEvents, test, testEach, openDisclosures, untilReady } from './support.js';
+import { REDUCED_MOTION, waitForFrames, mountFigure, showPage, readState, takeEvents, test, testEach, openDisclosures, waitUntilReady } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
 
@@ -9,15 +9,15 @@ test.use(REDUCED_MOTION);
 testEach('random states go in and come out, and a second element in the same state is equal', async (page, name, isFull) => {
   await showPage(page, `<${name} id="one"></${name}><div style="position: fixed; inset: 0 0 auto"><${name} id="two"></${name}></div>`);
   const [firstWidget, secondWidget] = ['#one', '#two'].map((id) => page.locator(id));
-  await untilReady(firstWidget);
-  await untilReady(secondWidget);
+  await waitUntilReady(firstWidget);
+  await waitUntilReady(secondWidget);
   for (const seed of isFull ? STATE_SEEDS : STATE_SEEDS.slice(0, 2)) {
     const state = randomStates(seed)[name];
     const [firstResults, secondResults] = await page.evaluate(async (newState) => {
-      const elements = ['one', 'two'].map((id) => /** @type {AnyElement} */ (/** @type {unknown} */ (document.getElementById(id))));
-      elements[0].setState(newState);
-      elements[1].setState(JSON.parse(JSON.stringify(elements[0].getState())));
-      return elements.map((element) => ({ state: element.getState(), stats: element.stats, poses: [...(element.poses ?? [])] }));
+      const figureElements = ['one', 'two'].map((id) => /** @type {AnyElement} */ (/** @type {unknown} */ (document.getElementById(id))));
+      figureElements[0].setState(newState);
+      figureElements[1].setState(JSON.parse(JSON.stringify(figureElements[0].getState())));
+      return figureElements.map((element) => ({ state: element.getState(), stats: element.stats, poses: [...(element.poses ?? [])] }));
     }, /** @type {any} */ (state));
     expect(firstResults.state, `seed ${seed}`).toEqual(state);
     expect(secondResults).toEqual(firstResults);
@@ -27,7 +27,7 @@ testEach('random states go in and come out, and a second element in the same sta
 });
 
 test('a state that is refused names the field, and changes nothing', async ({ page }) => {
-  const refusals = /** @type {[string, object, string][]} */ ([
+  const refusedStates = /** @type {[string, object, string][]} */ ([
     ['banana-machine', { version: 2, speed: 1 }, 'RangeError: state.version is 2; allowed is 1'],
     ['banana-machine', { speed: 1 }, 'TypeError: state.speed is an unknown key; allowed are'],
     ['banana-machine', { overlays: ['stars'] }, 'RangeError: state.overlays[0] is "stars"; allowed is'],
@@ -37,10 +37,10 @@ test('a state that is refused names the field, and changes nothing', async ({ pa
     ['map-squeeze', { map: { columns: 2, rows: 2, resolution: 1, origin: [0, 0, 0], occupied: '?' } }, 'RangeError: map.occupied is "?"; allowed is base64 of 1 bytes'],
     ['dead-reckoning', { steps: 1, step: 2 }, 'RangeError: step is 2; allowed is'],
   ]);
-  for (const name of new Set(refusals.map(([caseName]) => caseName))) {
-    const widget = await mount(page, name);
-    const stateBefore = await stateOf(widget);
-    for (const [, refusedFields, expectedMessage] of refusals.filter(([caseName]) => caseName === name)) {
+  for (const name of new Set(refusedStates.map(([caseName]) => caseName))) {
+    const widget = await mountFigure(page, name);
+    const stateBefore = await readState(widget);
+    for (const [, refusedFields, expectedMessage] of refusedStates.filter(([caseName]) => caseName === name)) {
       const [thrownMessage, stateAfter] = await widget.evaluate((element, part) => {
         const widget = /** @type {AnyElement} */ (element);
         try {
@@ -57,46 +57,46 @@ test('a state that is refused names the field, and changes nothing', async ({ pa
 });
 
 test('a part of a state leaves the rest, and both models keep their noise', async ({ page }) => {
-  const widget = await mount(page, 'banana-machine');
+  const widget = await mountFigure(page, 'banana-machine');
   await openDisclosures(widget);
   await widget.locator('#alpha1').fill('0.15');
   await widget.getByLabel('odometry').check();
   // In each model another slider bends the cloud. It is in the element `.pair`.
   await widget.locator('.pair #alpha2').fill('0.07');
-  const stateBefore = /** @type {any} */ (await stateOf(widget));
+  const stateBefore = /** @type {any} */ (await readState(widget));
   expect(stateBefore.alphas.velocity[0]).toBe(0.15);
   expect(stateBefore.alphas.odometry[1]).toBe(0.07);
   await widget.evaluate((element) => /** @type {AnyElement} */ (element).setState({ widget: 'banana-machine', version: 1, model: 'velocity', samples: 500 }));
-  expect(await stateOf(widget)).toEqual({ ...stateBefore, model: 'velocity', samples: 500, shown: 500 });
+  expect(await readState(widget)).toEqual({ ...stateBefore, model: 'velocity', samples: 500, shown: 500 });
   expect(await widget.evaluate((element) => /** @type {AnyElement} */ (element).alphas[0])).toBe(0.15);
 });
 
 test('a property set right after a state holds, however long the state takes @nightly', async ({ page }) => {
-  const widget = await mount(page, 'banana-machine');
+  const widget = await mountFigure(page, 'banana-machine');
   await widget.evaluate((element) => {
     const figure = /** @type {any} */ (element);
     figure.setState({ widget: 'banana-machine', version: 1, samples: 3e6, shown: 3e6, playing: false, morph: 0 });
     figure.morph = 0.5;
   });
   await waitForFrames(page);
-  await expect.poll(() => stateOf(widget)).toMatchObject({ samples: 3e6, morph: 0.5 });
+  await expect.poll(() => readState(widget)).toMatchObject({ samples: 3e6, morph: 0.5 });
 });
 
 test('a state that comes while a slider plays is what is shown from then on @nightly', async ({ page }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
-  const widget = await mount(page, 'odometry-decomposer');
+  const widget = await mountFigure(page, 'odometry-decomposer');
   await widget.evaluate((element) => element.addEventListener('input', () => {
     /** @type {AnyElement} */ (element).setState({ widget: element.localName, version: 1, phase: 1 });
   }, { once: true }));
   await widget.locator('.playable.phase').getByRole('button').click();
-  await expect.poll(async () => /** @type {any} */ (await stateOf(widget)).phase).toBe(1);
+  await expect.poll(async () => /** @type {any} */ (await readState(widget)).phase).toBe(1);
   await expect(widget.locator('.playable.phase').getByRole('button')).toHaveText('Play the motion');
   await waitForFrames(page);
-  expect(/** @type {any} */ (await stateOf(widget)).phase).toBe(1);
+  expect(/** @type {any} */ (await readState(widget)).phase).toBe(1);
 });
 
 test('a state in part keeps the share of samples that are shown, and the mark that is among them @nightly', async ({ page, cloudFigureName }) => {
-  const widget = await mount(page, cloudFigureName, { attributes: 'samples="300"' });
+  const widget = await mountFigure(page, cloudFigureName, { attributes: 'samples="300"' });
   const statesAfter = await widget.evaluate((element) => {
     const figure = /** @type {AnyElement} */ (element);
     const partialStates = [{ shown: 100, marked: 50 }, { seed: 5 }, { shown: 50 }, { samples: 30 }, { samples: 300 }, { shown: 100, playing: true }];

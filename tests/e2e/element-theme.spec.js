@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import axe from 'axe-core';
-import { REDUCED_MOTION, coloursOf, mount, pixelCountOf, showPage, test, openDisclosures, untilReady } from './support.js';
+import { REDUCED_MOTION, readColours, mountFigure, countPixelsOfRole, showPage, test, openDisclosures, waitUntilReady } from './support.js';
 
 /** @typedef {import('@playwright/test').Locator} Locator */
 
@@ -23,7 +23,7 @@ const THEME_COLORS = {
 const MIN_CONTRAST = { ink: 4.5, muted: 4.5, prior: 4.5, prediction: 4.5, posterior: 4.5, accent: 4.5, cloud: 3, truth: 3 };
 
 /** Returns the background colour of a figure as hexadecimal digits. @param {Locator} widget @returns {Promise<string>} */
-const paperOf = async (widget) => hex((await coloursOf(widget, ['paper']))[0]);
+const readPaperColor = async (widget) => hex((await readColours(widget, ['paper']))[0]);
 
 /** @param {number[]} channels */
 const hex = (channels) => `#${channels.map((channel) => channel.toString(16).padStart(2, '0')).join('')}`;
@@ -33,14 +33,14 @@ const { Color, getContrast } = /** @type {any} */ (axe).commons.color;
 const contrastOf = (first, second) => getContrast(new Color(...first), new Color(...second));
 
 /** Returns computed styles of the surface of a figure. @param {Locator} widget */
-const surfaceStyleOf = (widget) =>
+const readSurfaceStyle = (widget) =>
   widget.locator('.surface').evaluate((element) => {
     const { backgroundColor, color, fontFamily, fontSize, colorScheme } = getComputedStyle(element);
     return { backgroundColor, color, fontFamily, fontSize, colorScheme };
   });
 
 /** Returns the colour scheme of a figure, by its background. @param {Locator} widget */
-const schemeOf = async (widget) => ((await coloursOf(widget, ['paper']))[0][0] > 128 ? 'light' : 'dark');
+const readColorScheme = async (widget) => ((await readColours(widget, ['paper']))[0][0] > 128 ? 'light' : 'dark');
 
 /** Sources of a figure's colour scheme: the name, the head of the page, and a script that sets a scheme. */
 const SCHEME_SOURCES = /** @type {[string, string, (scheme: 'light' | 'dark') => string][]} */ ([
@@ -55,38 +55,38 @@ const SCHEME_SOURCES = /** @type {[string, string, (scheme: 'light' | 'dark') =>
 
 for (const [sourceName, head, scriptForScheme] of SCHEME_SOURCES) {
   test(`a figure follows ${sourceName}`, async ({ page, figureName }) => {
-    const widget = await mount(page, figureName, { attributes: 'id="it"', head });
-    expect(await schemeOf(widget)).toBe('light');
+    const widget = await mountFigure(page, figureName, { attributes: 'id="it"', head });
+    expect(await readColorScheme(widget)).toBe('light');
     for (const scheme of /** @type {const} */ (['dark', 'light'])) {
       await page.evaluate(scriptForScheme(scheme));
-      await expect.poll(() => schemeOf(widget)).toBe(scheme);
+      await expect.poll(() => readColorScheme(widget)).toBe(scheme);
       // The canvas has the colours of the current theme.
-      await expect.poll(() => pixelCountOf(widget.locator('canvas.plane'), 'prior')).toBeGreaterThan(50);
+      await expect.poll(() => countPixelsOfRole(widget.locator('canvas.plane'), 'prior')).toBeGreaterThan(50);
     }
   });
 }
 
 test('a figure follows the system where the page does', async ({ page, figureName }) => {
   await page.emulateMedia({ colorScheme: 'dark' });
-  const widget = await mount(page, figureName, { head: '<style>:root { color-scheme: light dark }</style>' });
-  expect(await schemeOf(widget)).toBe('dark');
+  const widget = await mountFigure(page, figureName, { head: '<style>:root { color-scheme: light dark }</style>' });
+  expect(await readColorScheme(widget)).toBe('dark');
   await page.emulateMedia({ colorScheme: 'light' });
-  await expect.poll(() => schemeOf(widget)).toBe('light');
+  await expect.poll(() => readColorScheme(widget)).toBe('light');
 });
 
 test('a figure on the ground of any theme has its ink and letters, and enough contrast', async ({ page }) => {
-  const widget = await mount(page, 'banana-machine', { head: "<style>body { font: 17px 'DejaVu Sans', sans-serif }</style>" });
-  const { backgroundColor, fontFamily, fontSize } = await surfaceStyleOf(widget);
+  const widget = await mountFigure(page, 'banana-machine', { head: "<style>body { font: 17px 'DejaVu Sans', sans-serif }</style>" });
+  const { backgroundColor, fontFamily, fontSize } = await readSurfaceStyle(widget);
   expect({ backgroundColor, fontFamily, fontSize }).toEqual({ backgroundColor: 'rgba(0, 0, 0, 0)', fontFamily: '"DejaVu Sans", sans-serif', fontSize: '17px' });
   for (const [themeName, [backgroundColor, textColor]] of Object.entries(THEME_COLORS)) {
     await page.evaluate(([background, color]) => Object.assign(document.body.style, { background, color }), [backgroundColor, textColor]);
-    await expect.poll(async () => (await coloursOf(widget, ['paper', 'ink'])).map(hex), themeName).toEqual([backgroundColor, textColor]);
-    const [paperColour, ...roleColours] = await coloursOf(widget, ['paper', ...Object.keys(MIN_CONTRAST)]);
+    await expect.poll(async () => (await readColours(widget, ['paper', 'ink'])).map(hex), themeName).toEqual([backgroundColor, textColor]);
+    const [paperColour, ...roleColours] = await readColours(widget, ['paper', ...Object.keys(MIN_CONTRAST)]);
     for (const [i, [colorRole, minContrast]] of Object.entries(MIN_CONTRAST).entries()) {
       expect.soft(contrastOf(roleColours[i], paperColour), `${colorRole} on ${themeName}`).toBeGreaterThanOrEqual(minContrast);
     }
   }
-  expect(await pixelCountOf(widget.locator('canvas.plane'), 'prior')).toBeGreaterThan(50);
+  expect(await countPixelsOfRole(widget.locator('canvas.plane'), 'prior')).toBeGreaterThan(50);
   // An exported picture has the background of the page.
   const svg = await widget.evaluate((element) => /** @type {any} */ (element).toSVG());
   expect(svg).toContain('<rect width="100%" height="100%" fill="rgb(244, 236, 216)"/>');
@@ -101,12 +101,12 @@ test('the ground is the nearest, through shadow roots and what is half transpare
     card.innerHTML = '<banana-machine></banana-machine>';
   });
   const widget = page.locator('banana-machine');
-  await untilReady(widget);
-  expect(await paperOf(widget)).toBe('#643219');
+  await waitUntilReady(widget);
+  expect(await readPaperColor(widget)).toBe('#643219');
   await page.locator('#card').evaluate((card) => {
     card.shadowRoot?.querySelector('section')?.setAttribute('style', 'background: #eee; color: #111');
   });
-  await expect.poll(() => paperOf(widget)).toBe('#eeeeee');
+  await expect.poll(() => readPaperColor(widget)).toBe('#eeeeee');
 });
 
 test('a ground that fades arrives where the page does, also where the text has come before @nightly', async ({ page }) => {
@@ -114,16 +114,16 @@ test('a ground that fades arrives where the page does, also where the text has c
     head: '<style>body { background: white; color: #222; transition: background-color 0.4s } .night body { background: #101418; color: #ddd }</style>',
   });
   const widget = page.locator('banana-machine');
-  await untilReady(widget);
+  await waitUntilReady(widget);
   for (const [isNight, expectedPaper] of /** @type {const} */ ([[true, '#101418'], [false, '#ffffff']])) {
     await page.evaluate((on) => document.documentElement.classList.toggle('night', on), isNight);
-    await expect.poll(() => paperOf(widget)).toBe(expectedPaper);
+    await expect.poll(() => readPaperColor(widget)).toBe(expectedPaper);
   }
 });
 
 test('a light text on an image of the page asks for dark paper @nightly', async ({ page }) => {
-  const widget = await mount(page, 'banana-machine', { head: '<style>body { background: linear-gradient(#222, #333); color: #eee }</style>' });
-  expect((await coloursOf(widget, ['paper']))[0]).toEqual([18, 18, 18]);
+  const widget = await mountFigure(page, 'banana-machine', { head: '<style>body { background: linear-gradient(#222, #333); color: #eee }</style>' });
+  expect((await readColours(widget, ['paper']))[0]).toEqual([18, 18, 18]);
 });
 
 /** Pages with black text on a dark background, by forced colours of the system and by their own scheme. */
@@ -135,29 +135,29 @@ const BLACK_ON_DARK = /** @type {[string, Parameters<import('@playwright/test').
 for (const [situation, media, pageStyle] of BLACK_ON_DARK) {
   test(`a figure on a page with ${situation} is legible`, async ({ page, figureName }) => {
     await page.emulateMedia(media);
-    const widget = await mount(page, figureName, { attributes: 'theme="auto"', head: `<style>${pageStyle}</style>` });
+    const widget = await mountFigure(page, figureName, { attributes: 'theme="auto"', head: `<style>${pageStyle}</style>` });
     const setTheme = (/** @type {string} */ name) => widget.evaluate((element, to) => element.setAttribute('theme', to), name);
     for (const theme of media?.forcedColors ? ['auto', 'light', 'dark'] : ['auto']) {
       await setTheme(theme);
-      const [paperColour, ...roleColours] = await coloursOf(widget, ['paper', ...Object.keys(MIN_CONTRAST)]);
+      const [paperColour, ...roleColours] = await readColours(widget, ['paper', ...Object.keys(MIN_CONTRAST)]);
       for (const [i, [colorRole, minContrast]] of Object.entries(MIN_CONTRAST).entries()) {
         expect.soft(contrastOf(roleColours[i], paperColour), `${colorRole} in ${theme}`).toBeGreaterThanOrEqual(minContrast);
       }
     }
-    expect(await pixelCountOf(widget.locator('canvas.plane'), 'prior')).toBeGreaterThan(50);
+    expect(await countPixelsOfRole(widget.locator('canvas.plane'), 'prior')).toBeGreaterThan(50);
   });
 }
 
 test('a theme other than that of the page gives a figure its own paper and ink @nightly', async ({ page }) => {
   const pageStyle = 'body { background: #fff; color: #333; --color-foreground-muted: #112233; --color-background-border: #445566 }';
-  const widget = await mount(page, 'banana-machine', { attributes: 'theme="dark"', head: `<style>${pageStyle}</style><link rel="stylesheet" href="/motion-widgets.css">` });
-  expect(await surfaceStyleOf(widget)).toMatchObject({ backgroundColor: 'rgb(22, 24, 27)', color: 'rgb(235, 233, 227)', colorScheme: 'dark' });
+  const widget = await mountFigure(page, 'banana-machine', { attributes: 'theme="dark"', head: `<style>${pageStyle}</style><link rel="stylesheet" href="/motion-widgets.css">` });
+  expect(await readSurfaceStyle(widget)).toMatchObject({ backgroundColor: 'rgb(22, 24, 27)', color: 'rgb(235, 233, 227)', colorScheme: 'dark' });
   // The page's colours for muted text and rules do not fit that background, and are not used.
   const pageColors = ['#112233', '#445566'];
-  for (const colour of (await coloursOf(widget, ['muted', 'rule'])).map(hex)) expect(pageColors).not.toContain(colour);
+  for (const colour of (await readColours(widget, ['muted', 'rule'])).map(hex)) expect(pageColors).not.toContain(colour);
   await widget.evaluate((element) => element.setAttribute('theme', 'light'));
-  await expect.poll(() => surfaceStyleOf(widget)).toMatchObject({ backgroundColor: 'rgba(0, 0, 0, 0)', color: 'rgb(51, 51, 51)', colorScheme: 'light' });
-  expect((await coloursOf(widget, ['muted', 'rule'])).map(hex)).toEqual(pageColors);
+  await expect.poll(() => readSurfaceStyle(widget)).toMatchObject({ backgroundColor: 'rgba(0, 0, 0, 0)', color: 'rgb(51, 51, 51)', colorScheme: 'light' });
+  expect((await readColours(widget, ['muted', 'rule'])).map(hex)).toEqual(pageColors);
 });
 
 /** Custom properties of themes for muted text, hairlines and the height of the header, which the stylesheet uses. */
@@ -170,9 +170,9 @@ const THEME_PROPERTIES = {
 };
 
 test('the stylesheet adopts muted text, hairlines and header height of a theme, and --motion- properties override them', async ({ page }) => {
-  const widget = await mount(page, 'banana-machine', { head: '<link rel="stylesheet" href="/motion-widgets.css">' });
+  const widget = await mountFigure(page, 'banana-machine', { head: '<link rel="stylesheet" href="/motion-widgets.css">' });
   const readAdoptedStyle = async () => [
-    ...(await coloursOf(widget, ['muted', 'rule'])).map(hex),
+    ...(await readColours(widget, ['muted', 'rule'])).map(hex),
     await widget.locator('.surface').evaluate((element) => {
       const heightProbe = Object.assign(document.createElement('span'), { style: 'position: absolute; height: var(--top)' });
       element.append(heightProbe);
@@ -191,22 +191,22 @@ test('the stylesheet adopts muted text, hairlines and header height of a theme, 
 });
 
 test('a figure has the paper and ink of --motion-paper and --motion-ink', async ({ page, figureName }) => {
-  const widget = await mount(page, figureName, { attributes: 'style="--motion-paper: #102030; --motion-ink: #f0f0f0"', head: '<style>body { background: #fff; color: #000 }</style>' });
+  const widget = await mountFigure(page, figureName, { attributes: 'style="--motion-paper: #102030; --motion-ink: #f0f0f0"', head: '<style>body { background: #fff; color: #000 }</style>' });
   // Light text on a dark background gets the dark palette.
-  expect(await surfaceStyleOf(widget)).toMatchObject({ backgroundColor: 'rgb(16, 32, 48)', color: 'rgb(240, 240, 240)', colorScheme: 'dark' });
+  expect(await readSurfaceStyle(widget)).toMatchObject({ backgroundColor: 'rgb(16, 32, 48)', color: 'rgb(240, 240, 240)', colorScheme: 'dark' });
   expect(await widget.locator('.slider .effect').first().evaluate((element) => getComputedStyle(element).backgroundColor)).toBe('rgb(16, 32, 48)');
 });
 
 test('custom properties colour controls and canvases, also when they change', async ({ page }) => {
-  const widget = await mount(page, 'banana-machine');
+  const widget = await mountFigure(page, 'banana-machine');
   const canvas = widget.locator('canvas.plane');
   await page.addStyleTag({ content: 'banana-machine { --motion-posterior: rgb(200, 20, 90); --motion-font: monospace }' });
-  await expect.poll(() => pixelCountOf(canvas, 'posterior')).toBeGreaterThan(100);
+  await expect.poll(() => countPixelsOfRole(canvas, 'posterior')).toBeGreaterThan(100);
   expect(await widget.evaluate((element) => getComputedStyle(element).fontFamily)).toBe('monospace');
 });
 
 test('no control has custom properties of its own, which extensions that darken pages leave behind', async ({ page, figureName }) => {
-  const widget = await mount(page, figureName);
+  const widget = await mountFigure(page, figureName);
   await openDisclosures(widget);
   expect(await widget.locator('.simulation [style*="--"]').count()).toBe(0);
   const thumbProperties = await widget.getByRole('slider').evaluateAll((sliders) =>

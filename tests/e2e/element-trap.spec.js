@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { ALL_NAMES, FIGURE_FACTS } from './figures.js';
-import { REDUCED_MOTION, waitForFrames, mount, pictureOf, showPage, stateOf, takeEvents, test, untilReady } from './support.js';
+import { REDUCED_MOTION, waitForFrames, mountFigure, readPicture, showPage, readState, takeEvents, test, waitUntilReady } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
 /** @typedef {import('@playwright/test').Locator} Locator */
@@ -31,11 +31,11 @@ test('a core that traps is restarted with the same state and picture, and no oth
   await showPage(page, `<${figureName}></${figureName}><div style="position: fixed; top: 0; width: 300px; opacity: 0.5"><${otherName} id="other"></${otherName}></div>`);
   const widget = page.locator(figureName).first();
   const otherWidget = page.locator('#other');
-  await untilReady(widget);
-  await untilReady(otherWidget);
+  await waitUntilReady(widget);
+  await waitUntilReady(otherWidget);
   await widget.locator(`#${sliderId}`).fill(String(sliderValues[0]));
   await waitForFrames(page);
-  const [stateBefore, pictureBefore] = [await stateOf(widget), await pictureOf(widget.locator('canvas.plane'))];
+  const [stateBefore, pictureBefore] = [await readState(widget), await readPicture(widget.locator('canvas.plane'))];
   await otherWidget.evaluate((element) => void Object.assign(window, { otherSimulation: /** @type {AnyElement} */ (element).simulation }));
   await takeEvents(page);
   await trapNextCall(widget, sliderId);
@@ -43,8 +43,8 @@ test('a core that traps is restarted with the same state and picture, and no oth
   const errorEvents = await takeEvents(page, ['error', 'load']);
   expect(errorEvents.map(({ name, target }) => [name, target])).toEqual([['error', figureName]]);
   expect(errorEvents[0].message).toMatch(/memory access out of bounds|unreachable/);
-  expect(await stateOf(widget)).toEqual(stateBefore);
-  expect(await pictureOf(widget.locator('canvas.plane'))).toBe(pictureBefore);
+  expect(await readState(widget)).toEqual(stateBefore);
+  expect(await readPicture(widget.locator('canvas.plane'))).toBe(pictureBefore);
   expect(await otherWidget.evaluate((element) => /** @type {AnyElement} */ (element).simulation === Reflect.get(window, 'otherSimulation'))).toBe(true);
   // The figure works again.
   await widget.locator(`#${sliderId}`).fill(String(sliderValues[1]));
@@ -57,7 +57,7 @@ test('a core that traps is restarted with the same state and picture, and no oth
 });
 
 test('a core that traps twice without a picture between ends in a sentence @nightly', async ({ page }) => {
-  const widget = await mount(page, 'banana-machine');
+  const widget = await mountFigure(page, 'banana-machine');
   await takeEvents(page);
   await widget.evaluate((element) => {
     const widget = /** @type {any} */ (element);

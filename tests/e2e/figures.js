@@ -73,7 +73,7 @@ export const NAMES_WITH_HANDLES = ALL_NAMES.filter((name) => FIGURE_FACTS[name].
  * @param {Name[]} [candidates]
  */
 export function figureNameFor(title, candidates = ALL_NAMES) {
-  let hash = 0;
-  for (const character of title.replace(/ @\w+$/, '')) hash = (53 * hash + character.charCodeAt(0)) % 65_521;
-  return candidates[hash % candidates.length];
+  let titleHash = 0;
+  for (const character of title.replace(/ @\w+$/, '')) titleHash = (53 * titleHash + character.charCodeAt(0)) % 65_521;
+  return candidates[titleHash % candidates.length];
 }

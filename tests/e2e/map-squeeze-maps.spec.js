@@ -1,7 +1,7 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
-import { makeMapFile, openSqueeze, makePgmFile, squeezeResultsOf, makeYamlFile } from './squeeze-support.js';
-import { REDUCED_MOTION, dropFiles, waitForFrames, pictureOf, pixelCountOf, test, openDisclosures } from './support.js';
+import { makeMapFile, openSqueeze, makePgmFile, readSqueezeResults, makeYamlFile } from './squeeze-support.js';
+import { REDUCED_MOTION, dropFiles, waitForFrames, readPicture, countPixelsOfRole, test, openDisclosures } from './support.js';
 
 /**
  * @typedef {import('./squeeze-support.js').MapFile} MapFile
@@ -38,23 +38,23 @@ async function chooseFiles(widget, files) {
 
 test('a JSON floor plan takes the apartment’s place, and the robot finds room in it', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const pictureBefore = await pictureOf(widget.locator('canvas.plane'));
+  const pictureBefore = await readPicture(widget.locator('canvas.plane'));
   await widget.getByRole('button', { name: 'Open corridor' }).click();
   await chooseFiles(widget, [makeMapFile('room.json', JSON.stringify(ROOM_PLAN))]);
   await expect(currentMapOf(widget)).toHaveText('room.json: 6.0 m × 4.0 m, 5 walls.');
-  const { bounds, walls, startFree, openPlace, config, shown } = await squeezeResultsOf(widget);
+  const { bounds, walls, startFree, openPlace, config, shown } = await readSqueezeResults(widget);
   expect(bounds).toEqual(ROOM_PLAN.bounds);
   expect(walls).toEqual(ROOM_PLAN.walls.flat());
   // The start in the corridor, (1.4, 4.4), is outside this room.
   expect(startFree).toBe(true);
   expect(config.start).toEqual(openPlace);
   expect(shown).toBe(config.samples);
-  expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(pictureBefore);
+  expect(await readPicture(widget.locator('canvas.plane'))).not.toBe(pictureBefore);
   await expect(widget.locator('canvas.plane')).toHaveAttribute('aria-label', /room\.json/);
 
   await widget.getByRole('button', { name: 'Back to the apartment' }).click();
-  expect((await squeezeResultsOf(widget)).bounds).toEqual([0, 0, 12, 9]);
-  expect(await pictureOf(widget.locator('canvas.plane'))).toBe(pictureBefore);
+  expect((await readSqueezeResults(widget)).bounds).toEqual([0, 0, 12, 9]);
+  expect(await readPicture(widget.locator('canvas.plane'))).toBe(pictureBefore);
 });
 
 test('a button leads back to the apartment, which has the presets', async ({ page }) => {
@@ -66,12 +66,12 @@ test('a button leads back to the apartment, which has the presets', async ({ pag
     await expect(widget.getByRole('button', { name })).toHaveCount(0);
   }
   await widget.getByRole('button', { name: 'Place robot in free space' }).click();
-  const { config, openPlace, bounds } = await squeezeResultsOf(widget);
+  const { config, openPlace, bounds } = await readSqueezeResults(widget);
   expect(config.start).toEqual(openPlace);
   expect(bounds).toEqual(ROOM_PLAN.bounds);
   await widget.getByRole('button', { name: 'Back to the apartment' }).click();
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
-  expect((await squeezeResultsOf(widget)).bounds).toEqual([0, 0, 12, 9]);
+  expect((await readSqueezeResults(widget)).bounds).toEqual([0, 0, 12, 9]);
 });
 
 test('unknown cells are hatched, and free or blocked as the user chooses', async ({ page }) => {
@@ -81,20 +81,20 @@ test('unknown cells are hatched, and free or blocked as the user chooses', async
   await chooseFiles(widget, [makeYamlFile('map.yaml', { ...YAML_FIELDS, image: 'map.png', mode: 'scale' }), imageFile]);
   await expect(currentMapOf(widget)).toContainText('map.yaml');
   // The robot is in the left half, whose cells are not unknown.
-  expect((await squeezeResultsOf(widget)).config.start.x).toBeLessThan(2);
+  expect((await readSqueezeResults(widget)).config.start.x).toBeLessThan(2);
   await widget.evaluate((element) => Object.assign(element, { theta: 0 }));
   const canvas = widget.locator('canvas.plane');
   const unknownCellsChoice = widget.getByRole('radiogroup', { name: 'Unknown cells' });
   await expect(unknownCellsChoice.getByLabel('free')).toBeChecked();
-  const resultsIfFree = await squeezeResultsOf(widget);
-  const pictureIfFree = await pictureOf(canvas);
+  const resultsIfFree = await readSqueezeResults(widget);
+  const pictureIfFree = await readPicture(canvas);
   await unknownCellsChoice.getByLabel('blocked').check();
-  const resultsIfBlocked = await squeezeResultsOf(widget);
+  const resultsIfBlocked = await readSqueezeResults(widget);
   expect(resultsIfBlocked.config.unknown).toBe('blocked');
   expect(resultsIfBlocked.poses).toEqual(resultsIfFree.poses);
   expect(resultsIfBlocked.stats.accepted).toBeLessThan(resultsIfFree.stats.accepted);
   expect(resultsIfBlocked.walls.length).toBeGreaterThan(resultsIfFree.walls.length);
-  expect(await pictureOf(canvas)).not.toBe(pictureIfFree);
+  expect(await readPicture(canvas)).not.toBe(pictureIfFree);
   await expect(widget.locator('.legend').getByLabel('unknown cells')).toBeChecked();
 
   // A state contains the map and the setting of its unknown cells, and restores both.
@@ -103,7 +103,7 @@ test('unknown cells are hatched, and free or blocked as the user chooses', async
   await expect(unknownCellsChoice).toHaveCount(0);
   await widget.evaluate((element, text) => /** @type {any} */ (element).setState(JSON.parse(text)), stateJson);
   await expect(unknownCellsChoice.getByLabel('blocked')).toBeChecked();
-  expect(await squeezeResultsOf(widget)).toEqual(resultsIfBlocked);
+  expect(await readSqueezeResults(widget)).toEqual(resultsIfBlocked);
 });
 
 test('a floor plan can be written on the page', async ({ page }) => {
@@ -117,11 +117,11 @@ test('a floor plan can be written on the page', async ({ page }) => {
   await planField.fill('{"bounds": [0, 0, 3, 3],\n"walls": [[0, 0, 3, 3]}');
   await useButton.click();
   await expect(mapErrorOf(widget)).toHaveText(/^Pasted plan: .+; expected is \{"bounds": .+ in metres\.$/);
-  expect((await squeezeResultsOf(widget)).bounds).toEqual([0, 0, 6, 4]);
+  expect((await readSqueezeResults(widget)).bounds).toEqual([0, 0, 6, 4]);
   await planField.fill(JSON.stringify({ bounds: [0, 0, 3, 3], walls: [[0, 0, 3, 3]] }));
   await useButton.click();
   await expect(mapErrorOf(widget)).toBeHidden();
-  expect((await squeezeResultsOf(widget)).walls).toEqual([0, 0, 3, 3]);
+  expect((await readSqueezeResults(widget)).walls).toEqual([0, 0, 3, 3]);
 });
 
 test('a map_server pair can be dropped on the widget', async ({ page }) => {
@@ -130,26 +130,26 @@ test('a map_server pair can be dropped on the widget', async ({ page }) => {
   await dropFiles(widget.locator('.stage'), [makeYamlFile('room.yaml', YAML_FIELDS), makePgmFile('room.pgm', ROOM_COLUMNS, ROOM_ROWS, isOnBorder)]);
   await expect(currentMapOf(widget)).toContainText('room.yaml: 3.0 m × 2.0 m');
   await expect(currentMapOf(widget)).toBeVisible();
-  const { bounds, walls, startFree, config, openPlace } = await squeezeResultsOf(widget);
+  const { bounds, walls, startFree, config, openPlace } = await readSqueezeResults(widget);
   expect(bounds.map((bound) => Number(bound.toFixed(12)))).toEqual([0, 0, 3, 2]);
   // Eight walls: the outer and the inner outline of the border.
   expect(walls).toHaveLength(8 * 4);
   expect(startFree).toBe(true);
   expect(config.start).toEqual(openPlace);
-  expect(await pixelCountOf(widget.locator('canvas.plane'), 'truth')).toBeGreaterThan(1000);
+  expect(await countPixelsOfRole(widget.locator('canvas.plane'), 'truth')).toBeGreaterThan(1000);
 });
 
 test('the reason why a dropped map is refused is scrolled into view @nightly', async ({ page }) => {
   await page.setViewportSize({ width: 375, height: 812 });
   const widget = await openSqueeze(page);
-  const resultsBefore = await squeezeResultsOf(widget);
+  const resultsBefore = await readSqueezeResults(widget);
   await widget.locator('.stage').evaluate((stage) => stage.scrollIntoView());
   await dropFiles(widget.locator('.stage'), [makeMapFile('room.txt', 'a room')]);
-  const alert = widget.getByRole('alert');
-  await expect(alert).toHaveText(/^room\.txt: expected is one \.json floor plan/);
+  const errorAlert = widget.getByRole('alert');
+  await expect(errorAlert).toHaveText(/^room\.txt: expected is one \.json floor plan/);
   // Rounding to device pixels makes the visible ratio slightly smaller than 1.
-  await expect(alert).toBeInViewport({ ratio: 0.99 });
-  expect(await squeezeResultsOf(widget)).toEqual(resultsBefore);
+  await expect(errorAlert).toBeInViewport({ ratio: 0.99 });
+  expect(await readSqueezeResults(widget)).toEqual(resultsBefore);
   await expect(currentMapOf(widget)).toContainText('The apartment');
 });
 
@@ -157,13 +157,13 @@ test('a map that is refused is reported in a sentence, and the present map stays
   const imageFile = makePgmFile('room.pgm', ROOM_COLUMNS, ROOM_ROWS, isOnBorder);
   const roomYaml = makeYamlFile('room.yaml', YAML_FIELDS);
   const widget = await openSqueeze(page);
-  const resultsBefore = await squeezeResultsOf(widget);
+  const resultsBefore = await readSqueezeResults(widget);
   await chooseFiles(widget, [roomYaml]);
   await expect(mapErrorOf(widget)).toHaveText(/^room\.yaml: image names room\.pgm, which is not there; expected are both files/);
   // This image has a valid header and too few pixels. The page accepts it, and the core refuses it.
   await chooseFiles(widget, [roomYaml, makeMapFile('room.pgm', 'P5\n60 40\n255\nabc')]);
   await expect(mapErrorOf(widget)).toHaveText(/^room\.pgm.*(2400|60 × 40)/);
-  expect(await squeezeResultsOf(widget)).toEqual(resultsBefore);
+  expect(await readSqueezeResults(widget)).toEqual(resultsBefore);
   await expect(currentMapOf(widget)).toContainText('The apartment');
   await expectAccessible(page);
   await chooseFiles(widget, [roomYaml, imageFile]);
@@ -185,13 +185,13 @@ test('a map set by a page is shown, an equal one changes nothing, and an incompl
       figure.map = map;
     });
     const gridMap = { name: 'grid', columns: 8, rows: 1, resolution: 0.5, origin: [0, 0, 0], occupied: 'gA==' };
-    const outcomes = [];
-    for (const map of [room, { bounds: room.bounds }, gridMap]) outcomes.push(await setMap(map));
+    const mapOutcomes = [];
+    for (const map of [room, { bounds: room.bounds }, gridMap]) mapOutcomes.push(await setMap(map));
     let statsEventCount = 0;
     figure.addEventListener('stats', () => statsEventCount++);
     figure.map = { ...gridMap };
     for (let i = 0; i < 5; i++) await new Promise(requestAnimationFrame);
-    return [...outcomes, statsEventCount];
+    return [...mapOutcomes, statsEventCount];
   }, ROOM_PLAN);
   expect(mapOutcomes).toEqual([
     'name,bounds,walls', expect.stringMatching(/^map\.walls is undefined; /), 'name,columns,rows,resolution,origin,occupied', 0,
@@ -205,10 +205,10 @@ test('a large map is opened with a message, and another map takes its place @nig
   const isPost = (/** @type {number} */ c, /** @type {number} */ r) => c === 0 || r === 0 || c === gridSide - 1 || r === gridSide - 1 || (c % 100 === 50 && r % 100 === 50);
   await chooseFiles(widget, [makeYamlFile('hall.yaml', { ...YAML_FIELDS, image: 'hall.pgm' }), makePgmFile('hall.pgm', gridSide, gridSide, isPost)]);
   await expect(currentMapOf(widget)).toContainText('hall.yaml: 200.0 m × 200.0 m', { timeout: 60_000 });
-  const { stats, config } = await squeezeResultsOf(widget);
+  const { stats, config } = await readSqueezeResults(widget);
   expect(stats.attempts).toBe(config.samples);
   await chooseFiles(widget, [makeMapFile('room.json', JSON.stringify(ROOM_PLAN))]);
   await expect(currentMapOf(widget)).toContainText('room.json');
   await waitForFrames(page);
-  expect(await pixelCountOf(widget.locator('canvas.plane'), 'truth')).toBeGreaterThan(100);
+  expect(await countPixelsOfRole(widget.locator('canvas.plane'), 'truth')).toBeGreaterThan(100);
 });

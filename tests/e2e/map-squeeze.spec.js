@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
-import { openSqueeze, squeezeResultsOf } from './squeeze-support.js';
-import { REDUCED_MOTION, centreOf, waitForFrames, numberIn, pictureOf, readoutValue, stateOf, test, openDisclosures } from './support.js';
+import { openSqueeze, readSqueezeResults } from './squeeze-support.js';
+import { REDUCED_MOTION, readCentre, waitForFrames, parseNumberIn, readPicture, readoutValue, readState, test, openDisclosures } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Locator} Locator
@@ -12,14 +12,14 @@ const bodyHandleOf = (/** @type {Locator} */ widget) => widget.getByRole('slider
 const headingHandleOf = (/** @type {Locator} */ widget) => widget.getByRole('slider', { name: 'Heading of the robot' });
 
 /** Returns the number of CSS pixels per metre. @param {Locator} widget */
-const pixelsPerMetreOf = (widget) => widget.evaluate((element) => {
+const readPixelsPerMetre = (widget) => widget.evaluate((element) => {
   const { view } = /** @type {any} */ (element).picture;
   return view.toPixelX(1) - view.toPixelX(0);
 });
 
 test('the robot moves and turns by keyboard', async ({ page }) => {
   const widget = await openSqueeze(page);
-  let { start } = /** @type {any} */ (await stateOf(widget));
+  let { start } = /** @type {any} */ (await readState(widget));
   const fiveDegrees = Math.PI / 36;
   const keyEffects = /** @type {const} */ ([
     [bodyHandleOf, 'ArrowRight', 0.05, 0, 0],
@@ -34,7 +34,7 @@ test('the robot moves and turns by keyboard', async ({ page }) => {
   ]);
   for (const [handleOf, key, dx, dy, dTheta] of keyEffects) {
     await handleOf(widget).press(key);
-    const movedStart = /** @type {any} */ (await stateOf(widget)).start;
+    const movedStart = /** @type {any} */ (await readState(widget)).start;
     expect(movedStart.x - start.x, key).toBeCloseTo(dx, 9);
     expect(movedStart.y - start.y, key).toBeCloseTo(dy, 9);
     expect(movedStart.theta - start.theta, key).toBeCloseTo(dTheta, 9);
@@ -46,7 +46,7 @@ test('the robot moves and turns by keyboard', async ({ page }) => {
 
 test('the robot stays inside the map, and says so to the eye and to the ear', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const { x, y } = await centreOf(bodyHandleOf(widget));
+  const { x, y } = await readCentre(bodyHandleOf(widget));
   const readEdgeLabel = async () => {
     await waitForFrames(page);
     return bodyHandleOf(widget).evaluate((element) => getComputedStyle(element, '::before').content);
@@ -62,7 +62,7 @@ test('the robot stays inside the map, and says so to the eye and to the ear', as
   await page.mouse.move(1, y, { steps: 3 });
   await page.mouse.up();
   expect(await readEdgeLabel()).toBe('none');
-  expect((await squeezeResultsOf(widget)).config.start.x).toBe(0);
+  expect((await readSqueezeResults(widget)).config.start.x).toBe(0);
 
   // With the keyboard, the position and the obstacle are announced.
   const valueTextAtEdge = /^x = 0\.00 m, y = \d\.\d\d m\. The floor ends here$/;
@@ -75,15 +75,15 @@ test('the robot stays inside the map, and says so to the eye and to the ear', as
     await expect(bodyHandleOf(widget)).toHaveAttribute('aria-valuetext', valueTextAtEdge);
     expect(await readEdgeLabel()).toBe('"The floor ends here"');
   }
-  expect((await squeezeResultsOf(widget)).config.start.x).toBe(0);
+  expect((await readSqueezeResults(widget)).config.start.x).toBe(0);
 });
 
 test('a robot that a key led into a wall is reported @nightly', async ({ page }) => {
   const widget = await openSqueeze(page);
   await widget.evaluate((element) => void Reflect.set(element, 'start', { x: 4.2, y: 2.6, theta: 0 }));
-  expect((await squeezeResultsOf(widget)).startFree).toBe(true);
+  expect((await readSqueezeResults(widget)).startFree).toBe(true);
   for (let i = 0; i < 2; i++) await bodyHandleOf(widget).press('ArrowLeft');
-  expect((await squeezeResultsOf(widget)).startFree).toBe(false);
+  expect((await readSqueezeResults(widget)).startFree).toBe(false);
   await expect(widget.getByRole('status').filter({ hasText: 'The start pose is in collision' })).toHaveCount(1);
   await expect(widget.locator('.verdict')).toContainText('The start pose is in collision');
   for (let i = 0; i < 2; i++) await bodyHandleOf(widget).press('ArrowRight');
@@ -97,9 +97,9 @@ test('the sampler is chosen by name, and the readouts are those of the simulatio
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
   for (const [label, sampler] of Object.entries(samplersByLabel)) {
     await widget.getByLabel(label, { exact: true }).check();
-    const { config, stats } = await squeezeResultsOf(widget);
+    const { config, stats } = await readSqueezeResults(widget);
     expect(config.sampler).toBe(sampler);
-    const readNumber = async (/** @type {string | RegExp} */ name) => numberIn(await readoutValue(widget, name).textContent());
+    const readNumber = async (/** @type {string | RegExp} */ name) => parseNumberIn(await readoutValue(widget, name).textContent());
     expect(await readNumber(/^\s*drawn/)).toBe(stats.drawn);
     expect(await readNumber('samples drawn per accepted sample')).toBeCloseTo(stats.drawsPerAccepted, 2);
     expect(await readNumber('wall distances computed per accepted sample')).toBeCloseTo(stats.wallTestsPerAccepted, 2);
@@ -112,9 +112,9 @@ test('the sampler is chosen by name, and the readouts are those of the simulatio
 
 test('the headline gives the share, and has words for none', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const headline = widget.locator('.headline');
-  await expect(headline).toHaveText(/^3\d\.\d\u202f% of the accepted motions went through a wall$/);
-  const { size: fontSize } = await headline.evaluate((element) => ({ size: parseFloat(getComputedStyle(element).fontSize) }));
+  const resultHeadline = widget.locator('.headline');
+  await expect(resultHeadline).toHaveText(/^3\d\.\d\u202f% of the accepted motions went through a wall$/);
+  const { size: fontSize } = await resultHeadline.evaluate((element) => ({ size: parseFloat(getComputedStyle(element).fontSize) }));
   expect(fontSize).toBeGreaterThanOrEqual(28);
   expect(fontSize).toBeLessThanOrEqual(32);
   const headlineCases = /** @type {[Record<string, unknown>, string][]} */ ([
@@ -124,7 +124,7 @@ test('the headline gives the share, and has words for none', async ({ page }) =>
   ]);
   for (const [settings, headlineText] of headlineCases) {
     await widget.evaluate((element, values) => Object.assign(element, values), settings);
-    await expect(headline).toHaveText(headlineText);
+    await expect(resultHeadline).toHaveText(headlineText);
   }
 });
 
@@ -138,7 +138,7 @@ test('the table of costs has each sampler, and the share of a processor core fol
   const cellTextsOfRows = await costTable.locator('tbody tr').evaluateAll((rowElements) =>
     rowElements.map((row) => [...row.querySelectorAll('td')].map((cell) => cell.textContent ?? '')),
   );
-  for (const [, , microseconds, corePercent] of cellTextsOfRows.map((row) => row.map(numberIn))) {
+  for (const [, , microseconds, corePercent] of cellTextsOfRows.map((row) => row.map(parseNumberIn))) {
     expect(microseconds).toBeGreaterThan(0);
     // 2000 motions at 20 Hz take 4 % of a core for each microsecond. Both numbers are rounded to two digits, by up to 5 %.
     expect(Math.abs(corePercent / (4 * microseconds) - 1)).toBeLessThan(0.11);
@@ -153,7 +153,7 @@ test('a wedged robot is reported with the number of draws @nightly', async ({ pa
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
   await widget.getByLabel('Sub-stepped').check();
   await widget.getByRole('slider', { name: 'sub-steps' }).fill('32');
-  const { stats, config } = await squeezeResultsOf(widget);
+  const { stats, config } = await readSqueezeResults(widget);
   expect(stats.gaveUp).toBe(true);
   await expect(verdictNote).toContainText('The robot is wedged');
   const noteText = ((await verdictNote.textContent()) ?? '').replaceAll('\u202f', '');
@@ -165,13 +165,13 @@ test('a wedged robot is reported with the number of draws @nightly', async ({ pa
 
   // The start is dragged into the wall, from which no path is free.
   await widget.getByLabel('Whole arc').check();
-  const { x, y } = await centreOf(bodyHandleOf(widget));
-  const wallDistancePx = 1.2 * (await pixelsPerMetreOf(widget));
+  const { x, y } = await readCentre(bodyHandleOf(widget));
+  const wallDistancePx = 1.2 * (await readPixelsPerMetre(widget));
   await page.mouse.move(x, y);
   await page.mouse.down();
   await page.mouse.move(x, y - wallDistancePx, { steps: 4 });
   await page.mouse.up();
-  const blockedResults = await squeezeResultsOf(widget);
+  const blockedResults = await readSqueezeResults(widget);
   expect(blockedResults.startFree).toBe(false);
   expect(blockedResults.stats.accepted).toBe(0);
   await expect(verdictNote).toHaveText('No sample was accepted: none of the 600 drawn is collision-free.');
@@ -180,37 +180,37 @@ test('a wedged robot is reported with the number of draws @nightly', async ({ pa
 
 test('a sample pointed at, or named, shows its verdict', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const { verdicts, poses } = await squeezeResultsOf(widget);
+  const { verdicts, poses } = await readSqueezeResults(widget);
   const throughWallIndex = verdicts.indexOf(5);
   const rejectedIndex = verdicts.findIndex((verdict) => (verdict & 4) === 0);
   const sampleField = widget.getByRole('spinbutton', { name: 'Sample' });
   const verdictOutput = widget.locator('.marked output');
   const canvas = widget.locator('canvas.plane');
   await openDisclosures(widget);
-  const pictureBefore = await pictureOf(canvas);
+  const pictureBefore = await readPicture(canvas);
 
   await sampleField.fill(String(throughWallIndex + 1));
   await expect(verdictOutput).toHaveText('accepted through a wall: the end pose is free, but the path touches a wall or leaves the map');
-  expect(await pictureOf(canvas)).not.toBe(pictureBefore);
+  expect(await readPicture(canvas)).not.toBe(pictureBefore);
   await sampleField.fill(String(rejectedIndex + 1));
   await expect(verdictOutput).toHaveText('rejected: the end pose is in collision');
   await sampleField.fill(String(verdicts.indexOf(7) + 1));
   await expect(verdictOutput).toHaveText('accepted: end pose and path are collision-free');
   await sampleField.fill('');
-  expect(await pictureOf(canvas)).toBe(pictureBefore);
+  expect(await readPicture(canvas)).toBe(pictureBefore);
 
   // The pointer is moved to the rightmost sample, which has no near neighbour.
   let rightmostIndex = 0;
   for (let i = 0; i < verdicts.length; i++) if (poses[3 * i] > poses[3 * rightmostIndex]) rightmostIndex = i;
-  const { x, y } = await centreOf(bodyHandleOf(widget));
-  const metrePx = await pixelsPerMetreOf(widget);
+  const { x, y } = await readCentre(bodyHandleOf(widget));
+  const metrePx = await readPixelsPerMetre(widget);
   await page.mouse.move(x + (poses[3 * rightmostIndex] - 2.05) * metrePx, y - (poses[3 * rightmostIndex + 1] - 2.6) * metrePx);
   await expect(sampleField).toHaveValue(String(rightmostIndex + 1));
 });
 
 test('a marked motion that went through a wall has a leader to it, and no other has @nightly', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const { verdicts } = await squeezeResultsOf(widget);
+  const { verdicts } = await readSqueezeResults(widget);
   const hasWallLabel = (/** @type {number | null} */ index) => widget.evaluate((element, marked) => {
     Object.assign(element, { marked });
     return /** @type {any} */ (element).toSVG().includes('through this wall');
@@ -222,14 +222,14 @@ test('a marked motion that went through a wall has a leader to it, and no other 
 
 test('the edge of a doorway and a wall are dragged, and Back to the apartment undoes it', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const resultsBefore = await squeezeResultsOf(widget);
+  const resultsBefore = await readSqueezeResults(widget);
   const dragHandle = async (/** @type {Locator} */ handle, /** @type {number} */ dx, /** @type {number} */ dy) => {
-    const { x, y } = await centreOf(handle);
+    const { x, y } = await readCentre(handle);
     await page.mouse.move(x, y);
     await page.mouse.down();
     await page.mouse.move(x + dx, y + dy, { steps: 4 });
     await page.mouse.up();
-    return squeezeResultsOf(widget);
+    return readSqueezeResults(widget);
   };
   // The left edge of the doorway ahead is dragged from x = 1.6 m to its limit near the right edge, at 2.5 m.
   const resultsAfterEdgeDrag = await dragHandle(widget.locator('.handle.to-4'), 300, 40);
@@ -248,24 +248,24 @@ test('the edge of a doorway and a wall are dragged, and Back to the apartment un
   expect(resultsAfterSecondDrag.walls[33]).toBeGreaterThan(y0 + 0.1);
   expect(resultsAfterSecondDrag.shown).toBe(5000);
   await widget.getByRole('button', { name: 'Back to the apartment' }).click();
-  expect((await squeezeResultsOf(widget)).walls).toEqual(resultsBefore.walls);
+  expect((await readSqueezeResults(widget)).walls).toEqual(resultsBefore.walls);
 });
 
 test('walls are moved by keyboard from one stop of Tab, and their handles are named', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const { walls } = await squeezeResultsOf(widget);
+  const { walls } = await readSqueezeResults(widget);
   await bodyHandleOf(widget).focus();
   await page.keyboard.press('Shift+Tab');
   const readFocusedHandle = () => widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.className.split(' ')[2]);
   expect(await readFocusedHandle()).toBe('to-4');
   await page.keyboard.press('ArrowRight');
-  expect((await squeezeResultsOf(widget)).walls[18]).toBeCloseTo(walls[18] + 0.05, 9);
+  expect((await readSqueezeResults(widget)).walls[18]).toBeCloseTo(walls[18] + 0.05, 9);
   await page.keyboard.press(']');
   expect(await readFocusedHandle()).toBe('side-4');
   expect(await widget.evaluate(({ shadowRoot }) => getComputedStyle(/** @type {Element} */ (shadowRoot?.activeElement), '::before').content)).toBe('"Drag to move"');
   await expect(widget.locator('.legend')).toContainText('handles: drag walls and edges of doorways');
   await page.keyboard.press('Shift+ArrowDown');
-  const resultsAfterMove = await squeezeResultsOf(widget);
+  const resultsAfterMove = await readSqueezeResults(widget);
   expect(resultsAfterMove.walls[17]).toBeCloseTo(walls[17] - 0.25, 9);
   await page.keyboard.press('Shift+Tab');
   expect(await widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.classList.contains('handle') ?? false)).toBe(false);
@@ -273,33 +273,33 @@ test('walls are moved by keyboard from one stop of Tab, and their handles are na
 
 test('the picture has a description, and a user’s change is announced', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const { stats } = await squeezeResultsOf(widget);
+  const { stats } = await readSqueezeResults(widget);
   const canvas = widget.locator('canvas.plane');
   await expect(canvas).toHaveAttribute('aria-label', /The apartment: 12\.0 m × 9\.0 m, 18 walls/);
   await expect(canvas).toHaveAttribute('aria-label', new RegExp(`; ${stats.throughWall} of them, [^;]* went through a wall`));
   await widget.getByLabel('Whole arc').check();
-  const statsAfter = (await squeezeResultsOf(widget)).stats;
-  const status = widget.locator('p[role=status]');
-  const announcement = `${statsAfter.accepted} of 600 motions keep clear of walls all the way and are accepted; none of them went through a wall.`;
-  await expect(status).toHaveText(announcement);
-  await expect(widget.locator('.verdict')).toHaveText(announcement);
+  const statsAfter = (await readSqueezeResults(widget)).stats;
+  const statusLine = widget.locator('p[role=status]');
+  const expectedAnnouncement = `${statsAfter.accepted} of 600 motions keep clear of walls all the way and are accepted; none of them went through a wall.`;
+  await expect(statusLine).toHaveText(expectedAnnouncement);
+  await expect(widget.locator('.verdict')).toHaveText(expectedAnnouncement);
   // Without the condition all samples are accepted.
   await openDisclosures(widget);
   await widget.getByLabel('Check samples against the map').uncheck();
-  const { throughWall } = (await squeezeResultsOf(widget)).stats;
-  await expect(status).toContainText(`Without the map all 600 motions are accepted; ${throughWall} of them, `);
+  const { throughWall } = (await readSqueezeResults(widget)).stats;
+  await expect(statusLine).toContainText(`Without the map all 600 motions are accepted; ${throughWall} of them, `);
   // Changes by the page are not announced, and end the last announcement.
   await widget.evaluate((element) => Object.assign(element, { conditioned: true }));
-  await expect(status).toBeEmpty();
+  await expect(statusLine).toBeEmpty();
   await widget.evaluate((element) => Object.assign(element, { conditioned: false }));
-  await expect(status).toBeEmpty();
+  await expect(statusLine).toBeEmpty();
   await expect(canvas).toHaveAttribute('aria-label', new RegExp(`all 600 motions are accepted; ${throughWall} of them, `));
 });
 
 test('either view is within the apartment, and a close one has the whole map beside it', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const overview = widget.locator('.overview');
-  await expect(overview).toBeVisible();
+  const mapOverview = widget.locator('.overview');
+  await expect(mapOverview).toBeVisible();
   const readViewExtent = () => widget.evaluate((element) => /** @type {any} */ (element).picture.view.extent);
   const maxMargin = 0.301;
   for (const name of ['Facing a doorway', 'Facing a wall', 'Open corridor']) {
@@ -314,20 +314,20 @@ test('either view is within the apartment, and a close one has the whole map bes
   await widget.getByLabel('whole map').check();
   const wholeMapExtent = await readViewExtent();
   expect(Math.min(13 / (wholeMapExtent.xMax - wholeMapExtent.xMin), 10 / (wholeMapExtent.yMax - wholeMapExtent.yMin))).toBeGreaterThan(0.9);
-  await expect(overview).toHaveCount(0);
+  await expect(mapOverview).toHaveCount(0);
 });
 
 test('each entry of the legend hides the marks that it names', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const legend = widget.locator('.legend');
+  const outcomeLegend = widget.locator('.legend');
   const canvas = widget.locator('canvas.plane');
   for (const name of ['accepted', 'accepted through a wall', 'rejected', 'commanded path']) {
-    const pictureBefore = await pictureOf(canvas);
-    await legend.getByLabel(name, { exact: true }).uncheck();
-    expect(await pictureOf(canvas), name).not.toBe(pictureBefore);
+    const pictureBefore = await readPicture(canvas);
+    await outcomeLegend.getByLabel(name, { exact: true }).uncheck();
+    expect(await readPicture(canvas), name).not.toBe(pictureBefore);
   }
   expect(await widget.getAttribute('overlays')).toBe('unknown');
-  await expect(legend.getByLabel('unknown cells')).toHaveCount(0);
+  await expect(outcomeLegend.getByLabel('unknown cells')).toHaveCount(0);
 });
 
 test('many samples are a density, those through a wall in a colour of their own', async ({ page }) => {
@@ -336,7 +336,7 @@ test('many samples are a density, those through a wall in a colour of their own'
   await expect(densityNote).toHaveCount(0);
   await widget.evaluate((element) => Object.assign(element, { samples: 20_000 }));
   await expect(densityNote).toContainText('Density');
-  expect((await squeezeResultsOf(widget)).stats.throughWall).toBeGreaterThan(4000);
+  expect((await readSqueezeResults(widget)).stats.throughWall).toBeGreaterThan(4000);
   // All samples behind the wall at y = 5 went through a wall. Hardly any of those between the posts of the doorway did.
   const [greenExcessBehindWall, greenExcessBetweenPosts] = await widget.evaluate((element) => {
     const { picture: { view }, renderRoot } = /** @type {any} */ (element);

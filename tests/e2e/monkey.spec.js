@@ -6,7 +6,7 @@
 import { expect } from '@playwright/test';
 import { randomGenerator } from '../random.js';
 import { makeMapFile, makePgmFile, makeYamlFile } from './squeeze-support.js';
-import { NEW_PAGE_TAG, waitForFrames, test, untilReady } from './support.js';
+import { NEW_PAGE_TAG, waitForFrames, test, waitUntilReady } from './support.js';
 import { ALL_NAMES } from './figures.js';
 
 /**
@@ -17,7 +17,7 @@ import { ALL_NAMES } from './figures.js';
  */
 
 const EVENT_COUNT = Number(process.env.MONKEY_EVENTS ?? 600);
-const SEED = Number(process.env.MONKEY_SEED ?? 1);
+const FIRST_SEED = Number(process.env.MONKEY_SEED ?? 1);
 
 /** Number of events between two checks of the page. */
 const EVENTS_PER_CHECK = 250;
@@ -55,12 +55,12 @@ async function findReachablePart(page, random, selector) {
   const [name, choiceIndex, x, y] = [random.itemOf(ALL_NAMES), random.integerBelow(1e6), random.integerBelow(99) + 1, random.integerBelow(99) + 1];
   const box = await page.evaluate(
     ([name, selector, choiceIndex]) => {
-      const visibleParts = [...(document.querySelector(`${name}`)?.shadowRoot?.querySelectorAll(`${selector}`) ?? [])].filter((part) => part.checkVisibility());
-      const part = visibleParts[Number(choiceIndex) % visibleParts.length];
-      if (!part) return;
-      part.scrollIntoView({ block: 'nearest', behavior: 'instant' });
-      const { left, top, width, height } = part.getBoundingClientRect();
-      return { left, top, width, height, description: `${part.localName} ${part.id || part.className} ${part.textContent?.trim().slice(0, 20)}` };
+      const visibleParts = [...(document.querySelector(`${name}`)?.shadowRoot?.querySelectorAll(`${selector}`) ?? [])].filter((reachablePart) => reachablePart.checkVisibility());
+      const reachablePart = visibleParts[Number(choiceIndex) % visibleParts.length];
+      if (!reachablePart) return;
+      reachablePart.scrollIntoView({ block: 'nearest', behavior: 'instant' });
+      const { left, top, width, height } = reachablePart.getBoundingClientRect();
+      return { left, top, width, height, description: `${reachablePart.localName} ${reachablePart.id || reachablePart.className} ${reachablePart.textContent?.trim().slice(0, 20)}` };
     },
     [name, selector, choiceIndex],
   );
@@ -68,42 +68,42 @@ async function findReachablePart(page, random, selector) {
 }
 
 /** @type {Record<string, Action>} */
-const ACTIONS = {
+const RANDOM_ACTIONS = {
   async click(page, random) {
-    const part = await findReachablePart(page, random, PART_SELECTOR);
-    if (part) await page.mouse.click(part.x, part.y, { clickCount: random.itemOf([1, 1, 1, 2]) });
-    return `${part?.description}`;
+    const reachablePart = await findReachablePart(page, random, PART_SELECTOR);
+    if (reachablePart) await page.mouse.click(reachablePart.x, reachablePart.y, { clickCount: random.itemOf([1, 1, 1, 2]) });
+    return `${reachablePart?.description}`;
   },
   async tap(page, random) {
-    const part = await findReachablePart(page, random, PART_SELECTOR);
-    if (part) await page.touchscreen.tap(part.x, part.y);
-    return `${part?.description}`;
+    const reachablePart = await findReachablePart(page, random, PART_SELECTOR);
+    if (reachablePart) await page.touchscreen.tap(reachablePart.x, reachablePart.y);
+    return `${reachablePart?.description}`;
   },
   async drag(page, random) {
-    const part = await findReachablePart(page, random, 'input[type=range], .handle, canvas');
-    if (!part) return 'nothing';
+    const reachablePart = await findReachablePart(page, random, 'input[type=range], .handle, canvas');
+    if (!reachablePart) return 'nothing';
     const dragOffset = [random.integerBelow(400) - 200, random.integerBelow(200) - 100];
-    await page.mouse.move(part.x, part.y);
+    await page.mouse.move(reachablePart.x, reachablePart.y);
     await page.mouse.down();
-    await page.mouse.move(part.x + dragOffset[0], part.y + dragOffset[1], { steps: 4 });
+    await page.mouse.move(reachablePart.x + dragOffset[0], reachablePart.y + dragOffset[1], { steps: 4 });
     // Sometimes another event happens during a drag.
     if (random.integerBelow(4) > 0) await page.mouse.up();
-    return `${part.description} by ${dragOffset}`;
+    return `${reachablePart.description} by ${dragOffset}`;
   },
   async key(page, random) {
-    const keys = Array.from({ length: 1 + random.integerBelow(4) }, () => random.itemOf(PRESSABLE_KEYS));
-    for (const key of keys) await page.keyboard.press(key);
-    return keys.join(' ');
+    const pressedKeys = Array.from({ length: 1 + random.integerBelow(4) }, () => random.itemOf(PRESSABLE_KEYS));
+    for (const key of pressedKeys) await page.keyboard.press(key);
+    return pressedKeys.join(' ');
   },
   async type(page, random) {
-    const part = await findReachablePart(page, random, 'input:not([type=range], [type=checkbox], [type=radio]), textarea');
+    const reachablePart = await findReachablePart(page, random, 'input:not([type=range], [type=checkbox], [type=radio]), textarea');
     const [typedText, endKey] = [random.itemOf(TYPED_NUMBERS), random.itemOf(['Enter', 'Tab', 'Escape'])];
-    if (part) {
-      await page.mouse.click(part.x, part.y, { clickCount: 3 });
+    if (reachablePart) {
+      await page.mouse.click(reachablePart.x, reachablePart.y, { clickCount: 3 });
       await page.keyboard.insertText(typedText);
       await page.keyboard.press(endKey);
     }
-    return `${part?.description}: ${JSON.stringify(typedText)} ${endKey}`;
+    return `${reachablePart?.description}: ${JSON.stringify(typedText)} ${endKey}`;
   },
   async wheel(page, random) {
     const scrollDelta = random.integerBelow(2000) - 1000;
@@ -132,15 +132,15 @@ const ACTIONS = {
     return JSON.stringify(mediaFeatures);
   },
   async language(page, random) {
-    const lang = random.itemOf(LANGUAGES);
-    await page.evaluate((to) => (document.documentElement.lang = to), lang);
-    return lang;
+    const newLanguage = random.itemOf(LANGUAGES);
+    await page.evaluate((to) => (document.documentElement.lang = to), newLanguage);
+    return newLanguage;
   },
   async hash(page, random) {
     const [name, choiceIndex] = [random.itemOf(ALL_NAMES), random.integerBelow(4)];
     return page.evaluate(async ([name, choiceIndex]) => {
-      const link = await /** @type {AnyElement} */ (document.querySelector(`${name}`)).shareLink();
-      const { hash } = new URL(link);
+      const shareLink = await /** @type {AnyElement} */ (document.querySelector(`${name}`)).shareLink();
+      const { hash } = new URL(shareLink);
       location.hash = [hash, hash.slice(0, -9), `#${name}.1=`, '#top'][Number(choiceIndex)];
       return location.hash.slice(0, 60);
     }, [name, choiceIndex]);
@@ -186,12 +186,12 @@ const ACTIONS = {
     const [name, choiceIndex] = [random.itemOf(ALL_NAMES), random.integerBelow(3)];
     return page.evaluate(async ([name, choiceIndex]) => {
       const element = document.querySelector(`${name}`);
-      const placeholder = document.createComment('');
-      element?.after(placeholder);
+      const moveMarker = document.createComment('');
+      element?.after(moveMarker);
       const movedElement = /** @type {Element} */ (element);
       movedElement.remove();
       if (choiceIndex === 1) await new Promise(requestAnimationFrame);
-      placeholder.replaceWith(choiceIndex === 2 ? Object.assign(document.createElement(`${name}`), { id: movedElement.id }) : movedElement);
+      moveMarker.replaceWith(choiceIndex === 2 ? Object.assign(document.createElement(`${name}`), { id: movedElement.id }) : movedElement);
       return `${name} ${['moved', 'taken away for a while', 'another one in its place'][Number(choiceIndex)]}`;
     }, [name, choiceIndex]);
   },
@@ -207,7 +207,7 @@ const WEIGHTED_ACTION_NAMES = Object.entries(ACTION_FREQUENCIES).flatMap(([name,
  * @param {Page} page
  * @param {string} name
  */
-function faultsOf(page, name) {
+function readFaults(page, name) {
   return page.evaluate(async (name) => {
     const element = /** @type {any} */ (document.querySelector(name));
     const untilShown = async (/** @type {any} */ element) => {
@@ -265,17 +265,17 @@ test('random actions leave every figure sound @nightly', NEW_PAGE_TAG, async ({ 
   await page.goto('/');
   for (const name of ALL_NAMES) {
     await page.locator(name).first().scrollIntoViewIfNeeded();
-    await untilReady(page.locator(name).first());
+    await waitUntilReady(page.locator(name).first());
   }
 
-  const random = createRandom(SEED);
+  const random = createRandom(FIRST_SEED);
   /** @type {string[]} */
   const eventLog = [];
-  const describeReplay = () => `MONKEY_SEED=${SEED} MONKEY_EVENTS=${EVENT_COUNT}, after ${eventLog.length} events; the last:\n${eventLog.slice(-12).join('\n')}\n`;
+  const describeReplay = () => `MONKEY_SEED=${FIRST_SEED} MONKEY_EVENTS=${EVENT_COUNT}, after ${eventLog.length} events; the last:\n${eventLog.slice(-12).join('\n')}\n`;
   while (eventLog.length < EVENT_COUNT) {
     const name = random.itemOf(WEIGHTED_ACTION_NAMES);
     eventLog.push(`${name} …`);
-    await test.step(name, async () => eventLog.push(`${name} ${await ACTIONS[name](page, random)}`), { box: true }).catch((error) => {
+    await test.step(name, async () => eventLog.push(`${name} ${await RANDOM_ACTIONS[name](page, random)}`), { box: true }).catch((error) => {
       throw new Error(describeReplay(), { cause: error });
     });
     eventLog.splice(-2, 1);
@@ -284,7 +284,7 @@ test('random actions leave every figure sound @nightly', NEW_PAGE_TAG, async ({ 
     await page.keyboard.press('Escape');
     await page.emulateMedia({ media: 'screen' });
     await waitForFrames(page);
-    for (const widget of ALL_NAMES) expect(await faultsOf(page, widget), `${widget}: ${describeReplay()}`).toEqual([]);
+    for (const widget of ALL_NAMES) expect(await readFaults(page, widget), `${widget}: ${describeReplay()}`).toEqual([]);
     expect(await page.evaluate(() => Reflect.get(window, 'unexpectedErrors').splice(0)), describeReplay()).toEqual([]);
   }
 });

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { REDUCED_MOTION, waitForFrames, mount, pictureOf, playSlider, readoutValue, test, openDisclosures } from './support.js';
+import { REDUCED_MOTION, waitForFrames, mountFigure, readPicture, playSlider, readoutValue, test, openDisclosures } from './support.js';
 
 /** @import { Locator, Page } from '@playwright/test' */
 /** @typedef {HTMLElement & { simulation: import('../../www/types.d.ts').OdometryDecomposer }} DecomposerElement */
@@ -7,10 +7,10 @@ import { REDUCED_MOTION, waitForFrames, mount, pictureOf, playSlider, readoutVal
 test.use(REDUCED_MOTION);
 
 /** Opens a page with the figure. @param {Page} page @param {string} [attributes] */
-const openDecomposer = (page, attributes) => mount(page, 'odometry-decomposer', { attributes });
+const openDecomposer = (page, attributes) => mountFigure(page, 'odometry-decomposer', { attributes });
 
 /** Returns the results of the simulation after the next frames. @param {Locator} widget */
-async function resultsOf(widget) {
+async function readResults(widget) {
   await waitForFrames(widget.page());
   return widget.evaluate((element) => {
     const { config, stats, shown, poses, robot, drifted } = /** @type {DecomposerElement} */ (element).simulation;
@@ -18,7 +18,7 @@ async function resultsOf(widget) {
   });
 }
 
-const sliderNamed = (/** @type {Locator} */ widget, /** @type {string} */ name) => widget.getByRole('slider', { name, exact: true });
+const sliderOf = (/** @type {Locator} */ widget, /** @type {string} */ name) => widget.getByRole('slider', { name, exact: true });
 
 test('the views have room for the arcs of the turns and for nearly every outcome', async ({ page }) => {
   await page.setViewportSize({ width: 656, height: 900 });
@@ -54,14 +54,14 @@ test('the scale of the legs depends only on the size of the window @nightly', as
 
 test('opens on Reverse, and presets set the reading', async ({ page }) => {
   const widget = await openDecomposer(page);
-  const { config, shown } = await resultsOf(widget);
+  const { config, shown } = await readResults(widget);
   expect(shown).toBe(config.samples);
   await expect(widget).toHaveJSProperty('preset', 'reverse');
   await expect(widget.locator('[part=caption]')).toContainText('two rotations beyond π/2');
   // The heading deviations are 0.743 rad by Table 5.6 and 0.182 rad by Nav2.
   await expect(readoutValue(widget, 'Table 5.6 expects')).toHaveText('4.1 ×');
   await widget.getByRole('button', { name: 'Turn, drive, turn' }).click();
-  const resultsAfter = await resultsOf(widget);
+  const resultsAfter = await readResults(widget);
   expect(resultsAfter.config).toEqual({ ...config, to: { x: 1.2, y: 1, theta: 1.2 } });
   await expect(widget).toHaveJSProperty('preset', 'all');
   await expect(widget).toHaveAttribute('tox', '1.2');
@@ -89,16 +89,16 @@ test('the picture names the spreads of two noise models, drawn to one scale', as
 
 test('the later pose moves by its body and turns by its heading', async ({ page }) => {
   const widget = await openDecomposer(page);
-  const resultsBefore = await resultsOf(widget);
-  const pictureBefore = await pictureOf(widget.locator('canvas.plane'));
-  await sliderNamed(widget, 'Odometry after').press('ArrowRight');
-  const resultsAfterMove = await resultsOf(widget);
+  const resultsBefore = await readResults(widget);
+  const pictureBefore = await readPicture(widget.locator('canvas.plane'));
+  await sliderOf(widget, 'Odometry after').press('ArrowRight');
+  const resultsAfterMove = await readResults(widget);
   expect(resultsAfterMove.config.to).toEqual({ ...resultsBefore.config.to, x: expect.closeTo(resultsBefore.config.to.x + 0.05, 12) });
   expect(resultsAfterMove.config.from).toEqual(resultsBefore.config.from);
-  expect(await pictureOf(widget.locator('canvas.plane'))).not.toBe(pictureBefore);
+  expect(await readPicture(widget.locator('canvas.plane'))).not.toBe(pictureBefore);
   await expect(widget).toHaveJSProperty('preset', null);
-  await sliderNamed(widget, 'Heading after').press('ArrowLeft');
-  const resultsAfterTurn = await resultsOf(widget);
+  await sliderOf(widget, 'Heading after').press('ArrowLeft');
+  const resultsAfterTurn = await readResults(widget);
   expect(resultsAfterTurn.config.to.theta - resultsAfterMove.config.to.theta).toBeCloseTo(Math.PI / 36, 12);
 });
 
@@ -111,9 +111,9 @@ test('a rule is chosen in the table, which has the deviations of each rule', asy
   // Cells that differ from the printed table are marked.
   await expect(rowOf('Table 5.6').locator('strong')).toHaveCount(0);
   await expect(rowOf('AMCL of Nav2').locator('strong')).toHaveText(['0.131', '0.130', '0.126', '0.161', '0.182']);
-  const resultsBefore = await resultsOf(widget);
+  const resultsBefore = await readResults(widget);
   await widget.getByRole('radio', { name: 'AMCL of Nav2' }).check();
-  const resultsAfter = await resultsOf(widget);
+  const resultsAfter = await readResults(widget);
   expect(resultsAfter.config).toEqual({ ...resultsBefore.config, rule: 'nav2' });
   expect(resultsAfter.stats.exactCrossTrack).toBeLessThan(resultsBefore.stats.exactCrossTrack / 3);
   await expect(widget.locator('p[role=status]')).toContainText('The first rotation has the long lever');
@@ -136,36 +136,36 @@ test('on paper every rule has its name, and the chosen one stands out @nightly',
 
 test('the frame drifts, and no outcome moves', async ({ page }) => {
   const widget = await openDecomposer(page);
-  const resultsBefore = await resultsOf(widget);
-  const legPictureBefore = await pictureOf(widget.locator('canvas.plane'));
-  const worldPictureBefore = await pictureOf(widget.locator('canvas.world'));
-  await sliderNamed(widget, 'drift time').press('End');
-  const resultsAfter = await resultsOf(widget);
+  const resultsBefore = await readResults(widget);
+  const legPictureBefore = await readPicture(widget.locator('canvas.plane'));
+  const worldPictureBefore = await readPicture(widget.locator('canvas.world'));
+  await sliderOf(widget, 'drift time').press('End');
+  const resultsAfter = await readResults(widget);
   expect(resultsAfter.config.drift).toBe(120);
   expect(resultsAfter.drifted).not.toEqual(resultsBefore.drifted);
   expect(resultsAfter.poses).toEqual(resultsBefore.poses);
-  expect(await pictureOf(widget.locator('canvas.plane'))).toBe(legPictureBefore);
-  expect(await pictureOf(widget.locator('canvas.world'))).not.toBe(worldPictureBefore);
+  expect(await readPicture(widget.locator('canvas.plane'))).toBe(legPictureBefore);
+  expect(await readPicture(widget.locator('canvas.world'))).not.toBe(worldPictureBefore);
 });
 
 test('the spread against the drive has the outcomes beside the curve', async ({ page }) => {
   const widget = await openDecomposer(page, 'preset="all"');
   await openDisclosures(widget);
-  const plot = widget.locator('svg.plot');
-  await expect(plot).toHaveAttribute('aria-label', /At the reading, 1\.56 m, 0\.305 m across/);
-  await expect(plot.locator('circle')).toHaveCount(1);
+  const deviationPlot = widget.locator('svg.plot');
+  await expect(deviationPlot).toHaveAttribute('aria-label', /At the reading, 1\.56 m, 0\.305 m across/);
+  await expect(deviationPlot.locator('circle')).toHaveCount(1);
   await expect(widget.locator('.readouts').last()).toContainText('exactly 0.305 m');
   // Without an outcome there is no point.
   await widget.getByRole('button', { name: 'Clear' }).click();
-  await expect(plot.locator('circle')).toHaveCount(0);
+  await expect(deviationPlot.locator('circle')).toHaveCount(0);
 });
 
 test('the path is scrubbed, and is played to its end and again from its beginning', async ({ page }) => {
   const widget = await openDecomposer(page, 'phase="2.8"');
   // Users who prefer reduced motion have no button.
   await expect(widget.locator('.playable button')).toHaveCount(0);
-  await sliderNamed(widget, 'progress of the motion').press('Home');
-  const { robot, config } = await resultsOf(widget);
+  await sliderOf(widget, 'progress of the motion').press('Home');
+  const { robot, config } = await readResults(widget);
   expect(robot).toEqual(config.from);
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   const secondWidget = await openDecomposer(page, 'phase="2.8"');
@@ -179,8 +179,8 @@ test('the path is scrubbed, and is played to its end and again from its beginnin
   expect(valuesFromStart[0]).toBe(0);
   expect(valuesFromStart[2]).toBeGreaterThan(valuesFromStart[1]);
   await expect(playButton).toHaveText('Play the motion');
-  const { config: { phase } } = await resultsOf(secondWidget);
+  const { config: { phase } } = await readResults(secondWidget);
   expect(phase).toBe(valuesFromStart[2]);
   await waitForFrames(page);
-  expect((await resultsOf(secondWidget)).config.phase).toBe(phase);
+  expect((await readResults(secondWidget)).config.phase).toBe(phase);
 });

@@ -1,7 +1,7 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
 import { FIGURE_FACTS } from './figures.js';
-import { REDUCED_MOTION, bananaResultsOf, boxOf, centreOf, waitForFrames, mount, openBanana, pictureOf, pixelCountOf, showPage, stateOf, test, testEach, openDisclosures, untilReady } from './support.js';
+import { REDUCED_MOTION, readBananaResults, readBox, readCentre, waitForFrames, mountFigure, openBanana, readPicture, countPixelsOfRole, showPage, readState, test, testEach, openDisclosures, waitUntilReady } from './support.js';
 
 /**
  * @import { Locator, Page } from '@playwright/test'
@@ -16,19 +16,19 @@ test.use(REDUCED_MOTION);
  * @param {string} name
  * @param {{ attributes?: string, before?: string, after?: string }} [options]
  */
-async function openUnfolded(page, name, { attributes = '', before = '', after = '' } = {}) {
+async function openWithDisclosures(page, name, { attributes = '', before = '', after = '' } = {}) {
   await showPage(page, `<main><h1>Bare</h1>${before}<${name} heading-level="2" ${attributes}></${name}>${after}</main>`, {
     head: '<meta name="viewport" content="width=device-width"><style>body { margin: 0 }</style>',
     script: ['motion-widgets', 'de'].map((script) => `<script type="module" src="/${script}.js"></script>`).join(''),
   });
   const widget = page.locator(name);
-  await untilReady(widget);
+  await waitUntilReady(widget);
   await openDisclosures(widget);
   return widget;
 }
 
 /** Media, attributes and widths of figures that are tested for accessibility. Daily tests use the first two, nightly ones all. */
-const APPEARANCES = /** @type {[Parameters<Page['emulateMedia']>[0], string, number][]} */ ([
+const COLOR_SETTINGS = /** @type {[Parameters<Page['emulateMedia']>[0], string, number][]} */ ([
   [{ colorScheme: 'light' }, 'theme="light"', 1280],
   [{ colorScheme: 'light' }, 'theme="dark"', 1280],
   [{ forcedColors: 'active', colorScheme: 'light' }, '', 1280],
@@ -37,10 +37,10 @@ const APPEARANCES = /** @type {[Parameters<Page['emulateMedia']>[0], string, num
 ]);
 
 testEach('a figure has no accessibility violations in any look', async (page, name, isFull) => {
-  for (const [media, attributes, width] of isFull ? APPEARANCES : APPEARANCES.slice(0, 2)) {
+  for (const [media, attributes, width] of isFull ? COLOR_SETTINGS : COLOR_SETTINGS.slice(0, 2)) {
     await page.emulateMedia(media);
     await page.setViewportSize({ width, height: 812 });
-    await openUnfolded(page, name, { attributes });
+    await openWithDisclosures(page, name, { attributes });
     await expectAccessible(page, JSON.stringify([media, attributes]));
   }
 });
@@ -49,7 +49,7 @@ test('a figure keeps its roles, its tracks and its pressed button in forced colo
   await page.emulateMedia({ forcedColors: 'active' });
   const widget = await openBanana(page);
   for (const colorRole of ['prior', 'prediction', 'posterior', 'truth']) {
-    expect(await pixelCountOf(widget.locator('canvas.plane'), colorRole), colorRole).toBeGreaterThan(25);
+    expect(await countPixelsOfRole(widget.locator('canvas.plane'), colorRole), colorRole).toBeGreaterThan(25);
   }
   const [pressedColor, otherColor] = await Promise.all(['Banana', 'Straight'].map((name) =>
     widget.getByRole('button', { name }).evaluate((button) => getComputedStyle(button).backgroundColor)));
@@ -63,7 +63,7 @@ test('a figure keeps its roles, its tracks and its pressed button in forced colo
 });
 
 testEach('Tab leads to every handle and control of a figure, once, and beyond', async (page, name) => {
-  const widget = await openUnfolded(page, name, { before: '<a id="before" href="#">Before</a>', after: '<a id="after" href="#">After</a>' });
+  const widget = await openWithDisclosures(page, name, { before: '<a id="before" href="#">Before</a>', after: '<a id="after" href="#">After</a>' });
   await widget.evaluate((element) => {
     const shadowRoot = /** @type {ShadowRoot} */ (element.shadowRoot);
     const tabStops = [...shadowRoot.querySelectorAll('button, input, select, textarea, summary, a[href], .handle')].filter((stop) => {
@@ -100,14 +100,14 @@ test('the focus stays near a control that goes or is disabled by its own action'
   const classOfFocusedGroup = (/** @type {Locator} */ widget) => widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.closest('.presets, .lines, section')?.className);
   await showPage(page, '<map-squeeze></map-squeeze><arc-anatomy></arc-anatomy>');
   const mapSqueeze = page.locator('map-squeeze');
-  await untilReady(mapSqueeze);
+  await waitUntilReady(mapSqueeze);
   await mapSqueeze.evaluate((element) => void Object.assign(element, { map: { bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5]] } }));
   await mapSqueeze.getByRole('button', { name: 'Back to the apartment' }).press('Enter');
   await expect(mapSqueeze.getByRole('button', { name: 'Back to the apartment' })).toHaveCount(0);
   expect(await classOfFocusedGroup(mapSqueeze)).toContain('presets');
   const arcAnatomy = page.locator('arc-anatomy');
   await arcAnatomy.scrollIntoViewIfNeeded();
-  await untilReady(arcAnatomy);
+  await waitUntilReady(arcAnatomy);
   await arcAnatomy.evaluate((element) => /** @type {any} */ (element).setState({ widget: 'arc-anatomy', version: 1, line: 8 }));
   await openDisclosures(arcAnatomy);
   const nextLineButton = arcAnatomy.getByRole('button', { name: 'Next line' });
@@ -118,21 +118,21 @@ test('the focus stays near a control that goes or is disabled by its own action'
 
 test('sliders speak their value with its unit, and nothing is announced while one moves', async ({ page }) => {
   const widget = await openBanana(page);
-  const status = widget.locator('p[role=status]');
+  const statusLine = widget.locator('p[role=status]');
   const slider = widget.locator('#v');
   await slider.scrollIntoViewIfNeeded();
   await expect(slider).toHaveAttribute('aria-valuetext', '1.00 m/s');
-  const { x, y, width, height } = await boxOf(slider);
+  const { x, y, width, height } = await readBox(slider);
   await page.mouse.move(x + 0.83 * width, y + height / 2);
   await page.mouse.down();
   for (const pointerShare of [0.7, 0.6, 0.5]) {
     await page.mouse.move(x + pointerShare * width, y + height / 2);
     await waitForFrames(page);
-    expect(await status.textContent()).toBe('');
+    expect(await statusLine.textContent()).toBe('');
   }
   await page.mouse.up();
-  await expect(status).not.toBeEmpty();
-  expect(await status.innerText()).toBe(await widget.locator('p[part=caption]').innerText());
+  await expect(statusLine).not.toBeEmpty();
+  expect(await statusLine.innerText()).toBe(await widget.locator('p[part=caption]').innerText());
   for (const otherSlider of await widget.locator('input[type=range]').all()) {
     expect(await otherSlider.getAttribute('aria-valuetext')).toMatch(/\d/);
   }
@@ -140,7 +140,7 @@ test('sliders speak their value with its unit, and nothing is announced while on
 
 test('a figure has targets that are large enough for a finger', async ({ page, figureName }) => {
   await page.setViewportSize({ width: 375, height: 812 });
-  const widget = await openUnfolded(page, figureName);
+  const widget = await openWithDisclosures(page, figureName);
   const smallTargets = await widget.evaluate((element) =>
     [.../** @type {ShadowRoot} */ (element.shadowRoot).querySelectorAll('button, input[type=range], label:has(input):not(td label, th label), .handle')]
       .filter((target) => target.checkVisibility())
@@ -153,7 +153,7 @@ test.describe('a finger', () => {
   test.use({ hasTouch: true, viewport: { width: 375, height: 812 } });
 
   /** Swipes upwards from a place, as fingers do. @param {Page} page @param {{ x: number, y: number }} start */
-  async function swipe(page, start) {
+  async function swipeUpFrom(page, start) {
     const cdpSession = await page.context().newCDPSession(page);
     await cdpSession.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: [start] });
     for (let moveNumber = 1; moveNumber <= 10; moveNumber++) {
@@ -179,40 +179,40 @@ test.describe('a finger', () => {
   const surroundingHtml = { before: '<div style="height: 300px"></div>', after: '<div style="height: 1500px"></div>' };
 
   test('moves each handle of a figure and not the page', async ({ page, handleFigureName }) => {
-    const widget = await openUnfolded(page, handleFigureName, surroundingHtml);
+    const widget = await openWithDisclosures(page, handleFigureName, surroundingHtml);
     for (const selector of FIGURE_FACTS[handleFigureName].handleSelectors ?? []) {
       const handle = widget.locator(selector);
       await scrollToLowerHalf(handle);
-      const stateBefore = await stateOf(widget);
-      const [handleCentre, scrollYBefore] = [await centreOf(handle), await page.evaluate(() => scrollY)];
-      await swipe(page, handleCentre);
+      const stateBefore = await readState(widget);
+      const [handleCentre, scrollYBefore] = [await readCentre(handle), await page.evaluate(() => scrollY)];
+      await swipeUpFrom(page, handleCentre);
       expect(await page.evaluate(() => scrollY), selector).toBe(scrollYBefore);
-      expect(await stateOf(widget), selector).not.toEqual(stateBefore);
+      expect(await readState(widget), selector).not.toEqual(stateBefore);
     }
   });
 
   test('that swipes over a picture or a slider scrolls the page and changes nothing', async ({ page, figureName }) => {
-    const widget = await openUnfolded(page, figureName, surroundingHtml);
+    const widget = await openWithDisclosures(page, figureName, surroundingHtml);
     for (const selector of ['canvas.plane', `#${FIGURE_FACTS[figureName].sliderId}`]) {
       const part = widget.locator(selector);
       await scrollToLowerHalf(part);
-      const stateBefore = await stateOf(widget);
-      const { x, y, width, height } = await boxOf(part);
+      const stateBefore = await readState(widget);
+      const { x, y, width, height } = await readBox(part);
       const scrollYBefore = await page.evaluate(() => scrollY);
       // No thumb is at a third of the width, so that the track is visible there.
-      await swipe(page, { x: x + 0.3 * width, y: y + height / 2 });
+      await swipeUpFrom(page, { x: x + 0.3 * width, y: y + height / 2 });
       await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(scrollYBefore + 60);
-      expect(await stateOf(widget), selector).toEqual(stateBefore);
+      expect(await readState(widget), selector).toEqual(stateBefore);
     }
   });
 
   test('that taps sets the chart and marks a robot @nightly', async ({ page }) => {
-    const widget = await openUnfolded(page, 'banana-machine');
-    const chart = widget.locator('#chart-omega');
-    await scrollToLowerHalf(chart);
-    const { x, y, width, height } = await boxOf(chart);
+    const widget = await openWithDisclosures(page, 'banana-machine');
+    const omegaChart = widget.locator('#chart-omega');
+    await scrollToLowerHalf(omegaChart);
+    const { x, y, width, height } = await readBox(omegaChart);
     await page.touchscreen.tap(x + 0.8 * width, y + height / 2);
-    await expect.poll(async () => (await bananaResultsOf(widget)).config.command.omega).toBeGreaterThan(1);
+    await expect.poll(async () => (await readBananaResults(widget)).config.command.omega).toBeGreaterThan(1);
     const canvas = widget.locator('canvas.plane');
     await widget.evaluate((element) => element.scrollIntoView());
     const [xShare, yShare] = await widget.evaluate((element) => {
@@ -227,7 +227,7 @@ test.describe('a finger', () => {
       }
       throw new Error('No robot is clear of the handle.');
     });
-    const box = await boxOf(canvas);
+    const box = await readBox(canvas);
     await page.touchscreen.tap(box.x + xShare * box.width, box.y + yShare * box.height);
     await expect(widget.locator('#robot')).not.toHaveValue('');
   });
@@ -235,7 +235,7 @@ test.describe('a finger', () => {
 
 test('paper has the figure and its settings, in light colours, and nothing to press', async ({ page }) => {
   await page.emulateMedia({ colorScheme: 'light' });
-  const widget = await mount(page, 'banana-machine', { head: '<style>:root { color-scheme: light dark }</style>' });
+  const widget = await mountFigure(page, 'banana-machine', { head: '<style>:root { color-scheme: light dark }</style>' });
   const canvas = widget.locator('canvas.plane');
   // Both events are fired synchronously, without a frame in between.
   const takePrintedPicture = () => canvas.evaluate((element) => {
@@ -245,9 +245,9 @@ test('paper has the figure and its settings, in light colours, and nothing to pr
     return printedPixels;
   });
   const lightPicture = await takePrintedPicture();
-  const screenPicture = await pictureOf(canvas);
+  const screenPicture = await readPicture(canvas);
   await page.emulateMedia({ colorScheme: 'dark' });
-  await expect.poll(() => pictureOf(canvas)).not.toBe(screenPicture);
+  await expect.poll(() => readPicture(canvas)).not.toBe(screenPicture);
   expect((await takePrintedPicture()) === lightPicture).toBe(true);
   await page.emulateMedia({ colorScheme: 'dark', media: 'print' });
   const readAspectRatio = () => canvas.evaluate((element) => {
@@ -262,7 +262,7 @@ test('paper has the figure and its settings, in light colours, and nothing to pr
     addEventListener('error', ({ message }) => Object.assign(window, { recordedError: message }));
     document.querySelector('banana-machine')?.replaceWith(document.createElement('banana-machine'));
   });
-  await untilReady(widget);
+  await waitUntilReady(widget);
   const readCanvasSize = () => canvas.evaluate((element) => ['width', 'height'].map((side) => Reflect.get(element, side)));
   for (const width of [600, 701, 1127, 1920]) {
     await page.setViewportSize({ width, height: 900 });
@@ -275,7 +275,7 @@ test('paper has the figure and its settings, in light colours, and nothing to pr
 
 test('paper has figures that were far from the window, with their pictures @nightly', async ({ page }) => {
   await showPage(page, '<banana-machine></banana-machine><div style="height: 3000px"></div><map-squeeze></map-squeeze>');
-  await untilReady(page.locator('banana-machine'));
+  await waitUntilReady(page.locator('banana-machine'));
   const farFigure = page.locator('map-squeeze');
   expect(await farFigure.evaluate((element) => Reflect.get(element, 'simulation'))).toBe(undefined);
   await page.evaluate(() => {
@@ -290,17 +290,17 @@ test('paper has figures that were far from the window, with their pictures @nigh
 });
 
 test('a print shows the disclosures that the user opened, and no controls @nightly', async ({ page, figureName }) => {
-  const widget = await mount(page, figureName);
+  const widget = await mountFigure(page, figureName);
   const { foldIndex, part } = FIGURE_FACTS[figureName].printedPart;
-  const fold = widget.locator('.folds details').nth(foldIndex);
-  await expect(fold).toBeVisible();
+  const disclosure = widget.locator('.folds details').nth(foldIndex);
+  await expect(disclosure).toBeVisible();
   await page.emulateMedia({ media: 'print' });
-  await expect(fold.locator(part).first()).toBeHidden();
+  await expect(disclosure.locator(part).first()).toBeHidden();
   await page.emulateMedia({ media: 'screen' });
-  await fold.locator('summary').click();
-  await expect(fold.locator(part).first()).toBeVisible();
+  await disclosure.locator('summary').click();
+  await expect(disclosure.locator(part).first()).toBeVisible();
   await page.emulateMedia({ media: 'print' });
-  await expect(fold.locator(part).first()).toBeVisible();
+  await expect(disclosure.locator(part).first()).toBeVisible();
   await expect(widget.locator('.readouts').first()).toBeVisible();
   await expect(widget.locator('[part=caption]')).toBeVisible();
   await expect(widget.locator(':is(button, input, summary, textarea):visible')).toHaveCount(0);
@@ -308,7 +308,7 @@ test('a print shows the disclosures that the user opened, and no controls @night
 
 testEach('a figure with all folds open fits into 320 px', async (page, name, isFull) => {
   await page.setViewportSize({ width: 320, height: 812 });
-  const widget = await openUnfolded(page, name);
+  const widget = await openWithDisclosures(page, name);
   /** Returns the widths of the page, and elements beyond the right edge of the window that cannot be scrolled to. */
   const findOverflow = () => widget.evaluate((element) => {
     const { body } = document;
@@ -327,7 +327,7 @@ testEach('a figure with all folds open fits into 320 px', async (page, name, isF
 });
 
 testEach('the help of a slider covers no slider of its group and no rule, and no outline crosses it', async (page, figure) => {
-  const widget = await openUnfolded(page, figure);
+  const widget = await openWithDisclosures(page, figure);
   for (const [width, lang] of /** @type {const} */ ([[320, 'en'], [700, 'de']])) {
     await page.setViewportSize({ width, height: 812 });
     await widget.evaluate((element, to) => element.setAttribute('lang', to), lang);

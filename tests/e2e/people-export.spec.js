@@ -1,7 +1,7 @@
 import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
-import { openSqueeze, squeezeResultsOf } from './squeeze-support.js';
-import { REDUCED_MOTION, bananaResultsOf, boxOf, waitForFrames, mount, openBanana, posesOf, propertyOf, test, openDisclosures } from './support.js';
+import { openSqueeze, readSqueezeResults } from './squeeze-support.js';
+import { REDUCED_MOTION, readBananaResults, readBox, waitForFrames, mountFigure, openBanana, readPoses, readProperty, test, openDisclosures } from './support.js';
 
 /** @import { Locator } from '@playwright/test' */
 /** @typedef {import('../../www/types.d.ts').BananaMachineElement} Figure any element, as far as exports are concerned */
@@ -15,8 +15,8 @@ function parseCSV(text) {
   return { settings: JSON.parse(commentLine.slice(2)), columns: headerLine.split(','), rows: dataLines.map((line) => line.split(',').map(Number)) };
 }
 
-const csvOf = (/** @type {Locator} */ widget) => widget.evaluate((element) => /** @type {Figure} */ (element).toCSV());
-const svgOf = (/** @type {Locator} */ widget) => widget.evaluate((element) => /** @type {Figure} */ (element).toSVG());
+const readCSV = (/** @type {Locator} */ widget) => widget.evaluate((element) => /** @type {Figure} */ (element).toCSV());
+const readSVG = (/** @type {Locator} */ widget) => widget.evaluate((element) => /** @type {Figure} */ (element).toSVG());
 
 /** Returns the title, description and size of an SVG file, and the numbers of its elements. @param {import('@playwright/test').Page} page @param {string} svg */
 function describeSVG(page, svg) {
@@ -39,9 +39,9 @@ function describeSVG(page, svg) {
 test('CSV of the Banana Machine has the samples, and the settings that bring them back', async ({ page }) => {
   const widget = await openBanana(page, 'samples="2000"');
   await widget.getByRole('button', { name: 'Hard arc' }).click();
-  const { config, shown } = await bananaResultsOf(widget);
-  const poses = await posesOf(widget);
-  const { settings, columns, rows } = parseCSV(await csvOf(widget));
+  const { config, shown } = await readBananaResults(widget);
+  const poses = await readPoses(widget);
+  const { settings, columns, rows } = parseCSV(await readCSV(widget));
   expect(columns).toEqual([
     ...['x_m', 'y_m', 'theta_rad', 'xi_along_m', 'xi_lateral_m', 'xi_heading_rad'],
     ...['v_hat_m_per_s', 'omega_hat_rad_per_s', 'gamma_hat_rad_per_s'],
@@ -62,8 +62,8 @@ test('CSV of the Banana Machine has the samples, and the settings that bring the
 
 test('CSV of Map Squeeze has the verdicts, which add up to the readouts', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const { config, stats } = await squeezeResultsOf(widget);
-  const { settings, columns, rows } = parseCSV(await csvOf(widget));
+  const { config, stats } = await readSqueezeResults(widget);
+  const { settings, columns, rows } = parseCSV(await readCSV(widget));
   expect(settings).toEqual({ element: 'map-squeeze', map: null, ...config });
   expect(columns).toEqual(['x_m', 'y_m', 'theta_rad', 'end_free', 'path_free', 'accepted']);
   expect(rows).toHaveLength(stats.attempts);
@@ -78,25 +78,25 @@ test('SVG is vectors with a title and a description: dots while they are few, el
   // Position 6 of the slider is a thousand samples.
   await widget.locator('#samples').fill('6');
   await waitForFrames(page);
-  const svgOfFewSamples = await describeSVG(page, await svgOf(widget));
-  const { width, height } = await boxOf(floorCanvas);
+  const svgOfFewSamples = await describeSVG(page, await readSVG(widget));
+  const { width, height } = await readBox(floorCanvas);
   expect(svgOfFewSamples.title).toBe('The Banana Machine');
   expect(svgOfFewSamples.description).toBe(await floorCanvas.getAttribute('aria-label'));
   expect(svgOfFewSamples.size).toEqual([Math.round(width), Math.round(height)]);
   expect(svgOfFewSamples.images).toBe(0);
   expect(svgOfFewSamples.paths).toBeGreaterThan(1000);
   expect(svgOfFewSamples.texts).toBeGreaterThan(8);
-  const svgText = await svgOf(widget);
+  const svgText = await readSVG(widget);
   for (const labelText of ['Gaussian in (x, y)', 'Gaussian in ξ', 'command']) expect(svgText).toContain(`>${labelText}`);
   // The handle, an element on the page, is exported as a ring.
   expect(svgText).toMatch(/<path[^>]*a7\.5,7\.5[^>]*stroke-width="3"/);
   await widget.locator('#samples').fill('9');
   await waitForFrames(page);
-  const svgOfManySamples = await describeSVG(page, await svgOf(widget));
+  const svgOfManySamples = await describeSVG(page, await readSVG(widget));
   expect(svgOfManySamples.images).toBe(1);
   expect(svgOfManySamples.paths).toBeLessThan(60);
 
-  const svgOfMap = await describeSVG(page, await svgOf(await openSqueeze(page)));
+  const svgOfMap = await describeSVG(page, await readSVG(await openSqueeze(page)));
   expect(svgOfMap.title).toBe('Map Squeeze');
   expect(svgOfMap.images).toBe(0);
   expect(svgOfMap.paths).toBeGreaterThan(400);
@@ -104,7 +104,7 @@ test('SVG is vectors with a title and a description: dots while they are few, el
 
 test('PNG of a figure has twice the pixels and opaque paper', async ({ page, figureName }) => {
   await page.emulateMedia({ colorScheme: 'dark' });
-  const widget = await mount(page, figureName);
+  const widget = await mountFigure(page, figureName);
   const pngMeasures = await widget.evaluate(async (element) => {
     const figure = /** @type {Figure} */ (element);
     const svgRoot = new DOMParser().parseFromString(figure.toSVG(), 'image/svg+xml').documentElement;
@@ -130,10 +130,10 @@ test('the menu saves files with names that say what they are, from the keyboard 
   await widget.locator('.exports button').first().focus();
   for (const fileEnding of ['png', 'svg', 'csv']) {
     const [download] = await Promise.all([page.waitForEvent('download'), page.keyboard.press('Enter')]);
-    expect(download.suggestedFilename()).toBe(`banana-machine-${await propertyOf(widget, 'seed')}.${fileEnding}`);
+    expect(download.suggestedFilename()).toBe(`banana-machine-${await readProperty(widget, 'seed')}.${fileEnding}`);
     const fileContents = readFileSync(await download.path());
     expect(fileContents.length).toBeGreaterThan(1000);
-    if (fileEnding === 'csv') expect(fileContents.toString()).toBe(await csvOf(widget));
+    if (fileEnding === 'csv') expect(fileContents.toString()).toBe(await readCSV(widget));
     await page.keyboard.press('Tab');
   }
 });
@@ -143,7 +143,7 @@ const HOSTILE_TEXT = ']]> --> <!-- <![CDATA[ </svg><script>alert(1)</script> & &
 
 /** Returns a text with the replacements that an export to SVG makes. @param {string} text */
 // oxlint-disable-next-line no-control-regex
-const sanitize = (text) => text.replace(/[\0-\x08\x0b\x0c\x1f\ufffe\uffff\p{Cs}]/gu, '\ufffd');
+const replaceForbiddenCharacters = (text) => text.replace(/[\0-\x08\x0b\x0c\x1f\ufffe\uffff\p{Cs}]/gu, '\ufffd');
 
 test('SVG is well-formed whatever the names of a page are @nightly', async ({ page }) => {
   const widget = await openSqueeze(page);
@@ -155,9 +155,9 @@ test('SVG is well-formed whatever the names of a page are @nightly', async ({ pa
     Object.assign(element, { map: { bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5]], name: hostileText } });
     for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
   }, JSON.stringify(HOSTILE_TEXT));
-  const svg = await svgOf(widget);
+  const svg = await readSVG(widget);
   const { title, description } = await describeSVG(page, svg);
-  expect(title).toBe(sanitize(HOSTILE_TEXT.replace(/\s+/g, ' ')));
-  expect(description).toContain(sanitize(HOSTILE_TEXT));
+  expect(title).toBe(replaceForbiddenCharacters(HOSTILE_TEXT.replace(/\s+/g, ' ')));
+  expect(description).toContain(replaceForbiddenCharacters(HOSTILE_TEXT));
   expect(await page.evaluate((text) => new DOMParser().parseFromString(text, 'image/svg+xml').querySelectorAll('script').length, svg)).toBe(0);
 });

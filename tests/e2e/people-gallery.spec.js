@@ -1,7 +1,7 @@
 import { expect, test as plainTest } from '@playwright/test';
 import { expectAccessible } from './axe.js';
 import { ALL_NAMES } from './figures.js';
-import { REDUCED_MOTION, boxOf, waitForFrames, mount, pictureOf, propertyOf, test, testEach, untilReady } from './support.js';
+import { REDUCED_MOTION, readBox, waitForFrames, mountFigure, readPicture, readProperty, test, testEach, waitUntilReady } from './support.js';
 
 test.use(REDUCED_MOTION);
 
@@ -32,11 +32,11 @@ const KEYS_OUTSIDE_PRESETS = ['preset', 'samples', 'overlays', 'line', 'morph'];
 
 testEach('each item sets the whole state that it describes, whatever was pressed before', async (page, name) => {
   await page.goto('/');
-  const article = page.locator('article', { has: page.locator(name) });
-  const figure = article.locator(name);
+  const figureArticle = page.locator('article', { has: page.locator(name) });
+  const figure = figureArticle.locator(name);
   await figure.scrollIntoViewIfNeeded();
-  await untilReady(figure);
-  const itemButtons = await article.locator('button[data-try]').all();
+  await waitUntilReady(figure);
+  const itemButtons = await figureArticle.locator('button[data-try]').all();
   const pressAndReadState = async (/** @type {import('@playwright/test').Locator} */ button) => {
     // The button is clicked by script, because some buttons are in a closed disclosure.
     await button.evaluate((exampleFigure) => /** @type {HTMLElement} */ (exampleFigure).click());
@@ -58,7 +58,7 @@ testEach('each item sets the whole state that it describes, whatever was pressed
 });
 
 test('an entry of the legend highlights its curve in the chart', async ({ page }) => {
-  const widget = await mount(page, 'dead-reckoning');
+  const widget = await mountFigure(page, 'dead-reckoning');
   await widget.getByRole('checkbox', { name: 'lateral' }).hover();
   await expect(widget.locator('.plot .curve.lit')).toHaveAttribute('stroke', 'var(--prediction)');
   await expect(widget.locator('.plot .curve.unlit')).toHaveCount(2);
@@ -66,23 +66,23 @@ test('an entry of the legend highlights its curve in the chart', async ({ page }
 
 test('a term and an entry of the legend highlight their line in the picture', async ({ page }) => {
   await page.goto('/');
-  const article = page.locator('#banana');
-  const figure = article.locator('banana-machine');
-  await untilReady(figure);
+  const figureArticle = page.locator('#banana');
+  const figure = figureArticle.locator('banana-machine');
+  await waitUntilReady(figure);
   const canvas = figure.locator('canvas.plane');
-  const pictureBefore = await pictureOf(canvas);
-  const termElement = article.getByText('dashed ellipse', { exact: true });
+  const pictureBefore = await readPicture(canvas);
+  const termElement = figureArticle.getByText('dashed ellipse', { exact: true });
   await termElement.focus();
-  expect(await propertyOf(figure, 'highlight')).toBe('ellipse');
+  expect(await readProperty(figure, 'highlight')).toBe('ellipse');
   await waitForFrames(page);
-  const highlightedPicture = await pictureOf(canvas);
+  const highlightedPicture = await readPicture(canvas);
   expect(highlightedPicture).not.toBe(pictureBefore);
   await termElement.blur();
   await waitForFrames(page);
-  expect(await pictureOf(canvas)).toBe(pictureBefore);
+  expect(await readPicture(canvas)).toBe(pictureBefore);
   await figure.locator('.legend').getByText('Gaussian in (x, y)').hover();
   await waitForFrames(page);
-  expect(await pictureOf(canvas)).toBe(highlightedPicture);
+  expect(await readPicture(canvas)).toBe(highlightedPicture);
 });
 
 test('contents lead to every section', async ({ page }) => {
@@ -96,14 +96,14 @@ for (const [width, height] of [[1280, 720], [375, 760]]) {
   test(`a figure stands below its heading, and stays in sight while its items are read, ${width} px wide`, async ({ page }) => {
     await page.setViewportSize({ width, height });
     await page.goto('/');
-    const article = page.locator('#banana');
-    await untilReady(article.locator('banana-machine'));
-    const [headingBox, standBox] = [await boxOf(article.locator('.lead')), await boxOf(article.locator('.stand'))];
+    const figureArticle = page.locator('#banana');
+    await waitUntilReady(figureArticle.locator('banana-machine'));
+    const [headingBox, standBox] = [await readBox(figureArticle.locator('.lead')), await readBox(figureArticle.locator('.stand'))];
     expect(standBox.y).toBeGreaterThanOrEqual(headingBox.y + headingBox.height);
-    await article.getByRole('button', { name: 'Odometry model' }).evaluate((button) => button.scrollIntoView({ block: 'end' }));
+    await figureArticle.getByRole('button', { name: 'Odometry model' }).evaluate((button) => button.scrollIntoView({ block: 'end' }));
     await waitForFrames(page);
-    await expect(article.locator('canvas.plane')).toBeInViewport({ ratio: 0.95 });
-    await expect(article.getByRole('button', { name: 'Odometry model' })).toBeInViewport();
+    await expect(figureArticle.locator('canvas.plane')).toBeInViewport({ ratio: 0.95 });
+    await expect(figureArticle.getByRole('button', { name: 'Odometry model' })).toBeInViewport();
   });
 }
 
@@ -119,7 +119,7 @@ test('nothing on the page moves while figures load', async ({ page }) => {
   await page.goto('/');
   for (const name of ALL_NAMES) {
     await page.locator(name).first().scrollIntoViewIfNeeded();
-    await untilReady(page.locator(name).first());
+    await waitUntilReady(page.locator(name).first());
   }
   expect(await page.evaluate(() => Reflect.get(window, 'layoutShifts'))).toEqual([]);
 });

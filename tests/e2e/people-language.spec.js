@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { ALL_NAMES, FIGURE_FACTS } from './figures.js';
-import { REDUCED_MOTION, bananaResultsOf, waitForFrames, mount, numberIn, openBanana, pictureOf, readoutValue, showPage, test, testEach, openDisclosures, untilReady, untilSettled } from './support.js';
+import { REDUCED_MOTION, readBananaResults, waitForFrames, mountFigure, parseNumberIn, openBanana, readPicture, readoutValue, showPage, test, testEach, openDisclosures, waitUntilReady, waitUntilSettled } from './support.js';
 
 test.use(REDUCED_MOTION);
 
@@ -8,20 +8,20 @@ test.use(REDUCED_MOTION);
 const UNTRANSLATED_NAMES = ['Map Squeeze', 'Arc Anatomy'];
 
 /** Returns all messages of a language. @param {string} lang @returns {Promise<any>} */
-async function catalogueOf(lang) {
+async function loadCatalogue(lang) {
   const widgetCatalogues = ALL_NAMES.map(async (name) => (await import(`../../www/widgets/${name}/${lang}.js`))[lang]);
   return { ...(await import(`../../www/messages/${lang}.js`))[lang], ...(await Promise.all(widgetCatalogues)) };
 }
 
 /** Returns path and message of each entry. @param {any} catalogue @param {string} [path] @returns {[string, string | Function][]} */
-function messagesOf(catalogue, path = '') {
+function listMessages(catalogue, path = '') {
   return Object.entries(catalogue).flatMap(([key, message]) =>
-    typeof message === 'object' ? messagesOf(message, `${path}.${key}`) : [[`${path}.${key}`, message]],
+    typeof message === 'object' ? listMessages(message, `${path}.${key}`) : [[`${path}.${key}`, message]],
   );
 }
 
 /** Returns all texts of a figure that a user sees or hears. @param {import('@playwright/test').Locator} widget */
-function textsOf(widget) {
+function readVisibleTexts(widget) {
   return widget.evaluate((element) => {
     const shadowRoot = /** @type {ShadowRoot} */ (element.shadowRoot);
     const texts = [];
@@ -44,7 +44,7 @@ function textsOf(widget) {
 }
 
 test('both catalogues have the same messages, with the same values in them', async () => {
-  const [englishMessages, germanMessages] = (await Promise.all(['en', 'de'].map(catalogueOf))).map((catalogue) => messagesOf(catalogue));
+  const [englishMessages, germanMessages] = (await Promise.all(['en', 'de'].map(loadCatalogue))).map((catalogue) => listMessages(catalogue));
   const messageShapesOf = (/** @type {[string, string | Function][]} */ messages) =>
     messages.map(([path, message]) => [path, typeof message, typeof message === 'function' ? message.length : 0]);
   expect(messageShapesOf(germanMessages)).toEqual(messageShapesOf(englishMessages));
@@ -52,9 +52,9 @@ test('both catalogues have the same messages, with the same values in them', asy
 });
 
 testEach('no English is left in a German figure', async (page, name) => {
-  const [englishCatalogue, germanCatalogue] = await Promise.all(['en', 'de'].map(catalogueOf));
-  const germanTexts = new Set(messagesOf(germanCatalogue).map(([, message]) => message));
-  const englishTexts = messagesOf(englishCatalogue)
+  const [englishCatalogue, germanCatalogue] = await Promise.all(['en', 'de'].map(loadCatalogue));
+  const germanTexts = new Set(listMessages(germanCatalogue).map(([, message]) => message));
+  const englishTexts = listMessages(englishCatalogue)
     .map(([, message]) => (typeof message === 'string' ? message : String(message(...'\ue001\ue002\ue003\ue004\ue005'))))
     // Text around the values of a message is English too.
     .flatMap((message) => message.replace(/[*]/g, '').split(/[\ue001-\ue005]/))
@@ -65,9 +65,9 @@ testEach('no English is left in a German figure', async (page, name) => {
     script: ['motion-widgets', 'de'].map((script) => `<script type="module" src="/${script}.js"></script>`).join(''),
   });
   const widget = page.locator(name);
-  await untilReady(widget);
+  await waitUntilReady(widget);
   await openDisclosures(widget);
-  const texts = await textsOf(widget);
+  const texts = await readVisibleTexts(widget);
   expect(texts.length).toBeGreaterThan(60);
   expect(englishTexts.filter((part) => texts.some((text) => text === part || (part.includes(' ') && text.includes(part))))).toEqual([]);
 });
@@ -82,7 +82,7 @@ test('the nearest lang decides, also on the form of numbers; a language without 
   const germanSkew = (await readoutValue(widget, /[Qq]uer/).textContent()) ?? '';
   expect(germanSkew).toBe(englishSkew.replaceAll('.', ','));
   expect(germanSkew).toMatch(/^−0,\d{3,4} ± 0,\d{3,4}$/);
-  expect(numberIn(germanSkew.split(' ± ')[0].replace(',', '.'))).toBeCloseTo((await bananaResultsOf(widget)).stats.crossTrackSkew, 3);
+  expect(parseNumberIn(germanSkew.split(' ± ')[0].replace(',', '.'))).toBeCloseTo((await readBananaResults(widget)).stats.crossTrackSkew, 3);
   await expect(widget.locator('#v')).toHaveAttribute('aria-valuetext', '1,00 m/s');
   await widget.evaluate((element) => element.setAttribute('lang', 'fr'));
   await expectPlayButton('Draw samples');
@@ -97,7 +97,7 @@ test('the nearest lang decides, also on the form of numbers; a language without 
 test('a page may replace words and add languages; a message of another shape is refused by name', async ({ page }) => {
   const widget = await openBanana(page, 'preset="gentle"');
   await openDisclosures(widget);
-  const refusals = await page.evaluate(async () => {
+  const refusalMessages = await page.evaluate(async () => {
     const { setMessages } = await import(new URL('/motion-widgets.js', location.href).href);
     setMessages('fr', { cloud: { play: 'Jouer' }, banana: { robot: 'Automate', bend: { bent: () => 'À droite.' } } });
     setMessages('en', { pause: 'Hold' });
@@ -116,7 +116,7 @@ test('a page may replace words and add languages; a message of another shape is 
       }
     });
   });
-  expect(refusals).toEqual([
+  expect(refusalMessages).toEqual([
     expect.stringMatching(/^TypeError: messages: fr\.banana\.robots is a string; allowed is one of title, /),
     'TypeError: messages: fr.banana.onePlace is a string; allowed is a function of 3 values.',
     'TypeError: messages: fr.banana.settings.model is a string; allowed is a group.',
@@ -134,12 +134,12 @@ test('a page may replace words and add languages; a message of another shape is 
 });
 
 test('a page from right to left has the same picture, and nothing beside its figure @nightly', async ({ page, figureName }) => {
-  const widget = await mount(page, figureName);
+  const widget = await mountFigure(page, figureName);
   const canvas = widget.locator('canvas.plane');
-  const pictureBefore = await pictureOf(canvas);
+  const pictureBefore = await readPicture(canvas);
   await page.evaluate(() => void (document.documentElement.dir = 'rtl'));
   await widget.evaluate((element) => /** @type {any} */ (element).renderer.requestFrame());
-  expect(await pictureOf(canvas)).toBe(pictureBefore);
+  expect(await readPicture(canvas)).toBe(pictureBefore);
   expect(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth)).toBeLessThanOrEqual(0);
   const slider = widget.locator('.slider input[type=range]').first();
   const valueBefore = Number(await slider.inputValue());
@@ -152,7 +152,7 @@ test('signs stand left of their numbers on a page from right to left, also among
   for (const [lang, direction, numberSelector] of [['en', 'ltr', '.simulation'], ['he', 'rtl', '.simulation :is(bdi, [dir=ltr])']]) {
     await showPage(page, `<div dir="rtl" lang="${lang}"><${figureName}><p slot="caption">נגן</p></${figureName}></div>`, { head: headHtml });
     const widget = page.locator(figureName);
-    await untilReady(widget);
+    await waitUntilReady(widget);
     await openDisclosures(widget);
     const signsAndSides = await widget.evaluate(({ shadowRoot }, selector) => {
       const characterRange = new Range();
@@ -163,20 +163,20 @@ test('signs stand left of their numbers on a page from right to left, also among
       };
       return [.../** @type {ShadowRoot} */ (shadowRoot).querySelectorAll(selector)].flatMap((element) => {
         const treeWalker = document.createTreeWalker(element, NodeFilter.SHOW_TEXT);
-        const signs = [];
+        const signBoxes = [];
         while (treeWalker.nextNode()) {
           const textNode = /** @type {Text} */ (treeWalker.currentNode);
           const signIndex = textNode.data.search(/\u2212\d/);
-          if (signIndex >= 0 && textNode.parentElement?.checkVisibility()) signs.push([textNode.data, boxOfCharacter(textNode, signIndex).right <= boxOfCharacter(textNode, signIndex + 1).left + 0.5]);
+          if (signIndex >= 0 && textNode.parentElement?.checkVisibility()) signBoxes.push([textNode.data, boxOfCharacter(textNode, signIndex).right <= boxOfCharacter(textNode, signIndex + 1).left + 0.5]);
         }
-        return signs;
+        return signBoxes;
       });
     }, numberSelector);
     expect(signsAndSides.length).toBeGreaterThan(1);
     expect(signsAndSides.filter(([, isLeftOfNumber]) => !isLeftOfNumber)).toEqual([]);
-    const directionOf = (/** @type {string} */ selector) => widget.locator(selector).evaluate((element) => getComputedStyle(element).direction);
-    expect(await directionOf('.simulation')).toBe(direction);
-    expect(await directionOf('[slot=caption]')).toBe('rtl');
+    const readTextDirection = (/** @type {string} */ selector) => widget.locator(selector).evaluate((element) => getComputedStyle(element).direction);
+    expect(await readTextDirection('.simulation')).toBe(direction);
+    expect(await readTextDirection('[slot=caption]')).toBe('rtl');
   }
 });
 
@@ -191,7 +191,7 @@ test('a page translator that replaces every text freezes none @nightly', async (
     return Promise.all([translatedFigure, otherFigure].map((widget) => widget.locator('.simulation').evaluate((simulation) => simulation.textContent)));
   };
   for (const widget of [translatedFigure, otherFigure]) {
-    await untilReady(widget);
+    await waitUntilReady(widget);
     await openDisclosures(widget);
   }
   await translatedFigure.evaluate(({ shadowRoot }) => {
@@ -207,7 +207,7 @@ test('a page translator that replaces every text freezes none @nightly', async (
   for (const sliderValue of sliderValues) {
     const textsBefore = await readTexts();
     for (const widget of [translatedFigure, otherFigure]) await widget.locator(`#${sliderId}`).fill(String(sliderValue));
-    for (const widget of [translatedFigure, otherFigure]) await untilSettled(widget);
+    for (const widget of [translatedFigure, otherFigure]) await waitUntilSettled(widget);
     const [translatedText, otherText] = await readTexts();
     expect(otherText).not.toBe(textsBefore[1]);
     expect(translatedText).toBe(otherText);

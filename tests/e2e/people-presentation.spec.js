@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
-import { REDUCED_MOTION, boxOf, centreOf, waitForFrames, mount, showPage, stateOf, test, testEach, untilReady } from './support.js';
+import { REDUCED_MOTION, readBox, readCentre, waitForFrames, mountFigure, showPage, readState, test, testEach, waitUntilReady } from './support.js';
 
 test.use({ ...REDUCED_MOTION, viewport: { width: 1920, height: 1080 } });
 
@@ -10,7 +10,7 @@ const fitsSurface = (widget) => widget.locator('.surface').evaluate((element) =>
 test('the button fills the screen, C shows the controls, and Escape leaves', async ({ page }) => {
   await showPage(page, '<div style="height: 300px"></div><banana-machine></banana-machine><div style="height: 3000px"></div>');
   const widget = page.locator('banana-machine');
-  await untilReady(widget);
+  await waitUntilReady(widget);
   await widget.getByRole('button', { name: 'Present' }).click();
   await expect.poll(() => page.evaluate(() => document.fullscreenElement?.localName)).toBe('banana-machine');
   const controlsButton = widget.getByRole('button', { name: 'C Controls' });
@@ -41,30 +41,30 @@ test('the button fills the screen, C shows the controls, and Escape leaves', asy
 
 test('without full screen the attribute fills the window, and the button leaves', async ({ page }) => {
   await page.addInitScript(() => (Element.prototype.requestFullscreen = () => Promise.reject(new TypeError('refused'))));
-  const widget = await mount(page, 'banana-machine');
+  const widget = await mountFigure(page, 'banana-machine');
   // Slides are scaled by a transform, to which fixed boxes would be relative.
   await page.evaluate(() => (document.body.style.transform = 'scale(0.5)'));
-  const boxBefore = await boxOf(widget);
+  const boxBefore = await readBox(widget);
   await widget.evaluate((element) => void Object.assign(element, { presentation: true }));
-  await expect.poll(() => boxOf(widget)).toEqual({ x: 0, y: 0, width: 1920, height: 1080 });
+  await expect.poll(() => readBox(widget)).toEqual({ x: 0, y: 0, width: 1920, height: 1080 });
   // A handle stays under the pointer at any font size.
   const handle = widget.getByRole('slider', { name: 'End of the commanded arc' });
   await waitForFrames(page);
-  const centreBefore = await centreOf(handle);
+  const centreBefore = await readCentre(handle);
   await page.mouse.move(centreBefore.x, centreBefore.y);
   await page.mouse.down();
   await page.mouse.move(centreBefore.x + 60, centreBefore.y - 40, { steps: 4 });
   await waitForFrames(page);
-  const centreAfter = await centreOf(handle);
+  const centreAfter = await readCentre(handle);
   expect(Math.hypot(centreAfter.x - centreBefore.x - 60, centreAfter.y - centreBefore.y + 40)).toBeLessThan(2);
   await page.mouse.up();
   await widget.getByRole('button', { name: 'Esc Exit' }).click();
   await expect(widget).not.toHaveAttribute('presentation');
-  await expect.poll(() => boxOf(widget)).toEqual(boxBefore);
+  await expect.poll(() => readBox(widget)).toEqual(boxBefore);
 });
 
 test('the keys 1 to 9 choose presets, and entering from the keyboard leads to a button', async ({ page }) => {
-  const widget = await mount(page, 'banana-machine');
+  const widget = await mountFigure(page, 'banana-machine');
   await widget.getByRole('button', { name: 'Present' }).press('Enter');
   await expect(widget.getByRole('button', { name: 'C Controls' })).toBeFocused();
   const presetNames = await widget.evaluate((element) => /** @type {any} */ (element).definition.attributes.preset.words);
@@ -80,23 +80,23 @@ test('the keys 1 to 9 choose presets, and entering from the keyboard leads to a 
 });
 
 test('the key 0 brings back the state in which the presentation began', async ({ page }) => {
-  const widget = await mount(page, 'banana-machine');
+  const widget = await mountFigure(page, 'banana-machine');
   await widget.evaluate((element) => void Object.assign(element, { preset: 'hard', omega: 0.7 }));
-  const preparedState = await stateOf(widget);
+  const preparedState = await readState(widget);
   await widget.getByRole('button', { name: 'Present' }).click();
   // While a slider has the focus, digits select presets of the presentation.
   await page.keyboard.press('c');
   await widget.locator('#v').press('ArrowUp');
-  expect(await stateOf(widget)).not.toEqual(preparedState);
+  expect(await readState(widget)).not.toEqual(preparedState);
   await page.keyboard.press('0');
-  expect(await stateOf(widget)).toEqual(preparedState);
-  const status = widget.locator('p[role=status]');
-  await expect(status).not.toBeEmpty();
-  expect(await status.innerText()).toBe(await widget.locator('p[part=caption]').innerText());
+  expect(await readState(widget)).toEqual(preparedState);
+  const statusLine = widget.locator('p[role=status]');
+  await expect(statusLine).not.toBeEmpty();
+  expect(await statusLine.innerText()).toBe(await widget.locator('p[part=caption]').innerText());
 });
 
 test('a figure that opens in the presentation goes back to its opening @nightly', async ({ page }) => {
-  const widget = await mount(page, 'banana-machine', { attributes: 'preset="pivot" presentation' });
+  const widget = await mountFigure(page, 'banana-machine', { attributes: 'preset="pivot" presentation' });
   await page.keyboard.press('1');
   await expect(widget).toHaveAttribute('preset', 'straight');
   await page.keyboard.press('0');
@@ -104,13 +104,13 @@ test('a figure that opens in the presentation goes back to its opening @nightly'
 });
 
 test('Map Squeeze has its places and samplers before an audience', async ({ page }) => {
-  const widget = await mount(page, 'map-squeeze', { attributes: 'presentation' });
+  const widget = await mountFigure(page, 'map-squeeze', { attributes: 'presentation' });
   await expect(widget.getByRole('button', { name: 'Facing a wall' })).toBeInViewport();
   await expect(widget.getByRole('radio', { name: 'Whole arc' })).toBeInViewport();
 });
 
 test('the browser ends the presentation by a key of its own @nightly', async ({ page }) => {
-  const widget = await mount(page, 'banana-machine');
+  const widget = await mountFigure(page, 'banana-machine');
   await widget.getByRole('button', { name: 'Present' }).click();
   await expect.poll(() => page.evaluate(() => document.fullscreenElement?.localName)).toBe('banana-machine');
   await page.evaluate(() => document.exitFullscreen());
@@ -118,7 +118,7 @@ test('the browser ends the presentation by a key of its own @nightly', async ({ 
 });
 
 testEach('a presented figure has large pictures and legible letters, with and without controls', async (page, name) => {
-  const widget = await mount(page, name);
+  const widget = await mountFigure(page, name);
   await expect(widget.locator('[part~=caption]').first()).toBeVisible();
   const readFontSizes = () => widget.locator('canvas, .readouts dt').evaluateAll((textElements) => textElements.map((textElement) => parseFloat(getComputedStyle(textElement).fontSize)));
   const fontSizesOnPage = await readFontSizes();
@@ -126,16 +126,16 @@ testEach('a presented figure has large pictures and legible letters, with and wi
   await expect(widget.locator('[part~=caption]').first()).toBeVisible();
   await waitForFrames(page);
   expect(await fitsSurface(widget)).toBe(true);
-  const pictureBoxes = await Promise.all((await widget.locator('.stage canvas').all()).map(boxOf));
+  const pictureBoxes = await Promise.all((await widget.locator('.stage canvas').all()).map(readBox));
   for (const { height } of pictureBoxes) expect(height).toBeGreaterThan(1080 * 0.5);
   for (const [i, fontSize] of (await readFontSizes()).entries()) expect(fontSize / fontSizesOnPage[i]).toBeCloseTo(1.5, 5);
   await page.keyboard.press('c');
   await expect(widget.locator('.folds')).toBeInViewport({ ratio: 0.99 });
   await waitForFrames(page);
   expect(await fitsSurface(widget)).toBe(true);
-  const buttonsBottom = Math.max(...(await Promise.all((await widget.locator('.presenting button').all()).map(boxOf))).map(({ y, height }) => y + height));
+  const buttonsBottom = Math.max(...(await Promise.all((await widget.locator('.presenting button').all()).map(readBox))).map(({ y, height }) => y + height));
   for (const picture of await widget.locator('.stage canvas').all()) {
-    const { y, height } = await boxOf(picture);
+    const { y, height } = await readBox(picture);
     expect(y).toBeGreaterThanOrEqual(buttonsBottom);
     expect(height).toBeGreaterThanOrEqual(0.3 * 1080);
   }
@@ -144,13 +144,13 @@ testEach('a presented figure has large pictures and legible letters, with and wi
 testEach('a figure presented on a phone has its pictures below their titles, and nothing over what follows', async (page, name) => {
   for (const viewport of [{ width: 375, height: 760 }, { width: 760, height: 375 }]) {
     await page.setViewportSize(viewport);
-    const widget = await mount(page, name, { attributes: 'presentation' });
+    const widget = await mountFigure(page, name, { attributes: 'presentation' });
     await waitForFrames(page);
-    const panels = await widget.evaluate(({ shadowRoot }) => [...(shadowRoot?.querySelectorAll('.panel') ?? [])].map((panel) => {
+    const panelTitles = await widget.evaluate(({ shadowRoot }) => [...(shadowRoot?.querySelectorAll('.panel') ?? [])].map((panel) => {
       const [title, picture] = ['.panel-title', '.stage, .plotted'].map((selector) => panel.querySelector(selector)?.getBoundingClientRect());
       return { title, picture };
     }));
-    const shownPanels = panels.filter(({ picture }) => picture && picture.height > 0);
+    const shownPanels = panelTitles.filter(({ picture }) => picture && picture.height > 0);
     expect(shownPanels.length).toBeGreaterThan(0);
     for (const { title, picture } of shownPanels) {
       expect(picture?.height).toBeGreaterThan(125);
@@ -161,8 +161,8 @@ testEach('a figure presented on a phone has its pictures below their titles, and
       const views = /** @type {Element} */ (shadowRoot?.querySelector('.views'));
       const lowestPicture = Math.max(...[...views.querySelectorAll('.stage')].map((stage) => stage.getBoundingClientRect().bottom));
       const following = [...(views.parentElement?.children ?? [])].filter((element) => views.compareDocumentPosition(element) === Node.DOCUMENT_POSITION_FOLLOWING);
-      const tops = following.map((element) => element.getBoundingClientRect()).filter(({ height }) => height > 0).map(({ top }) => top);
-      return lowestPicture - Math.min(...tops);
+      const followingTops = following.map((element) => element.getBoundingClientRect()).filter(({ height }) => height > 0).map(({ top }) => top);
+      return lowestPicture - Math.min(...followingTops);
     });
     expect(overlap).toBeLessThanOrEqual(0);
   }

@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
-import { REDUCED_MOTION, waitForFrames, openBananaWithDisclosures, propertyOf, takeEvents, test, valueField } from './support.js';
+import { REDUCED_MOTION, waitForFrames, openBananaWithDisclosures, readProperty, takeEvents, test, valueField } from './support.js';
 
 /** @typedef {import('@playwright/test').Locator} Locator */
 
@@ -17,7 +17,7 @@ test('a digit on a slider leads into its value, Enter back, and the value may li
   await expect(valueField(widget, 'alpha1')).toBeFocused();
   await page.keyboard.press('Enter');
   await expect(slider).toBeFocused();
-  expect(await propertyOf(widget, 'alpha1')).toBe(0.4);
+  expect(await readProperty(widget, 'alpha1')).toBe(0.4);
   expect((await takeEvents(page, ['input', 'change'])).map(({ name }) => name)).toEqual(['input', 'change']);
   // The thumb is at the end of the slider.
   await expect(slider).toHaveValue('0.2');
@@ -26,7 +26,7 @@ test('a digit on a slider leads into its value, Enter back, and the value may li
   await expect(helpOf(widget, 'alpha1')).toBeVisible();
   // An arrow key on the slider starts from the end of the slider, not from the typed value beyond it.
   await page.keyboard.press('ArrowLeft');
-  expect(await propertyOf(widget, 'alpha1')).toBeLessThan(0.2);
+  expect(await readProperty(widget, 'alpha1')).toBeLessThan(0.2);
   // Values beyond the end of the slider can be typed.
   await page.keyboard.press('End');
   await expect(helpOf(widget, 'alpha1')).toHaveText('Ends at 0.200; type values beyond.');
@@ -37,26 +37,26 @@ test('a digit on a slider leads into its value, Enter back, and the value may li
 
 test('a value is typed with its unit, a true minus and few more decimals, and Escape takes it back', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page);
-  const field = valueField(widget, 'v');
+  const valueInput = valueField(widget, 'v');
   await expect(helpOf(widget, 'v')).toHaveText('How far the robot drives: vΔt; below zero it backs up.');
   // The numeric keyboard of a phone has no minus.
-  await expect(field).toHaveAttribute('inputmode', 'text');
-  await field.click();
+  await expect(valueInput).toHaveAttribute('inputmode', 'text');
+  await valueInput.click();
   await page.keyboard.type('\u22122.125 m/s');
   await page.keyboard.press('Tab');
-  expect(await propertyOf(widget, 'v')).toBe(-2.125);
-  await expect(field).toHaveValue('\u22122.125 m/s');
+  expect(await readProperty(widget, 'v')).toBe(-2.125);
+  await expect(valueInput).toHaveValue('\u22122.125 m/s');
   await expect(helpOf(widget, 'v')).toHaveText('Ends at \u22121.50 m/s; type values beyond.');
-  await field.click();
+  await valueInput.click();
   await page.keyboard.type('7');
   await page.keyboard.press('Escape');
   await expect(widget.locator('#v')).toBeFocused();
-  await expect(field).toHaveValue('\u22122.125 m/s');
-  expect(await propertyOf(widget, 'v')).toBe(-2.125);
+  await expect(valueInput).toHaveValue('\u22122.125 m/s');
+  expect(await readProperty(widget, 'v')).toBe(-2.125);
   // Enter leads from the slider to the field, and changes nothing by itself.
   await takeEvents(page);
   await page.keyboard.press('Enter');
-  await expect(field).toBeFocused();
+  await expect(valueInput).toBeFocused();
   await page.keyboard.press('Enter');
   expect(await takeEvents(page)).toEqual([]);
 });
@@ -69,18 +69,18 @@ test('a value that is refused is reported with the allowed range, and the last g
     ['omega', '', 'ω must be between −1\u202f000\u202f000 and 1\u202f000\u202f000 (got "").'],
     ['samples', '2.5', 'N must be a whole number between 1 and 10\u202f000\u202f000 (got 2.5).'],
   ]) {
-    const valueBefore = await propertyOf(widget, key);
-    const field = valueField(widget, key);
-    const shownText = await field.inputValue();
-    await field.click();
-    await field.fill(typedText);
+    const valueBefore = await readProperty(widget, key);
+    const valueInput = valueField(widget, key);
+    const shownText = await valueInput.inputValue();
+    await valueInput.click();
+    await valueInput.fill(typedText);
     await page.keyboard.press('Enter');
     await expect(widget.locator('[role=alert]')).toHaveText(expectedError);
     await expect(helpOf(widget, key)).toBeVisible();
-    await expect(field).toBeFocused();
-    await expect(field).toHaveValue(shownText);
-    await expect(field).toHaveAttribute('aria-describedby', `${key}-effect`);
-    expect(await propertyOf(widget, key)).toBe(valueBefore);
+    await expect(valueInput).toBeFocused();
+    await expect(valueInput).toHaveValue(shownText);
+    await expect(valueInput).toHaveAttribute('aria-describedby', `${key}-effect`);
+    expect(await readProperty(widget, key)).toBe(valueBefore);
     expect(await takeEvents(page, ['input', 'change', 'error'])).toEqual([]);
     if (key === 'samples') await expectAccessible(page, undefined, 'banana-machine');
     // The message disappears when the text changes.
@@ -92,33 +92,33 @@ test('a value that is refused is reported with the allowed range, and the last g
   for (const numberText of ['2,000', '3\u202f000']) {
     await valueField(widget, 'samples').fill(numberText);
     await page.keyboard.press('Enter');
-    expect(await propertyOf(widget, 'samples')).toBe(Number(numberText.replace(/\D/, '')));
+    expect(await readProperty(widget, 'samples')).toBe(Number(numberText.replace(/\D/, '')));
   }
 });
 
 test('a change by the page leaves what is being typed @nightly', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page);
-  const field = valueField(widget, 'alpha1');
+  const valueInput = valueField(widget, 'alpha1');
   const setAlpha1 = (/** @type {number} */ value) => widget.evaluate(async (element, value) => {
     /** @type {any} */ (element).alpha1 = value;
     await /** @type {import('lit').LitElement} */ (element).updateComplete;
   }, value);
-  await field.focus();
+  await valueInput.focus();
   await page.keyboard.type('0.1');
   await setAlpha1(0.15);
   await waitForFrames(page);
-  await expect(field).toHaveValue('0.1');
+  await expect(valueInput).toHaveValue('0.1');
   await page.keyboard.type('2');
   await page.keyboard.press('Enter');
-  expect(await propertyOf(widget, 'alpha1')).toBe(0.12);
+  expect(await readProperty(widget, 'alpha1')).toBe(0.12);
   // Escape leads back to the slider, with the current value.
-  await field.focus();
+  await valueInput.focus();
   await page.keyboard.type('9');
   await setAlpha1(0.17);
   await waitForFrames(page);
   await page.keyboard.press('Escape');
-  await expect(field).toHaveValue('0.170');
-  expect(await propertyOf(widget, 'alpha1')).toBe(0.17);
+  await expect(valueInput).toHaveValue('0.170');
+  expect(await readProperty(widget, 'alpha1')).toBe(0.17);
 });
 
 test('German has a decimal comma, and takes a point too', async ({ page }) => {
@@ -130,13 +130,13 @@ test('German has a decimal comma, and takes a point too', async ({ page }) => {
     await widget.locator('#alpha1').focus();
     await page.keyboard.type(String(typedText));
     await page.keyboard.press('Enter');
-    expect(await propertyOf(widget, 'alpha1')).toBe(expectedValue);
+    expect(await readProperty(widget, 'alpha1')).toBe(expectedValue);
   }
   await expect(valueField(widget, 'alpha1')).toHaveValue('0,450');
   // Numbers of robots are integers: a point before three digits separates thousands.
   await widget.locator('#samples').focus();
   await page.keyboard.type('20.000');
   await page.keyboard.press('Enter');
-  expect(await propertyOf(widget, 'samples')).toBe(20_000);
+  expect(await readProperty(widget, 'samples')).toBe(20_000);
   await expect(helpOf(widget, 'alpha1')).toContainText('Endet bei 0,200');
 });

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { NEW_PAGE_TAG, REDUCED_MOTION, boxOf, holdRequests, waitForFrames, mount, showPage, test, testEach, untilReady } from './support.js';
+import { NEW_PAGE_TAG, REDUCED_MOTION, readBox, holdRequests, waitForFrames, mountFigure, showPage, test, testEach, waitUntilReady } from './support.js';
 
 test.use(REDUCED_MOTION);
 
@@ -20,14 +20,14 @@ testEach('the height reserved for a figure until its script is loaded is about t
     for (const width of pageWidths) {
       await page.setViewportSize({ width, height: 900 });
       await waitForFrames(page);
-      heightsInEm.push((await boxOf(widget)).height / 16);
+      heightsInEm.push((await readBox(widget)).height / 16);
     }
     return heightsInEm;
   };
   const reservedHeights = await readHeightsInEm();
   expect(await widget.evaluate((element) => element.matches(':defined'))).toBe(false);
   allowScript();
-  await untilReady(widget);
+  await waitUntilReady(widget);
   await expect(widget.locator('.folds')).toBeVisible();
   for (const [i, height] of (await readHeightsInEm()).entries()) {
     expect(height).toBeGreaterThanOrEqual(reservedHeights[i]);
@@ -46,19 +46,19 @@ test('a title and a caption move nothing when the script is loaded', async ({ pa
   const pageBody = '<banana-machine><span slot="title">Figure 9.3</span><p slot="caption">Drag the ring.</p></banana-machine><p id="after">After</p>';
   const pageOpening = showPage(page, pageBody, { head: '<link rel="stylesheet" href="/motion-widgets.css">' });
   const textBelow = page.locator('#after');
-  const readTextTop = async () => (await boxOf(textBelow)).y;
+  const readTextTop = async () => (await readBox(textBelow)).y;
   await textBelow.waitFor();
   // The first frame comes after the stylesheet, which reserves the height.
   await waitForFrames(page);
   const topBefore = await readTextTop();
   allowScript();
   await pageOpening;
-  await untilReady(page.locator('banana-machine'));
+  await waitUntilReady(page.locator('banana-machine'));
   expect(await readTextTop()).toBe(topBefore);
 });
 
 testEach('a figure is no wider than a phone, the column of a book or a screen, also in a wide font, and at most a third higher than a screen', async (page, name) => {
-  const widget = await mount(page, name, { head: '<style>body { margin: 0 }</style>' });
+  const widget = await mountFigure(page, name, { head: '<style>body { margin: 0 }</style>' });
   await expect(widget.locator('.folds')).toBeVisible();
   for (const width of [375, 480, 640, 900, 1280]) {
     await page.setViewportSize({ width, height: 720 });
@@ -67,6 +67,6 @@ testEach('a figure is no wider than a phone, the column of a book or a screen, a
       await waitForFrames(page);
       expect.soft(await page.evaluate(() => document.documentElement.scrollWidth), `${width} px, ${letterSpacing}`).toBeLessThanOrEqual(width);
     }
-    if (width >= 640) expect.soft((await boxOf(widget)).height / 720, `${width} px`).toBeLessThanOrEqual(4 / 3);
+    if (width >= 640) expect.soft((await readBox(widget)).height / 720, `${width} px`).toBeLessThanOrEqual(4 / 3);
   }
 }, NEW_PAGE_TAG);

@@ -4,7 +4,7 @@
  * @module
  */
 
-import { waitForFrames, showPage, untilReady } from './support.js';
+import { waitForFrames, showPage, waitUntilReady } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Page} Page
@@ -20,12 +20,12 @@ import { waitForFrames, showPage, untilReady } from './support.js';
 export async function openSqueeze(page, attributes = '') {
   await showPage(page, `<main><h1>Bare</h1><map-squeeze heading-level="2" ${attributes}></map-squeeze></main>`);
   const widget = page.locator('map-squeeze');
-  await untilReady(widget);
+  await waitUntilReady(widget);
   return widget;
 }
 
 /** Returns the results of the simulation after the next frames. @param {Locator} widget */
-export async function squeezeResultsOf(widget) {
+export async function readSqueezeResults(widget) {
   await waitForFrames(widget.page());
   const { plan: { bounds, walls }, poses, verdicts, ...others } = await widget.evaluate((element) => {
     const { config, shown, stats, startFree, openPlace, plan, poses, verdicts } = /** @type {MapSqueezeElement} */ (element).simulation;

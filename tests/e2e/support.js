@@ -115,7 +115,7 @@ export async function showPage(page, body, { head = '', fragment = '', script = 
 }
 
 /** Waits until an element has its simulation, and has drawn its picture if it is visible. @param {Locator} widget */
-export async function untilReady(widget) {
+export async function waitUntilReady(widget) {
   await widget.evaluate(async (element) => {
     while (Reflect.get(element, 'simulation') === undefined) await new Promise(requestAnimationFrame);
   });
@@ -130,22 +130,22 @@ export async function untilReady(widget) {
  * @param {Parameters<typeof showPage>[2] & { attributes?: string }} [options]
  * @returns {Promise<Locator>} the figure, running
  */
-export async function mount(page, name, { attributes = '', ...options } = {}) {
+export async function mountFigure(page, name, { attributes = '', ...options } = {}) {
   await showPage(page, `<${name} ${attributes}></${name}>`, options);
   const widget = page.locator(name);
-  await untilReady(widget);
+  await waitUntilReady(widget);
   return widget;
 }
 
 /** Takes the events of the elements since the last call. @param {Page} page @param {string[]} [names] */
 export async function takeEvents(page, names = ['load', 'input', 'change', 'error']) {
   await waitForFrames(page);
-  const events = /** @type {FiredEvent[]} */ (await page.evaluate(() => Reflect.get(window, 'heard').splice(0)));
-  return events.filter(({ name }) => names.includes(name));
+  const takenEvents = /** @type {FiredEvent[]} */ (await page.evaluate(() => Reflect.get(window, 'heard').splice(0)));
+  return takenEvents.filter(({ name }) => names.includes(name));
 }
 
 /** Returns a property of a figure. @param {Locator} widget @param {string} name */
-export function propertyOf(widget, name) {
+export function readProperty(widget, name) {
   return widget.evaluate((element, key) => Reflect.get(element, key), name);
 }
 
@@ -184,30 +184,30 @@ export function playSlider(widget, key, maxSteps = Infinity) {
     (element, [key, maxSteps]) =>
       new Promise((resolve) => {
         const figure = /** @type {AnyElement} */ (element);
-        const button = /** @type {HTMLButtonElement} */ (figure.shadowRoot?.querySelector(`.${key} button`));
+        const playButton = /** @type {HTMLButtonElement} */ (figure.shadowRoot?.querySelector(`.${key} button`));
         const sliderValues = /** @type {number[]} */ ([]);
         let buttonLabel = '';
         const recordStep = async () => {
           sliderValues.push(/** @type {any} */ (figure.getState())[key]);
           if (sliderValues.length === 1) {
             await /** @type {any} */ (figure).updateComplete;
-            buttonLabel = button.innerText;
+            buttonLabel = playButton.innerText;
           }
-          if (sliderValues.length === maxSteps) button.click();
+          if (sliderValues.length === maxSteps) playButton.click();
         };
         figure.addEventListener('input', recordStep);
         figure.addEventListener('change', () => {
           figure.removeEventListener('input', recordStep);
           resolve({ sliderValues, buttonLabel });
         }, { once: true });
-        button.click();
+        playButton.click();
       }),
     /** @type {const} */ ([key, maxSteps]),
   );
 }
 
 /** Returns the state of a figure. @param {Locator} widget */
-export function stateOf(widget) {
+export function readState(widget) {
   return widget.evaluate((element) => /** @type {AnyElement} */ (element).getState());
 }
 
@@ -224,7 +224,7 @@ export async function holdRequests(page, addressPattern) {
 
 /** Opens a page with a Banana Machine. @param {Page} page @param {string} [attributes] */
 export async function openBanana(page, attributes = '') {
-  return mount(page, 'banana-machine', { attributes });
+  return mountFigure(page, 'banana-machine', { attributes });
 }
 
 /**
@@ -235,14 +235,14 @@ export async function openBanana(page, attributes = '') {
  */
 export async function pauseEarly(page, name) {
   await page.addInitScript((tag) => {
-    const pause = () => {
+    const pauseAnimation = () => {
       const figure = /** @type {any} */ (document.querySelector(tag));
-      const button = figure.shadowRoot.querySelector('.cloud button');
-      if (!button || !figure.playing || figure.simulation.shown === 0) return;
-      document.removeEventListener('stats', pause);
-      button.click();
+      const playButton = figure.shadowRoot.querySelector('.cloud button');
+      if (!playButton || !figure.playing || figure.simulation.shown === 0) return;
+      document.removeEventListener('stats', pauseAnimation);
+      playButton.click();
     };
-    document.addEventListener('stats', pause);
+    document.addEventListener('stats', pauseAnimation);
   }, name);
 }
 
@@ -269,7 +269,7 @@ export async function waitForFrames(page) {
 }
 
 /** Returns results of a Banana Machine after the next frames, without its many poses. @param {Locator} widget */
-export async function bananaResultsOf(widget) {
+export async function readBananaResults(widget) {
   await waitForFrames(widget.page());
   return widget.evaluate((element) => {
     const { config, shown, stats, table, contours } = /** @type {BananaMachineElement} */ (element).simulation;
@@ -278,7 +278,7 @@ export async function bananaResultsOf(widget) {
 }
 
 /** Returns the poses of a simulation after the next frames. @param {Locator} widget @returns {Promise<number[]>} */
-export async function posesOf(widget) {
+export async function readPoses(widget) {
   await waitForFrames(widget.page());
   return [...(await widget.evaluate((element) => /** @type {BananaMachineElement} */ (element).simulation.poses))];
 }
@@ -298,7 +298,7 @@ export async function setSliders(widget, values) {
 export async function dragSlider(slider, endShare) {
   const page = slider.page();
   await slider.scrollIntoViewIfNeeded();
-  const { x, y, width, height } = await boxOf(slider);
+  const { x, y, width, height } = await readBox(slider);
   const startShare = await slider.evaluate((element) => {
     const { value, min, max } = /** @type {HTMLInputElement} */ (element);
     return (Number(value) - Number(min)) / (Number(max) - Number(min));
@@ -313,20 +313,20 @@ export async function dragSlider(slider, endShare) {
 }
 
 /** Returns the bounding box of an element. @param {Locator} locator */
-export async function boxOf(locator) {
+export async function readBox(locator) {
   const box = await locator.boundingBox();
   if (!box) throw new Error('It is not on the page.');
   return box;
 }
 
 /** Returns the centre of an element. @param {Locator} locator */
-export async function centreOf(locator) {
-  const { x, y, width, height } = await boxOf(locator);
+export async function readCentre(locator) {
+  const { x, y, width, height } = await readBox(locator);
   return { x: x + width / 2, y: y + height / 2 };
 }
 
 /** Returns the pixels of a canvas as text. @param {Locator} canvas @returns {Promise<string>} */
-export async function pictureOf(canvas) {
+export async function readPicture(canvas) {
   await waitForFrames(canvas.page());
   return canvas.evaluate((element) => /** @type {HTMLCanvasElement} */ (element).toDataURL());
 }
@@ -338,18 +338,18 @@ export async function pictureOf(canvas) {
  * @param {string[]} roles names of custom properties
  * @returns {Promise<number[][]>} red, green, blue, 0 to 255
  */
-export async function coloursOf(part, roles) {
+export async function readColours(part, roles) {
   await waitForFrames(part.page());
   return part.evaluate((element, names) => {
     const context = /** @type {OffscreenCanvasRenderingContext2D} */ (new OffscreenCanvas(1, 1).getContext('2d', { willReadFrequently: true }));
     return names.map((name) => {
-      const swatch = document.createElement('span');
+      const colourSwatch = document.createElement('span');
       // The figures keep the hues of their colour roles in forced colours. Without this property the swatch would not.
-      swatch.style.cssText = `color: var(--${name}); forced-color-adjust: none`;
-      (element.shadowRoot?.querySelector('.surface') ?? element).append(swatch);
+      colourSwatch.style.cssText = `color: var(--${name}); forced-color-adjust: none`;
+      (element.shadowRoot?.querySelector('.surface') ?? element).append(colourSwatch);
       // The canvas converts colours of any notation to numbers.
-      context.fillStyle = getComputedStyle(swatch).color;
-      swatch.remove();
+      context.fillStyle = getComputedStyle(colourSwatch).color;
+      colourSwatch.remove();
       context.fillRect(0, 0, 1, 1);
       return [...context.getImageData(0, 0, 1, 1).data.slice(0, 3)];
     });
@@ -357,19 +357,19 @@ export async function coloursOf(part, roles) {
 }
 
 /** Returns the number of pixels of a canvas that have a role's colour. @param {Locator} canvas @param {string} role */
-export async function pixelCountOf(canvas, role) {
-  const [roleColour] = await coloursOf(canvas, [role]);
+export async function countPixelsOfRole(canvas, role) {
+  const [roleColour] = await readColours(canvas, [role]);
   return canvas.evaluate((element, colour) => {
     const { width, height } = /** @type {HTMLCanvasElement} */ (element);
     const context = /** @type {OffscreenCanvasRenderingContext2D} */ (new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true }));
     context.drawImage(/** @type {HTMLCanvasElement} */ (element), 0, 0);
     const { data } = context.getImageData(0, 0, width, height);
-    let count = 0;
+    let pixelCount = 0;
     for (let i = 0; i < data.length; i += 4) {
       const channelDifference = Math.max(...colour.map((channel, k) => Math.abs(channel - data[i + k])));
-      if (data[i + 3] > 250 && channelDifference < 8) count++;
+      if (data[i + 3] > 250 && channelDifference < 8) pixelCount++;
     }
-    return count;
+    return pixelCount;
   }, roleColour);
 }
 
@@ -411,14 +411,14 @@ export async function openBananaWithDisclosures(page, attributes = '') {
 }
 
 /** Parses a number in the notation of the widgets. @param {string | null} text */
-export function numberIn(text) {
+export function parseNumberIn(text) {
   const [mantissa, power = '0'] = (text ?? '').replace('\u2212', '-').replace(/[\u202f%]/g, '').split('·10');
   const exponent = power.replace('⁻', '-').replace(/[⁰¹²³⁴⁵⁶⁷⁸⁹]/g, (digit) => String('⁰¹²³⁴⁵⁶⁷⁸⁹'.indexOf(digit)));
   return Number(mantissa) * 10 ** Number(exponent);
 }
 
 /** Waits until a figure has computed and drawn everything. @param {Locator} widget */
-export async function untilSettled(widget) {
+export async function waitUntilSettled(widget) {
   await widget.evaluate((element) => /** @type {AnyElement} */ (element).settled);
   await waitForFrames(widget.page());
 }

@@ -9,7 +9,7 @@ import { execFileSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
 import { cpSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { basename, delimiter, join } from 'node:path';
-import { ROOT, mustRun, once, printStep } from '../../scripts/process.mjs';
+import { ROOT, mustRun, runOnce, printStep } from '../../scripts/process.mjs';
 import { startProgram } from './serving.mjs';
 import { CACHE_DIRECTORY } from '../../scripts/toolchain.mjs';
 
@@ -124,10 +124,10 @@ export function packInto(directory) {
 }
 
 /** Packs the npm package, once, and returns its path. */
-const packTarball = once(async () => packInto(makeEmptyDirectory('npm')));
+const packTarball = runOnce(async () => packInto(makeEmptyDirectory('npm')));
 
 /** Builds the wheel of the Python package, once, and returns its path. */
-const buildWheel = once(async () => {
+const buildWheel = runOnce(async () => {
   const directory = makeEmptyDirectory('python');
   execFileSync('python3', ['-m', 'pip', 'wheel', '--quiet', '--no-deps', '--wheel-dir', directory, join(ROOT, 'python')]);
   return join(directory, readdirSync(directory)[0]);

@@ -7,7 +7,7 @@
 import { spawn } from 'node:child_process';
 import { join } from 'node:path';
 import { ROOT, endGroup, endGroupWithProcess, forgetGroup } from '../../scripts/process.mjs';
-import { serve } from '../../scripts/serve.mjs';
+import { startServer } from '../../scripts/serve.mjs';
 
 /** Seconds until a server has to answer. */
 const TIMEOUT_SECONDS = 120;
@@ -20,7 +20,7 @@ const TIMEOUT_SECONDS = 120;
  * @returns {import('./project.mjs').Serving['serve']}
  */
 export const serveFiles = (output, base) => async (directory) => {
-  const { address, close } = await serve(join(directory, output), { port: 0, base });
+  const { address, close } = await startServer(join(directory, output), { port: 0, base });
   return { url: address, stop: close };
 };
 
@@ -51,7 +51,7 @@ export const serveByProgram = (command, base = '/') => async (directory, { start
 
 /** Returns a free port: one that a server has just left. */
 async function findFreePort() {
-  const { address, close } = await serve(ROOT, { port: 0 });
+  const { address, close } = await startServer(ROOT, { port: 0 });
   close();
   return new URL(address).port;
 }

@@ -101,23 +101,23 @@ async function startEngine(driver, env, capabilities, end = async () => {}) {
 async function openSession(url, capabilities, stop) {
   const driverSession = await new Builder().usingServer(url).withCapabilities(new Capabilities(/** @type {any} */ (capabilities))).build();
   await driverSession.manage().setTimeouts({ script: SCRIPT_TIMEOUT_MS, pageLoad: SCRIPT_TIMEOUT_MS });
-  const window = driverSession.manage().window();
-  await window.setRect(PAGE_SIZE);
+  const browserWindow = driverSession.manage().window();
+  await browserWindow.setRect(PAGE_SIZE);
   const [innerWidth, innerHeight] = /** @type {number[]} */ (await driverSession.executeScript('return [innerWidth, innerHeight]'));
-  await window.setRect({ width: 2 * PAGE_SIZE.width - innerWidth, height: 2 * PAGE_SIZE.height - innerHeight });
+  await browserWindow.setRect({ width: 2 * PAGE_SIZE.width - innerWidth, height: 2 * PAGE_SIZE.height - innerHeight });
   return {
     version: (await driverSession.getCapabilities()).get('browserVersion'),
     open: (url) => driverSession.get(url),
     async ask(work, given) {
       // A script of the page runs the function, because Firefox runs scripts of WebDriver in a sandbox, whose arrays are not of the page's type.
-      const script = `(async () => (${work})(${JSON.stringify(given) ?? 'undefined'}))().then((result) => [result], (error) => [null, \`\${error}\\n\${error.stack}\`])`;
+      const pageScript = `(async () => (${work})(${JSON.stringify(given) ?? 'undefined'}))().then((result) => [result], (error) => [null, \`\${error}\\n\${error.stack}\`])`;
       const answerJson = await driverSession.executeAsyncScript(
         `const [run, done] = arguments;
         const script = document.createElement('script');
         script.textContent = run;
         addEventListener('answer', () => done(script.dataset.answer), { once: true });
         document.head.append(script);`,
-        `{ const script = document.currentScript; ${script}.then((answer) => { script.dataset.answer = JSON.stringify(answer); script.remove(); dispatchEvent(new Event('answer')); }); }`,
+        `{ const script = document.currentScript; ${pageScript}.then((answer) => { script.dataset.answer = JSON.stringify(answer); script.remove(); dispatchEvent(new Event('answer')); }); }`,
       );
       const [result, error] = /** @type {[any, string?]} */ (JSON.parse(answerJson));
       if (error) throw new Error(error);

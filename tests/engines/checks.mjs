@@ -73,8 +73,8 @@ class Page {
 
   /** Returns the new messages of the console. @returns {Promise<string[]>} */
   async takeRecordedErrors() {
-    const messages = await this.engine.ask(() => /** @type {string[]} */ (/** @type {any} */ (globalThis).recordedErrors.splice(0)), null);
-    return [...new Set(messages)];
+    const recordedMessages = await this.engine.ask(() => /** @type {string[]} */ (/** @type {any} */ (globalThis).recordedErrors.splice(0)), null);
+    return [...new Set(recordedMessages)];
   }
 }
 
@@ -89,7 +89,7 @@ class Page {
 export async function runChecks(name, engine, address) {
   const page = new Page(name, engine, address);
   /** @type {string[]} */
-  const failures = [];
+  const failedChecks = [];
   let passedCount = 0;
   const runCheck = async (/** @type {string} */ checkName, /** @type {() => Promise<unknown>} */ checkFunction) => {
     try {
@@ -98,8 +98,8 @@ export async function runChecks(name, engine, address) {
       passedCount++;
       console.log(`ok     ${name}: ${checkName}`);
     } catch (error) {
-      failures.push(`${name}: ${checkName}: ${error instanceof Error ? error.message : error}`);
-      console.log(`FAILED ${failures.at(-1)}`);
+      failedChecks.push(`${name}: ${checkName}: ${error instanceof Error ? error.message : error}`);
+      console.log(`FAILED ${failedChecks.at(-1)}`);
       await page.keepScreenshot('failed').catch(() => {});
     }
   };
@@ -113,7 +113,7 @@ export async function runChecks(name, engine, address) {
     }
     await runCheck(`sliders of ${tag} follow the keyboard`, () => checkSliderKeys(page, tag));
   }
-  return { passed: passedCount, failures };
+  return { passed: passedCount, failures: failedChecks };
 }
 
 /** Compares the digest of all configurations with golden.txt. @param {Page} page */

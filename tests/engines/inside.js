@@ -4,7 +4,7 @@
  * @module
  */
 
-import { computeDigest, hashOf } from '../digest/digest.js';
+import { computeDigest, computeHash } from '../digest/digest.js';
 
 /**
  * @typedef {{ x: number, y: number }} Point
@@ -39,7 +39,7 @@ export const stateOf = (tag) => simulationStateOf(figureOf(tag).simulation);
 
 /** Returns the state of a simulation of any widget. @param {any} simulation @returns {Promise<State>} */
 export async function simulationStateOf({ config, poses = null, stats, verdicts = null, contours = null, grid = null }) {
-  return { config, hash: await hashOf({ poses, stats, verdicts, contours, grid }) };
+  return { config, hash: await computeHash({ poses, stats, verdicts, contours, grid }) };
 }
 
 /**
@@ -62,9 +62,9 @@ export function handlePlacesOf({ tag, handle, to: [x, y] }) {
 
 /** Focuses an element of a figure; returns true if it got the focus. @param {{ tag: string, selector: string }} given */
 export function focus({ tag, selector }) {
-  const target = /** @type {HTMLElement} */ (shadowRootOf(tag).querySelector(selector));
-  target.focus();
-  return shadowRootOf(tag).activeElement === target;
+  const focusTarget = /** @type {HTMLElement} */ (shadowRootOf(tag).querySelector(selector));
+  focusTarget.focus();
+  return shadowRootOf(tag).activeElement === focusTarget;
 }
 
 /** Makes a figure render between each input event and the next frame, as other events can at any time. @param {string} tag */
@@ -74,7 +74,7 @@ export function renderAfterInputs(tag) {
 }
 
 /** Returns a hash of every pixel of a figure's first picture. @param {string} tag @returns {Promise<string>} */
-export const pictureHashOf = (tag) => hashOf(pixelsOf(firstCanvasOf(tag)));
+export const pictureHashOf = (tag) => computeHash(pixelsOf(firstCanvasOf(tag)));
 
 /** Returns the pixels of a canvas. @param {HTMLCanvasElement} canvas */
 function pixelsOf(canvas) {
@@ -84,8 +84,8 @@ function pixelsOf(canvas) {
 
 /** Returns the number of colours of each visible picture. @param {string} tag */
 export function colourCountsOf(tag) {
-  const canvases = [...shadowRootOf(tag).querySelectorAll('canvas')].filter((canvas) => canvas.checkVisibility());
-  return canvases.map((canvas) => new Set(new Uint32Array(pixelsOf(canvas).buffer)).size);
+  const visibleCanvases = [...shadowRootOf(tag).querySelectorAll('canvas')].filter((canvas) => canvas.checkVisibility());
+  return visibleCanvases.map((canvas) => new Set(new Uint32Array(pixelsOf(canvas).buffer)).size);
 }
 
 /** Returns the visible sliders of a figure: value of the setting, position of the slider, its step and its end. @param {string} tag */

@@ -10,7 +10,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { build } from '../../scripts/build.mjs';
 import { ROOT, UserError, printStep, runAsScript } from '../../scripts/process.mjs';
-import { serve } from '../../scripts/serve.mjs';
+import { startServer } from '../../scripts/serve.mjs';
 import { engineStarters } from './browsers.mjs';
 
 const PAGE_NAME = 'index.html';
@@ -22,16 +22,16 @@ const LISTENER_TAG = '<script src="/tests/engines/listen.js"></script>';
  * @returns {Promise<{ address: string, stop: () => void }>}
  */
 async function serveSite() {
-  const directory = mkdtempSync(join(tmpdir(), 'motion-engines-'));
-  for (const name of readdirSync(join(ROOT, 'dist'))) if (name !== PAGE_NAME) symlinkSync(join(ROOT, 'dist', name), join(directory, name));
-  for (const name of ['tests', 'www']) symlinkSync(join(ROOT, name), join(directory, name));
-  writeFileSync(join(directory, PAGE_NAME), readFileSync(join(ROOT, 'dist', PAGE_NAME), 'utf8').replace('<head>', `<head>${LISTENER_TAG}`));
-  const { address, close } = await serve(directory, { port: 0 });
+  const screenshotDirectory = mkdtempSync(join(tmpdir(), 'motion-engines-'));
+  for (const name of readdirSync(join(ROOT, 'dist'))) if (name !== PAGE_NAME) symlinkSync(join(ROOT, 'dist', name), join(screenshotDirectory, name));
+  for (const name of ['tests', 'www']) symlinkSync(join(ROOT, name), join(screenshotDirectory, name));
+  writeFileSync(join(screenshotDirectory, PAGE_NAME), readFileSync(join(ROOT, 'dist', PAGE_NAME), 'utf8').replace('<head>', `<head>${LISTENER_TAG}`));
+  const { address, close } = await startServer(screenshotDirectory, { port: 0 });
   return {
     address,
     stop() {
       close();
-      rmSync(directory, { recursive: true });
+      rmSync(screenshotDirectory, { recursive: true });
     },
   };
 }
@@ -39,21 +39,21 @@ async function serveSite() {
 /** Opens a page in an engine, and returns what its checks found. @param {string} name @param {string} address */
 async function runChecksIn(name, address) {
   printStep(name);
-  let version = 'none';
+  let engineVersion = 'none';
   try {
     const engine = await engineStarters[name]();
-    version = engine.version;
+    engineVersion = engine.version;
     try {
       // Imported only here, because checks.mjs imports dist/, which has to be built first.
       const { runChecks } = await import('./checks.mjs');
-      return { version, ...(await runChecks(name, engine, address)) };
+      return { version: engineVersion, ...(await runChecks(name, engine, address)) };
     } finally {
       await engine.close();
     }
   } catch (error) {
     const failureMessage = error instanceof UserError ? error.message : String(error instanceof Error ? error.stack : error);
     console.log(`FAILED ${name}: ${failureMessage}`);
-    return { version, passed: 0, failures: [failureMessage] };
+    return { version: engineVersion, passed: 0, failures: [failureMessage] };
   }
 }
 
@@ -68,9 +68,9 @@ async function testEngines(engineNames) {
   let failureCount = 0;
   try {
     for (const name of engineNames.length > 0 ? engineNames : allEngineNames) {
-      const { version, passed, failures } = await runChecksIn(name, address);
+      const { version: engineVersion, passed, failures } = await runChecksIn(name, address);
       failureCount += failures.length;
-      summaryLines.push(`${failures.length === 0 ? 'ok    ' : 'FAILED'} ${name.padEnd(10)} ${version.padEnd(16)} ${passed} passed, ${failures.length} failed`);
+      summaryLines.push(`${failures.length === 0 ? 'ok    ' : 'FAILED'} ${name.padEnd(10)} ${engineVersion.padEnd(16)} ${passed} passed, ${failures.length} failed`);
     }
   } finally {
     stop();

@@ -17,7 +17,7 @@ import { openRecordings } from '../../www/logs/open.ts';
 import { applyMap, gridOf, mapDataOf } from '../../www/widgets/map-squeeze/maps/data.ts';
 import { odometryMessageOf, poseOf, recordingOf, stampOf, transformMessageOf, twistOf } from '../mcap.js';
 import { readLog } from '../node/log-support.js';
-import { fileWith, refusalMessageOf } from '../node/map-support.js';
+import { fileWith, catchRefusalMessage } from '../node/map-support.js';
 
 /**
  * @typedef {object} Target
@@ -51,18 +51,18 @@ const MAX_MESSAGE_LENGTH = 700;
 /** Pattern of every message of a refusal: it says which values are allowed, or what to do. */
 const REFUSAL_PATTERN = /; (allowed|expected) (is|are) |; (add|choose|convert|copy|decompress|export|give|keep|name|open|split|state|unzip|write) /;
 
-/** Asserts that the message of a refusal is proper. @param {string} message */
-function assertProperMessage(message) {
-  assert.match(message, REFUSAL_PATTERN);
-  assert.ok(message.length <= MAX_MESSAGE_LENGTH, `${message.length} characters: ${message}`);
+/** Asserts that the message of a refusal is proper. @param {string} refusalMessage */
+function assertProperMessage(refusalMessage) {
+  assert.match(refusalMessage, REFUSAL_PATTERN);
+  assert.ok(refusalMessage.length <= MAX_MESSAGE_LENGTH, `${refusalMessage.length} characters: ${refusalMessage}`);
 }
 
 /** Returns true if the files are accepted as a map. @param {File[]} files */
 async function areFilesAccepted(...files) {
-  const message = await refusalMessageOf(files);
-  if (message === '') return true;
-  assert.ok(message.startsWith(files[0].name.replace(/\..*/, '')), message);
-  assertProperMessage(message);
+  const refusalMessage = await catchRefusalMessage(files);
+  if (refusalMessage === '') return true;
+  assert.ok(refusalMessage.startsWith(files[0].name.replace(/\..*/, '')), refusalMessage);
+  assertProperMessage(refusalMessage);
   return false;
 }
 
@@ -213,9 +213,9 @@ export const fuzzTargets = {
       const { map = null, ...fields } = Object(parsedState);
       // The element itself checks this field.
       delete fields.widget;
-      const mapBefore = mapOf(mapSqueeze, '');
+      const mapBefore = currentMapOf(mapSqueeze, '');
       const isMapAccepted = map === null || isAccepted(() => applyMap(mapSqueeze, map));
-      if (!isMapAccepted) assert.deepEqual(mapOf(mapSqueeze, ''), mapBefore);
+      if (!isMapAccepted) assert.deepEqual(currentMapOf(mapSqueeze, ''), mapBefore);
       const isConfigured = isAccepted(() => mapSqueeze.configure(fields));
       mapSqueeze.configure(widgetSimulations[1].opening);
       return isMapAccepted && isConfigured;
@@ -226,11 +226,11 @@ export const fuzzTargets = {
     async run(bytes) {
       const [attributeName, ...valueParts] = bytes.toString().split('=');
       const { attributes, simulation, opening } = widgetSimulations[bytes.length % widgetSimulations.length];
-      const attribute = Object.hasOwn(attributes, attributeName) ? attributes[attributeName] : Object.values(attributes)[bytes.length % 9];
+      const inputAttribute = Object.hasOwn(attributes, attributeName) ? attributes[attributeName] : Object.values(attributes)[bytes.length % 9];
       // Millions of samples would take too much memory.
       if (/^(samples|steps)$/.test(attributeName) && Number(valueParts.join('=')) > 1e5) return false;
-      if (!isAccepted(() => simulation.configure(attribute.change(attribute.converter.parse(valueParts.join('=')), simulation.config)))) return false;
-      assert.equal(typeof attribute.converter.print(attribute.get(simulation.config)), 'string');
+      if (!isAccepted(() => simulation.configure(inputAttribute.change(inputAttribute.converter.parse(valueParts.join('=')), simulation.config)))) return false;
+      assert.equal(typeof inputAttribute.converter.print(inputAttribute.get(simulation.config)), 'string');
       simulation.configure(opening);
       return true;
     },
@@ -238,7 +238,7 @@ export const fuzzTargets = {
 };
 
 /** Returns the map that a simulation has, as data of a link. @param {InstanceType<typeof motion.MapSqueeze>} simulation @param {string} name */
-function mapOf(simulation, name) {
+function currentMapOf(simulation, name) {
   return mapDataOf(simulation, name, gridOf(simulation));
 }
 
@@ -248,7 +248,7 @@ function createStates() {
   const { config } = simulation;
   const planMap = { name: 'room.json', bounds: [0, 0, 3, 3], walls: [[0, 0, 3, 3]] };
   simulation.setGrid({ resolution: 0.5, origin: [0, 0, 0.5] }, Buffer.from('P5 3 2 255\n\0\xff\x80\0\xff\xff', 'latin1'));
-  const gridMap = mapOf(simulation, 'map.yaml');
+  const gridMap = currentMapOf(simulation, 'map.yaml');
   simulation.free();
   return [{ ...config, map: null }, { ...config, map: planMap }, { widget: 'map-squeeze', samples: 1, map: gridMap }];
 }

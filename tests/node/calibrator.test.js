@@ -77,9 +77,9 @@ test('lines for Nav2 have the recommended α’s, and the fitted ones in comment
 test('lines for Nav2 have no α that means nothing, and none at all where none is recommended', () => {
   assert.deepEqual([nav2LinesOf({ recommended: null }), correctionAdvice(calibrationWith({ recommended: null }), en.nav2)], [[], []]);
   assert.deepEqual(nav2LinesOf({}, { model: 'velocity' }), []);
-  const alphas = [null, 1e-7, 103, 1e-8];
-  const intervals = [null, [0, 0.0016], [50, 200], null];
-  assert.deepEqual(nav2LinesOf({ alphas, intervals }).filter((line) => /alpha[1-4]/.test(line)), [
+  const exampleAlphas = [null, 1e-7, 103, 1e-8];
+  const exampleIntervals = [null, [0, 0.0016], [50, 200], null];
+  assert.deepEqual(nav2LinesOf({ alphas: exampleAlphas, intervals: exampleIntervals }).filter((line) => /alpha[1-4]/.test(line)), [
     `# alpha1: ${en.nav2.notIdentifiable}`, `alpha2: 0.0032  # ${en.nav2.zero}`, `# alpha3: 206, ${en.nav2.tooLarge}`, 'alpha4: 2.0e-8  # fitted 1.0e-8',
   ]);
 });

@@ -36,17 +36,17 @@ function writeInFolder(name, contents) {
 }
 
 /** Runs the command in this process, and returns its exit code and its output. @param {string[]} args @param {() => Promise<any>} [core] */
-async function outputOf(args, core = load) {
+async function runCalibrate(args, core = load) {
   let [out, err] = ['', ''];
-  const code = await run(['calibrate', ...args], { load: core, print: (text) => (out += text), complain: (text) => (err += text), now: new Date('2026-01-02T03:04:05Z') });
-  return { code, out, err };
+  const exitCode = await run(['calibrate', ...args], { load: core, print: (text) => (out += text), complain: (text) => (err += text), now: new Date('2026-01-02T03:04:05Z') });
+  return { code: exitCode, out, err };
 }
 
 /** Returns the options with which the core is called, with logs in arrays. @param {string[]} args @returns {Promise<any>} */
-async function coreOptionsOf(args) {
+async function readCoreOptions(args) {
   /** @type {any} */
   let coreOptions;
-  const { err } = await outputOf(args, async () => ({ calibrate(/** @type {any} */ options) { coreOptions = { ...options, odometry: [options.odometry].flat(), reference: [options.reference].flat() }; throw new RangeError('stop'); } }));
+  const { err } = await runCalibrate(args, async () => ({ calibrate(/** @type {any} */ options) { coreOptions = { ...options, odometry: [options.odometry].flat(), reference: [options.reference].flat() }; throw new RangeError('stop'); } }));
   assert.ok(coreOptions, err);
   return coreOptions;
 }
@@ -54,33 +54,33 @@ async function coreOptionsOf(args) {
 useLanguageOf(/** @type {any} */ ({ closest: () => ({ getAttribute: () => 'en' }) }));
 
 test('options reach the core', async () => {
-  const { odometry, reference, ...fitOptions } = await coreOptionsOf(LOG_ARGS);
+  const { odometry, reference, ...fitOptions } = await readCoreOptions(LOG_ARGS);
   assert.deepEqual(fitOptions, { legs: { distance: 0.25, angle: 0.2 } });
   for (const log of [...odometry, ...reference]) assert.deepEqual(Object.keys(log), ['t', 'x', 'y', 'theta', 'breaks']);
   const optionsText = '--model omnidirectional --rule omni --update-min-d 0.5 --update-min-a 0.3 --outliers keep --reference-position-std 0.001 --reference-yaw-std 2e-3';
-  const coreOptions = await coreOptionsOf([...LOG_ARGS, ...optionsText.split(' ')]);
+  const coreOptions = await readCoreOptions([...LOG_ARGS, ...optionsText.split(' ')]);
   assert.deepEqual({ ...coreOptions, odometry: [], reference: [] }, { odometry: [], reference: [], model: 'omnidirectional', rule: 'omni', legs: { distance: 0.5, angle: 0.3 }, outliers: 'keep', positionStd: 0.001, yawStd: 0.002 });
-  assert.deepEqual((await coreOptionsOf([...LOG_ARGS, '--duration=0.5'])).legs, { duration: 0.5 });
-  assert.equal((await coreOptionsOf([...LOG_ARGS, '--rule', 'omni'])).model, 'omnidirectional');
+  assert.deepEqual((await readCoreOptions([...LOG_ARGS, '--duration=0.5'])).legs, { duration: 0.5 });
+  assert.equal((await readCoreOptions([...LOG_ARGS, '--rule', 'omni'])).model, 'omnidirectional');
 });
 
 test('files without an option are recordings, paired where each is one table', async () => {
   const [odometryPath, referencePath] = [examplePath('odometry'), examplePath('reference')];
   const writeLaterCopy = (/** @type {string} */ name, /** @type {string} */ from) => writeInFolder(name, readFileSync(from, 'utf8').replaceAll(/^(\d+)/gm, (_, seconds) => `${Number(seconds) + 1000}`));
-  const expectedOptions = await coreOptionsOf(LOG_ARGS);
-  assert.deepEqual(await coreOptionsOf([referencePath, odometryPath]), expectedOptions);
-  assert.deepEqual(await coreOptionsOf([referencePath, '--recording', odometryPath]), expectedOptions);
+  const expectedOptions = await readCoreOptions(LOG_ARGS);
+  assert.deepEqual(await readCoreOptions([referencePath, odometryPath]), expectedOptions);
+  assert.deepEqual(await readCoreOptions([referencePath, '--recording', odometryPath]), expectedOptions);
   const [laterOdometryPath, laterReferencePath] = [writeLaterCopy('odom2.csv', odometryPath), writeLaterCopy('truth2.csv', referencePath)];
-  const { odometry: odometryLogs, reference: referenceLogs } = await coreOptionsOf([laterReferencePath, odometryPath, '--odometry', laterOdometryPath, '--reference', referencePath]);
+  const { odometry: odometryLogs, reference: referenceLogs } = await readCoreOptions([laterReferencePath, odometryPath, '--odometry', laterOdometryPath, '--reference', referencePath]);
   for (const logs of [odometryLogs, referenceLogs]) assert.deepEqual(logs.map((/** @type {any} */ { t }) => Math.floor(t[0] / 1000)), [0, 1]);
 });
 
 test('systematic errors are corrected or left in by name, all of them or single ones', async () => {
-  const correctOf = async (/** @type {string} */ args) => (await coreOptionsOf([...LOG_ARGS, ...args.split(' ')])).correct;
-  assert.deepEqual(await correctOf('--no-correct mountYaw,leverArm --correct turnScale'), { mountYaw: false, leverArm: false, turnScale: true });
+  const readCorrectOption = async (/** @type {string} */ args) => (await readCoreOptions([...LOG_ARGS, ...args.split(' ')])).correct;
+  assert.deepEqual(await readCorrectOption('--no-correct mountYaw,leverArm --correct turnScale'), { mountYaw: false, leverArm: false, turnScale: true });
   const noCorrection = { clockOffset: false, mountYaw: false, leverArm: false, distanceScale: false, turnScale: false };
-  assert.deepEqual(await correctOf('--no-correct all'), noCorrection);
-  assert.deepEqual(await correctOf('--correct clockOffset --no-correct all'), { ...noCorrection, clockOffset: true });
+  assert.deepEqual(await readCorrectOption('--no-correct all'), noCorrection);
+  assert.deepEqual(await readCorrectOption('--correct clockOffset --no-correct all'), { ...noCorrection, clockOffset: true });
 });
 
 test('a recording has both logs, by topics and frames that are clear or named', async () => {
@@ -98,23 +98,23 @@ test('a recording has both logs, by topics and frames that are clear or named', 
   }).flat();
   const writeRecordingArgs = async (/** @type {string} */ name, /** @type {string[]} */ ...topics) =>
     ['--recording', writeInFolder(name, await recordingOf(messages.filter(({ topic }) => topics.includes(topic)), { compression: 'zstd' }))];
-  const fourthRowValuesOf = async (/** @type {string[]} */ ...args) => {
-    const coreOptions = await coreOptionsOf(args);
+  const readFourthRow = async (/** @type {string[]} */ ...args) => {
+    const coreOptions = await readCoreOptions(args);
     return [coreOptions.odometry[0].y?.[3], coreOptions.odometry[0].omega?.[3], coreOptions.reference[0].y[3]];
   };
   const allTopicsArgs = await writeRecordingArgs('run.mcap', '/odom', '/mocap', '/other', '/cmd_vel');
-  assert.deepEqual(await fourthRowValuesOf(...allTopicsArgs), [1, undefined, 2]);
-  assert.deepEqual(await fourthRowValuesOf(...allTopicsArgs, '--odometry-topic', '/mocap', '--reference-topic', '/odom'), [2, undefined, 1]);
-  assert.deepEqual(await fourthRowValuesOf(...allTopicsArgs, '--model', 'velocity'), [undefined, 2, 2]);
+  assert.deepEqual(await readFourthRow(...allTopicsArgs), [1, undefined, 2]);
+  assert.deepEqual(await readFourthRow(...allTopicsArgs, '--odometry-topic', '/mocap', '--reference-topic', '/odom'), [2, undefined, 1]);
+  assert.deepEqual(await readFourthRow(...allTopicsArgs, '--model', 'velocity'), [undefined, 2, 2]);
   const framesArgs = await writeRecordingArgs('tf.mcap', '/tf');
-  assert.deepEqual(await fourthRowValuesOf(...framesArgs, '--odometry-frames', 'odom,base_link', '--reference-frames', 'map,base_link'), [1, undefined, 2]);
+  assert.deepEqual(await readFourthRow(...framesArgs, '--odometry-frames', 'odom,base_link', '--reference-frames', 'map,base_link'), [1, undefined, 2]);
   for (const [args, expectedError] of /** @type {const} */ ([
     [
       await writeRecordingArgs('unclear.mcap', '/odom', '/other', '/third'),
       'unclear.mcap: it is not clear what the reference is: /odom (Odometry), /other (PoseStamped), /third (PoseStamped). Choose with --reference-topic, as in --reference-topic /other.\n',
     ],
     [await writeRecordingArgs('alone.mcap', '/odom'), 'alone.mcap: it has the odometry only, /odom (Odometry); give the reference too. Name both, with --odometry FILE and --reference FILE.\n'],
-  ])) assert.equal((await outputOf(args)).err, expectedError);
+  ])) assert.equal((await runCalibrate(args)).err, expectedError);
 });
 
 test('bad input has the exit code 2 and a sentence', async () => {
@@ -159,8 +159,8 @@ test('bad input has the exit code 2 and a sentence', async () => {
     [[...LOG_ARGS, '--reference-position-std=-1'], '--reference-position-std is -1; allowed is '],
     [[...LOG_ARGS.slice(0, 2), '--reference', straightLogPath], 'odometry.csv and straight.csv: odometry and reference have no time in common, and their turn rates correlate at no clock offset; '],
   ])) {
-    const { code, out, err } = await outputOf(args);
-    assert.deepEqual([code, out.replaceAll(/^(Odometry|Reference): .*\n( {2}.*\n)*/gm, '')], [2, ''], err);
+    const { code: exitCode, out, err } = await runCalibrate(args);
+    assert.deepEqual([exitCode, out.replaceAll(/^(Odometry|Reference): .*\n( {2}.*\n)*/gm, '')], [2, ''], err);
     assert.ok(err.startsWith(errorStart) && err.endsWith('\n'), err);
   }
 });
@@ -200,14 +200,14 @@ test('a recording of the example has the truth in its intervals, and its JSON th
 });
 
 test('the report names the noise that is stated, and the outliers', async () => {
-  const { code, out } = await outputOf([...LOG_ARGS, '--rule', 'nav2', '--reference-yaw-std', '0']);
-  assert.equal(code, 0);
+  const { code: exitCode, out } = await runCalibrate([...LOG_ARGS, '--rule', 'nav2', '--reference-yaw-std', '0']);
+  assert.equal(exitCode, 0);
   for (const linePattern of [/^reference yaw σ +0 rad +as stated$/m, /^outliers: 1 of \d+ legs, at \d+\.\d\d s after the start$/m]) assert.match(out, linePattern);
 });
 
 test('doc/calibration.md shows the report of the example', async () => {
   const [, documentedReport] = readFileSync(new URL('../../doc/calibration.md', import.meta.url), 'utf8').match(/\n```text\n(.*?)\s*```\n/s) ?? [];
-  const { out } = await outputOf(LOG_ARGS);
+  const { out } = await runCalibrate(LOG_ARGS);
   assert.equal(documentedReport.replace(/\d{4}-\d\d-\d\d$/m, '2026-01-02'), out.trimEnd());
 });
 
@@ -215,12 +215,12 @@ test('units are stated for both logs, or for each', async () => {
   const [header, ...rows] = readFileSync(examplePath('odometry'), 'utf8').trim().split('\n');
   const scaledPath = writeInFolder('scaled.csv', [header, ...rows.map((row) => row.split(',').map((cell, i) => Number(cell) * [1000, 1000, 1000, 180 / Math.PI][i]).join(','))].join('\n'));
   const unitArgs = ['--time-unit', 'ms,s', '--length-unit', 'mm,m', '--angle-unit', 'deg,rad'];
-  const [siOptions, statedUnitOptions] = [await coreOptionsOf(LOG_ARGS), await coreOptionsOf(['--odometry', scaledPath, ...LOG_ARGS.slice(2), ...unitArgs])];
+  const [siOptions, statedUnitOptions] = [await readCoreOptions(LOG_ARGS), await readCoreOptions(['--odometry', scaledPath, ...LOG_ARGS.slice(2), ...unitArgs])];
   assert.deepEqual(statedUnitOptions.reference, siOptions.reference);
   for (const name of ['t', 'x', 'theta']) assert.ok(Math.abs(statedUnitOptions.odometry[0][name][999] - siOptions.odometry[0][name][999]) < 1e-9, name);
   const degreesPath = writeInFolder('degrees.csv', [header, ...rows.map((row) => row.split(',').map((cell, i) => Number(cell) * [1, 1, 1, 180 / Math.PI][i]).join(','))].join('\n'));
-  const refusal = await outputOf(['--odometry', degreesPath, ...LOG_ARGS.slice(2), '--angle-unit', 'rad']);
-  assert.match(refusal.err, /^degrees\.csv: its headings are in degrees and were read as radians; .* Choose with --odometry FILE --reference FILE --angle-unit deg,rad\.$/m);
+  const refusalOutput = await runCalibrate(['--odometry', degreesPath, ...LOG_ARGS.slice(2), '--angle-unit', 'rad']);
+  assert.match(refusalOutput.err, /^degrees\.csv: its headings are in degrees and were read as radians; .* Choose with --odometry FILE --reference FILE --angle-unit deg,rad\.$/m);
 });
 
 test('a folder gives its logs, and other files are skipped', async () => {
@@ -232,24 +232,24 @@ test('a folder gives its logs, and other files are skipped', async () => {
   let inspectionText = '';
   await run(['inspect', driveFolder], { load, print: (text) => (inspectionText += text), complain: () => {} });
   assert.match(inspectionText, /^ {2}npx motion-widgets calibrate \S+\/drive --rule nav2$/m);
-  const { code, out, err } = await outputOf(['metadata.yaml', 'odom.csv'].map((name) => join(driveFolder, name)));
-  assert.deepEqual([code, out.match(/^\w+: .*\.csv$/gm)], [0, ['Odometry: odom.csv', 'Reference: truth.csv']]);
+  const { code: exitCode, out, err } = await runCalibrate(['metadata.yaml', 'odom.csv'].map((name) => join(driveFolder, name)));
+  assert.deepEqual([exitCode, out.match(/^\w+: .*\.csv$/gm)], [0, ['Odometry: odom.csv', 'Reference: truth.csv']]);
   assert.match(err, /^skipped: README\.md: it does not look like a log, .*\nskipped: camera\.mcap: the topics are \/image \(String\); .*\n$/);
 });
 
 test('a journal beside a recording is named, unless it is empty', async () => {
   for (const [journalHex, expectedMessage] of [['', ''], ['377f0682', 'skipped: odometry.db3-wal: it is a journal']]) {
     writeInFolder('odometry.db3-wal', Buffer.from(journalHex, 'hex'));
-    const { code, err } = await outputOf(['--odometry', writeInFolder('odometry.db3', readFileSync(examplePath('odometry'))), ...LOG_ARGS.slice(2)]);
-    assert.deepEqual([code, err.split(' with')[0]], [0, expectedMessage]);
+    const { code: exitCode, err } = await runCalibrate(['--odometry', writeInFolder('odometry.db3', readFileSync(examplePath('odometry'))), ...LOG_ARGS.slice(2)]);
+    assert.deepEqual([exitCode, err.split(' with')[0]], [0, expectedMessage]);
   }
   // All messages are in the journal.
   const databasePath = writeInFolder('run.db3', 'SQLite format 3\0');
   writeInFolder('run.db3-wal', Buffer.from('377f0682', 'hex'));
   for (const jsonArgs of [[], ['--json']]) {
     let [out, err] = ['', ''];
-    const code = await run(['inspect', databasePath, ...jsonArgs], { load, print: (text) => (out += text), complain: (text) => (err += text) });
-    assert.deepEqual([code, out], [2, '']);
+    const exitCode = await run(['inspect', databasePath, ...jsonArgs], { load, print: (text) => (out += text), complain: (text) => (err += text) });
+    assert.deepEqual([exitCode, out], [2, '']);
     assert.match(err, /^run\.db3-wal: it is a journal with messages that its \.db3 file lacks; /m);
   }
 });
@@ -261,29 +261,29 @@ const writeReversedReference = () => {
 };
 
 test('--yaml prints the lines for Nav2 alone, or none of an unusable log', async () => {
-  const { code, out, err } = await outputOf([...LOG_ARGS, '--yaml', '--rule', 'nav2']);
-  assert.equal(code, 0);
+  const { code: exitCode, out, err } = await runCalibrate([...LOG_ARGS, '--yaml', '--rule', 'nav2']);
+  assert.equal(exitCode, 0);
   assert.match(out, /^amcl:\n {2}ros__parameters:\n[^]*\n {4}update_min_a: 0\.2\n$/);
   assert.match(err, /^Odometry: odometry\.csv\n {2}\d+ of \d+ rows, [^]*^Consistent: .*\nFirst multiply the odometry’s distances by .*\n$/m);
-  assert.match((await outputOf([...LOG_ARGS, '--yaml'])).err, /\nWarning: fitted by another rule than Nav2’s; give --rule nav2\.\n$/);
-  const swappedOutput = await outputOf(['--odometry', examplePath('reference'), '--reference', examplePath('odometry'), '--yaml']);
+  assert.match((await runCalibrate([...LOG_ARGS, '--yaml'])).err, /\nWarning: fitted by another rule than Nav2’s; give --rule nav2\.\n$/);
+  const swappedOutput = await runCalibrate(['--odometry', examplePath('reference'), '--reference', examplePath('odometry'), '--yaml']);
   assert.match(swappedOutput.err, /^Warning: .* Are the two swapped\?$/m);
   // The legs of a reference at 1 Hz are longer than asked.
   const [header, ...rows] = readFileSync(examplePath('reference'), 'utf8').trim().split('\n');
   const sparsePath = writeInFolder('sparse.csv', [header, ...rows.filter((_, i) => i % 20 === 0)].join('\n'));
-  const sparseOutput = await outputOf([...LOG_ARGS.slice(0, 3), sparsePath, '--yaml', '--rule', 'nav2']);
+  const sparseOutput = await runCalibrate([...LOG_ARGS.slice(0, 3), sparsePath, '--yaml', '--rule', 'nav2']);
   const [, ratio, distance, angle] = /legs are (\S+) times as long as asked\. .*\n +update_min_d: (\S+)\n +update_min_a: (\S+)\n$/.exec(sparseOutput.out)?.map(Number) ?? [];
   assert.ok(ratio > 1.5, sparseOutput.out);
   assert.deepEqual([distance / 0.25, angle / 0.2].map((scale) => Math.abs(scale / ratio - 1) < 0.005), [true, true]);
   const reversedPath = writeReversedReference();
-  const refusalOutput = await outputOf([...LOG_ARGS.slice(0, 3), reversedPath, '--yaml']);
+  const refusalOutput = await runCalibrate([...LOG_ARGS.slice(0, 3), reversedPath, '--yaml']);
   assert.deepEqual([refusalOutput.code, refusalOutput.out], [3, '']);
   assert.match(refusalOutput.err, /^No lines for nav2_params\.yaml: the log is unusable\.$/m);
 });
 
 test('--plot writes a panel for each drive, with both paths aligned, and the ends of legs at the times of the reference', async () => {
   const plotPath = join(temporaryFolder, 'plot.svg');
-  assert.equal((await outputOf([...LOG_ARGS, '--plot', plotPath])).code, 0);
+  assert.equal((await runCalibrate([...LOG_ARGS, '--plot', plotPath])).code, 0);
   assert.match(readFileSync(plotPath, 'utf8'), /^<svg xmlns=/);
   /** Returns a drive of ten seconds along x. In the odometry it leads along y, and begins half a second earlier. @returns {any} */
   const driveStartingAt = (/** @type {number} */ start) => {
@@ -355,8 +355,8 @@ test('inspect lists what is in a file, and the command to go on with', async () 
 
 test('an unusable log has a sentence and no lines for Nav2', async () => {
   const reversedPath = writeReversedReference();
-  const { code, out } = await outputOf([...LOG_ARGS.slice(0, 3), reversedPath]);
-  assert.equal(code, 3);
+  const { code: exitCode, out } = await runCalibrate([...LOG_ARGS.slice(0, 3), reversedPath]);
+  assert.equal(exitCode, 3);
   for (const linePattern of [
     /^Unusable: no α’s are recommended from this log\. The reference does not follow the odometry: /m, /^reference-matches +\S+ +0\.0005 to 0\.7 +FAILED$/m,
     /^alpha1 .* – +rotation noise/m, /^No lines for nav2_params\.yaml: the log is unusable\.$/m,
@@ -367,7 +367,7 @@ test('an unusable log has a sentence and no lines for Nav2', async () => {
 test('the report, the lines for Nav2 and the figure’s verdict agree whether the reference is a localizer’s', async () => {
   for (const [name, isLocalizer] of /** @type {const} */ ([['slam_pose', true], ['cartographer', true], ['truth_amcl', false]])) {
     const args = [...LOG_ARGS.slice(0, 3), writeInFolder(`${name}.csv`, readFileSync(examplePath('reference')))];
-    const [{ out }, { out: json }] = [await outputOf(args), await outputOf([...args, '--json'])];
+    const [{ out }, { out: json }] = [await runCalibrate(args), await runCalibrate([...args, '--json'])];
     const { logs, ...stats } = JSON.parse(json);
     const { rating } = judgementOf(/** @type {any} */ ({ stats, legs: stats.legs, fitted: stats.systematicErrors }), warningsOf(logs));
     const areNoted = [new RegExp(`^${en.nav2.localizer}\\nQuestionable: all checks passed, but `, 'm').test(out), out.includes(`# ${en.nav2.localizer}`), rating === 'questionable'];
@@ -376,7 +376,7 @@ test('the report, the lines for Nav2 and the figure’s verdict agree whether th
 });
 
 test('the report says what failed, what is lost, and what to drive', async () => {
-  const { odometry: odometryLogs, reference, ...options } = await coreOptionsOf(LOG_ARGS);
+  const { odometry: odometryLogs, reference, ...options } = await readCoreOptions(LOG_ARGS);
   const calibration = /** @type {any} */ (await load()).calibrate({ ...options, odometry: odometryLogs, reference });
   const { diagnostics, lost, persistence, systematicErrors } = calibration;
   const reportWith = (/** @type {any} */ change, other = {}) => reportText({ calibration: { ...calibration, ...change }, options: { ...options, ...other }, logs: [], start: 0, driveStarts: [10, 1000], date: '' });

@@ -35,8 +35,8 @@ test('importing and loading touch neither the DOM nor the network, and load give
 test('load takes bytes, a compiled module, or an address, and fails with a sentence', async () => {
   const moduleAddress = new URL('../../build/motion.wasm', import.meta.url);
   const moduleBytes = await readFile(moduleAddress);
-  for (const source of [undefined, moduleBytes, new Uint8Array(moduleBytes).buffer, await WebAssembly.compile(moduleBytes), moduleAddress, moduleAddress.href]) {
-    const motion = await (await importFreshModule()).load(source);
+  for (const moduleSource of [undefined, moduleBytes, new Uint8Array(moduleBytes).buffer, await WebAssembly.compile(moduleBytes), moduleAddress, moduleAddress.href]) {
+    const motion = await (await importFreshModule()).load(moduleSource);
     const simulation = new motion.BananaMachine({ samples: 5 });
     assert.equal(simulation.stats.n, 5);
     simulation.free();

@@ -30,17 +30,17 @@ test('doc/model.md and doc/statistics.md have the limits of the pages', () => {
 });
 
 test('README.md has the presets of each figure', () => {
-  const readme = readText('README.md').replace(/\s+/g, ' ');
+  const readmeText = readText('README.md').replace(/\s+/g, ' ');
   for (const [tag, presetsOfTag] of Object.entries(presets)) {
-    if (presetsOfTag.length > 0) assert.ok(readme.includes(`\`${tag}\` ${presetsOfTag.map(({ name }) => name).join(', ')}`), tag);
+    if (presetsOfTag.length > 0) assert.ok(readmeText.includes(`\`${tag}\` ${presetsOfTag.map(({ name }) => name).join(', ')}`), tag);
   }
 });
 
 test('README of the example log has its true parameters', () => {
-  const readme = readText('examples/calibration/README.md');
+  const readmeText = readText('examples/calibration/README.md');
   const { alphas, mountYaw, clockOffset, distanceScale } = TRUE_MODEL;
   for (const expectedText of [`| ${alphas.join(', ')} |`, `| ${mountYaw} rad |`, `| ${clockOffset} s later |`, `| ${distanceScale} |`, `${LEG_LIMIT.distance} m`, `${LEG_LIMIT.angle} rad`]) {
-    assert.ok(readme.includes(expectedText), expectedText);
+    assert.ok(readmeText.includes(expectedText), expectedText);
   }
 });
 

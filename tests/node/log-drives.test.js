@@ -8,7 +8,7 @@ import { english } from '../../www/logs/en.ts';
 import { openRecordings } from '../../www/logs/open.ts';
 import { pairLogs, readDrives } from '../../www/logs/pairs.ts';
 import { summarySentences } from '../../www/logs/log.ts';
-import { refusalErrorOf, refusalSentenceOf } from './log-support.js';
+import { catchRefusalError, catchRefusalSentence } from './log-support.js';
 
 /** @import { Recording } from '../../www/logs/log.ts' */
 
@@ -95,7 +95,7 @@ test('a question is asked where a role is not clear', async () => {
     [{ '/odom': 'odometry', '/mocap': 'pose' }, '/odom is the odometry itself; ', 'series', 'reference', ['/mocap'], [], { reference: { series: '/odom' } }],
     [{ '/tf': 'tf' }, 'odom → base is the odometry itself; ', 'series', 'reference', [], ['odom base', 'mocap robot'], { reference: { frames: { parent: 'odom', child: 'base' } } }],
   ])) {
-    const { message, ask } = await refusalErrorOf(planDrivesAsync([recordingWith(series, {}, frames)], userChoices));
+    const { message, ask } = await catchRefusalError(planDrivesAsync([recordingWith(series, {}, frames)], userChoices));
     assert.ok(message.startsWith('run.mcap') && message.includes(`: ${expectedSentence}`), message);
     assert.deepEqual([ask?.what, ask?.role], [what, role], message);
     if (choices) assert.deepEqual(ask?.choices, choices);
@@ -113,27 +113,27 @@ test('several recordings are drives of their own, or give one log each', async (
   const cameraRecording = recordingWith({ '/image': 'text' }, { name: 'camera.mcap' });
   const { drives: [drive], unused } = planDrives([cameraRecording, recordingWithBothLogs]);
   assert.deepEqual([drive.odometry.recording, unused.map(({ message }) => message.slice(0, 48))], [recordingWithBothLogs, ['camera.mcap: the topics are /image (String); exp']]);
-  assert.match(await refusalSentenceOf(planDrivesAsync([recordingWithBothLogs, cameraRecording], { roles: new Map([[cameraRecording, 'reference']]) })), /^camera\.mcap: the topics are \/image \(String\); /);
+  assert.match(await catchRefusalSentence(planDrivesAsync([recordingWithBothLogs, cameraRecording], { roles: new Map([[cameraRecording, 'reference']]) })), /^camera\.mcap: the topics are \/image \(String\); /);
   const unpairedNamesOf = async (/** @type {string[]} */ ...names) => {
     const drivePlan = planDrives(names.map((name) => recordingWith({ '': 'columns' }, { name, format: 'csv' })));
     return [drivePlan.unpaired.odometry, drivePlan.unpaired.reference].map((parts) => parts.map(({ recording: { name } }) => name));
   };
   assert.deepEqual(await unpairedNamesOf('truth.csv', 'a.csv'), [['a.csv'], ['truth.csv']]);
   assert.deepEqual(await unpairedNamesOf('odom1.csv', 'x.csv', 'y.csv', 'odom2.csv'), [['odom1.csv', 'odom2.csv'], ['x.csv', 'y.csv']]);
-  assert.match(await refusalSentenceOf(unpairedNamesOf('a.csv', 'b.csv')), /^a\.csv: its name does not say whether it is odometry or reference; /);
-  assert.match(await refusalSentenceOf(unpairedNamesOf('odom1.csv', 'odom2.csv', 'truth.csv')), /^odom1\.csv: the odometry is in odom1\.csv, odom2\.csv, and the reference in truth\.csv; /);
+  assert.match(await catchRefusalSentence(unpairedNamesOf('a.csv', 'b.csv')), /^a\.csv: its name does not say whether it is odometry or reference; /);
+  assert.match(await catchRefusalSentence(unpairedNamesOf('odom1.csv', 'odom2.csv', 'truth.csv')), /^odom1\.csv: the odometry is in odom1\.csv, odom2\.csv, and the reference in truth\.csv; /);
   // A log may be ambiguous in one role only.
   const twoBodyRecording = recordingWith({ Robot: 'columns', Cart: 'columns' }, { name: 'take.csv', format: 'csv' });
   const odometryTable = recordingWith({ '': 'columns' }, { name: 'odom.csv', format: 'csv' });
-  const { ask } = await refusalErrorOf(planDrivesAsync([odometryTable, twoBodyRecording]));
+  const { ask } = await catchRefusalError(planDrivesAsync([odometryTable, twoBodyRecording]));
   assert.deepEqual([ask?.what, ask?.role, ask?.choices], ['series', 'reference', ['Robot', 'Cart']]);
   assert.equal(planDrives([odometryTable, twoBodyRecording], { reference: { series: 'Cart' } }).unpaired.reference[0].choice.series, 'Cart');
   const ambiguousRecording = recordingWith({ '/odom': 'odometry', '/a': 'pose', '/b': 'pose' });
-  assert.match(await refusalSentenceOf(planDrivesAsync([ambiguousRecording, ambiguousRecording])), /^run\.mcap: it is not clear what the reference is: /);
+  assert.match(await catchRefusalSentence(planDrivesAsync([ambiguousRecording, ambiguousRecording])), /^run\.mcap: it is not clear what the reference is: /);
 });
 
 /** Reads drives from tables by their names. @param {Record<string, string>} files @param {import('../../www/logs/drives.ts').UserChoices} [userChoices] */
-const drivesOf = async (files, userChoices) => readDrives(planDrives(await openRecordings(Object.entries(files).map(([name, text]) => new File([text], name))), userChoices));
+const readDrivesOf = async (files, userChoices) => readDrives(planDrives(await openRecordings(Object.entries(files).map(([name, text]) => new File([text], name))), userChoices));
 
 /** Returns a table of poses. @param {number} count @param {(i: number) => number[]} row */
 const poseTableOf = (count, row) => ['t,x,y,yaw', ...Array.from({ length: count }, (_, i) => row(i).join(','))].join('\n');
@@ -142,7 +142,7 @@ const poseTableOf = (count, row) => ['t,x,y,yaw', ...Array.from({ length: count 
 const straightTableOf = (x, start = 0) => poseTableOf(400, (i) => [start + i / 20, x(i), 0, 0]);
 
 test('logs of several drives are paired by their times, their names, or their order', async () => {
-  const pairedNamesOf = async (/** @type {Record<string, number>} */ starts) => (await drivesOf(Object.fromEntries(Object.entries(starts).map(([name, start], k) => [name, straightTableOf((i) => (i * (10 + k)) / 1000, start)])))).map(({ odometry, reference }) => [odometry.name, reference.name]);
+  const pairedNamesOf = async (/** @type {Record<string, number>} */ starts) => (await readDrivesOf(Object.fromEntries(Object.entries(starts).map(([name, start], k) => [name, straightTableOf((i) => (i * (10 + k)) / 1000, start)])))).map(({ odometry, reference }) => [odometry.name, reference.name]);
   assert.deepEqual(await pairedNamesOf({ 'odom1.csv': 100, 'odom2.csv': 500, 'truth_a.csv': 501, 'truth_b.csv': 99 }), [['odom1.csv', 'truth_b.csv'], ['odom2.csv', 'truth_a.csv']]);
   assert.deepEqual(await pairedNamesOf({ 'odom1.csv': 0, 'odom2.csv': 0, 'truth2.csv': 0, 'truth1.csv': 0 }), [['odom1.csv', 'truth1.csv'], ['odom2.csv', 'truth2.csv']]);
   assert.deepEqual(await pairedNamesOf({ 'odom1.csv': 0, 'odom2.csv': 0, 'truth_a.csv': 0, 'truth_b.csv': 0 }), [['odom1.csv', 'truth_a.csv'], ['odom2.csv', 'truth_b.csv']]);
@@ -150,10 +150,10 @@ test('logs of several drives are paired by their times, their names, or their or
 
 test('two logs get one start, and none in common is noted', async () => {
   const odometryTable = 't,x,y,yaw\n1700000000.25,0,0,0\n1700000009.5,0,0,0';
-  const [overlappingDrive] = await drivesOf({ 'odom.csv': odometryTable, 'truth.csv': 't,x,y,yaw\n1700000003.125,0,0,0\n1700000008.5,0,0,0' });
+  const [overlappingDrive] = await readDrivesOf({ 'odom.csv': odometryTable, 'truth.csv': 't,x,y,yaw\n1700000003.125,0,0,0\n1700000008.5,0,0,0' });
   assert.equal(overlappingDrive.odometry.start, 1_700_000_000);
   assert.deepEqual([[...overlappingDrive.odometry.data.t], [...overlappingDrive.reference.data.t]], [[0.25, 9.5], [3.125, 8.5]]);
-  const [disjointDrive] = await drivesOf({ 'odom.csv': odometryTable, 'truth.csv': 't,x,y,yaw\n0,0,0,0\n1,0,0,0' });
+  const [disjointDrive] = await readDrivesOf({ 'odom.csv': odometryTable, 'truth.csv': 't,x,y,yaw\n0,0,0,0\n1,0,0,0' });
   assert.deepEqual([disjointDrive.odometry.start, [...disjointDrive.odometry.data.t]], [0, [1_700_000_000.25, 1_700_000_009.5]]);
   assert.match(summarySentences(disjointDrive.reference, english.found).at(-1) ?? '', /^notes: no time in common with odom\.csv \(0\.00 s to 1\.00 s, and 1700000000\.25 s to 1700000009\.50 s\): /);
   assert.equal(summarySentences(disjointDrive.reference, german.found).length, summarySentences(overlappingDrive.reference, german.found).length + 1);
@@ -167,7 +167,7 @@ test('names of a localizer, and swapped ones, are noted', async () => {
   };
   assert.deepEqual(await noteNamesOf('truth.csv', 'wheels.csv'), ['swapped']);
   assert.deepEqual(await noteNamesOf('odom.csv', 'amcl_pose.csv'), ['localizer']);
-  const [{ odometry, reference }] = await drivesOf({ 'odom.csv': straightTableOf((i) => i / 90), 'truth.csv': straightTableOf((i) => i / 80) });
+  const [{ odometry, reference }] = await readDrivesOf({ 'odom.csv': straightTableOf((i) => i / 90), 'truth.csv': straightTableOf((i) => i / 80) });
   const notesWithFrame = (/** @type {string} */ parent) => pairLogs(odometry, { ...reference, summary: { ...reference.summary, frames: { parent, child: 'base_link' } } }).reference.summary.notes;
   assert.deepEqual([notesWithFrame('mocap'), notesWithFrame('map')], [[], [{ name: 'localizer', values: [] }]]);
   for (const [one, other] of [['wheels.csv', 'truth.csv'], ['odom.csv', 'reference-by-odom.csv'], ['a.csv', 'b.csv']]) assert.deepEqual(await noteNamesOf(one, other), [], one);
@@ -177,12 +177,12 @@ test('a frozen reference has breaks while the odometry moves on, and none while 
   const odometryXAt = (/** @type {number} */ i) => Math.max(0, i - 100) / 50;
   const movingOdometryTable = straightTableOf(odometryXAt);
   const referenceXAt = (/** @type {number} */ i) => 1.01 * odometryXAt(i);
-  const readReference = async (/** @type {string} */ reference, odometryTable = movingOdometryTable) => (await drivesOf({ 'odom.csv': odometryTable, 'truth.csv': reference }))[0].reference;
+  const readReference = async (/** @type {string} */ reference, odometryTable = movingOdometryTable) => (await readDrivesOf({ 'odom.csv': odometryTable, 'truth.csv': reference }))[0].reference;
   assert.deepEqual([(await readReference(straightTableOf(referenceXAt))).summary.dropped, (await readReference(straightTableOf(referenceXAt))).summary.used], [{}, 400]);
   const frozenTable = straightTableOf((i) => referenceXAt(i >= 200 && i < 300 ? 200 : i));
   const { data, summary } = await readReference(frozenTable);
   assert.deepEqual([data.t.length, [...data.breaks], summary.used, summary.dropped], [400, Array.from({ length: 100 }, (_, i) => 201 + i), 301, { held: { count: 99, first: 0 } }]);
-  assert.equal(await refusalSentenceOf(readReference(straightTableOf(() => 7))), 'truth.csv: its pose stands still while the odometry moves on: it has lost the robot; give one that follows the robot.');
+  assert.equal(await catchRefusalSentence(readReference(straightTableOf(() => 7))), 'truth.csv: its pose stands still while the odometry moves on: it has lost the robot; give one that follows the robot.');
   // A pause of two seconds, or one in which the odometry moves by five centimetres, does not count as lost.
   const droppedCountDuring = async (/** @type {number} */ seconds, /** @type {number} */ speed) => {
     const xOf = (/** @type {number} */ i) => (speed * i) / 20;
@@ -195,10 +195,10 @@ test('a frozen reference has breaks while the odometry moves on, and none while 
 });
 
 test('a log that does not follow the other one names the correction that makes it follow', async () => {
-  const headings = Array.from({ length: 1200 }, (_, i) => 2 * Math.sin(i / 60) + Math.cos(i / 23) + i / 300);
+  const exampleHeadings = Array.from({ length: 1200 }, (_, i) => 2 * Math.sin(i / 60) + Math.cos(i / 23) + i / 300);
   const pathPoints = [[0, 0]];
-  for (const [i, heading] of headings.entries()) pathPoints.push([pathPoints[i][0] + Math.cos(heading) / 40, pathPoints[i][1] + Math.sin(heading) / 40]);
-  const tableWithChange = (/** @type {(row: number[]) => number[]} */ change) => poseTableOf(1200, (i) => change([i / 20, ...pathPoints[i], headings[i]]).map((value) => Number(value.toFixed(6))));
+  for (const [i, heading] of exampleHeadings.entries()) pathPoints.push([pathPoints[i][0] + Math.cos(heading) / 40, pathPoints[i][1] + Math.sin(heading) / 40]);
+  const tableWithChange = (/** @type {(row: number[]) => number[]} */ change) => poseTableOf(1200, (i) => change([i / 20, ...pathPoints[i], exampleHeadings[i]]).map((value) => Number(value.toFixed(6))));
   const distortRow = (/** @type {number[]} */ [t, x, y, yaw]) => [t + 0.2, 1.02 * x + 3, 1.02 * y, 1.01 * yaw];
   const radPerDegree = Math.PI / 180;
   const scaledBy = (/** @type {number} */ factor) => (/** @type {number[]} */ [t, x, y, yaw]) => [t, factor * x, factor * y, yaw];
@@ -207,26 +207,26 @@ test('a log that does not follow the other one names the correction that makes i
     [([t, x, y, yaw]) => [t, x, y, yaw * radPerDegree], /its headings are in radians and were read as degrees;/, 'angleUnit', 'rad,rad'],
     [scaledBy(5), /: multiplied by 0\.196, its lengths match those of odom\.csv; state the unit of lengths of both, or multiply them\./, 'lengthUnit'],
   ])) {
-    const refusalError = await refusalErrorOf(drivesOf({ 'odom.csv': tableWithChange((row) => row), 'truth.csv': tableWithChange((row) => changeRow(distortRow(row))) }));
+    const refusalError = await catchRefusalError(readDrivesOf({ 'odom.csv': tableWithChange((row) => row), 'truth.csv': tableWithChange((row) => changeRow(distortRow(row))) }));
     assert.match(refusalError.message, expectedMessage);
     assert.match(refusalError.message, /^truth\.csv: .*\. The motions then agree \(correlation (1\.00|0\.9\d)\)\.$/);
     assert.deepEqual([refusalError.ask?.what, refusalError.ask?.pair], [what, pair]);
   }
   // A reference that is mounted backwards is not taken for a mirrored axis, even if the robot hardly turns.
-  const drivesOfBackwardReference = await drivesOf({ 'odom.csv': poseTableOf(400, (i) => [i / 20, i / 40, 0, Math.sin(i / 9) / 9]), 'truth.csv': poseTableOf(400, (i) => [i / 20, i / 39, 0, Math.PI + Math.sin(i / 9) / 9]) });
+  const drivesOfBackwardReference = await readDrivesOf({ 'odom.csv': poseTableOf(400, (i) => [i / 20, i / 40, 0, Math.sin(i / 9) / 9]), 'truth.csv': poseTableOf(400, (i) => [i / 20, i / 39, 0, Math.PI + Math.sin(i / 9) / 9]) });
   assert.equal(drivesOfBackwardReference.length, 1);
   // Mirrored axes, swapped axes and compass headings, which are clockwise from north.
   const mirrorRows = /** @type {((row: number[]) => number[])[]} */ ([([t, x, y, yaw]) => [t, x, -y, yaw], ([t, x, y, yaw]) => [t, -x, y, yaw], ([t, x, y, yaw]) => [t, y, x, yaw], ([t, x, y, yaw]) => [t, x, y, Math.PI / 2 - yaw]]);
   for (const mirrorRow of mirrorRows) {
     const [mirroredTable, otherTable] = [tableWithChange((row) => mirrorRow(distortRow(row))), tableWithChange(distortRow)];
     for (const [odometry, reference, file] of [[mirroredTable, otherTable, 'odom'], [otherTable, mirroredTable, 'truth'], [mirroredTable, mirroredTable, 'odom']]) {
-      assert.match(await refusalSentenceOf(drivesOf({ 'odom.csv': odometry, 'truth.csv': reference })), RegExp(`^${file}\\.csv: the headings turn the other way than the path; expected`));
+      assert.match(await catchRefusalSentence(readDrivesOf({ 'odom.csv': odometry, 'truth.csv': reference })), RegExp(`^${file}\\.csv: the headings turn the other way than the path; expected`));
     }
   }
   // The unit of a slow robot is not asked for when its log is read alone.
   const slowTable = (/** @type {number} */ factor) => tableWithChange(([t, x, y, yaw]) => [20 * t, factor * x, factor * y, yaw]);
   for (const [odometry, reference, file, pair] of /** @type {const} */ ([[1, 100, 'truth', 'm,cm'], [100, 1, 'odom', 'cm,m']])) {
-    const { message, ask } = await refusalErrorOf(drivesOf({ 'odom.csv': slowTable(odometry), 'truth.csv': slowTable(reference) }));
+    const { message, ask } = await catchRefusalError(readDrivesOf({ 'odom.csv': slowTable(odometry), 'truth.csv': slowTable(reference) }));
     assert.match(message, RegExp(`^${file}\\.csv: multiplied by 0\\.01, its lengths match those of \\w+\\.csv: they are in cm; state their unit\\.`));
     assert.deepEqual([ask?.what, ask?.pair], ['lengthUnit', pair]);
   }
@@ -234,7 +234,7 @@ test('a log that does not follow the other one names the correction that makes i
 
 test('a summary has the distance driven, units and how they were judged, dropped rows and gaps', async () => {
   const tableRows = Array.from({ length: 200 }, (_, i) => `${1_700_000_000_000 + 50 * i + (i > 100 ? 3000 : 0)},${i === 9 ? 'nan' : i / 100},${(i % 2) / 1000},${i / 2}`);
-  const [{ reference }] = await drivesOf({ 'odom.csv': straightTableOf((i) => i / 90, 1_700_000_000), 'truth.csv': ['t,x,y,yaw_deg', ...tableRows].join('\n') });
+  const [{ reference }] = await readDrivesOf({ 'odom.csv': straightTableOf((i) => i / 90, 1_700_000_000), 'truth.csv': ['t,x,y,yaw_deg', ...tableRows].join('\n') });
   assert.equal(reference.summary.distance.toFixed(1), '2.0');
   assert.deepEqual(summarySentences(reference, english.found), [
     '199 of 200 rows, 13.0 s at 20.0 Hz, 2.0 m driven', 'columns: t, x, y, yaw_deg', 'units: time in ms (by size), lengths in m, yaw in degrees (by name)',

@@ -9,7 +9,7 @@ import { openRecordings } from '../../www/logs/open.ts';
 import { summarySentences } from '../../www/logs/log.ts';
 import { odometryMessageOf, poseOf, recordingOf, stampOf, transformMessageOf, twistOf } from '../mcap.js';
 import { randomGenerator } from '../random.js';
-import { readLog, refusalSentenceOf } from './log-support.js';
+import { readLog, catchRefusalSentence } from './log-support.js';
 
 /** @import { Message } from '../mcap.js' */
 
@@ -139,7 +139,7 @@ test('topics and frames that cannot be read are refused', async () => {
     [{ series: '/cmd_vel', kind: 'poses' }, `run.mcap, topic /cmd_vel: its type is “geometry_msgs/msg/Twist”; expected is ${poseTypes}.`],
     [{ series: '/odom', frames: { parent: 'map', child: 'odom' } }, 'run.mcap, topic /odom: its type is “nav_msgs/msg/Odometry”; expected is tf2_msgs/TFMessage, which has frames.'],
     [{ series: '/tf', frames: { parent: 'map', child: 'laser' } }, 'run.mcap, topic /tf: no transforms lead along map → laser; expected are frames that are connected, of base_footprint → base_link, map → odom, odom → base_footprint, base_link → wheel.'],
-  ])) assert.equal(await refusalSentenceOf(readLog(mcapFile, choice)), expectedError);
+  ])) assert.equal(await catchRefusalSentence(readLog(mcapFile, choice)), expectedError);
 });
 
 test('a transform that never changes holds from the beginning, and a moving one from its first message', async () => {
@@ -167,16 +167,16 @@ test('positions without a heading are refused, by their type', async () => {
   }));
   const [recording] = await openRecordings([mcapFileOf(await recordingOf([...createDriveMessages().filter(({ topic }) => topic === '/odom'), ...pointMessages]))]);
   const expectedError = /^run\.mcap: \/prism \(PointStamped\) are positions without a heading; give a reference that measures the heading, /;
-  assert.match(await refusalSentenceOf((async () => planDrives([recording]))()), expectedError);
-  assert.match(await refusalSentenceOf(recording.read([{ series: '/prism' }])), /^run\.mcap, topic \/prism: geometry_msgs\/msg\/PointStamped are positions without a heading; /);
+  assert.match(await catchRefusalSentence((async () => planDrives([recording]))()), expectedError);
+  assert.match(await catchRefusalSentence(recording.read([{ series: '/prism' }])), /^run\.mcap, topic \/prism: geometry_msgs\/msg\/PointStamped are positions without a heading; /);
 });
 
 test('other recordings are refused', async () => {
-  const refusalOf = async (/** @type {Parameters<typeof recordingOf>[1]} */ options, messages = createDriveMessages()) => refusalSentenceOf(readLog(mcapFileOf(await recordingOf(messages, options)), { series: '/odom' }));
+  const refusalOf = async (/** @type {Parameters<typeof recordingOf>[1]} */ options, messages = createDriveMessages()) => catchRefusalSentence(readLog(mcapFileOf(await recordingOf(messages, options)), { series: '/odom' }));
   assert.equal(await refusalOf({ compression: 'odd' }), 'run.mcap, topic /odom: it is damaged or incomplete (compression by snappy, not by zstd or lz4); copy it again from the robot, or try “mcap recover”.');
   assert.equal(await refusalOf({ encoding: 'json' }), 'run.mcap, topic /odom: its messages are encoded as “json”; expected is cdr of ROS 2, or ros1.');
   const [jsonRecording] = await openRecordings([mcapFileOf(await recordingOf(createOdometryMessages(3), { encoding: 'json' }))]);
-  assert.match(await refusalSentenceOf((async () => planDrives([jsonRecording]))()), /^run\.mcap: the topics are \/odom \(Odometry as json\); /);
+  assert.match(await catchRefusalSentence((async () => planDrives([jsonRecording]))()), /^run\.mcap: the topics are \/odom \(Odometry as json\); /);
   assert.equal(await refusalOf({}, []), 'run.mcap: 0 of 0 rows can be used; expected are at least 2.');
   assert.equal(await refusalOf({}, createDriveMessages().slice(0, 6)), 'run.mcap, topic /odom: 1 of 1 rows can be used; expected are at least 2.');
   // These messages claim to be odometry, and are too short.
@@ -185,10 +185,10 @@ test('other recordings are refused', async () => {
 });
 
 test('chunks with another checksum or size than they state are not read', async () => {
-  const reasonOf = async (/** @type {Buffer<ArrayBuffer>} */ bytes) => /: it is damaged or incomplete \((.+)\); copy/.exec(await refusalSentenceOf(readLog(mcapFileOf(bytes), { series: '/odom' })))?.[1];
+  const readReason = async (/** @type {Buffer<ArrayBuffer>} */ bytes) => /: it is damaged or incomplete \((.+)\); copy/.exec(await catchRefusalSentence(readLog(mcapFileOf(bytes), { series: '/odom' })))?.[1];
   const damagedBytes = await recordingOf(createOdometryMessages(20), { chunkSize: 1e6 });
   damagedBytes[damagedBytes.length >> 2] ^= 1;
-  assert.equal(await reasonOf(damagedBytes), 'the checksum of a chunk is wrong');
+  assert.equal(await readReason(damagedBytes), 'the checksum of a chunk is wrong');
 
   const bytes = await recordingOf(createOdometryMessages(20), { compression: 'zstd', index: false, chunks: true, chunkSize: 1e6 });
   // In a chunk record, the name of the compression follows the record's code and length, two times, size, checksum and the name's length.
@@ -198,7 +198,7 @@ test('chunks with another checksum or size than they state are not read', async 
     [10n, 'a compressed block is not what was written'],
   ])) {
     bytes.writeBigUInt64LE(statedSize, chunkPosition + 9 + 16);
-    assert.equal(await reasonOf(bytes), expectedReason);
+    assert.equal(await readReason(bytes), expectedReason);
   }
 });
 

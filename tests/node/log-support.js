@@ -16,7 +16,7 @@ export async function readLog(source, choice) {
 }
 
 /** Returns the error of a log that is refused, which has a German sentence too. @param {Promise<unknown>} reading @returns {Promise<LogError>} */
-export async function refusalErrorOf(reading) {
+export async function catchRefusalError(reading) {
   const error = await reading.then(() => undefined, (reason) => reason);
   assert.ok(error instanceof LogError, String(error));
   assert.notEqual(error.sentence(german), error.message);
@@ -24,4 +24,4 @@ export async function refusalErrorOf(reading) {
 }
 
 /** Returns the message of the error with which a log is refused. @param {Promise<unknown>} reading */
-export const refusalSentenceOf = async (reading) => (await refusalErrorOf(reading)).message;
+export const catchRefusalSentence = async (reading) => (await catchRefusalError(reading)).message;

@@ -5,7 +5,7 @@ import { test } from 'node:test';
 import { openRecordings } from '../../www/logs/open.ts';
 import { german } from '../../www/logs/de.ts';
 import { Rows } from '../../www/logs/rows.ts';
-import { refusalErrorOf, refusalSentenceOf } from './log-support.js';
+import { catchRefusalError, catchRefusalSentence } from './log-support.js';
 
 /** Reads one log of a table. @param {string | Uint8Array<ArrayBuffer>} text @param {import('../../www/logs/log.ts').OpenOptions} [options] @param {string} [series] */
 async function readTable(text, options, series = '') {
@@ -77,7 +77,7 @@ test('a log that is out of order everywhere is sorted, and one of two clocks in 
   const lateTable = jitteredRows.map((_, i) => i).toSorted((one, other) => one + (one % 3 ? 0 : 3.5) - other - (other % 3 ? 0 : 3.5)).map((i) => jitteredRows[i].join(','));
   assert.deepEqual([...(await readTable([header, ...lateTable].join('\n'))).data.x], CIRCLE_ROWS.map(([, x]) => x));
   const rowsOfTwoClocks = rows.flatMap((row, i) => [row, [CIRCLE_ROWS[i][0] + 5.02, ...CIRCLE_ROWS[rows.length - 1 - i].slice(1)].join(',')]);
-  assert.match(await refusalSentenceOf(readTable([header, ...rowsOfTwoClocks].join('\n'))), /^run\.csv, line 202: times go back by 4\.97 s and repeat those before;/);
+  assert.match(await catchRefusalSentence(readTable([header, ...rowsOfTwoClocks].join('\n'))), /^run\.csv, line 202: times go back by 4\.97 s and repeat those before;/);
 });
 
 test('a clock that was set back is refused', async () => {
@@ -85,8 +85,8 @@ test('a clock that was set back is refused', async () => {
     [timesFrom(200), timesFrom(100, 15), 202, '4\\.90'], [timesFrom(200), timesFrom(100, 15.04), 202, '4\\.86'], [timesFrom(60), timesFrom(140, 4.03), 62, '1\\.87'],
     [timesFrom(900), timesFrom(100, 89.6), 902, '0\\.300'],
   ])) {
-    const sentence = await refusalSentenceOf(readTable(straightTableAt([...firstTimes, ...nextTimes])));
-    assert.match(sentence, RegExp(`^run\\.csv, line ${line}: times go back by ${seconds} s and repeat those before; split the file there, give one recording only, or write fractions with their leading zeros .*\\.$`));
+    const refusalSentence = await catchRefusalSentence(readTable(straightTableAt([...firstTimes, ...nextTimes])));
+    assert.match(refusalSentence, RegExp(`^run\\.csv, line ${line}: times go back by ${seconds} s and repeat those before; split the file there, give one recording only, or write fractions with their leading zeros .*\\.$`));
   }
   // The rows of one recording that is given twice are used once.
   const twiceGiven = straightTableAt(timesFrom(50));
@@ -99,7 +99,7 @@ test('a block of zeros in a table loses the row that it is in', async () => {
     const { data, summary } = await readTable([header, ...rows.with(rowIndex, `${rows[rowIndex].slice(0, 9)}${'\0'.repeat(100_000)}${rows[rowIndex + 1].slice(5)}`)].join('\n'));
     assert.deepEqual([data.t.length, summary.dropped, [...data.breaks]], [rows.length - 1, { text: { count: 1, first: rowIndex + 2 } }, [rowIndex]]);
   }
-  assert.match(await refusalSentenceOf(readTable([header, ...rows, '\0'.repeat(5_000_000)].join('\n'))), /^run\.csv, line 802: the line has more than 65536 bytes;/);
+  assert.match(await catchRefusalSentence(readTable([header, ...rows, '\0'.repeat(5_000_000)].join('\n'))), /^run\.csv, line 802: the line has more than 65536 bytes;/);
 });
 
 test('stamps of 0 drop their rows, and are no choice of the clock for the others', async () => {
@@ -118,10 +118,10 @@ test('poses that a table repeats at the rate of another log are taken once', asy
   assert.deepEqual([summary.dropped, [...data.breaks]], [{ repeated: { count: 640, first: 3 } }, []]);
   // A localizer that publishes its last pose all the time, until the robot has moved far enough.
   const poseOfRow = Array.from({ length: 700 }, (_, i) => Math.floor(i / 10) * 10 - (i % 70 >= 10 && i % 70 < 16 ? 10 : 0));
-  const republished = await readTable(circleTableOf((row, i) => [row[0], ...CIRCLE_ROWS[poseOfRow[i] ?? 690].slice(1)]));
+  const republishedLog = await readTable(circleTableOf((row, i) => [row[0], ...CIRCLE_ROWS[poseOfRow[i] ?? 690].slice(1)]));
   const firstRows = poseOfRow.flatMap((pose, i) => (pose === poseOfRow[i - 1] ? [] : [i / 20]));
-  assert.deepEqual([...republished.data.t].slice(0, firstRows.length), firstRows);
-  assert.deepEqual([...republished.data.t].slice(firstRows.length).map((t) => Math.round(20 * t)), [700, 710, 720, 730, 740, 750, 760, 770, 780, 790]);
+  assert.deepEqual([...republishedLog.data.t].slice(0, firstRows.length), firstRows);
+  assert.deepEqual([...republishedLog.data.t].slice(firstRows.length).map((t) => Math.round(20 * t)), [700, 710, 720, 730, 740, 750, 760, 770, 780, 790]);
 });
 
 test('pauses and jumps are found, and a heading that wraps is no jump', async () => {
@@ -182,13 +182,13 @@ const UNIT_QUESTIONS = [
 ];
 
 test('times in minutes or hours are refused by their name', async () => {
-  for (const [header, unit] of [['t_min', 'min'], ['Time [hours]', 'h']]) assert.match(await refusalSentenceOf(readTable(circleTableOf(undefined, `${header},x,y,yaw`))), new RegExp(`^run\\.csv: the unit ${unit} of a column is not known`));
+  for (const [header, unit] of [['t_min', 'min'], ['Time [hours]', 'h']]) assert.match(await catchRefusalSentence(readTable(circleTableOf(undefined, `${header},x,y,yaw`))), new RegExp(`^run\\.csv: the unit ${unit} of a column is not known`));
   assert.equal((await readTable(circleTableOf(([t, ...rest]) => [`0:00:${t.toFixed(3).padStart(6, '0')}`, ...rest], 'Time [HH:MM:SS],x,y,yaw'))).summary.units.time.by, 'date');
 });
 
 for (const [name, tableText, expectedMessage, options, [fieldName, expectedValue]] of UNIT_QUESTIONS) {
   test(`asks about ${name}`, async () => {
-    const refusalError = await refusalErrorOf(readTable(tableText));
+    const refusalError = await catchRefusalError(readTable(tableText));
     assert.match(refusalError.message, expectedMessage);
     const [[what, answer]] = Object.entries(options);
     assert.equal(refusalError.ask?.what, what);
@@ -242,7 +242,7 @@ const REFUSED_TABLES = [
 
 for (const [name, contents, expectedMessage, options] of REFUSED_TABLES) {
   test(`refuses ${name}`, async () => {
-    const refusalError = await refusalErrorOf(readTable(contents, options));
+    const refusalError = await catchRefusalError(readTable(contents, options));
     assert.match(refusalError.message, expectedMessage);
     assert.match(refusalError.message, /; [a-z].+\.$/);
     assert.match(refusalError.sentence(german), /^run\.csv(, Zeile \d+)?: .+; .+\.$/);
@@ -253,12 +253,12 @@ test('more rows than those of a day at 100 Hz are refused', async () => {
   const rows = Object.assign(new Rows({ file: 'run.csv' }), { count: 1e7 - 1 });
   const addRow = async () => rows.add(0, 0, 0, 0, 0, 1);
   await addRow();
-  assert.equal(await refusalSentenceOf(addRow()), 'run.csv: there are more rows; expected are at most 10000000.');
+  assert.equal(await catchRefusalSentence(addRow()), 'run.csv: there are more rows; expected are at most 10000000.');
 });
 
 test('a file that has been moved is refused', async () => {
   const movedFile = { name: `${'n'.repeat(50)}.csv`, size: 5, slice: () => ({ arrayBuffer: () => Promise.reject(new DOMException('', 'NotFoundError')) }) };
-  assert.equal(await refusalSentenceOf(openRecordings([/** @type {any} */ (movedFile)])), `${'n'.repeat(40)}…: the file cannot be read (NotFoundError); expected is one that exists and may be read.`);
+  assert.equal(await catchRefusalSentence(openRecordings([/** @type {any} */ (movedFile)])), `${'n'.repeat(40)}…: the file cannot be read (NotFoundError); expected is one that exists and may be read.`);
 });
 
 test('lines across the pieces of a large file are read whole', async () => {

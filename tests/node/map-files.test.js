@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { crc32 } from 'node:zlib';
 import { limits } from '../../build/settings.js';
-import { mapYamlFile, fileWith, simulationWithMap, refusalMessageOf } from './map-support.js';
+import { mapYamlFile, fileWith, simulationWithMap, catchRefusalMessage } from './map-support.js';
 
 const PGM = fileWith('map.pgm', 'P5 2 1 255\n\x00\x7f');
 /** PNG image of the same two pixels. */
@@ -16,7 +16,7 @@ const MAX_REFUSAL_MS = 1000;
 /** Expects that a description is refused at once, for a reason. @param {string} yaml @param {string} reason */
 async function assertRefusedAtOnce(yaml, reason) {
   const startTime = performance.now();
-  const message = await refusalMessageOf([fileWith('map.yaml', yaml), PGM]);
+  const message = await catchRefusalMessage([fileWith('map.yaml', yaml), PGM]);
   const durationMs = performance.now() - startTime;
   assert.match(message, new RegExp(`^map\\.yaml, line \\d+: (${reason}); expected is one field a line, as in resolution: 0\\.05\\.$`));
   assert.ok(durationMs < MAX_REFUSAL_MS, `${yaml.slice(0, 40)} took ${durationMs} ms`);
@@ -53,17 +53,17 @@ test('files that are not one map, or a plan that is not JSON, are refused with w
   const planFile = fileWith('plan.json', '{"bounds": [0, 0, 1, 1], "walls": []}');
   for (const files of [[yamlFile, PGM, planFile], [PGM], [yamlFile, PGM, fileWith('notes.txt', '')]]) {
     const fileNames = files.map(({ name }) => name).join(', ');
-    assert.equal(await refusalMessageOf(files), `${fileNames}: expected is one .json floor plan, or one .yaml file together with its .pgm or .png image.`);
+    assert.equal(await catchRefusalMessage(files), `${fileNames}: expected is one .json floor plan, or one .yaml file together with its .pgm or .png image.`);
   }
-  assert.match(await refusalMessageOf([fileWith('plan.json', '{"bounds": [0, 0, 1, 1], "walls": [],}')]), /^plan\.json: .+; expected is \{"bounds"/);
+  assert.match(await catchRefusalMessage([fileWith('plan.json', '{"bounds": [0, 0, 1, 1], "walls": [],}')]), /^plan\.json: .+; expected is \{"bounds"/);
 });
 
 test('a description is read as leniently as map_server reads it', async () => {
-  const expected = await simulationWithMap(mapYamlFile({ image: 'map.pgm', origin: '[-1, 2, 0]', mode: 'trinary', negate: 1 }), PGM);
+  const expectedSimulation = await simulationWithMap(mapYamlFile({ image: 'map.pgm', origin: '[-1, 2, 0]', mode: 'trinary', negate: 1 }), PGM);
   for (const yaml of [
     'image: map.pgm\r\nresolution: "0.05"\r\norigin: ["-1.0", \'2\', 0]\r\nnegate: "1"\r\nmode: Trinary\r\n',
     'image:\tmap.pgm\nresolution:\t0.05\t\norigin:\t[-1,\t2,\t0]\n\tnegate: Yes\nmode:\tTRINARY\n',
-  ]) assert.deepEqual((await simulationWithMap(fileWith('map.yaml', yaml), PGM)).grid, expected.grid, yaml);
+  ]) assert.deepEqual((await simulationWithMap(fileWith('map.yaml', yaml), PGM)).grid, expectedSimulation.grid, yaml);
 });
 
 test('a PNG image may have any extension', async () => {
@@ -75,7 +75,7 @@ test('a value of any kind or length is refused by a sentence that can be read', 
   const longText = 'x'.repeat(9e4);
   for (const yamlValue of [`"${longText}"`, `[${'[1], '.repeat(1e4)}]`, '{a: {b: [c]}}', 'null', 'true', '.nan', '1e999', '""']) {
     for (const fieldName of ['image', 'resolution', 'origin', 'negate', 'mode', 'occupied_thresh', 'free_thresh']) {
-      const message = await refusalMessageOf([mapYamlFile({ image: 'map.pgm', [fieldName]: yamlValue }), PGM]);
+      const message = await catchRefusalMessage([mapYamlFile({ image: 'map.pgm', [fieldName]: yamlValue }), PGM]);
       const isAccepted = fieldName === 'negate' && yamlValue === 'true';
       assert.match(message, isAccepted ? /^$/ : new RegExp(`^map\\.yaml: ${fieldName}(\\[0\\])? .+; (allowed|expected) (is|are) .+\\.$`), `${fieldName}: ${yamlValue.slice(0, 30)}`);
       assert.ok(message.length < 400, `${fieldName}: ${yamlValue.slice(0, 30)}: ${message.length} characters`);
@@ -89,16 +89,16 @@ test('the size of a file is checked before the file is read', async () => {
     Object.defineProperty(largeFile, 'size', { value: maxBytes + 1 });
     largeFile.arrayBuffer = () => assert.fail(`${name} is read.`);
     const files = name === 'map.pgm' ? [mapYamlFile({ image: name }), largeFile] : [largeFile];
-    assert.equal(await refusalMessageOf(files), `${name}: the file has ${maxBytes + 1} bytes; expected are at most ${maxBytes}.`);
+    assert.equal(await catchRefusalMessage(files), `${name}: the file has ${maxBytes + 1} bytes; expected are at most ${maxBytes}.`);
   }
 });
 
 test('a damaged or too large PNG image is refused by a sentence', async () => {
-  const message = await refusalMessageOf([mapYamlFile(), fileWith('map.png', PNG_BYTES.subarray(0, 50))]);
+  const message = await catchRefusalMessage([mapYamlFile(), fileWith('map.png', PNG_BYTES.subarray(0, 50))]);
   assert.match(message, /^map\.png: the PNG image is damaged or cut short before byte \d+ of 50; allowed is a complete one\.$/);
   const largeImage = Buffer.from(PNG_BYTES);
   largeImage.fill(Buffer.of(0, 1, 0x86, 0xa0), 16, 24);
   // The checksum of the header follows its type and its data.
   largeImage.writeUInt32BE(crc32(largeImage.subarray(12, 29)), 29);
-  assert.equal(await refusalMessageOf([mapYamlFile(), fileWith('map.png', largeImage)]), 'map.png: image has 100000 × 100000 pixels; allowed are at most 33554432.');
+  assert.equal(await catchRefusalMessage([mapYamlFile(), fileWith('map.png', largeImage)]), 'map.png: image has 100000 × 100000 pixels; allowed are at most 33554432.');
 });

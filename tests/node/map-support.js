@@ -25,7 +25,7 @@ export async function simulationWithMap(...files) {
   return simulation;
 }
 
-/** Simulation to which the maps of `refusalMessageOf` are applied, one after the other. */
+/** Simulation to which the maps of `catchRefusalMessage` are applied, one after the other. */
 const trialSimulation = new motion.MapSqueeze({ samples: 1 });
 
 /**
@@ -34,7 +34,7 @@ const trialSimulation = new motion.MapSqueeze({ samples: 1 });
  * @param {File[]} files
  * @param {'en' | 'de'} [language]
  */
-export async function refusalMessageOf(files, language = 'en') {
+export async function catchRefusalMessage(files, language = 'en') {
   try {
     (await readMapFiles(files, decodePng)).apply(trialSimulation);
   } catch (error) {

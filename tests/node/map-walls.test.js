@@ -5,17 +5,17 @@ import { test } from 'node:test';
 import { wallContact, wallGrips, wallsAfterMove } from '../../www/widgets/map-squeeze/walls.ts';
 
 /** Room of 6 m × 4 m with a wall at x = 3 that has a doorway, and a wall that ends at its lower part. */
-const BOUNDS = Float64Array.of(0, 0, 6, 4);
+const ROOM_BOUNDS = Float64Array.of(0, 0, 6, 4);
 const OUTER_WALLS = [0, 0, 6, 0, 6, 0, 6, 4, 6, 4, 0, 4, 0, 4, 0, 0];
 const WALLS = Float64Array.of(...OUTER_WALLS, 3, 0, 3, 1.5, 3, 2.5, 3, 4, 0, 1, 3, 1);
 /** Index in WALLS of the part of the wall below the doorway. */
 const LOWER_WALL_INDEX = OUTER_WALLS.length;
 
 /** Returns the grip of a part of a wall. @param {string} part @param {number} [wall] index in WALLS */
-const gripOf = (part, wall = LOWER_WALL_INDEX) => wallGrips({ bounds: BOUNDS, walls: WALLS }).find((grip) => grip?.part === part && grip.wall === wall);
+const gripOf = (part, wall = LOWER_WALL_INDEX) => wallGrips({ bounds: ROOM_BOUNDS, walls: WALLS }).find((grip) => grip?.part === part && grip.wall === wall);
 
 test('free ends and inner walls have grips, the shell and ends at other walls have none', () => {
-  const grips = wallGrips({ bounds: BOUNDS, walls: WALLS });
+  const grips = wallGrips({ bounds: ROOM_BOUNDS, walls: WALLS });
   assert.equal(grips.length, (3 * WALLS.length) / 4);
   const gripNames = grips.filter((grip) => grip !== undefined).map(({ part, wall }) => `${part} ${(wall - LOWER_WALL_INDEX) / 4}`);
   assert.deepEqual(gripNames, ['to 0', 'side 0', 'from 1', 'side 1', 'side 2']);

@@ -32,7 +32,7 @@ async function renderModel({ state, inBook }) {
   const throwMissing = (/** @type {string} */ name) => {
     throw new Error(`${name} not implemented yet.`);
   };
-  const model = {
+  const widgetModel = {
     get: (/** @type {string} */ name) => state[name],
     set(/** @type {string} */ name, /** @type {unknown} */ value) {
       log.push([name, value]);
@@ -47,8 +47,8 @@ async function renderModel({ state, inBook }) {
   const el = inBook ? cellElement.attachShadow({ mode: 'open' }).appendChild(document.createElement('div')) : cellElement;
   const moduleAddress = '/anywidget.js';
   const { default: anywidgetModule } = await import(moduleAddress);
-  const end = anywidgetModule.render({ model, el });
-  Object.assign(globalThis, { view: { model, state, log, el, end, listeners } });
+  const end = anywidgetModule.render({ model: widgetModel, el });
+  Object.assign(globalThis, { view: { model: widgetModel, state, log, el, end, listeners } });
 }
 
 /** Waits until the figure of a page has all its samples. @param {import('@playwright/test').Page} page */
@@ -71,7 +71,7 @@ const waitForFrames = (page) =>
  * @param {string[]} names
  * @returns {Promise<{ traits: Record<string, unknown>, figure: Record<string, unknown> }>}
  */
-const traitsAndPropertiesOf = (page, names) =>
+const readTraitsAndProperties = (page, names) =>
   page.evaluate((traitNames) => {
     const { el, state } = /** @type {any} */ (globalThis).view;
     const pickTraits = (/** @type {any} */ object) => Object.fromEntries(traitNames.map((name) => [name, object[name]]));
@@ -81,9 +81,9 @@ const traitsAndPropertiesOf = (page, names) =>
 /** Sets traits of the model and clears its log. @param {import('@playwright/test').Page} page @param {Record<string, unknown>} changes */
 const setTraits = async (page, changes) => {
   await page.evaluate((newValues) => {
-    const { model, log } = /** @type {any} */ (globalThis).view;
+    const { model: widgetModel, log } = /** @type {any} */ (globalThis).view;
     log.length = 0;
-    for (const [name, value] of Object.entries(newValues)) model.set(name, value);
+    for (const [name, value] of Object.entries(newValues)) widgetModel.set(name, value);
   }, changes);
   await waitForFrames(page);
 };
@@ -95,14 +95,14 @@ test('traits become what the figure shows, by whichever of their names, and thos
   const state = { ...KERNEL_TRAITS, widget: 'banana-machine', omega: 0.8, samples: '2000', reverse_aware: true, 'heading-level': 3, v: null, alphas: null, preset: null, lang: 'de' };
   const page = await openPageShowing(state, 'notebook');
   await untilComplete(page);
-  const { figure, traits } = await traitsAndPropertiesOf(page, ['omega', 'samples', 'reverseAware', 'headingLevel', 'v', 'preset', 'alphas', 'lang']);
+  const { figure, traits } = await readTraitsAndProperties(page, ['omega', 'samples', 'reverseAware', 'headingLevel', 'v', 'preset', 'alphas', 'lang']);
   assert.deepEqual(figure, { omega: 0.8, samples: 2000, reverseAware: true, headingLevel: '3', v: 1, preset: null, alphas: [0.002, 0.002, 0.1, 0.1, 0.002, 0.002], lang: 'de' });
   assert.equal(traits.v, 1);
   assert.equal(traits.samples, 2000);
   assert.deepEqual(traits.alphas, figure.alphas);
   await page.getByRole('button', { name: 'Neu würfeln' }).waitFor();
   await setTraits(page, { lang: null, omega: null });
-  assert.deepEqual((await traitsAndPropertiesOf(page, ['omega', 'lang'])).figure, { omega: 0, lang: '' });
+  assert.deepEqual((await readTraitsAndProperties(page, ['omega', 'lang'])).figure, { omega: 0, lang: '' });
   await page.getByRole('button', { name: 'New seed' }).waitFor();
 });
 
@@ -110,9 +110,9 @@ test('a trait with the underscore of a Python keyword sets the property of that 
   const startPose = { x: 1, y: 2, theta: 0.5 };
   const page = await openPageShowing({ ...KERNEL_TRAITS, widget: 'odometry-decomposer', from_: startPose }, 'notebook');
   await page.locator('canvas').first().waitFor();
-  assert.deepEqual((await traitsAndPropertiesOf(page, ['from'])).figure, { from: startPose });
+  assert.deepEqual((await readTraitsAndProperties(page, ['from'])).figure, { from: startPose });
   await setTraits(page, { from_: null });
-  const { figure, traits } = await traitsAndPropertiesOf(page, ['from', 'from_']);
+  const { figure, traits } = await readTraitsAndProperties(page, ['from', 'from_']);
   assert.notDeepEqual(figure.from, startPose);
   assert.deepEqual(traits.from_, figure.from);
 });
@@ -121,10 +121,10 @@ test('a change of the model reaches the figure, what follows of it the model, an
   const page = await openPageShowing({ ...KERNEL_TRAITS, widget: 'banana-machine', samples: 100, preset: null, omega: null, v: null, dt: null, command: null, isolate: null }, 'notebook');
   await untilComplete(page);
   await setTraits(page, { _asked: 1, preset: 'hard' });
-  const { traits, figure } = await traitsAndPropertiesOf(page, ['preset', 'v', 'omega', 'dt', 'command']);
+  const { traits, figure } = await readTraitsAndProperties(page, ['preset', 'v', 'omega', 'dt', 'command']);
   assert.deepEqual(figure, { preset: 'hard', v: 1, omega: 1.2, dt: 1.4, command: { v: 1, omega: 1.2, dt: 1.4 } });
   assert.deepEqual(traits, figure);
-  const { traits: { _shown } } = await traitsAndPropertiesOf(page, ['_shown']);
+  const { traits: { _shown } } = await readTraitsAndProperties(page, ['_shown']);
   assert.deepEqual(_shown, { heard: 1, settings: { ...traits, samples: 100, isolate: null } });
 
   // A kernel may send several changes at once. Then no earlier value is sent back.
@@ -134,7 +134,7 @@ test('a change of the model reaches the figure, what follows of it the model, an
     for (const name of ['omega', 'v']) for (const listener of listeners.get(`change:${name}`)) listener();
   });
   await waitForFrames(page);
-  const valuesAfterChanges = await traitsAndPropertiesOf(page, ['preset', 'v', 'omega']);
+  const valuesAfterChanges = await readTraitsAndProperties(page, ['preset', 'v', 'omega']);
   assert.deepEqual(valuesAfterChanges.figure, { preset: null, v: 0.5, omega: 0.2 });
   assert.deepEqual(valuesAfterChanges.traits, valuesAfterChanges.figure);
 
@@ -146,20 +146,20 @@ test('a change of the model reaches the figure, what follows of it the model, an
 test('what is refused is said by the trait error, and the trait has the last good value again', async () => {
   const page = await openPageShowing({ ...KERNEL_TRAITS, widget: 'banana-machine', samples: 100, alphas: null }, 'notebook');
   await untilComplete(page);
-  const { traits: { alphas } } = await traitsAndPropertiesOf(page, ['alphas']);
+  const { traits: { alphas } } = await readTraitsAndProperties(page, ['alphas']);
   await setTraits(page, { alphas: [1, 2, 3] });
-  const { traits } = await traitsAndPropertiesOf(page, ['alphas', 'error']);
+  const { traits } = await readTraitsAndProperties(page, ['alphas', 'error']);
   assert.match(String(traits.error), /^alphas .*allowed/);
   assert.deepEqual(traits.alphas, alphas);
   await setTraits(page, { samples: 200 });
-  assert.deepEqual((await traitsAndPropertiesOf(page, ['samples', 'error'])).traits, { samples: 200, error: '' });
+  assert.deepEqual((await readTraitsAndProperties(page, ['samples', 'error'])).traits, { samples: 200, error: '' });
 });
 
 test('in a book whose models keep nothing the figure is as live, and what is taken away leaves nothing @nightly', async () => {
   for (const hostKind of /** @type {const} */ (['book', 'notebook'])) {
     const page = await openPageShowing({ widget: 'map-squeeze', preset: 'corridor', samples: '300', view: 'whole' }, hostKind);
     await untilComplete(page);
-    const { figure, traits } = await traitsAndPropertiesOf(page, ['preset', 'samples', 'view']);
+    const { figure, traits } = await readTraitsAndProperties(page, ['preset', 'samples', 'view']);
     assert.deepEqual(figure, { preset: 'corridor', samples: 300, view: 'whole' });
     await page.getByRole('slider', { name: /noise level/ }).focus();
     await page.keyboard.press('ArrowRight');

@@ -163,7 +163,7 @@ test('custom-elements.json says what the elements have', async () => {
       await customElements.whenDefined(tag);
       await element.settled;
       const { shadowRoot, constructor } = element;
-      for (const fold of shadowRoot.querySelectorAll('details')) fold.open = true;
+      for (const disclosure of shadowRoot.querySelectorAll('details')) disclosure.open = true;
       // Contents are rendered after the browser's `toggle` event.
       while (shadowRoot.querySelector('details[open] > .folded:empty')) await new Promise(requestAnimationFrame);
       // This button of Map Squeeze adds a table.
@@ -283,6 +283,6 @@ test('where the file of a module cannot be had, the embedded one is used, and a 
 
 test('an address that has no module is refused with the cure @nightly', async () => {
   const { page } = await openWithoutModules('');
-  const loadPromise = page.evaluate(async (address) => (await import(address)).load('/none.wasm'), `${DIST_PATH}external.js`);
+  const loadPromise = page.evaluate(async (importAddress) => (await import(importAddress)).load('/none.wasm'), `${DIST_PATH}external.js`);
   await assert.rejects(loadPromise, (/** @type {Error} */ { message }) => message.includes('/none.wasm answers with text/html') && message.includes(LOAD_ADVICE));
 });

@@ -20,16 +20,16 @@ test('a frame that takes the height of its widget', async () => {
   const { page } = await openWithCloud(project, `${project.address}iframe/`);
   const readHeights = () =>
     page.evaluate(() => {
-      const frame = /** @type {HTMLIFrameElement} */ (document.querySelector('iframe'));
-      const innerRoot = /** @type {Document} */ (frame.contentDocument).documentElement;
-      return { frameHeight: frame.clientHeight, contentHeight: innerRoot.scrollHeight, scrolls: innerRoot.scrollHeight > innerRoot.clientHeight };
+      const iframeElement = /** @type {HTMLIFrameElement} */ (document.querySelector('iframe'));
+      const innerRoot = /** @type {Document} */ (iframeElement.contentDocument).documentElement;
+      return { frameHeight: iframeElement.clientHeight, contentHeight: innerRoot.scrollHeight, scrolls: innerRoot.scrollHeight > innerRoot.clientHeight };
     });
   for (const width of [1100, 420]) {
     await page.setViewportSize({ width, height: 800 });
     await page.waitForFunction(() => {
-      const frame = /** @type {HTMLIFrameElement} */ (document.querySelector('iframe'));
-      const innerBody = /** @type {Document} */ (frame.contentDocument).body;
-      return frame.style.height === `${Math.ceil(innerBody.getBoundingClientRect().height)}px`;
+      const iframeElement = /** @type {HTMLIFrameElement} */ (document.querySelector('iframe'));
+      const innerBody = /** @type {Document} */ (iframeElement.contentDocument).body;
+      return iframeElement.style.height === `${Math.ceil(innerBody.getBoundingClientRect().height)}px`;
     });
     const { frameHeight, contentHeight, scrolls } = await readHeights();
     assert.equal(frameHeight, contentHeight);
@@ -90,8 +90,8 @@ for (const [name, writeBundle] of Object.entries(BUNDLERS)) {
     const directory = join(project.directory, directoryName);
     mkdirSync(directory);
     await writeBundle(directory);
-    const script = `<script ${name.endsWith('classic script') ? 'defer' : 'type="module"'} src="main.js"></script>`;
-    writeFileSync(join(directory, 'index.html'), `<!doctype html><link rel="icon" href="data:,">${script}<banana-machine></banana-machine>`);
+    const scriptTag = `<script ${name.endsWith('classic script') ? 'defer' : 'type="module"'} src="main.js"></script>`;
+    writeFileSync(join(directory, 'index.html'), `<!doctype html><link rel="icon" href="data:,">${scriptTag}<banana-machine></banana-machine>`);
     const { requests } = await openWithCloud(project, `${project.address}${directoryName}/`);
     assert.deepEqual(requests.filter((address) => address.includes('.wasm')), []);
   });

@@ -67,7 +67,7 @@ function prepareProject() {
   writeInProject('client.js', CLIENT_SOURCE);
   const pageHtmlOf = (/** @type {string} */ serverHtml) => `<!doctype html><html lang="en"><link rel="icon" href="data:,"><div id="root">${serverHtml}</div><script type="module" src="./bundle.js"></script>`;
   writeInProject('index.html', pageHtmlOf(''));
-  writeInProject('sent.html', pageHtmlOf(serverHtmlOf({ omega: 0.8 })));
+  writeInProject('sent.html', pageHtmlOf(renderServerHtml({ omega: 0.8 })));
   const directory = join(project.directory, 'react');
   // The development build of React reports errors.
   const esbuildDefine = { 'process.env.NODE_ENV': '"development"' };
@@ -80,7 +80,7 @@ function writeInProject(name, contents) {
 }
 
 /** Returns the HTML that a server renders for a figure. @param {object} props of the figure; they may contain NaN */
-function serverHtmlOf(props) {
+function renderServerHtml(props) {
   const propsSource = JSON.stringify(props, (_, value) => (Number.isNaN(value) ? 'NaN' : value)).replaceAll('"NaN"', 'NaN');
   const serverSource = `
     import { createElement } from 'react';
@@ -107,13 +107,13 @@ async function openPage(name) {
 const setProps = (props) => page.evaluate((newProps) => /** @type {any} */ (globalThis).page.setProps(newProps), props);
 
 /** Returns a property of the first figure. @param {string} name */
-const propertyOf = (name) => page.evaluate((key) => /** @type {any} */ (document.querySelector('banana-machine'))[key], name);
+const readProperty = (name) => page.evaluate((key) => /** @type {any} */ (document.querySelector('banana-machine'))[key], name);
 
 /** Returns the events that the page received. @returns {Promise<[name: string, onFigure: boolean, message?: string][]>} */
 const readReceivedEvents = () => page.evaluate(() => /** @type {any} */ (globalThis).receivedEvents);
 
 test('a server sends what attributes say', () => {
-  const serverHtml = serverHtmlOf({ omega: '0.8', overlays: ['command', 'ellipse'], reverseAware: true, headingLevel: '2', share: true, isolate: null });
+  const serverHtml = renderServerHtml({ omega: '0.8', overlays: ['command', 'ellipse'], reverseAware: true, headingLevel: '2', share: true, isolate: null });
   const [openingTag] = serverHtml.match(/<banana-machine[^>]*>/) ?? [];
   const expectedAttributes = { reverseAware: '', omega: '0.8', samples: '2000', overlays: 'command ellipse', share: '', 'heading-level': '2', class: 'wide' };
   const actualAttributes = Object.fromEntries([...(openingTag ?? '').matchAll(/ ([\w-]+)="([^"]*)"/g)].map(([, name, text]) => [name, text]));
@@ -126,8 +126,8 @@ test('what the server has sent is taken over, before its elements are there', as
   await openPage('sent.html');
   await page.evaluate(() => /** @type {any} */ (globalThis).hydrate({ omega: 0.8 }));
   await untilComplete();
-  assert.equal(await propertyOf('omega'), 0.8);
-  assert.deepEqual(await propertyOf('alphas'), [0.1, 0.1, 0.1, 0.1, 0, 0]);
+  assert.equal(await readProperty('omega'), 0.8);
+  assert.deepEqual(await readProperty('alphas'), [0.1, 0.1, 0.1, 0.1, 0, 0]);
   assert.deepEqual((await readReceivedEvents())[0], ['onLoad', true]);
 });
 
@@ -139,7 +139,7 @@ test('renderings keep the user’s changes, and properties and events do not tri
   await page.waitForFunction(() => /** @type {any} */ (globalThis).receivedEvents.some((/** @type {string[]} */ [name]) => name === 'onChange'));
   await setProps({ omega: 0.3 });
   await page.waitForFunction(() => /** @type {any} */ (document.querySelector('banana-machine')).omega === 0.3);
-  assert.notEqual(await propertyOf('v'), 1);
+  assert.notEqual(await readProperty('v'), 1);
   const renderingCount = await page.evaluate(async () => {
     const { page } = /** @type {any} */ (globalThis);
     for (let i = 0; i < 10; i++) await new Promise(requestAnimationFrame);
@@ -154,13 +154,13 @@ test('a refused prop calls onError, and a removed one restores the opening value
   await openPage('index.html');
   await page.evaluate(() => /** @type {any} */ (globalThis).show({ omega: 0.8, marked: 7, conditioned: false }));
   await untilComplete();
-  assert.equal(await propertyOf('marked'), 7);
+  assert.equal(await readProperty('marked'), 7);
   await page.evaluate(() => /** @type {any} */ (globalThis).page.setProps({ omega: NaN, alphas: [1, 2] }));
   await page.waitForFunction(() => /** @type {any} */ (globalThis).receivedEvents.filter((/** @type {string[]} */ [name]) => name === 'onError').length === 2);
-  assert.equal(await propertyOf('omega'), 0.8);
-  assert.deepEqual(await propertyOf('alphas'), [0.1, 0.1, 0.1, 0.1, 0, 0]);
+  assert.equal(await readProperty('omega'), 0.8);
+  assert.deepEqual(await readProperty('alphas'), [0.1, 0.1, 0.1, 0.1, 0, 0]);
   await page.evaluate(() => /** @type {any} */ (globalThis).page.setProps({ alphas: undefined }));
   await page.waitForFunction(() => /** @type {any} */ (document.querySelector('banana-machine')).omega === 0);
-  assert.deepEqual(await propertyOf('alphas'), [0.002, 0.002, 0.1, 0.1, 0.002, 0.002]);
-  assert.equal(await propertyOf('marked'), null);
+  assert.deepEqual(await readProperty('alphas'), [0.002, 0.002, 0.1, 0.1, 0.002, 0.002]);
+  assert.equal(await readProperty('marked'), null);
 });

@@ -29,9 +29,9 @@ function filesOfChunk(source) {
   return filesLoadedWith(chunkEntry[0]);
 }
 
-/** Returns the scripts that a page with some widgets loads before a user uses them. @param {string[]} tags @param {string} core */
-const scriptsOf = (tags, core) =>
-  [...new Set([...filesLoadedWith('dist/external.js'), ...tags.flatMap((tag) => filesOfChunk(`www/widgets/${tag}/${tag}.ts`)), ...filesOfChunk(`build/${core}.js`)])];
+/** Returns the scripts that a page with some widgets loads before a user uses them. @param {string[]} widgetTags @param {string} core */
+const scriptsOf = (widgetTags, core) =>
+  [...new Set([...filesLoadedWith('dist/external.js'), ...widgetTags.flatMap((tag) => filesOfChunk(`www/widgets/${tag}/${tag}.ts`)), ...filesOfChunk(`build/${core}.js`)])];
 
 /** Returns the path of the WebAssembly module of a widget. @param {string} tag */
 function modulePathOf(tag) {
@@ -60,13 +60,13 @@ const LIMITS_KB = {
 const CALIBRATOR_TAG = 'alpha-calibrator';
 
 test('what a page loads does not grow', () => {
-  const tags = Object.keys(settings);
-  for (const tag of tags) {
+  const widgetTags = Object.keys(settings);
+  for (const tag of widgetTags) {
     const [pageLimit, moduleLimit] = tag === CALIBRATOR_TAG ? [LIMITS_KB.pageOfCalibrator, LIMITS_KB.moduleOfCalibrator] : [LIMITS_KB.page, LIMITS_KB.moduleOfWidget];
     assertSize(tag, [...scriptsOf([tag], tag), modulePathOf(tag)], 1000 * pageLimit);
     assertSize(`module of ${tag}`, [modulePathOf(tag)], 1000 * moduleLimit);
   }
-  assertSize('scripts of all widgets', scriptsOf(tags, 'motion'), 125_000);
+  assertSize('scripts of all widgets', scriptsOf(widgetTags, 'motion'), 125_000);
   assertSize('module', ['dist/motion.wasm'], 1000 * LIMITS_KB.module);
   assertSize('module for notebooks', ['dist/anywidget.js'], 1000 * LIMITS_KB.notebook);
   assertSize('classic script', ['dist/motion-widgets.iife.js'], 1000 * LIMITS_KB.classicScript);

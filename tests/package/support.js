@@ -13,7 +13,7 @@ import { after, afterEach, before } from 'node:test';
 import { chromium } from '@playwright/test';
 import { CHROME_ARGUMENTS, findChrome } from '../../scripts/browser.mjs';
 import { ROOT } from '../../scripts/process.mjs';
-import { serve } from '../../scripts/serve.mjs';
+import { startServer } from '../../scripts/serve.mjs';
 import { recordMessages, untilComplete } from '../embeddings/checks.mjs';
 import { packInto } from '../embeddings/project.mjs';
 
@@ -48,14 +48,14 @@ function installPackage(directory) {
  * @param {string} [base] path of the site
  */
 export function serveDirectory(prepare, base) {
-  const site = {
+  const siteServer = {
     address: '',
     browser: /** @type {import('@playwright/test').Browser} */ ({}),
     consoleMessages: /** @type {string[]} */ ([]),
     /** Opens a page. @param {import('@playwright/test').BrowserContextOptions} [options] */
     async openPage(options) {
-      const page = await site.browser.newPage(options);
-      recordMessages(page, site.consoleMessages);
+      const page = await siteServer.browser.newPage(options);
+      recordMessages(page, siteServer.consoleMessages);
       return page;
     },
   };
@@ -63,54 +63,54 @@ export function serveDirectory(prepare, base) {
   before(async () => {
     // The test file must be evaluated before `prepare` is called.
     await null;
-    const { address, close } = await serve(prepare(), { port: 0, base });
+    const { address, close } = await startServer(prepare(), { port: 0, base });
     closeServer = close;
     const browser = await chromium.launch({ executablePath: process.env.CHROME ?? findChrome(), args: CHROME_ARGUMENTS });
-    Object.assign(site, { address, browser });
+    Object.assign(siteServer, { address, browser });
   });
   afterEach(async () => {
     // A page that is closed aborts its requests, which is no fault.
-    const testMessages = [...site.consoleMessages];
-    for (const context of site.browser.contexts()) await context.close();
-    site.consoleMessages = [];
+    const testMessages = [...siteServer.consoleMessages];
+    for (const context of siteServer.browser.contexts()) await context.close();
+    siteServer.consoleMessages = [];
     assert.deepEqual(testMessages, []);
   });
   after(async () => {
     closeServer();
-    await site.browser.close();
+    await siteServer.browser.close();
   });
-  return site;
+  return siteServer;
 }
 
 /** Installs and serves the package for all tests of a file. @param {() => unknown} [prepare] is called after the installation */
 export function serveProject(prepare) {
   const directory = mkdtempSync(join(tmpdir(), 'motion-widgets-'));
   after(() => rmSync(directory, { recursive: true, force: true }));
-  const site = serveDirectory(() => {
+  const siteServer = serveDirectory(() => {
     installPackage(directory);
     prepare?.();
     return directory;
   });
-  return Object.assign(site, { directory });
+  return Object.assign(siteServer, { directory });
 }
 
 /**
  * Opens a page and waits until its figure has all of its samples.
  *
- * @param {ReturnType<typeof serveDirectory>} site
+ * @param {ReturnType<typeof serveDirectory>} siteServer
  * @param {string} address
  */
-export async function openWithCloud(site, address) {
-  const page = await site.openPage();
+export async function openWithCloud(siteServer, address) {
+  const page = await siteServer.openPage();
   /** @type {string[]} */
-  const requests = [];
-  page.on('request', (request) => requests.push(request.url()));
+  const requestedUrls = [];
+  page.on('request', (request) => requestedUrls.push(request.url()));
   await page.goto(address);
   const figureFrame = (await page.locator('iframe').count()) > 0 ? page.frameLocator('iframe') : page;
   const canvas = figureFrame.locator('banana-machine canvas').first();
   await canvas.waitFor({ timeout: 10_000 }).catch((error) => {
-    throw new Error([...site.consoleMessages, error.message].join('\n'));
+    throw new Error([...siteServer.consoleMessages, error.message].join('\n'));
   });
   await figureFrame.locator('banana-machine').first().evaluate(untilComplete);
-  return { page, requests };
+  return { page, requests: requestedUrls };
 }

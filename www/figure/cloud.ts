@@ -189,12 +189,6 @@ export class Cloud extends FigureController {
     this.host.announcer.announceNext();
   }
 
-  play() {
-    this.#control(!this.playing, () => {
-      if (!this.playing && this.isComplete) this.#restart();
-    });
-  }
-
   /** Runs the action of a button of the cloud, and sets `playing`. */
   #control(playing: boolean, action: () => void) {
     if (!this.host.simulation) return;
@@ -206,9 +200,12 @@ export class Cloud extends FigureController {
 
   buttons(seedField: unknown) {
     const cloudWords = words.cloud;
+    const playOrPause = () => this.#control(!this.playing, () => {
+      if (!this.playing && this.isComplete) this.#restart();
+    });
     const [label, otherLabel] = this.playing ? [words.pause, cloudWords.play] : [cloudWords.play, words.pause];
     return html`<div class="buttons">
-      ${button(label, () => this.play(), { title: cloudWords.playTitle, otherLabel })}
+      ${button(label, playOrPause, { title: cloudWords.playTitle, otherLabel })}
       ${button(words.step, () => this.#control(false, () => this.show(this.#latest.shown + this.#batchSize)), { title: cloudWords.step(integer(this.#batchSize)), disabled: this.isComplete })}
       ${button(words.clear, () => this.#control(false, () => this.#restart()), { title: cloudWords.clear })}
       ${seedField} ${button(words.newSeed, () => this.host.gesture.decide(() => ({ seed: this.host.motion.randomSeed() })), { title: cloudWords.reseed })}

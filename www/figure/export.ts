@@ -106,13 +106,6 @@ export function exportButtons(element: Figure, fileNameMark: string | number, cs
 export class CopyMenu extends FigureController {
   #lastCopy: { kind: string, text: string, isCopied?: boolean, note: string } | undefined;
 
-  async #copyText(kind: string, text: string, note: string) {
-    // Frames without permission may not use the clipboard. Pages without HTTPS do not have it.
-    const isCopied = await Promise.resolve(navigator.clipboard?.writeText(text).then(() => true)).catch(() => undefined);
-    this.#lastCopy = { kind, text, isCopied, note };
-    this.host.requestUpdate();
-  }
-
   clearMessage() {
     this.#lastCopy = undefined;
     this.host.requestUpdate();
@@ -120,7 +113,14 @@ export class CopyMenu extends FigureController {
 
   /** Returns a button that copies a text. The message is followed by a note, such as on the parts of the state that the text lacks. */
   button(kind: string, label: string, textOf: () => string | Promise<string>, options: { title?: string, disabled?: boolean }, noteOf: () => string | undefined = () => '') {
-    return button(label, async () => this.#copyText(kind, await textOf(), noteOf() ?? ''), options);
+    const copyText = async () => {
+      const text = await textOf();
+      // Frames without permission may not use the clipboard. Pages without HTTPS do not have it.
+      const isCopied = await Promise.resolve(navigator.clipboard?.writeText(text).then(() => true)).catch(() => undefined);
+      this.#lastCopy = { kind, text, isCopied, note: noteOf() ?? '' };
+      this.host.requestUpdate();
+    };
+    return button(label, copyText, options);
   }
 
   linkButton() {

@@ -174,6 +174,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
 
   refresh() {
     const { simulation } = this;
+    // The simulation is missing after a trap.
     if (!simulation) return;
     useLanguageOf(this);
     this.cloud?.unmark();

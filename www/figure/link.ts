@@ -17,17 +17,15 @@ export class Link extends FigureController {
   #latestWrite = {};
 
   hostConnected() {
-    addEventListener('hashchange', this.#addressChanged, { signal: this.host.connection.signal });
+    addEventListener('hashchange', () => {
+      if (this.#isOwnPart(fragmentParts()[0])) this.#scrollHere();
+      void this.applyAddress();
+    }, { signal: this.host.connection.signal });
     linkedPart ??= isFollowedLink() ? fragmentParts()[0] : '';
     if (!this.#isOwnPart(linkedPart)) return;
     linkedPart = '';
     this.#scrollHere();
   }
-
-  #addressChanged = () => {
-    if (this.#isOwnPart(fragmentParts()[0])) this.#scrollHere();
-    void this.applyAddress();
-  };
 
   #isOwnPart(part = '') {
     return part.startsWith(`${partKeyOf(this.host)}=`);

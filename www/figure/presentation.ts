@@ -18,9 +18,12 @@ export class Presentation extends FigureController {
   #keyListeners: AbortController | undefined;
 
   hostConnected() {
+    const { host } = this;
     this.matchAttribute();
     // The browser ends full screen by its own keys.
-    this.host.addEventListener('fullscreenchange', this.#fullScreenChanged);
+    host.addEventListener('fullscreenchange', () => {
+      if (!host.matches(':fullscreen')) host.presentation = false;
+    }, { signal: host.connection.signal });
   }
 
   hostDisconnected() {
@@ -69,10 +72,6 @@ export class Presentation extends FigureController {
     this.host.popover = null;
     if (this.host.matches(':fullscreen')) await document.exitFullscreen().catch(() => {});
   }
-
-  #fullScreenChanged = () => {
-    if (!this.host.matches(':fullscreen')) this.host.presentation = false;
-  };
 
   #focus(selector: string) {
     (this.host.renderRoot.querySelector(selector) as HTMLElement | null)?.focus();

@@ -30,7 +30,14 @@ export const prefersReducedMotion = () => matchMedia('(prefers-reduced-motion: r
 export class Renderer extends FigureController {
   isVisible = false;
   #isNear = false;
-  #visibleObserver: IntersectionObserver | undefined;
+  /** Visibility of the element and of its content: a sticky picture stays in sight while the page scrolls on, outside of the element's box. */
+  #visibilityOf: Map<Element, boolean> = new Map();
+  #visibleObserver = new IntersectionObserver((entries) => this.#updateVisible(entries));
+  #nearObserver = new IntersectionObserver((entries) => {
+    // A start depends on the visibility, but the order of the observers' callbacks is undefined.
+    this.#updateVisible(this.#visibleObserver.takeRecords());
+    for (const { isIntersecting } of entries) this.#setNear(isIntersecting);
+  }, { rootMargin: NEAR_MARGIN_CSS });
   #hasRenderedText = false;
   /** Pictures to draw, the one that has waited longest first. */
   #undrawn: Set<AnyPicture> = new Set();
@@ -51,7 +58,7 @@ export class Renderer extends FigureController {
     // An element that is removed during print gets no event at its end.
     if (this.isPrinting !== printQuery.matches) this.#print(printQuery.matches);
     onLanguage(this.host, () => this.#languageChanged(), signal);
-    this.#observeVisibility(signal);
+    for (const observer of [this.#visibleObserver, this.#nearObserver]) observer.observe(this.host);
     // The script that defines the element may still call `load(source)`.
     queueMicrotask(() => {
       this.#checkPosition();
@@ -60,35 +67,21 @@ export class Renderer extends FigureController {
   }
 
   hostDisconnected() {
+    for (const observer of [this.#visibleObserver, this.#nearObserver]) observer.disconnect();
+    this.#visibilityOf.clear();
     this.#isNear = false;
-    // A later update must not make the disconnected observer observe again.
-    this.#visibleObserver = undefined;
     this.#setVisible(false);
   }
 
-  #observeVisibility(signal: AbortSignal) {
-    const visibilityOf = new Map<Element, boolean>();
-    const setVisible = (entries: IntersectionObserverEntry[]) => {
-      for (const { target, isIntersecting } of entries) visibilityOf.set(target, isIntersecting);
-      if (entries.length > 0) this.#setVisible([...visibilityOf.values()].includes(true));
-    };
-    const visibleObserver = (this.#visibleObserver = new IntersectionObserver(setVisible));
-    const updateNear = (entries: IntersectionObserverEntry[]) => {
-      // A start depends on the visibility, but the order of the observers' callbacks is undefined.
-      setVisible(visibleObserver.takeRecords());
-      for (const { isIntersecting } of entries) this.#setNear(isIntersecting);
-    };
-    const nearObserver = new IntersectionObserver(updateNear, { rootMargin: NEAR_MARGIN_CSS });
-    for (const observer of [visibleObserver, nearObserver]) {
-      observer.observe(this.host);
-      signal.addEventListener('abort', () => observer.disconnect());
-    }
+  #updateVisible(entries: IntersectionObserverEntry[]) {
+    for (const { target, isIntersecting } of entries) this.#visibilityOf.set(target, isIntersecting);
+    if (entries.length > 0) this.#setVisible([...this.#visibilityOf.values()].includes(true));
   }
 
-  /** Observes the content too. A sticky picture stays in sight while the page scrolls on, outside of the element's box. */
   #observeContent() {
     const content = this.host.shadowRoot?.querySelector('.simulation');
-    if (content) this.#visibleObserver?.observe(content);
+    // An element that was removed may still be updated.
+    if (content && this.host.isConnected) this.#visibleObserver.observe(content);
   }
 
   /** Checks the position of the figure now: the observers report it a frame later. */

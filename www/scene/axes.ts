@@ -17,7 +17,7 @@ const LEGEND_LENGTHS_EM = { gap: 0.8, sample: 1.5, space: 0.35, line: 1.4 };
  * Draws axes with ticks at the left and the bottom, and a faint grid. Above are the name of the vertical axis and a legend. Names have units in
  * brackets. Entries of the legend are in the order of their importance: the last ones are omitted if there is no space.
  */
-export function drawAxes(brush: Brush, names: { x: string, y: string }, legendEntries: LegendEntry[], gridOpacity: number = 0.5) {
+export function drawAxes(brush: Brush, names: { x: string, y: string }, legendEntries: LegendEntry[] = [], gridOpacity: number = 0.5) {
   const { context, view, palette, font } = brush;
   const { left, right, top, bottom } = view.frame;
   const { xMin, xMax, yMin, yMax } = view.extent;

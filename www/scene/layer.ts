@@ -1,10 +1,11 @@
-/** Cached drawing on a hidden canvas, for thousands of lines that change only with the view, the colours, or the data. */
+/** Drawings that are cached on a hidden canvas: thousands of lines, and images that cover the plot area. */
 
 import { addLine, hiddenContext, strokePath, type Brush, type LineStroke } from './canvas.ts';
 import { Memo } from './memo.ts';
 
 export type Painter = Pick<Brush, 'view' | 'palette' | 'ratio' | 'highlight'> & { context: CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D };
 
+/** Drawing of thousands of lines that change only with the view, the colours, or the data. */
 export class Layer {
   #canvas = new OffscreenCanvas(1, 1);
   #drawingMemo: Memo<void> = new Memo();
@@ -35,5 +36,42 @@ export const LINES_PER_STROKE = 500;
 export function strokeInBatches(context: Painter['context'], lines: number[][][], style: LineStroke, linesPerStroke = LINES_PER_STROKE) {
   for (let i = 0; i < lines.length; i += linesPerStroke) {
     strokePath(context, style, () => lines.slice(i, i + linesPerStroke).forEach((points) => addLine(context, points)));
+  }
+}
+
+/** Image of pixels that covers the plot area. */
+export class Pixels {
+  #canvas = new OffscreenCanvas(1, 1);
+  #pixelsMemo: Memo<void> = new Memo();
+
+  /**
+   * Draws the image.
+   *
+   * @param cacheKey values on which the pixels depend; they are cached until one changes
+   * @param pixelsOf returns the pixels, whose first row is at the top
+   */
+  draw({ context, view }: Brush, cacheKey: unknown[], pixelsOf: () => { pixels: Uint8ClampedArray<ArrayBuffer>, columns: number }) {
+    this.#pixelsMemo.get(cacheKey, () => {
+      const { pixels, columns } = pixelsOf();
+      const rows = pixels.length / (4 * columns);
+      Object.assign(this.#canvas, { width: columns, height: rows });
+      hiddenContext(this.#canvas).putImageData(new ImageData(pixels, columns, rows), 0, 0);
+    });
+    const { left, right, top, bottom } = view.frame;
+    context.drawImage(this.#canvas, left, top, right - left, bottom - top);
+  }
+
+  /**
+   * Draws the density of a cloud.
+   *
+   * @param cellSide side in CSS pixels
+   * @param cacheKey values, besides the view, on which the pixels depend
+   * @param pixelsOf returns the simulation's picture of a part of the plane
+   */
+  drawDensity(brush: Brush, cellSide: number, cacheKey: unknown[], pixelsOf: (...view: [xMin: number, yMin: number, xMax: number, yMax: number, columns: number, rows: number]) => Uint8ClampedArray<ArrayBuffer>) {
+    const { left, right, top, bottom } = brush.view.frame;
+    const { xMin, yMin, xMax, yMax } = brush.view.extent;
+    const [columns, rows] = [right - left, bottom - top].map((length) => Math.max(1, Math.round(length / cellSide)));
+    this.draw(brush, [...cacheKey, xMin, yMin, xMax, yMax, columns, rows], () => ({ pixels: pixelsOf(xMin, yMin, xMax, yMax, columns, rows), columns }));
   }
 }

@@ -134,7 +134,8 @@ export class View {
     this.#minFill = 0;
     if (keptTarget && isInside(neededExtent, keptTarget) && this.#fillOf(keptTarget, neededExtent) >= minFill) return;
     this.hasZoomedOut = keptTarget !== undefined && minFill === 0;
-    const paddedExtent = this.#isSnug ? neededExtent : extentWithMargin(neededExtent);
+    const { xMin, xMax, yMin, yMax } = neededExtent;
+    const paddedExtent = this.#isSnug ? neededExtent : widenedExtent(neededExtent, RELATIVE_MARGIN * (xMax - xMin), RELATIVE_MARGIN * (yMax - yMin));
     this.#requiredExtent = keptTarget && this.hasZoomedOut ? extentAround([paddedExtent.xMin, paddedExtent.yMin, paddedExtent.xMax, paddedExtent.yMax], 2, keptTarget) : paddedExtent;
     this.#target = this.#coveringExtent(this.#requiredExtent);
     if (!keptTarget) this.extent = this.#target;
@@ -181,10 +182,13 @@ function clampedMiddle(middle: number, length: number, min: number, max: number)
 const isInside = (inner: Extent, outer: Extent) =>
   inner.xMin >= outer.xMin && inner.xMax <= outer.xMax && inner.yMin >= outer.yMin && inner.yMax <= outer.yMax;
 
-function extentWithMargin({ xMin, xMax, yMin, yMax }: Extent): Extent {
-  const [x, y] = [RELATIVE_MARGIN * (xMax - xMin), RELATIVE_MARGIN * (yMax - yMin)];
-  return { xMin: xMin - x, xMax: xMax + x, yMin: yMin - y, yMax: yMax + y };
-}
+/** Returns an extent with margins at the left and the right, and margins at the bottom and the top. */
+export const widenedExtent = ({ xMin, xMax, yMin, yMax }: Extent, x: number, y: number = x): Extent =>
+  ({ xMin: xMin - x, xMax: xMax + x, yMin: yMin - y, yMax: yMax + y });
+
+/** Returns two opposite corners of a box around a point, as x, y pairs. */
+export const cornersAround = (x: number, y: number, halfWidth: number, halfHeight: number = halfWidth): number[] =>
+  [x - halfWidth, y - halfHeight, x + halfWidth, y + halfHeight];
 
 function roundUpToNiceSize(size: number): number {
   const decade = 10 ** Math.floor(Math.log10(size));
@@ -205,8 +209,8 @@ export function extentAround(numbers: ArrayLike<number>, stride: number, initial
 }
 
 /** Returns the smallest extent that contains points (x, y pairs), with a minimum width and height. */
-export function extentOf(points: number[], minSize: number) {
-  const { xMin, xMax, yMin, yMax } = extentAround(points, 2);
-  const [x, y] = [xMax - xMin, yMax - yMin].map((size) => Math.max(0, minSize - size) / 2);
-  return { xMin: xMin - x, xMax: xMax + x, yMin: yMin - y, yMax: yMax + y };
+export function extentOf(points: number[], minWidth: number, minHeight: number = minWidth) {
+  const extent = extentAround(points, 2);
+  const missingSizeOf = (min: number, max: number, minSize: number) => Math.max(0, minSize - (max - min));
+  return widenedExtent(extent, missingSizeOf(extent.xMin, extent.xMax, minWidth) / 2, missingSizeOf(extent.yMin, extent.yMax, minHeight) / 2);
 }

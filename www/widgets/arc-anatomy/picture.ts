@@ -7,13 +7,12 @@ import { drawOutlines, drawRobot, lineLegendEntries, lineStyles, strokeLines, de
 import { drawLabel } from '../../scene/labels.ts';
 import { Memo } from '../../scene/memo.ts';
 import { Picture } from '../../scene/picture.ts';
-import { Pixels } from '../../scene/pixels.ts';
-import { View, extentAround } from '../../scene/view.ts';
+import { Pixels } from '../../scene/layer.ts';
+import { View, extentAround, widenedExtent } from '../../scene/view.ts';
 import { clamp, fixed } from '../../ui/format.ts';
 import { drawDraggableRobot, drawRobotOutline } from '../shared/robot.ts';
 import { CONTOUR_STYLES, LINE_STYLES, type LineName, type ViewModel } from './settings.ts';
 import type { ArcAnatomy, ArcWithCircle, Pose, AnatomySurface } from '../../types.d.ts';
-import type { Palette } from '../../ui/theme.ts';
 
 export type Scene = ViewModel & { simulation: ArcAnatomy, overlays: LineName[], line: number, underway: Float64Array | undefined };
 
@@ -53,17 +52,15 @@ const CONSTRUCTIONS_BY_LINE: Record<number, string[]> = {
 export class ArcPicture extends Picture<Scene> {
   name = 'plane';
   view: View = new View();
-  #surfaceMemo = new SurfaceLayer();
+  #pixels = new Pixels();
+  #surfaceMemo: Memo<AnatomySurface | null> = new Memo();
 
   fit({ config: { start, next }, stats: { commanded, inverted, lastTurn }, paths, overlays }: Scene) {
-    let box = extentAround([start.x, start.y, next.x, next.y], 2);
-    for (const path of [paths.commanded, paths.inverted, paths.driven]) box = extentAround(path, 2, box);
-    const pathExtent = Math.hypot(box.xMax - box.xMin, box.yMax - box.yMin);
-    for (const { center, radius } of [commanded, inverted]) {
-      if (center && Math.abs(radius) < Math.max(MAX_RADIUS.metres, MAX_RADIUS.pathLengths * pathExtent)) box = extentAround(center, 2, box);
-    }
-    const { xMin, yMin, xMax, yMax } = box;
-    const extentWithMargin = { xMin: xMin - MARGIN_METRES, yMin: yMin - MARGIN_METRES, xMax: xMax + MARGIN_METRES, yMax: yMax + MARGIN_METRES };
+    const points = [start.x, start.y, next.x, next.y, ...paths.commanded, ...paths.inverted, ...paths.driven];
+    const { xMin, yMin, xMax, yMax } = extentAround(points, 2);
+    const maxRadius = Math.max(MAX_RADIUS.metres, MAX_RADIUS.pathLengths * Math.hypot(xMax - xMin, yMax - yMin));
+    for (const { center, radius } of [commanded, inverted]) if (center && Math.abs(radius) < maxRadius) points.push(...center);
+    const extentWithMargin = widenedExtent(extentAround(points, 2), MARGIN_METRES);
     // The view's own margin makes up for the scale that the wedge itself reduces.
     const wedgeRadius = WEDGE_RADIUS / this.view.scaleFor(extentWithMargin);
     const wedgeHeadings = overlays.includes('wedge') ? [next.theta, next.theta - lastTurn] : [];
@@ -77,7 +74,7 @@ export class ArcPicture extends Picture<Scene> {
     const styles = lineStyles(brush, LINE_STYLES);
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, legendEntriesOf(brush, scene));
     clipToPlot(brush, () => {
-      this.#surfaceMemo.draw(brush, scene.simulation, scene.config);
+      this.#drawSurface(brush, scene);
       const { commanded, inverted, driven, lastTurn } = stats;
       if (showsLine('commanded')) {
         drawArcConstruction(brush, start, commanded, { ...styles.commanded, side: -1, angle: `ωΔt = ${fixed(commanded.turn, 2)}`, radius: '' });
@@ -117,6 +114,25 @@ export class ArcPicture extends Picture<Scene> {
       if (showsLine('wedge')) drawLabel(brush, { ...wedgeLabelPlace(brush, next, lastTurn), text: `γ̂Δt = ${fixed(lastTurn, 2)}`, colour: styles.wedge.colour });
     });
   };
+
+  /** Draws the heat map of the likelihood with its contours, if there is one. */
+  #drawSurface(brush: Brush, { simulation, config }: Scene) {
+    const { context, palette, view } = brush;
+    const { xMin, yMin, xMax, yMax } = view.extent;
+    // The configuration is a new object after every change.
+    const surface = this.#surfaceMemo.get([config, xMin, yMin, xMax, yMax], () => simulation.surface(xMin, yMin, xMax, yMax));
+    if (!surface) return;
+    this.#pixels.draw(brush, [surface, palette], () => {
+      const rampColours = new Uint32Array(densityRamp(palette).buffer);
+      // The lowest shade is transparent.
+      rampColours[0] = 0;
+      return { pixels: new Uint8ClampedArray(Uint32Array.from(surface.shades, (shade) => rampColours[shade]).buffer), columns: surface.columns };
+    });
+    for (const name of ['prob', 'density'] as const) {
+      const { role, ...style } = CONTOUR_STYLES[name];
+      paintWithOpacity(context, 0.7, () => strokePath(context, { ...style, colour: palette[role] }, () => surface[name].forEach((line) => addLine(context, view.toPixels(line)))));
+    }
+  }
 }
 
 /** Returns the legend of an exported picture. The last turn is not in it, because it has a label in the picture. */
@@ -223,31 +239,4 @@ function strokeAngle(context: Brush['context'], [x, y]: number[], [fromX, fromY]
   const radius = Math.min(MAX_ANGLE_MARK_RADIUS, 0.4 * Math.hypot(fromX - x, fromY - y));
   // In pixels y points down, so that a turn to the left is negative.
   strokePath(context, style, () => context.arc(x, y, radius, firstAngle, firstAngle - turn, turn > 0));
-}
-
-class SurfaceLayer {
-  #pixels = new Pixels();
-  #surfaceMemo: Memo<AnatomySurface | null> = new Memo();
-  #pixelsMemo: Memo<void> = new Memo();
-
-  /** Draws the surface for `config`, which is a new object after every change. */
-  draw(brush: Brush, simulation: ArcAnatomy, config: import('../../types.d.ts').ArcAnatomySettings) {
-    const { palette, view: { extent: { xMin, yMin, xMax, yMax } } } = brush;
-    const surface = this.#surfaceMemo.get([config, xMin, yMin, xMax, yMax], () => simulation.surface(xMin, yMin, xMax, yMax));
-    if (!surface) return;
-    const { columns, shades, prob, density } = surface;
-    this.#pixelsMemo.get([surface, palette], () => this.#pixels.setPixels(colouredPixels(shades, palette), columns));
-    this.#pixels.draw(brush);
-    const strokeContours = (lines: Float64Array[], { role, width, dash }: typeof CONTOUR_STYLES.prob | typeof CONTOUR_STYLES.density) =>
-      paintWithOpacity(brush.context, 0.7, () => strokePath(brush.context, { colour: palette[role], width, dash }, () => lines.forEach((line) => addLine(brush.context, brush.view.toPixels(line)))));
-    strokeContours(prob, CONTOUR_STYLES.prob);
-    strokeContours(density, CONTOUR_STYLES.density);
-  }
-}
-
-function colouredPixels(shades: Uint8Array, palette: Palette) {
-  const rampColours = new Uint32Array(densityRamp(palette).buffer);
-  // The lowest shade is transparent.
-  rampColours[0] = 0;
-  return new Uint8ClampedArray(Uint32Array.from(shades, (shade) => rampColours[shade]).buffer);
 }

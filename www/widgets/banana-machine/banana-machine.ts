@@ -18,7 +18,7 @@ import { Player } from '../shared/player.ts';
 import { presetButtons } from '../shared/presets.ts';
 import { subscriptOf } from '../shared/sliders.ts';
 import { IntroducedCloud } from './introduction.ts';
-import { MORPH_MS, lineMorphOf, morphControl, outlinesAt, morphedPoint } from './morph.ts';
+import { MORPH_MS, morphControl, outlinesAt, morphedPoint } from './morph.ts';
 import { PlanePicture, TwistPicture } from './pictures.ts';
 import { markedRobotField, otherReadouts, mainReadouts, twistTable, workedExampleTable, calloutsOf, captionOf, floorTitle, planeText, twistCaption, twistText } from './readouts.ts';
 import { sliderSpecs, LINE_STYLES, OVERLAY_NAMES, definition, COMMAND_SLIDERS, SAMPLE_COUNTS, viewModelOf, viewModelOfSettings, type ViewModel } from './settings.ts';
@@ -27,42 +27,6 @@ import type { BananaMachine as Simulation, BananaMachineSettings as Settings, In
 
 /** Displacement of the end of the arc per press of an arrow key, metres. */
 const KEY_STEP = 0.02;
-
-class ArcHandle extends Handle {
-  constructor(figure: BananaMachineElement) {
-    super('end', {
-      view: () => figure.pictures[0].view,
-      drag: (x, y) => figure.moveArcEnd(x, y),
-      key: (event) => {
-        const keySteps = stepsOfKey(event);
-        if (!keySteps || !figure.simulation) return false;
-        const [x, y] = figure.visibleArcEnd;
-        // The straight arc reaches furthest.
-        const maxX = sliderSpecs.v.max * figure.settings.requested.command.dt;
-        figure.moveArcEnd(clamp(x + KEY_STEP * keySteps[0], -maxX, maxX), y + KEY_STEP * keySteps[1]);
-        return true;
-      },
-      commit: () => figure.gesture.commit(),
-    });
-  }
-
-  /** Renders the handle, with a hint to drag it if the introduction asks for that. */
-  render({ v, omega }: import('../../types.d.ts').Command, isAsking: boolean) {
-    const texts = words.banana;
-    const { min, max } = sliderSpecs.omega;
-    const isAtLimit = [v - sliderSpecs.v.min, sliderSpecs.v.max - v, omega - min, max - omega].some((margin) => margin <= 0);
-    return this.handleHtml({
-      name: texts.handle,
-      keys: texts.handleKeys,
-      title: words.pose.moveTitle,
-      range: [min, max],
-      now: omega,
-      text: `v = ${fixed(v, 2)} m/s, ω = ${fixed(omega, 2)} rad/s`,
-      stop: isAtLimit && texts.slidersEnd,
-      hint: isAsking && texts.handleHint,
-    });
-  }
-}
 
 /** Columns of the executed command in a table. */
 const EXECUTED_COLUMNS = {
@@ -229,7 +193,21 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
   #planePicture = new PlanePicture();
   #twistPicture = new TwistPicture();
   pictures = [this.#planePicture, this.#twistPicture];
-  #handle = new ArcHandle(this);
+  /** Ring at the end of the commanded arc. */
+  #handle = new Handle('end', {
+    view: () => this.#planePicture.view,
+    drag: (x, y) => this.#moveArcEnd(x, y),
+    key: (event) => {
+      const keySteps = stepsOfKey(event);
+      if (!keySteps || !this.simulation) return false;
+      const [x, y] = this.visibleArcEnd;
+      // The straight arc reaches furthest.
+      const maxX = sliderSpecs.v.max * this.settings.requested.command.dt;
+      this.#moveArcEnd(clamp(x + KEY_STEP * keySteps[0], -maxX, maxX), y + KEY_STEP * keySteps[1]);
+      return true;
+    },
+    commit: () => this.gesture.commit(),
+  });
 
   #pinnedViewModelMemo: Memo<ViewModel> = new Memo();
 
@@ -266,14 +244,13 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
       overlays: overlayVisibility,
       marked: this.#inspection,
       morph,
-      outlinesOf: (otherViewModel: ViewModel) => outlinesAt(motion, otherViewModel, morph),
+      outlinesOf: (otherViewModel: ViewModel, otherMorph: number) => outlinesAt(motion, otherViewModel, otherMorph),
       callouts,
       pinned,
       /** Returns the points of the pinned outlines that are shown, at a morph. */
       pinnedAt: (otherMorph: number) =>
         pinned ? Object.entries(outlinesAt(motion, pinned, otherMorph)).flatMap(([name, line]) => (overlayVisibility[name] ? [...line] : [])) : [],
       driving: this.cloud.driving,
-      morphedEllipse: morph > 0 ? lineMorphOf(motion, viewModel, 1)(viewModel.contours.ellipse) : viewModel.contours.ellipse,
     };
   }
 
@@ -354,11 +331,28 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
    * Sets the command to an arc that ends at a point of the view's world, within the range of the sliders. Of several arcs it takes the one
    * nearest to the current arc.
    */
-  moveArcEnd(x: number, y: number) {
+  #moveArcEnd(x: number, y: number) {
     this.settings.request(({ command }) => {
       const { v, omega } = this.motion.commandReaching(x, y, command, this.state.elementState.morph);
       const clampToSlider = (value: number, { min, max }: { min: number, max: number }) => clamp(value, min, max);
       return { command: { ...command, v: clampToSlider(v, sliderSpecs.v), omega: clampToSlider(omega, sliderSpecs.omega) } };
+    });
+  }
+
+  /** Renders the handle, with a hint to drag it if the introduction asks for that. */
+  #handleHtml({ v, omega }: Settings['command']) {
+    const texts = words.banana;
+    const { min, max } = sliderSpecs.omega;
+    const isAtLimit = [v - sliderSpecs.v.min, sliderSpecs.v.max - v, omega - min, max - omega].some((margin) => margin <= 0);
+    return this.#handle.handleHtml({
+      name: texts.handle,
+      keys: texts.handleKeys,
+      title: words.pose.moveTitle,
+      range: [min, max],
+      now: omega,
+      text: `v = ${fixed(v, 2)} m/s, ω = ${fixed(omega, 2)} rad/s`,
+      stop: isAtLimit && texts.slidersEnd,
+      hint: this.cloud.isAsking && texts.handleHint,
     });
   }
 
@@ -379,7 +373,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     return html`
       <div class="views">
         ${titledPicture(this.#title, html`<div class="stage" part="picture">
-          ${pictureCanvas(this, this.#planePicture, this.#description)} ${this.#handle.render(config.command, this.cloud.isAsking)}
+          ${pictureCanvas(this, this.#planePicture, this.#description)} ${this.#handleHtml(config.command)}
         </div>`)}
         ${titledPicture(texts.twist, html`<div class="stage">${pictureCanvas(this, this.#twistPicture, twistText(viewModel))}</div>`, 'twist')}
       </div>

@@ -31,30 +31,21 @@ export function morphedPoint({ 0: along, 1: lateral, 2: heading }: ArrayLike<num
   return [ahead * cos - sideways * sin, ahead * sin + sideways * cos + morph * heading];
 }
 
-/** Returns the function that transforms a line of points on the floor by a morph. */
-export const lineMorphOf = (motion: Motion, { config: { command } }: ViewModel, morph: number) => (line: Float64Array) =>
-  morph === 0 ? line : motion.unbendLine(line, command.omega * command.dt, morph);
-
 /** Returns the outlines after a morph. The outlines on the floor are transformed point by point; the exponential one is computed anew. */
 export function outlinesAt(motion: Motion, viewModel: ViewModel, morph: number): Outlines {
-  const { contours, stats } = viewModel;
+  const { config: { command: { v, omega, dt } }, contours, stats } = viewModel;
   if (morph === 0) return contours;
-  const morphLine = lineMorphOf(motion, viewModel, morph);
+  const morphLine = (line: Float64Array) => motion.unbendLine(line, omega * dt, morph);
+  const chordCount = contours.command.length / 2 - 1;
+  const pointAtChord = (i: number) => morphedPoint([(i / chordCount) * v * dt, 0, (i / chordCount) * omega * dt], morph);
   const { mean, cov } = stats.exponential;
   return {
-    command: commandedArcAt(viewModel, morph),
+    command: Float64Array.from(Array.from({ length: chordCount + 1 }, (_, i) => pointAtChord(i)).flat()),
     ellipse: morphLine(contours.ellipse),
     linearized: morphLine(contours.linearized),
     additive: morphLine(contours.additive),
     exponential: contours.exponential.length > 0 ? motion.unbendGaussian(Float64Array.from([...mean, ...cov.flat()]), morph) : contours.exponential,
   };
-}
-
-/** Returns the commanded arc at a morph. */
-function commandedArcAt({ config: { command: { v, omega, dt } }, contours }: ViewModel, morph: number) {
-  const chordCount = contours.command.length / 2 - 1;
-  const pointAtChord = (i: number) => morphedPoint([(i / chordCount) * v * dt, 0, (i / chordCount) * omega * dt], morph);
-  return Float64Array.from(Array.from({ length: chordCount + 1 }, (_, i) => pointAtChord(i)).flat());
 }
 
 /**

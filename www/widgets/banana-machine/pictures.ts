@@ -3,13 +3,13 @@
 import { quantile } from 'd3-array';
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
-import { drawCallouts, type Callout } from '../../scene/callout.ts';
+import { drawCallouts } from '../../scene/callout.ts';
 import { densityRamp, drawDots, drawEarlierOutlines, drawHandle, drawCoincidentRobots, drawMark, drawOutline, drawOutlines, drawRobot, hasLength, lineLegendEntries, lineStyles } from '../../scene/draw.ts';
 import { drawLabel } from '../../scene/labels.ts';
 import { Memo } from '../../scene/memo.ts';
 import { Picture } from '../../scene/picture.ts';
-import { Density } from '../../scene/pixels.ts';
-import { View, extentOf } from '../../scene/view.ts';
+import { Pixels } from '../../scene/layer.ts';
+import { cornersAround, extentOf } from '../../scene/view.ts';
 import { integer } from '../../ui/format.ts';
 import { drawMorphGrid, MorphView, morphedPoint, type Outlines } from './morph.ts';
 import { deviationOf, type ViewModel, LINE_STYLES, type LineName } from './settings.ts';
@@ -37,38 +37,106 @@ const HANDLE_RADIUS = 7.5;
 /** Maximum distance from the pointer to the robot that a click selects, CSS pixels. */
 const PICK_RADIUS = 14;
 
-class CloudPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
-  #density = new Density();
-  #dotPositions: Memo<Float64Array> = new Memo();
+/** Orders of the outlines: of painting and of the legend. */
+const PAINT_ORDER = ['additive', 'linearized', 'ellipse', 'exponential', 'command'] as const satisfies LineName[];
+const LEGEND_ORDER = ['ellipse', 'exponential', 'linearized', 'additive', 'command'] as const satisfies LineName[];
 
-  /** Morph of the picture: 0 for the floor (x, y), 1 for exponential coordinates. */
-  get morph(): number {
-    return this.name === 'plane' ? 0 : 1;
-  }
+/** Picture of the robots at a morph, from the floor (0) to exponential coordinates (1). */
+class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
+  view: MorphView = new MorphView({ left: 46, right: 10 });
+  /** Outlines that may be drawn. */
+  outlineNames: readonly LineName[] = PAINT_ORDER;
+  #density = new Pixels();
+  #dotPositions: Memo<Float64Array> = new Memo();
 
   /** Returns the robot nearest to a point in CSS pixels; −1 for none. */
   nearest(simulation: BananaMachine, x: number, y: number) {
     const { view } = this;
-    return simulation.nearest(this.morph, ...view.toWorld(x, y), PICK_RADIUS / view.scaleX, PICK_RADIUS / view.scaleY);
+    return simulation.nearest(view.morph, ...view.toWorld(x, y), PICK_RADIUS / view.scaleX, PICK_RADIUS / view.scaleY);
   }
 
   /** Returns the positions of the robots that are drawn as dots, with their headings scaled down by the morph. */
-  dotPositions({ simulation, stats }: Scene): Float64Array {
-    const { morph } = this;
+  #dotPositionsOf({ simulation, stats }: Scene): Float64Array {
+    const { morph } = this.view;
     return this.#dotPositions.get([stats, morph], () => (morph === 0 ? simulation.firstPoses(MAX_DOTS) : morphedPoses(simulation.firstTwists(MAX_DOTS), morph)));
   }
 
-  /** Draws the robots. `area` is the area that they cover, in square pixels. */
-  paintCloud(brush: Brush, scene: Scene, area: number) {
-    const { morph } = this;
-    const { palette } = brush;
-    const { simulation, shown, stats } = scene;
+  paint: Picture<Scene>['paint'] = (brush, scene) => {
+    const { context, view, palette } = brush;
+    const { simulation, overlays, marked, pinned } = scene;
+    const { morph, endViews: [floor, twist] } = this.view;
+    const isPlane = this.name === 'plane';
+    const outlines = scene.outlinesOf(scene, morph);
+    const styles = lineStyles(brush, LINE_STYLES);
+    const isDrawn = (name: LineName) => overlays[name] && hasLength(outlines[name]);
+    const legendEntries = lineLegendEntries(brush, LINE_STYLES, LEGEND_ORDER.filter(isDrawn), words.banana.overlays);
+    // One pair of axes fades out before the other fades in.
+    const axesOfEndViews = [
+      { view: floor, opacity: 1 - 2 * morph, names: { x: 'x (m)', y: 'y (m)' } },
+      { view: twist, opacity: 2 * morph - 1, names: { x: words.banana.axisAlong, y: words.banana.axisHeading } },
+    ];
+    for (const { view: axesView, opacity, names } of axesOfEndViews) {
+      // While the grid of exponential coordinates is curved, `drawMorphGrid` draws it.
+      const gridOpacity = axesView === twist && morph < 1 ? 0 : undefined;
+      if (opacity > 0) paintWithOpacity(context, Math.min(1, opacity), () => drawAxes({ ...brush, view: axesView }, names, legendEntries, gridOpacity));
+    }
+    const cloudMiddle = morphedPoint(twistMoments(scene)[0].mean, morph);
+    const outlinesInStyle = (outlinePoints: Outlines) => this.outlineNames.filter(isDrawn).map((name) => ({ points: outlinePoints[name], ...styles[name] }));
+    // The outlines of the pinned simulation, or of the one before the latest change, stay in the picture.
+    const earlierViewModel: ViewModel | undefined = pinned ?? brush.previousViewModel;
+    const earlierOutlines = earlierViewModel ? outlinesInStyle(scene.outlinesOf(earlierViewModel, morph)) : [];
+    const callouts = isPlane ? [...scene.callouts] : [];
+    clipToPlot(brush, () => {
+      if (morph > 0 && morph < 1) drawMorphGrid(brush, twist, morph);
+      if (scene.driving) {
+        if (isPlane) drawDrivingRobots(brush, simulation, scene.driving);
+        return;
+      }
+      const isSinglePoint = this.#isSinglePoint(scene);
+      if (!isSinglePoint) this.#paintCloud(brush, scene);
+      if (isPlane) drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
+      callouts.push(...drawEarlierOutlines(brush, earlierOutlines, isPlane ? [cloudMiddle, [0, 0]] : [cloudMiddle], pinned ? words.banana.pinned : words.before));
+      drawOutlines(brush, outlinesInStyle(outlines));
+      const [endX, endY] = outlines.command.slice(-2);
+      if (isPlane) {
+        if (overlays.command && scene.reading && morph === 0) drawOdometryReading(brush, scene.reading, scene.end);
+        if (isSinglePoint && scene.shown > 0) drawCoincidentRobots(brush, robotsAtPoint(this.#dotPositionsOf(scene), scene.shown));
+        drawHandle(brush, { x: view.toPixelX(endX), y: view.toPixelY(endY), radius: HANDLE_RADIUS, colour: palette.prior });
+      } else if (overlays.command) {
+        drawDisc(context, view.toPixel(endX, endY), 5, palette.paper, { ...styles.command, dash: [] });
+      }
+      if (marked) {
+        if (morph === 0) drawOutline(brush, marked.path, { colour: palette.accent, width: 1.25, dash: [6, 2] });
+        const [x, y] = morphedPoint(marked.twist, morph);
+        drawMark(brush, { x, y, heading: morph < 1 ? (1 - morph) * marked.pose[2] : null });
+      }
+    });
+    const calloutLines = isPlane ? [outlines.command, outlines.ellipse, outlines.exponential] : [outlines.exponential, Float64Array.of(...cloudMiddle)];
+    drawCallouts(brush, callouts, { shapeCentre: cloudMiddle, lines: [...calloutLines, ...earlierOutlines.map(({ points }) => points)] });
+  };
+
+  /** Returns true if the robots on the floor are drawn as one point. */
+  #isSinglePoint({ table: { exact: { cov } } }: Scene) {
+    return this.view.morph === 0 && deviationOf(cov[0][0] + cov[1][1]) * this.view.scaleX < MIN_CLOUD_DEVIATION;
+  }
+
+  /** Draws the robots as dots or, if there are many, as a density. */
+  #paintCloud(brush: Brush, scene: Scene) {
+    const { view: { morph, scaleX, scaleY } } = this;
+    const { simulation, shown, stats, table: { exact: { cov } } } = scene;
     if (shown <= MAX_DOTS) {
       // Ticks for headings shrink during the morph: exponential coordinates show the turn as an axis.
-      drawDots(brush, this.dotPositions(scene), { x: 0, y: 1, heading: morph < 1 ? 2 : null, ahead: 1 - morph });
+      drawDots(brush, this.#dotPositionsOf(scene), { x: 0, y: 1, heading: morph < 1 ? 2 : null, ahead: 1 - morph });
       return;
     }
-    this.#density.draw(brush, densityCellSize(area, shown), [stats, morph, palette], (...part) => simulation.picture(morph, ...part, densityRamp(palette)));
+    // Products of the standard deviations along the axes of the cloud, at both ends of the morph.
+    const floorProduct = Math.sqrt(Math.max(0, cov[0][0] * cov[1][1] - cov[0][1] * cov[1][0]));
+    const [{ cov: twistCov }] = twistMoments(scene);
+    const twistProduct = deviationOf(twistCov[0][0]) * deviationOf(twistCov[2][2]);
+    const area = 4 * Math.PI * ((1 - morph) * floorProduct + morph * twistProduct) * scaleX * scaleY;
+    // Many robots allow small cells, CSS pixels.
+    const cellSize = Math.min(7, Math.max(2, Math.round(Math.sqrt((3 * area) / shown))));
+    this.#density.drawDensity(brush, cellSize, [stats, morph, brush.palette], (...part) => simulation.picture(morph, ...part, densityRamp(brush.palette)));
   }
 }
 
@@ -81,26 +149,9 @@ function morphedPoses(twists: Float64Array, morph: number) {
   return poses;
 }
 
-/** Returns the size of the density's cells in CSS pixels, for a cloud with an area in square pixels. Many robots allow small cells. */
-function densityCellSize(area: number, count: number) {
-  return Math.min(7, Math.max(2, Math.round(Math.sqrt((3 * area) / count))));
-}
-
-/** Orders of the outlines: of painting and of the legend. */
-const PAINT_ORDER = ['additive', 'linearized', 'ellipse', 'exponential', 'command'] as const satisfies LineName[];
-const LEGEND_ORDER = ['ellipse', 'exponential', 'linearized', 'additive', 'command'] as const satisfies LineName[];
-
-/** Insets of the views, CSS pixels. */
-const VIEW_INSETS = { left: 46, right: 10 };
-
-/** Picture of the floor from above, which a morph transforms to exponential coordinates. */
-export class PlanePicture extends CloudPicture {
+/** Picture of the floor from above, which the user morphs to exponential coordinates. */
+export class PlanePicture extends MorphPicture {
   name = 'plane' as const;
-  view: MorphView = new MorphView(VIEW_INSETS);
-
-  get morph() {
-    return this.view.morph;
-  }
 
   draw(...[surface, scene, ...drawOptions]: Parameters<Picture<Scene>['draw']>) {
     this.view.morph = scene.morph;
@@ -108,81 +159,35 @@ export class PlanePicture extends CloudPicture {
   }
 
   fit(scene: Scene) {
-    this.#fitFloor(scene);
-    if (scene.morph > 0) this.view.fitEnd(extentOf([...neededTwistPoints(scene), ...(scene.overlays.ellipse ? scene.morphedEllipse : []), ...scene.pinnedAt(1)], 0.1), 1);
-  }
-
-  #fitFloor({ contours, table, end, overlays, pinnedAt }: Scene) {
+    const { contours, table, end: [x, y], overlays, pinnedAt } = scene;
     const { mean, cov } = table.exact;
-    const [sx, sy] = [SHOWN_DEVIATIONS * deviationOf(cov[0][0]), SHOWN_DEVIATIONS * deviationOf(cov[1][1])];
-    const points = [mean[0] - sx, mean[1] - sy, mean[0] + sx, mean[1] + sy, ...contours.command, ...pinnedAt(0)];
+    const [xMargin, yMargin] = [SHOWN_DEVIATIONS * deviationOf(cov[0][0]), SHOWN_DEVIATIONS * deviationOf(cov[1][1])];
+    const points = [...cornersAround(mean[0], mean[1], xMargin, yMargin), ...contours.command, ...pinnedAt(0)];
     // The additive outline may be much larger than the cloud, and counts only if it is shown.
     if (overlays.additive) points.push(...contours.additive);
     const floorExtent = extentOf(points, 0.4);
     // Space for a fan of headings around the end, which may be all that is visible.
     const fanMargin = 0.2 * (floorExtent.xMax - floorExtent.xMin);
-    const [x, y] = end;
-    this.view.fitEnd(extentOf([...points, x - fanMargin, y - fanMargin, x + fanMargin, y + fanMargin], 0.4), 0);
+    this.view.fitEnd(extentOf([...points, ...cornersAround(x, y, fanMargin)], 0.4), 0);
+    if (scene.morph === 0) return;
+    this.view.fitEnd(extentOf([...neededTwistPoints(scene), ...(overlays.ellipse ? scene.outlinesOf(scene, 1).ellipse : []), ...pinnedAt(1)], 0.1), 1);
   }
-
-  paint: Picture<Scene>['paint'] = (brush, scene) => {
-    const { context, view, palette } = brush;
-    const { simulation, overlays, table, marked, end, morph } = scene;
-    const outlines = scene.outlinesOf(scene);
-    const styles = lineStyles(brush, LINE_STYLES);
-    const isDrawn = (name: LineName) => overlays[name] && hasLength(outlines[name]);
-    const legendEntries = lineLegendEntries(brush, LINE_STYLES, LEGEND_ORDER.filter(isDrawn), words.banana.overlays);
-    // One pair of axes fades out before the other fades in.
-    const [floor, twist] = this.view.endViews;
-    const axesOfEndViews = [
-      { view: floor, opacity: 1 - 2 * morph, names: { x: 'x (m)', y: 'y (m)' } },
-      { view: twist, opacity: 2 * morph - 1, names: { x: words.banana.axisAlong, y: words.banana.axisHeading } },
-    ];
-    for (const { view: axesView, opacity, names } of axesOfEndViews) {
-      // While the grid of exponential coordinates is curved, `drawMorphGrid` draws it.
-      const gridOpacity = axesView === twist && morph < 1 ? 0 : undefined;
-      if (opacity > 0) paintWithOpacity(context, Math.min(1, opacity), () => drawAxes({ ...brush, view: axesView }, names, legendEntries, gridOpacity));
-    }
-    const cloudMiddle = morphedMiddle(scene, morph);
-    const outlinesInStyle = (outlinePoints: Outlines) => PAINT_ORDER.filter(isDrawn).map((name) => ({ points: outlinePoints[name], ...styles[name] }));
-    const earlierViewModel = earlierViewModelOf(brush, scene);
-    const earlierOutlines = earlierViewModel ? outlinesInStyle(scene.outlinesOf(earlierViewModel)) : [];
-    const callouts = [...scene.callouts];
-    clipToPlot(brush, () => {
-      if (morph > 0 && morph < 1) drawMorphGrid(brush, twist, morph);
-      if (scene.driving) {
-        drawDrivingRobots(brush, simulation, scene.driving);
-        return;
-      }
-      const { cov } = table.exact;
-      const isSinglePoint = morph === 0 && deviationOf(cov[0][0] + cov[1][1]) * view.scaleX < MIN_CLOUD_DEVIATION;
-      if (!isSinglePoint) {
-        const determinant = Math.max(0, cov[0][0] * cov[1][1] - cov[0][1] * cov[1][0]);
-        const cloudArea = Math.sqrt(determinant) + morph * (deviationProduct(scene) - Math.sqrt(determinant));
-        this.paintCloud(brush, scene, 4 * Math.PI * cloudArea * view.scaleX * view.scaleY);
-      }
-      drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
-      callouts.push(...drawEarlierOutlines(brush, earlierOutlines, [cloudMiddle, [0, 0]], earlierOutlinesName(scene)));
-      drawOutlines(brush, outlinesInStyle(outlines));
-      if (overlays.command && scene.reading && morph === 0) drawOdometryReading(brush, scene.reading, end);
-      if (isSinglePoint && scene.shown > 0) drawCoincidentRobots(brush, robotsAtPoint(this.dotPositions(scene), scene.shown));
-      const [endX, endY] = outlines.command.slice(-2);
-      drawHandle(brush, { x: view.toPixelX(endX), y: view.toPixelY(endY), radius: HANDLE_RADIUS, colour: palette.prior });
-      if (marked) {
-        const { pose, twist: markedTwist, path } = marked;
-        if (morph === 0) drawOutline(brush, path, { colour: palette.accent, width: 1.25, dash: [6, 2] });
-        const [x, y] = morph === 0 ? pose : morphedPoint(markedTwist, morph);
-        drawMark(brush, { x, y, heading: morph < 1 ? (1 - morph) * pose[2] : null });
-      }
-    });
-    drawCallouts(brush, callouts, { shapeCentre: cloudMiddle, lines: [outlines.command, outlines.ellipse, outlines.exponential, ...earlierOutlines.map(({ points }) => points)] });
-  };
 }
 
-/** Returns the view model of the simulation whose outlines stay in the picture: the pinned one, or the one before the latest change. */
-const earlierViewModelOf = ({ previousViewModel }: Brush, { pinned }: Scene): ViewModel | undefined => pinned ?? previousViewModel;
+/** Picture of the same robots in exponential coordinates, with only the Gaussian in these. */
+export class TwistPicture extends MorphPicture {
+  name = 'twist' as const;
+  outlineNames = ['exponential'] as const;
 
-const earlierOutlinesName = ({ pinned }: Scene) => (pinned ? words.banana.pinned : words.before);
+  constructor() {
+    super();
+    this.view.morph = 1;
+  }
+
+  fit(scene: Scene) {
+    this.view.fitEnd(extentOf([...neededTwistPoints(scene), ...(scene.pinned?.contours.twistEllipse ?? [])], 0.1), 1);
+  }
+}
 
 function drawDrivingRobots(brush: Brush, simulation: BananaMachine, { robots, share }: { robots: number, share: number }) {
   const { palette } = brush;
@@ -253,9 +258,6 @@ function twistMoments({ config, stats, table }: Scene): Moments[] {
   return [{ mean: [v * dt, 0, omega * dt], cov: [[alongVariance, 0, 0], [0, 0, 0], [0, 0, cov[2][2]]] }];
 }
 
-/** Returns the middle of the cloud at a morph. */
-const morphedMiddle = (scene: Scene, morph: number) => morphedPoint(twistMoments(scene)[0].mean, morph);
-
 /** Quantiles of the samples that limit a view if their moments are undefined. Tails may then be kilometres long. */
 const VIEW_QUANTILES = [0.025, 0.975];
 
@@ -269,49 +271,7 @@ function neededTwistPoints(scene: Scene) {
     for (const share of VIEW_QUANTILES) points.push(quantile(along, share)!, quantile(heading, share)!);
   }
   for (const { mean, cov } of twistMoments(scene)) {
-    const [along, heading] = [SHOWN_DEVIATIONS * deviationOf(cov[0][0]), SHOWN_DEVIATIONS * deviationOf(cov[2][2])];
-    points.push(mean[0] - along, mean[2] - heading, mean[0] + along, mean[2] + heading);
+    points.push(...cornersAround(mean[0], mean[2], SHOWN_DEVIATIONS * deviationOf(cov[0][0]), SHOWN_DEVIATIONS * deviationOf(cov[2][2])));
   }
   return points;
-}
-
-/** Returns the product of the standard deviations of ξ along and ξ heading, the axes of the picture. */
-function deviationProduct(scene: Scene) {
-  const [{ cov }] = twistMoments(scene);
-  return deviationOf(cov[0][0]) * deviationOf(cov[2][2]);
-}
-
-/** Picture of the same robots in exponential coordinates. */
-export class TwistPicture extends CloudPicture {
-  name = 'twist' as const;
-  view: View = new View({ ...VIEW_INSETS, equal: false });
-
-  fit(scene: Scene) {
-    this.view.fit(extentOf([...neededTwistPoints(scene), ...(scene.pinned?.contours.twistEllipse ?? [])], 0.1));
-  }
-
-  paint: Picture<Scene>['paint'] = (brush, scene) => {
-    const { context, view, palette } = brush;
-    const { config, contours, overlays, marked } = scene;
-    const { exponential, command } = lineStyles(brush, LINE_STYLES);
-    const showsOutline = overlays.exponential && hasLength(contours.twistEllipse);
-    drawAxes(brush, { x: words.banana.axisAlong, y: words.banana.axisHeading }, lineLegendEntries(brush, LINE_STYLES, showsOutline ? ['exponential'] : [], words.banana.overlays));
-    const twistMiddle = morphedMiddle(scene, 1);
-    const earlierViewModel = earlierViewModelOf(brush, scene);
-    const callouts: Callout[] = [];
-    clipToPlot(brush, () => {
-      if (scene.driving) return;
-      this.paintCloud(brush, scene, 4 * Math.PI * deviationProduct(scene) * view.scaleX * view.scaleY);
-      if (overlays.exponential) {
-        if (earlierViewModel) callouts.push(...drawEarlierOutlines(brush, [{ points: earlierViewModel.contours.twistEllipse, ...exponential }], [twistMiddle], earlierOutlinesName(scene)));
-        drawOutline(brush, contours.twistEllipse, exponential);
-      }
-      if (overlays.command) {
-        const { v, omega, dt } = config.command;
-        drawDisc(context, view.toPixel(v * dt, omega * dt), 5, palette.paper, { ...command, dash: [] });
-      }
-      if (marked) drawMark(brush, { x: marked.twist[0], y: marked.twist[2], heading: null });
-    });
-    drawCallouts(brush, callouts, { shapeCentre: twistMiddle, lines: [contours.twistEllipse, Float64Array.of(...twistMiddle), ...(earlierViewModel ? [earlierViewModel.contours.twistEllipse] : [])] });
-  };
 }

@@ -5,7 +5,7 @@ import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { drawCallouts, type Callout } from '../../scene/callout.ts';
 import { drawDots, drawEarlierOutlines, drawMark, drawOutlines, drawRobot, lineLegendEntries, lineStyles, strokeLines } from '../../scene/draw.ts';
 import { Picture, SamplesPicture } from '../../scene/picture.ts';
-import { View, extentAround, extentOf } from '../../scene/view.ts';
+import { View, cornersAround, extentAround, extentOf } from '../../scene/view.ts';
 import { formatSignificant } from '../../ui/format.ts';
 import { OUTLINE_STYLES } from './settings.ts';
 import { drawDisc, paintWithOpacity, type Brush } from '../../scene/canvas.ts';
@@ -18,6 +18,10 @@ const SHOWN_DEVIATIONS = 3.2;
 
 /** Dots of the clouds at milestones: maximum number, radius in CSS pixels, and opacity. */
 const MILESTONE_DOTS = { max: 200, radius: 1.3, alpha: 0.4 };
+
+/** Minimum width (m) of the view of a step, and minimum height relative to the width. */
+const MIN_STEP_WIDTH = 1e-6;
+const MIN_STEP_ASPECT = 1e-3;
 
 /** Radius of the mark at the commanded end, CSS pixels. */
 const END_MARK_RADIUS = 4;
@@ -82,19 +86,16 @@ export class StepPicture extends Picture<Scene> {
   fit({ outlines: { predicted }, stats: { measured: { mean, cov } } }: Scene) {
     const points = [0, 0, ...predicted];
     const [along, lateral] = [0, 1].map((axis) => SHOWN_DEVIATIONS * Math.sqrt(cov[axis][axis]));
-    if (along + lateral > 0) points.push(mean[0] - along, mean[1] - lateral, mean[0] + along, mean[1] + lateral);
-    const neededExtent = extentAround(points, 2);
-    // Minimum heights and widths of the box keep both scales finite. The height is at least a thousandth of the width.
-    const minHeight = Math.max(1e-6, 1e-3 * (neededExtent.xMax - neededExtent.xMin));
-    const addedHeight = Math.max(0, minHeight - (neededExtent.yMax - neededExtent.yMin)) / 2;
-    const addedWidth = Math.max(0, 1e-6 - (neededExtent.xMax - neededExtent.xMin)) / 2;
-    this.view.fit({ xMin: neededExtent.xMin - addedWidth, xMax: neededExtent.xMax + addedWidth, yMin: neededExtent.yMin - addedHeight, yMax: neededExtent.yMax + addedHeight });
+    if (along + lateral > 0) points.push(...cornersAround(mean[0], mean[1], along, lateral));
+    const { xMin, xMax } = extentAround(points, 2);
+    // The minimum width and height keep both scales finite.
+    this.view.fit(extentOf(points, MIN_STEP_WIDTH, Math.max(MIN_STEP_WIDTH, MIN_STEP_ASPECT * (xMax - xMin))));
   }
 
   paint: Picture<Scene>['paint'] = (brush, { outlines: { predicted, measured }, overlays, twists }) => {
     const styles = lineStyles(brush, OUTLINE_STYLES);
     const shownNames = (['exponential', 'measured'] as ('exponential' | 'measured')[]).filter((name) => overlays.includes(name));
-    drawAxes(brush, axisNamesOf(this.view), lineLegendEntries(brush, OUTLINE_STYLES, shownNames, words.reckoning.overlays));
+    drawAxes(brush, axisNamesOf(this.view));
     const points = { exponential: predicted, measured };
     const callouts: Callout[] = [];
     clipToPlot(brush, () => {

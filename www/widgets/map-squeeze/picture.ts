@@ -3,11 +3,10 @@
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { densityRamp, drawMark, drawOutline, lineStyles } from '../../scene/draw.ts';
-import { strokeInBatches } from '../../scene/layer.ts';
-import { Density } from '../../scene/pixels.ts';
+import { Pixels, strokeInBatches } from '../../scene/layer.ts';
 import { drawLabel, drawLeader } from '../../scene/labels.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
-import { View, extentAround } from '../../scene/view.ts';
+import { View, cornersAround, extentAround, widenedExtent } from '../../scene/view.ts';
 import { WallLayer, cellCorner, type Cells } from '../../scene/walls.ts';
 import { limits } from '../../../build/settings.js';
 import { clamp } from '../../ui/format.ts';
@@ -66,7 +65,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
   #wallLayer;
   /** Corners of the known part of the map, which may be much smaller than the map. */
   #knownCorners: ArrayLike<number>;
-  #densityImage = new Density();
+  #densityImage = new Pixels();
   #wallPathData = '';
 
   /** Keeps the views of the previous picture if its map has the same bounds. */
@@ -112,9 +111,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
     const driveLength = Math.abs(config.command.v * config.command.dt);
     const halfSize = Math.max(MIN_END_HALF_SIZE, END_HALF_SIZE_FACTOR * driveLength) + config.clearance;
     const [x, y] = commanded.slice(-2);
-    const arcExtent = extentAround(commanded, 2);
-    const pathCorners = [arcExtent.xMin - PATH_MARGIN, arcExtent.yMin - PATH_MARGIN, arcExtent.xMax + PATH_MARGIN, arcExtent.yMax + PATH_MARGIN];
-    const neededExtent = extentAround([...pathCorners, x - halfSize, y - halfSize, x + halfSize, y + halfSize], 2);
+    const neededExtent = extentAround(cornersAround(x, y, halfSize), 2, widenedExtent(extentAround(commanded, 2), PATH_MARGIN));
     this.#nearView.limits = mappedExtent;
     this.#nearView.fit({
       xMin: Math.max(neededExtent.xMin, mappedExtent.xMin),
@@ -129,9 +126,8 @@ export class FloorPicture extends SamplesPicture<Scene> {
     const [xMin, yMin, xMax, yMax] = this.plan.bounds;
     const knownExtent = extentAround(this.#knownCorners, 2, { xMin: x, yMin: y, xMax: x, yMax: y });
     const isInside = knownExtent.xMin < x && x < knownExtent.xMax && knownExtent.yMin < y && y < knownExtent.yMax;
-    const { xMin: left, yMin: bottom, xMax: right, yMax: top } = isInside ? knownExtent : { xMin, yMin, xMax, yMax };
-    const mapMargin = MAP_MARGIN * Math.max(right - left, top - bottom);
-    return { xMin: left - mapMargin, yMin: bottom - mapMargin, xMax: right + mapMargin, yMax: top + mapMargin };
+    const extent = isInside ? knownExtent : { xMin, yMin, xMax, yMax };
+    return widenedExtent(extent, MAP_MARGIN * Math.max(extent.xMax - extent.xMin, extent.yMax - extent.yMin));
   }
 
   paint: SamplesPicture<Scene>['paint'] = (brush, scene) => {
@@ -174,7 +170,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
     const outcomeColours = [['rejected', palette.truth], ['accepted', palette.cloud], ['through', palette.accent]] as const;
     const ramps = outcomeColours.flatMap(([name, cloud]) => [...(overlays.includes(name) ? densityRamp({ ...palette, cloud }) : TRANSPARENT_RAMP)]);
     const cellSize = clamp(DENSITY_CELL.max * Math.sqrt(DENSITY_CELL.samples / stats.attempts) / 2, DENSITY_CELL.min, DENSITY_CELL.max);
-    this.#densityImage.draw(brush, cellSize, [stats, palette, overlays], (...part) => simulation.picture(...part, Uint8Array.from(ramps)));
+    this.#densityImage.drawDensity(brush, cellSize, [stats, palette, overlays], (...part) => simulation.picture(...part, Uint8Array.from(ramps)));
   }
 }
 

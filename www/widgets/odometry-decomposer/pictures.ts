@@ -8,7 +8,7 @@ import { addLine, fillPath, paintWithOpacity, strokePath, drawDisc, strokeLine, 
 import { drawDots, drawMark, drawOutlines, hasLength, lineLegendEntries, lineStyles, strokeLines } from '../../scene/draw.ts';
 import { LABELS_ABOVE, drawLabel, drawLabelsAbove } from '../../scene/labels.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
-import { View, extentOf } from '../../scene/view.ts';
+import { View, cornersAround, extentOf } from '../../scene/view.ts';
 import { fixed } from '../../ui/format.ts';
 import { drawDraggableRobot, drawRobotOutline, turnHandleDistance } from '../shared/robot.ts';
 import { poseAt, LINE_STYLES } from './settings.ts';
@@ -80,8 +80,6 @@ function drawBar({ context, view }: Brush, pose: Pose, deviation: number, colour
   });
 }
 
-type LineName = keyof typeof LINE_STYLES;
-
 /** View model of both pictures, with the names of the lines that are shown. */
 export type Scene = import('./settings.ts').ViewModel & { marked: Float64Array | undefined, overlays: string[] };
 
@@ -117,10 +115,6 @@ const AXIS_NAMES = { x: 'x (m)', y: 'y (m)' };
 /** Length of the axes of the odometry frame, m. It is less than the margin, so that no axis is clipped. */
 const FRAME_AXIS_LENGTH = 0.28;
 
-/** Returns the legend of an exported picture for the lines that are shown. */
-const legendEntriesOf = (brush: Brush, { overlays }: Scene, names: LineName[]) =>
-  lineLegendEntries(brush, LINE_STYLES, names.filter((name) => overlays.includes(name)), words.decomposer.overlays);
-
 /** Returns points around the start and the outcomes, as x, y pairs, that a picture has to show. */
 function neededPoints({ linkage, legs, rules }: Scene): number[] {
   const [{ x, y }, drivenPose] = [poseAt(linkage, 0), poseAt(linkage, 2)];
@@ -129,10 +123,9 @@ function neededPoints({ linkage, legs, rules }: Scene): number[] {
   // No limit is needed here: a rotation moves the end across by at most the length of the drive.
   const acrossMargin = MARGINS.deviations * Math.max(...rules.map(({ crossTrack }) => crossTrack));
   const [absCos, absSin] = [Math.abs(Math.cos(drivenPose.theta)), Math.abs(Math.sin(drivenPose.theta))];
-  const pointMargins = [MARGINS.metres + alongMargin * absCos + acrossMargin * absSin, MARGINS.metres + alongMargin * absSin + acrossMargin * absCos];
   return [
-    ...[x - MARGINS.metres, y - MARGINS.metres, x + MARGINS.metres, y + MARGINS.metres],
-    ...[drivenPose.x - pointMargins[0], drivenPose.y - pointMargins[1], drivenPose.x + pointMargins[0], drivenPose.y + pointMargins[1]],
+    ...cornersAround(x, y, MARGINS.metres),
+    ...cornersAround(drivenPose.x, drivenPose.y, MARGINS.metres + alongMargin * absCos + acrossMargin * absSin, MARGINS.metres + alongMargin * absSin + acrossMargin * absCos),
   ];
 }
 
@@ -201,7 +194,8 @@ export class LegsPicture extends SamplesPicture<Scene> {
     const { palette } = brush;
     const { linkage, legs, deviations, config, overlays } = scene;
     const [startPose, turnedPose, drivenPose] = [0, 1, 2].map((index) => poseAt(linkage, index));
-    drawAxes(brush, AXIS_NAMES, legendEntriesOf(brush, scene, ['legs', 'deviation', 'outcomes']));
+    const legendNames = (['legs', 'deviation', 'outcomes'] as const).filter((name) => overlays.includes(name));
+    drawAxes(brush, AXIS_NAMES, lineLegendEntries(brush, LINE_STYLES, legendNames, words.decomposer.overlays));
     const [firstRadius, secondRadius] = turnRadii(this.view);
     const turns: Turn[] = [[startPose, legs.rot1, firstRadius], [drivenPose, legs.rot2, secondRadius]];
     const styles = lineStyles(brush, LINE_STYLES);
@@ -281,7 +275,7 @@ export class WorldPicture extends SamplesPicture<Scene> {
     const { poses } = scene.drifted;
     const robotCorners = [0, 1, 2].flatMap((index) => {
       const { x, y } = poseAt(poses, index);
-      return [x - MARGINS.metres, y - MARGINS.metres, x + MARGINS.metres, y + MARGINS.metres];
+      return cornersAround(x, y, MARGINS.metres);
     });
     this.view.fit(extentOf([...neededPoints(scene), ...robotCorners], 1.2));
   }
@@ -292,7 +286,7 @@ export class WorldPicture extends SamplesPicture<Scene> {
     const [frame, odometryStart, odometryEnd] = [0, 1, 2].map((index) => poseAt(scene.drifted.poses, index));
     const [startPose, predictedPose] = [poseAt(scene.linkage, 0), poseAt(scene.linkage, 3)];
     const styles = lineStyles(brush, LINE_STYLES);
-    drawAxes(brush, AXIS_NAMES, legendEntriesOf(brush, scene, ['prediction', 'odometry', 'difference']));
+    drawAxes(brush, AXIS_NAMES);
     clipToPlot(brush, () => {
       if (overlays.includes('odometry')) {
         const axisLength = FRAME_AXIS_LENGTH * view.scaleX;

@@ -5,9 +5,8 @@ import { limits } from '../../build/settings.js';
 import { colourChannels } from '../ui/theme.ts';
 import { lineLegendEntry, type LegendEntry } from './axes.ts';
 import { addLine, drawDisc, paintWithOpacity, strokeLine, strokePath, type Brush, type LineStroke } from './canvas.ts';
-import { drawLabel } from './labels.ts';
 import { strokeInBatches } from './layer.ts';
-import type { Callout } from './callout.ts';
+import type { Callout } from './labels.ts';
 import type { Palette } from '../ui/theme.ts';
 
 /**
@@ -17,23 +16,19 @@ import type { Palette } from '../ui/theme.ts';
 const TICKS_PER_STROKE = 25;
 
 /**
- * Draws samples as translucent dots, so that dense regions are darker. `layout` has the indices of x, y and heading in a triple, and the
- * relative length of the heading ticks.
+ * Draws samples (triples of x, y and heading) as translucent dots, so that dense regions are darker. `tickScale` is the relative length of the
+ * heading ticks.
  */
-export function drawDots(brush: Brush, triples: Float64Array, layout: { x: number, y: number, heading: number | null, ahead?: number }) {
+export function drawDots(brush: Brush, triples: Float64Array, tickScale: number = 0) {
   const { context, view, palette } = brush;
-  const dots = Array.from({ length: triples.length / 3 }, (_, i) => view.toPixel(triples[3 * i + layout.x], triples[3 * i + layout.y]));
+  const dots = Array.from({ length: triples.length / 3 }, (_, i) => view.toPixel(triples[3 * i], triples[3 * i + 1]));
   const isSparse = dots.length < 400;
   // Dots are smaller in a small picture, where the robots have less space.
   const dotScale = Math.min(1, Math.max(0.7, view.width / 720));
   const radius = dotScale * (isSparse ? 2.4 : 1.8);
-  const { heading, ahead = 1 } = layout;
-  if (heading !== null) {
-    const tickLength = ahead * dotScale * (isSparse ? 13 : 9);
-    const ticks = dots.map(([x, y], i) => {
-      const direction = view.direction(triples[3 * i + heading]);
-      return [[x, y], [x + tickLength * direction.x, y + tickLength * direction.y]];
-    });
+  if (tickScale > 0) {
+    const tickLength = tickScale * dotScale * (isSparse ? 13 : 9);
+    const ticks = dots.map((_, i) => view.ray({ x: triples[3 * i], y: triples[3 * i + 1], theta: triples[3 * i + 2] }, tickLength));
     paintWithOpacity(context, isSparse ? 0.6 : 0.32, () => strokeInBatches(context, ticks, { colour: palette.cloud, width: 1 }, TICKS_PER_STROKE));
   }
   // Squares with the area of the discs are drawn six times as fast. If they are many and small, they look like discs.
@@ -45,18 +40,6 @@ export function drawDots(brush: Brush, triples: Float64Array, layout: { x: numbe
       else context.fillRect(x - sideLength / 2, y - sideLength / 2, sideLength, sideLength);
     }
   });
-}
-
-/** Draws many robots at the same position as one marker with a ray for each heading. */
-export function drawCoincidentRobots(brush: Brush, { x, y, headings, label }: { x: number, y: number, headings: number[], label: string }) {
-  const { context, view, palette: { prediction: colour } } = brush;
-  const robotPosition = view.toPixel(x, y);
-  paintWithOpacity(context, Math.min(1, 30 / headings.length), () => {
-    for (const theta of headings) strokeLine(context, view.ray({ x, y, theta }, 64), { colour, width: 1 });
-  });
-  // The disc is larger than the handle, which is often at the same position.
-  drawDisc(context, robotPosition, 14, colour);
-  drawLabel(brush, { x: robotPosition[0] + 14, y: robotPosition[1] + 27, towards: 1, text: label, colour });
 }
 
 /**
@@ -157,6 +140,10 @@ export function drawRobot(brush: Brush, { x, y, heading, colour }: { x: number, 
   drawDisc(context, view.toPixel(x, y), 8, palette.paper, { colour, width: 2 });
   strokeLine(context, view.ray({ x, y, theta: heading }, 14), { colour, width: 2 });
 }
+
+/** Adds the arc of a turn (rad) from a heading, about a point and with a radius in pixels, to the path. On the screen y points down. */
+export const addTurn = (context: CanvasRenderingContext2D, [x, y]: number[], radius: number, heading: number, turn: number) =>
+  context.arc(x, y, radius, -heading, -heading - turn, turn > 0);
 
 /** Draws a handle in files and on paper, where it is no element. Lengths are in pixels. */
 export function drawHandle({ context, palette, handles }: Brush, { x, y, radius, colour }: { x: number, y: number, radius: number, colour: string }) {

@@ -146,8 +146,7 @@ export class View {
     const target = this.#target;
     if (!target || target === this.extent) return false;
     const progress = isImmediate ? 1 : 1 - Math.exp(-elapsedMs / EASING_MS);
-    const nextExtent = { ...this.extent };
-    for (const key of Object.keys(nextExtent) as (keyof Extent)[]) nextExtent[key] += progress * (target[key] - nextExtent[key]);
+    const nextExtent = extentBetween(this.extent, target, progress);
     const remainingDistance = (minKey: keyof Extent, maxKey: keyof Extent) => Math.abs(nextExtent[minKey] - target[minKey]) + Math.abs(nextExtent[maxKey] - target[maxKey]);
     const hasArrived = remainingDistance('xMin', 'xMax') * this.scaleX + remainingDistance('yMin', 'yMax') * this.scaleY < 0.5;
     this.extent = hasArrived || isImmediate ? target : nextExtent;
@@ -181,6 +180,12 @@ function clampedMiddle(middle: number, length: number, min: number, max: number)
 
 const isInside = (inner: Extent, outer: Extent) =>
   inner.xMin >= outer.xMin && inner.xMax <= outer.xMax && inner.yMin >= outer.yMin && inner.yMax <= outer.yMax;
+
+/** Returns an interpolation between two extents, from 0 to 1. */
+export function extentBetween(from: Extent, to: Extent, share: number): Extent {
+  const interpolate = (key: keyof Extent) => from[key] + share * (to[key] - from[key]);
+  return { xMin: interpolate('xMin'), yMin: interpolate('yMin'), xMax: interpolate('xMax'), yMax: interpolate('yMax') };
+}
 
 /** Returns an extent with margins at the left and the right, and margins at the bottom and the top. */
 export const widenedExtent = ({ xMin, xMax, yMin, yMax }: Extent, x: number, y: number = x): Extent =>

@@ -11,7 +11,7 @@ import { Memo } from '../../scene/memo.ts';
 import { group, button, radioGroup } from '../../ui/controls.ts';
 import { integer, NO_VALUE, fixed, formatEditable } from '../../ui/format.ts';
 import { readoutList } from '../../ui/readouts.ts';
-import { startOverButton } from '../shared/presets.ts';
+import { startOverButton } from '../shared/controls.ts';
 import { diagnosticsHtml, regressionPanels } from './diagnostics.ts';
 import { LogService, isAbortError } from './log-service.ts';
 import { copyMessage, copyButton, nav2ExportControls } from './nav2.ts';

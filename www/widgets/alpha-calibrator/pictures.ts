@@ -94,7 +94,7 @@ export class LegPicture extends Picture<Scene> {
       return showsLine(name) ? [{ points, ...lineStyle, width: (LEG_LINE_WIDTH / LINE_STYLES[name].width) * lineStyle.width }] : [];
     };
     clipToPlot(brush, () => {
-      if (showsLine('predicted')) drawDots(brush, outcomes, { x: 0, y: 1, heading: null });
+      if (showsLine('predicted')) drawDots(brush, outcomes);
       drawOutlines(brush, [
         ...styledLine('predicted', outline),
         ...styledLine('odometry', Float64Array.of(0, 0, read[0], read[1])),

@@ -3,7 +3,7 @@
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { addLine, drawDisc, fillPath, paintWithOpacity, strokePath, strokeLine, type Brush, type LineStroke } from '../../scene/canvas.ts';
-import { drawOutlines, drawRobot, lineLegendEntries, lineStyles, strokeLines, densityRamp } from '../../scene/draw.ts';
+import { addTurn, drawOutlines, drawRobot, lineLegendEntries, lineStyles, strokeLines, densityRamp } from '../../scene/draw.ts';
 import { drawLabel } from '../../scene/labels.ts';
 import { Memo } from '../../scene/memo.ts';
 import { Picture } from '../../scene/picture.ts';
@@ -189,7 +189,7 @@ function drawWedge({ context, view }: Brush, next: Pose, turn: number, colour: s
   const [x, y] = view.toPixel(next.x, next.y);
   paintWithOpacity(context, 0.32, () => fillPath(context, colour, () => {
     context.moveTo(x, y);
-    context.arc(x, y, WEDGE_RADIUS, turn - next.theta, -next.theta, turn > 0);
+    addTurn(context, [x, y], WEDGE_RADIUS, next.theta - turn, turn);
   }));
   // Edge of the wedge along the heading at the end of the arc.
   strokeLine(context, view.ray({ ...next, theta: next.theta - turn }, WEDGE_RADIUS), { colour, width: 1.25 });
@@ -235,8 +235,6 @@ function drawTableLineConstruction(brush: Brush, { config: { start, next }, stat
 
 /** Strokes an arc about a centre that marks a turn in radians from the direction of a point; both in pixels. */
 function strokeAngle(context: Brush['context'], [x, y]: number[], [fromX, fromY]: number[], turn: number, style: LineStroke) {
-  const firstAngle = Math.atan2(fromY - y, fromX - x);
   const radius = Math.min(MAX_ANGLE_MARK_RADIUS, 0.4 * Math.hypot(fromX - x, fromY - y));
-  // In pixels y points down, so that a turn to the left is negative.
-  strokePath(context, style, () => context.arc(x, y, radius, firstAngle, firstAngle - turn, turn > 0));
+  strokePath(context, style, () => addTurn(context, [x, y], radius, Math.atan2(y - fromY, fromX - x), turn));
 }

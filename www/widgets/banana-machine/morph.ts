@@ -4,7 +4,7 @@ import { ticks } from 'd3-array';
 import { html } from 'lit';
 import { words } from '../../messages/registry.ts';
 import { addLine, paintWithOpacity, strokePath, type Brush } from '../../scene/canvas.ts';
-import { View, type Extent } from '../../scene/view.ts';
+import { View, extentBetween, type Extent } from '../../scene/view.ts';
 import { percent } from '../../ui/format.ts';
 import { track } from '../../ui/slider.ts';
 import type { Motion } from '../../types.d.ts';
@@ -89,9 +89,7 @@ export class MorphView extends View {
 
   ease(elapsed: Parameters<View['ease']>[0], atOnce: Parameters<View['ease']>[1]) {
     const isMoving = this.endViews.map((endView) => endView.ease(elapsed, atOnce)).includes(true);
-    const [floor, twist] = this.endViews.map(({ extent }) => extent);
-    const interpolate = (key: keyof Extent) => floor[key] + this.morph * (twist[key] - floor[key]);
-    this.extent = { xMin: interpolate('xMin'), yMin: interpolate('yMin'), xMax: interpolate('xMax'), yMax: interpolate('yMax') };
+    this.extent = extentBetween(this.endViews[0].extent, this.endViews[1].extent, this.morph);
     return isMoving;
   }
 }

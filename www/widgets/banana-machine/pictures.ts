@@ -3,9 +3,8 @@
 import { quantile } from 'd3-array';
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
-import { drawCallouts } from '../../scene/callout.ts';
-import { densityRamp, drawDots, drawEarlierOutlines, drawHandle, drawCoincidentRobots, drawMark, drawOutline, drawOutlines, drawRobot, hasLength, lineLegendEntries, lineStyles } from '../../scene/draw.ts';
-import { drawLabel } from '../../scene/labels.ts';
+import { drawCallouts, drawLabel } from '../../scene/labels.ts';
+import { addTurn, densityRamp, drawDots, drawEarlierOutlines, drawHandle, drawMark, drawOutline, drawOutlines, drawRobot, hasLength, lineLegendEntries, lineStyles } from '../../scene/draw.ts';
 import { Memo } from '../../scene/memo.ts';
 import { Picture } from '../../scene/picture.ts';
 import { Pixels } from '../../scene/layer.ts';
@@ -14,7 +13,7 @@ import { integer } from '../../ui/format.ts';
 import { drawMorphGrid, MorphView, morphedPoint, type Outlines } from './morph.ts';
 import { deviationOf, type ViewModel, LINE_STYLES, type LineName } from './settings.ts';
 import type { BananaMachine, Moments } from '../../types.d.ts';
-import { addLine, drawDisc, paintWithOpacity, strokePath, type Brush } from '../../scene/canvas.ts';
+import { addLine, drawDisc, paintWithOpacity, strokeLine, strokePath, type Brush } from '../../scene/canvas.ts';
 
 /** View model of both pictures. */
 export type Scene = import('./banana-machine.ts').BananaMachineElement['scene'];
@@ -100,7 +99,7 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
       const [endX, endY] = outlines.command.slice(-2);
       if (isPlane) {
         if (overlays.command && scene.reading && morph === 0) drawOdometryReading(brush, scene.reading, scene.end);
-        if (isSinglePoint && scene.shown > 0) drawCoincidentRobots(brush, robotsAtPoint(this.#dotPositionsOf(scene), scene.shown));
+        if (isSinglePoint && scene.shown > 0) drawCoincidentRobots(brush, this.#dotPositionsOf(scene), scene.shown);
         drawHandle(brush, { x: view.toPixelX(endX), y: view.toPixelY(endY), radius: HANDLE_RADIUS, colour: palette.prior });
       } else if (overlays.command) {
         drawDisc(context, view.toPixel(endX, endY), 5, palette.paper, { ...styles.command, dash: [] });
@@ -126,7 +125,7 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
     const { simulation, shown, stats, table: { exact: { cov } } } = scene;
     if (shown <= MAX_DOTS) {
       // Ticks for headings shrink during the morph: exponential coordinates show the turn as an axis.
-      drawDots(brush, this.#dotPositionsOf(scene), { x: 0, y: 1, heading: morph < 1 ? 2 : null, ahead: 1 - morph });
+      drawDots(brush, this.#dotPositionsOf(scene), 1 - morph);
       return;
     }
     // Products of the standard deviations along the axes of the cloud, at both ends of the morph.
@@ -212,36 +211,42 @@ const TURN_LINE_LENGTH = 38;
 /** Draws the odometry reading of the command: rotation, drive, rotation. The drive ends at x, y in metres. */
 function drawOdometryReading(brush: Brush, { rot1, trans, rot2 }: import('../../types.d.ts').OdomDelta, [x, y]: [number, number]) {
   const { context, view, palette } = brush;
-  const [[fromX, fromY], [toX, toY]] = [view.toPixel(0, 0), view.toPixel(x, y)];
-  const driveDirection = view.direction(rot1);
-  const finalDirection = view.direction(rot1 + rot2);
+  const [start, turned] = [{ x: 0, y: 0, theta: 0 }, { x, y, theta: rot1 }];
+  const [[fromX, fromY], startHeadingEnd] = view.ray(start, TURN_LINE_LENGTH);
+  const [[toX, toY], continuationEnd] = view.ray(turned, TURN_LINE_LENGTH);
   const colour = palette.prior;
   const style = { colour, width: 1.5 };
   strokePath(context, style, () => {
     // The heading at the start, the drive, and its continuation, from which the second rotation starts.
-    addLine(context, [[fromX + TURN_LINE_LENGTH, fromY], [fromX, fromY], [toX, toY], [toX + TURN_LINE_LENGTH * driveDirection.x, toY + TURN_LINE_LENGTH * driveDirection.y]]);
-    addLine(context, [[toX, toY], [toX + TURN_LINE_LENGTH * finalDirection.x, toY + TURN_LINE_LENGTH * finalDirection.y]]);
+    addLine(context, [startHeadingEnd, [fromX, fromY], [toX, toY], continuationEnd]);
+    addLine(context, view.ray({ x, y, theta: rot1 + rot2 }, TURN_LINE_LENGTH));
   });
-  // On the screen y points down.
-  const strokeTurn = (x: number, y: number, firstAngle: number, turn: number) => strokePath(context, style, () => context.arc(x, y, TURN_RADIUS, -firstAngle, -firstAngle - turn, turn > 0));
-  strokeTurn(fromX, fromY, 0, rot1);
-  strokeTurn(toX, toY, rot1, rot2);
-  const labelTurn = (sub: string, atX: number, atY: number, heading: number) => {
-    const labelDirection = view.direction(heading);
-    drawLabel(brush, { x: atX + (TURN_LINE_LENGTH + 6) * labelDirection.x, y: atY + (TURN_LINE_LENGTH + 6) * labelDirection.y, towards: labelDirection.x < 0 ? -1 : 1, symbol: 'δ', sub, colour });
-  };
-  labelTurn('rot1', fromX, fromY, rot1 / 2);
-  labelTurn('rot2', toX, toY, rot1 + rot2 / 2);
+  const turns = [['rot1', start, rot1], ['rot2', turned, rot2]] as const;
+  for (const [, pose, turn] of turns) strokePath(context, style, () => addTurn(context, view.toPixel(pose.x, pose.y), TURN_RADIUS, pose.theta, turn));
+  for (const [sub, pose, turn] of turns) {
+    const middle = { ...pose, theta: pose.theta + turn / 2 };
+    const [labelX, labelY] = view.ray(middle, TURN_LINE_LENGTH + 6)[1];
+    drawLabel(brush, { x: labelX, y: labelY, towards: Math.cos(middle.theta) < 0 ? -1 : 1, symbol: 'δ', sub, colour });
+  }
   if (trans > 0) {
+    const driveDirection = view.direction(rot1);
     const [atX, atY] = [(fromX + toX) / 2 + 10 * driveDirection.y, (fromY + toY) / 2 - 10 * driveDirection.x + 6];
     drawLabel(brush, { x: atX, y: atY, towards: 1, symbol: 'δ', sub: 'trans', colour });
   }
 }
 
-/** Returns the position of a cloud that is drawn as one point, with the headings of the first robots. */
-function robotsAtPoint(poses: Float64Array, shown: number) {
+/** Draws robots at the same position as one marker, with a ray for the heading of each of the first robots. */
+function drawCoincidentRobots(brush: Brush, poses: Float64Array, shown: number) {
+  const { context, view, palette: { prediction: colour } } = brush;
   const headings = [...poses.subarray(0, 3 * MAX_RAYS)].filter((_, i) => i % 3 === 2);
-  return { x: poses[0], y: poses[1], headings, label: words.banana.robotsHere(integer(shown)) };
+  const [x, y] = poses;
+  paintWithOpacity(context, Math.min(1, 30 / headings.length), () => {
+    for (const theta of headings) strokeLine(context, view.ray({ x, y, theta }, 64), { colour, width: 1 });
+  });
+  // The disc is larger than the handle, which is often at the same position.
+  const [pixelX, pixelY] = view.toPixel(x, y);
+  drawDisc(context, [pixelX, pixelY], 14, colour);
+  drawLabel(brush, { x: pixelX + 14, y: pixelY + 27, towards: 1, text: words.banana.robotsHere(integer(shown)), colour });
 }
 
 /**

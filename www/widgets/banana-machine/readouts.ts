@@ -9,7 +9,7 @@ import { figureTable, readoutList } from '../../ui/readouts.ts';
 import { commandText } from '../shared/sliders.ts';
 import { en } from './en.ts';
 import { deviationOf, spreadKind, type ViewModel } from './settings.ts';
-import type { Callout } from '../../scene/callout.ts';
+import type { Callout } from '../../scene/labels.ts';
 import type { Inspection, Moments } from '../../types.d.ts';
 
 addEnglish({ banana: en });

@@ -9,7 +9,7 @@ import { words } from '../../messages/registry.ts';
 import { Memo } from '../../scene/memo.ts';
 import { group } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
-import { presetButtons } from '../shared/presets.ts';
+import { presetButtons } from '../shared/controls.ts';
 import { PathPicture, StepPicture } from './pictures.ts';
 import { headlineHtml, markedRobotField, missTable, ratioPlot, straightGrowthPlot, captionOf, planeText, stepText } from './readouts.ts';
 import { OUTLINE_STYLES, RECURSIONS, definition, COMMAND_SLIDERS, NOISE_SLIDERS, SAMPLE_COUNTS, COMPONENTS, viewModelOf, type ViewModel } from './settings.ts';

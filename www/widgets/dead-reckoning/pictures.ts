@@ -2,7 +2,7 @@
 
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
-import { drawCallouts, type Callout } from '../../scene/callout.ts';
+import { drawCallouts, type Callout } from '../../scene/labels.ts';
 import { drawDots, drawEarlierOutlines, drawMark, drawOutlines, drawRobot, lineLegendEntries, lineStyles, strokeLines } from '../../scene/draw.ts';
 import { Picture, SamplesPicture } from '../../scene/picture.ts';
 import { View, cornersAround, extentAround, extentOf } from '../../scene/view.ts';
@@ -51,7 +51,7 @@ export class PathPicture extends SamplesPicture<Scene> {
     const callouts: Callout[] = [];
     clipToPlot(brush, () => {
       for (const milestone of milestones) drawMilestone(brush, milestone.poses);
-      drawDots(brush, poses, { x: 0, y: 1, heading: null });
+      drawDots(brush, poses);
       drawOutlines(brush, [
         ...shownNamesOf(['command']).map((name) => ({ points: commanded, ...styles[name] })),
         ...shownNames.flatMap((name) => milestones.map(({ outlines: passed }) => ({ points: passed[name], ...styles[name], width: 1 }))),
@@ -99,7 +99,7 @@ export class StepPicture extends Picture<Scene> {
     const points = { exponential: predicted, measured };
     const callouts: Callout[] = [];
     clipToPlot(brush, () => {
-      drawDots(brush, twists, { x: 0, y: 1, heading: null });
+      drawDots(brush, twists);
       if (brush.previousViewModel && overlays.includes('exponential')) callouts.push(...drawEarlierOutlines(brush, [{ points: brush.previousViewModel.outlines.predicted, ...styles.exponential }], [[0, 0]], words.before));
       drawOutlines(brush, shownNames.map((name) => ({ points: points[name], ...styles[name] })));
     });

@@ -3,10 +3,9 @@
 import { greatest } from 'd3-array';
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
-import { drawCallouts, type Callout } from '../../scene/callout.ts';
+import { drawCallouts, type Callout, LABELS_ABOVE, drawLabel, drawLabelsAbove } from '../../scene/labels.ts';
 import { addLine, fillPath, paintWithOpacity, strokePath, drawDisc, strokeLine, type Brush, type LineStroke } from '../../scene/canvas.ts';
-import { drawDots, drawMark, drawOutlines, hasLength, lineLegendEntries, lineStyles, strokeLines } from '../../scene/draw.ts';
-import { LABELS_ABOVE, drawLabel, drawLabelsAbove } from '../../scene/labels.ts';
+import { addTurn, drawDots, drawMark, drawOutlines, hasLength, lineLegendEntries, lineStyles, strokeLines } from '../../scene/draw.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
 import { View, cornersAround, extentOf } from '../../scene/view.ts';
 import { fixed } from '../../ui/format.ts';
@@ -20,29 +19,22 @@ const ARROW_HEAD_SIZE = { half: 4, length: 9 };
 /** Angle of a chord of a drawn arc, radians. */
 const CHORD_ANGLE = 0.1;
 
-/** Returns evenly spaced directions (rad) from a heading to the heading after a turn. */
-function turnDirections(heading: number, turn: number) {
-  const chordCount = Math.max(1, Math.ceil(Math.abs(turn) / CHORD_ANGLE));
-  return Array.from({ length: chordCount + 1 }, (_, i) => heading + (turn * i) / chordCount);
-}
-
 /** Number of points of a drawn ellipse. */
 const ELLIPSE_POINTS = 64;
 
-/** Returns the points of an ellipse about a pose with semi-axes along and across its heading, as x, y pairs. Lengths are in metres. */
+/** Returns the points of an ellipse about a pose with semi-axes along and across its heading. Lengths are in metres. */
 function ellipsePoints({ x, y, theta }: Pose, along: number, across: number) {
   const [cos, sin] = [Math.cos(theta), Math.sin(theta)];
-  return Float64Array.from({ length: 2 * ELLIPSE_POINTS + 2 }, (_, i) => {
-    const angle = (2 * Math.PI * Math.floor(i / 2)) / ELLIPSE_POINTS;
+  return Array.from({ length: ELLIPSE_POINTS + 1 }, (_, i): [number, number] => {
+    const angle = (2 * Math.PI * i) / ELLIPSE_POINTS;
     const [ahead, left] = [along * Math.cos(angle), across * Math.sin(angle)];
-    return i % 2 === 0 ? x + ahead * cos - left * sin : y + ahead * sin + left * cos;
+    return [x + ahead * cos - left * sin, y + ahead * sin + left * cos];
   });
 }
 
 /** Draws a turn in radians from a pose's heading, as an arc with an arrow, with a radius in pixels. */
 function drawTurn({ context, view }: Brush, startPose: Pose, turn: number, radius: number, colour: string) {
-  // In pixels y points down, so that a turn to the left is negative.
-  strokePath(context, { colour, width: 1.75 }, () => context.arc(...view.toPixel(startPose.x, startPose.y), radius, -startPose.theta, -startPose.theta - turn, turn > 0));
+  strokePath(context, { colour, width: 1.75 }, () => addTurn(context, view.toPixel(startPose.x, startPose.y), radius, startPose.theta, turn));
   // The arrow head is smaller on a short arc.
   const headLength = Math.min(ARROW_HEAD_SIZE.length, radius * Math.abs(turn));
   const tip = view.ray({ ...startPose, theta: startPose.theta + turn }, radius)[1];
@@ -59,7 +51,7 @@ function drawFan({ context, view }: Brush, { x, y, theta }: Pose, deviation: num
   const centre = view.toPixel(x, y);
   const addFan = () => {
     context.moveTo(...centre);
-    context.arc(...centre, radius, -theta - halfAngle, halfAngle - theta);
+    addTurn(context, centre, radius, theta + halfAngle, -2 * halfAngle);
     context.closePath();
   };
   paintWithOpacity(context, 0.14, () => fillPath(context, colour, addFan));
@@ -131,7 +123,7 @@ function neededPoints({ linkage, legs, rules }: Scene): number[] {
 
 function drawOutcomes(brush: Brush, { poses, overlays }: Scene) {
   if (!overlays.includes('outcomes')) return;
-  drawDots(brush, poses, { x: 0, y: 1, heading: poses.length <= 3 * MAX_TICKS ? 2 : null });
+  drawDots(brush, poses, poses.length <= 3 * MAX_TICKS ? 1 : 0);
 }
 
 /** Returns the ellipses of the spread by the current noise model and, if it differs, by one to compare it with. Each has a callout. */
@@ -143,10 +135,9 @@ function spreadEllipses({ palette }: Brush, { linkage, rules, config }: Scene) {
     const points = ellipsePoints(poseAt(linkage, 2), 2 * deviations[1], 2 * crossTrack);
     const colour = rule === config.rule ? palette.prediction : palette.ink;
     // The callouts are at different sides: at the front of the ellipse of Table 5.6, and at the top of the other one, which is smaller.
-    const ellipsePositions = Array.from({ length: points.length / 2 }, (_, i): [number, number] => [points[2 * i], points[2 * i + 1]]);
-    const at = rule === 'thrun' ? ellipsePositions[0] : greatest(ellipsePositions, ([, y]) => y) as [number, number];
+    const at = rule === 'thrun' ? points[0] : greatest(points, ([, y]) => y) as [number, number];
     const callout: Callout = { text: words.decomposer.spread(words.decomposer.rules[rule]), at, colour };
-    return { points, colour, width: 2, callout };
+    return { points: Float64Array.from(points.flat()), colour, width: 2, callout };
   }).filter(({ points }) => hasLength(points));
 }
 
@@ -161,8 +152,11 @@ type Turn = [Pose, turn: number, radius: number];
 const turnRadii = (view: Pick<View, 'scaleX'>) => [0, 1].map((arc) => turnHandleDistance(view, ROBOT_RADIUS) + ARC_GAPS.handle + arc * ARC_GAPS.arcs);
 
 /** Returns points of an arc about a pose that starts at its heading, as x, y pairs. The turn is in radians, and the radius in metres. */
-const turnArcPoints = ({ x, y, theta }: Pose, turn: number, radius: number) =>
-  turnDirections(theta, turn).flatMap((direction) => [x + radius * Math.cos(direction), y + radius * Math.sin(direction)]);
+function turnArcPoints({ x, y, theta }: Pose, turn: number, radius: number) {
+  const chordCount = Math.max(1, Math.ceil(Math.abs(turn) / CHORD_ANGLE));
+  return Array.from({ length: chordCount + 1 }, (_, i) => theta + (turn * i) / chordCount)
+    .flatMap((direction) => [x + radius * Math.cos(direction), y + radius * Math.sin(direction)]);
+}
 
 /** Picture in the odometry frame: the legs as a linkage, and the effect of noise on it. */
 export class LegsPicture extends SamplesPicture<Scene> {

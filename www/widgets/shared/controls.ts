@@ -1,11 +1,27 @@
-/** Player that animates a slider from its current value to its maximum. At the maximum it starts again from 0. */
+/** Controls of several figures: the buttons of the presets, the button that restores the initial state, and the player of an animation. */
 
-import { nothing } from 'lit';
+import { html, nothing } from 'lit';
 import { FigureController } from '../../figure/controller.ts';
 import { prefersReducedMotion } from '../../figure/renderer.ts';
 import { words } from '../../messages/registry.ts';
 import { button } from '../../ui/controls.ts';
 
+/** Returns a button for each preset, of which the current one is pressed, and the button to start over. */
+export function presetButtons(figure: import('../../figure/figure.ts').Figure) {
+  const { definition, settings, state } = figure;
+  const { presets } = (words as any)[definition.messageKey];
+  const currentPreset = definition.attributes.preset.get(settings.requested);
+  return html`<div class="buttons presets" role="group" aria-label=${words.presets}>
+    ${Object.entries(presets).map(([name, label]) =>
+      button(label, () => state.choosePreset(name), { pressed: name === currentPreset, name: 'preset' }))}
+    ${startOverButton(figure)}
+  </div>`;
+}
+
+/** Returns the button that restores the state that the figure opened with. */
+export const startOverButton = ({ state }: import('../../figure/figure.ts').Figure, restore = () => state.restoreAsUser()) => button(words.startOver, restore, { title: words.startOverTitle, name: 'start-over' });
+
+/** Player that animates a slider from its current value to its maximum. At the maximum it starts again from 0. */
 export class Player<Key extends string> extends FigureController {
   /** Key of the animated setting. */
   #playedKey: Key | undefined;

@@ -86,38 +86,29 @@ const [PIECE_BYTES, PIECES_AHEAD] = [2 ** 22, 3];
 
 /** Returns a reader of bytes at increasing positions. It requests the next pieces in advance, which saves a quarter of the time in a browser. */
 export function readAhead(source: Source): (from: number, to: number) => Promise<Uint8Array> {
-  const pieces = new Map<number, Uint8Array | Promise<Uint8Array>>();
+  const pieces = new Map<number, Promise<Uint8Array>>();
   let lastPiece = -1;
-  const requestPiece = (i: number) => {
-    if (pieces.has(i) || i * PIECE_BYTES >= source.size) return;
-    const bytes = readBytes(source, i * PIECE_BYTES, Math.min((i + 1) * PIECE_BYTES, source.size));
-    pieces.set(i, bytes);
-    // An error of reading is reported only when the piece is needed.
-    bytes.then((read) => pieces.has(i) && pieces.set(i, read), () => {});
-  };
   return async (from, to) => {
     const firstPiece = Math.floor(from / PIECE_BYTES);
     const piecesAhead = firstPiece <= lastPiece + 1 ? PIECES_AHEAD : 0;
-    lastPiece = Math.max(firstPiece, Math.floor((to - 1) / PIECE_BYTES));
+    const end = Math.min(to, source.size);
+    lastPiece = Math.max(firstPiece, Math.floor((end - 1) / PIECE_BYTES));
     for (const i of pieces.keys()) if (i < firstPiece) pieces.delete(i);
-    for (let i = firstPiece; i <= lastPiece + piecesAhead; i++) requestPiece(i);
-    let bytes: Uint8Array = new Uint8Array();
-    for (let i = firstPiece; i <= lastPiece; i++) {
-      const piece = pieces.get(i) ?? bytes;
-      const pieceStart = i * PIECE_BYTES;
-      // Awaiting a piece that has already been read would take longer than reading a record.
-      const pieceBytes = (piece instanceof Uint8Array ? piece : await piece).subarray(Math.max(from - pieceStart, 0), to - pieceStart);
-      bytes = i === firstPiece ? pieceBytes : joinBytes(bytes, pieceBytes);
+    for (let i = firstPiece; i <= lastPiece + piecesAhead && i * PIECE_BYTES < source.size; i++) {
+      if (pieces.has(i)) continue;
+      const piece = readBytes(source, i * PIECE_BYTES, Math.min((i + 1) * PIECE_BYTES, source.size));
+      // An error of reading is reported only when the piece is needed.
+      piece.catch(() => {});
+      pieces.set(i, piece);
     }
+    const partOf = (piece: Uint8Array | undefined, i: number) => (piece ?? new Uint8Array()).subarray(Math.max(from - i * PIECE_BYTES, 0), end - i * PIECE_BYTES);
+    const firstPart = partOf(await pieces.get(firstPiece), firstPiece);
+    if (lastPiece === firstPiece) return firstPart;
+    const bytes = new Uint8Array(end - from);
+    bytes.set(firstPart);
+    for (let i = firstPiece + 1; i <= lastPiece; i++) bytes.set(partOf(await pieces.get(i), i), i * PIECE_BYTES - from);
     return bytes;
   };
-}
-
-function joinBytes(first: Uint8Array, second: Uint8Array): Uint8Array {
-  const bytes = new Uint8Array(first.length + second.length);
-  bytes.set(first);
-  bytes.set(second, first.length);
-  return bytes;
 }
 
 export const dataViewOf = ({ buffer, byteOffset, byteLength }: Uint8Array) => new DataView(buffer, byteOffset, byteLength);

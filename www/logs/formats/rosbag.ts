@@ -1,7 +1,7 @@
 /** Connections and messages of ROS 1 bags. http://wiki.ros.org/Bags/Format/2.0 */
 
 import { LogError, readBytes, type Source } from '../log.ts';
-import { MAX_BLOCK_BYTES, MessageFile, readAhead, dataViewOf, uint53, type Container, type IsWanted, type OnBlock, type OnMessage } from './container.ts';
+import { MAX_BLOCK_BYTES, MessageFile, dataViewOf, readAhead, uint53, type Container, type IsWanted, type OnBlock, type OnMessage } from './container.ts';
 import { unlz4 } from './decompression.ts';
 
 /** Values of the field "op" of records. */
@@ -9,8 +9,8 @@ const [MESSAGE, BAG, CHUNK, CHUNK_INFO, CONNECTION] = [2, 3, 5, 6, 7];
 
 const MAGIC_BYTES = 13;
 
-/** Number of bytes of a header that are read at first. Headers with a long topic are longer. */
-const HEADER_BYTES = 4096;
+/** Maximum size of a record's header in bytes. The largest headers have the name of a topic. */
+const MAX_HEADER_BYTES = 4096;
 
 /** Opens a bag by its index. Without an index it is read from its start up to its end, or to a damaged length. */
 export async function openRosbag(source: Source): Promise<Container> {
@@ -31,45 +31,54 @@ class HeaderFields {
     this.#to = to;
   }
 
-  /** Returns a field; throws a RangeError if there is none, as the methods below do. */
-  text(name: string): string {
-    const [from, to] = this.#range(name);
-    return new TextDecoder().decode(new Uint8Array(this.#view.buffer, this.#view.byteOffset + from, to - from));
-  }
-
-  byte(name: string): number {
-    return this.#view.getUint8(this.#range(name)[0]);
+  get op(): number {
+    return this.#view.getUint8(this.#find('op').from);
   }
 
   uint32(name: string, at = 0): number {
-    return this.#view.getUint32(this.#range(name)[0] + at, true);
+    return this.#view.getUint32(this.#find(name).from + at, true);
   }
 
   uint64(name: string): number {
-    return uint53(this.#view, this.#range(name)[0]);
+    return uint53(this.#view, this.#find(name).from);
   }
 
-  /** Returns start and end of the value of a field. */
-  #range(name: string): [number, number] {
-    const view = this.#view;
-    for (let at = this.#from, end; at < this.#to; at = end) {
-      end = at + 4 + view.getUint32(at, true);
-      const equalsSign = at + 4 + name.length;
-      if (equalsSign >= end || view.getUint8(equalsSign) !== 0x3d) continue;
+  text(name: string): string {
+    const { from, to } = this.#find(name);
+    return new TextDecoder().decode(new Uint8Array(this.#view.buffer, this.#view.byteOffset + from, to - from));
+  }
+
+  /** Returns the range of a field's value; throws a RangeError if there is no such field. */
+  #find(name: string): { from: number; to: number } {
+    const start = `${name}=`;
+    for (let at = this.#from; at < this.#to; ) {
+      const to = at + 4 + this.#view.getUint32(at, true);
       let matchingBytes = 0;
-      while (matchingBytes < name.length && view.getUint8(at + 4 + matchingBytes) === name.charCodeAt(matchingBytes)) matchingBytes += 1;
-      if (matchingBytes === name.length) return [equalsSign + 1, end];
+      while (matchingBytes < start.length && this.#view.getUint8(at + 4 + matchingBytes) === start.charCodeAt(matchingBytes)) matchingBytes += 1;
+      if (matchingBytes === start.length) return { from: at + 4 + matchingBytes, to };
+      at = to;
     }
     throw new RangeError(`a record has no field ${name}`);
   }
 }
 
-/** Returns the header of a record and the range of its data, which ends at the next record. Throws a RangeError if it is cut short. */
-function recordAt(view: DataView, at: number): { fields: HeaderFields; from: number; next: number } {
+interface BagRecord { fields: HeaderFields; from: number; to: number }
+
+/** Returns the header of a record, and the range of its data. Throws a RangeError if the view ends in the header. */
+function recordAt(view: DataView, at: number): BagRecord {
   const headerEnd = at + 4 + view.getUint32(at, true);
-  const nextRecord = headerEnd + 4 + view.getUint32(headerEnd, true);
-  if (nextRecord > view.byteLength) throw new RangeError('a record is cut short');
-  return { fields: new HeaderFields(view, at + 4, headerEnd), from: headerEnd + 4, next: nextRecord };
+  if (headerEnd + 4 > view.byteLength) throw new RangeError('a header is damaged or cut short');
+  const from = headerEnd + 4;
+  return { fields: new HeaderFields(view, at + 4, headerEnd), from, to: from + view.getUint32(headerEnd, true) };
+}
+
+function* recordsIn(view: DataView): Generator<BagRecord> {
+  for (let at = 0; at < view.byteLength; ) {
+    const record = recordAt(view, at);
+    if (record.to > view.byteLength) throw new RangeError('a record is cut short');
+    yield record;
+    at = record.to;
+  }
 }
 
 class Rosbag extends MessageFile<number> implements Container {
@@ -81,24 +90,21 @@ class Rosbag extends MessageFile<number> implements Container {
   async readIndex(): Promise<boolean> {
     const { size } = this.source;
     try {
-      const { fields } = recordAt(dataViewOf(await readBytes(this.source, MAGIC_BYTES, MAGIC_BYTES + HEADER_BYTES)), 0);
+      const { fields } = recordAt(dataViewOf(await readBytes(this.source, MAGIC_BYTES, MAGIC_BYTES + MAX_HEADER_BYTES)), 0);
       const [start, count] = [fields.uint64('index_pos'), fields.uint32('chunk_count')];
-      if (fields.byte('op') !== BAG || start === 0 || start > size) return false;
+      if (fields.op !== BAG || start === 0 || start > size) return false;
       const bytes = await readBytes(this.source, start, size);
       const view = dataViewOf(bytes);
       const chunks = [];
-      for (let at = 0; at < bytes.length; ) {
-        const { fields, from, next } = recordAt(view, at);
-        if (fields.byte('op') === CONNECTION) this.#addConnection(fields, bytes.subarray(from, next));
-        if (fields.byte('op') === CHUNK_INFO) {
-          const idsWithCounts = Array.from({ length: fields.uint32('count') }, (_, i) => [0, 4].map((part) => view.getUint32(from + 8 * i + part, true)));
-          for (const [id, messages] of idsWithCounts) {
-            const channel = this.channelsById.get(id);
-            if (channel) channel.count += messages;
-          }
-          chunks.push({ position: fields.uint64('chunk_pos'), connections: idsWithCounts.map(([id]) => id) });
+      for (const { fields, from, to } of recordsIn(view)) {
+        if (fields.op === CONNECTION) this.#addConnection(fields, bytes.subarray(from, to));
+        if (fields.op !== CHUNK_INFO) continue;
+        const idsWithCounts = Array.from({ length: fields.uint32('count') }, (_, i) => [0, 4].map((part) => view.getUint32(from + 8 * i + part, true)));
+        for (const [id, messages] of idsWithCounts) {
+          const channel = this.channelsById.get(id);
+          if (channel) channel.count += messages;
         }
-        at = next;
+        chunks.push({ position: fields.uint64('chunk_pos'), connections: idsWithCounts.map(([id]) => id) });
       }
       if (chunks.length !== count) throw new RangeError('the index is incomplete');
       this.#chunks = chunks;
@@ -110,6 +116,7 @@ class Rosbag extends MessageFile<number> implements Container {
     }
   }
 
+  /** Adds the channel of a connection. The data of its record has fields, too. */
   #addConnection(fields: HeaderFields, data: Uint8Array): void {
     const id = fields.uint32('conn');
     if (this.channelsById.has(id)) return;
@@ -122,45 +129,35 @@ class Rosbag extends MessageFile<number> implements Container {
     const wantedIds = new Set([...this.channelsById].filter(([, channel]) => isWanted(channel)).map(([id]) => id));
     const wantedChunks = this.#chunks?.filter(({ connections }) => connections.some((id) => wantedIds.has(id)));
     const readBlock = async (at: number, setEnd: (end: number) => void) => {
-      let recordHead = await readBytesAt(at, Math.min(at + HEADER_BYTES, size));
-      const headerLength = dataViewOf(recordHead).getUint32(0, true);
-      if (headerLength > MAX_BLOCK_BYTES || at + headerLength + 8 > size) throw new RangeError('a header is damaged or cut short');
-      if (headerLength + 8 > recordHead.length) recordHead = await readBytesAt(at, Math.min(at + headerLength + 8, size));
-      const from = at + 8 + headerLength;
-      const end = from + dataViewOf(recordHead).getUint32(4 + headerLength, true);
-      if (end > size) throw new RangeError('a record is cut short');
-      setEnd(end);
-      const fields = new HeaderFields(dataViewOf(recordHead), 4, 4 + headerLength);
-      const op = fields.byte('op');
-      if (op === CONNECTION) this.#addConnection(fields, await readBytesAt(from, end));
-      if (op === CHUNK) {
-        if (Math.max(end - from, fields.uint32('size')) > MAX_BLOCK_BYTES) throw new RangeError(`a chunk of ${fields.uint32('size')} bytes`);
-        await this.#readChunk(fields, await readBytesAt(from, end), isWanted, onMessage);
-      } else if (wantedChunks) throw new RangeError('no chunk is there');
+      const { fields, from, to } = recordAt(dataViewOf(await readBytesAt(at, Math.min(at + MAX_HEADER_BYTES, size))), 0);
+      if (at + to > size) throw new RangeError('a record is cut short');
+      setEnd(at + to);
+      const { op } = fields;
+      if (wantedChunks && op !== CHUNK) throw new RangeError('no chunk is there');
+      if (op === CONNECTION) this.#addConnection(fields, await readBytesAt(at + from, at + to));
+      if (op !== CHUNK) return;
+      const uncompressedBytes = fields.uint32('size');
+      if (Math.max(to, uncompressedBytes) > MAX_BLOCK_BYTES) throw new RangeError(`a chunk of ${uncompressedBytes} bytes`);
+      this.#readRecords(await decompress(fields.text('compression'), await readBytesAt(at + from, at + to), uncompressedBytes), isWanted, onMessage);
     };
     await this.readBlocks(wantedChunks?.map(({ position }) => position), MAGIC_BYTES, readBlock, onProgress);
   }
 
-  async #readChunk(chunk: HeaderFields, compressed: Uint8Array, isWanted: IsWanted, onMessage: OnMessage): Promise<void> {
-    const bytes = await this.#decompress(chunk.text('compression'), compressed, chunk.uint32('size'));
-    const view = dataViewOf(bytes);
-    for (let at = 0; at < bytes.length; ) {
-      const { fields, from, next } = recordAt(view, at);
-      const op = fields.byte('op');
-      if (op === CONNECTION) this.#addConnection(fields, bytes.subarray(from, next));
-      if (op === MESSAGE) {
-        const channel = this.channelsById.get(fields.uint32('conn'));
-        if (channel && isWanted(channel)) onMessage({ channel, time: fields.uint32('time') + fields.uint32('time', 4) / 1e9, block: view, from, to: next });
-      }
-      at = next;
+  #readRecords(bytes: Uint8Array, isWanted: IsWanted, onMessage: OnMessage): void {
+    const block = dataViewOf(bytes);
+    for (const { fields, from, to } of recordsIn(block)) {
+      const { op } = fields;
+      if (op === CONNECTION) this.#addConnection(fields, bytes.subarray(from, to));
+      const channel = op === MESSAGE ? this.channelsById.get(fields.uint32('conn')) : undefined;
+      if (channel && isWanted(channel)) onMessage({ channel, time: fields.uint32('time') + fields.uint32('time', 4) / 1e9, block, from, to });
     }
   }
+}
 
-  async #decompress(compression: string, bytes: Uint8Array, size: number): Promise<Uint8Array> {
-    if (compression === 'none') return bytes;
-    if (compression === 'lz4') return unlz4(bytes, size);
-    if (compression !== 'bz2') throw new RangeError(`compression by ${compression}, not by bz2 or lz4`);
-    const { default: bzip } = await import('@openpgp/seek-bzip');
-    return bzip.decode(bytes, new Uint8Array(size));
-  }
+async function decompress(compression: string, bytes: Uint8Array, size: number): Promise<Uint8Array> {
+  if (compression === 'none') return bytes;
+  if (compression === 'lz4') return unlz4(bytes, size);
+  if (compression !== 'bz2') throw new RangeError(`compression by ${compression}, not by bz2 or lz4`);
+  const { default: bzip } = await import('@openpgp/seek-bzip');
+  return bzip.decode(bytes, new Uint8Array(size));
 }

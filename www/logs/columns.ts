@@ -1,5 +1,6 @@
 /** Columns of a table, recognized by their names, in groups with a common prefix. */
 
+import { group } from 'd3-array';
 import { LogError, truncate, listNames, UNITS, type ErrorPlace, type AngleUnit, type LengthUnit, type LogKind, type Question, type Series, type TimeUnit } from './log.ts';
 
 export type Field = 't' | 'seconds' | 'subseconds' | 'x' | 'y' | 'z' | 'yaw' | 'qx' | 'qy' | 'qz' | 'qw' | 'v' | 'omega' | 'frame' | 'child' | 'source';
@@ -27,8 +28,6 @@ export interface Group {
   columns: Partial<Record<Field, Column>>;
   /** Second column that matches a field as well as the first one, which makes the field ambiguous. */
   duplicateColumns: Partial<Record<Field, Column>>;
-  /** Columns of times, best first. */
-  timeColumns: Column[];
   /** Clock of the rows, and a fallback clock for times that are mostly 0, or never change. */
   clocks: Clock[];
 }
@@ -159,67 +158,64 @@ function matchField(path: string): ColumnMeaning | undefined {
 
 /** Groups the columns of a table, without those of other quantities. `isTime` checks whether a column without a name holds times. */
 export function groupColumns(names: string[], isTime: (index: number) => boolean = () => false): Group[] {
-  const groups = new Map<string, Group>();
   // PlotJuggler puts the topic before each name. A topic may have the name of its message's fields, as in /mocap/pose and /cmd_vel.
   const topics = names.flatMap((name) => /^\s*(\/.+\/)header\/stamp\s*$/.exec(name)?.[1] ?? []);
-  for (const [index, name] of names.entries()) {
+  const columnsWithMeaning = names.flatMap((name, at) => {
     const isUnnamed = /^\s*(|unnamed: \d+|index)\s*$/i.test(name);
     const topic = topics.find((start) => name.trim().startsWith(start)) ?? '';
-    const meaning: ColumnMeaning | undefined = isUnnamed ? (isTime(index) ? { field: 't', rank: 9, prefix: '' } : undefined) : parseColumnName(name.trim().slice(topic.length));
-    if (!meaning) continue;
-    const { field, rank, unit } = meaning;
-    const prefix = dottedName(topic + meaning.prefix);
-    const group = groups.get(prefix) ?? { name: prefix, kind: null, hasCommands: false, columns: {}, duplicateColumns: {}, timeColumns: [], clocks: [] };
-    groups.set(prefix, group);
+    const meaning: ColumnMeaning | undefined = isUnnamed ? (isTime(at) ? { field: 't', rank: 9, prefix: '' } : undefined) : parseColumnName(name.trim().slice(topic.length));
+    if (!meaning) return [];
+    const { field, prefix, rank, unit } = meaning;
     // Headings in radians are preferred. Headings in degrees beside them are usually derived.
-    const column = { at: index, name: name.trim(), rank: rank + (unit === 'deg' ? 0.5 : 0), ...(unit !== undefined && { unit }) };
-    if (field === 't') group.timeColumns.push(column);
-    const currentColumn = group.columns[field];
-    if (!currentColumn || column.rank < currentColumn.rank) {
-      group.columns[field] = column;
-      delete group.duplicateColumns[field];
-    } else if (column.rank === currentColumn.rank) group.duplicateColumns[field] ??= column;
-  }
-  const allGroups = [...groups.values()];
-  const clocksByGroup = new Map(allGroups.map((group) => [group, clocksOf(group)]));
-  const sharedClocks = groups.get('') ? (clocksByGroup.get(groups.get('') as Group) ?? []) : [];
-  const allClocks = allGroups.flatMap((group) => clocksByGroup.get(group) ?? []);
-  const { source } = groups.get('')?.columns ?? {};
-  for (const group of allGroups) {
-    if (source) group.columns.source ??= source;
-    group.clocks = [...new Set([...(clocksByGroup.get(group) ?? []), ...sharedClocks])].slice(0, 2);
+    const column: Column = { at, name: name.trim(), rank: rank + (unit === 'deg' ? 0.5 : 0), ...(unit !== undefined && { unit }) };
+    return [{ field, prefix: dottedName(topic + prefix), column }];
+  });
+  const groups = Array.from(group(columnsWithMeaning, ({ prefix }) => prefix), ([name, members]): Group => {
+    const fieldColumns = Array.from(group(members, ({ field }) => field), ([field, entries]) => [field, entries.map(({ column }) => column).toSorted((one, other) => one.rank - other.rank)] as const);
+    const columns: Group['columns'] = Object.fromEntries(fieldColumns.map(([field, [best]]) => [field, best]));
+    const duplicateColumns = Object.fromEntries(fieldColumns.filter(([, [best, second]]) => best.rank === second?.rank).map(([field, [, second]]) => [field, second]));
+    return { name, kind: null, hasCommands: hasFields(columns, 'v', 'omega'), columns, duplicateColumns, clocks: clocksOf(columns, Object.fromEntries(fieldColumns).t ?? []) };
+  });
+  const tableGroup = groups.find(({ name }) => name === '');
+  const sharedClocks = tableGroup?.clocks ?? [];
+  const allClocks = groups.flatMap(({ clocks }) => clocks);
+  for (const entry of groups) {
+    const { columns, hasCommands } = entry;
+    if (tableGroup?.columns.source) columns.source ??= tableGroup.columns.source;
+    entry.clocks = [...new Set([...entry.clocks, ...sharedClocks])].slice(0, 2);
     // If a table has only one clock, all of its groups use it.
-    if (group.clocks.length === 0 && allClocks.length === 1) group.clocks = allClocks;
-    const hasFields = (...fields: Field[]) => fields.every((field) => group.columns[field]);
-    group.hasCommands = hasFields('v', 'omega');
-    group.kind = hasFields('x', 'y') ? (hasFields('yaw') || hasFields('qz', 'qw') ? 'poses' : 'positions') : group.hasCommands ? 'commands' : null;
-    if (group.clocks.length === 0) group.kind = null;
-    if (group.kind === 'positions' && group.hasCommands) group.kind = 'commands';
+    if (entry.clocks.length === 0 && allClocks.length === 1) entry.clocks = allClocks;
+    const hasPoses = hasFields(columns, 'x', 'y') && headingFieldsOf(columns).length > 0;
+    if (entry.clocks.length > 0) entry.kind = hasPoses ? 'poses' : hasCommands ? 'commands' : hasFields(columns, 'x', 'y') ? 'positions' : null;
   }
-  return allGroups.filter(({ columns }) => columns.x || columns.y || columns.v || columns.omega || columns.yaw || columns.qw);
+  return groups.filter(({ columns }) => columns.x || columns.y || columns.v || columns.omega || columns.yaw || columns.qw);
 }
+
+const hasFields = (columns: Group['columns'], ...fields: Field[]) => fields.every((field) => columns[field]);
+
+const headingFieldsOf = (columns: Group['columns']): Field[] =>
+  ([['qx', 'qy', 'qz', 'qw'], ['yaw'], ['qz', 'qw']] satisfies Field[][]).find((fields) => hasFields(columns, ...fields)) ?? [];
 
 const clockOf = (column: Column): Clock => ({ name: column.name, columns: [column], ...(column.unit !== undefined && { unit: column.unit as TimeUnit }) });
 
-/** Returns the clocks of a group. The stamp of the message comes first. Another clock may be the time of recording. */
-function clocksOf({ columns: { seconds, subseconds }, timeColumns }: Group): Clock[] {
-  const singleColumnClocks = timeColumns.toSorted((one, other) => one.rank - other.rank).map(clockOf);
+/** Returns the clocks of a group, of whose columns of times the best comes first. The stamp of the message comes first. Another clock may be the time of recording. */
+function clocksOf({ seconds, subseconds }: Group['columns'], timeColumns: Column[]): Clock[] {
+  const singleColumnClocks = timeColumns.map(clockOf);
   if (seconds && subseconds) return [{ name: `${seconds.name}, ${subseconds.name}`, columns: [seconds, subseconds], unit: 's' }, ...singleColumnClocks];
   const timePartColumn = seconds ?? subseconds;
   return singleColumnClocks.length > 0 || !timePartColumn ? singleColumnClocks : [clockOf(timePartColumn)];
 }
 
 /** Returns the columns of a log: x, y and heading, or v and omega. Throws a LogError if one is missing, or if two may be the same field. */
-export function logLayoutOf(group: Group | undefined, names: string[], place: ErrorPlace, wantedKind: LogKind | undefined) {
+export function logLayoutOf(columnGroup: Group | undefined, names: string[], place: ErrorPlace, wantedKind: LogKind | undefined) {
   const columnNames = listNames(names.map((name) => name.trim()));
   const ask: Question = { what: 'columns', choices: [], columns: names };
-  if (!group) throw new LogError(place, (texts) => texts.noColumns(wantedKind === 'poses' ? wantedKind : 'either', columnNames), ask);
-  const { columns, duplicateColumns, clocks } = group;
-  const hasFields = (...fields: Field[]) => fields.every((field) => columns[field]);
+  if (!columnGroup) throw new LogError(place, (texts) => texts.noColumns(wantedKind === 'poses' ? wantedKind : 'either', columnNames), ask);
+  const { columns, duplicateColumns, clocks } = columnGroup;
   if (clocks.length === 0) throw new LogError(place, (texts) => texts.noTime(columnNames), ask);
-  const takesCommands = group.hasCommands && wantedKind !== 'poses' && (wantedKind === 'commands' || group.kind === 'commands');
-  if (!takesCommands && !hasFields('x', 'y')) throw new LogError(place, (texts) => texts.noColumns(wantedKind === 'poses' ? wantedKind : 'either', columnNames), ask);
-  const headingFields: Field[] = hasFields('qx', 'qy', 'qz', 'qw') ? ['qx', 'qy', 'qz', 'qw'] : hasFields('yaw') ? ['yaw'] : hasFields('qz', 'qw') ? ['qz', 'qw'] : [];
+  const takesCommands = columnGroup.hasCommands && wantedKind !== 'poses' && (wantedKind === 'commands' || columnGroup.kind === 'commands');
+  if (!takesCommands && !hasFields(columns, 'x', 'y')) throw new LogError(place, (texts) => texts.noColumns(wantedKind === 'poses' ? wantedKind : 'either', columnNames), ask);
+  const headingFields = headingFieldsOf(columns);
   const fields: Field[] = takesCommands ? ['v', 'omega'] : ['x', 'y', ...headingFields];
   for (const field of [...(clocks[0].columns[0] === columns.t ? ['t' as const] : []), ...fields]) {
     const [firstColumn, secondColumn] = [columns[field], duplicateColumns[field]];

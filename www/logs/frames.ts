@@ -81,30 +81,30 @@ export class FrameTree {
 interface RecordedTransform { link: string; isStatic: boolean; stampedTransform: StampedTransform; recordTime: number; number: number }
 
 /** Poses of one frame relative to another one, composed of the transforms on the chain between them. */
-export class Chain {
-  readonly tree = new FrameTree();
+export class Chain extends FrameTree {
   readonly #endFrames: FramePair;
-  /** Names of the links, from the first to the last. */
-  #links: string[] = [];
+  /** Names of the links of the chain, from the first to the last. */
+  #chainLinks: string[] = [];
   /** Transforms in the order of their messages. They are of all links until the links of the chain are known. */
   #samples: RecordedTransform[] = [];
 
   constructor({ parent, child }: FramePair) {
+    super();
     this.#endFrames = { parent: withoutSlash(parent), child: withoutSlash(child) };
   }
 
   /** Adds a transform. Static transforms must come first, because they hold at all times. */
-  add(stampedTransform: StampedTransform, isStatic: boolean, { time: recordTime }: Message, number: number): void {
-    this.tree.add(stampedTransform, isStatic);
+  addSample(stampedTransform: StampedTransform, isStatic: boolean, { time: recordTime }: Message, number: number): void {
+    this.add(stampedTransform, isStatic);
     const recordedTransform = { link: framesText(stampedTransform), isStatic, stampedTransform, recordTime, number };
-    if (!this.isConnected || this.#links.includes(recordedTransform.link)) this.#samples.push(recordedTransform);
+    if (!this.isConnected || this.#chainLinks.includes(recordedTransform.link)) this.#samples.push(recordedTransform);
     if (this.isConnected) return;
-    this.#links = (this.tree.findChain(this.#endFrames) ?? []).map(framesText);
-    if (this.isConnected) this.#samples = this.#samples.filter(({ link }) => this.#links.includes(link));
+    this.#chainLinks = (this.findChain(this.#endFrames) ?? []).map(framesText);
+    if (this.isConnected) this.#samples = this.#samples.filter(({ link }) => this.#chainLinks.includes(link));
   }
 
   get isConnected(): boolean {
-    return this.#links.length > 0;
+    return this.#chainLinks.length > 0;
   }
 
   /**
@@ -120,7 +120,7 @@ export class Chain {
       // A static transform may be published again with other values, which is no motion.
       else if (!isStatic && transform.some((value, i) => value !== firstTransform[i])) unseenLinks.add(link);
     }
-    const nearestMovingLink = this.#links.findLast((link) => unseenLinks.has(link));
+    const nearestMovingLink = this.#chainLinks.findLast((link) => unseenLinks.has(link));
     if (nearestMovingLink === undefined) return false;
     let pendingTransform: RecordedTransform | undefined;
     for (const recordedTransform of this.#samples.toSorted((a, b) => a.recordTime - b.recordTime)) {
@@ -128,7 +128,7 @@ export class Chain {
       unseenLinks.delete(recordedTransform.link);
       if (recordedTransform.link === nearestMovingLink) pendingTransform = recordedTransform;
       if (!pendingTransform || unseenLinks.size > 0) continue;
-      onPose(sampleOfPose(pendingTransform.stampedTransform.time, this.#links.map((link) => transforms.get(link) as Transform).reduce(composeTransforms)), pendingTransform);
+      onPose(sampleOfPose(pendingTransform.stampedTransform.time, this.#chainLinks.map((link) => transforms.get(link) as Transform).reduce(composeTransforms)), pendingTransform);
       pendingTransform = undefined;
     }
     return true;

@@ -99,7 +99,7 @@ function topicReader(file: string, container: Container, choice: LogChoice) {
       messageCount += 1;
       try {
         if (readSample) return add(readSample(message), message.time, messageCount);
-        for (const transform of readTransforms(message)) chain?.add(transform, isStaticTopic(message.channel), message, messageCount);
+        for (const transform of readTransforms(message)) chain?.addSample(transform, isStaticTopic(message.channel), message, messageCount);
       } catch (error) {
         if (error instanceof LogError) throw error;
         dropDamaged(messageCount, reasonOf(error));
@@ -112,9 +112,9 @@ function topicReader(file: string, container: Container, choice: LogChoice) {
       const lossReason = damageReasonOf(container);
       if (messageCount === 0 && lossReason) refuse((texts) => texts.damaged(lossReason, format));
       if (damagedCount > 0 && damagedCount === messageCount) throw new LogError({ file, topic, line: 1 }, (texts) => texts.message(damageReason));
-      if (chain && !chain.isConnected) refuse((texts) => texts.noChain(framesText(frames), listNames(chain.tree.links.map(framesText))));
+      if (chain && !chain.isConnected) refuse((texts) => texts.noChain(framesText(frames), listNames(chain.links.map(framesText))));
       if (chain && !chain.poses((pose, { recordTime, number }) => add(pose, recordTime, number))) {
-        const otherFrames = chain.tree.findPoseFrames().map(framesText).filter((otherText) => otherText !== framesText(frames));
+        const otherFrames = chain.findPoseFrames().map(framesText).filter((otherText) => otherText !== framesText(frames));
         refuse((texts) => texts.constant(framesText(frames), listNames(otherFrames)));
       }
       const logKind = kind === 'commands' ? 'commands' : 'poses';

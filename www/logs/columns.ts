@@ -206,7 +206,7 @@ function clocksOf({ seconds, subseconds }: Group['columns'], timeColumns: Column
   return singleColumnClocks.length > 0 || !timePartColumn ? singleColumnClocks : [clockOf(timePartColumn)];
 }
 
-/** Returns the columns of a log: x, y and heading, or v and omega. Throws a LogError if one is missing, or if two may be the same field. */
+/** Returns the columns of a log: x, y and heading, or v and omega. Throws a LogError if one is missing, the heading included, or if two may be the same field. */
 export function logLayoutOf(columnGroup: Group | undefined, names: string[], place: ErrorPlace, wantedKind: LogKind | undefined) {
   const columnNames = listNames(names.map((name) => name.trim()));
   const ask: Question = { what: 'columns', choices: [], columns: names };
@@ -228,7 +228,8 @@ export function logLayoutOf(columnGroup: Group | undefined, names: string[], pla
     const isKnown = units.length === 1 && (units[0] === undefined || knownUnits.includes(units[0]));
     if (!isKnown) throw new LogError(place, (texts) => texts.unknownUnit(units.map((unit) => truncate(unit ?? '–')).join(', ')));
   }
-  const kind: LogKind | 'positions' = takesCommands ? 'commands' : headingFields.length > 0 ? 'poses' : 'positions';
+  if (!takesCommands && headingFields.length === 0) throw new LogError({ file: place.file }, (texts) => texts.positions(listNames(usedColumns.map(({ name }) => name))));
+  const kind: LogKind = takesCommands ? 'commands' : 'poses';
   return { kind, clocks, columns: usedColumns, fields, length: lengthUnits[0] as LengthUnit | undefined, angle: angleUnit as AngleUnit | undefined };
 }
 

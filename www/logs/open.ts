@@ -1,5 +1,6 @@
 /** Opens recordings. The first bytes of a file determine its format. A recording of rosbag2 may consist of several files, which its metadata.yaml lists. */
 
+import { sort } from 'd3-array';
 import type { UNSUPPORTED_FORMATS } from './en.ts';
 import type { Container } from './formats/container.ts';
 import { LogError, listNames, readBytes, reasonOf, type OpenOptions, type Recording, type Source } from './log.ts';
@@ -47,20 +48,18 @@ export async function openRecordings(files: Source[], options: OpenOptions | ((f
   }
   const openedSources = [...formatByFile.keys()];
   const recordings: Recording[] = [];
-  for (const metadata of openedSources.filter((source) => formatByFile.get(source) === 'metadata')) {
+  // Files that a metadata.yaml lists are opened with it, and then no more by themselves.
+  for (const source of sort(openedSources, (opened) => Number(formatByFile.get(opened) !== 'metadata'))) {
+    if (!formatByFile.has(source)) continue;
     await reportSkipped(async () => {
-      formatByFile.delete(metadata);
-      const { name, files: listed } = await listedFiles(metadata, openedSources);
-      const partFormats = listed.map((source) => formatByFile.get(source));
-      for (const source of listed) formatByFile.delete(source);
-      const container = joinedContainer(await Promise.all(listed.map((source, i) => openContainer(source, partFormats[i]))));
+      const format = formatByFile.get(source);
+      formatByFile.delete(source);
+      if (!format) return void recordings.push(await openTable(source, optionsOf(source.name)));
+      const { name, files: parts } = format === 'metadata' ? await listedFiles(source, openedSources) : { name: source.name, files: [source] };
+      const partFormats = parts.map((part) => (part === source ? format : formatByFile.get(part)));
+      for (const part of parts) formatByFile.delete(part);
+      const container = joinedContainer(await Promise.all(parts.map((part, i) => openContainer(part, partFormats[i]))));
       recordings.push(await (await import('./topics.ts')).recordingOf(name, container, optionsOf(name)));
-    });
-  }
-  for (const [source, format] of formatByFile) {
-    await reportSkipped(async () => {
-      if (!format) recordings.push(await openTable(source, optionsOf(source.name)));
-      else recordings.push(await (await import('./topics.ts')).recordingOf(source.name, await openContainer(source, format), optionsOf(source.name)));
     });
   }
   return recordings;

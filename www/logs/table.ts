@@ -213,7 +213,6 @@ function logReader(name: string, place: ErrorPlace, format: Format, group: Group
     },
 
     end(): Log {
-      if (kind === 'positions') return refuse((texts) => texts.positions(listNames(columns.map((column) => column.name))));
       if (damageReason && damagedRows > MAX_DAMAGED_FRACTION * rows.count) {
         const reason = damageReason;
         const isMixed = damagedRows > 1 && damagedRows < rows.count;

@@ -27,23 +27,20 @@ export type OnMessage = (message: Message) => void;
 /** Called after each block with the share that has been read. Reading stops if it returns true. */
 export type OnBlock = (share: number) => boolean | void;
 
-export interface Container {
-  format: Recording['format'];
-  channels: Channel[];
-  /** Reason why the end of the file cannot be read; undefined for a complete file. */
-  cutReason: string | undefined;
-  /** Reasons why damaged blocks were skipped, by the positions of the blocks. */
-  damage: Map<number, string>;
-  /** Passes on the messages of channels, block by block, without those of damaged blocks. */
-  read(isWanted: IsWanted, onMessage: OnMessage, onProgress?: OnBlock): Promise<void>;
-}
+/** File of messages, or several files as one. */
+export type Container = Pick<MessageFile<unknown>, 'format' | 'channels' | 'cutReason' | 'damage' | 'read'>;
 
 /** Base class of files of messages, with their channels by id. */
 export abstract class MessageFile<Id> {
-  readonly damage = new Map<number, string>();
+  abstract readonly format: Recording['format'];
+  /** Reason why the end of the file cannot be read; undefined for a complete file. */
   cutReason: string | undefined;
+  /** Reasons why damaged blocks were skipped, by the positions of the blocks. */
+  readonly damage = new Map<number, string>();
   protected readonly source: Source;
   protected readonly channelsById = new Map<Id, Channel>();
+  /** Chunks of the index, each with the ids of its channels; undefined without an index. */
+  protected chunks: { position: number; ids: Id[] }[] | undefined;
 
   constructor(source: Source) {
     this.source = source;
@@ -53,6 +50,9 @@ export abstract class MessageFile<Id> {
     return [...this.channelsById.values()];
   }
 
+  /** Passes on the messages of channels, block by block, without those of damaged blocks. */
+  abstract read(isWanted: IsWanted, onMessage: OnMessage, onBlock?: OnBlock): Promise<void>;
+
   /** Notes the damage of a block. An error of reading the file itself is thrown again. */
   protected noteDamage(position: number, error: unknown): void {
     if (error instanceof LogError) throw error;
@@ -60,20 +60,22 @@ export abstract class MessageFile<Id> {
   }
 
   /**
-   * Reads blocks at the positions of an index, or without an index one after the other. Damaged blocks are noted. Without an index, the blocks
-   * after one whose end is unknown cannot be found. `readBlock` calls `setEnd` when it knows the end of the block.
+   * Reads the chunks with wanted messages, or, without an index, all blocks one after the other. Damaged blocks are noted. Without an index, the
+   * blocks after one whose end is unknown cannot be found. `readBlock` calls `setEnd` when it knows the end of the block.
    */
-  protected async readBlocks(positions: number[] | undefined, start: number, readBlock: (at: number, setEnd: (end: number) => void) => Promise<void>, onProgress?: OnBlock): Promise<void> {
+  protected async readBlocks(start: number, isWanted: IsWanted, readBlock: (at: number, setEnd: (end: number) => void) => Promise<void>, onBlock?: OnBlock): Promise<void> {
     const { size } = this.source;
+    const wantedIds = new Set([...this.channelsById].filter(([, channel]) => isWanted(channel)).map(([id]) => id));
+    const chunks = this.chunks?.filter(({ ids }) => ids.some((id) => wantedIds.has(id)));
     this.cutReason = undefined;
-    for (let i = 0, at = start; positions ? i < positions.length : at < size; i++) {
-      const position = positions ? positions[i] : at;
+    for (let i = 0, at = start; chunks ? i < chunks.length : at < size; i++) {
+      const position = chunks ? chunks[i].position : at;
       at = 0;
       await readBlock(position, (end) => (at = end)).catch((error) => {
-        if (positions || at > 0 || error instanceof LogError) this.noteDamage(position, error);
+        if (chunks || at > 0 || error instanceof LogError) this.noteDamage(position, error);
         else [this.cutReason, at] = [reasonOf(error), size];
       });
-      if (onProgress?.(positions ? (i + 1) / positions.length : at / size)) return;
+      if (onBlock?.(chunks ? (i + 1) / chunks.length : at / size)) return;
     }
   }
 }

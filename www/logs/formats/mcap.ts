@@ -1,7 +1,7 @@
 /** Channels and messages of MCAP files. https://mcap.dev/spec */
 
 import { crc32 } from '@foxglove/crc';
-import { McapIndexedReader, McapStreamReader } from '@mcap/core';
+import { McapIndexedReader, McapStreamReader, type Channel } from '@mcap/core';
 import { readBytes, type Source } from '../log.ts';
 import { MAX_BLOCK_BYTES, MessageFile, readAhead, uint53, dataViewOf, type Container, type IsWanted, type OnBlock, type OnMessage } from './container.ts';
 import { unlz4, loadZstd, unzstd } from './decompression.ts';
@@ -36,27 +36,24 @@ const isCompleteIndex = ({ chunkIndexes, statistics }: McapIndexedReader) =>
   (chunkIndexes.length > 0 || statistics.messageCount === 0n) &&
   chunkIndexes.every(({ messageIndexOffsets, messageEndTime }) => messageIndexOffsets.size > 0 || messageEndTime === 0n);
 
-class Mcap extends MessageFile<number> implements Container {
+class Mcap extends MessageFile<number> {
   readonly format = 'mcap';
-  #chunks: McapIndexedReader['chunkIndexes'] | undefined;
   #types = new Map<number, string>();
 
   useIndex({ chunkIndexes, schemasById, channelsById, statistics }: McapIndexedReader): void {
-    this.#chunks = chunkIndexes;
+    this.chunks = chunkIndexes.map(({ chunkStartOffset, messageIndexOffsets }) => ({ position: Number(chunkStartOffset), ids: [...messageIndexOffsets.keys()] }));
     for (const { id, name } of schemasById.values()) this.#types.set(id, name);
     for (const channel of channelsById.values()) this.#addChannel(channel, Number(statistics?.channelMessageCounts.get(channel.id) ?? 0));
   }
 
-  #addChannel({ id, topic, schemaId, messageEncoding }: McapIndexedReader['channelsById'] extends ReadonlyMap<number, infer C> ? C : never, count = 0): void {
+  #addChannel({ id, topic, schemaId, messageEncoding }: Channel, count = 0): void {
     if (!this.channelsById.has(id)) this.channelsById.set(id, { topic, type: this.#types.get(schemaId) ?? '', encoding: messageEncoding, count });
   }
 
-  async read(isWanted: IsWanted, onMessage: OnMessage, onProgress?: OnBlock): Promise<void> {
+  async read(isWanted: IsWanted, onMessage: OnMessage, onBlock?: OnBlock): Promise<void> {
     const { size } = this.source;
     const readBytesAt = readAhead(this.source);
-    const wantedIds = new Set([...this.channelsById].filter(([, channel]) => isWanted(channel)).map(([id]) => id));
-    const wantedChunks = this.#chunks?.filter(({ messageIndexOffsets }) => [...messageIndexOffsets.keys()].some((id) => wantedIds.has(id)));
-    let isComplete = wantedChunks !== undefined;
+    let isComplete = this.chunks !== undefined;
     const readBlock = async (at: number, setEnd: (end: number) => void) => {
       const recordHead = await readBytesAt(at, at + RECORD_HEAD_BYTES);
       const [opcode, length] = [recordHead[0], uint53(dataViewOf(recordHead), 1)];
@@ -64,13 +61,13 @@ class Mcap extends MessageFile<number> implements Container {
       if (end > size) throw new RangeError('a record is cut short');
       isComplete ||= opcode === DATA_END;
       setEnd(isComplete ? size : end);
-      if (wantedChunks && opcode !== CHUNK) throw new RangeError('no chunk is there');
+      if (this.chunks && opcode !== CHUNK) throw new RangeError('no chunk is there');
       if (![SCHEMA, CHANNEL, MESSAGE, CHUNK].includes(opcode)) return;
       if (length > MAX_BLOCK_BYTES) throw new RangeError(`a record of ${length} bytes`);
       const record = await readBytesAt(at, end);
       this.#readRecords(opcode === CHUNK ? await recordsOf(record.subarray(RECORD_HEAD_BYTES)) : record, isWanted, onMessage);
     };
-    await this.readBlocks(wantedChunks?.map(({ chunkStartOffset }) => Number(chunkStartOffset)), MAGIC_BYTES, readBlock, onProgress);
+    await this.readBlocks(MAGIC_BYTES, isWanted, readBlock, onBlock);
     if (!isComplete) this.cutReason ??= 'it ends without an index';
   }
 

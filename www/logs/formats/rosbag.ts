@@ -81,10 +81,8 @@ function* recordsIn(view: DataView): Generator<BagRecord> {
   }
 }
 
-class Rosbag extends MessageFile<number> implements Container {
+class Rosbag extends MessageFile<number> {
   readonly format = 'rosbag';
-  /** Chunks of the index, each with the ids of its connections. */
-  #chunks: { position: number; connections: number[] }[] | undefined;
 
   /** Reads the index at the end, and returns false if there is none or it is damaged. */
   async readIndex(): Promise<boolean> {
@@ -104,10 +102,10 @@ class Rosbag extends MessageFile<number> implements Container {
           const channel = this.channelsById.get(id);
           if (channel) channel.count += messages;
         }
-        chunks.push({ position: fields.uint64('chunk_pos'), connections: idsWithCounts.map(([id]) => id) });
+        chunks.push({ position: fields.uint64('chunk_pos'), ids: idsWithCounts.map(([id]) => id) });
       }
       if (chunks.length !== count) throw new RangeError('the index is incomplete');
-      this.#chunks = chunks;
+      this.chunks = chunks;
       return true;
     } catch (error) {
       if (error instanceof LogError) throw error;
@@ -123,24 +121,22 @@ class Rosbag extends MessageFile<number> implements Container {
     this.channelsById.set(id, { topic: fields.text('topic'), type: new HeaderFields(dataViewOf(data)).text('type'), encoding: 'ros1', count: 0 });
   }
 
-  async read(isWanted: IsWanted, onMessage: OnMessage, onProgress?: OnBlock): Promise<void> {
+  async read(isWanted: IsWanted, onMessage: OnMessage, onBlock?: OnBlock): Promise<void> {
     const { size } = this.source;
     const readBytesAt = readAhead(this.source);
-    const wantedIds = new Set([...this.channelsById].filter(([, channel]) => isWanted(channel)).map(([id]) => id));
-    const wantedChunks = this.#chunks?.filter(({ connections }) => connections.some((id) => wantedIds.has(id)));
     const readBlock = async (at: number, setEnd: (end: number) => void) => {
       const { fields, from, to } = recordAt(dataViewOf(await readBytesAt(at, Math.min(at + MAX_HEADER_BYTES, size))), 0);
       if (at + to > size) throw new RangeError('a record is cut short');
       setEnd(at + to);
       const { op } = fields;
-      if (wantedChunks && op !== CHUNK) throw new RangeError('no chunk is there');
+      if (this.chunks && op !== CHUNK) throw new RangeError('no chunk is there');
       if (op === CONNECTION) this.#addConnection(fields, await readBytesAt(at + from, at + to));
       if (op !== CHUNK) return;
       const uncompressedBytes = fields.uint32('size');
       if (Math.max(to, uncompressedBytes) > MAX_BLOCK_BYTES) throw new RangeError(`a chunk of ${uncompressedBytes} bytes`);
       this.#readRecords(await decompress(fields.text('compression'), await readBytesAt(at + from, at + to), uncompressedBytes), isWanted, onMessage);
     };
-    await this.readBlocks(wantedChunks?.map(({ position }) => position), MAGIC_BYTES, readBlock, onProgress);
+    await this.readBlocks(MAGIC_BYTES, isWanted, readBlock, onBlock);
   }
 
   #readRecords(bytes: Uint8Array, isWanted: IsWanted, onMessage: OnMessage): void {

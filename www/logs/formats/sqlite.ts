@@ -11,7 +11,7 @@ const HEADER_BYTES = 100;
 /** Maximum size of a row, bytes. The largest messages are point clouds and images. */
 const MAX_ROW_BYTES = 2 ** 28;
 
-type SqliteValue = number | bigint | Uint8Array;
+type SqliteValue = number | Uint8Array;
 
 interface Row {
   id: number;
@@ -34,7 +34,7 @@ export async function openSqlite(source: Source): Promise<Container> {
   return database;
 }
 
-class Rosbag2 extends MessageFile<SqliteValue> implements Container {
+class Rosbag2 extends MessageFile<SqliteValue> {
   readonly format = 'sqlite';
   #pageSize = 0;
   /** Bytes of a page without those reserved at its end. */
@@ -218,8 +218,8 @@ function columnValueOf(row: Uint8Array, column: number): SqliteValue {
   throw new RangeError('a row is damaged');
 }
 
-function integerOf(row: Uint8Array, type: number, from: number, to: number): number | bigint {
-  if (type === 6) return dataViewOf(row).getBigInt64(from);
+function integerOf(row: Uint8Array, type: number, from: number, to: number): number {
+  if (type === 6) return Number(dataViewOf(row).getBigInt64(from));
   if (type === 8 || type === 9) return type - 8;
   let value = 0;
   for (let at = from; at < to; at++) value = value * 256 + (at === from ? (row[at] << 24) >> 24 : row[at]);

@@ -5,7 +5,7 @@ import { limits } from '../../build/settings.js';
 import { colourChannels } from '../ui/theme.ts';
 import { lineLegendEntry, type LegendEntry } from './axes.ts';
 import { addLine, drawDisc, paintWithOpacity, strokeLine, strokePath, type Brush, type LineStroke } from './canvas.ts';
-import { strokeInBatches } from './layer.ts';
+import { strokeInBatches } from './cache.ts';
 import type { Callout } from './labels.ts';
 import type { Palette } from '../ui/theme.ts';
 

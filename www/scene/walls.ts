@@ -3,7 +3,7 @@
 import { clamp } from '../ui/format.ts';
 import { colourChannels } from '../ui/theme.ts';
 import { addLine, paintWithOpacity, hiddenContext, strokePath, strokeLine, type Brush } from './canvas.ts';
-import { Layer, strokeInBatches, type Painter } from './layer.ts';
+import { Layer, strokeInBatches, type Painter } from './cache.ts';
 import type { View } from './view.ts';
 import type { Grid, Plan } from '../types.d.ts';
 

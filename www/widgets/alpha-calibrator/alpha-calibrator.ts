@@ -7,7 +7,7 @@ import { FigureElement } from '../../figure/figure.ts';
 import { define } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
 import { pointInView } from '../../scene/canvas.ts';
-import { Memo } from '../../scene/memo.ts';
+import { Memo } from '../../scene/cache.ts';
 import { group, button, radioGroup } from '../../ui/controls.ts';
 import { integer, NO_VALUE, fixed, formatEditable } from '../../ui/format.ts';
 import { readoutList } from '../../ui/readouts.ts';

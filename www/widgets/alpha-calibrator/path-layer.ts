@@ -5,8 +5,7 @@
 
 import { strokePath, type Brush } from '../../scene/canvas.ts';
 import { lineStyles } from '../../scene/draw.ts';
-import { LINES_PER_STROKE, Layer, strokeInBatches, type Painter } from '../../scene/layer.ts';
-import { Memo } from '../../scene/memo.ts';
+import { LINES_PER_STROKE, Layer, strokeInBatches, type Painter, Memo } from '../../scene/cache.ts';
 import { colourChannels } from '../../ui/theme.ts';
 import { LEG_CLASSES, LINE_STYLES, type LineName } from './settings.ts';
 import type { CalibrationLegs } from '../../types.d.ts';

@@ -9,7 +9,7 @@ import { define } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
 import { hasLength } from '../../scene/draw.ts';
 import { Handle, stepsOfKey } from '../../scene/handle.ts';
-import { Memo } from '../../scene/memo.ts';
+import { Memo } from '../../scene/cache.ts';
 import { openingAlphas } from '../../../build/settings.js';
 import { button, formatMarkup, radioButton, group, toggle } from '../../ui/controls.ts';
 import { clamp, fixed, formatEditable } from '../../ui/format.ts';

@@ -6,7 +6,7 @@ import { pictureCanvas, settingRadios, disclosures, titledPicture, cloudControls
 import { FigureElement } from '../../figure/figure.ts';
 import { define } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
-import { Memo } from '../../scene/memo.ts';
+import { Memo } from '../../scene/cache.ts';
 import { group } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
 import { presetButtons } from '../shared/controls.ts';

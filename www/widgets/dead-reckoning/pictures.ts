@@ -26,8 +26,6 @@ const MIN_STEP_ASPECT = 1e-3;
 /** Radius of the mark at the commanded end, CSS pixels. */
 const END_MARK_RADIUS = 4;
 
-export type OutlineName = keyof typeof OUTLINE_STYLES;
-
 /** Picture of the floor from above, with the path. */
 export class PathPicture extends SamplesPicture<Scene> {
   name = 'plane';
@@ -37,14 +35,14 @@ export class PathPicture extends SamplesPicture<Scene> {
     const outlineCoordinates = [outlines, ...milestones.map((milestone) => milestone.outlines)].flatMap(({ ellipse, exponential }) => [...ellipse, ...exponential]);
     const points = [...commanded, ...outlineCoordinates];
     // Without a prediction the view shows the robots.
-    const neededExtent = extentAround(poses, 3, extentAround(points, 2));
-    this.view.fit(extentOf(outlineCoordinates.length > 0 ? points : [neededExtent.xMin, neededExtent.yMin, neededExtent.xMax, neededExtent.yMax], 0.4));
+    if (outlineCoordinates.length === 0) points.push(...poses.filter((_, i) => i % 3 < 2));
+    this.view.fit(extentOf(points, 0.4));
   }
 
   paint: Picture<Scene>['paint'] = (brush, { commanded, outlines, milestones, poses, pose, marked, overlays, config: { step } }) => {
     const { palette } = brush;
     const styles = lineStyles(brush, OUTLINE_STYLES);
-    const shownNamesOf = (names: OutlineName[]) => names.filter((name) => overlays.includes(name));
+    const shownNamesOf = (names: (keyof typeof OUTLINE_STYLES)[]) => names.filter((name) => overlays.includes(name));
     const shownNames = shownNamesOf(['ellipse', 'exponential']) as ('ellipse' | 'exponential')[];
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, lineLegendEntries(brush, OUTLINE_STYLES, shownNamesOf(['ellipse', 'exponential', 'command']), words.reckoning.overlays));
     const linesOf = (stepOutlines: Scene['outlines']) => shownNames.map((name) => ({ points: stepOutlines[name], ...styles[name] }));

@@ -55,12 +55,6 @@ function shownComponentsOf(overlays: string[]): readonly (typeof COMPONENTS)[num
   return selectedComponents.length > 0 ? selectedComponents : COMPONENTS;
 }
 
-/** Returns the component whose ratio at the selected step is furthest from 1, of those shown. */
-function worstComponentAt({ config: { step }, curves }: ViewModel, overlays: string[]) {
-  const axis = worstAxisOf(overlays, (i) => Math.abs(curves[i].ratio[step - 1] - 1));
-  return { component: COMPONENTS[axis], ratio: curves[axis].ratio[step - 1], error: curves[axis].error[step - 1] };
-}
-
 function ratioText({ config: { step, compounding }, curves }: ViewModel, overlays: string[]) {
   const texts = words.reckoning;
   const ratioTexts = shownComponentsOf(overlays).map((name) => {
@@ -128,11 +122,12 @@ function curveStyle(name: keyof typeof CURVE_STYLES, highlight: string | null) {
 }
 
 /** Returns the headline of the figure: the ratio at the selected step that is furthest from 1. */
-export function headlineHtml(viewModel: ViewModel, overlays: string[]) {
+export function headlineHtml({ config: { step }, curves, shown }: ViewModel, overlays: string[]) {
   const texts = words.reckoning;
-  const { ratio, error, component } = worstComponentAt(viewModel, overlays);
-  const headlineDetail = texts.ofMeasured(Number.isNaN(error) ? '' : fixed(error, 2), viewModel.config.step, integer(viewModel.shown));
-  return readoutList([[texts.predicted(texts.of[component]), fixed(ratio, 2), headlineDetail]], 0);
+  const axis = worstAxisOf(overlays, (i) => Math.abs(curves[i].ratio[step - 1] - 1));
+  const error = curves[axis].error[step - 1];
+  const headlineDetail = texts.ofMeasured(Number.isNaN(error) ? '' : fixed(error, 2), step, integer(shown));
+  return readoutList([[texts.predicted(texts.of[COMPONENTS[axis]]), fixed(curves[axis].ratio[step - 1], 2), headlineDetail]], 0);
 }
 
 /** Ranges of both logarithmic axes: fixed, so that a slider moves the curves and not the axes. */

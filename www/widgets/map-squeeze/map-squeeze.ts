@@ -7,7 +7,7 @@ import { pictureCanvas, disclosures, titledPicture, settingCheckbox, settingRadi
 import { FigureElement } from '../../figure/figure.ts';
 import { define } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
-import { Memo } from '../../scene/memo.ts';
+import { Memo } from '../../scene/cache.ts';
 import { verdict as bits } from '../../../build/settings.js';
 import { button, group, radioGroup } from '../../ui/controls.ts';
 import { FileOpener } from '../shared/files.ts';

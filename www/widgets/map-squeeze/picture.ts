@@ -3,7 +3,7 @@
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { densityRamp, drawMark, drawOutline, lineStyles } from '../../scene/draw.ts';
-import { Pixels, strokeInBatches } from '../../scene/layer.ts';
+import { Pixels, strokeInBatches } from '../../scene/cache.ts';
 import { drawLabel, drawLeader } from '../../scene/labels.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
 import { View, cornersAround, extentAround, widenedExtent } from '../../scene/view.ts';

@@ -105,15 +105,13 @@ export function costTable(figure: Figure) {
   const { costs, viewModel: { config } } = figure;
   const costRow = (sampler: SamplerName, cost: SampleCost) => [
     sampler === 'sub-stepped' ? `${samplers[sampler]} (${config.steps})` : samplers[sampler],
-    ...(typeof cost === 'string' ? [texts[cost]] : [fixed(cost.draws, 2), fixed(cost.wallTests, 2), formatRounded(cost.micros, 2), coreShareText(cost.micros)]),
+    ...(typeof cost === 'string' ? [texts[cost]] : [fixed(cost.draws, 2), fixed(cost.wallTests, 2), formatRounded(cost.micros, 2), `${formatRounded(100 * cost.micros * 1e-6 * SAMPLES_PER_SECOND, 2)}\u202f%`]),
   ];
   return html`<div class="table">
     ${button(texts.measure, () => figure.measureSamplerCosts())}
     ${costs ? figureTable({ caption: texts.caption, columns: [texts.sampler, texts.draws, texts.tests, 'µs', texts.core], rows: SAMPLERS.map((sampler) => costRow(sampler, costs[sampler])) }) : nothing}
   </div>`;
 }
-
-const coreShareText = (micros: number) => `${formatRounded(100 * micros * 1e-6 * SAMPLES_PER_SECOND, 2)}\u202f%`;
 
 /** Maximum fraction of the map's area that a close view with an overview shows. */
 const MAX_SHOWN_FRACTION = 0.6;

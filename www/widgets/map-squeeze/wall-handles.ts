@@ -5,7 +5,7 @@ import { swatchHtml } from '../../figure/controls.ts';
 import { FigureController } from '../../figure/controller.ts';
 import { words } from '../../messages/registry.ts';
 import { Handle, stepsOfKey, turnsOfKey } from '../../scene/handle.ts';
-import { Memo } from '../../scene/memo.ts';
+import { Memo } from '../../scene/cache.ts';
 import { clamp, fixed } from '../../ui/format.ts';
 import { wallGrips, wallsAfterMove, type Grip } from './walls.ts';
 import type { View } from '../../scene/view.ts';

@@ -6,7 +6,7 @@ import { pictureCanvas, disclosures, titledPicture, settingRadios, cloudControls
 import { FigureElement } from '../../figure/figure.ts';
 import { define } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
-import { Memo } from '../../scene/memo.ts';
+import { Memo } from '../../scene/cache.ts';
 import { formatMarkup, radioButton, group } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
 import { figureTable } from '../../ui/readouts.ts';

@@ -223,13 +223,6 @@ export class LegsPicture extends SamplesPicture<Scene> {
   /** Returns labels with the value and standard deviation of each leg that is long enough to see. */
   #labels({ view, palette: { prior: colour } }: Brush, { legs, deviations }: Scene, turns: Turn[]) {
     const [startPose, drivenPose] = turns.map(([turnPose]) => turnPose);
-    const legLabel = (sub: 'rot1' | 'trans' | 'rot2', unit: string, place: { x: number, y: number }) => ({
-      ...place,
-      symbol: 'δ',
-      sub,
-      text: `${fixed(legs[sub], 2)}${deviations[sub] > 0 ? ` ± ${fixed(deviations[sub], 2)}` : ''} ${unit}`,
-      colour,
-    });
     // The point of an arc that is nearest to the labels, and inside the axes.
     const leaderEnd = ([{ x, y, theta }, turn, radius]: Turn) => {
       const endCandidates = LEADER_ENDS.map((share) => view.ray({ x, y, theta: theta + share * turn }, radius)[1])
@@ -238,11 +231,15 @@ export class LegsPicture extends SamplesPicture<Scene> {
       return endCandidates.find((place) => place.y > view.frame.top) ?? endCandidates[endCandidates.length - 1];
     };
     const driveMiddle = { x: view.toPixelX((startPose.x + drivenPose.x) / 2), y: view.toPixelY((startPose.y + drivenPose.y) / 2) };
-    return [
-      ...(Math.abs(legs.rot1) < MIN_DRAWN_TURN ? [] : [legLabel('rot1', 'rad', leaderEnd(turns[0]))]),
-      ...(legs.trans * view.scaleX < MIN_LABELLED_DRIVE ? [] : [legLabel('trans', 'm', driveMiddle)]),
-      ...(Math.abs(legs.rot2) < MIN_DRAWN_TURN ? [] : [legLabel('rot2', 'rad', leaderEnd(turns[1]))]),
-    ];
+    const labels = [
+      { sub: 'rot1', unit: 'rad', isShown: Math.abs(legs.rot1) >= MIN_DRAWN_TURN, anchor: leaderEnd(turns[0]) },
+      { sub: 'trans', unit: 'm', isShown: legs.trans * view.scaleX >= MIN_LABELLED_DRIVE, anchor: driveMiddle },
+      { sub: 'rot2', unit: 'rad', isShown: Math.abs(legs.rot2) >= MIN_DRAWN_TURN, anchor: leaderEnd(turns[1]) },
+    ] as const;
+    return labels.filter(({ isShown }) => isShown).map(({ sub, unit, anchor }) => {
+      const deviationText = deviations[sub] > 0 ? ` ± ${fixed(deviations[sub], 2)}` : '';
+      return { ...anchor, symbol: 'δ', sub, text: `${fixed(legs[sub], 2)}${deviationText} ${unit}`, colour };
+    });
   }
 
   #paintGhosts({ context, view, palette }: Brush, { ghosts }: Scene) {

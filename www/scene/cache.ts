@@ -1,7 +1,21 @@
-/** Drawings that are cached on a hidden canvas: thousands of lines, and images that cover the plot area. */
+/** Caches: of one result, and of drawings on hidden canvases, which are thousands of lines or images that cover the plot area. */
 
 import { addLine, hiddenContext, strokePath, type Brush, type LineStroke } from './canvas.ts';
-import { Memo } from './memo.ts';
+
+/** Cache of one result, valid while its dependencies are the same. */
+export class Memo<Result> {
+  #lastKey: unknown[] = [];
+  #lastResult: Result | undefined;
+
+  /** Returns the cached result, or computes it again. @param key values on which the result depends, compared by identity */
+  get(key: unknown[], compute: () => Result): Result {
+    if (key.length !== this.#lastKey.length || key.some((part, i) => part !== this.#lastKey[i])) {
+      this.#lastResult = compute();
+      this.#lastKey = key;
+    }
+    return this.#lastResult as Result;
+  }
+}
 
 export type Painter = Pick<Brush, 'view' | 'palette' | 'ratio' | 'highlight'> & { context: CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D };
 

@@ -9,4 +9,9 @@ import { de as decomposer } from './widgets/odometry-decomposer/de.ts';
 import { de as reckoning } from './widgets/dead-reckoning/de.ts';
 import { de as calibrator } from './widgets/alpha-calibrator/de.ts';
 
-setMessages('de', { ...de, banana, squeeze, anatomy, decomposer, reckoning, calibrator });
+const widgetWords = { banana, squeeze, anatomy, decomposer, reckoning, calibrator };
+
+/** Words of each widget by the key of its messages. They have the same type in every language. */
+export type WidgetWords = typeof widgetWords;
+
+setMessages('de', { ...de, ...widgetWords });

@@ -8,8 +8,7 @@
 
 export type Message = string | ((...values: any[]) => string) | Message[] | { [key: string]: Message };
 
-/** `WidgetWords`: see widgets/words.d.ts. */
-export type Messages = typeof import('./en.ts').en & WidgetWords;
+export type Messages = typeof import('./en.ts').en & import('../de.ts').WidgetWords;
 
 /** Catalogues that all scripts of a page share, because a language may be in its own file. */
 interface SharedCatalogues {

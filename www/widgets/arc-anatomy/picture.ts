@@ -93,11 +93,8 @@ export class ArcPicture extends Picture<Scene> {
       if (showsLine('twist')) strokePath(brush.context, { colour: styles.twist.colour, width: 1.25 }, () => {
         for (let i = 0; i < paths.ticks.length; i += 4) addLine(brush.context, brush.view.toPixels(paths.ticks.subarray(i, i + 4)));
       });
-      drawOutlines(brush, [
-        ...(showsLine('commanded') ? [{ points: paths.commanded, ...styles.commanded }] : []),
-        ...(showsLine('twist') ? [{ points: paths.lie, ...styles.twist }] : []),
-        ...(showsLine('inverted') ? [{ points: paths.driven, ...styles.inverted }] : []),
-      ]);
+      const drivenPaths = { commanded: paths.commanded, twist: paths.lie, inverted: paths.driven };
+      drawOutlines(brush, (['commanded', 'twist', 'inverted'] as const).filter(showsLine).map((name) => ({ points: drivenPaths[name], ...styles[name] })));
       if (showsLine('inverted') && driven.arcLength !== inverted.arcLength) {
         drawOutlines(brush, [{ points: paths.inverted, colour: styles.inverted.colour, width: 1, dash: [2, 3] }]);
       }
@@ -110,7 +107,7 @@ export class ArcPicture extends Picture<Scene> {
       drawMovingRobots(brush, scene);
       drawDraggableRobot(brush, start, ROBOT_RADIUS, palette.truth);
       drawDraggableRobot(brush, next, ROBOT_RADIUS, palette.prediction);
-      if (showsLine('wedge')) drawLabel(brush, { ...wedgeLabelPlace(brush, next, lastTurn), text: `γ̂Δt = ${fixed(lastTurn, 2)}`, colour: styles.wedge.colour });
+      if (showsLine('wedge')) drawWedgeLabel(brush, next, lastTurn, styles.wedge.colour);
     });
   };
 
@@ -194,10 +191,11 @@ function drawWedge({ context, view }: Brush, next: Pose, turn: number, colour: s
   strokeLine(context, view.ray({ ...next, theta: next.theta - turn }, WEDGE_RADIUS), { colour, width: 1.25 });
 }
 
-/** Returns a place for the wedge's label that does not cover the wedge, CSS pixels. */
-function wedgeLabelPlace({ view }: Brush, next: Pose, turn: number): { x: number, y: number, towards: number } {
-  const ahead = view.direction(next.theta - turn / 2);
-  return { x: view.toPixelX(next.x) + (WEDGE_RADIUS + 8) * ahead.x, y: view.toPixelY(next.y) + (WEDGE_RADIUS + 20) * ahead.y, towards: ahead.x };
+/** Draws the label of the wedge where it does not cover the wedge. */
+function drawWedgeLabel(brush: Brush, next: Pose, turn: number, colour: string) {
+  const [x, y] = brush.view.toPixel(next.x, next.y);
+  const ahead = brush.view.direction(next.theta - turn / 2);
+  drawLabel(brush, { x: x + (WEDGE_RADIUS + 8) * ahead.x, y: y + (WEDGE_RADIUS + 20) * ahead.y, towards: ahead.x, text: `γ̂Δt = ${fixed(turn, 2)}`, colour });
 }
 
 /** Draws the robot at one time on each path that is shown. */

@@ -1,8 +1,11 @@
-/** Script of the worker that reads logs. A page that cannot have workers imports `serveRequests` from it. */
+/** Script of the worker that reads logs. A page that cannot have workers imports `LogSession` from it. */
 
-import { instantiateShared } from './core.ts';
-import { serveRequests } from './logs/worker.ts';
+import { expose, proxy } from 'comlink';
+import { instantiateShared, type SharedCore } from './core.ts';
+import { LogSession } from './logs/worker.ts';
 
-export { serveRequests };
+export { LogSession };
 
-if ('DedicatedWorkerGlobalScope' in globalThis) serveRequests(globalThis as unknown as MessagePort, instantiateShared);
+export const startSession = async (core: SharedCore) => proxy(new LogSession(await instantiateShared(core)));
+
+if ('DedicatedWorkerGlobalScope' in globalThis) expose(startSession);

@@ -94,7 +94,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   exportPicture = new SummaryPicture(this);
   #opener = new LogOpener(this);
   dropHandlers = this.#opener;
-  service = new LogService('alpha-calibrator');
+  service = new LogService();
   #predictedLeg: Memo<LegView | null> = new Memo();
   #panels: Memo<CalibrationPanel[]> = new Memo();
   /** Log of the user or of the page; null for the simulated log. */

@@ -6,16 +6,18 @@ import { language, words } from '../../messages/registry.ts';
 import { button } from '../../ui/controls.ts';
 import { formatEditable } from '../../ui/format.ts';
 import { FileOpener } from '../shared/files.ts';
-import { isAbortError, type LogFailure } from './log-service.ts';
+import { isAbortError } from './log-service.ts';
 import type { LogPlan, UserChoices } from '../../logs/drives.ts';
 import type { Drive } from '../../logs/pairs.ts';
+import type { LogFailure } from '../../logs/worker.ts';
 import type { OpenOptions, Question, Recording, Role } from '../../logs/log.ts';
 import type { CalibrationLog } from '../../types.d.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
 export type LogWords = typeof import('../../logs/en.ts').english;
 
-type LogError = import('../../logs/log.ts').LogError;
+/** Reason why files were refused: an error of the page, or a failure of the worker. */
+type Refusal = Pick<Error, 'message'> & Partial<import('../../logs/log.ts').LogError & LogFailure>;
 
 type LogModules = Awaited<ReturnType<typeof loadLogModules>>;
 
@@ -153,7 +155,7 @@ export class LogOpener extends FileOpener<Figure> {
       const skipped = chosen.skipped.find(({ ask }) => ask);
       if (skipped) throw skipped;
       const loneLogFiles = this.#loneLogFiles;
-      const isLoneLog = chosen.recordings.length === 1 && (error as LogError).ask !== undefined;
+      const isLoneLog = chosen.recordings.length === 1 && (error as Refusal).ask !== undefined;
       if (isLoneLog) this.#loneLogFiles = { ...chosen };
       if (!isLoneLog || !loneLogFiles || loneLogFiles.files === chosen.files) throw error;
       const [files, questions] = [[...loneLogFiles.files, ...chosen.files], [...loneLogFiles.questions, ...chosen.questions]];
@@ -184,7 +186,7 @@ export class LogOpener extends FileOpener<Figure> {
     this.host.gesture.complete();
   }
 
-  explain(refusal: Error & Partial<LogError & LogFailure>) {
+  explain(refusal: Refusal) {
     if (isAbortError(refusal)) return words.progress.stopped;
     const { message, sentence, sentences, ask } = refusal;
     const refusalReason = sentences?.[language === 'de' ? 'de' : 'en'] ?? (sentence && this.texts ? sentence(this.texts) : words.calibrator.own.refused(message));
@@ -192,11 +194,11 @@ export class LogOpener extends FileOpener<Figure> {
   }
 
   /** Shows why a log was refused, and what to choose. */
-  async refuse(error: Error & Partial<LogError & LogFailure>) {
+  async refuse(error: Refusal) {
     if (isAbortError(error)) return;
-    const { ask, file, place } = error;
+    const { ask, place } = error;
     const { chosen } = this;
-    const newQuestion = ask && chosen && { file: file ?? place?.file ?? '', ask };
+    const newQuestion = ask && chosen && { file: place?.file ?? '', ask };
     if (newQuestion && !chosen.questions.some((question) => question.file === newQuestion.file && question.ask.what === ask.what)) chosen.questions.push(newQuestion);
     await super.refuse(error, () => newQuestion && this.logModules?.focusChooser(this.host, newQuestion));
   }

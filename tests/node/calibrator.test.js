@@ -3,11 +3,10 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { en } from '../../www/widgets/alpha-calibrator/en.ts';
-import { formatAlphaOrBound, correctionAdvice, formatInterval as ends, formatEstimate, nav2Lines, formatNumber } from '../../www/widgets/alpha-calibrator/lines.ts';
+import { formatAlphaOrBound, correctionAdvice, formatInterval as ends, formatEstimate, localized, nav2Lines, formatNumber } from '../../www/widgets/alpha-calibrator/lines.ts';
 import { viewCornersOf } from '../../www/widgets/alpha-calibrator/pictures.ts';
 import { legClassesOf, isTruthComparable } from '../../www/widgets/alpha-calibrator/view-model.ts';
 import { SIMULATED_LEGS } from '../../www/widgets/alpha-calibrator/settings.ts';
-import { localized } from '../../www/widgets/alpha-calibrator/words.ts';
 import { settings } from '../../build/settings.js';
 
 test('a leg has the class of its p-value, by as many noises as it shows', () => {

@@ -16,7 +16,7 @@ import { run } from '../../www/cli/run.ts';
 import { warningsOf } from '../../www/logs/pairs.ts';
 import { en } from '../../www/widgets/alpha-calibrator/en.ts';
 import { useLanguageOf } from '../../www/messages/registry.ts';
-import { judgementOf } from '../../www/widgets/alpha-calibrator/words.ts';
+import { judge } from '../../www/widgets/alpha-calibrator/words.ts';
 import { odometryMessageOf, poseOf, recordingOf, stampOf, transformMessageOf, twistOf } from '../mcap.js';
 
 const CLI = fileURLToPath(new URL('../../dist/cli.js', import.meta.url));
@@ -264,7 +264,7 @@ test('--yaml prints the lines for Nav2 alone, or none of an unusable log', async
   const { code: exitCode, out, err } = await runCalibrate([...LOG_ARGS, '--yaml', '--rule', 'nav2']);
   assert.equal(exitCode, 0);
   assert.match(out, /^amcl:\n {2}ros__parameters:\n[^]*\n {4}update_min_a: 0\.2\n$/);
-  assert.match(err, /^Odometry: odometry\.csv\n {2}\d+ of \d+ rows, [^]*^Consistent: .*\nFirst multiply the odometry’s distances by .*\n$/m);
+  assert.match(err, /^Odometry: odometry\.csv\n {2}\d+ of \d+ rows, [^]*^Trust\. .*\nUse the recommended α’s with legs of this length\.\nFirst multiply the odometry’s distances by .*\n$/m);
   assert.match((await runCalibrate([...LOG_ARGS, '--yaml'])).err, /\nWarning: fitted by another rule than Nav2’s; give --rule nav2\.\n$/);
   const swappedOutput = await runCalibrate(['--odometry', examplePath('reference'), '--reference', examplePath('odometry'), '--yaml']);
   assert.match(swappedOutput.err, /^Warning: .* Are the two swapped\?$/m);
@@ -309,7 +309,7 @@ test('--plot writes a panel for each drive, with both paths aligned, and the end
 test('a terminal gets colours', async () => {
   let out = '';
   await run(['calibrate', ...LOG_ARGS], { load, print: (text) => (out += text), complain: assert.fail, isColored: true });
-  assert.ok(out.includes('\n\x1b[32mConsistent\x1b[0m: '), out);
+  assert.ok(out.includes('\n\x1b[32mTrust\x1b[0m. '), out);
 });
 
 test('inspect lists what is in a file, and the command to go on with', async () => {
@@ -358,7 +358,8 @@ test('an unusable log has a sentence and no lines for Nav2', async () => {
   const { code: exitCode, out } = await runCalibrate([...LOG_ARGS.slice(0, 3), reversedPath]);
   assert.equal(exitCode, 3);
   for (const linePattern of [
-    /^Unusable: no α’s are recommended from this log\. The reference does not follow the odometry: /m, /^reference-matches +\S+ +0\.0005 to 0\.7 +FAILED$/m,
+    /^Do not use\. Failed check: mismatch of odometry and reference \(6 of 13 failed\)\.\nThe reference does not follow the odometry: /m,
+    /^reference-matches +\S+ +0\.0005 to 0\.7 +FAILED +mismatch of odometry and reference$/m,
     /^alpha1 .* – +rotation noise/m, /^No lines for nav2_params\.yaml: the log is unusable\.$/m,
   ]) assert.match(out, linePattern);
   assert.doesNotMatch(out, /amcl:|not identifiable: /);
@@ -369,8 +370,8 @@ test('the report, the lines for Nav2 and the figure’s verdict agree whether th
     const args = [...LOG_ARGS.slice(0, 3), writeInFolder(`${name}.csv`, readFileSync(examplePath('reference')))];
     const [{ out }, { out: json }] = [await runCalibrate(args), await runCalibrate([...args, '--json'])];
     const { logs, ...stats } = JSON.parse(json);
-    const { rating } = judgementOf(/** @type {any} */ ({ stats, legs: stats.legs, fitted: stats.systematicErrors }), warningsOf(logs));
-    const areNoted = [new RegExp(`^${en.nav2.localizer}\\nQuestionable: all checks passed, but `, 'm').test(out), out.includes(`# ${en.nav2.localizer}`), rating === 'questionable'];
+    const { rating } = judge(/** @type {any} */ ({ stats, legs: stats.legs, fitted: stats.systematicErrors }), warningsOf(logs));
+    const areNoted = [out.includes(`\nCaution. ${en.nav2.localizer}\nIf the log cannot be improved, use the recommended α’s.\n`), out.includes(`# ${en.nav2.localizer}`), rating === 'questionable'];
     assert.deepEqual(areNoted, [isLocalizer, isLocalizer, isLocalizer], name);
   }
 });
@@ -382,12 +383,12 @@ test('the report says what failed, what is lost, and what to drive', async () =>
   const reportWith = (/** @type {any} */ change, other = {}) => reportText({ calibration: { ...calibration, ...change }, options: { ...options, ...other }, logs: [], start: 0, driveStarts: [10, 1000], date: '' });
   const failedChecks = [{ name: 'enough-legs', value: 20, expected: [100, Infinity], passed: false, message: 'Drive on.' }];
   const reportOfFailure = reportWith({ diagnostics: { ...diagnostics, verdict: 'questionable', checks: failedChecks } });
-  assert.match(reportOfFailure, /^\nQuestionable: one check failed \(enough-legs\)\. Drive on\. If the log .*\n[^]*^enough-legs +20 +≥ 100 +FAILED\nenough-legs: Drive on\.$/m);
+  assert.match(reportOfFailure, /^\nCaution\. Failed check: number of legs \(1 of 1 failed\)\.\nDrive on\.\nIf the log .*\n[^]*^enough-legs +20 +≥ 100 +FAILED +number of legs\nenough-legs: Drive on\.$/m);
   const roundedChecks = [{ name: 'window-2m-covered', value: 0.8636, expected: [0.8641, 1], passed: false, message: '' }];
-  assert.match(reportWith({ diagnostics: { ...diagnostics, verdict: 'questionable', checks: roundedChecks } }), /^window-2m-covered +0\.8636 +0\.8641 to 1 +FAILED$/m);
-  assert.match(reportWith({ recommended: null, diagnostics: { ...diagnostics, verdict: 'unusable' } }), /^\nUnusable: .* It does not identify any α\.\n\n/);
+  assert.match(reportWith({ diagnostics: { ...diagnostics, verdict: 'questionable', checks: roundedChecks } }), /^window-2m-covered +0\.8636 +0\.8641 to 1 +FAILED +held-out windows of 2 m within 95 %$/m);
+  assert.match(reportWith({ recommended: null, diagnostics: { ...diagnostics, verdict: 'unusable' } }), /^\nDo not use\. The log identifies no α\.\n\n/);
   const inflationChecks = [{ name: 'inflation-bounded', value: Infinity, expected: [1, 30], passed: false, message: 'Find the cause.' }];
-  assert.match(reportWith({ recommended: null, diagnostics: { ...diagnostics, verdict: 'unusable', checks: inflationChecks } }), /^\nUnusable: .* Find the cause\.\n/);
+  assert.match(reportWith({ recommended: null, diagnostics: { ...diagnostics, verdict: 'unusable', checks: inflationChecks } }), /^\nDo not use\. Failed check: inflation .*\nFind the cause\.\n\n/);
   const legsWithOutliers = { count: 3, times: [12, 13, 14, 15, 1005, 1006], outliers: [1, 0, 1] };
   assert.match(reportWith({ legs: legsWithOutliers }), /^outliers: 2 of 3 legs, at 2\.00 s of drive 1, 5\.00 s of drive 2 after the start$/m);
   assert.match(reportWith({ lost: { ...lost, withoutReference: 3, standing: 7 } }), /^lost legs: 3 without reference, 7 standing still$/m);
@@ -396,11 +397,11 @@ test('the report says what failed, what is lost, and what to drive', async () =>
   assert.match(reportWith({ systematicErrors: { ...systematicErrors, mountYaw: { value: null, interval: null, constant: true, corrected: false } } }), /^mount yaw \(rad\) +not identifiable$/m);
   const unidentifiedAlphas = { alphas: [0.1, null, 0.1, null], notIdentifiable: [null, 'collinear', null, 'collinear'] };
   const reportOfUnidentified = reportWith(unidentifiedAlphas);
-  assert.match(reportOfUnidentified, /^\nConsistent: all checks passed, but alpha2 and alpha4 cannot be identified\. Use .*\nalpha2 and alpha4 not identifiable: rotation and translation are collinear in this log; add /);
-  assert.match(reportOfUnidentified, /^alpha2 +not identifiable /m);
-  const { rating, finding } = judgementOf(/** @type {any} */ ({ stats: { ...calibration, ...unidentifiedAlphas }, legs: calibration.legs, fitted: systematicErrors }), []);
+  assert.match(reportOfUnidentified, /^\nCaution\. Not determined by this log: α₂, α₄; add ~50 straight legs and ~50 in-place rotations\.\nIf the log /);
+  assert.match(reportOfUnidentified, /^alpha2 +not identifiable .* rotation and translation are collinear in this log$/m);
+  const { rating, finding } = judge(/** @type {any} */ ({ stats: { ...calibration, ...unidentifiedAlphas }, legs: calibration.legs, fitted: systematicErrors }), []);
   assert.deepEqual([rating, finding], ['questionable', 'Not determined by this log: α₂, α₄; add ~50 straight legs and ~50 in-place rotations.']);
-  assert.match(reportWith({ ...unidentifiedAlphas, notIdentifiable: [null, 'insufficient-rotation', null, null] }, { model: 'velocity' }), /^alpha2 not identifiable: .*; add ~50 legs in tight bends$/m);
+  assert.match(reportWith({ ...unidentifiedAlphas, notIdentifiable: [null, 'insufficient-rotation', null, null] }, { model: 'velocity' }), /^Caution\. Not determined by this log: α₂; add ~50 legs in tight bends\.$/m);
   assert.match(reportWith({ alphas: [0, 0.1, 0.1, 0.1], intervals: [[0, 0.00123], [0.05, 0.2], null, null] }), /^alpha1 +≤ 0\.0012 +0\.0000 to 0\.0012 +≤ 0\.0015 /m);
   assert.match(reportWith({}, { model: 'velocity' }), /^No lines for nav2_params\.yaml: Nav2 has no velocity model\.$/m);
   for (const reason of readDeclaredReasons()) assert.ok(reason in en.alphas.lacking, reason);

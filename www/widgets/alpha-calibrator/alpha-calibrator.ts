@@ -12,18 +12,14 @@ import { group, button, radioGroup } from '../../ui/controls.ts';
 import { integer, NO_VALUE, fixed, formatEditable } from '../../ui/format.ts';
 import { readoutList } from '../../ui/readouts.ts';
 import { startOverButton } from '../shared/controls.ts';
-import { diagnosticsHtml, regressionPanels } from './diagnostics.ts';
 import { LogService, isAbortError } from './log-service.ts';
-import { copyMessage, copyButton, nav2ExportControls } from './nav2.ts';
 import { LogOpener, dropZone, logSection } from './open.ts';
-import { LegPicture, PathPicture } from './pictures.ts';
-import { alphaTable, alphaTexts, verdictHtml } from './readouts.ts';
+import { LegPicture, PathPicture, SummaryPicture } from './pictures.ts';
+import { alphaTable, alphaTexts, copyButton, copyMessage, diagnosticsHtml, nav2ExportControls, regressionPanels, systematicTable, verdictHtml } from './readouts.ts';
 import { NOISE_COMPONENTS, LINE_STYLES, definition, modelRuleOf, settingsFor } from './settings.ts';
 import { styles } from './styles.ts';
-import { SummaryPicture } from './summary-picture.ts';
-import { systematicTable, systematicTexts } from './systematic.ts';
 import { viewModelOf, type ViewModel, observedCount } from './view-model.ts';
-import { captionOf, judgementOf, legText, recommendationReason, pathText } from './words.ts';
+import { captionOf, judge, legText, recommendationReason, pathText, summaryTexts } from './words.ts';
 import type { AlphaCalibrator as Simulation, CalibrationLog, CalibrationPanel, LegView, Motion } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
 
@@ -244,7 +240,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
     const statisticColumns = (statistic: string) => NOISE_COMPONENTS[fitted.model].map((name) => `${statistic}_${name}`).join(' ');
     const poseColumns = (log: string) => ['from', 'to'].flatMap((end) => ['x_m', 'y_m', 'theta_rad'].map((key) => `${log}_${end}_${key}`)).join(' ');
     return {
-      description: [pathText(this.viewModel, this.chosen), ...alphaTexts(this.viewModel).map((text) => `${text}.`), captionOf(this), recommendationReason(this.viewModel), ...systematicTexts(this.viewModel)].join(' '),
+      description: [pathText(this.viewModel, this.chosen), ...alphaTexts(this.viewModel).map((text) => `${text}.`), ...summaryTexts(this)].join(' '),
       settings: { ...(this.log && { log: this.log.name }), ...fitted },
       columns: {
         'begins_s ends_s': legs.times,
@@ -285,7 +281,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
             <p class="panel-title">${texts.alphas.title(texts.kinds[modelRuleOf(viewModel.fitted)])}</p>
             ${copyButton(this, this.#opener.otherResultsNote)} ${startOverButton(this, this.#startOver)}
           </div>
-          <p class="to-do">${this.#opener.otherResultsNote || judgementOf(viewModel, this.warnings).toDo}</p>
+          <p class="to-do">${this.#opener.otherResultsNote || judge(viewModel, this.warnings).advice.join(' ')}</p>
           ${alphaTable(viewModel)}
           <p class="reason muted small">${recommendationReason(viewModel)}</p>
           ${copyMessage(this)}

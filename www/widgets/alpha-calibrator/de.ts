@@ -144,7 +144,7 @@ export const de: typeof import('./en.ts').en = {
     corrected: 'korrigiert',
     notCorrected: 'nicht korrigiert',
     notConstant: 'keine Konstante',
-    matters: (errors) => `Nicht korrigiert: ${errors} (siehe Weitere Regler).`,
+    matters: (errors, place) => `Nicht korrigiert: ${errors} (siehe ${place}).`,
     removed: (errors) => `Korrigierte systematische Fehler: ${errors}.`,
     left: (errors) => `Nicht korrigierte systematische Fehler (in den α enthalten): ${errors}.`,
   },

@@ -110,7 +110,7 @@ export const en = {
     corrected: 'corrected',
     notCorrected: 'not corrected',
     notConstant: 'not a constant',
-    matters: (errors) => `Not corrected: ${errors} (see More controls).`,
+    matters: (errors, place) => `Not corrected: ${errors} (see ${place}).`,
     removed: (errors) => `Systematic errors corrected: ${errors}.`,
     left: (errors) => `Systematic errors not corrected (absorbed by the α’s): ${errors}.`,
   },

@@ -1,12 +1,13 @@
 /** Lines for nav2_params.yaml, and the formats of their numbers, which have a decimal point in every language. */
 
+import { fixed, formatPowerOfTen } from '../../ui/format.ts';
+import type { CalibrationCheck, CalibrationStats, Interval as CertainInterval } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
 
-export type Interval = [number, number] | null;
+type Interval = CertainInterval | null;
 
 export interface FittedLog {
-  /** Calibration of the core. */
-  calibration: any;
+  calibration: CalibrationStats;
   count: number;
   model: string;
   rule: string;
@@ -40,9 +41,6 @@ const NO_NUMBER = '–';
 /** Plugins of Nav2 by model. */
 const NAV2_PLUGINS: Record<string, string> = { odometry: 'nav2_amcl::DifferentialMotionModel', omnidirectional: 'nav2_amcl::OmniMotionModel' };
 
-/** Systematic errors that can be corrected before the α's are fitted, in the order of tables. */
-export const SYSTEMATIC_ERRORS = ['clockOffset', 'mountYaw', 'leverArm', 'distanceScale', 'turnScale'] as const;
-
 /** Noise rules of Nav2's motion models: the formulas by which the α's give variances. */
 export const NAV2_RULES = ['nav2', 'omni'];
 
@@ -73,6 +71,9 @@ export const formatInterval = (interval: Interval | undefined) => (interval?.eve
 /** Returns true if an α prints as 0 with the digits that its interval allows. A printed 0 would look like a result. */
 export const isZero = (alpha: number | null, interval: Interval | undefined) => alpha !== null && Number(formatEstimate(alpha, interval)) === 0;
 
+/** Converts a number as printed in files (1.5e-7) to the decimal sign of the language and a power of ten. */
+export const localized = (number: string) => number.replace('.', fixed(0.5, 1)[1]).replace(/e(-?\d+)$/, (_, exponent) => `·${formatPowerOfTen(Number(exponent))}`);
+
 export const formatPercent = (fraction: number | null) => (fraction !== null && Number.isFinite(fraction) ? `${formatNumber(100 * fraction)} %` : NO_NUMBER);
 
 const formatUpperEnd = (interval: Interval | undefined) => formatNumber(interval?.[1] ?? null, WIDTH_DIGITS);
@@ -81,28 +82,6 @@ const scaleInterval = (interval: Interval, factor: number): Interval => interval
 
 /** Prints an α times a factor, or its upper bound if it is not significantly different from 0. */
 export const formatAlphaOrBound = (alpha: number | null, interval: Interval, factor = 1) => (isZero(alpha, interval) ? `≤ ${formatUpperEnd(scaleInterval(interval, factor))}` : formatEstimate(alpha && factor * alpha, scaleInterval(interval, factor)));
-
-/** Returns texts for a reason: what the log lacks, and the drive that would identify the α. */
-export function adviceOf(lacking: typeof import('./en.ts').en.alphas.lacking, model: string, reason: keyof typeof lacking) {
-  const { lack, drive, byCommands } = lacking[reason];
-  return { lack, drive: model === 'velocity' ? byCommands : drive };
-}
-
-/** Returns the α's (indices from 0) that are not identifiable, grouped by the reason, and the drive that would identify them. */
-export function missingAlphas(lacking: typeof import('./en.ts').en.alphas.lacking, model: string, { notIdentifiable, diagnostics: { checks } }: any) {
-  // Driving differently does not help if the reference is of another drive, or has other units.
-  if (failedChecksOf(checks).some(({ name }) => name === 'reference-matches')) return [];
-  return (Object.keys(lacking) as (keyof typeof lacking)[]).flatMap((reason) => {
-    const indices: number[] = notIdentifiable.flatMap((reasonOfAlpha: string | null, i: number) => (reasonOfAlpha === reason ? [i] : []));
-    return indices.length ? [{ indices, ...adviceOf(lacking, model, reason) }] : [];
-  });
-}
-
-/** Returns the kind of motion that identifies an α (index from 0), as the reason for an α that is not identifiable. */
-export function missingMotion(model: string, index: number): 'insufficient-rotation' | 'insufficient-translation' {
-  const needsRotation = model === 'velocity' ? index % 2 === 1 : index === 0 || index === 3;
-  return needsRotation ? 'insufficient-rotation' : 'insufficient-translation';
-}
 
 /**
  * Returns the YAML lines with the recommended α's, and with the fitted α's in comments. Returns no lines if Nav2 has no such model, or if
@@ -123,7 +102,7 @@ export function nav2Lines({ calibration, count, model, rule, legs, log, warnings
     ...(failedNames ? [texts.failed(failedNames)] : []),
     ...warnings.map((name) => texts[name]),
   ];
-  const alphaLines = alphas.map((alpha: number | null, i: number) => {
+  const alphaLines = alphas.map((alpha, i) => {
     const interval = intervals[i];
     if (alpha === null) return `# alpha${i + 1}: ${texts.notIdentifiable}`;
     const [scaledInterval, isBound] = [scaleInterval(interval, inflation), isZero(alpha, interval)];
@@ -137,7 +116,7 @@ export function nav2Lines({ calibration, count, model, rule, legs, log, warnings
   const commentLines = notes.map((note) => `# ${note.replaceAll(/\s+/g, ' ')}`);
   const fifthAlphaNote = alphas.length < 5 ? [`# ${texts.fifth}`] : [];
   // The α's belong to the legs of the log, which are longer than asked if its rows are sparse.
-  const sparseCheck = failedChecksOf<{ name: string, passed: boolean, message: string, value: number }>(checks).find(({ name }) => name === 'sampling-dense');
+  const sparseCheck = failedChecksOf(checks).find(({ name }) => name === 'sampling-dense');
   const legRatio = sparseCheck?.value ?? 1;
   const updateTriggers = duration === undefined
     ? [
@@ -149,7 +128,7 @@ export function nav2Lines({ calibration, count, model, rule, legs, log, warnings
   return ['amcl:', '  ros__parameters:', ...parameterLines.map((line) => `    ${line}`)];
 }
 
-export const failedChecksOf = <Check extends { name: string, passed: boolean, message: string }>(checks: Check[]) => checks.filter(({ passed }) => !passed);
+export const failedChecksOf = (checks: CalibrationCheck[]) => checks.filter(({ passed }) => !passed);
 
 /**
  * Returns a sentence that says how to correct the robot's odometry, because AMCL gets the odometry as the robot reports it. The sentence
@@ -157,9 +136,9 @@ export const failedChecksOf = <Check extends { name: string, passed: boolean, me
  *
  * @param formatLocally formats numbers
  */
-export function correctionAdvice({ recommended, systematicErrors }: any, texts: Words, formatLocally = (number: string) => number): string[] {
+export function correctionAdvice({ recommended, systematicErrors }: CalibrationStats, texts: Words, formatLocally = (number: string) => number): string[] {
   if (!recommended) return [];
-  const [distance, turn] = ['distanceScale', 'turnScale'].map((key) => {
+  const [distance, turn] = (['distanceScale', 'turnScale'] as const).map((key) => {
     const { value, interval, corrected } = systematicErrors[key];
     return corrected && interval && (interval[0] > 1 || interval[1] < 1) ? formatLocally(formatEstimate(value, interval)) : '';
   });
@@ -167,8 +146,14 @@ export function correctionAdvice({ recommended, systematicErrors }: any, texts: 
 }
 
 /** Lists the systematic errors that were corrected, in one text or none. */
-function correctedErrorsText(systematicErrors: any): string[] {
-  const correctedErrors = Object.entries<any>(systematicErrors).filter(([, error]) => error.corrected);
-  const errorList = correctedErrors.map(([name, { value, interval }]) => `${name} ${[value].flat().map((one, i) => formatEstimate(one, Array.isArray(value) ? interval[i] : interval)).join(', ')}`);
+function correctedErrorsText(systematicErrors: CalibrationStats['systematicErrors']): string[] {
+  const correctedErrors = Object.entries(systematicErrors).filter(([, error]) => error.corrected);
+  const errorList = correctedErrors.map(([name, error]) => `${name} ${componentsOf(error).map(({ value, interval }) => formatEstimate(value, interval)).join(', ')}`);
   return errorList.length ? [errorList.join('; ')] : [];
+}
+
+/** Returns the components of a systematic error (two for a lever arm) with their intervals; null where they are not identifiable. */
+export function componentsOf({ value, interval }: CalibrationStats['systematicErrors'][keyof CalibrationStats['systematicErrors']]) {
+  const intervals = (Array.isArray(value) ? interval : [interval]) as Interval[];
+  return [value].flat().map((component, i) => ({ value: component, interval: intervals[i] }));
 }

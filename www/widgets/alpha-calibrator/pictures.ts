@@ -1,23 +1,42 @@
-/** Pictures of the Alpha Calibrator: the path of the robot, and one leg in the frame of its start. */
+/** Pictures of the Alpha Calibrator: the path of the robot, one leg in the frame of its start, and the exported summary. */
 
+import { range } from 'd3-array';
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes, lineLegendEntry } from '../../scene/axes.ts';
-import { drawDots, drawMark, drawOutline, drawOutlines, drawRobot } from '../../scene/draw.ts';
+import { LINES_PER_STROKE, Layer, Memo, strokeInBatches, type Painter } from '../../scene/cache.ts';
+import { strokePath, type Brush } from '../../scene/canvas.ts';
+import { drawDots, drawMark, drawOutline, drawOutlines, drawRobot, lineStyles } from '../../scene/draw.ts';
 import { Picture, SamplesPicture } from '../../scene/picture.ts';
 import { View, extentAround, extentOf } from '../../scene/view.ts';
+import { colourChannels } from '../../ui/theme.ts';
+import { alphaTexts } from './readouts.ts';
 import { LEG_CLASSES, LINE_STYLES, type LineName } from './settings.ts';
-import { PathLayer, drawRings, pathStyle } from './path-layer.ts';
-import type { LegView } from '../../types.d.ts';
+import { summaryTexts } from './words.ts';
+import type { CalibrationLegs, LegView } from '../../types.d.ts';
+import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 import type { ViewModel } from './view-model.ts';
 
 /** View model of the pictures: the fit, and the leg that is shown. */
 export type Scene = ViewModel & { chosen: number, leg: LegView | null, overlays: LineName[] };
 
-/** Width of the lines of a single leg, CSS pixels. */
-const LEG_LINE_WIDTH = 2.25;
+/** Number of legs above which the path is cached, on another canvas, and drawn as hairlines, because wide lines would hide each other. */
+const MAX_WIDE_LEGS = 2000;
 
-/** Margin around the mark of a leg's end, as a fraction of the leg's length. */
-const MARK_MARGIN = 0.08;
+/** Radius of the rings around outliers, CSS pixels. */
+const RING_RADIUS = 6;
+
+/** Width of the thinnest lines, CSS pixels. */
+const HAIRLINE_WIDTH = 1;
+
+function pathStyle({ palette, highlight }: Pick<Brush, 'palette' | 'highlight'>, name: LineName) {
+  const legColour = name === 'plausible' ? mixColours(palette.truth, palette.cloud) : palette.truth;
+  return lineStyles({ palette: { ...palette, truth: legColour }, highlight }, LINE_STYLES)[name];
+}
+
+function mixColours(one: string, other: string) {
+  const [firstChannels, secondChannels] = [colourChannels(one), colourChannels(other)];
+  return `rgb(${firstChannels.map((value, i) => Math.round((value + secondChannels[i]) / 2))})`;
+}
 
 /**
  * Returns the corners of a box around both paths. If the odometry drifts far away, the box is cut so that the reference fills half of it.
@@ -36,7 +55,9 @@ export function viewCornersOf(reference: ArrayLike<number>, odometry: ArrayLike<
 export class PathPicture extends SamplesPicture<Scene> {
   name = 'plane';
   view: View;
-  #layer = new PathLayer();
+  /** Cached path. There may be a hundred thousand legs, which change only with the log, the view or the colours. */
+  #layer = new Layer();
+  #odometryPath: Memo<Float64Array> = new Memo();
 
   /** Creates the picture with a margin at the top, CSS pixels. */
   constructor(top?: number) {
@@ -44,9 +65,25 @@ export class PathPicture extends SamplesPicture<Scene> {
     this.view = new View({ top });
   }
 
+  /** Returns the ends of the legs by odometry (x, y pairs). The path starts at the first pose of the reference, and drifts away from it. */
+  #odometryPathOf(legs: CalibrationLegs): Float64Array {
+    return this.#odometryPath.get([legs], () => {
+      const { count, odometry, reference } = legs;
+      const frameRotation = reference[2] - odometry[2];
+      const [cos, sin] = [Math.cos(frameRotation), Math.sin(frameRotation)];
+      const legEnds = new Float64Array(2 * count);
+      for (let leg = 0; leg < count; leg++) {
+        const [dx, dy] = [odometry[6 * leg + 3] - odometry[0], odometry[6 * leg + 4] - odometry[1]];
+        legEnds[2 * leg] = reference[0] + cos * dx - sin * dy;
+        legEnds[2 * leg + 1] = reference[1] + sin * dx + cos * dy;
+      }
+      return legEnds;
+    });
+  }
+
   fit({ legs, overlays }: Scene) {
     this.view.release();
-    this.view.fit(extentOf(legs.count > 0 ? viewCornersOf(legs.reference, overlays.includes('odometry') ? this.#layer.odometryPathOf(legs) : []) : [0, 0], 1));
+    this.view.fit(extentOf(legs.count > 0 ? viewCornersOf(legs.reference, overlays.includes('odometry') ? this.#odometryPathOf(legs) : []) : [0, 0], 1));
     // The view is not animated, because an animation would draw all legs in each frame.
     this.view.ease(0, true);
   }
@@ -60,7 +97,9 @@ export class PathPicture extends SamplesPicture<Scene> {
     });
     drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, legendEntries);
     clipToPlot(brush, () => {
-      this.#layer.draw(brush, legs, classes, overlays);
+      const paintLegs = (painter: Painter) => drawPath(painter, legs, this.#odometryPathOf(legs), classes, overlays);
+      if ('vector' in brush.context || legs.count <= MAX_WIDE_LEGS) paintLegs(brush);
+      else this.#layer.draw(brush, [legs, overlays, brush.highlight], paintLegs);
       if (chosen < 0) return;
       const [fromX, fromY, , x, y, heading] = legs.reference.subarray(6 * chosen);
       drawOutline(brush, Float64Array.of(fromX, fromY, x, y), { colour: palette.ink, width: 3.25, dash: [] });
@@ -68,6 +107,41 @@ export class PathPicture extends SamplesPicture<Scene> {
     });
   };
 }
+
+function drawPath(brush: Painter, legs: CalibrationLegs, odometry: Float64Array, classes: Uint8Array, overlays: LineName[]) {
+  const { context, view } = brush;
+  const { count, reference, outliers } = legs;
+  if (overlays.includes('odometry')) {
+    const points = view.toPixels(odometry);
+    const pieces = range(0, points.length, LINES_PER_STROKE).map((start) => points.slice(start, start + LINES_PER_STROKE + 1));
+    strokeInBatches(context, pieces, pathStyle(brush, 'odometry'), 1);
+  }
+  for (const [index, name] of LEG_CLASSES.entries()) {
+    if (!overlays.includes(name)) continue;
+    const legsOfClass = [...classes.keys()].filter((leg) => classes[leg] === index);
+    const lines = legsOfClass.map((leg) => [0, 3].map((end) => view.toPixel(reference[6 * leg + end], reference[6 * leg + end + 1])));
+    const legStyle = { ...pathStyle(brush, name), cap: 'round' } as const;
+    strokeInBatches(context, lines, count > MAX_WIDE_LEGS ? { ...legStyle, width: HAIRLINE_WIDTH } : legStyle);
+  }
+  const outlierLegs = overlays.includes('outlier') ? [...outliers.keys()].filter((leg) => outliers[leg] > 0) : [];
+  drawRings(brush, outlierLegs.map((leg) => view.toPixel(reference[6 * leg + 3], reference[6 * leg + 4])));
+}
+
+function drawRings(brush: Painter, points: [number, number][]) {
+  const { context } = brush;
+  strokePath(context, pathStyle(brush, 'outlier'), () => {
+    for (const [x, y] of points) {
+      context.moveTo(x + RING_RADIUS, y);
+      context.arc(x, y, RING_RADIUS, 0, 2 * Math.PI);
+    }
+  });
+}
+
+/** Width of the lines of a single leg, CSS pixels. */
+const LEG_LINE_WIDTH = 2.25;
+
+/** Margin around the mark of a leg's end, as a fraction of the leg's length. */
+const MARK_MARGIN = 0.08;
 
 /** Picture of one leg in the frame of its start: the predicted ends, and the ends by odometry and reference. */
 export class LegPicture extends Picture<Scene> {
@@ -105,4 +179,56 @@ export class LegPicture extends Picture<Scene> {
       if (showsLine('reference')) drawMark(brush, { x: ended[0], y: ended[1], heading: ended[2] }, palette.ink);
     });
   };
+}
+
+/** Size in pixels. The path is at the left with the α's beside it, and sentences are below. */
+const [WIDTH, HEIGHT] = [720, 560];
+const PATH_SIZE = { width: 430, height: 344 };
+
+/** Height of a legend in two lines, CSS pixels. */
+const KEY_HEIGHT = 42;
+
+/** Line height, pixels. */
+const LINE_HEIGHT = 18;
+
+export class SummaryPicture extends Picture<Scene> {
+  name = 'exportPicture';
+  view: View = new View();
+  size = { width: WIDTH, height: HEIGHT };
+  #path = new PathPicture(KEY_HEIGHT);
+  #figure;
+
+  constructor(figure: Figure) {
+    super();
+    this.#figure = figure;
+  }
+
+  paint: Picture<Scene>['paint'] = (brush, scene) => {
+    const { context, palette, font } = brush;
+    const { view } = this.#path;
+    view.resize(PATH_SIZE.width, PATH_SIZE.height);
+    this.#path.fit(scene);
+    context.save();
+    this.#path.paint({ ...brush, view }, scene);
+    context.restore();
+    Object.assign(context, { fillStyle: palette.ink, font, textAlign: 'left', textBaseline: 'top' });
+    const alphasLeft = PATH_SIZE.width + 20;
+    let y = 2;
+    for (const text of [`${words.calibrator.alphas.caption}:`, ...alphaTexts(scene)]) y = writeText(context, text, alphasLeft, y, WIDTH - alphasLeft) + LINE_HEIGHT / 3;
+    y = Math.max(PATH_SIZE.height, y) + LINE_HEIGHT;
+    for (const text of summaryTexts(this.#figure)) y = writeText(context, text, 2, y, WIDTH - 2);
+  };
+}
+
+/** Writes a text in lines that are not longer than the width, and returns the y of the next line. */
+function writeText(context: CanvasRenderingContext2D, sentence: string, x: number, y: number, width: number): number {
+  const [firstWord, ...otherWords] = sentence.split(' ');
+  const textLines = [firstWord];
+  for (const nextWord of otherWords) {
+    const extendedLine = `${textLines.at(-1)} ${nextWord}`;
+    if (context.measureText(extendedLine).width <= width) textLines.splice(-1, 1, extendedLine);
+    else textLines.push(nextWord);
+  }
+  textLines.forEach((textLine, i) => context.fillText(textLine, x, y + i * LINE_HEIGHT));
+  return y + textLines.length * LINE_HEIGHT;
 }

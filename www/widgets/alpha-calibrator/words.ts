@@ -1,11 +1,9 @@
 /** Texts of the Alpha Calibrator in the current language. */
 
 import { addEnglish, words } from '../../messages/registry.ts';
-import { integer, fixed, percent, formatPowerOfTen, formatSignificant } from '../../ui/format.ts';
+import { integer, fixed, percent, formatSignificant } from '../../ui/format.ts';
 import { en } from './en.ts';
-import { subscriptOf } from '../shared/sliders.ts';
-import { correctionAdvice, failedChecksOf, missingAlphas } from './lines.ts';
-import { uncorrectedText } from './systematic.ts';
+import { SYSTEMATIC_ERRORS, judgementOf, systematicText } from './verdict.ts';
 import type { CalibrationCheck, LegView } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
 import type { ViewModel } from './view-model.ts';
@@ -17,28 +15,8 @@ type Figure = Pick<import('./alpha-calibrator.ts').AlphaCalibratorElement, 'view
 /** Pattern of the names of checks whose value is a fraction. */
 const FRACTION_CHECKS = /-(lost|few|rare|covered)$/;
 
-/**
- * Returns the rating of the α's, the finding in a sentence, and the advice. A missing α, or a warning such as a localizer as the reference,
- * makes consistent α's questionable.
- */
-export function judgementOf(viewModel: ViewModel, logWarnings: Warning[]) {
-  const { stats, legs, fitted } = viewModel;
-  const { verdict, checks } = stats.diagnostics;
-  const texts = words.calibrator;
-  const missingAlphaTexts = missingAlphas(texts.alphas.lacking, fitted.model, stats).map(({ indices, drive }) => texts.missing(indices.map((i) => `α${subscriptOf(i)}`).join(', '), drive));
-  const warnings = [...missingAlphaTexts, uncorrectedText(viewModel), ...logWarnings.map((name) => texts.nav2[name])].filter(Boolean);
-  const rating = verdict === 'consistent' && warnings.length > 0 ? 'questionable' : verdict;
-  const useSentences = rating === 'unusable' ? [] : [rating === 'consistent' ? texts.use : texts.useAnyway, ...correctionAdvice(stats, texts.nav2, localized)];
-  const judgementWith = (finding: string, ...toDo: string[]) => ({ rating, badge: texts.badges[rating], finding, toDo: [...toDo, ...useSentences].join(' ') });
-  if (legs.count === 0) return judgementWith(texts.none, ...warnings);
-  const failedChecks = failedChecksOf(checks);
-  if (failedChecks.length > 0) return judgementWith(texts.failed(texts.checks.names[failedChecks[0].name], integer(failedChecks.length), integer(checks.length)), ...warnings, checkMessage(failedChecks[0]));
-  if (verdict === 'unusable') return judgementWith(texts.noAlpha, ...warnings);
-  return warnings.length > 0 ? judgementWith(warnings[0], ...warnings.slice(1)) : judgementWith(texts.passed(integer(checks.length)));
-}
-
-/** Returns what a failed check means and what to do. A reference that matches too closely has its own message. */
-export const checkMessage = ({ name, value, expected: [low], passed, message }: CalibrationCheck) => (passed ? '' : words.calibrator.checks.message(name === 'reference-matches' && value < low ? 'reference-copied' : name, message));
+export const judge = ({ stats, legs: { count }, fitted }: Pick<ViewModel, 'stats' | 'legs' | 'fitted'>, warnings: Warning[]) =>
+  judgementOf({ stats, count, model: fitted.model, corrections: fitted, warnings }, words.calibrator, words.moreControls);
 
 /** Prints the value of a check, or a limit of it. */
 export function checkText(name: CalibrationCheck['name'], value: number) {
@@ -64,10 +42,16 @@ export function recommendationReason({ stats: { recommended, diagnostics: { chec
   return inflation === 1 ? texts.covered(percent(coverage), integer(count)) : texts.inflated(fixed(inflation, 2), percent(coverage), integer(count), fixed(nees, 2));
 }
 
-export const noiseNames = (model: ViewModel['config']['model']) => words.alphas[model === 'velocity' ? 'velocity' : 'odometry'].map(([name]) => name);
+/** Returns two sentences: one on the systematic errors that were corrected, and one on those that the α's include as noise. */
+function systematicTexts({ stats }: ViewModel) {
+  const { removed, left } = words.calibrator.systematic;
+  return ([[true, removed], [false, left]] as const).flatMap(([corrected, sentenceOf]) => {
+    const errorsText = systematicText(SYSTEMATIC_ERRORS.filter((name) => stats.systematicErrors[name].corrected === corrected), stats, words.calibrator);
+    return errorsText ? [sentenceOf(errorsText)] : [];
+  });
+}
 
-/** Converts a number as printed in files (1.5e-7) to the decimal sign of the language and a power of ten. */
-export const localized = (number: string) => number.replace('.', fixed(0.5, 1)[1]).replace(/e(-?\d+)$/, (_, exponent) => `·${formatPowerOfTen(Number(exponent))}`);
+export const noiseNames = (model: ViewModel['config']['model']) => words.alphas[model === 'velocity' ? 'velocity' : 'odometry'].map(([name]) => name);
 
 /** Returns the number of legs and outliers of the named log in a sentence; empty if there are no legs. */
 export function legsText({ legs }: ViewModel, log: string) {
@@ -77,9 +61,12 @@ export function legsText({ legs }: ViewModel, log: string) {
 }
 
 export function captionOf({ viewModel, warnings, logName }: Figure) {
-  const { badge, finding, toDo } = judgementOf(viewModel, warnings);
-  return [`${badge}.`, finding, legsText(viewModel, logName), toDo].filter(Boolean).join(' ');
+  const { badge, finding, advice } = judge(viewModel, warnings);
+  return [`${badge}.`, finding, legsText(viewModel, logName), ...advice].filter(Boolean).join(' ');
 }
+
+/** Returns the caption, the reason for the recommended α's, and the systematic errors, for exports. */
+export const summaryTexts = (figure: Figure) => [captionOf(figure), recommendationReason(figure.viewModel), ...systematicTexts(figure.viewModel)];
 
 export function pathText({ legs, classes }: ViewModel, chosen: number) {
   if (chosen < 0) return words.calibrator.none;

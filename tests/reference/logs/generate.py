@@ -24,31 +24,31 @@ from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin
 from rosbags.rosbag2 import Writer as Rosbag2
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
-HERE = pathlib.Path(__file__).parent
+SCRIPT_DIRECTORY = pathlib.Path(__file__).parent
 START = 1_700_000_000_123_456_789
-ROWS = 100
+ROW_COUNT = 100
 rng = random.Random(2005)
 
 
-def coarse(value):
+def round_to_4096ths(value):
     return round(value * 4096) / 4096
 
 
-def drive():
+def generate_drive():
     """Rows of odometry and reference: stamp in ns, x, y, qz, qw, v, omega."""
     x = y = theta = 0.0
-    for i in range(ROWS):
+    for i in range(ROW_COUNT):
         v, omega = 0.5 + 0.2 * math.sin(i / 9), 0.8 * math.sin(i / 23)
         x, y, theta = x + v * 0.05 * math.cos(theta), y + v * 0.05 * math.sin(theta), theta + omega * 0.05
         stamp = START + 50_000_000 * i
         noise = [rng.gauss(0, 0.002) for _ in range(3)]
         yield [
-            [stamp, coarse(px), coarse(py), coarse(math.sin(heading / 2)), coarse(math.cos(heading / 2)), coarse(v), coarse(omega)]
+            [stamp, round_to_4096ths(px), round_to_4096ths(py), round_to_4096ths(math.sin(heading / 2)), round_to_4096ths(math.cos(heading / 2)), round_to_4096ths(v), round_to_4096ths(omega)]
             for px, py, heading in ((x * 1.01, y * 1.01, theta * 1.02), (x + noise[0], y + noise[1], theta + noise[2]))
         ]
 
 
-DRIVE = list(drive())
+DRIVE_ROWS = list(generate_drive())
 
 
 class Messages:
@@ -85,7 +85,7 @@ class Messages:
     def logs(self):
         """Odometry and reference: topic, type, message, time of recording."""
         covariance = np.zeros(36)
-        for i, (odometry, reference) in enumerate(DRIVE):
+        for i, (odometry, reference) in enumerate(DRIVE_ROWS):
             pose = self('geometry_msgs/msg/PoseWithCovariance', self.pose(odometry), covariance)
             twist = self('geometry_msgs/msg/TwistWithCovariance', self.twist(odometry), covariance)
             message = self('nav_msgs/msg/Odometry', self.header(i, odometry[0], 'odom'), 'base_link', pose, twist)
@@ -96,7 +96,7 @@ class Messages:
     def others(self):
         """The odometry in messages of all other types that are read; a static transform comes last."""
         covariance = np.zeros(36)
-        for i, (row, _) in enumerate(DRIVE[:40]):
+        for i, (row, _) in enumerate(DRIVE_ROWS[:40]):
             stamp = row[0]
             pose = self('geometry_msgs/msg/PoseWithCovariance', self.pose(row), covariance)
             yield '/fused', 'geometry_msgs/msg/PoseWithCovarianceStamped', self('geometry_msgs/msg/PoseWithCovarianceStamped', self.header(i, stamp, 'map'), pose), stamp
@@ -106,7 +106,7 @@ class Messages:
             yield '/cmd_stamped', 'geometry_msgs/msg/TwistStamped', self('geometry_msgs/msg/TwistStamped', self.header(i, stamp, ''), self.twist(row)), stamp
             twist = self('geometry_msgs/msg/TwistWithCovariance', self.twist(row), covariance)
             yield '/cmd_fused', 'geometry_msgs/msg/TwistWithCovarianceStamped', self('geometry_msgs/msg/TwistWithCovarianceStamped', self.header(i, stamp, ''), twist), stamp
-            wheel = self.transform(i, [stamp, 0.0, 0.1, coarse(math.sin(i)), coarse(math.cos(i))], 'base_link', 'wheel')
+            wheel = self.transform(i, [stamp, 0.0, 0.1, round_to_4096ths(math.sin(i)), round_to_4096ths(math.cos(i))], 'base_link', 'wheel')
             yield '/tf', 'tf2_msgs/msg/TFMessage', self('tf2_msgs/msg/TFMessage', [self.transform(i, row, 'odom', 'base_footprint'), wheel]), stamp
         fixed = self.transform(0, [stamp, 0.0, 0.0, 0.0, 1.0], 'base_footprint', 'base_link')
         yield '/tf_static', 'tf2_msgs/msg/TFMessage', self('tf2_msgs/msg/TFMessage', [fixed]), stamp
@@ -218,7 +218,7 @@ def small_database(path):
 
 def table(path, column):
     rows = ['t,x,y,qx,qy,qz,qw']
-    for row in DRIVE:
+    for row in DRIVE_ROWS:
         stamp, x, y, qz, qw, *_ = row[column]
         rows.append(f'{stamp // 10**9}.{stamp % 10**9:09d},{x!r},{y!r},0,0,{qz!r},{qw!r}')
     path.write_text('\n'.join(rows) + '\n')
@@ -252,6 +252,6 @@ with tempfile.TemporaryDirectory() as folder:
     mcap_ros2(WORK / 'ros2-support.mcap', ROS2.logs())
     mcap_ros1(WORK / 'ros1-support.mcap', ROS1.logs())
     for half in (0, 1):
-        rosbag2(WORK / f'split{half}', list(ROS2.logs())[ROWS * half:ROWS * (half + 1)], StoragePlugin.MCAP)
+        rosbag2(WORK / f'split{half}', list(ROS2.logs())[ROW_COUNT * half:ROW_COUNT * (half + 1)], StoragePlugin.MCAP)
     files = dict(sorted(packed(path) for path in WORK.rglob('*') if path.is_file()))
-    (HERE / 'recordings.json').write_text(json.dumps(files, indent=0) + '\n')
+    (SCRIPT_DIRECTORY / 'recordings.json').write_text(json.dumps(files, indent=0) + '\n')

@@ -240,8 +240,8 @@ async function runPart(name, programArgs) {
     printStep(name);
     startTime = Date.now();
     const { ok, output, timedOut } = await job();
-    const totalOf = (/** @type {RegExp} */ number) => [...output.matchAll(number)].reduce((sum, [, count]) => sum + Number(count), 0);
-    const testCounts = counts && { passed: totalOf(counts.passed), failed: totalOf(counts.failed), skipped: totalOf(counts.skipped) };
+    const sumMatches = (/** @type {RegExp} */ number) => [...output.matchAll(number)].reduce((sum, [, count]) => sum + Number(count), 0);
+    const testCounts = counts && { passed: sumMatches(counts.passed), failed: sumMatches(counts.failed), skipped: sumMatches(counts.skipped) };
     const ranNoTest = testCounts !== undefined && testCounts.passed + testCounts.failed === 0;
     const shownRemark = timedOut ? `ended after ${TIME_LIMIT_SECONDS} s` : ranNoTest ? 'no test ran' : undefined;
     return { name, ok: ok && !ranNoTest && !testCounts?.failed, seconds: elapsedSeconds(), output, tally: testCounts, note: shownRemark };

@@ -6,7 +6,7 @@
 mod quantile;
 
 use crate::geom::angle::wrap_angle;
-use crate::geom::lanes::LANES;
+use crate::geom::lanes::LANE_COUNT;
 use crate::geom::sinc::sinc;
 use rand::Rng;
 use std::f64::consts::{PI, TAU};
@@ -168,8 +168,8 @@ pub fn draw_centred_uniform<R: Rng + ?Sized>(rng: &mut R) -> f64 {
 /// Returns three numbers of [`draw_centred_uniform`] for each of four samples, drawn sample by sample.
 #[inline(always)]
 pub(crate) fn draw_four_uniform_triples<R: Rng + ?Sized>(rng: &mut R) -> [f64x4; 3] {
-    let mut uniform_triples = [[0.0; LANES]; 3];
-    for lane in 0..LANES {
+    let mut uniform_triples = [[0.0; LANE_COUNT]; 3];
+    for lane in 0..LANE_COUNT {
         uniform_triples.iter_mut().for_each(|variate| variate[lane] = draw_centred_uniform(rng));
     }
     uniform_triples.map(f64x4::from)

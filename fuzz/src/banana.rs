@@ -8,7 +8,7 @@ use motion::sim::View;
 use motion::sim::banana::{
     BananaMachine, Contours, Stats, Settings, TableColumn, command_reaching,
 };
-use motion::sim::picture::RAMP_STEPS;
+use motion::sim::picture::RAMP_STEP_COUNT;
 use motion::sim::settings::QUANTITY_RANGE;
 use motion::sim::views::{EXTENT_RANGE, Grid};
 
@@ -251,7 +251,7 @@ fn assert_picture(simulation: &mut BananaMachine, input: &mut Input) {
     let cell_counts = simulation.density(view, &grid);
     assert_eq!(cell_counts.len(), grid.columns * grid.rows);
     assert!(cell_counts.iter().sum::<u32>() as usize <= simulation.shown_count(), "{grid:?}: {cell_counts:?}");
-    let pixels = simulation.paint(view, &grid, &[[1; 4]; RAMP_STEPS]);
+    let pixels = simulation.paint(view, &grid, &[[1; 4]; RAMP_STEP_COUNT]);
     assert_eq!(pixels.len(), cell_counts.len());
     assert!(pixels.iter().zip(&cell_counts).all(|(pixel, count)| (pixel[3] > 0) == (*count > 0)), "{grid:?}");
 }

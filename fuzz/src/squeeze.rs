@@ -5,7 +5,7 @@ use super::settings::{are_settings_allowed, change_settings};
 use super::{assertions, banana, grid, plan};
 use motion::geom::segment::Segment;
 use motion::map::{FloorPlan, Sampler};
-use motion::sim::picture::RAMP_STEPS;
+use motion::sim::picture::RAMP_STEP_COUNT;
 use motion::sim::squeeze::{OUTCOME_KIND_COUNT, MapSqueeze, Settings};
 use std::cell::LazyCell;
 
@@ -186,7 +186,7 @@ fn assert_finite_plan(plan: &FloorPlan) {
 fn assert_picture(simulation: &mut MapSqueeze, input: &mut Input) {
     let grid = banana::read_grid(input);
     let shown_count = simulation.attempts().len();
-    let pixels = simulation.paint(&grid, &[[[1; 4]; RAMP_STEPS]; OUTCOME_KIND_COUNT]);
+    let pixels = simulation.paint(&grid, &[[[1; 4]; RAMP_STEP_COUNT]; OUTCOME_KIND_COUNT]);
     assert_eq!(pixels.len(), grid.columns * grid.rows);
     assert!(pixels.iter().filter(|pixel| pixel[3] > 0).count() <= shown_count);
 }

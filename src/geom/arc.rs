@@ -177,7 +177,7 @@ impl PreparedPose {
 
     /// Transforms a point from the frame of the pose to the reference frame.
     #[inline(always)]
-    pub fn transform(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+    pub fn transform_point(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [self.pose.x() + (self.cos * x - self.sin * y), self.pose.y() + (self.sin * x + self.cos * y)]
     }
 
@@ -188,7 +188,7 @@ impl PreparedPose {
         let half_sine = libm::sin(half_turn);
         let half_sinc = if half_turn == 0.0 { 1.0 } else { half_sine / half_turn };
         let (forward, left) = (length * sinc(turn), length * (half_sine * half_sinc));
-        self.driven_arc(length, turn, half_sinc, self.transform([forward, left]))
+        self.driven_arc(length, turn, half_sinc, self.transform_point([forward, left]))
     }
 
     /// Drives four arcs at once. The ends differ from those of [`PreparedPose::drive`] by less than 2e-15 · length.
@@ -340,7 +340,7 @@ pub(crate) struct LocalArc {
 }
 
 impl LocalArc {
-    pub fn transform(&self, point: [f64; 2]) -> [f64; 2] {
+    pub fn transform_to_local(&self, point: [f64; 2]) -> [f64; 2] {
         let (dx, dy) = (point[0] - self.origin[0], point[1] - self.origin[1]);
         [dx * self.forward[0] + dy * self.forward[1], dx * self.left[0] + dy * self.left[1]]
     }

@@ -18,7 +18,7 @@ pub struct DoubleDouble {
 const SPLITTER: f64 = 134_217_729.0;
 
 /// Number of terms of the series of sine and cosine for angles up to π/8. The first omitted term is below 2⁻¹¹⁰ of the sum.
-const SERIES_TERMS: i32 = 12;
+const SERIES_TERM_COUNT: i32 = 12;
 
 /// Number of times that the angle is halved before the series, and doubled after it.
 const HALVING_COUNT: i32 = 4;
@@ -111,7 +111,7 @@ impl DoubleDouble {
         // Sine a − a³/3! + …, and versine 1 − cos a = ½a² − a⁴/4! + …
         let mut sine = Self::from(1.0);
         let mut versine = Self::from(1.0);
-        for k in (1..SERIES_TERMS).rev() {
+        for k in (1..SERIES_TERM_COUNT).rev() {
             let n = f64::from(2 * k);
             sine = Self::from(1.0) - (angle_squared * sine).divided_by(n * (n + 1.0));
             versine = Self::from(1.0) - (angle_squared * versine).divided_by((n + 1.0) * (n + 2.0));

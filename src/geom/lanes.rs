@@ -8,7 +8,7 @@ use std::f64::consts::{FRAC_1_PI, FRAC_PI_2};
 use wide::{bytemuck, f64x2, f64x4, u64x4};
 
 /// Number of lanes of a SIMD vector.
-pub const LANES: usize = 4;
+pub const LANE_COUNT: usize = 4;
 
 /// Maximum absolute error of sine, cosine and sinc: about 2.5 units in the last place of 1. The error of the
 /// polynomials is at most 1.9e-16; the rest is rounding.
@@ -77,12 +77,13 @@ impl Trigonometry {
     /// quarter turn of 0 and of `near` get the bits of [`Trigonometry::sin_cos_small_angle`].
     #[inline(never)]
     pub fn sin_cos_on_branch(&self, half_heading: f64x4, near: f64) -> (f64x4, SinCos) {
-        let mut half_on_branch = subtract_half_circles(half_heading, half_circle_count(half_heading - near));
+        let mut half_heading_on_branch =
+            subtract_half_circles(half_heading, half_circle_count(half_heading - near));
         if is_any_lane_beyond(half_heading - near, MAX_REDUCED_ANGLE) {
             let wrap_near = |half_heading: f64| near + 0.5 * wrap_angle(2.0 * (half_heading - near));
-            half_on_branch = half_heading.to_array().map(wrap_near).into();
+            half_heading_on_branch = half_heading.to_array().map(wrap_near).into();
         }
-        (half_on_branch, self.sin_cos_any_angle(half_on_branch))
+        (half_heading_on_branch, self.sin_cos_any_angle(half_heading_on_branch))
     }
 
     /// Returns (sin x/x, cos x) from z = x², for |x| up to a quarter turn. Exact at 0.

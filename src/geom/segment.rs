@@ -73,7 +73,7 @@ impl Segment {
     }
 
     fn transform_to_arc_frame(&self, arc: &LocalArc) -> Self {
-        Self { from: arc.transform(self.from), to: arc.transform(self.to) }
+        Self { from: arc.transform_to_local(self.from), to: arc.transform_to_local(self.to) }
     }
 
     /// Returns true if a segment in the frame of an arc has a point in common with it.

@@ -120,13 +120,13 @@ pub struct CollisionTester<'a> {
 impl CollisionTester<'_> {
     /// Returns the draw for three random numbers of variance 1, with the results of both collision tests.
     pub fn test_draw(&self, unit_noise: [f64; 3]) -> Draw {
-        self.test_motion(self.command.motion(&self.start, unit_noise))
+        self.test_motion(self.command.drive_with_noise(&self.start, unit_noise))
     }
 
     /// Tests some lanes of four samples, and calls `visit` with each result. The poses may differ by rounding from those of
     /// [`CollisionTester::test_draw`].
     pub fn test_lanes(&self, unit_noise: &[f64x4; 3], lanes: Range<usize>, visit: impl FnMut(Draw)) {
-        let motion = self.command.four_motions(&self.start, &self.trigonometry, unit_noise);
+        let motion = self.command.drive_four_with_noise(&self.start, &self.trigonometry, unit_noise);
         lanes.map(|lane| self.test_motion(motion(lane))).for_each(visit);
     }
 
@@ -153,14 +153,14 @@ struct NoisyCommand {
 
 impl NoisyCommand {
     /// Returns the end pose under these unit noises, and the arc that is driven.
-    fn motion(&self, start: &PreparedPose, unit_noise: [f64; 3]) -> (SE2, DrivenArc) {
+    fn drive_with_noise(&self, start: &PreparedPose, unit_noise: [f64; 3]) -> (SE2, DrivenArc) {
         let [length, turn, last_turn] = self.executed_motion(unit_noise);
         with_last_turn(start.drive(length, turn), last_turn)
     }
 
     /// Computes four motions at once, in the lanes of a SIMD vector. Returns a function of the lane's index.
     #[inline(always)]
-    fn four_motions(
+    fn drive_four_with_noise(
         &self,
         start: &PreparedPose,
         trigonometry: &Trigonometry,
@@ -273,7 +273,7 @@ impl MapConditioned<'_> {
         cost: &mut Cost,
     ) -> Result<(SE2, DrivenArc, Verdict), NoAcceptedSample> {
         for _ in 0..MAX_DRAWS {
-            let (end_pose, driven_arc) = command.motion(start, self.draw_unit_noise(rng));
+            let (end_pose, driven_arc) = command.drive_with_noise(start, self.draw_unit_noise(rng));
             let end_verdict = self.plan.test_point(driven_arc.end, self.clearance);
             cost.draws += 1;
             if !conditioned {

@@ -39,13 +39,13 @@ const MAX_WALLS_PER_CELL: usize = 3;
 
 /// Accepted error of the distance from a block, as a fraction of its radius, if there is a tree. Walls closer together
 /// than that are measured as one.
-const BLOCK_UNCERTAINTY: f64 = 0.125;
+const RELATIVE_BLOCK_UNCERTAINTY: f64 = 0.125;
 
 /// Lower bound of a distance that was not computed.
 const NOT_COMPUTED: f32 = f32::MIN;
 
 /// Distance to the nearest wall, in radii of a block of cells, beyond which the block is not divided further.
-const UNDIVIDED_DISTANCE: f64 = 8.0;
+const UNDIVIDED_DISTANCE_RATIO: f64 = 8.0;
 
 impl DistanceField {
     /// Fills the field of the walls of a tree within `bounds` (minimum x, minimum y, maximum x, maximum y; m). `occupied_grid` has the
@@ -93,7 +93,7 @@ impl DistanceField {
         // With the distance d from the middle of the cell to the nearest wall, `lower_bound` is d − radius. The upper bound is
         // d + radius. In an undivided block d is only known up to a factor of (1 + 1/8)/(1 − 1/8).
         let cell_radius = 1.001 * self.radius;
-        let upper_bound = (UNDIVIDED_DISTANCE + 1.0) / (UNDIVIDED_DISTANCE - 1.0)
+        let upper_bound = (UNDIVIDED_DISTANCE_RATIO + 1.0) / (UNDIVIDED_DISTANCE_RATIO - 1.0)
             * (lower_bound + cell_radius + self.uncertainty)
             + cell_radius;
         if lower_bound == f64::from(NOT_COMPUTED) { f64::INFINITY } else { upper_bound }
@@ -154,7 +154,7 @@ impl FieldBuilder {
                 columns,
                 last_cell: [columns, rows].map(|count| count as f64 - 1.0),
                 radius,
-                uncertainty: if tree.is_leaf(1) { 0.0 } else { BLOCK_UNCERTAINTY * radius },
+                uncertainty: if tree.is_leaf(1) { 0.0 } else { RELATIVE_BLOCK_UNCERTAINTY * radius },
                 lower_bounds: vec![NOT_COMPUTED; columns * rows],
             },
             rows,
@@ -184,7 +184,10 @@ impl FieldBuilder {
         else {
             return;
         };
-        if size > 1 && min_distance <= UNDIVIDED_DISTANCE * block_radius + uncertainty / BLOCK_UNCERTAINTY {
+        if size > 1
+            && min_distance
+                <= UNDIVIDED_DISTANCE_RATIO * block_radius + uncertainty / RELATIVE_BLOCK_UNCERTAINTY
+        {
             let max_lower_bound = max_distance + 2.0 * block_radius + self.rounding_slack;
             self.candidates.extend(
                 self.measured
@@ -214,12 +217,12 @@ impl FieldBuilder {
                         + (y - block_centre[1]) * (y - block_centre[1]))
                         .sqrt();
                 // The bound is reduced by a factor of 1e-6, which is more than the rounding to an f32.
-                let cell_bound = if is_in_blocked_cell {
+                let cell_lower_bound = if is_in_blocked_cell {
                     f64::NEG_INFINITY
                 } else {
                     min_distance * (1.0 - 1e-6) - max_offset - self.rounding_slack
                 };
-                self.field.lower_bounds[row * self.field.columns + column] = cell_bound as f32;
+                self.field.lower_bounds[row * self.field.columns + column] = cell_lower_bound as f32;
             }
         }
     }

@@ -5,7 +5,7 @@ use super::distance_field::{DistanceField, rounding_bound};
 use super::occupancy::OccupancyGrid;
 use super::wall_tree::{Node, WallTree};
 use crate::geom::arc::{Arc, ArcPiece, DrivenArc, LocalArc, PreparedPose};
-use crate::geom::lanes::{LANES, is_any_lane_set};
+use crate::geom::lanes::{LANE_COUNT, is_any_lane_set};
 use crate::geom::segment::Segment;
 use std::cell::OnceCell;
 use std::ops::RangeInclusive;
@@ -98,8 +98,8 @@ pub struct Verdict {
 }
 
 impl Verdict {
-    const FREE: Self = Self { free: true, wall_tests: 0 };
-    const BLOCKED: Self = Self { free: false, wall_tests: 0 };
+    const FREE_VERDICT: Self = Self { free: true, wall_tests: 0 };
+    const BLOCKED_VERDICT: Self = Self { free: false, wall_tests: 0 };
 }
 
 /// Range of bounds, m: the range of a robot's coordinates.
@@ -187,15 +187,15 @@ impl FloorPlan {
     /// Tests whether a disc of radius `clearance` (m) around a point touches no wall and its centre is inside the bounds.
     pub fn test_point(&self, point: [f64; 2], clearance: f64) -> Verdict {
         if !self.contains(point) {
-            return Verdict::BLOCKED;
+            return Verdict::BLOCKED_VERDICT;
         }
         let distance_field = self.distance_field();
         let nearest_lower_bound = distance_field.lower_bound(point);
         if nearest_lower_bound > clearance {
-            return Verdict::FREE;
+            return Verdict::FREE_VERDICT;
         }
         if distance_field.upper_bound(nearest_lower_bound) <= clearance || self.is_in_blocked_cell(point) {
-            return Verdict::BLOCKED;
+            return Verdict::BLOCKED_VERDICT;
         }
         let mut wall_tests = 0;
         let is_free = self.are_near_walls_clear(
@@ -325,7 +325,7 @@ impl ArcSweep<'_> {
     /// Tests whether an arc piece is free between `start` and `end` metres after its middle. Tests four parts of it at once.
     fn is_free(&mut self, piece: &ArcPiece, start: f64, end: f64) -> bool {
         let distance_field = self.distance_field;
-        let half_part_length = (end - start) / (2 * LANES) as f64;
+        let half_part_length = (end - start) / (2 * LANE_COUNT) as f64;
         let needed_distance = self.clearance + piece.max_error + half_part_length;
         let part_middles = piece.points_at(f64x4::new([1.0, 3.0, 5.0, 7.0]) * half_part_length + start);
         let lower_bounds = distance_field.lower_bounds(&part_middles);
@@ -340,7 +340,7 @@ impl ArcSweep<'_> {
         // A part no longer than the diagonal of a cell is not divided, because the field is too coarse. Walls near it are measured.
         let is_divisible = half_part_length > distance_field.radius;
         let [x, y] = part_middles.map(|lanes| lanes.to_array());
-        (0..LANES).all(|i| {
+        (0..LANE_COUNT).all(|i| {
             distance_bounds[i] > needed_distance
                 || if is_divisible {
                     let part_start = start + (2 * i) as f64 * half_part_length;

@@ -224,7 +224,7 @@ impl OccupancyGrid {
 
     /// Returns the coordinates of a point of the plane, in cells from the origin.
     pub(super) fn cell_coordinates(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        self.to_local.transform([x, y]).map(|coordinate| coordinate / self.resolution)
+        self.to_local.transform_point([x, y]).map(|coordinate| coordinate / self.resolution)
     }
 
     /// Returns true if a cell of a row is an obstacle; cells off the grid are not.

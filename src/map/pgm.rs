@@ -46,20 +46,20 @@ pub fn read_pgm(bytes: &[u8]) -> Result<Image<f32>, PgmError> {
         let pixels = (0..pixel_count).map(|_| reader.read_number("a pixel", 0, max_value).map(shade_of));
         return Ok(Image { width, height, pixels: pixels.collect::<Result<_, _>>()? });
     }
-    let pixel_bytes = if max_value < 256 { 1 } else { 2 };
-    let raster_bytes = pixel_count * pixel_bytes;
+    let bytes_per_pixel = if max_value < 256 { 1 } else { 2 };
+    let raster_byte_count = pixel_count * bytes_per_pixel;
     // One white space character ends the header. Windows editors write two: carriage return and line feed.
-    let is_crlf =
-        bytes[reader.position..].starts_with(b"\r\n") && bytes.len() >= reader.position + 2 + raster_bytes;
+    let is_crlf = bytes[reader.position..].starts_with(b"\r\n")
+        && bytes.len() >= reader.position + 2 + raster_byte_count;
     let available_raster = bytes.get(reader.position + if is_crlf { 2 } else { 1 }..).unwrap_or_default();
-    let Some(raster) = available_raster.get(..raster_bytes) else {
-        let allowed_text = format!("{raster_bytes} for {width} × {height} pixels");
+    let Some(raster) = available_raster.get(..raster_byte_count) else {
+        let allowed_text = format!("{raster_byte_count} for {width} × {height} pixels");
         let (field, value) = ("the length of the raster in bytes", available_raster.len().to_string());
         return Err(PgmError { field, line: reader.line, value, allowed: allowed_text });
     };
     // The higher byte of two comes first.
     let value_of = |pixel: &[u8]| pixel.iter().fold(0, |value, byte| 256 * value + usize::from(*byte));
-    let pixels = raster.chunks(pixel_bytes).map(|pixel| shade_of(value_of(pixel))).collect();
+    let pixels = raster.chunks(bytes_per_pixel).map(|pixel| shade_of(value_of(pixel))).collect();
     Ok(Image { width, height, pixels })
 }
 

@@ -83,10 +83,11 @@ impl WallTree {
     fn make_node(&self, node_index: usize) -> Node {
         let walls = &self.walls[self.wall_range(node_index)];
         // The capsule lies along the mean direction of the walls or along an axis, whichever makes it narrowest.
-        let key_sum = walls.iter().map(sort_keys).fold([0.0; 2], |[x, y], key| [x + key[2], y + key[3]]);
-        let key_sum_length = libm::hypot(key_sum[0], key_sum[1]);
-        let mean_direction = if key_sum_length > 0.0 {
-            key_sum.map(|coordinate| coordinate / key_sum_length)
+        let direction_sum =
+            walls.iter().map(sort_keys).fold([0.0; 2], |[x, y], key| [x + key[2], y + key[3]]);
+        let direction_sum_length = libm::hypot(direction_sum[0], direction_sum[1]);
+        let mean_direction = if direction_sum_length > 0.0 {
+            direction_sum.map(|coordinate| coordinate / direction_sum_length)
         } else {
             [1.0, 0.0]
         };

@@ -2,7 +2,7 @@
 //! precision form PPND16.
 #![expect(clippy::excessive_precision, reason = "the digits as published")]
 
-use crate::geom::lanes::{LANES, from_lanes, is_any_lane_set, log};
+use crate::geom::lanes::{LANE_COUNT, from_lanes, is_any_lane_set, log};
 use std::ops::{Add, Div, Mul};
 use wide::{bytemuck, f64x4};
 
@@ -37,15 +37,15 @@ pub(super) fn replace_by_normal_quantiles(numbers: &mut [f64x4]) {
 /// Replaces the numbers of a chunk by their quantiles. One number in seven is in a tail, and every second vector has one. Gathering
 /// these numbers into full vectors saves most of their cost, and unpredictable branches.
 fn replace_chunk_by_quantiles(numbers: &mut [f64x4]) {
-    let mut tail_numbers = [0.0; LANES * CHUNK_VECTORS + LANES];
-    let mut tail_indices = [0u16; LANES * CHUNK_VECTORS + LANES];
+    let mut tail_numbers = [0.0; LANE_COUNT * CHUNK_VECTORS + LANE_COUNT];
+    let mut tail_indices = [0u16; LANE_COUNT * CHUNK_VECTORS + LANE_COUNT];
     let mut tail_count = 0;
     for (group, q) in numbers.iter_mut().enumerate() {
         let tail_mask = q.abs().simd_gt(f64x4::splat(CENTRE_HALF_WIDTH)).to_bitmask();
         for (lane, tail) in q.to_array().into_iter().enumerate() {
             // The next number overwrites this one unless it is in a tail.
             tail_numbers[tail_count] = tail;
-            tail_indices[tail_count] = (LANES * group + lane) as u16;
+            tail_indices[tail_count] = (LANE_COUNT * group + lane) as u16;
             tail_count += (tail_mask >> lane & 1) as usize;
         }
         let r = f64x4::splat(0.180_625) - *q * *q;
@@ -53,7 +53,7 @@ fn replace_chunk_by_quantiles(numbers: &mut [f64x4]) {
     }
     let chunk_numbers: &mut [f64] = bytemuck::cast_slice_mut(numbers);
     for (numbers, indices) in
-        tail_numbers[..tail_count].chunks(LANES).zip(tail_indices[..tail_count].chunks(LANES))
+        tail_numbers[..tail_count].chunks(LANE_COUNT).zip(tail_indices[..tail_count].chunks(LANE_COUNT))
     {
         let tail_quantiles = tail_quantile_lanes(from_lanes(|lane| *numbers.get(lane).unwrap_or(&0.45)));
         for (index, quantile) in indices.iter().zip(tail_quantiles.to_array()) {

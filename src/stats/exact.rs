@@ -54,19 +54,21 @@ impl UnitMotionMoments {
     #[inline(never)]
     pub fn mean_and_cov(&self, [length, length_std]: [f64; 2]) -> (Vector3<f64>, Matrix3<f64>) {
         let mean = self.weighted_sum / self.weight_sum;
-        let mut u_cov = self.square_sum / self.weight_sum - mean * mean.transpose();
+        let mut unit_end_cov = self.square_sum / self.weight_sum - mean * mean.transpose();
         for i in 0..3 {
-            u_cov[(i, i)] = non_negative(u_cov[(i, i)]);
+            unit_end_cov[(i, i)] = non_negative(unit_end_cov[(i, i)]);
         }
         let [x, y] = self.reference.unwrap_or_default();
-        let mean_u = [mean.x + x, mean.y + y, 0.0];
+        let mean_unit_end = [mean.x + x, mean.y + y, 0.0];
         let length_factors = [length, length, 1.0];
         let cov = Matrix3::from_fn(|i, j| {
             // The spread of the length moves the position along u.
-            let second_moment = if i < 2 && j < 2 { u_cov[(i, j)] + mean_u[i] * mean_u[j] } else { 0.0 };
-            u_cov[(i, j)] * length_factors[i] * length_factors[j] + second_moment * length_std * length_std
+            let second_moment =
+                if i < 2 && j < 2 { unit_end_cov[(i, j)] + mean_unit_end[i] * mean_unit_end[j] } else { 0.0 };
+            unit_end_cov[(i, j)] * length_factors[i] * length_factors[j]
+                + second_moment * length_std * length_std
         });
-        (Vector3::new(length * mean_u[0], length * mean_u[1], mean.z), cov)
+        (Vector3::new(length * mean_unit_end[0], length * mean_unit_end[1], mean.z), cov)
     }
 }
 

@@ -10,7 +10,7 @@ use super::gain::{ChartGaussians, FourRobots, LogDensityDifferences, MeanAndCov,
 use super::moments::{CartesianMoments, ExponentialMoments, non_negative};
 use super::sums::{PairSums, Sums, add_to_block};
 use crate::geom::angle::wrap_angle;
-use crate::geom::lanes::{LANES, is_any_lane_set, split_lanes};
+use crate::geom::lanes::{LANE_COUNT, is_any_lane_set, split_lanes};
 use crate::geom::se2::SE2;
 use nalgebra::{Matrix2, Matrix3, Vector3};
 use std::f64::consts::{LN_2, PI, TAU};
@@ -116,7 +116,7 @@ impl FirstPass {
     /// Corrects the sums for irregular arcs: adds their values, and subtracts those of the driven ones, `regular_arcs`, which are in the sums
     /// of the unit noise.
     #[inline(never)]
-    pub fn add_irregular(&mut self, arcs: &FourArcs, regular_arcs: [f64x4; 2], mask: f64x4) {
+    pub fn add_irregular_arcs(&mut self, arcs: &FourArcs, regular_arcs: [f64x4; 2], mask: f64x4) {
         let [.., length, half_turn] = self.reference;
         self.irregular_arcs.add([arcs.length - length, arcs.half_turn - half_turn], mask);
         self.irregular_arcs.subtract(regular_arcs, mask);
@@ -157,8 +157,8 @@ impl FirstPass {
         let [ah, lh, hh] = [2.0 * cov(ah, a, h), 2.0 * cov(lh, l, h), 4.0 * variance(hh, h)];
         let [ss, st, tt] = [variance(ss, s), 2.0 * cov(st, s, t), 4.0 * variance(tt, t)];
         // All four lanes are scaled, including those without a pose.
-        let scaled_count = count.next_multiple_of(LANES) as f64;
-        let [twist, arc] = [0, 1].map(|i| (self.logs[i] - scaled_count * libm::log(self.scale[i])) / n);
+        let scaled_lane_count = count.next_multiple_of(LANE_COUNT) as f64;
+        let [twist, arc] = [0, 1].map(|i| (self.logs[i] - scaled_lane_count * libm::log(self.scale[i])) / n);
         FirstPassMoments {
             position: [x0 + x / n, y0 + y / n],
             position_cov,

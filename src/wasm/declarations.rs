@@ -2,7 +2,7 @@
 
 use super::values::{js_array, js_object, setting_to_js, settings_to_js};
 use crate::map::{MAX_BYTES, MAX_PIXELS};
-use crate::sim::picture::RAMP_STEPS;
+use crate::sim::picture::RAMP_STEP_COUNT;
 use crate::sim::settings::{Declaration, DeclaredSettings, Field, Setting};
 use crate::sim::squeeze::{ACCEPTED_BIT, END_FREE_BIT, MAX_TRIAL_PARTS, PATH_FREE_BIT};
 use crate::sim::{alpha_calibrator, arc_anatomy, banana, dead_reckoning, odometry_decomposer, squeeze};
@@ -66,7 +66,7 @@ pub fn constants() -> JsValue {
                 ("cells", MAX_PIXELS as f64),
                 ("bytes", MAX_BYTES as f64),
                 ("trial", MAX_TRIAL_PARTS as f64),
-                ("ramp", RAMP_STEPS as f64),
+                ("ramp", RAMP_STEP_COUNT as f64),
             ]),
         ),
         // Bits of a verdict on an attempt of Map Squeeze.

@@ -1,7 +1,7 @@
 //! Pictures of densities for JavaScript: reading of their arguments, and their pixels as a view of the core's memory.
 
 use super::fields::{check_range, read_integer};
-use crate::sim::picture::{RAMP_STEPS, Ramp};
+use crate::sim::picture::{RAMP_STEP_COUNT, Ramp};
 use crate::sim::views::{EXTENT_RANGE, Grid, MAX_CELLS, MAX_CELLS_PER_SIDE};
 use js_sys::{RangeError, Uint8ClampedArray, WebAssembly};
 use std::ops::RangeInclusive;
@@ -48,13 +48,13 @@ pub fn read_grid(bounds: [f64; 4], columns: f64, rows: f64) -> Result<Grid, JsVa
 
 /// Reads consecutive colour ramps from their bytes.
 pub fn read_ramps<const RAMP_COUNT: usize>(field: &str, bytes: &[u8]) -> Result<[Ramp; RAMP_COUNT], JsValue> {
-    let mut ramps = [[[0; 4]; RAMP_STEPS]; RAMP_COUNT];
+    let mut ramps = [[[0; 4]; RAMP_STEP_COUNT]; RAMP_COUNT];
     let ramp_bytes = ramps.as_flattened_mut().as_flattened_mut();
     if bytes.len() != ramp_bytes.len() {
         let (length, expected_length) = (bytes.len(), ramp_bytes.len());
         let message = format!(
             "{field} has length {length}; allowed is a Uint8Array of {expected_length} bytes, {} colours of four",
-            RAMP_STEPS * RAMP_COUNT
+            RAMP_STEP_COUNT * RAMP_COUNT
         );
         return Err(RangeError::new(&message).into());
     }

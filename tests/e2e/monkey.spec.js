@@ -258,8 +258,8 @@ test('random actions leave every figure sound @nightly', NEW_PAGE_TAG, async ({ 
     addEventListener('error', (event) => {
       const { error } = event;
       event.preventDefault();
-      const isExpected = event.target instanceof Element && (error instanceof TypeError || error instanceof RangeError) && /allowed|state/.test(error.message);
-      if (!isExpected) Reflect.get(window, 'unexpectedErrors').push(`${error?.stack ?? event.message}`);
+      const isExpectedError = event.target instanceof Element && (error instanceof TypeError || error instanceof RangeError) && /allowed|state/.test(error.message);
+      if (!isExpectedError) Reflect.get(window, 'unexpectedErrors').push(`${error?.stack ?? event.message}`);
     }, true);
   });
   await page.goto('/');

@@ -35,13 +35,13 @@ test('exercise 4: a sketch is chosen, and the robots of α₄ alone and α₆ al
     await expect(sketchForm.locator('.robots')).toHaveAttribute('d', /^M/);
     return revealedText;
   };
-  const noCloudText = 'Not what you expected. Every robot stops at the same point, with the same heading. There is no cloud.';
-  expect(await predictAndReveal()).toBe(noCloudText);
+  const expectedNoCloudText = 'Not what you expected. Every robot stops at the same point, with the same heading. There is no cloud.';
+  expect(await predictAndReveal()).toBe(expectedNoCloudText);
   expect(await readIsolateAndOmega()).toEqual([4, 0]);
   const { alphas, command } = await sectionArticle.locator('banana-machine').evaluate((figure) => /** @type {any} */ (figure).getState());
   expect([alphas.velocity[3], alphas.velocity[5], command.v * command.dt, command.dt]).toEqual([0.09, 0.01, 2, 2]);
   await caseRadios.nth(0).press('ArrowDown');
-  expect(await predictAndReveal()).toBe(noCloudText);
+  expect(await predictAndReveal()).toBe(expectedNoCloudText);
   expect(await readIsolateAndOmega()).toEqual([6, 0]);
   await caseRadios.nth(1).press('ArrowDown');
   expect(await predictAndReveal()).toMatch(/^Not what you expected\. The robots spread over a curved band, by 0\.\d+ m \(1σ\), their headings by 0\.\d+ rad\.$/);

@@ -162,8 +162,8 @@ test('a damaged message is dropped, and a file of damaged headers or compression
   // The file has frames of Zstandard, which contain messages of the odometry and the reference in turns.
   const log = await readDamagedOdometry(name, findPositions(decompressFile(name), '\\(\xb5/\xfd')[6] + 20);
   assert.deepEqual([rowIndicesOf(log), log.summary.dropped], [[...integersFrom(0, 3), ...integersFrom(4, 100)], { damaged: { count: 1, first: 4 } }]);
-  const withoutTopics = Buffer.from(decompressFile('none.bag').toString('latin1').replaceAll('topic=', 'topic-'), 'latin1');
-  assert.match(await catchRefusalSentence(readOdometry(withoutTopics, 'none.bag')), /^none\.bag: it is damaged or incomplete \(a record has no field topic\); copy/);
+  const bagWithoutTopics = Buffer.from(decompressFile('none.bag').toString('latin1').replaceAll('topic=', 'topic-'), 'latin1');
+  assert.match(await catchRefusalSentence(readOdometry(bagWithoutTopics, 'none.bag')), /^none\.bag: it is damaged or incomplete \(a record has no field topic\); copy/);
   assert.match(await catchRefusalSentence(readDamagedOdometry('sqlite-file-sqlite-file.db3.zstd', 4000)), /: it is damaged or incomplete \(.+\); copy it again from the robot\.$/);
 });
 

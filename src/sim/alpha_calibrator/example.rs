@@ -36,7 +36,7 @@ pub const TURN_SCALE: f64 = 0.97;
 /// Jumps of the reference: size (m), number of rows of a jump, and probability that one begins at a row. On average they make
 /// one leg in 70 an outlier.
 const JUMP_SIZE: f64 = 0.5;
-const JUMP_ROWS: usize = 25;
+const ROWS_PER_JUMP: usize = 25;
 const JUMP_PROBABILITY: f64 = 4e-4;
 
 /// Time between two rows, s, and number of rows.
@@ -185,7 +185,7 @@ fn simulate_reference(truth: &[(f64, SE2)], rng: &mut Xoshiro256PlusPlus) -> Vec
             } else if rng.random_bool(JUMP_PROBABILITY) {
                 let bearing = TAU * rng.random::<f64>();
                 jump_offset = SE2::new(JUMP_SIZE * libm::cos(bearing), JUMP_SIZE * libm::sin(bearing), 0.0);
-                remaining_rows = JUMP_ROWS;
+                remaining_rows = ROWS_PER_JUMP;
             }
             let current_offset = if remaining_rows > 0 { jump_offset } else { SE2::identity() };
             let sensor_pose = *pose * SE2::new(LEVER_ARM[0], LEVER_ARM[1], MOUNT_YAW);

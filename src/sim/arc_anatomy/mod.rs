@@ -88,7 +88,7 @@ impl ArcAnatomy {
         let position_of = |pose: SE2| [pose.x(), pose.y()];
         let lateral_velocity_segment = |i: usize| {
             let pose = pose_on_twist_path(i, TWIST_PATH_TICKS);
-            let [x, y] = PreparedPose::new(pose).transform([0.0, xi.y]);
+            let [x, y] = PreparedPose::new(pose).transform_point([0.0, xi.y]);
             [pose.x(), pose.y(), x, y]
         };
         Paths {

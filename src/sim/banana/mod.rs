@@ -15,7 +15,7 @@ use super::cloud::{Cloud, START_POSE};
 use super::cloud_simulation::cloud_simulation;
 use super::settings::{Rules, SettingsError};
 use crate::geom::arc::{Arc, ArcInversion, arc_with_turn_near};
-use crate::geom::lanes::LANES;
+use crate::geom::lanes::LANE_COUNT;
 use crate::geom::se2::SE2;
 use crate::geom::unbend::find_arc;
 use crate::models::{
@@ -394,7 +394,7 @@ impl BananaMachine {
     pub fn nearest(&self, view: View, target: [f64; 2], radii: [f64; 2]) -> Option<usize> {
         let points_of_group = |[x, y]: [f64x4; 2]| {
             let (x, y) = (x.to_array(), y.to_array());
-            (0..LANES).map(move |lane| [x[lane], y[lane]])
+            (0..LANE_COUNT).map(move |lane| [x[lane], y[lane]])
         };
         nearest_index(self.cloud.point_groups(view).flat_map(points_of_group), target, radii)
     }

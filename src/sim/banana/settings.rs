@@ -122,7 +122,7 @@ const fn preset(name: &'static str, [v, omega, dt]: [f64; 3], alphas: [f64; 6]) 
 }
 
 /// Noise parameters of presets that differ in the command.
-const USUAL_ALPHAS: [f64; 6] = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01];
+const TYPICAL_ALPHAS: [f64; 6] = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01];
 
 /// Straight drive with much noise in the turn and little in the length: the clearest banana shape. By symmetry its cloud has
 /// no skew, although no ellipse fits it.
@@ -130,10 +130,10 @@ const BANANA_PRESET: Preset = preset("banana", [1.0, 0.0, 2.0], [0.002, 0.002, 0
 
 /// Presets: the four commands of the chapter, the clearest banana shape, and the chapter's example to check by hand.
 pub const PRESETS: [Preset; 6] = [
-    preset("straight", [1.0, 0.0, 2.0], USUAL_ALPHAS),
-    preset("gentle", [1.0, 0.5, 1.0], USUAL_ALPHAS),
-    preset("hard", [1.0, 1.2, 1.4], USUAL_ALPHAS),
-    preset("pivot", [0.06, 1.5, 1.0], USUAL_ALPHAS),
+    preset("straight", [1.0, 0.0, 2.0], TYPICAL_ALPHAS),
+    preset("gentle", [1.0, 0.5, 1.0], TYPICAL_ALPHAS),
+    preset("hard", [1.0, 1.2, 1.4], TYPICAL_ALPHAS),
+    preset("pivot", [0.06, 1.5, 1.0], TYPICAL_ALPHAS),
     BANANA_PRESET,
     preset("worked", [1.0, 0.5, 1.0], [0.02, 0.02, 0.02, 0.02, 0.0, 0.0]),
 ];

@@ -1,7 +1,7 @@
 //! Common random numbers: the unit noise of every sample, drawn once for a seed.
 
-use super::BLOCK_GROUPS;
-use crate::geom::lanes::{LANES, first_lanes_mask, is_any_lane_set};
+use super::GROUPS_PER_BLOCK;
+use crate::geom::lanes::{LANE_COUNT, first_lanes_mask, is_any_lane_set};
 use crate::noise::{NoiseKind, draw_four_uniform_triples};
 use crate::stats::sums::PairSums;
 use rand::SeedableRng;
@@ -20,7 +20,7 @@ const FARTHEST_SQUARED_DISTANCE: f64 = 20.0;
 
 /// Number of leading groups of the cloud from which near, far and farthest groups enter the subsample: the first 2048 robots, the first
 /// 65 536, and all. With fewer the first digit of standard errors would be wrong; more would take time.
-const SUBSAMPLE_GROUPS: [usize; 3] = [512, 16_384, usize::MAX];
+const SUBSAMPLE_GROUP_LIMITS: [usize; 3] = [512, 16_384, usize::MAX];
 
 #[inline(never)]
 fn subsample_group_limit([a, b, c]: &[f64x4; 3]) -> usize {
@@ -29,7 +29,7 @@ fn subsample_group_limit([a, b, c]: &[f64x4; 3]) -> usize {
         .iter()
         .filter(|threshold| is_any_lane_set(squared_distances.simd_gt(f64x4::splat(**threshold))))
         .count();
-    SUBSAMPLE_GROUPS[distance_class]
+    SUBSAMPLE_GROUP_LIMITS[distance_class]
 }
 
 /// Random numbers of all samples: three of variance 1 for each, in sample order. They depend only on the seed and the kind of
@@ -47,7 +47,7 @@ pub struct Draws {
     sums: PairSums,
     summed_group_count: usize,
     /// Indices of the groups whose noise is farthest from 0 among the first `summed_group_count`, in ascending order. Those
-    /// below `SUBSAMPLE_GROUPS[1]` enter the subsample with the far groups, and are not listed.
+    /// below `SUBSAMPLE_GROUP_LIMITS[1]` enter the subsample with the far groups, and are not listed.
     farthest_groups: Vec<usize>,
 }
 
@@ -66,7 +66,7 @@ impl Draws {
     }
 
     pub fn reserve(&mut self, count: usize) -> Result<(), TryReserveError> {
-        self.unit_noise.try_reserve_exact(count.div_ceil(LANES).saturating_sub(self.unit_noise.len()))
+        self.unit_noise.try_reserve_exact(count.div_ceil(LANE_COUNT).saturating_sub(self.unit_noise.len()))
     }
 
     pub fn reset_if_changed(&mut self, seed: u64, noise: NoiseKind) {
@@ -80,7 +80,7 @@ impl Draws {
     /// Draws further samples until there are `count`, for which memory must be reserved.
     pub fn extend_to(&mut self, count: usize) {
         let Self { noise, rng, unit_noise, .. } = self;
-        let (first_group, end_group) = (unit_noise.len(), count.div_ceil(LANES));
+        let (first_group, end_group) = (unit_noise.len(), count.div_ceil(LANE_COUNT));
         while unit_noise.len() < end_group {
             unit_noise.push(draw_four_uniform_triples(rng));
         }
@@ -90,57 +90,59 @@ impl Draws {
     /// Adds the complete blocks among the first `group_count` groups to the sums, and lists the groups whose noise is farthest from 0.
     #[inline(never)]
     pub fn sum_blocks_to(&mut self, group_count: usize) {
-        while group_count >= self.summed_group_count + BLOCK_GROUPS {
-            let block_noise = self.unit_noise[self.summed_group_count..][..BLOCK_GROUPS].iter();
-            block_noise.for_each(|noise| self.sums.add([noise[0], noise[1]], first_lanes_mask(LANES)));
+        while group_count >= self.summed_group_count + GROUPS_PER_BLOCK {
+            let block_noise = self.unit_noise[self.summed_group_count..][..GROUPS_PER_BLOCK].iter();
+            block_noise.for_each(|noise| self.sums.add([noise[0], noise[1]], first_lanes_mask(LANE_COUNT)));
             self.sums.flush_block();
-            let block_range =
-                self.summed_group_count.max(SUBSAMPLE_GROUPS[1])..self.summed_group_count + BLOCK_GROUPS;
+            let block_range = self.summed_group_count.max(SUBSAMPLE_GROUP_LIMITS[1])
+                ..self.summed_group_count + GROUPS_PER_BLOCK;
             self.farthest_groups.extend(
-                block_range
-                    .filter(|group| subsample_group_limit(&self.unit_noise[*group]) > SUBSAMPLE_GROUPS[1]),
+                block_range.filter(|group| {
+                    subsample_group_limit(&self.unit_noise[*group]) > SUBSAMPLE_GROUP_LIMITS[1]
+                }),
             );
-            self.summed_group_count += BLOCK_GROUPS;
+            self.summed_group_count += GROUPS_PER_BLOCK;
         }
     }
 
     /// Returns the sums of the first two noises, of their squares and of their product over `count` drawn samples.
     #[inline(never)]
     pub fn pair_sums(&mut self, count: usize) -> [f64; 5] {
-        let group_count = count / LANES;
+        let group_count = count / LANE_COUNT;
         if self.summed_group_count > group_count {
             (self.sums, self.summed_group_count) = (PairSums::new(), 0);
             self.farthest_groups.clear();
         }
         self.sum_blocks_to(group_count);
-        let mut all_sums = self.sums.clone();
+        let mut total_sums = self.sums.clone();
         for (group, noise) in
-            self.unit_noise[..count.div_ceil(LANES)].iter().enumerate().skip(self.summed_group_count)
+            self.unit_noise[..count.div_ceil(LANE_COUNT)].iter().enumerate().skip(self.summed_group_count)
         {
-            all_sums.add([noise[0], noise[1]], first_lanes_mask(count - LANES * group));
+            total_sums.add([noise[0], noise[1]], first_lanes_mask(count - LANE_COUNT * group));
         }
-        all_sums.flush_block();
-        all_sums.totals()
+        total_sums.flush_block();
+        total_sums.totals()
     }
 
     /// Returns the weighted subsample of the first `count` robots, in groups of four: unit noise, and the number of robots
     /// that each robot represents. Lanes beyond `count` have the weight 0. A cloud of up to 2048 robots is sampled completely.
     pub fn weighted_subsample(&self, count: usize) -> impl Iterator<Item = (&[f64x4; 3], f64x4)> {
-        let group_count = count.div_ceil(LANES);
+        let group_count = count.div_ceil(LANE_COUNT);
         let later_groups = self
             .farthest_groups
             .iter()
             .copied()
-            .chain(self.summed_group_count.max(SUBSAMPLE_GROUPS[1])..group_count);
-        (0..group_count.min(SUBSAMPLE_GROUPS[1])).chain(later_groups).filter_map(move |group| {
+            .chain(self.summed_group_count.max(SUBSAMPLE_GROUP_LIMITS[1])..group_count);
+        (0..group_count.min(SUBSAMPLE_GROUP_LIMITS[1])).chain(later_groups).filter_map(move |group| {
             let group_noise = &self.unit_noise[group];
             let group_limit = subsample_group_limit(group_noise);
             let weight = f64x4::splat((group_count as f64 / group_limit as f64).max(1.0));
-            (group < group_limit).then(|| (group_noise, weight & first_lanes_mask(count - LANES * group)))
+            (group < group_limit)
+                .then(|| (group_noise, weight & first_lanes_mask(count - LANE_COUNT * group)))
         })
     }
 
     pub fn noise_of_sample(&self, index: usize) -> [f64; 3] {
-        self.unit_noise[index / LANES].map(|lanes| lanes.to_array()[index % LANES])
+        self.unit_noise[index / LANE_COUNT].map(|lanes| lanes.to_array()[index % LANE_COUNT])
     }
 }

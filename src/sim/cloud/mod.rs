@@ -7,7 +7,7 @@ pub mod views;
 
 pub use views::View;
 
-use crate::geom::lanes::{LANES, first_lanes_mask};
+use crate::geom::lanes::{LANE_COUNT, first_lanes_mask};
 use crate::geom::se2::SE2;
 use crate::noise::NoiseKind;
 use crate::stats::two_pass::{CloudStats, FirstPass, SecondPass};
@@ -22,7 +22,7 @@ pub const START_POSE: SE2 = SE2::identity();
 
 /// Number of groups of four (256 poses) that are summed without compensation for rounding. With fewer, compensation would take
 /// noticeable time; with more, the rounding error would grow in proportion.
-const BLOCK_GROUPS: usize = 64;
+const GROUPS_PER_BLOCK: usize = 64;
 
 /// Cloud as a structure of arrays in groups of four samples. A sample takes 24 bytes of noise and 16 of position. Headings
 /// and logarithms are cheap to compute, and not stored.
@@ -41,7 +41,7 @@ impl Cloud {
 
     pub fn reserve(&mut self, count: usize) -> Result<(), TryReserveError> {
         self.draws.reserve(count)?;
-        let group_count = count.div_ceil(LANES);
+        let group_count = count.div_ceil(LANE_COUNT);
         self.positions.try_reserve_exact(group_count.saturating_sub(self.positions.len()))
     }
 
@@ -82,8 +82,8 @@ impl Cloud {
         let Self { draws, drive, positions, shown_count } = self;
         for parts in sample_blocks(*shown_count) {
             let end = parts[1].0.end;
-            draws.extend_to(end * LANES);
-            draws.sum_blocks_to((*shown_count / LANES).min(end));
+            draws.extend_to(end * LANE_COUNT);
+            draws.sum_blocks_to((*shown_count / LANE_COUNT).min(end));
             if positions.len() < end {
                 positions.resize(end, [f64x4::splat(0.0); 2]);
             }
@@ -102,7 +102,7 @@ impl Cloud {
 
     #[inline(always)]
     pub fn pose(&self, index: usize) -> SE2 {
-        let [group, lane] = [index / LANES, index % LANES];
+        let [group, lane] = [index / LANE_COUNT, index % LANE_COUNT];
         let [x, y] = self.positions[group].map(|lanes| lanes.to_array()[lane]);
         let half_heading = self.drive.motions(&self.draws.unit_noise[group]).half_heading;
         SE2::new(x, y, 2.0 * half_heading.to_array()[lane])
@@ -123,7 +123,7 @@ impl Cloud {
                 self.drive.morphed_points(&motions, &self.positions[group], morph)
             }
         };
-        let (full_groups, remaining) = (self.shown_count / LANES, self.shown_count % LANES);
+        let (full_groups, remaining) = (self.shown_count / LANE_COUNT, self.shown_count % LANE_COUNT);
         let mask_points =
             move |points: f64x4| first_lanes_mask(remaining).bitselect(points, f64x4::splat(f64::INFINITY));
         let last_group = (remaining > 0).then(|| points_of_group(full_groups).map(mask_points));
@@ -134,12 +134,12 @@ impl Cloud {
 /// Returns blocks of the groups of four of `count` samples, at least one block. A block has a range of complete groups, and a
 /// range of incomplete ones. Each range has the mask of its samples.
 fn sample_blocks(count: usize) -> impl Iterator<Item = [(Range<usize>, f64x4); 2]> {
-    let group_count = count.div_ceil(LANES);
-    let lane_mask = first_lanes_mask(count % LANES);
-    (0..group_count.div_ceil(BLOCK_GROUPS).max(1)).map(move |i| {
-        let (start, end) = (BLOCK_GROUPS * i, group_count.min(BLOCK_GROUPS * (i + 1)));
-        let full_groups = start.max(end.min(count / LANES));
-        [(start..full_groups, first_lanes_mask(LANES)), (full_groups..end, lane_mask)]
+    let group_count = count.div_ceil(LANE_COUNT);
+    let lane_mask = first_lanes_mask(count % LANE_COUNT);
+    (0..group_count.div_ceil(GROUPS_PER_BLOCK).max(1)).map(move |i| {
+        let (start, end) = (GROUPS_PER_BLOCK * i, group_count.min(GROUPS_PER_BLOCK * (i + 1)));
+        let full_groups = start.max(end.min(count / LANE_COUNT));
+        [(start..full_groups, first_lanes_mask(LANE_COUNT)), (full_groups..end, lane_mask)]
     })
 }
 
@@ -165,7 +165,7 @@ fn add_to_first_pass(
             sums.multiply_masked_jacobians(&poses, &arcs, mask);
         }
         if !is_regular {
-            sums.add_irregular(&arcs, drive.regular_arc_deviations(noise), mask);
+            sums.add_irregular_arcs(&arcs, drive.regular_arc_deviations(noise), mask);
         }
     }
 }

@@ -2,13 +2,13 @@
 
 use super::Cloud;
 use super::views::{Grid, View};
-use crate::geom::lanes::LANES;
+use crate::geom::lanes::LANE_COUNT;
 
 /// Colour ramp by the count of a cell relative to the fullest cell: RGBA, one byte each.
-pub type Ramp = [[u8; 4]; RAMP_STEPS];
+pub type Ramp = [[u8; 4]; RAMP_STEP_COUNT];
 
 /// Number of steps of a ramp, one for each value of a byte.
-pub const RAMP_STEPS: usize = 256;
+pub const RAMP_STEP_COUNT: usize = 256;
 
 /// Counts the shown samples in each cell, row by row from the top (largest second coordinate). Samples outside are not
 /// counted.
@@ -18,7 +18,7 @@ pub fn count_samples_in_cells(cloud: &Cloud, view: View, grid: &Grid) -> Vec<u32
     cloud.point_groups(view).for_each(|[x, y]| {
         let column = ((x - min[0]) * per_unit[0]).floor().to_array();
         let row = ((max[1] - y) * per_unit[1]).floor().to_array();
-        for cell in (0..LANES).filter_map(|lane| grid.cell_index(column[lane], row[lane])) {
+        for cell in (0..LANE_COUNT).filter_map(|lane| grid.cell_index(column[lane], row[lane])) {
             cell_counts[cell] += 1;
         }
     });
@@ -36,5 +36,5 @@ pub fn paint_cell_counts(counts: &[u32], ramp: &Ramp) -> Vec<[u8; 4]> {
 #[inline(always)]
 pub fn ramp_step(count: u32, max_count: u32) -> usize {
     let root_of_fraction = (f64::from(count) / f64::from(max_count)).sqrt();
-    ((RAMP_STEPS - 1) as f64 * root_of_fraction + 0.5) as usize % RAMP_STEPS
+    ((RAMP_STEP_COUNT - 1) as f64 * root_of_fraction + 0.5) as usize % RAMP_STEP_COUNT
 }

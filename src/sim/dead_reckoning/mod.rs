@@ -18,7 +18,7 @@ use crate::js::js_structs;
 use crate::models::{Compounding, TangentNoiseModel};
 use crate::stats::{Ellipse, ExponentialContour, ExponentialMoments};
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
-use rollouts::{BLOCK_ROLLOUTS, Rollouts};
+use rollouts::{ROLLOUTS_PER_BLOCK, Rollouts};
 use stats::propagate_covariances;
 
 /// Number of chords of an outline. With fewer, corners would be visible; more would be shorter than a pixel.
@@ -30,7 +30,7 @@ const MAX_CHORDS: usize = 16;
 /// Number of steps of all robots in the first block, and in further blocks. While a handle is dragged, each frame waits for
 /// the first block. Further blocks take some milliseconds.
 const FIRST_BLOCK_STEPS: usize = 80_000;
-const BLOCK_STEPS: usize = 200_000;
+const STEPS_PER_BLOCK: usize = 200_000;
 
 /// Simulation of the widget: settings, rollouts, and predictions of the recursions.
 #[derive(Clone, Debug)]
@@ -137,11 +137,11 @@ impl DeadReckoning {
 
     /// Returns the number of robots that are driven within a few milliseconds.
     pub fn block_size(&self) -> usize {
-        self.block_size_for_steps(BLOCK_STEPS)
+        self.block_size_for_steps(STEPS_PER_BLOCK)
     }
 
     fn block_size_for_steps(&self, steps: usize) -> usize {
-        (steps / self.settings.steps as usize).next_multiple_of(BLOCK_ROLLOUTS)
+        (steps / self.settings.steps as usize).next_multiple_of(ROLLOUTS_PER_BLOCK)
     }
 
     /// Returns the number of robots driven.

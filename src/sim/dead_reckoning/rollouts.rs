@@ -1,7 +1,7 @@
 //! Monte Carlo rollouts: many robots drive one command repeatedly, four at a time. Sums after each step give mean and covariance.
 
 use super::settings::Settings;
-use crate::geom::lanes::{LANES, SinCos, Trigonometry, first_lanes_mask, is_any_lane_set};
+use crate::geom::lanes::{LANE_COUNT, SinCos, Trigonometry, first_lanes_mask, is_any_lane_set};
 use crate::geom::se2::SE2;
 use crate::models::TangentNoiseModel;
 use crate::noise::{NoiseKind, draw_four_uniform_triples};
@@ -16,11 +16,11 @@ use wide::f64x4;
 
 /// Number of groups of four that are driven through all steps together: 256 rollouts, whose draws and poses take 8 kB.
 /// With fewer, compensated sums would take noticeable time. More would not fit into the first-level cache.
-const BLOCK_GROUPS: usize = 64;
-pub const BLOCK_ROLLOUTS: usize = BLOCK_GROUPS * LANES;
+const GROUPS_PER_BLOCK: usize = 64;
+pub const ROLLOUTS_PER_BLOCK: usize = GROUPS_PER_BLOCK * LANE_COUNT;
 
 /// Number of the powers and products of ξ = (a, l, h) that are summed: a, l, h; their squares, cubes and fourth powers; al, ah, lh.
-const SUMMED_TERMS: usize = 15;
+const SUMMED_TERM_COUNT: usize = 15;
 
 /// Step of a robot, as a change of its error pose. With the error pose e = x̄⁻¹·x, e_k =
 /// exp(−τ)·e_{k−1}·exp(τ + w)·(a turn by γ̂Δt). No number grows with the length of the path.
@@ -74,7 +74,7 @@ pub struct Rollouts {
     /// Number of robots driven in complete blocks.
     driven_count: usize,
     /// Sums over the robots of complete blocks, after each step.
-    sums: Vec<Sums<SUMMED_TERMS>>,
+    sums: Vec<Sums<SUMMED_TERM_COUNT>>,
     /// Commanded pose after each step.
     pub nominal_poses: Vec<SE2>,
     /// Poses x, y (m) and θ (rad) of the first robots, step after step.
@@ -157,12 +157,12 @@ impl Rollouts {
         if target_count < self.driven_count {
             self.reset();
         }
-        while self.driven_count + BLOCK_ROLLOUTS <= target_count {
+        while self.driven_count + ROLLOUTS_PER_BLOCK <= target_count {
             let mut sums = std::mem::take(&mut self.sums);
-            self.drive_next_block(BLOCK_ROLLOUTS, &mut sums);
+            self.drive_next_block(ROLLOUTS_PER_BLOCK, &mut sums);
             self.sums = sums;
             self.block_rng.jump();
-            self.driven_count += BLOCK_ROLLOUTS;
+            self.driven_count += ROLLOUTS_PER_BLOCK;
         }
     }
 
@@ -174,7 +174,7 @@ impl Rollouts {
 
     /// Returns the moments of `target_count` robots after each step. It drives those of the last, incomplete block.
     pub fn measured_moments(&mut self, target_count: usize) -> Vec<MeasuredMoments> {
-        let moments_of = |sums: &[Sums<SUMMED_TERMS>]| {
+        let moments_of = |sums: &[Sums<SUMMED_TERM_COUNT>]| {
             sums.iter().map(|sums| moments_from_sums(&sums.totals(), target_count as f64)).collect()
         };
         if target_count == self.driven_count {
@@ -186,14 +186,14 @@ impl Rollouts {
     }
 
     #[inline(never)]
-    fn drive_next_block(&mut self, count: usize, sums: &mut [Sums<SUMMED_TERMS>]) {
+    fn drive_next_block(&mut self, count: usize, sums: &mut [Sums<SUMMED_TERM_COUNT>]) {
         let Self { step, block_rng, driven_count, nominal_poses: nominal, poses, .. } = self;
         let mut block = RobotBlock::new(block_rng.clone());
         for (k, (sums, nominal)) in sums.iter_mut().zip(nominal).enumerate() {
             block.drive_one_step(step);
             for (i, xi) in block.noise_or_xi.iter().enumerate() {
-                let remaining_lanes = count.saturating_sub(LANES * i);
-                if remaining_lanes >= LANES {
+                let remaining_lanes = count.saturating_sub(LANE_COUNT * i);
+                if remaining_lanes >= LANE_COUNT {
                     add_to_sums(sums, *xi);
                 } else {
                     let lane_mask = first_lanes_mask(remaining_lanes);
@@ -203,8 +203,8 @@ impl Rollouts {
             sums.flush_block();
             let robot_poses =
                 poses[k * MAX_SHOWN_ROBOTS..][..MAX_SHOWN_ROBOTS].iter_mut().skip(*driven_count);
-            for (i, pose) in robot_poses.take(BLOCK_ROLLOUTS).enumerate() {
-                *pose = block.groups[i / LANES].pose(i % LANES, nominal);
+            for (i, pose) in robot_poses.take(ROLLOUTS_PER_BLOCK).enumerate() {
+                *pose = block.groups[i / LANE_COUNT].pose(i % LANE_COUNT, nominal);
             }
         }
     }
@@ -217,8 +217,8 @@ impl Rollouts {
     /// Returns x, y (m) and θ (rad) of one robot after each step.
     pub fn rollout(&self, index: usize) -> Vec<[f64; 3]> {
         let mut skipped_rng = Xoshiro256PlusPlus::seed_from_u64(self.seed);
-        (0..index / BLOCK_ROLLOUTS).for_each(|_| skipped_rng.jump());
-        let (group, lane) = (index % BLOCK_ROLLOUTS / LANES, index % LANES);
+        (0..index / ROLLOUTS_PER_BLOCK).for_each(|_| skipped_rng.jump());
+        let (group, lane) = (index % ROLLOUTS_PER_BLOCK / LANE_COUNT, index % LANE_COUNT);
         let mut block = RobotBlock::new(skipped_rng);
         let pose_after = |nominal| {
             block.drive_one_step(&self.step);
@@ -241,16 +241,16 @@ impl ErrorPoses {
 struct RobotBlock {
     rng: Xoshiro256PlusPlus,
     /// Error poses of the robots.
-    groups: [ErrorPoses; BLOCK_GROUPS],
+    groups: [ErrorPoses; GROUPS_PER_BLOCK],
     /// Draws of a step, replaced by the resulting ξ.
-    noise_or_xi: [[f64x4; 3]; BLOCK_GROUPS],
+    noise_or_xi: [[f64x4; 3]; GROUPS_PER_BLOCK],
 }
 
 impl RobotBlock {
     fn new(rng: Xoshiro256PlusPlus) -> Self {
         let [zero, one] = [0.0, 1.0].map(f64x4::splat);
         let zero_errors = ErrorPoses { x: zero, y: zero, half_heading: zero, sin: zero, cos: one };
-        Self { rng, groups: [zero_errors; BLOCK_GROUPS], noise_or_xi: [[zero; 3]; BLOCK_GROUPS] }
+        Self { rng, groups: [zero_errors; GROUPS_PER_BLOCK], noise_or_xi: [[zero; 3]; GROUPS_PER_BLOCK] }
     }
 
     #[inline(never)]
@@ -265,7 +265,7 @@ impl RobotBlock {
 }
 
 #[inline(always)]
-fn add_to_sums(sums: &mut Sums<SUMMED_TERMS>, [a, l, h]: [f64x4; 3]) {
+fn add_to_sums(sums: &mut Sums<SUMMED_TERM_COUNT>, [a, l, h]: [f64x4; 3]) {
     let [aa, ll, hh] = [a * a, l * l, h * h];
     let terms = [a, l, h, aa, ll, hh, a * aa, l * ll, h * hh, aa * aa, ll * ll, hh * hh, a * l, a * h, l * h];
     add_to_block(&mut sums.block, terms);
@@ -274,7 +274,7 @@ fn add_to_sums(sums: &mut Sums<SUMMED_TERMS>, [a, l, h]: [f64x4; 3]) {
 /// Minimum number of robots whose kurtosis is reliable enough for standard errors of variances.
 const MIN_RELIABLE_COUNT: f64 = 30.0;
 
-fn moments_from_sums(sums: &[f64; SUMMED_TERMS], n: f64) -> MeasuredMoments {
+fn moments_from_sums(sums: &[f64; SUMMED_TERM_COUNT], n: f64) -> MeasuredMoments {
     let [a, l, h, aa, ll, hh, .., al, ah, lh] = sums.map(|sum| sum / n);
     let mean = Vector3::new(a, l, h);
     let mut covariance = Matrix3::new(aa, al, ah, al, ll, lh, ah, lh, hh) - mean * mean.transpose();

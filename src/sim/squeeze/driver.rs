@@ -2,7 +2,7 @@
 
 use super::settings::Settings;
 use crate::geom::arc::Arc;
-use crate::geom::lanes::LANES;
+use crate::geom::lanes::LANE_COUNT;
 use crate::geom::se2::SE2;
 use crate::map::{AcceptedMotion, CollisionTester, Cost, MapConditioned, NoAcceptedSample, Sampler};
 use crate::sim::cloud::draws::Draws;
@@ -70,8 +70,8 @@ impl<'a> Driver<'a> {
             return visit(attempt, cost);
         }
         let conditioned = self.settings.conditioned;
-        let (group, first_lane) = (indices.start / LANES, indices.start % LANES);
-        let lane_range = first_lane..LANES.min(first_lane + indices.len());
+        let (group, first_lane) = (indices.start / LANE_COUNT, indices.start % LANE_COUNT);
+        let lane_range = first_lane..LANE_COUNT.min(first_lane + indices.len());
         self.collision_tester.test_lanes(&self.draws.unit_noise[group], lane_range, |draw| {
             let deciding_verdict = self.model.deciding_verdict(&draw);
             let attempt = Attempt {

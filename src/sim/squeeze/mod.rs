@@ -51,7 +51,7 @@ pub struct MapSqueeze {
 const MAX_MEAN_DRAWS_PER_PART: usize = 20;
 
 /// Number of parts of motions that a block of attempts tests against the map. A block takes some milliseconds.
-const BLOCK_PARTS: usize = 4096;
+const PARTS_PER_BLOCK: usize = 4096;
 
 cloud_simulation!(MapSqueeze);
 
@@ -154,7 +154,7 @@ impl MapSqueeze {
 
     /// Returns the number of attempts that are made within a few milliseconds.
     pub fn block_size(&self) -> usize {
-        (BLOCK_PARTS / self.settings.part_count() as usize).max(1)
+        (PARTS_PER_BLOCK / self.settings.part_count() as usize).max(1)
     }
 
     /// Returns the attempts shown, in sample order.

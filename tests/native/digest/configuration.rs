@@ -1,6 +1,6 @@
 //! Reader of configurations.json, which has settings of simulations and arguments of the methods whose results are digested.
 
-use motion::sim::picture::{RAMP_STEPS, Ramp};
+use motion::sim::picture::{RAMP_STEP_COUNT, Ramp};
 use motion::sim::settings::{Rules, Setting};
 use motion::sim::views::Grid;
 use serde_json::Value;
@@ -95,5 +95,5 @@ pub fn numbers_of<const N: usize>(value: &Value) -> [f64; N] {
 
 /// Returns a colour ramp with the same distinct colours as in digest.js.
 pub fn test_ramp(ramp_index: usize) -> Ramp {
-    std::array::from_fn(|i| [i as u8, (RAMP_STEPS - 1 - i) as u8, 85 * ramp_index as u8, 255])
+    std::array::from_fn(|i| [i as u8, (RAMP_STEP_COUNT - 1 - i) as u8, 85 * ramp_index as u8, 255])
 }

@@ -90,12 +90,15 @@ fn without_noise_samples_are_exact_and_there_is_no_density() {
             }
         }
         // Noise is proportional to motion. A parked robot has none.
-        let parked_command = velocity_command(0.0, 0.0, 1.0);
+        let standstill_command = velocity_command(0.0, 0.0, 1.0);
         for x in start_poses() {
-            assert_eq!(velocity_model(ALPHAS_WITH_LAST_TURN, kind).sample(&parked_command, &x, &mut rng), x);
-            assert_eq!(velocity_model(ALPHAS_WITH_LAST_TURN, kind).prob(&x, &parked_command, &x), 1.0);
             assert_eq!(
-                velocity_model(ALPHAS_WITH_LAST_TURN, kind).pose_density(&x, &parked_command, &x),
+                velocity_model(ALPHAS_WITH_LAST_TURN, kind).sample(&standstill_command, &x, &mut rng),
+                x
+            );
+            assert_eq!(velocity_model(ALPHAS_WITH_LAST_TURN, kind).prob(&x, &standstill_command, &x), 1.0);
+            assert_eq!(
+                velocity_model(ALPHAS_WITH_LAST_TURN, kind).pose_density(&x, &standstill_command, &x),
                 None
             );
         }

@@ -3,7 +3,7 @@
 use crate::common::settings_of_preset;
 use motion::sim::View;
 use motion::sim::banana::{BananaMachine, Settings};
-use motion::sim::picture::{RAMP_STEPS, Ramp};
+use motion::sim::picture::{RAMP_STEP_COUNT, Ramp};
 use motion::sim::squeeze::{self, MapSqueeze, OUTCOME_KIND_COUNT, PRESETS};
 use motion::sim::views::Grid;
 
@@ -29,7 +29,7 @@ fn cell_index(grid: &Grid, [x, y]: [f64; 2]) -> Option<usize> {
 
 /// Returns the step of the ramp for a count: 255·√(count/max_count), rounded.
 fn ramp_step(count: u32, max_count: u32) -> u8 {
-    ((RAMP_STEPS - 1) as f64 * (f64::from(count) / f64::from(max_count)).sqrt()).round() as u8
+    ((RAMP_STEP_COUNT - 1) as f64 * (f64::from(count) / f64::from(max_count)).sqrt()).round() as u8
 }
 
 #[test]

@@ -45,12 +45,12 @@ fn fractions_within_standard_errors(settings: Settings, repetitions: u64) -> [f6
         simulation.configure(Settings { seed, ..settings }).expect("valid settings");
         let stats = simulation.stats();
         let (gains, standard_errors) = (stats.likelihood_gain, stats.likelihood_gain_error);
-        let is_within =
+        let is_within_standard_errors =
             |value: f64, standard_error: f64, exact: f64| (value - exact).abs() <= 1.959_964 * standard_error;
         [
-            is_within(stats.cross_track_skew, stats.cross_track_skew_error, exact_skew),
-            is_within(gains.pose, standard_errors.pose, exact_gain.pose),
-            is_within(gains.floor, standard_errors.floor, exact_gain.floor),
+            is_within_standard_errors(stats.cross_track_skew, stats.cross_track_skew_error, exact_skew),
+            is_within_standard_errors(gains.pose, standard_errors.pose, exact_gain.pose),
+            is_within_standard_errors(gains.floor, standard_errors.floor, exact_gain.floor),
         ]
     })
 }

@@ -141,12 +141,11 @@ const CHANGING_TEXTS = ':is(p, dl, li, .result):not(.result > *, .slider *, deta
  */
 export class TextHeights extends FigureController {
   #textElements: Set<HTMLElement> = new Set();
-  #sizeObserver: ResizeObserver | undefined;
+  #sizeObserver = new ResizeObserver((entries) => this.#keepHeights(entries));
   #lastWidth = 0;
   #language = '';
 
   hostUpdated() {
-    this.#sizeObserver ??= new ResizeObserver((entries) => this.#keepHeights(entries));
     for (const textElement of this.host.renderRoot.querySelectorAll<HTMLElement>(CHANGING_TEXTS)) {
       if (!this.#textElements.has(textElement)) this.#sizeObserver.observe(textElement);
       this.#textElements.add(textElement);
@@ -163,7 +162,7 @@ export class TextHeights extends FigureController {
     [this.#lastWidth, this.#language] = [clientWidth, language];
     // Changing a size now would call the observer again in this frame.
     requestAnimationFrame(() => {
-      this.#sizeObserver?.disconnect();
+      this.#sizeObserver.disconnect();
       for (const textElement of this.#textElements) textElement.style.minHeight = '';
       this.#textElements.clear();
       this.hostUpdated();

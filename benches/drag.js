@@ -75,12 +75,12 @@ async function timeDrag({ widget, selector, i, steps }) {
   /** Returns the end of the frame in which a text changes, including texts for screen readers. @returns {Promise<number>} */
   const waitForTextChange = () =>
     new Promise((resolve) => {
-      const observer = new MutationObserver(() => {
-        observer.disconnect();
+      const textObserver = new MutationObserver(() => {
+        textObserver.disconnect();
         resolve(waitForFrameEnd());
       });
       const attributeFilter = ['aria-label', 'aria-valuetext'];
-      observer.observe(shadowRoot, { subtree: true, characterData: true, childList: true, attributes: true, attributeFilter });
+      textObserver.observe(shadowRoot, { subtree: true, characterData: true, childList: true, attributes: true, attributeFilter });
     });
   const sendStep = (/** @type {number} */ step) => {
     if (isSlider) {

@@ -67,8 +67,8 @@ export function descriptionOf(declaration, opening) {
   const range = rangeTextOf(declaration);
   const numberKind = { whole: 'a whole number', numbers: 'each' }[/** @type {string} */ (type)] ?? '';
   const allowedText = range && `${numberKind} from ${range}`.trim();
-  const factText = [allowedText, opening && `opens with ${opening}`].filter(Boolean).join('; ');
-  return factText ? `${sentence} ${factText[0].toUpperCase()}${factText.slice(1)}.` : sentence;
+  const rangeAndOpeningText = [allowedText, opening && `opens with ${opening}`].filter(Boolean).join('; ');
+  return rangeAndOpeningText ? `${sentence} ${rangeAndOpeningText[0].toUpperCase()}${rangeAndOpeningText.slice(1)}.` : sentence;
 }
 
 /** Returns the range of a setting as text. @param {Declaration} declaration */

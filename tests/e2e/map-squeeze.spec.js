@@ -104,9 +104,9 @@ test('the sampler is chosen by name, and the readouts are those of the simulatio
     expect(await readNumber('samples drawn per accepted sample')).toBeCloseTo(stats.drawsPerAccepted, 2);
     expect(await readNumber('wall distances computed per accepted sample')).toBeCloseTo(stats.wallTestsPerAccepted, 2);
     const intervalText = stats.throughWallInterval.map((end) => (100 * end).toFixed(1)).join('\u2060–\u2060');
-    const throughText = `${stats.throughWall} of them, ${(100 * stats.throughWallRate).toFixed(1)}\u202f%, went through a wall (95\u202f% interval ${intervalText}\u202f%)`;
+    const throughWallText = `${stats.throughWall} of them, ${(100 * stats.throughWallRate).toFixed(1)}\u202f%, went through a wall (95\u202f% interval ${intervalText}\u202f%)`;
     await expect(widget.locator('.verdict')).toHaveText(new RegExp(`^${stats.accepted} of 600 motions .* and are accepted; `));
-    await expect(widget.locator('.verdict')).toContainText(sampler === 'whole-arc' ? 'none of them went through a wall.' : throughText);
+    await expect(widget.locator('.verdict')).toContainText(sampler === 'whole-arc' ? 'none of them went through a wall.' : throughWallText);
   }
 });
 
@@ -158,8 +158,8 @@ test('a wedged robot is reported with the number of draws @nightly', async ({ pa
   await expect(verdictNote).toContainText('The robot is wedged');
   const noteText = ((await verdictNote.textContent()) ?? '').replaceAll('\u202f', '');
   // The note is this one sentence, without a second count of the same motions.
-  const throughText = stats.throughWall === 0 ? 'none of them' : `${stats.throughWall} of them, ${(100 * stats.throughWallRate).toFixed(1)}%,`;
-  const completedText = `completed only ${stats.accepted} of ${config.samples} motions; ${throughText} went through a wall`;
+  const throughWallText = stats.throughWall === 0 ? 'none of them' : `${stats.throughWall} of them, ${(100 * stats.throughWallRate).toFixed(1)}%,`;
+  const completedText = `completed only ${stats.accepted} of ${config.samples} motions; ${throughWallText} went through a wall`;
   expect(noteText.trim()).toBe(`The robot is wedged: ${stats.drawn} sub-steps drawn ${completedText}.`);
   expect(((await widget.locator('canvas.plane').getAttribute('aria-label')) ?? '').replaceAll('\u202f', '')).toContain(noteText.trim());
 

@@ -267,8 +267,9 @@ impl RobotBlock {
 #[inline(always)]
 fn add_to_sums(sums: &mut Sums<SUMMED_TERM_COUNT>, [a, l, h]: [f64x4; 3]) {
     let [aa, ll, hh] = [a * a, l * l, h * h];
-    let terms = [a, l, h, aa, ll, hh, a * aa, l * ll, h * hh, aa * aa, ll * ll, hh * hh, a * l, a * h, l * h];
-    add_to_block(&mut sums.block, terms);
+    let power_products =
+        [a, l, h, aa, ll, hh, a * aa, l * ll, h * hh, aa * aa, ll * ll, hh * hh, a * l, a * h, l * h];
+    add_to_block(&mut sums.block, power_products);
 }
 
 /// Minimum number of robots whose kurtosis is reliable enough for standard errors of variances.

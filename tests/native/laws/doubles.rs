@@ -9,7 +9,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Returns a configuration with a fixed seed, so that results are equal on every machine. Failing cases are not stored. Each becomes a
 /// test of its own in `regressions.rs`.
-pub fn config_with_cases(count: u32) -> ProptestConfig {
+pub fn proptest_config(count: u32) -> ProptestConfig {
     ProptestConfig {
         cases: count,
         rng_seed: RngSeed::Fixed(19),

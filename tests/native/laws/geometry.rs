@@ -4,7 +4,7 @@
 //! relative to the size of the arguments, which may be 10⁻³⁰⁸ or 10³⁰⁰.
 
 use super::doubles::{
-    any_pose, any_twist, assert_same_pose, config_with_cases, finite_doubles, position_extent,
+    any_pose, any_twist, assert_same_pose, finite_doubles, position_extent, proptest_config,
 };
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::geom::sinc::sinc;
@@ -15,7 +15,7 @@ use std::f64::consts::{PI, TAU};
 const TOLERANCE_UNITS: f64 = 32.0;
 
 proptest! {
-    #![proptest_config(config_with_cases(400))]
+    #![proptest_config(proptest_config(400))]
 
     /// The remainder of a division is exact, and the subtraction of a full turn is exact too.
     #[test]

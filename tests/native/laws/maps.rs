@@ -1,6 +1,6 @@
 //! Map files in PGM format.
 
-use super::doubles::config_with_cases;
+use super::doubles::proptest_config;
 use motion::map::read_pgm;
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -15,7 +15,7 @@ fn any_separator() -> impl Strategy<Value = String> {
 }
 
 proptest! {
-    #![proptest_config(config_with_cases(250))]
+    #![proptest_config(proptest_config(250))]
 
     /// The image depends neither on white space and comments in the file, nor on its kind (plain or binary).
     #[test]

@@ -1,6 +1,6 @@
 //! Noises, and probabilities of poses under the models.
 
-use super::doubles::{any_double, config_with_cases, doubles_up_to, finite_doubles};
+use super::doubles::{any_double, doubles_up_to, finite_doubles, proptest_config};
 use motion::geom::se2::SE2;
 use motion::sim::settings::{ALPHA_RANGE, DURATION_RANGE};
 use motion::{
@@ -58,7 +58,7 @@ fn uniform_draws() -> impl Strategy<Value = f64> {
 }
 
 proptest! {
-    #![proptest_config(config_with_cases(400))]
+    #![proptest_config(proptest_config(400))]
 
     #[test]
     fn quantiles_are_odd_and_finite_and_rise(kind in noise_kinds(), a in uniform_draws(), b in uniform_draws()) {

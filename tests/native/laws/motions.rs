@@ -1,6 +1,6 @@
 //! Arcs and odometry readings that are computed from two poses and lead from one to the other.
 
-use super::doubles::{any_pose, assert_same_pose, config_with_cases, doubles_up_to, position_extent};
+use super::doubles::{any_pose, assert_same_pose, doubles_up_to, position_extent, proptest_config};
 use motion::geom::arc::{Arc, arc_end, arc_with_turn_near, invert_arc};
 use motion::geom::se2::SE2;
 use motion::models::OdomDelta;
@@ -15,7 +15,7 @@ fn any_duration() -> impl Strategy<Value = f64> {
 }
 
 proptest! {
-    #![proptest_config(config_with_cases(400))]
+    #![proptest_config(proptest_config(400))]
 
     /// For any two poses, the inverted controls lead from one to the other.
     #[test]

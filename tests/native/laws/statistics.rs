@@ -1,6 +1,6 @@
 //! Moments, skew, gains and contours do not depend on the unit and frame of a cloud.
 
-use super::doubles::{any_double, config_with_cases};
+use super::doubles::{any_double, proptest_config};
 use motion::TangentNoiseModel;
 use motion::geom::se2::SE2;
 use motion::models::TangentNoiseError;
@@ -42,7 +42,7 @@ fn is_close(a: f64, b: f64, scale: f64) -> bool {
 const MAX_ROBOT_DISTANCE: f64 = 20.0;
 
 proptest! {
-    #![proptest_config(config_with_cases(300))]
+    #![proptest_config(proptest_config(300))]
 
     /// In another frame the cloud has the transformed mean and the same covariance, rotated.
     #[test]
@@ -86,8 +86,8 @@ proptest! {
         let outline = ellipse.boundary(32);
         prop_assert_eq!(outline.first(), outline.last());
         for point in outline {
-            let scaled_point = |fraction: f64| (centre + (Vector2::from(point) - centre) * fraction).into();
-            prop_assert!(ellipse.contains(scaled_point(1.0 - 1e-9)) && !ellipse.contains(scaled_point(1.0 + 1e-9)), "{:?}", point);
+            let scale_point_from_centre = |fraction: f64| (centre + (Vector2::from(point) - centre) * fraction).into();
+            prop_assert!(ellipse.contains(scale_point_from_centre(1.0 - 1e-9)) && !ellipse.contains(scale_point_from_centre(1.0 + 1e-9)), "{:?}", point);
         }
     }
 

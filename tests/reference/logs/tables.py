@@ -12,7 +12,7 @@ import pathlib
 
 import pandas as pd
 
-HERE = pathlib.Path(__file__).parent
+SCRIPT_DIRECTORY = pathlib.Path(__file__).parent
 START = 1_718_000_000
 
 rows = []
@@ -36,4 +36,4 @@ TABLES = {
     "nanoseconds": drive.assign(t=dates.astype("int64").astype(str)).rename(columns={"t": "timestamp"}).to_csv(sep="\t", quoting=1),
     "merged": odometry.join(other.set_index("t").add_prefix("gt_"), how="outer").to_csv(),
 }
-(HERE / "tables.json").write_text(json.dumps({name: text.splitlines() for name, text in TABLES.items()}, indent=0) + "\n")
+(SCRIPT_DIRECTORY / "tables.json").write_text(json.dumps({name: text.splitlines() for name, text in TABLES.items()}, indent=0) + "\n")

@@ -101,7 +101,7 @@ impl Check {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct WindowCoverage {
-    /// Minimum distance driven in a window, m.
+    /// Mean distance driven in a window, m. A window ends with the leg that completes 1, 2 or 5 m.
     pub length: f64,
     /// Number of windows.
     pub count: usize,
@@ -419,7 +419,7 @@ fn compare_long_turns(Fit { sample, maximum, .. }: &Fit, correlation: f64) -> Op
             continue;
         }
         run[0] += sample.observations[i].expected.theta();
-        run[1] += sample.systematic.motion(leg).theta();
+        run[1] += sample.observations[i].measured.theta();
         run_legs += 1;
         if run_legs == RUN_LEGS {
             runs.push(run);

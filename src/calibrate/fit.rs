@@ -57,15 +57,16 @@ impl Sample {
         self.terms = self.legs.iter().zip(&self.observations).map(term).collect();
     }
 
-    /// Returns the residuals of the legs that `select` accepts. A leg follows the one before it only if both are selected.
+    /// Returns true if a leg and the one before it are selected, and the leg starts where the one before it ends.
+    pub fn follows(&self, leg: usize, select: impl Fn(usize) -> bool) -> bool {
+        self.legs[leg].follows && leg > 0 && select(leg - 1) && select(leg)
+    }
+
+    /// Returns the residuals of the legs that `select` accepts.
     pub fn residuals(&self, estimated: ErrorMask, select: impl Fn(usize) -> bool) -> Residuals {
-        let mut terms = Vec::with_capacity(self.legs.len());
-        for leg in (0..self.legs.len()).filter(|leg| select(*leg)) {
-            let mut term = self.terms[leg];
-            term.follows = self.legs[leg].follows && leg > 0 && select(leg - 1);
-            terms.push(term);
-        }
-        Residuals { model: self.options.model, estimated, terms }
+        let selected_legs = (0..self.legs.len()).filter(|leg| select(*leg));
+        let term_of = |leg: usize| self.terms[leg].with_follows(self.follows(leg, &select));
+        Residuals { model: self.options.model, estimated, terms: selected_legs.map(term_of).collect() }
     }
 
     /// Returns the residuals of the legs in a range that are not outliers.
@@ -83,11 +84,12 @@ impl Sample {
                 parameters.map_or(f64::INFINITY, |found| found[POSITION_VARIANCE].sqrt()),
             );
             let start_parameters = parameters.unwrap_or_else(|| self.initial_guess());
+            let solution = self.inlier_residuals(all_legs.clone()).filtered(&start_parameters);
             if log.is_some() {
-                let solution = self.inlier_residuals(all_legs.clone()).filtered(&start_parameters);
                 self.estimated = identifiable_errors(&solution.information);
             }
-            let has_new_outliers = self.mark_outliers(&start_parameters, round);
+            let errors = solution.errors_in(&self.estimated);
+            let has_new_outliers = self.mark_outliers(&start_parameters, &errors, round);
             let residuals = self.inlier_residuals(all_legs.clone());
             if residuals.terms.len() < MIN_LEGS {
                 return Err(CalibrateError::TooFewLegs { legs: residuals.terms.len() });
@@ -247,7 +249,7 @@ pub(super) fn fit_corrected(
         let parameters = &fit.maximum.parameters;
         all_legs = Sample::new(legs, corrected, mask, options);
         all_legs.update_observations(parameters[POSITION_VARIANCE].sqrt());
-        all_legs.mark_outliers(parameters, 1);
+        all_legs.mark_outliers(parameters, &fit.maximum.expansion.filtered.errors, 1);
     }
     Ok((fit, all_legs, lost))
 }

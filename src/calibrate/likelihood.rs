@@ -41,7 +41,7 @@ pub(super) type Information = SMatrix<f64, PARAMETER_COUNT, PARAMETER_COUNT>;
 type Columns = SMatrix<f64, 3, COLUMN_COUNT>;
 const COLUMN_COUNT: usize = ERROR_COUNT + 1;
 pub(super) type ErrorMatrix = SMatrix<f64, ERROR_COUNT, ERROR_COUNT>;
-type ErrorVector = SVector<f64, ERROR_COUNT>;
+pub(super) type ErrorVector = SVector<f64, ERROR_COUNT>;
 
 /// Minimum standard deviation of a residual (rad, m or their rates). It keeps the likelihood of a log without noise finite.
 const MIN_STD: f64 = 1e-7;
@@ -72,25 +72,39 @@ pub(super) struct Residuals {
     pub terms: Vec<Term>,
 }
 
-/// Innovation of one leg: its residual, and the Jacobian of the residual, minus their predictions from the previous legs.
+/// Innovation of one leg: its residual, and optionally the Jacobian of the residual, minus their predictions from the previous legs.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Innovation {
-    columns: Columns,
+pub(super) struct Innovation<const N: usize> {
+    columns: SMatrix<f64, 3, N>,
     /// Variance of each component; NaN for a component that is not observed.
     variances: [f64; 3],
     /// Inverse covariance.
     weight: Matrix3<f64>,
     /// Kalman gain of the reference's error at the end of the leg.
     gain: Matrix3<f64>,
+    /// Determinant of the covariance.
+    determinant: f64,
+}
+
+/// Kalman filter whose state is the error of the reference at the end of a leg.
+pub(super) struct Filter<'a, const N: usize> {
+    model: Model,
+    parameters: &'a Parameters,
+    reference_covariance: Matrix3<f64>,
+    /// Mean and covariance of the reference's error at the start of the leg.
+    mean: SMatrix<f64, 3, N>,
+    prior: Matrix3<f64>,
 }
 
 /// Innovations of all legs under given variances, and generalized least squares of the systematic errors.
 #[derive(Clone, Debug)]
 pub(super) struct FilterResult {
-    pub innovations: Vec<Innovation>,
+    pub innovations: Vec<Innovation<COLUMN_COUNT>>,
     pub log_likelihood: f64,
     /// Information on all errors, XᵀV⁻¹X.
     pub information: ErrorMatrix,
+    /// XᵀV⁻¹r.
+    weighted_residual: ErrorVector,
     /// Estimates of the systematic errors β; 0 for those that are not estimated.
     pub errors: ErrorVector,
     /// Covariance of the estimate: the inverse of the information on the errors that are estimated.
@@ -112,7 +126,7 @@ pub(super) struct Expansion {
 
 impl Term {
     pub fn new(model: Model, leg: &Leg, observation: &Observation, corrected: &Systematic) -> Self {
-        let Observation { residuals, coefficients, jacobian, expected, .. } = observation;
+        let Observation { residuals, coefficients, jacobian, expected, measured, .. } = observation;
         let error_jacobian = jacobian * corrected.motion_jacobian(model, leg, expected);
         if residuals.iter().chain(&error_jacobian).any(|entry| entry.abs() > MAX_ENTRY) {
             return Self::default();
@@ -123,11 +137,50 @@ impl Term {
         columns.fixed_columns_mut::<ERROR_COUNT>(0).copy_from(&error_jacobian);
         columns.set_column(ERROR_COUNT, &observed_residuals.into());
         // Errors of the reference displace the measured end, whose heading differs from that of the expected end.
-        let heading_error = expected.between(&corrected.motion(leg)).theta();
+        let heading_error = expected.between(measured).theta();
         let end_jacobian = jacobian * SE2::new(0.0, 0.0, heading_error).adjoint();
         let [start, end] =
-            corrected.reference_jacobians(leg).map(|pose_jacobian| end_jacobian * pose_jacobian);
+            corrected.reference_jacobians(leg, measured).map(|pose_jacobian| end_jacobian * pose_jacobian);
         Self { columns, coefficients: *coefficients, observed, start, end, follows: false }
+    }
+
+    pub fn with_follows(self, follows: bool) -> Self {
+        Self { follows, ..self }
+    }
+
+    /// Returns the residual minus the part that these systematic errors explain.
+    pub fn residual_without(&self, errors: &ErrorVector) -> Vector3<f64> {
+        residual_without_errors(&self.columns, errors)
+    }
+}
+
+impl<'a, const N: usize> Filter<'a, N> {
+    pub fn new(model: Model, parameters: &'a Parameters) -> Self {
+        let reference_covariance = reference_covariance(parameters);
+        let (mean, prior) = (SMatrix::zeros(), reference_covariance);
+        Self { model, parameters, reference_covariance, mean, prior }
+    }
+
+    /// Returns the innovation of the next leg, given its columns. `follows` is false for a leg that does not start where the last one ended.
+    #[inline(always)]
+    pub fn next(&mut self, term: &Term, columns: &SMatrix<f64, 3, N>, follows: bool) -> Innovation<N> {
+        if !follows {
+            (self.mean, self.prior) = (SMatrix::zeros(), self.reference_covariance);
+        }
+        let columns = columns - product(&term.start, &self.mean);
+        let scaled_end = product(&term.end, &self.reference_covariance);
+        let mut covariance =
+            propagated(&term.start, &self.prior) + product(&scaled_end, &term.end.transpose());
+        let wheels = self.model.wheel_variances(&term.coefficients, self.parameters);
+        for k in 0..3 {
+            covariance[(k, k)] += wheels[k] + if term.observed[k] { MIN_STD * MIN_STD } else { 1.0 };
+        }
+        let weight = covariance.try_inverse().unwrap_or_default();
+        let gain = product(&scaled_end.transpose(), &weight);
+        self.mean = product(&gain, &columns);
+        self.prior = self.reference_covariance - product(&gain, &scaled_end);
+        let variances = std::array::from_fn(|k| if term.observed[k] { covariance[(k, k)] } else { f64::NAN });
+        Innovation { columns, variances, weight, gain, determinant: covariance.determinant() }
     }
 }
 
@@ -139,7 +192,7 @@ impl FilterResult {
     /// block.
     pub fn error_stds(&self, correlation: f64) -> [f64; ERROR_COUNT] {
         let Self { innovations, errors, covariance, .. } = self;
-        let score_of_leg = |innovation: &Innovation| {
+        let score_of_leg = |innovation: &Innovation<COLUMN_COUNT>| {
             let weighted = innovation.weight * residual_without_errors(&innovation.columns, errors);
             innovation.columns.fixed_columns::<ERROR_COUNT>(0).tr_mul(&weighted)
         };
@@ -152,9 +205,16 @@ impl FilterResult {
         std::array::from_fn(|i| (variance_factor * covariance[(i, i)]).max(sandwich[(i, i)]).max(0.0).sqrt())
     }
 
-    /// Returns the innovation of each leg, with its standard deviations under the fit.
+    /// Returns the innovation of each leg, without the part that the estimated errors explain.
     pub fn leg_fits(&self) -> impl Iterator<Item = LegFit> {
-        self.innovations.iter().map(|innovation| innovation.leg_fit(&self.errors, false))
+        self.innovations.iter().map(|innovation| {
+            innovation.leg_fit(residual_without_errors(&innovation.columns, &self.errors), false)
+        })
+    }
+
+    /// Returns the estimates of the systematic errors in a mask; 0 for all others.
+    pub fn errors_in(&self, mask: &ErrorMask) -> ErrorVector {
+        masked_inverse(&self.information, mask).0 * self.weighted_residual
     }
 }
 
@@ -163,10 +223,16 @@ pub(super) fn block_length(legs: usize) -> usize {
     ((2.0 * (legs as f64).cbrt()).ceil() as usize).max(1)
 }
 
-impl Innovation {
-    /// Returns the innovation without the part that these systematic errors explain, with its standard deviations.
-    pub fn leg_fit(&self, errors: &ErrorVector, is_outlier: bool) -> LegFit {
-        let innovation = residual_without_errors(&self.columns, errors);
+impl Innovation<1> {
+    /// Returns the innovation as [`LegFit`].
+    pub fn fit_of_residual(&self, is_outlier: bool) -> LegFit {
+        self.leg_fit(self.columns, is_outlier)
+    }
+}
+
+impl<const N: usize> Innovation<N> {
+    /// Returns the innovation of the residual, which systematic errors do not explain, with its standard deviations.
+    fn leg_fit(&self, innovation: Vector3<f64>, is_outlier: bool) -> LegFit {
         let stds = self.variances.map(f64::sqrt);
         LegFit {
             stds,
@@ -190,47 +256,28 @@ impl Residuals {
     /// Runs the forward recursion under the given variances.
     pub fn filtered(&self, parameters: &Parameters) -> FilterResult {
         let mut innovations = Vec::with_capacity(self.terms.len());
-        let reference_covariance = reference_covariance(parameters);
+        let mut filter = Filter::new(self.model, parameters);
         let (mut log_det, mut gram) = (0.0, SMatrix::<f64, COLUMN_COUNT, COLUMN_COUNT>::zeros());
-        // Mean and covariance of the reference's error at the start of the leg.
-        let initial_state = (Columns::zeros(), reference_covariance);
-        let (mut mean, mut prior) = initial_state;
         // Determinants are multiplied, because one logarithm is cheaper than many.
         let mut det = 1.0;
         for term in &self.terms {
-            if !term.follows {
-                (mean, prior) = initial_state;
-            }
-            let columns = term.columns - product(&term.start, &mean);
-            let scaled_end = product(&term.end, &reference_covariance);
-            let mut covariance =
-                propagated(&term.start, &prior) + product(&scaled_end, &term.end.transpose());
-            let wheels = self.model.wheel_variances(&term.coefficients, parameters);
-            for k in 0..3 {
-                covariance[(k, k)] += wheels[k] + if term.observed[k] { MIN_STD * MIN_STD } else { 1.0 };
-            }
-            let (weight, determinant) =
-                (covariance.try_inverse().unwrap_or_default(), covariance.determinant());
-            det *= determinant;
-            if determinant <= 0.0 {
+            let innovation = filter.next(term, &term.columns, term.follows);
+            det *= innovation.determinant;
+            if innovation.determinant <= 0.0 {
                 // Variances differ by so many orders of magnitude that rounding makes the covariance indefinite.
                 log_det = f64::INFINITY;
             } else if !(1e-200..1e200).contains(&det) {
                 log_det += libm::log(det);
                 det = 1.0;
             }
-            let gain = product(&scaled_end.transpose(), &weight);
-            gram += transposed_product(&columns, &product(&weight, &columns));
-            mean = product(&gain, &columns);
-            prior = reference_covariance - product(&gain, &scaled_end);
-            let variances =
-                std::array::from_fn(|k| if term.observed[k] { covariance[(k, k)] } else { f64::NAN });
-            innovations.push(Innovation { columns, variances, weight, gain });
+            gram +=
+                transposed_product(&innovation.columns, &product(&innovation.weight, &innovation.columns));
+            innovations.push(innovation);
         }
         log_det += libm::log(det.abs());
         let information: ErrorMatrix = gram.fixed_view::<ERROR_COUNT, ERROR_COUNT>(0, 0).into_owned();
         let (covariance, log_det_information) = masked_inverse(&information, &self.estimated);
-        let weighted_residual = gram.fixed_view::<ERROR_COUNT, 1>(0, ERROR_COUNT);
+        let weighted_residual: ErrorVector = gram.fixed_view::<ERROR_COUNT, 1>(0, ERROR_COUNT).into_owned();
         let errors = covariance * weighted_residual;
         let count_true = |flags: &[bool]| flags.iter().filter(|is| **is).count() as f64;
         let residual_count: f64 = self.terms.iter().map(|term| count_true(&term.observed)).sum();
@@ -238,7 +285,8 @@ impl Residuals {
         let deviance = log_det + log_det_information + gram[(ERROR_COUNT, ERROR_COUNT)]
             - weighted_residual.dot(&errors)
             + degrees_of_freedom * libm::log(TAU);
-        FilterResult { innovations, log_likelihood: -0.5 * deviance, information, errors, covariance }
+        let log_likelihood = -0.5 * deviance;
+        FilterResult { innovations, log_likelihood, information, weighted_residual, errors, covariance }
     }
 
     /// Returns the log-likelihood with its derivatives, from the innovations under the same parameters.
@@ -304,7 +352,7 @@ impl Residuals {
     /// Returns the average information ½ rᵀP Vⱼ P Vₖ P r for each pair of parameters j and k.
     fn average_information(
         &self,
-        innovations: &[Innovation],
+        innovations: &[Innovation<COLUMN_COUNT>],
         projected: &[[Vector3<f64>; 3]],
         covariance: &ErrorMatrix,
     ) -> Information {

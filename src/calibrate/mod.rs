@@ -89,7 +89,7 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
         value: parameters[variance].sqrt(),
         interval: interval_of(variance).map(f64::sqrt),
     });
-    let leg_fits = all_legs.leg_fits(parameters);
+    let leg_fits = all_legs.leg_fits(parameters, &fit.maximum.expansion.filtered.errors);
     let cross_validation = windows::cross_validate(&fit, &all_legs, &alphas);
     let inflation = cross_validation.recommended.as_ref().map_or(f64::INFINITY, |found| found.inflation);
     let identifies = alphas.iter().any(Option::is_some);

@@ -1,7 +1,7 @@
 //! Outliers: legs whose innovation is outside a gate, for example because the reference jumped. They are listed, and not fitted.
 
 use super::fit::Sample;
-use super::likelihood::{Parameters, Residuals};
+use super::likelihood::{ErrorVector, Filter, Parameters};
 use super::options::Outliers;
 use super::result::LegFit;
 use super::trajectory::median;
@@ -16,28 +16,30 @@ const MEDIAN_CHI2: f64 = 2.366;
 const LAST_RETURN_ROUND: usize = 2;
 
 impl Sample {
-    /// Returns the innovations of all legs under these parameters. Inliers are filtered in sequence, each outlier by itself.
-    pub(super) fn leg_fits(&self, parameters: &Parameters) -> Vec<LegFit> {
-        let inliers = self.inlier_residuals(0..self.legs.len());
-        let outliers = (0..self.legs.len()).filter(|leg| self.outliers[*leg]).map(|leg| self.terms[leg]);
-        let outliers = Residuals { terms: outliers.collect(), ..inliers.clone() };
-        let [inliers, outliers] = [inliers, outliers].map(|residuals| residuals.filtered(parameters));
-        let errors = inliers.errors;
-        let [mut inliers, mut outliers] =
-            [inliers, outliers].map(|filtered| filtered.innovations.into_iter());
-        let fit_of_next = |is_outlier: &bool| {
-            let innovation = if *is_outlier { outliers.next() } else { inliers.next() };
-            innovation.map(|innovation| innovation.leg_fit(&errors, *is_outlier))
+    /// Returns the innovations of all legs under these parameters, without the part that these systematic errors explain. Each outlier is
+    /// filtered by itself.
+    pub(super) fn leg_fits(&self, parameters: &Parameters, errors: &ErrorVector) -> Vec<LegFit> {
+        let mut filter = Filter::new(self.options.model, parameters);
+        let is_inlier = |leg: usize| !self.outliers[leg];
+        let fit_of_leg = |leg: usize| {
+            let term = &self.terms[leg];
+            let innovation = filter.next(term, &term.residual_without(errors), self.follows(leg, is_inlier));
+            innovation.fit_of_residual(self.outliers[leg])
         };
-        self.outliers.iter().filter_map(fit_of_next).collect()
+        (0..self.legs.len()).map(fit_of_leg).collect()
     }
 
-    /// Marks the outliers under these parameters, and returns true if they changed. `round` counts the rounds of the fit from 1.
-    pub(super) fn mark_outliers(&mut self, parameters: &Parameters, round: usize) -> bool {
+    /// Marks the outliers under these parameters and systematic errors, and returns true if they changed. `round` counts the rounds of the fit from 1.
+    pub(super) fn mark_outliers(
+        &mut self,
+        parameters: &Parameters,
+        errors: &ErrorVector,
+        round: usize,
+    ) -> bool {
         if self.options.outliers == Outliers::Keep {
             return false;
         }
-        let fits = self.leg_fits(parameters);
+        let fits = self.leg_fits(parameters, errors);
         // Variances may still be too small in early rounds. The gate is wider then, so that at most half of the legs are outliers.
         let mut squared_distances: Vec<f64> = fits.iter().map(|fit| fit.squared).collect();
         let gate_factor = (median(&mut squared_distances) / MEDIAN_CHI2).max(1.0);

@@ -81,6 +81,8 @@ pub struct Observation {
     pub reading: [f64; 3],
     /// Motion that the model expects from the odometry, in the frame of the leg's start.
     pub expected: SE2,
+    /// Motion that the reference measured, in the frame of the leg's start.
+    pub measured: SE2,
     /// Jacobian of the residuals with respect to a displacement of the leg's end (x, y, θ), in the frame of the end.
     pub(super) jacobian: Matrix3<f64>,
     /// Jacobian of the displacement of the leg's end with respect to the wheels' noise in the model's coordinates.
@@ -96,14 +98,49 @@ impl Observation {
     ///
     /// `position_std` (m) is the standard deviation of the reference.
     pub(super) fn new(model: Model, leg: &Leg, corrected: &Systematic, position_std: f64) -> Self {
-        let expected = corrected.expected(model, leg);
-        let motion = corrected.motion(leg);
-        let is_linear = position_std > MAX_ATAN2_NOISE_RATIO * distance(&expected);
-        match model {
-            Model::Odometry(OdometryRule::Omni) => omni_residuals(expected, &motion),
-            Model::Odometry(rule) => differential_residuals(rule, expected, &motion, is_linear),
-            Model::Velocity => velocity_residuals(leg.duration(), &expected, &motion, is_linear),
+        let (expected, measured) = (corrected.expected(model, leg), corrected.motion(leg));
+        let Prediction { reading, motion, mut coefficients, noise_jacobian } = match model {
+            Model::Odometry(OdometryRule::Omni) => Prediction::omnidirectional(&expected),
+            Model::Odometry(rule) => Prediction::differential(rule, &expected),
+            Model::Velocity => Prediction::velocity(&expected, leg.duration()),
+        };
+        let exact = match model {
+            _ if position_std > MAX_ATAN2_NOISE_RATIO * distance(&expected) => None,
+            Model::Odometry(OdometryRule::Omni) => None,
+            Model::Odometry(_) => Some(exact_odometry_residuals(reading, &measured)),
+            Model::Velocity => Some(exact_velocity_residuals(reading, &measured)),
+        };
+        let has_direction = model.drives_sideways()
+            || distance(&motion) >= MAX_SPIN_DISTANCE
+                && exact.is_none_or(|(length, _)| length >= MAX_SPIN_DISTANCE);
+        let expected = if model == Model::Velocity { motion } else { expected };
+        let displacement = Vector3::from(<[f64; 3]>::from(motion.between(&measured)));
+        if has_direction {
+            let jacobian = noise_jacobian.try_inverse().unwrap_or_default();
+            let residuals =
+                exact.map_or_else(|| (jacobian * displacement).into(), |(_, residuals)| residuals);
+            return Self { residuals, coefficients, reading, expected, measured, jacobian, noise_jacobian };
         }
+        let is_observed = match model {
+            Model::Velocity => [true, false, false],
+            // The second rotation is the whole turn, with the noise of both rotations.
+            Model::Odometry(_) => [false, true, true],
+        };
+        if !is_observed[0] {
+            coefficients[2] = std::array::from_fn(|k| coefficients[0][k] + coefficients[2][k]);
+        }
+        // The observed columns of the noise's Jacobian are orthogonal, which makes their pseudoinverse simple.
+        let (mut residuals, mut jacobian) = ([f64::NAN; 3], Matrix3::zeros());
+        for k in 0..3 {
+            if is_observed[k] {
+                let column = noise_jacobian.column(k);
+                jacobian.set_row(k, &(column.transpose() / column.norm_squared()));
+                residuals[k] = (jacobian.row(k) * displacement).x;
+            } else {
+                coefficients[k] = [0.0; 2];
+            }
+        }
+        Self { residuals, coefficients, reading, expected, measured, jacobian, noise_jacobian }
     }
 }
 
@@ -130,106 +167,76 @@ fn unit_variances(rule: OdometryRule, reading: &OdomDelta) -> [LegVariances; 2] 
     [[1.0, 0.0, 1.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0, 0.0]].map(|alphas| rule.variances(reading, &alphas))
 }
 
-/// Returns true if a leg has a direction: its length by the reading and that by the reference (m) are at least [`MAX_SPIN_DISTANCE`]. For a
-/// linearized direction the first is enough. The second is negative if the reference measured a motion opposite to the reading.
-fn has_direction(reading_length: f64, executed_length: f64, is_linear: bool) -> bool {
-    reading_length >= MAX_SPIN_DISTANCE && (is_linear || executed_length >= MAX_SPIN_DISTANCE)
+/// Motion that a model expects from a reading, and its noise.
+struct Prediction {
+    /// As [`Observation::reading`].
+    reading: [f64; 3],
+    motion: SE2,
+    /// As [`Observation::coefficients`].
+    coefficients: [[f64; 2]; 3],
+    /// Jacobian of the end of the motion with respect to the noise, in the frame of the end.
+    noise_jacobian: Matrix3<f64>,
 }
 
-/// Returns the residuals of rot1, trans and rot2. In a turn on the spot the second rotation is the whole turn.
-fn differential_residuals(rule: OdometryRule, expected: SE2, motion: &SE2, is_linear: bool) -> Observation {
-    let odometry_reading = OdomDelta::from_poses(&SE2::identity(), &expected);
-    let OdomDelta { rot1, trans, rot2 } = rule.legs(&odometry_reading);
-    let unit_variance_pair = unit_variances(rule, &odometry_reading);
-    let [rot1_coefficients, trans_coefficients, rot2_coefficients] = [
-        unit_variance_pair.map(|variances| variances.rot1.0),
-        unit_variance_pair.map(|variances| variances.trans.0),
-        unit_variance_pair.map(|variances| variances.rot2.0),
-    ];
+impl Prediction {
+    /// Noise of rot1, trans and rot2.
+    fn differential(rule: OdometryRule, expected: &SE2) -> Self {
+        let odometry_reading = OdomDelta::from_poses(&SE2::identity(), expected);
+        let OdomDelta { rot1, trans, rot2 } = rule.legs(&odometry_reading);
+        let variances = unit_variances(rule, &odometry_reading);
+        let coefficients = [
+            variances.map(|variances| variances.rot1.0),
+            variances.map(|variances| variances.trans.0),
+            variances.map(|variances| variances.rot2.0),
+        ];
+        let (sin, cos) = libm::sincos(rot1);
+        let motion = SE2::new(trans * cos, trans * sin, rot1 + rot2);
+        let (sin, cos) = libm::sincos(rot2);
+        let noise_jacobian = Matrix3::new(trans * sin, cos, 0.0, trans * cos, -sin, 0.0, 1.0, 0.0, 1.0);
+        Self { reading: [rot1, trans, rot2], motion, coefficients, noise_jacobian }
+    }
+
+    /// Noise of the turn, of the translation and of the strafe across it.
+    fn omnidirectional(expected: &SE2) -> Self {
+        let odometry_reading = OdomDelta::from_poses(&SE2::identity(), expected);
+        let OdomDelta { rot1, trans, rot2 } = odometry_reading;
+        let variances = unit_variances(OdometryRule::Omni, &odometry_reading);
+        let coefficients = [
+            variances.map(|variances| variances.rot2.0),
+            variances.map(|variances| variances.trans.0),
+            variances.map(|variances| variances.strafe.0),
+        ];
+        let (sin, cos) = libm::sincos(rot2);
+        let noise_jacobian = Matrix3::new(0.0, cos, sin, 0.0, -sin, cos, 1.0, 0.0, 0.0);
+        Self { reading: [rot1, trans, rot2], motion: *expected, coefficients, noise_jacobian }
+    }
+
+    /// Noise of v, ω and γ of the constant command that explains the odometry. A command has no sideways component.
+    fn velocity(expected: &SE2, dt: f64) -> Self {
+        let twist = expected.log().component_mul(&Vector3::new(1.0, 0.0, 1.0));
+        let [v, omega] = [twist.x / dt, twist.z / dt];
+        // A change of v or ω changes the twist, and γ turns the end.
+        let mut noise_jacobian = SE2::right_jacobian(&twist) * dt;
+        noise_jacobian.swap_columns(1, 2);
+        noise_jacobian.set_column(2, &(Vector3::z() * dt));
+        let coefficients = [[v * v, omega * omega]; 3];
+        Self { reading: [v, omega, dt], motion: SE2::exp(&twist), coefficients, noise_jacobian }
+    }
+}
+
+/// Returns the length (m) of a measured motion in the direction of the reading, and its residuals of rot1, trans and rot2.
+fn exact_odometry_residuals([rot1, trans, rot2]: [f64; 3], measured: &SE2) -> (f64, [f64; 3]) {
     let (sin, cos) = libm::sincos(rot1);
-    let [ahead, left] = [cos * motion.x() + sin * motion.y(), cos * motion.y() - sin * motion.x()];
-    let turn_residual = wrap_angle(motion.theta() - rot1 - rot2);
-    let (sin, cos) = libm::sincos(rot2);
-    let noise_jacobian = Matrix3::new(trans * sin, cos, 0.0, trans * cos, -sin, 0.0, 1.0, 0.0, 1.0);
-    let (residuals, coefficients, jacobian) = if has_direction(odometry_reading.trans, ahead, is_linear) {
-        let (bearing_error, length_error) = if is_linear {
-            (left / trans, ahead - trans)
-        } else {
-            (libm::atan2(left, ahead), libm::hypot(ahead, left) - trans)
-        };
-        let residuals = [bearing_error, length_error, wrap_angle(turn_residual - bearing_error)];
-        let jacobian = noise_jacobian.try_inverse().unwrap_or_default();
-        (residuals, [rot1_coefficients, trans_coefficients, rot2_coefficients], jacobian)
-    } else {
-        let turn_coefficients =
-            [rot1_coefficients[0] + rot2_coefficients[0], rot1_coefficients[1] + rot2_coefficients[1]];
-        let jacobian = Matrix3::new(0.0, 0.0, 0.0, cos, -sin, 0.0, 0.0, 0.0, 1.0);
-        let coefficients = [[0.0; 2], trans_coefficients, turn_coefficients];
-        ([f64::NAN, ahead - trans, turn_residual], coefficients, jacobian)
-    };
-    let reading = [rot1, trans, rot2];
-    Observation { residuals, coefficients, reading, expected, jacobian, noise_jacobian }
+    let ahead = cos * measured.x() + sin * measured.y();
+    let left = cos * measured.y() - sin * measured.x();
+    let bearing_error = libm::atan2(left, ahead);
+    let turn_error = wrap_angle(measured.theta() - rot1 - rot2 - bearing_error);
+    (ahead, [bearing_error, libm::hypot(ahead, left) - trans, turn_error])
 }
 
-/// Returns the residuals of the turn, of the translation and of the strafe across it.
-fn omni_residuals(expected: SE2, motion: &SE2) -> Observation {
-    let odometry_reading = OdomDelta::from_poses(&SE2::identity(), &expected);
-    let OdomDelta { rot1, trans, rot2 } = odometry_reading;
-    let unit_variance_pair = unit_variances(OdometryRule::Omni, &odometry_reading);
-    let (sin, cos) = libm::sincos(rot1);
-    let residuals = [
-        wrap_angle(motion.theta() - rot1 - rot2),
-        cos * motion.x() + sin * motion.y() - trans,
-        cos * motion.y() - sin * motion.x(),
-    ];
-    let coefficients = [
-        unit_variance_pair.map(|variances| variances.rot2.0),
-        unit_variance_pair.map(|variances| variances.trans.0),
-        unit_variance_pair.map(|variances| variances.strafe.0),
-    ];
-    let (sin, cos) = libm::sincos(rot2);
-    let jacobian = Matrix3::new(0.0, 0.0, 1.0, cos, -sin, 0.0, sin, cos, 0.0);
-    let (reading, noise_jacobian) = ([rot1, trans, rot2], jacobian.transpose());
-    Observation { residuals, coefficients, reading, expected, jacobian, noise_jacobian }
-}
-
-/// Returns the residuals of v, ω and γ: the arc measured by the reference minus the constant command that explains the odometry.
-fn velocity_residuals(dt: f64, reading_motion: &SE2, motion: &SE2, is_linear: bool) -> Observation {
-    let twist = reading_motion.log();
-    // A velocity command has no sideways component.
-    let expected = SE2::exp(&Vector3::new(twist.x, 0.0, twist.z));
-    let [length, turn] = [twist.x, twist.z];
-    let [v, omega] = [length / dt, turn / dt];
-    let squared_rates = [v * v, omega * omega];
-    // A change of v or ω changes the twist, and γ turns the end.
-    let twist_jacobian = SE2::right_jacobian(&(Vector3::new(length, 0.0, turn)));
-    let noise_jacobian =
-        Matrix3::from_columns(&[twist_jacobian.column(0), twist_jacobian.column(2), Vector3::z().column(0)])
-            * dt;
-    let executed_arc = invert_arc(&SE2::identity(), motion, dt);
-    let displacement = <[f64; 3]>::from(expected.between(motion));
-    let (residuals, coefficients, jacobian) =
-        if has_direction(length.abs(), length.signum() * executed_arc.v_hat * dt, is_linear) {
-            let jacobian = noise_jacobian.try_inverse().unwrap_or_default();
-            let residuals = if is_linear {
-                (jacobian * Vector3::from(displacement)).into()
-            } else {
-                [
-                    executed_arc.v_hat - v,
-                    wrap_angle((executed_arc.omega_hat - omega) * dt) / dt,
-                    executed_arc.gamma_hat,
-                ]
-            };
-            (residuals, [squared_rates; 3], jacobian)
-        } else {
-            // Only v is observed.
-            let end_per_v = noise_jacobian.column(0);
-            let row = end_per_v.transpose() / end_per_v.norm_squared();
-            let residual = (row * Vector3::from(displacement)).x;
-            let mut jacobian = Matrix3::zeros();
-            jacobian.set_row(0, &row);
-            ([residual, f64::NAN, f64::NAN], [squared_rates, [0.0; 2], [0.0; 2]], jacobian)
-        };
-    let reading = [v, omega, dt];
-    Observation { residuals, coefficients, reading, expected, jacobian, noise_jacobian }
+/// Returns the length (m) of a measured motion in the direction of the reading, and its residuals of v, ω and γ.
+fn exact_velocity_residuals([v, omega, dt]: [f64; 3], measured: &SE2) -> (f64, [f64; 3]) {
+    let arc = invert_arc(&SE2::identity(), measured, dt);
+    let omega_error = wrap_angle((arc.omega_hat - omega) * dt) / dt;
+    (v.signum() * arc.v_hat * dt, [arc.v_hat - v, omega_error, arc.gamma_hat])
 }

@@ -138,10 +138,10 @@ impl Systematic {
 
     /// Returns the Jacobians of the end of the base's motion with respect to the errors of the reference at the leg's start and end. An error is
     /// a small motion (x, y, θ) in the frame of the reference there, and a change of the end one in the frame of the end.
-    pub(super) fn reference_jacobians(&self, leg: &Leg) -> [Matrix3<f64>; 2] {
+    pub(super) fn reference_jacobians(&self, leg: &Leg, measured: &SE2) -> [Matrix3<f64>; 2] {
         let to_base = self.base().inverse().adjoint();
         let [start, end] = leg.interpolation_variances.map(f64::sqrt);
-        [self.motion(leg).inverse().adjoint() * to_base * -start, to_base * end]
+        [measured.inverse().adjoint() * to_base * -start, to_base * end]
     }
 
     /// Returns the Jacobian, with respect to [`SystematicError::ALL`], of the end of the motion by the reference, minus that by the odometry, in

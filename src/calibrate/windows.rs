@@ -18,6 +18,8 @@ use std::ops::Range;
 /// Error of the predicted motion over a window of several legs, with its covariances due to wheels and reference, in exponential coordinates.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Window {
+    /// Distance driven by the odometry, m.
+    length: f64,
     /// Logarithm of (expected motion)⁻¹ (motion that the reference measured).
     error: Vector3<f64>,
     wheel_covariance: Matrix3<f64>,
@@ -59,7 +61,7 @@ impl Sample {
             }
             let (measured, reference_covariance) = self.reference_motion(first_leg, leg, parameters);
             let error = measured.boxminus(&expected);
-            windows.push(Window { error, wheel_covariance, reference_covariance });
+            windows.push(Window { length: driven_distance, error, wheel_covariance, reference_covariance });
         }
         windows
     }
@@ -77,10 +79,11 @@ impl Sample {
             interpolation_variances: [start.interpolation_variances[0], end.interpolation_variances[1]],
             ..*start
         };
+        let measured = self.systematic.motion(&window);
         let reference = reference_covariance(parameters);
-        let jacobians = self.systematic.reference_jacobians(&window);
+        let jacobians = self.systematic.reference_jacobians(&window, &measured);
         let covariance = jacobians.map(|jacobian| jacobian * reference * jacobian.transpose()).iter().sum();
-        (self.systematic.motion(&window), covariance)
+        (measured, covariance)
     }
 
     /// Returns the covariance of the wheels' noise over one leg, in the frame of its end. None for an outlier, and for a leg whose residuals do not
@@ -97,13 +100,14 @@ impl Sample {
 
 /// Returns the fraction of windows inside of their 95 % ellipsoid, and their NEES: the mean squared Mahalanobis distance divided by its 3
 /// degrees of freedom. The wheels' variances are multiplied by `inflation`.
-fn coverage(windows: &[Window], length: f64, inflation: f64) -> WindowCoverage {
+fn coverage(windows: &[Window], min_length: f64, inflation: f64) -> WindowCoverage {
     let squared_distances: Vec<f64> =
         windows.iter().map(|window| window.squared_distance(inflation)).collect();
     let count = squared_distances.len();
     let covered_count = squared_distances.iter().filter(|square| **square < CHI2_95[2]).count();
     WindowCoverage {
-        length,
+        // The mean of no windows is NaN, which `max` replaces.
+        length: (windows.iter().map(|window| window.length).sum::<f64>() / count as f64).max(min_length),
         count,
         coverage: covered_count as f64 / count as f64,
         nees: squared_distances.iter().sum::<f64>() / (3 * count) as f64,
@@ -130,7 +134,7 @@ fn required_inflation(windows: &[Window]) -> Option<f64> {
     inflations.get(inflations.partition_point(|inflation| !is_covered(*inflation))).copied()
 }
 
-/// Lengths of the windows, m. Recommended α's have to cover windows of the first length.
+/// Minimum lengths of the windows, m. Recommended α's have to cover windows of the first length.
 const WINDOW_LENGTHS: [f64; 3] = [1.0, 2.0, 5.0];
 
 /// Quantiles 0.95 of χ² with 1, 2 and 3 degrees of freedom.

@@ -168,7 +168,7 @@ function windowsTable({ viewModel: { stats: { diagnostics: { windows } } } }: Fi
   return figureTable({
     caption: texts.caption,
     columns: [texts.length, texts.count, texts.coverage, texts.nees],
-    rows: windows.map(({ length, count, coverage, nees }) => [`${integer(length)} m`, integer(count), percent(coverage), fixed(nees, 2)]),
+    rows: windows.map(({ length, count, coverage, nees }) => [`${fixed(length, 1)} m`, integer(count), percent(coverage), fixed(nees, 2)]),
   });
 }
 

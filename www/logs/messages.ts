@@ -3,10 +3,10 @@
 import { dataViewOf, type Channel, type Message } from './formats/container.ts';
 import { unzstdMessage } from './formats/decompression.ts';
 import type { Series } from './log.ts';
-import { headingOf, isRotation } from './path.ts';
+import { headingOf } from './path.ts';
 
-/** Pose (x, y and heading) or command (v, omega and 0). `time` is that of the stamp in s, or 0. `isRotation` is true if the quaternion has length 1. */
-export interface Sample { time: number; a: number; b: number; c: number; isRotation: boolean }
+/** Pose (x, y and heading) or command (v, omega and 0). `time` is that of the stamp in s, or 0. The heading is undefined if the quaternion is no rotation. */
+export interface Sample { time: number; a: number; b: number; c: number | undefined }
 
 export type Transform = [x: number, y: number, z: number, qx: number, qy: number, qz: number, qw: number];
 
@@ -88,14 +88,14 @@ function readTransform(reader: MessageReader): Transform {
 }
 
 export function sampleOfPose(time: number, [x, y, , qx, qy, qz, qw]: Transform): Sample {
-  return { time, a: x, b: y, c: headingOf(qx, qy, qz, qw), isRotation: isRotation(qx, qy, qz, qw) };
+  return { time, a: x, b: y, c: headingOf(qx, qy, qz, qw) };
 }
 
 function readTwist(time: number, reader: MessageReader): Sample {
   const v = reader.float64();
   // Skips speeds in other directions and turn rates about other axes.
   reader.skip(4 * 8);
-  return { time, a: v, b: reader.float64(), c: 0, isRotation: true };
+  return { time, a: v, b: reader.float64(), c: 0 };
 }
 
 /** Reads the stamp and the pose of a child frame relative to its parent. */
@@ -114,7 +114,7 @@ const MESSAGE_TYPES = new Map<string, [kind: Series['kind'], readSample?: (reade
   ['geometry_msgs/PoseStamped', ['poses', readStampedPose]],
   ['geometry_msgs/PoseWithCovarianceStamped', ['poses', readStampedPose]],
   ['geometry_msgs/Pose', ['poses', (reader) => sampleOfPose(0, readTransform(reader))]],
-  ['geometry_msgs/Pose2D', ['poses', (reader) => ({ time: 0, a: reader.float64(), b: reader.float64(), c: reader.float64(), isRotation: true })]],
+  ['geometry_msgs/Pose2D', ['poses', (reader) => ({ time: 0, a: reader.float64(), b: reader.float64(), c: reader.float64() })]],
   ['geometry_msgs/Twist', ['commands', (reader) => readTwist(0, reader)]],
   ['geometry_msgs/TwistStamped', ['commands', (reader) => readTwist(readHeader(reader), reader)]],
   ['geometry_msgs/TwistWithCovarianceStamped', ['commands', (reader) => readTwist(readHeader(reader), reader)]],

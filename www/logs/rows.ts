@@ -79,8 +79,12 @@ export class Rows {
     this.#isBroken = true;
   }
 
-  /** Adds a row, or drops it: x, y and heading, or v, ω and 0. `otherTime` is that of the clock that is used if the first one stands still. */
-  add(time: number, a: number, b: number, c: number, line: number, otherTime = 0): void {
+  /**
+   * Adds a row, or drops it: x, y and heading, or v, ω and 0. The heading is undefined if the quaternion is no rotation. `otherTime` is that of the
+   * clock that is used if the first one stands still.
+   */
+  add(time: number, a: number, b: number, c: number | undefined, line: number, otherTime = 0): void {
+    if (c === undefined) return this.drop('noRotation', line);
     if (!(Number.isFinite(time) && Math.max(Math.abs(a), Math.abs(b), Math.abs(c)) <= MAX_VALUE)) return this.drop('notFinite', line);
     this.count += 1;
     if (this.count > MAX_ROWS) throw new LogError(this.#logPlace, (texts) => texts.rows(MAX_ROWS));

@@ -4,7 +4,7 @@ import { least } from 'd3-array';
 import { logLayoutOf, type Clock, type Group } from './columns.ts';
 import { splitCells, detectTableFormat, parseDate, parseNumber, parseTime, type Format } from './format.ts';
 import { LogError, readBytes, truncate, listNames, type ErrorPlace, type Words, type Log, type Note, type OpenOptions, type Question, type Recording, type Series, type Source, type Summary, type TimeUnit } from './log.ts';
-import { quantile, sampleEvenly, headingOf, isRotation } from './path.ts';
+import { quantile, sampleEvenly, headingOf } from './path.ts';
 import { Rows } from './rows.ts';
 import { UNIT_EXPONENTS, epochTimeUnitOf } from './units.ts';
 
@@ -182,12 +182,11 @@ function logReader(name: string, place: ErrorPlace, format: Format, group: Group
     }
     if (nameColumns.length > 0) rowNames.add(nameColumns.map(({ at }) => cells[at].trim()).join(' to '));
     const [x, y] = values;
-    let heading = values[2] ?? 0;
+    let heading: number | undefined = values[2] ?? 0;
     if (fields.at(-1) === 'qw') {
       const [qx, qy, qz, qw] = fields.length === 6 ? values.slice(2) : [0, 0, ...values.slice(2)];
-      if (!isRotation(qx, qy, qz, qw)) return rows.drop('noRotation', line);
-      tiltCosines.push(1 - 2 * (qx * qx + qy * qy));
       heading = headingOf(qx, qy, qz, qw);
+      if (heading !== undefined) tiltCosines.push(1 - 2 * (qx * qx + qy * qy));
     }
     rows.add(times[0], x, y, heading, line, times[1]);
   };

@@ -87,10 +87,7 @@ function topicReader(file: string, container: Container, choice: LogChoice) {
     rows.drop('damaged', number);
   };
 
-  const add = ({ time, a, b, c, isRotation }: Sample, recordTime: number, number: number) => {
-    if (isRotation) rows.add(time, a, b, c, number, recordTime);
-    else rows.drop('noRotation', number);
-  };
+  const add = ({ time, a, b, c }: Sample, recordTime: number, number: number) => rows.add(time, a, b, c, number, recordTime);
 
   return {
     wants: (channel: Channel) => logKindOfType(channel.type) === kind && (channel.topic === topic || (frames !== undefined && isStaticTopic(channel))),

@@ -23,6 +23,28 @@ export interface UserChoices {
   roles?: ReadonlyMap<Recording, Role>;
 }
 
+/** Names of odometry and of commands, the likeliest first. */
+const ODOMETRY_NAMES = [/(^|[/_.])odom(etry)?[/_.]?$/i, /odom|wheel|encoder/i];
+const COMMAND_NAMES = [/(^|[/_.])cmd[_.]?vel[/_.]?$/i, /cmd|command|twist/i];
+
+/** Names of external measurements of the pose, such as motion capture or a total station. */
+const MEASUREMENT_NAMES = /truth|(^|[^a-z])(gt|ref|true)([^a-z]|$)|mocap|vicon|optitrack|qualisys|vrpn|motive|natnet|phasespace|reference|station|leica|prism|tracker/i;
+
+/** Names of poses estimated by localizers. Their errors are correlated with those of the odometry that they use. */
+const LOCALIZER_NAMES = /slam|amcl|locali[sz]|carto|tracked[_.]pose|icp|loam|scan[_.]?match|pose[_.]graph/i;
+
+/** Names of poses estimated by filters of the odometry. */
+const FILTER_NAMES = /odometry[/_.]filtered|ekf|ukf|odom[_.]combined/i;
+
+/** Names of topics with poses that are not a path of the robot. */
+const GOAL_NAMES = /goal|initial[_.]?pose|waypoint|target|setpoint|clicked[_.]?point/i;
+
+/** Names of base frames of a robot, and of fixed frames by the role of the log, the likeliest first. */
+const BASE_FRAME_NAMES = [/(^|\/)base_footprint$/, /(^|\/)base_link$/, /(^|\/)base/];
+const FIXED_FRAME_NAMES = { odometry: [/(^|[/_])odom(etry)?$/], reference: [/mocap|vicon|optitrack|world/, /(^|\/)map$/] };
+
+const ODOMETRY_FILE_NAMES = /odom|wheel|encoder|cmd/i;
+
 const describeSeries = (series: Series[]) => listNames(series.map(({ name, type }) => (name ? `${name} (${type.replace(/^\w+\/(msg\/)?(?=\w+( as |$))/, '')})` : type)));
 
 const isSameChoice = (one: LogChoice, other?: LogChoice) => one.series === other?.series && one.frames?.parent === other.frames?.parent && one.frames?.child === other.frames?.child;
@@ -165,28 +187,6 @@ function roleOfSeries({ name: file }: Recording, { name, type, kind, hasCommands
   return roleByName(name) ?? (hasCommands || /Odometry$/.test(type) ? 'odometry' : roleByName(file));
 }
 
-/** Names of odometry and of commands, the likeliest first. */
-const ODOMETRY_NAMES = [/(^|[/_.])odom(etry)?[/_.]?$/i, /odom|wheel|encoder/i];
-const COMMAND_NAMES = [/(^|[/_.])cmd[_.]?vel[/_.]?$/i, /cmd|command|twist/i];
-
-/** Names of external measurements of the pose, such as motion capture or a total station. */
-const MEASUREMENT_NAMES = /truth|(^|[^a-z])(gt|ref|true)([^a-z]|$)|mocap|vicon|optitrack|qualisys|vrpn|motive|natnet|phasespace|reference|station|leica|prism|tracker/i;
-
-/** Names of poses estimated by localizers. Their errors are correlated with those of the odometry that they use. */
-const LOCALIZER_NAMES = /slam|amcl|locali[sz]|carto|tracked[_.]pose|icp|loam|scan[_.]?match|pose[_.]graph/i;
-
-/** Names of poses estimated by filters of the odometry. */
-const FILTER_NAMES = /odometry[/_.]filtered|ekf|ukf|odom[_.]combined/i;
-
-/** Names of topics with poses that are not a path of the robot. */
-export const GOAL_NAMES = /goal|initial[_.]?pose|waypoint|target|setpoint|clicked[_.]?point/i;
-
-/** Names of base frames of a robot, and of fixed frames by the role of the log, the likeliest first. */
-const BASE_FRAME_NAMES = [/(^|\/)base_footprint$/, /(^|\/)base_link$/, /(^|\/)base/];
-const FIXED_FRAME_NAMES = { odometry: [/(^|[/_])odom(etry)?$/], reference: [/mocap|vicon|optitrack|world/, /(^|\/)map$/] };
-
-const ODOMETRY_FILE_NAMES = /odom|wheel|encoder|cmd/i;
-
 /** Returns true if a recording is a table. Its series are groups of columns, not topics. */
 export const isTable = ({ format }: Pick<Recording, 'format'>): boolean => !['mcap', 'rosbag', 'sqlite'].includes(format);
 
@@ -203,13 +203,13 @@ export function roleByName(name: string): Role | undefined {
 export const readableSeries = (recording: Recording): Series[] => recording.series.filter(({ kind, count }) => kind !== null && (isTable(recording) || count > 1));
 
 /** Returns the series with a name. Separators and capitals do not count. */
-export function seriesNamed(series: Series[], wantedName: string): Series | undefined {
+function seriesNamed(series: Series[], wantedName: string): Series | undefined {
   const words = (name: string) => name.toLowerCase().split(/[^\p{L}\p{N}]+/u).filter(Boolean).join('.');
   return series.find(({ name }) => name === wantedName) ?? series.find(({ name }) => words(name) !== '' && words(name) === words(wantedName));
 }
 
 /** Returns the names of the series that could be the log of a role, the likeliest first. */
-export function seriesNamesFor(recording: Recording, role: Role): string[] {
+function seriesNamesFor(recording: Recording, role: Role): string[] {
   const usableSeries = readableSeries(recording).filter(({ kind }) => role === 'odometry' || kind !== 'commands');
   return [...new Set([...findCandidates(recording, role).flat().map(({ series }) => series), ...usableSeries.map(({ name }) => name)])];
 }
@@ -237,7 +237,7 @@ const choicesOf = (series: Series[], kind?: LogKind): LogChoice[] => series.map(
 const choiceTiersByName = (series: Series[], names: RegExp[], kind?: LogKind): LogChoice[][] => names.map((pattern) => choicesOf(series.filter(({ name }) => pattern.test(name)), kind));
 
 /** Returns the likeliest pairs of frames for a role, by the names of the frames. */
-export function likeliestFrames(frames: FramePair[], role: Role): FramePair[] {
+function likeliestFrames(frames: FramePair[], role: Role): FramePair[] {
   const firstMatchingFrames = (framePairs: FramePair[], names: RegExp[], end: keyof FramePair) => names.map((name) => framePairs.filter((pair) => name.test(pair[end]))).find(({ length }) => length);
   const pairsWithFixedParent = firstMatchingFrames(frames, FIXED_FRAME_NAMES[role], 'parent') ?? [];
   return firstMatchingFrames(pairsWithFixedParent, BASE_FRAME_NAMES, 'child') ?? pairsWithFixedParent;

@@ -45,6 +45,14 @@ const ROS2_LAYOUTS = [
 /** Patterns of the first line of texts that are not tables, with the name of their notation. */
 const NON_TABLE_PATTERNS: [RegExp, string][] = [[/^\s*(\{\s*("|$)|\[\s*([-\d"[{]|$))/, 'JSON'], [/^(---|header:|pose:|transforms:|- header:)\s*$/, 'YAML']];
 
+/** Pattern of texts for a missing or infinite number. */
+const NOT_FINITE_WORDS = /^(?:[+-]?(?:nan|inf(?:inity)?)|null|none|nat|na|n\/a|-)?$/i;
+
+const ISO_DATE = /^\s*(\d{4})[-/](\d{1,2})[-/](\d{1,2})(?:[T\s]+(\d{1,2}):(\d{2})(?::(\d{2})(?:[.,](\d+))?)?\s*(Z|UTC|GMT|[+-]\d{2}(?::?\d{2})?)?)?\s*$/i;
+
+/** Duration as printed by pandas ("0 days 00:00:01.5") and MATLAB ("00:00:01.5"). */
+const DURATION_TEXT = /^\s*(?:(\d+) days? )?\+?(\d+):(\d{2}):(\d{2})(?:[.,](\d+))?\s*$/;
+
 /** Splits a line into cells. May return only the first `needed` cells. A separator in quotes does not count. */
 export function splitCells(line: string, separator: string, needed = Infinity): string[] {
   if (separator === ' ') return line.trim().split(/[ \t]+/);
@@ -209,14 +217,6 @@ function motiveFormat(above: string[][], place: ErrorPlace): Pick<Format, 'names
   });
   return { names, groups: groupColumns(names), hasUnknownAxis: true };
 }
-
-/** Pattern of texts for a missing or infinite number. */
-const NOT_FINITE_WORDS = /^(?:[+-]?(?:nan|inf(?:inity)?)|null|none|nat|na|n\/a|-)?$/i;
-
-const ISO_DATE = /^\s*(\d{4})[-/](\d{1,2})[-/](\d{1,2})(?:[T\s]+(\d{1,2}):(\d{2})(?::(\d{2})(?:[.,](\d+))?)?\s*(Z|UTC|GMT|[+-]\d{2}(?::?\d{2})?)?)?\s*$/i;
-
-/** Duration as printed by pandas ("0 days 00:00:01.5") and MATLAB ("00:00:01.5"). */
-const DURATION_TEXT = /^\s*(?:(\d+) days? )?\+?(\d+):(\d{2}):(\d{2})(?:[.,](\d+))?\s*$/;
 
 /** Parses a number. Returns NaN for an empty cell or a word such as "nan", and undefined for any other text. */
 export function parseNumber(cell: string): number | undefined {

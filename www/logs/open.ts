@@ -25,6 +25,8 @@ const UNSUPPORTED_MAGIC: [keyof typeof UNSUPPORTED_FORMATS, string][] = [
 
 const MAX_MAGIC_BYTES = 32;
 
+const MAX_METADATA_BYTES = 2 ** 24;
+
 /**
  * Opens files; rejects with a LogError that names the file, the line or topic, and what to do. Files that a metadata.yaml of rosbag2
  * lists become one recording.
@@ -80,8 +82,6 @@ async function openContainer(source: Source, format: FileFormat | undefined): Pr
   if (format === 'sqlite') return (await import('./formats/sqlite.ts')).openSqlite(source);
   throw new LogError({ file: source.name }, (texts) => texts.notRosbag2);
 }
-
-const MAX_METADATA_BYTES = 2 ** 24;
 
 const folderOf = ({ path = '' }: Source) => path.replace(/[^/]*$/, '');
 const baseName = (path: string) => path.replace(/^.*\//, '');

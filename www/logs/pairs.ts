@@ -19,6 +19,46 @@ const END_MARGIN_SECONDS = 1;
 /** Minimum motion of the odometry during a frozen pose, metres and radians added up. Encoders at rest may count a pulse or two. */
 const MIN_ODOMETRY_MOTION = 0.05;
 
+/** Motion of the robot in one step, in the frame of the robot, in m and rad. */
+type Motion = [forward: number, left: number, turn: number];
+
+const DEGREE = Math.PI / 180;
+
+const POSE_CORRECTIONS: (Pick<Correction, 'name' | 'unit'> & { correct: (pose: Pose) => Pose })[] = [
+  { name: 'leftHanded', correct: ([x, y, heading]) => [x, -y, -heading] },
+  { name: 'angles', unit: 'deg', correct: ([x, y, heading]) => [x, y, heading * DEGREE] },
+  { name: 'angles', unit: 'rad', correct: ([x, y, heading]) => [x, y, heading / DEGREE] },
+];
+
+/** Correction that makes two logs of a drive agree. */
+export interface Correction {
+  name: 'leftHanded' | 'angles' | 'lengths';
+  at: Role;
+  /** Correlation of the motions of both logs after the correction. */
+  score: number;
+  factor: number;
+  /** Unit that the log has after a correction of lengths or angles; undefined if no unit has this size. */
+  unit?: LengthUnit | AngleUnit;
+}
+
+/** Maximum ratio of a measured size of a unit to its real size, and its inverse. The odometry's wheels may have another size than assumed. */
+const MAX_UNIT_ERROR = 1.2;
+
+/** Maximum number of steps of a drive, minimum duration of a step (s), and minimum number of steps for a comparison. */
+const [MAX_STEPS, MIN_STEP_SECONDS, MIN_STEPS] = [4000, 0.25, 40];
+
+/** Maximum offset of the clocks (s) that is tried, as in the first scan of the core. */
+const MAX_CLOCK_OFFSET = 10;
+
+/** Scores are correlations: minimum of logs that agree, minimum after a correction, and maximum ratio of 1 − score after and before it. */
+const [MIN_AGREEMENT_SCORE, MIN_CORRECTED_SCORE, MAX_REMAINING_FRACTION] = [0.9, 0.8, 0.3];
+
+/** Mean motion of a step, m or rad, below which the robot counts as standing. */
+const MAX_STANDSTILL_MOTION = 1e-4;
+
+/** Agreement of two logs: correlation of their motions (−1 to 1), and best scales of the reference's lengths and angles. */
+interface Agreement { score: number; length: number; angle: number }
+
 const timeSpanOf = ({ start, data: { t } }: Log): [number, number] => [start + t[0], start + t[t.length - 1]];
 
 const timeSpanText = (log: Log) => timeSpanOf(log).map((time) => `${time.toFixed(2)} s`).join(' to ');
@@ -118,48 +158,8 @@ export async function readDrives({ drives, unpaired }: Pick<LogPlan, 'drives' | 
   return logPairs.map(([odometry, reference]) => pairLogs(odometry, reference));
 }
 
-/** Motion of the robot in one step, in the frame of the robot, in m and rad. */
-type Motion = [forward: number, left: number, turn: number];
-
-const DEGREE = Math.PI / 180;
-
-const POSE_CORRECTIONS: (Pick<Correction, 'name' | 'unit'> & { correct: (pose: Pose) => Pose })[] = [
-  { name: 'leftHanded', correct: ([x, y, heading]) => [x, -y, -heading] },
-  { name: 'angles', unit: 'deg', correct: ([x, y, heading]) => [x, y, heading * DEGREE] },
-  { name: 'angles', unit: 'rad', correct: ([x, y, heading]) => [x, y, heading / DEGREE] },
-];
-
-/** Correction that makes two logs of a drive agree. */
-export interface Correction {
-  name: 'leftHanded' | 'angles' | 'lengths';
-  at: Role;
-  /** Correlation of the motions of both logs after the correction. */
-  score: number;
-  factor: number;
-  /** Unit that the log has after a correction of lengths or angles; undefined if no unit has this size. */
-  unit?: LengthUnit | AngleUnit;
-}
-
-/** Maximum ratio of a measured size of a unit to its real size, and its inverse. The odometry's wheels may have another size than assumed. */
-const MAX_UNIT_ERROR = 1.2;
-
-/** Maximum number of steps of a drive, minimum duration of a step (s), and minimum number of steps for a comparison. */
-const [MAX_STEPS, MIN_STEP_SECONDS, MIN_STEPS] = [4000, 0.25, 40];
-
-/** Maximum offset of the clocks (s) that is tried, as in the first scan of the core. */
-const MAX_CLOCK_OFFSET = 10;
-
-/** Scores are correlations: minimum of logs that agree, minimum after a correction, and maximum ratio of 1 − score after and before it. */
-const [MIN_AGREEMENT_SCORE, MIN_CORRECTED_SCORE, MAX_REMAINING_FRACTION] = [0.9, 0.8, 0.3];
-
 /** Returns true for a scale that an error of the wheels' size can explain. The core has the same limits. */
 const isPlausibleScale = (scale: number) => scale >= 0.5 && scale <= 2;
-
-/** Mean motion of a step, m or rad, below which the robot counts as standing. */
-const MAX_STANDSTILL_MOTION = 1e-4;
-
-/** Agreement of two logs: correlation of their motions (−1 to 1), and best scales of the reference's lengths and angles. */
-interface Agreement { score: number; length: number; angle: number }
 
 /** Returns the correction that makes two logs of a drive agree; undefined if they agree already, or if no correction helps. */
 function correctionOf(odometry: Log, reference: Log): Correction | undefined {

@@ -81,12 +81,6 @@ function topicReader(file: string, container: Container, choice: LogChoice) {
   /** Number of damaged messages, and the reason why the first one cannot be read. */
   let [damagedCount, damageReason] = [0, ''];
 
-  const dropDamaged = (number: number, reason: string) => {
-    damagedCount += 1;
-    damageReason ||= reason;
-    rows.drop('damaged', number);
-  };
-
   const add = ({ time, a, b, c }: Sample, recordTime: number, number: number) => rows.add(time, a, b, c, number, recordTime);
 
   return {
@@ -99,7 +93,9 @@ function topicReader(file: string, container: Container, choice: LogChoice) {
         for (const transform of readTransforms(message)) chain?.addSample(transform, isStaticTopic(message.channel), message, messageCount);
       } catch (error) {
         if (error instanceof LogError) throw error;
-        dropDamaged(messageCount, reasonOf(error));
+        damagedCount += 1;
+        damageReason ||= reasonOf(error);
+        rows.drop('damaged', messageCount);
       }
     },
 

@@ -3,7 +3,7 @@
 import { sort } from 'd3-array';
 import type { UNSUPPORTED_FORMATS } from './en.ts';
 import type { Container } from './formats/container.ts';
-import { LogError, listNames, readBytes, reasonOf, type OpenOptions, type Recording, type Source } from './log.ts';
+import { LogError, readBytes, type OpenOptions, type Recording, type Source } from './log.ts';
 import { openTable } from './table.ts';
 
 type FileFormat = 'mcap' | 'rosbag' | 'sqlite' | 'zstd' | 'metadata';
@@ -24,8 +24,6 @@ const UNSUPPORTED_MAGIC: [keyof typeof UNSUPPORTED_FORMATS, string][] = [
 ];
 
 const MAX_MAGIC_BYTES = 32;
-
-const MAX_METADATA_BYTES = 2 ** 24;
 
 /**
  * Opens files; rejects with a LogError that names the file, the line or topic, and what to do. Files that a metadata.yaml of rosbag2
@@ -57,7 +55,7 @@ export async function openRecordings(files: Source[], options: OpenOptions | ((f
       const format = formatByFile.get(source);
       formatByFile.delete(source);
       if (!format) return void recordings.push(await openTable(source, optionsOf(source.name)));
-      const { name, files: parts } = format === 'metadata' ? await listedFiles(source, openedSources) : { name: source.name, files: [source] };
+      const { name, files: parts } = format === 'metadata' ? await (await import('./formats/metadata.ts')).listedFiles(source, openedSources) : { name: source.name, files: [source] };
       const partFormats = parts.map((part) => (part === source ? format : formatByFile.get(part)));
       for (const part of parts) formatByFile.delete(part);
       const container = joinedContainer(await Promise.all(parts.map((part, i) => openContainer(part, partFormats[i]))));
@@ -81,31 +79,6 @@ async function openContainer(source: Source, format: FileFormat | undefined): Pr
   if (format === 'rosbag') return (await import('./formats/rosbag.ts')).openRosbag(source);
   if (format === 'sqlite') return (await import('./formats/sqlite.ts')).openSqlite(source);
   throw new LogError({ file: source.name }, (texts) => texts.notRosbag2);
-}
-
-const folderOf = ({ path = '' }: Source) => path.replace(/[^/]*$/, '');
-const baseName = (path: string) => path.replace(/^.*\//, '');
-
-/** Returns the files that a metadata.yaml lists, in its folder. */
-async function listedFiles(metadata: Source, sources: Source[]): Promise<{ name: string; files: Source[] }> {
-  const errorPlace = { file: metadata.path || metadata.name };
-  const fileNames: string[] = [];
-  try {
-    const { load } = await import('js-yaml');
-    const text = new TextDecoder().decode(await readBytes(metadata, 0, Math.min(metadata.size, MAX_METADATA_BYTES)));
-    const { rosbag2_bagfile_information: { relative_file_paths: paths } } = load(text) as { rosbag2_bagfile_information: { relative_file_paths: unknown[] } };
-    fileNames.push(...paths.map((path) => baseName(String(path))));
-  } catch (error) {
-    if (error instanceof LogError) throw error;
-    throw new LogError(errorPlace, (texts) => texts.damaged(reasonOf(error)));
-  }
-  const filesInFolder = sources.filter((source) => folderOf(source) === folderOf(metadata));
-  // A decompressed file has no ".zstd" at the end of its name.
-  const files = fileNames.map((name) => filesInFolder.find((source) => source.name === name || `${source.name}.zstd` === name));
-  const missingNames = fileNames.filter((_, i) => !files[i]);
-  if (missingNames.length > 0 || files.length === 0) throw new LogError(errorPlace, (texts) => texts.noFiles(listNames(missingNames)));
-  const folder = baseName(folderOf(metadata).replace(/\/$/, ''));
-  return { name: folder || fileNames[0], files: files as Source[] };
 }
 
 /** Returns a container with the messages of several containers, one after the other. */

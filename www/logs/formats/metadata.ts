@@ -1,0 +1,30 @@
+/** Files of a recording of rosbag2 that consists of several: its metadata.yaml lists them. */
+
+import { load } from 'js-yaml';
+import { LogError, listNames, readBytes, reasonOf, type Source } from '../log.ts';
+
+const MAX_METADATA_BYTES = 2 ** 24;
+
+const folderOf = ({ path = '' }: Source) => path.replace(/[^/]*$/, '');
+const baseName = (path: string) => path.replace(/^.*\//, '');
+
+/** Returns the files that a metadata.yaml lists, in its folder. */
+export async function listedFiles(metadata: Source, sources: Source[]): Promise<{ name: string; files: Source[] }> {
+  const errorPlace = { file: metadata.path || metadata.name };
+  const fileNames: string[] = [];
+  try {
+    const text = new TextDecoder().decode(await readBytes(metadata, 0, Math.min(metadata.size, MAX_METADATA_BYTES)));
+    const { rosbag2_bagfile_information: { relative_file_paths: paths } } = load(text) as { rosbag2_bagfile_information: { relative_file_paths: unknown[] } };
+    fileNames.push(...paths.map((path) => baseName(String(path))));
+  } catch (error) {
+    if (error instanceof LogError) throw error;
+    throw new LogError(errorPlace, (texts) => texts.damaged(reasonOf(error)));
+  }
+  const filesInFolder = sources.filter((source) => folderOf(source) === folderOf(metadata));
+  // A decompressed file has no ".zstd" at the end of its name.
+  const files = fileNames.map((name) => filesInFolder.find((source) => source.name === name || `${source.name}.zstd` === name));
+  const missingNames = fileNames.filter((_, i) => !files[i]);
+  if (missingNames.length > 0 || files.length === 0) throw new LogError(errorPlace, (texts) => texts.noFiles(listNames(missingNames)));
+  const folder = baseName(folderOf(metadata).replace(/\/$/, ''));
+  return { name: folder || fileNames[0], files: files as Source[] };
+}

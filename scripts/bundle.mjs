@@ -344,13 +344,12 @@ async function widgetLoaders() {
   );
 }
 
-/** Returns the declarations of settings without their documentation, which no page shows. */
+/** Returns the declarations of settings without what no page uses: their documentation, and defaults that those of their group contain. */
 function minimalDeclarations() {
-  const omittedKeys = ['sentence', 'nullable'];
-  const toDeclaredJSON = (/** @type {unknown} */ value) => JSON.stringify(value, (key, member) => (omittedKeys.includes(key) ? undefined : member));
-  return Object.entries(declared)
-    .map(([name, value]) => `export const ${name} = ${toDeclaredJSON(value)};\n`)
-    .join('');
+  const toJson = (/** @type {unknown} */ value) => JSON.stringify(value, function (key, member) {
+    return ['sentence', 'nullable'].includes(key) || (key === 'default' && 'in' in this) ? undefined : member;
+  });
+  return Object.entries(declared).map(([name, value]) => `export const ${name} = ${toJson(value)};\n`).join('');
 }
 
 /**

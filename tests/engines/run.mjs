@@ -22,16 +22,16 @@ const LISTENER_TAG = '<script src="/tests/engines/listen.js"></script>';
  * @returns {Promise<{ address: string, stop: () => void }>}
  */
 async function serveSite() {
-  const screenshotDirectory = mkdtempSync(join(tmpdir(), 'motion-engines-'));
-  for (const name of readdirSync(join(ROOT, 'dist'))) if (name !== PAGE_NAME) symlinkSync(join(ROOT, 'dist', name), join(screenshotDirectory, name));
-  for (const name of ['tests', 'www']) symlinkSync(join(ROOT, name), join(screenshotDirectory, name));
-  writeFileSync(join(screenshotDirectory, PAGE_NAME), readFileSync(join(ROOT, 'dist', PAGE_NAME), 'utf8').replace('<head>', `<head>${LISTENER_TAG}`));
-  const { address, close } = await startServer(screenshotDirectory, { port: 0 });
+  const siteDirectory = mkdtempSync(join(tmpdir(), 'motion-engines-'));
+  for (const name of readdirSync(join(ROOT, 'dist'))) if (name !== PAGE_NAME) symlinkSync(join(ROOT, 'dist', name), join(siteDirectory, name));
+  for (const name of ['tests', 'build']) symlinkSync(join(ROOT, name), join(siteDirectory, name));
+  writeFileSync(join(siteDirectory, PAGE_NAME), readFileSync(join(ROOT, 'dist', PAGE_NAME), 'utf8').replace('<head>', `<head>${LISTENER_TAG}`));
+  const { address, close } = await startServer(siteDirectory, { port: 0 });
   return {
     address,
     stop() {
       close();
-      rmSync(screenshotDirectory, { recursive: true });
+      rmSync(siteDirectory, { recursive: true });
     },
   };
 }

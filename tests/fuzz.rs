@@ -59,6 +59,7 @@ macro_rules! regressions {
     };
 }
 regressions! {
+    error_without_a_standard_error_is_not_corrected: calibrate "71cb220e36b75baf10ffffff20ffffffffffffffffffffffffffda5dfff478",
     exact_covariances_are_symmetric: banana "5dd51609e9ffb2b2b20e093f0a31b25db2b2b2b22ce6",
     variances_of_the_cloud_are_not_negative: banana "26c02ffbc02ffbfb5d262100474747fb5d21e91c1c1c1c1c211c1c4d1c1c1cdbe9\
         26663f420100000001006000f526",

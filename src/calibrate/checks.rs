@@ -201,7 +201,7 @@ const MAX_MISMATCH: f64 = 0.7;
 /// because the alignment removes most of a short path's drift.
 const MIN_DRIFT: f64 = 5e-4;
 
-/// Lengths (m) of the long and of the short pieces of a path whose differences show the drift.
+/// Lengths (m) of the long and of the short pieces of both paths. With drift, the paths differ more in long pieces.
 const PIECE_LENGTHS: [f64; 2] = [200.0, 5.0];
 
 /// Minimum number of windows for conclusions from their coverage.
@@ -287,7 +287,7 @@ fn aligned_square_sum(points: &[[Complex<f64>; 2]]) -> f64 {
     let [first_square, second_square] =
         [0, 1].map(|path| centred().map(|pair| pair[path].norm_sqr()).sum::<f64>());
     let product: Complex<f64> = centred().map(|[first, second]| first.conj() * second).sum();
-    // A robot that turns on the spot does not move any point.
+    // All points are equal if the robot only turns on the spot. The bound avoids 0/0.
     (second_square - product.norm_sqr() / first_square.max(f64::MIN_POSITIVE)).max(0.0)
 }
 
@@ -432,8 +432,8 @@ fn compare_long_turns(Fit { sample, maximum, .. }: &Fit, correlation: f64) -> Op
     let slope = runs.iter().map(|[read, measured]| read * measured).sum::<f64>() / square_sum;
     let score_squares = runs.iter().map(|[read, measured]| (read * (measured - slope * read)).powi(2));
     let slope_std = score_squares.sum::<f64>().sqrt() / square_sum;
-    let scale = SystematicError::TurnScale as usize;
-    let std = maximum.expansion.filtered.error_stds(correlation)[scale];
+    let scale_index = SystematicError::TurnScale as usize;
+    let std = maximum.expansion.filtered.error_stds(correlation)[scale_index];
     let turn_scale = sample.systematic.turn_scale;
     let tolerance =
         NEGLIGIBLE_SCALE_DIFFERENCE.max(MAX_SCALE_STD_ERRORS * libm::hypot(std, turn_scale * slope_std));

@@ -65,8 +65,8 @@ impl Sample {
     /// Returns the residuals of the legs that `select` accepts.
     pub fn residuals(&self, estimated: ErrorMask, select: impl Fn(usize) -> bool) -> Residuals {
         let selected_legs = (0..self.legs.len()).filter(|leg| select(*leg));
-        let term_of = |leg: usize| self.terms[leg].with_follows(self.follows(leg, &select));
-        Residuals { model: self.options.model, estimated, terms: selected_legs.map(term_of).collect() }
+        let term_of_leg = |leg: usize| self.terms[leg].with_follows(self.follows(leg, &select));
+        Residuals { model: self.options.model, estimated, terms: selected_legs.map(term_of_leg).collect() }
     }
 
     /// Returns the residuals of the legs in a range that are not outliers.

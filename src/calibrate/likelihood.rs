@@ -231,7 +231,7 @@ impl Innovation<1> {
 }
 
 impl<const N: usize> Innovation<N> {
-    /// Returns the innovation of the residual, which systematic errors do not explain, with its standard deviations.
+    /// Returns an innovation, without the part that systematic errors explain, with its standard deviations and its squared distance.
     fn leg_fit(&self, innovation: Vector3<f64>, is_outlier: bool) -> LegFit {
         let stds = self.variances.map(f64::sqrt);
         LegFit {

@@ -69,9 +69,8 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
     let correlation = persistence.correlation.value;
     let error_stds = systematic.maximum.expansion.filtered.error_stds(correlation);
     let (scale_checks, is_constant) = checks::scale_checks(&systematic, correlation);
-    let is_corrected: ErrorMask = std::array::from_fn(|i| {
-        systematic.sample.estimated[i] && options.correct[i].unwrap_or(is_constant[i])
-    });
+    let is_corrected: ErrorMask =
+        std::array::from_fn(|i| error_stds[i] > 0.0 && options.correct[i].unwrap_or(is_constant[i]));
     let mut corrected = Systematic::NONE;
     for error in SystematicError::ALL.into_iter().filter(|error| is_corrected[*error as usize]) {
         *corrected.get_mut(error) = errors.get(error);

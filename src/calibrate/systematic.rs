@@ -132,8 +132,9 @@ impl Systematic {
         if distance_scale == 1.0 && turn_scale == 1.0 {
             return read;
         }
-        let left_scale = if model.drives_sideways() { distance_scale } else { distance_scale * turn_scale };
-        SE2::exp(&read.log().component_mul(&Vector3::new(distance_scale, left_scale, turn_scale)))
+        let sideways_scale =
+            if model.drives_sideways() { distance_scale } else { distance_scale * turn_scale };
+        SE2::exp(&read.log().component_mul(&Vector3::new(distance_scale, sideways_scale, turn_scale)))
     }
 
     /// Returns the Jacobians of the end of the base's motion with respect to the errors of the reference at the leg's start and end. An error is

@@ -80,9 +80,10 @@ impl Sample {
             ..*start
         };
         let measured = self.systematic.motion(&window);
-        let reference = reference_covariance(parameters);
+        let pose_covariance = reference_covariance(parameters);
         let jacobians = self.systematic.reference_jacobians(&window, &measured);
-        let covariance = jacobians.map(|jacobian| jacobian * reference * jacobian.transpose()).iter().sum();
+        let covariance =
+            jacobians.map(|jacobian| jacobian * pose_covariance * jacobian.transpose()).iter().sum();
         (measured, covariance)
     }
 

@@ -66,7 +66,7 @@ impl Ellipse {
         self.cov_root[(0, 0)] == 0.0 && self.cov_root[(1, 1)] == 0.0
     }
 
-    /// Returns the closed outline as `segment_count` chords: `segments` + 1 points, the last equal to the first.
+    /// Returns the closed outline as `segment_count` chords: `segment_count` + 1 points, the last equal to the first.
     pub fn boundary(&self, segment_count: usize) -> Vec<[f64; 2]> {
         unit_circle_points(segment_count)
             .map(|direction| (self.centre + self.cov_root * direction * CONTOUR_SIGMAS).into())
@@ -131,7 +131,7 @@ impl ExponentialContour {
         }
     }
 
-    /// Returns the closed outline in the plane as `segment_count` chords: `segments` + 1 points, the last equal to the
+    /// Returns the closed outline in the plane as `segment_count` chords: `segment_count` + 1 points, the last equal to the
     /// first.
     pub fn boundary(&self, segment_count: usize) -> Vec<[f64; 2]> {
         self.outline(segment_count).map(|(_, point)| point).collect()

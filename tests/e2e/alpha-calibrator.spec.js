@@ -42,13 +42,13 @@ test('the meaning of each α stands beside it, apart from the numbers, also on a
     await page.evaluate((em) => void (document.body.style.letterSpacing = `${em}em`), letterSpacing);
     await waitForFrames(page);
     const areBoxesApart = await alphaRowsOf(widget).evaluateAll((rowElements) => rowElements.map((row) => {
-      const textBoxOf = (/** @type {string} */ selector) => {
+      const textRectOf = (/** @type {string} */ selector) => {
         const textRange = new Range();
         textRange.selectNodeContents(/** @type {Element} */ (row.querySelector(selector)));
         return textRange.getBoundingClientRect();
       };
-      const [meaningBox, ...numberBoxes] = ['.of', '.fitted-value', '.between', '.recommended'].map(textBoxOf);
-      return numberBoxes.every(({ left, top }) => meaningBox.right <= left || meaningBox.bottom <= top + 2);
+      const [meaningRect, ...numberRects] = ['.of', '.fitted-value', '.between', '.recommended'].map(textRectOf);
+      return numberRects.every(({ left, top }) => meaningRect.right <= left || meaningRect.bottom <= top + 2);
     }));
     expect(areBoxesApart, `${width} px, ${letterSpacing} em`).toEqual([true, true, true, true]);
     // Rows of 32 px have the name in one line.

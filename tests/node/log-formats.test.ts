@@ -95,7 +95,7 @@ for (const name of ['types.bag', 'types.mcap']) {
     const logs = await recording.read(['/cmd_vel', '/cmd_stamped', '/cmd_fused'].map((series) => ({ series })));
     for (const { data, name: topic } of logs) assert.deepEqual([[...(data as Commands).v], [...(data as Commands).omega]], commands, topic);
     assert.equal(logs[0].summary.clock, 'log time');
-    // Joints only turn, and are no candidates. A base that is fixed to the moving frame is one too.
+    // Joints only turn, and are no candidates. A frame that is fixed to the moving base is also a candidate.
     const { frames: framePairs } = recording.series.find(({ name: topic }) => topic === '/tf') as Recording['series'][number];
     assert.deepEqual(framePairs?.map(({ parent, child }) => `${parent} → ${child}`), ['odom → base_link', 'odom → base_footprint']);
   });

@@ -125,7 +125,7 @@ export class Announcer {
   setOutcome(sentence: () => string) {
     if (!this.#isDue && !this.#latestOutcome) return;
     const text = sentence();
-    // An outcome that the page caused clears the announced one without an announcement.
+    // Changes by the page are not announced. They clear an announced outcome that is no longer true.
     this.#announcedText = this.#latestOutcome = this.#isDue || text === this.#latestOutcome ? text : '';
     this.#isDue = false;
   }

@@ -123,7 +123,7 @@ export class Reflection extends FigureController {
       const currentText = this.host.getAttribute(name);
       const text = (currentText === null ? neededTexts : texts).get(name);
       if (text === undefined) this.host.removeAttribute(name);
-      // A text of the page stays if it has the same value.
+      // An attribute stays as the page wrote it if it has the same value.
       else if (currentText === null || print(parse(currentText)) !== text) this.host.setAttribute(name, text);
     }
     this.#isWriting = false;

@@ -232,7 +232,7 @@ export function toggle({ label, checked, change }: { label: unknown, checked: bo
   </label>`;
 }
 
-/** Returns a button, with a class as its name. It is wide enough for its other label, so that nothing moves when the label changes. */
+/** Returns a button with the class `name`. It is wide enough for its other label, so that nothing moves when the label changes. */
 export function button(label: unknown, press: () => void, { pressed, disabled = false, title, name, otherLabel }: { pressed?: boolean, disabled?: boolean, title?: string, name?: string, otherLabel?: string } = {}) {
   return html`<button
     type="button"

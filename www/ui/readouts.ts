@@ -4,7 +4,7 @@ import { css, html, nothing } from 'lit';
 import { formatMarkup, untranslated } from './controls.ts';
 
 export const readoutStyles = css`
-  /* Name above its number, side by side. */
+  /* Readouts side by side, each with its name above its number. */
   .readouts {
     align-content: start;
     gap: 0.2em 2em;

@@ -159,7 +159,7 @@ export const styles = css`
     width: 100%;
   }
 
-  /* A name may extend above the interval in the next cell, as far as the shorter value beside it leaves room. */
+  /* A name extends into the next column, in which the interval is lower. */
   .alphas .of {
     margin-inline-end: -4em;
     line-height: 1;

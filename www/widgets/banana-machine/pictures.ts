@@ -27,7 +27,7 @@ const MAX_RAYS = 400;
 const MIN_CLOUD_DEVIATION = 0.6;
 
 /** Number of standard deviations around the mean that a view shows. */
-const SHOWN_DEVIATIONS = 3.2;
+const VIEWED_DEVIATIONS = 3.2;
 
 /** Radius of the ring at the end of the arc, pixels. */
 const HANDLE_RADIUS = 7.5;
@@ -159,7 +159,7 @@ export class PlanePicture extends MorphPicture {
   fit(scene: Scene) {
     const { contours, table, end: [x, y], overlays, pinnedAt } = scene;
     const { mean, cov } = table.exact;
-    const [xMargin, yMargin] = [SHOWN_DEVIATIONS * deviationOf(cov[0][0]), SHOWN_DEVIATIONS * deviationOf(cov[1][1])];
+    const [xMargin, yMargin] = [VIEWED_DEVIATIONS * deviationOf(cov[0][0]), VIEWED_DEVIATIONS * deviationOf(cov[1][1])];
     const points = [...cornersAround(mean[0], mean[1], xMargin, yMargin), ...contours.command, ...pinnedAt(0)];
     // The additive outline may be much larger than the cloud, and counts only if it is shown.
     if (overlays.additive) points.push(...contours.additive);
@@ -275,7 +275,7 @@ function neededTwistPoints(scene: Scene) {
     for (const share of VIEW_QUANTILES) points.push(quantile(along, share)!, quantile(heading, share)!);
   }
   for (const { mean, cov } of twistMoments(scene)) {
-    points.push(...cornersAround(mean[0], mean[2], SHOWN_DEVIATIONS * deviationOf(cov[0][0]), SHOWN_DEVIATIONS * deviationOf(cov[2][2])));
+    points.push(...cornersAround(mean[0], mean[2], VIEWED_DEVIATIONS * deviationOf(cov[0][0]), VIEWED_DEVIATIONS * deviationOf(cov[2][2])));
   }
   return points;
 }

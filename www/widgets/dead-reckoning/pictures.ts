@@ -14,7 +14,7 @@ import { drawDisc, paintWithOpacity, type Brush } from '../../scene/canvas.ts';
 export type Scene = import('./settings.ts').ViewModel & { marked: Float64Array | undefined, overlays: string[] };
 
 /** Number of standard deviations of a cloud that a view shows. */
-const SHOWN_DEVIATIONS = 3.2;
+const VIEWED_DEVIATIONS = 3.2;
 
 /** Dots of the clouds at milestones: maximum number, radius in CSS pixels, and opacity. */
 const MILESTONE_DOTS = { max: 200, radius: 1.3, alpha: 0.4 };
@@ -83,7 +83,7 @@ export class StepPicture extends Picture<Scene> {
 
   fit({ outlines: { predicted }, stats: { measured: { mean, cov } } }: Scene) {
     const points = [0, 0, ...predicted];
-    const [along, lateral] = [0, 1].map((axis) => SHOWN_DEVIATIONS * Math.sqrt(cov[axis][axis]));
+    const [along, lateral] = [0, 1].map((axis) => VIEWED_DEVIATIONS * Math.sqrt(cov[axis][axis]));
     if (along + lateral > 0) points.push(...cornersAround(mean[0], mean[1], along, lateral));
     const { xMin, xMax } = extentAround(points, 2);
     // The minimum width and height keep both scales finite.

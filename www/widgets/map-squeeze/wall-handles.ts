@@ -68,14 +68,14 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     const placedHandles = this.#currentGrips.filter((grip) => grip !== undefined).map((grip) => {
       const handleElement = root.querySelector(`.handle.${handleClassOf(grip)}`) as HTMLElement | null;
       const gripPoint = grip.part === 'side' ? this.#visibleMiddle(grip, view) : this.#gripPosition(grip, view);
-      const pixel = gripPoint && [view.toPixelX(gripPoint[0]), view.toPixelY(gripPoint[1])];
+      const gripPixel = gripPoint && [view.toPixelX(gripPoint[0]), view.toPixelY(gripPoint[1])];
       const { left, right, top, bottom } = view.frame;
-      const isShown = pixel !== undefined && pixel[0] > left && pixel[0] < right && pixel[1] > top && pixel[1] < bottom;
+      const isShown = gripPixel !== undefined && gripPixel[0] > left && gripPixel[0] < right && gripPixel[1] > top && gripPixel[1] < bottom;
       if (handleElement) {
         handleElement.style.visibility = isShown ? '' : 'hidden';
         if (grip.part === 'side') handleElement.style.rotate = `${Math.atan(grip.axis[0] / grip.axis[1])}rad`;
       }
-      if (isShown) this.#handleOf(grip).place(root, pixel[0], pixel[1]);
+      if (isShown) this.#handleOf(grip).place(root, gripPixel[0], gripPixel[1]);
       return { name: handleClassOf(grip), element: isShown ? handleElement : null };
     });
     const shownHandles = placedHandles.filter(({ element }) => element);

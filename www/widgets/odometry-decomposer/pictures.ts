@@ -225,10 +225,10 @@ export class LegsPicture extends SamplesPicture<Scene> {
     const [startPose, drivenPose] = turns.map(([turnPose]) => turnPose);
     // The point of an arc that is nearest to the labels, and inside the axes.
     const leaderEnd = ([{ x, y, theta }, turn, radius]: Turn) => {
-      const endCandidates = LEADER_ENDS.map((share) => view.ray({ x, y, theta: theta + share * turn }, radius)[1])
+      const leaderEndCandidates = LEADER_ENDS.map((share) => view.ray({ x, y, theta: theta + share * turn }, radius)[1])
         .map(([placeX, placeY]) => ({ x: placeX, y: placeY }))
         .sort((one, other) => one.y - other.y);
-      return endCandidates.find((place) => place.y > view.frame.top) ?? endCandidates[endCandidates.length - 1];
+      return leaderEndCandidates.find((place) => place.y > view.frame.top) ?? leaderEndCandidates[leaderEndCandidates.length - 1];
     };
     const driveMiddle = { x: view.toPixelX((startPose.x + drivenPose.x) / 2), y: view.toPixelY((startPose.y + drivenPose.y) / 2) };
     const labels = [

@@ -182,7 +182,7 @@ export async function bundle({ tags = WIDGET_TAGS, transformScript = (_, script)
       outdir: absolutePath('dist'),
       bundle: true,
       minify: true,
-      // The published package has no source maps.
+      // Only a local build, in which no figure has a module of its own, has source maps.
       sourcemap: tags.length === 0,
       format: 'esm',
       target: 'es2022',

@@ -108,16 +108,16 @@ function simulateTruth(motion, measuredPoses, seed) {
   const odometryModel = new motion.OdometryModel({ alphas: TRUE_MODEL.alphas });
   const truePoses = [scalePose(measuredPoses[0])];
   const legEnds = findLegEnds(roundedPoses);
-  for (const [legIndex, endRow] of legEnds.entries()) {
+  for (const [legIndex, legEndRow] of legEnds.entries()) {
     if (legIndex === 0) continue;
-    const startRow = legEnds[legIndex - 1];
-    const [legStart, legGoal] = [startRow, endRow].map((row) => scalePose(poseFromArray(roundedPoses[row])));
-    const trueStart = truePoses[startRow];
+    const legStartRow = legEnds[legIndex - 1];
+    const [legStart, legGoal] = [legStartRow, legEndRow].map((row) => scalePose(poseFromArray(roundedPoses[row])));
+    const trueStart = truePoses[legStartRow];
     const [x, y, theta] = odometryModel.sample(motion.decompose(legStart, legGoal), trueStart, 1, seed + legIndex);
     const motionFromStart = (/** @type {Pose} */ pose) => se2.compose(se2.inverse(legStart), pose);
     const legError = se2.boxminus(se2.compose(se2.inverse(trueStart), { x, y, theta }), motionFromStart(legGoal));
-    for (let i = startRow + 1; i <= endRow; i++) {
-      const legShare = (i - startRow) / (endRow - startRow);
+    for (let i = legStartRow + 1; i <= legEndRow; i++) {
+      const legShare = (i - legStartRow) / (legEndRow - legStartRow);
       const smoothShare = legShare * legShare * (3 - 2 * legShare);
       truePoses.push(se2.boxplus(se2.compose(trueStart, motionFromStart(scalePose(measuredPoses[i]))), legError.map((component) => smoothShare * component)));
     }

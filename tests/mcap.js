@@ -92,12 +92,12 @@ const COMPRESSORS = {
  */
 export async function recordingOf(messages, { compression = 'none', index = true, chunks = index, chunkSize = 4096, encoding = 'cdr' } = {}) {
   /** @type {Uint8Array[]} */
-  const writtenChunks = [];
+  const writtenParts = [];
   let writtenBytes = 0n;
   const byteSink = {
     position: () => writtenBytes,
     write: async (/** @type {Uint8Array} */ bytes) => {
-      writtenChunks.push(bytes.slice());
+      writtenParts.push(bytes.slice());
       writtenBytes += BigInt(bytes.length);
     },
   };
@@ -124,5 +124,5 @@ export async function recordingOf(messages, { compression = 'none', index = true
     await mcapWriter.addMessage({ channelId: channel.id, sequence: sequenceNumber++, logTime, publishTime: logTime, data: channel.writer.writeMessage(message) });
   }
   await mcapWriter.end();
-  return Buffer.concat(writtenChunks);
+  return Buffer.concat(writtenParts);
 }

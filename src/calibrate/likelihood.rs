@@ -322,7 +322,7 @@ impl Residuals {
                                   variances: [[(usize, f64); 2]; 3]| {
                 let projection = residual_without_errors(solved, errors);
                 for (row, variances) in variances.into_iter().enumerate() {
-                    // A diagonal entry of P is smaller than that of V⁻¹ by x C xᵀ for a row x of V⁻¹X, because errors are estimated.
+                    // P = V⁻¹ − V⁻¹X C XᵀV⁻¹ with the covariance C of the errors. x is a row of V⁻¹X.
                     let x = std::array::from_fn(|error| solved[(row, error)]);
                     let trace = block[(row, row)] - quadratic_form(covariance, &x);
                     for (parameter, factor) in variances {

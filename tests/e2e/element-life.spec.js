@@ -30,7 +30,7 @@ async function countFramesAndModules(page) {
 /** Returns the numbers of frames and modules so far. @param {Page} page @returns {Promise<{ frames: number, compiled: number, instances: number }>} */
 const readPageCounts = (page) => page.evaluate(() => Reflect.get(window, 'counts'));
 
-/** Waits for six frames that are not counted. @param {Page} page */
+/** Waits for six frames, which the counts of the page do not include. @param {Page} page */
 const waitForSixFrames = (page) =>
   page.evaluate(async () => {
     for (let i = 0; i < 6; i++) await new Promise(Reflect.get(window, 'quietFrame'));

@@ -30,11 +30,11 @@ const DEFAULT_SIZE = { width: 720, height: 432 };
 /** Draws the picture in its size and font on the page, with `ratio` pixels per CSS pixel. Returns the size in pixels and the view. */
 function drawScene({ scene, pictures: [firstPicture], exportPicture, canvases, colours }: Figure, ratio: number, contextOf: (size: { width: number, height: number }) => unknown) {
   const picture = exportPicture ?? firstPicture;
-  const canvas = canvases.canvasOf(firstPicture);
-  const canvasBox = canvas.clientWidth > 0 ? canvas.getBoundingClientRect() : DEFAULT_SIZE;
-  const [clientWidth, height] = exportPicture ? cssSizeOf(exportPicture.size, canvas) : [canvasBox.width, canvasBox.height];
+  const pageCanvas = canvases.canvasOf(firstPicture);
+  const pageCanvasBox = pageCanvas.clientWidth > 0 ? pageCanvas.getBoundingClientRect() : DEFAULT_SIZE;
+  const [clientWidth, height] = exportPicture ? cssSizeOf(exportPicture.size, pageCanvas) : [pageCanvasBox.width, pageCanvasBox.height];
   const canvasSize = { width: Math.round(ratio * clientWidth), height: Math.round(ratio * height) };
-  const surface = { ...canvasSize, clientWidth, fontStyle: getComputedStyle(canvas), context: contextOf(canvasSize) as CanvasRenderingContext2D };
+  const surface = { ...canvasSize, clientWidth, fontStyle: getComputedStyle(pageCanvas), context: contextOf(canvasSize) as CanvasRenderingContext2D };
   picture.draw(surface, scene, colours.palette, { still: true, atOnce: true, exported: true });
   return { view: picture.view, ...canvasSize };
 }

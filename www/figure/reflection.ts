@@ -129,7 +129,10 @@ export class Reflection extends FigureController {
     this.#isWriting = false;
   }
 
-  /** Returns the attributes that a new figure needs to open in the present state, and those with other values that `isWanted` wants. */
+  /**
+   * Returns the attributes with which a new figure opens in the present state: those that differ from the defaults, without those that another
+   * attribute determines, such as a preset, unless `isWanted` accepts them.
+   */
   neededAttributes(isWanted = (_name: string, _text: string) => false): Map<string, string> {
     const texts = this.#textsOf(this.host.state.config);
     const defaultTexts = this.#textsOf(this.#defaultConfig);

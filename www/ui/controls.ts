@@ -188,14 +188,14 @@ export const controlStyles = css`
 `;
 
 /** Pieces of a formula in a message: italics and subscripts. */
-const FORMULA_PATTERN = String.raw`\*(?:\\\*|[^*])+\*|[₀-₉]|_\{[^}]+\}`;
-const FORMULA_PIECE = new RegExp(FORMULA_PATTERN, 'g');
-const FORMULAS = new RegExp(`((?:${FORMULA_PATTERN})+)`);
+const FORMULA_PIECE_PATTERN = String.raw`\*(?:\\\*|[^*])+\*|[₀-₉]|_\{[^}]+\}`;
+const FORMULA_PIECE = new RegExp(FORMULA_PIECE_PATTERN, 'g');
+const FORMULA_REGEXP = new RegExp(`((?:${FORMULA_PIECE_PATTERN})+)`);
 
 /** Returns a message with its formulas as HTML. The text \\* is an asterisk. */
 export function formatMarkup(message: string) {
   // Every second part is a formula.
-  return message.split(FORMULAS).map((part, i) => (i % 2 ? untranslated(part.match(FORMULA_PIECE)?.map(formulaPiece)) : part));
+  return message.split(FORMULA_REGEXP).map((part, i) => (i % 2 ? untranslated(part.match(FORMULA_PIECE)?.map(formulaPiece)) : part));
 }
 
 function formulaPiece(piece: string) {

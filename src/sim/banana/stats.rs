@@ -109,7 +109,8 @@ js_structs! {
         pub cov: Matrix3<f64> as "number[][]",
         /// Third standardized moment of the position across the mean heading.
         pub cross_track_skew: f64,
-        /// Gain in mean log-likelihood of Gaussians in exponential and in arc coordinates; 0 for the linearization.
+        /// Gain in mean log-likelihood of Gaussians in exponential and in arc coordinates over Gaussians in (x, y, θ) and (x, y); 0 for the
+        /// linearization.
         pub likelihood_gain: LikelihoodGain,
         /// Area of the 2σ ellipse in (x, y), divided by that of the 2σ outline in exponential coordinates; 1 for the linearization.
         pub area_ratio: f64,

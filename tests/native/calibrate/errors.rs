@@ -198,9 +198,8 @@ fn errors_of_a_robot_without_noise_are_exact() {
     }
 }
 
-/// Four drives, each with a quarter of the legs and its own clock, give intervals as narrow as one drive with all legs.
 /// The reference has half the rate of the odometry, so that legs end between steps of the odometry. Noise of such a step is in the residuals and
-/// in the velocities.
+/// in the velocities, and still does not bias the clock offset.
 #[test]
 fn noise_of_the_odometry_does_not_bias_the_clock_offset() {
     const CLOCK_OFFSET: f64 = 0.06;
@@ -226,6 +225,7 @@ fn noise_of_the_odometry_does_not_bias_the_clock_offset() {
     assert!(error_sum.abs() < 4.0 * variance_sum.sqrt(), "{error_sum} {}", variance_sum.sqrt());
 }
 
+/// Four drives, each with a quarter of the legs and its own clock, give intervals as narrow as one drive with all legs.
 #[test]
 fn four_drives_are_as_informative_as_one_of_the_same_length() {
     let simulate_with_clock_offset = |clock_offset: f64, count: usize, seed: u64| {

@@ -326,7 +326,7 @@ fn a_reverse_aware_robot_has_no_noise_of_half_turns() {
         [false, true].map(|reverse_aware| simulation(Settings { reverse_aware, ..odometry_settings }));
     let [alpha1, alpha2, ..] = odometry_settings.odometry_alphas;
     let reading = simulations[0].reading();
-    // Without the option, both rotations are half a turn minus half the turn of the command. With it, they are half the turn of the command.
+    // Without `reverse_aware`, both rotations are half a turn minus half the turn of the command. With it, they are half the turn of the command.
     let possible_rotations = [reading.rot1.abs(), PI - reading.rot1.abs()];
     for (simulation, rotation) in simulations.iter().zip(possible_rotations) {
         let heading_variance = 2.0 * (alpha1 * rotation * rotation + alpha2 * reading.trans * reading.trans);

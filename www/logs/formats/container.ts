@@ -104,10 +104,10 @@ export function readAhead(source: Source): (from: number, to: number) => Promise
       pieces.set(i, piece);
     }
     const partOf = (piece: Uint8Array | undefined, i: number) => (piece ?? new Uint8Array()).subarray(Math.max(from - i * PIECE_BYTES, 0), end - i * PIECE_BYTES);
-    const firstPart = partOf(await pieces.get(firstPiece), firstPiece);
-    if (lastPiece === firstPiece) return firstPart;
+    const partOfFirstPiece = partOf(await pieces.get(firstPiece), firstPiece);
+    if (lastPiece === firstPiece) return partOfFirstPiece;
     const bytes = new Uint8Array(end - from);
-    bytes.set(firstPart);
+    bytes.set(partOfFirstPiece);
     for (let i = firstPiece + 1; i <= lastPiece; i++) bytes.set(partOf(await pieces.get(i), i), i * PIECE_BYTES - from);
     return bytes;
   };

@@ -223,7 +223,7 @@ function planOf(logModules: LogModules, { recordings, userChoices, roles }: Chos
 /** Returns the choices of a plan as a text, to compare plans. */
 const planText = (plan: LogPlan | undefined) => JSON.stringify(plan && [plan.drives, plan.unpaired]);
 
-/** Returns the name of a log: its files, and the topics if one recording has both. */
+/** Returns the name of a log: its files, and its topics if a single recording has both odometry and reference. */
 function logNameOf({ drives, unpaired }: LogPlan, logModules: LogModules) {
   const plannedLogs = [...drives.map(({ odometry }) => odometry), ...unpaired.odometry, ...unpaired.reference];
   const names = plannedLogs.map(({ recording }) => recording.name);

@@ -58,8 +58,8 @@ pub fn constants() -> JsValue {
             "openingAlphas",
             js_object(&[("velocity", js_array(&velocity_alphas)), ("odometry", js_array(&odometry_alphas))]),
         ),
-        // Maximum number of cells of a grid and of pixels of an image, maximum size of an image file in bytes, maximum product of samples and
-        // parts in a call of `MapSqueeze.trial`, and number of colours of a ramp.
+        // Maximum number of cells of a grid and of pixels of an image; maximum size of an image file, bytes. `trial`: maximum product of samples
+        // and parts in a call of `MapSqueeze.trial`. `ramp`: number of colours of a ramp.
         (
             "limits",
             number_object(&[

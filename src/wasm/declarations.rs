@@ -1,50 +1,66 @@
 //! Declarations of all settings and presets, in a module that the build scripts run. Pages need them before they load the core.
 
-use super::values::{js_array, js_object, setting_to_js, settings_to_js};
+use super::values::{js_array, js_object, setting_to_js, settings_to_js, to_plain_js};
 use crate::map::{MAX_BYTES, MAX_PIXELS};
 use crate::sim::picture::RAMP_STEP_COUNT;
 use crate::sim::settings::{Declaration, DeclaredSettings, Field, Setting};
 use crate::sim::squeeze::{ACCEPTED_BIT, END_FREE_BIT, MAX_TRIAL_PARTS, PATH_FREE_BIT};
 use crate::sim::{alpha_calibrator, arc_anatomy, banana, dead_reckoning, odometry_decomposer, squeeze};
 use js_sys::{Array, Reflect};
-use std::ops::RangeInclusive;
+use serde::Serialize;
+use tsify::Tsify;
 use wasm_bindgen::prelude::*;
 
-#[wasm_bindgen(typescript_custom_section)]
-const DECLARATION_TYPE: &str = "
-/** Declaration of a setting. */
-export interface Declaration {
-  /** Name of the setting as attribute, as property and in states. */
-  key: string;
-  /** Key of the group or list that contains the setting. */
-  in?: string;
-  /** Key of another setting that this setting sets in another form. */
-  of?: string;
-  /** Ratios of the last numbers of that other setting to this setting. */
-  weights?: number[];
-  /** Key in the group, if a field of another group has the same key. */
-  field?: string;
-  /** Index in the list, from 0. */
-  index?: number;
-  type: 'word' | 'number' | 'whole' | 'boolean' | 'numbers' | 'group';
-  /** Allowed words. */
-  words?: string[];
-  /** Keys of the fields of a group. */
-  fields?: string[];
-  unit?: string;
-  /** True if the value may be null. */
-  nullable?: boolean;
-  /** Minimum and maximum of the number, or of each number of a list. */
-  min?: number;
-  max?: number;
-  /** Initial value. */
-  default: string | number | boolean | number[] | Record<string, number> | null;
-  /** Description. */
-  sentence: string;
+/// Declaration of a setting.
+#[derive(Clone, Default, Serialize, Tsify)]
+#[tsify(rename = "Declaration")]
+struct SettingDeclaration {
+    /// Name of the setting as attribute, as property and in states.
+    key: String,
+    /// Key of the group or list that contains the setting.
+    #[serde(rename = "in", skip_serializing_if = "Option::is_none")]
+    container: Option<&'static str>,
+    /// Key of another setting that this setting sets in another form.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    of: Option<&'static str>,
+    /// Ratios of the last numbers of that other setting to this setting.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    weights: Option<Vec<f64>>,
+    /// Key in the group, if a field of another group has the same key.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    field: Option<&'static str>,
+    /// Index in the list, from 0.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    index: Option<usize>,
+    #[serde(rename = "type")]
+    #[tsify(type = "'word' | 'number' | 'whole' | 'boolean' | 'numbers' | 'group'")]
+    kind: &'static str,
+    /// Allowed words.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    words: Option<Vec<&'static str>>,
+    /// Keys of the fields of a group.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    fields: Option<Vec<&'static str>>,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    #[tsify(optional)]
+    unit: &'static str,
+    /// True if the value may be null.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    #[tsify(optional)]
+    nullable: bool,
+    /// Minimum of the number, or of each number of a list.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    min: Option<f64>,
+    /// Maximum of the number, or of each number of a list.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    max: Option<f64>,
+    /// Initial value.
+    #[serde(with = "serde_wasm_bindgen::preserve")]
+    #[tsify(type = "string | number | boolean | number[] | Record<string, number> | null")]
+    default: JsValue,
+    /// Description.
+    sentence: &'static str,
 }
-";
-
-type Entry = (&'static str, JsValue);
 
 /// Returns the constants of build/settings.js, each by its name.
 #[wasm_bindgen]
@@ -157,11 +173,11 @@ fn number_object(entries: &[(&'static str, f64)]) -> JsValue {
 /// Returns the declarations of settings, and of each number of a group or list. `number_sentences` describe the numbers of a list.
 fn declarations(mut defaults: impl DeclaredSettings, number_sentences: &[&'static str]) -> JsValue {
     let shared_keys = shared_field_keys(&mut defaults);
-    let declarations = Array::new();
+    let mut declarations = Vec::new();
     defaults.visit_settings(&mut |declaration, setting| {
-        append_setting(declaration, setting, number_sentences, &shared_keys, &declarations);
+        append_setting(declaration, setting, number_sentences, &shared_keys, &mut declarations);
     });
-    declarations.into()
+    to_plain_js(&declarations)
 }
 
 /// Returns the keys of fields that belong to more than one group, such as two poses. Their attributes consist of the group's name and the
@@ -185,79 +201,77 @@ fn append_setting(
     setting: Setting,
     number_sentences: &[&'static str],
     shared_keys: &[&str],
-    declarations: &Array,
+    declarations: &mut Vec<SettingDeclaration>,
 ) {
     let Declaration { key, of, sentence, unit } = *declaration;
-    let append = |mut entries: Vec<Entry>, sentence: &str, unit: &str, default: JsValue| {
-        entries.extend([("sentence", sentence.into()), ("default", default)]);
-        entries.extend((!unit.is_empty()).then(|| ("unit", unit.into())));
-        declarations.push(&js_object(&entries));
-    };
-    let mut entries = vec![("key", key.into())];
-    entries.extend(of.map(|original| ("of", original.into())));
-    let nullable = ("nullable", true.into());
+    let (kind, [min, max]) = kind_and_range(&setting);
+    let mut whole =
+        SettingDeclaration { key: key.to_owned(), of, kind, min, max, unit, sentence, ..Default::default() };
     let mut fields: &[Field] = &[];
-    let mut list_entries = None;
-    let type_of = |name: &str| ("type", name.into());
     match &setting {
-        Setting::Boolean(_) => entries.push(type_of("boolean")),
-        Setting::Keyword(keyword) => entries.extend([type_of("word"), ("words", text_array(keyword.all()))]),
-        Setting::Number(_, allowed) => entries.extend(number_entries_in("number", allowed)),
-        Setting::Integer(_, allowed) => entries.extend(whole_number_entries(allowed)),
-        Setting::OptionalInteger(_, allowed) => {
-            entries.push(nullable.clone());
-            entries.extend(whole_number_entries(allowed));
+        Setting::OptionalInteger(..) => whole.nullable = true,
+        Setting::Level(level, _) => {
+            (whole.nullable, whole.weights) = (true, Some(level.weights().collect()));
         }
-        Setting::Level(level, allowed) => {
-            let weights: Vec<f64> = level.weights().collect();
-            entries.extend([nullable.clone(), ("weights", js_array(&weights))]);
-            entries.extend(number_entries_in("number", allowed));
-        }
-        Setting::Numbers(_, allowed) => {
-            entries.extend(number_entries_in("numbers", allowed));
-            list_entries = Some(number_entries_in("number", allowed));
-        }
+        Setting::Keyword(keyword) => whole.words = Some(keyword.all()),
         Setting::Group(group) => {
             fields = group.fields();
-            let keys = fields.iter().map(|field| field.declaration.key);
-            entries.extend([type_of("group"), ("fields", text_array(keys))]);
+            whole.fields = Some(fields.iter().map(|field| field.declaration.key).collect());
         }
+        _ => {}
     }
     let default = setting_to_js(setting);
-    append(entries, sentence, unit, default.clone());
-    if let Some(list_entries) = list_entries {
-        for (index, (&sentence, number)) in number_sentences.iter().zip(Array::from(&default)).enumerate() {
-            let own_key = format!("alpha{}", index + 1);
-            let mut entries = vec![("key", own_key.into()), ("in", key.into()), ("index", index.into())];
+    declarations.push(SettingDeclaration { default: default.clone(), ..whole });
+    let part = SettingDeclaration { container: Some(key), kind: "number", ..Default::default() };
+    if kind == "numbers" {
+        for (index, (&sentence, default)) in number_sentences.iter().zip(Array::from(&default)).enumerate() {
             // The last numbers are null in models with fewer α's.
-            entries.extend((sentence != number_sentences[0]).then(|| nullable.clone()));
-            entries.extend(list_entries.clone());
-            append(entries, sentence, "", number);
+            let nullable = sentence != number_sentences[0];
+            let (key, index) = (format!("alpha{}", index + 1), Some(index));
+            declarations.push(SettingDeclaration {
+                key,
+                index,
+                nullable,
+                min,
+                max,
+                default,
+                sentence,
+                ..part.clone()
+            });
         }
     }
-    for Field { declaration: field, allowed } in fields {
-        let mut entries = vec![("in", key.into())];
-        if shared_keys.contains(&field.key) {
-            let (initial, remaining_key) = field.key.split_at(1);
-            let own_key = format!("{key}{}{remaining_key}", initial.to_uppercase());
-            entries.extend([("key", own_key.into()), ("field", field.key.into())]);
-        } else {
-            entries.push(("key", field.key.into()));
-        }
-        entries.extend(number_entries_in("number", allowed));
-        let number = Reflect::get(&default, &field.key.into()).unwrap_or(JsValue::NULL);
-        append(entries, field.sentence, field.unit, number);
+    for Field { declaration: Declaration { key: field_key, sentence, unit, .. }, allowed } in fields {
+        let is_shared = shared_keys.contains(field_key);
+        let (initial, remaining_key) = field_key.split_at(1);
+        declarations.push(SettingDeclaration {
+            key: if is_shared {
+                format!("{key}{}{remaining_key}", initial.to_uppercase())
+            } else {
+                (*field_key).to_owned()
+            },
+            field: is_shared.then_some(*field_key),
+            unit,
+            min: Some(*allowed.start()),
+            max: Some(*allowed.end()),
+            default: Reflect::get(&default, &(*field_key).into()).unwrap_or(JsValue::NULL),
+            sentence,
+            ..part.clone()
+        });
     }
 }
 
-fn number_entries_in(kind: &str, allowed: &RangeInclusive<f64>) -> [Entry; 3] {
-    [("type", kind.into()), ("min", (*allowed.start()).into()), ("max", (*allowed.end()).into())]
-}
-
-fn whole_number_entries(allowed: &RangeInclusive<u64>) -> [Entry; 3] {
-    number_entries_in("whole", &(*allowed.start() as f64..=*allowed.end() as f64))
-}
-
-fn text_array(texts: impl IntoIterator<Item = &'static str>) -> JsValue {
-    texts.into_iter().map(JsValue::from).collect::<Array>().into()
+/// Returns the type of a setting, and its minimum and maximum if it has them.
+fn kind_and_range(setting: &Setting) -> (&'static str, [Option<f64>; 2]) {
+    match setting {
+        Setting::Number(_, allowed) | Setting::Level(_, allowed) => {
+            ("number", [Some(*allowed.start()), Some(*allowed.end())])
+        }
+        Setting::Numbers(_, allowed) => ("numbers", [Some(*allowed.start()), Some(*allowed.end())]),
+        Setting::Integer(_, allowed) | Setting::OptionalInteger(_, allowed) => {
+            ("whole", [Some(*allowed.start() as f64), Some(*allowed.end() as f64)])
+        }
+        Setting::Boolean(_) => ("boolean", [None; 2]),
+        Setting::Keyword(_) => ("word", [None; 2]),
+        Setting::Group(_) => ("group", [None; 2]),
+    }
 }

@@ -53,6 +53,11 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
     return simulation.nearest(view.morph, ...view.toWorld(x, y), PICK_RADIUS / view.scaleX, PICK_RADIUS / view.scaleY);
   }
 
+  /** Returns the outlines of a view model at the morph of the picture. */
+  outlinesOf(viewModel: ViewModel, scene: Scene): Outlines {
+    return scene.outlinesOf(viewModel, this.view.morph);
+  }
+
   /** Returns the positions of the robots that are drawn as dots, with their headings scaled down by the morph. */
   #dotPositionsOf({ simulation, stats }: Scene): Float64Array {
     const { morph } = this.view;
@@ -64,9 +69,9 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
     const { simulation, overlays, marked, pinned } = scene;
     const { morph, endViews: [floor, twist] } = this.view;
     const isPlane = this.name === 'plane';
-    const outlines = scene.outlinesOf(scene, morph);
+    const outlines = this.outlinesOf(scene, scene);
     const styles = lineStyles(brush, LINE_STYLES);
-    const isDrawn = (name: LineName) => overlays[name] && hasLength(outlines[name]);
+    const isDrawn = (name: LineName) => this.outlineNames.includes(name) && overlays[name] && hasLength(outlines[name]);
     const legendEntries = lineLegendEntries(brush, LINE_STYLES, LEGEND_ORDER.filter(isDrawn), words.banana.overlays);
     // One pair of axes fades out before the other fades in.
     const axesOfEndViews = [
@@ -82,7 +87,7 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
     const outlinesInStyle = (outlinePoints: Outlines) => this.outlineNames.filter(isDrawn).map((name) => ({ points: outlinePoints[name], ...styles[name] }));
     // The outlines of the pinned simulation, or of the one before the latest change, stay in the picture.
     const earlierViewModel: ViewModel | undefined = pinned ?? brush.previousViewModel;
-    const earlierOutlines = earlierViewModel ? outlinesInStyle(scene.outlinesOf(earlierViewModel, morph)) : [];
+    const earlierOutlines = earlierViewModel ? outlinesInStyle(this.outlinesOf(earlierViewModel, scene)) : [];
     const callouts = isPlane ? [...scene.callouts] : [];
     clipToPlot(brush, () => {
       if (morph > 0 && morph < 1) drawMorphGrid(brush, twist, morph);
@@ -180,6 +185,11 @@ export class TwistPicture extends MorphPicture {
   constructor() {
     super();
     this.view.morph = 1;
+  }
+
+  /** Returns the outline of the Gaussian, and the command as a point. The picture draws no other outlines, so that none is transformed. */
+  outlinesOf({ contours, config: { command: { v, omega, dt } } }: ViewModel): Outlines {
+    return { ...contours, command: Float64Array.of(v * dt, omega * dt), exponential: contours.twistEllipse };
   }
 
   fit(scene: Scene) {

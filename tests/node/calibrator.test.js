@@ -79,7 +79,7 @@ test('lines for Nav2 have no α that means nothing, and none at all where none i
   const exampleAlphas = [null, 1e-7, 103, 1e-8];
   const exampleIntervals = [null, [0, 0.0016], [50, 200], null];
   assert.deepEqual(nav2LinesOf({ alphas: exampleAlphas, intervals: exampleIntervals }).filter((line) => /alpha[1-4]/.test(line)), [
-    `# alpha1: ${en.nav2.notIdentifiable}`, `alpha2: 0.0032  # ${en.nav2.zero}`, `# alpha3: 206, ${en.nav2.tooLarge}`, 'alpha4: 2.0e-8  # fitted 1.0e-8',
+    `# alpha1: ${en.nav2.notIdentifiable}`, `alpha2: 0.0032  # ${en.nav2.zero('0.0016')}`, `# alpha3: 206, ${en.nav2.tooLarge}`, 'alpha4: 2.0e-8  # fitted 1.0e-8',
   ]);
 });
 

@@ -215,7 +215,7 @@ export const de: typeof import('./en.ts').en = {
     none: 'Keine Zeilen für nav2_params.yaml: Nav2 hat kein Geschwindigkeitsmodell, oder es werden keine α’s empfohlen. In JSON steht alles.',
     otherRule: 'Nicht nach der Regel von Nav2 angepasst, die nav2 heißt.',
     notIdentifiable: 'von dieser Aufzeichnung nicht bestimmt; Nav2 nimmt seinen Standardwert',
-    zero: 'obere Grenze seines 95-%-Intervalls: nicht signifikant von 0 verschieden',
+    zero: (upperEnd) => `nicht signifikant von 0 verschieden, 95 % bis ${upperEnd}`,
     tooLarge: 'unplausibel (> 1): Prüfungen und Ausreißer ansehen',
     of: (legs, length, log, date) => `${legsWithCount(legs)} ${length}, ${log}, ${date}`,
     moved: (distance, angle) => `von ${distance} m oder ${angle} rad`,

@@ -181,7 +181,7 @@ export const en = {
     none: 'No lines for nav2_params.yaml: Nav2 has no velocity model, or no α’s are recommended. JSON has everything.',
     otherRule: 'Not fitted by the rule of Nav2’s AMCL, which is called nav2.',
     notIdentifiable: 'not identifiable from this log; Nav2 uses its default',
-    zero: 'upper end of its 95 % interval: not significantly different from 0',
+    zero: (upperEnd) => `not significantly different from 0, 95 % up to ${upperEnd}`,
     tooLarge: 'implausible (> 1): see the failed checks and the outliers',
     of: (legs, length, log, date) => `${countOf(legs, 'leg')} ${length} of ${log}, ${date}`,
     moved: (distance, angle) => `of ${distance} m or ${angle} rad`,

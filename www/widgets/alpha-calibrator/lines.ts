@@ -108,7 +108,7 @@ export function nav2Lines({ calibration, count, model, rule, legs, log, warnings
     const [scaledInterval, isBound] = [scaleInterval(interval, inflation), isZero(alpha, interval)];
     const formattedAlpha = isBound ? formatUpperEnd(scaledInterval) : formatEstimate(inflation * alpha, scaledInterval);
     // Without a line, Nav2 would use its default, which is far above such a bound.
-    if (isBound && (scaledInterval?.[1] ?? Infinity) <= MAX_PLAUSIBLE_ALPHA) return `alpha${i + 1}: ${withDecimalPoint(formattedAlpha)}  # ${texts.zero}`;
+    if (isBound && (scaledInterval?.[1] ?? Infinity) <= MAX_PLAUSIBLE_ALPHA) return `alpha${i + 1}: ${withDecimalPoint(formattedAlpha)}  # ${texts.zero(formatUpperEnd(interval))}`;
     if (isBound || inflation * alpha > MAX_PLAUSIBLE_ALPHA) return `# alpha${i + 1}: ${formattedAlpha}, ${texts.tooLarge}`;
     return `alpha${i + 1}: ${withDecimalPoint(formattedAlpha)}  # ${texts.fitted(formatEstimate(alpha, interval), formatInterval(interval))}`;
   });

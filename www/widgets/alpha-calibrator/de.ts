@@ -1,7 +1,7 @@
 /** The Alpha Calibrator in German; see messages/en.ts. */
 
-/** Prints a count with a word, and the ending of its plural. */
-const legsWithCount = (count: string, more: string = 'n') => `${count} Etappe${count === '1' ? '' : more}`;
+/** Prints a number of legs. */
+const legsWithCount = (count: string) => `${count} Etappe${count === '1' ? '' : 'n'}`;
 
 /** Messages of failed checks. */
 const MESSAGES: Record<string, string> = {
@@ -20,8 +20,8 @@ const MESSAGES: Record<string, string> = {
   'sideways-rare':
     'Die Odometrie bewegt sich seitwärts, oder rückwärts nach Tabelle 5.6: Ihre Positionen rauschen, ihr Koordinatensystem liegt nicht auf der Achse, oder der Roboter fährt rückwärts. α₁ und α₄ sind zu klein. Odometrie der Räder in der Mitte ihrer Achse verwenden, oder die Regel von Nav2.',
   'distance-scale-constant':
-    'Der Skalenfaktor der Strecke ist keine Konstante und wurde nicht korrigiert. Raddurchmesser, Last und Schlupf in Kurven prüfen; erst die Räder kalibrieren, dann das Rauschen.',
-  'turn-scale-constant': 'Der Skalenfaktor der Drehung ist keine Konstante und wurde nicht korrigiert. Spurweite und Schlupf auf diesem Boden prüfen, und längere Etappen wählen: Rauschen verbirgt kleine Drehungen.',
+    'Der Skalenfaktor der Strecke ist keine Konstante und wurde nicht korrigiert, außer auf Wunsch. Raddurchmesser, Last und Schlupf in Kurven prüfen; erst die Räder kalibrieren, dann das Rauschen.',
+  'turn-scale-constant': 'Der Skalenfaktor der Drehung ist keine Konstante und wurde nicht korrigiert, außer auf Wunsch. Spurweite und Schlupf auf diesem Boden prüfen, und längere Etappen wählen: Rauschen verbirgt kleine Drehungen.',
   'inflation-bounded':
     'Keine Vergrößerung bis 30 deckt die Fehler über 1 m: Sie sind kein Rauschen der Räder. Zuerst die Ursache suchen: behaltene Ausreißer, eine springende oder driftende Referenz, Schlupf.',
   'residuals-uncorrelated':

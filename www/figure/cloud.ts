@@ -18,7 +18,7 @@ interface SampleCount {
   block: number;
 }
 
-export interface GrowingSimulation extends SampleCount {
+interface GrowingSimulation extends SampleCount {
   config: { samples: number, seed: number };
   /** Changes settings and shows the first block of `goal` samples. Returns all settings. */
   configureFirst: (settings: Values, goal: number) => Values;

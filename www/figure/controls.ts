@@ -31,7 +31,7 @@ export interface SliderSpec {
 type AllowedNumbers = Pick<Declaration, 'type' | 'unit'> & { min: number, max: number };
 
 /** Overrides of a slider row. `maxEntered` is a maximum of typed values, below that of the declaration. */
-export type RowOverrides = Partial<SliderRow> & { maxEntered?: number };
+type RowOverrides = Partial<SliderRow> & { maxEntered?: number };
 
 /** Returns the slider of a setting; `overrides` replaces fields of its slider row. */
 export function settingSlider(figure: Figure, key: string, overrides?: RowOverrides, sliderSpec = figure.definition.sliderSpecs[key]) {

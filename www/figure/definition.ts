@@ -7,14 +7,14 @@ import type { SliderSpec } from './controls.ts';
 import type { Values } from './settings.ts';
 
 /** Conversion of a value from and to the text of an attribute. */
-export interface Converter {
+interface Converter {
   /** Converts a text to a value. Returns an invalid text unchanged, which the check of the value then refuses. */
   parse: (text: string) => unknown;
   /** Converts a value to a text; null removes the attribute. */
   print: (value: any) => string | null;
 }
 
-export interface Property {
+interface Property {
   /** Conversion of a property that is also an attribute. */
   converter?: Converter;
   get: (config: Values) => unknown;
@@ -32,12 +32,12 @@ export interface Property {
 }
 
 /** Properties by name, in the order in which they are applied. */
-export type Properties = Record<string, Property>;
+type Properties = Record<string, Property>;
 
-export type Attribute = Property & { converter: Converter };
+type Attribute = Property & { converter: Converter };
 
 /** Documentation by name. Types are in TypeScript. */
-export type DocumentationTable = Record<string, { type: string, readonly?: true, sentence: string }>;
+type DocumentationTable = Record<string, { type: string, readonly?: true, sentence: string }>;
 
 /** Documentation that is neither in a declaration nor in the comments of a class. */
 export interface Documentation {
@@ -137,7 +137,7 @@ export function presetPropertyOf(presets: readonly { name: string, settings: Val
 }
 
 /** Field of the state that the element keeps, because the simulation does not have it. */
-export interface ElementField extends Pick<Property, 'converter' | 'words' | 'min' | 'max'> {
+interface ElementField extends Pick<Property, 'converter' | 'words' | 'min' | 'max'> {
   opening: unknown;
   /** True if a preset sets the field to its default. */
   isResetByPreset?: true;

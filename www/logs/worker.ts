@@ -10,7 +10,7 @@ import { LogError, type OpenOptions, type Recording, type Source } from './log.t
 import { openRecordings } from './open.ts';
 
 /** Recording as posted to the page: without its methods, but with its index (`place`) among the opened recordings. */
-export type OpenedRecording = Recording & { place: number };
+type OpenedRecording = Recording & { place: number };
 
 /** LogError as posted to the page, with its sentence in each language. */
 export type LogFailure = Pick<LogError, 'message' | 'place' | 'ask'> & { sentences: Record<'en' | 'de', string> };

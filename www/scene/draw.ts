@@ -58,7 +58,7 @@ export function densityRamp(palette: Palette): Uint8Array {
   return ramp;
 }
 
-export interface Outline extends LineStroke {
+interface Outline extends LineStroke {
   /** X, y pairs. */
   points: Float64Array;
 }

@@ -14,7 +14,7 @@ interface HandleCallbacks {
   commit: () => void;
 }
 
-export interface HandleLabels {
+interface HandleLabels {
   name: string;
   keys: string;
   title: string;

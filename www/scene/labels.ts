@@ -21,7 +21,7 @@ const LABEL_GAP = 12;
 /** Height that two rows of labels need above a picture, in addition to the name of its axis, pixels. */
 export const LABELS_ABOVE = 24 + ROW_HEIGHT;
 
-export interface LabelText {
+interface LabelText {
   symbol?: string;
   sub?: string;
   text?: string;

@@ -5,7 +5,7 @@ import type { Brush, Surface } from './canvas.ts';
 import type { View } from './view.ts';
 import type { Palette } from '../ui/theme.ts';
 
-export interface DrawOptions extends Pick<Brush, 'exported' | 'handles' | 'highlight' | 'previousViewModel'> {
+interface DrawOptions extends Pick<Brush, 'exported' | 'handles' | 'highlight' | 'previousViewModel'> {
   elapsed?: number;
   /** True if the view must not zoom. */
   still?: boolean;

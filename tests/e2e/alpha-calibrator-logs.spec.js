@@ -253,6 +253,32 @@ test('reading a log can be stopped, and everything is as it was', async ({ page 
   await expect.poll(() => page.workers().length).toBe(0);
 });
 
+test('another log replaces one that is being fitted, and the removal of the figure ends its worker', async ({ page }) => {
+  const widget = await openCalibrator(page);
+  const firedErrors = await widget.evaluate(async (element) => {
+    const figure = /** @type {AlphaCalibratorElement & { settled: Promise<void> }} */ (element);
+    const errorMessages = /** @type {string[]} */ ([]);
+    figure.addEventListener('error', (event) => void errorMessages.push(/** @type {ErrorEvent} */ (event).message));
+    const poseColumnsOf = (/** @type {number} */ swayWidth) => {
+      const angles = Float64Array.from({ length: 60_000 }, (_, i) => i / 400);
+      return { t: angles.map((angle) => 4 * angle), x: angles.map(Math.sin), y: angles.map((angle) => swayWidth * Math.sin(28 * angle) - Math.cos(angle)), theta: angles };
+    };
+    const [first, second] = ['first', 'second'].map((name) => ({ name, odometry: poseColumnsOf(0), reference: poseColumnsOf(0.02) }));
+    figure.log = first;
+    figure.log = second;
+    await figure.settled;
+    return errorMessages;
+  });
+  await expect(captionOf(widget)).toHaveText(/of second[.,]/);
+  expect(firedErrors).toEqual([]);
+  expect(page.workers()).toHaveLength(1);
+  await widget.evaluate((element) => {
+    Object.assign(element, { distance: 0.5 });
+    element.remove();
+  });
+  await expect.poll(() => page.workers().length).toBe(0);
+});
+
 test('a log that a page gives is fitted, and is in no state; one that is refused leaves the present one', async ({ page }) => {
   const widget = await openCalibrator(page);
   const stateBefore = await readState(widget);

@@ -136,8 +136,8 @@ async function moveFocusInto(figure: Figure, origin: EventTarget | null) {
 const CHANGING_TEXTS = ':is(p, dl, li, .result):not(.result > *, .slider *, details *, .about, .on-paper)';
 
 /**
- * Heights of the texts above the controls, so that a control stays in its place while the user drags it: the largest height of each text at
- * the present width of the figure and in the present language.
+ * Minimum heights of the texts above the controls, so that a control stays in its place while the user drags it. A text keeps its largest
+ * height until the width of the figure or the language changes.
  */
 export class TextHeights extends FigureController {
   #textElements: Set<HTMLElement> = new Set();

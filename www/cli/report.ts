@@ -34,8 +34,10 @@ const MAX_LISTED_OUTLIERS = 5;
 export const logSummaries = (logs: ReadLog[]): string =>
   logs.map(({ name, sentences }, i) => `${[`${english.choose.roles[ROLES[i % 2]]}: ${name}`, ...sentences].join('\n  ')}\n`).join('');
 
-/** Colours of the headline, by the rating of the α's. */
+/** Codes of colours in a terminal. */
 const [RED, GREEN, YELLOW] = [31, 32, 33];
+
+/** Colours of the badge, by the rating of the α's. */
 const RATING_COLORS = { consistent: GREEN, questionable: YELLOW, unusable: RED };
 
 const colorize = (color: number) => (text: string) => `\x1b[${color}m${text}\x1b[0m`;

@@ -1,6 +1,6 @@
 /**
- * State in the page's address. Each figure has a part of the fragment: `#banana-machine.1=…&map-squeeze:my-id=…`.
- * A figure opens its part and keeps it up to date; with `share`, it adds one.
+ * State in the page's address, and the conversion of states and bytes to text. Each figure has a part of the fragment:
+ * `#banana-machine.1=…&map-squeeze:my-id=…`. A figure opens its part and keeps it up to date; with `share`, it adds one.
  */
 
 import { useLanguageOf, words } from '../messages/registry.ts';

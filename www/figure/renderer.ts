@@ -1,4 +1,4 @@
-/** Drawing of a figure: its pictures, and then its text, on the screen while it is visible, and in print. A figure starts near the viewport. */
+/** Start of a figure near the viewport; drawing of its pictures, and then of its text, while it is visible, and in print; and its canvases. */
 
 import { nothing } from 'lit';
 import { onLanguage } from '../messages/registry.ts';

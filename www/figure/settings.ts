@@ -102,7 +102,7 @@ export class Settings extends FigureController {
   }
 }
 
-/** Whole state. It is kept after a trap. */
+/** State as in `getState`: settings and fields of the element. After a trap, a new simulation gets the last valid state. */
 export class State extends FigureController {
   lastValidState: Values | undefined;
   #openingState: Values | undefined;

@@ -3,7 +3,7 @@
 import { group } from 'd3-array';
 import { LogError, truncate, listNames, UNITS, type ErrorPlace, type AngleUnit, type LengthUnit, type LogKind, type Question, type Series, type TimeUnit } from './log.ts';
 
-export type Field = 't' | 'seconds' | 'subseconds' | 'x' | 'y' | 'z' | 'yaw' | 'qx' | 'qy' | 'qz' | 'qw' | 'v' | 'omega' | 'frame' | 'child' | 'source';
+type Field = 't' | 'seconds' | 'subseconds' | 'x' | 'y' | 'z' | 'yaw' | 'qx' | 'qy' | 'qz' | 'qw' | 'v' | 'omega' | 'frame' | 'child' | 'source';
 
 interface Column {
   at: number;
@@ -198,7 +198,7 @@ const headingFieldsOf = (columns: Group['columns']): Field[] =>
 
 const clockOf = (column: Column): Clock => ({ name: column.name, columns: [column], ...(column.unit !== undefined && { unit: column.unit as TimeUnit }) });
 
-/** Returns the clocks of a group, of whose columns of times the best comes first. The stamp of the message comes first. Another clock may be the time of recording. */
+/** Returns the clocks of a group; `timeColumns` are sorted, the best first. The stamp of the message comes first. Another clock may be the time of recording. */
 function clocksOf({ seconds, subseconds }: Group['columns'], timeColumns: Column[]): Clock[] {
   const singleColumnClocks = timeColumns.map(clockOf);
   if (seconds && subseconds) return [{ name: `${seconds.name}, ${subseconds.name}`, columns: [seconds, subseconds], unit: 's' }, ...singleColumnClocks];

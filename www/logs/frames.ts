@@ -80,7 +80,7 @@ export class FrameTree {
 /** Transform of one link of a chain, with the time of recording (s) and the number of its message. */
 interface RecordedTransform { link: string; isStatic: boolean; stampedTransform: StampedTransform; recordTime: number; number: number }
 
-/** Poses of one frame relative to another one, composed of the transforms on the chain between them. */
+/** Graph that also composes the poses of one frame relative to another one, by the transforms on the chain between them. */
 export class Chain extends FrameTree {
   readonly #endFrames: FramePair;
   /** Names of the links of the chain, from the first to the last. */

@@ -1,4 +1,4 @@
-/** Lines for nav2_params.yaml, and the formats of their numbers, which have a decimal point in every language. */
+/** Lines for nav2_params.yaml, in which numbers have a decimal point in every language; and the formats of α's and systematic errors. */
 
 import { fixed, formatPowerOfTen } from '../../ui/format.ts';
 import type { CalibrationCheck, CalibrationStats, Interval as CertainInterval } from '../../types.d.ts';
@@ -6,7 +6,7 @@ import type { Warning } from '../../logs/log.ts';
 
 type Interval = CertainInterval | null;
 
-export interface FittedLog {
+interface FittedLog {
   calibration: CalibrationStats;
   count: number;
   model: string;
@@ -152,7 +152,7 @@ function correctedErrorsText(systematicErrors: CalibrationStats['systematicError
   return errorList.length ? [errorList.join('; ')] : [];
 }
 
-/** Returns the components of a systematic error (two for a lever arm) with their intervals; null where they are not identifiable. */
+/** Returns the components of a systematic error (two for a lever arm) with their intervals. Both are null if the component is not identifiable. */
 export function componentsOf({ value, interval }: CalibrationStats['systematicErrors'][keyof CalibrationStats['systematicErrors']]) {
   const intervals = (Array.isArray(value) ? interval : [interval]) as Interval[];
   return [value].flat().map((component, i) => ({ value: component, interval: intervals[i] }));

@@ -181,8 +181,8 @@ export class LegPicture extends Picture<Scene> {
   };
 }
 
-/** Size in pixels. The path is at the left with the α's beside it, and sentences are below. */
-const [WIDTH, HEIGHT] = [720, 560];
+/** Sizes of the exported summary and of the path in it, pixels. */
+const SUMMARY_SIZE = { width: 720, height: 560 };
 const PATH_SIZE = { width: 430, height: 344 };
 
 /** Height of a legend in two lines, CSS pixels. */
@@ -191,10 +191,11 @@ const KEY_HEIGHT = 42;
 /** Line height, pixels. */
 const LINE_HEIGHT = 18;
 
+/** Exported summary: the path at the left with the α's beside it, and sentences below. */
 export class SummaryPicture extends Picture<Scene> {
   name = 'exportPicture';
   view: View = new View();
-  size = { width: WIDTH, height: HEIGHT };
+  size = SUMMARY_SIZE;
   #path = new PathPicture(KEY_HEIGHT);
   #figure;
 
@@ -214,9 +215,9 @@ export class SummaryPicture extends Picture<Scene> {
     Object.assign(context, { fillStyle: palette.ink, font, textAlign: 'left', textBaseline: 'top' });
     const alphasLeft = PATH_SIZE.width + 20;
     let y = 2;
-    for (const text of [`${words.calibrator.alphas.caption}:`, ...alphaTexts(scene)]) y = writeText(context, text, alphasLeft, y, WIDTH - alphasLeft) + LINE_HEIGHT / 3;
+    for (const text of [`${words.calibrator.alphas.caption}:`, ...alphaTexts(scene)]) y = writeText(context, text, alphasLeft, y, SUMMARY_SIZE.width - alphasLeft) + LINE_HEIGHT / 3;
     y = Math.max(PATH_SIZE.height, y) + LINE_HEIGHT;
-    for (const text of summaryTexts(this.#figure)) y = writeText(context, text, 2, y, WIDTH - 2);
+    for (const text of summaryTexts(this.#figure)) y = writeText(context, text, 2, y, SUMMARY_SIZE.width - 2);
   };
 }
 

@@ -112,7 +112,7 @@ export function morphControl({ player, gesture, state }: import('./banana-machin
 const GRID_LINES = 7;
 const CHORDS_PER_LINE = 32;
 
-/** Draws the grid of exponential coordinates at a morph. `end` is the view at the end of the morph. */
+/** Draws the grid of exponential coordinates at a morph. The second parameter is the view at the end of the morph. */
 export function drawMorphGrid({ context, view, palette }: Brush, { extent: { xMin, xMax, yMin, yMax } }: View, morph: number) {
   const drawGridLine = (pointAt: (share: number) => [along: number, heading: number]) => addLine(context, Array.from({ length: CHORDS_PER_LINE + 1 }, (_, i) => {
     const [along, heading] = pointAt(i / CHORDS_PER_LINE);

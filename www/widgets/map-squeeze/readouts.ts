@@ -14,7 +14,7 @@ import type { MapSqueezeElement as Figure } from './map-squeeze.ts';
 
 addEnglish({ squeeze: en });
 
-/** Returns the text of a verdict, whose bits are in `verdict` of settings.js. */
+/** Returns the text of a verdict, a sum of `bits`. */
 export function verdictText(verdict: number, config: Settings) {
   const hasBit = (bit: number) => (verdict & bit) !== 0;
   const { overlays, verdict: reasons } = words.squeeze;

@@ -88,7 +88,8 @@ const [PIECE_BYTES, PIECES_AHEAD] = [2 ** 22, 3];
 
 /** Returns a reader of bytes at increasing positions. It requests the next pieces in advance, which saves a quarter of the time in a browser. */
 export function readAhead(source: Source): (from: number, to: number) => Promise<Uint8Array> {
-  const pieces = new Map<number, Promise<Uint8Array>>();
+  /** Bytes of each piece, or a promise of them until they have been read. */
+  const pieces = new Map<number, Uint8Array | Promise<Uint8Array>>();
   let lastPiece = -1;
   return async (from, to) => {
     const firstPiece = Math.floor(from / PIECE_BYTES);
@@ -99,12 +100,14 @@ export function readAhead(source: Source): (from: number, to: number) => Promise
     for (let i = firstPiece; i <= lastPiece + piecesAhead && i * PIECE_BYTES < source.size; i++) {
       if (pieces.has(i)) continue;
       const piece = readBytes(source, i * PIECE_BYTES, Math.min((i + 1) * PIECE_BYTES, source.size));
-      // An error of reading is reported only when the piece is needed.
-      piece.catch(() => {});
       pieces.set(i, piece);
+      // An error of reading is reported only when the piece is needed.
+      piece.then((bytes) => pieces.has(i) && pieces.set(i, bytes), () => {});
     }
     const partOf = (piece: Uint8Array | undefined, i: number) => (piece ?? new Uint8Array()).subarray(Math.max(from - i * PIECE_BYTES, 0), end - i * PIECE_BYTES);
-    const partOfFirstPiece = partOf(await pieces.get(firstPiece), firstPiece);
+    const pieceOfStart = pieces.get(firstPiece);
+    // Awaiting bytes that have already been read would take longer than reading a record.
+    const partOfFirstPiece = partOf(pieceOfStart instanceof Promise ? await pieceOfStart : pieceOfStart, firstPiece);
     if (lastPiece === firstPiece) return partOfFirstPiece;
     const bytes = new Uint8Array(end - from);
     bytes.set(partOfFirstPiece);

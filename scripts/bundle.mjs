@@ -208,7 +208,7 @@ export async function bundle({ tags = WIDGET_TAGS, transformScript = (_, script)
             ));
             onLoad({ filter: /./, namespace: 'core' }, () => ({ contents: MODULE_SOURCES.bytes(moduleBytes, SHIFTED_CHARACTERS[options.charset === 'ascii' ? 'ascii' : 'utf8']) }));
             // A page without workers runs the worker's script itself.
-            if (form === 'external') onResolve({ filter: /\/logs\/worker\.ts$/ }, () => ({ path: `./${basename(LOG_WORKER_PATH)}`, external: true }));
+            if (form === 'external') onResolve({ filter: /\/logs\/session\.ts$/ }, () => ({ path: `./${basename(LOG_WORKER_PATH)}`, external: true }));
             onLoad({ filter: /[/\\]build[/\\]settings\.js$/ }, () => ({ contents: minimalDeclarations(), loader: 'js' }));
             onLoad({ filter: /[/\\]www[/\\]address\.ts$/ }, ({ path }) => ({
               contents: options.format === 'iife' ? ADDRESS_MODULES.classic : options.splitting ? ADDRESS_MODULES.chunk : readFileSync(path, 'utf8'),

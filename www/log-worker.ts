@@ -2,7 +2,7 @@
 
 import { expose, proxy } from 'comlink';
 import { instantiateShared, type SharedCore } from './core.ts';
-import { LogSession } from './logs/worker.ts';
+import { LogSession } from './logs/session.ts';
 
 export { LogSession };
 

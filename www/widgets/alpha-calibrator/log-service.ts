@@ -3,7 +3,7 @@
 import { instantiateShared, sharedCore, startWorker } from '../../core.ts';
 import type { LogPlan } from '../../logs/drives.ts';
 import type { OpenOptions, Source } from '../../logs/log.ts';
-import type { LogSession } from '../../logs/worker.ts';
+import type { LogSession } from '../../logs/session.ts';
 import type { AlphaCalibratorSettings, CalibrationLog } from '../../types.d.ts';
 
 /** Session, the function that ends its worker, and the function by which a callback can be called from the worker. */
@@ -92,7 +92,7 @@ async function connect(): Promise<Connection> {
     // Some browsers throw where a policy forbids workers, others fire an error.
     end();
   }
-  const { LogSession } = await import('../../logs/worker.ts');
+  const { LogSession } = await import('../../logs/session.ts');
   return { session: new LogSession(await instantiateShared(core)), end, proxy };
 }
 

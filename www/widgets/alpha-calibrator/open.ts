@@ -9,7 +9,7 @@ import { FileOpener } from '../shared/files.ts';
 import { isAbortError } from './log-service.ts';
 import type { LogPlan, UserChoices } from '../../logs/drives.ts';
 import type { Drive } from '../../logs/pairs.ts';
-import type { LogFailure } from '../../logs/worker.ts';
+import type { LogFailure } from '../../logs/session.ts';
 import type { OpenOptions, Question, Recording, Role } from '../../logs/log.ts';
 import type { CalibrationLog } from '../../types.d.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';

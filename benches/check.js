@@ -8,7 +8,7 @@ import { Baseline } from './baseline.js';
 import { ALPHAS, COLOUR_RAMP, PICTURE_VIEW, commandAt, readDensityPixels, readStatsAndContours } from './scene.js';
 
 /** Maximum difference (m, rad or a fraction) between both implementations, which add numbers in different orders. */
-const RELATIVE_TOLERANCE = 1e-9;
+const MAX_DIFFERENCE = 1e-9;
 
 /** Returns the names and values of the statistics in which the core and the baseline differ. @param {import('../www/types.d.ts').Motion} motion @param {number} samples */
 export function differencesFromCore(motion, samples) {
@@ -22,7 +22,7 @@ export function differencesFromCore(motion, samples) {
     for (const [name, value] of numbersWithPaths(baselineResult.stats)) {
       const coreValue = name.split('.').reduce((part, key) => part[key], /** @type {any} */ (stats));
       // The negation also reports NaN.
-      if (!(Math.abs(value - coreValue) <= RELATIVE_TOLERANCE)) differenceTexts.push(`${name}: ${value}, core ${coreValue}`);
+      if (!(Math.abs(value - coreValue) <= MAX_DIFFERENCE)) differenceTexts.push(`${name}: ${value}, core ${coreValue}`);
     }
     const pixels = readDensityPixels(simulation);
     const differingPixelCount = baselineResult.pixels.filter((value, i) => value !== pixels[i]).length;

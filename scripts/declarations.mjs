@@ -91,7 +91,7 @@ export const readClassComments = runOnce(async () => {
   const analyzerArguments = ['analyze', '--litelement', '--quiet', '--outdir', 'dist', '--globs', 'www/figure/figure.ts', 'www/widgets/*/*.ts'];
   const { schemaVersion, modules } = await cli({ argv: analyzerArguments, cwd: ROOT, noWrite: true });
   /** @type {any[]} */
-  const classDeclarations = modules.flatMap((/** @type {any} */ { declarations: classDeclarations }) => classDeclarations ?? []);
+  const classDeclarations = modules.flatMap((/** @type {any} */ { declarations }) => declarations ?? []);
   return { schemaVersion, classes: new Map(classDeclarations.map((declaration) => [declaration.name, declaration])) };
 });
 
@@ -106,7 +106,7 @@ export function describeWidgets() {
 /** Returns the description of a widget. @param {string} tag @returns {Promise<Widget>} */
 async function describeWidget(tag) {
   const { COMMON_ATTRS, NUMBER_CONVERTER, WORD_LIST_CONVERTER } = await importTypeScript('www/figure/definition.ts');
-  const { definition: { attributes, declarations: classDeclarations, elementFields }, documentation } = await importTypeScript(`www/widgets/${tag}/settings.ts`);
+  const { definition: { attributes, declarations, elementFields }, documentation } = await importTypeScript(`www/widgets/${tag}/settings.ts`);
   /** @type {import('../www/figure/definition.ts').Documentation[]} */
   const documentations = [...('marked' in elementFields ? [CLOUD_DOCUMENTATION] : []), ...(documentation ? [documentation] : [])];
   const { classes } = await readClassComments();
@@ -115,7 +115,7 @@ async function describeWidget(tag) {
   const attributeSentences = Object.fromEntries(elementClass.attributes.map((/** @type {any} */ { name, description }) => [name, description]));
   const documentedProperties = Object.assign({}, ...documentations.map(({ properties }) => properties));
   const documentedState = Object.assign({}, ...documentations.map(({ state }) => state));
-  const settingOf = (/** @type {string} */ name) => classDeclarations.find((/** @type {Declaration} */ { key }) => key === name);
+  const settingOf = (/** @type {string} */ name) => declarations.find((/** @type {Declaration} */ { key }) => key === name);
 
   /** Returns the description of an attribute. @returns {Attribute} */
   const describeAttribute = (/** @type {[string, any]} */ [name, entry]) => {
@@ -139,7 +139,7 @@ async function describeWidget(tag) {
 
   const attributeList = Object.entries({ ...attributes, ...COMMON_ATTRS }).map(describeAttribute);
   /** @type {Declaration[]} */
-  const topLevelSettings = classDeclarations.filter((/** @type {Declaration} */ declaration) => !declaration.in && !declaration.of);
+  const topLevelSettings = declarations.filter((/** @type {Declaration} */ declaration) => !declaration.in && !declaration.of);
   const groupFields = topLevelSettings.filter(({ key }) => !(key in attributes)).map(fieldOf);
   const classFields = elementClass.members
     .filter((/** @type {any} */ { kind, privacy, inheritedFrom }) => kind === 'field' && privacy === 'public' && !inheritedFrom)

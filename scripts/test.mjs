@@ -241,10 +241,10 @@ async function runPart(name, programArgs) {
     startTime = Date.now();
     const { ok, output, timedOut } = await job();
     const sumMatches = (/** @type {RegExp} */ number) => [...output.matchAll(number)].reduce((sum, [, count]) => sum + Number(count), 0);
-    const testCounts = counts && { passed: sumMatches(counts.passed), failed: sumMatches(counts.failed), skipped: sumMatches(counts.skipped) };
-    const ranNoTest = testCounts !== undefined && testCounts.passed + testCounts.failed === 0;
-    const shownRemark = timedOut ? `ended after ${TIME_LIMIT_SECONDS} s` : ranNoTest ? 'no test ran' : undefined;
-    return { name, ok: ok && !ranNoTest && !testCounts?.failed, seconds: elapsedSeconds(), output, tally: testCounts, note: shownRemark };
+    const tally = counts && { passed: sumMatches(counts.passed), failed: sumMatches(counts.failed), skipped: sumMatches(counts.skipped) };
+    const ranNoTest = tally !== undefined && tally.passed + tally.failed === 0;
+    const note = timedOut ? `ended after ${TIME_LIMIT_SECONDS} s` : ranNoTest ? 'no test ran' : undefined;
+    return { name, ok: ok && !ranNoTest && !tally?.failed, seconds: elapsedSeconds(), output, tally, note };
   } catch (error) {
     printStep(`${name}: ${error instanceof UserError ? error.message : (error instanceof Error && error.stack) || error}`);
     return { name, ok: false, seconds: elapsedSeconds(), note: 'not run: see above' };
@@ -301,14 +301,14 @@ function summarize(partOutcomes) {
   console.log(`${[...toolVersions].join('; ')}\n`);
   let passedCount = 0;
   let failedCount = 0;
-  for (const { name, ok, seconds, tally: testCounts, note: shownRemark } of partOutcomes) {
-    const countTexts = testCounts === undefined ? [] : [`${testCounts.passed} passed`, `${testCounts.failed} failed`];
-    if (testCounts?.skipped) countTexts.push(`${testCounts.skipped} skipped`);
-    if (shownRemark !== undefined) countTexts.push(shownRemark);
+  for (const { name, ok, seconds, tally, note } of partOutcomes) {
+    const countTexts = tally === undefined ? [] : [`${tally.passed} passed`, `${tally.failed} failed`];
+    if (tally?.skipped) countTexts.push(`${tally.skipped} skipped`);
+    if (note !== undefined) countTexts.push(note);
     console.log(`${ok ? 'ok    ' : 'FAILED'} ${name.padEnd(12)} ${seconds.toFixed(0).padStart(4)} s  ${countTexts.join(', ')}`);
-    passedCount += testCounts?.passed ?? 0;
+    passedCount += tally?.passed ?? 0;
     // A part that fails without a failed test counts as one failed test.
-    failedCount += ok ? 0 : Math.max(1, testCounts?.failed ?? 0);
+    failedCount += ok ? 0 : Math.max(1, tally?.failed ?? 0);
   }
   for (const { name, ok, output } of partOutcomes) {
     if (!ok && output && partOutcomes.length > 1) console.log(`\n${name}: …\n${output.trimEnd().split('\n').slice(-SHOWN_ERROR_LINES).join('\n')}`);

@@ -56,8 +56,8 @@ fn call_method(simulation: &mut MapSqueeze, input: &mut Input) {
         0 => configure(simulation, input),
         1 => assert_same_if_added_in_blocks(simulation, input),
         2 => {
-            if let Some(opening_plan) = plan::read_plan(input) {
-                simulation.set_plan(opening_plan);
+            if let Some(plan) = plan::read_plan(input) {
+                simulation.set_plan(plan);
             }
         }
         3 => {
@@ -178,8 +178,8 @@ fn assert_results(simulation: &MapSqueeze) {
 
 fn assert_finite_plan(plan: &FloorPlan) {
     assertions::assert_finite("bounds", &plan.bounds());
-    for opening_wall in plan.walls() {
-        assertions::assert_finite("wall", &[opening_wall.from, opening_wall.to].concat());
+    for wall in plan.walls() {
+        assertions::assert_finite("wall", &[wall.from, wall.to].concat());
     }
 }
 

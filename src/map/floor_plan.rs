@@ -98,8 +98,8 @@ pub struct Verdict {
 }
 
 impl Verdict {
-    const FREE_VERDICT: Self = Self { free: true, wall_tests: 0 };
-    const BLOCKED_VERDICT: Self = Self { free: false, wall_tests: 0 };
+    const FREE: Self = Self { free: true, wall_tests: 0 };
+    const BLOCKED: Self = Self { free: false, wall_tests: 0 };
 }
 
 /// Range of bounds, m: the range of a robot's coordinates.
@@ -187,15 +187,15 @@ impl FloorPlan {
     /// Tests whether a disc of radius `clearance` (m) around a point touches no wall and its centre is inside the bounds.
     pub fn test_point(&self, point: [f64; 2], clearance: f64) -> Verdict {
         if !self.contains(point) {
-            return Verdict::BLOCKED_VERDICT;
+            return Verdict::BLOCKED;
         }
         let distance_field = self.distance_field();
         let nearest_lower_bound = distance_field.lower_bound(point);
         if nearest_lower_bound > clearance {
-            return Verdict::FREE_VERDICT;
+            return Verdict::FREE;
         }
         if distance_field.upper_bound(nearest_lower_bound) <= clearance || self.is_in_blocked_cell(point) {
-            return Verdict::BLOCKED_VERDICT;
+            return Verdict::BLOCKED;
         }
         let mut wall_tests = 0;
         let is_free = self.are_near_walls_clear(

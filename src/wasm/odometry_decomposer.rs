@@ -62,7 +62,7 @@ impl JsOdometryDecomposer {
         Ok(triple_array(leg_poses.into_iter().flatten()))
     }
 
-    /// Standard deviations for lengths of the drive from 0 to `max_length` m. For each of `count` points: the length, the
+    /// Standard deviations for lengths of the drive from 0 to `longest` m. For each of `count` points: the length, the
     /// standard deviation across the bearing, the contribution of the first rotation, and the standard deviation of the
     /// length, all in m.
     pub fn curve(&self, longest: f64, count: f64) -> Result<Float64Array, JsValue> {

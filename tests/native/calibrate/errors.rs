@@ -115,9 +115,9 @@ fn trajectories_without_a_common_time_are_refused() {
 fn too_few_legs_are_refused() {
     let simulation = Simulation::of(Model::Velocity, 7, 1);
     let [odometry, reference] = simulation.log();
-    let calibrate_logs =
+    let calibration_result =
         calibrate(&[Drive { odometry: &odometry, reference: &reference }], &simulation.calibration_options());
-    assert!(matches!(calibrate_logs, Err(CalibrateError::TooFewLegs { legs: 6 | 7 })));
+    assert!(matches!(calibration_result, Err(CalibrateError::TooFewLegs { legs: 6 | 7 })));
 }
 
 /// A mount yaw of 0.07 rad changes each rotation of a leg by 0.07 rad. On legs of a quarter of a metre this has the effect of an α₂ of 0.08,

@@ -151,9 +151,8 @@ fn the_recursion_gives_the_likelihood_of_the_dense_covariance() {
         SystematicError::TurnScale,
     ];
     for errors in [&corrected_errors[..0], &corrected_errors] {
-        let corrected_errors = SystematicError::ALL.map(|error| Some(errors.contains(&error)));
-        let calibration =
-            calibrate_log(&sim.log(), &Options { correct: corrected_errors, ..sim.calibration_options() });
+        let correct = SystematicError::ALL.map(|error| Some(errors.contains(&error)));
+        let calibration = calibrate_log(&sim.log(), &Options { correct, ..sim.calibration_options() });
         assert_eq!(calibration.leg_fits.iter().filter(|fit| fit.is_outlier).count(), 0);
         let (log_likelihood, expected) =
             (calibration.log_likelihood, dense_log_likelihood(&calibration, errors));

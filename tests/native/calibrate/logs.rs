@@ -64,10 +64,10 @@ fn rounding_does_not_decide_where_a_leg_ends() {
             new_trajectory((0..400).map(|row| (0.1 * row as f64, SE2::new(0.0, 0.0, rounded_heading(row)))));
         leg_times(&split_into_legs(&turning_drive, &turning_drive, AMCL_LEG, 0.0).0)
     };
-    let exact_leg_times = leg_end_times(|rounded_heading| rounded_heading);
+    let exact_leg_times = leg_end_times(|heading| heading);
     // A leg does not end at exactly the limit. Each leg therefore has eleven steps.
     assert_eq!(exact_leg_times.len(), 36);
-    assert_eq!(leg_end_times(|rounded_heading| (rounded_heading * 1e6).round() / 1e6), exact_leg_times);
+    assert_eq!(leg_end_times(|heading| (heading * 1e6).round() / 1e6), exact_leg_times);
 }
 
 /// A leg normally has five steps. A leg with a pause of six steps after its first step is 0.44 m long. With the pause after the fourth

@@ -80,10 +80,10 @@ fn random_arc(rng: &mut impl Rng) -> Arc {
     let [x, y] = std::array::from_fn(|_| {
         if is_central { draw_uniform(rng, 4.9, 5.1) } else { draw_uniform(rng, 2.0, 8.0) }
     });
-    let wall_length = [0.001, 0.3, 2.0][(rng.next_u32() % 3) as usize];
+    let arc_length = [0.001, 0.3, 2.0][(rng.next_u32() % 3) as usize];
     Arc {
         start: SE2::new(x, y, draw_uniform(rng, -PI, PI)),
-        length: wall_length,
+        length: arc_length,
         turn: draw_uniform(rng, -1.0, 1.0),
     }
 }

@@ -56,8 +56,8 @@ fn contours_of_noise_contain_every_crossing() {
 
 #[test]
 fn small_or_flat_fields_have_no_lines() {
-    for (random_field, columns) in [(vec![], 0), (vec![1.0], 1), (vec![1.0, 0.0], 2), (vec![1.0; 12], 4)] {
-        assert!(trace_level_set(&random_field, columns, 0.5).is_empty());
+    for (field, columns) in [(vec![], 0), (vec![1.0], 1), (vec![1.0, 0.0], 2), (vec![1.0; 12], 4)] {
+        assert!(trace_level_set(&field, columns, 0.5).is_empty());
     }
 }
 

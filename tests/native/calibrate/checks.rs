@@ -294,6 +294,10 @@ fn errors_that_persist_are_correlated_and_leave_windows_uncovered() {
     // A correlation of 1,800 residuals has a standard error of 0.02.
     let correlation = calibration.persistence.correlation.value;
     assert!((correlation - 0.7).abs() < 0.08, "{correlation}");
+    // A window ends with the leg that completes its length. No leg is longer than 0.4 m.
+    for (window, min_length) in calibration.diagnostics.windows.iter().zip([1.0, 2.0, 5.0]) {
+        assert!(min_length < window.length && window.length < min_length + 0.4, "{window:?}");
+    }
     assert!(calibration.recommended.expect("usable").inflation > 1.5);
 }
 

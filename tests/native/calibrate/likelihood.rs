@@ -1,11 +1,11 @@
 //! The restricted likelihood, compared with a reference from a dense covariance matrix, and its maximum.
 
 use super::simulated::{MODELS, Simulation, Violation};
-use super::{NAV2, calibrate_log};
-use motion::calibrate::{Calibration, Leg, Options, Outliers, Systematic, SystematicError};
+use super::{NAV2, calibrate_log, calibrate_simulation};
+use motion::calibrate::{Calibration, Leg, LegLength, Options, Outliers, Systematic, SystematicError};
 use motion::geom::se2::{SE2, wrap_angle};
 use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 /// Returns a simulation of bends in both directions, where no special case of the model applies.
 fn simulation_of_bends(count: usize) -> Simulation {
@@ -157,6 +157,39 @@ fn the_recursion_gives_the_likelihood_of_the_dense_covariance() {
         let (log_likelihood, expected) =
             (calibration.log_likelihood, dense_log_likelihood(&calibration, errors));
         assert!((log_likelihood - expected).abs() < 1e-5, "{log_likelihood} is not {expected}");
+    }
+}
+
+/// An error of 20 mm on legs of 16 mm makes bearings of several radians. The turn of a leg, the sum of both rotations, stays small: the second
+/// rotation is not wrapped, because its covariance with the first one is not.
+#[test]
+fn rotations_of_a_short_leg_add_up_to_its_turn() {
+    let sim = Simulation {
+        leg_velocity: Some(|_| [0.02, 0.1]),
+        leg_length: LegLength::Duration { duration: 0.8 },
+        reference_stds: [0.02, 0.02],
+        ..Simulation::of(NAV2, 200, 9)
+    };
+    let residuals = calibrate_simulation(&sim).observations.into_iter().map(|leg| leg.residuals);
+    let (max_rotation, max_turn) = residuals.fold((0.0, 0.0), |(rotation, turn), [rot1, _, rot2]| {
+        (f64::max(rotation, rot2.abs()), f64::max(turn, (rot1 + rot2).abs()))
+    });
+    assert!(max_rotation > PI && max_turn < 0.2, "{max_rotation} {max_turn}");
+}
+
+/// The innovation of a leg is its residual if the filter knows nothing of the reference's error at its start. This is so for an outlier, and
+/// for the leg after it.
+#[test]
+fn an_outlier_is_filtered_by_itself() {
+    let sim =
+        Simulation { jump_fraction: 0.05, reference_stds: [0.005, 0.002], ..Simulation::of(NAV2, 300, 8) };
+    let options = Options { correct: [Some(false); 6], ..sim.calibration_options() };
+    let Calibration { leg_fits, legs, observations, .. } = calibrate_log(&sim.log(), &options);
+    assert!(leg_fits.iter().filter(|fit| fit.is_outlier).count() > 10);
+    for (i, (fit, observation)) in leg_fits.iter().zip(observations).enumerate() {
+        let is_alone = !legs[i].follows || fit.is_outlier || leg_fits[i - 1].is_outlier;
+        let innovation = fit.standardized[1] * fit.stds[1];
+        assert_eq!((innovation - observation.residuals[1]).abs() < 1e-12, is_alone, "leg {i}");
     }
 }
 

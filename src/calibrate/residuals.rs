@@ -117,6 +117,7 @@ impl Observation {
         let displacement = Vector3::from(<[f64; 3]>::from(motion.between(&measured)));
         if has_direction {
             let jacobian = noise_jacobian.try_inverse().unwrap_or_default();
+            // Angles of linear residuals are not wrapped at π, because their covariances are linear too.
             let residuals =
                 exact.map_or_else(|| (jacobian * displacement).into(), |(_, residuals)| residuals);
             return Self { residuals, coefficients, reading, expected, measured, jacobian, noise_jacobian };

@@ -264,7 +264,8 @@ fn a_turn_scale_that_changes_is_no_constant() {
     assert_not_constant(TurnScaleConstant, SystematicError::TurnScale, &calibration);
 }
 
-/// The noise of a leg's turn is as large as the turn. The scale of single legs is then that of the noise. The turns of 16 legs have one sign.
+/// The noise of a leg's turn is as large as the turn, so that the scale of single legs is too small (regression dilution). The turns of 16 legs
+/// have one sign, and add up more than their noise.
 #[test]
 fn a_turn_scale_of_noisy_encoders_is_not_corrected() {
     let sim = Simulation {

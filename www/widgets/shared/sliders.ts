@@ -7,7 +7,7 @@ export const COMMAND_DASH = [2.5, 3.5];
 
 const SPEED_SLIDER = { role: 'prior' as const, step: 0.01, decimals: 2 };
 
-/** Returns the sliders of a command. `longest` is the maximum duration (s). Handles and charts that set the command respect these ranges. */
+/** Returns the sliders of a command. `maxDuration` is in seconds. Handles and charts that set the command respect these ranges. */
 export const commandSliders = (maxDuration: number) => ({
   v: { ...SPEED_SLIDER, symbol: '*v*', min: -1.5, max: 1.5 },
   omega: { ...SPEED_SLIDER, symbol: '*ω*', min: -2, max: 2 },

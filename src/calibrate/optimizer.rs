@@ -24,9 +24,8 @@ const MAX_STEPS: usize = 60;
 /// Relative rounding error of a step that makes a variance 0.
 const ROUNDING_TOLERANCE: f64 = 1e-9;
 
-/// Fractions of a scoring step that are tried, until one increases the likelihood. If a step to 0 does not, the second one makes a variance 20
-/// times smaller. If none does, a step of the minorize-maximize algorithm replaces the scoring step.
-const STEP_FRACTIONS: [f64; 6] = [1.0, 0.95, 0.5, 0.25, 0.125, 0.0625];
+/// Maximum number of halvings of a scoring step. A step of the minorize-maximize algorithm then replaces it.
+const MAX_HALVINGS: i32 = 4;
 
 /// Returns the maximum, by Fisher scoring with the average information. Negative variances are clamped to 0.
 ///
@@ -39,9 +38,9 @@ pub(super) fn maximize(residuals: &Residuals, start: Parameters, free: &FreeMask
         if 0.5 * expansion.score.dot(&step) < MIN_GAIN {
             break;
         }
-        let shortened = STEP_FRACTIONS.iter().map(|fraction| parameters + step * *fraction);
+        let halvings = (0..=MAX_HALVINGS).map(|halvings| parameters + step * 0.5_f64.powi(halvings));
         let minorized = minorized_parameters(&parameters, &expansion, free);
-        let better_parameters = shortened.chain([minorized]).find_map(|candidate| {
+        let better_parameters = halvings.chain([minorized]).find_map(|candidate| {
             let candidate = candidate.map(|parameter| parameter.max(0.0));
             let filtered = residuals.filtered(&candidate);
             let gain = filtered.log_likelihood - expansion.filtered.log_likelihood;

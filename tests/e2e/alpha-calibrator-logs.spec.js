@@ -253,8 +253,9 @@ test('reading a log can be stopped, and everything is as it was', async ({ page 
   await expect.poll(() => page.workers().length).toBe(0);
 });
 
-test('another log replaces one that is being fitted, and the removal of the figure ends its worker', async ({ page }) => {
+test('another log replaces one that is being fitted, and the removal of the figure ends its worker until it returns', async ({ page }) => {
   const widget = await openCalibrator(page);
+  const widgetHandle = await widget.elementHandle();
   const firedErrors = await widget.evaluate(async (element) => {
     const figure = /** @type {AlphaCalibratorElement & { settled: Promise<void> }} */ (element);
     const errorMessages = /** @type {string[]} */ ([]);
@@ -277,6 +278,12 @@ test('another log replaces one that is being fitted, and the removal of the figu
     element.remove();
   });
   await expect.poll(() => page.workers().length).toBe(0);
+  const fittedDistance = await widgetHandle?.evaluate(async (/** @type {any} */ figure) => {
+    document.body.append(figure);
+    await figure.settled;
+    return figure.viewModel.fitted.distance;
+  });
+  expect(fittedDistance).toBe(0.5);
 });
 
 test('a log that a page gives is fitted, and is in no state; one that is refused leaves the present one', async ({ page }) => {

@@ -118,6 +118,12 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
     return this.service.isBusy || this.#opener.readFraction !== undefined || this.viewModel?.isPending;
   }
 
+  connectedCallback() {
+    super.connectedCallback();
+    // A figure that is in no page fits nothing: its settings may wait for a fit.
+    this.settings.isStale = true;
+  }
+
   disconnectedCallback() {
     super.disconnectedCallback();
     this.service.end();
@@ -209,7 +215,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   /** Fits the present log with the pending settings. The figure shows the previous fit until then. */
   async #refit() {
     const { log, service } = this;
-    if (!log || service.isBusy) return;
+    if (!log || service.isBusy || !this.isConnected) return;
     try {
       await this.notice.showDuring(this.open(log, this.warnings), () => this.#revertSettings());
     } catch (error) {

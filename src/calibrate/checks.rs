@@ -137,7 +137,7 @@ impl CheckName {
     fn failure_message(self) -> &'static str {
         match self {
             Self::ReferenceMatches => {
-                "The reference does not follow the odometry: it may be of another drive, have other units (degrees, millimetres) or a mirrored y axis, or its columns may be swapped. The α's mean nothing. Compare both files row by row."
+                "The reference does not follow the odometry: it may be of another drive, have other units (degrees, millimetres), a mirrored y axis or another vertical axis than z, or its columns may be swapped. The α's mean nothing. Compare both files row by row."
             }
             Self::EnoughLegs => {
                 "There are few legs, so the intervals are wide and the other checks weak. Drive on: a quarter of an hour of straight drives, arcs and turns on the spot."

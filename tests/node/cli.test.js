@@ -127,7 +127,7 @@ test('bad input has the exit code 2 and a sentence', async () => {
     [['--update-min-d', '--json'], "Option '--update-min-d' argument is ambiguous. "],
     [['--columns', '-,t,x,y,yaw'], "Option '--columns' argument is ambiguous. Did you forget to specify the option argument for '--columns'? To specify an option argument starting with a dash use '--columns=-XYZ'. --help "],
     [['a.bag', '--help=3'], "Option '-h, --help' does not take an argument. --help lists all options.\n"],
-    [[writeInFolder('twice.csv', 't,t,x,y,yaw\n0,0,0,0,0\n1,1,0,0,0\n'), LOG_ARGS[3]], 'twice.csv, line 1: both “t” and “t” may be the column of time; expected is one of them. Choose with --columns, as in --columns t,x,y,yaw.\n'],
+    [[writeInFolder('twice.csv', 't,t,x,y,yaw\n0,0,0,0,0\n1,1,0,0,0\n'), LOG_ARGS[3]], 'twice.csv, line 1: both “t” and “t” may be the column of time; expected is one of them. Choose with --columns, as in --columns t,x,y,yaw,-.\n'],
     [[writeInFolder('days.csv', ['t,x,y,yaw', ...Array.from({ length: 40 }, (_, i) => `${45_244 + i / 1_728_000},${i / 40},0,0`)].join('\n')), LOG_ARGS[3]], 'days.csv: in s, the times would mean 1.73e+6 rows a second; write them in s, or as dates such as 2024-01-31 12:00:00.5 (a spreadsheet counts days).\n'],
     [['no/metadata.yaml', 'no/run.mcap'], 'no: there is no such file or folder.\n'],
     [['no.bag', '--rule', 'Nav2'], '--rule is "Nav2"; allowed is '],
@@ -267,7 +267,7 @@ test('--yaml prints the lines for Nav2 alone, or none of an unusable log', async
   assert.match(err, /^Odometry: odometry\.csv\n {2}\d+ of \d+ rows, [^]*^Trust\. .*\nUse the recommended α’s with legs of this length\.\nFirst multiply the odometry’s distances by .*\n$/m);
   assert.match((await runCalibrate([...LOG_ARGS, '--yaml'])).err, /\nWarning: fitted by another rule than Nav2’s; give --rule nav2\.\n$/);
   const swappedOutput = await runCalibrate(['--odometry', examplePath('reference'), '--reference', examplePath('odometry'), '--yaml']);
-  assert.match(swappedOutput.err, /^Warning: .* Are the two swapped\?$/m);
+  assert.match(swappedOutput.err, /^Caution. Warning: .* Are the two swapped\?$/m);
   // The legs of a reference at 1 Hz are longer than asked.
   const [header, ...rows] = readFileSync(examplePath('reference'), 'utf8').trim().split('\n');
   const sparsePath = writeInFolder('sparse.csv', [header, ...rows.filter((_, i) => i % 20 === 0)].join('\n'));
@@ -371,7 +371,7 @@ test('the report, the lines for Nav2 and the figure’s verdict agree whether th
     const [{ out }, { out: json }] = [await runCalibrate(args), await runCalibrate([...args, '--json'])];
     const { logs, ...stats } = JSON.parse(json);
     const { rating } = judge(/** @type {any} */ ({ stats, legs: stats.legs, fitted: stats.systematicErrors }), warningsOf(logs));
-    const areNoted = [out.includes(`\nCaution. ${en.nav2.localizer}\nIf the log cannot be improved, use the recommended α’s.\n`), out.includes(`# ${en.nav2.localizer}`), rating === 'questionable'];
+    const areNoted = [out.includes(`\nCaution. ${en.nav2.localizer}\n`) && !out.includes(en.useAnyway), out.includes(`# ${en.nav2.localizer}`), rating === 'questionable'];
     assert.deepEqual(areNoted, [isLocalizer, isLocalizer, isLocalizer], name);
   }
 });

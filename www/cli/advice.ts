@@ -8,7 +8,7 @@ export const quoteForShell = (text: string): string => (/^[\w./,@%+=:-]+$/.test(
 /** Returns a sentence with the option that answers the question of an error. */
 export function optionAdvice({ ask, message }: LogError): string {
   if (!ask || message.includes(' --')) return '';
-  const { what, role = 'odometry', choices, doubted } = ask;
+  const { what, role = 'odometry', choices, columns = [], doubted } = ask;
   if (what === 'other') return ' Name both, with --odometry FILE and --reference FILE.';
   const optionText = { series: `--${role}-topic`, frames: `--${role}-frames`, columns: '--columns', timeUnit: '--time-unit', lengthUnit: '--length-unit', angleUnit: '--angle-unit', roles: '--odometry and --reference' }[what];
   if (ask.pair) return ` Choose with --odometry FILE --reference FILE ${optionText} ${ask.pair}.`;
@@ -18,6 +18,6 @@ export function optionAdvice({ ask, message }: LogError): string {
     const otherUnit = [...choices, ...allUnits].find((unit) => unit !== usualUnit);
     return ` Choose with ${optionText}, as in ${optionText} ${otherUnit}; if odometry and reference differ, with --odometry FILE --reference FILE ${optionText} ${usualUnit},${otherUnit}.`;
   }
-  const [exampleChoice] = choices.length > 0 ? choices.filter(Boolean) : what === 'columns' ? ['t,x,y,yaw'] : [];
+  const [exampleChoice] = choices.length > 0 ? choices.filter(Boolean) : what === 'columns' ? [`t,x,y,yaw${',-'.repeat(Math.max(0, columns.length - 4))}`] : [];
   return ` Choose with ${optionText}${exampleChoice === undefined ? '' : `, as in ${optionText} ${quoteForShell(truncate(exampleChoice))}`}.`;
 }

@@ -8,7 +8,7 @@ const MESSAGES: Record<string, string> = {
   'reference-copied':
     'Die Referenz hat die Fehler der Odometrie: Sie ist eine Kopie davon oder daraus berechnet. Die α sind bedeutungslos. Eine unabhängige Messung verwenden, zum Beispiel Motion Capture oder SLAM.',
   'reference-matches':
-    'Die Referenz folgt der Odometrie nicht: Vielleicht ist sie von einer anderen Fahrt, hat andere Einheiten (Grad, Millimeter) oder eine gespiegelte y-Achse, oder ihre Spalten sind vertauscht. Die α sind bedeutungslos. Beide Dateien Zeile für Zeile vergleichen.',
+    'Die Referenz folgt der Odometrie nicht: Vielleicht ist sie von einer anderen Fahrt, hat andere Einheiten (Grad, Millimeter), eine gespiegelte y-Achse oder eine andere senkrechte Achse als z, oder ihre Spalten sind vertauscht. Die α sind bedeutungslos. Beide Dateien Zeile für Zeile vergleichen.',
   'enough-legs':
     'Es sind wenige Etappen: Die Intervalle sind breit und die anderen Prüfungen schwach. Weiter aufzeichnen: eine Viertelstunde mit Geraden, Bögen und Drehungen auf der Stelle.',
   'legs-lost':
@@ -224,7 +224,7 @@ export const de: typeof import('./en.ts').en = {
     fitted: (value, interval) => `angepasst ${value}${interval && `, 95 % ${interval}`}`,
     longerLegs: (ratio) => `Die Etappen des Logs sind ${ratio}-mal so lang wie verlangt. Zu ihnen gehören die α’s; update_min_d und update_min_a sind darum mit ${ratio} multipliziert.`,
     failed: (checks) => `Vorsicht, nicht bestandene Prüfungen: ${checks}`,
-    localizer: 'Warnung: Die Referenz ist die Schätzung eines Lokalisierers. Sie teilt Fehler mit der Odometrie, die α’s sind zu klein.',
+    localizer: 'Warnung: Die Referenz ist die Schätzung eines Lokalisierers. Sie teilt Fehler mit der Odometrie, die α’s sind zu klein. Eine unabhängig gemessene Referenz verwenden.',
     swapped: 'Warnung: Die Referenz sieht wie Odometrie aus, die Odometrie nicht. Sind die beiden vertauscht?',
     corrected: (errors) => `nach Korrektur dieser systematischen Fehler: ${errors}`,
     correctFirst: (distance, turn) =>

@@ -190,7 +190,7 @@ export const en = {
     fitted: (value, interval) => `fitted ${value}${interval && `, 95 % ${interval}`}`,
     longerLegs: (ratio) => `The log’s legs are ${ratio} times as long as asked. The α’s belong to them, so update_min_d and update_min_a are multiplied by ${ratio}.`,
     failed: (checks) => `Caution, these checks failed: ${checks}`,
-    localizer: 'Warning: the reference is a localizer’s own estimate. Its errors follow the odometry: the α’s are too small.',
+    localizer: 'Warning: the reference is a localizer’s own estimate. Its errors follow the odometry: the α’s are too small. Use a reference that is measured independently.',
     swapped: 'Warning: the reference looks like odometry, and the odometry does not. Are the two swapped?',
     corrected: (errors) => `with these systematic errors corrected: ${errors}`,
     correctFirst: (distance, turn) =>

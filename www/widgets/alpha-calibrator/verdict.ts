@@ -29,7 +29,8 @@ export interface Fit {
 
 /**
  * Returns the rating of the α's with its badge, the finding in a sentence, and what to do in sentences. A missing α, or a warning such as a
- * localizer as the reference, makes consistent α's questionable. `place` is where corrections are chosen.
+ * localizer as the reference, makes consistent α's questionable. After a warning nothing says to use the α's. `place` is where corrections
+ * are chosen.
  */
 export function judgementOf({ stats, count, model, corrections, warnings }: Fit, texts: Texts, place: string) {
   const { systematicErrors, diagnostics: { verdict, checks } } = stats;
@@ -39,14 +40,16 @@ export function judgementOf({ stats, count, model, corrections, warnings }: Fit,
   const doubts = [
     ...missingAlphaTexts(stats, model, texts),
     ...(uncorrectedErrors.length ? [texts.systematic.matters(systematicText(uncorrectedErrors, stats, texts), place)] : []),
-    ...warnings.map((name) => texts.nav2[name]),
   ];
+  const warningTexts = warnings.map((name) => texts.nav2[name]);
   const defect = count === 0 ? texts.none
     : failedCheck ? texts.failed(texts.checks.names[failedCheck.name], String(failedChecks.length), String(checks.length))
       : verdict === 'unusable' ? texts.noAlpha : '';
-  const [finding = texts.passed(String(checks.length)), ...otherFindings] = [...(defect ? [defect] : []), ...doubts];
-  const rating = verdict === 'consistent' && doubts.length > 0 ? 'questionable' : verdict;
-  const usage = rating === 'unusable' ? [] : [rating === 'consistent' ? texts.use : texts.useAnyway, ...correctionAdvice(stats, texts.nav2, localized)];
+  const defects = defect ? [defect] : [];
+  const findings = verdict === 'unusable' ? [...defects, ...warningTexts] : [...warningTexts, ...defects];
+  const [finding = texts.passed(String(checks.length)), ...otherFindings] = [...findings, ...doubts];
+  const rating = verdict === 'consistent' && warnings.length + doubts.length > 0 ? 'questionable' : verdict;
+  const usage = rating === 'unusable' || warnings.length > 0 ? [] : [rating === 'consistent' ? texts.use : texts.useAnyway, ...correctionAdvice(stats, texts.nav2, localized)];
   const advice = [...otherFindings, ...(failedCheck ? [checkMessage(failedCheck, texts)] : []), ...usage];
   return { rating, badge: texts.badges[rating], finding, advice };
 }

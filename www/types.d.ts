@@ -1,7 +1,6 @@
 /** Types that the code imports. scripts/types.mjs generates those of settings, simulations and elements from their declarations. */
 
-import type { BananaMachineSettings, CalibrationOptions, MapSqueezeSettings, Start } from '../build/simulations.d.ts';
-import type { BananaMachineElement, FigureElement } from '../build/elements.d.ts';
+import type { CalibrationOptions, MapSqueezeSettings, Start } from '../build/simulations.d.ts';
 
 export type * from '../build/simulations.d.ts';
 export type * from '../build/elements.d.ts';
@@ -36,9 +35,5 @@ export interface CalibrationLog extends Pick<CalibrationOptions, 'odometry' | 'r
 }
 
 // Short names of generated types.
-export type SqueezeSettings = MapSqueezeSettings;
 export type Pose = Start;
-export type SamplerName = SqueezeSettings['sampler'];
-/** Common members of the elements with a command and a cloud. */
-export type WidgetElement<State extends FigureState, Stats> = FigureElement<State, Stats> &
-  Pick<BananaMachineElement, 'v' | 'omega' | 'dt' | 'command' | 'alphas' | 'samples' | 'seed' | 'marked' | 'poses'>;
+export type SamplerName = MapSqueezeSettings['sampler'];

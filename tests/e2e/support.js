@@ -13,7 +13,7 @@ import { ALL_NAMES, CLOUD_NAMES, NAMES_WITH_HANDLES, figureNameFor } from './fig
  * @typedef {import('../../www/types.d.ts').BananaMachine} BananaMachine
  * @typedef {import('../../www/types.d.ts').Motion} Motion
  * @typedef {import('./figures.js').Name} Name
- * @typedef {import('../../www/types.d.ts').WidgetElement<any, any> & { simulation: any, motion: any }} AnyElement
+ * @typedef {import('../../www/types.d.ts').FigureElement<any, any> & import('../../www/types.d.ts').BananaMachineElement & { simulation: any, motion: any }} AnyElement
  * @typedef {{ name: string, target: string, message: string }} FiredEvent
  * @typedef {HTMLElement & { simulation: BananaMachine, motion: Motion }} BananaMachineElement
  */

@@ -42,10 +42,9 @@ export function judgementOf({ stats, count, model, corrections, warnings }: Fit,
     ...(uncorrectedErrors.length ? [texts.systematic.matters(systematicText(uncorrectedErrors, stats, texts), place)] : []),
   ];
   const warningTexts = warnings.map((name) => texts.nav2[name]);
-  const defect = count === 0 ? texts.none
-    : failedCheck ? texts.failed(texts.checks.names[failedCheck.name], String(failedChecks.length), String(checks.length))
-      : verdict === 'unusable' ? texts.noAlpha : '';
-  const defects = defect ? [defect] : [];
+  const defects = count === 0 ? [texts.none]
+    : failedCheck ? [texts.failed(texts.checks.names[failedCheck.name], String(failedChecks.length), String(checks.length))]
+      : verdict === 'unusable' ? [texts.noAlpha] : [];
   const findings = verdict === 'unusable' ? [...defects, ...warningTexts] : [...warningTexts, ...defects];
   const [finding = texts.passed(String(checks.length)), ...otherFindings] = [...findings, ...doubts];
   const rating = verdict === 'consistent' && warnings.length + doubts.length > 0 ? 'questionable' : verdict;

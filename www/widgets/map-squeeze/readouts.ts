@@ -9,7 +9,7 @@ import { figureTable, readoutList } from '../../ui/readouts.ts';
 import { commandText } from '../shared/sliders.ts';
 import { en } from './en.ts';
 import { throughWallText, SAMPLERS, type ViewModel } from './settings.ts';
-import type { MapSqueeze, Plan, SamplerName, SqueezeSettings as Settings, SqueezeStats as Stats } from '../../types.d.ts';
+import type { MapSqueeze, Plan, SamplerName, MapSqueezeSettings as Settings, SqueezeStats as Stats } from '../../types.d.ts';
 import type { MapSqueezeElement as Figure } from './map-squeeze.ts';
 
 addEnglish({ squeeze: en });

@@ -6,7 +6,7 @@ import { words } from '../../messages/registry.ts';
 import { presets, settings, verdict as bits } from '../../../build/settings.js';
 import { integer, fixed, percent } from '../../ui/format.ts';
 import { COMMAND_DASH, commandSliders } from '../shared/sliders.ts';
-import type { MapSqueeze, SamplerName, SqueezeSettings, SqueezeStats } from '../../types.d.ts';
+import type { MapSqueeze, MapSqueezeSettings, SamplerName, SqueezeStats } from '../../types.d.ts';
 
 const settingDeclarations = settings['map-squeeze'];
 
@@ -96,7 +96,7 @@ export function throughWallText({ throughWall, throughWallRate, throughWallInter
 }
 
 /** Returns a sentence on a robot that cannot move; empty for an ordinary cloud. */
-function stuckRobotNote(config: SqueezeSettings, stats: SqueezeStats, startFree: boolean): string {
+function stuckRobotNote(config: MapSqueezeSettings, stats: SqueezeStats, startFree: boolean): string {
   const { wedged, nothing, noRoom } = words.squeeze;
   const { accepted, drawn } = stats;
   if (stats.gaveUp) return wedged(integer(drawn), integer(accepted), integer(config.samples), throughWallText(stats, false));

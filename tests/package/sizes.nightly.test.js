@@ -53,7 +53,7 @@ function assertSize(name, paths, limit) {
  * the module" in doc/implementation-notes.md.
  */
 const LIMITS_KB = {
-  page: 118, moduleOfWidget: 56, pageOfCalibrator: 159, moduleOfCalibrator: 93, module: 225, classicScript: 437, notebook: 441,
+  page: 118, moduleOfWidget: 56, pageOfCalibrator: 159, moduleOfCalibrator: 93, module: 225, classicScript: 438, notebook: 441,
 };
 
 /** Widget whose module also has all of motion::calibrate. */

@@ -109,6 +109,14 @@ test('stamps that begin at 0 are used; messages without stamps have the times of
   assert.deepEqual((await readLog(mcapFileOf(recordingWithoutHeader), { series: '/odom' })).data, unstampedLog.data);
 });
 
+test('poses that do not turn about Z are refused', async () => {
+  const messages = createOdometryMessages(100, (i) => {
+    const message = odometryMessageOf(timeOf(i), 0, 0, 0);
+    return { ...message, pose: { ...message.pose, pose: { position: { x: i / 100, y: 0, z: 0 }, orientation: { x: 0, y: Math.sin(i / 50), z: 0, w: Math.cos(i / 50) } } } };
+  });
+  assert.match(await catchRefusalSentence(readLog(mcapFileOf(await recordingOf(messages)), { series: '/odom' })), /^run\.mcap, topic \/odom: the poses do not turn about a vertical Z axis; record the drive again with Z up\.$/);
+});
+
 test('unusable quaternions, numbers and times are left out', async () => {
   const messages = createOdometryMessages(20, (i) => odometryMessageOf(i === 8 ? timeOf(2) : timeOf(i), { 5: NaN, 11: 1e300 }[i] ?? i, 0, 0, i === 3 ? 0 : 1));
   const { data, summary } = await readLog(mcapFileOf(await recordingOf(messages)), { series: '/odom' });

@@ -226,6 +226,7 @@ const REFUSED_TABLES = [
   ['two logs at the same times', circleTableOf((row, i) => row.with(0, CIRCLE_ROWS[i - (i % 2)][0])), /, line 3: 400 of 800 rows, this one first, have the time of another row/],
   ['nanoseconds without leading zeros', circleTableOf(([t, ...pose]) => [`${Math.floor(t)}.${Math.round((t % 1) * 1e9)}`, ...pose]), /, line 4: times go back by 0\.400 s and repeat those before; .* write fractions with their leading zeros \(1\.050000000 for 1 s and 50000000 ns\)\.$/],
   ['a quaternion in another order', circleTableOf(([t, x, y, yaw]) => [t, x, y, 0, Math.cos(yaw / 2), 0, 0, Math.sin(yaw / 2)]).slice('t,x,y,yaw\n'.length), /do not turn about a vertical Z axis;/],
+  ['a height in y, and headings from x to z', circleTableOf(([t, x, y, yaw]) => [t, x, 0.1, y, yaw], 't,x,y,z,yaw'), /the headings follow the path in x and z, so the vertical axis is Y;/],
   ['several frames', circleTableOf((row, i) => [...row, i % 2 ? 'base' : 'wheel'], 't,x,y,yaw,child_frame_id'), /of several frames, topics or robots \(wheel, base\); keep/],
   ['robots one after the other', circleTableOf((row, i) => [...row, i >> 9], 't,x,y,yaw,robot_id'), /of several frames, topics or robots \(0, 1\); keep/],
   ['robots one after the other, with a prefix', circleTableOf((row, i) => [...row, i >> 9], 't,odom_x,odom_y,odom_yaw,robot_id'), /of several frames, topics or robots \(0, 1\); keep/],
@@ -249,9 +250,18 @@ for (const [name, contents, expectedMessage, options] of REFUSED_TABLES) {
   });
 }
 
+test('columns that are proposed for Y up give the path on the floor', async () => {
+  for (const horizontal of [(/** @type {number} */ x, /** @type {number} */ y) => [x, 0.1, y], (/** @type {number} */ x, /** @type {number} */ y) => [y, 0.1, x]]) {
+    const tableText = circleTableOf(([t, x, y, yaw]) => [t, ...horizontal(x, y), yaw], 't,x,y,z,yaw');
+    const { ask } = await catchRefusalError(readTable(tableText));
+    const { data } = await readTable(tableText, { columns: ask?.choices[0].split(',') });
+    assert.deepEqual([[...data.x], [...data.y]], [1, 2].map((column) => CIRCLE_ROWS.map((row) => row[column])));
+  }
+});
+
 test('more rows than those of a day at 100 Hz are refused', async () => {
   const rows = Object.assign(new Rows({ file: 'run.csv' }), { count: 1e7 - 1 });
-  const addRow = async () => rows.add(0, 0, 0, 0, 0, 1);
+  const addRow = async () => rows.add({ time: 0, a: 0, b: 0, c: 0 }, 1);
   await addRow();
   assert.equal(await catchRefusalSentence(addRow()), 'run.csv: there are more rows; expected are at most 10000000.');
 });

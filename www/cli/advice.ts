@@ -19,5 +19,6 @@ export function optionAdvice({ ask, message }: LogError): string {
     return ` Choose with ${optionText}, as in ${optionText} ${otherUnit}; if odometry and reference differ, with --odometry FILE --reference FILE ${optionText} ${usualUnit},${otherUnit}.`;
   }
   const [exampleChoice] = choices.length > 0 ? choices.filter(Boolean) : what === 'columns' ? [`t,x,y,yaw${',-'.repeat(Math.max(0, columns.length - 4))}`] : [];
-  return ` Choose with ${optionText}${exampleChoice === undefined ? '' : `, as in ${optionText} ${quoteForShell(truncate(exampleChoice))}`}.`;
+  const exampleText = exampleChoice === undefined ? '' : `, as in ${optionText} ${quoteForShell(truncate(exampleChoice))}`;
+  return ` Choose with ${optionText}${exampleText}${what === 'columns' ? '; of one of two files, with --odometry-columns or --reference-columns' : ''}.`;
 }

@@ -77,7 +77,8 @@ export const german: Words = {
     timeless: (width) =>
       `Zeilen mit ${width} Zahlen sind ${width === 6 ? 'Befehle von geometry_msgs/Twist' : 'Posen von KITTI'}, die keine Zeiten haben; ${width === 6 ? 'die Aufzeichnung selbst' : 'die TUM-Datei, die kitti_poses_and_timestamps_to_trajectory.py von evo schreibt,'} angeben, oder eine Spalte mit Zeiten ergänzen.`,
     euler: (rotation) => `die Drehungen sind Eulerwinkel (${rotation}); die Aufnahme noch einmal aus Motive exportieren, mit Rotation Type „Quaternion“.`,
-    tilted: 'die Posen drehen sich nicht um eine senkrechte Z-Achse; erwartet werden Quaternionen in der Reihenfolge des Kopfs auf einer Ebene mit Z nach oben. Mit Z nach oben exportieren, oder die Spalten auswählen: bei Y nach oben x,y,z als y,z,x und qx,qy,qz als qy,qz,qx.',
+    tilted: (isTable) => `die Posen drehen sich nicht um eine senkrechte Z-Achse; ${isTable ? 'mit Z nach oben exportieren, oder die Spalten auswählen: bei Y nach oben x,y,z als y,z,x und qx,qy,qz als qy,qz,qx' : 'die Fahrt noch einmal mit Z nach oben aufzeichnen'}.`,
+    yUp: 'die Richtungen folgen der Bahn in x und z, die senkrechte Achse ist also Y; mit Z nach oben exportieren, oder die Spalten in anderer Reihenfolge auswählen.',
     mirrored: 'die Richtungen drehen sich anders herum als die Bahn; erwartet werden Richtungen, die gegen den Uhrzeigersinn wachsen, von x nach y: die Richtungen oder y negieren, oder x und y tauschen.',
     mixed: (frames) => `die Zeilen gehören zu mehreren Frames, Topics oder Robotern (${frames}); nur die eines davon behalten.`,
     unknownUnit: (unit) => `die Einheit ${unit} einer Spalte ist unbekannt, oder nicht die einer anderen; erwartet wird s, ms, us oder ns, m, cm oder mm, und rad oder deg.`,

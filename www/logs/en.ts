@@ -79,7 +79,8 @@ export const english = {
     timeless: (width: number) =>
       `rows of ${width} numbers are ${width === 6 ? 'commands of geometry_msgs/Twist' : 'poses of KITTI'}, which have no times; give ${width === 6 ? 'the recording itself' : 'the TUM file that kitti_poses_and_timestamps_to_trajectory.py of evo writes'}, or add a column of times.`,
     euler: (rotation: string) => `the rotations are Euler angles (${rotation}); export the take from Motive again with the rotation type Quaternion.`,
-    tilted: 'the poses do not turn about a vertical Z axis; expected are quaternions in the order of the header on a plane with Z up. Export with Z up, or choose the columns: with Y up, name x,y,z as y,z,x and qx,qy,qz as qy,qz,qx.',
+    tilted: (isTable: boolean) => `the poses do not turn about a vertical Z axis; ${isTable ? 'export with Z up, or choose the columns: with Y up, name x,y,z as y,z,x and qx,qy,qz as qy,qz,qx' : 'record the drive again with Z up'}.`,
+    yUp: 'the headings follow the path in x and z, so the vertical axis is Y; export with Z up, or choose the columns in another order.',
     mirrored: 'the headings turn the other way than the path; expected are headings that grow counterclockwise, from x to y: negate the headings or y, or swap x and y.',
     mixed: (frames: string) => `the rows are of several frames, topics or robots (${frames}); keep those of one.`,
     unknownUnit: (unit: string) => `the unit ${unit} of a column is not known, or differs from that of another; expected is s, ms, us or ns, m, cm or mm, and rad or deg.`,

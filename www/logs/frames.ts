@@ -2,8 +2,9 @@
 
 import type { Message } from './formats/container.ts';
 import { framesText, type FramePair } from './log.ts';
-import { sampleOfPose, withoutSlash, type StampedTransform, type Sample, type Transform } from './messages.ts';
+import { sampleOfPose, withoutSlash, type StampedTransform, type Transform } from './messages.ts';
 import { hamiltonProduct } from './path.ts';
+import type { Sample } from './rows.ts';
 
 /** Minimum motion (m) of a frame that counts as travelling. Frames of joints only turn, and those of suspensions move less. */
 const MIN_TRAVEL = 0.05;

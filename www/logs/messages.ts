@@ -3,10 +3,8 @@
 import { dataViewOf, type Channel, type Message } from './formats/container.ts';
 import { unzstdMessage } from './formats/decompression.ts';
 import type { Series } from './log.ts';
-import { headingOf } from './path.ts';
-
-/** Pose (x, y and heading) or command (v, omega and 0). `time` is that of the stamp in s, or 0. The heading is undefined if the quaternion is no rotation. */
-export interface Sample { time: number; a: number; b: number; c: number | undefined }
+import { rotationOf } from './path.ts';
+import type { Sample } from './rows.ts';
 
 export type Transform = [x: number, y: number, z: number, qx: number, qy: number, qz: number, qw: number];
 
@@ -88,7 +86,7 @@ function readTransform(reader: MessageReader): Transform {
 }
 
 export function sampleOfPose(time: number, [x, y, , qx, qy, qz, qw]: Transform): Sample {
-  return { time, a: x, b: y, c: headingOf(qx, qy, qz, qw) };
+  return { time, a: x, b: y, ...rotationOf(qx, qy, qz, qw) };
 }
 
 function readTwist(time: number, reader: MessageReader): Sample {

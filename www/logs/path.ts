@@ -89,7 +89,7 @@ export function distanceOf(data: Poses | Commands, jumps: number[]): number {
   return distance;
 }
 
-type Quaternion = [x: number, y: number, z: number, w: number];
+export type Quaternion = [x: number, y: number, z: number, w: number];
 
 /** Largest deviation from length 1 that rounding explains. */
 const LENGTH_TOLERANCE = 0.1;
@@ -97,11 +97,13 @@ const LENGTH_TOLERANCE = 0.1;
 /** Number of steps per radian to which headings are rounded. */
 const HEADING_STEPS_PER_RADIAN = 1e12;
 
-/** Returns the angle about the vertical axis; undefined for a quaternion that is no rotation, and NaN for one with NaN. */
-export function headingOf(qx: number, qy: number, qz: number, qw: number): number | undefined {
-  if (Math.abs(Math.sqrt(qx * qx + qy * qy + qz * qz + qw * qw) - 1) > LENGTH_TOLERANCE) return undefined;
+/** Returns the angle `c` about Z, and the cosine of the tilt of Z. The angle is undefined for a quaternion that is no rotation, and NaN for one with NaN. */
+export function rotationOf(qx: number, qy: number, qz: number, qw: number): { c: number | undefined; tiltCosine: number } {
+  const tiltCosine = 1 - 2 * (qx * qx + qy * qy);
+  if (Math.abs(Math.sqrt(qx * qx + qy * qy + qz * qz + qw * qw) - 1) > LENGTH_TOLERANCE) return { c: undefined, tiltCosine };
   // The arc tangent differs between engines in its last bits. Rounding makes results equal everywhere.
-  return Math.round(Math.atan2(2 * (qw * qz + qx * qy), qw * qw + qx * qx - qy * qy - qz * qz) * HEADING_STEPS_PER_RADIAN) / HEADING_STEPS_PER_RADIAN;
+  const heading = Math.round(Math.atan2(2 * (qw * qz + qx * qy), qw * qw + qx * qx - qy * qy - qz * qz) * HEADING_STEPS_PER_RADIAN) / HEADING_STEPS_PER_RADIAN;
+  return { c: heading, tiltCosine };
 }
 
 export const hamiltonProduct = ([ax, ay, az, aw]: Quaternion, [bx, by, bz, bw]: Quaternion): Quaternion => [

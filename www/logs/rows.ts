@@ -1,9 +1,21 @@
 /** Rows of a log. Unusable rows are dropped, with the cause. */
 
 import { group, max, min, range, sum } from 'd3-array';
-import { LogError, type ErrorPlace, type DropCause, type Log, type LogKind, type Note, type OpenOptions, type Summary } from './log.ts';
+import { LogError, type ErrorPlace, type DropCause, type Log, type LogKind, type Note, type OpenOptions, type Question, type Summary } from './log.ts';
 import { distanceOf, quantile, sampleEvenly, wrapAngle } from './path.ts';
-import { epochTimeUnitOf, judgeUnits, type Columns, type Units } from './units.ts';
+import { epochTimeUnitOf, judgeUnits, type Columns, type ColumnNames, type Units } from './units.ts';
+
+/** Pose (x, y and heading) or command (v, omega and 0). `time` is in s, or 0 if unknown. The heading is undefined if the quaternion is no rotation. */
+export interface Sample {
+  time: number;
+  a: number;
+  b: number;
+  c: number | undefined;
+  /** Height, if the heading is an angle. */
+  z?: number;
+  /** Cosine of the tilt of Z, if the heading is from a quaternion. */
+  tiltCosine?: number;
+}
 
 /** Facts about a log that the reader of its format provides. */
 interface LogFacts {
@@ -14,6 +26,7 @@ interface LogFacts {
   frames?: Summary['frames'];
   columns?: Summary['columns'];
   notes: Note[];
+  names?: ColumnNames;
 }
 
 /** Maximum number of rows: a day at 100 Hz. */
@@ -55,10 +68,14 @@ const MIN_MOVING_SPEED = 0.01;
 /** Maximum fraction of rows that have the time of another row and other values. */
 const MAX_CONTRADICTING_FRACTION = 0.4;
 
+/** Maximum spread of the cosine of the tilt. Above it, the robot does not drive on a plane. */
+const MAX_TILT_SPREAD = 0.5;
+
 export class Rows {
   #logPlace: ErrorPlace;
   /** Columns of the rows that were added. `isBroken` is 1 if the path before a row is unknown. */
-  #columns = { time: [] as number[], a: [] as number[], b: [] as number[], c: [] as number[], line: [] as number[], otherTime: [] as number[], isBroken: [] as number[] };
+  #columns = { time: [] as number[], a: [] as number[], b: [] as number[], c: [] as number[], z: [] as number[], line: [] as number[], otherTime: [] as number[], isBroken: [] as number[] };
+  #tiltCosines: number[] = [];
   /** Times of the clock that is used. */
   #times = this.#columns.time;
   /** True if the path before the next row is unknown, because an unusable row was dropped. */
@@ -79,11 +96,8 @@ export class Rows {
     this.#isBroken = true;
   }
 
-  /**
-   * Adds a row, or drops it: x, y and heading, or v, ω and 0. The heading is undefined if the quaternion is no rotation. `otherTime` is that of the
-   * clock that is used if the first one stands still.
-   */
-  add(time: number, a: number, b: number, c: number | undefined, line: number, otherTime = 0): void {
+  /** Adds a row, or drops it. `otherTime` is that of the clock that is used if the first one stands still. */
+  add({ time, a, b, c, z = 0, tiltCosine }: Sample, line: number, otherTime = 0): void {
     if (c === undefined) return this.drop('noRotation', line);
     if (!(Number.isFinite(time) && Math.max(Math.abs(a), Math.abs(b), Math.abs(c)) <= MAX_VALUE)) return this.drop('notFinite', line);
     this.count += 1;
@@ -93,14 +107,24 @@ export class Rows {
     columns.a.push(a);
     columns.b.push(b);
     columns.c.push(c);
+    columns.z.push(z);
+    if (tiltCosine !== undefined) this.#tiltCosines.push(tiltCosine);
     columns.line.push(line);
     columns.otherTime.push(otherTime);
     columns.isBroken.push(Number(this.#isBroken));
     this.#isBroken = false;
   }
 
-  /** Returns the log with the rows that were added. Throws a LogError if they are no log, or their units are in doubt. */
-  end(name: string, kind: LogKind, { units: assumed, clocks, ...decisions }: LogFacts, options: OpenOptions = {}): Log {
+  /** Difference of the 95 % and the 5 % quantile of the cosine of the tilt. It is small if Z is vertical. */
+  get tiltSpread(): number {
+    const [low, high] = [0.05, 0.95].map((fraction) => quantile(sampleEvenly(this.#tiltCosines.length, (i) => this.#tiltCosines[i]), fraction));
+    return high - low || 0;
+  }
+
+  /** Returns the log with the rows that were added. Throws a LogError if they are no log, or their units or axes are in doubt. */
+  end(name: string, kind: LogKind, { units: assumed, clocks, names, ...decisions }: LogFacts, options: OpenOptions = {}): Log {
+    const ask: Question | undefined = names && { what: 'columns', choices: [], columns: names.given };
+    if (this.tiltSpread > MAX_TILT_SPREAD) throw new LogError(this.#logPlace, (texts) => texts.tilted(names !== undefined), ask);
     const usesOtherClock = clocks[1] !== undefined && this.#isClockStill();
     if (usesOtherClock) this.#times = this.#columns.otherTime;
     const stampedRows = this.#withoutUnsetTimes();
@@ -113,10 +137,10 @@ export class Rows {
       const [cause, firstDrop] = (Object.entries(this.#dropped) as [DropCause, { first: number }][])[0] ?? [];
       throw new LogError({ ...this.#logPlace, line: firstDrop?.first }, (texts) => texts.few(rows.length, count, cause));
     }
-    const [times, a, b, c] = [this.#times, this.#columns.a, this.#columns.b, this.#columns.c].map((column) => new Float64Array(rows.length).map((_, i) => column[rows[i]]));
+    const [times, a, b, c, z] = [this.#times, this.#columns.a, this.#columns.b, this.#columns.c, this.#columns.z].map((column) => new Float64Array(rows.length).map((_, i) => column[rows[i]]));
     const t = times.map((time) => time - start);
-    const columns: Columns = { start, t, a, b, c };
-    const units = judgeUnits(this.#logPlace, kind, columns, assumed, options);
+    const columns: Columns = { start, t, a, b, c, z };
+    const units = judgeUnits(this.#logPlace, kind, columns, assumed, options, names);
     const pathDistance = kind === 'poses' ? distanceOfPaths(t, a, b) : 0;
     if (pathDistance > 0) throw new LogError(this.#logPlace, (texts) => texts.turns(pathDistance));
     const { breaks, jumpRows, ...foundGaps } = this.#findEvents(kind, [t, a, b, c], (i) => this.#columns.isBroken[rows[i]] === 1);

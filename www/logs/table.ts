@@ -3,8 +3,8 @@
 import { least } from 'd3-array';
 import { logLayoutOf, type Clock, type Group } from './columns.ts';
 import { splitCells, detectTableFormat, parseDate, parseNumber, parseTime, type Format } from './format.ts';
-import { LogError, readBytes, truncate, listNames, type ErrorPlace, type Words, type Log, type Note, type OpenOptions, type Question, type Recording, type Series, type Source, type Summary, type TimeUnit } from './log.ts';
-import { quantile, sampleEvenly, headingOf } from './path.ts';
+import { LogError, readBytes, truncate, listNames, type ErrorPlace, type Words, type Log, type Note, type OpenOptions, type Recording, type Series, type Source, type Summary, type TimeUnit } from './log.ts';
+import { rotationOf, type Quaternion } from './path.ts';
 import { Rows } from './rows.ts';
 import { UNIT_EXPONENTS, epochTimeUnitOf } from './units.ts';
 
@@ -23,9 +23,6 @@ const MAX_LINE_LENGTH = 2 ** 16;
 const MAX_DAMAGED_FRACTION = 0.1;
 
 type ErrorReason = ConstructorParameters<typeof LogError>[1];
-
-/** Maximum spread of the cosine of the tilt. Above it, the robot does not drive on a plane. */
-const MAX_TILT_SPREAD = 0.5;
 
 export async function openTable(source: Source, options: OpenOptions = {}): Promise<Recording> {
   const headBytes = await readBytes(source, 0, Math.min(HEAD_BYTES, source.size));
@@ -64,7 +61,7 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
         for (const reader of allReaders) reader.addLine(line, number, isUnterminated);
       });
       // The vertical axis is the one about which the robot turns.
-      return readersOfChoices.map((readers) => (least(readers, ({ tiltSpread }) => tiltSpread) ?? readers[0]).end());
+      return readersOfChoices.map((readers) => (least(readers, ({ rows }) => rows.tiltSpread) ?? readers[0]).end());
     },
   };
 }
@@ -148,15 +145,15 @@ function logReader(name: string, place: ErrorPlace, format: Format, group: Group
   const clockReaders = clocks.map((clock, i) => clockReader(clock, i === 0 ? options.timeUnit : undefined, textOf));
   // Columns that name the frames, topic or robot of a row.
   const nameColumns = [group.columns.source, group.columns.frame, group.columns.child].filter((column) => column !== undefined);
-  const neededCells = Math.max(...[...columns, ...clocks.flatMap((clock) => clock.columns), ...nameColumns].map(({ at }) => at)) + 1;
+  const { x, y, z } = group.columns;
+  const hasHeight = fields.at(-1) === 'yaw' && z !== undefined;
+  const neededCells = Math.max(...[...columns, ...(hasHeight ? [z] : []), ...clocks.flatMap((clock) => clock.columns), ...nameColumns].map(({ at }) => at)) + 1;
   const rowNames = new Set<string>();
-  /** Cosines of the robot's tilt against the assumed vertical axis. */
-  const tiltCosines: number[] = [];
   let [damagedRows, firstDamagedLine] = [0, 0];
   let damageReason: ErrorReason | undefined;
 
-  const refuse = (reason: ErrorReason, ask?: Question): never => {
-    throw new LogError(place, reason, ask);
+  const refuse = (reason: ErrorReason): never => {
+    throw new LogError(place, reason);
   };
 
   /** Drops a damaged row. If there are many, the log is refused with the reason of the first. */
@@ -181,17 +178,14 @@ function logReader(name: string, place: ErrorPlace, format: Format, group: Group
       values.push(value);
     }
     if (nameColumns.length > 0) rowNames.add(nameColumns.map(({ at }) => cells[at].trim()).join(' to '));
-    const [x, y] = values;
-    let heading: number | undefined = values[2] ?? 0;
-    if (fields.at(-1) === 'qw') {
-      const [qx, qy, qz, qw] = fields.length === 6 ? values.slice(2) : [0, 0, ...values.slice(2)];
-      heading = headingOf(qx, qy, qz, qw);
-      if (heading !== undefined) tiltCosines.push(1 - 2 * (qx * qx + qy * qy));
-    }
-    rows.add(times[0], x, y, heading, line, times[1]);
+    const [[time, otherTime], [a, b, c = 0, ...quaternion]] = [times, values];
+    const rotation = fields.at(-1) === 'qw' ? rotationOf(...(fields.length === 6 ? [c, ...quaternion] : [0, 0, c, ...quaternion]) as Quaternion) : { c, tiltCosine: undefined };
+    rows.add({ time, a, b, c: rotation.c, tiltCosine: rotation.tiltCosine, z: hasHeight ? parseNumber(textOf(cells[z.at])) : undefined }, line, otherTime);
   };
 
   return {
+    rows,
+
     addLine(line: string, number: number, isUnterminated: boolean): void {
       if (/^\s*(?:[#%]|$)/.test(line)) return;
       if (line === header) return rows.drop('text', number);
@@ -205,12 +199,6 @@ function logReader(name: string, place: ErrorPlace, format: Format, group: Group
       if (!(isSparse && columns.every(({ at }) => Number.isNaN(parseNumber(cells[at]))))) addCells(cells, number);
     },
 
-    /** Difference of the 95 % and the 5 % quantile of the cosine of the tilt. It is small if the assumed vertical axis is right. */
-    get tiltSpread(): number {
-      const [low, high] = [0.05, 0.95].map((fraction) => quantile(sampleEvenly(tiltCosines.length, (i) => tiltCosines[i]), fraction));
-      return high - low || 0;
-    },
-
     end(): Log {
       if (damageReason && damagedRows > MAX_DAMAGED_FRACTION * rows.count) {
         const reason = damageReason;
@@ -219,7 +207,6 @@ function logReader(name: string, place: ErrorPlace, format: Format, group: Group
         throw new LogError({ ...place, line: firstDamagedLine }, (texts) => sentences(texts).join(' '));
       }
       if (rowNames.size > 1) refuse((texts) => texts.mixed(listNames([...rowNames])));
-      if (this.tiltSpread > MAX_TILT_SPREAD) refuse((texts) => texts.tilted, { what: 'columns', choices: [], columns: names });
       const { unit = 's', by } = clockReaders[0].judged;
       if (!(unit in UNIT_EXPONENTS)) refuse((texts) => texts.unknownUnit(truncate(unit)));
       return rows.end(name, kind, {
@@ -230,6 +217,10 @@ function logReader(name: string, place: ErrorPlace, format: Format, group: Group
         },
         clocks: [clocks[0].name, clocks[1]?.name],
         columns: Object.fromEntries([['t', ''], ...fields.map((field, i) => [field, columns[i].name])]),
+        names: {
+          given: names,
+          withYUp: (sign) => names.map((name, i) => (sign > 0 ? [x, z, y] : [y, z, x])[[x, y, z].findIndex((column) => column?.at === i)]?.name ?? name.trim()),
+        },
         notes,
       }, options);
     },

@@ -4,7 +4,7 @@ import { group, sort, sum } from 'd3-array';
 import type { Channel, Container, Message } from './formats/container.ts';
 import { Chain, FrameTree } from './frames.ts';
 import { LogError, truncate, listNames, reasonOf, LOG_TIME, framesText, type Words, type LogChoice, type Log, type Note, type OpenOptions, type Recording, type Series } from './log.ts';
-import { isReadable, logKindOfType, poseReader, readTransforms, type Sample } from './messages.ts';
+import { isReadable, logKindOfType, poseReader, readTransforms } from './messages.ts';
 import { Rows } from './rows.ts';
 
 /** Maximum number of messages with transforms that are read to find the frames. */
@@ -81,15 +81,13 @@ function topicReader(file: string, container: Container, choice: LogChoice) {
   /** Number of damaged messages, and the reason why the first one cannot be read. */
   let [damagedCount, damageReason] = [0, ''];
 
-  const add = ({ time, a, b, c }: Sample, recordTime: number, number: number) => rows.add(time, a, b, c, number, recordTime);
-
   return {
     wants: (channel: Channel) => logKindOfType(channel.type) === kind && (channel.topic === topic || (frames !== undefined && isStaticTopic(channel))),
 
     addMessage(message: Message): void {
       messageCount += 1;
       try {
-        if (readSample) return add(readSample(message), message.time, messageCount);
+        if (readSample) return rows.add(readSample(message), messageCount, message.time);
         for (const transform of readTransforms(message)) chain?.addSample(transform, isStaticTopic(message.channel), message, messageCount);
       } catch (error) {
         if (error instanceof LogError) throw error;
@@ -106,7 +104,7 @@ function topicReader(file: string, container: Container, choice: LogChoice) {
       if (messageCount === 0 && lossReason) refuse((texts) => texts.damaged(lossReason, format));
       if (damagedCount > 0 && damagedCount === messageCount) throw new LogError({ file, topic, line: 1 }, (texts) => texts.message(damageReason));
       if (chain && !chain.isConnected) refuse((texts) => texts.noChain(framesText(frames), listNames(chain.links.map(framesText))));
-      if (chain && !chain.poses((pose, { recordTime, number }) => add(pose, recordTime, number))) {
+      if (chain && !chain.poses((pose, { recordTime, number }) => rows.add(pose, number, recordTime))) {
         const otherFrames = chain.findPoseFrames().map(framesText).filter((otherText) => otherText !== framesText(frames));
         refuse((texts) => texts.constant(framesText(frames), listNames(otherFrames)));
       }

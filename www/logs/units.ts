@@ -6,8 +6,11 @@ import { quantile, sampleEvenly } from './path.ts';
 
 export type Units = Summary['units'];
 
-/** Columns of a log in the units of the file: x, y and heading, or v, omega and 0. `start` is what was subtracted from all times, s. */
-export interface Columns { start: number; t: Float64Array; a: Float64Array; b: Float64Array; c: Float64Array }
+/** Columns of a log in the units of the file: x, y, heading and height, or v, omega, 0 and 0. `start` is what was subtracted from all times, s. */
+export interface Columns { start: number; t: Float64Array; a: Float64Array; b: Float64Array; c: Float64Array; z: Float64Array }
+
+/** Names of all columns of a table, and those that would read it with Y up, where headings grow from x to z (`sign` 1) or from z to x. */
+export interface ColumnNames { given: string[]; withYUp(sign: number): string[] }
 
 /** Decimal exponent of the number of units in a second, by unit of time. */
 export const UNIT_EXPONENTS = { s: 0, ms: 3, us: 6, ns: 9 } as const;
@@ -51,15 +54,15 @@ const isInRange = (value: number, [low, high]: readonly [number, number]) => val
 export const epochTimeUnitOf = (time: number): TimeUnit | undefined => MIN_EPOCH_TIMES.find(([, minTime]) => Math.abs(time) >= minTime)?.[0];
 
 /** Judges the units that no name or option states, and converts the columns to s, m and rad. Throws a LogError if a unit is in doubt. */
-export function judgeUnits(place: ErrorPlace, kind: LogKind, columns: Columns, assumed: Units, options: OpenOptions): Units {
-  const { t, a, b, c } = columns;
+export function judgeUnits(place: ErrorPlace, kind: LogKind, columns: Columns, assumed: Units, options: OpenOptions, names?: ColumnNames): Units {
+  const { t, a, b, c, z } = columns;
   const isJudged = t.length >= MIN_ROWS;
   const askUnit: Ask = (what, value, unit, choices) => {
     throw new LogError(place, (texts) => texts[what](value, unit, choices), choices.length > 0 ? { what, choices, doubted: unit } : undefined);
   };
   const length = options.lengthUnit ? { unit: options.lengthUnit, by: 'option' as const } : assumed.length;
   const metresPerUnit = METRES_PER_UNIT[length.unit];
-  if (metresPerUnit !== 1) for (const column of kind === 'poses' ? [a, b] : [a]) scaleColumn(column, metresPerUnit);
+  if (metresPerUnit !== 1) for (const column of kind === 'poses' ? [a, b, z] : [a]) scaleColumn(column, metresPerUnit);
   const time = isJudged ? judgeTimeUnit(kind, columns, assumed.time, askUnit) : assumed.time;
   convertTimes(columns, 10 ** (UNIT_EXPONENTS[time.unit] - UNIT_EXPONENTS[assumed.time.unit]));
   const speed = kind === 'poses' ? speedOf(t, a, b) : quantile(sampleEvenly(a.length, (i) => Math.abs(a[i])), 0.9);
@@ -70,6 +73,8 @@ export function judgeUnits(place: ErrorPlace, kind: LogKind, columns: Columns, a
   const { unit, by } = options.angleUnit ? { unit: options.angleUnit, by: 'option' as const } : assumed.angle;
   const alignment = isJudged && kind === 'poses' ? alignmentWithPath(t, a, b, c) : undefined;
   if (alignment?.sign === -1) throw new LogError(place, (texts) => texts.mirrored);
+  const alignmentWithYUp = isJudged && kind === 'poses' && names && !alignment ? alignmentWithPath(t, a, z, c) : undefined;
+  if (names && alignmentWithYUp) throw new LogError(place, (texts) => texts.yUp, { what: 'columns', choices: [names.withYUp(alignmentWithYUp.sign).join()], columns: names.given });
   let angle: Units['angle'] = { unit, by };
   if (isJudged && by === 'usage') {
     const turnRateAt = kind === 'poses' ? (i: number) => (c[i + 1] - c[i]) / (t[i + 1] - t[i]) : (i: number) => b[i];

@@ -4,6 +4,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { en } from '../../www/widgets/alpha-calibrator/en.ts';
 import { formatAlphaOrBound, correctionAdvice, formatInterval as ends, formatEstimate, localized, nav2Lines, formatNumber } from '../../www/widgets/alpha-calibrator/lines.ts';
+import { judgementOf } from '../../www/widgets/alpha-calibrator/verdict.ts';
 import { viewCornersOf } from '../../www/widgets/alpha-calibrator/pictures.ts';
 import { legClassesOf, isTruthComparable } from '../../www/widgets/alpha-calibrator/view-model.ts';
 import { SIMULATED_LEGS } from '../../www/widgets/alpha-calibrator/settings.ts';
@@ -94,6 +95,21 @@ test('lines for Nav2 warn of failed checks, of another rule, and of a localizer 
     assert.ok(nav2LinesOf({}, options).includes(`# ${warning}`));
     assert.ok(!nav2LinesOf().includes(`# ${warning}`));
   }
+});
+
+test('clocks that differ by more than synchronized ones are mentioned, and change no verdict', () => {
+  const unknown = { value: null, interval: null };
+  const judgementWith = (/** @type {number} */ clockOffset) => judgementOf({
+    stats: /** @type {any} */ ({
+      ...calibrationWith(), notIdentifiable: [], diagnostics: { verdict: 'consistent', checks: [] },
+      systematicErrors: { clockOffset: { value: clockOffset, interval: null }, mountYaw: unknown, leverArm: unknown, distanceScale: unknown, turnScale: unknown },
+    }),
+    count: 500, corrections: {}, warnings: [],
+  }, en, '');
+  const { advice: [note], rating } = judgementWith(86_400.06);
+  assert.deepEqual([note, rating], ['The reference’s clock is 86\u202f400 s ahead of the odometry’s. The turns of the robot aligned both: check that they are of one drive.', 'consistent']);
+  assert.match(judgementWith(-3600).advice[0], /is 3\u202f600 s behind the/);
+  assert.deepEqual(judgementWith(-9.5).advice, [en.use]);
 });
 
 test('legs of the simulated log are those that the settings open with', () => {

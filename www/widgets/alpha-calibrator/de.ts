@@ -75,6 +75,7 @@ export const de: typeof import('./en.ts').en = {
   use: 'Die empfohlenen α mit Etappen dieser Länge verwenden.',
   useAnyway: 'Lässt sich die Aufzeichnung nicht verbessern, die empfohlenen α verwenden.',
   missing: (alphas, drive) => `Von dieser Aufzeichnung nicht bestimmt: ${alphas}; ${drive}.`,
+  clock: (seconds, isAhead) => `Die Uhr der Referenz geht gegen die der Odometrie ${seconds} s ${isAhead ? 'vor' : 'nach'}. Beide sind nach den Drehungen des Roboters ausgerichtet: prüfen, ob sie von derselben Fahrt sind.`,
   noAlpha: 'Die Aufzeichnung bestimmt kein α.',
   none: 'Nicht genug Daten: weniger als 8 Etappen, oder keine gemeinsame Zeit. Beide Aufzeichnungen derselben Fahrt nehmen, kürzere Etappen wählen oder länger fahren.',
   checks: {

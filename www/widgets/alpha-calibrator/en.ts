@@ -42,6 +42,7 @@ export const en = {
   useAnyway: 'If the log cannot be improved, use the recommended α’s.',
   missing: (alphas, drive) => `Not determined by this log: ${alphas}; ${drive}.`,
   noAlpha: 'The log identifies no α.',
+  clock: (seconds, isAhead) => `The reference’s clock is ${seconds} s ${isAhead ? 'ahead of' : 'behind'} the odometry’s. The turns of the robot aligned both: check that they are of one drive.`,
   none: 'Not enough data: fewer than 8 legs, or the logs do not overlap in time. Take both logs from one drive, choose shorter legs, or drive longer.',
   checks: {
     title: 'Checks',

@@ -1,6 +1,6 @@
 /** Verdict on fitted α's in words, which the page and the command line share. Its texts are those of en.ts or de.ts. */
 
-import { fixed } from '../../ui/format.ts';
+import { fixed, integer } from '../../ui/format.ts';
 import { subscriptOf } from '../shared/sliders.ts';
 import { componentsOf, correctionAdvice, failedChecksOf, localized } from './lines.ts';
 import type { CalibrationCheck, CalibrationStats } from '../../types.d.ts';
@@ -13,6 +13,9 @@ export const SYSTEMATIC_ERRORS = ['clockOffset', 'mountYaw', 'leverArm', 'distan
 
 /** Maximum number of decimals of a systematic error. */
 const MAX_DECIMALS = 6;
+
+/** Clock offset (s) that is mentioned. Clocks that are synchronized differ by less. */
+const MENTIONED_CLOCK_OFFSET = 10;
 
 /** Fit of α's to a log. */
 export interface Fit {
@@ -49,7 +52,9 @@ export function judgementOf({ stats, count, model, corrections, warnings }: Fit,
   const [finding = texts.passed(String(checks.length)), ...otherFindings] = [...findings, ...doubts];
   const rating = verdict === 'consistent' && warnings.length + doubts.length > 0 ? 'questionable' : verdict;
   const usage = rating === 'unusable' || warnings.length > 0 ? [] : [rating === 'consistent' ? texts.use : texts.useAnyway, ...correctionAdvice(stats, texts.nav2, localized)];
-  const advice = [...otherFindings, ...(failedCheck ? [checkMessage(failedCheck, texts)] : []), ...usage];
+  const clockOffset = systematicErrors.clockOffset.value ?? 0;
+  const clockNote = Math.abs(clockOffset) > MENTIONED_CLOCK_OFFSET ? [texts.clock(integer(Math.round(Math.abs(clockOffset))), clockOffset > 0)] : [];
+  const advice = [...otherFindings, ...(failedCheck ? [checkMessage(failedCheck, texts)] : []), ...clockNote, ...usage];
   return { rating, badge: texts.badges[rating], finding, advice };
 }
 

@@ -152,7 +152,7 @@ impl CheckName {
                 "Many legs are outliers. The α's are those of the rest, and too small if the outliers are slip of the wheels. Look at the listed legs: a jump of the reference or slip?"
             }
             Self::SidewaysRare => {
-                "The odometry moves sideways, or backwards under Table 5.6: its positions are noisy, its frame is off the axle, or the robot reverses. α₁ and α₄ are too small. Use odometry of the axle, or the rule of Nav2."
+                "The odometry moves sideways, or backwards under Table 5.6: its positions are noisy, its frame is off the axle, it is swapped with the reference, or the robot reverses. α₁ and α₄ are too small. Use odometry of the axle, or the rule of Nav2."
             }
             Self::DistanceScaleConstant => {
                 "The odometry's scale of distances is not a constant, so it was not corrected unless asked for. Check wheel diameters, load and slip in turns; calibrate the wheels, then the noise."

@@ -267,7 +267,7 @@ test('--yaml prints the lines for Nav2 alone, or none of an unusable log', async
   assert.match(err, /^Odometry: odometry\.csv\n {2}\d+ of \d+ rows, [^]*^Trust\. .*\nUse the recommended α’s with legs of this length\.\nFirst multiply the odometry’s distances by .*\n$/m);
   assert.match((await runCalibrate([...LOG_ARGS, '--yaml'])).err, /\nWarning: fitted by another rule than Nav2’s; give --rule nav2\.\n$/);
   const swappedOutput = await runCalibrate(['--odometry', examplePath('reference'), '--reference', examplePath('odometry'), '--yaml']);
-  assert.match(swappedOutput.err, /^Caution. Warning: .* Are the two swapped\?$/m);
+  assert.match(swappedOutput.err, /^Caution. Warning: by their names, the reference is odometry, .*: exchange the two\.$/m);
   // The legs of a reference at 1 Hz are longer than asked.
   const [header, ...rows] = readFileSync(examplePath('reference'), 'utf8').trim().split('\n');
   const sparsePath = writeInFolder('sparse.csv', [header, ...rows.filter((_, i) => i % 20 === 0)].join('\n'));

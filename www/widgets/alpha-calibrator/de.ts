@@ -18,7 +18,7 @@ const MESSAGES: Record<string, string> = {
   'outliers-few':
     'Viele Etappen sind Ausreißer. Die α gelten für den Rest und sind zu klein, wenn die Ausreißer Schlupf der Räder sind. Die markierten Etappen ansehen: ein Sprung der Referenz oder Schlupf?',
   'sideways-rare':
-    'Die Odometrie bewegt sich seitwärts, oder rückwärts nach Tabelle 5.6: Ihre Positionen rauschen, ihr Koordinatensystem liegt nicht auf der Achse, oder der Roboter fährt rückwärts. α₁ und α₄ sind zu klein. Odometrie der Räder in der Mitte ihrer Achse verwenden, oder die Regel von Nav2.',
+    'Die Odometrie bewegt sich seitwärts, oder rückwärts nach Tabelle 5.6: Ihre Positionen rauschen, ihr Koordinatensystem liegt nicht auf der Achse, sie ist mit der Referenz vertauscht, oder der Roboter fährt rückwärts. α₁ und α₄ sind zu klein. Odometrie der Räder in der Mitte ihrer Achse verwenden, oder die Regel von Nav2.',
   'distance-scale-constant':
     'Der Skalenfaktor der Strecke ist keine Konstante und wurde nicht korrigiert, außer auf Wunsch. Raddurchmesser, Last und Schlupf in Kurven prüfen; erst die Räder kalibrieren, dann das Rauschen.',
   'turn-scale-constant': 'Der Skalenfaktor der Drehung ist keine Konstante und wurde nicht korrigiert, außer auf Wunsch. Spurweite und Schlupf auf diesem Boden prüfen, und längere Etappen wählen: Rauschen verbirgt kleine Drehungen.',
@@ -226,7 +226,7 @@ export const de: typeof import('./en.ts').en = {
     longerLegs: (ratio) => `Die Etappen des Logs sind ${ratio}-mal so lang wie verlangt. Zu ihnen gehören die α’s; update_min_d und update_min_a sind darum mit ${ratio} multipliziert.`,
     failed: (checks) => `Vorsicht, nicht bestandene Prüfungen: ${checks}`,
     localizer: 'Warnung: Die Referenz ist die Schätzung eines Lokalisierers. Sie teilt Fehler mit der Odometrie, die α’s sind zu klein. Eine unabhängig gemessene Referenz verwenden.',
-    swapped: 'Warnung: Die Referenz sieht wie Odometrie aus, die Odometrie nicht. Sind die beiden vertauscht?',
+    swapped: 'Warnung: Nach den Namen ist die Referenz Odometrie, und die Odometrie nicht. Sind sie vertauscht, so gelten die α’s für die Referenz: die beiden tauschen.',
     corrected: (errors) => `nach Korrektur dieser systematischen Fehler: ${errors}`,
     correctFirst: (distance, turn) =>
       `Zuerst in der Odometrie ${[distance && `Strecken mit ${distance}`, turn && `Drehungen mit ${turn}`].filter(Boolean).join(' und ')} multiplizieren: Die α gelten für den korrigierten Roboter.`,

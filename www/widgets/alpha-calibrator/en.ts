@@ -192,7 +192,7 @@ export const en = {
     longerLegs: (ratio) => `The log’s legs are ${ratio} times as long as asked. The α’s belong to them, so update_min_d and update_min_a are multiplied by ${ratio}.`,
     failed: (checks) => `Caution, these checks failed: ${checks}`,
     localizer: 'Warning: the reference is a localizer’s own estimate. Its errors follow the odometry: the α’s are too small. Use a reference that is measured independently.',
-    swapped: 'Warning: the reference looks like odometry, and the odometry does not. Are the two swapped?',
+    swapped: 'Warning: by their names, the reference is odometry, and the odometry is not. If they are swapped, the α’s are those of the reference: exchange the two.',
     corrected: (errors) => `with these systematic errors corrected: ${errors}`,
     correctFirst: (distance, turn) =>
       `First multiply the odometry’s ${[distance && `distances by ${distance}`, turn && `turns by ${turn}`].filter(Boolean).join(' and ')}: the α’s are those of the corrected robot.`,

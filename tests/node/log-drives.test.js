@@ -205,7 +205,8 @@ test('a log that does not follow the other one names the correction that makes i
   for (const [changeRow, expectedMessage, what, pair] of /** @type {[(row: number[]) => number[], RegExp, string?, string?][]} */ ([
     [([t, x, y, yaw]) => [t, x, -y, -yaw], /it turns left where \S+ turns right: /],
     [([t, x, y, yaw]) => [t, x, y, yaw * radPerDegree], /its headings are in radians and were read as degrees;/, 'angleUnit', 'rad,rad'],
-    [scaledBy(5), /: multiplied by 0\.196, its lengths match those of odom\.csv; state the unit of lengths of both, or multiply them\./, 'lengthUnit'],
+    [scaledBy(5), /: multiplied by 0\.196, its lengths match those of odom\.csv; multiply them\./],
+    [scaledBy(1 / 0.3048), /, its lengths match those of odom\.csv: they are in ft; state their unit\./, 'lengthUnit', 'm,ft'],
   ])) {
     const refusalError = await catchRefusalError(readDrivesOf({ 'odom.csv': tableWithChange((row) => row), 'truth.csv': tableWithChange((row) => changeRow(distortRow(row))) }));
     assert.match(refusalError.message, expectedMessage);

@@ -173,8 +173,8 @@ test('units are guessed from two signs', async () => {
 
 /** Tables that lead to a question about a unit. Each has the option that answers it, and a field of row 9 with its value after the answer. @type {[string, string, RegExp, import('../../www/logs/log.ts').OpenOptions, [string, number]][]} */
 const UNIT_QUESTIONS = [
-  ['millimetres', circleTableOf(([t, x, y, yaw]) => [t, 1000 * x, 1000 * y, yaw]), /in m, the robot would drive at \d+ m\/s; .*: mm or cm or m\.$/, { lengthUnit: 'mm' }, ['x', CIRCLE_ROWS[9][1]]],
-  ['centimetres of a slow robot', circleTableOf(([t]) => [t, 15 * Math.sin(t), 0, 0]), /in m, the robot would drive at 1\d\.\d m\/s; .*: cm or m or mm\.$/, { lengthUnit: 'cm' }, ['x', 0.15 * Math.sin(0.45)]],
+  ['millimetres', circleTableOf(([t, x, y, yaw]) => [t, 1000 * x, 1000 * y, yaw]), /in m, the robot would drive at \d+ m\/s; .*: mm or cm or m or in or ft\.$/, { lengthUnit: 'mm' }, ['x', CIRCLE_ROWS[9][1]]],
+  ['centimetres of a slow robot', circleTableOf(([t]) => [t, 15 * Math.sin(t), 0, 0]), /in m, the robot would drive at 1\d\.\d m\/s; .*: cm or m or mm or in or ft\.$/, { lengthUnit: 'cm' }, ['x', 0.15 * Math.sin(0.45)]],
   ['commands in centimetres', ['t,v,omega', ...timesFrom(50).map((t) => `${t},${10 * Math.sin(2 * t)},0`)].join('\n'), /in m, the robot would drive at \d\.\d+ m\/s;/, { lengthUnit: 'cm' }, ['v', 0.1 * Math.sin(1.8)]],
   ['commands in milliseconds', ['t,v,omega', ...timesFrom(50).map((t, i) => `${1000 * t},${i % 2},0.5`)].join('\n'), /in s, the times would mean 0\.01\d* rows a second; state their unit/, { timeUnit: 'ms' }, ['t', 0.9]],
   ['degrees of a robot that drives straight on', circleTableOf(([t]) => [t, t / 2, 0, 20 * Math.sin(t / 9)]), /headings in rad .*: rad or deg\.$/, { angleUnit: 'deg' }, ['theta', (Math.sin(0.05) * Math.PI) / 9]],
@@ -213,7 +213,7 @@ const REFUSED_TABLES = [
   ['a count of rows as times', ',x,y,yaw\n0,0,0,0\n1,0,0,0\n', /is the time;/],
   ['x and y of one source and the heading of another', 't,x,y,imu_yaw\n0,0,0,0\n1,0,0,0\n', /: x, y are positions without a heading;/],
   ['other columns', `t,${LONG_WORD}\n0,1\n`, /, line 1: the columns are t, x{40}…; expected are x, y and yaw/],
-  ['a unit that is not known', 't,x [ft],y [ft],yaw\n0,0,0,0\n1,0,0,0\n', /the unit ft of a column is not known/],
+  ['a unit that is not known', 't,x [yd],y [yd],yaw\n0,0,0,0\n1,0,0,0\n', /the unit yd of a column is not known/],
   ['text in many rows', 't,x,y,yaw\n0,0,0,0\n1,a,0,0\n2,b,0,0\n', /, line 3: x is “a”; expected is a number\. 2 of 3 rows have text in place of a number, or too few cells; at most 10 % of the rows may\.$/],
   ['hexadecimal digits', 't,x,y,yaw\n0x10,0,0,0\n', /, line 2: t is “0x10”;/],
   ['thousands beside decimal commas', 't;x;y;yaw\n0,5;1.234;0;0\n1,5;1;0;0\n', /, line 2: x is “1\.234”;/],

@@ -32,7 +32,7 @@ Logs: ROS 1 bags, rosbag2 (MCAP, SQLite, folders), CSV and other tables, TUM.
   --odometry-columns NAMES, --reference-columns NAMES   the same for one of the logs
   --time-unit UNIT           s, ms, us or ns; default: judged. Where the two files differ: that of the odometry
                              and of the reference, as in --time-unit ms,s
-  --length-unit UNIT         m, cm or mm; likewise
+  --length-unit UNIT         m, cm, mm, ft or in; likewise
   --angle-unit UNIT          rad or deg; likewise
 
 Fit:

@@ -77,6 +77,8 @@ const UNIT_WORDS: [RegExp, ParsedUnit['quantity'], ParsedUnit['unit']][] = [
   [/^(m|met(er|re)s?)$/, 'length', 'm'],
   [/^(cm|centimet(er|re)s?)$/, 'length', 'cm'],
   [/^(mm|millimet(er|re)s?)$/, 'length', 'mm'],
+  [/^(ft|foot|feet)$/, 'length', 'ft'],
+  [/^(in|inch(es)?)$/, 'length', 'in'],
   [/^(rad|radians?)$/, 'angle', 'rad'],
   [/^(deg|degrees?|°)$/, 'angle', 'deg'],
 ];
@@ -87,9 +89,9 @@ const PER_SECOND = /(\/|[ ._*]|p|per)\.?s(ec(ond)?)?(\^?-1)?$/;
 /** Texts in brackets that stand for no unit. */
 const EMPTY_UNIT = /^(|-|1|quat(ernion)?|unitless|none)$/;
 
-/** Unit at the end of a name: in brackets ("x [m]"), or after a separator ("x_m"). */
+/** Unit at the end of a name: in brackets ("x [m]"), or after a separator ("x_m"). "x_in" and "x_out" are no lengths in inches. */
 const UNIT_IN_BRACKETS = /\s*[[({]([^\])}]*)[\])}]\s*$/;
-const UNIT_AT_END = /(?:[._ ]+|\s*\/\s*|\s+in\s+)((?:m|mm|cm|rad|deg)[._ /]s|[^._ /]+)_?$/;
+const UNIT_AT_END = /(?:[._ ]+|\s*\/\s*|\s+in\s+)((?:m|mm|cm|ft|rad|deg)[._ /]s|(?!in_?$)[^._ /]+)_?$/;
 
 function unitOf(text: string): ParsedUnit | undefined {
   const lowerText = text.trim().toLowerCase().replace(/^dps$/, 'deg/s');

@@ -50,7 +50,7 @@ const UNSUPPORTED_FORMATS: typeof import('./en.ts').UNSUPPORTED_FORMATS = {
 const CORRECTION_TEXTS: Record<Correction['name'], (correction: Correction, other: string) => string> = {
   leftHanded: (_, other) => `sie dreht nach links, wo ${other} nach rechts dreht: eine der beiden hat Z nach unten oder ein linkshändiges Koordinatensystem; y und Richtung dieser einen negieren`,
   angles: ({ unit }) => `ihre Richtungen sind in ${unit === 'deg' ? 'Grad und wurden als Radiant gelesen' : 'Radiant und wurden als Grad gelesen'}; die Einheit der Winkel angeben`,
-  lengths: ({ factor, unit }, other) => `multipliziert mit ${String(Number(factor.toPrecision(3))).replace('.', ',')} passen ihre Längen zu denen von ${other}${unit ? `: Sie sind in ${unit}; ihre Einheit angeben` : '; die Längeneinheit von beiden angeben, oder sie multiplizieren'}`,
+  lengths: ({ factor, unit }, other) => `multipliziert mit ${String(Number(factor.toPrecision(3))).replace('.', ',')} passen ihre Längen zu denen von ${other}${unit ? `: Sie sind in ${unit}; ihre Einheit angeben` : '; sie damit multiplizieren'}`,
 };
 
 export const german: Words = {
@@ -81,7 +81,7 @@ export const german: Words = {
     yUp: 'die Richtungen folgen der Bahn in x und z, die senkrechte Achse ist also Y; mit Z nach oben exportieren, oder die Spalten in anderer Reihenfolge auswählen.',
     mirrored: 'die Richtungen drehen sich anders herum als die Bahn; erwartet werden Richtungen, die gegen den Uhrzeigersinn wachsen, von x nach y: die Richtungen oder y negieren, oder x und y tauschen.',
     mixed: (frames) => `die Zeilen gehören zu mehreren Frames, Topics oder Robotern (${frames}); nur die eines davon behalten.`,
-    unknownUnit: (unit) => `die Einheit ${unit} einer Spalte ist unbekannt, oder nicht die einer anderen; erwartet wird s, ms, us oder ns, m, cm oder mm, und rad oder deg.`,
+    unknownUnit: (unit) => `die Einheit ${unit} einer Spalte ist unbekannt, oder nicht die einer anderen; erwartet wird s, ms, us oder ns, m, cm, mm, ft oder in, und rad oder deg.`,
     turns: (metres) => `Posen zweier Wege wechseln sich ab, ${withDecimalComma(metres, 2)} m auseinander: Sie sind von zwei Robotern, oder von zwei Knoten, die auf einem Topic senden; nur die eines davon behalten.`,
     manyBad: (bad, rows, percent) => `${bad} von ${rows} Zeilen haben Text statt einer Zahl oder zu wenige Zellen; erlaubt sind ${percent} % solcher Zeilen.`,
     number: (column, value) => `${column} ist „${value}“; erwartet wird eine Zahl${/^\d{1,3}(\D\d{3})+\b/.test(value) ? ' ohne Tausendertrennung' : /^[+-]?\d*,\d+$/.test(value) ? ' mit Dezimalpunkt' : /\d[/:-]\d/.test(value) ? ', oder ein Datum wie 2024-01-31 12:00:00.5' : ''}.`,
@@ -133,7 +133,7 @@ export const german: Words = {
     timeUnit: (file) => `Einheit der Zeiten in ${file}`,
     lengthUnit: (file) => `Einheit der Längen in ${file}`,
     angleUnit: (file) => `Einheit der Richtungen in ${file}`,
-    units: { s: 'Sekunden (s)', ms: 'Millisekunden (ms)', us: 'Mikrosekunden (µs)', ns: 'Nanosekunden (ns)', m: 'Meter (m)', cm: 'Zentimeter (cm)', mm: 'Millimeter (mm)', rad: 'Radiant (rad)', deg: 'Grad (°)' },
+    units: { s: 'Sekunden (s)', ms: 'Millisekunden (ms)', us: 'Mikrosekunden (µs)', ns: 'Nanosekunden (ns)', m: 'Meter (m)', cm: 'Zentimeter (cm)', mm: 'Millimeter (mm)', ft: 'Fuß (ft)', in: 'Zoll (in)', rad: 'Radiant (rad)', deg: 'Grad (°)' },
     columns: (file) => `Spalten von ${file}`,
     column: (number, cell) => `Spalte ${number}: ${cell}`,
     fields: FIELD_NAMES,

@@ -34,7 +34,7 @@ const DROP_REASONS = {
 const CORRECTION_TEXTS: Record<Correction['name'], (correction: Correction, other: string) => string> = {
   leftHanded: (_, other) => `it turns left where ${other} turns right: one of the two has Z down or a left-handed frame; negate y and the heading of that one`,
   angles: ({ unit }) => `its headings are in ${unit === 'deg' ? 'degrees and were read as radians' : 'radians and were read as degrees'}; state the unit of angles`,
-  lengths: ({ factor, unit }, other) => `multiplied by ${Number(factor.toPrecision(3))}, its lengths match those of ${other}${unit ? `: they are in ${unit}; state their unit` : '; state the unit of lengths of both, or multiply them'}`,
+  lengths: ({ factor, unit }, other) => `multiplied by ${Number(factor.toPrecision(3))}, its lengths match those of ${other}${unit ? `: they are in ${unit}; state their unit` : '; multiply them'}`,
 };
 
 /** Formats that are recognized but not read, each with a remedy. */
@@ -83,7 +83,7 @@ export const english = {
     yUp: 'the headings follow the path in x and z, so the vertical axis is Y; export with Z up, or choose the columns in another order.',
     mirrored: 'the headings turn the other way than the path; expected are headings that grow counterclockwise, from x to y: negate the headings or y, or swap x and y.',
     mixed: (frames: string) => `the rows are of several frames, topics or robots (${frames}); keep those of one.`,
-    unknownUnit: (unit: string) => `the unit ${unit} of a column is not known, or differs from that of another; expected is s, ms, us or ns, m, cm or mm, and rad or deg.`,
+    unknownUnit: (unit: string) => `the unit ${unit} of a column is not known, or differs from that of another; expected is s, ms, us or ns, m, cm, mm, ft or in, and rad or deg.`,
     turns: (metres: number) => `poses of two paths alternate, ${metres.toPrecision(2)} m apart: they are of two robots, or of two nodes that publish one topic; keep those of one.`,
     manyBad: (bad: number, rows: number, percent: number) => `${bad} of ${rows} rows have text in place of a number, or too few cells; at most ${percent} % of the rows may.`,
     number: (column: string, value: string) => `${column} is “${value}”; expected is a number${/^\d{1,3}(\D\d{3})+\b/.test(value) ? ' without separators of thousands' : /^[+-]?\d*,\d+$/.test(value) ? ' with a decimal point' : /\d[/:-]\d/.test(value) ? ', or a date as 2024-01-31 12:00:00.5' : ''}.`,
@@ -136,7 +136,7 @@ export const english = {
     timeUnit: (file: string) => `Unit of times in ${file}`,
     lengthUnit: (file: string) => `Unit of lengths in ${file}`,
     angleUnit: (file: string) => `Unit of headings in ${file}`,
-    units: { s: 'seconds (s)', ms: 'milliseconds (ms)', us: 'microseconds (µs)', ns: 'nanoseconds (ns)', m: 'metres (m)', cm: 'centimetres (cm)', mm: 'millimetres (mm)', rad: 'radians (rad)', deg: 'degrees (°)' },
+    units: { s: 'seconds (s)', ms: 'milliseconds (ms)', us: 'microseconds (µs)', ns: 'nanoseconds (ns)', m: 'metres (m)', cm: 'centimetres (cm)', mm: 'millimetres (mm)', ft: 'feet (ft)', in: 'inches (in)', rad: 'radians (rad)', deg: 'degrees (°)' },
     columns: (file: string) => `Columns of ${file}`,
     column: (number: number, cell: string) => `column ${number}: ${cell}`,
     fields: FIELD_NAMES,

@@ -52,7 +52,7 @@ export interface Recording {
 }
 
 /** Units that logs may have, by the name of the option for the unit. */
-export const UNITS = { timeUnit: ['s', 'ms', 'us', 'ns'], lengthUnit: ['m', 'cm', 'mm'], angleUnit: ['rad', 'deg'] } as const;
+export const UNITS = { timeUnit: ['s', 'ms', 'us', 'ns'], lengthUnit: ['m', 'cm', 'mm', 'ft', 'in'], angleUnit: ['rad', 'deg'] } as const;
 
 export type TimeUnit = (typeof UNITS.timeUnit)[number];
 export type LengthUnit = (typeof UNITS.lengthUnit)[number];

@@ -192,13 +192,13 @@ function lengthCorrection(logs: Record<Role, Log>, score: number, factor: number
   return corrections.find(({ unit }) => unit !== undefined) ?? corrections[0];
 }
 
-/** Returns the question for the unit of a corrected log; undefined if no unit is wrong. */
+/** Returns the question for the unit of a corrected log; undefined if no unit is the correction. */
 function questionOf({ name, at, unit }: Correction, logs: Record<Role, Log>): Question | undefined {
-  if (name === 'leftHanded') return undefined;
+  if (unit === undefined) return undefined;
   const [what, quantity] = name === 'lengths' ? (['lengthUnit', 'length'] as const) : (['angleUnit', 'angle'] as const);
   const allUnits: readonly string[] = UNITS[what];
-  const unitOf = (role: Role) => (role === at ? unit : logs[role].summary.units[quantity].unit) ?? '';
-  return { what, choices: [], ...(unit && { pair: ROLES.map((role) => (allUnits.includes(unitOf(role)) ? unitOf(role) : allUnits[0])).join() }) };
+  const unitOf = (role: Role) => (role === at ? unit : logs[role].summary.units[quantity].unit);
+  return { what, choices: [], pair: ROLES.map((role) => (allUnits.includes(unitOf(role)) ? unitOf(role) : allUnits[0])).join() };
 }
 
 /** Returns the motions of a log in equal steps, from a start time on. Steps with a jump or another break have no motion. */

@@ -16,7 +16,7 @@ export interface ColumnNames { given: string[]; withYUp(sign: number): string[] 
 export const UNIT_EXPONENTS = { s: 0, ms: 3, us: 6, ns: 9 } as const;
 
 /** Sizes of the units of length in m, and of the units of angle in rad. */
-export const METRES_PER_UNIT = { m: 1, cm: 0.01, mm: 0.001 } as const;
+export const METRES_PER_UNIT = { m: 1, cm: 0.01, mm: 0.001, ft: 0.3048, in: 0.0254 } as const;
 const RADIANS_PER_UNIT = { rad: 1, deg: Math.PI / 180 } as const;
 
 /** Minimum value of times since 1970, by unit. 1e8 s is the year 1973, and 1e11 s the year 5138. */
@@ -67,7 +67,8 @@ export function judgeUnits(place: ErrorPlace, kind: LogKind, columns: Columns, a
   convertTimes(columns, 10 ** (UNIT_EXPONENTS[time.unit] - UNIT_EXPONENTS[assumed.time.unit]));
   const speed = kind === 'poses' ? speedOf(t, a, b) : quantile(sampleEvenly(a.length, (i) => Math.abs(a[i])), 0.9);
   const isDoubtful = speed > MAX_VEHICLE_SPEED || (speed > DOUBTFUL_SPEED && accelerationOf(kind, columns) > MAX_ACCELERATION);
-  const likelyUnits = sort(UNITS.lengthUnit, (unit) => Math.abs(Math.log((speed * METRES_PER_UNIT[unit]) / USUAL_SPEED)));
+  // Feet and inches are rare, and come last.
+  const likelyUnits = sort(UNITS.lengthUnit, (unit) => Number(unit === 'ft' || unit === 'in'), (unit) => Math.abs(Math.log((speed * METRES_PER_UNIT[unit]) / USUAL_SPEED)));
   if (isJudged && length.by === 'usage' && isDoubtful) askUnit('lengthUnit', speed, length.unit, likelyUnits);
 
   const { unit, by } = options.angleUnit ? { unit: options.angleUnit, by: 'option' as const } : assumed.angle;

@@ -127,7 +127,7 @@ test('bad input has the exit code 2 and a sentence', async () => {
     [['--update-min-d', '--json'], "Option '--update-min-d' argument is ambiguous. "],
     [['--columns', '-,t,x,y,yaw'], "Option '--columns' argument is ambiguous. Did you forget to specify the option argument for '--columns'? To specify an option argument starting with a dash use '--columns=-XYZ'. --help "],
     [['a.bag', '--help=3'], "Option '-h, --help' does not take an argument. --help lists all options.\n"],
-    [[writeInFolder('twice.csv', 't,t,x,y,yaw\n0,0,0,0,0\n1,1,0,0,0\n'), LOG_ARGS[3]], 'twice.csv, line 1: both “t” and “t” may be the column of time; expected is one of them. Choose with --columns, as in --columns t,x,y,yaw,-.\n'],
+    [[writeInFolder('twice.csv', 't,t,x,y,yaw\n0,0,0,0,0\n1,1,0,0,0\n'), LOG_ARGS[3]], 'twice.csv, line 1: both “t” and “t” may be the column of time; expected is one of them. Choose with --columns, as in --columns t,x,y,yaw,-; of one of two files, '],
     [[writeInFolder('days.csv', ['t,x,y,yaw', ...Array.from({ length: 40 }, (_, i) => `${45_244 + i / 1_728_000},${i / 40},0,0`)].join('\n')), LOG_ARGS[3]], 'days.csv: in s, the times would mean 1.73e+6 rows a second; write them in s, or as dates such as 2024-01-31 12:00:00.5 (a spreadsheet counts days).\n'],
     [['no/metadata.yaml', 'no/run.mcap'], 'no: there is no such file or folder.\n'],
     [['no.bag', '--rule', 'Nav2'], '--rule is "Nav2"; allowed is '],
@@ -314,9 +314,10 @@ test('a terminal gets colours', async () => {
 
 test('inspect lists what is in a file, and the command to go on with', async () => {
   const inspectionOf = async (/** @type {string[]} */ args, expected = 0) => {
-    let out = '';
-    assert.equal(await run(['inspect', ...args], { load, print: (text) => (out += text), complain: assert.fail }), expected);
-    return out.replaceAll(temporaryFolder, 'DIR');
+    let [out, err] = ['', ''];
+    assert.equal(await run(['inspect', ...args], { load, print: (text) => (out += text), complain: (text) => (err += text) }), expected);
+    assert.equal(err === '', expected === 0);
+    return (out + err).replaceAll(temporaryFolder, 'DIR');
   };
   const messages = Array.from({ length: 40 }, (_, i) => {
     const t = 100 + i / 20;
@@ -347,6 +348,8 @@ test('inspect lists what is in a file, and the command to go on with', async () 
   const alternatingPath = writeInFolder('alternating.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y,gt_yaw', ...Array.from({ length: 40 }, (_, i) => `${i >> 1},${i % 2},0,0,${i % 2},1,0`)].join('\n'));
   assert.equal((await inspectionOf([alternatingPath], 2)).match(/give the log of one robot/g)?.length, 1);
   assert.match(await inspectionOf([millimetrePath, examplePath('odometry'), '--length-unit', 'mm']), /^ {2}npx motion-widgets calibrate --odometry \S+odometry\.csv --reference DIR\/mm\.csv --length-unit mm --rule nav2$/m);
+  const headless = writeInFolder('headless.csv', ['t,x,y', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},1`)].join('\n'));
+  assert.match(await inspectionOf([headless], 2), /^headless\.csv: t, x, y are positions without a heading; give a reference that measures the heading/m);
   const positionsPath = writeInFolder('positions.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},0,0,${i / 40},1`)].join('\n'));
   const { recordings: [{ series }], ...inspection } = JSON.parse(await inspectionOf([positionsPath, '--json']));
   assert.deepEqual(series.map((/** @type {any} */ { name, rows, uses, summary }) => [name, rows, uses, summary?.seconds]), [['odom', 40, ['odometry'], 1.95], ['gt', 0, [], undefined]]);

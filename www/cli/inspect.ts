@@ -11,13 +11,19 @@ const FORMAT_NAMES: Partial<Record<Recording['format'], string>> = { mcap: 'MCAP
 
 export interface GivenRecording { recording: Recording; path: string }
 
-/** Returns the contents of recordings, and the command that calibrates from them with the stated options, or a sentence about what is missing. */
+/**
+ * Returns the contents of recordings, and the command that calibrates from them with the stated options, or sentences about what is missing.
+ * `isUsable` is true if a log can be read.
+ */
 export async function inspect(givenRecordings: GivenRecording[], statedOptions: [name: string, value: string][], onProgress?: (share: number | undefined) => void) {
   const recordings: Awaited<ReturnType<typeof contentsOf>>[] = [];
   for (const { recording } of givenRecordings) recordings.push(await contentsOf(recording, onProgress));
   onProgress?.(undefined);
   const usableRecordings = givenRecordings.filter((_, i) => recordings[i].series.some(({ summary }) => summary));
-  return { recordings, ...(usableRecordings.length > 0 && proposeCommand(usableRecordings, statedOptions)) };
+  const isUsable = usableRecordings.length > 0;
+  const refused = recordings.flatMap((recording) => recording.refused);
+  const proposal = isUsable || refused.length === 0 ? proposeCommand(isUsable ? usableRecordings : givenRecordings, statedOptions) : {};
+  return { inspection: { recordings, ...proposal }, sentences: [...refused, ...(proposal.missing ? [proposal.missing] : [])], isUsable };
 }
 
 /** Returns the series of a recording with their logs, and sentences about the logs that cannot be read. */
@@ -44,13 +50,13 @@ async function contentsOf(recording: Recording, onProgress?: (share: number | un
   return { name, format, series, refused: [...refused] };
 }
 
-export function inspectionText({ recordings, missing, command }: Awaited<ReturnType<typeof inspect>>): string {
-  const recordingLines = recordings.flatMap(({ name, format, series, refused }) => {
+export function inspectionText({ inspection: { recordings, command }, sentences, isUsable }: Awaited<ReturnType<typeof inspect>>): string {
+  const recordingLines = recordings.flatMap(({ name, format, series }) => {
     const tableRows = series.map(({ name: seriesName, type, rows: count, uses, summary }) => [seriesName || '(all columns)', isTable({ format }) ? truncate(type) : type, String(count || ''), summary ? `${summary.rate.toPrecision(3)} Hz` : '', uses.join(' or ')]);
     const summaryLines = series.flatMap(({ name: seriesName, sentences = [] }) => sentences.map((line, i) => (i > 0 ? `  ${line}` : seriesName ? `${seriesName}: ${line}` : line)));
-    return [`${name}: ${FORMAT_NAMES[format] ?? format}`, ...[...alignRows([[isTable({ format }) ? 'columns' : 'topic', 'type', 'rows', 'rate', 'could be'], ...tableRows]), ...summaryLines].map((line) => `  ${line}`), ...refused];
+    return [`${name}: ${FORMAT_NAMES[format] ?? format}`, ...[...alignRows([[isTable({ format }) ? 'columns' : 'topic', 'type', 'rows', 'rate', 'could be'], ...tableRows]), ...summaryLines].map((line) => `  ${line}`)];
   });
-  return [...recordingLines, ...(missing ? [missing] : []), ...(command ? ['', `  ${command}`] : []), ''].join('\n');
+  return [...recordingLines, ...(isUsable ? sentences : []), ...(command ? ['', `  ${command}`] : []), ''].join('\n');
 }
 
 /** Returns the logs that can be read from a series, several for transforms, each with texts about its possible roles. */

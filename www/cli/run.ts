@@ -36,9 +36,12 @@ export async function run(args: string[], environment: CliEnvironment): Promise<
     else if (options.command === 'inspect') {
       const givenRecordings: GivenRecording[] = [];
       for (const input of options.inputs) for (const recording of await recordingsOf(input, onSkip)) givenRecordings.push({ recording, path: input.path });
-      const inspection = await inspect(givenRecordings, options.statedOptions, onProgress);
-      print(options.isJson ? `${JSON.stringify(inspection, undefined, 1)}\n` : inspectionText(inspection));
-      if (!inspection.recordings.some(({ series }) => series.some(({ summary }) => summary))) return EXIT_BAD_INPUT;
+      const contents = await inspect(givenRecordings, options.statedOptions, onProgress);
+      print(options.isJson ? `${JSON.stringify(contents.inspection, undefined, 1)}\n` : inspectionText(contents));
+      if (!contents.isUsable) {
+        complain(`${contents.sentences.join('\n')}\n`);
+        return EXIT_BAD_INPUT;
+      }
     } else return await calibrate(options, environment, onSkip);
     return EXIT_SUCCESS;
   } catch (error) {

@@ -49,6 +49,10 @@ test('two tables of a user replace the simulated log, and a button brings it bac
   await chooseTables(widget, { 'odom.csv': '', 'truth.csv': '' });
   await expect(errorAlert).toHaveText(/^odom\.csv: there is nothing in it/);
   await expect(widget.locator('.to-do')).toHaveText('The results are still those of odom.csv, truth.csv, not of the files chosen last.');
+  // The choosers return with the results to which they belong.
+  await widget.getByRole('button', { name: 'Keep these results' }).click();
+  await widget.getByLabel('odom.csv').selectOption('Reference');
+  await expect(captionOf(widget)).toHaveText(/of truth\.csv, odom\.csv[.,]/);
 });
 
 test('results are those of the command line, to the last bit, and a recording whose topics the user chooses gives them too', async ({ page }) => {
@@ -128,7 +132,7 @@ test('names and units of columns that a table does not state are asked for, and 
   await expect(errorAlert).toHaveText(/^odom\.csv, line 1: the table has no header, .* name its 4 columns\.$/);
   await expect(widget.getByRole('group', { name: 'Columns of odom.csv' }).getByLabel('time', { exact: true })).toBeFocused();
   await widget.getByRole('button', { name: 'Read', exact: true }).press('Enter');
-  await expect(errorAlert).toHaveText(/in m, the robot would drive at .* state the unit of lengths: mm or cm or m\.$/);
+  await expect(errorAlert).toHaveText(/in m, the robot would drive at .* state the unit of lengths: mm or cm or m or in or ft\.$/);
   await widget.getByRole('radiogroup', { name: 'Unit of lengths in odom.csv' }).getByRole('radio', { name: 'millimetres (mm)' }).check();
   await expect(captionOf(widget)).toHaveText(/of odom\.csv, slam\.csv[.,]/);
   await expect(widget.getByText('Warning: the reference is a localizer’s own estimate.').first()).toBeVisible();
@@ -242,6 +246,9 @@ testWithWarnings('where the page’s policy forbids workers, a log is read all t
 
 test('reading a log can be stopped, and everything is as it was', async ({ page }) => {
   const widget = await openCalibrator(page);
+  const { odometry, reference } = await simulatedTablesOf(widget);
+  await chooseTables(widget, { 'short-odom.csv': odometry, 'short-truth.csv': reference });
+  await expect(captionOf(widget)).toHaveText(/of short-odom\.csv, short-truth\.csv[.,]/);
   const stateBefore = await readState(widget);
   await chooseLongTables(widget);
   await expect(widget.locator('.verdict')).toHaveCSS('opacity', '0.4');
@@ -249,7 +256,9 @@ test('reading a log can be stopped, and everything is as it was', async ({ page 
   await expect(widget.getByRole('alert')).toHaveText('Stopped: everything is as it was.');
   await expect(widget.locator('.drop-zone progress')).toHaveCount(0);
   expect(await readState(widget)).toEqual(stateBefore);
-  await expect(captionOf(widget)).toHaveText(/of the simulated log/);
+  await expect(captionOf(widget)).toHaveText(/of short-odom\.csv, short-truth\.csv[.,]/);
+  await expect(widget.locator('.choosers select')).toHaveCount(2);
+  await expect(widget.getByLabel('short-odom.csv')).toHaveValue('odometry');
   await expect.poll(() => page.workers().length).toBe(0);
 });
 

@@ -2,7 +2,7 @@
 
 import { instantiateShared, sharedCore, startWorker } from '../../core.ts';
 import type { LogPlan } from '../../logs/drives.ts';
-import type { OpenOptions, Source } from '../../logs/log.ts';
+import type { OpenOptions, Recording, Source } from '../../logs/log.ts';
 import type { LogSession } from '../../logs/session.ts';
 import type { AlphaCalibratorSettings, CalibrationLog } from '../../types.d.ts';
 
@@ -21,8 +21,8 @@ export class LogService {
   #connection: Promise<Connection> | undefined;
   /** Aborts the request in progress; undefined if there is none. */
   #request: AbortController | undefined;
-  /** True while the worker holds the recordings that were opened last. */
-  isOpen = false;
+  /** Recordings that the worker holds; undefined if there are none. */
+  openRecordings: Recording[] | undefined;
 
   get isBusy() {
     return this.#request !== undefined;
@@ -30,10 +30,10 @@ export class LogService {
 
   /** Opens files, with the options of each by its name. */
   async open(files: Source[], answers: Record<string, OpenOptions>) {
-    this.isOpen = false;
+    this.openRecordings = undefined;
     // A copied `File` has no path.
     const opened = await this.#ask(({ session }) => session.open(files.map((file) => ({ file, path: file.path ?? '' })), answers));
-    this.isOpen = true;
+    this.openRecordings = opened.recordings;
     return opened;
   }
 
@@ -55,7 +55,7 @@ export class LogService {
   end() {
     this.#connection?.then(({ end }) => end(), () => {});
     this.#connection = undefined;
-    this.isOpen = false;
+    this.openRecordings = undefined;
     this.#request?.abort();
     this.#request = undefined;
   }

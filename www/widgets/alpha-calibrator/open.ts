@@ -53,6 +53,8 @@ const MAX_NAMED_FILES = 4;
 export class LogOpener extends FileOpener<Figure> {
   id = 'log';
   chosen: ChosenFiles | undefined;
+  /** Files of the latest results, unless the page or the user has closed their log. */
+  #resultFiles: ChosenFiles | undefined;
   /** Files with only one log of a drive. The next file may contain the other log. */
   #loneLogFiles: ChosenFiles | undefined;
   /** Modules that plan and show logs, with their texts. They are loaded when a file is chosen. */
@@ -79,21 +81,24 @@ export class LogOpener extends FileOpener<Figure> {
     const previousPlanText = planText(chosen.plan);
     this.#restart(async (logModules) => {
       const plan = planOf(logModules, chosen, this.kind);
-      if (planText(plan) !== previousPlanText) await this.#read(chosen, plan, logModules);
+      if (planText(plan) !== previousPlanText) await this.#read((this.chosen = { ...chosen }), plan, logModules);
     });
   }
 
   /** Forgets the chosen files, and shows a log of the page or, by default, the simulated one. */
   async close(log: CalibrationLog | null = null) {
     this.#end();
-    this.forget();
+    this.#resultFiles = undefined;
+    this.restore();
     if (log === this.host.log) return;
     await this.host.open(log, []);
     this.host.gesture.complete();
   }
 
-  forget() {
-    this.chosen = this.#loneLogFiles = this.refusal = undefined;
+  /** Returns to the files of the results on screen. */
+  restore() {
+    this.chosen = this.#resultFiles?.log === this.host.log ? this.#resultFiles : undefined;
+    this.#loneLogFiles = this.refusal = undefined;
     this.host.requestUpdate();
   }
 
@@ -104,6 +109,7 @@ export class LogOpener extends FileOpener<Figure> {
 
   stop() {
     this.#end();
+    this.restore();
     this.refusal = new DOMException('', 'AbortError');
   }
 
@@ -168,7 +174,10 @@ export class LogOpener extends FileOpener<Figure> {
   async #read(chosen: ChosenFiles, plan: LogPlan, logModules: LogModules) {
     const { service } = this.host;
     chosen.plan = plan;
-    if (!service.isOpen) await service.open(chosen.files, chosen.answers);
+    if (service.openRecordings !== chosen.recordings) {
+      await service.open(chosen.files, chosen.answers);
+      service.openRecordings = chosen.recordings;
+    }
     const drives = await service.read(plan, (readFraction) => {
       this.readFraction = readFraction;
       this.host.requestUpdate();
@@ -182,6 +191,7 @@ export class LogOpener extends FileOpener<Figure> {
     this.host.requestUpdate();
     await fitPromise;
     chosen.log = log;
+    this.#resultFiles = chosen;
     this.#loneLogFiles = undefined;
     this.host.gesture.complete();
   }
@@ -252,7 +262,7 @@ export function dropZone(figure: Figure, opener: LogOpener) {
       ? html`<p><progress aria-label=${words.progress.label} .value=${readFraction}></progress> ${button(words.progress.stop, () => opener.stop())}</p>`
       : figure.log ? html`<p><span class="present">${texts.present(figure.logName)}</span> ${button(texts.leave, () => opener.close())}</p>` : nothing}
     ${opener.refusalNoteHtml}
-    ${opener.otherResultsNote ? html`<p class="muted other-results">${opener.otherResultsNote} ${button(texts.keep, () => opener.forget())}</p>` : nothing}
+    ${opener.otherResultsNote ? html`<p class="muted other-results">${opener.otherResultsNote} ${button(texts.keep, () => opener.restore())}</p>` : nothing}
   </div>`;
 }
 

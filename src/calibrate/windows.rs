@@ -197,18 +197,18 @@ fn recommendation_reason(window: &WindowCoverage, inflation: f64) -> String {
     let WindowCoverage { count, coverage, nees, .. } = *window;
     if count < MIN_WINDOWS {
         return format!(
-            "The log has {count} windows of 1 m that were not used for the fit; {MIN_WINDOWS} are needed to judge it, so the fit stands as it is."
+            "The log has {count} windows of ≥ 1 m that were not used for the fit; {MIN_WINDOWS} are needed to judge it, so the fit stands as it is."
         );
     }
     let coverage_percent = format_decimal(100.0 * coverage, 1);
     if inflation == 1.0 {
         return format!(
-            "The fit covers {coverage_percent} % of {count} held-out windows of 1 m, where 95 % is right."
+            "The fit covers {coverage_percent} % of {count} held-out windows of ≥ 1 m, where 95 % is right."
         );
     }
     let [nees, inflation] = [nees, inflation].map(|number| format_decimal(number, 2));
     format!(
-        "The fit covers {coverage_percent} % of {count} held-out windows of 1 m (squared error over predicted variance {nees}, where 1 is right); times {inflation} it covers at least 95 %."
+        "The fit covers {coverage_percent} % of {count} held-out windows of ≥ 1 m (squared error over predicted variance {nees}, where 1 is right); times {inflation} it covers at least 95 %."
     )
 }
 

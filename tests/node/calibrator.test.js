@@ -65,7 +65,7 @@ test('lines for Nav2 have the recommended α’s, and the fitted ones in comment
   assert.deepEqual(nav2LinesOf(), [
     'amcl:', 'ros__parameters:',
     '# 9 legs of 0.25 m or 0.2 rad of a.csv and b.csv, 2026-01-02',
-    '# recommended = fitted × 2: the fit covers 92.3 % of 78 held-out windows of 1 m',
+    '# recommended = fitted × 2: the fit covers 92.3 % of 78 held-out windows of ≥ 1 m',
     '# with these systematic errors corrected: mountYaw 0.050; distanceScale 0.990',
     '# First multiply the odometry’s distances by 0.990: the α’s are those of the corrected robot.',
     'robot_model_type: "nav2_amcl::DifferentialMotionModel"',

@@ -388,7 +388,7 @@ test('the report says what failed, what is lost, and what to drive', async () =>
   const reportOfFailure = reportWith({ diagnostics: { ...diagnostics, verdict: 'questionable', checks: failedChecks } });
   assert.match(reportOfFailure, /^\nCaution\. Failed check: number of legs \(1 of 1 failed\)\.\nDrive on\.\nIf the log .*\n[^]*^enough-legs +20 +≥ 100 +FAILED +number of legs\nenough-legs: Drive on\.$/m);
   const roundedChecks = [{ name: 'window-2m-covered', value: 0.8636, expected: [0.8641, 1], passed: false, message: '' }];
-  assert.match(reportWith({ diagnostics: { ...diagnostics, verdict: 'questionable', checks: roundedChecks } }), /^window-2m-covered +0\.8636 +0\.8641 to 1 +FAILED +held-out windows of 2 m within 95 %$/m);
+  assert.match(reportWith({ diagnostics: { ...diagnostics, verdict: 'questionable', checks: roundedChecks } }), /^window-2m-covered +0\.8636 +0\.8641 to 1 +FAILED +held-out windows of ≥ 2 m within 95 %$/m);
   assert.match(reportWith({ recommended: null, diagnostics: { ...diagnostics, verdict: 'unusable' } }), /^\nDo not use\. The log identifies no α\.\n\n/);
   const inflationChecks = [{ name: 'inflation-bounded', value: Infinity, expected: [1, 30], passed: false, message: 'Find the cause.' }];
   assert.match(reportWith({ recommended: null, diagnostics: { ...diagnostics, verdict: 'unusable', checks: inflationChecks } }), /^\nDo not use\. Failed check: inflation .*\nFind the cause\.\n\n/);

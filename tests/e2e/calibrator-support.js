@@ -25,7 +25,7 @@ export async function openCalibrator(page, attributes) {
 }
 
 export const captionOf = (/** @type {Locator} */ widget) => widget.locator('p[part=caption]');
-export const alphaRowsOf = (/** @type {Locator} */ widget) => widget.locator('table.alphas tbody tr:not([aria-hidden])');
+export const alphaRowsOf = (/** @type {Locator} */ widget) => widget.locator('.alphas tbody tr');
 export const findFoldedGroup = (/** @type {Locator} */ widget, /** @type {string} */ name) => widget.locator('.folded fieldset', { has: widget.page().locator('> legend', { hasText: name }) });
 export const readStats = (/** @type {Locator} */ widget) => widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).simulation.stats);
 

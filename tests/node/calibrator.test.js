@@ -3,11 +3,9 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { en } from '../../www/widgets/alpha-calibrator/en.ts';
-import { formatAlphaOrBound, correctionAdvice, formatInterval as ends, formatEstimate, localized, nav2Lines, formatNumber } from '../../www/widgets/alpha-calibrator/lines.ts';
-import { judgementOf } from '../../www/widgets/alpha-calibrator/verdict.ts';
+import { formatAlphaOrBound, correctionAdvice, formatInterval as ends, formatEstimate, judgementOf, localized, nav2Lines, formatNumber } from '../../www/widgets/alpha-calibrator/result.ts';
 import { viewCornersOf } from '../../www/widgets/alpha-calibrator/pictures.ts';
-import { legClassesOf, isTruthComparable } from '../../www/widgets/alpha-calibrator/view-model.ts';
-import { SIMULATED_LEGS } from '../../www/widgets/alpha-calibrator/settings.ts';
+import { SIMULATED_LEGS, legClassesOf, isTruthComparable } from '../../www/widgets/alpha-calibrator/settings.ts';
 import { settings } from '../../build/settings.js';
 
 test('a leg has the class of its p-value, by as many noises as it shows', () => {
@@ -21,7 +19,7 @@ test('a leg has the class of its p-value, by as many noises as it shows', () => 
 });
 
 test('a number in the format of files is printed as on screen', () => {
-  assert.deepEqual(['0.050', '1.0e-7', '≤ 2.3e-13'].map(localized), ['0.050', '1.0·10⁻⁷', '≤ 2.3·10⁻¹³']);
+  assert.deepEqual(['-0.050', '1.0e-7', '≤ 2.3e-13'].map(localized), ['−0.050', '1.0·10⁻⁷', '≤ 2.3·10⁻¹³']);
 });
 
 test('numbers in files have the digits that the interval makes meaningful, and tiny ones an exponent', () => {

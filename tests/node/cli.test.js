@@ -16,7 +16,7 @@ import { run } from '../../www/cli/run.ts';
 import { warningsOf } from '../../www/logs/pairs.ts';
 import { en } from '../../www/widgets/alpha-calibrator/en.ts';
 import { useLanguageOf } from '../../www/messages/registry.ts';
-import { judge } from '../../www/widgets/alpha-calibrator/words.ts';
+import { judge } from '../../www/widgets/alpha-calibrator/readouts.ts';
 import { odometryMessageOf, poseOf, recordingOf, stampOf, transformMessageOf, twistOf } from '../mcap.js';
 
 const CLI = fileURLToPath(new URL('../../dist/cli.js', import.meta.url));

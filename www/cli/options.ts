@@ -3,7 +3,7 @@
 import { basename, dirname } from 'node:path';
 import { parseArgs } from 'node:util';
 import { truncate, ROLES, UNITS, type FramePair, type OpenOptions, type Role } from '../logs/log.ts';
-import { SYSTEMATIC_ERRORS } from '../widgets/alpha-calibrator/verdict.ts';
+import { SYSTEMATIC_ERRORS } from '../widgets/alpha-calibrator/result.ts';
 import { quoteForShell } from './advice.ts';
 
 /** Error about the options; its message is a sentence. */

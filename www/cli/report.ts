@@ -5,8 +5,8 @@ import { ROLES, type Summary } from '../logs/log.ts';
 import { warningsOf } from '../logs/pairs.ts';
 import { en as sharedTexts } from '../messages/en.ts';
 import { en } from '../widgets/alpha-calibrator/en.ts';
-import { componentsOf, formatAlphaOrBound, formatEstimate, formatInterval, formatNumber, formatPercent, isNav2Rule, nav2Lines } from '../widgets/alpha-calibrator/lines.ts';
-import { SYSTEMATIC_ERRORS, adviceOf, judgementOf } from '../widgets/alpha-calibrator/verdict.ts';
+import { componentsOf, formatAlphaOrBound, formatEstimate, formatInterval, formatNumber, formatPercent, isNav2Rule, nav2Lines } from '../widgets/alpha-calibrator/result.ts';
+import { SYSTEMATIC_ERRORS, adviceOf, judgementOf } from '../widgets/alpha-calibrator/result.ts';
 import type { Calibration, CalibrationCheck } from '../types.d.ts';
 
 /** Log with its summary, as numbers and as sentences. */

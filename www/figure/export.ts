@@ -3,7 +3,6 @@
 import { html, nothing } from 'lit';
 import { address, isClassic } from '../address.ts';
 import { words } from '../messages/registry.ts';
-import { cssSizeOf } from '../scene/canvas.ts';
 import { SvgContext, escapeXml, formatLength } from '../scene/svg.ts';
 import { button, group } from '../ui/controls.ts';
 import { FigureController } from './controller.ts';
@@ -28,11 +27,9 @@ const PNG_RATIO = 2;
 const DEFAULT_SIZE = { width: 720, height: 432 };
 
 /** Draws the picture in its size and font on the page, with `ratio` pixels per CSS pixel. Returns the size in pixels and the view. */
-function drawScene({ scene, pictures: [firstPicture], exportPicture, canvases, colours }: Figure, ratio: number, contextOf: (size: { width: number, height: number }) => unknown) {
-  const picture = exportPicture ?? firstPicture;
-  const pageCanvas = canvases.canvasOf(firstPicture);
-  const pageCanvasBox = pageCanvas.clientWidth > 0 ? pageCanvas.getBoundingClientRect() : DEFAULT_SIZE;
-  const [clientWidth, height] = exportPicture ? cssSizeOf(exportPicture.size, pageCanvas) : [pageCanvasBox.width, pageCanvasBox.height];
+function drawScene({ scene, pictures: [picture], canvases, colours }: Figure, ratio: number, contextOf: (size: { width: number, height: number }) => unknown) {
+  const pageCanvas = canvases.canvasOf(picture);
+  const { width: clientWidth, height } = pageCanvas.clientWidth > 0 ? pageCanvas.getBoundingClientRect() : DEFAULT_SIZE;
   const canvasSize = { width: Math.round(ratio * clientWidth), height: Math.round(ratio * height) };
   const surface = { ...canvasSize, clientWidth, fontStyle: getComputedStyle(pageCanvas), context: contextOf(canvasSize) as CanvasRenderingContext2D };
   picture.draw(surface, scene, colours.palette, { still: true, atOnce: true, exported: true });

@@ -114,10 +114,8 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   player: { advance(elapsed: number): boolean, stop(): void } | undefined;
   /** Handlers for dragged files, if the figure accepts files. */
   dropHandlers: Record<'onDragOver' | 'onDragLeave' | 'onDrop', (event: DragEvent) => void> | undefined;
-  /** Pictures on the canvases. The first is exported, unless `exportPicture` has a picture for that. */
+  /** Pictures on the canvases. The first is exported. */
   pictures: import('../scene/picture.ts').Picture<any>[] = [];
-  /** Picture for export, with its own size. */
-  exportPicture: import('../scene/picture.ts').Picture<any> & { size: { width: number, height: number } } | undefined;
   /** View model of the simulation: all values that pictures, texts and tables show, read at one time. Undefined before the first frame. */
   viewModel: ViewModel = undefined as any;
   #highlight: string | null = null;

@@ -13,7 +13,7 @@ const HEIGHTS_EM: Record<string, ([number, number] | string)[]> = {
   'arc-anatomy': [[81, 70.9], [73.9, 68.5], [42.2, 48.5], [50.9, 50.9], [50.9, 47.9]],
   'odometry-decomposer': [[101.5, 112.9], [89.1, 93.6], 'clamp(44.9em, 100svh - 0.1em, 56.1em)', 'clamp(44.9em, 100svh - 0.1em, 56.1em)', 'clamp(45.1em, 100svh + 0.1em, 52.7em)'],
   'dead-reckoning': [[95.9, 111.5], [63.8, 54.2], [53.8, 45.5], [45, 50.7], [41, 42.1]],
-  'alpha-calibrator': [[91, 104.7], [101.2, 92.4], [45.4, 49.6], [49.1, 50.9], [39.7, 45.1]],
+  'alpha-calibrator': [[100, 106], [104.5, 97], [51.5, 53], [54, 56], [41, 39.5]],
 };
 
 /** Returns the height for any width as a CSS maximum over the classes. Outside of its class, a term is hugely negative. */

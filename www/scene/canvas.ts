@@ -42,9 +42,6 @@ const FONT_SIZE = 13;
 /** Returns a length in pixels of a view as CSS em of the figure. */
 export const emText = (pixels: number) => `${pixels / 16}em`;
 
-/** Converts a size from pixels of a view to CSS pixels, by the font size of the canvas. */
-export const cssSizeOf = ({ width, height }: { width: number, height: number }, canvas: Element) => [width, height].map((size) => (size * parseFloat(getComputedStyle(canvas).fontSize)) / FONT_SIZE);
-
 /** Converts a point of the window to pixels of the view that an element shows. The page may have scaled the element. */
 export function pointInView(element: Element, view: import('./view.ts').View, { clientX, clientY }: { clientX: number, clientY: number }): [x: number, y: number] {
   const { left, top, width } = element.getBoundingClientRect();

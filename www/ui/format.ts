@@ -2,7 +2,7 @@
 
 import { language } from '../messages/registry.ts';
 
-const MINUS = '\u2212';
+export const MINUS = '\u2212';
 const THIN_SPACE = '\u202f';
 export const NO_VALUE = '\u2014';
 

@@ -52,7 +52,7 @@ const figureLayout = css`
   }
 
   .controls {
-    grid-template-columns: repeat(auto-fit, minmax(min(100%, 18em), 1fr));
+    grid-template-columns: repeat(auto-fit, minmax(min(100%, 17em), 1fr));
     gap: 0.5em 2.5em;
   }
 

@@ -92,13 +92,17 @@ export const readoutStyles = css`
     text-align: end;
   }
 
+  td:not([colspan]) > bdi {
+    white-space: nowrap;
+  }
+
   /* Name of a row above its numbers, which then have the whole width. */
   @container (width < 26em) {
     table {
       font-size: 0.82em;
     }
 
-    :where(table:not(.alphas)) {
+    table {
       > :is(caption, thead, tbody) {
         display: block;
       }

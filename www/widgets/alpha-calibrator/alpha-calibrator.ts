@@ -1,6 +1,6 @@
 /** <alpha-calibrator>: α's fitted to a log, with confidence intervals and goodness of fit. */
 
-import { html } from 'lit';
+import { html, css } from 'lit';
 import { checkedObject } from '../../figure/checks.ts';
 import { pictureCanvas, disclosures, titledPicture, settingRadios, editableSlider, settingSlider, legend } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
@@ -12,14 +12,10 @@ import { group, button, radioGroup } from '../../ui/controls.ts';
 import { integer, NO_VALUE, fixed, formatEditable } from '../../ui/format.ts';
 import { readoutList } from '../../ui/readouts.ts';
 import { startOverButton } from '../shared/controls.ts';
-import { LogService, isAbortError } from './log-service.ts';
-import { LogOpener, dropZone, logSection } from './open.ts';
-import { LegPicture, PathPicture, SummaryPicture } from './pictures.ts';
-import { alphaTable, alphaTexts, copyButton, copyMessage, diagnosticsHtml, nav2ExportControls, regressionPanels, systematicTable, verdictHtml } from './readouts.ts';
-import { NOISE_COMPONENTS, LINE_STYLES, definition, modelRuleOf, settingsFor } from './settings.ts';
-import { styles } from './styles.ts';
-import { viewModelOf, type ViewModel, observedCount } from './view-model.ts';
-import { captionOf, judge, legText, recommendationReason, pathText, summaryTexts } from './words.ts';
+import { LogOpener, LogService, dropZone, isAbortError, logSection } from './open.ts';
+import { LegPicture, PathPicture } from './pictures.ts';
+import { alphaTable, alphaTexts, captionOf, copyButton, copyMessage, diagnosticsHtml, judge, legText, nav2ExportControls, pathText, recommendationReason, regressionPanels, systematicTable, verdictHtml } from './readouts.ts';
+import { NOISE_COMPONENTS, LINE_STYLES, definition, modelRuleOf, observedCount, settingsFor, viewModelOf, type ViewModel } from './settings.ts';
 import type { AlphaCalibrator as Simulation, CalibrationLog, CalibrationPanel, LegView, Motion } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
 
@@ -72,6 +68,196 @@ function modelControls(figure: AlphaCalibratorElement) {
     ${settingRadios(figure, 'outliers', outliers)} ${settingSlider(figure, 'duration', { show: formatDuration })}`, 'fit');
 }
 
+const styles = css`
+  .drop-zone {
+    margin-bottom: 0.4em;
+    padding: 0.25em 0.6em;
+    border: 1px dashed var(--muted);
+    border-radius: 3px;
+  }
+
+  .drop-zone p {
+    margin: 0;
+  }
+
+  .choosers select {
+    max-width: 100%;
+    min-height: 2em;
+    background: var(--paper);
+    font: inherit;
+  }
+
+  /* The figure fills the screen. */
+  :host([presentation]) :is(.choosers, .found) {
+    display: none;
+  }
+
+  .drive {
+    display: flex;
+    flex-wrap: wrap;
+    gap: 0.5em 1.5em;
+    align-items: flex-start;
+  }
+
+  .found table {
+    flex: 1 1 18em;
+  }
+
+  .found :is(th, td) {
+    text-align: start;
+    vertical-align: top;
+    overflow-wrap: anywhere;
+  }
+
+  .found tbody th {
+    white-space: nowrap;
+  }
+
+  .paths {
+    flex: 0 0 14em;
+  }
+
+  .badge {
+    margin-inline-end: 0.4em;
+    padding: 0.1em 0.6em;
+    border-radius: 3px;
+    background: var(--role);
+    color: var(--paper);
+    font-weight: bold;
+    forced-color-adjust: none;
+  }
+
+  :host([presentation]) .views {
+    grid-template-rows: auto 1fr;
+  }
+
+  /* The picture of the leg takes the remaining space. */
+  :host([presentation]) .one {
+    display: grid;
+    grid-template-rows: 1fr auto;
+    align-self: stretch;
+  }
+
+  /* Results of the previous log or settings, while another log is read, or a fit takes long. */
+  .spoken:has(progress) :is(.verdict, .fitted) {
+    opacity: 0.4;
+  }
+
+  /* Results of the previous log, after other files were refused. */
+  .spoken:has(.other-results) :is(.views, #numbers) {
+    color: var(--muted);
+    filter: grayscale(1);
+  }
+
+  /* The message of the copy button is in sight beside it, however long the table is. */
+  .fitted .copied:not(:empty) {
+    display: block;
+    position: sticky;
+    z-index: 1;
+    bottom: 0;
+    padding-block: 0.25em;
+    background: var(--paper);
+  }
+
+  table {
+    max-width: 48em;
+    margin: 0.2em 0 0.5em;
+    font-size: 0.84em;
+    line-height: 1.2;
+  }
+
+  .alphas table {
+    max-width: none;
+  }
+
+  .reason {
+    margin: 0 0 0.3em;
+  }
+
+  /* Space for the advice of a failed check, which must not move a slider that is dragged. */
+  .to-do {
+    min-height: 6.5em;
+    margin: 0.2em 0;
+    line-height: 1.3;
+  }
+
+  [part='controls'] .slider {
+    grid-template: 'name value' auto 'track track' auto / 1fr auto;
+  }
+
+  .looked .slider {
+    padding-bottom: 0.2em;
+  }
+
+  .panels {
+    display: grid;
+    grid-template-columns: repeat(auto-fit, minmax(min(100%, 17em), 1fr));
+    gap: 0.5em 1em;
+  }
+
+  .dropping .drop-zone {
+    outline: 2px solid var(--accent);
+    outline-offset: 2px;
+  }
+
+  @media print {
+    :is(.drop-zone, .found) {
+      display: none;
+    }
+  }
+
+  @container (min-width: 38em) {
+    .views {
+      grid-template-columns: repeat(2, minmax(0, 1fr));
+      gap: 0.25em 1.25em;
+    }
+
+    :is(.verdict, .fitted) {
+      grid-column: 1 / -1;
+    }
+
+    canvas {
+      aspect-ratio: 7 / 4;
+    }
+
+    .one canvas {
+      aspect-ratio: 8 / 3;
+    }
+  }
+
+  /* The pictures are as high as the table below them: in a low window both would leave no room for the controls. */
+  @media (40em <= height < 60em) {
+    @container (30em <= width < 56em) {
+      .views {
+        position: static;
+      }
+    }
+  }
+
+  @container (min-width: 56em) {
+    .views {
+      /* The table comes after the pictures, and moves nothing. */
+      grid-template-columns: minmax(0, 1.2fr) minmax(0, 1fr) clamp(24em, 34cqi, 29em);
+    }
+
+    .fitted {
+      grid-column: auto;
+    }
+
+    .fitted .panel-title {
+      flex: 1 0 100%;
+    }
+
+    canvas {
+      aspect-ratio: 8 / 7;
+    }
+
+    .one canvas {
+      aspect-ratio: 5 / 4;
+    }
+  }
+`;
+
 /**
  * Noise parameters (α's) fitted to a log, with their confidence intervals, and checks of the model.
  *
@@ -87,7 +273,6 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   #pathPicture = new PathPicture();
   #legPicture = new LegPicture();
   pictures = [this.#pathPicture, this.#legPicture];
-  exportPicture = new SummaryPicture(this);
   #opener = new LogOpener(this);
   dropHandlers = this.#opener;
   service = new LogService();
@@ -246,7 +431,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
     const statisticColumns = (statistic: string) => NOISE_COMPONENTS[fitted.model].map((name) => `${statistic}_${name}`).join(' ');
     const poseColumns = (log: string) => ['from', 'to'].flatMap((end) => ['x_m', 'y_m', 'theta_rad'].map((key) => `${log}_${end}_${key}`)).join(' ');
     return {
-      description: [pathText(this.viewModel, this.chosen), ...alphaTexts(this.viewModel).map((text) => `${text}.`), ...summaryTexts(this)].join(' '),
+      description: [pathText(this.viewModel, this.chosen), captionOf(this), ...alphaTexts(this.viewModel).map((text) => `${text}.`), recommendationReason(this.viewModel)].join(' '),
       settings: { ...(this.log && { log: this.log.name }), ...fitted },
       columns: {
         'begins_s ends_s': legs.times,

@@ -75,8 +75,8 @@ export const de: typeof import('./en.ts').en = {
   use: 'Die empfohlenen α mit Etappen dieser Länge verwenden.',
   useAnyway: 'Lässt sich die Aufzeichnung nicht verbessern, die empfohlenen α verwenden.',
   missing: (alphas, drive) => `Von dieser Aufzeichnung nicht bestimmt: ${alphas}; ${drive}.`,
-  clock: (seconds, isAhead) => `Die Uhr der Referenz geht gegen die der Odometrie ${seconds} s ${isAhead ? 'vor' : 'nach'}. Beide sind nach den Drehungen des Roboters ausgerichtet: prüfen, ob sie von derselben Fahrt sind.`,
   noAlpha: 'Die Aufzeichnung bestimmt kein α.',
+  clock: (seconds, isAhead) => `Die Uhr der Referenz geht gegen die der Odometrie ${seconds} s ${isAhead ? 'vor' : 'nach'}. Beide sind nach den Drehungen des Roboters ausgerichtet: prüfen, ob sie von derselben Fahrt sind.`,
   none: 'Nicht genug Daten: weniger als 8 Etappen, oder keine gemeinsame Zeit. Beide Aufzeichnungen derselben Fahrt nehmen, kürzere Etappen wählen oder länger fahren.',
   checks: {
     title: 'Prüfungen',
@@ -114,9 +114,7 @@ export const de: typeof import('./en.ts').en = {
   },
   alphas: {
     title: (kind) => `Angepasste Rauschparameter (${kind})`,
-    caption: 'Restringierte Maximum Likelihood mit 95-%-Intervallen',
     noise: 'Rauschen',
-    noiseTrue: 'Rauschen (| wahr)',
     value: 'angepasst, 95 %',
     recommended: 'empfohlen',
     interval: '95-%-Intervall',
@@ -146,8 +144,6 @@ export const de: typeof import('./en.ts').en = {
     notCorrected: 'nicht korrigiert',
     notConstant: 'keine Konstante',
     matters: (errors, place) => `Nicht korrigiert: ${errors} (siehe ${place}).`,
-    removed: (errors) => `Korrigierte systematische Fehler: ${errors}.`,
-    left: (errors) => `Nicht korrigierte systematische Fehler (in den α enthalten): ${errors}.`,
   },
   leg: {
     group: 'Etappen',

@@ -80,11 +80,9 @@ export const en = {
   },
   alphas: {
     title: (kind) => `Fitted noise parameters (${kind})`,
-    caption: 'Restricted maximum likelihood, with 95 % intervals',
     noise: 'noise',
-    noiseTrue: 'noise (| simulated)',
     value: 'fitted, 95 %',
-    recommended: 'recom\u00ADmended',
+    recommended: 'recommended',
     interval: '95 % interval',
     unknown: (lack, drive) => `not determined: ${lack}; ${drive}`,
     lacking: {
@@ -112,8 +110,6 @@ export const en = {
     notCorrected: 'not corrected',
     notConstant: 'not a constant',
     matters: (errors, place) => `Not corrected: ${errors} (see ${place}).`,
-    removed: (errors) => `Systematic errors corrected: ${errors}.`,
-    left: (errors) => `Systematic errors not corrected (absorbed by the α’s): ${errors}.`,
   },
   leg: {
     group: 'Legs',

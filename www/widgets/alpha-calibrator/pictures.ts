@@ -1,20 +1,15 @@
-/** Pictures of the Alpha Calibrator: the path of the robot, one leg in the frame of its start, and the exported summary. */
+/** Pictures of the Alpha Calibrator: the path of the robot, and one leg in the frame of its start. */
 
 import { range } from 'd3-array';
 import { words } from '../../messages/registry.ts';
-import { clipToPlot, drawAxes, lineLegendEntry } from '../../scene/axes.ts';
+import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { LINES_PER_STROKE, Layer, Memo, strokeInBatches, type Painter } from '../../scene/cache.ts';
-import { strokePath, type Brush } from '../../scene/canvas.ts';
-import { drawDots, drawMark, drawOutline, drawOutlines, drawRobot, lineStyles } from '../../scene/draw.ts';
+import { strokePath } from '../../scene/canvas.ts';
+import { drawDots, drawMark, drawOutline, drawOutlines, drawRobot, lineLegendEntries, lineStyles } from '../../scene/draw.ts';
 import { Picture, SamplesPicture } from '../../scene/picture.ts';
 import { View, extentAround, extentOf } from '../../scene/view.ts';
-import { colourChannels } from '../../ui/theme.ts';
-import { alphaTexts } from './readouts.ts';
-import { LEG_CLASSES, LINE_STYLES, type LineName } from './settings.ts';
-import { summaryTexts } from './words.ts';
+import { LEG_CLASSES, LINE_STYLES, type LineName, type ViewModel } from './settings.ts';
 import type { CalibrationLegs, LegView } from '../../types.d.ts';
-import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
-import type { ViewModel } from './view-model.ts';
 
 /** View model of the pictures: the fit, and the leg that is shown. */
 export type Scene = ViewModel & { chosen: number, leg: LegView | null, overlays: LineName[] };
@@ -27,16 +22,6 @@ const RING_RADIUS = 6;
 
 /** Width of the thinnest lines, CSS pixels. */
 const HAIRLINE_WIDTH = 1;
-
-function pathStyle({ palette, highlight }: Pick<Brush, 'palette' | 'highlight'>, name: LineName) {
-  const legColour = name === 'plausible' ? mixColours(palette.truth, palette.cloud) : palette.truth;
-  return lineStyles({ palette: { ...palette, truth: legColour }, highlight }, LINE_STYLES)[name];
-}
-
-function mixColours(one: string, other: string) {
-  const [firstChannels, secondChannels] = [colourChannels(one), colourChannels(other)];
-  return `rgb(${firstChannels.map((value, i) => Math.round((value + secondChannels[i]) / 2))})`;
-}
 
 /**
  * Returns the corners of a box around both paths. If the odometry drifts far away, the box is cut so that the reference fills half of it.
@@ -54,16 +39,10 @@ export function viewCornersOf(reference: ArrayLike<number>, odometry: ArrayLike<
 /** Picture of the path from above, in the frame of the reference. */
 export class PathPicture extends SamplesPicture<Scene> {
   name = 'plane';
-  view: View;
+  view: View = new View();
   /** Cached path. There may be a hundred thousand legs, which change only with the log, the view or the colours. */
   #layer = new Layer();
   #odometryPath: Memo<Float64Array> = new Memo();
-
-  /** Creates the picture with a margin at the top, CSS pixels. */
-  constructor(top?: number) {
-    super();
-    this.view = new View({ top });
-  }
 
   /** Returns the ends of the legs by odometry (x, y pairs). The path starts at the first pose of the reference, and drifts away from it. */
   #odometryPathOf(legs: CalibrationLegs): Float64Array {
@@ -90,12 +69,8 @@ export class PathPicture extends SamplesPicture<Scene> {
 
   paint: Picture<Scene>['paint'] = (brush, { legs, classes, chosen, overlays }) => {
     const { palette } = brush;
-    const legendNames = brush.exported ? ([...LEG_CLASSES.toReversed(), 'odometry', 'outlier'] as const).filter((name) => overlays.includes(name)) : [];
-    const legendEntries = legendNames.map((name) => {
-      const lineEntry = lineLegendEntry(brush, words.calibrator.overlays[name].replaceAll('*', ''), pathStyle(brush, name));
-      return name === 'outlier' ? { ...lineEntry, draw: (x: number, y: number, length: number) => drawRings(brush, [[x + length / 2, y]]) } : lineEntry;
-    });
-    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, legendEntries);
+    const legendNames = ([...LEG_CLASSES.toReversed(), 'odometry'] as const).filter((name) => overlays.includes(name));
+    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, lineLegendEntries(brush, LINE_STYLES, legendNames, words.calibrator.overlays));
     clipToPlot(brush, () => {
       const paintLegs = (painter: Painter) => drawPath(painter, legs, this.#odometryPathOf(legs), classes, overlays);
       if ('vector' in brush.context || legs.count <= MAX_WIDE_LEGS) paintLegs(brush);
@@ -111,34 +86,28 @@ export class PathPicture extends SamplesPicture<Scene> {
 function drawPath(brush: Painter, legs: CalibrationLegs, odometry: Float64Array, classes: Uint8Array, overlays: LineName[]) {
   const { context, view } = brush;
   const { count, reference, outliers } = legs;
+  const styles = lineStyles(brush, LINE_STYLES);
   if (overlays.includes('odometry')) {
     const points = view.toPixels(odometry);
     const pieces = range(0, points.length, LINES_PER_STROKE).map((start) => points.slice(start, start + LINES_PER_STROKE + 1));
-    strokeInBatches(context, pieces, pathStyle(brush, 'odometry'), 1);
+    strokeInBatches(context, pieces, styles.odometry, 1);
   }
   for (const [index, name] of LEG_CLASSES.entries()) {
     if (!overlays.includes(name)) continue;
     const legsOfClass = [...classes.keys()].filter((leg) => classes[leg] === index);
     const lines = legsOfClass.map((leg) => [0, 3].map((end) => view.toPixel(reference[6 * leg + end], reference[6 * leg + end + 1])));
-    const legStyle = { ...pathStyle(brush, name), cap: 'round' } as const;
+    const legStyle = { ...styles[name], cap: 'round' } as const;
     strokeInBatches(context, lines, count > MAX_WIDE_LEGS ? { ...legStyle, width: HAIRLINE_WIDTH } : legStyle);
   }
   const outlierLegs = overlays.includes('outlier') ? [...outliers.keys()].filter((leg) => outliers[leg] > 0) : [];
-  drawRings(brush, outlierLegs.map((leg) => view.toPixel(reference[6 * leg + 3], reference[6 * leg + 4])));
-}
-
-function drawRings(brush: Painter, points: [number, number][]) {
-  const { context } = brush;
-  strokePath(context, pathStyle(brush, 'outlier'), () => {
-    for (const [x, y] of points) {
+  strokePath(context, styles.outlier, () => {
+    for (const leg of outlierLegs) {
+      const [x, y] = view.toPixel(reference[6 * leg + 3], reference[6 * leg + 4]);
       context.moveTo(x + RING_RADIUS, y);
       context.arc(x, y, RING_RADIUS, 0, 2 * Math.PI);
     }
   });
 }
-
-/** Width of the lines of a single leg, CSS pixels. */
-const LEG_LINE_WIDTH = 2.25;
 
 /** Margin around the mark of a leg's end, as a fraction of the leg's length. */
 const MARK_MARGIN = 0.08;
@@ -163,10 +132,8 @@ export class LegPicture extends Picture<Scene> {
     if (!leg) return;
     const { outcomes, outline, read, ended } = leg;
     const showsLine = (name: LineName) => overlays.includes(name);
-    const styledLine = (name: LineName, points: Float64Array) => {
-      const lineStyle = pathStyle(brush, name);
-      return showsLine(name) ? [{ points, ...lineStyle, width: (LEG_LINE_WIDTH / LINE_STYLES[name].width) * lineStyle.width }] : [];
-    };
+    const styles = lineStyles(brush, LINE_STYLES);
+    const styledLine = (name: LineName, points: Float64Array) => (showsLine(name) ? [{ points, ...styles[name] }] : []);
     clipToPlot(brush, () => {
       if (showsLine('predicted')) drawDots(brush, outcomes);
       drawOutlines(brush, [
@@ -179,57 +146,4 @@ export class LegPicture extends Picture<Scene> {
       if (showsLine('reference')) drawMark(brush, { x: ended[0], y: ended[1], heading: ended[2] }, palette.ink);
     });
   };
-}
-
-/** Sizes of the exported summary and of the path in it, pixels. */
-const SUMMARY_SIZE = { width: 720, height: 560 };
-const PATH_SIZE = { width: 430, height: 344 };
-
-/** Height of a legend in two lines, CSS pixels. */
-const KEY_HEIGHT = 42;
-
-/** Line height, pixels. */
-const LINE_HEIGHT = 18;
-
-/** Exported summary: the path at the left with the α's beside it, and sentences below. */
-export class SummaryPicture extends Picture<Scene> {
-  name = 'exportPicture';
-  view: View = new View();
-  size = SUMMARY_SIZE;
-  #path = new PathPicture(KEY_HEIGHT);
-  #figure;
-
-  constructor(figure: Figure) {
-    super();
-    this.#figure = figure;
-  }
-
-  paint: Picture<Scene>['paint'] = (brush, scene) => {
-    const { context, palette, font } = brush;
-    const { view } = this.#path;
-    view.resize(PATH_SIZE.width, PATH_SIZE.height);
-    this.#path.fit(scene);
-    context.save();
-    this.#path.paint({ ...brush, view }, scene);
-    context.restore();
-    Object.assign(context, { fillStyle: palette.ink, font, textAlign: 'left', textBaseline: 'top' });
-    const alphasLeft = PATH_SIZE.width + 20;
-    let y = 2;
-    for (const text of [`${words.calibrator.alphas.caption}:`, ...alphaTexts(scene)]) y = writeText(context, text, alphasLeft, y, SUMMARY_SIZE.width - alphasLeft) + LINE_HEIGHT / 3;
-    y = Math.max(PATH_SIZE.height, y) + LINE_HEIGHT;
-    for (const text of summaryTexts(this.#figure)) y = writeText(context, text, 2, y, SUMMARY_SIZE.width - 2);
-  };
-}
-
-/** Writes a text in lines that are not longer than the width, and returns the y of the next line. */
-function writeText(context: CanvasRenderingContext2D, sentence: string, x: number, y: number, width: number): number {
-  const [firstWord, ...otherWords] = sentence.split(' ');
-  const textLines = [firstWord];
-  for (const nextWord of otherWords) {
-    const extendedLine = `${textLines.at(-1)} ${nextWord}`;
-    if (context.measureText(extendedLine).width <= width) textLines.splice(-1, 1, extendedLine);
-    else textLines.push(nextWord);
-  }
-  textLines.forEach((textLine, i) => context.fillText(textLine, x, y + i * LINE_HEIGHT));
-  return y + textLines.length * LINE_HEIGHT;
 }

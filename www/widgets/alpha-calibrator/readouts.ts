@@ -1,27 +1,77 @@
-/** Readouts of the Alpha Calibrator: verdict, table of the α's, systematic errors, diagnostics of the fit, and lines for Nav2. */
+/** Readouts of the Alpha Calibrator in words and tables: verdict, α's, systematic errors, diagnostics of the fit, and lines for Nav2. */
 
-import { extent, range } from 'd3-array';
-import { html, nothing, svg } from 'lit';
+import { html } from 'lit';
 import { downloadFile } from '../../figure/export.ts';
-import { words } from '../../messages/registry.ts';
+import { addEnglish, words } from '../../messages/registry.ts';
 import { button, group, radioGroup, formatMarkup, toggle } from '../../ui/controls.ts';
-import { NO_VALUE, integer, fixed, percent, formatPowerOfTen, formatRounded, tick } from '../../ui/format.ts';
+import { NO_VALUE, integer, fixed, percent, formatPowerOfTen, formatRounded, formatSignificant } from '../../ui/format.ts';
 import { plot, type Curve, type Plot } from '../../ui/plot.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
 import { subscriptOf } from '../shared/sliders.ts';
-import { NAV2_RULES, formatAlphaOrBound, formatEstimate, isZero, localized, nav2Lines } from './lines.ts';
-import { NOISE_COMPONENTS, modelRuleOf, settingsFor, type Regressor } from './settings.ts';
-import { SYSTEMATIC_ERRORS, adviceOf, checkMessage, componentTextsOf } from './verdict.ts';
-import { isTruthComparable, type ViewModel } from './view-model.ts';
-import { checkText, expectedRangeText, judge, legsText, noiseNames, rangeText } from './words.ts';
-import type { CalibrationPanel, Estimate } from '../../types.d.ts';
+import { en } from './en.ts';
+import { NAV2_RULES, SYSTEMATIC_ERRORS, adviceOf, checkMessage, componentsOf, formatAlphaOrBound, formatEstimate, formatNumber, isZero, judgementOf, localInterval, localized, nav2Lines, } from './result.ts';
+import { NOISE_COMPONENTS, isTruthComparable, modelRuleOf, settingsFor, type Regressor, type ViewModel } from './settings.ts';
+import type { CalibrationCheck, CalibrationPanel, Estimate, LegView } from '../../types.d.ts';
+import type { Warning } from '../../logs/log.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
-/** Size of the plot of one α's interval (a whisker) in the table. */
-const WHISKER_ROW = { width: 200, height: 24, middle: 12, inset: 12 };
+addEnglish({ calibrator: en });
 
-/** Maximum number of intervals between labels of the axis. */
-const MAX_AXIS_INTERVALS = 4;
+/** Pattern of the names of checks whose value is a fraction. */
+const FRACTION_CHECKS = /-(lost|few|rare|covered)$/;
+
+export const judge = ({ stats, legs: { count }, fitted }: Pick<ViewModel, 'stats' | 'legs' | 'fitted'>, warnings: Warning[]) =>
+  judgementOf({ stats, count, model: fitted.model, corrections: fitted, warnings }, words.calibrator, words.moreControls);
+
+/** Prints the value of a check, or a limit of it. */
+export function checkText(name: CalibrationCheck['name'], value: number) {
+  if (!Number.isFinite(value)) return Number.isNaN(value) ? percent(value) : '∞';
+  return name === 'enough-legs' ? integer(value) : FRACTION_CHECKS.test(name) ? percent(value) : formatSignificant(value, 3);
+}
+
+export const rangeText = (low: string, high: string) => `${low} – ${high}`;
+
+/** Prints the range of values with which a check passes. */
+export function expectedRangeText({ name, expected: [low, high] }: CalibrationCheck) {
+  if (high === Infinity) return `≥ ${checkText(name, low)}`;
+  return low === 0 ? `≤ ${checkText(name, high)}` : rangeText(checkText(name, low), checkText(name, high));
+}
+
+/** Returns the reason for the recommended α's. */
+export function recommendationReason({ stats: { recommended, diagnostics: { checks, windows } } }: ViewModel) {
+  const texts = words.calibrator.recommended;
+  if (!recommended) return texts.none;
+  const [{ count, coverage, nees }] = windows;
+  if (!checks.some(({ name }) => name === 'window-1m-covered')) return texts.few(integer(count));
+  const { inflation } = recommended;
+  return inflation === 1 ? texts.covered(percent(coverage), integer(count)) : texts.inflated(fixed(inflation, 2), percent(coverage), integer(count), fixed(nees, 2));
+}
+
+export const noiseNames = (model: ViewModel['config']['model']) => words.alphas[model === 'velocity' ? 'velocity' : 'odometry'].map(([name]) => name);
+
+/** Returns the number of legs and outliers of the named log in a sentence; empty if there are no legs. */
+export function legsText({ legs }: ViewModel, log: string) {
+  if (legs.count === 0) return '';
+  const outlierCount = legs.outliers.reduce((sum, is) => sum + is, 0);
+  return words.calibrator.present(log, integer(legs.count), outlierCount > 0 ? integer(outlierCount) : '');
+}
+
+export function captionOf({ viewModel, warnings, logName }: Pick<Figure, 'viewModel' | 'warnings' | 'logName'>) {
+  const { badge, finding, advice } = judge(viewModel, warnings);
+  return [`${badge}.`, finding, legsText(viewModel, logName), ...advice].filter(Boolean).join(' ');
+}
+
+export function pathText({ legs, classes }: ViewModel, chosen: number) {
+  if (chosen < 0) return words.calibrator.none;
+  const unlikelyCount = classes.reduce((sum, legClass) => sum + Number(legClass > 1), 0);
+  return words.calibrator.way(integer(legs.count), integer(unlikelyCount), integer(chosen + 1));
+}
+
+export function legText(leg: LegView | null, chosen: number) {
+  if (!leg) return words.calibrator.none;
+  const [readX, readY, endX, endY] = [leg.read[0], leg.read[1], leg.ended[0], leg.ended[1]];
+  return words.calibrator.legText(integer(chosen + 1), fixed(readX, 3), fixed(readY, 3), fixed(endX, 3), fixed(endY, 3));
+}
 
 /** Icons and colours of the ratings. */
 const RATING_LOOKS = { consistent: ['✓', 'posterior'], questionable: ['!', 'prediction'], unusable: ['✕', 'accent'] };
@@ -34,34 +84,23 @@ export function verdictHtml({ viewModel, logName, warnings }: Figure) {
     <strong>${finding}</strong> <span class="muted">${legsText(viewModel, logName)}</span>`;
 }
 
+/** Returns the table of the α's, with the true values where they are comparable. */
 export function alphaTable(viewModel: ViewModel) {
-  const { alphas, intervals } = viewModel.stats;
+  const { stats: { alphas, intervals }, truth, fitted: { model } } = viewModel;
   const texts = words.calibrator.alphas;
-  const noiseLabels = noiseNames(viewModel.fitted.model);
-  const truth = isTruthComparable(viewModel) ? viewModel.truth?.alphas : undefined;
-  const axis = logarithmicAxis([...alphas, ...intervals.flatMap((interval) => interval ?? []), ...(truth ?? [])]);
-  return html`<table class="alphas" part="table">
-    <thead>
-      <tr><th scope="col">${formatMarkup('*α*')}</th><th scope="col">${truth ? texts.noiseTrue : texts.noise}</th><th scope="col">${texts.value}</th><th scope="col">${texts.recommended}</th></tr>
-    </thead>
-    <tbody>
-      ${alphas.map((alpha, i) => html`<tr>
-        <th scope="row">${formatMarkup(`*α*${subscriptOf(i)}`)}</th>
-        ${alpha === null
-          ? html`<td colspan="3"><div class="of muted">${noiseLabels[i]}</div><i>${missingAlphaText(viewModel, i)}</i></td>`
-          : html`<td class="chart"><div class="line"><div class="of muted">${noiseLabels[i]}</div>${whiskerSvg(axis, alpha, intervals[i], truth?.[i])}</div></td>
-            <td><div class="line"><div class="fitted-value" data-longest="0.00000">${alphaText(viewModel, i)}</div><div class="between muted" data-longest=${rangeText('0.00000', '0.00000')}>${intervalText(viewModel, i)}</div></div></td>
-            <td class="recommended" data-longest="0.00000">${recommendedAlphaText(viewModel, i)}</td>`}
-      </tr>`)}
-      <tr class="axis" aria-hidden="true">
-        <td></td>
-        <td class="chart">
-          <div class="line"><div class="of muted"></div><div class="scale muted small">${axis.decades.map((decade) => html`<span .style=${`left: ${(100 * axis.at(decade)) / WHISKER_ROW.width}%`}>${decade < 5e-4 ? formatPowerOfTen(Math.round(Math.log10(decade))) : tick(decade, decade)}</span>`)}</div></div>
-        </td>
-        <td colspan="2"></td>
-      </tr>
-    </tbody>
-  </table>`;
+  const shownTruth = isTruthComparable(viewModel) ? truth?.alphas : undefined;
+  const nameHtml = (name: string, i: number) => html`${formatMarkup(`*α*${subscriptOf(i)}`)} <span class="muted">${name}</span>`;
+  return html`<div class="alphas">${figureTable({
+    columns: [texts.noise, texts.value, texts.recommended, ...(shownTruth ? [words.calibrator.systematic.truth] : [])],
+    rows: noiseNames(model).slice(0, alphas.length).map((name, i) => (alphas[i] === null
+      ? [nameHtml(name, i), missingAlphaText(viewModel, i)]
+      : [
+        nameHtml(name, i),
+        stackTexts([alphaText(viewModel, i), localInterval(intervals[i])]),
+        html`<strong>${recommendedAlphaText(viewModel, i)}</strong>`,
+        ...(shownTruth ? [localized(formatNumber(shownTruth[i]))] : []),
+      ])),
+  })}</div>`;
 }
 
 /** Prints an α times a factor. */
@@ -82,42 +121,10 @@ function missingAlphaText({ stats: { notIdentifiable }, fitted: { model } }: Vie
 /** Returns all α's as texts, each with its interval. */
 export function alphaTexts(viewModel: ViewModel) {
   const { stats: { alphas }, fitted } = viewModel;
-  const recommendedName = words.calibrator.alphas.recommended.replace('\u00AD', '');
   return alphas.map((alpha, i) => {
-    const alphaParts = alpha === null ? [missingAlphaText(viewModel, i)] : [alphaText(viewModel, i), intervalText(viewModel, i), `${recommendedName} ${recommendedAlphaText(viewModel, i)}`];
+    const alphaParts = alpha === null ? [missingAlphaText(viewModel, i)] : [alphaText(viewModel, i), localInterval(viewModel.stats.intervals[i]), `${words.calibrator.alphas.recommended} ${recommendedAlphaText(viewModel, i)}`];
     return `α${subscriptOf(i)} ${noiseNames(fitted.model)[i]}: ${alphaParts.join(', ')}`;
   });
-}
-
-function intervalText({ stats: { intervals } }: ViewModel, index: number) {
-  const interval = intervals[index];
-  return interval ? rangeText(localized(formatEstimate(interval[0], interval)), localized(formatEstimate(interval[1], interval))) : NO_VALUE;
-}
-
-/** Returns a logarithmic axis over whole decades that contain the values. */
-function logarithmicAxis(values: (number | null)[]) {
-  const [lowest = -3, highest = 0] = extent(values.filter((value) => value && value < Infinity), (value) => Math.log10(value ?? 0));
-  const minExponent = Math.floor(Math.min(0, Math.max(lowest, highest - 4)));
-  const maxExponent = Math.max(minExponent + 1, Math.ceil(highest));
-  const { width, inset } = WHISKER_ROW;
-  const at = (value: number) => {
-    const axisFraction = (Math.log10(Math.max(value, 0)) - minExponent) / (maxExponent - minExponent);
-    // A mark outside the axis is drawn at its edge.
-    return Math.max(inset / 3, Math.min(width - inset / 3, inset + axisFraction * (width - 2 * inset)));
-  };
-  // At most MAX_AXIS_INTERVALS + 1 labels fit without touching.
-  const decadesPerLabel = Math.ceil((maxExponent - minExponent) / MAX_AXIS_INTERVALS);
-  return { at, decades: range(minExponent, maxExponent + 1, decadesPerLabel).map((exponent) => 10 ** exponent) };
-}
-
-function whiskerSvg({ at }: ReturnType<typeof logarithmicAxis>, value: number, interval: [number, number] | null, truth: number | undefined) {
-  const { width, height, middle } = WHISKER_ROW;
-  const [low, high] = (interval ?? [value, value]).map(at);
-  return html`<svg viewBox="0 0 ${width} ${height}" preserveAspectRatio="none" aria-hidden="true">
-    ${truth === undefined ? nothing : svg`<path vector-effect="non-scaling-stroke" stroke="var(--truth)" stroke-width="3" d="M${at(truth)} 2V${height - 2}" />`}
-    <path vector-effect="non-scaling-stroke" fill="none" stroke="var(--prediction)" stroke-width="1.9" d="M${low} ${middle}H${high}M${low} ${middle - 4}v8M${high} ${middle - 4}v8" />
-    <path vector-effect="non-scaling-stroke" stroke="var(--prediction)" stroke-width="5" stroke-linecap="round" d="M${at(value)} ${middle}h0" />
-  </svg>`;
 }
 
 export function systematicTable(figure: Figure) {
@@ -125,15 +132,15 @@ export function systematicTable(figure: Figure) {
   const texts = words.calibrator.systematic;
   const { requested } = figure.settings;
   const rows = SYSTEMATIC_ERRORS.map((key) => {
-    const components = componentTextsOf(errors[key]);
+    const components = componentsOf(errors[key]);
     const correctCheckbox = toggle({ label: texts.names[key], checked: requested[key], change: (on) => figure.gesture.decide({ [key]: on }) });
-    if (components.length === 0) return [correctCheckbox, texts.unknown];
+    if (components.some(({ value }) => value === null)) return [correctCheckbox, texts.unknown];
     return [
       correctCheckbox,
-      stackTexts(components.map(({ text }) => text)),
-      html`<div class="muted">${stackTexts(components.map(({ halfText }) => halfText))}</div>`,
+      stackTexts(components.map(({ value, interval }) => localized(formatEstimate(value, interval)))),
+      stackTexts(components.map(({ interval }) => localInterval(interval))),
       errors[key].corrected ? texts.corrected : errors[key].constant ? texts.notCorrected : texts.notConstant,
-      ...(truth ? [html`<div class="muted">${stackTexts([truth[key]].flat().map((component) => fixed(component, 3)))}</div>`] : []),
+      ...(truth ? [stackTexts([truth[key]].flat().map((component) => localized(formatNumber(component))))] : []),
     ];
   });
   const columns = [texts.what, texts.value, words.calibrator.alphas.interval, texts.treatment, ...(truth ? [texts.truth] : [])];
@@ -174,8 +181,7 @@ function windowsTable({ viewModel: { stats: { diagnostics: { windows } } } }: Fi
 
 function noiseTable({ viewModel: { stats: { referenceNoise: { positionStd, yawStd }, persistence: { correlation, length } } } }: Figure) {
   const { noise: texts, systematic, settings, alphas: { interval: intervalName } } = words.calibrator;
-  const formatStd = (value: number) => (value === 0 ? '0' : Number.isFinite(value) ? formatRounded(value, 2) : '∞');
-  const noiseRow = (name: string, { value, interval: [low, high] }: Estimate) => [name, formatStd(value), rangeText(formatStd(low), formatStd(high))];
+  const noiseRow = (name: string, { value, interval }: Estimate) => [name, localized(formatEstimate(value, interval)), localInterval(interval)];
   return figureTable({
     columns: [texts.what, systematic.value, intervalName],
     rows: [

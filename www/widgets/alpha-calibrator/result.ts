@@ -1,6 +1,7 @@
-/** Lines for nav2_params.yaml, in which numbers have a decimal point in every language; and the formats of α's and systematic errors. */
+/** Result of a fit as text, which the page and the command line share: numbers, the verdict, and lines for nav2_params.yaml. */
 
-import { fixed, formatPowerOfTen } from '../../ui/format.ts';
+import { MINUS, NO_VALUE, fixed, formatPowerOfTen, integer } from '../../ui/format.ts';
+import { subscriptOf } from '../shared/sliders.ts';
 import type { CalibrationCheck, CalibrationStats, Interval as CertainInterval } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
 
@@ -19,7 +20,7 @@ interface FittedLog {
   date: string;
 }
 
-export type Words = typeof import('./en.ts').en.nav2;
+type Texts = typeof import('./en.ts').en;
 
 /** Significant digits of an interval's width, and of values without an interval. */
 const [WIDTH_DIGITS, VALUE_DIGITS] = [2, 3];
@@ -71,8 +72,13 @@ export const formatInterval = (interval: Interval | undefined) => (interval?.eve
 /** Returns true if an α prints as 0 with the digits that its interval allows. A printed 0 would look like a result. */
 export const isZero = (alpha: number | null, interval: Interval | undefined) => alpha !== null && Number(formatEstimate(alpha, interval)) === 0;
 
-/** Converts a number as printed in files (1.5e-7) to the decimal sign of the language and a power of ten. */
-export const localized = (number: string) => number.replace('.', fixed(0.5, 1)[1]).replace(/e(-?\d+)$/, (_, exponent) => `·${formatPowerOfTen(Number(exponent))}`);
+/** Converts a number as printed in files (-1.5e-7) to the signs of the language and a power of ten. */
+export const localized = (number: string) =>
+  number.replace(/^-/, MINUS).replace('.', fixed(0.5, 1)[1]).replace(/e(-?\d+)$/, (_, exponent) => `·${formatPowerOfTen(Number(exponent))}`);
+
+/** Prints an interval in the current language; a dash if an end is not finite. */
+export const localInterval = (interval: Interval | undefined) =>
+  (interval?.every(Number.isFinite) ? interval.map((end) => localized(formatEstimate(end, interval))).join(' – ') : NO_VALUE);
 
 export const formatPercent = (fraction: number | null) => (fraction !== null && Number.isFinite(fraction) ? `${formatNumber(100 * fraction)} %` : NO_NUMBER);
 
@@ -87,7 +93,7 @@ export const formatAlphaOrBound = (alpha: number | null, interval: Interval, fac
  * Returns the YAML lines with the recommended α's, and with the fitted α's in comments. Returns no lines if Nav2 has no such model, or if
  * no α's are recommended.
  */
-export function nav2Lines({ calibration, count, model, rule, legs, log, warnings, date }: FittedLog, texts: Words): string[] {
+export function nav2Lines({ calibration, count, model, rule, legs, log, warnings, date }: FittedLog, texts: Texts['nav2']): string[] {
   const { alphas, intervals, recommended, systematicErrors, diagnostics: { checks, windows: [window] } } = calibration;
   if (!Object.hasOwn(NAV2_PLUGINS, model) || recommended === null) return [];
   const { inflation } = recommended;
@@ -136,7 +142,7 @@ export const failedChecksOf = (checks: CalibrationCheck[]) => checks.filter(({ p
  *
  * @param formatLocally formats numbers
  */
-export function correctionAdvice({ recommended, systematicErrors }: CalibrationStats, texts: Words, formatLocally = (number: string) => number): string[] {
+export function correctionAdvice({ recommended, systematicErrors }: CalibrationStats, texts: Texts['nav2'], formatLocally = (number: string) => number): string[] {
   if (!recommended) return [];
   const [distance, turn] = (['distanceScale', 'turnScale'] as const).map((key) => {
     const { value, interval, corrected } = systematicErrors[key];
@@ -157,3 +163,86 @@ export function componentsOf({ value, interval }: CalibrationStats['systematicEr
   const intervals = (Array.isArray(value) ? interval : [interval]) as Interval[];
   return [value].flat().map((component, i) => ({ value: component, interval: intervals[i] }));
 }
+
+/** Systematic errors that can be corrected before the α's are fitted, in the order of tables. */
+export const SYSTEMATIC_ERRORS = ['clockOffset', 'mountYaw', 'leverArm', 'distanceScale', 'turnScale'] as const;
+
+/** Clock offset (s) that is mentioned. Clocks that are synchronized differ by less. */
+const MENTIONED_CLOCK_OFFSET = 10;
+
+/** Fit of α's to a log. */
+export interface Fit {
+  stats: CalibrationStats;
+  /** Number of legs. */
+  count: number;
+  /** Default: the odometry model. */
+  model?: string;
+  /** False for each systematic error that is not to be corrected. */
+  corrections: { [name in (typeof SYSTEMATIC_ERRORS)[number]]?: boolean };
+  /** Notes on the logs that make the α's doubtful. */
+  warnings: Warning[];
+}
+
+/**
+ * Returns the rating of the α's with its badge, the finding in a sentence, and what to do in sentences. A missing α, or a warning such as a
+ * localizer as the reference, makes consistent α's questionable. After a warning nothing says to use the α's. `place` is where corrections
+ * are chosen.
+ */
+export function judgementOf({ stats, count, model, corrections, warnings }: Fit, texts: Texts, place: string) {
+  const { systematicErrors, diagnostics: { verdict, checks } } = stats;
+  const failedChecks = failedChecksOf(checks);
+  const [failedCheck] = count > 0 ? failedChecks : [];
+  const uncorrectedErrors = SYSTEMATIC_ERRORS.filter((name) => corrections[name] === false && isSignificant(name, systematicErrors[name]));
+  const doubts = [
+    ...missingAlphaTexts(stats, model, texts),
+    ...(uncorrectedErrors.length ? [texts.systematic.matters(systematicText(uncorrectedErrors, stats, texts), place)] : []),
+  ];
+  const warningTexts = warnings.map((name) => texts.nav2[name]);
+  const defects = count === 0 ? [texts.none]
+    : failedCheck ? [texts.failed(texts.checks.names[failedCheck.name], String(failedChecks.length), String(checks.length))]
+      : verdict === 'unusable' ? [texts.noAlpha] : [];
+  const findings = verdict === 'unusable' ? [...defects, ...warningTexts] : [...warningTexts, ...defects];
+  const [finding = texts.passed(String(checks.length)), ...otherFindings] = [...findings, ...doubts];
+  const rating = verdict === 'consistent' && warnings.length + doubts.length > 0 ? 'questionable' : verdict;
+  const usage = rating === 'unusable' || warnings.length > 0 ? [] : [rating === 'consistent' ? texts.use : texts.useAnyway, ...correctionAdvice(stats, texts.nav2, localized)];
+  const clockOffset = systematicErrors.clockOffset.value ?? 0;
+  const clockNote = Math.abs(clockOffset) > MENTIONED_CLOCK_OFFSET ? [texts.clock(integer(Math.round(Math.abs(clockOffset))), clockOffset > 0)] : [];
+  const advice = [...otherFindings, ...(failedCheck ? [checkMessage(failedCheck, texts)] : []), ...clockNote, ...usage];
+  return { rating, badge: texts.badges[rating], finding, advice };
+}
+
+/** Returns what a failed check means and what to do. A reference that matches too closely has its own message. */
+export const checkMessage = ({ name, value, expected: [low], passed, message }: CalibrationCheck, { checks }: Texts) =>
+  (passed ? '' : checks.message(name === 'reference-matches' && value < low ? 'reference-copied' : name, message));
+
+/** Returns a sentence for each reason why α's are not identifiable, with the drive that would identify them. */
+function missingAlphaTexts({ notIdentifiable, diagnostics: { checks } }: CalibrationStats, model: string | undefined, { missing, alphas: { lacking } }: Texts) {
+  // Driving differently does not help if the reference is of another drive, or has other units.
+  if (failedChecksOf(checks).some(({ name }) => name === 'reference-matches')) return [];
+  const reasons = [...new Set(notIdentifiable)].filter((reason) => reason !== null);
+  return reasons.map((reason) => {
+    const names = notIdentifiable.flatMap((reasonOfAlpha, i) => (reasonOfAlpha === reason ? [`α${subscriptOf(i)}`] : []));
+    return missing(names.join(', '), adviceOf(lacking, model, reason).drive);
+  });
+}
+
+/** Returns texts for a reason: what the log lacks, and the drive that would identify the α. */
+export function adviceOf(lacking: Texts['alphas']['lacking'], model: string | undefined, reason: keyof typeof lacking) {
+  const { lack, drive, byCommands } = lacking[reason];
+  return { lack, drive: model === 'velocity' ? byCommands : drive };
+}
+
+/** Returns true if the interval of an error excludes 0, or that of a scale excludes 1. */
+function isSignificant(name: string, error: Parameters<typeof componentsOf>[0]) {
+  const neutralValue = name.endsWith('Scale') ? 1 : 0;
+  return componentsOf(error).some(({ interval }) => interval && (interval[0] > neutralValue || interval[1] < neutralValue));
+}
+
+/** Lists systematic errors with their values; empty if none is identifiable. */
+export function systematicText(names: readonly (typeof SYSTEMATIC_ERRORS)[number][], { systematicErrors }: CalibrationStats, { systematic }: Texts) {
+  return names.flatMap((name) => {
+    const texts = componentsOf(systematicErrors[name]).flatMap(({ value, interval }) => (value === null ? [] : [`${localized(formatEstimate(value, interval))} (${localInterval(interval)})`]));
+    return texts.length ? [`${systematic.names[name]} ${texts.join(', ')}`] : [];
+  }).join('; ');
+}
+

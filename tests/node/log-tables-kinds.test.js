@@ -178,6 +178,7 @@ const UNIT_QUESTIONS = [
   ['commands in centimetres', ['t,v,omega', ...timesFrom(50).map((t) => `${t},${10 * Math.sin(2 * t)},0`)].join('\n'), /in m, the robot would drive at \d\.\d+ m\/s;/, { lengthUnit: 'cm' }, ['v', 0.1 * Math.sin(1.8)]],
   ['commands in milliseconds', ['t,v,omega', ...timesFrom(50).map((t, i) => `${1000 * t},${i % 2},0.5`)].join('\n'), /in s, the times would mean 0\.01\d* rows a second; state their unit/, { timeUnit: 'ms' }, ['t', 0.9]],
   ['degrees of a robot that drives straight on', circleTableOf(([t]) => [t, t / 2, 0, 20 * Math.sin(t / 9)]), /headings in rad .*: rad or deg\.$/, { angleUnit: 'deg' }, ['theta', (Math.sin(0.05) * Math.PI) / 9]],
+  ['radians that are called degrees', circleTableOf(undefined, 't,x,y,yaw_deg'), /headings in deg would turn at \d\.\d+ rad\/s; state their unit: rad or deg\.$/, { angleUnit: 'rad' }, ['theta', CIRCLE_ROWS[9][3]]],
   ['turn rates in degrees', ['t,v,omega', ...timesFrom(50).map((t) => `${t},0.5,30`)].join('\n'), /headings in rad would turn at 30\.0 rad\/s/, { angleUnit: 'deg' }, ['omega', Math.PI / 6]],
 ];
 

@@ -49,7 +49,7 @@ const UNSUPPORTED_FORMATS: typeof import('./en.ts').UNSUPPORTED_FORMATS = {
 
 const CORRECTION_TEXTS: Record<Correction['name'], (correction: Correction, other: string) => string> = {
   leftHanded: (_, other) => `sie dreht nach links, wo ${other} nach rechts dreht: eine der beiden hat Z nach unten oder ein linkshändiges Koordinatensystem; y und Richtung dieser einen negieren`,
-  angles: ({ unit }) => `ihre Richtungen sind in ${unit === 'deg' ? 'Grad und wurden als Radiant gelesen' : 'Radiant und wurden als Grad gelesen'}; die Einheit der Winkel angeben`,
+  angles: () => 'ihre Winkel sind in Grad und wurden als Radiant gelesen; ihre Einheit angeben',
   lengths: ({ factor, unit }, other) => `multipliziert mit ${String(Number(factor.toPrecision(3))).replace('.', ',')} passen ihre Längen zu denen von ${other}${unit ? `: Sie sind in ${unit}; ihre Einheit angeben` : '; sie damit multiplizieren'}`,
 };
 

@@ -33,7 +33,7 @@ const DROP_REASONS = {
 /** Errors of a log, found by comparing it with the other log, and how to correct them. */
 const CORRECTION_TEXTS: Record<Correction['name'], (correction: Correction, other: string) => string> = {
   leftHanded: (_, other) => `it turns left where ${other} turns right: one of the two has Z down or a left-handed frame; negate y and the heading of that one`,
-  angles: ({ unit }) => `its headings are in ${unit === 'deg' ? 'degrees and were read as radians' : 'radians and were read as degrees'}; state the unit of angles`,
+  angles: () => 'its angles are in degrees and were read as radians; state their unit',
   lengths: ({ factor, unit }, other) => `multiplied by ${Number(factor.toPrecision(3))}, its lengths match those of ${other}${unit ? `: they are in ${unit}; state their unit` : '; multiply them'}`,
 };
 

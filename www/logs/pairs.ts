@@ -1,10 +1,10 @@
 /** Reading of the two logs of each drive, and checks whether they fit. */
 
-import { cross, greatest, min } from 'd3-array';
+import { min } from 'd3-array';
 import type { CalibrationLog } from '../types.d.ts';
 import { isLocalizer, roleByName, type LogPlan } from './drives.ts';
 import { LogError, ROLES, UNITS, framesText, type AngleUnit, type LengthUnit, type Log, type Note, type Poses, type Question, type Role, type Warning } from './log.ts';
-import { pathOf, poseAt, wrapAngle, type Pose } from './path.ts';
+import { pathOf, poseAt, wrapAngle } from './path.ts';
 import { METRES_PER_UNIT } from './units.ts';
 
 /** Two logs of one drive, with times after the same start. */
@@ -21,14 +21,6 @@ const MIN_ODOMETRY_MOTION = 0.05;
 
 /** Motion of the robot in one step, in the frame of the robot, in m and rad. */
 type Motion = [forward: number, left: number, turn: number];
-
-const DEGREE = Math.PI / 180;
-
-const POSE_CORRECTIONS: (Pick<Correction, 'name' | 'unit'> & { correct: (pose: Pose) => Pose })[] = [
-  { name: 'leftHanded', correct: ([x, y, heading]) => [x, -y, -heading] },
-  { name: 'angles', unit: 'deg', correct: ([x, y, heading]) => [x, y, heading * DEGREE] },
-  { name: 'angles', unit: 'rad', correct: ([x, y, heading]) => [x, y, heading / DEGREE] },
-];
 
 /** Correction that makes two logs of a drive agree. */
 export interface Correction {
@@ -169,15 +161,14 @@ function correctionOf(odometry: Log, reference: Log): Correction | undefined {
   const step = Math.max(MIN_STEP_SECONDS, (to - from) / MAX_STEPS, ...ROLES.map((role) => 2 / logs[role].summary.rate));
   const stepCount = Math.floor((to - from) / step);
   if (!(stepCount >= MIN_STEPS)) return undefined;
-  const uncorrectedMotions = { odometry: motionsOf(odometry, from, step, stepCount), reference: motionsOf(reference, from, step, stepCount) };
-  const { score, length: factor, angle } = bestAgreementOf(uncorrectedMotions, step);
-  const triedCorrections = score >= MIN_AGREEMENT_SCORE ? [] : cross(POSE_CORRECTIONS, ['reference', 'odometry'] as const, ({ name, unit, correct }, at) => {
-    const correctedMotions = { ...uncorrectedMotions, [at]: motionsOf(logs[at], from, step, stepCount, correct) };
-    return { name, at, unit, factor, ...bestAgreementOf(correctedMotions, step) };
-  });
-  const minScore = Math.max(MIN_CORRECTED_SCORE, 1 - MAX_REMAINING_FRACTION * (1 - score));
-  const best = greatest(triedCorrections.filter((candidate) => candidate.score >= minScore && isPlausibleScale(candidate.length) && isPlausibleScale(candidate.angle)), ({ score: correctedScore }) => correctedScore);
-  if (best || score < MIN_CORRECTED_SCORE) return best;
+  const [odometryMotions, referenceMotions] = ROLES.map((role) => motionsOf(logs[role], from, step, stepCount));
+  const { score, length: factor, angle } = bestAgreementOf(odometryMotions, referenceMotions, step);
+  if (score < MIN_AGREEMENT_SCORE) {
+    const mirrored = bestAgreementOf(odometryMotions, referenceMotions.map(([forward, left, turn]) => [forward, -left, -turn]), step);
+    const minScore = Math.max(MIN_CORRECTED_SCORE, 1 - MAX_REMAINING_FRACTION * (1 - score));
+    if (mirrored.score >= minScore && [mirrored.length, mirrored.angle].every(isPlausibleScale)) return { name: 'leftHanded', at: 'reference', score: mirrored.score, factor };
+    if (score < MIN_CORRECTED_SCORE) return undefined;
+  }
   if (!isPlausibleScale(factor)) return lengthCorrection(logs, score, factor);
   return isPlausibleScale(angle) ? undefined : { name: 'angles', at: angle < 1 ? 'reference' : 'odometry', score, factor, unit: 'deg' };
 }
@@ -202,10 +193,9 @@ function questionOf({ name, at, unit }: Correction, logs: Record<Role, Log>): Qu
 }
 
 /** Returns the motions of a log in equal steps, from a start time on. Steps with a jump or another break have no motion. */
-function motionsOf({ data }: Log, from: number, step: number, count: number, correct = (pose: Pose) => pose): Motion[] {
+function motionsOf({ data }: Log, from: number, step: number, count: number): Motion[] {
   const path = pathOf(data, Math.max(1, Math.floor(data.t.length / (4 * MAX_STEPS))));
-  const correctedPath = { ...path, poses: path.poses.map(correct) };
-  const stepPoses = Array.from({ length: count + 1 }, (_, i) => poseAt(correctedPath, from + i * step));
+  const stepPoses = Array.from({ length: count + 1 }, (_, i) => poseAt(path, from + i * step));
   const brokenSteps = new Set(Array.from(data.breaks, (row) => [row - 1, row].map((end) => Math.floor((data.t[end] - from) / step))).flat());
   return stepPoses.slice(1).map(([x, y, heading], i) => {
     if (brokenSteps.has(i)) return [0, 0, 0];
@@ -216,7 +206,7 @@ function motionsOf({ data }: Log, from: number, step: number, count: number, cor
 }
 
 /** Returns the agreement of two logs at the smallest clock offset at which they agree, or at the best offset if they do not agree. */
-function bestAgreementOf({ odometry, reference }: Record<Role, Motion[]>, step: number): Agreement {
+function bestAgreementOf(odometry: Motion[], reference: Motion[], step: number): Agreement {
   const maxLag = Math.round(MAX_CLOCK_OFFSET / step);
   let best: Agreement = { score: -1, length: 1, angle: 1 };
   for (let i = 0; i <= 2 * maxLag && best.score < MIN_AGREEMENT_SCORE; i++) {

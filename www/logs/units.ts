@@ -77,13 +77,13 @@ export function judgeUnits(place: ErrorPlace, kind: LogKind, columns: Columns, a
   const alignmentWithYUp = isJudged && kind === 'poses' && names && !alignment ? alignmentWithPath(t, a, z, c) : undefined;
   if (names && alignmentWithYUp) throw new LogError(place, (texts) => texts.yUp, { what: 'columns', choices: [names.withYUp(alignmentWithYUp.sign).join()], columns: names.given });
   let angle: Units['angle'] = { unit, by };
-  if (isJudged && by === 'usage') {
+  const hasOtherUnit = alignment !== undefined && alignment.unit !== unit;
+  if (isJudged && by === 'usage' && hasOtherUnit) angle = { unit: alignment.unit, by: 'size' };
+  else if (isJudged && (by === 'usage' ? !alignment : by === 'name' && hasOtherUnit)) {
     const turnRateAt = kind === 'poses' ? (i: number) => (c[i + 1] - c[i]) / (t[i + 1] - t[i]) : (i: number) => b[i];
     const turnRate = quantile(sampleEvenly(t.length - 1, (i) => Math.abs(turnRateAt(i))), 0.9);
     const mayBeDegrees = kind === 'poses' ? c.some((heading) => Math.abs(heading) > MAX_WRAPPED_HEADING) : turnRate > MAX_SPEED;
-    // Headings in radians may be unwrapped.
-    if (mayBeDegrees && alignment) angle = alignment.unit === 'deg' ? { unit: 'deg', by: 'size' } : angle;
-    else if (mayBeDegrees) askUnit('angleUnit', turnRate, unit, [...UNITS.angleUnit]);
+    if (mayBeDegrees || hasOtherUnit) askUnit('angleUnit', turnRate * RADIANS_PER_UNIT[unit as AngleUnit], unit, [...UNITS.angleUnit]);
   }
   if (angle.unit === 'deg') scaleColumn(kind === 'poses' ? c : b, RADIANS_PER_UNIT.deg);
   return { time, length, angle };

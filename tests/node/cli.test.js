@@ -220,7 +220,7 @@ test('units are stated for both logs, or for each', async () => {
   for (const name of ['t', 'x', 'theta']) assert.ok(Math.abs(statedUnitOptions.odometry[0][name][999] - siOptions.odometry[0][name][999]) < 1e-9, name);
   const degreesPath = writeInFolder('degrees.csv', [header, ...rows.map((row) => row.split(',').map((cell, i) => Number(cell) * [1, 1, 1, 180 / Math.PI][i]).join(','))].join('\n'));
   const refusalOutput = await runCalibrate(['--odometry', degreesPath, ...LOG_ARGS.slice(2), '--angle-unit', 'rad']);
-  assert.match(refusalOutput.err, /^degrees\.csv: its headings are in degrees and were read as radians; .* Choose with --odometry FILE --reference FILE --angle-unit deg,rad\.$/m);
+  assert.match(refusalOutput.err, /^degrees\.csv: headings in rad would turn at .*; if odometry and reference differ, with --odometry FILE --reference FILE --angle-unit rad,deg\.$/m);
 });
 
 test('a folder gives its logs, and other files are skipped', async () => {

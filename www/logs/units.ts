@@ -76,15 +76,13 @@ export function judgeUnits(place: ErrorPlace, kind: LogKind, columns: Columns, a
   if (alignment?.sign === -1) throw new LogError(place, (texts) => texts.mirrored);
   const alignmentWithYUp = isJudged && kind === 'poses' && names && !alignment ? alignmentWithPath(t, a, z, c) : undefined;
   if (names && alignmentWithYUp) throw new LogError(place, (texts) => texts.yUp, { what: 'columns', choices: [names.withYUp(alignmentWithYUp.sign).join()], columns: names.given });
-  let angle: Units['angle'] = { unit, by };
-  const hasOtherUnit = alignment !== undefined && alignment.unit !== unit;
-  if (isJudged && by === 'usage' && hasOtherUnit) angle = { unit: alignment.unit, by: 'size' };
-  else if (isJudged && (by === 'usage' ? !alignment : by === 'name' && hasOtherUnit)) {
-    const turnRateAt = kind === 'poses' ? (i: number) => (c[i + 1] - c[i]) / (t[i + 1] - t[i]) : (i: number) => b[i];
-    const turnRate = quantile(sampleEvenly(t.length - 1, (i) => Math.abs(turnRateAt(i))), 0.9);
-    const mayBeDegrees = kind === 'poses' ? c.some((heading) => Math.abs(heading) > MAX_WRAPPED_HEADING) : turnRate > MAX_SPEED;
-    if (mayBeDegrees || hasOtherUnit) askUnit('angleUnit', turnRate * RADIANS_PER_UNIT[unit as AngleUnit], unit, [...UNITS.angleUnit]);
-  }
+  const turnRateAt = kind === 'poses' ? (i: number) => (c[i + 1] - c[i]) / (t[i + 1] - t[i]) : (i: number) => b[i];
+  const turnRate = quantile(sampleEvenly(t.length - 1, (i) => Math.abs(turnRateAt(i))), 0.9);
+  const mayBeDegrees = kind === 'poses' ? c.some((heading) => Math.abs(heading) > MAX_WRAPPED_HEADING) : turnRate > MAX_SPEED;
+  const isContradicted = alignment !== undefined && unit !== 'quaternion' && alignment.unit !== unit;
+  const isUnclear = by === 'usage' ? mayBeDegrees && !alignment : isContradicted;
+  if (isJudged && isUnclear) askUnit('angleUnit', turnRate * RADIANS_PER_UNIT[unit as AngleUnit], unit, [...UNITS.angleUnit]);
+  const angle: Units['angle'] = isContradicted ? { unit: alignment.unit, by: 'size' } : { unit, by };
   if (angle.unit === 'deg') scaleColumn(kind === 'poses' ? c : b, RADIANS_PER_UNIT.deg);
   return { time, length, angle };
 }

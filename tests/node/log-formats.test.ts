@@ -247,5 +247,5 @@ test('a topic of two types is refused', async () => {
     const message = { topic: '/odom', type: 'nav_msgs/msg/Odometry', t: timeAt(i), message: odometryMessageOf(timeAt(i), i / 50, 0, 0) };
     return i % 2 ? { ...message, schema: 'geometry_msgs/msg/PoseStamped' } : message;
   });
-  assert.match(await catchRefusalSentence(readLogsOf(messages, { series: '/odom' })), /^run\.mcap, topic \/odom: its messages have the types nav_msgs\/msg\/Odometry, geometry_msgs\/msg\/PoseStamped;/);
+  assert.match(await catchRefusalSentence(readLogsOf(messages, { series: '/odom' })), /^run\.mcap, topic \/odom: its type is “nav_msgs\/msg\/Odometry, geometry_msgs\/msg\/PoseStamped”;/);
 });

@@ -109,9 +109,7 @@ export const german: Words = {
       `es ist nur ${role ? `die ${ROLE_NAMES[role]}` : 'ein Log'} darin, ${series}; gebraucht ${role ? `wird auch die ${ROLE_NAMES[role === 'odometry' ? 'reference' : 'odometry']}` : 'werden Odometrie und Referenz'}.`,
     lacks: (role, series) => `nach Namen und Typen ist keine ${ROLE_NAMES[role]} darin, sondern ${series}; eines davon auswählen, oder auch eine Datei mit der ${ROLE_NAMES[role]} angeben.`,
     choose: (role, series) => `es ist nicht klar, was die ${ROLE_NAMES[role]} ist: ${series}.`,
-    type: (type, neededType) => `sein Typ ist „${type}“; erwartet wird ${MESSAGE_TYPES[neededType]}.`,
-    encoding: (value) => `seine Nachrichten sind als „${value}“ kodiert; erwartet wird cdr von ROS 2, oder ros1.`,
-    types: (types) => `seine Nachrichten haben die Typen ${types}; erwartet wird einer: das Topic eines Knotens umbenennen und neu aufzeichnen.`,
+    type: (type, neededType) => `sein Typ ist „${type}“; erwartet wird ${MESSAGE_TYPES[neededType]} (kodiert als cdr oder ros1).`,
     message: (reason) => `sie lässt sich nicht lesen (${reason}); erwartet wird eine vom Typ des Topics.`,
     frames: (knownFrames) => `zu nennen sind ein äußerer und ein innerer Frame, verbunden durch ${knownFrames || 'Transformationen, von denen es keine gibt'}.`,
     noChain: (frames, knownFrames) =>

@@ -112,9 +112,7 @@ export const english = {
       `it has ${role ? `the ${role}` : 'one log'} only, ${series}; give ${role ? `the ${role === 'odometry' ? 'reference' : 'odometry'} too` : 'odometry and reference'}.`,
     lacks: (role: Role, series: string) => `by its names and types it has no ${role}, but ${series}; choose one of these, or give a file with the ${role} too.`,
     choose: (role: Role, series: string) => `it is not clear what the ${role} is: ${series}.`,
-    type: (type: string, neededType: keyof typeof MESSAGE_TYPES) => `its type is “${type}”; expected is ${MESSAGE_TYPES[neededType]}.`,
-    encoding: (value: string) => `its messages are encoded as “${value}”; expected is cdr of ROS 2, or ros1.`,
-    types: (types: string) => `its messages have the types ${types}; expected is one: rename the topic of one node, and record again.`,
+    type: (type: string, neededType: keyof typeof MESSAGE_TYPES) => `its type is “${type}”; expected is ${MESSAGE_TYPES[neededType]} (encoded as cdr or ros1).`,
     message: (reason: string) => `it cannot be read (${reason}); expected is one of the topic's type.`,
     frames: (knownFrames: string) => `give a parent and a child frame, connected by ${knownFrames || 'transforms, of which there are none'}.`,
     noChain: (frames: string, knownFrames: string) =>

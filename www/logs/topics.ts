@@ -10,6 +10,9 @@ import { Rows } from './rows.ts';
 /** Maximum number of messages with transforms that are read to find the frames. */
 const MAX_FRAME_MESSAGES = 2000;
 
+/** Maximum length of the types of a topic in a sentence. */
+const MAX_TYPE_LENGTH = 100;
+
 /** Returns true for a topic of static transforms. */
 const isStaticTopic = ({ topic, type }: Pick<Channel, 'topic' | 'type'>) => logKindOfType(type) === 'transforms' && /(^|\/)tf_static$/.test(topic);
 
@@ -23,7 +26,7 @@ export async function recordingOf(name: string, container: Container, options: O
   return { name, format, series, read };
 
   async function read(choices: LogChoice[], onProgress?: (share: number) => void): Promise<Log[]> {
-    const choiceReaders = choices.map((choice) => topicReader(name, container, choice));
+    const choiceReaders = choices.map((choice) => topicReader(name, container, choice, series.find((entry) => entry.name === choice.series)));
     const readersByChannel = new Map(container.channels.map((channel) => [channel, choiceReaders.filter((reader) => reader.wants(channel))]));
     const passMessage = (message: Message) => {
       for (const reader of readersByChannel.get(message.channel) ?? []) reader.addMessage(message);
@@ -66,14 +69,14 @@ async function listSeries(container: Container): Promise<Series[]> {
   return sort(series, ({ name }) => name);
 }
 
-/** Returns a reader of one topic. For a topic of transforms it also reads the static transforms. */
-function topicReader(file: string, container: Container, choice: LogChoice) {
-  const { series: topic, frames } = choice;
-  const refuse: Refuse = (reason) => {
+/** Returns a reader of one topic. For a topic of transforms it also reads the static transforms. Throws a LogError if the topic has no such log. */
+function topicReader(file: string, container: Container, { series: topic, kind: wantedKind, frames }: LogChoice, { type, kind }: Pick<Series, 'type' | 'kind'> = { type: '', kind: null }) {
+  const refuse = (reason: (texts: Words['refused']) => string): never => {
     throw new LogError({ file, topic }, reason);
   };
-  const type = readableTypeOf(container, choice, refuse);
-  const kind = logKindOfType(type);
+  if (kind === 'positions') refuse((texts) => texts.positions(type));
+  const hasWantedKind = frames ? kind === 'transforms' : kind !== null && !(wantedKind === 'poses' && kind === 'commands');
+  if (!hasWantedKind) refuse((texts) => texts.type(truncate(type, MAX_TYPE_LENGTH), frames ? 'transforms' : wantedKind === 'poses' ? wantedKind : 'either'));
   const rows = new Rows({ file, topic });
   const chain = frames && new Chain(frames);
   const readSample = poseReader(type);
@@ -82,7 +85,7 @@ function topicReader(file: string, container: Container, choice: LogChoice) {
   let [damagedCount, damageReason] = [0, ''];
 
   return {
-    wants: (channel: Channel) => logKindOfType(channel.type) === kind && (channel.topic === topic || (frames !== undefined && isStaticTopic(channel))),
+    wants: (channel: Channel) => (channel.topic === topic && channel.type === type && isReadable(channel)) || (frames !== undefined && isStaticTopic(channel)),
 
     addMessage(message: Message): void {
       messageCount += 1;
@@ -121,21 +124,4 @@ function topicReader(file: string, container: Container, choice: LogChoice) {
       }, options);
     },
   };
-}
-
-type Refuse = (reason: (texts: Words['refused']) => string) => never;
-
-/** Returns the type of a topic, which must be the only one that can be read. */
-function readableTypeOf({ channels }: Container, { series, kind: wantedKind, frames }: LogChoice, refuse: Refuse): string {
-  const channelsOfTopic = channels.filter(({ topic }) => topic === series);
-  const fittingChannels = channelsOfTopic.filter(({ type }) => {
-    const kind = logKindOfType(type);
-    return frames ? kind === 'transforms' : kind !== null && !(wantedKind === 'poses' && kind === 'commands');
-  });
-  const typeNames = [...new Set((fittingChannels.length ? fittingChannels : channelsOfTopic).map(({ type }) => type))];
-  if (fittingChannels.length === 0) refuse((texts) => texts.type(truncate(typeNames.join(', ')), frames ? 'transforms' : wantedKind === 'poses' ? wantedKind : 'either'));
-  if (typeNames.length > 1) refuse((texts) => texts.types(listNames(typeNames)));
-  if (logKindOfType(typeNames[0]) === 'positions') refuse((texts) => texts.positions(typeNames[0]));
-  if (!isReadable(fittingChannels[0])) refuse((texts) => texts.encoding(truncate(fittingChannels[0].encoding)));
-  return typeNames[0];
 }

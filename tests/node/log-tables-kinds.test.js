@@ -215,7 +215,7 @@ const REFUSED_TABLES = [
   ['x and y of one source and the heading of another', 't,x,y,imu_yaw\n0,0,0,0\n1,0,0,0\n', /: x, y are positions without a heading;/],
   ['other columns', `t,${LONG_WORD}\n0,1\n`, /, line 1: the columns are t, x{40}…; expected are x, y and yaw/],
   ['a unit that is not known', 't,x [yd],y [yd],yaw\n0,0,0,0\n1,0,0,0\n', /the unit yd of a column is not known/],
-  ['text in many rows', 't,x,y,yaw\n0,0,0,0\n1,a,0,0\n2,b,0,0\n', /, line 3: x is “a”; expected is a number\. 2 of 3 rows have text in place of a number, or too few cells; at most 10 % of the rows may\.$/],
+  ['text in many rows', 't,x,y,yaw\n0,0,0,0\n1,a,0,0\n2,b,0,0\n', /, line 3: x is “a”; expected is a number\. 2 of 3 rows are damaged; at most 10 % may be\.$/],
   ['hexadecimal digits', 't,x,y,yaw\n0x10,0,0,0\n', /, line 2: t is “0x10”;/],
   ['thousands beside decimal commas', 't;x;y;yaw\n0,5;1.234;0;0\n1,5;1;0;0\n', /, line 2: x is “1\.234”;/],
   ['thousands in quotes', circleTableOf(([t, x, y, yaw]) => [`"${1000 * t}"`.replace(/\B(?=\d{3}")/, ','), x, y, yaw], 't_ms,x,y,yaw'), /t_ms is “1,000”; expected is a number without separators of thousands\./],

@@ -177,6 +177,9 @@ export interface ErrorPlace {
   topic?: string;
 }
 
+/** Returns the end of an error's sentence, after its place, in the language of the given words. */
+export type ErrorReason = (texts: Words['refused']) => string;
+
 /** Maximum number of quoted characters in a sentence: of a name or value, and of a library's message. */
 const [MAX_QUOTED, MAX_REASON] = [40, 100];
 
@@ -188,8 +191,7 @@ export class LogError extends Error {
   /** Returns the message in the language of the given words. */
   sentence: (texts: Words) => string;
 
-  /** @param reason returns the end of the sentence in the language of the given words */
-  constructor(place: ErrorPlace, reason: (texts: Words['refused']) => string, ask?: Question) {
+  constructor(place: ErrorPlace, reason: ErrorReason, ask?: Question) {
     const sentenceOf = (texts: Words) => `${texts.place(truncate(place.file), place.line ?? 0, truncate(place.topic ?? ''))}: ${reason(texts.refused)}`;
     super(sentenceOf(english));
     this.name = 'LogError';

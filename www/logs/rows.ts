@@ -1,7 +1,7 @@
 /** Rows of a log. Unusable rows are dropped, with the cause. */
 
 import { group, max, min, range, sum } from 'd3-array';
-import { LogError, type ErrorPlace, type DropCause, type Log, type LogKind, type Note, type OpenOptions, type Question, type Summary } from './log.ts';
+import { LogError, type ErrorPlace, type DropCause, type Log, type LogKind, type Note, type OpenOptions, type ErrorReason, type Question, type Summary, type Words } from './log.ts';
 import { distanceOf, quantile, sampleEvenly, wrapAngle } from './path.ts';
 import { epochTimeUnitOf, judgeUnits, type Columns, type ColumnNames, type Units } from './units.ts';
 
@@ -68,6 +68,9 @@ const MIN_MOVING_SPEED = 0.01;
 /** Maximum fraction of rows that have the time of another row and other values. */
 const MAX_CONTRADICTING_FRACTION = 0.4;
 
+/** Maximum fraction of damaged rows. */
+const MAX_DAMAGED_FRACTION = 0.1;
+
 /** Maximum spread of the cosine of the tilt. Above it, the robot does not drive on a plane. */
 const MAX_TILT_SPREAD = 0.5;
 
@@ -81,6 +84,8 @@ export class Rows {
   /** True if the path before the next row is unknown, because an unusable row was dropped. */
   #isBroken = false;
   #dropped: Summary['dropped'] = {};
+  /** Number of damaged rows. The first one has the line and the reason. */
+  #damage: { count: number; line: number; reason: ErrorReason } | undefined;
 
   /** Number of all rows, including dropped rows. */
   count = 0;
@@ -90,10 +95,12 @@ export class Rows {
     this.#logPlace = place;
   }
 
-  drop(cause: DropCause, line: number): void {
+  /** Drops a row. If many rows are dropped with a reason, the log is refused with the reason of the first. */
+  drop(cause: DropCause, line: number, reason?: ErrorReason): void {
     this.count += 1;
     this.#countDropped(cause, line);
     this.#isBroken = true;
+    if (reason) this.#damage = { line, reason, ...this.#damage, count: (this.#damage?.count ?? 0) + 1 };
   }
 
   /** Adds a row, or drops it. `otherTime` is that of the clock that is used if the first one stands still. */
@@ -123,6 +130,12 @@ export class Rows {
 
   /** Returns the log with the rows that were added. Throws a LogError if they are no log, or their units or axes are in doubt. */
   end(name: string, kind: LogKind, { units: assumed, clocks, names, ...decisions }: LogFacts, options: OpenOptions = {}): Log {
+    const { count } = this;
+    const damage = this.#damage;
+    if (damage && damage.count > MAX_DAMAGED_FRACTION * count) {
+      const sentences = (texts: Words['refused']) => [damage.reason(texts), ...(damage.count > 1 && damage.count < count ? [texts.manyBad(damage.count, count, 100 * MAX_DAMAGED_FRACTION)] : [])];
+      throw new LogError({ ...this.#logPlace, line: damage.line }, (texts) => sentences(texts).join(' '));
+    }
     const ask: Question | undefined = names && { what: 'columns', choices: [], columns: names.given };
     if (this.tiltSpread > MAX_TILT_SPREAD) throw new LogError(this.#logPlace, (texts) => texts.tilted(names !== undefined), ask);
     const usesOtherClock = clocks[1] !== undefined && this.#isClockStill();
@@ -132,7 +145,6 @@ export class Rows {
     const { sortedRows, lateCount } = this.#sort(stampedRows);
     const rowsOfDistinctTime = this.#withoutEqualTimes(sortedRows);
     const rows = kind === 'poses' ? this.#withoutRepeatedPoses(rowsOfDistinctTime) : rowsOfDistinctTime;
-    const { count } = this;
     if (rows.length < 2) {
       const [cause, firstDrop] = (Object.entries(this.#dropped) as [DropCause, { first: number }][])[0] ?? [];
       throw new LogError({ ...this.#logPlace, line: firstDrop?.first }, (texts) => texts.few(rows.length, count, cause));

@@ -3,7 +3,7 @@
 import { least } from 'd3-array';
 import { logLayoutOf, type Clock, type Group } from './columns.ts';
 import { splitCells, detectTableFormat, parseDate, parseNumber, parseTime, type Format } from './format.ts';
-import { LogError, readBytes, truncate, listNames, type ErrorPlace, type Words, type Log, type Note, type OpenOptions, type Recording, type Series, type Source, type Summary, type TimeUnit } from './log.ts';
+import { LogError, readBytes, truncate, listNames, type ErrorPlace, type ErrorReason, type Log, type Note, type OpenOptions, type Recording, type Series, type Source, type Summary, type TimeUnit } from './log.ts';
 import { rotationOf, type Quaternion } from './path.ts';
 import { Rows } from './rows.ts';
 import { UNIT_EXPONENTS, epochTimeUnitOf } from './units.ts';
@@ -18,11 +18,6 @@ const CHECKED_CHARACTERS = 4096;
 
 /** Maximum number of characters of a line. A row of a thousand columns is shorter. */
 const MAX_LINE_LENGTH = 2 ** 16;
-
-/** Maximum fraction of damaged rows. Above it, the log is refused. */
-const MAX_DAMAGED_FRACTION = 0.1;
-
-type ErrorReason = ConstructorParameters<typeof LogError>[1];
 
 export async function openTable(source: Source, options: OpenOptions = {}): Promise<Recording> {
   const headBytes = await readBytes(source, 0, Math.min(HEAD_BYTES, source.size));
@@ -149,20 +144,12 @@ function logReader(name: string, place: ErrorPlace, format: Format, group: Group
   const hasHeight = fields.at(-1) === 'yaw' && z !== undefined;
   const neededCells = Math.max(...[...columns, ...(hasHeight ? [z] : []), ...clocks.flatMap((clock) => clock.columns), ...nameColumns].map(({ at }) => at)) + 1;
   const rowNames = new Set<string>();
-  let [damagedRows, firstDamagedLine] = [0, 0];
-  let damageReason: ErrorReason | undefined;
 
   const refuse = (reason: ErrorReason): never => {
     throw new LogError(place, reason);
   };
 
-  /** Drops a damaged row. If there are many, the log is refused with the reason of the first. */
-  const dropDamaged = (cause: 'short' | 'text', line: number, reason: ErrorReason) => {
-    damagedRows += 1;
-    if (damagedRows === 1) [firstDamagedLine, damageReason] = [line, reason];
-    rows.drop(cause, line);
-  };
-  const dropText = (line: number, columnName: string, cell: string) => dropDamaged('text', line, (texts) => texts.number(truncate(columnName), truncate(cell.trim())));
+  const dropText = (line: number, columnName: string, cell: string) => rows.drop('text', line, (texts) => texts.number(truncate(columnName), truncate(cell.trim())));
 
   const addCells = (cells: string[], line: number) => {
     const times: number[] = [];
@@ -191,7 +178,7 @@ function logReader(name: string, place: ErrorPlace, format: Format, group: Group
       if (line === header) return rows.drop('text', number);
       const cells = splitCells(line, separator, neededCells);
       if (cells.length < neededCells) {
-        if (!isUnterminated) return dropDamaged('short', number, (texts) => texts.cells(cells.length, neededCells));
+        if (!isUnterminated) return rows.drop('short', number, (texts) => texts.cells(cells.length, neededCells));
         notes.push({ name: 'cutShort', values: [] });
         return rows.drop('short', number);
       }
@@ -200,12 +187,6 @@ function logReader(name: string, place: ErrorPlace, format: Format, group: Group
     },
 
     end(): Log {
-      if (damageReason && damagedRows > MAX_DAMAGED_FRACTION * rows.count) {
-        const reason = damageReason;
-        const isMixed = damagedRows > 1 && damagedRows < rows.count;
-        const sentences = (texts: Words['refused']) => [reason(texts), ...(isMixed ? [texts.manyBad(damagedRows, rows.count, 100 * MAX_DAMAGED_FRACTION)] : [])];
-        throw new LogError({ ...place, line: firstDamagedLine }, (texts) => sentences(texts).join(' '));
-      }
       if (rowNames.size > 1) refuse((texts) => texts.mixed(listNames([...rowNames])));
       const { unit = 's', by } = clockReaders[0].judged;
       if (!(unit in UNIT_EXPONENTS)) refuse((texts) => texts.unknownUnit(truncate(unit)));

@@ -3,7 +3,7 @@
 import { group, sort, sum } from 'd3-array';
 import type { Channel, Container, Message } from './formats/container.ts';
 import { Chain, FrameTree } from './frames.ts';
-import { LogError, truncate, listNames, reasonOf, LOG_TIME, framesText, type Words, type LogChoice, type Log, type Note, type OpenOptions, type Recording, type Series } from './log.ts';
+import { LogError, truncate, listNames, reasonOf, LOG_TIME, framesText, type ErrorReason, type LogChoice, type Log, type Note, type OpenOptions, type Recording, type Series } from './log.ts';
 import { isReadable, logKindOfType, poseReader, readTransforms } from './messages.ts';
 import { Rows } from './rows.ts';
 
@@ -71,7 +71,7 @@ async function listSeries(container: Container): Promise<Series[]> {
 
 /** Returns a reader of one topic. For a topic of transforms it also reads the static transforms. Throws a LogError if the topic has no such log. */
 function topicReader(file: string, container: Container, { series: topic, kind: wantedKind, frames }: LogChoice, { type, kind }: Pick<Series, 'type' | 'kind'> = { type: '', kind: null }) {
-  const refuse = (reason: (texts: Words['refused']) => string): never => {
+  const refuse = (reason: ErrorReason): never => {
     throw new LogError({ file, topic }, reason);
   };
   if (kind === 'positions') refuse((texts) => texts.positions(type));
@@ -81,8 +81,6 @@ function topicReader(file: string, container: Container, { series: topic, kind: 
   const chain = frames && new Chain(frames);
   const readSample = poseReader(type);
   let messageCount = 0;
-  /** Number of damaged messages, and the reason why the first one cannot be read. */
-  let [damagedCount, damageReason] = [0, ''];
 
   return {
     wants: (channel: Channel) => (channel.topic === topic && channel.type === type && isReadable(channel)) || (frames !== undefined && isStaticTopic(channel)),
@@ -94,9 +92,7 @@ function topicReader(file: string, container: Container, { series: topic, kind: 
         for (const transform of readTransforms(message)) chain?.addSample(transform, isStaticTopic(message.channel), message, messageCount);
       } catch (error) {
         if (error instanceof LogError) throw error;
-        damagedCount += 1;
-        damageReason ||= reasonOf(error);
-        rows.drop('damaged', messageCount);
+        rows.drop('damaged', messageCount, (texts) => texts.message(reasonOf(error)));
       }
     },
 
@@ -105,7 +101,6 @@ function topicReader(file: string, container: Container, { series: topic, kind: 
       const { format, damage, cutReason } = container;
       const lossReason = damageReasonOf(container);
       if (messageCount === 0 && lossReason) refuse((texts) => texts.damaged(lossReason, format));
-      if (damagedCount > 0 && damagedCount === messageCount) throw new LogError({ file, topic, line: 1 }, (texts) => texts.message(damageReason));
       if (chain && !chain.isConnected) refuse((texts) => texts.noChain(framesText(frames), listNames(chain.links.map(framesText))));
       if (chain && !chain.poses((pose, { recordTime, number }) => rows.add(pose, number, recordTime))) {
         const otherFrames = chain.findPoseFrames().map(framesText).filter((otherText) => otherText !== framesText(frames));

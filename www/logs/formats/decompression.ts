@@ -2,11 +2,13 @@
 
 import { ZSTDDecoder } from 'zstddec/stream';
 import { LogError, readBytes, reasonOf, type Source } from '../log.ts';
-import { MAX_BLOCK_BYTES, dataViewOf } from './container.ts';
 
 const zstdDecoder = new ZSTDDecoder();
 
 const MAX_FILE_BYTES = 2 ** 30;
+
+/** Maximum size of a message that is compressed by itself: the decoder returns it in one part. Transforms have a hundred bytes each. */
+const MAX_MESSAGE_BYTES = 2 ** 17;
 
 const INPUT_PIECE_BYTES = 2 ** 20;
 
@@ -23,46 +25,37 @@ export function unzstd(bytes: Uint8Array, size: number): Uint8Array {
   return output;
 }
 
-export function unzstdMessage(bytes: Uint8Array): Uint8Array {
-  const size = contentSize(bytes);
-  if (size > MAX_BLOCK_BYTES) throw new RangeError(`a message of ${size} bytes`);
-  return unzstd(bytes, size);
+/** Decompresses pieces of a file or message; undefined if the content has more than `maxBytes`. Throws an error if it is damaged. */
+function unzstdPieces(pieces: Iterable<Uint8Array>, maxBytes: number): Uint8Array<ArrayBuffer>[] | undefined {
+  const outputParts: Uint8Array<ArrayBuffer>[] = [];
+  let [size, emptyParts] = [0, 0];
+  for (const outputPart of zstdDecoder.decodeStreaming(pieces)) {
+    // The decoder does not stop at damage, but returns empty parts.
+    emptyParts = outputPart.length === 0 ? emptyParts + 1 : 0;
+    if (emptyParts > MAX_EMPTY_PARTS) throw new RangeError('its compression is damaged');
+    outputParts.push(outputPart as Uint8Array<ArrayBuffer>);
+    size += outputPart.length;
+    if (size > maxBytes) return undefined;
+  }
+  return outputParts;
 }
 
-/** Returns the size of the content from the header of a frame; Infinity if the header has none. https://www.rfc-editor.org/rfc/rfc8878 */
-function contentSize(frame: Uint8Array): number {
-  const view = dataViewOf(frame);
-  const frameDescriptor = view.getUint8(4);
-  const isSingleSegment = (frameDescriptor >> 5) & 1;
-  const at = 6 - isSingleSegment + [0, 1, 2, 4][frameDescriptor & 3];
-  switch (frameDescriptor >> 6) {
-    case 0: return isSingleSegment ? view.getUint8(at) : Infinity;
-    case 1: return view.getUint16(at, true) + 256;
-    case 2: return view.getUint32(at, true);
-    default: return Number(view.getBigUint64(at, true));
-  }
+export function unzstdMessage(bytes: Uint8Array): Uint8Array {
+  const [message, ...otherParts] = unzstdPieces([bytes], MAX_MESSAGE_BYTES)?.filter(({ length }) => length > 0) ?? [];
+  if (!message || otherParts.length > 0) throw new RangeError('a message that is empty, or longer than any with poses');
+  return message;
 }
 
 export async function unzstdFile(source: Source): Promise<Source> {
   await loadZstd();
-  const tooLargeError = () => new LogError({ file: source.name }, (texts) => texts.largeFile('zstd -d', MAX_FILE_BYTES));
-  if (source.size > MAX_FILE_BYTES) throw tooLargeError();
-  const bytes = await readBytes(source, 0, source.size);
-  const outputParts: Uint8Array<ArrayBuffer>[] = [];
-  let [size, emptyParts] = [0, 0];
+  let outputParts: Uint8Array<ArrayBuffer>[] | undefined;
   try {
-    for (const outputPart of zstdDecoder.decodeStreaming(piecesOf(bytes))) {
-      // The decoder does not stop at damage, but returns empty parts.
-      emptyParts = outputPart.length === 0 ? emptyParts + 1 : 0;
-      if (emptyParts > MAX_EMPTY_PARTS) throw new RangeError('its compression is damaged');
-      outputParts.push(outputPart.slice());
-      size += outputPart.length;
-      if (size > MAX_FILE_BYTES) throw tooLargeError();
-    }
+    outputParts = source.size > MAX_FILE_BYTES ? undefined : unzstdPieces(piecesOf(await readBytes(source, 0, source.size)), MAX_FILE_BYTES);
   } catch (error) {
     if (error instanceof LogError) throw error;
     throw new LogError({ file: source.name }, (texts) => texts.damaged(reasonOf(error)));
   }
+  if (!outputParts) throw new LogError({ file: source.name }, (texts) => texts.largeFile('zstd -d', MAX_FILE_BYTES));
   const decompressedFile = new Blob(outputParts);
   return { name: source.name, path: source.path, size: decompressedFile.size, slice: (from, to) => decompressedFile.slice(from, to) };
 }

@@ -1,5 +1,6 @@
 /** Chains of transforms between frames. */
 
+import { bisector, sort } from 'd3-array';
 import type { Message } from './formats/container.ts';
 import { framesText, type FramePair } from './log.ts';
 import { sampleOfPose, withoutSlash, type StampedTransform, type Transform } from './messages.ts';
@@ -12,23 +13,35 @@ const MIN_TRAVEL = 0.05;
 /** Usual names of a robot's base frame, which may be fixed to a frame that travels. */
 const BASE_FRAME = /base|body|chassis|robot/i;
 
-/** Transform between a frame and its parent. */
+/** Transform with the time of recording (s) and the number of its message. */
+interface RecordedTransform extends StampedTransform { recordTime: number; number: number }
+
+const byRecordTime = bisector(({ recordTime }: RecordedTransform) => recordTime);
+
+/** Transforms between a frame and its parent. */
 interface FrameLink extends FramePair {
   isStatic: boolean;
   /** First transform. */
   origin: Transform;
+  hasChanged: boolean;
   /** Largest distance (m) from the first position. */
   maxDistance: number;
+  /** Transforms in the order of their messages, if poses are read. */
+  samples: RecordedTransform[];
 }
 
 /** Graph of transforms between frames. A frame may have several parents, for example the map and the odometry frame. */
 export class FrameTree {
   #links = new Map<string, FrameLink>();
 
-  add({ parent, child, transform }: StampedTransform, isStatic: boolean): void {
-    const link = this.#links.get(framesText({ parent, child }));
-    if (link) link.maxDistance = Math.max(link.maxDistance, Math.hypot(transform[0] - link.origin[0], transform[1] - link.origin[1]));
-    else this.#links.set(framesText({ parent, child }), { parent, child, isStatic, origin: transform, maxDistance: 0 });
+  /** Returns the link to which a transform was added. */
+  add({ parent, child, transform }: StampedTransform, isStatic: boolean): FrameLink {
+    const name = framesText({ parent, child });
+    const link = this.#links.get(name) ?? { parent, child, isStatic, origin: transform, hasChanged: false, maxDistance: 0, samples: [] };
+    this.#links.set(name, link);
+    link.maxDistance = Math.max(link.maxDistance, Math.hypot(transform[0] - link.origin[0], transform[1] - link.origin[1]));
+    link.hasChanged ||= transform.some((value, i) => value !== link.origin[i]);
+    return link;
   }
 
   get links(): FrameLink[] {
@@ -40,7 +53,7 @@ export class FrameTree {
   }
 
   /** Returns the links from one frame to another, or undefined if they are not connected. */
-  findChain({ parent, child }: FramePair, seen = new Set<string>()): FramePair[] | undefined {
+  findChain({ parent, child }: FramePair, seen = new Set<string>()): FrameLink[] | undefined {
     if (seen.has(child)) return undefined;
     seen.add(child);
     for (const link of this.#linksTo(child)) {
@@ -78,30 +91,21 @@ export class FrameTree {
   }
 }
 
-/** Transform of one link of a chain, with the time of recording (s) and the number of its message. */
-interface RecordedTransform { link: string; isStatic: boolean; stampedTransform: StampedTransform; recordTime: number; number: number }
-
 /** Graph that also composes the poses of one frame relative to another one, by the transforms on the chain between them. */
 export class Chain extends FrameTree {
   readonly #endFrames: FramePair;
-  /** Names of the links of the chain, from the first to the last. */
-  #chainLinks: string[] = [];
-  /** Transforms in the order of their messages. They are of all links until the links of the chain are known. */
-  #samples: RecordedTransform[] = [];
+  /** Links of the chain, from the first to the last; empty until they are connected. */
+  #chainLinks: FrameLink[] = [];
 
   constructor({ parent, child }: FramePair) {
     super();
     this.#endFrames = { parent: withoutSlash(parent), child: withoutSlash(child) };
   }
 
-  /** Adds a transform. Static transforms must come first, because they hold at all times. */
   addSample(stampedTransform: StampedTransform, isStatic: boolean, { time: recordTime }: Message, number: number): void {
-    this.add(stampedTransform, isStatic);
-    const recordedTransform = { link: framesText(stampedTransform), isStatic, stampedTransform, recordTime, number };
-    if (!this.isConnected || this.#chainLinks.includes(recordedTransform.link)) this.#samples.push(recordedTransform);
-    if (this.isConnected) return;
-    this.#chainLinks = (this.findChain(this.#endFrames) ?? []).map(framesText);
-    if (this.isConnected) this.#samples = this.#samples.filter(({ link }) => this.#chainLinks.includes(link));
+    const link = this.add(stampedTransform, isStatic);
+    if (!this.isConnected || this.#chainLinks.includes(link)) link.samples.push({ ...stampedTransform, recordTime, number });
+    if (!this.isConnected) this.#chainLinks = this.findChain(this.#endFrames) ?? [];
   }
 
   get isConnected(): boolean {
@@ -113,26 +117,18 @@ export class Chain extends FrameTree {
    * transform that never changes also holds before its first message. Returns false if no transform ever changes.
    */
   poses(onPose: (reading: Sample, recordedTransform: RecordedTransform) => void): boolean {
-    const transforms = new Map<string, Transform>();
-    const unseenLinks = new Set<string>();
-    for (const { link, isStatic, stampedTransform: { transform } } of this.#samples) {
-      const firstTransform = transforms.get(link);
-      if (!firstTransform) transforms.set(link, transform);
-      // A static transform may be published again with other values, which is no motion.
-      else if (!isStatic && transform.some((value, i) => value !== firstTransform[i])) unseenLinks.add(link);
+    // A static transform may be published again with other values, which is no motion.
+    const nearestMovingLink = this.#chainLinks.findLast(({ isStatic, hasChanged }) => !isStatic && hasChanged);
+    const samplesByLink = new Map(this.#chainLinks.map((link) => [link, sort(link.samples, ({ recordTime }) => recordTime)]));
+    const transformAt = (link: FrameLink, time: number) => {
+      const samples = samplesByLink.get(link) ?? [];
+      return samples[Math.max(byRecordTime.right(samples, time) - 1, link.isStatic || !link.hasChanged ? 0 : -1)]?.transform;
+    };
+    for (const sample of (nearestMovingLink && samplesByLink.get(nearestMovingLink)) ?? []) {
+      const transforms = this.#chainLinks.map((link) => (link === nearestMovingLink ? sample.transform : transformAt(link, sample.recordTime)));
+      if (transforms.every((transform) => transform !== undefined)) onPose(sampleOfPose(sample.time, transforms.reduce(composeTransforms)), sample);
     }
-    const nearestMovingLink = this.#chainLinks.findLast((link) => unseenLinks.has(link));
-    if (nearestMovingLink === undefined) return false;
-    let pendingTransform: RecordedTransform | undefined;
-    for (const recordedTransform of this.#samples.toSorted((a, b) => a.recordTime - b.recordTime)) {
-      transforms.set(recordedTransform.link, recordedTransform.stampedTransform.transform);
-      unseenLinks.delete(recordedTransform.link);
-      if (recordedTransform.link === nearestMovingLink) pendingTransform = recordedTransform;
-      if (!pendingTransform || unseenLinks.size > 0) continue;
-      onPose(sampleOfPose(pendingTransform.stampedTransform.time, this.#chainLinks.map((link) => transforms.get(link) as Transform).reduce(composeTransforms)), pendingTransform);
-      pendingTransform = undefined;
-    }
-    return true;
+    return nearestMovingLink !== undefined;
   }
 }
 

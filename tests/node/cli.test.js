@@ -298,11 +298,14 @@ test('--plot writes a panel for each drive, with both paths aligned, and the end
   for (const panel of panels) {
     for (const labelPattern of [/>x \(m\)</, />y \(m\)</, />odometry, aligned</]) assert.match(panel, labelPattern);
     // The pixels of two axis marks are compared with those of the ends of paths.
-    const [axisLeft, axisRight] = ['0', '10'].map((mark) => Number(RegExp(`d="M([\\d.]+) [^>]*><text [^>]*>${mark}<`).exec(panel)?.[1]));
-    const drawnPaths = Array.from(panel.matchAll(/d="M([\d.]+) [^"]*L([\d.]+) [^"]*" stroke="([^"]*)" stroke-width="1.5"/g), ([, from, to, color]) => ({ ends: [Number(from), Number(to)], color }));
-    assert.deepEqual(drawnPaths.map(({ ends }) => ends), [[axisLeft, axisRight], [axisLeft, axisRight]]);
-    assert.notEqual(drawnPaths[0].color, drawnPaths[1].color);
-    assert.ok(Math.abs(Number(/d="M([\d.]+) [\d.]+h0/.exec(panel)?.[1]) - (axisLeft + 0.3 * (axisRight - axisLeft))) < 0.1);
+    const [axisLeft, axisMiddle] = ['0', '5'].map((mark) => Number(RegExp(`<text x="([\\d.]+)" [^>]*text-anchor="middle"[^>]*>${mark}<`).exec(panel)?.[1]));
+    const axisRight = 2 * axisMiddle - axisLeft;
+    const isNear = (/** @type {number} */ x, /** @type {number} */ expectedX) => Math.abs(x - expectedX) < 2;
+    const drawnPaths = Array.from(panel.matchAll(/d="M([\d.]+),[^"]{40,}L([\d.]+),[^"]*" fill="none" stroke="([^"]*)" stroke-width="1.5"/g), ([, from, to, color]) => ({ from: Number(from), to: Number(to), color }));
+    assert.ok(drawnPaths.every(({ from, to }) => isNear(from, axisLeft) && isNear(to, axisRight)), JSON.stringify(drawnPaths));
+    assert.equal(new Set(drawnPaths.map(({ color }) => color)).size, 2);
+    // A disc is drawn from its left side.
+    assert.ok(isNear(Number(/d="M([\d.]+),[\d.]+a2,2 /.exec(panel)?.[1]) + 2, axisLeft + 0.3 * (axisRight - axisLeft)));
   }
 });
 

@@ -30,7 +30,7 @@ export class SvgContext {
   #elements: string[] = [];
   #clipCount = 0;
   #idPrefix;
-  #measuringContext = new OffscreenCanvas(1, 1).getContext('2d') as OffscreenCanvasRenderingContext2D;
+  #measuringContext: OffscreenCanvasRenderingContext2D | undefined;
 
   /** Creates the context with a prefix of ids, because several figures may be on one page. */
   constructor(idPrefix: string) {
@@ -122,7 +122,10 @@ export class SvgContext {
     return ` stroke="${this.strokeStyle}" stroke-width="${this.lineWidth}"${dashAttribute}${capAttribute}${lineJoinAttribute}${this.#opacityAttribute()}`;
   }
 
-  measureText(text: string) {
+  measureText(text: string): { width: number } {
+    // Node has no canvas. Letters of most fonts are about half as wide as high.
+    if (typeof OffscreenCanvas === 'undefined') return { width: 0.55 * text.length * parseFloat(this.font.replace('italic ', '')) };
+    this.#measuringContext ??= new OffscreenCanvas(1, 1).getContext('2d') as OffscreenCanvasRenderingContext2D;
     this.#measuringContext.font = this.font;
     return this.#measuringContext.measureText(text);
   }

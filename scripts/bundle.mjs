@@ -267,7 +267,7 @@ export async function bundle({ tags = WIDGET_TAGS, transformScript = (_, script)
     const text = readFileSync(absolutePath(path), 'utf8');
     writeOutput(absolutePath(join('dist', relative('www', path))), path.endsWith('.html') ? withTables(text, elementDeclarations, widgetDescriptions) : text);
   }
-  const { preUpgradeCss } = await importTypeScript('www/figure/reserved-height.ts');
+  const { preUpgradeCss } = await importTypeScript('www/ui/reserved-height.ts');
   // Without scripts no height is reserved.
   const reservedHeightCss = `@media (scripting:enabled){\n${preUpgradeCss()}\n}`;
   // Slides have a large font, which is too large for figures. `:where` has no specificity: any rule of a page takes precedence.

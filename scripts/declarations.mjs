@@ -21,6 +21,12 @@ import { importTypeScript } from './typescript.mjs';
  *   name of its property if it differs, `opening` the text of its default, `allowed` the range of a number, and `withoutRange` the
  *   description without that range
  *
+ * @typedef {Record<string, { type: string, readonly?: true, sentence: string }>} DocumentationTable documentation by name
+ *
+ * @typedef {object} Documentation documentation that is neither in a declaration nor in the comments of a class
+ * @property {DocumentationTable} [properties] properties that have no attribute
+ * @property {DocumentationTable} [state] fields of the state that are neither settings nor attributes
+ *
  * @typedef {object} Widget
  * @property {string} tag
  * @property {string} className name of its class in the core; the class of its element has the suffix Element
@@ -32,7 +38,7 @@ import { importTypeScript } from './typescript.mjs';
 /** TypeScript types by type of setting. Words (enumerations) and groups (several numbers) have generated types. @type {Record<string, string>} */
 const TYPE_NAMES = { number: 'number', whole: 'number', boolean: 'boolean', numbers: 'number[]' };
 
-/** Properties and state of every element with a cloud. @type {import('../www/figure/definition.ts').Documentation} */
+/** Properties and state of every element with a cloud. @type {Documentation} */
 const CLOUD_DOCUMENTATION = {
   properties: {
     marked: { type: 'number | null', sentence: 'The sample that is marked, counted from 0.' },
@@ -105,9 +111,9 @@ export function describeWidgets() {
 
 /** Returns the description of a widget. @param {string} tag @returns {Promise<Widget>} */
 async function describeWidget(tag) {
-  const { COMMON_ATTRS, NUMBER_CONVERTER, WORD_LIST_CONVERTER } = await importTypeScript('www/figure/definition.ts');
+  const { COMMON_ATTRS } = await importTypeScript('www/figure/definition.ts');
   const { definition: { attributes, declarations, elementFields }, documentation } = await importTypeScript(`www/widgets/${tag}/settings.ts`);
-  /** @type {import('../www/figure/definition.ts').Documentation[]} */
+  /** @type {Documentation[]} */
   const documentations = [...('marked' in elementFields ? [CLOUD_DOCUMENTATION] : []), ...(documentation ? [documentation] : [])];
   const { classes } = await readClassComments();
   const elementClass = classes.get(`${toPascalCase(tag)}Element`);
@@ -127,13 +133,14 @@ async function describeWidget(tag) {
       const withoutRange = descriptionOf({ ...declaration, min: undefined }, shownDefault);
       return { name, type: typeTextOf(declaration), description: descriptionOf(declaration, shownDefault), opening: openingText, allowed: rangeTextOf(declaration), withoutRange };
     }
-    const { words, coveredAttributes, converter, property } = entry;
+    const { words, coveredAttributes, property } = entry;
+    const elementField = elementFields[name];
     const nullable = coveredAttributes || entry.nullable;
-    const openingText = elementFields[name]?.opening ?? (coveredAttributes ? openingPresetOf(tag) : nullable ? undefined : words?.[0]);
-    const type = converter === NUMBER_CONVERTER ? 'number' : words === undefined ? 'boolean' : converter === WORD_LIST_CONVERTER ? `(${unionTypeOf(words)})[]` : unionTypeOf(words);
+    const openingText = elementField?.default ?? (coveredAttributes ? openingPresetOf(tag) : nullable ? undefined : words?.[0]);
+    const type = elementField?.type === 'number' ? 'number' : words === undefined ? 'boolean' : elementField?.type === 'words' ? `(${unionTypeOf(words)})[]` : unionTypeOf(words);
     const typeText = Array.isArray(openingText) ? openingText.join(' ') : openingText;
-    const description = descriptionOf({ ...entry, sentence: attributeSentences[name] }, typeText);
-    return { name, property, type: nullable ? `${type} | null` : type, description, opening: typeText, allowed: rangeTextOf(entry), withoutRange: description };
+    const description = descriptionOf({ ...entry, ...elementField, sentence: attributeSentences[name] }, typeText);
+    return { name, property, type: nullable ? `${type} | null` : type, description, opening: typeText, allowed: elementField && rangeTextOf(elementField), withoutRange: description };
   };
   const toItem = (/** @type {[string, any]} */ [name, { sentence, ...rest }]) => ({ name, description: sentence, ...rest });
 

@@ -7,9 +7,9 @@
  */
 
 import './de.ts';
-import './widgets/index.ts';
+import './motion-widgets.ts';
 import { COMMON_ATTRS } from './figure/definition.ts';
-import { includesFields } from './figure/checks.ts';
+import { includesFields } from './data/checks.ts';
 import { GLOBAL_ATTRIBUTES, createWidget, errorParagraph } from './named.ts';
 
 export interface Model {
@@ -120,8 +120,8 @@ function withoutKernel(work: () => void) {
 
 /** Returns all spellings of traits with their properties. Properties on which others depend come first. */
 function traitsOf(element: any): [trait: string, property: string][] {
-  const { properties, elementFields } = element.constructor.definition;
-  const entries: Record<string, { property?: string }> = { ...properties, ...elementFields, ...COMMON_ATTRS, ...Object.fromEntries(GLOBAL_ATTRIBUTES.map((name) => [name, {}])) };
+  const { properties } = element.constructor.definition;
+  const entries: Record<string, { property?: string }> = { ...properties, ...COMMON_ATTRS, ...Object.fromEntries(GLOBAL_ATTRIBUTES.map((name) => [name, {}])) };
   return Object.entries(entries).flatMap(([name, { property = name }]) => {
     if (!(property in element)) return [];
     const pythonName = property.replaceAll(/[A-Z]/g, (capital) => `_${capital.toLowerCase()}`);

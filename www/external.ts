@@ -5,7 +5,7 @@
 
 import { messageKeys, widgets } from '../build/widgets.js';
 import { foundTags } from './core.ts';
-import { preUpgradeCss } from './figure/reserved-height.ts';
+import { preUpgradeCss } from './ui/reserved-height.ts';
 import { en } from './messages/en.ts';
 import { addEnglish } from './messages/registry.ts';
 

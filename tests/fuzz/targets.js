@@ -10,7 +10,7 @@ import { deflateRawSync, gunzipSync } from 'node:zlib';
 import { load } from '../../dist/core.js';
 import { toPascalCase } from '../../scripts/declarations.mjs';
 import { selectAttributes, propertiesOf } from '../../www/figure/definition.ts';
-import { packJson, unpack } from '../../www/figure/link.ts';
+import { packJson, unpack } from '../../www/data/packing.ts';
 import { settings } from '../../build/settings.js';
 import { LogError } from '../../www/logs/log.ts';
 import { openRecordings } from '../../www/logs/open.ts';

@@ -32,8 +32,8 @@ test('a seed gives the bits that it gave', async () => {
 });
 
 test('every widget and every class of the core has configurations, and every function is asked', () => {
-  const listedTags = [...readText('www/widgets/index.ts').matchAll(/^import '\.\/([\w-]+)\//gm)].map(([, tag]) => tag);
-  assert.deepEqual(Object.keys(configurationList.widgets).sort(), listedTags.sort(), 'www/widgets/index.ts');
+  const listedTags = [...readText('www/motion-widgets.ts').matchAll(/^import '\.\/widgets\/([\w-]+)\//gm)].map(([, tag]) => tag);
+  assert.deepEqual(Object.keys(configurationList.widgets).sort(), listedTags.sort(), 'www/motion-widgets.ts');
   assert.deepEqual(Object.keys(configurationList.widgets).sort(), [...simulationClasses.keys()].sort(), 'core.js');
   assert.deepEqual(Object.keys(resultFunctions).sort(), listedTags, 'digest.js');
   const functionNames = Object.keys(motion).filter((name) => !('free' in (motion[name].prototype ?? {})) && !MEMBERS_TESTED_ELSEWHERE.has(name) && !EXCLUDED_EXPORTS.has(name));

@@ -8,7 +8,7 @@ import { build } from 'esbuild';
 import { settings } from '../../build/settings.js';
 
 /** Layers from top to bottom: a file imports from its own layer and from lower ones. */
-const LAYERS = ['www/widgets', 'www/figure', 'www/scene', 'www/ui', 'www/messages'];
+const LAYERS = ['www/widgets', 'www/figure', 'www/scene', 'www/ui', 'www/messages', 'www/data'];
 
 const { metafile } = await build({
   entryPoints: ['www/motion-widgets.ts', 'www/external.ts', 'www/de.ts', 'www/embed.ts', 'www/anywidget.ts'],

@@ -182,8 +182,8 @@ test('custom-elements.json says what the elements have', async () => {
     assert.deepEqual(actualNames.missingMembers, [], tagName);
     for (const { name, description } of [...attributes, ...members, ...events, ...cssParts, ...cssProperties]) assert.ok(description, `${name} of ${tagName}`);
     assert.deepEqual(sortedNamesOf(events), ['change', 'error', 'input', 'load', 'stats']);
-    // The element with the part progress exists only while samples are drawn.
-    assert.deepEqual(sortedNamesOf(cssParts), [...new Set([...actualNames.parts, 'progress'])].sort(), `parts of ${tagName}`);
+    // The element with the part notice exists only while there is a notice.
+    assert.deepEqual(sortedNamesOf(cssParts), [...new Set([...actualNames.parts, 'notice'])].sort(), `parts of ${tagName}`);
     assert.deepEqual(sortedNamesOf(cssProperties), actualNames.properties.sort(), `properties of ${tagName}`);
   }
 });

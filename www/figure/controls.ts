@@ -1,13 +1,12 @@
 /** Controls of settings, from their declarations, sliders and words; and the legend, which shows and hides lines. */
 
-import { html, noChange, nothing, svg } from 'lit';
-import { live } from 'lit/directives/live.js';
+import { html, noChange, nothing } from 'lit';
 import { words } from '../messages/registry.ts';
-import { group, inputOf, radioGroup, formatMarkup, toggle } from '../ui/controls.ts';
-import { integer, formatLimit, parseNumber, formatEditable } from '../ui/format.ts';
+import { radioGroup, formatMarkup, toggle } from '../ui/controls.ts';
+import { formatLimit, parseNumber, formatEditable } from '../ui/format.ts';
 import { sliderRow, type SliderRow } from '../ui/slider.ts';
-import { exportButtons } from './export.ts';
-import type { LineStyle } from '../scene/draw.ts';
+import { swatchHtml, type LineStyle } from '../scene/draw.ts';
+import { embeddingControls, exportButtons, linkButton } from './export.ts';
 import type { Declaration } from '../../build/settings.js';
 import type { Figure } from './figure.ts';
 
@@ -78,7 +77,7 @@ export function editableSlider(figure: Figure, symbol: string, { min, max: decla
 }
 
 /** Parses a number that the user typed. Returns undefined for a text that is refused, and shows the reason. */
-function parseEntered({ settings }: Figure, key: string, name: string, text: string, { min, max, unit, type }: AllowedNumbers) {
+export function parseEntered({ settings }: Figure, key: string, name: string, text: string, { min, max, unit, type }: AllowedNumbers) {
   const isInteger = type === 'whole';
   const number = parseNumber(text, unit, isInteger);
   if (number >= min && number <= max && (!isInteger || Number.isInteger(number))) {
@@ -133,9 +132,8 @@ function disclosure(figure: Figure, name: string, id: string, content: () => unk
 export function disclosures(figure: Figure, { controls, numbers, fileNameMark = figure.viewModel.config.seed, csvTitle }: DisclosureOptions) {
   return html`<div class="folds">
     ${disclosure(figure, words.moreControls, 'more', controls)}
-    ${disclosure(figure, words.numbersAndData, 'numbers', () => html`${numbers()} ${exportButtons(figure, fileNameMark, csvTitle)} ${figure.copyMenu.codeButton()}`)}
-    ${figure.copyMenu.messageHtml('link')}
-    <div class="begin">${figure.copyMenu.linkButton()} ${figure.presenting.button()}</div>
+    ${disclosure(figure, words.numbersAndData, 'numbers', () => html`${numbers()} ${exportButtons(figure, fileNameMark, csvTitle)} ${embeddingControls(figure)}`)}
+    <div class="begin">${linkButton(figure)} ${figure.presenting.button()}</div>
   </div>
   <p class="on-paper small">${noiseParameters(figure)}</p>`;
 }
@@ -154,78 +152,7 @@ export function titledPicture(title: unknown, picture: unknown, name?: string) {
   </figure>`;
 }
 
-type CloudFigure = Figure & { cloud: import('./cloud.ts').Cloud };
-
-/** Returns the controls of growth, seed and size of the cloud; the slider offers `counts`. */
-export function cloudControls(figure: CloudFigure, counts: readonly number[]) {
-  return group(words.samples, html`${samplesSlider(figure, counts)} ${cloudButtons(figure)}`, 'cloud');
-}
-
-/** Returns the slider of the number of samples, which offers `counts`. */
-export function samplesSlider(figure: Figure, counts: readonly number[]) {
-  const sliderSpec: SliderSpec = { symbol: '*N*', role: 'truth', min: counts[0], max: counts[counts.length - 1], step: 1, decimals: 0 };
-  return settingSlider(figure, 'samples', { stops: counts, show: integer }, sliderSpec);
-}
-
-export const cloudButtons = (figure: CloudFigure) => figure.cloud.buttons(seedField(figure));
-
-function seedField(figure: Figure) {
-  const { settings, gesture } = figure;
-  const seedRefusal = settings.refusalOf('seed');
-  const enterSeed = (event: Event) => {
-    const seed = parseEntered(figure, 'seed', words.seed, inputOf(event).value, declarationOf(figure, 'seed'));
-    if (seed !== undefined) settings.request({ seed });
-  };
-  return html`<label class="seed">
-    ${words.seed}
-    <input
-      type="text"
-      inputmode="numeric"
-      autocomplete="off"
-      .value=${seedRefusal ? noChange : live(String(settings.requested.seed))}
-      @input=${enterSeed}
-      @change=${() => gesture.commit()}
-      @blur=${() => settings.forgetRefusal()}
-    />
-    ${seedRefusal ? html`<output role="alert">${seedRefusal}</output>` : nothing}
-  </label>`;
-}
-
-/**
- * Returns the field with the number of the selected sample, one of `shown`, and a text about it, if there is one. `id` is also the key of the
- * label in the catalogue. Refused text stays until the user corrects or leaves it.
- */
-export function sampleField(figure: CloudFigure, id: 'robot' | 'sample', shown: number, selected: unknown) {
-  const { cloud, settings } = figure;
-  const { [id]: label, markHint } = (words as any)[figure.definition.messageKey];
-  const refusalText = settings.refusalOf('marked');
-  const enterIndex = (event: Event) => {
-    const typedIndex = inputOf(event).value;
-    const number = typedIndex === '' ? 0 : parseEntered(figure, 'marked', label, typedIndex, { min: 1, max: shown, type: 'whole' });
-    if (number === undefined) return;
-    settings.forgetRefusal();
-    cloud.mark(number - 1);
-  };
-  return html`<p class="marked">
-    <label>
-      ${label}
-      <input
-        id=${id}
-        type="number"
-        min="1"
-        max=${Math.max(1, shown)}
-        placeholder=${shown === 0 ? '' : `1–${integer(shown)}`}
-        ?disabled=${shown === 0}
-        .value=${refusalText ? noChange : live(cloud.selectedIndex < 0 ? '' : String(cloud.selectedIndex + 1))}
-        @input=${enterIndex}
-        @blur=${() => settings.forgetRefusal()}
-      />
-    </label>
-    <output for=${id} role=${refusalText ? 'alert' : nothing}>${refusalText || selected || html`<i class="muted">${markHint}</i>`}</output>
-  </p>`;
-}
-
-const declarationOf = (figure: Figure, key: string): Declaration & AllowedNumbers =>
+export const declarationOf = (figure: Figure, key: string): Declaration & AllowedNumbers =>
   figure.definition.declarations.find((setting) => setting.key === key) as any;
 
 function wordsFor(figure: Figure, key: string): { name: string, effect?: string } {
@@ -236,7 +163,7 @@ function wordsFor(figure: Figure, key: string): { name: string, effect?: string 
 
 /** Returns the legend of a figure's pictures, with names from the catalogue. `extraEntries` have no toggle. */
 export function legend(figure: Figure, styles: Record<string, LineStyle>, extraEntries: unknown = nothing) {
-  const { overlays } = figure.state.elementState;
+  const { overlays } = figure.settings.elementState;
   const { overlays: names } = (words as any)[figure.definition.messageKey];
   const styleNames = Object.keys(styles);
   const allOverlays = figure.definition.attributes.overlays.words as string[];
@@ -253,17 +180,4 @@ export function legend(figure: Figure, styles: Record<string, LineStyle>, extraE
     </span>`)}
     ${extraEntries}
   </div>`;
-}
-
-/** Returns the symbol of a legend item: a line, dot, ring or area in its style. */
-export function swatchHtml({ role, dash, width = 2.25, mark = 'line' }: LineStyle) {
-  const markShapes = {
-    line: svg`<line x1="1" x2="29" y1="6" y2="6" stroke-width=${width} stroke-dasharray=${dash?.join(' ') ?? nothing} />`,
-    dot: svg`<circle fill="var(--role)" cx="15" cy="6" r="3" />`,
-    ring: svg`<circle cx="15" cy="6" r="4" stroke-width=${width} />`,
-    area: svg`<rect fill="var(--role)" x="4" y="1" width="22" height="10" opacity="0.4" />`,
-    box: svg`<rect x="9" y="2" width="12" height="8" rx="2" stroke-width=${width} />`,
-    cross: svg`<path d="M11 2l8 8m0 -8l-8 8" stroke-width=${width} />`,
-  };
-  return html`<svg class="swatch" viewBox="0 0 30 12" aria-hidden="true" data-role=${role}>${markShapes[mark]}</svg>`;
 }

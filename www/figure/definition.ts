@@ -1,7 +1,7 @@
 /** Definition of a widget: its settings with their sliders, its properties and attributes, and the state of its element. */
 
 import { presets, settings, type Declaration } from '../../build/settings.js';
-import { checkedInteger, checkedNumber, checkedSubset, checkedWord, includesFields } from './checks.ts';
+import { checkedNumber, checkedWord, includesFields, type FieldRange } from '../data/checks.ts';
 import type { LineStyle } from '../scene/draw.ts';
 import type { SliderSpec } from './controls.ts';
 import type { Values } from './settings.ts';
@@ -26,9 +26,6 @@ interface Property {
   coveredAttributes?: string[];
   /** Allowed words, if the declarations do not list them. */
   words?: readonly string[];
-  /** Range of a number, if the declarations do not have it. */
-  min?: number;
-  max?: number;
 }
 
 /** Properties by name, in the order in which they are applied. */
@@ -36,23 +33,12 @@ type Properties = Record<string, Property>;
 
 type Attribute = Property & { converter: Converter };
 
-/** Documentation by name. Types are in TypeScript. */
-type DocumentationTable = Record<string, { type: string, readonly?: true, sentence: string }>;
-
-/** Documentation that is neither in a declaration nor in the comments of a class. */
-export interface Documentation {
-  /** Properties that have no attribute. */
-  properties?: DocumentationTable;
-  /** Fields of the state that are neither settings nor attributes. */
-  state?: DocumentationTable;
-}
-
-export const NUMBER_CONVERTER: Converter = {
+const NUMBER_CONVERTER: Converter = {
   parse: (text) => (text.trim() === '' || Number.isNaN(Number(text)) ? text : Number(text)),
   print: (value) => (value === null ? null : String(value)),
 };
 
-export const WORD_CONVERTER: Converter = { parse: (text) => text, print: (value) => value };
+const WORD_CONVERTER: Converter = { parse: (text) => text, print: (value) => value };
 
 /** Boolean attribute. Without a value it is true, as in HTML. The value "false" makes it false. Other values are refused. */
 const BOOLEAN_CONVERTER: Converter = {
@@ -64,7 +50,7 @@ const BOOLEAN_CONVERTER: Converter = {
 export const WORD_LIST_CONVERTER: Converter = { parse: (text) => text.split(/\s/).filter(Boolean), print: (value) => value.join(' ') };
 
 /** Conversions of the types that fit into an attribute. Objects and arrays have none. */
-const CONVERTERS: Record<string, Converter> = { number: NUMBER_CONVERTER, whole: NUMBER_CONVERTER, word: WORD_CONVERTER, boolean: BOOLEAN_CONVERTER };
+const CONVERTERS: Record<string, Converter> = { number: NUMBER_CONVERTER, whole: NUMBER_CONVERTER, word: WORD_CONVERTER, words: WORD_LIST_CONVERTER, boolean: BOOLEAN_CONVERTER };
 
 export const THEMES = ['auto', 'light', 'dark'] as const;
 
@@ -137,14 +123,14 @@ export function presetPropertyOf(presets: readonly { name: string, settings: Val
 }
 
 /** Field of the state that the element keeps, because the simulation does not have it. */
-interface ElementField extends Pick<Property, 'converter' | 'words' | 'min' | 'max'> {
-  opening: unknown;
+interface ElementField extends FieldRange {
+  default: unknown;
   /** True if a preset sets the field to its default. */
   isResetByPreset?: true;
-  /** True if the field is a property, but not an attribute. */
-  isProperty?: true;
-  /** Returns a value after a check; throws a TypeError or RangeError if it is invalid. */
-  check: (field: string, value: any, selectableCount: number) => unknown;
+  /** Interface to the page, besides the state. */
+  access?: 'attribute' | 'property';
+  /** Returns the maximum in a state, if it depends on other fields. */
+  maxIn?: (state: Values) => number;
 }
 
 export interface Definition {
@@ -155,6 +141,7 @@ export interface Definition {
   attributes: Record<string, Attribute>;
   /** Fields of the state that the element keeps, because the simulation does not have them. */
   elementFields: Record<string, ElementField>;
+  elementDefaults: Values;
   sliderSpecs: Record<string, SliderSpec>;
   dependentDefaults?: (config: Values) => Values;
 }
@@ -170,11 +157,12 @@ interface DefinitionOptions extends Pick<Definition, 'messageKey' | 'sliderSpecs
 }
 
 const cloudFields: Record<string, ElementField> = {
-  marked: {
-    opening: null,
-    isProperty: true,
-    check: (field, marked, selectableCount) => (marked === null ? null : checkedInteger(field, marked, 0, selectableCount - 1)),
-  },
+  /** True while the cloud grows. */
+  playing: { type: 'boolean', default: false },
+  /** Number of samples to show; Infinity for all, also if their number changes. */
+  shown: { type: 'whole', default: Infinity, min: 0, maxIn: ({ samples }) => samples },
+  /** Index of the selected sample. */
+  marked: { type: 'whole', default: null, nullable: true, min: 0, maxIn: ({ playing, samples, shown }) => (playing ? samples : shown) - 1, access: 'property' },
 };
 
 export function definitionOf(tag: string, { lines, opening = Object.keys(lines), preset, elementFields: widgetFields, ...otherOptions }: DefinitionOptions): Definition {
@@ -184,14 +172,15 @@ export function definitionOf(tag: string, { lines, opening = Object.keys(lines),
   const elementFields: Record<string, ElementField> = {
     ...(declarations.some(({ key }) => key === 'samples') && cloudFields),
     ...widgetFields,
-    overlays: { converter: WORD_LIST_CONVERTER, words: overlays, opening, check: (field, names) => checkedSubset(field, names, overlays) },
+    overlays: { type: 'words', words: overlays, default: opening, access: 'attribute' },
   };
   const properties: Properties = {
     ...(widgetPresets.length > 0 && { preset: preset ?? presetPropertyOf(widgetPresets, declarations) }),
     ...propertiesOf(declarations),
   };
-  for (const [key, { converter, isProperty, words, min, max }] of Object.entries(elementFields)) {
-    if (converter || isProperty) properties[key] = { ...fieldProperty(key, converter), words, min, max };
+  for (const [key, { type = '', words, access }] of Object.entries(elementFields)) {
+    if (access) properties[key] = { ...fieldProperty(key, access === 'attribute' ? CONVERTERS[type] : undefined), words };
   }
-  return { ...otherOptions, tag, declarations, properties, attributes: selectAttributes(properties), elementFields };
+  const elementDefaults = Object.fromEntries(Object.entries(elementFields).map(([key, field]) => [key, field.default]));
+  return { ...otherOptions, tag, declarations, properties, attributes: selectAttributes(properties), elementFields, elementDefaults };
 }

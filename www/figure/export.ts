@@ -1,11 +1,10 @@
 /** Export of a figure: its picture as PNG or SVG, its samples as CSV, and texts to copy, such as a link or its HTML. */
 
-import { html, nothing } from 'lit';
+import { html } from 'lit';
 import { address, isClassic } from '../address.ts';
 import { words } from '../messages/registry.ts';
 import { SvgContext, escapeXml, formatLength } from '../scene/svg.ts';
 import { button, group } from '../ui/controls.ts';
-import { FigureController } from './controller.ts';
 import { nameOf } from './surface.ts';
 import type { Figure } from './figure.ts';
 
@@ -99,46 +98,27 @@ export function exportButtons(element: Figure, fileNameMark: string | number, cs
   </div>`, 'exports', 'exports');
 }
 
-/** Buttons that copy texts. Each has a message, or shows the text if the clipboard cannot be used. */
-export class CopyMenu extends FigureController {
-  #lastCopy: { kind: string, text: string, isCopied?: boolean, note: string } | undefined;
+/** Returns a button that copies a text. A notice says so, with a note such as on the parts of the state that the text lacks. */
+export function copyButton(figure: Figure, label: string, textOf: () => string | Promise<string>, options: { title?: string, disabled?: boolean }, noteOf: () => string | undefined = () => '') {
+  const copyText = async () => {
+    const text = await textOf();
+    // Frames without permission may not use the clipboard. Pages without HTTPS do not have it.
+    const isCopied = await Promise.resolve(navigator.clipboard?.writeText(text).then(() => true)).catch(() => false);
+    const note = noteOf() ?? '';
+    figure.notice.show(() => (isCopied
+      ? `${words.copies.done} ${note}`
+      : html`${words.copies.byHand} ${note} <textarea readonly rows="3" aria-label=${words.copies.byHand} .value=${text}></textarea>`));
+  };
+  return button(label, copyText, options);
+}
 
-  clearMessage() {
-    this.#lastCopy = undefined;
-    this.host.requestUpdate();
-  }
+export const linkButton = (figure: Figure) =>
+  copyButton(figure, words.copies.link, () => figure.shareLink(), { title: words.copies.linkTitle }, () => figure.exportData.linkNote);
 
-  /** Returns a button that copies a text. The message is followed by a note, such as on the parts of the state that the text lacks. */
-  button(kind: string, label: string, textOf: () => string | Promise<string>, options: { title?: string, disabled?: boolean }, noteOf: () => string | undefined = () => '') {
-    const copyText = async () => {
-      const text = await textOf();
-      // Frames without permission may not use the clipboard. Pages without HTTPS do not have it.
-      const isCopied = await Promise.resolve(navigator.clipboard?.writeText(text).then(() => true)).catch(() => undefined);
-      this.#lastCopy = { kind, text, isCopied, note: noteOf() ?? '' };
-      this.host.requestUpdate();
-    };
-    return button(label, copyText, options);
-  }
-
-  linkButton() {
-    return this.button('link', words.copies.link, () => this.host.shareLink(), { title: words.copies.linkTitle }, () => this.host.exportData.linkNote);
-  }
-
-  codeButton() {
-    return group(words.copies.label, html`<div class="buttons">
-        ${this.button('code', words.copies.code, () => this.host.embedCode(), { title: words.copies.codeTitle }, () => this.host.exportData.codeNote)}
-      </div>
-      ${this.messageHtml('code')}`, 'copies', 'copies');
-  }
-
-  /** Returns the message about the last copy, unless the button would copy another text now. */
-  messageHtml(kind: string, text?: string) {
-    const shownCopy = this.#lastCopy?.kind === kind && this.#lastCopy.text === (text ?? this.#lastCopy.text) ? this.#lastCopy : undefined;
-    return html`<output class="copied">${shownCopy ? `${shownCopy.isCopied ? words.copies.done : words.copies.byHand} ${shownCopy.note}` : nothing}</output>
-      ${shownCopy && !shownCopy.isCopied
-        ? html`<textarea readonly rows="3" aria-label=${words.copies.byHand} .value=${shownCopy.text}></textarea>`
-        : nothing}`;
-  }
+export function embeddingControls(figure: Figure) {
+  const { label, code, codeTitle } = words.copies;
+  const codeButton = copyButton(figure, code, () => figure.embedCode(), { title: codeTitle }, () => figure.exportData.codeNote);
+  return group(label, html`<div class="buttons">${codeButton}</div>`, 'copies', 'copies');
 }
 
 /** Address of the published script, used if the address of this script is unknown. */

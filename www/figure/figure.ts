@@ -3,29 +3,54 @@
 import { LitElement, type CSSResultGroup } from 'lit';
 import { en } from '../messages/en.ts';
 import { addEnglish, useLanguageOf, words } from '../messages/registry.ts';
+import { Canvases } from '../scene/canvases.ts';
 import { layoutStyles } from '../ui/layout.ts';
 import { plotStyles } from '../ui/plot.ts';
 import { presentationStyles } from '../ui/presentation.ts';
+import { reservedHeight } from '../ui/reserved-height.ts';
 import { theme } from '../ui/theme.ts';
-import { checkedWord } from './checks.ts';
+import { checkedWord } from '../data/checks.ts';
 import { Colours } from './colours.ts';
 import { COMMON_ATTRS, type HEADING_LEVELS, type THEMES } from './definition.ts';
-import { CopyMenu, csvOf, embeddingHtml, pngOf, svgOf } from './export.ts';
+import { csvOf, embeddingHtml, pngOf, svgOf } from './export.ts';
 import { Gesture } from './gesture.ts';
 import { Link } from './link.ts';
-import { Announcer, Notice, noticeStyles } from './notice.ts';
+import { Announcer, Notice } from './notice.ts';
 import { Presentation } from './presentation.ts';
 import { Reflection } from './reflection.ts';
-import { Canvases, Renderer } from './renderer.ts';
-import { reservedHeight } from './reserved-height.ts';
+import { Renderer } from './renderer.ts';
 import { Runtime } from './runtime.ts';
-import { STATE_VERSION, Settings, State, type Values } from './settings.ts';
+import { STATE_VERSION, Settings, type Values } from './settings.ts';
 import { Focus, TextHeights, figureHtml } from './surface.ts';
+import type { Picture } from '../scene/picture.ts';
 import type { FigureState, Motion } from '../types.d.ts';
 
 export type Figure = FigureElement<any, any>;
 
 addEnglish(en);
+
+/** Samples of a figure, which are added over several frames: see widgets/shared/cloud.ts. */
+export interface SampleCloud {
+  /** True if all requested samples are shown. */
+  readonly isSettled: boolean;
+  /** Starts the growth, or shows a state. */
+  introduce(state?: Values): void;
+  /** Changes settings of a new simulation, and shows the first of `shown` samples. */
+  enter(simulation: any, settings: Values, shown: number): void;
+  /** Changes settings and shows the first samples. Returns all settings. */
+  configure(settings: Values): Values;
+  /** Adds samples in a frame with a picture. */
+  advance(): void;
+  /** Adds samples in a frame without one; returns true if all are shown. */
+  refine(): boolean;
+  /** Adds all samples. */
+  finish(): void;
+  snapshot(): Values;
+  withDerivedFields(currentState: Values, changes: Values): Values;
+  selectAtPointer(picture: Picture<any>, event: PointerEvent): void;
+  /** Clears the selection if the selected sample is not shown and will not be. */
+  unmark(): void;
+}
 
 /**
  * Figure with one simulation object of the core. A widget defines its simulation, view model, pictures, HTML and export.
@@ -55,7 +80,7 @@ addEnglish(en);
  * @csspart readouts - Statistics of the samples.
  * @csspart table - Table of numbers.
  * @csspart fold - Disclosure, with its name.
- * @csspart progress - Button that stops a long calculation.
+ * @csspart notice - Message over the lower edge, or a long calculation, with a button that closes or stops it.
  * @csspart exports - Buttons that save pictures and data.
  * @csspart copies - Button that copies HTML.
  * @cssprop --motion-paper - Background; default: that of the surroundings.
@@ -80,7 +105,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   static finalizeStyles(widgetStyles: CSSResultGroup = []) {
     // Lit also calls this method on the base class, which has no definition.
     const reservedStyles = this.definition ? reservedHeight(this.definition.tag) : [];
-    return super.finalizeStyles([theme, presentationStyles, noticeStyles, reservedStyles, ...layoutStyles, plotStyles, widgetStyles]);
+    return super.finalizeStyles([theme, presentationStyles, reservedStyles, ...layoutStyles, plotStyles, widgetStyles]);
   }
 
   /** Colours: light, dark, or auto for those of the surroundings. */
@@ -94,28 +119,26 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   /** Aborted when the element is removed. Its signal removes the listeners that controllers have on other objects. */
   connection = new AbortController();
   runtime = new Runtime(this);
-  canvases = new Canvases(this);
+  canvases = new Canvases(() => this.renderer.drawResized());
   renderer = new Renderer(this);
   colours = new Colours(this);
   gesture = new Gesture(this);
   settings = new Settings(this);
-  state = new State(this);
   reflection = new Reflection(this);
   link = new Link(this);
   announcer = new Announcer();
   notice = new Notice(this);
-  copyMenu = new CopyMenu(this);
   focusing = new Focus(this);
   presenting = new Presentation(this);
   textHeights = new TextHeights(this);
   /** Cloud of a figure with samples. */
-  cloud: import('./cloud.ts').Cloud | undefined;
+  cloud: SampleCloud | undefined;
   /** Player of a figure that animates a slider. `advance` returns true while it plays. */
   player: { advance(elapsed: number): boolean, stop(): void } | undefined;
   /** Handlers for dragged files, if the figure accepts files. */
   dropHandlers: Record<'onDragOver' | 'onDragLeave' | 'onDrop', (event: DragEvent) => void> | undefined;
   /** Pictures on the canvases. The first is exported. */
-  pictures: import('../scene/picture.ts').Picture<any>[] = [];
+  pictures: Picture<any>[] = [];
   /** View model of the simulation: all values that pictures, texts and tables show, read at one time. Undefined before the first frame. */
   viewModel: ViewModel = undefined as any;
   #highlight: string | null = null;
@@ -127,8 +150,15 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
 
   // Members that widgets override; the abstract ones are required.
 
-  /** Creates a simulation in a state, to which it adds missing fields, or in the default one; throws a TypeError or RangeError. */
-  abstract createSimulation(motion: Motion, state?: Values): Simulation;
+  /** Creates a simulation with the opening settings. */
+  abstract createSimulation(motion: Motion): Simulation;
+
+  /** Brings a new simulation into a state, to which it may add missing fields; throws a TypeError or RangeError. */
+  enterState(simulation: Simulation, state: Values) {
+    const settings = this.settings.pick(state);
+    if (this.cloud) this.cloud.enter(simulation, settings, state.shown);
+    else simulation.configure(settings);
+  }
 
   /** Returns the view model of the simulation. It is called once for each change. */
   abstract read(simulation: Simulation): ViewModel;
@@ -154,7 +184,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   placeHandles(_scene: any) {}
 
   snapshot(): Values {
-    return { widget: this.localName, version: STATE_VERSION, ...this.state.elementState, ...this.settings.pick(this.settings.current), ...this.cloud?.snapshot() };
+    return { widget: this.localName, version: STATE_VERSION, ...this.settings.elementState, ...this.settings.pick(this.settings.current), ...this.cloud?.snapshot() };
   }
 
   /** Returns a partial state with values that follow from it for missing fields. */
@@ -178,14 +208,13 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
     this.cloud?.unmark();
     this.viewModel = this.read(simulation);
     this.settings.isStale = false;
-    this.finishChange();
+    this.announceOutcome();
     this.dispatchEvent(new CustomEvent('stats', { detail: this.viewModel.stats, bubbles: true, composed: true }));
   }
 
-  /** Stores the state, and announces the outcome of a change unless the cloud is still growing. */
-  finishChange() {
+  /** Announces the outcome of a change, unless the cloud is still growing. */
+  announceOutcome() {
     if (this.cloud?.isSettled ?? true) this.announcer.setOutcome(() => this.announcement(this.viewModel));
-    this.state.lastValidState = this.snapshot();
   }
 
   /** View model of the simulation after all pending changes are applied. */
@@ -261,7 +290,8 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
    * @public
    */
   getState(): Values | null {
-    return structuredClone(this.querySimulation(() => this.snapshot()) ?? this.state.lastValidState ?? null);
+    this.settings.applyPending();
+    return this.simulation || this.viewModel ? structuredClone(this.snapshot()) : null;
   }
 
   /**
@@ -271,7 +301,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
    * @public
    */
   setState(state: Partial<Values> & FigureState) {
-    this.reflection.whenReady(() => this.state.applyState(state));
+    this.reflection.whenReady(() => this.settings.applyState(state));
   }
 
   /**

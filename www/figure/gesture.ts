@@ -50,7 +50,7 @@ export class Gesture extends FigureController {
     this.#endGesture();
     if (host.settings.isStale) host.renderer.requestFrame();
     else if (host.simulation) {
-      host.finishChange();
+      host.announceOutcome();
       host.requestUpdate();
     }
   }

@@ -40,7 +40,7 @@ export class Presentation extends FigureController {
   async #beginPresentation() {
     const { host } = this;
     this.#stateAtBegin = host.simulation && host.snapshot();
-    host.copyMenu.clearMessage();
+    host.notice.hide();
     this.#keyListeners = new AbortController();
     addEventListener('keydown', this.#onKey, { signal: this.#keyListeners.signal });
     const focusedButton = host.renderRoot?.querySelector('.to-present:focus-visible');
@@ -79,16 +79,16 @@ export class Presentation extends FigureController {
 
   #onKey = ({ key, ctrlKey, altKey, metaKey, defaultPrevented }: KeyboardEvent) => {
     if (defaultPrevented || ctrlKey || altKey || metaKey) return;
-    const { definition, simulation, state } = this.host;
+    const { definition, simulation, settings } = this.host;
     const preset = definition.attributes.preset?.words?.[Number(key) - 1];
     if (key === 'Escape') this.host.presentation = false;
     else if (key.toLowerCase() === CONTROLS_KEY) this.#toggle();
     else if (key === RESTORE_KEY) this.#restoreState();
-    else if (preset !== undefined && simulation) state.choosePreset(preset);
+    else if (preset !== undefined && simulation) settings.choosePreset(preset);
   };
 
   #restoreState() {
-    if (this.host.simulation) this.host.state.restoreAsUser(this.#stateAtBegin);
+    if (this.host.simulation) this.host.settings.restoreAsUser(this.#stateAtBegin);
   }
 
   #toggle() {

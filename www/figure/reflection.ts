@@ -1,7 +1,6 @@
 /** Synchronization of attributes and properties with the settings: values of the page are applied, and changed settings are written as attributes. */
 
-import { includesFields, withFieldRenamed, checkedWord } from './checks.ts';
-import { cloudProperties } from './cloud.ts';
+import { includesFields, withFieldRenamed, checkedWord } from '../data/checks.ts';
 import { FigureController } from './controller.ts';
 import { COMMON_ATTRS, defaultConfig } from './definition.ts';
 import type { Figure } from './figure.ts';
@@ -33,7 +32,7 @@ export class Reflection extends FigureController {
   /** Reads list properties from texts such as `alphas="0.1,0.2"` or `"[0.1, 0.2]"`. The property refuses and reports any other text. */
   #applyListAttributes(host: Record<string, unknown>) {
     for (const [name, { converter }] of Object.entries(this.#properties)) {
-      const listText = converter || name in this.host.state.elementState ? null : this.host.getAttribute(name);
+      const listText = converter || name in this.host.settings.elementState ? null : this.host.getAttribute(name);
       if (listText === null || Object.hasOwn(host, name)) continue;
       const numbers = (listText.match(/[^\s,[\]]+/g) ?? []).map(Number);
       host[name] = numbers.every(Number.isFinite) ? numbers : listText;
@@ -61,9 +60,10 @@ export class Reflection extends FigureController {
     const parsedValue = typeof value === 'string' && property?.converter ? property.converter.parse(value) : value;
     const applyIfChanged = () => {
       const newValue = parsedValue ?? property?.get(this.#defaultConfig) ?? null;
-      const currentValue = property ? property.get(this.host.state.config) : Reflect.get(this.host, name);
+      const currentValue = property ? property.get(this.host.settings.requested) : Reflect.get(this.host, name);
       // A group of settings may be given in part. A map or a log is replaced as a whole.
-      if (!includesFields(currentValue, newValue) || (!property && !includesFields(newValue, currentValue))) apply(newValue);
+      const isGroup = name in this.host.settings.current;
+      if (!includesFields(currentValue, newValue) || (!isGroup && !includesFields(newValue, currentValue))) apply(newValue);
     };
     if (this.host.simulation) {
       this.host.runtime.attemptOrReport(applyIfChanged);
@@ -76,19 +76,18 @@ export class Reflection extends FigureController {
 
   /** Returns the value of a property. Before there is a simulation, that is the value assigned to it, if any. */
   get(name: string) {
-    const { simulation, state } = this.host;
+    const { simulation, settings } = this.host;
     if (this.#earlyAssignments.has(name)) return this.#earlyAssignments.get(name)?.value;
-    return structuredClone(simulation ? this.#properties[name].get(state.config) : state.elementState[name]);
+    return structuredClone(simulation ? this.#properties[name].get(settings.requested) : settings.elementState[name]);
   }
 
   /** Sets a property of the definition, as `setProperty` does. An error names the property as the caller did. */
   set(name: string, value: unknown) {
-    const { settings, state } = this.host;
+    const { settings } = this.host;
     const { change, path } = this.#properties[name];
     this.setProperty(name, value, (newValue) => {
       try {
-        if (name in state.elementState) state.assign(name, newValue);
-        else settings.assign(change(newValue, settings.requested));
+        settings.assign(change(newValue, settings.requested));
       } catch (error) {
         throw withFieldRenamed(error, name, path);
       }
@@ -105,16 +104,16 @@ export class Reflection extends FigureController {
 
   /** Default configuration. Some defaults depend on the present settings. */
   get #defaultConfig(): Values {
-    const { definition, settings, state } = this.host;
-    return { ...defaultConfig(definition.declarations), ...state.defaults, ...definition.dependentDefaults?.(settings.requested) };
+    const { definition, settings } = this.host;
+    return { ...defaultConfig(definition.declarations), ...definition.elementDefaults, ...definition.dependentDefaults?.(settings.requested) };
   }
 
   /** Writes attributes that differ from the settings. A missing one is written if a new figure would need it, or if a preset has changed it. */
   updateAttributes() {
-    const { simulation, viewModel, state } = this.host;
+    const { simulation, viewModel, settings } = this.host;
     // At first the attributes of the page still wait in `#earlyAssignments`.
     if (!simulation || !viewModel) return;
-    const texts = this.#textsOf(state.config);
+    const texts = this.#textsOf(settings.requested);
     const previousTexts = this.#previousTexts ?? texts;
     const neededTexts = this.neededAttributes((name, text) => text !== previousTexts.get(name));
     this.#previousTexts = texts;
@@ -134,7 +133,7 @@ export class Reflection extends FigureController {
    * attribute determines, such as a preset, unless `isWanted` accepts them.
    */
   neededAttributes(isWanted = (_name: string, _text: string) => false): Map<string, string> {
-    const texts = this.#textsOf(this.host.state.config);
+    const texts = this.#textsOf(this.host.settings.requested);
     const defaultTexts = this.#textsOf(this.#defaultConfig);
     const coveredNames: Set<string> = new Set();
     const neededTexts = new Map<string, string>();
@@ -153,9 +152,9 @@ export class Reflection extends FigureController {
   }
 }
 
-/** Defines a widget's element with its properties. If the page loads the script twice, the second call does nothing. */
-export function define(Widget: typeof import('./figure.ts').FigureElement<any, any> & CustomElementConstructor) {
-  const { prototype, definition: { tag, properties, elementFields } } = Widget;
+/** Defines a widget's element with its properties, and further ones. If the page loads the script twice, the second call does nothing. */
+export function define(Widget: typeof import('./figure.ts').FigureElement<any, any> & CustomElementConstructor, furtherProperties: PropertyDescriptorMap = {}) {
+  const { prototype, definition: { tag, properties } } = Widget;
   if (customElements.get(tag)) return;
   for (const name of Object.keys(properties)) {
     // A widget may define this property itself, because it does more than read and write the value.
@@ -167,6 +166,6 @@ export function define(Widget: typeof import('./figure.ts').FigureElement<any, a
       set(this: Figure, value) { this.reflection.set(name, value); },
     });
   }
-  if ('marked' in elementFields) Object.defineProperties(prototype, cloudProperties);
+  Object.defineProperties(prototype, furtherProperties);
   customElements.define(tag, Widget);
 }

@@ -1,10 +1,10 @@
-/** Start of a figure near the viewport; drawing of its pictures, and then of its text, while it is visible, and in print; and its canvases. */
+/** Start of a figure near the viewport; drawing of its pictures, and then of its text, while it is visible, and in print. */
 
 import { nothing } from 'lit';
 import { onLanguage } from '../messages/registry.ts';
+import { hasPixels } from '../scene/canvases.ts';
 import { clamp } from '../ui/format.ts';
 import { FigureController } from './controller.ts';
-import type { Surface } from '../scene/canvas.ts';
 
 type AnyPicture = import('../scene/picture.ts').Picture<any>;
 
@@ -30,9 +30,9 @@ export const prefersReducedMotion = () => matchMedia('(prefers-reduced-motion: r
 export class Renderer extends FigureController {
   isVisible = false;
   #isNear = false;
-  /** Visibility of the element and of its content: a sticky picture stays in sight while the page scrolls on, outside of the element's box. */
-  #visibilityOf: Map<Element, boolean> = new Map();
+  /** Observes the content, or the element as long as there is none: a sticky picture stays in sight outside of the element's box. */
   #visibleObserver = new IntersectionObserver((entries) => this.#updateVisible(entries));
+  #visibleTarget: Element | undefined;
   #nearObserver = new IntersectionObserver((entries) => {
     // A start depends on the visibility, but the order of the observers' callbacks is undefined.
     this.#updateVisible(this.#visibleObserver.takeRecords());
@@ -50,6 +50,7 @@ export class Renderer extends FigureController {
 
   hostConnected() {
     const { signal } = this.host.connection;
+    this.host.canvases.followPixelRatio(signal);
     addEventListener('beforeprint', () => this.#print(true), { signal });
     addEventListener('afterprint', () => this.#print(false), { signal });
     // Some browsers do not fire `beforeprint` and `afterprint`, and others fire them too late.
@@ -58,30 +59,33 @@ export class Renderer extends FigureController {
     // An element that is removed during print gets no event at its end.
     if (this.isPrinting !== printQuery.matches) this.#print(printQuery.matches);
     onLanguage(this.host, () => this.#languageChanged(), signal);
-    for (const observer of [this.#visibleObserver, this.#nearObserver]) observer.observe(this.host);
+    this.#nearObserver.observe(this.host);
     // The script that defines the element may still call `load(source)`.
     queueMicrotask(() => {
       this.#checkPosition();
-      this.#observeContent();
+      this.#observeVisibility();
     });
   }
 
   hostDisconnected() {
     for (const observer of [this.#visibleObserver, this.#nearObserver]) observer.disconnect();
-    this.#visibilityOf.clear();
+    this.#visibleTarget = undefined;
     this.#isNear = false;
     this.#setVisible(false);
   }
 
   #updateVisible(entries: IntersectionObserverEntry[]) {
-    for (const { target, isIntersecting } of entries) this.#visibilityOf.set(target, isIntersecting);
-    if (entries.length > 0) this.#setVisible([...this.#visibilityOf.values()].includes(true));
+    const isIntersecting = entries.at(-1)?.isIntersecting;
+    if (isIntersecting !== undefined) this.#setVisible(isIntersecting);
   }
 
-  #observeContent() {
-    const content = this.host.shadowRoot?.querySelector('.simulation');
+  #observeVisibility() {
+    const target = this.host.shadowRoot?.querySelector('.simulation') ?? this.host;
     // An element that was removed may still be updated.
-    if (content && this.host.isConnected) this.#visibleObserver.observe(content);
+    if (target === this.#visibleTarget || !this.host.isConnected) return;
+    if (this.#visibleTarget) this.#visibleObserver.unobserve(this.#visibleTarget);
+    this.#visibleTarget = target;
+    this.#visibleObserver.observe(target);
   }
 
   /** Checks the position of the figure now: the observers report it a frame later. */
@@ -106,11 +110,11 @@ export class Renderer extends FigureController {
 
   hostUpdated() {
     const { host } = this;
-    this.#observeContent();
+    this.#observeVisibility();
     host.resolveSettled();
     if (!host.canvases.elements) host.colours.update();
     if (!host.simulation || host.canvases.elements) return;
-    host.canvases.find();
+    host.canvases.find(host.renderRoot);
     this.requestFrame();
     if (this.isPrinting) this.#print(true);
   }
@@ -261,89 +265,5 @@ export class Renderer extends FigureController {
     else host.canvases.measure();
     this.drawResized();
     this.#renderText();
-  }
-}
-
-/** Pixels per CSS pixel in print. */
-const PRINT_RATIO = 2;
-
-/** Returns true if a canvas has pixels. Narrow figures hide some canvases. */
-const hasPixels = ({ width, height }: HTMLCanvasElement) => Math.min(width, height) > 0;
-
-/** Canvases of a figure, and their sizes in device pixels. */
-export class Canvases extends FigureController {
-  /** Canvases that are observed; undefined until they are rendered. */
-  elements: HTMLCanvasElement[] | undefined;
-  /** Cached widths in CSS pixels. Reading them in a frame would cause a reflow. */
-  #widths: WeakMap<HTMLCanvasElement, number> = new WeakMap();
-  #observer = new ResizeObserver((entries) => this.#resize(entries));
-
-  hostConnected() {
-    this.#followPixels(this.host.connection.signal);
-  }
-
-  find() {
-    this.elements = [...this.host.renderRoot.querySelectorAll('canvas')];
-    this.measure();
-  }
-
-  /** Stops observing the canvases, which are no longer rendered. */
-  release() {
-    this.#observer.disconnect();
-    this.elements = undefined;
-  }
-
-  /** Measures the canvases again after a change of the pixel ratio. WebKit's observer does not report device pixels. */
-  #followPixels(signal: AbortSignal) {
-    const onRatioChange = () => {
-      this.measure();
-      this.#followPixels(signal);
-    };
-    matchMedia(`(resolution:${devicePixelRatio}dppx)`).addEventListener('change', onRatioChange, { once: true, signal });
-  }
-
-  /** Observes the sizes of the canvases. The observer also reports the present sizes. */
-  measure() {
-    this.#observer.disconnect();
-    for (const canvas of this.elements ?? []) {
-      try {
-        this.#observer.observe(canvas, { box: 'device-pixel-content-box' });
-      } catch {
-        this.#observer.observe(canvas);
-      }
-    }
-  }
-
-  /** Sets the size of each canvas in device pixels. In print the pixels determine the layout, so that the observer would be called again. */
-  #resize(entries: ResizeObserverEntry[]) {
-    if (this.host.renderer.isPrinting) return;
-    for (const { target, contentRect, devicePixelContentBoxSize } of entries) {
-      const canvas = target as HTMLCanvasElement;
-      const { inlineSize: width, blockSize: height } = devicePixelContentBoxSize?.[0] ?? { inlineSize: 0, blockSize: 0 };
-      const [nearWidth, nearHeight] = [devicePixelRatio * contentRect.width, devicePixelRatio * contentRect.height];
-      // Chromium gives CSS pixels for device pixels when developer tools imitate the screen of a phone.
-      const isExact = Math.max(Math.abs(width - nearWidth), Math.abs(height - nearHeight)) < 1;
-      [canvas.width, canvas.height] = (isExact ? [width, height] : [nearWidth, nearHeight]).map(Math.round);
-    }
-    this.host.renderer.drawResized();
-  }
-
-  /** Caches the widths in the layout, and sets the sizes in pixels for print. */
-  update(isPrinting: boolean) {
-    for (const canvas of this.elements ?? []) {
-      const { clientWidth, clientHeight } = canvas;
-      this.#widths.set(canvas, clientWidth);
-      if (isPrinting) Object.assign(canvas, { width: PRINT_RATIO * clientWidth, height: PRINT_RATIO * clientHeight });
-    }
-  }
-
-  canvasOf({ name }: { name: string }) {
-    return this.elements?.find(({ className }) => className === name) as HTMLCanvasElement;
-  }
-
-  surfaceOf(canvas: HTMLCanvasElement): Surface {
-    const { width, height } = canvas;
-    const clientWidth = this.#widths.get(canvas) ?? canvas.clientWidth;
-    return { width, height, clientWidth, fontStyle: getComputedStyle(canvas), context: canvas.getContext('2d') as CanvasRenderingContext2D };
   }
 }

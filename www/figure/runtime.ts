@@ -1,4 +1,4 @@
-/** Core of a figure. After a trap, a new core gets the last valid state. */
+/** Core of a figure. After a trap, a new core gets the state that was shown. */
 
 import { abandonSimulation, instantiateFor, precompile } from '../core.ts';
 import { FigureController } from './controller.ts';
@@ -25,11 +25,14 @@ export class Runtime extends FigureController {
 
   async #create() {
     try {
-      const { localName, link, state } = this.host;
-      const [motion] = await Promise.all([instantiateFor(localName), state.lastValidState ?? link.applyAddress()]);
-      const simulation = this.host.createSimulation(motion, state.lastValidState);
-      Object.assign(this, { motion, simulation, failure: undefined });
-      state.resume();
+      const { localName, link, settings, viewModel } = this.host;
+      const shownState = viewModel && this.host.snapshot();
+      const [motion] = await Promise.all([instantiateFor(localName), shownState ?? link.applyAddress()]);
+      this.motion = motion;
+      const simulation = this.host.createSimulation(motion);
+      if (shownState) this.host.enterState(simulation, shownState);
+      Object.assign(this, { simulation, failure: undefined });
+      settings.resume(shownState);
       await this.#showContent();
     } catch (error) {
       this.fail(error);
@@ -51,9 +54,12 @@ export class Runtime extends FigureController {
     this.host.dispatchEvent(new Event('load', { bubbles: true, composed: true }));
   }
 
+  /** Replaces the simulation. Pending changes are dropped. */
   replace(simulation: any) {
     this.simulation.free();
     this.simulation = simulation;
+    this.host.settings.reset();
+    this.host.simulationChanged();
   }
 
   /** Runs work. After a trap, replaces the core and returns undefined. Other errors go to `handleError`, by default to the caller. */

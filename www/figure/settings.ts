@@ -1,6 +1,6 @@
-/** State of a figure as plain data: settings of the simulation, and fields that the element keeps because the simulation does not have them. */
+/** Settings of the simulation, and state of a figure as plain data: the settings, and fields that the element keeps because the simulation does not have them. */
 
-import { checkedObject, checkedWord, refusalError } from './checks.ts';
+import { checkedObject, checkedValue, checkedWord, refusalError } from '../data/checks.ts';
 import { FigureController } from './controller.ts';
 
 /** Settings or a state as plain data. */
@@ -8,13 +8,16 @@ export type Values = Record<string, any>;
 
 export const STATE_VERSION = 1;
 
-/** Settings of the simulation: those in effect, and changes that wait for the next frame. */
 export class Settings extends FigureController {
   /** True if the simulation has changed since it was read. */
   isStale: boolean | undefined;
-  /** Cache of the settings in effect; undefined until the simulation is asked. */
+  #openingState: Values | undefined;
+  #elementFields = this.host.definition.elementFields;
+  /** Fields of the state that the element keeps, because the simulation does not have them. They are changed at once. */
+  elementState: Values = { ...this.host.definition.elementDefaults };
+  /** Cache of the simulation's settings in effect; undefined until the simulation is asked. */
   #current: Values | undefined;
-  /** Changes of the user that wait for the next frame. */
+  /** Changes of settings by the user that wait for the next frame. */
   #pending: Values = {};
   /** Message about the text that the user typed last, if it was refused, and the setting's key. */
   #refusal: { key: string, message: string } | undefined;
@@ -33,14 +36,16 @@ export class Settings extends FigureController {
     return Object.fromEntries(keys.map((key) => [key, values[key]]));
   }
 
+  /** Settings of the simulation that are in effect, or after a trap those that were shown. */
   get current(): Values {
     const { simulation, viewModel } = this.host;
     if (simulation) this.#current ??= simulation.config as Values;
     return this.#current ?? viewModel.config;
   }
 
+  /** Settings with the changes that wait, and the state of the element. */
   get requested(): Values {
-    return { ...this.current, ...this.#pending };
+    return { ...this.current, ...this.#pending, ...this.elementState };
   }
 
   /** True if changes are pending, or not in the view model yet. */
@@ -48,16 +53,13 @@ export class Settings extends FigureController {
     return this.isStale || Object.keys(this.#pending).length > 0;
   }
 
-  /**
-   * Changes settings in the next frame, as a change by the user, so that a drag configures the simulation once in each frame. State of the
-   * element is changed at once.
-   */
+  /** Changes values as the user asked: settings in the next frame, so that a drag configures the simulation once in each frame. */
   request(change: Values | ((requested: Values) => Values)) {
-    const { simulation, state, gesture, renderer } = this.host;
+    const { simulation, gesture, renderer } = this.host;
     if (!simulation) return;
     this.forgetRefusal();
     const values = typeof change === 'function' ? change(this.requested) : change;
-    for (const [key, value] of Object.entries(values)) (key in state.elementState ? state.elementState : this.#pending)[key] = value;
+    for (const [key, value] of Object.entries(values)) (key in this.elementState ? this.elementState : this.#pending)[key] = value;
     gesture.step();
     renderer.requestFrame();
   }
@@ -77,13 +79,17 @@ export class Settings extends FigureController {
     this.#refusal = undefined;
   }
 
-  /** Changes settings at once, as a change by the page. Throws a TypeError or RangeError, without a change, for invalid values. */
+  /** Changes values at once, as a change by the page. Throws a TypeError or RangeError, without a change, for invalid values. */
   assign(values: Values) {
+    const { host } = this;
     this.applyPending();
-    this.#configure(values);
-    this.host.reflection.updateAttributes();
-    this.host.renderer.releaseViews();
-    this.host.renderer.requestFrame();
+    const elementValues = this.#checkedElementValues('', values, host.snapshot());
+    const settings = Object.entries(values).filter(([key]) => !(key in elementValues));
+    if (settings.length > 0) this.#configure(Object.fromEntries(settings));
+    Object.assign(this.elementState, elementValues);
+    host.reflection.updateAttributes();
+    host.renderer.releaseViews();
+    host.renderer.requestFrame();
   }
 
   /** Applies pending changes. A refused one is reported and dropped. */
@@ -100,52 +106,41 @@ export class Settings extends FigureController {
     this.#current = Object.freeze(cloud ? cloud.configure(values) : simulation.configure(values));
     this.isStale = true;
   }
-}
 
-/** State as in `getState`: settings and fields of the element. After a trap, a new simulation gets the last valid state. */
-export class State extends FigureController {
-  lastValidState: Values | undefined;
-  #openingState: Values | undefined;
-  #fields = this.host.definition.elementFields;
-  defaults: Values = Object.fromEntries(Object.entries(this.#fields).map(([name, { opening }]) => [name, opening]));
-  /** Fields of the state that the element keeps, because the simulation does not have them. */
-  elementState = { ...this.defaults };
-
-  /** Settings of the simulation, with pending changes, and the state of the element. */
-  get config(): Values {
-    return { ...this.host.settings.requested, ...this.elementState };
+  /** Returns the fields of the element among values for a state, after a check. `path` is put before their names in errors. */
+  #checkedElementValues(path: string, values: Values, state: Values) {
+    const fields = Object.entries(this.#elementFields).filter(([name]) => name in values);
+    return Object.fromEntries(fields.map(([name, { maxIn, max, ...range }]) =>
+      [name, checkedValue(path + name, values[name], { ...range, max: maxIn ? maxIn(state) : max })]));
   }
 
-  /** Applies pending changes of the page to a new simulation that has the last valid state. */
-  resume() {
+  /** Applies assignments of the page to a new simulation, which has a state after a trap, and shows it. */
+  resume(state?: Values) {
     const { host } = this;
-    host.settings.reset();
+    this.reset();
     host.simulationChanged();
     host.reflection.applyEarlyAssignments();
-    // The simulation is missing after a trap. The settings are not stale if a pending state was shown already.
-    if (host.simulation && host.settings.isStale) this.#showState(this.lastValidState);
+    // The simulation is missing after a trap. The settings are not stale if an assigned state was shown already.
+    if (host.simulation && this.isStale) this.#showState(state);
   }
 
   /** Applies a state with its widget and version. Missing fields keep their values; an error changes nothing. */
   applyState(state: unknown) {
-    const host = this.host;
-    host.settings.applyPending();
+    const { host } = this;
+    this.applyPending();
     const { widget, version } = Object(state);
     checkedWord('state.widget', widget, [host.localName]);
     if (version !== STATE_VERSION) throw refusalError('state.version', version, String(STATE_VERSION));
     const currentState = host.snapshot();
-    const checkedState = checkedObject('state', state, Object.keys(currentState));
-    const wholeState: Values = { ...currentState, ...host.withDerivedFields(currentState, checkedState) };
+    const changes = checkedObject('state', state, Object.keys(currentState));
+    const wholeState: Values = { ...currentState, ...host.withDerivedFields(currentState, changes) };
     // Checks the settings first, because the number of samples limits other fields.
-    const simulation = host.createSimulation(host.motion, wholeState);
-    const selectableCount = wholeState.playing ? wholeState.samples : wholeState.shown;
-    for (const [name, { check }] of Object.entries(this.#fields)) {
-      if (name in checkedState) wholeState[name] = check(`state.${name}`, wholeState[name], selectableCount);
-    }
+    const simulation = host.createSimulation(host.motion);
+    host.enterState(simulation, wholeState);
+    const changedValues = Object.fromEntries(Object.keys(changes).map((key) => [key, wholeState[key]]));
+    Object.assign(wholeState, this.#checkedElementValues('state.', changedValues, wholeState));
     for (const name of Object.keys(this.elementState)) this.elementState[name] = wholeState[name];
     host.runtime.replace(simulation);
-    host.settings.reset();
-    host.simulationChanged();
     host.renderer.releaseViews(1);
     this.#showState(wholeState);
   }
@@ -153,16 +148,16 @@ export class State extends FigureController {
   choosePreset(preset: string) {
     const { host } = this;
     host.player?.stop();
-    host.settings.forgetRefusal();
+    this.forgetRefusal();
     host.renderer.releaseViews(1);
-    for (const [name, { isResetByPreset, opening }] of Object.entries(this.#fields)) if (isResetByPreset) this.elementState[name] = opening;
+    for (const [name, { isResetByPreset, default: opening }] of Object.entries(this.#elementFields)) if (isResetByPreset) this.elementState[name] = opening;
     Object.assign(host, { preset });
     host.gesture.complete();
   }
 
   /** Restores a state, by default the one that the figure opened with, as a change by the user. */
   restoreAsUser(state: Values | undefined = this.#openingState) {
-    this.host.copyMenu.clearMessage();
+    this.host.notice.hide();
     this.applyState(state);
     this.host.gesture.complete();
   }
@@ -175,14 +170,5 @@ export class State extends FigureController {
     host.refresh();
     host.reflection.updateAttributes();
     host.renderer.requestFrame();
-  }
-
-  /** Changes a field of the element's own state, after a check. */
-  assign(name: string, value: unknown) {
-    const { settings, cloud, reflection, renderer } = this.host;
-    settings.applyPending();
-    this.elementState[name] = this.#fields[name].check(name, value, cloud?.selectableCount ?? 0);
-    reflection.updateAttributes();
-    renderer.requestFrame();
   }
 }

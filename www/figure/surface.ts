@@ -14,7 +14,7 @@ export function figureHtml(figure: Figure) {
   const updateColours = () => colours.update();
   return html`
     <span class="scheme-probe" aria-hidden="true" @transitionend=${updateColours} @transitioncancel=${updateColours}></span>
-    <div class="surface ${presenting.hasControls ? 'with-controls' : ''}" @pointerdown=${(event: PointerEvent) => gesture.press(event)} @input=${stopPropagation} @change=${stopPropagation} @keydown=${stopUsedKey}>
+    <div class="surface ${presenting.hasControls ? 'with-controls' : ''}" @pointerdown=${(event: PointerEvent) => gesture.press(event)} @input=${stopPropagation} @change=${stopPropagation} @keydown=${(event: KeyboardEvent) => onKey(figure, event)}>
       ${slotHtml(figure, 'title', presentation ? nameOf(figure) : '', headingLevel)}
       <div class="spoken" lang=${language} dir=${RIGHT_TO_LEFT.test(language) ? 'rtl' : 'ltr'}>
         ${contentHtml(figure)} ${notice.render()} ${presenting.render()}
@@ -76,8 +76,9 @@ const MOVE_KEYS = /Arrow|Page|Home|End/;
 /** Keys that press a button, a checkbox or a summary. */
 const PRESS_KEYS = /^( |Enter)$/;
 
-/** Stops a key that a control has used. A page with key shortcuts, such as a slide deck, does not see the control in the shadow root. */
-function stopUsedKey(event: KeyboardEvent) {
+/** Stops a key that the figure has used. A page with key shortcuts, such as a slide deck, does not see the control in the shadow root. */
+function onKey({ notice }: Figure, event: KeyboardEvent) {
+  notice.onKey(event);
   const { key, ctrlKey, altKey, metaKey, defaultPrevented } = event;
   const keyTarget = event.target as Element;
   const isPress = PRESS_KEYS.test(key) && keyTarget.matches('button, input, summary');

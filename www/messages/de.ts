@@ -73,7 +73,6 @@ export const de: typeof import('./en.ts').en = {
   unreadableLink: 'Dieser Link ist nicht lesbar: Er ist vielleicht abgeschnitten. Die Abbildung bleibt, wie sie war.',
   progress: {
     label: 'Wird berechnet',
-    begins: 'Das dauert einen Augenblick. Escape bricht es ab.',
     stop: 'Abbrechen',
     stopTitle: 'Alles bleibt, wie es war (Escape)',
     stopped: 'Abgebrochen: Alles ist, wie es war.',

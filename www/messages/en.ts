@@ -79,7 +79,6 @@ export const en = {
   unreadableLink: 'This link cannot be read: it may be cut off. The figure stays as it was.',
   progress: {
     label: 'Computing',
-    begins: 'This takes a moment. Escape stops it.',
     stop: 'Stop',
     stopTitle: 'Everything stays as it was (Escape)',
     stopped: 'Stopped: everything is as it was.',

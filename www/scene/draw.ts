@@ -1,6 +1,7 @@
 /** Drawing of robots, densities, outlines and rings. All functions are stateless. */
 
 import { greatest } from 'd3-array';
+import { html, nothing, svg } from 'lit';
 import { limits } from '../../build/settings.js';
 import { colourChannels } from '../ui/theme.ts';
 import { lineLegendEntry, type LegendEntry } from './axes.ts';
@@ -132,6 +133,19 @@ export function drawEarlierOutlines(brush: Brush, outlines: Outline[], currentPo
 
 export function drawOutline(brush: Brush, points: Float64Array, style: LineStroke) {
   drawOutlines(brush, [{ points, ...style }]);
+}
+
+/** Returns the symbol of a legend item: a line, dot, ring or area in its style. */
+export function swatchHtml({ role, dash, width = 2.25, mark = 'line' }: LineStyle) {
+  const markShapes = {
+    line: svg`<line x1="1" x2="29" y1="6" y2="6" stroke-width=${width} stroke-dasharray=${dash?.join(' ') ?? nothing} />`,
+    dot: svg`<circle fill="var(--role)" cx="15" cy="6" r="3" />`,
+    ring: svg`<circle cx="15" cy="6" r="4" stroke-width=${width} />`,
+    area: svg`<rect fill="var(--role)" x="4" y="1" width="22" height="10" opacity="0.4" />`,
+    box: svg`<rect x="9" y="2" width="12" height="8" rx="2" stroke-width=${width} />`,
+    cross: svg`<path d="M11 2l8 8m0 -8l-8 8" stroke-width=${width} />`,
+  };
+  return html`<svg class="swatch" viewBox="0 0 30 12" aria-hidden="true" data-role=${role}>${markShapes[mark]}</svg>`;
 }
 
 /** Draws a robot seen from above: a disc with a line to the front. */

@@ -124,31 +124,48 @@ const figureLayout = css`
     box-shadow: -0.5em 0 var(--paper), 0.5em 0 var(--paper);
   }
 
+  .notice {
+    position: sticky;
+    z-index: 3;
+    bottom: 0;
+    height: 0;
+  }
+
+  .notice > div {
+    position: absolute;
+    bottom: 0.5em;
+    left: 50%;
+    display: flex;
+    align-items: center;
+    gap: 0.8em;
+    box-sizing: border-box;
+    width: max-content;
+    max-width: 100%;
+    padding: 0.35em 0.5em 0.35em 0.9em;
+    transform: translateX(-50%);
+    background: var(--paper);
+    border: 1px solid var(--rule);
+    border-left: 3px solid var(--accent);
+    border-radius: 4px;
+    box-shadow: 0 2px 10px rgb(0 0 0 / 25%);
+  }
+
+
+  progress {
+    width: 8em;
+    accent-color: var(--posterior);
+  }
+
   .begin {
     display: flex;
     gap: 0.5em;
     margin-inline-start: auto;
   }
 
-  /* The message of the copy button is before it, or in a narrow figure on a line below. The field for copying by hand is below both. */
-  .folds > .copied {
-    flex: 1 1 8em;
-    text-align: end;
-  }
-
-  .folds > textarea {
-    order: 1;
-  }
-
   @container (width < 56em) {
     /* Narrow columns of sliders have texts of two lines, which end above the rule. */
     .folds {
       margin-top: 1.3em;
-    }
-
-    .folds > .copied {
-      flex-basis: 100%;
-      order: 1;
     }
   }
 

@@ -101,7 +101,6 @@ export const presentationStyles = css`
   :host([presentation]) .surface:not(.with-controls) :is(.result, .looked) > :is(.slider, .choices, button),
   :host([presentation]) .surface:not(.with-controls) .start-over,
   :host([presentation]) .surface > .caption-slot,
-  :host([presentation]) .folds > :is(output, textarea),
   :host([presentation]) .begin {
     display: none !important;
   }

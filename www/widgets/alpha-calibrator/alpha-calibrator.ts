@@ -1,7 +1,7 @@
 /** <alpha-calibrator>: α's fitted to a log, with confidence intervals and goodness of fit. */
 
 import { html, css } from 'lit';
-import { checkedObject } from '../../figure/checks.ts';
+import { checkedObject } from '../../data/checks.ts';
 import { pictureCanvas, disclosures, titledPicture, settingRadios, editableSlider, settingSlider, legend } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { define } from '../../figure/reflection.ts';
@@ -14,7 +14,7 @@ import { readoutList } from '../../ui/readouts.ts';
 import { startOverButton } from '../shared/controls.ts';
 import { LogOpener, LogService, dropZone, isAbortError, logSection } from './open.ts';
 import { LegPicture, PathPicture } from './pictures.ts';
-import { alphaTable, alphaTexts, captionOf, copyButton, copyMessage, diagnosticsHtml, judge, legText, nav2ExportControls, pathText, recommendationReason, regressionPanels, systematicTable, verdictHtml } from './readouts.ts';
+import { alphaTable, alphaTexts, captionOf, diagnosticsHtml, judge, legText, nav2Button, nav2ExportControls, pathText, recommendationReason, regressionPanels, systematicTable, verdictHtml } from './readouts.ts';
 import { NOISE_COMPONENTS, LINE_STYLES, definition, modelRuleOf, observedCount, settingsFor, viewModelOf, type ViewModel } from './settings.ts';
 import type { AlphaCalibrator as Simulation, CalibrationLog, CalibrationPanel, LegView, Motion } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
@@ -28,11 +28,14 @@ interface OpenedLog {
   fit: Uint8Array;
 }
 
+/** Time that a fit may take before a notice says so, ms. */
+const NOTICE_DELAY_MS = 200;
+
 function legControls(figure: AlphaCalibratorElement) {
   const { viewModel: { legs, worst }, chosen } = figure;
   const texts = words.calibrator.leg;
   // The button selects the leg after the selected one in the list of worst legs, or the first of the list.
-  const nextLeg = worst[(worst.indexOf(figure.state.elementState.leg) + 1) % Math.max(1, worst.length)];
+  const nextLeg = worst[(worst.indexOf(figure.settings.elementState.leg) + 1) % Math.max(1, worst.length)];
   return html`${editableSlider(figure, texts.name, { min: 1, max: legs.count, type: 'whole' }, {
       id: 'leg',
       name: texts.name,
@@ -147,16 +150,6 @@ const styles = css`
   .spoken:has(.other-results) :is(.views, #numbers) {
     color: var(--muted);
     filter: grayscale(1);
-  }
-
-  /* The message of the copy button is in sight beside it, however long the table is. */
-  .fitted .copied:not(:empty) {
-    display: block;
-    position: sticky;
-    z-index: 1;
-    bottom: 0;
-    padding-block: 0.25em;
-    background: var(--paper);
   }
 
   table {
@@ -283,15 +276,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   /** Log of the page; null for the simulated log. */
   #pageLog: CalibrationLog | null = null;
 
-  createSimulation: FigureElement<Simulation, ViewModel>['createSimulation'] = (motion, state) =>
-    state ? this.#simulationOf(motion, this.settings.pick(state), this.#givenLog) : new motion.AlphaCalibrator();
-
-  #simulationOf({ AlphaCalibrator }: Motion, requested: Partial<Simulation['config']>, given: OpenedLog | null): Simulation {
-    if (!given) return new AlphaCalibrator(requested);
-    const simulation = AlphaCalibrator.restored(given.config, given.fit);
-    simulation.configure(requested);
-    return simulation;
-  }
+  createSimulation = ({ AlphaCalibrator }: Motion, given = this.#givenLog) => (given ? AlphaCalibrator.restored(given.config, given.fit) : new AlphaCalibrator());
 
   read(simulation: Simulation) {
     const viewModel = viewModelOf(simulation, this.log, this.viewModel);
@@ -316,7 +301,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
 
   /** Index of the leg that is shown; −1 if there is none. */
   get chosen() {
-    const { viewModel: { opening, legs }, state: { elementState: { leg } } } = this;
+    const { viewModel: { opening, legs }, settings: { elementState: { leg } } } = this;
     return leg !== null && leg < legs.count ? leg : opening;
   }
 
@@ -328,13 +313,13 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
 
   /** Squared residuals, binned by the chosen regressor; empty without legs. */
   get panels() {
-    const { simulation, viewModel: { stats, legs }, state: { elementState: { regressor } } } = this;
+    const { simulation, viewModel: { stats, legs }, settings: { elementState: { regressor } } } = this;
     return legs.count > 0 && simulation ? this.#panels.get([stats, regressor], () => simulation.panels(regressor)) : [];
   }
 
   get scene() {
     const viewModel = this.currentViewModel;
-    return { ...viewModel, chosen: this.chosen, leg: this.predicted, overlays: this.state.elementState.overlays };
+    return { ...viewModel, chosen: this.chosen, leg: this.predicted, overlays: this.settings.elementState.overlays };
   }
 
   #chooseLegAt = (event: MouseEvent) => {
@@ -367,7 +352,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   }
 
   #startOver = () => {
-    this.state.restoreAsUser();
+    this.settings.restoreAsUser();
     this.#opener.close(this.#pageLog).catch(this.#report);
   };
 
@@ -384,28 +369,37 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
     const openedLog = log && { log, warnings, config, fit: await this.service.calibrate(config, log) };
     this.runtime.attempt(() => {
       if (!this.simulation) return;
-      const simulation = this.#simulationOf(this.motion, this.settings.pick(this.settings.current), openedLog);
+      this.settings.applyPending();
+      const simulation = this.createSimulation(this.motion, openedLog);
+      this.enterState(simulation, this.settings.current);
       check?.(simulation);
       if (log !== this.log) {
-        this.state.elementState.leg = null;
+        this.settings.elementState.leg = null;
         for (const { view } of this.pictures) view.reset();
       }
       this.#givenLog = openedLog;
       this.runtime.replace(simulation);
-      this.settings.isStale = true;
       this.renderer.requestFrame();
     });
   }
 
   /** Fits the present log with the pending settings. The figure shows the previous fit until then. */
   async #refit() {
-    const { log, service } = this;
+    const { log, service, notice } = this;
     if (!log || service.isBusy || !this.isConnected) return;
+    const stop = () => {
+      this.announcer.announce(words.progress.stopped);
+      this.#revertSettings();
+    };
+    const timer = setTimeout(() => notice.show(() => html`<progress aria-label=${words.progress.label}></progress> ${words.progress.label}`, stop), NOTICE_DELAY_MS);
     try {
-      await this.notice.showDuring(this.open(log, this.warnings), () => this.#revertSettings());
+      await this.open(log, this.warnings);
     } catch (error) {
       if (!isAbortError(error)) this.#revertSettings();
       this.#report(error);
+    } finally {
+      clearTimeout(timer);
+      notice.hide();
     }
   }
 
@@ -470,12 +464,11 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
         <div class="fitted" part="readouts">
           <div class="buttons result">
             <p class="panel-title">${texts.alphas.title(texts.kinds[modelRuleOf(viewModel.fitted)])}</p>
-            ${copyButton(this, this.#opener.otherResultsNote)} ${startOverButton(this, this.#startOver)}
+            ${nav2Button(this, this.#opener.otherResultsNote)} ${startOverButton(this, this.#startOver)}
           </div>
           <p class="to-do">${this.#opener.otherResultsNote || judge(viewModel, this.warnings).advice.join(' ')}</p>
           ${alphaTable(viewModel)}
           <p class="reason muted small">${recommendationReason(viewModel)}</p>
-          ${copyMessage(this)}
         </div>`)}
       </div>
       ${this.renderer.afterFirstPicture(() => html`

@@ -1,7 +1,7 @@
 /** Readouts of the Alpha Calibrator in words and tables: verdict, α's, systematic errors, diagnostics of the fit, and lines for Nav2. */
 
 import { html } from 'lit';
-import { downloadFile } from '../../figure/export.ts';
+import { copyButton, downloadFile } from '../../figure/export.ts';
 import { addEnglish, words } from '../../messages/registry.ts';
 import { button, group, radioGroup, formatMarkup, toggle } from '../../ui/controls.ts';
 import { NO_VALUE, integer, fixed, percent, formatPowerOfTen, formatRounded, formatSignificant } from '../../ui/format.ts';
@@ -203,7 +203,7 @@ const MIN_REGRESSOR = 1e-6;
 
 /** Returns a plot for each noise component: its squared residuals against the regressor. */
 export function regressionPanels(figure: Figure) {
-  const { viewModel, viewModel: { fitted: { model } }, state: { elementState: { regressor } }, gesture } = figure;
+  const { viewModel, viewModel: { fitted: { model } }, settings: { elementState: { regressor } }, gesture } = figure;
   const texts = words.calibrator.panels;
   const axisNames = model === 'velocity' ? { turn: texts.turnRate, distance: texts.speed } : { turn: texts.turn, distance: texts.distance };
   if (viewModel.legs.count === 0) return html`<p>${words.calibrator.none}</p>`;
@@ -278,15 +278,12 @@ function jsonOf({ viewModel: { fitted, stats, legs, truth }, logName }: Figure) 
  * Returns the button that copies the lines. For α's of another rule than Nav2's, it is a button that fits Nav2's rule. `obstacle` is the
  * reason why the button is disabled; empty if it is enabled.
  */
-export function copyButton(figure: Figure, obstacle: string) {
+export function nav2Button(figure: Figure, obstacle: string) {
   const texts = words.calibrator.nav2;
   if (!NAV2_RULES.includes(modelRuleOf(figure.viewModel.fitted))) return button(texts.fit, () => figure.gesture.decide(settingsFor('nav2')), { disabled: obstacle !== '', title: obstacle || texts.fitTitle });
   const yaml = yamlOf(figure);
-  return figure.copyMenu.button('nav2', texts.copy, () => yaml, { disabled: !yaml || obstacle !== '', title: obstacle || (yaml ? texts.label : texts.none) });
+  return copyButton(figure, texts.copy, () => yaml, { disabled: !yaml || obstacle !== '', title: obstacle || (yaml ? texts.label : texts.none) });
 }
-
-/** Returns the message of the button, which stands where it moves neither the button nor the table. */
-export const copyMessage = (figure: Figure) => figure.copyMenu.messageHtml('nav2', yamlOf(figure));
 
 /** Returns the lines, and the button that saves all results. `obstacle` is the reason why it is disabled, or empty. */
 export function nav2ExportControls(figure: Figure, obstacle: string) {

@@ -1,6 +1,5 @@
 /** Settings of the Alpha Calibrator: attributes, shared state and sliders; and the view model. */
 
-import { checkedInteger, checkedWord } from '../../figure/checks.ts';
 import { definitionOf } from '../../figure/definition.ts';
 import type { AlphaCalibrator as Simulation, AlphaCalibratorSettings, CalibrationLegs, CalibrationLog } from '../../types.d.ts';
 
@@ -29,7 +28,7 @@ export type Regressor = (typeof REGRESSORS)[number];
 /** Maximum index of a leg in a shared link. The number of legs is not known before the fit, so that it cannot be the limit. */
 const MAX_LEG_INDEX = 9_999_999;
 
-export const documentation: import('../../figure/definition.ts').Documentation = {
+export const documentation = {
   state: {
     leg: { type: 'number | null', sentence: 'The leg that is shown, from 0; null, or one that is not there, for the largest residual that is no outlier.' },
     regressor: { type: "'turn' | 'distance'", sentence: 'The motion that squared residuals are drawn against.' },
@@ -68,8 +67,8 @@ export const definition = definitionOf('alpha-calibrator', {
     inflation: { symbol: '*f*', role: 'prediction', min: 0.1, max: 5, step: 0.05, decimals: 2 },
   },
   elementFields: {
-    leg: { opening: null, check: (field, leg) => (leg === null ? null : checkedInteger(field, leg, 0, MAX_LEG_INDEX)) },
-    regressor: { opening: REGRESSORS[0], check: (field, regressor) => checkedWord(field, regressor, REGRESSORS) },
+    leg: { type: 'whole', default: null, nullable: true, min: 0, max: MAX_LEG_INDEX },
+    regressor: { type: 'word', words: REGRESSORS, default: REGRESSORS[0] },
   },
 });
 

@@ -1,10 +1,11 @@
 /** <arc-anatomy>: the arc between two poses, and how likely it is after a command. */
 
 import { html, nothing, css } from 'lit';
-import { pictureCanvas, disclosures, titledPicture, settingCheckbox, settingRadios, settingSliders, legend, swatchHtml } from '../../figure/controls.ts';
+import { pictureCanvas, disclosures, titledPicture, settingCheckbox, settingRadios, settingSliders, legend } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { define } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
+import { swatchHtml } from '../../scene/draw.ts';
 import { button, group, formatMarkup } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
 import { track } from '../../ui/slider.ts';
@@ -13,7 +14,7 @@ import { PoseHandles } from '../shared/robot.ts';
 import { ArcPicture, ROBOT_RADIUS } from './picture.ts';
 import { formsPlot, factorBarsHtml, headlineHtml, likelihoodReadouts, tableLinesHtml, lineText, captionOf, pictureText } from './readouts.ts';
 import { LINE_STYLES, UNDERWAY_AT_END, definition, CONTOUR_STYLES, ALPHA_SLIDERS, COMMAND_SLIDERS, TABLE_LINES, type ViewModel } from './settings.ts';
-import type { ArcAnatomy as Simulation } from '../../types.d.ts';
+import type { ArcAnatomy as Simulation, Motion } from '../../types.d.ts';
 
 /** Returns the controls of the likelihood: the sign of the radius, and the heat map with the names of its contours. */
 function likelihoodControls(figure: ArcAnatomyElement) {
@@ -26,7 +27,7 @@ function likelihoodControls(figure: ArcAnatomyElement) {
 
 function lineStepper(figure: ArcAnatomyElement) {
   const texts = words.anatomy.table;
-  const { line } = figure.state.elementState;
+  const { line } = figure.settings.elementState;
   const chooseLine = (to: number) => () => figure.gesture.choose('line', to);
   return html`<div class="stepper" role="group" aria-label=${texts.label}>
     ${button(html`<span aria-hidden="true">‹</span>`, chooseLine(line - 1), { disabled: line === 0, title: texts.back })}
@@ -35,8 +36,8 @@ function lineStepper(figure: ArcAnatomyElement) {
   </div>`;
 }
 
-function timeControl({ player, gesture, viewModel, state }: ArcAnatomyElement) {
-  const { underway } = state.elementState;
+function timeControl({ player, gesture, viewModel, settings }: ArcAnatomyElement) {
+  const { underway } = settings.elementState;
   const { dt } = viewModel.config.command;
   const timeText = words.anatomy.timeOf(fixed((underway / UNDERWAY_AT_END) * dt, 2), fixed(dt, 2));
   return group(words.anatomy.time, html`<div class="underway">
@@ -179,12 +180,12 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
   /** Animation of the arcs, which always takes the same time. The duration of the command is displayed next to it. */
   player: Player<'underway'> = new Player(this, { underway: { max: UNDERWAY_AT_END, durationMs: 2000 } });
 
-  createSimulation: FigureElement<Simulation, ViewModel>['createSimulation'] = (motion, state) => new motion.ArcAnatomy(state && this.settings.pick(state));
+  createSimulation = ({ ArcAnatomy }: Motion) => new ArcAnatomy();
 
   read = (simulation: Simulation): ViewModel => simulation.read();
 
   get scene() {
-    const { overlays, line, underway } = this.state.elementState;
+    const { overlays, line, underway } = this.settings.elementState;
     const viewModel = this.currentViewModel;
     const movingRobotPoses = underway < UNDERWAY_AT_END ? this.simulation?.underway(underway / UNDERWAY_AT_END) : undefined;
     return { ...viewModel, simulation: this.simulation, overlays, line, underway: movingRobotPoses };
@@ -216,7 +217,7 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
           ${pictureCanvas(this, this.#picture, pictureText(viewModel))} ${this.#handles.map((handle) => handle.render())}
         </div>`)}
         ${this.renderer.afterFirstPicture(() => html`
-        <div class="aside">${headlineHtml(viewModel)} ${factorBarsHtml(viewModel, this.state.elementState.line)}</div>`)}
+        <div class="aside">${headlineHtml(viewModel)} ${factorBarsHtml(viewModel, this.settings.elementState.line)}</div>`)}
       </div>
       ${this.renderer.afterFirstPicture(() => html`
       ${legend(this, LINE_STYLES)}
@@ -226,7 +227,7 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
       ${disclosures(this, {
         controls: () => html`<div class="controls">${likelihoodControls(this)}
           ${group(words.noise, html`${settingRadios(this, 'noise', words.noises)} ${settingSliders(this, ALPHA_SLIDERS)}`, 'alphas')}</div>`,
-        numbers: () => html`${lineStepper(this)} ${tableLinesHtml(viewModel, this.state.elementState.line)} ${likelihoodReadouts(viewModel)} ${formsPlot(this.motion)}`,
+        numbers: () => html`${lineStepper(this)} ${tableLinesHtml(viewModel, this.settings.elementState.line)} ${likelihoodReadouts(viewModel)} ${formsPlot(this.motion)}`,
         fileNameMark: 'figure',
         csvTitle: texts.csvTitle,
       })}`)}

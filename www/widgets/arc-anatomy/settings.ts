@@ -1,6 +1,5 @@
 /** Arc Anatomy's settings: their attributes, their part of the state, and their sliders; line styles, and the view model. */
 
-import { checkedInteger, checkedNumber } from '../../figure/checks.ts';
 import { definitionOf } from '../../figure/definition.ts';
 import { COMMAND_DASH, alphaSliders, commandSliders } from '../shared/sliders.ts';
 import type { ArcAnatomy } from '../../types.d.ts';
@@ -31,7 +30,7 @@ export const CONTOUR_STYLES = {
 
 export type LineName = keyof typeof LINE_STYLES;
 
-export const documentation: import('../../figure/definition.ts').Documentation = {
+export const documentation = {
   state: {
     line: { type: 'number', sentence: 'The highlighted line of Table 5.1, from 1; 0 for none.' },
     underway: { type: 'number', sentence: 'Share of the command’s duration that the robot has driven, in per cent.' },
@@ -48,7 +47,7 @@ export const definition = definitionOf('arc-anatomy', {
   opening: ['commanded', 'inverted', 'wedge', 'chord'],
   sliderSpecs: { ...COMMAND_SLIDERS, ...ALPHA_SLIDERS },
   elementFields: {
-    line: { opening: 0, isResetByPreset: true, check: (field, line) => checkedInteger(field, line, 0, TABLE_LINES) },
-    underway: { opening: UNDERWAY_AT_END, isResetByPreset: true, check: (field, share) => checkedNumber(field, share, 0, UNDERWAY_AT_END) },
+    line: { type: 'whole', default: 0, min: 0, max: TABLE_LINES, isResetByPreset: true },
+    underway: { type: 'number', default: UNDERWAY_AT_END, min: 0, max: UNDERWAY_AT_END, isResetByPreset: true },
   },
 });

@@ -1,9 +1,8 @@
 /** <banana-machine>: one command, thousands of outcomes, and the coordinates in which they are nearly a Gaussian. */
 
 import { html, nothing, css } from 'lit';
-import { checkedObject } from '../../figure/checks.ts';
-import { enterCloud } from '../../figure/cloud.ts';
-import { pictureCanvas, disclosures, titledPicture, cloudButtons, samplesSlider, settingCheckbox, settingRadios, settingSlider, settingSliders, legend } from '../../figure/controls.ts';
+import { checkedObject } from '../../data/checks.ts';
+import { pictureCanvas, disclosures, titledPicture, settingCheckbox, settingRadios, settingSlider, settingSliders, legend } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { define } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
@@ -14,6 +13,7 @@ import { openingAlphas } from '../../../build/settings.js';
 import { button, formatMarkup, radioButton, group, toggle } from '../../ui/controls.ts';
 import { clamp, fixed, formatEditable } from '../../ui/format.ts';
 import { plot } from '../../ui/plot.ts';
+import { cloudProperties, samplesSlider } from '../shared/cloud.ts';
 import { Player, presetButtons } from '../shared/controls.ts';
 import { subscriptOf } from '../shared/sliders.ts';
 import { IntroducedCloud } from './introduction.ts';
@@ -22,7 +22,7 @@ import { PlanePicture, TwistPicture } from './pictures.ts';
 import { markedRobotField, otherReadouts, mainReadouts, twistTable, workedExampleTable, calloutsOf, captionOf, floorTitle, planeText, twistCaption, twistText } from './readouts.ts';
 import { sliderSpecs, LINE_STYLES, OVERLAY_NAMES, definition, COMMAND_SLIDERS, SAMPLE_COUNTS, viewModelOf, viewModelOfSettings, type ViewModel } from './settings.ts';
 import type { Values } from '../../figure/settings.ts';
-import type { BananaMachine as Simulation, BananaMachineSettings as Settings, Inspection } from '../../types.d.ts';
+import type { BananaMachine as Simulation, BananaMachineSettings as Settings, Inspection, Motion } from '../../types.d.ts';
 
 /** Displacement of the end of the arc per press of an arrow key, metres. */
 const KEY_STEP = 0.02;
@@ -43,7 +43,7 @@ function modelControls(figure: BananaMachineElement) {
   const { model, alphas, isolate } = figure.viewModel.config;
   const texts = words.banana;
   // The choice counts from 1. It may be larger than the number of α's, because it was made under the other model.
-  const isolatedAlpha = Math.min(figure.state.elementState.isolateChoice, alphas.length);
+  const isolatedAlpha = Math.min(figure.settings.elementState.isolateChoice, alphas.length);
   return group(texts.modelGroup, html`${settingRadios(figure, 'model', texts.models)} ${settingRadios(figure, 'noise', words.noises)}
     ${model === 'odometry' ? settingCheckbox(figure, 'reverseAware', texts.reverseAware) : nothing}
     ${toggle({
@@ -212,18 +212,18 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
 
   player: Player<'morph'> = new Player(this, { morph: { max: 1, durationMs: MORPH_MS } });
 
-  createSimulation: FigureElement<Simulation, ViewModel>['createSimulation'] = (motion, state) => {
-    // The simulation starts empty: the cloud grows visibly, and the first frame need not wait for samples.
-    const simulation = motion.BananaMachine.empty();
-    if (!state) return simulation;
+  // The simulation starts empty: the cloud grows visibly, and the first frame need not wait for samples.
+  createSimulation = ({ BananaMachine }: Motion) => BananaMachine.empty();
+
+  enterState(simulation: Simulation, state: Values) {
     const { model, alphas, pinned } = state;
     // Each model keeps its own α's.
     const otherModel = model === 'velocity' ? 'odometry' : 'velocity';
     simulation.configureFirst({ model: otherModel, alphas: alphas[otherModel] }, 0);
     // Checks the pinned settings.
-    this.#viewModelOfPinned(pinned, motion);
-    return enterCloud(this, simulation, { ...state, alphas: alphas[model] });
-  };
+    this.#viewModelOfPinned(pinned);
+    super.enterState(simulation, { ...state, alphas: alphas[model] });
+  }
 
   read = viewModelOf;
 
@@ -231,7 +231,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     const viewModel = this.currentViewModel;
     const { motion } = this;
     const pinned = this.#pinnedViewModel;
-    const { overlays, morph } = this.state.elementState;
+    const { overlays, morph } = this.settings.elementState;
     const overlayVisibility = Object.fromEntries(OVERLAY_NAMES.map((name) => [name, overlays.includes(name)]));
     // Callouts are hidden while a cloud grows or is dragged, because outlines move. During a morph their texts would be wrong.
     const isMoving = this.cloud.playing || (this.gesture.isPressed && viewModel !== this.gesture.previousViewModel);
@@ -255,17 +255,17 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
 
   /** View model of the pinned settings, with which the current cloud is compared. */
   get #pinnedViewModel() {
-    return this.#viewModelOfPinned(this.state.elementState.pinned);
+    return this.#viewModelOfPinned(this.settings.elementState.pinned);
   }
 
-  #viewModelOfPinned(pinned: Settings | null, motion = this.motion): ViewModel | undefined {
-    return pinned ? this.#pinnedViewModelMemo.get([pinned], () => viewModelOfSettings(motion, pinned)) : undefined;
+  #viewModelOfPinned(pinned: Settings | null): ViewModel | undefined {
+    return pinned ? this.#pinnedViewModelMemo.get([pinned], () => viewModelOfSettings(this.motion, pinned)) : undefined;
   }
 
   /** Pins the current settings for comparison, or unpins them. The pinned outlines and numbers are those of the complete cloud. */
   #togglePin() {
     const { config } = this.currentViewModel;
-    this.gesture.choose('pinned', this.state.elementState.pinned ? null : { ...config, samples: Math.max(1, this.cloud.selectableCount) });
+    this.gesture.choose('pinned', this.settings.elementState.pinned ? null : { ...config, samples: Math.max(1, this.cloud.selectableCount) });
   }
 
   get exportData() {
@@ -281,7 +281,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
   announcement = captionOf;
 
   snapshot() {
-    return { ...super.snapshot(), alphas: this.settings.isStale ? this.simulation?.alphasOfModels : this.viewModel.alphasOfModels };
+    return { ...super.snapshot(), alphas: ((this.settings.isStale && this.simulation) || this.viewModel).alphasOfModels };
   }
 
   withDerivedFields(currentState: Values, changes: Values) {
@@ -292,7 +292,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
   /** Position at which the end of the commanded arc is drawn, in the view's world. */
   get visibleArcEnd() {
     const { v, omega, dt } = this.currentViewModel.config.command;
-    return morphedPoint([v * dt, 0, omega * dt], this.state.elementState.morph);
+    return morphedPoint([v * dt, 0, omega * dt], this.settings.elementState.morph);
   }
 
   placeHandles() {
@@ -332,7 +332,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
    */
   #moveArcEnd(x: number, y: number) {
     this.settings.request(({ command }) => {
-      const { v, omega } = this.motion.commandReaching(x, y, command, this.state.elementState.morph);
+      const { v, omega } = this.motion.commandReaching(x, y, command, this.settings.elementState.morph);
       const clampToSlider = (value: number, { min, max }: { min: number, max: number }) => clamp(value, min, max);
       return { command: { ...command, v: clampToSlider(v, sliderSpecs.v), omega: clampToSlider(omega, sliderSpecs.omega) } };
     });
@@ -356,14 +356,14 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
   }
 
   get #title() {
-    const { morph } = this.state.elementState;
+    const { morph } = this.settings.elementState;
     return morph === 0 ? floorTitle(this.viewModel) : morph === 1 ? words.banana.morph.arrived : words.banana.morph.title;
   }
 
   get #description() {
-    const { overlays } = this.state.elementState as { overlays: (typeof OVERLAY_NAMES)[number][] };
+    const { overlays } = this.settings.elementState as { overlays: (typeof OVERLAY_NAMES)[number][] };
     const drawnOutlineNames = overlays.filter((name) => hasLength(this.viewModel.contours[name]));
-    return planeText(this.viewModel, drawnOutlineNames.map((name) => words.banana.overlays[name]), this.state.elementState.morph);
+    return planeText(this.viewModel, drawnOutlineNames.map((name) => words.banana.overlays[name]), this.settings.elementState.morph);
   }
 
   content(viewModel: ViewModel) {
@@ -385,7 +385,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
       <p part="caption" class="caption ${note && 'note'}">${captionOf(viewModel)}</p>
       ${mainReadouts(viewModel, this.#pinnedViewModel)} ${presetButtons(this)}
       <div class="controls" part="controls">
-        ${group(words.command, settingSliders(this, COMMAND_SLIDERS))} ${alphaGroup(this, true)} ${group(words.samples, cloudButtons(this), 'cloud')}
+        ${group(words.command, settingSliders(this, COMMAND_SLIDERS))} ${alphaGroup(this, true)} ${group(words.samples, this.cloud.buttons(), 'cloud')}
       </div>
       ${disclosures(this, {
         controls: () => html`<div class="controls">${alphaGroup(this, false)} ${modelControls(this)} ${group(words.samples, samplesSlider(this, SAMPLE_COUNTS))}</div>`,
@@ -438,4 +438,4 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
   }
 }
 
-define(BananaMachineElement);
+define(BananaMachineElement, cloudProperties);

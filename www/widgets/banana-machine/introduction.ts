@@ -1,6 +1,6 @@
 /** Introduction of the figure: one robot drives, then ten, then the cloud grows while the ring pulses. */
 
-import { Cloud } from '../../figure/cloud.ts';
+import { Cloud } from '../shared/cloud.ts';
 
 /** Duration of each of two drives, ms: of one robot, and then of all. Drives and growth of the cloud take less than four seconds. */
 const DRIVE_DURATION_MS = 650;

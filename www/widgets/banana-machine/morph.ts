@@ -94,9 +94,9 @@ export class MorphView extends View {
   }
 }
 
-export function morphControl({ player, gesture, state }: import('./banana-machine.ts').BananaMachineElement) {
+export function morphControl({ player, gesture, settings }: import('./banana-machine.ts').BananaMachineElement) {
   const texts = words.banana.morph;
-  const { morph } = state.elementState;
+  const { morph } = settings.elementState;
   return html`<div class="morph" role="group" aria-label=${texts.name}>
     ${player.button('morph', texts.play)}
     ${track({

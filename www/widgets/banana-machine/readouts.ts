@@ -1,11 +1,11 @@
 /** The Banana Machine's readouts, sentences and text equivalents: the statistics of the cloud, the marked robot, and the tables of moments. */
 
 import { html } from 'lit';
-import { sampleField } from '../../figure/controls.ts';
 import { addEnglish, words } from '../../messages/registry.ts';
 import { formatMarkup } from '../../ui/controls.ts';
 import { integer, fixed, percent, formatWithError, NO_VALUE, formatSignificant } from '../../ui/format.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
+import { sampleField } from '../shared/cloud.ts';
 import { commandText } from '../shared/sliders.ts';
 import { en } from './en.ts';
 import { deviationOf, spreadKind, type ViewModel } from './settings.ts';

@@ -1,7 +1,7 @@
 /** The Banana Machine's settings: their attributes, their part of the state, and their sliders; line styles, and the view model. */
 
-import { checkedInteger, checkedNumber, withFieldRenamed } from '../../figure/checks.ts';
-import { NUMBER_CONVERTER, definitionOf } from '../../figure/definition.ts';
+import { withFieldRenamed } from '../../data/checks.ts';
+import { definitionOf } from '../../figure/definition.ts';
 import { words } from '../../messages/registry.ts';
 import { openingAlphas } from '../../../build/settings.js';
 import { COMMAND_DASH, alphaSliders, commandSliders } from '../shared/sliders.ts';
@@ -20,7 +20,7 @@ export type LineName = keyof typeof LINE_STYLES;
 
 export const OVERLAY_NAMES = Object.keys(LINE_STYLES) as LineName[];
 
-export const documentation: import('../../figure/definition.ts').Documentation = {
+export const documentation = {
   state: {
     alphas: { type: '{ velocity: number[]; odometry: number[] }', sentence: 'Six of the velocity model, and four of the odometry model.' },
     pinned: { type: 'BananaMachineSettings | null', sentence: 'Settings whose outlines and numbers are pinned.' },
@@ -38,10 +38,10 @@ export const definition = definitionOf('banana-machine', {
   opening: ['command', 'ellipse', 'exponential'],
   sliderSpecs,
   elementFields: {
-    isolateChoice: { opening: 4, check: (field, number) => checkedInteger(field, number, 1, openingAlphas.velocity.length) },
+    isolateChoice: { type: 'whole', default: 4, min: 1, max: openingAlphas.velocity.length },
     /** Settings of the simulation whose outlines are pinned; null for none. `BananaMachineElement.createSimulation` checks them. */
-    pinned: { opening: null, check: (_, pinned) => pinned },
-    morph: { converter: NUMBER_CONVERTER, min: 0, max: 1, opening: 0, isResetByPreset: true, check: (field, morph) => checkedNumber(field, morph, 0, 1) },
+    pinned: { default: null },
+    morph: { type: 'number', default: 0, min: 0, max: 1, isResetByPreset: true, access: 'attribute' },
   },
   dependentDefaults: ({ model }) => ({ alphas: openingAlphas[model as keyof typeof openingAlphas] }),
 });

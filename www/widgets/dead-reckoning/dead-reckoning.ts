@@ -1,20 +1,20 @@
 /** <dead-reckoning>: one command driven step after step, and how well its growing uncertainty is predicted. */
 
 import { html, css } from 'lit';
-import { Cloud, enterCloud } from '../../figure/cloud.ts';
-import { pictureCanvas, settingRadios, disclosures, titledPicture, cloudControls, settingSlider, settingSliders, legend } from '../../figure/controls.ts';
+import { pictureCanvas, settingRadios, disclosures, titledPicture, settingSlider, settingSliders, legend } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { define } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
 import { Memo } from '../../scene/cache.ts';
 import { group } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
+import { Cloud, cloudControls, cloudProperties } from '../shared/cloud.ts';
 import { presetButtons } from '../shared/controls.ts';
 import { PathPicture, StepPicture } from './pictures.ts';
 import { headlineHtml, markedRobotField, missTable, ratioPlot, straightGrowthPlot, captionOf, planeText, stepText } from './readouts.ts';
 import { OUTLINE_STYLES, RECURSIONS, definition, COMMAND_SLIDERS, NOISE_SLIDERS, SAMPLE_COUNTS, COMPONENTS, viewModelOf, type ViewModel } from './settings.ts';
 import type { Values } from '../../figure/settings.ts';
-import type { DeadReckoning as Simulation } from '../../types.d.ts';
+import type { DeadReckoning as Simulation, Motion } from '../../types.d.ts';
 
 /** Units of the components' variances. */
 const VARIANCE_UNITS = { along: 'm2', lateral: 'm2', heading: 'rad2' };
@@ -198,7 +198,7 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
   #straightGrowthMemo: Memo<Simulation['straightGrowth']> = new Memo();
 
   // The simulation starts without robots: the user sees them appear, and the first frame does not wait for them.
-  createSimulation: FigureElement<Simulation, ViewModel>['createSimulation'] = (motion, state) => enterCloud(this, motion.DeadReckoning.empty(), state);
+  createSimulation = ({ DeadReckoning }: Motion) => DeadReckoning.empty();
 
   withDerivedFields(currentState: Values, changes: Values) {
     // If the path gets shorter than the selected step, its last step is selected.
@@ -209,7 +209,7 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
   read = viewModelOf;
 
   get scene() {
-    return { ...this.currentViewModel, marked: this.#markedPoses, overlays: this.state.elementState.overlays };
+    return { ...this.currentViewModel, marked: this.#markedPoses, overlays: this.settings.elementState.overlays };
   }
 
   get exportData() {
@@ -227,7 +227,7 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
     };
   }
 
-  announcement = (viewModel: ViewModel) => captionOf(viewModel, this.state.elementState.overlays);
+  announcement = (viewModel: ViewModel) => captionOf(viewModel, this.settings.elementState.overlays);
 
   /** Poses of the selected robot after each step, if that robot has been driven. */
   get #markedPoses() {
@@ -237,7 +237,7 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
 
   content(viewModel: ViewModel) {
     const { condition, config: { step } } = viewModel;
-    const { overlays } = this.state.elementState;
+    const { overlays } = this.settings.elementState;
     const texts = words.reckoning;
     return html`
       <div class="views">
@@ -263,4 +263,4 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
   }
 }
 
-define(DeadReckoningElement);
+define(DeadReckoningElement, cloudProperties);

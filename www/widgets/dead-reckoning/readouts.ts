@@ -2,12 +2,13 @@
 
 import { greatest, max } from 'd3-array';
 import { html } from 'lit';
-import { sampleField, legend } from '../../figure/controls.ts';
+import { legend } from '../../figure/controls.ts';
 import { addEnglish, words } from '../../messages/registry.ts';
 import { formatMarkup } from '../../ui/controls.ts';
 import { NO_VALUE, integer, fixed, formatWithError, formatSignificant } from '../../ui/format.ts';
 import { plot, type Role } from '../../ui/plot.ts';
 import { figureTable, readoutList } from '../../ui/readouts.ts';
+import { sampleField } from '../shared/cloud.ts';
 import { commandText } from '../shared/sliders.ts';
 import { en } from './en.ts';
 import { COMPONENTS, CURVE_STYLES, RECURSIONS, type ViewModel } from './settings.ts';
@@ -85,7 +86,7 @@ const RATIO_TOLERANCE = 0.05;
 /** Returns the chart of predicted over measured variance, whose line at the selected step is a slider. */
 export function ratioPlot(figure: import('./dead-reckoning.ts').DeadReckoningElement, viewModel: ViewModel): ReturnType<typeof plot> {
   const { config: { step, steps }, curves } = viewModel;
-  const { overlays } = figure.state.elementState;
+  const { overlays } = figure.settings.elementState;
   const texts = words.reckoning;
   const x = Array.from({ length: steps }, (_, i) => i + 1);
   const highestRatio = Math.max(...curves.flatMap(({ ratio }) => Array.from(ratio, (value) => value || 0)));

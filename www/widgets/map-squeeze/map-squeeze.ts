@@ -2,14 +2,14 @@
 
 import { html, nothing } from 'lit';
 import { instantiate } from '../../core.ts';
-import { Cloud, enterCloud } from '../../figure/cloud.ts';
-import { pictureCanvas, disclosures, titledPicture, settingCheckbox, settingRadios, cloudControls, sampleField, settingSlider, settingSliders, legend } from '../../figure/controls.ts';
+import { pictureCanvas, disclosures, titledPicture, settingCheckbox, settingRadios, settingSlider, settingSliders, legend } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { define } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
 import { Memo } from '../../scene/cache.ts';
 import { verdict as bits } from '../../../build/settings.js';
 import { button, group, radioGroup } from '../../ui/controls.ts';
+import { Cloud, cloudControls, cloudProperties, sampleField } from '../shared/cloud.ts';
 import { FileOpener } from '../shared/files.ts';
 import { PoseHandles } from '../shared/robot.ts';
 import { presetButtons, startOverButton } from '../shared/controls.ts';
@@ -22,7 +22,7 @@ import { WallHandles } from './wall-handles.ts';
 import { wallContact } from './walls.ts';
 import type { Values } from '../../figure/settings.ts';
 import type { Cells } from '../../scene/walls.ts';
-import type { MapData, MapSqueeze as Simulation, Pose } from '../../types.d.ts';
+import type { MapData, MapSqueeze as Simulation, Motion, Pose } from '../../types.d.ts';
 import type { DecodePng, MapFileError, UserMap } from './maps/files.ts';
 
 /** Example of a floor plan: a room with a gap in its wall. */
@@ -62,7 +62,7 @@ function robotAndMapControls(figure: MapSqueezeElement, hasUnknown: boolean) {
   const { robotAndMap: heading, condition, settings, unknown, views } = words.squeeze;
   return group(heading, html`${settingSlider(figure, 'clearance')} ${settingCheckbox(figure, 'conditioned', condition)}
     ${hasUnknown ? settingRadios(figure, 'unknown', unknown) : nothing}
-    ${radioGroup(settings.view.name, 'view', views, figure.state.elementState.view, (view) => figure.gesture.choose('view', view))}`);
+    ${radioGroup(settings.view.name, 'view', views, figure.settings.elementState.view, (view) => figure.gesture.choose('view', view))}`);
 }
 
 /** Extensions of map files. */
@@ -159,14 +159,15 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   /** Grid of a simulation's map. Copying it takes long. */
   #gridMemo: Memo<Cells | null> = new Memo();
 
-  createSimulation: FigureElement<Simulation, ViewModel>['createSimulation'] = (motion, state) => {
-    const simulation = enterCloud(this, motion.MapSqueeze.empty(), state);
-    if (!state?.map) return simulation;
+  createSimulation = ({ MapSqueeze }: Motion) => MapSqueeze.empty();
+
+  enterState(simulation: Simulation, state: Values) {
+    super.enterState(simulation, { ...state, shown: state.map ? 0 : state.shown });
+    if (!state.map) return;
     applyMap(simulation, state.map);
     simulation.configureFirst({}, state.shown);
     state.map = mapDataOf(simulation, state.map.name ?? '', this.#gridOf(simulation));
-    return simulation;
-  };
+  }
 
   #gridOf(simulation: Simulation) {
     return this.#gridMemo.get([simulation], () => gridOf(simulation));
@@ -191,8 +192,8 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   get scene() {
     const viewModel = this.currentViewModel;
     const { selectedIndex: index, isMarked } = this.cloud;
-    this.picture.isClose = this.state.elementState.view === 'close';
-    return { ...viewModel, simulation: this.simulation, overlays: this.state.elementState.overlays, marked: isMarked ? this.#markedSampleOf(index) : undefined };
+    this.picture.isClose = this.settings.elementState.view === 'close';
+    return { ...viewModel, simulation: this.simulation, overlays: this.settings.elementState.overlays, marked: isMarked ? this.#markedSampleOf(index) : undefined };
   }
 
   /** Returns the marked sample, with the point where an accepted one went through a wall. */
@@ -243,7 +244,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
    * @public
    */
   get map(): MapData | null {
-    return this.state.elementState.map;
+    return this.settings.elementState.map;
   }
 
   set map(map) {
@@ -319,10 +320,8 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     const needsFreePose = this.#gridOf(simulation) !== null || !simulation.startFree;
     const startPose = map ? map.start ?? (needsFreePose ? freePoseIn(simulation) : undefined) : OPENING_POSE;
     simulation.configureFirst(startPose ? { start: startPose } : {}, this.cloud.targetCount);
-    this.state.elementState.map = map && mapDataOf(simulation, map.name, this.#gridOf(simulation));
+    this.settings.elementState.map = map && mapDataOf(simulation, map.name, this.#gridOf(simulation));
     this.runtime.replace(simulation);
-    settings.reset();
-    this.simulationChanged();
     this.cloud.mark(-1);
   }
 
@@ -375,4 +374,4 @@ function freePoseIn({ openPlace, config, plan: { bounds: [left, bottom, right, t
   return openPlace ?? { ...config.start, x: (left + right) / 2, y: (bottom + top) / 2 };
 }
 
-define(MapSqueezeElement);
+define(MapSqueezeElement, cloudProperties);

@@ -1,7 +1,6 @@
 /** Map Squeeze's settings: their attributes, their part of the state, and their sliders; line styles, and the view model. */
 
-import { checkedWord } from '../../figure/checks.ts';
-import { WORD_CONVERTER, presetPropertyOf, definitionOf } from '../../figure/definition.ts';
+import { presetPropertyOf, definitionOf } from '../../figure/definition.ts';
 import { words } from '../../messages/registry.ts';
 import { presets, settings, verdict as bits } from '../../../build/settings.js';
 import { integer, fixed, percent } from '../../ui/format.ts';
@@ -42,9 +41,9 @@ export const definition = definitionOf('map-squeeze', {
   // Presets are places in the apartment.
   preset: { ...PRESET_SETTING, get: (config) => (config.map ? null : PRESET_SETTING.get(config)) },
   elementFields: {
-    view: { converter: WORD_CONVERTER, words: VIEWS, opening: VIEWS[0], check: (field, view) => checkedWord(field, view, VIEWS) },
+    view: { type: 'word', words: VIEWS, default: VIEWS[0], access: 'attribute' },
     /** Map of the user; null for the apartment. A simulation has checked it. */
-    map: { opening: null, check: (_, map) => map },
+    map: { default: null, access: 'property' },
   },
 });
 

@@ -1,9 +1,9 @@
 /** Handles of walls, for the pointer or keys: edges of doorways move along their walls, and whole walls move across their direction. */
 
 import { html, nothing } from 'lit';
-import { swatchHtml } from '../../figure/controls.ts';
 import { FigureController } from '../../figure/controller.ts';
 import { words } from '../../messages/registry.ts';
+import { swatchHtml } from '../../scene/draw.ts';
 import { Handle, stepsOfKey, turnsOfKey } from '../../scene/handle.ts';
 import { Memo } from '../../scene/cache.ts';
 import { clamp, fixed } from '../../ui/format.ts';

@@ -1,8 +1,7 @@
 /** <odometry-decomposer>: an odometry reading as rotate, drive, rotate, and the noise that localizers add to it. */
 
 import { html, css } from 'lit';
-import { Cloud, enterCloud } from '../../figure/cloud.ts';
-import { pictureCanvas, disclosures, titledPicture, settingRadios, cloudControls, settingSlider, settingSliders, legend } from '../../figure/controls.ts';
+import { pictureCanvas, disclosures, titledPicture, settingRadios, settingSlider, settingSliders, legend } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { define } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
@@ -10,12 +9,13 @@ import { Memo } from '../../scene/cache.ts';
 import { formatMarkup, radioButton, group } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
 import { figureTable } from '../../ui/readouts.ts';
+import { Cloud, cloudControls, cloudProperties } from '../shared/cloud.ts';
 import { Player, presetButtons } from '../shared/controls.ts';
 import { PoseHandles } from '../shared/robot.ts';
 import { LegsPicture, ROBOT_RADIUS, WorldPicture } from './pictures.ts';
 import { headlineHtml, outcomeReadouts, spreadPlot, driftDistance, captionOf, legsPictureText, worldText } from './readouts.ts';
 import { LINE_STYLES, definition, sliderSpecs, NOISE_SLIDERS, SAMPLE_COUNTS, viewModelOf, type ViewModel } from './settings.ts';
-import type { OdometryDecomposer as Simulation } from '../../types.d.ts';
+import type { Motion, OdometryDecomposer as Simulation } from '../../types.d.ts';
 
 /** Returns the table of standard deviations by noise model. Values that differ from Table 5.6 are bold. */
 function noiseModelTable(figure: OdometryDecomposerElement) {
@@ -161,7 +161,7 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
   /** Handles of both poses. The handle of the second pose is on top if both poses are at the same place. */
   #handles: PoseHandles[] = ['from', 'to'].map((setting) => new PoseHandles(this, setting, () => this.#legsPicture.view));
 
-  createSimulation: FigureElement<Simulation, ViewModel>['createSimulation'] = (motion, state) => enterCloud(this, new motion.OdometryDecomposer(), state);
+  createSimulation = ({ OdometryDecomposer }: Motion) => new OdometryDecomposer();
 
   #spreadCurveMemo: Memo<Float64Array> = new Memo();
   #spreadCurveOf = (maxLength: number, pointCount: number) =>
@@ -172,7 +172,7 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
   get scene() {
     const viewModel = this.currentViewModel;
     const { selectedIndex: index, isMarked } = this.cloud;
-    return { ...viewModel, overlays: this.state.elementState.overlays, marked: isMarked ? viewModel.poses.subarray(3 * index) : undefined };
+    return { ...viewModel, overlays: this.settings.elementState.overlays, marked: isMarked ? viewModel.poses.subarray(3 * index) : undefined };
   }
 
   get exportData() {
@@ -213,4 +213,4 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
   }
 }
 
-define(OdometryDecomposerElement);
+define(OdometryDecomposerElement, cloudProperties);

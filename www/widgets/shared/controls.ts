@@ -8,18 +8,18 @@ import { button } from '../../ui/controls.ts';
 
 /** Returns a button for each preset, of which the current one is pressed, and the button to start over. */
 export function presetButtons(figure: import('../../figure/figure.ts').Figure) {
-  const { definition, settings, state } = figure;
+  const { definition, settings } = figure;
   const { presets } = (words as any)[definition.messageKey];
   const currentPreset = definition.attributes.preset.get(settings.requested);
   return html`<div class="buttons presets" role="group" aria-label=${words.presets}>
     ${Object.entries(presets).map(([name, label]) =>
-      button(label, () => state.choosePreset(name), { pressed: name === currentPreset, name: 'preset' }))}
+      button(label, () => settings.choosePreset(name), { pressed: name === currentPreset, name: 'preset' }))}
     ${startOverButton(figure)}
   </div>`;
 }
 
 /** Returns the button that restores the state that the figure opened with. */
-export const startOverButton = ({ state }: import('../../figure/figure.ts').Figure, restore = () => state.restoreAsUser()) => button(words.startOver, restore, { title: words.startOverTitle, name: 'start-over' });
+export const startOverButton = ({ settings }: import('../../figure/figure.ts').Figure, restore = () => settings.restoreAsUser()) => button(words.startOver, restore, { title: words.startOverTitle, name: 'start-over' });
 
 /** Player that animates a slider from its current value to its maximum. At the maximum it starts again from 0. */
 export class Player<Key extends string> extends FigureController {
@@ -44,8 +44,7 @@ export class Player<Key extends string> extends FigureController {
   }
 
   #valueAt(key: Key): number {
-    const { settings, state } = this.host;
-    return key in state.elementState ? state.elementState[key] : settings.requested[key];
+    return this.host.settings.requested[key];
   }
 
   #toggle(key: Key) {

@@ -1,7 +1,7 @@
 /** Maps as plain data, the form in which a state contains a map of the user. */
 
-import { checkedObject, refusalError, withFieldRenamed, checkedInteger } from '../../../figure/checks.ts';
-import { fromBase64, toBase64 } from '../../../figure/link.ts';
+import { checkedObject, refusalError, withFieldRenamed, checkedNumber } from '../../../data/checks.ts';
+import { fromBase64, toBase64 } from '../../../data/packing.ts';
 import { limits } from '../../../../build/settings.js';
 import type { Cells } from '../../../scene/walls.ts';
 import type { MapData, MapSqueeze } from '../../../types.d.ts';
@@ -47,8 +47,8 @@ export function applyMap(simulation: MapSqueeze, data: unknown) {
     withRenamedFields(PLAN_KEYS, () => simulation.setPlan({ bounds: map.bounds, walls: map.walls }));
     return;
   }
-  const columns = checkedInteger('map.columns', map.columns, 1, limits.cells);
-  const rows = checkedInteger('map.rows', map.rows, 1, Math.floor(limits.cells / columns));
+  const columns = checkedNumber('map.columns', map.columns, 1, limits.cells, true);
+  const rows = checkedNumber('map.rows', map.rows, 1, Math.floor(limits.cells / columns), true);
   const cellCount = columns * rows;
   const occupiedBits = decodeBits('map.occupied', map.occupied, cellCount);
   const unknownBits = map.unknown === undefined ? new Uint8Array(occupiedBits.length) : decodeBits('map.unknown', map.unknown, cellCount);

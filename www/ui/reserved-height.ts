@@ -1,7 +1,7 @@
 /** Heights reserved for figures, so that the text below does not move when they load. */
 
 import { unsafeCSS } from 'lit';
-import { preferredWidth } from '../ui/theme.ts';
+import { preferredWidth } from './theme.ts';
 
 /** Bounds of the width classes, em, where the layout changes. */
 const CLASS_WIDTHS_EM = [20, 30, 38, 46, 56, 80];

@@ -1,15 +1,17 @@
-/** Cloud of samples that grows in steps. */
+/** Cloud of samples that grows in steps, and its controls. */
 
-import { html } from 'lit';
-import { words } from '../messages/registry.ts';
-import { pointInView } from '../scene/canvas.ts';
-import { button } from '../ui/controls.ts';
-import { integer } from '../ui/format.ts';
-import { refusalError, checkedInteger } from './checks.ts';
-import { FigureController } from './controller.ts';
-import { prefersReducedMotion } from './renderer.ts';
-import type { Figure } from './figure.ts';
-import type { Values } from './settings.ts';
+import { html, noChange, nothing } from 'lit';
+import { live } from 'lit/directives/live.js';
+import { FigureController } from '../../figure/controller.ts';
+import { declarationOf, parseEntered, settingSlider, type SliderSpec } from '../../figure/controls.ts';
+import { prefersReducedMotion } from '../../figure/renderer.ts';
+import { words } from '../../messages/registry.ts';
+import { pointInView } from '../../scene/canvas.ts';
+import { button, group, inputOf } from '../../ui/controls.ts';
+import { integer } from '../../ui/format.ts';
+import type { Figure, SampleCloud } from '../../figure/figure.ts';
+import type { Values } from '../../figure/settings.ts';
+import type { Picture } from '../../scene/picture.ts';
 
 /** Sample counts of a simulation, or of a view model of it. */
 interface SampleCount {
@@ -31,10 +33,7 @@ const GROWTH_STEPS = 150;
 /** Time for adding samples in a frame, ms. A frame, with its pictures, then takes less than 50 ms. */
 const ADDING_MS = 12;
 
-export class Cloud extends FigureController {
-  playing = false;
-  /** Number of samples to show; Infinity for all. */
-  #requestedCount = Infinity;
+export class Cloud extends FigureController implements SampleCloud {
   #hasGivenUp;
 
   /** `hasGivenUp` returns true for a view model or simulation that has stopped before it had all samples. */
@@ -43,18 +42,29 @@ export class Cloud extends FigureController {
     this.#hasGivenUp = hasGivenUp;
   }
 
+  /** Fields of the cloud in the state of the element. */
+  get #state() {
+    return this.host.settings.elementState as { playing: boolean, shown: number, marked: number | null };
+  }
+
+  /** True while the cloud grows. */
+  get playing() {
+    return this.#state.playing;
+  }
+
   get #simulation(): GrowingSimulation {
     return this.host.simulation as GrowingSimulation;
   }
 
   /** Latest sample counts: those of the view model, or of the simulation if it has changed since. */
   get #latest(): SampleCount {
-    return this.host.settings.isStale ? this.#simulation : this.host.viewModel;
+    const { settings, viewModel } = this.host;
+    return (settings.isStale && this.#simulation) || viewModel;
   }
 
   /** True if all samples are requested, or the simulation has given up. */
   get isComplete() {
-    return this.#requestedCount >= this.#samples || this.#hasGivenUp(this.#latest);
+    return this.#state.shown >= this.#samples || this.#hasGivenUp(this.#latest);
   }
 
   get #samples(): number {
@@ -67,7 +77,7 @@ export class Cloud extends FigureController {
 
   /** Number of samples to show; all of them if the simulation has given up. */
   get targetCount() {
-    return this.isComplete ? this.#samples : this.#requestedCount;
+    return this.isComplete ? this.#samples : this.#state.shown;
   }
 
   /** True if the cloud is not playing, and has as many samples as requested or as the simulation can draw. */
@@ -77,32 +87,36 @@ export class Cloud extends FigureController {
 
   /** Starts the growth, or shows a state. */
   introduce(state?: Values) {
-    this.playing = state ? state.playing : true;
-    this.#requestedCount = state && state.shown < this.#samples ? state.shown : Infinity;
+    if (!state) this.#state.playing = true;
+    if (!state || this.isComplete) this.#state.shown = Infinity;
     if (!state && !prefersReducedMotion()) this.#restart();
     if (this.playing && prefersReducedMotion()) this.finish();
   }
 
   /** Changes settings and shows one block of samples; later frames add the others. Returns all settings. */
   configure(values: Values): Values {
-    return this.#simulation.configureFirst(values, this.#requestedCount);
+    return this.#simulation.configureFirst(values, this.#state.shown);
+  }
+
+  enter(simulation: GrowingSimulation, settings: Values, shown: number) {
+    simulation.configureFirst(settings, shown);
   }
 
   #restart() {
-    this.#requestedCount = 0;
+    this.#state.shown = 0;
     if (this.#latest.shown > 0) this.configure({});
     this.host.settings.isStale = true;
   }
 
   /** Shows all requested samples at once. A growing cloud is complete then. */
   finish() {
-    if (this.playing) this.#requestedCount = Infinity;
-    this.playing = false;
+    if (this.playing) this.#state.shown = Infinity;
+    this.#state.playing = false;
     this.refine(Infinity);
   }
 
   show(count: number) {
-    this.#requestedCount = Math.min(count, this.#samples);
+    this.#state.shown = Math.min(count, this.#samples);
     this.refine(Infinity);
   }
 
@@ -125,28 +139,26 @@ export class Cloud extends FigureController {
   }
 
   snapshot(): Values {
-    return { shown: this.targetCount, playing: this.playing, marked: this.#isWanted ? this.selectedIndex : null };
+    return { shown: this.targetCount, marked: this.#isWanted ? this.selectedIndex : null };
   }
 
-  /** Returns values that follow from a partial state; throws a TypeError if `playing` is not a boolean. */
-  withDerivedFields(currentState: Values, changes: Values): Values {
-    const { samples, playing } = { ...currentState, ...changes };
-    if (typeof playing !== 'boolean') throw refusalError('state.playing', playing, 'true or false', TypeError);
+  /** Returns the number of samples that follows from a partial state. */
+  withDerivedFields(currentState: Values, { samples = currentState.samples }: Values): Values {
     return { shown: currentState.shown === currentState.samples ? samples : Math.min(currentState.shown, samples) };
   }
 
   /** Index of the selected sample; −1 for none. */
   get selectedIndex(): number {
-    return this.host.state.elementState.marked ?? -1;
+    return this.#state.marked ?? -1;
   }
 
   mark(index: number) {
     if (index === this.selectedIndex) return;
-    this.host.state.elementState.marked = index < 0 ? null : index;
+    this.#state.marked = index < 0 ? null : index;
     this.host.renderer.requestFrame();
   }
 
-  selectAtPointer(picture: import('../scene/picture.ts').Picture<any>, event: PointerEvent) {
+  selectAtPointer(picture: Picture<any>, event: PointerEvent) {
     const { simulation, gesture } = this.host;
     // A moving finger scrolls; a tap is a click.
     if (!simulation || gesture.isPressed || (event.pointerType === 'touch' && event.type !== 'click')) return;
@@ -184,8 +196,8 @@ export class Cloud extends FigureController {
   grow() {
     this.show(this.#latest.shown + this.#batchSize);
     if (!this.isComplete) return;
-    this.#requestedCount = Infinity;
-    this.playing = false;
+    this.#state.shown = Infinity;
+    this.#state.playing = false;
     this.host.announcer.announceNext();
   }
 
@@ -193,12 +205,12 @@ export class Cloud extends FigureController {
   #control(playing: boolean, action: () => void) {
     if (!this.host.simulation) return;
     action();
-    this.playing = playing;
+    this.#state.playing = playing;
     this.host.gesture.complete();
     this.host.renderer.requestFrame();
   }
 
-  buttons(seedField: unknown) {
+  buttons() {
     const cloudWords = words.cloud;
     const playOrPause = () => this.#control(!this.playing, () => {
       if (!this.playing && this.isComplete) this.#restart();
@@ -208,24 +220,82 @@ export class Cloud extends FigureController {
       ${button(label, playOrPause, { title: cloudWords.playTitle, otherLabel })}
       ${button(words.step, () => this.#control(false, () => this.show(this.#latest.shown + this.#batchSize)), { title: cloudWords.step(integer(this.#batchSize)), disabled: this.isComplete })}
       ${button(words.clear, () => this.#control(false, () => this.#restart()), { title: cloudWords.clear })}
-      ${seedField} ${button(words.newSeed, () => this.host.gesture.decide(() => ({ seed: this.host.motion.randomSeed() })), { title: cloudWords.reseed })}
+      ${seedField(this.host)} ${button(words.newSeed, () => this.host.gesture.decide(() => ({ seed: this.host.motion.randomSeed() })), { title: cloudWords.reseed })}
     </div>`;
   }
 }
 
-/**
- * Sets a new simulation to a state if there is one, with the first block of its samples, and returns it. Throws a TypeError or RangeError for
- * an invalid state.
- */
-export function enterCloud<M extends GrowingSimulation>({ settings }: Figure, simulation: M, state?: Values): M {
-  if (!state) return simulation;
-  simulation.configureFirst(settings.pick(state), 0);
-  simulation.configureFirst({}, checkedInteger('state.shown', state.shown, 0, simulation.config.samples));
-  return simulation;
-}
-
-/** Read-only properties of elements with a cloud. */
+/** Read-only properties of elements with a cloud, for `define`. */
 export const cloudProperties: PropertyDescriptorMap & ThisType<Figure> = {
   playing: { get() { return (this.cloud as Cloud).playing; } },
   poses: { get() { return this.querySimulation((simulation) => simulation.poses); } },
 };
+
+type CloudFigure = Figure & { cloud: Cloud };
+
+/** Returns the controls of growth, seed and size of the cloud; the slider offers `counts`. */
+export function cloudControls(figure: CloudFigure, counts: readonly number[]) {
+  return group(words.samples, html`${samplesSlider(figure, counts)} ${figure.cloud.buttons()}`, 'cloud');
+}
+
+/** Returns the slider of the number of samples, which offers `counts`. */
+export function samplesSlider(figure: Figure, counts: readonly number[]) {
+  const sliderSpec: SliderSpec = { symbol: '*N*', role: 'truth', min: counts[0], max: counts[counts.length - 1], step: 1, decimals: 0 };
+  return settingSlider(figure, 'samples', { stops: counts, show: integer }, sliderSpec);
+}
+
+function seedField(figure: Figure) {
+  const { settings, gesture } = figure;
+  const seedRefusal = settings.refusalOf('seed');
+  const enterSeed = (event: Event) => {
+    const seed = parseEntered(figure, 'seed', words.seed, inputOf(event).value, declarationOf(figure, 'seed'));
+    if (seed !== undefined) settings.request({ seed });
+  };
+  return html`<label class="seed">
+    ${words.seed}
+    <input
+      type="text"
+      inputmode="numeric"
+      autocomplete="off"
+      .value=${seedRefusal ? noChange : live(String(settings.requested.seed))}
+      @input=${enterSeed}
+      @change=${() => gesture.commit()}
+      @blur=${() => settings.forgetRefusal()}
+    />
+    ${seedRefusal ? html`<output role="alert">${seedRefusal}</output>` : nothing}
+  </label>`;
+}
+
+/**
+ * Returns the field with the number of the selected sample, one of `shown`, and a text about it, if there is one. `id` is also the key of the
+ * label in the catalogue. Refused text stays until the user corrects or leaves it.
+ */
+export function sampleField(figure: CloudFigure, id: 'robot' | 'sample', shown: number, selected: unknown) {
+  const { cloud, settings } = figure;
+  const { [id]: label, markHint } = (words as any)[figure.definition.messageKey];
+  const refusalText = settings.refusalOf('marked');
+  const enterIndex = (event: Event) => {
+    const typedIndex = inputOf(event).value;
+    const number = typedIndex === '' ? 0 : parseEntered(figure, 'marked', label, typedIndex, { min: 1, max: shown, type: 'whole' });
+    if (number === undefined) return;
+    settings.forgetRefusal();
+    cloud.mark(number - 1);
+  };
+  return html`<p class="marked">
+    <label>
+      ${label}
+      <input
+        id=${id}
+        type="number"
+        min="1"
+        max=${Math.max(1, shown)}
+        placeholder=${shown === 0 ? '' : `1–${integer(shown)}`}
+        ?disabled=${shown === 0}
+        .value=${refusalText ? noChange : live(cloud.selectedIndex < 0 ? '' : String(cloud.selectedIndex + 1))}
+        @input=${enterIndex}
+        @blur=${() => settings.forgetRefusal()}
+      />
+    </label>
+    <output for=${id} role=${refusalText ? 'alert' : nothing}>${refusalText || selected || html`<i class="muted">${markHint}</i>`}</output>
+  </p>`;
+}

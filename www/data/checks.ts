@@ -44,13 +44,30 @@ export function checkedNumber(field: string, value: unknown, min: number, max: n
   return value;
 }
 
-export const checkedInteger = (field: string, value: unknown, min: number, max: number) => checkedNumber(field, value, min, max, true);
-
 /** Returns the allowed names that the array contains, in the order of `allowed`. */
-export function checkedSubset(field: string, value: unknown, allowed: readonly string[]): string[] {
+function checkedSubset(field: string, value: unknown, allowed: readonly string[]): string[] {
   if (!Array.isArray(value)) throw refusalError(field, value, `an array of ${allowed.join(', ')}`, TypeError);
   const checkedNames = value.map((name, i) => checkedWord(`${field}[${i}]`, name, allowed));
   return allowed.filter((name) => checkedNames.includes(name));
+}
+
+/** Type and range of a field. A field without a type is checked elsewhere. */
+export interface FieldRange {
+  type?: 'number' | 'whole' | 'word' | 'words' | 'boolean';
+  words?: readonly string[];
+  min?: number;
+  max?: number;
+  nullable?: true;
+}
+
+/** Returns a value after a check; throws a TypeError or RangeError if it is out of range. */
+export function checkedValue(field: string, value: unknown, { type, words = [], min = -Infinity, max = Infinity, nullable }: FieldRange): unknown {
+  if (type === undefined || (nullable && value === null)) return value;
+  if (type === 'words') return checkedSubset(field, value, words);
+  if (type === 'word') return checkedWord(field, value, words);
+  if (type !== 'boolean') return checkedNumber(field, value, min, max, type === 'whole');
+  if (typeof value !== 'boolean') throw refusalError(field, value, 'true or false', TypeError);
+  return value;
 }
 
 /** Returns true if `present` has all fields of `fields` with the same values. Objects are compared deeply. */

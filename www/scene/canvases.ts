@@ -1,0 +1,88 @@
+/** Canvases of a figure, and their sizes in device pixels. */
+
+import type { Surface } from './canvas.ts';
+
+/** Pixels per CSS pixel in print. */
+const PRINT_RATIO = 2;
+
+/** Returns true if a canvas has pixels. Narrow figures hide some canvases. */
+export const hasPixels = ({ width, height }: HTMLCanvasElement) => Math.min(width, height) > 0;
+
+export class Canvases {
+  #drawResized;
+  /** Canvases that are observed; undefined until they are rendered. */
+  elements: HTMLCanvasElement[] | undefined;
+  /** Cached widths in CSS pixels. Reading them in a frame would cause a reflow. */
+  #widths: WeakMap<HTMLCanvasElement, number> = new WeakMap();
+  #observer = new ResizeObserver((entries) => this.#resize(entries));
+
+  /** Creates the canvases of a figure. `drawResized` draws them again after a change of their size, which clears them. */
+  constructor(drawResized: () => void) {
+    this.#drawResized = drawResized;
+  }
+
+  find(root: ParentNode) {
+    this.elements = [...root.querySelectorAll('canvas')];
+    this.measure();
+  }
+
+  /** Stops observing the canvases, which are no longer rendered. */
+  release() {
+    this.#observer.disconnect();
+    this.elements = undefined;
+  }
+
+  /** Measures the canvases again after a change of the pixel ratio. WebKit's observer does not report device pixels. */
+  followPixelRatio(signal: AbortSignal) {
+    const onRatioChange = () => {
+      this.measure();
+      this.followPixelRatio(signal);
+    };
+    matchMedia(`(resolution:${devicePixelRatio}dppx)`).addEventListener('change', onRatioChange, { once: true, signal });
+  }
+
+  /** Observes the sizes of the canvases. The observer also reports the present sizes. */
+  measure() {
+    this.#observer.disconnect();
+    for (const canvas of this.elements ?? []) {
+      try {
+        this.#observer.observe(canvas, { box: 'device-pixel-content-box' });
+      } catch {
+        this.#observer.observe(canvas);
+      }
+    }
+  }
+
+  /** Sets the size of each canvas in device pixels. */
+  #resize(entries: ResizeObserverEntry[]) {
+    for (const { target, contentRect, devicePixelContentBoxSize } of entries) {
+      const canvas = target as HTMLCanvasElement;
+      const { inlineSize: width, blockSize: height } = devicePixelContentBoxSize?.[0] ?? { inlineSize: 0, blockSize: 0 };
+      const [nearWidth, nearHeight] = [devicePixelRatio * contentRect.width, devicePixelRatio * contentRect.height];
+      // Chromium gives CSS pixels for device pixels when developer tools imitate the screen of a phone.
+      const isExact = Math.max(Math.abs(width - nearWidth), Math.abs(height - nearHeight)) < 1;
+      [canvas.width, canvas.height] = (isExact ? [width, height] : [nearWidth, nearHeight]).map(Math.round);
+    }
+    this.#drawResized();
+  }
+
+  /** Caches the widths in the layout, and sets the sizes in pixels for print. They determine the layout then, and are not observed. */
+  update(isPrinting: boolean) {
+    if (isPrinting) this.#observer.disconnect();
+    for (const canvas of this.elements ?? []) {
+      const { clientWidth, clientHeight } = canvas;
+      this.#widths.set(canvas, clientWidth);
+      if (isPrinting) Object.assign(canvas, { width: PRINT_RATIO * clientWidth, height: PRINT_RATIO * clientHeight });
+    }
+  }
+
+  canvasOf({ name }: { name: string }) {
+    return this.elements?.find(({ className }) => className === name) as HTMLCanvasElement;
+  }
+
+  surfaceOf(canvas: HTMLCanvasElement): Surface {
+    const { width, height } = canvas;
+    const clientWidth = this.#widths.get(canvas) ?? canvas.clientWidth;
+    return { width, height, clientWidth, fontStyle: getComputedStyle(canvas), context: canvas.getContext('2d') as CanvasRenderingContext2D };
+  }
+}

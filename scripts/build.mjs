@@ -4,12 +4,11 @@ import { createHash } from 'node:crypto';
 import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { homedir } from 'node:os';
 import { join } from 'node:path';
-import { pathToFileURL } from 'node:url';
 import { ensureBindProgram } from './bindgen.mjs';
 import { EXAMPLE_LOGS, writeExampleLog } from './example-log.mjs';
 import { listCrates } from './licences.mjs';
 import { ROOT, filesOf, mustRun, printStep, run, runAsScript, settleAll } from './process.mjs';
-import { ensurePackages, ensureRustForWasm } from './toolchain.mjs';
+import { ensureNativeRust, ensurePackages, ensureRustForWasm } from './toolchain.mjs';
 
 const absolutePath = (/** @type {string} */ path) => join(ROOT, path);
 
@@ -27,7 +26,7 @@ export function startWorker(): Worker | undefined;
 /** Files on which the compiled cores depend. */
 const CORE_SOURCES = [
   'src', '.cargo', 'Cargo.toml', 'Cargo.lock', 'scripts/package.json',
-  ...['build', 'bindgen', 'licences'].map((name) => `scripts/${name}.mjs`), 'scripts/bind',
+  ...['build', 'bindgen', 'licences'].map((name) => `scripts/${name}.mjs`), 'scripts/bind', 'scripts/declarations.rs',
 ];
 
 /**
@@ -44,7 +43,7 @@ export async function build({ local = false } = {}) {
   const compiledHash = local && !isPublishedCurrent ? `${coreHash} local` : coreHash;
   // Packages are installed first: without a network that fails at once, and compiling takes minutes.
   await ensurePackages();
-  await buildIfStale('build/core.sha256', compiledHash, coreProducts, () => buildCores(['declarations', 'motion'], local));
+  await buildIfStale('build/core.sha256', compiledHash, coreProducts, () => buildCores(['motion'], local));
   // It imports packages, and build/settings.js: a static import would fail in a bare clone.
   const { WIDGET_TAGS, bundle } = await import('./bundle.mjs');
   const figureProducts = WIDGET_TAGS.flatMap((tag) => [`build/${tag}.js`, `build/${tag}.wasm`]);
@@ -86,8 +85,7 @@ function isCurrent(stamp, sourceHash, products) {
 /**
  * Builds cores, each a module and its glue.
  *
- * @param {string[]} coreNames "motion" for the whole core, "declarations" for the declared settings, or the tags of figures, whose cores have
- *   their own simulation alone
+ * @param {string[]} coreNames "motion" for the whole core, or the tags of figures, whose cores have their own simulation alone
  * @param {boolean} local
  */
 async function buildCores(coreNames, local) {
@@ -140,9 +138,13 @@ async function compileCore(rust, name, local) {
 
 /** Writes build/settings.js: constants of the core that pages need before they load it, and scripts that generate types and tables. */
 async function writeSettings() {
-  const { default: createCore } = await import(pathToFileURL(absolutePath('build/declarations.js')).href);
-  const constants = (await createCore(new WebAssembly.Module(readFileSync(absolutePath('build/declarations.wasm'))))).constants();
-  const typeLines = "/** @typedef {import('./bound/declarations/motion.d.ts').Declaration} Declaration */\n\n/** @type {Record<string, Declaration[]>} */\n";
+  const { bin, env } = await ensureNativeRust();
+  const cargoArguments = ['run', '--quiet', '--locked', '--example', 'declarations'];
+  const { stdout } = await mustRun('The settings could not be listed: see above.', join(bin, 'cargo'), cargoArguments, { env, quiet: true });
+  const [widgets, limits] = JSON.parse(stdout);
+  const byTag = (/** @type {'declarations' | 'presets'} */ key) => Object.fromEntries(widgets.map((/** @type {any} */ widget) => [widget.tag, widget[key]]));
+  const constants = { settings: byTag('declarations'), presets: byTag('presets'), ...limits };
+  const typeLines = "/** @typedef {import('../www/types.d.ts').Declaration} Declaration */\n\n/** @type {Record<string, Declaration[]>} */\n";
   const constantLines = Object.entries(constants).map(([name, value]) => `export const ${name} = ${JSON.stringify(value, null, 1)};\n`);
   writeFileSync(absolutePath('build/settings.js'), typeLines + constantLines.join('\n'));
 }

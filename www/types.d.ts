@@ -13,6 +13,38 @@ export declare function load(source?: BufferSource | URL | string | WebAssembly.
 /** Returns the core, with its own memory in each call. */
 export declare function instantiate(source?: BufferSource | URL | string | WebAssembly.Module): Promise<Motion>;
 
+/** Declaration of a setting, or of a number of a group or list. */
+export interface Declaration {
+  /** Name of the setting as attribute, as property and in states. */
+  key: string;
+  /** Key of the group or list that contains the setting. */
+  in?: string;
+  /** Key of another setting that this setting sets in another form. */
+  of?: string;
+  /** Ratios of the last numbers of that other setting to this setting. */
+  weights?: number[];
+  /** Key in the group, if a field of another group has the same key. */
+  field?: string;
+  /** Index in the list, from 0. */
+  index?: number;
+  type: 'word' | 'number' | 'whole' | 'boolean' | 'numbers' | 'group';
+  /** Allowed words. */
+  words?: string[];
+  /** Keys of the fields of a group. */
+  fields?: string[];
+  unit?: string;
+  /** True if the value may be null. */
+  nullable?: boolean;
+  /** Minimum of the number, or of each number of a list. */
+  min?: number;
+  /** Maximum of the number, or of each number of a list. */
+  max?: number;
+  /** Initial value. */
+  default: string | number | boolean | number[] | Record<string, number> | null;
+  /** Description. */
+  sentence: string;
+}
+
 /** Fields of every state, also of a partial one. */
 export interface FigureState {
   /** Tag of the element. */

@@ -87,8 +87,7 @@ fn assert_results(simulation: &ArcAnatomy) {
 }
 
 fn start_and_next_pose(settings: &Settings) -> (SE2, SE2) {
-    let ([x, y, theta], next) = (settings.start, settings.next);
-    (SE2::new(x, y, theta), SE2::new(next.x, next.y, next.theta))
+    (settings.start.into(), settings.next.into())
 }
 
 fn assert_table(simulation: &ArcAnatomy, prob: f64) {

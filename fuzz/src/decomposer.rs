@@ -137,10 +137,10 @@ fn assert_results(simulation: &OdometryDecomposer) {
     }
 
     // The last leg ends at the second odometry pose. Noise rules may ignore the direction of a tiny translation.
-    let [x, y, _] = settings.to.0;
+    let [x, y, _] = settings.to;
     let [.., last_leg_end] = simulation.leg_poses();
     let distance_to_second_pose = (last_leg_end.x() - x).hypot(last_leg_end.y() - y);
-    let largest_coordinate = settings.from.0.iter().chain(&settings.to.0).fold(0.0, |largest: f64, at| largest.max(at.abs()));
+    let largest_coordinate = settings.from.iter().chain(&settings.to).fold(0.0, |largest: f64, at| largest.max(at.abs()));
     assert!(distance_to_second_pose <= 2.0 * MAX_SPIN_DISTANCE + 1e-14 * largest_coordinate, "{last_leg_end:?} for {settings:?}: {distance_to_second_pose}");
 
     // Asserts that a simulation depends on its settings only, and not on earlier calls.

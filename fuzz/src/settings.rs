@@ -38,8 +38,8 @@ fn set_any_value(setting: Setting, input: &mut Input) {
         // A level outside of its range is refused earlier, before it is converted to the numbers that it sets.
         Setting::Level(mut slot, allowed) => slot.set(input.draw_number_within(allowed)),
         Setting::Group(group) => {
-            for (i, field) in group.fields().iter().enumerate() {
-                *group.number_mut(i) = input.draw_number_near(&field.allowed);
+            for (field, number) in group.fields().iter().zip(group.numbers_mut()) {
+                *number = input.draw_number_near(&field.allowed);
             }
         }
     }
@@ -86,7 +86,6 @@ fn assert_in_range<S: Rules>(settings: &S) {
     });
 }
 
-fn is_group_in_range(group: &mut dyn Group) -> bool {
-    let indexed_fields = group.fields().iter().enumerate();
-    indexed_fields.fold(true, |all, (i, field)| all && field.allowed.contains(group.number_mut(i)))
+fn is_group_in_range(group: &dyn Group) -> bool {
+    group.fields().iter().zip(group.numbers()).all(|(field, number)| field.allowed.contains(&number))
 }

@@ -113,7 +113,7 @@ fn assert_same_if_added_in_blocks(simulation: &mut MapSqueeze, input: &mut Input
     simulation_in_one_call.configure(settings).expect("allowed");
     let block_size = 1 + input.next_below(MAX_SAMPLES);
     simulation.configure_first(settings, block_size).expect("allowed");
-    while simulation.shown_count() < settings.samples && !simulation.has_given_up() {
+    while simulation.shown_count() < settings.samples && !simulation.stats().gave_up {
         simulation.add_samples(block_size);
     }
     assert_eq!(simulation.attempts(), simulation_in_one_call.attempts());

@@ -2,7 +2,7 @@
 
 pub mod angle;
 pub mod arc;
-pub mod double_double;
+pub mod arc_forms;
 pub mod lanes;
 pub mod se2;
 pub mod segment;

@@ -99,6 +99,14 @@ pub struct Cost {
     pub wall_tests: usize,
 }
 
+impl Cost {
+    /// Adds another cost.
+    pub(crate) fn add(&mut self, other: Self) {
+        self.draws += other.draws;
+        self.wall_tests += other.wall_tests;
+    }
+}
+
 /// Error if no motion was accepted: [`MAX_DRAWS`] draws in a row were rejected, or too many in total.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 #[error("the robot is wedged: {} draws were tried and too few accepted", .0.draws)]

@@ -1,7 +1,17 @@
-//! Commands and odometry readings of a robot, as settings.
+//! Poses, commands and odometry readings, as settings.
 
 use super::settings::{DURATION_RANGE, QUANTITY_RANGE, group};
 use crate::models::{OdomDelta, VelocityCmd};
+
+// The settings with a pose complete the sentences by `each`.
+group!([f64; 3] as [x, y, theta] => {
+    /// Position x
+    x: "m", in QUANTITY_RANGE;
+    /// Position y
+    y: "m", in QUANTITY_RANGE;
+    /// Heading
+    theta: "rad", in QUANTITY_RANGE;
+});
 
 group!(VelocityCmd as VelocityCmd { v, omega, dt } => {
     /// Commanded speed; negative in reverse.

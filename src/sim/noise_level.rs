@@ -1,13 +1,8 @@
 //! Noise level: one number that sets several noise parameters.
 
-use super::settings::{Settable, Setting};
-use std::ops::RangeInclusive;
-
-/// Returns the α's of a noise level n. The last two, those of γ̂, are n/4, and all others n.
-pub fn alphas_of_noise_level<const N: usize>(n: f64) -> [f64; N] {
-    let mut alphas = [0.0; N];
-    NoiseLevel(&mut alphas).set(n);
-    alphas
+/// Returns the α's of a noise level n. Those of γ̂ are n/4, and all others n.
+pub const fn alphas_of_noise_level(n: f64) -> [f64; 6] {
+    [n, n, n, n, 0.25 * n, 0.25 * n]
 }
 
 /// Access to α's as one noise level. α's have a level n only if they are equal to [`alphas_of_noise_level`] of n.
@@ -29,12 +24,5 @@ impl NoiseLevel<'_> {
     /// Sets the α's to the level times their ratios.
     pub fn set(&mut self, level: f64) {
         self.weights().zip(&mut *self.0).for_each(|(weight, alpha)| *alpha = level * weight);
-    }
-}
-
-impl Settable for NoiseLevel<'_> {
-    type Range = RangeInclusive<f64>;
-    fn setting(&mut self, allowed: Self::Range) -> Setting<'_> {
-        Setting::Level(NoiseLevel(self.0), allowed)
     }
 }

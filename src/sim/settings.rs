@@ -1,6 +1,8 @@
 //! Settings of the widgets, declared by `settings!`, and checks of their values.
 
 use super::noise_level::NoiseLevel;
+use serde::ser::SerializeStruct;
+use serde::{Serialize, Serializer};
 use std::ops::RangeInclusive;
 use thiserror::Error;
 
@@ -108,13 +110,16 @@ pub struct Declaration {
     pub key: &'static str,
     /// Key of the setting that this setting sets in another form: `alphas` for a noise level.
     pub of: Option<&'static str>,
-    // Modules for pages omit the sentence and the unit, because no page shows them, and they would make the module larger.
+    // Modules for pages omit the documentation, because no page shows it, and it would make them larger.
     /// Description of the setting.
-    #[cfg(widget = "declarations")]
+    #[cfg(not(target_arch = "wasm32"))]
     pub sentence: &'static str,
     /// Unit; "" for a number without one.
-    #[cfg(widget = "declarations")]
+    #[cfg(not(target_arch = "wasm32"))]
     pub unit: &'static str,
+    /// Description of each number of a list that is an attribute; for a group, the end of the descriptions of its numbers.
+    #[cfg(not(target_arch = "wasm32"))]
+    pub each: &'static str,
 }
 
 /// Reference to the value of a setting, with its allowed values.
@@ -161,9 +166,44 @@ impl Setting<'_> {
     }
 }
 
-pub(crate) fn check_group(key: &str, group: &mut dyn Group) -> Result<(), SettingsError> {
-    for (i, Field { declaration, allowed }) in group.fields().iter().enumerate() {
-        check_real(&format!("{key}.{}", declaration.key), *group.number_mut(i), allowed)?;
+impl Serialize for Setting<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Number(number, _) => number.serialize(serializer),
+            Self::Integer(integer, _) => integer.get().serialize(serializer),
+            Self::OptionalInteger(integer, _) => integer.serialize(serializer),
+            Self::Boolean(value) => value.serialize(serializer),
+            Self::Keyword(keyword) => keyword.get().serialize(serializer),
+            Self::Numbers(numbers, _) => numbers.serialize(serializer),
+            Self::Level(level, _) => level.get().serialize(serializer),
+            Self::Group(group) => {
+                let numbers = group.numbers();
+                let mut object = serializer.serialize_struct("", numbers.len())?;
+                for (field, number) in group.fields().iter().zip(numbers) {
+                    object.serialize_field(field.declaration.key, &number)?;
+                }
+                object.end()
+            }
+        }
+    }
+}
+
+/// Serializes settings as an object, without those that are alternative forms of others.
+pub(crate) fn serialize_settings<S: DeclaredSettings, Z: Serializer>(
+    mut settings: S,
+    serializer: Z,
+) -> Result<Z::Ok, Z::Error> {
+    let mut object = serializer.serialize_struct("", S::KEYS.len())?;
+    settings.try_visit_settings(|declaration, setting| match declaration.of {
+        None => object.serialize_field(declaration.key, &setting),
+        Some(_) => Ok(()),
+    })?;
+    object.end()
+}
+
+pub(crate) fn check_group(key: &str, group: &dyn Group) -> Result<(), SettingsError> {
+    for (Field { declaration, allowed }, number) in group.fields().iter().zip(group.numbers()) {
+        check_real(&format!("{key}.{}", declaration.key), number, allowed)?;
     }
     Ok(())
 }
@@ -215,8 +255,10 @@ impl<T: Keywords> Keyword for T {
 pub trait Group {
     /// Returns the declarations of the numbers.
     fn fields(&self) -> &'static [Field];
-    /// Returns the number of the field with this index. Panics if there is no such field.
-    fn number_mut(&mut self, index: usize) -> &mut f64;
+    /// Returns the numbers, in the order of their declarations.
+    fn numbers(&self) -> Vec<f64>;
+    /// Returns references to the numbers, in the order of their declarations.
+    fn numbers_mut(&mut self) -> Vec<&mut f64>;
 }
 
 /// Declaration of a number of a [`Group`].
@@ -263,6 +305,13 @@ impl<T: Keywords> Settable for T {
     }
 }
 
+impl Settable for NoiseLevel<'_> {
+    type Range = RangeInclusive<f64>;
+    fn setting(&mut self, allowed: Self::Range) -> Setting<'_> {
+        Setting::Level(NoiseLevel(self.0), allowed)
+    }
+}
+
 macro_rules! numbers {
     ($($type:ty),+) => {$(
         impl Settable for $type {
@@ -299,7 +348,7 @@ integer!(u32, u64, usize);
 pub type Visitor<'a> = dyn FnMut(&'static Declaration, Setting) + 'a;
 
 /// Settings of a widget that can be visited one by one. `settings!` implements it.
-pub trait DeclaredSettings: Copy + Default {
+pub trait DeclaredSettings: Copy + Default + Serialize {
     /// Names of the settings, in the order of declaration.
     const KEYS: &'static [&'static str];
 
@@ -324,8 +373,11 @@ pub trait DeclaredSettings: Copy + Default {
     }
 }
 
-/// Rules that connect several settings of a widget.
-pub trait Rules: DeclaredSettings {
+/// Rules that connect several settings of a widget, and its presets.
+pub trait Rules: DeclaredSettings + 'static {
+    /// Presets, each with its name in attributes and states.
+    const PRESETS: &'static [(&'static str, Self)] = &[];
+
     /// Adjusts other settings to those with the changed keys.
     fn adjust(&mut self, _previous: &Self, _changed_keys: &[&str]) {}
 
@@ -360,6 +412,7 @@ pub trait Rules: DeclaredSettings {
 /// - `up to` names a method that returns the end of the range, if it depends on other settings.
 /// - `by` names a method that returns a reference to the value, if the setting is not a field.
 /// - `of` names another setting that has the same value in another form.
+/// - `each` describes each number of a list, or ends the descriptions of the numbers of a group.
 /// - `kept` lists fields of the struct that are not settings.
 macro_rules! settings {
     (
@@ -371,6 +424,7 @@ macro_rules! settings {
                 $(: $type:ty = $default:expr $(, $unit:literal)?)?
                 $(, by $accessor:ident $(of $original:ident)? $(, $its_unit:literal)?)?
                 $(, in $range:expr $(, up to $max:ident)?)?
+                $(, each $each:literal)?
                 ;
             )+
             $(kept { $($(#[$kept_meta:meta])* $kept:ident: $kept_type:ty = $kept_default:expr;)+ })?
@@ -383,10 +437,20 @@ macro_rules! settings {
             $($($(#[$kept_meta])* pub $kept: $kept_type,)+)?
         }
 
+        impl $name {
+            /// Settings that the widget opens with.
+            pub const DEFAULT: Self = Self { $($($field: $default,)?)+ $($($kept: $kept_default,)+)? };
+        }
+
         impl Default for $name {
-            /// Returns the settings that the widget opens with.
             fn default() -> Self {
-                Self { $($($field: $default,)?)+ $($($kept: $kept_default,)+)? }
+                Self::DEFAULT
+            }
+        }
+
+        impl serde::Serialize for $name {
+            fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+                $crate::sim::settings::serialize_settings(*self, serializer)
             }
         }
 
@@ -399,7 +463,7 @@ macro_rules! settings {
                     const {
                         &declaration!(
                             settings!(@key $field $($key)?), $sentence,
-                            [$($($unit)?)? $($($its_unit)?)?] $($(, of $original)?)?
+                            [$($($unit)?)? $($($its_unit)?)?], [$($each)?] $($(, of $original)?)?
                         )
                     },
                     settings!(@place self $field $($accessor)?)
@@ -420,14 +484,16 @@ pub(crate) use settings;
 
 /// Makes the [`Declaration`] of a setting or of a number of a group.
 macro_rules! declaration {
-    ($key:expr, $sentence:literal, [$($unit:literal)?] $(, of $original:ident)?) => {
+    ($key:expr, $sentence:literal, [$($unit:literal)?], [$($each:literal)?] $(, of $original:ident)?) => {
         $crate::sim::settings::Declaration {
             key: $key,
             of: $crate::sim::settings::declaration!(@of $($original)?),
-            #[cfg(widget = "declarations")]
+            #[cfg(not(target_arch = "wasm32"))]
             sentence: $sentence.trim_ascii(),
-            #[cfg(widget = "declarations")]
+            #[cfg(not(target_arch = "wasm32"))]
             unit: concat!($($unit)?),
+            #[cfg(not(target_arch = "wasm32"))]
+            each: concat!($($each)?),
         }
     };
     (@of) => { None };
@@ -441,15 +507,20 @@ macro_rules! group {
         impl $crate::sim::settings::Group for $type {
             fn fields(&self) -> &'static [$crate::sim::settings::Field] {
                 static FIELDS: &[$crate::sim::settings::Field] = &[$($crate::sim::settings::Field {
-                    declaration: $crate::sim::settings::declaration!(stringify!($key), $sentence, [$unit]),
+                    declaration: $crate::sim::settings::declaration!(stringify!($key), $sentence, [$unit], []),
                     allowed: $range,
                 }),+];
                 FIELDS
             }
 
-            fn number_mut(&mut self, index: usize) -> &mut f64 {
+            fn numbers(&self) -> Vec<f64> {
                 let $pattern = self;
-                [$($key),+].into_iter().nth(index).expect("a number of the group")
+                vec![$(*$key),+]
+            }
+
+            fn numbers_mut(&mut self) -> Vec<&mut f64> {
+                let $pattern = self;
+                vec![$($key),+]
             }
         }
 

@@ -1,12 +1,12 @@
 //! `AlphaCalibrator` for JavaScript.
 
-use super::calibration::{calibration_to_js, columns_to_js};
+use super::calibration::{calibration_to_js, legs_to_js};
 use super::fields::{read_initial_settings, read_integer, read_keyword};
 use super::log::read_logs;
 use super::pictures::nearest_index;
-use super::simulation_class::{getters, simulation_class};
-use super::values::{ToJs, js_object, settings_to_js, to_plain_js};
-use crate::sim::alpha_calibrator::{AlphaCalibrator, LegView};
+use super::simulation_class::{getters, read, simulation_class};
+use super::values::to_plain_js;
+use crate::sim::alpha_calibrator::AlphaCalibrator;
 use js_sys::TypeError;
 use wasm_bindgen::prelude::*;
 
@@ -18,7 +18,7 @@ simulation_class! {
 getters! {
     JsAlphaCalibrator, "AlphaCalibrator", |it| {
         /// Settings of the fit. They differ from `config` until a fit with the settings in `config` has come.
-        fitted_config as fittedConfig: "AlphaCalibratorSettings" = settings_to_js(it.fitted_settings());
+        fitted_config as fittedConfig: "AlphaCalibratorSettings" = to_plain_js(it.fitted_settings());
         /// True while the settings need another fit, which only the simulation with the log can make.
         is_pending as isPending: "boolean" = it.is_pending();
         /// Revision of the fit. It changes with each new fit.
@@ -28,10 +28,16 @@ getters! {
         /// Result of the calibration, without its legs. All α’s are null if the log has too few legs.
         stats: "Omit<Calibration, 'legs'>" = calibration_to_js(it.calibration());
         /// Copies of the legs, in the form that `calibrate` returns.
-        legs: "CalibrationLegs" = columns_to_js(it.calibration());
+        legs: "CalibrationLegs" = legs_to_js(it.calibration());
         /// Number of legs.
         count: "number" = it.legs().len();
     }
+}
+
+read! {
+    /// Settings, and the revision of the fit. `stats` and `legs` change only if that revision changes.
+    JsAlphaCalibrator, "AlphaCalibrator", "AlphaCalibratorView",
+    [config, fitted_config as fittedConfig, fit_revision as fits, is_pending as isPending]
 }
 
 #[wasm_bindgen(js_class = AlphaCalibrator)]
@@ -51,19 +57,6 @@ impl JsAlphaCalibrator {
     /// The fit as bytes, from which `restored` makes a simulation.
     pub fn save(&self) -> Vec<u8> {
         postcard::to_allocvec(self.0.calibration()).unwrap_or_default()
-    }
-
-    /// Settings, and the revision of the fit. `stats` and `legs` change only if that revision changes.
-    #[wasm_bindgen(
-        unchecked_return_type = "Pick<AlphaCalibrator, 'config' | 'fittedConfig' | 'fits' | 'isPending'>"
-    )]
-    pub fn read(&self) -> JsValue {
-        js_object(&[
-            ("config", self.config()),
-            ("fittedConfig", self.fitted_config()),
-            ("fits", self.fit_revision()),
-            ("isPending", self.is_pending()),
-        ])
     }
 
     /// Replaces the log by another one: odometry and reference in the form that `calibrate` takes.
@@ -89,16 +82,7 @@ impl JsAlphaCalibrator {
     /// One leg by its index, counted from 0; null if there are fewer legs.
     #[wasm_bindgen(unchecked_return_type = "LegView | null")]
     pub fn leg(&self, index: f64) -> Result<JsValue, JsValue> {
-        let leg = self.0.leg(read_integer("index", index, 0..=u64::from(u32::MAX))? as usize);
-        // Converted without serde, whose conversion of typed arrays would enlarge the module of this figure, the largest one.
-        Ok(leg.map_or(JsValue::NULL, |LegView { outcomes, outline, read, ended }| {
-            js_object(&[
-                ("outcomes", outcomes.to_js()),
-                ("outline", outline.to_js()),
-                ("read", read.to_js()),
-                ("ended", ended.to_js()),
-            ])
-        }))
+        Ok(to_plain_js(&self.0.leg(read_integer("index", index, 0..=u64::from(u32::MAX))? as usize)))
     }
 
     /// The leg whose path is nearest to a point of the reference and within `radius` of it; −1 for none.

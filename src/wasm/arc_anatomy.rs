@@ -2,9 +2,10 @@
 
 use super::fields::check_range;
 use super::pictures::read_bounds;
-use super::simulation_class::{getters, simulation_class};
-use super::values::{js_object, to_plain_js, triple_array};
-use crate::sim::arc_anatomy::{ArcAnatomy, form_errors};
+use super::simulation_class::{getters, read, simulation_class};
+use super::values::{to_plain_js, triple_array};
+use crate::geom::arc_forms::form_errors;
+use crate::sim::arc_anatomy::ArcAnatomy;
 use js_sys::Float64Array;
 use wasm_bindgen::prelude::*;
 
@@ -21,23 +22,17 @@ getters! {
     }
 }
 
+read! {
+    /// Everything that is shown besides the surface, in one call.
+    JsArcAnatomy, "ArcAnatomy", "ArcAnatomyView", [config, stats, table, paths]
+}
+
 #[wasm_bindgen(js_class = ArcAnatomy)]
 impl JsArcAnatomy {
     /// Errors of the forms of the arc at small turn rates: exercise 1.
     #[wasm_bindgen(js_name = formErrors, unchecked_return_type = "FormErrors")]
-    pub fn form_errors() -> Result<JsValue, JsValue> {
-        Ok(to_plain_js(&form_errors()))
-    }
-
-    /// Returns everything that is shown besides the surface, in one call.
-    #[wasm_bindgen(unchecked_return_type = "Pick<ArcAnatomy, 'config' | 'stats' | 'table' | 'paths'>")]
-    pub fn read(&self) -> Result<JsValue, JsValue> {
-        Ok(js_object(&[
-            ("config", self.config()),
-            ("stats", self.stats()),
-            ("table", self.table()),
-            ("paths", self.paths()),
-        ]))
+    pub fn form_errors() -> JsValue {
+        to_plain_js(&form_errors())
     }
 
     /// Heat map over the positions of a rectangle (m), for the heading of the final pose; null if no heat map is selected.

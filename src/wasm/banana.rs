@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use super::fields::{check_range, not_shown_error, read_integer, read_keyword};
 use super::pictures::{RADIUS_RANGE, pixel_view, read_grid, read_ramps};
-use super::simulation_class::{cloud_simulation_class, getters};
+use super::simulation_class::{cloud_simulation_class, getters, read};
 use super::values::{flat_float_array, js_array, js_object, to_plain_js, triple_array};
 use crate::geom::se2::SE2;
 use crate::geom::unbend::unbend_line;
@@ -61,27 +61,16 @@ getters! {
     }
 }
 
+read! {
+    /// Everything that is shown besides the robots, in one call.
+    JsBananaMachine, "BananaMachine", "BananaMachineView", [
+        config, shown_count as shown, block_size as block, stats, contours, gaps, table, is_chart_defined as chartHolds,
+        alphas_of_models as alphasOfModels, reading,
+    ]
+}
+
 #[wasm_bindgen(js_class = BananaMachine)]
 impl JsBananaMachine {
-    /// Returns everything that is shown besides the robots, in one call.
-    #[wasm_bindgen(
-        unchecked_return_type = "Pick<BananaMachine, 'config' | 'shown' | 'block' | 'stats' | 'contours' | 'gaps' | 'table' | 'chartHolds' | 'alphasOfModels' | 'reading'>"
-    )]
-    pub fn read(&self) -> Result<JsValue, JsValue> {
-        Ok(js_object(&[
-            ("config", self.config()),
-            ("shown", self.shown_count()),
-            ("block", self.block_size()),
-            ("stats", self.stats()),
-            ("contours", self.contours()),
-            ("gaps", self.gaps()),
-            ("table", self.table()),
-            ("chartHolds", self.is_chart_defined()),
-            ("alphasOfModels", self.alphas_of_models()),
-            ("reading", self.reading()),
-        ]))
-    }
-
     /// Poses as in `poses`, of the first `count` samples, or of all if there are fewer.
     #[wasm_bindgen(js_name = firstPoses)]
     pub fn first_poses(&self, count: usize) -> Float64Array {

@@ -1,6 +1,6 @@
 //! `motion.calibrate` for JavaScript: logs in, α's out.
 
-use super::calibration::{SYSTEMATIC_ERROR_KEYS, calibration_to_js, columns_to_js};
+use super::calibration::{SYSTEMATIC_ERROR_KEYS, calibration_to_js, legs_to_js};
 use super::fields::{Fields, check_range, read_boolean, read_keyword, read_number, type_error};
 use super::log::read_logs;
 use crate::calibrate::{Drive, ERROR_COUNT, LegLength, Model, Options, calibrate};
@@ -74,7 +74,7 @@ pub fn js_calibrate(
         logs.iter().map(|Log { odometry, reference }| Drive { odometry, reference }).collect();
     let calibration = calibrate(&drives, &options).map_err(|error| RangeError::new(&error.to_string()))?;
     let result = calibration_to_js(&calibration);
-    Reflect::set(&result, &"legs".into(), &columns_to_js(&calibration))?;
+    Reflect::set(&result, &"legs".into(), &legs_to_js(&calibration))?;
     Ok(result)
 }
 

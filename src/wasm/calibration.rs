@@ -1,10 +1,11 @@
 //! Calibrations as plain JavaScript values.
 
-use super::values::{float_array, js_object, to_plain_js};
+use super::values::to_plain_js;
 use crate::calibrate::{
     Calibration, Diagnostics, ERROR_COUNT, Estimate, LostLegs, NotIdentifiable, Persistence, Recommendation,
     SystematicError,
 };
+use crate::js::js_structs;
 use serde::Serialize;
 use tsify::Tsify;
 use wasm_bindgen::prelude::*;
@@ -17,29 +18,6 @@ export type Interval = [number, number];
 /** Result of a calibration. */
 export interface Calibration extends CalibrationStats {
   legs: CalibrationLegs;
-}
-
-/** Legs, one after the other in each array. */
-export interface CalibrationLegs {
-  count: number;
-  /** Start and end, s. */
-  times: Float64Array;
-  /** Both ends in the odometry frame, x, y, θ. */
-  odometry: Float64Array;
-  /** Both ends of the robot's base by the reference, x, y, θ. */
-  reference: Float64Array;
-  /** rot1, trans, rot2; or v, ω, Δt. */
-  readings: Float64Array;
-  /** Executed minus expected value of each noise component; NaN if the leg does not determine the component. */
-  residuals: Float64Array;
-  /** Innovations over their standard deviations. */
-  standardized: Float64Array;
-  /** Standard deviations of the innovations. */
-  stds: Float64Array;
-  /** Squared Mahalanobis distance of the innovation. */
-  squared: Float64Array;
-  /** 1 for an outlier, otherwise 0. */
-  outliers: Float64Array;
 }
 "#;
 
@@ -155,37 +133,49 @@ fn systematic_errors(calibration: &Calibration) -> SystematicErrors {
     }
 }
 
-/// Makes arrays of the legs of a calibration, one leg after the other in each.
-pub fn columns_to_js(calibration: &Calibration) -> JsValue {
+js_structs! {
+    /// Legs, one after the other in each array.
+    #[derive(Default)]
+    pub struct CalibrationLegs {
+        pub count: usize,
+        /// Start and end, s.
+        pub times: Vec<f64> as "Float64Array",
+        /// Both ends in the odometry frame, x, y, θ.
+        pub odometry: Vec<f64> as "Float64Array",
+        /// Both ends of the robot's base by the reference, x, y, θ.
+        pub reference: Vec<f64> as "Float64Array",
+        /// rot1, trans, rot2; or v, ω, Δt.
+        pub readings: Vec<f64> as "Float64Array",
+        /// Executed minus expected value of each noise component; NaN if the leg does not determine the component.
+        pub residuals: Vec<f64> as "Float64Array",
+        /// Innovations over their standard deviations.
+        pub standardized: Vec<f64> as "Float64Array",
+        /// Standard deviations of the innovations.
+        pub stds: Vec<f64> as "Float64Array",
+        /// Squared Mahalanobis distance of the innovation.
+        pub squared: Vec<f64> as "Float64Array",
+        /// 1 for an outlier, otherwise 0.
+        pub outliers: Vec<f64> as "Float64Array",
+    }
+}
+
+/// Makes an object of the legs of a calibration.
+pub fn legs_to_js(calibration: &Calibration) -> JsValue {
     let Calibration { legs, observations, leg_fits, corrected, .. } = calibration;
-    let empty_column = |width: usize| Vec::with_capacity(width * legs.len());
-    let [mut times, mut odometry, mut reference] = [2, 6, 6].map(empty_column);
-    let [mut readings, mut residuals, mut standardized, mut stds] = [3; 4].map(empty_column);
-    let [mut squared_distances, mut outliers] = [1; 2].map(empty_column);
+    let mut columns = CalibrationLegs { count: legs.len(), ..Default::default() };
     let base = corrected.base();
     for ((leg, observation), fit) in legs.iter().zip(observations).zip(leg_fits) {
-        times.extend_from_slice(&leg.times);
-        for [read, pose] in [0, 1].map(|end| [leg.odometry[end], leg.reference[end] * base]) {
-            odometry.extend_from_slice(&<[f64; 3]>::from(read));
-            reference.extend_from_slice(&<[f64; 3]>::from(pose));
+        columns.times.extend_from_slice(&leg.times);
+        for end in [0, 1] {
+            columns.odometry.extend(<[f64; 3]>::from(leg.odometry[end]));
+            columns.reference.extend(<[f64; 3]>::from(leg.reference[end] * base));
         }
-        readings.extend_from_slice(&observation.reading);
-        residuals.extend_from_slice(&observation.residuals);
-        standardized.extend_from_slice(&fit.standardized);
-        stds.extend_from_slice(&fit.stds);
-        squared_distances.push(fit.squared);
-        outliers.push(f64::from(u8::from(fit.is_outlier)));
+        columns.readings.extend_from_slice(&observation.reading);
+        columns.residuals.extend_from_slice(&observation.residuals);
+        columns.standardized.extend_from_slice(&fit.standardized);
+        columns.stds.extend_from_slice(&fit.stds);
+        columns.squared.push(fit.squared);
+        columns.outliers.push(f64::from(u8::from(fit.is_outlier)));
     }
-    js_object(&[
-        ("count", (legs.len() as f64).into()),
-        ("times", float_array(&times)),
-        ("odometry", float_array(&odometry)),
-        ("reference", float_array(&reference)),
-        ("readings", float_array(&readings)),
-        ("residuals", float_array(&residuals)),
-        ("standardized", float_array(&standardized)),
-        ("stds", float_array(&stds)),
-        ("squared", float_array(&squared_distances)),
-        ("outliers", float_array(&outliers)),
-    ])
+    to_plain_js(&columns)
 }

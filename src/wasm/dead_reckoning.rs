@@ -2,24 +2,14 @@
 
 use super::fields::{not_shown_error, read_integer};
 use super::pictures::nearest_index;
-use super::simulation_class::{cloud_simulation_class, getters};
+use super::simulation_class::{cloud_simulation_class, getters, read};
 use super::values::{flat_float_array, js_object, number_or_null, to_plain_js, triple_array};
 use crate::models::Compounding;
-use crate::sim::dead_reckoning::{DeadReckoning, MAX_SAMPLES, MAX_STEPS, Settings};
+use crate::sim::dead_reckoning::{DeadReckoning, MAX_SAMPLES};
 use crate::sim::settings::Keywords;
-use js_sys::{Array, Float64Array};
+use js_sys::Float64Array;
 use nalgebra::{Matrix3, Vector3};
 use wasm_bindgen::prelude::*;
-
-#[wasm_bindgen(typescript_custom_section)]
-const TYPESCRIPT_TYPES: &str = r#"
-/** Robots and outlines after a quarter of the path. */
-export interface Milestone {
-  /** Poses as in `posesAfter`. */
-  poses: Float64Array;
-  outlines: StepOutlines;
-}
-"#;
 
 cloud_simulation_class! {
     /// One command driven step after step by many identical robots from (0, 0), heading along x, and the covariance that
@@ -59,44 +49,23 @@ getters! {
         poses: "Float64Array" = flat_float_array(it.poses(it.settings().step));
         /// Exponential coordinates (along and lateral in m, heading in rad) of the robots of `poses`, relative to the commanded pose; a copy.
         twists: "Float64Array" = triple_array(it.twists());
+        /// Outlines of the selected step, by the selected recursion.
+        outlines: "StepOutlines" = to_plain_js(&it.outlines(it.settings().step));
+        /// Robots and outlines after each quarter of the path, except at the selected step.
+        milestones: "Milestone[]" = to_plain_js(&it.milestones());
     }
+}
+
+read! {
+    /// Everything that is shown, in one call.
+    JsDeadReckoning, "DeadReckoning", "DeadReckoningView", [
+        config, shown_count as shown, block_size as block, stats, ratios, relative_errors as relativeErrors, commanded, nominal,
+        poses, twists, outlines, milestones,
+    ]
 }
 
 #[wasm_bindgen(js_class = DeadReckoning)]
 impl JsDeadReckoning {
-    /// Returns everything that is shown, in one call. There is a milestone after each quarter of the path, except at the current step.
-    #[wasm_bindgen(
-        unchecked_return_type = "Pick<DeadReckoning, 'config' | 'shown' | 'block' | 'stats' | 'ratios' | 'relativeErrors' | 'commanded' | 'nominal' | 'poses' | 'twists'> & { outlines: StepOutlines; milestones: Milestone[] }"
-    )]
-    pub fn read(&self) -> Result<JsValue, JsValue> {
-        let Settings { step, steps, .. } = *self.0.settings();
-        let milestone_after = |after: u32| {
-            let (poses, outlines) = (self.poses_after(after.into())?, self.outlines(after.into())?);
-            Ok(js_object(&[("poses", poses.into()), ("outlines", outlines)]))
-        };
-        let milestones = quarters_of(steps).filter(|after| *after != step).map(milestone_after);
-        Ok(js_object(&[
-            ("config", self.config()),
-            ("shown", self.shown_count()),
-            ("block", self.block_size()),
-            ("stats", self.stats()),
-            ("ratios", self.ratios()),
-            ("relativeErrors", self.relative_errors()),
-            ("commanded", self.commanded()),
-            ("nominal", self.nominal()),
-            ("poses", self.poses()),
-            ("twists", self.twists()),
-            ("outlines", self.outlines(step.into())?),
-            ("milestones", milestones.collect::<Result<Array, JsValue>>()?.into()),
-        ]))
-    }
-
-    /// Poses as in `poses`, after another step from 1 to 200; empty if the path is shorter.
-    #[wasm_bindgen(js_name = posesAfter)]
-    pub fn poses_after(&self, step: f64) -> Result<Float64Array, JsValue> {
-        Ok(flat_float_array(self.0.poses(read_integer("step", step, 1..=MAX_STEPS)? as u32)))
-    }
-
     /// x, y (m), θ (rad) of one robot after each step, counted from 0.
     pub fn rollout(&self, index: f64) -> Result<Float64Array, JsValue> {
         let index = read_integer("index", index, 0..=MAX_SAMPLES as u64)? as usize;
@@ -108,20 +77,6 @@ impl JsDeadReckoning {
     pub fn nearest(&self, x: f64, y: f64, radius: f64) -> Result<i32, JsValue> {
         nearest_index(x, y, radius, |target, radius| self.0.nearest(target, radius))
     }
-
-    /// Outlines of a step, 1 to 200, by the selected recursion; null where the path is shorter.
-    #[wasm_bindgen(unchecked_return_type = "StepOutlines | null")]
-    pub fn outlines(&self, step: f64) -> Result<JsValue, JsValue> {
-        Ok(to_plain_js(&self.0.outlines(read_integer("step", step, 1..=MAX_STEPS)? as u32)))
-    }
-}
-
-/// Returns the steps that end the quarters of a path; fewer if the path has less than four steps.
-fn quarters_of(steps: u32) -> impl Iterator<Item = u32> {
-    let mut quarter_ends: Vec<_> =
-        (1..=4).map(|quarter| ((f64::from(quarter * steps) / 4.0).round() as u32).max(1)).collect();
-    quarter_ends.dedup();
-    quarter_ends.into_iter()
 }
 
 fn js_by_recursion(of: impl Fn(Compounding) -> Float64Array) -> JsValue {

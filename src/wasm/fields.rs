@@ -151,8 +151,8 @@ fn read_group(field: &str, value: &JsValue, group: &mut dyn Group) -> Result<(),
     let keys: Vec<&str> = group.fields().iter().map(|field| field.declaration.key).collect();
     let path_prefix = format!("{field}.");
     let fields = Fields::new(field, &path_prefix, value, &keys)?;
-    for (i, key) in keys.iter().enumerate() {
-        *group.number_mut(i) = fields.number(key)?;
+    for (key, number) in keys.iter().zip(group.numbers_mut()) {
+        *number = fields.number(key)?;
     }
     Ok(())
 }
@@ -160,7 +160,7 @@ fn read_group(field: &str, value: &JsValue, group: &mut dyn Group) -> Result<(),
 /// Reads all numbers of a group, each in its range, into `group`.
 pub fn read_group_in_range<G: Group>(field: &str, value: &JsValue, mut group: G) -> Result<G, JsValue> {
     read_group(field, value, &mut group)?;
-    check_group(field, &mut group)?;
+    check_group(field, &group)?;
     Ok(group)
 }
 

@@ -16,8 +16,6 @@ mod calibrate;
 mod calibration;
 #[cfg(any(not(widget), widget = "dead-reckoning"))]
 mod dead_reckoning;
-#[cfg(widget = "declarations")]
-mod declarations;
 mod fields;
 #[cfg(any(not(widget), widget = "alpha-calibrator"))]
 mod log;

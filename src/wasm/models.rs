@@ -4,9 +4,10 @@ use super::fields::{
     Fields, array_item, array_length, check_range, read_array_in_range, read_boolean, read_group_in_range,
     read_integer, read_keyword, read_number,
 };
-use super::values::{js_array, js_object, number_or_null, pose_to_js, to_plain_js, triple_array};
+use super::values::{js_array, number_or_null, pose_to_js, to_plain_js, triple_array};
 use crate::geom::arc::invert_arc;
 use crate::geom::se2::SE2;
+use crate::js::js_structs;
 use crate::models::{
     Compounding, ConfiguredOdometry, MotionModel, OdomAlphas, OdomDelta, OdometryModel, TangentNoiseError,
     TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel, covariance_root,
@@ -49,24 +50,6 @@ export interface OdometryModelOptions {
   reverseAware?: boolean;
 }
 
-/** Arc that leaves one pose along its heading and reaches the position of another. */
-export interface ArcInversion {
-  /** Speed along the arc, m/s; negative in reverse. */
-  vHat: number;
-  /** Turn rate along the arc, rad/s. */
-  omegaHat: number;
-  /** Rate of the final turn after the arc, rad/s over the same duration. */
-  gammaHat: number;
-  /** Centre of the arc's circle, m; null for a straight arc. */
-  center: { x: number; y: number } | null;
-  /**
-   * Radius, m: positive with the centre to the left of the heading, negative to the right, Infinity for a straight arc.
-   */
-  radius: number;
-  /** Turn of the robot along the arc, rad, −π to π. */
-  turn: number;
-}
-
 /** Options of `propagate`. */
 export interface Propagation {
   /** Covariance of the first pose in exponential coordinates about its mean, three rows of three; default 0. */
@@ -80,6 +63,30 @@ export interface Propagation {
   steps?: number;
 }
 "#;
+
+js_structs! {
+    /// Arc that leaves one pose along its heading and reaches the position of another.
+    pub struct InvertedArc as "ArcInversion" {
+        /// Speed along the arc, m/s; negative in reverse.
+        pub v_hat: f64,
+        /// Turn rate along the arc, rad/s.
+        pub omega_hat: f64,
+        /// Rate of the final turn after the arc, rad/s over the same duration.
+        pub gamma_hat: f64,
+        /// Centre of the arc's circle, m; null for a straight arc.
+        pub center: Option<Point>,
+        /// Radius, m: positive with the centre to the left of the heading, negative to the right, Infinity for a straight arc.
+        pub radius: f64,
+        /// Turn of the robot along the arc, rad, −π to π.
+        pub turn: f64,
+    }
+
+    /// Point of the plane, m.
+    pub struct Point {
+        pub x: f64,
+        pub y: f64,
+    }
+}
 
 #[wasm_bindgen]
 extern "C" {
@@ -197,18 +204,14 @@ pub fn js_invert_arc(start: &JsPose, next: &JsPose, dt: f64) -> Result<JsValue, 
     let inversion = invert_arc(&start, &next, dt);
     // A straight drive in reverse has the turn rate −0. Adding 0 makes it 0.
     let omega_hat = inversion.omega_hat + 0.0;
-    let center = match inversion.centre(&start) {
-        Some([x, y]) => js_object(&[("x", x.into()), ("y", y.into())]),
-        None => JsValue::NULL,
-    };
-    Ok(js_object(&[
-        ("vHat", inversion.v_hat.into()),
-        ("omegaHat", omega_hat.into()),
-        ("gammaHat", inversion.gamma_hat.into()),
-        ("center", center),
-        ("radius", inversion.radius().into()),
-        ("turn", (omega_hat * dt).into()),
-    ]))
+    Ok(to_plain_js(&InvertedArc {
+        v_hat: inversion.v_hat,
+        omega_hat,
+        gamma_hat: inversion.gamma_hat,
+        center: inversion.centre(&start).map(|[x, y]| Point { x, y }),
+        radius: inversion.radius(),
+        turn: omega_hat * dt,
+    }))
 }
 
 /// The three legs between two poses of the odometry frame (Table 5.5, lines 2–4). A turn on the spot is all in `rot2`.

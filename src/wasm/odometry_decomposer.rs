@@ -2,9 +2,9 @@
 
 use super::fields::{check_range, read_integer};
 use super::pictures::nearest_index;
-use super::simulation_class::{cloud_simulation_class, getters};
-use super::values::{ToJs, flat_float_array, js_object, pose_to_js, to_plain_js, triple_array};
-use crate::sim::odometry_decomposer::{DriftedOdometry, MAX_CURVE_POINTS, MAX_SAMPLES, OdometryDecomposer};
+use super::simulation_class::{cloud_simulation_class, getters, read};
+use super::values::{flat_float_array, pose_to_js, to_plain_js, triple_array};
+use crate::sim::odometry_decomposer::{MAX_CURVE_POINTS, MAX_SAMPLES, OdometryDecomposer};
 use crate::sim::settings::QUANTITY_RANGE;
 use js_sys::Float64Array;
 use wasm_bindgen::prelude::*;
@@ -22,46 +22,28 @@ getters! {
         /// Noise-free reading as four poses x, y, θ: at the start, after the first rotation, after the drive, after the
         /// second rotation.
         leg_poses as linkage: "Float64Array" = triple_array(it.leg_poses());
+        /// Leg poses of the first outcomes shown, one after the other in the form of `linkage`.
+        sample_leg_poses as ghosts: "Float64Array" =
+            triple_array(it.sample_leg_poses(MAX_SHOWN_LINKAGES).into_iter().flatten());
         /// Pose of the robot at the selected phase.
         robot: "Start" = pose_to_js(it.robot_pose());
         /// Legs and noises of the reading by each rule.
         rules: "RuleNoise[]" = to_plain_js(&it.rule_noises());
         stats: "DecomposerStats" = to_plain_js(&it.stats());
-        drifted: "Drifted" = {
-            let DriftedOdometry { poses, legs } = it.drifted_odometry();
-            js_object(&[("poses", poses.to_js()), ("legs", to_plain_js(&legs))])
-        };
+        drifted: "Drifted" = to_plain_js(&it.drifted_odometry());
     }
+}
+
+read! {
+    /// Everything that is shown, in one call.
+    JsOdometryDecomposer, "OdometryDecomposer", "OdometryDecomposerView", [
+        config, shown_count as shown, block_size as block, stats, rules, poses, leg_poses as linkage, robot, drifted,
+        sample_leg_poses as ghosts,
+    ]
 }
 
 #[wasm_bindgen(js_class = OdometryDecomposer)]
 impl JsOdometryDecomposer {
-    /// Returns everything that is shown, in one call. `ghosts` are the leg_poses of the first outcomes.
-    #[wasm_bindgen(
-        unchecked_return_type = "Pick<OdometryDecomposer, 'config' | 'shown' | 'block' | 'stats' | 'rules' | 'poses' | 'linkage' | 'robot' | 'drifted'> & { ghosts: Float64Array }"
-    )]
-    pub fn read(&self) -> Result<JsValue, JsValue> {
-        Ok(js_object(&[
-            ("config", self.config()),
-            ("shown", self.shown_count()),
-            ("block", self.block_size()),
-            ("stats", self.stats()),
-            ("rules", self.rules()),
-            ("poses", self.poses()),
-            ("linkage", self.leg_poses()),
-            ("robot", self.robot()),
-            ("drifted", self.drifted()),
-            ("ghosts", self.sample_leg_poses(MAX_SHOWN_LINKAGES)?.into()),
-        ]))
-    }
-
-    /// Leg poses of the first `count` outcomes shown, one after the other in the form of `linkage`.
-    #[wasm_bindgen(js_name = ghosts)]
-    pub fn sample_leg_poses(&self, count: f64) -> Result<Float64Array, JsValue> {
-        let leg_poses = self.0.sample_leg_poses(read_integer("count", count, 0..=MAX_SAMPLES)? as usize);
-        Ok(triple_array(leg_poses.into_iter().flatten()))
-    }
-
     /// Standard deviations for lengths of the drive from 0 to `longest` m. For each of `count` points: the length, the
     /// standard deviation across the bearing, the contribution of the first rotation, and the standard deviation of the
     /// length, all in m.
@@ -78,4 +60,4 @@ impl JsOdometryDecomposer {
 }
 
 /// Maximum number of outcomes whose rotation, translation and rotation are drawn. More would hide the legs of the reading.
-const MAX_SHOWN_LINKAGES: f64 = 12.0;
+const MAX_SHOWN_LINKAGES: usize = 12;

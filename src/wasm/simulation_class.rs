@@ -38,7 +38,7 @@ macro_rules! simulation_class {
             /// A copy of the settings, so that changing it does not change the simulation.
             #[wasm_bindgen(getter, unchecked_return_type = $settings)]
             pub fn config(&self) -> JsValue {
-                $crate::wasm::values::settings_to_js(self.0.settings())
+                $crate::wasm::values::to_plain_js(self.0.settings())
             }
         }
     };
@@ -118,4 +118,27 @@ macro_rules! getters {
     };
 }
 
-pub(super) use {cloud_simulation_class, getters, simulation_class};
+/// Declares `read` of the class of a simulation, which returns an object of these getters. `$view` is its TypeScript type.
+macro_rules! read {
+    ($(#[$doc:meta])+ $class:ident, $name:literal, $view:literal, [$($getter:ident $(as $key:ident)?),+ $(,)?]) => {
+        #[wasm_bindgen(typescript_custom_section)]
+        const VIEW_TYPE: &str = concat!(
+            "export type ", $view, " = Pick<", $name, ", never",
+            $(" | '", read!(@key $getter $($key)?), "'",)+
+            ">;"
+        );
+
+        #[wasm_bindgen(js_class = $name)]
+        impl $class {
+            $(#[$doc])+
+            #[wasm_bindgen(unchecked_return_type = $view)]
+            pub fn read(&self) -> JsValue {
+                $crate::wasm::values::js_object(&[$((read!(@key $getter $($key)?), self.$getter())),+])
+            }
+        }
+    };
+    (@key $getter:ident) => { stringify!($getter) };
+    (@key $getter:ident $key:ident) => { stringify!($key) };
+}
+
+pub(super) use {cloud_simulation_class, getters, read, simulation_class};

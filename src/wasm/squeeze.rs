@@ -3,39 +3,40 @@
 use super::fields::{quote, read_integer, read_keyword};
 use super::maps::{read_map, read_plan};
 use super::pictures::{nearest_index, pixel_view, read_grid, read_ramps};
-use super::simulation_class::{cloud_simulation_class, getters};
-use super::values::{
-    ToJs, flat_float_array, js_object, number_or_null, pose_to_js, to_plain_js, triple_array,
-};
+use super::simulation_class::{cloud_simulation_class, getters, read};
+use super::values::{ToJs, flat_float_array, number_or_null, pose_to_js, to_plain_js, triple_array};
+use crate::geom::arc::Arc;
 use crate::geom::segment::Segment;
+use crate::js::js_structs;
 use crate::map::{Cell, FloorPlan, MAX_DRAWS, Sampler};
 use crate::sim::settings::Keyword;
 use crate::sim::squeeze::{Attempt, MAX_SAMPLES, MAX_STEPS, MAX_TRIAL_PARTS, MapSqueeze, max_draws};
 use js_sys::{Array, Float64Array, RangeError, Uint8ClampedArray};
 use wasm_bindgen::prelude::*;
 
-#[wasm_bindgen(typescript_custom_section)]
-const TYPESCRIPT_TYPES: &str = r#"
-/** Map as it was read, in m: bounds as smallest x and y and largest x and y; walls as x0, y0, x1, y1 of each. */
-export interface Plan {
-  bounds: Float64Array;
-  walls: Float64Array;
-}
+js_structs! {
+    /// Map as it was read, in m.
+    pub struct Plan {
+        /// Smallest x and y, and largest x and y.
+        pub bounds: [f64; 4] as "Float64Array",
+        /// Walls as x0, y0, x1, y1 of each.
+        pub walls: Vec<[f64; 4]> as "Float64Array",
+    }
 
-/** Square cells, row by row from the bottom. */
-export interface Grid {
-  columns: number;
-  rows: number;
-  /** Side of a cell, m. */
-  resolution: number;
-  /** x, y (m) and yaw (rad) of the lower left corner. */
-  origin: Float64Array;
-  /** One byte for each cell: 1 if occupied, 0 otherwise. */
-  occupied: Uint8Array;
-  /** One byte for each cell: 1 if unknown, 0 otherwise. */
-  unknown: Uint8Array;
+    /// Square cells, row by row from the bottom.
+    pub struct Grid {
+        pub columns: usize,
+        pub rows: usize,
+        /// Side of a cell, m.
+        pub resolution: f64,
+        /// x, y (m) and yaw (rad) of the lower left corner.
+        pub origin: [f64; 3] as "Float64Array",
+        /// One byte for each cell: 1 if occupied, 0 otherwise.
+        pub occupied: Vec<u8> as "Uint8Array",
+        /// One byte for each cell: 1 if unknown, 0 otherwise.
+        pub unknown: Vec<u8> as "Uint8Array",
+    }
 }
-"#;
 
 cloud_simulation_class! {
     /// One command in a map, tried many times by a round robot. It opens facing a doorway in the apartment. `noise` sets all
@@ -50,23 +51,16 @@ getters! {
         noise: "number | null" = number_or_null(it.settings().noise());
         plan: "Plan" = {
             let wall_coordinates = |Segment { from, to }: &Segment| [from[0], from[1], to[0], to[1]];
-            let walls: Vec<_> = it.plan().walls().iter().map(wall_coordinates).collect();
-            js_object(&[("bounds", it.plan().bounds().to_js()), ("walls", walls.to_js())])
+            let walls = it.plan().walls().iter().map(wall_coordinates).collect();
+            to_plain_js(&Plan { bounds: it.plan().bounds(), walls })
         };
         /// Cells of the map; null for a plan of walls.
-        grid: "Grid | null" = {
-            let Some(grid) = it.plan().grid() else { return JsValue::NULL };
-            let [columns, rows] = grid.size();
-            let cell_flags = |kind| grid.cells().map(|cell| u8::from(cell == kind)).collect::<Vec<_>>().to_js();
-            js_object(&[
-                ("columns", (columns as f64).into()),
-                ("rows", (rows as f64).into()),
-                ("resolution", grid.resolution().into()),
-                ("origin", <[f64; 3]>::from(grid.origin()).to_js()),
-                ("occupied", cell_flags(Cell::Occupied)),
-                ("unknown", cell_flags(Cell::Unknown)),
-            ])
-        };
+        grid: "Grid | null" = to_plain_js(&it.plan().grid().map(|grid| {
+            let ([columns, rows], origin) = (grid.size(), grid.origin().into());
+            let cell_flags = |kind| grid.cells().map(|cell| u8::from(cell == kind)).collect();
+            let [occupied, unknown] = [Cell::Occupied, Cell::Unknown].map(cell_flags);
+            Grid { columns, rows, resolution: grid.resolution(), origin, occupied, unknown }
+        }));
         /// Free start pose: in the middle of the largest square that is known to be free, heading where the path is free
         /// for longest. If the robot does not fit there, another pose where it fits; null if there is none.
         find_free_pose as openPlace: "Start | null" = it.find_free_pose().map_or(JsValue::NULL, pose_to_js);
@@ -80,32 +74,25 @@ getters! {
         verdicts: "Uint8Array" =
             it.attempts().iter().map(Attempt::verdict_bits).collect::<Vec<_>>().to_js();
         stats: "SqueezeStats" = to_plain_js(&it.stats());
+        /// Paths of the first attempts that are accepted through a wall, each as x, y pairs.
+        wall_paths as paths: "Float64Array[]" = {
+            let attempts = it.attempts().iter().enumerate();
+            let through_wall = attempts.filter(|(_, attempt)| attempt.is_through_wall()).take(MAX_SHOWN_PATHS);
+            through_wall.map(|(index, _)| path_of(it, index)).collect::<Array>()
+        };
     }
+}
+
+read! {
+    /// Everything that is shown besides the map, in one call.
+    JsMapSqueeze, "MapSqueeze", "MapSqueezeView", [
+        config, shown_count as shown, block_size as block, stats, verdicts, poses, commanded, is_start_free as startFree,
+        wall_paths as paths,
+    ]
 }
 
 #[wasm_bindgen(js_class = MapSqueeze)]
 impl JsMapSqueeze {
-    /// Returns everything that is shown besides the map, in one call. `paths` are of the first samples accepted through a wall.
-    #[wasm_bindgen(
-        unchecked_return_type = "Pick<MapSqueeze, 'config' | 'shown' | 'block' | 'stats' | 'verdicts' | 'poses' | 'commanded' | 'startFree'> & { paths: Float64Array[] }"
-    )]
-    pub fn read(&self) -> Result<JsValue, JsValue> {
-        let attempts = self.0.attempts().iter().enumerate();
-        let through_wall = attempts.filter(|(_, attempt)| attempt.is_through_wall()).take(MAX_SHOWN_PATHS);
-        let paths = through_wall.map(|(index, _)| self.path(index as f64));
-        Ok(js_object(&[
-            ("config", self.config()),
-            ("shown", self.shown_count()),
-            ("block", self.block_size()),
-            ("stats", self.stats()),
-            ("verdicts", self.verdicts()),
-            ("poses", self.poses()),
-            ("commanded", self.commanded()),
-            ("startFree", self.is_start_free()),
-            ("paths", paths.collect::<Result<Array, JsValue>>()?.into()),
-        ]))
-    }
-
     /// { bounds: [x, y, x, y], walls: [[x, y, x, y], …] } in m, as a JSON floor plan has them; undefined for the apartment.
     #[wasm_bindgen(js_name = setPlan)]
     pub fn set_plan(
@@ -130,8 +117,7 @@ impl JsMapSqueeze {
 
     /// Path driven in an attempt, as x, y pairs; empty if the attempt is not shown.
     pub fn path(&self, index: f64) -> Result<Float64Array, JsValue> {
-        let arcs = self.0.arcs(read_integer("index", index, 0..=MAX_SAMPLES as u64)? as usize);
-        Ok(flat_float_array(&arcs.iter().flat_map(|arc| arc.points()).collect::<Vec<_>>()))
+        Ok(path_of(&self.0, read_integer("index", index, 0..=MAX_SAMPLES as u64)? as usize))
     }
 
     /// Draws `count` accepted samples with a sampler and discards them, to measure the time. Throws if too many draws are rejected.
@@ -183,6 +169,10 @@ impl JsMapSqueeze {
     }
 }
 
+fn path_of(simulation: &MapSqueeze, index: usize) -> Float64Array {
+    flat_float_array(&simulation.arcs(index).iter().flat_map(Arc::points).collect::<Vec<_>>())
+}
+
 /// Maximum number of paths shown: more would be indistinguishable, and take longer than a frame.
 const MAX_SHOWN_PATHS: usize = 60;
 
@@ -194,7 +184,7 @@ const MAX_SHOWN_PATHS: usize = 60;
 )]
 pub fn read_map_image(bytes: &[u8]) -> Result<JsValue, JsValue> {
     let image = crate::map::read_png(bytes).map_err(|error| RangeError::new(&error.to_string()))?;
-    Ok(js_object(&[
+    Ok(super::values::js_object(&[
         ("width", (image.width as f64).into()),
         ("height", (image.height as f64).into()),
         ("data", js_sys::Uint8ClampedArray::from(image.pixels.as_flattened()).into()),

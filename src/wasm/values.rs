@@ -1,7 +1,7 @@
 //! Conversion of Rust values to JavaScript values.
 
 use crate::geom::se2::SE2;
-use crate::sim::settings::{DeclaredSettings, Group, Keyword, Keywords, Setting};
+use crate::sim::settings::{Keyword, Keywords, Setting};
 use js_sys::{Array, Float64Array, Object, Uint8Array};
 use nalgebra::{Matrix3, Vector3};
 use serde::{Serialize, Serializer};
@@ -54,46 +54,12 @@ impl<T: Keywords> ToJs for T {
     }
 }
 
-/// Makes an object of the settings of a widget, without settings that are alternative forms of others.
-pub fn settings_to_js<S: DeclaredSettings>(settings: &S) -> JsValue {
-    let (mut entries, mut settings) = (Vec::new(), *settings);
-    settings.visit_settings(&mut |declaration, setting| {
-        if declaration.of.is_none() {
-            entries.push((declaration.key, setting_to_js(setting)));
-        }
-    });
-    js_object(&entries)
-}
-
-pub fn setting_to_js(setting: Setting) -> JsValue {
-    match setting {
-        Setting::Number(number, _) => (*number).into(),
-        Setting::Integer(integer, _) => (integer.get() as f64).into(),
-        Setting::OptionalInteger(integer, _) => number_or_null(integer.map(|integer| integer as f64)),
-        Setting::Boolean(value) => (*value).into(),
-        Setting::Keyword(keyword) => keyword.get().into(),
-        Setting::Numbers(numbers, _) => js_array(numbers),
-        Setting::Level(level, _) => number_or_null(level.get()),
-        Setting::Group(group) => group_to_js(group),
-    }
-}
-
 pub fn number_or_null(number: Option<f64>) -> JsValue {
     number.map_or(JsValue::NULL, JsValue::from)
 }
 
-pub fn group_to_js(group: &mut dyn Group) -> JsValue {
-    let entries: Vec<_> = group
-        .fields()
-        .iter()
-        .enumerate()
-        .map(|(i, field)| (field.declaration.key, (*group.number_mut(i)).into()))
-        .collect();
-    js_object(&entries)
-}
-
 pub fn pose_to_js(pose: SE2) -> JsValue {
-    group_to_js(&mut <[f64; 3]>::from(pose))
+    to_plain_js(&Setting::Group(&mut <[f64; 3]>::from(pose)))
 }
 
 pub fn js_array(numbers: &[f64]) -> JsValue {

@@ -110,18 +110,21 @@ export const resultFunctions = {
     const { command, steps, alphas } = settingsOfPreset('dead-reckoning', preset);
     const simulation = new DeadReckoning({ command, steps, alphas, ...settings });
     const { shown, config, headingNoise, stats } = simulation;
+    // Poses of the robots in the picture after the first step.
+    const robotIndices = Array.from({ length: simulation.poses.length / 3 }, (_, index) => index);
+    const firstPoses = Float64Array.from(robotIndices.flatMap((index) => [...simulation.rollout(index).subarray(0, 3)]));
     const simulationResults = {
       statistics: { shown, headingNoise, stats },
       steps: {
         ratios: simulation.ratios, predicted: simulation.predicted, measured: simulation.measured, relativeErrors: simulation.relativeErrors,
       },
       ways: { commanded: simulation.commanded, nominal: simulation.nominal },
-      poses: { poses: simulation.poses, twists: simulation.twists, first: simulation.posesAfter(1) },
+      poses: { poses: simulation.poses, twists: simulation.twists, first: firstPoses },
       rollouts: {
         driven: everyNthIndex(shown, 501).map((index) => simulation.rollout(index)),
         nearest: simulation.nearest(config.command.v * config.command.dt * config.step, 0.1, 0.5),
       },
-      outlines: simulation.outlines(config.step),
+      outlines: simulation.outlines,
       straight: simulation.straightGrowth,
     };
     simulation.free();
@@ -164,7 +167,7 @@ export const resultFunctions = {
     const { shown, stats, poses, linkage, robot, rules, drifted } = simulation;
     const simulationResults = {
       poses,
-      linkages: { linkage, ghosts: simulation.ghosts(9), robot },
+      linkages: { linkage, ghosts: simulation.ghosts.subarray(0, 9 * 12), robot },
       rules: rules.map(({ legs, deviations, crossTrack, heading }) => ({ legs, deviations, crossTrack, heading })),
       statistics: { shown, stats, nearest: simulation.nearest(1, 0.8, 0.5) },
       curve: simulation.curve(3, 31),

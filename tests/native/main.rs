@@ -18,7 +18,7 @@ mod fuzz;
 /// Poses, arcs, and the arithmetic that they use.
 mod geometry {
     mod arc;
-    mod double_double;
+    mod arc_forms;
     mod group_laws;
     mod lanes;
 }

@@ -65,12 +65,12 @@ fn the_largest_cloud_fits_and_outlives_refused_settings() {
 fn the_largest_cloud_fits_in_the_largest_plan() {
     let settings = squeeze::Settings { samples: squeeze::MAX_SAMPLES, ..Default::default() };
     let mut simulation = MapSqueeze::new(settings).expect("memory for the largest cloud");
-    let tally_before = *simulation.tally();
-    assert_eq!(tally_before.draws, settings.samples);
+    let stats_before = simulation.stats();
+    assert_eq!(stats_before.drawn, settings.samples);
     let wall = Segment { from: [0.0, 0.0], to: [12.0, 0.0] };
     let plan = FloorPlan::new(vec![wall; FloorPlan::MAX_WALLS], [0.0, 0.0, 12.0, 9.0]).expect("a valid plan");
     simulation.set_plan(plan);
-    assert!(simulation.tally().accepted > tally_before.accepted, "the other walls are gone");
+    assert!(simulation.stats().accepted > stats_before.accepted, "the other walls are gone");
 }
 
 #[wasm_bindgen_test]

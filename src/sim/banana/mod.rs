@@ -1,6 +1,5 @@
 //! The Banana Machine: samples of the end pose after one command from the origin.
 
-mod gaps;
 mod settings;
 mod stats;
 

@@ -40,10 +40,13 @@ settings! {
         model: ModelKind = ModelKind::Velocity;
         /// Distribution of the noise; the variances are the same.
         noise: NoiseKind = NoiseKind::Normal;
+        // A straight drive with much noise in the turn and little in the length: the clearest banana shape. By symmetry its cloud has no
+        // skew, although no ellipse fits it.
         /// Command of all robots.
-        command: VelocityCmd = BANANA_PRESET.command;
+        command: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.0, dt: 2.0 };
         /// Noise parameters of the present model: six of the velocity model, four of the odometry model.
-        alphas, by alphas_mut, in ALPHA_RANGE;
+        alphas, by alphas_mut, in ALPHA_RANGE,
+            each "Noise parameter of the present model; only the velocity model has the fifth and the sixth.";
         /// True if a drive in reverse gets noise for the rotations that the robot made, and not for two additional half turns.
         reverse_aware as "reverseAware": bool = false;
         /// Number of the only noise parameter in effect; null for all of them.
@@ -54,20 +57,12 @@ settings! {
         seed: u64 = INITIAL_SEED, in 0..=MAX_SEED;
         kept {
             /// Noise parameters of the velocity model. Each model keeps its own, so that switching between models loses none.
-            velocity_alphas: [f64; 6] = BANANA_PRESET.alphas;
+            velocity_alphas: [f64; 6] = [0.002, 0.002, 0.1, 0.1, 0.002, 0.002];
             /// Noise parameters of the odometry model.
             odometry_alphas: [f64; 4] = [0.05, 0.05, 0.05, 0.05];
         }
     }
 }
-
-/// Descriptions of the attributes `alpha1`, `alpha2`, …, for build/settings.js.
-#[cfg(widget = "declarations")]
-pub const ALPHA_SENTENCES: [&str; 6] = {
-    let (present_model, velocity_model) =
-        ("Noise parameter of the present model.", "Noise parameter of the velocity model.");
-    [present_model, present_model, present_model, present_model, velocity_model, velocity_model]
-};
 
 impl Settings {
     /// Returns the α's of the present model as set, whether isolated or not.
@@ -98,6 +93,16 @@ impl Settings {
 }
 
 impl Rules for Settings {
+    /// The four commands of the chapter, the clearest banana shape, and the chapter's example to check by hand.
+    const PRESETS: &'static [(&'static str, Self)] = &[
+        ("straight", preset([1.0, 0.0, 2.0], TYPICAL_ALPHAS)),
+        ("gentle", preset([1.0, 0.5, 1.0], TYPICAL_ALPHAS)),
+        ("hard", preset([1.0, 1.2, 1.4], TYPICAL_ALPHAS)),
+        ("pivot", preset([0.06, 1.5, 1.0], TYPICAL_ALPHAS)),
+        ("banana", Self::DEFAULT),
+        ("worked", preset([1.0, 0.5, 1.0], [0.02, 0.02, 0.02, 0.02, 0.0, 0.0])),
+    ];
+
     fn adjust(&mut self, previous: &Self, changed_keys: &[&str]) {
         // An α of the same number has another meaning in the other model.
         if self.model != previous.model && !changed_keys.contains(&"isolate") {
@@ -106,34 +111,9 @@ impl Rules for Settings {
     }
 }
 
-/// Command of a preset, with its noise.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Preset {
-    /// Name in attributes and states.
-    pub name: &'static str,
-    /// Command of every robot.
-    pub command: VelocityCmd,
-    /// Noise parameters of the velocity model.
-    pub alphas: [f64; 6],
-}
-
-const fn preset(name: &'static str, [v, omega, dt]: [f64; 3], alphas: [f64; 6]) -> Preset {
-    Preset { name, command: VelocityCmd { v, omega, dt }, alphas }
-}
-
 /// Noise parameters of presets that differ in the command.
 const TYPICAL_ALPHAS: [f64; 6] = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01];
 
-/// Straight drive with much noise in the turn and little in the length: the clearest banana shape. By symmetry its cloud has
-/// no skew, although no ellipse fits it.
-const BANANA_PRESET: Preset = preset("banana", [1.0, 0.0, 2.0], [0.002, 0.002, 0.1, 0.1, 0.002, 0.002]);
-
-/// Presets: the four commands of the chapter, the clearest banana shape, and the chapter's example to check by hand.
-pub const PRESETS: [Preset; 6] = [
-    preset("straight", [1.0, 0.0, 2.0], TYPICAL_ALPHAS),
-    preset("gentle", [1.0, 0.5, 1.0], TYPICAL_ALPHAS),
-    preset("hard", [1.0, 1.2, 1.4], TYPICAL_ALPHAS),
-    preset("pivot", [0.06, 1.5, 1.0], TYPICAL_ALPHAS),
-    BANANA_PRESET,
-    preset("worked", [1.0, 0.5, 1.0], [0.02, 0.02, 0.02, 0.02, 0.0, 0.0]),
-];
+const fn preset([v, omega, dt]: [f64; 3], velocity_alphas: [f64; 6]) -> Settings {
+    Settings { command: VelocityCmd { v, omega, dt }, velocity_alphas, ..Settings::DEFAULT }
+}

@@ -2,24 +2,22 @@
 
 mod rollouts;
 mod settings;
-mod stats;
-mod straight;
 
 pub use rollouts::{MAX_SHOWN_ROBOTS, MeasuredMoments};
 pub use settings::*;
-pub use stats::{Comparison, MISS_TOLERANCE, Misses, RECURSIONS};
-pub use straight::StraightGrowth;
 
 use super::cloud::views::nearest_index;
 use super::cloud_simulation::cloud_simulation;
 use super::settings::{AllowedValues, Rules, SettingsError};
 use crate::geom::se2::SE2;
 use crate::js::js_structs;
-use crate::models::{Compounding, TangentNoiseModel};
-use crate::stats::{Ellipse, ExponentialContour, ExponentialMoments};
+use crate::models::{
+    Compounding, TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel, covariance_root,
+};
+use crate::noise::NoiseKind;
+use crate::stats::{Ellipse, ExactMoments, ExponentialContour, ExponentialMoments};
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 use rollouts::{ROLLOUTS_PER_BLOCK, Rollouts};
-use stats::propagate_covariances;
 
 /// Number of chords of an outline. With fewer, corners would be visible; more would be shorter than a pixel.
 const OUTLINE_SEGMENTS: usize = 96;
@@ -89,6 +87,15 @@ js_structs! {
         /// Outline of the robots' covariance in (ξ along, ξ lateral), m.
         pub measured: Vec<[f64; 2]> as "Float64Array",
     }
+
+    /// Robots and outlines after a step.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Milestone {
+        /// x, y (m) and θ (rad) of the robots in the picture.
+        pub poses: Vec<[f64; 3]> as "Float64Array",
+        /// Outlines by the selected recursion.
+        pub outlines: Outlines,
+    }
 }
 
 cloud_simulation!(DeadReckoning);
@@ -156,12 +163,12 @@ impl DeadReckoning {
 
     /// Returns the covariance that a recursion predicts after each step; None from the step on at which it is undefined.
     pub fn predicted_covariances(&self, order: Compounding) -> &[Option<Matrix3<f64>>] {
-        &self.predicted_covariances[index_of_recursion(order)]
+        &self.predicted_covariances[order as usize]
     }
 
     /// Returns the comparison of a recursion with the robots.
     pub fn comparison(&self, order: Compounding) -> &Comparison {
-        &self.comparisons[index_of_recursion(order)]
+        &self.comparisons[order as usize]
     }
 
     /// Returns the commanded pose after each step.
@@ -209,9 +216,31 @@ impl DeadReckoning {
         }
     }
 
-    /// Returns the variances of a straight drive as functions of its duration, with the noise of the current settings.
+    /// Returns the variances of a straight drive as functions of its duration (exercise 2), with the speed and noise of the current settings.
+    /// Each duration is one command.
     pub fn straight_growth(&self) -> StraightGrowth {
-        StraightGrowth::new(&self.settings)
+        let Settings { command: VelocityCmd { v, .. }, alphas, .. } = self.settings;
+        let [alpha1, _, alpha3, ..] = alphas;
+        let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal };
+        let [first, last] = LOG10_DURATIONS_IN_TENTHS;
+        let durations: Vec<f64> = (first..=last).map(|i| libm::pow(10.0, f64::from(i) / 10.0)).collect();
+        let exact_variances = durations.iter().map(|dt| {
+            let cov = ExactMoments::of_velocity(&model, &VelocityCmd { v, omega: 0.0, dt: *dt }).cov;
+            (cov[(0, 0)], cov[(1, 1)])
+        });
+        let (along, across) = exact_variances.unzip();
+        let crossing_time = 2.0 / v.abs() * (alpha1 / alpha3).sqrt();
+        StraightGrowth {
+            along,
+            across,
+            along_first_order: durations.iter().map(|dt| alpha1 * v * v * dt * dt).collect(),
+            // An arc of length vΔt that turns by a small φ ends ½vΔt·φ to the side.
+            across_first_order: (durations.iter())
+                .map(|dt| alpha3 * v * v * dt * dt * (0.5 * v * dt) * (0.5 * v * dt))
+                .collect(),
+            durations,
+            crossing: (crossing_time.is_finite() && crossing_time > 0.0).then_some(crossing_time),
+        }
     }
 
     /// Returns the noise-free path of the command, as x, y pairs from the start.
@@ -232,6 +261,18 @@ impl DeadReckoning {
     pub fn outlines(&self, step: u32) -> Option<Outlines> {
         let Settings { steps, compounding, .. } = self.settings;
         (1..=steps).contains(&step).then(|| self.outlines_at_index(step as usize - 1, compounding))
+    }
+
+    /// Returns the milestones after each quarter of the path, except at the selected step. A path of fewer than four steps has fewer.
+    pub fn milestones(&self) -> Vec<Milestone> {
+        let Settings { step: selected_step, steps, .. } = self.settings;
+        let mut quarter_ends: Vec<u32> =
+            (1..=4).map(|quarter| ((f64::from(quarter * steps) / 4.0).round() as u32).max(1)).collect();
+        quarter_ends.dedup();
+        quarter_ends.retain(|step| *step != selected_step);
+        let milestone_after =
+            |step| Some(Milestone { poses: self.poses(step).to_vec(), outlines: self.outlines(step)? });
+        quarter_ends.into_iter().filter_map(milestone_after).collect()
     }
 
     fn outlines_at_index(&self, index: usize, compounding: Compounding) -> Outlines {
@@ -268,10 +309,128 @@ fn evaluate_recursions<T>(of: impl Fn(Compounding) -> T) -> ByRecursion<T> {
     ByRecursion { chapter, first_order, fourth_order }
 }
 
-fn index_of_recursion(order: Compounding) -> usize {
-    RECURSIONS.iter().position(|recursion| *recursion == order).unwrap_or_default()
-}
-
 fn xi_ellipse_outline(mean: &Vector3<f64>, cov: &Matrix3<f64>) -> Vec<[f64; 2]> {
     Ellipse::new(mean.xy(), cov.fixed_view::<2, 2>(0, 0).into_owned()).boundary(OUTLINE_SEGMENTS)
+}
+
+/// Recursions that are compared, in the order in which they are listed.
+pub const RECURSIONS: [Compounding; 3] =
+    [Compounding::Chapter, Compounding::FirstOrder, Compounding::FourthOrder];
+
+/// Relative error of a variance above which a step counts as a miss.
+pub const MISS_TOLERANCE: f64 = 0.05;
+
+/// Maximum relative standard error at which rollouts can establish a miss, a quarter of the tolerance. Of dozens of ratios
+/// some are off by three standard errors by chance, but hardly any by four.
+const MAX_STANDARD_ERROR: f64 = MISS_TOLERANCE / 4.0;
+
+/// Standard deviation below which a spread is only rounding. It is relative to the path, or in radians.
+const NEGLIGIBLE_STD: f64 = 1e-12;
+
+/// Comparison of a recursion with the robots.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Comparison {
+    /// Predicted divided by measured variance of along, lateral and heading after each step; NaN if one of them is undefined.
+    pub ratios: Vec<Vector3<f64>>,
+    /// Steps at which the prediction is off, for along, lateral and heading.
+    pub misses: [Misses; 3],
+}
+
+js_structs! {
+    /// Misses: steps at which the ratio of one component is off by more than 5 % ([`MISS_TOLERANCE`]).
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Misses {
+        /// True if there is a spread, and enough robots to decide whether a step is a miss.
+        pub decidable: bool,
+        /// First step with a miss; null (None) if there is none, or if that cannot be decided.
+        pub first: Option<u32>,
+        /// Last step with a miss.
+        pub last: Option<u32>,
+        /// Predicted over measured variance after the last step, minus 1; NaN without a prediction or a measured spread.
+        pub end: f64,
+        /// Standard error of `end`.
+        pub error: f64,
+    }
+}
+
+impl Comparison {
+    /// Compares predicted covariances after each step with those measured. `None` stands for a step at which
+    /// the recursion has no covariance, because its matrix is indefinite.
+    fn new(settings: &Settings, covs: &[Option<Matrix3<f64>>], measured: &[MeasuredMoments]) -> Self {
+        let u = &settings.command;
+        let negligible_length = NEGLIGIBLE_STD * (u.v * u.dt).abs() * f64::from(settings.steps);
+        let negligible_stds = [negligible_length, negligible_length, NEGLIGIBLE_STD];
+        let ratio_of = |cov: Option<Matrix3<f64>>, measured: &MeasuredMoments| {
+            Vector3::from_fn(|i, _| {
+                let variance = measured.cov[(i, i)];
+                let has_spread = variance > negligible_stds[i] * negligible_stds[i];
+                cov.filter(|_| has_spread).map_or(f64::NAN, |cov| cov[(i, i)] / variance)
+            })
+        };
+        let ratios: Vec<_> =
+            covs.iter().zip(measured).map(|(cov, measured)| ratio_of(*cov, measured)).collect();
+        let misses = std::array::from_fn(|axis| misses_of(&ratios, measured, axis));
+        Self { ratios, misses }
+    }
+}
+
+/// Returns the covariance of ξ after each step from a known start, by a recursion; the first is that of step 1. It is None
+/// from the step on at which the fourth-order terms make the matrix indefinite.
+fn propagate_covariances(settings: &Settings, order: Compounding) -> Vec<Option<Matrix3<f64>>> {
+    let twist = TangentNoiseModel::twist(&settings.command);
+    // All allowed settings have finite variances of 0 or more.
+    let tangent_noise = TangentNoiseModel::from_velocity(&settings.model(), &settings.command).ok();
+    let mut covariance = Some(Matrix3::zeros());
+    (0..settings.steps)
+        .map(|_| {
+            covariance = covariance
+                .zip(tangent_noise)
+                .map(|(sigma, noise)| noise.propagate(&sigma, &twist, order))
+                .filter(|next| covariance_root(next).is_ok());
+            covariance
+        })
+        .collect()
+}
+
+fn misses_of(ratios: &[Vector3<f64>], measured: &[MeasuredMoments], axis: usize) -> Misses {
+    let defined_ratios =
+        || ratios.iter().map(|ratio| ratio[axis]).zip(measured).filter(|(ratio, _)| !ratio.is_nan());
+    let is_decidable = defined_ratios().next().is_some()
+        && defined_ratios().all(|(_, measured)| measured.relative_error[axis] <= MAX_STANDARD_ERROR);
+    let is_miss = |ratio: &Vector3<f64>| is_decidable && (ratio[axis] - 1.0).abs() > MISS_TOLERANCE;
+    let step_number = |index: usize| index as u32 + 1;
+    let [end, error] = match (ratios.last(), measured.last()) {
+        (Some(ratio), Some(measured)) => [ratio[axis] - 1.0, ratio[axis] * measured.relative_error[axis]],
+        _ => [f64::NAN; 2],
+    };
+    Misses {
+        decidable: is_decidable,
+        first: ratios.iter().position(is_miss).map(step_number),
+        last: ratios.iter().rposition(is_miss).map(step_number),
+        end,
+        error,
+    }
+}
+
+/// Decimal logarithms of the first and last duration, in tenths: 0.1 s to 10 s. Crossings at common settings are in this
+/// range. Smaller steps would not make the curves look smoother.
+const LOG10_DURATIONS_IN_TENTHS: [i32; 2] = [-10, 10];
+
+js_structs! {
+    /// Variances of one straight command by its duration.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct StraightGrowth {
+        /// Δt (s) at even steps of its logarithm.
+        pub durations: Vec<f64> as "Float64Array",
+        /// Exact variances along the track, m².
+        pub along: Vec<f64> as "Float64Array",
+        /// Exact variances across the track, m².
+        pub across: Vec<f64> as "Float64Array",
+        /// Variances along the track to first order in the noise, m²: α₁v²Δt².
+        pub along_first_order: Vec<f64> as "Float64Array",
+        /// Variances across the track to first order in the noise, m²: ¼α₃v⁴Δt⁴.
+        pub across_first_order: Vec<f64> as "Float64Array",
+        /// Duration (s) at which both first-order variances are equal: (2/|v|)·√(α₁/α₃). Null (None) if they never are.
+        pub crossing: Option<f64>,
+    }
 }

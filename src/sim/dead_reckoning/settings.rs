@@ -42,7 +42,8 @@ settings! {
         /// Number of the selected step.
         step: u32 = 20, in 1..=MAX_STEPS;
         /// Noise parameters, the six of the velocity model.
-        alphas: [f64; 6] = [0.02, 0.02, 0.02, 0.02, 0.005, 0.005], in ALPHA_RANGE;
+        alphas: [f64; 6] = [0.02, 0.02, 0.02, 0.02, 0.005, 0.005], in ALPHA_RANGE,
+            each "Noise parameter of the velocity model.";
         /// Level h of the heading noise: α₃ and α₄ are h, α₅ and α₆ are h/4. Null if they have other ratios.
         heading_noise as "headingNoise", by heading_noise_level_mut of alphas, in ALPHA_RANGE;
         /// Motion to which the noise parameters apply: each step, or the whole path. Each of n steps then has 1/n of its variance.
@@ -55,10 +56,6 @@ settings! {
         seed: u64 = INITIAL_SEED, in 0..=MAX_SEED;
     }
 }
-
-/// Descriptions of the attributes `alpha1`, `alpha2`, …, for build/settings.js.
-#[cfg(widget = "declarations")]
-pub const ALPHA_SENTENCES: [&str; 6] = ["Noise parameter of the velocity model."; 6];
 
 impl Settings {
     fn heading_noise_level_mut(&mut self) -> NoiseLevel<'_> {
@@ -98,6 +95,15 @@ impl Settings {
 }
 
 impl Rules for Settings {
+    /// The first is the chapter's path of twenty steps, and the second doubles the standard deviation of its heading (exercise 7). The
+    /// third divides the path into two hundred steps, in each of which J_r is nearly 1. The fourth leads straight ahead.
+    const PRESETS: &'static [(&'static str, Self)] = &[
+        ("chapter", Self::DEFAULT),
+        ("doubled", path([1.0, 0.5, 0.2], 20, 0.08)),
+        ("fine", path([1.0, 0.5, 0.02], 200, 0.02)),
+        ("straight", path([1.0, 0.0, 0.2], 20, 0.02)),
+    ];
+
     /// Selects the last step if the path has become shorter than the selected one.
     fn adjust(&mut self, _: &Self, changed_keys: &[&str]) {
         if !changed_keys.contains(&"step") {
@@ -110,37 +116,13 @@ impl Rules for Settings {
     }
 }
 
-/// Named settings of the path.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Preset {
-    /// Name in attributes and states.
-    pub name: &'static str,
-    /// Command of each step.
-    pub command: VelocityCmd,
-    /// Number of steps.
-    pub steps: u32,
-    /// Number of the selected step, which is the last one.
-    pub step: u32,
-    /// Noise parameters of each step.
-    pub alphas: [f64; 6],
-}
-
-/// Presets. The first is the chapter's path of twenty steps, and the second doubles the standard deviation of its heading (exercise 7).
-/// The third divides the path into two hundred steps, in each of which J_r is nearly 1. The fourth leads straight ahead.
-pub const PRESETS: [Preset; 4] = [
-    preset("chapter", [1.0, 0.5, 0.2], 20, 0.02),
-    preset("doubled", [1.0, 0.5, 0.2], 20, 0.08),
-    preset("fine", [1.0, 0.5, 0.02], 200, 0.02),
-    preset("straight", [1.0, 0.0, 0.2], 20, 0.02),
-];
-
-const fn preset(name: &'static str, [v, omega, dt]: [f64; 3], steps: u32, heading: f64) -> Preset {
-    let [h, last_turn] = [heading, heading / 4.0];
-    Preset {
-        name,
+const fn path([v, omega, dt]: [f64; 3], steps: u32, heading_noise: f64) -> Settings {
+    let [h, last_turn] = [heading_noise, heading_noise / 4.0];
+    Settings {
         command: VelocityCmd { v, omega, dt },
         steps,
         step: steps,
         alphas: [0.02, 0.02, h, h, last_turn, last_turn],
+        ..Settings::DEFAULT
     }
 }

@@ -1,32 +1,28 @@
 //! Map Squeeze: motion conditioned on a floor plan, and paths through walls that the condition misses.
 
-mod driver;
-mod picture;
 mod settings;
-mod tally;
 
 pub use super::noise_level::alphas_of_noise_level;
-pub use driver::{ACCEPTED_BIT, Attempt, END_FREE_BIT, PATH_FREE_BIT};
-pub use picture::OUTCOME_KIND_COUNT;
 pub use settings::*;
-pub use tally::{Stats, Tally};
 
 use super::cloud::draws::Draws;
-use super::cloud::picture::Ramp;
+use super::cloud::picture::{Ramp, ramp_step};
 use super::cloud::views::{Grid, nearest_index};
 use super::cloud_simulation::cloud_simulation;
 use super::settings::{AllowedValues, Rules, SettingsError};
 use crate::geom::arc::Arc;
+use crate::geom::lanes::LANE_COUNT;
 use crate::geom::se2::SE2;
+use crate::js::js_structs;
 use crate::map::{
-    Cost, FloorPlan, FloorPlanError, MAX_DRAWS, MapConditioned, NoAcceptedSample, OccupancyGrid, Sampler,
+    AcceptedMotion, CollisionTester, Cost, FloorPlan, FloorPlanError, MAX_DRAWS, MapConditioned,
+    NoAcceptedSample, OccupancyGrid, Sampler,
 };
 use crate::models::{VelocityAlphas, VelocityCmd, VelocityModel};
 use crate::noise::NoiseKind;
-use driver::Driver;
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
-use tally::ratio;
+use std::ops::Range;
 
 /// Maximum number of parts of motions in a timing trial: accepted samples times the parts of each. A longer trial would block
 /// the page.
@@ -38,12 +34,21 @@ pub struct MapSqueeze {
     plan: FloorPlan,
     settings: Settings,
     draws: Draws,
-    /// Attempts that are shown, with the number of each outcome.
+    /// Attempts that are shown.
     attempts: Vec<Attempt>,
     tally: Tally,
-    gave_up: bool,
     /// Latest picture. The page reads it in place.
     picture: Vec<[u8; 4]>,
+}
+
+/// Counts for the attempts shown.
+#[derive(Clone, Copy, Debug, Default)]
+struct Tally {
+    cost: Cost,
+    accepted: usize,
+    through_wall: usize,
+    /// True if the simulation stopped before it had all samples.
+    gave_up: bool,
 }
 
 /// Average number of draws for a part of a motion at which the simulation gives up: an acceptance of 5 %. With a smaller
@@ -63,7 +68,6 @@ impl MapSqueeze {
             draws: Draws::new(settings.seed, NoiseKind::Normal),
             attempts: Vec::new(),
             tally: Tally::default(),
-            gave_up: false,
             picture: Vec::new(),
         };
         simulation.reserve_memory(&settings)?;
@@ -86,7 +90,7 @@ impl MapSqueeze {
     /// number if the simulation had given up.
     pub fn set_plan(&mut self, plan: FloorPlan) {
         self.plan = plan;
-        let attempt_count = if self.has_given_up() { self.settings.samples } else { self.shown_count() };
+        let attempt_count = if self.tally.gave_up { self.settings.samples } else { self.shown_count() };
         self.clear_attempts();
         self.add_samples(attempt_count);
     }
@@ -129,7 +133,7 @@ impl MapSqueeze {
 
     fn clear_attempts(&mut self) {
         self.attempts.clear();
-        (self.tally, self.gave_up) = (Tally::default(), false);
+        self.tally = Tally::default();
     }
 
     /// Makes attempts up to a number. If nearly every draw collides, the simulation gives up, and further calls make none.
@@ -137,18 +141,17 @@ impl MapSqueeze {
         self.draws.reset_if_changed(self.settings.seed, NoiseKind::Normal);
         self.draws.extend_to(target_count);
         let part_count = self.settings.part_count() as usize;
-        let Self { plan, settings, draws, attempts, tally, gave_up, .. } = self;
+        let Self { plan, settings, draws, attempts, tally, .. } = self;
         let model = conditioned_model(settings, plan, settings.sampler);
         let driver = Driver::new(&model, settings, draws);
-        while attempts.len() < target_count && !*gave_up {
+        while attempts.len() < target_count && !tally.gave_up {
             driver.make_next_attempts(attempts.len()..target_count, |attempt, cost| {
-                tally.draws += cost.draws;
-                tally.wall_tests += cost.wall_tests;
+                tally.cost.add(cost);
                 tally.accepted += usize::from(attempt.accepted);
                 tally.through_wall += usize::from(attempt.is_through_wall());
                 attempts.push(attempt);
             });
-            *gave_up = tally.draws > max_draws(part_count * attempts.len());
+            tally.gave_up = tally.cost.draws > max_draws(part_count * attempts.len());
         }
     }
 
@@ -167,30 +170,23 @@ impl MapSqueeze {
         self.attempts.len()
     }
 
-    /// Returns the counts over the attempts that are shown.
-    pub fn tally(&self) -> &Tally {
-        &self.tally
-    }
-
-    /// Returns true if the simulation stopped short of its samples because too few draws were accepted.
-    pub fn has_given_up(&self) -> bool {
-        self.gave_up
-    }
-
     /// Returns the statistics of the attempts shown.
     pub fn stats(&self) -> Stats {
-        let tally = &self.tally;
+        let Tally { cost, accepted, through_wall, gave_up } = self.tally;
+        // NaN for 0/0, and infinity for another number over 0.
+        let ratio = |count: usize, total: usize| count as f64 / total as f64;
         Stats {
             attempts: self.attempts.len(),
-            drawn: tally.draws,
-            accepted: tally.accepted,
-            acceptance_rate: tally.acceptance_rate(self.settings.part_count()),
-            through_wall: tally.through_wall,
-            through_wall_rate: tally.through_wall_rate(),
-            through_wall_interval: tally.through_wall_interval(),
-            draws_per_accepted: ratio(tally.draws, tally.accepted),
-            wall_tests_per_accepted: ratio(tally.wall_tests, tally.accepted),
-            gave_up: self.gave_up,
+            drawn: cost.draws,
+            accepted,
+            // In an accepted attempt of k parts, k draws were accepted.
+            acceptance_rate: ratio(accepted * self.settings.part_count() as usize, cost.draws),
+            through_wall,
+            through_wall_rate: ratio(through_wall, accepted),
+            through_wall_interval: wilson_interval(through_wall, accepted),
+            draws_per_accepted: ratio(cost.draws, accepted),
+            wall_tests_per_accepted: ratio(cost.wall_tests, accepted),
+            gave_up,
         }
     }
 
@@ -198,7 +194,7 @@ impl MapSqueeze {
     /// attempt in a cell selects the ramp. The colour is ramp[255·√(count/max_count)], where `count` is the number of attempts in
     /// the cell and `max_count` the largest count of all cells. Empty cells are transparent.
     pub fn paint(&mut self, grid: &Grid, ramps: &[Ramp; OUTCOME_KIND_COUNT]) -> &[[u8; 4]] {
-        self.picture = picture::paint_attempts(&self.attempts, grid, ramps);
+        self.picture = paint_attempts(&self.attempts, grid, ramps);
         &self.picture
     }
 
@@ -228,8 +224,7 @@ impl MapSqueeze {
         let part_count = sampler.part_count() as usize * count;
         for _ in 0..count {
             let cost = model.sampling_cost(&self.settings.command, &self.settings.start(), &mut rng)?;
-            total_cost.draws += cost.draws;
-            total_cost.wall_tests += cost.wall_tests;
+            total_cost.add(cost);
             if total_cost.draws > max_draws(part_count) {
                 return Err(NoAcceptedSample(total_cost));
             }
@@ -263,4 +258,181 @@ pub fn max_draws(parts: usize) -> usize {
 fn conditioned_model<'a>(settings: &Settings, plan: &'a FloorPlan, sampler: Sampler) -> MapConditioned<'a> {
     let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise: NoiseKind::Normal };
     MapConditioned { model, plan, clearance: settings.clearance, sampler }
+}
+
+js_structs! {
+    /// Statistics of the attempts shown. Fractions of 0 attempts are NaN. Costs per accepted attempt are infinite if none is
+    /// accepted.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Stats as "SqueezeStats" {
+        /// Number of attempts.
+        pub attempts: usize,
+        /// Draws of the model; for the sub-stepped sampler, of its shorter motions.
+        pub drawn: usize,
+        /// Number of accepted attempts.
+        pub accepted: usize,
+        /// Fraction of accepted draws.
+        pub acceptance_rate: f64,
+        /// Number of attempts accepted although the path was blocked.
+        pub through_wall: usize,
+        /// Fraction of accepted attempts whose path was blocked.
+        pub through_wall_rate: f64,
+        /// 95 % interval of the fraction through a wall.
+        pub through_wall_interval: [f64; 2],
+        /// Draws per accepted attempt.
+        pub draws_per_accepted: f64,
+        /// Walls whose distance was computed, per accepted attempt.
+        pub wall_tests_per_accepted: f64,
+        /// True if the simulation stopped before it had all samples, because too few draws were accepted.
+        pub gave_up: bool,
+    }
+}
+
+/// Returns the 95 % interval of the fraction of which `count` in `total` were observed (Wilson, 1927), which is also valid at 0 and 1.
+pub fn wilson_interval(count: usize, total: usize) -> [f64; 2] {
+    let n = total as f64;
+    let p = count as f64 / n;
+    // 97.5 % quantile of the normal distribution. `quantile` takes the probability above the median.
+    let z = NoiseKind::Normal.quantile(0.475);
+    let (middle, scale) = (p + z * z / (2.0 * n), 1.0 + z * z / n);
+    let half_width = z * (p * (1.0 - p) / n + z * z / (4.0 * n * n)).sqrt();
+    // The interval of a fraction of 0 begins at exactly 0, and that of a fraction of 1 ends at exactly 1, despite rounding.
+    let lower = if count == 0 { 0.0 } else { (middle - half_width) / scale };
+    let upper = if count == total { 1.0 } else { (middle + half_width) / scale };
+    if n > 0.0 { [lower, upper] } else { [0.0, 1.0] }
+}
+
+/// Number of kinds of outcomes, each with a ramp: rejected, accepted with a free path, and accepted through a wall.
+pub const OUTCOME_KIND_COUNT: usize = 3;
+
+/// Outcome of one attempt.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Attempt {
+    /// Pose at the end of the motion.
+    pub pose: SE2,
+    /// True if the sampler accepts the motion.
+    pub accepted: bool,
+    /// True if the robot collides with nothing at its end pose.
+    pub end_free: bool,
+    /// True if the robot collides with nothing along the whole path.
+    pub path_free: bool,
+}
+
+/// Bit of [`Attempt::verdict_bits`] for a free end pose.
+pub const END_FREE_BIT: u8 = 1;
+/// Bit of [`Attempt::verdict_bits`] for a free path.
+pub const PATH_FREE_BIT: u8 = 2;
+/// Bit of [`Attempt::verdict_bits`] for an accepted attempt.
+pub const ACCEPTED_BIT: u8 = 4;
+
+impl Attempt {
+    /// Returns the outcome as the bits [`END_FREE_BIT`], [`PATH_FREE_BIT`] and [`ACCEPTED_BIT`].
+    pub fn verdict_bits(&self) -> u8 {
+        END_FREE_BIT * u8::from(self.end_free)
+            + PATH_FREE_BIT * u8::from(self.path_free)
+            + ACCEPTED_BIT * u8::from(self.accepted)
+    }
+
+    /// Returns the index of the attempt's kind of outcome.
+    pub fn outcome_kind(&self) -> usize {
+        usize::from(self.accepted) + usize::from(self.is_through_wall())
+    }
+
+    /// Returns true if the attempt is accepted although its path is not free.
+    pub fn is_through_wall(&self) -> bool {
+        self.accepted && !self.path_free
+    }
+}
+
+/// Driver that makes attempts, each from its own noise.
+struct Driver<'a> {
+    model: &'a MapConditioned<'a>,
+    collision_tester: CollisionTester<'a>,
+    settings: &'a Settings,
+    draws: &'a Draws,
+}
+
+impl<'a> Driver<'a> {
+    fn new(model: &'a MapConditioned, settings: &'a Settings, draws: &'a Draws) -> Self {
+        Self {
+            model,
+            collision_tester: model.collision_tester(&settings.command, &settings.start()),
+            settings,
+            draws,
+        }
+    }
+
+    /// Makes attempts from the start of `indices`: up to four, in the lanes of a SIMD vector, or one with the sub-stepped sampler.
+    #[inline(always)]
+    fn make_next_attempts(&self, indices: Range<usize>, mut visit: impl FnMut(Attempt, Cost)) {
+        if let Sampler::SubStepped(_) = self.settings.sampler {
+            let (attempt, cost) = self.drive_parts(indices.start, &mut |_| ());
+            return visit(attempt, cost);
+        }
+        let conditioned = self.settings.conditioned;
+        let (group, first_lane) = (indices.start / LANE_COUNT, indices.start % LANE_COUNT);
+        let lane_range = first_lane..LANE_COUNT.min(first_lane + indices.len());
+        self.collision_tester.test_lanes(&self.draws.unit_noise[group], lane_range, |draw| {
+            let deciding_verdict = self.model.deciding_verdict(&draw);
+            let attempt = Attempt {
+                pose: draw.pose,
+                accepted: !conditioned || deciding_verdict.free,
+                end_free: draw.end_verdict.free,
+                path_free: draw.path_verdict.free,
+            };
+            let wall_tests = if conditioned { deciding_verdict.wall_tests } else { 0 };
+            visit(attempt, Cost { draws: 1, wall_tests });
+        });
+    }
+
+    /// Returns the arcs that are driven in an attempt.
+    fn arcs(&self, index: usize) -> Vec<Arc> {
+        let mut arcs = Vec::new();
+        match self.settings.sampler {
+            Sampler::SubStepped(_) => _ = self.drive_parts(index, &mut |arc| arcs.push(*arc)),
+            _ => arcs.push(self.collision_tester.arc(self.draws.noise_of_sample(index))),
+        }
+        arcs
+    }
+
+    fn drive_parts(&self, index: usize, visit_arc: &mut dyn FnMut(&Arc)) -> (Attempt, Cost) {
+        let Settings { command, conditioned, seed, .. } = *self.settings;
+        let start = self.settings.start();
+        // The walls determine how many random numbers an attempt uses. Each attempt has its own stream, so that the
+        // others do not change.
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed ^ (index as u64).rotate_left(32));
+        match self.model.sample_with_arcs(&command, &start, &mut rng, conditioned, visit_arc) {
+            Ok(AcceptedMotion { pose, end_free, path_free, cost }) => {
+                (Attempt { pose, accepted: true, end_free, path_free }, cost)
+            }
+            Err(NoAcceptedSample(cost)) => {
+                (Attempt { pose: start, accepted: false, end_free: false, path_free: false }, cost)
+            }
+        }
+    }
+}
+
+/// Paints the ends of attempts, row by row from the top. If several kinds are equally frequent in a cell, the last one is drawn.
+fn paint_attempts(attempts: &[Attempt], grid: &Grid, ramps: &[Ramp; OUTCOME_KIND_COUNT]) -> Vec<[u8; 4]> {
+    let (Grid { min, max, .. }, per_metre) = (*grid, grid.cells_per_unit());
+    let mut cell_counts = vec![[0u32; OUTCOME_KIND_COUNT]; grid.columns * grid.rows];
+    for attempt in attempts {
+        let column = ((attempt.pose.x() - min[0]) * per_metre[0]).floor();
+        let row = ((max[1] - attempt.pose.y()) * per_metre[1]).floor();
+        if let Some(cell) = grid.cell_index(column, row) {
+            cell_counts[cell][attempt.outcome_kind()] += 1;
+        }
+    }
+    let total_count = |counts: &[u32; OUTCOME_KIND_COUNT]| counts.iter().sum::<u32>();
+    let highest_count = cell_counts.iter().map(total_count).max().unwrap_or(0);
+    let cell_colour = |counts: &[u32; OUTCOME_KIND_COUNT]| {
+        let attempt_count = total_count(counts);
+        let most_frequent_kind = (0..OUTCOME_KIND_COUNT).max_by_key(|kind| counts[*kind]).unwrap_or(0);
+        if attempt_count == 0 {
+            [0; 4]
+        } else {
+            ramps[most_frequent_kind][ramp_step(attempt_count, highest_count)]
+        }
+    };
+    cell_counts.iter().map(cell_colour).collect()
 }

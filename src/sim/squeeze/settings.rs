@@ -4,9 +4,7 @@ use crate::geom::se2::SE2;
 use crate::map::{Sampler, UnknownCells};
 use crate::models::VelocityCmd;
 use crate::sim::noise_level::{NoiseLevel, alphas_of_noise_level};
-use crate::sim::settings::{
-    ALPHA_RANGE, Keywords, MAX_SEED, QUANTITY_RANGE, Rules, SettingsError, check_integer, group, settings,
-};
+use crate::sim::settings::{ALPHA_RANGE, Keywords, MAX_SEED, Rules, SettingsError, check_integer, settings};
 use std::f64::consts::FRAC_PI_2;
 
 impl Keywords for Sampler {
@@ -22,18 +20,8 @@ impl Keywords for UnknownCells {
     const KEYWORDS: &'static [(&'static str, Self)] = &[("free", Self::Free), ("blocked", Self::Blocked)];
 }
 
-group!([f64; 3] as [x, y, theta] => {
-    /// Position at which the robot starts.
-    x: "m", in QUANTITY_RANGE;
-    /// Position at which the robot starts.
-    y: "m", in QUANTITY_RANGE;
-    /// Heading of the robot at the start.
-    theta: "rad", in QUANTITY_RANGE;
-});
-
-/// Start poses x, y (m) and θ (rad) of the presets in the apartment.
-pub const PRESETS: [(&str, [f64; 3]); 3] =
-    [("doorway", [2.05, 2.6, FRAC_PI_2]), ("wall", [3.3, 2.6, FRAC_PI_2]), ("corridor", [1.4, 4.4, 0.0])];
+/// Start pose x, y (m) and θ (rad) in front of a doorway of the apartment.
+const DOORWAY: [f64; 3] = [2.05, 2.6, FRAC_PI_2];
 
 /// Maximum number of attempts, which take 56 MB, and some seconds in a difficult map.
 pub const MAX_SAMPLES: usize = 1_000_000;
@@ -45,7 +33,7 @@ settings! {
     /// Settings of the user, except for the map.
     pub struct Settings {
         /// Start pose of the robot.
-        start: [f64; 3] = PRESETS[0].1;
+        start: [f64; 3] = DOORWAY, each "at which the robot starts";
         /// Command of all attempts.
         command: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.0, dt: 2.0 };
         /// Noise parameters, the six of the velocity model.
@@ -91,6 +79,12 @@ impl Settings {
 }
 
 impl Rules for Settings {
+    const PRESETS: &'static [(&'static str, Self)] = &[
+        ("doorway", Self::DEFAULT),
+        ("wall", Self { start: [3.3, 2.6, FRAC_PI_2], ..Self::DEFAULT }),
+        ("corridor", Self { start: [1.4, 4.4, 0.0], ..Self::DEFAULT }),
+    ];
+
     /// Copies the setting `steps` into the sub-stepped sampler. Other samplers leave it unchanged.
     fn adjust(&mut self, _: &Self, _: &[&str]) {
         self.sampler = self.sampler.with_part_count(self.steps);

@@ -6,7 +6,7 @@ pub mod text;
 
 use motion::NoiseKind;
 use motion::geom::se2::{SE2, wrap_angle};
-use motion::sim::banana::{PRESETS, Settings};
+use motion::sim::settings::Rules;
 use nalgebra::{Matrix3, Vector3};
 use rand::{Rng, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
@@ -56,10 +56,9 @@ pub fn derivative_by_noise(noise: [f64; 3], apply: impl Fn([f64; 3]) -> SE2) -> 
     }))
 }
 
-/// Returns the settings of the Banana Machine with one of its presets.
-pub fn settings_of_preset(name: &str) -> Settings {
-    let preset = PRESETS.iter().find(|preset| preset.name == name).expect("a preset of that name");
-    Settings { command: preset.command, velocity_alphas: preset.alphas, ..Settings::default() }
+/// Returns the settings of a preset.
+pub fn settings_of_preset<S: Rules>(name: &str) -> S {
+    S::PRESETS.iter().find(|preset| preset.0 == name).expect("a preset of that name").1
 }
 
 /// Returns true if a closed outline winds around a point.

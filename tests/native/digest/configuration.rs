@@ -29,8 +29,15 @@ pub fn configurations_of(document: &Value) -> impl Iterator<Item = Configuration
 }
 
 impl Configuration<'_> {
-    /// Returns the defaults with the settings of the configuration.
-    pub fn settings<S: Rules>(&self, defaults: S) -> S {
+    /// Returns the preset on which the configuration is based, or the defaults, with the settings of the configuration.
+    pub fn settings<S: Rules>(&self) -> S {
+        let preset_name = self.value.get("preset").map(|name| name.as_str().expect("a name"));
+        let is_named = |(name, _): &&(&str, S)| preset_name == Some(*name);
+        let defaults = match S::PRESETS.iter().find(is_named) {
+            Some((_, settings)) => *settings,
+            None if preset_name.is_none() => S::default(),
+            None => panic!("{preset_name:?} is no preset"),
+        };
         let given_settings = self.value["settings"].as_object().expect("settings");
         let unknown_key = given_settings.keys().find(|key| !S::KEYS.contains(&key.as_str()));
         assert!(unknown_key.is_none(), "{}/{} has {unknown_key:?}", self.widget, self.name);
@@ -43,12 +50,6 @@ impl Configuration<'_> {
         });
         settings.adjust(&defaults, &given_keys);
         settings
-    }
-
-    /// Returns the preset on which the configuration is based.
-    pub fn preset<'a, P>(&self, presets: &'a [P], name: impl Fn(&'a P) -> &'a str) -> Option<&'a P> {
-        let preset_name = self.value.get("preset")?;
-        Some(presets.iter().find(|preset| preset_name == name(preset)).expect("a preset of that name"))
     }
 
     pub fn grid(&self) -> Grid {
@@ -78,8 +79,8 @@ fn set_from_json(setting: Setting, value: &Value) {
         }
         Setting::Level(mut slot, _) => slot.set(number_of(value)),
         Setting::Group(group) => {
-            for (i, field) in group.fields().iter().enumerate() {
-                *group.number_mut(i) = number_of(&value[field.declaration.key]);
+            for (field, number) in group.fields().iter().zip(group.numbers_mut()) {
+                *number = number_of(&value[field.declaration.key]);
             }
         }
     }

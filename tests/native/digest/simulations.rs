@@ -6,22 +6,17 @@ use motion::calibrate::{Estimate, Recommendation, SystematicError};
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
 use motion::map::{Cell, FloorPlan, Interpretation, MapMode, OccupancyGrid, read_pgm};
+use motion::sim::View;
 use motion::sim::alpha_calibrator::AlphaCalibrator;
 use motion::sim::banana::{BananaMachine, TableColumn};
 use motion::sim::dead_reckoning::{DeadReckoning, Misses, RECURSIONS};
 use motion::sim::squeeze::{Attempt, MapSqueeze};
-use motion::sim::{View, alpha_calibrator, banana, dead_reckoning, squeeze};
 use motion::stats::LikelihoodGain;
 use nalgebra::Vector3;
 use serde_json::Value;
 
 pub fn banana_machine(configuration: &Configuration) -> Vec<HashedPart> {
-    let mut default_settings = banana::Settings::default();
-    if let Some(preset) = configuration.preset(&banana::PRESETS, |preset| preset.name) {
-        default_settings.command = preset.command;
-    }
-    let mut simulation =
-        BananaMachine::new(configuration.settings(default_settings)).expect("a valid setting");
+    let mut simulation = BananaMachine::new(configuration.settings()).expect("a valid setting");
     let (reading, contours, table) = (simulation.reading(), simulation.contours(), simulation.table());
     let stats = *simulation.stats();
     let gain_fields = |gain: LikelihoodGain| (gain.pose, gain.floor);
@@ -70,11 +65,7 @@ pub fn banana_machine(configuration: &Configuration) -> Vec<HashedPart> {
 }
 
 pub fn map_squeeze(configuration: &Configuration) -> Vec<HashedPart> {
-    let mut defaults = squeeze::Settings::default();
-    if let Some((_, start)) = configuration.preset(&squeeze::PRESETS, |(name, _)| name) {
-        defaults.start = *start;
-    }
-    let mut simulation = MapSqueeze::new(configuration.settings(defaults)).expect("a valid setting");
+    let mut simulation = MapSqueeze::new(configuration.settings()).expect("a valid setting");
     if let Some(name) = configuration.value.get("map") {
         let map = &configuration.document["maps"][name.as_str().expect("a name")];
         match map.get("plan") {
@@ -117,11 +108,7 @@ pub fn map_squeeze(configuration: &Configuration) -> Vec<HashedPart> {
 }
 
 pub fn dead_reckoning(configuration: &Configuration) -> Vec<HashedPart> {
-    let mut defaults = dead_reckoning::Settings::default();
-    if let Some(preset) = configuration.preset(&dead_reckoning::PRESETS, |preset| preset.name) {
-        (defaults.command, defaults.steps, defaults.alphas) = (preset.command, preset.steps, preset.alphas);
-    }
-    let simulation = DeadReckoning::new(configuration.settings(defaults)).expect("a valid setting");
+    let simulation = DeadReckoning::new(configuration.settings()).expect("a valid setting");
     let (settings, stats) = (simulation.settings(), simulation.stats());
     let values_by_step = |value: &dyn Fn(usize) -> Vector3<f64>| -> Vec<f64> {
         (0..simulation.measured_moments().len()).flat_map(|k| <[f64; 3]>::from(value(k))).collect()
@@ -175,8 +162,7 @@ pub fn dead_reckoning(configuration: &Configuration) -> Vec<HashedPart> {
 }
 
 pub fn alpha_calibrator(configuration: &Configuration) -> Vec<HashedPart> {
-    let settings = configuration.settings(alpha_calibrator::Settings::default());
-    let simulation = AlphaCalibrator::new(settings).expect("a valid setting");
+    let simulation = AlphaCalibrator::new(configuration.settings()).expect("a valid setting");
     let calibration = simulation.calibration();
     let estimate_fields = |Estimate { value, interval }: &Estimate| (*value, *interval);
     let error_estimate = |error: SystematicError| {

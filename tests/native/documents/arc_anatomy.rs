@@ -1,14 +1,15 @@
 //! Numbers of Arc Anatomy on the page, compared with computed numbers.
 
 use super::page;
+use crate::common::settings_of_preset;
 use crate::common::text::PrintedNumber;
-use crate::simulations::arc_anatomy::{settings_of_preset, stats};
-use motion::sim::arc_anatomy::{ArcAnatomy, FinalPose, Settings, Stats, SurfaceKind};
+use crate::simulations::arc_anatomy::stats;
+use motion::sim::arc_anatomy::{ArcAnatomy, Settings, Stats, SurfaceKind};
 
 /// Returns settings with the final pose turned until the wedge disappears.
 fn without_wedge(settings: Settings) -> Settings {
     let arc_heading = stats(settings).driven.end[2];
-    Settings { next: FinalPose { theta: arc_heading, ..settings.next }, ..settings }
+    Settings { next: [settings.next[0], settings.next[1], arc_heading], ..settings }
 }
 
 #[test]

@@ -126,7 +126,7 @@ fn a_tenth_of_the_time_leaves_less_than_a_tenth_of_the_cloud() {
     page().assert_contains(
         "In a tenth of the time the cloud shrinks to less than a tenth, and the circle stays:",
     );
-    let long_drive_settings = settings_of_preset("gentle");
+    let long_drive_settings: Settings = settings_of_preset("gentle");
     let short_drive_settings = Settings {
         command: VelocityCmd { dt: long_drive_settings.command.dt / 10.0, ..long_drive_settings.command },
         ..long_drive_settings

@@ -1,16 +1,14 @@
 //! Numbers of Dead Reckoning on the page, compared with computed numbers.
 
 use super::{exercises_document, page};
-use crate::common::MAX_STANDARD_ERRORS;
 use crate::common::text::PrintedNumber;
+use crate::common::{MAX_STANDARD_ERRORS, settings_of_preset};
 use crate::simulations::dead_reckoning::simulation;
 use motion::Compounding;
-use motion::sim::dead_reckoning::{DeadReckoning, MISS_TOLERANCE, PRESETS, Preset, Settings};
+use motion::sim::dead_reckoning::{DeadReckoning, MISS_TOLERANCE, Settings};
 
 fn simulation_of_preset(name: &str) -> DeadReckoning {
-    let preset = PRESETS.iter().find(|preset| preset.name == name).expect("a preset of that name");
-    let Preset { command, steps, alphas, .. } = *preset;
-    simulation(Settings { command, steps, alphas, samples: 50_000, ..Settings::default() })
+    simulation(settings_of_preset(name))
 }
 
 /// Returns the predicted variances of an axis after each step, divided by those of the fourth order, which are accurate to a few

@@ -108,7 +108,7 @@ fn exercise_4_prints_the_effect_of_each_alpha() {
         let first_pose = simulation.poses().next();
         (simulation.table().exact, simulation.poses().all(|pose| Some(pose) == first_pose))
     };
-    let straight_command = settings_of_preset("straight").command;
+    let Settings { command: straight_command, .. } = settings_of_preset("straight");
     assert_eq!(straight_command.omega, 0.0);
     assert!([3, 5].iter().all(|i| exact_and_is_one_pose(*i, straight_command).1));
     let turning_command = VelocityCmd { omega: 0.5, ..straight_command };

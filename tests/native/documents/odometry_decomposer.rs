@@ -1,9 +1,10 @@
 //! Numbers of the Odometry Decomposer on the page, and of the noise rules in doc/model.md, compared with computed numbers.
 
 use super::{model_document, page};
-use crate::simulations::odometry_decomposer::{settings_of_preset, simulation};
+use crate::common::settings_of_preset;
+use crate::simulations::odometry_decomposer::simulation;
 use motion::models::OdometryRule::{self, Beluga, Nav2, Omni, Table};
-use motion::sim::odometry_decomposer::{OdometryPose, RuleNoise, Settings};
+use motion::sim::odometry_decomposer::{RuleNoise, Settings};
 
 fn rule_noise(settings: Settings, rule: OdometryRule) -> RuleNoise {
     simulation(settings).rule_noises().into_iter().find(|noise| noise.rule == rule).expect("all rules")
@@ -19,8 +20,8 @@ fn the_lever_grows_faster_than_the_drive() {
     let stats = simulation(settings).stats();
     printed_rot1_std.assert_near(rule_noise(settings, Table).deviations[0], 0.0);
     printed_lateral_std.assert_near(stats.exact_cross_track, 0.0);
-    let OdometryPose([x, y, theta]) = settings.to;
-    let long_drive_settings = Settings { to: OdometryPose([2.0 * x, 2.0 * y, theta]), ..settings };
+    let [x, y, theta] = settings.to;
+    let long_drive_settings = Settings { to: [2.0 * x, 2.0 * y, theta], ..settings };
     printed_growth.assert_near(
         simulation(long_drive_settings).stats().exact_cross_track / stats.exact_cross_track,
         0.0,
@@ -78,8 +79,8 @@ fn encoders_at_rest_are_noisy_by_the_table_alone() {
     let [printed_heading_std] =
         page().sentence_numbers("the heading of a robot that has not moved is uncertain by ± # rad,");
     page().assert_contains("The encoders have jittered by half a centimetre.");
-    let settings_at_rest = settings_of_preset("rest");
-    assert_eq!((1000.0 * settings_at_rest.to.0[0].hypot(settings_at_rest.to.0[1])).round(), 5.0);
-    let stats = simulation(settings_at_rest).stats();
+    let [x, y, _] = settings_of_preset::<Settings>("rest").to;
+    assert_eq!((1000.0 * x.hypot(y)).round(), 5.0);
+    let stats = simulation(settings_of_preset("rest")).stats();
     printed_heading_std.assert_near(stats.exact_heading, 0.0);
 }

@@ -7,7 +7,8 @@ use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::map::{FloorPlan, MapConditioned, Sampler};
 use motion::noise::draw_centred_uniform;
-use motion::sim::squeeze::{MapSqueeze, PRESETS, Settings, alphas_of_noise_level};
+use motion::sim::settings::Rules;
+use motion::sim::squeeze::{MapSqueeze, Settings, alphas_of_noise_level};
 use motion::{NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
 
 /// Indices in `PRESETS` of the starts at the doorway, at the wall and in the corridor.
@@ -20,7 +21,15 @@ fn settings(preset: usize, sampler: Sampler, omega: f64) -> Settings {
     let command = VelocityCmd { omega, ..Settings::default().command };
     let steps = sampler.part_count();
     let samples = 100_000.min(800_000 / steps as usize);
-    Settings { start: PRESETS[preset].1, sampler, steps, command, samples, seed: 3, ..Settings::default() }
+    Settings {
+        start: Settings::PRESETS[preset].1.start,
+        sampler,
+        steps,
+        command,
+        samples,
+        seed: 3,
+        ..Settings::default()
+    }
 }
 
 fn simulation(settings: Settings) -> MapSqueeze {
@@ -30,8 +39,8 @@ fn simulation(settings: Settings) -> MapSqueeze {
 /// Returns the fraction of accepted samples whose path crosses a wall, and its standard error.
 fn fraction_through_wall(settings: Settings) -> (f64, f64) {
     let simulation = simulation(settings);
-    assert!(!simulation.has_given_up(), "{settings:?}");
-    let (fraction, count) = (simulation.tally().through_wall_rate(), simulation.tally().accepted as f64);
+    assert!(!simulation.stats().gave_up, "{settings:?}");
+    let (fraction, count) = (simulation.stats().through_wall_rate, simulation.stats().accepted as f64);
     // A fraction of 0 would have a standard error of 0. The error of one sample through the wall is used instead.
     (fraction, ((fraction * (1.0 - fraction)).max(1.0 / count) / count).sqrt())
 }
@@ -147,11 +156,11 @@ fn more_substeps_facing_the_wall_send_more_samples_through_it() {
         "From 16 parts on hardly one is long enough to jump, and the robot stands wedged before the wall.",
     );
     assert_eq!(printed_wedged_parts.value, 16.0);
-    assert!(!simulation(settings(WALL_PRESET, Sampler::SubStepped(12), 0.0)).has_given_up());
+    assert!(!simulation(settings(WALL_PRESET, Sampler::SubStepped(12), 0.0)).stats().gave_up);
     for parts in [16, 24, 32, 64] {
         for samples in [600, 10_000] {
             let settings = Settings { samples, ..settings(WALL_PRESET, Sampler::SubStepped(parts), 0.0) };
-            assert!(simulation(settings).has_given_up(), "{parts} parts");
+            assert!(simulation(settings).stats().gave_up, "{parts} parts");
         }
     }
 }
@@ -166,7 +175,7 @@ fn testing_the_geodesic_changes_the_documented_fraction_of_verdicts() {
     );
     assert_eq!(max_percent.value, doorway_max.value);
     let plan = FloorPlan::apartment();
-    for (place, [x, y, theta]) in PRESETS {
+    for &(place, Settings { start: [x, y, theta], .. }) in Settings::PRESETS {
         let start_pose = SE2::new(x, y, theta);
         for (n, omega) in [(0.12, 0.0), (0.12, 0.5), (0.12, 1.0), (0.2, 0.0), (0.2, 0.5), (0.2, 1.0)] {
             let model =

@@ -1,12 +1,13 @@
 //! Motion conditioned on a map: the fractions that the chapter publishes, and the three samplers.
 
-use crate::common::{MAX_STANDARD_ERRORS, seeded_rng};
+use crate::common::{MAX_STANDARD_ERRORS, seeded_rng, settings_of_preset};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
 use motion::map::{FloorPlan, MAX_DRAWS, MapConditioned, Sampler};
 use motion::noise::draw_centred_uniform;
-use motion::sim::squeeze::{PRESETS, alphas_of_noise_level};
+use motion::sim::settings::Rules;
+use motion::sim::squeeze::{Settings, alphas_of_noise_level};
 use motion::{MotionModel, NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
@@ -22,7 +23,7 @@ fn conditioned_model(plan: &FloorPlan, sampler: Sampler) -> MapConditioned<'_> {
 }
 
 fn start_of_preset(name: &str) -> SE2 {
-    let (_, [x, y, theta]) = PRESETS.into_iter().find(|preset| preset.0 == name).expect("a preset");
+    let [x, y, theta] = settings_of_preset::<Settings>(name).start;
     SE2::new(x, y, theta)
 }
 
@@ -79,7 +80,7 @@ fn samples_are_those_of_table_5_7() {
     let plan = FloorPlan::apartment();
     let command = VelocityCmd { omega: 0.2, ..STRAIGHT_COMMAND };
     for sampler in [Sampler::Endpoint, Sampler::WholeArc] {
-        for (name, _) in PRESETS {
+        for (name, _) in Settings::PRESETS {
             let (start_pose, conditioned) = (start_of_preset(name), conditioned_model(&plan, sampler));
             let (mut rng, mut expected_rng) = (seeded_rng(9), seeded_rng(9));
             for _ in 0..1000 {

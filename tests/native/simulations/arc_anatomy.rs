@@ -1,8 +1,8 @@
 //! The simulation of Arc Anatomy: inverted arcs are compared with the printed table, the model, and numeric derivatives.
 
-use crate::common::{NOISE_KINDS, draw_uniform, seeded_rng};
+use crate::common::{NOISE_KINDS, draw_uniform, seeded_rng, settings_of_preset};
 use motion::geom::se2::{SE2, wrap_angle};
-use motion::sim::arc_anatomy::{ArcAnatomy, FinalPose, PRESETS, Settings, Stats};
+use motion::sim::arc_anatomy::{ArcAnatomy, Settings, Stats};
 use motion::{MotionModel, NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
 use std::f64::consts::PI;
 
@@ -14,15 +14,8 @@ pub fn stats(settings: Settings) -> Stats {
     simulation(settings).stats()
 }
 
-pub fn settings_of_preset(name: &str) -> Settings {
-    let preset = PRESETS.iter().find(|preset| preset.name == name).expect("a preset of that name");
-    Settings { command: preset.command, next: preset.next, ..Settings::default() }
-}
-
 fn start_and_next_pose(settings: &Settings) -> (SE2, SE2) {
-    let [x, y, theta] = settings.start;
-    let FinalPose { x: next_x, y: next_y, theta: next_theta } = settings.next;
-    (SE2::new(x, y, theta), SE2::new(next_x, next_y, next_theta))
+    (settings.start.into(), settings.next.into())
 }
 
 /// Returns an infinite stream of settings, each with two random poses some metres apart and a random command.
@@ -31,11 +24,7 @@ fn random_settings(seed: u64) -> impl Iterator<Item = Settings> {
     std::iter::repeat_with(move || {
         let mut draw_uniform_up_to = |limit: f64| draw_uniform(&mut rng, -limit, limit);
         let start = [draw_uniform_up_to(3.0), draw_uniform_up_to(3.0), draw_uniform_up_to(PI)];
-        let next = FinalPose {
-            x: draw_uniform_up_to(3.0),
-            y: draw_uniform_up_to(3.0),
-            theta: draw_uniform_up_to(PI),
-        };
+        let next = [draw_uniform_up_to(3.0), draw_uniform_up_to(3.0), draw_uniform_up_to(PI)];
         let command = VelocityCmd {
             v: draw_uniform_up_to(1.5),
             omega: draw_uniform_up_to(2.0),
@@ -150,7 +139,7 @@ fn without_noise_a_residual_is_zero_or_infinite() {
     let Stats { factors, prob, share, density, weakest, .. } = stats(settings);
     assert_eq!(factors.map(|factor| factor.deviations), [f64::NEG_INFINITY, 0.0, f64::INFINITY]);
     assert_eq!((prob, share, density, weakest), (0.0, 0.0, None, 0));
-    let arc_end = FinalPose { x: 1.0, y: 0.0, theta: 0.0 };
+    let arc_end = [1.0, 0.0, 0.0];
     let Stats { factors, prob, share, .. } = stats(Settings { next: arc_end, ..settings });
     assert_eq!(factors.map(|factor| factor.deviations), [0.0; 3]);
     assert_eq!((prob, share), (1.0, 1.0));
@@ -184,7 +173,7 @@ fn a_last_turn_gives_the_twist_a_lateral_velocity() {
         }
         // Without the last turn the lateral component of the twist is 0.
         let Stats { driven, .. } = simulation.stats();
-        let next_without_last_turn = FinalPose { theta: driven.end[2], ..settings.next };
+        let next_without_last_turn = [settings.next[0], settings.next[1], driven.end[2]];
         let xi = stats(Settings { next: next_without_last_turn, ..settings }).xi;
         assert!(xi[1].abs() < 1e-12 * (1.0 + xi[0].abs()), "{xi:?}");
     }
@@ -192,22 +181,21 @@ fn a_last_turn_gives_the_twist_a_lateral_velocity() {
 
 #[test]
 fn straight_motion_has_no_centre_and_no_motion_has_no_arc() {
-    let settings = Settings { next: FinalPose { x: 2.0, y: 0.0, theta: 0.0 }, ..Settings::default() };
+    let settings = Settings { next: [2.0, 0.0, 0.0], ..Settings::default() };
     let simulation = simulation(settings);
     let Stats { inverted, factors, .. } = simulation.stats();
     assert_eq!((inverted.centre, inverted.radius, inverted.turn), (None, f64::INFINITY, 0.0));
     assert_eq!(factors[0].estimate, 2.0);
     let [mu, x, y, radius, turn, v, ..] = simulation.table().lines;
     assert!([mu, x, y, radius].iter().all(|line| line.is_infinite()) && turn == 0.0 && v == 2.0);
-    let tiny_motion = FinalPose { x: f64::from_bits(1), y: 0.0, theta: 0.0 };
+    let tiny_motion = [f64::from_bits(1), 0.0, 0.0];
     let simulation_with_tiny_motion =
         ArcAnatomy::new(Settings { next: tiny_motion, ..settings }).expect("valid settings");
     assert!(simulation_with_tiny_motion.table().lines[0].is_infinite());
-    let backward_stats =
-        stats(Settings { next: FinalPose { x: -2.0, y: 0.0, theta: 0.0 }, printed: true, ..settings });
+    let backward_stats = stats(Settings { next: [-2.0, 0.0, 0.0], printed: true, ..settings });
     assert_eq!(backward_stats.factors[0].estimate, -2.0);
     assert!(backward_stats.factors[1].estimate.to_bits() == 0, "a turn of −0");
-    let settings_on_the_spot = Settings { next: FinalPose { x: 0.0, y: 0.0, theta: 0.7 }, ..settings };
+    let settings_on_the_spot = Settings { next: [0.0, 0.0, 0.7], ..settings };
     let Stats { factors, density, xi, .. } = stats(settings_on_the_spot);
     assert_eq!(factors.map(|factor| factor.estimate), [0.0, 0.7, 0.0]);
     assert_eq!((density, xi), (Some(f64::INFINITY), [0.0, 0.0, 0.7]));

@@ -4,9 +4,7 @@ use crate::common::{MAX_STANDARD_ERRORS, NOISE_KINDS, pose_distance, seeded_rng,
 use motion::geom::lanes::MAX_SIN_COS_ERROR;
 use motion::geom::se2::SE2;
 use motion::sim::View;
-use motion::sim::banana::{
-    ADDITIVE_DEVIATION, BananaMachine, ModelKind, PRESETS, Sample, Settings, command_reaching,
-};
+use motion::sim::banana::{ADDITIVE_DEVIATION, BananaMachine, ModelKind, Sample, Settings, command_reaching};
 use motion::stats::ExponentialMoments;
 use motion::{
     ConfiguredOdometry, MotionModel, OdomAlphas, OdomDelta, OdometryModel, VelocityAlphas, VelocityCmd,
@@ -183,8 +181,11 @@ fn long_turns_stay_on_the_branch_of_the_command() {
 
 #[test]
 fn isolating_an_alpha_sets_the_others_to_zero() {
-    let straight_settings =
-        Settings { command: PRESETS[0].command, samples: 1000, ..settings_of_preset("gentle") };
+    let straight_settings = Settings {
+        command: settings_of_preset::<Settings>("straight").command,
+        samples: 1000,
+        ..settings_of_preset("gentle")
+    };
     let commanded_end = SE2::new(2.0, 0.0, 0.0);
     let simulate_isolated = |alpha| simulation(Settings { isolate: Some(alpha), ..straight_settings });
     for alpha in [4, 6] {

@@ -1,8 +1,8 @@
 //! The simulation of Dead Reckoning. Rollouts are compared with poses of the models, and statistics with simple sums.
 
-use crate::common::seeded_rng;
+use crate::common::{seeded_rng, settings_of_preset};
 use motion::geom::se2::SE2;
-use motion::sim::dead_reckoning::{DeadReckoning, NoisePer, PRESETS, RECURSIONS, Settings};
+use motion::sim::dead_reckoning::{DeadReckoning, NoisePer, RECURSIONS, Settings};
 use motion::{Compounding, NoiseKind, TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel};
 use nalgebra::{Matrix3, Vector3};
 
@@ -299,7 +299,11 @@ fn noise_of_the_whole_path_is_divided_among_its_steps() {
 #[test]
 fn the_level_of_heading_noise_is_that_of_four_alphas() {
     assert_eq!(Settings::default().heading_noise(), Some(0.02));
-    assert_eq!(Settings { alphas: PRESETS[1].alphas, ..settings_with_robots(1) }.heading_noise(), Some(0.08));
+    assert_eq!(
+        Settings { alphas: settings_of_preset::<Settings>("doubled").alphas, ..settings_with_robots(1) }
+            .heading_noise(),
+        Some(0.08)
+    );
     assert_eq!(
         Settings { alphas: [0.02, 0.02, 0.02, 0.02, 0.005, 0.0], ..settings_with_robots(1) }.heading_noise(),
         None
@@ -326,6 +330,18 @@ fn outlines_are_two_standard_deviations_from_the_commanded_pose() {
     let first_outlines =
         DeadReckoning::new(settings_with_robots(300)).expect("valid settings").outlines(1).expect("a step");
     assert!(first_outlines.predicted.iter().all(|[_, lateral]| *lateral == 0.0));
+}
+
+#[test]
+fn milestones_are_the_quarters_of_the_path_but_not_the_selected_step() {
+    let milestone_steps = |steps: u32, step: u32| {
+        let simulation = simulation(Settings { steps, step, ..settings_with_robots(20) });
+        let step_of = |poses: &[[f64; 3]]| (1..=steps).find(|step| simulation.poses(*step) == poses);
+        simulation.milestones().iter().map(|milestone| step_of(&milestone.poses)).collect::<Vec<_>>()
+    };
+    assert_eq!(milestone_steps(20, 20), [5, 10, 15].map(Some));
+    assert_eq!(milestone_steps(20, 5), [10, 15, 20].map(Some));
+    assert_eq!(milestone_steps(2, 1), [Some(2)]);
 }
 
 #[test]

@@ -1,25 +1,20 @@
 //! The simulation of the Odometry Decomposer: common random numbers, poses of the legs, drift of the odometry frame, and deviation curve.
 
-use crate::common::{NOISE_KINDS, pose_distance, seeded_rng};
+use crate::common::{NOISE_KINDS, pose_distance, seeded_rng, settings_of_preset};
 use motion::models::OdometryRule;
-use motion::sim::odometry_decomposer::{OdometryDecomposer, OdometryPose, PRESETS, Settings};
+use motion::sim::odometry_decomposer::{OdometryDecomposer, Settings};
+use motion::sim::settings::Rules;
 use motion::{MotionModel, OdomAlphas, OdometryModel};
 
 pub fn simulation(settings: Settings) -> OdometryDecomposer {
     OdometryDecomposer::new(settings).expect("a valid setting")
 }
 
-pub fn settings_of_preset(name: &str) -> Settings {
-    let preset = PRESETS.iter().find(|preset| preset.name == name).expect("a preset of that name");
-    Settings { from: preset.from, to: preset.to, ..Settings::default() }
-}
-
 /// With the rule of Table 5.6 the outcomes equal samples of `OdometryModel` with the same seed.
 #[test]
 fn the_outcomes_equal_samples_of_the_model() {
     for noise in NOISE_KINDS {
-        let settings =
-            Settings { from: OdometryPose([0.5, -1.0, 2.0]), noise, samples: 1001, ..Settings::default() };
+        let settings = Settings { from: [0.5, -1.0, 2.0], noise, samples: 1001, ..Settings::default() };
         let simulation = simulation(settings);
         let [a1, a2, a3, a4, _] = settings.alphas;
         let model = OdometryModel { alphas: OdomAlphas([a1, a2, a3, a4]), noise };
@@ -55,9 +50,9 @@ fn changed_settings_move_the_same_outcomes() {
 
 #[test]
 fn the_leg_poses_follow_the_legs_of_the_reading() {
-    for preset in PRESETS {
+    for (name, preset) in Settings::PRESETS {
         for rule in OdometryRule::ALL {
-            let simulation = simulation(Settings { rule, ..settings_of_preset(preset.name) });
+            let simulation = simulation(Settings { rule, ..*preset });
             let [start_pose, pose_after_rot1, pose_after_drive, final_pose] = simulation.leg_poses();
             let legs = simulation.legs();
             assert_eq!(start_pose, preset.from.into());
@@ -72,7 +67,7 @@ fn the_leg_poses_follow_the_legs_of_the_reading() {
                 [pose_after_drive.x(), pose_after_drive.y(), pose_after_drive.theta()],
                 [final_pose.x(), final_pose.y(), pose_after_rot1.theta()]
             );
-            assert!(pose_distance(&final_pose, &preset.to.into()) < 0.01, "{} by {rule:?}", preset.name);
+            assert!(pose_distance(&final_pose, &preset.to.into()) < 0.01, "{name} by {rule:?}");
             let robot_pose_at = |phase| {
                 let settings = Settings { phase, ..*simulation.settings() };
                 OdometryDecomposer::new(settings).expect("a valid setting").robot_pose()

@@ -4,7 +4,7 @@ use crate::common::settings_of_preset;
 use motion::sim::View;
 use motion::sim::banana::{BananaMachine, Settings};
 use motion::sim::picture::{RAMP_STEP_COUNT, Ramp};
-use motion::sim::squeeze::{self, MapSqueeze, OUTCOME_KIND_COUNT, PRESETS};
+use motion::sim::squeeze::{self, MapSqueeze, OUTCOME_KIND_COUNT};
 use motion::sim::views::Grid;
 
 /// Returns grids over the middle of a cloud, so that samples are outside on every side. Painting skips sixteen empty cells at once. One grid
@@ -66,7 +66,7 @@ fn pixels_show_the_density_of_the_cloud() {
 #[test]
 fn cells_have_the_colour_of_their_most_frequent_outcome() {
     // The robot faces a wall. The sampler tests only end poses, and therefore accepts many attempts that end behind the wall.
-    let (_, start) = PRESETS[1];
+    let start = settings_of_preset::<squeeze::Settings>("wall").start;
     let settings = squeeze::Settings { start, samples: 3000, ..squeeze::Settings::default() };
     let mut simulation = MapSqueeze::new(settings).expect("a valid setting");
     let mut painted_cell_counts = [0; OUTCOME_KIND_COUNT];

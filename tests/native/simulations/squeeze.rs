@@ -5,7 +5,7 @@ use crate::map::conditioned::{SAMPLERS, STRAIGHT_COMMAND, too_small_room};
 use motion::geom::se2::SE2;
 use motion::map::{FloorPlan, MAX_DRAWS, MapConditioned, Sampler};
 use motion::sim::settings::Rules;
-use motion::sim::squeeze::{MapSqueeze, Settings, Tally};
+use motion::sim::squeeze::{MapSqueeze, Settings, wilson_interval};
 use motion::{NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
 
 fn simulation(settings: Settings) -> MapSqueeze {
@@ -18,11 +18,11 @@ fn poses(simulation: &MapSqueeze) -> Vec<SE2> {
 
 /// Returns all results of a simulation as text.
 fn results_as_text(simulation: &MapSqueeze) -> String {
-    let (settings, tally) = (simulation.settings(), simulation.tally());
+    let (settings, stats) = (simulation.settings(), simulation.stats());
     format!(
-        "{settings:?} {:?} {tally:?} {} {:?}",
+        "{settings:?} {:?} {stats:?} {} {:?}",
         simulation.attempts(),
-        simulation.has_given_up(),
+        simulation.stats().gave_up,
         simulation.plan().walls()
     )
 }
@@ -44,7 +44,7 @@ fn changed_samplers_and_maps_move_no_sample() {
         (poses(&simulation), attempt_verdicts(&simulation)),
         (poses_before.clone(), verdicts_before.clone())
     );
-    assert_eq!(simulation.tally().through_wall, 0);
+    assert_eq!(simulation.stats().through_wall, 0);
     for sampler in [Sampler::Endpoint, Sampler::WholeArc] {
         simulation.configure(Settings { conditioned: false, sampler, ..settings }).expect("valid");
         assert!(
@@ -52,12 +52,12 @@ fn changed_samplers_and_maps_move_no_sample() {
                 == (poses_before.clone(), verdicts_before.clone()),
             "{sampler:?}"
         );
-        assert_eq!(simulation.tally().accepted, 3000, "no attempt is rejected");
-        assert_eq!((simulation.tally().draws, simulation.tally().wall_tests), (3000, 0));
+        assert_eq!(simulation.stats().accepted, 3000, "no attempt is rejected");
+        assert_eq!((simulation.stats().drawn, simulation.stats().wall_tests_per_accepted), (3000, 0.0));
     }
     simulation.set_plan(too_small_room());
     assert_eq!(poses(&simulation), poses_before);
-    assert_eq!(simulation.tally().through_wall, 3000);
+    assert_eq!(simulation.stats().through_wall, 3000);
     simulation.set_plan(FloorPlan::apartment());
     simulation.configure(settings).expect("valid");
     assert_eq!(results_as_text(&simulation), results_before, "and back again to the bit");
@@ -76,11 +76,11 @@ fn only_rejected_parts_move_samples() {
     assert!(poses(&simulation) == poses_in_open_field);
     simulation.set_plan(FloorPlan::apartment());
     assert!(poses(&simulation) == poses_in_open_field, "without conditioning walls have no effect");
-    let tally = simulation.tally();
-    assert_eq!((tally.accepted, tally.draws, tally.wall_tests), (500, 2000, 0));
+    let stats = simulation.stats();
+    assert_eq!((stats.accepted, stats.drawn, stats.wall_tests_per_accepted), (500, 2000, 0.0));
     simulation.configure(settings).expect("valid");
     let moved_count = poses(&simulation).iter().zip(&poses_in_open_field).filter(|(a, b)| a != b).count();
-    let rejected_count = simulation.tally().draws - 2000;
+    let rejected_count = simulation.stats().drawn - 2000;
     assert!(
         moved_count > 0 && moved_count <= rejected_count,
         "{moved_count} moved by {rejected_count} rejections"
@@ -91,15 +91,18 @@ fn only_rejected_parts_move_samples() {
 fn the_arcs_of_an_attempt_end_at_its_pose() {
     for sampler in SAMPLERS {
         let simulation = simulation(Settings { sampler, samples: 2000, ..Settings::default() });
-        let (tally, attempts) = (simulation.tally(), simulation.attempts());
+        let (stats, attempts) = (simulation.stats(), simulation.attempts());
         let part_count = if let Sampler::SubStepped(part_count) = sampler { part_count } else { 1 };
-        assert!(tally.draws >= attempts.len() * part_count as usize);
-        let acceptance_rate = tally.acceptance_rate(part_count);
+        assert!(stats.drawn >= attempts.len() * part_count as usize);
+        let acceptance_rate = stats.acceptance_rate;
         assert!(
-            (acceptance_rate - (tally.accepted * part_count as usize) as f64 / tally.draws as f64).abs()
+            (acceptance_rate - (stats.accepted * part_count as usize) as f64 / stats.drawn as f64).abs()
                 < 1e-15
         );
-        assert!(tally.wall_tests > 0 && acceptance_rate > 0.4 && acceptance_rate < 1.0, "{tally:?}");
+        assert!(
+            stats.wall_tests_per_accepted > 0.0 && acceptance_rate > 0.4 && acceptance_rate < 1.0,
+            "{stats:?}"
+        );
         for (index, attempt) in attempts.iter().enumerate().step_by(17) {
             let arcs = simulation.arcs(index);
             assert_eq!(arcs.len(), part_count as usize);
@@ -153,31 +156,31 @@ fn the_simulation_stops_after_a_bounded_number_of_draws() {
     let settings =
         Settings { start: [2.1, 2.1, 0.0], sampler: Sampler::SubStepped(4), ..Settings::default() };
     let mut simulation = simulation(settings);
-    assert!(!simulation.has_given_up());
+    assert!(!simulation.stats().gave_up);
     simulation.set_plan(too_small_room());
-    assert!(simulation.has_given_up());
-    let tally = *simulation.tally();
-    assert_eq!((tally.accepted, tally.through_wall), (0, 0));
-    assert!((MAX_DRAWS..=3 * MAX_DRAWS).contains(&tally.draws), "{tally:?}");
+    assert!(simulation.stats().gave_up);
+    let stats = simulation.stats();
+    assert_eq!((stats.accepted, stats.through_wall), (0, 0));
+    assert!((MAX_DRAWS..=3 * MAX_DRAWS).contains(&stats.drawn), "{stats:?}");
     let attempt_count = simulation.attempts().len();
     assert!((1..10).contains(&attempt_count));
     assert!(simulation.attempts().iter().all(|a| !(a.accepted || a.end_free || a.path_free)));
     assert_eq!(simulation.add_samples(100), attempt_count, "it stops for good");
-    assert_eq!(*simulation.tally(), tally);
+    assert_eq!(simulation.stats().drawn, stats.drawn);
     simulation.configure(Settings { sampler: Sampler::Endpoint, ..settings }).expect("valid");
-    assert!(!simulation.has_given_up());
-    assert_eq!((simulation.attempts().len(), simulation.tally().accepted), (600, 0));
-    assert_eq!(simulation.tally().acceptance_rate(1), 0.0);
-    assert!(simulation.tally().through_wall_rate().is_nan());
-    assert_eq!(simulation.tally().through_wall_interval(), [0.0, 1.0], "nothing is known");
+    assert!(!simulation.stats().gave_up);
+    assert_eq!((simulation.attempts().len(), simulation.stats().accepted), (600, 0));
+    assert_eq!(simulation.stats().acceptance_rate, 0.0);
+    assert!(simulation.stats().through_wall_rate.is_nan());
+    assert_eq!(simulation.stats().through_wall_interval, [0.0, 1.0], "nothing is known");
     for sampler in SAMPLERS {
         assert_eq!(simulation.sampling_trial(sampler, 10).expect_err("no room").0.draws, MAX_DRAWS);
     }
     simulation.configure(settings).expect("valid");
-    assert!(simulation.has_given_up());
+    assert!(simulation.stats().gave_up);
     simulation.set_plan(FloorPlan::apartment());
-    assert!(!simulation.has_given_up());
-    assert_eq!((simulation.attempts().len(), simulation.tally().accepted), (600, 600));
+    assert!(!simulation.stats().gave_up);
+    assert_eq!((simulation.attempts().len(), simulation.stats().accepted), (600, 600));
 }
 
 #[test]
@@ -216,14 +219,12 @@ fn the_interval_is_the_wilson_interval() {
     for (through_wall, accepted, low, high) in
         [(81, 263, 0.2553, 0.3662), (15, 148, 0.0624, 0.1605), (0, 20, 0.0, 0.1611), (1, 29, 0.0061, 0.1718)]
     {
-        let through_wall_interval =
-            Tally { accepted, through_wall, ..Tally::default() }.through_wall_interval();
+        let through_wall_interval = wilson_interval(through_wall, accepted);
         assert!(
             (through_wall_interval[0] - low).abs() < 5e-5 && (through_wall_interval[1] - high).abs() < 5e-5,
             "{through_wall_interval:?}"
         );
-        let complement_tally = Tally { accepted, through_wall: accepted - through_wall, ..Tally::default() };
-        let [rest_low, rest_high] = complement_tally.through_wall_interval();
+        let [rest_low, rest_high] = wilson_interval(accepted - through_wall, accepted);
         assert!(
             (rest_low + through_wall_interval[1] - 1.0).abs() < 1e-15
                 && (rest_high + through_wall_interval[0] - 1.0).abs() < 1e-15

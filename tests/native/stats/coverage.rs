@@ -5,7 +5,8 @@ use crate::common::{MAX_STANDARD_ERRORS, settings_of_preset};
 use motion::geom::se2::SE2;
 use motion::map::{FloorPlan, MapConditioned, Sampler};
 use motion::sim::banana::{BananaMachine, ModelKind, Settings};
-use motion::sim::squeeze::{self, MapSqueeze, PRESETS};
+use motion::sim::settings::Rules;
+use motion::sim::squeeze::{self, MapSqueeze};
 use motion::{NoiseKind, VelocityAlphas, VelocityModel};
 
 /// Number of seeds of each case. A fraction of 95 % then has a standard error of 0.2 %. The tolerance, 4.5 standard errors, is 1 %.
@@ -126,13 +127,13 @@ fn fraction_through_walls(settings: &squeeze::Settings) -> f64 {
 #[test]
 #[ignore = "nightly: thousands of clouds"]
 fn the_interval_of_the_fraction_through_walls_covers_95_percent() {
-    for (name, start) in PRESETS {
+    for &(name, squeeze::Settings { start, .. }) in squeeze::Settings::PRESETS {
         let settings = squeeze::Settings { start, ..squeeze::Settings::default() };
         let exact_fraction = fraction_through_walls(&settings);
         let mut simulation = MapSqueeze::new(settings).expect("valid settings");
         let [covered_fraction] = coverage_fractions(REPETITION_COUNT, |seed| {
             simulation.configure(squeeze::Settings { seed, ..settings }).expect("valid settings");
-            let [low, high] = simulation.tally().through_wall_interval();
+            let [low, high] = simulation.stats().through_wall_interval;
             [low <= exact_fraction && exact_fraction <= high]
         });
         assert_covered(&format!("{name}, exactly {exact_fraction}"), covered_fraction, REPETITION_COUNT);

@@ -4,7 +4,8 @@ use crate::common::{NOISE_KINDS, ReferenceTable, mean, variance};
 use crate::simulations::banana::check_varied_clouds;
 use motion::geom::arc::{arc_end, arc_with_turn_near};
 use motion::geom::se2::{SE2, wrap_angle};
-use motion::sim::banana::{BananaMachine, PRESETS, Preset, Settings, Stats};
+use motion::sim::banana::{BananaMachine, Settings, Stats};
+use motion::sim::settings::Rules;
 use motion::stats::{CartesianMoments, ExactGain};
 use motion::{VelocityAlphas, VelocityCmd, VelocityModel};
 use nalgebra::{DMatrix, DVector, Vector3};
@@ -151,7 +152,7 @@ fn exact_gains_match_the_references() {
 
 #[test]
 fn the_gain_on_the_floor_does_not_depend_on_the_last_turn() {
-    for Preset { command, .. } in PRESETS {
+    for &(_, Settings { command, .. }) in Settings::PRESETS {
         let floor_gains = |last_turn_alpha: f64| {
             let simulation =
                 simulation(command, [0.05, 0.05, 0.05, 0.09, last_turn_alpha, last_turn_alpha], 10_000);
@@ -206,7 +207,7 @@ fn the_area_ratio_is_that_of_the_drawn_outlines() {
 #[test]
 fn the_error_of_the_area_ratio_matches_its_deviation_over_clouds() {
     const CLOUD_COUNT: usize = 300;
-    for Preset { name, command, alphas } in PRESETS {
+    for &(name, Settings { command, velocity_alphas: alphas, .. }) in Settings::PRESETS {
         let stats_of_seed = |seed: usize| {
             let seed = seed as u64;
             let settings =
@@ -229,7 +230,7 @@ fn the_error_of_the_area_ratio_matches_its_deviation_over_clouds() {
 #[test]
 fn the_gain_is_infinite_if_only_exponential_coordinates_have_no_volume() {
     for noise in NOISE_KINDS {
-        for Preset { command, .. } in PRESETS {
+        for &(_, Settings { command, .. }) in Settings::PRESETS {
             for samples in [5, 2000, 30_000] {
                 let velocity_alphas = [0.05, 0.05, 0.05, 0.09, 0.0, 0.0];
                 let settings = Settings { command, velocity_alphas, noise, samples, ..Settings::default() };

@@ -77,7 +77,7 @@ fn contours_lie_at_the_levels_of_the_models() {
     let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise: NoiseKind::Normal };
     let origin = SE2::identity();
     let density_at_point = |[x, y]: [f64; 2], kind: SurfaceKind| {
-        let next_pose = SE2::new(x, y, settings.next.theta);
+        let next_pose = SE2::new(x, y, settings.next[2]);
         match kind {
             SurfaceKind::Prob => model.prob(&next_pose, &settings.command, &origin),
             _ => model.pose_density(&next_pose, &settings.command, &origin).expect("noise of full rank"),

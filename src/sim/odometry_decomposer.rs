@@ -1,17 +1,69 @@
 //! The Odometry Decomposer: an odometry reading as rotation, drive and rotation, and the effect of noise on these three legs.
 
-mod settings;
-
-pub use settings::*;
-
 use super::cloud::draws::Draws;
 use super::cloud::views::nearest_index;
 use super::cloud_simulation::cloud_simulation;
-use super::settings::{Rules, SettingsError};
+use super::settings::{ALPHA_RANGE, Keywords, MAX_SEED, Rules, SettingsError, settings};
 use crate::geom::se2::SE2;
 use crate::js::js_structs;
-use crate::models::{ExecutedLegs, LegVariances, OdomDelta, OdometryRule};
+use crate::models::{ExecutedLegs, LegVariances, OdomDelta, OdometryRule, RuleAlphas};
+use crate::noise::NoiseKind;
 use nalgebra::Vector3;
+
+impl Keywords for OdometryRule {
+    const KEYWORDS: &'static [(&'static str, Self)] =
+        &[("thrun", Self::Table), ("nav2", Self::Nav2), ("beluga", Self::Beluga), ("omni", Self::Omni)];
+}
+
+/// Maximum number of outcomes. All of them move within a frame, and more dots would not be distinguishable.
+pub const MAX_SAMPLES: u64 = 5000;
+
+settings! {
+    /// Settings of the user.
+    pub struct Settings {
+        /// Odometry pose before the motion.
+        from: [f64; 3] = [0.0; 3], each "that odometry reports";
+        // A drive in reverse, on which the rules disagree.
+        /// Odometry pose after the motion.
+        to: [f64; 3] = [-1.2, -0.3, 0.1], each "that odometry reports";
+        /// Rule that relates the α’s to the noise.
+        rule: OdometryRule = OdometryRule::Table;
+        /// Noise parameters of the rule; only the rule omni has the fifth.
+        alphas: RuleAlphas = [0.03, 0.01, 0.01, 0.02, 0.01], in ALPHA_RANGE,
+            each "Noise parameter; the first four are every rule’s, the fifth the omnidirectional one’s.";
+        /// Distribution of the noise; the variances are the same.
+        noise: NoiseKind = NoiseKind::Normal;
+        /// Correlation of the noises of the two rotations, which the rules take to be independent.
+        correlation: f64 = 0.0, in -1.0..=1.0;
+        /// Time for which the frame of the odometry has drifted away from the world.
+        drift: f64 = 40.0, "s", in 0.0..=1e6;
+        /// Progress of the robot: in the first rotation up to 1, in the drive up to 2, in the second rotation up to 3.
+        phase: f64 = 3.0, in 0.0..=3.0;
+        /// Number of outcomes in the whole cloud.
+        samples: usize = 500, in 1..=MAX_SAMPLES;
+        // Among the seeds 0 to 39, the default has the initial standard deviations nearest to the exact ones.
+        /// Seed of the random numbers. Equal seeds draw equal outcomes.
+        seed: u64 = 25, in 0..=MAX_SEED;
+    }
+}
+
+impl Rules for Settings {
+    /// Readings with one, two or all three legs, and readings on which the rules disagree: a drive in reverse, and jitter of half a
+    /// centimetre.
+    const PRESETS: &'static [(&'static str, Self)] = &[
+        ("all", drive_to([1.2, 1.0, 1.2])),
+        // 0.6435 rad is the direction of (4, 3).
+        ("turn-drive", drive_to([1.2, 0.9, 0.6435])),
+        ("drive-turn", drive_to([1.5, 0.0, 1.0])),
+        ("reverse", Self::DEFAULT),
+        ("spin", drive_to([0.0, 0.0, 2.2])),
+        ("rest", drive_to([-0.004, 0.003, 0.001])),
+    ];
+}
+
+const fn drive_to(to: [f64; 3]) -> Settings {
+    Settings { to, ..Settings::DEFAULT }
+}
 
 /// Velocity of the odometry frame in the world (m/s, m/s, rad/s). The frame drifts on a slow
 /// curve, as with slightly wrong wheel diameters.

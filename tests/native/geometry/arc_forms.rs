@@ -1,7 +1,6 @@
 //! Double-double arithmetic, compared with fifty-digit references.
 
-use motion::geom::double_double::DoubleDouble;
-use motion::sim::arc_anatomy::{FormErrors, STRAIGHT_LINE_THRESHOLD, form_errors};
+use motion::geom::arc_forms::{DoubleDouble, FormErrors, STRAIGHT_LINE_THRESHOLD, form_errors};
 
 /// Returns the rows of the reference: an angle, and the high and low parts of its sine, cosine and sinc.
 fn reference_rows() -> impl Iterator<Item = [f64; 7]> {

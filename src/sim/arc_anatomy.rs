@@ -1,0 +1,430 @@
+//! Arc Anatomy: the arc between two poses, the motion that it implies, and the likelihood of that motion (Tables 5.1 and 5.3).
+
+use super::settings::{ALPHA_RANGE, Keywords, Rules, SettingsError, settings};
+use crate::geom::arc::{Arc, ArcInversion, PreparedPose, invert_arc};
+use crate::geom::se2::SE2;
+use crate::js::js_structs;
+use crate::models::{MotionModel, VelocityAlphas, VelocityCmd, VelocityModel};
+use crate::noise::{NoiseKind, Variance, product_or_zero};
+use crate::stats::trace_level_set;
+
+/// Quantity of the heat map over the positions of the final pose, at its heading.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SurfaceKind {
+    /// No heat map.
+    Nothing,
+    /// [`MotionModel::prob`], the score of Table 5.1.
+    Prob,
+    /// [`MotionModel::pose_density`], the density of the sampler.
+    Density,
+}
+
+impl Keywords for SurfaceKind {
+    const KEYWORDS: &'static [(&'static str, Self)] =
+        &[("none", Self::Nothing), ("prob", Self::Prob), ("density", Self::Density)];
+}
+
+settings! {
+    /// Settings of the user.
+    pub struct Settings {
+        /// Start pose of the robot.
+        start: [f64; 3] = [0.0; 3], each "at which the robot starts";
+        /// Pose of the robot after the command.
+        next: [f64; 3] = [1.1, 0.5, 1.1], each "of the robot after the command";
+        /// Command between the two poses.
+        command: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.5, dt: 1.0 };
+        /// Noise parameters, the six of the velocity model.
+        alphas: [f64; 6] = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01], in ALPHA_RANGE,
+            each "Noise parameter of the velocity model.";
+        /// Distribution of the noise; the variances are the same.
+        noise: NoiseKind = NoiseKind::Normal;
+        /// True for a radius without a sign, as Table 5.1 prints it.
+        printed: bool = false;
+        /// Quantity of the heat map over all positions, at the heading of the final pose.
+        map: SurfaceKind = SurfaceKind::Nothing;
+    }
+}
+
+impl Rules for Settings {
+    /// An arc to the left, its mirror images to the right and in reverse, and a straight drive. The pose after the command is off the
+    /// commanded arc, so that no residual is 0.
+    const PRESETS: &'static [(&'static str, Self)] = &[
+        ("left", Self::DEFAULT),
+        ("right", preset([1.0, -0.5], [1.1, -0.5, -1.1])),
+        ("reverse", preset([-1.0, 0.5], [-1.1, -0.5, 1.1])),
+        ("straight", preset([1.0, 0.0], [1.2, 0.0, 0.2])),
+    ];
+}
+
+const fn preset([v, omega]: [f64; 2], next: [f64; 3]) -> Settings {
+    Settings { command: VelocityCmd { v, omega, dt: 1.0 }, next, ..Settings::DEFAULT }
+}
+
+impl Settings {
+    fn start(&self) -> SE2 {
+        self.start.into()
+    }
+
+    fn next(&self) -> SE2 {
+        self.next.into()
+    }
+
+    fn model(&self) -> VelocityModel {
+        VelocityModel { alphas: VelocityAlphas(self.alphas), noise: self.noise }
+    }
+}
+
+/// Number of chords of the path of the constant twist.
+const TWIST_PATH_CHORDS: usize = 64;
+/// Number of ticks on the path of the constant twist, at equal intervals of time.
+const TWIST_PATH_TICKS: usize = 8;
+
+/// Maximum number of exponentials for a heat map, which take some milliseconds on a phone. The density sums over the full turns
+/// that noise may cause. If there are many turns, the heat map has fewer and larger cells.
+const MAX_EXPONENTIALS: f64 = 1e5;
+
+/// Maximum number of full turns over which the density of the last turn is summed: nine standard deviations of up to nine
+/// radians.
+const MAX_LAST_TURNS: f64 = 27.0;
+
+/// Values of the contours, relative to the maximum.
+pub const CONTOUR_LEVELS: [f64; 3] = [0.5, 0.1, 0.01];
+
+js_structs! {
+    /// An arc with its circle.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct ArcWithCircle {
+        /// Length, m; negative in reverse.
+        pub arc_length: f64,
+        /// Turn, rad, positive to the left.
+        pub turn: f64,
+        /// Radius, m; positive with the centre to the left of the heading, infinite for a straight arc.
+        pub radius: f64,
+        /// Centre, m; null (None) for a straight arc.
+        #[cfg_attr(target_arch = "wasm32", serde(rename = "center"))]
+        pub centre: Option<[f64; 2]>,
+        /// End pose: x, y (m) and θ (rad).
+        pub end: [f64; 3],
+    }
+
+    /// Factor of p, which is the product of three.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Factor {
+        /// Estimated v̂, ω̂ or γ̂ (m/s, rad/s).
+        pub estimate: f64,
+        /// Residual v − v̂, ω − ω̂ or γ̂: the argument of `prob` in the table.
+        pub residual: f64,
+        /// Standard deviation σ of the noise.
+        pub deviation: f64,
+        /// Residual divided by σ. Without noise it is 0 if the residual is 0 up to rounding, and infinite otherwise.
+        pub deviations: f64,
+        /// `prob` of the residual.
+        pub value: f64,
+        /// Ratio of `prob` at the residual to `prob` at 0, from 0 to 1.
+        pub share: f64,
+    }
+
+    /// Numbers that are shown next to the picture.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Stats as "AnatomyStats" {
+        /// Arc of the command.
+        pub commanded: ArcWithCircle,
+        /// Arc to the final position.
+        pub inverted: ArcWithCircle,
+        /// Arc that v̂ and ω̂ drive: the inverted one, unless the radius is unsigned as printed.
+        pub driven: ArcWithCircle,
+        /// Final turn γ̂Δt, rad.
+        pub last_turn: f64,
+        /// Factors of v̂, ω̂ and γ̂.
+        pub factors: [Factor; 3],
+        /// Index of the factor whose residual is the most standard deviations from 0.
+        pub weakest: usize,
+        /// p, the product of the three factors.
+        pub prob: f64,
+        /// p relative to the p of the noise-free pose, from 0 to 1.
+        pub share: f64,
+        /// Density of the sampler over dx dy dθ; null (None) if a variance is 0.
+        pub density: Option<f64>,
+        /// ξ = next ⊟ start: along (m), lateral (m), heading (rad).
+        pub xi: [f64; 3],
+    }
+
+    /// Values of the lines of Table 5.1. Line 4 is signed, unless the settings select the unsigned radius.
+    ///
+    /// μ, the centre and r* are infinite if the displacement is parallel to the heading. μ is NaN without a displacement.
+    #[derive(Clone, Copy, Debug, PartialEq)]
+    pub struct Table as "AnatomyTable" {
+        /// μ, x* (m), y* (m), r* (m), Δθ (rad), v̂ (m/s), ω̂ (rad/s), γ̂ (rad/s) and p.
+        pub lines: [f64; 9],
+        /// Midpoint of both positions, m. The centre is the midpoint plus μ times `normal`.
+        pub middle: [f64; 2],
+        /// Displacement rotated by a quarter turn to the left, m: (y − y′, x′ − x).
+        pub normal: [f64; 2],
+    }
+
+    /// Lines of the picture: x, y pairs of their points, m.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Paths as "AnatomyPaths" {
+        /// Noise-free arc of the command.
+        pub commanded: Vec<[f64; 2]> as "Float64Array",
+        /// Arc to the final position.
+        pub inverted: Vec<[f64; 2]> as "Float64Array",
+        /// Arc that v̂ and ω̂ drive.
+        pub driven: Vec<[f64; 2]> as "Float64Array",
+        /// Path of the constant twist ξ: start · exp(tξ) for t from 0 to 1. If γ̂ ≠ 0 it differs from the driven arc, and has a
+        /// lateral velocity, which wheels do not allow.
+        pub lie: Vec<[f64; 2]> as "Float64Array",
+        /// Line segments that start on the path `lie`, as x, y, x, y in m. Each is the displacement that the lateral velocity at its start
+        /// would cause within Δt.
+        pub ticks: Vec<[f64; 4]> as "Float64Array",
+    }
+
+    /// Heat map over positions, at the heading of the final pose: the score p of Table 5.1, or the probability density of the sampler.
+    #[derive(Clone, Debug, PartialEq)]
+    pub struct Surface as "AnatomySurface" {
+        /// Number of cells along x.
+        pub columns: usize,
+        /// Number of cells along y.
+        pub rows: usize,
+        /// Values of the cells from 0 to 255, relative to the maximum; row by row from the top. All are 0 if a noise has no variance.
+        pub shades: Vec<u8> as "Uint8Array",
+        /// Contours of p at a half, a tenth and a hundredth of its maximum, as x, y pairs in m.
+        pub prob: Vec<Vec<[f64; 2]>> as "Float64Array[]",
+        /// Contours of the sampler's density at the same fractions of its maximum.
+        pub density: Vec<Vec<[f64; 2]>> as "Float64Array[]",
+    }
+}
+
+/// Simulation of the widget. Every result is computed from the settings when it is read.
+#[derive(Clone, Debug)]
+pub struct ArcAnatomy {
+    settings: Settings,
+}
+
+impl ArcAnatomy {
+    /// Creates a simulation with these settings.
+    ///
+    /// # Errors
+    /// [`SettingsError`] for the first setting out of range.
+    pub fn new(settings: Settings) -> Result<Self, SettingsError> {
+        settings.check()?;
+        Ok(Self { settings })
+    }
+
+    /// Returns the settings.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// Changes the settings.
+    /// Errors are those of [`ArcAnatomy::new`], and change nothing.
+    pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
+        *self = Self::new(settings)?;
+        Ok(())
+    }
+
+    /// Returns the arcs of the command and to the final pose, with the likelihood of that pose.
+    pub fn stats(&self) -> Stats {
+        let Settings { command, noise, .. } = &self.settings;
+        let (start, next) = (self.settings.start(), self.settings.next());
+        let (estimates, inverted) = (self.selected_inversion(), self.signed_inversion());
+        let factors = self.noise_residuals(&estimates).map(|residual| Factor::of(*noise, residual));
+        let abs_deviation = |i: &usize| factors[*i].deviations.abs();
+        let weakest = (0..3).rev().max_by(|a, b| abs_deviation(a).total_cmp(&abs_deviation(b))).unwrap_or(0);
+        let arc = |v: f64, omega: f64| {
+            ArcWithCircle::of(&Arc { start, length: v * command.dt, turn: omega * command.dt })
+        };
+        Stats {
+            commanded: arc(command.v, command.omega),
+            inverted: arc(inverted.v_hat, inverted.omega_hat),
+            driven: arc(estimates.v_hat, estimates.omega_hat),
+            last_turn: estimates.gamma_hat * command.dt,
+            factors,
+            weakest,
+            prob: self.prob(),
+            share: factors.iter().map(|factor| factor.share).product(),
+            density: self.settings.model().pose_density(&next, command, &start),
+            xi: next.boxminus(&start).into(),
+        }
+    }
+
+    /// Returns the arc to the final position, with a signed radius.
+    fn signed_inversion(&self) -> ArcInversion {
+        let inversion = invert_arc(&self.settings.start(), &self.settings.next(), self.settings.command.dt);
+        // A straight drive in reverse has the turn rate −0. Adding 0 makes it 0, so that no minus is shown.
+        ArcInversion { omega_hat: inversion.omega_hat + 0.0, ..inversion }
+    }
+
+    /// Returns the inverted arc with the radius that the settings select. With the unsigned radius r* of Table 5.1,
+    /// v̂ = Δθ/Δt · r* has the sign of Δθ. That sign is wrong if the centre is to the right of the heading.
+    fn selected_inversion(&self) -> ArcInversion {
+        let inversion = self.signed_inversion();
+        let ArcInversion { v_hat, omega_hat, .. } = inversion;
+        if !self.settings.printed || omega_hat == 0.0 {
+            return inversion;
+        }
+        ArcInversion { v_hat: v_hat.abs().copysign(omega_hat), ..inversion }
+    }
+
+    /// Returns the estimate, the residual and the variance of each of the three noises.
+    fn noise_residuals(&self, estimates: &ArcInversion) -> [(f64, f64, Variance); 3] {
+        let ArcInversion { v_hat, omega_hat, gamma_hat } = *estimates;
+        let command = &self.settings.command;
+        let [v, omega, gamma] = self.settings.model().variances(command);
+        [
+            (v_hat, command.v - v_hat, v),
+            (omega_hat, command.omega - omega_hat, omega),
+            (gamma_hat, gamma_hat, gamma),
+        ]
+    }
+
+    fn prob(&self) -> f64 {
+        product_or_zero(
+            self.noise_residuals(&self.selected_inversion())
+                .map(|(_, residual, variance)| self.settings.noise.prob(residual, variance)),
+        )
+    }
+
+    /// Returns the values of the lines of Table 5.1. With the displacement (a, b) in the frame of the start, line 1 is ½ · (−a)/(−b).
+    pub fn table(&self) -> Table {
+        let (start, next) = (self.settings.start(), self.settings.next());
+        let displacement = start.between(&next);
+        let inversion @ ArcInversion { v_hat, omega_hat, gamma_hat } = self.selected_inversion();
+        // The centre does not depend on the sign of the radius.
+        let [x, y] = self.signed_inversion().centre(&start).unwrap_or([f64::INFINITY; 2]);
+        // The quotient is halved last, because half of the smallest double is 0.
+        let mu = 0.5 * (displacement.x() / displacement.y());
+        let turn = omega_hat * self.settings.command.dt;
+        Table {
+            lines: [mu, x, y, inversion.radius(), turn, v_hat, omega_hat, gamma_hat, self.prob()],
+            middle: [0.5 * (start.x() + next.x()), 0.5 * (start.y() + next.y())],
+            normal: [start.y() - next.y(), next.x() - start.x()],
+        }
+    }
+
+    /// Returns the paths to draw.
+    pub fn paths(&self) -> Paths {
+        let (start, next) = (self.settings.start(), self.settings.next());
+        let Stats { commanded, inverted, driven, .. } = self.stats();
+        let xi = next.boxminus(&start);
+        let pose_on_twist_path = |i: usize, count: usize| start.boxplus(xi * (i as f64 / count as f64));
+        let position_of = |pose: SE2| [pose.x(), pose.y()];
+        let lateral_velocity_segment = |i: usize| {
+            let pose = pose_on_twist_path(i, TWIST_PATH_TICKS);
+            let [x, y] = PreparedPose::new(pose).transform_point([0.0, xi.y]);
+            [pose.x(), pose.y(), x, y]
+        };
+        Paths {
+            commanded: commanded.leading_part(start, 1.0).points(),
+            inverted: inverted.leading_part(start, 1.0).points(),
+            driven: driven.leading_part(start, 1.0).points(),
+            lie: (0..=TWIST_PATH_CHORDS)
+                .map(|i| position_of(pose_on_twist_path(i, TWIST_PATH_CHORDS)))
+                .collect(),
+            ticks: (0..=TWIST_PATH_TICKS).map(lateral_velocity_segment).collect(),
+        }
+    }
+
+    /// Returns the poses after a fraction of the time, from 0 to 1: on the commanded arc, on the arc that v̂ and ω̂ drive, and on
+    /// the path of the constant twist.
+    pub fn poses_at(&self, fraction: f64) -> [SE2; 3] {
+        let start_pose = self.settings.start();
+        let Stats { commanded, driven, .. } = self.stats();
+        let xi = self.settings.next().boxminus(&start_pose);
+        [
+            commanded.leading_part(start_pose, fraction).end(),
+            driven.leading_part(start_pose, fraction).end(),
+            start_pose.boxplus(xi * fraction),
+        ]
+    }
+
+    /// Returns the heat map over the rectangle from `min` to `max` (m, `min` below `max` in both coordinates); None if no heat
+    /// map is selected.
+    pub fn surface(&self, min: [f64; 2], max: [f64; 2]) -> Option<Surface> {
+        let Settings { command, map, next: [.., theta], .. } = self.settings;
+        if map == SurfaceKind::Nothing {
+            return None;
+        }
+        let (model, start) = (self.settings.model(), self.settings.start());
+        let winding_count = f64::from(2 * model.max_windings(&command) + 1);
+        let max_cells =
+            MAX_EXPONENTIALS / (3.0 + 2.0 * winding_count + MAX_LAST_TURNS.min(winding_count + 2.0));
+        let [width, height] = [max[0] - min[0], max[1] - min[1]];
+        let columns = (max_cells * width / height).sqrt().max(1.0).min(max_cells).floor();
+        let rows = (max_cells / columns).max(1.0).floor();
+        let cell_size = [width / columns, height / rows];
+        let (columns, rows) = (columns as usize, rows as usize);
+        let cell_centre = |[column, row]: [f64; 2]| {
+            [min[0] + (column + 0.5) * cell_size[0], max[1] - (row + 0.5) * cell_size[1]]
+        };
+        let evaluate_cells = |function: &dyn Fn([f64; 3]) -> f64| -> Vec<f64> {
+            let cell_value = |i: usize| {
+                let [x, y] = cell_centre([(i % columns) as f64, (i / columns) as f64]);
+                // The density is infinite at the start pose.
+                function([x, y, theta]).min(f64::MAX)
+            };
+            (0..columns * rows).map(cell_value).collect()
+        };
+        let prob_values =
+            evaluate_cells(&|next| Self { settings: Settings { next, ..self.settings } }.prob());
+        let density_values =
+            evaluate_cells(&|next| model.pose_density(&next.into(), &command, &start).unwrap_or(0.0));
+        let shown_values = if map == SurfaceKind::Prob { &prob_values } else { &density_values };
+        let maximum_of = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
+        let shown_maximum = maximum_of(shown_values);
+        let shade_of = |value: &f64| {
+            if shown_maximum > 0.0 { (255.0 * (value / shown_maximum)).round() as u8 } else { 0 }
+        };
+        let contours_of = |values: &[f64]| {
+            let max_value = maximum_of(values);
+            // Contours are interpolated between logarithms, which are closer to linear between cells.
+            let log_values: Vec<f64> =
+                values.iter().map(|value| libm::log(value.max(f64::MIN_POSITIVE))).collect();
+            let log_levels = CONTOUR_LEVELS
+                .iter()
+                .filter(|_| max_value > 0.0)
+                .map(|fraction| libm::log(fraction * max_value));
+            let contour_lines = log_levels.flat_map(|level| trace_level_set(&log_values, columns, level));
+            contour_lines.map(|line| line.into_iter().map(cell_centre).collect()).collect()
+        };
+        Some(Surface {
+            columns,
+            rows,
+            shades: shown_values.iter().map(shade_of).collect(),
+            prob: contours_of(&prob_values),
+            density: contours_of(&density_values),
+        })
+    }
+}
+
+impl ArcWithCircle {
+    fn of(arc: &Arc) -> Self {
+        let Arc { start, length, turn } = *arc;
+        let inversion = ArcInversion { v_hat: length, omega_hat: turn, gamma_hat: 0.0 };
+        Self {
+            arc_length: length,
+            turn,
+            radius: inversion.radius(),
+            centre: inversion.centre(&start),
+            end: arc.end().into(),
+        }
+    }
+
+    /// Returns the first part of the arc, up to this fraction of its length.
+    fn leading_part(&self, start: SE2, fraction: f64) -> Arc {
+        Arc { start, length: self.arc_length * fraction, turn: self.turn * fraction }
+    }
+}
+
+impl Factor {
+    fn of(noise: NoiseKind, (estimate, residual, variance): (f64, f64, Variance)) -> Self {
+        let (value, peak) = (noise.prob(residual, variance), noise.prob(0.0, variance));
+        let deviation = variance.0.sqrt();
+        let deviations = match (deviation == 0.0, value > 0.0) {
+            (false, _) => residual / deviation,
+            (true, true) => 0.0,
+            (true, false) => f64::INFINITY.copysign(residual),
+        };
+        Self { estimate, residual, deviation, deviations, value, share: value / peak }
+    }
+}

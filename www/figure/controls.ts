@@ -71,21 +71,21 @@ export function editableSlider(figure: Figure, symbol: string, { min, max: decla
       row.commit();
       return row.show(enteredNumber);
     },
-    refusal: figure.settings.refusalOf(row.id),
-    clearRefusal: () => figure.settings.forgetRefusal(),
+    refusal: figure.notice.beside(row.id),
+    clearRefusal: () => figure.notice.dismiss(),
   });
 }
 
 /** Parses a number that the user typed. Returns undefined for a text that is refused, and shows the reason. */
-export function parseEntered({ settings }: Figure, key: string, name: string, text: string, { min, max, unit, type }: AllowedNumbers) {
+export function parseEntered({ notice }: Figure, key: string, name: string, text: string, { min, max, unit, type }: AllowedNumbers) {
   const isInteger = type === 'whole';
   const number = parseNumber(text, unit, isInteger);
   if (number >= min && number <= max && (!isInteger || Number.isInteger(number))) {
-    settings.forgetRefusal();
+    notice.dismiss();
     return number;
   }
   const typedText = Number.isNaN(number) ? `"${text}"` : text.trim().replace('-', '\u2212');
-  settings.refuse(key, words.refused(name.replaceAll(/[*_{}]/g, ''), typedText, formatLimit(min), formatLimit(max), isInteger));
+  notice.show(() => words.refused(name.replaceAll(/[*_{}]/g, ''), typedText, formatLimit(min), formatLimit(max), isInteger), { control: key });
 }
 
 /** Returns a picture's canvas, on which the pointer selects samples. `Canvases` sets its size. */

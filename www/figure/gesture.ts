@@ -39,6 +39,7 @@ export class Gesture extends FigureController {
   step() {
     if (!this.#isOpen) this.previousViewModel = this.host.viewModel;
     this.#isOpen = true;
+    this.host.notice.dismiss();
     this.#dispatch('input');
   }
 

@@ -1,23 +1,33 @@
-/** Messages to the user: a notice, which everybody sees, and announcements for screen readers. */
+/** Messages to the user: the latest notice, which everybody sees, and announcements for screen readers. */
 
 import { html, nothing } from 'lit';
 import { words } from '../messages/registry.ts';
 import { button } from '../ui/controls.ts';
 import { FigureController } from './controller.ts';
 
-/** Notice with a button, over the lower edge of the figure or the window. It moves no content. */
+/** Notice beside a control, or with a button over the lower edge of the figure or the window. It moves no content. */
 export class Notice extends FigureController {
-  #shown: { content: () => unknown, stop?: () => void } | undefined;
+  #shown: { content: () => unknown, control?: string, stop?: () => void } | undefined;
 
-  /** Shows HTML until the user closes it, or about work that the button stops. */
-  show(content: () => unknown, stop?: () => void) {
-    this.#shown = { content, stop };
+  /** Shows HTML beside the control of a name, or until the user closes it, or about work that the button stops. */
+  show(content: () => unknown, { control, stop }: { control?: string, stop?: () => void } = {}) {
+    this.#shown = { content, control, stop };
     this.host.requestUpdate();
+  }
+
+  /** Hides a sentence, as at the next change by the user. A notice about work stays. */
+  dismiss() {
+    if (this.#shown && !this.#shown.stop) this.hide();
   }
 
   hide() {
     this.#shown = undefined;
     this.host.requestUpdate();
+  }
+
+  /** Returns the notice beside a control, such as why a typed text was refused; undefined if there is none. */
+  beside(control: string) {
+    return this.#shown?.control === control ? (this.#shown.content() as string) : undefined;
   }
 
   #press = () => {
@@ -27,13 +37,13 @@ export class Notice extends FigureController {
 
   /** Presses the button by the key Escape. */
   onKey(event: KeyboardEvent) {
-    if (!this.#shown || event.key !== 'Escape' || event.defaultPrevented) return;
+    if (!this.#shown || this.#shown.control || event.key !== 'Escape' || event.defaultPrevented) return;
     event.preventDefault();
     this.#press();
   }
 
   render() {
-    if (!this.#shown) return nothing;
+    if (!this.#shown || this.#shown.control) return nothing;
     const { content, stop } = this.#shown;
     return html`<div class="notice"><div part="notice">
       <div role="alert">${content()}</div> ${stop ? button(words.progress.stop, this.#press, { title: words.progress.stopTitle }) : button(words.close, this.#press)}

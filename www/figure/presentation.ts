@@ -40,7 +40,7 @@ export class Presentation extends FigureController {
   async #beginPresentation() {
     const { host } = this;
     this.#stateAtBegin = host.simulation && host.snapshot();
-    host.notice.hide();
+    host.notice.dismiss();
     this.#keyListeners = new AbortController();
     addEventListener('keydown', this.#onKey, { signal: this.#keyListeners.signal });
     const focusedButton = host.renderRoot?.querySelector('.to-present:focus-visible');

@@ -19,8 +19,6 @@ export class Settings extends FigureController {
   #current: Values | undefined;
   /** Changes of settings by the user that wait for the next frame. */
   #pending: Values = {};
-  /** Message about the text that the user typed last, if it was refused, and the setting's key. */
-  #refusal: { key: string, message: string } | undefined;
 
   /** Drops pending changes and stops the player, for another simulation. */
   reset() {
@@ -57,33 +55,17 @@ export class Settings extends FigureController {
   request(change: Values | ((requested: Values) => Values)) {
     const { simulation, gesture, renderer } = this.host;
     if (!simulation) return;
-    this.forgetRefusal();
     const values = typeof change === 'function' ? change(this.requested) : change;
     for (const [key, value] of Object.entries(values)) (key in this.elementState ? this.elementState : this.#pending)[key] = value;
     gesture.step();
     renderer.requestFrame();
   }
 
-  /** Shows why a typed text is not a valid value of a setting. */
-  refuse(key: string, message: string) {
-    this.#refusal = { key, message };
-    this.host.requestUpdate();
-  }
-
-  refusalOf(key: string): string | undefined {
-    return this.#refusal?.key === key ? this.#refusal.message : undefined;
-  }
-
-  forgetRefusal() {
-    if (this.#refusal) this.host.requestUpdate();
-    this.#refusal = undefined;
-  }
-
   /** Changes values at once, as a change by the page. Throws a TypeError or RangeError, without a change, for invalid values. */
   assign(values: Values) {
     const { host } = this;
     this.applyPending();
-    const elementValues = this.#checkedElementValues('', values, host.snapshot());
+    const elementValues = this.#checkedElementValues('', values, () => host.snapshot());
     const settings = Object.entries(values).filter(([key]) => !(key in elementValues));
     if (settings.length > 0) this.#configure(Object.fromEntries(settings));
     Object.assign(this.elementState, elementValues);
@@ -108,10 +90,10 @@ export class Settings extends FigureController {
   }
 
   /** Returns the fields of the element among values for a state, after a check. `path` is put before their names in errors. */
-  #checkedElementValues(path: string, values: Values, state: Values) {
+  #checkedElementValues(path: string, values: Values, readState: () => Values) {
     const fields = Object.entries(this.#elementFields).filter(([name]) => name in values);
     return Object.fromEntries(fields.map(([name, { maxIn, max, ...range }]) =>
-      [name, checkedValue(path + name, values[name], { ...range, max: maxIn ? maxIn(state) : max })]));
+      [name, checkedValue(path + name, values[name], { ...range, max: maxIn ? maxIn(readState()) : max })]));
   }
 
   /** Applies assignments of the page to a new simulation, which has a state after a trap, and shows it. */
@@ -138,7 +120,7 @@ export class Settings extends FigureController {
     const simulation = host.createSimulation(host.motion);
     host.enterState(simulation, wholeState);
     const changedValues = Object.fromEntries(Object.keys(changes).map((key) => [key, wholeState[key]]));
-    Object.assign(wholeState, this.#checkedElementValues('state.', changedValues, wholeState));
+    Object.assign(wholeState, this.#checkedElementValues('state.', changedValues, () => wholeState));
     for (const name of Object.keys(this.elementState)) this.elementState[name] = wholeState[name];
     host.runtime.replace(simulation);
     host.renderer.releaseViews(1);
@@ -148,7 +130,6 @@ export class Settings extends FigureController {
   choosePreset(preset: string) {
     const { host } = this;
     host.player?.stop();
-    this.forgetRefusal();
     host.renderer.releaseViews(1);
     for (const [name, { isResetByPreset, default: opening }] of Object.entries(this.#elementFields)) if (isResetByPreset) this.elementState[name] = opening;
     Object.assign(host, { preset });
@@ -157,7 +138,6 @@ export class Settings extends FigureController {
 
   /** Restores a state, by default the one that the figure opened with, as a change by the user. */
   restoreAsUser(state: Values | undefined = this.#openingState) {
-    this.host.notice.hide();
     this.applyState(state);
     this.host.gesture.complete();
   }

@@ -391,7 +391,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
       this.announcer.announce(words.progress.stopped);
       this.#revertSettings();
     };
-    const timer = setTimeout(() => notice.show(() => html`<progress aria-label=${words.progress.label}></progress> ${words.progress.label}`, stop), NOTICE_DELAY_MS);
+    const timer = setTimeout(() => notice.show(() => html`<progress aria-label=${words.progress.label}></progress> ${words.progress.label}`, { stop }), NOTICE_DELAY_MS);
     try {
       await this.open(log, this.warnings);
     } catch (error) {

@@ -245,8 +245,8 @@ export function samplesSlider(figure: Figure, counts: readonly number[]) {
 }
 
 function seedField(figure: Figure) {
-  const { settings, gesture } = figure;
-  const seedRefusal = settings.refusalOf('seed');
+  const { settings, gesture, notice } = figure;
+  const seedRefusal = notice.beside('seed');
   const enterSeed = (event: Event) => {
     const seed = parseEntered(figure, 'seed', words.seed, inputOf(event).value, declarationOf(figure, 'seed'));
     if (seed !== undefined) settings.request({ seed });
@@ -260,7 +260,7 @@ function seedField(figure: Figure) {
       .value=${seedRefusal ? noChange : live(String(settings.requested.seed))}
       @input=${enterSeed}
       @change=${() => gesture.commit()}
-      @blur=${() => settings.forgetRefusal()}
+      @blur=${() => notice.dismiss()}
     />
     ${seedRefusal ? html`<output role="alert">${seedRefusal}</output>` : nothing}
   </label>`;
@@ -271,14 +271,14 @@ function seedField(figure: Figure) {
  * label in the catalogue. Refused text stays until the user corrects or leaves it.
  */
 export function sampleField(figure: CloudFigure, id: 'robot' | 'sample', shown: number, selected: unknown) {
-  const { cloud, settings } = figure;
+  const { cloud, notice } = figure;
   const { [id]: label, markHint } = (words as any)[figure.definition.messageKey];
-  const refusalText = settings.refusalOf('marked');
+  const refusalText = notice.beside('marked');
   const enterIndex = (event: Event) => {
     const typedIndex = inputOf(event).value;
     const number = typedIndex === '' ? 0 : parseEntered(figure, 'marked', label, typedIndex, { min: 1, max: shown, type: 'whole' });
     if (number === undefined) return;
-    settings.forgetRefusal();
+    notice.dismiss();
     cloud.mark(number - 1);
   };
   return html`<p class="marked">
@@ -293,7 +293,7 @@ export function sampleField(figure: CloudFigure, id: 'robot' | 'sample', shown: 
         ?disabled=${shown === 0}
         .value=${refusalText ? noChange : live(cloud.selectedIndex < 0 ? '' : String(cloud.selectedIndex + 1))}
         @input=${enterIndex}
-        @blur=${() => settings.forgetRefusal()}
+        @blur=${() => notice.dismiss()}
       />
     </label>
     <output for=${id} role=${refusalText ? 'alert' : nothing}>${refusalText || selected || html`<i class="muted">${markHint}</i>`}</output>

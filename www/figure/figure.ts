@@ -35,10 +35,8 @@ export interface SampleCloud {
   readonly isSettled: boolean;
   /** Starts the growth, or shows a state. */
   introduce(state?: Values): void;
-  /** Changes settings of a new simulation, and shows the first of `shown` samples. */
-  enter(simulation: any, settings: Values, shown: number): void;
-  /** Changes settings and shows the first samples. Returns all settings. */
-  configure(settings: Values): Values;
+  /** Changes settings of a simulation, and shows the first of `shown` samples, by default of those requested. Returns all settings. */
+  configure(simulation: any, settings: Values, shown?: number): Values;
   /** Adds samples in a frame with a picture. */
   advance(): void;
   /** Adds samples in a frame without one; returns true if all are shown. */
@@ -156,7 +154,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   /** Brings a new simulation into a state, to which it may add missing fields; throws a TypeError or RangeError. */
   enterState(simulation: Simulation, state: Values) {
     const settings = this.settings.pick(state);
-    if (this.cloud) this.cloud.enter(simulation, settings, state.shown);
+    if (this.cloud) this.cloud.configure(simulation, settings, state.shown);
     else simulation.configure(settings);
   }
 

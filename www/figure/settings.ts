@@ -85,7 +85,7 @@ export class Settings extends FigureController {
   #configure(values: Values) {
     const { simulation, cloud } = this.host;
     if (!simulation) return;
-    this.#current = Object.freeze(cloud ? cloud.configure(values) : simulation.configure(values));
+    this.#current = Object.freeze(cloud ? cloud.configure(simulation, values) : simulation.configure(values));
     this.isStale = true;
   }
 

@@ -94,17 +94,13 @@ export class Cloud extends FigureController implements SampleCloud {
   }
 
   /** Changes settings and shows one block of samples; later frames add the others. Returns all settings. */
-  configure(values: Values): Values {
-    return this.#simulation.configureFirst(values, this.#state.shown);
-  }
-
-  enter(simulation: GrowingSimulation, settings: Values, shown: number) {
-    simulation.configureFirst(settings, shown);
+  configure(simulation: GrowingSimulation, settings: Values, shown = this.#state.shown): Values {
+    return simulation.configureFirst(settings, shown);
   }
 
   #restart() {
     this.#state.shown = 0;
-    if (this.#latest.shown > 0) this.configure({});
+    if (this.#latest.shown > 0) this.configure(this.#simulation, {});
     this.host.settings.isStale = true;
   }
 

@@ -78,20 +78,15 @@ const decodePng: DecodePng = async (bytes) => (await instantiate()).readMapImage
 class MapOpener extends FileOpener<MapSqueezeElement> {
   /** Disclosure with the current map and the reason why another one was refused. */
   id = 'more';
-  /** True while a large file is being read. */
-  isReading = false;
 
   async choose(files: File[]) {
     if (files.reduce((sum, { size }) => sum + size, 0) > LARGE_MAP_BYTES) {
-      this.isReading = true;
-      this.host.announcer.announce(words.squeeze.own.reading);
-      this.host.requestUpdate();
+      this.host.notice.show(() => words.squeeze.own.reading);
       // Waits for two frames, because the message is on the screen only after the first one was drawn.
       for (let frame = 0; frame < 2; frame++) await new Promise(requestAnimationFrame);
     }
     await this.#open(({ readMapFiles }) => readMapFiles(files, decodePng));
-    this.isReading = false;
-    this.host.requestUpdate();
+    this.host.notice.dismiss();
   }
 
   paste(text: string) {
@@ -119,7 +114,6 @@ function userMapControls(figure: MapSqueezeElement, opener: MapOpener, mapText: 
     <div>
       <p>${texts.text}</p>
       <p>${opener.button('map-files', texts.files, MAP_FILE_EXTENSIONS)}</p>
-      <p ?hidden=${!opener.isReading}>${texts.reading}</p>
       ${opener.refusalNoteHtml}
       <p class="present muted">${mapText}.</p>
     </div>

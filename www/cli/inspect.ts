@@ -1,13 +1,13 @@
 /** Command `inspect`: lists the contents of recordings, and proposes the command for the calibration. */
 
 import { group } from 'd3-array';
-import { findCandidates, isLocalizer, isTable, planDrives, type RecordingChoice } from '../logs/drives.ts';
+import { findCandidates, isLocalizer, planDrives, type RecordingChoice } from '../logs/drives.ts';
 import { english } from '../logs/en.ts';
 import { LogError, truncate, ROLES, framesOption, framesText, summarySentences, type LogChoice, type Recording, type Role, type Summary } from '../logs/log.ts';
 import { optionAdvice, quoteForShell } from './advice.ts';
 import { alignRows } from './report.ts';
 
-const FORMAT_NAMES: Partial<Record<Recording['format'], string>> = { mcap: 'MCAP recording', rosbag: 'ROS 1 bag', sqlite: 'rosbag2 SQLite recording', csv: 'table', tum: 'TUM table' };
+const FORMAT_NAMES: Record<Recording['format'], string> = { mcap: 'MCAP recording', rosbag: 'ROS 1 bag', sqlite: 'rosbag2 SQLite recording', csv: 'table' };
 
 export interface GivenRecording { recording: Recording; path: string }
 
@@ -52,9 +52,9 @@ async function contentsOf(recording: Recording, onProgress?: (share: number | un
 
 export function inspectionText({ inspection: { recordings, command }, sentences, isUsable }: Awaited<ReturnType<typeof inspect>>): string {
   const recordingLines = recordings.flatMap(({ name, format, series }) => {
-    const tableRows = series.map(({ name: seriesName, type, rows: count, uses, summary }) => [seriesName || '(all columns)', isTable({ format }) ? truncate(type) : type, String(count || ''), summary ? `${summary.rate.toPrecision(3)} Hz` : '', uses.join(' or ')]);
+    const tableRows = series.map(({ name: seriesName, type, rows: count, uses, summary }) => [seriesName || '(all columns)', format === 'csv' ? truncate(type) : type, String(count || ''), summary ? `${summary.rate.toPrecision(3)} Hz` : '', uses.join(' or ')]);
     const summaryLines = series.flatMap(({ name: seriesName, sentences = [] }) => sentences.map((line, i) => (i > 0 ? `  ${line}` : seriesName ? `${seriesName}: ${line}` : line)));
-    return [`${name}: ${FORMAT_NAMES[format] ?? format}`, ...[...alignRows([[isTable({ format }) ? 'columns' : 'topic', 'type', 'rows', 'rate', 'could be'], ...tableRows]), ...summaryLines].map((line) => `  ${line}`)];
+    return [`${name}: ${FORMAT_NAMES[format]}`, ...[...alignRows([[format === 'csv' ? 'columns' : 'topic', 'type', 'rows', 'rate', 'could be'], ...tableRows]), ...summaryLines].map((line) => `  ${line}`)];
   });
   return [...recordingLines, ...(isUsable ? sentences : []), ...(command ? ['', `  ${command}`] : []), ''].join('\n');
 }

@@ -187,9 +187,6 @@ function roleOfSeries({ name: file }: Recording, { name, type, kind, hasCommands
   return roleByName(name) ?? (hasCommands || /Odometry$/.test(type) ? 'odometry' : roleByName(file));
 }
 
-/** Returns true if a recording is a table. Its series are groups of columns, not topics. */
-export const isTable = ({ format }: Pick<Recording, 'format'>): boolean => !['mcap', 'rosbag', 'sqlite'].includes(format);
-
 /** Returns true if the name or the frames of a log show that a localizer or a filter of the odometry estimated its poses. */
 export const isLocalizer = (name: string, frames?: FramePair): boolean => frames?.parent === 'map' || ((LOCALIZER_NAMES.test(name) || FILTER_NAMES.test(name)) && !MEASUREMENT_NAMES.test(name));
 
@@ -200,7 +197,7 @@ export function roleByName(name: string): Role | undefined {
 }
 
 /** Returns the series that can be read. A topic needs two messages. */
-export const readableSeries = (recording: Recording): Series[] => recording.series.filter(({ kind, count }) => kind !== null && (isTable(recording) || count > 1));
+export const readableSeries = (recording: Recording): Series[] => recording.series.filter(({ kind, count }) => kind !== null && (recording.format === 'csv' || count > 1));
 
 /** Returns the series with a name. Separators and capitals do not count. */
 function seriesNamed(series: Series[], wantedName: string): Series | undefined {
@@ -216,7 +213,7 @@ function seriesNamesFor(recording: Recording, role: Role): string[] {
 
 /** Returns the logs that could have a role, in tiers: groups of equal likelihood, the likeliest first. A tier of several logs is ambiguous. */
 export function findCandidates(recording: Recording, role: Role, { kind }: { kind?: LogKind } = {}): LogChoice[][] {
-  const isTableFile = isTable(recording);
+  const isTableFile = recording.format === 'csv';
   const seriesWithoutGoals = readableSeries(recording).filter(({ name }) => !GOAL_NAMES.test(name));
   const poseSeries = seriesWithoutGoals.filter((entry) => entry.kind === 'poses');
   const chainChoices = seriesWithoutGoals.flatMap(({ name, frames = [] }) => likeliestFrames(frames, role).map((pair) => ({ series: name, frames: pair })));
@@ -227,7 +224,7 @@ export function findCandidates(recording: Recording, role: Role, { kind }: { kin
   // A topic of the type Odometry is likely to be odometry.
   const wheelPaths = poseSeries.filter(({ name, type }) => !MEASUREMENT_NAMES.test(name) && !LOCALIZER_NAMES.test(name) && (isTableFile || /Odometry$/.test(type)));
   const poseTiers = [...choiceTiersByName(wheelPaths, ODOMETRY_NAMES), choicesOf(wheelPaths), chainChoices];
-  const commandSeries = seriesWithoutGoals.filter((entry) => entry.kind === 'commands' || (isTableFile && entry.hasCommands));
+  const commandSeries = seriesWithoutGoals.filter((entry) => entry.kind === 'commands' || entry.hasCommands);
   const commandTiers = [...choiceTiersByName(commandSeries, COMMAND_NAMES, 'commands'), choicesOf(commandSeries, 'commands')];
   return kind === 'commands' ? [...commandTiers, ...poseTiers] : isTableFile ? [...poseTiers, ...commandTiers] : poseTiers;
 }

@@ -49,7 +49,7 @@ export const UNSUPPORTED_FORMATS = {
   parquet: 'a Parquet table; export it as CSV.',
 };
 
-export const REPAIR_COMMANDS: Record<Recording['format'], string> = { mcap: 'mcap recover', rosbag: 'rosbag reindex', sqlite: 'sqlite3 FILE .recover | sqlite3 NEW.db3', csv: '', tum: '' };
+export const REPAIR_COMMANDS: Record<Recording['format'], string> = { mcap: 'mcap recover', rosbag: 'rosbag reindex', sqlite: 'sqlite3 FILE .recover | sqlite3 NEW.db3', csv: '' };
 
 export const english = {
   place: (file: string, line: number, topic: string) =>

@@ -5,7 +5,6 @@ import { LogError, truncate, type ErrorPlace } from './log.ts';
 import { epochTimeUnitOf } from './units.ts';
 
 export interface Format {
-  name: 'csv' | 'tum';
   /** Separator of cells. A space stands for any number of spaces and tabs. */
   separator: string;
   hasDecimalCommas: boolean;
@@ -114,7 +113,7 @@ export function detectTableFormat(lines: string[], file: string, columns: string
   const hasDecimalComma = (cell: string) => DECIMAL_COMMA.test(cell) && (separator !== ',' || !THOUSANDS_COMMA.test(cell));
   const hasDecimalCommas = rows.flat().some(hasDecimalComma);
   const rowWidth = Math.max(0, ...rows.map((row) => row.length - (row.at(-1)?.trim() === '' ? 1 : 0)));
-  const commonFormat = { name: 'csv' as const, separator, hasDecimalCommas, firstLine: firstRowLine?.number ?? (filledLines.at(-1)?.number ?? 0) + 1, isSparse: false };
+  const commonFormat = { separator, hasDecimalCommas, firstLine: firstRowLine?.number ?? (filledLines.at(-1)?.number ?? 0) + 1, isSparse: false };
   const errorPlace = { file, line: firstRowLine?.number ?? filledLines[0].number };
   const noLogError = () => new LogError({ file }, (texts) => texts.noLog);
 
@@ -140,7 +139,7 @@ export function detectTableFormat(lines: string[], file: string, columns: string
   }
   if (!firstRowLine) throw noLogError();
   const names = columnsByContent(rows);
-  if (names) return { ...commonFormat, name: names === TUM_COLUMNS ? 'tum' : 'csv', names, groups: columnGroups(names, rows[0]) };
+  if (names) return { ...commonFormat, names, groups: columnGroups(names, rows[0]) };
   // Poses of KITTI have 12 numbers. In geometry_msgs/Twist, four of six numbers are 0.
   const isTwist = rowWidth === 6 && rows.every((row) => row.slice(1, 5).every((cell) => Number(cell) === 0));
   if (rowWidth === 12 || isTwist) throw new LogError(errorPlace, (texts) => texts.timeless(rowWidth));

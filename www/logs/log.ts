@@ -44,7 +44,8 @@ export interface LogChoice {
 /** File, or folder of files, from which logs are read. */
 export interface Recording {
   name: string;
-  format: 'mcap' | 'rosbag' | 'sqlite' | 'csv' | 'tum';
+  /** Format of the messages, or `csv` for any table, whose series are groups of columns. */
+  format: 'mcap' | 'rosbag' | 'sqlite' | 'csv';
   /** Series in the order of their names, or of their columns. */
   series: Series[];
   /** Reads the logs of all choices in one pass; rejects with a LogError. */

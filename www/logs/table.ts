@@ -42,7 +42,7 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
   const allSeries = format.groups.map(seriesOfGroup);
   return {
     name: source.name,
-    format: format.name,
+    format: 'csv',
     series: allSeries,
     async read(choices, onProgress) {
       const readersOfChoices = choices.map(({ series: seriesName, kind }) => {

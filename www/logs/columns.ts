@@ -118,15 +118,14 @@ interface ColumnMeaning { field: Field; rank: number; prefix: string; unit?: str
 
 /** Returns the field, prefix and unit that a column's name means; undefined for other quantities. */
 function parseColumnName(name: string): ColumnMeaning | undefined {
-  const [bracketedUnit, unitText] = UNIT_IN_BRACKETS.exec(name) ?? [];
-  if (bracketedUnit !== undefined && unitText !== undefined && !EMPTY_UNIT.test(unitText.trim())) {
-    const unit = unitOf(unitText);
-    const meaning = matchField(dottedName(name.slice(0, -bracketedUnit.length)));
-    return meaning && canHaveUnit(meaning.field, unit) ? { ...meaning, unit: unit?.unit ?? unitText.trim() } : undefined;
-  }
-  const nameWithoutUnit = bracketedUnit === undefined ? name : name.slice(0, -bracketedUnit.length);
+  const [bracketedUnit = '', unitText = ''] = UNIT_IN_BRACKETS.exec(name) ?? [];
+  const nameWithoutUnit = name.slice(0, name.length - bracketedUnit.length);
   const dottedPath = dottedName(nameWithoutUnit);
   const fullNameMeaning = matchField(dottedPath);
+  if (!EMPTY_UNIT.test(unitText.trim())) {
+    const unit = unitOf(unitText);
+    return fullNameMeaning && canHaveUnit(fullNameMeaning.field, unit) ? { ...fullNameMeaning, unit: unit?.unit ?? unitText.trim() } : undefined;
+  }
   // Times of rostopic are always in nanoseconds, also the small times of a simulation.
   if (fullNameMeaning?.field === 't' && /^%time|^field\..*stamp$/.test(name)) return { ...fullNameMeaning, unit: 'ns' };
   if (fullNameMeaning) {

@@ -102,7 +102,7 @@ impl Sample {
             }
             if let (Some(log), Some((systematic, _))) = (log, corrected) {
                 let change = systematic.clock_offset - self.systematic.clock_offset;
-                log.realign(&mut self.legs, systematic.clock_offset, change);
+                log.realign(&mut self.legs, change);
                 self.systematic = systematic;
             }
             parameters = Some(maximum.parameters);
@@ -201,11 +201,10 @@ impl<'a> Log<'a> {
         self.offsets[drive] + clock_offset - self.initial_errors().clock_offset
     }
 
-    /// Moves legs to a new clock offset, `change` (s) larger than before. A leg that would leave the log stays as it is.
-    fn realign(&self, legs: &mut [Leg], clock_offset: f64, change: f64) {
+    /// Moves legs to a clock offset that is `change` (s) larger. A leg that would leave the log stays as it is.
+    fn realign(&self, legs: &mut [Leg], change: f64) {
         for leg in legs {
-            let offset = self.offset_of(leg.drive, clock_offset);
-            *leg = self.drives[leg.drive].realigned(*leg, offset, change).unwrap_or(*leg);
+            *leg = self.drives[leg.drive].realigned(*leg, change).unwrap_or(*leg);
         }
     }
 }

@@ -71,9 +71,6 @@ pub struct Leg {
     pub velocities: [Vector3<f64>; 2],
     /// Poses at start and end in the frame of the reference.
     pub reference: [SE2; 2],
-    /// Variances of the reference's error at start and end, divided by that of one sample. For a pose interpolated between two samples the ratio
-    /// is below 1.
-    pub(super) interpolation_variances: [f64; 2],
     /// True if the leg starts at the reference pose at which the leg before it ends.
     pub follows: bool,
     /// Index of the drive to which the leg belongs.
@@ -132,52 +129,51 @@ const MAX_STANDING_TURN: f64 = 0.02;
 /// Maximum ratio of the length of a leg across a pause to the length in the options. Longer legs are left out.
 const MAX_RATIO_ACROSS_PAUSE: f64 = 2.0;
 
-/// Median period of the reference over that of the odometry, above which the reference counts as sparse.
-const SPARSE_RATIO: f64 = 1.5;
-
 /// One end of a leg.
 #[derive(Clone, Copy, Debug)]
 struct LegEnd {
+    /// Time and pose of the reading at which the leg ends by its length.
+    reading: (f64, SE2),
     /// Time by the clock of the odometry, s.
     time: f64,
     odometry: SE2,
     /// Velocity by the odometry.
     velocity: Vector3<f64>,
-    /// Pose by the reference, with the relative variance of its error; None if the reference has no pose here.
-    reference: Option<(SE2, f64)>,
+    /// Pose by the reference; None if it has no sample here.
+    reference: Option<SE2>,
 }
 
 impl Drive<'_> {
-    fn has_sparse_reference(&self) -> bool {
-        self.reference.median_period() > SPARSE_RATIO * self.odometry.median_period()
-    }
-
-    /// Returns the ends of legs that are possible: times by the clock of the odometry, poses by the odometry, and poses by the reference if
-    /// these are known without interpolation.
+    /// Returns the end of a leg at the sample of the reference nearest to a reading of the odometry.
     ///
-    /// Legs end at samples of the sparser trajectory. A pose interpolated between them would mix the noise of two neighbouring legs.
-    fn possible_ends(&self, clock_offset: f64) -> Box<dyn Iterator<Item = (f64, SE2, Option<SE2>)> + '_> {
-        let Self { odometry, reference } = *self;
-        if !self.has_sparse_reference() {
-            return Box::new(odometry.samples().map(|(time, pose)| (time, pose, None)));
-        }
-        Box::new(reference.samples().filter_map(move |(time, pose)| {
-            let odometry_time = time - clock_offset;
-            Some((odometry_time, odometry.pose_at(odometry_time)?, Some(pose)))
-        }))
+    /// The odometry is interpolated, because an interpolated reference would lose noise of the wheels and mix that of two neighbouring legs.
+    fn leg_end(&self, reading: (f64, SE2), clock_offset: f64) -> LegEnd {
+        let located = self.reference.locate(reading.0 + clock_offset);
+        let neighbours = located.map(|(sample, fraction)| {
+            let before = sample.saturating_sub(1);
+            if fraction < 0.5 { [before, sample] } else { [sample, before] }
+        });
+        let end_at_sample = |sample| {
+            let (reference_time, pose) = self.reference.sample(sample);
+            let time = reference_time - clock_offset;
+            let (odometry, velocity) = (self.odometry.pose_at(time)?, self.odometry.velocity(time));
+            Some(LegEnd { reading, time, odometry, velocity, reference: Some(pose) })
+        };
+        neighbours.into_iter().flatten().find_map(end_at_sample).unwrap_or(LegEnd {
+            reading,
+            time: reading.0,
+            odometry: reading.1,
+            velocity: Vector3::zeros(),
+            reference: None,
+        })
     }
 
-    /// Returns a leg of this drive under another clock offset, `change` (s) larger than before. None if a trajectory does not cover it.
-    pub(super) fn realigned(&self, mut leg: Leg, clock_offset: f64, change: f64) -> Option<Leg> {
+    /// Returns a leg of this drive under another clock offset, `change` (s) larger than before. None if the odometry does not cover it.
+    pub(super) fn realigned(&self, mut leg: Leg, change: f64) -> Option<Leg> {
         for end in 0..2 {
-            if self.has_sparse_reference() {
-                leg.times[end] -= change;
-                leg.odometry[end] = self.odometry.pose_at(leg.times[end])?;
-                leg.velocities[end] = self.odometry.velocity(leg.times[end]);
-            } else {
-                (leg.reference[end], leg.interpolation_variances[end]) =
-                    self.reference.interpolated(leg.times[end] + clock_offset)?;
-            }
+            leg.times[end] -= change;
+            leg.odometry[end] = self.odometry.pose_at(leg.times[end])?;
+            leg.velocities[end] = self.odometry.velocity(leg.times[end]);
         }
         Some(leg)
     }
@@ -193,50 +189,46 @@ impl Drive<'_> {
         let Self { odometry, reference } = *self;
         let mut leg_start: Option<LegEnd> = None;
         let mut follows_previous = false;
-        for (time, pose, reference_pose) in self.possible_ends(clock_offset) {
-            let find_end = || {
-                let known_pose = reference_pose.map(|pose| (pose, 1.0));
-                let reference = known_pose.or_else(|| reference.interpolated(time + clock_offset));
-                LegEnd { time, odometry: pose, velocity: odometry.velocity(time), reference }
-            };
-            let has_break = leg_start.is_some_and(|start| odometry.has_break(start.time, time));
+        for reading in odometry.samples() {
+            let (reading_time, pose) = reading;
+            let has_break = leg_start.is_some_and(|start| odometry.has_break(start.time, reading_time));
             lost.across_breaks += usize::from(has_break);
             let Some(start) = leg_start.filter(|_| !has_break) else {
-                (leg_start, follows_previous) = (Some(find_end()), false);
+                (leg_start, follows_previous) = (Some(self.leg_end(reading, clock_offset)), false);
                 continue;
             };
-            let (poses, duration) = ([start.odometry, pose], time - start.time);
-            if !length.is_complete(&poses, duration) {
+            let (start_time, start_reading) = start.reading;
+            if !length.is_complete(&[start_reading, pose], reading_time - start_time) {
                 continue;
             }
-            let (end, motion) = (find_end(), start.odometry.between(&pose));
-            let is_too_long = length.ratio(&poses, duration) > MAX_RATIO_ACROSS_PAUSE;
-            // The leg stays open until it is too long, because the reference may have a pose again.
-            if start.reference.is_some() && end.reference.is_none() && !is_too_long {
+            let end = self.leg_end(reading, clock_offset);
+            let (times, poses) = ([start.time, end.time], [start.odometry, end.odometry]);
+            let motion = start.odometry.between(&end.odometry);
+            let is_too_long = length.ratio(&poses, end.time - start.time) > MAX_RATIO_ACROSS_PAUSE;
+            // The leg stays open until the reference has another sample, or the leg is too long.
+            let is_unknown = end.reference.is_none() && !is_too_long || end.time <= start.time;
+            if start.reference.is_some() && is_unknown {
                 continue;
             }
             let had_followed = std::mem::replace(&mut follows_previous, false);
             leg_start = Some(end);
-            let (Some((start_reference, start_variance)), Some((end_reference, end_variance))) =
-                (start.reference, end.reference)
-            else {
+            let (Some(start_reference), Some(end_reference)) = (start.reference, end.reference) else {
                 lost.without_reference += 1;
                 continue;
             };
-            if reference.has_break(start.time + clock_offset, time + clock_offset) {
+            if reference.has_break(start.time + clock_offset, end.time + clock_offset) {
                 lost.across_breaks += 1;
-            } else if is_too_long && odometry.has_gap(start.time, time) {
+            } else if is_too_long && odometry.has_gap(start.time, end.time) {
                 lost.across_pauses += 1;
             } else if turn(&motion) < MAX_STANDING_TURN && distance(&motion) < MAX_SPIN_DISTANCE {
                 lost.standing += 1;
             } else {
                 follows_previous = true;
                 legs.push(Leg {
-                    times: [start.time, time],
+                    times,
                     odometry: poses,
                     velocities: [start.velocity, end.velocity],
                     reference: [start_reference, end_reference],
-                    interpolation_variances: [start_variance, end_variance],
                     follows: had_followed,
                     drive: 0,
                 });

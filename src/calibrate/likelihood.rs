@@ -140,7 +140,7 @@ impl Term {
         let heading_error = expected.between(measured).theta();
         let end_jacobian = jacobian * SE2::new(0.0, 0.0, heading_error).adjoint();
         let [start, end] =
-            corrected.reference_jacobians(leg, measured).map(|pose_jacobian| end_jacobian * pose_jacobian);
+            corrected.reference_jacobians(measured).map(|pose_jacobian| end_jacobian * pose_jacobian);
         Self { columns, coefficients: *coefficients, observed, start, end, follows: false }
     }
 

@@ -139,10 +139,9 @@ impl Systematic {
 
     /// Returns the Jacobians of the end of the base's motion with respect to the errors of the reference at the leg's start and end. An error is
     /// a small motion (x, y, θ) in the frame of the reference there, and a change of the end one in the frame of the end.
-    pub(super) fn reference_jacobians(&self, leg: &Leg, measured: &SE2) -> [Matrix3<f64>; 2] {
+    pub(super) fn reference_jacobians(&self, measured: &SE2) -> [Matrix3<f64>; 2] {
         let to_base = self.base().inverse().adjoint();
-        let [start, end] = leg.interpolation_variances.map(f64::sqrt);
-        [measured.inverse().adjoint() * to_base * -start, to_base * end]
+        [measured.inverse().adjoint() * -to_base, to_base]
     }
 
     /// Returns the Jacobian, with respect to [`SystematicError::ALL`], of the end of the motion by the reference, minus that by the odometry, in
@@ -163,8 +162,13 @@ impl Systematic {
         let twist_per_turn_scale =
             Vector3::new(0.0, if model.drives_sideways() { 0.0 } else { twist.y }, twist.z);
         let twist_jacobian = SE2::right_jacobian(&twist);
+        let mut twist_per_second = SE2::right_jacobian_inverse(&twist) * (end - to_end * start);
+        // A command has no sideways component, and does not gain one with the clock offset.
+        if model == Model::Velocity {
+            twist_per_second.y = 0.0;
+        }
         SMatrix::from_columns(&[
-            end - to_end * start,
+            twist_jacobian * twist_per_second,
             mount_derivative(yaw_change),
             mount_derivative(Vector3::x()),
             mount_derivative(Vector3::y()),

@@ -189,25 +189,23 @@ impl Trajectory {
         Some((sample, (time - self.times[before]) / (time_after - self.times[before])))
     }
 
-    /// Returns the pose at `time` (s). Between two samples it lies on the arc of constant velocities that joins them. None outside of the
-    /// trajectory and inside of a gap.
-    pub fn pose_at(&self, time: f64) -> Option<SE2> {
-        self.interpolated(time).map(|(pose, _)| pose)
+    /// Returns the time (s) and pose of a sample.
+    pub(super) fn sample(&self, sample: usize) -> (f64, SE2) {
+        (self.times[sample], self.poses[sample])
     }
 
-    /// Returns [`Trajectory::pose_at`], and the variance of its error divided by that of one sample. With independent errors it is
-    /// (1 − s)² + s² at the fraction s between two samples.
+    /// Returns the pose at `time` (s). Between two samples it lies on the arc of constant velocities that joins them. None outside of the
+    /// trajectory and inside of a gap.
     // Not inlined, because the code for arcs is long.
     #[inline(never)]
-    pub(super) fn interpolated(&self, time: f64) -> Option<(SE2, f64)> {
+    pub fn pose_at(&self, time: f64) -> Option<SE2> {
         let (sample, fraction) = self.locate(time)?;
         let pose = self.poses[sample];
         if fraction == 1.0 {
-            return Some((pose, 1.0));
+            return Some(pose);
         }
         let before = self.poses[sample - 1];
-        let interpolated_pose = before.boxplus(pose.boxminus(&before) * fraction);
-        Some((interpolated_pose, (1.0 - fraction) * (1.0 - fraction) + fraction * fraction))
+        Some(before.boxplus(pose.boxminus(&before) * fraction))
     }
 }
 

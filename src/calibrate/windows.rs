@@ -74,14 +74,10 @@ impl Sample {
         parameters: &Parameters,
     ) -> (SE2, Matrix3<f64>) {
         let [start, end] = [first_leg, last_leg].map(|leg| &self.legs[leg]);
-        let window = Leg {
-            reference: [start.reference[0], end.reference[1]],
-            interpolation_variances: [start.interpolation_variances[0], end.interpolation_variances[1]],
-            ..*start
-        };
+        let window = Leg { reference: [start.reference[0], end.reference[1]], ..*start };
         let measured = self.systematic.motion(&window);
         let pose_covariance = reference_covariance(parameters);
-        let jacobians = self.systematic.reference_jacobians(&window, &measured);
+        let jacobians = self.systematic.reference_jacobians(&measured);
         let covariance =
             jacobians.map(|jacobian| jacobian * pose_covariance * jacobian.transpose()).iter().sum();
         (measured, covariance)

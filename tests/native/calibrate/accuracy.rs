@@ -1,7 +1,7 @@
 //! Accuracy of the α's, their intervals and the noise of the reference, over many simulated logs.
 
 use super::calibrate_simulation;
-use super::simulated::{ALPHAS, MODELS, Simulation, Violation};
+use super::simulated::{ALPHAS, MODELS, Sampling, Simulation, Violation};
 use motion::calibrate::{ERROR_COUNT, Model, Systematic, SystematicError};
 
 const LEG_COUNT: usize = 600;
@@ -28,6 +28,9 @@ const PERSISTENT_ERRORS: Scenario = Scenario {
     allowed_bias: 0.1,
     ..scenario("persistent", |sim| sim.violation = Violation::Autoregressive(0.7))
 };
+
+const UNRELATED_TIMES: Scenario =
+    scenario("67 Hz and 29 Hz", |sim| sim.sampling = Sampling::Unrelated([3, 7]));
 
 const TRUE_SYSTEMATIC_ERRORS: Systematic = Systematic {
     clock_offset: 0.12,
@@ -221,6 +224,13 @@ fn alphas_and_errors_are_right_with_five_systematic_errors() {
 #[ignore = "nightly: 500 calibrations"]
 fn alphas_are_right_with_jumps_of_half_a_metre_in_a_hundredth_of_the_legs() {
     assert_right_in_every_model(&JUMPING_REFERENCE, |_| Vec::new());
+}
+
+/// Poses have to be interpolated, because the readings and the samples of the reference have different times.
+#[test]
+#[ignore = "nightly: 500 calibrations"]
+fn alphas_are_right_if_odometry_and_reference_have_unrelated_times() {
+    assert_right_in_every_model(&UNRELATED_TIMES, |_| Vec::new());
 }
 
 #[test]

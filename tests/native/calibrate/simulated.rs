@@ -53,7 +53,22 @@ pub struct Simulation {
     pub seed: u64,
     /// Standard deviations of the reference, m and rad.
     pub reference_stds: [f64; 2],
+    /// Times of the samples.
+    pub sampling: Sampling,
 }
+
+/// Times of the samples of odometry and reference.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Sampling {
+    /// Both have a sample each 50 ms.
+    Common,
+    /// The odometry has a sample each first number of [`FINE_STEP_SECONDS`], the reference each second number, at unrelated times. The noise of
+    /// a leg is then a random walk.
+    Unrelated([usize; 2]),
+}
+
+const STEP_SECONDS: f64 = 0.05;
+const FINE_STEP_SECONDS: f64 = 0.005;
 
 impl Simulation {
     pub fn of(model: Model, leg_count: usize, seed: u64) -> Self {
@@ -67,6 +82,7 @@ impl Simulation {
             violation: Violation::None,
             seed,
             reference_stds: [0.0; 2],
+            sampling: Sampling::Common,
         }
     }
 
@@ -85,46 +101,61 @@ impl Simulation {
 
     /// Returns odometry and reference.
     pub fn log(&self) -> [Trajectory; 2] {
-        const STEP_SECONDS: f64 = 0.05;
+        let (step_seconds, [rows_per_reading, rows_per_reference]) = match self.sampling {
+            Sampling::Common => (STEP_SECONDS, [1, 1]),
+            Sampling::Unrelated(rows) => (FINE_STEP_SECONDS, rows),
+        };
+        let rows_per_step = (STEP_SECONDS / step_seconds).round() as usize;
         let mut rng = seeded_rng(self.seed);
         let [distance_scale, turn_scale] =
             [Error::DistanceScale, Error::TurnScale].map(|scale| self.systematic_errors.get(scale));
         let mut odometry = vec![(0.0, SE2::identity())];
         let mut base_poses = vec![(0.0, SE2::new(1.0, 2.0, 0.5))];
-        let (mut velocity, mut rows_left, mut start_row) = ([0.3, 0.0], 40, 0);
+        let (mut velocity, mut rows_left, mut start_row) = ([0.3, 0.0], 40 * rows_per_step, 0);
         // Motion since the start of the leg, as the odometry would measure it without systematic errors.
         let (mut leg_motion, mut leg_rows) = (SE2::identity(), Vec::new());
         let (mut leg_index, mut unit_noise) = (0, [0.0; 3]);
         while leg_index < self.leg_count {
             if rows_left == 0 {
                 velocity = self.random_velocity(&mut rng);
-                rows_left = rng.random_range(15..60);
+                rows_left = rng.random_range(15..60) * rows_per_step;
             }
             rows_left -= 1;
             let velocity = self.leg_velocity.map_or(velocity, |leg_velocity| leg_velocity(leg_index));
-            let time = odometry.len() as f64 * STEP_SECONDS;
-            let twist = Vector3::new(velocity[0], 0.0, velocity[1]) * STEP_SECONDS;
+            let time = odometry.len() as f64 * step_seconds;
+            let twist = Vector3::new(velocity[0], 0.0, velocity[1]) * step_seconds;
             leg_motion = leg_motion.boxplus(twist);
             let odometry_twist = Vector3::new(twist.x / distance_scale, 0.0, twist.z / turn_scale);
             odometry.push((time, odometry.last().expect("some").1.boxplus(odometry_twist)));
             leg_rows.push((time, leg_motion));
             let [(start_time, start_pose), (_, odometry_pose)] =
                 [odometry[start_row], odometry[odometry.len() - 1]];
-            if !has_leg_ended(self.leg_length, time - start_time, &start_pose, &odometry_pose) {
+            let is_reading = (odometry.len() - 1) % rows_per_reading == 0;
+            if !is_reading || !has_leg_ended(self.leg_length, time - start_time, &start_pose, &odometry_pose)
+            {
                 continue;
             }
             let base_start = base_poses.last().expect("some").1;
             unit_noise = self.next_unit_noise(leg_index as f64 / self.leg_count as f64, unit_noise, &mut rng);
-            let base_end =
-                base_start * executed_motion(self.model, &ALPHAS, &leg_motion, time - start_time, unit_noise);
-            // The noise of a leg is distributed evenly over its rows.
-            let leg_noise = (leg_motion.inverse() * base_start.inverse() * base_end).log();
-            let leg_progress = |time: f64| (time - start_time) / (leg_rows.len() as f64 * STEP_SECONDS);
-            base_poses.extend(
-                leg_rows
-                    .iter()
-                    .map(|(t, pose)| (*t, base_start * pose.boxplus(leg_noise * leg_progress(*t)))),
-            );
+            // The noise of a leg is distributed evenly over its rows, plus a random walk that returns to 0.
+            let row_count = leg_rows.len();
+            let mut walk = vec![[0.0; 3]];
+            for row in 0..row_count {
+                let step_std = 1.0 / (row_count as f64).sqrt();
+                walk.push(walk[row].map(|sum| sum + step_std * self.draw_walk_step(&mut rng)));
+            }
+            let noise_of = |unit_noise| {
+                let duration = time - start_time;
+                let executed = executed_motion(self.model, &ALPHAS, &leg_motion, duration, unit_noise);
+                (leg_motion.inverse() * executed).log()
+            };
+            let [leg_noise, mean_noise] = [unit_noise, [0.0; 3]].map(noise_of);
+            for (row, (t, pose)) in leg_rows.iter().enumerate() {
+                let progress = (row + 1) as f64 / row_count as f64;
+                let bridge = std::array::from_fn(|k| walk[row + 1][k] - progress * walk[row_count][k]);
+                let row_noise = leg_noise * progress + noise_of(bridge) - mean_noise;
+                base_poses.push((*t, base_start * pose.boxplus(row_noise)));
+            }
             if rng.random_bool(self.jump_fraction) {
                 let jump_direction = rng.random_range(-3.0..3.0);
                 let jump = SE2::new(0.5 * libm::cos(jump_direction), 0.5 * libm::sin(jump_direction), 0.0);
@@ -150,7 +181,15 @@ impl Simulation {
                 SE2::new(sensor_pose.x() + x, sensor_pose.y() + y, sensor_pose.theta() + theta),
             )
         });
-        [new_trajectory(odometry), new_trajectory(reference)]
+        [
+            new_trajectory(odometry.into_iter().step_by(rows_per_reading)),
+            new_trajectory(reference.skip(rows_per_reference / 2).step_by(rows_per_reference)),
+        ]
+    }
+
+    /// Returns a step of the random walk of the noise within a leg.
+    fn draw_walk_step(&self, rng: &mut impl Rng) -> f64 {
+        if self.sampling == Sampling::Common { 0.0 } else { NoiseKind::Normal.sample(Variance(1.0), rng) }
     }
 
     /// Returns v and ω of a straight drive, a bend, a turn on the spot, or a drive in reverse if the rule allows it.

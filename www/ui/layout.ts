@@ -8,9 +8,10 @@ import { controlStyles } from './controls.ts';
 import { readoutStyles } from './readouts.ts';
 import { sliderStyles } from './slider.ts';
 
-/** Style of a figure in which only the first picture stays visible while scrolling. All pictures would leave no space for the controls. */
+/** Style of a figure in which only the first picture or chart stays visible while scrolling. All would leave no space for the controls. */
 const stickyPicture = css`
-  .stage[part='picture'] {
+  :where(.views > .panel:first-of-type) > .panel-title + * {
+    --most: 45svh;
     position: sticky;
     top: var(--top);
     z-index: 2;
@@ -19,13 +20,13 @@ const stickyPicture = css`
   }
 
   .views,
-  .panel:has([part='picture']) {
+  .views > .panel:first-of-type {
     display: contents;
   }
 
   /* Margin for the fade. */
-  .stage[part='picture'] + *,
-  .panel:has([part='picture']) + * {
+  .views > .panel:first-of-type + *,
+  .stage + * {
     margin-top: 0.7em;
   }
 `;
@@ -44,6 +45,12 @@ const figureLayout = css`
     visibility: hidden;
   }
 
+  /* Files are dragged over the figure. */
+  .dropping {
+    outline: 2px dashed var(--accent);
+    outline-offset: 4px;
+  }
+
   .views,
   .controls {
     display: grid;
@@ -56,23 +63,8 @@ const figureLayout = css`
     gap: 0.5em 2.5em;
   }
 
-  @container (min-width: 56em) {
-    .controls {
-      column-gap: 5em;
-    }
-
-    /* The controls of the cloud are below one or two sliders, and both groups are next to the command. */
-    .controls:has(> .single, > .pair) {
-      grid-template-columns: repeat(2, minmax(0, 1fr));
-    }
-
-    .controls > fieldset:has(+ .single, + .pair) {
-      grid-row: span 2;
-    }
-  }
-
   /* A group of sliders is a row of three columns. */
-  @container (38em <= width < 56em) {
+  @container (min-width: 38em) {
     .simulation > .controls:has(> fieldset) {
       grid-template-columns: repeat(3, minmax(min-content, 1fr));
       column-gap: 1.25em;
@@ -200,6 +192,12 @@ const figureLayout = css`
     /* 13 px in text of 16 px: pictures scale with the font size of the page, see FONT_SIZE in scene/canvas.ts. */
     font-size: 0.8125em;
     cursor: crosshair;
+  }
+
+  @container (min-width: 38em) {
+    canvas {
+      aspect-ratio: 8 / 5;
+    }
   }
 
   .handle {

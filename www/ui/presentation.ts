@@ -20,7 +20,7 @@ export const presentationStyles = css`
 
   /* The controls need more space. */
   :host([presentation]) .with-controls {
-    font-size: max(0.6em, min(1em, 100vw / 84, 100vh / 48));
+    font-size: max(0.6em, min(1em, 100vw / 84, 100vh / 54));
   }
 
   :host([presentation]) .surface {
@@ -55,15 +55,18 @@ export const presentationStyles = css`
   }
 
   /* Pictures of a narrow figure are not sticky here, so that they are below their titles. */
-  :host([presentation]) .panel:has([part='picture']) {
+  :host([presentation]) .views > .panel:first-of-type {
     display: grid;
   }
 
-  :host([presentation]) .stage {
-    position: relative !important;
+  :host([presentation]) .panel-title + * {
+    position: relative;
     top: 0;
-    min-height: 30vh;
     box-shadow: none;
+  }
+
+  :host([presentation]) .stage {
+    min-height: 30vh;
   }
 
   :host([presentation]) .stage canvas {

@@ -8,12 +8,12 @@ const CLASS_WIDTHS_EM = [20, 30, 38, 46, 56, 80];
 
 /** Heights in em by tag and width class, at the lower and the upper bound of the class. Measured in a window 900 px high, with a small margin. */
 const HEIGHTS_EM: Record<string, ([number, number] | string)[]> = {
-  'banana-machine': [[92.8, 93], [78.4, 71.1], [55.2, 51.5], [51.7, 54.8], [54.6, 57.9]],
-  'map-squeeze': [[83.9, 87], [80.8, 82.2], [44.1, 45], [46, 48.6], [50.3, 46.4]],
-  'arc-anatomy': [[81, 70.9], [73.9, 68.5], [42.2, 48.5], [50.9, 50.9], [50.9, 47.9]],
-  'odometry-decomposer': [[101.5, 112.9], [89.1, 93.6], 'clamp(44.9em, 100svh - 0.1em, 56.1em)', 'clamp(44.9em, 100svh - 0.1em, 56.1em)', 'clamp(45.1em, 100svh + 0.1em, 52.7em)'],
-  'dead-reckoning': [[95.9, 111.5], [63.8, 54.2], [53.8, 45.5], [45, 50.7], [41, 42.1]],
-  'alpha-calibrator': [[100, 106], [104.5, 97], [51.5, 53], [54, 56], [41, 39.5]],
+  'banana-machine': [[88, 87], [71, 60], [53, 51], [51, 50.5], [51, 56]],
+  'map-squeeze': [[80, 75], [75, 71], [42, 42], [42, 46], [46.5, 44]],
+  'arc-anatomy': [[74, 68.5], [68.5, 61.5], [40, 42], [42, 48], [47.5, 47]],
+  'odometry-decomposer': [[99, 101], [97, 92.5], 'clamp(44.9em, 100svh - 0.1em, 56.1em)', 'clamp(44.9em, 100svh - 0.1em, 56.1em)', 'clamp(45.1em, 100svh + 0.1em, 52.7em)'],
+  'dead-reckoning': [[93, 105], [65, 48], [48.5, 43.5], [43.5, 49], [41, 42]],
+  'alpha-calibrator': [[101, 106], [104, 96], [52.5, 55], [55, 58], [41, 39.5]],
 };
 
 /** Returns the height for any width as a CSS maximum over the classes. Outside of its class, a term is hugely negative. */

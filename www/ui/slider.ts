@@ -42,14 +42,6 @@ export const sliderStyles = css`
     padding-bottom: 1.1em;
   }
 
-  /* In wide figures the label, the track and the value are in one row. Fixed column widths align the sliders of all groups. */
-  @container (min-width: 56em) {
-    .slider:not(:where(.with-button *)) {
-      grid-template: 'name track value' auto / 14em 1fr minmax(5.5em, max-content);
-      align-items: center;
-    }
-  }
-
   /* Slider next to a button. */
   .with-button {
     display: grid;

@@ -174,10 +174,6 @@ const styles = css`
     line-height: 1.3;
   }
 
-  [part='controls'] .slider {
-    grid-template: 'name value' auto 'track track' auto / 1fr auto;
-  }
-
   .looked .slider {
     padding-bottom: 0.2em;
   }
@@ -186,11 +182,6 @@ const styles = css`
     display: grid;
     grid-template-columns: repeat(auto-fit, minmax(min(100%, 17em), 1fr));
     gap: 0.5em 1em;
-  }
-
-  .dropping .drop-zone {
-    outline: 2px solid var(--accent);
-    outline-offset: 2px;
   }
 
   @media print {
@@ -209,12 +200,8 @@ const styles = css`
       grid-column: 1 / -1;
     }
 
-    canvas {
-      aspect-ratio: 7 / 4;
-    }
-
     .one canvas {
-      aspect-ratio: 8 / 3;
+      aspect-ratio: 5 / 2;
     }
   }
 
@@ -487,7 +474,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
           ${group(texts.nav2.title, nav2ExportControls(this, this.#opener.otherResultsNote))}`,
         csvTitle: texts.csvTitle,
       })}
-      ${this.#opener.logModules?.logSummaryHtml(this.#opener)}`)}
+      ${this.#opener.logModule?.logSummaryHtml(this.#opener)}`)}
     `;
   }
 }

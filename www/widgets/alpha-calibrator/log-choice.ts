@@ -1,25 +1,45 @@
-/** Forms that ask which logs to read, and the summary of the logs that were read. This module is loaded with the first log. */
+/** Plan of the logs to read, forms that ask for it, and the summary of the logs that were read. This module is loaded with the first log. */
 
 import { html, nothing, svg } from 'lit';
 import { guard } from 'lit/directives/guard.js';
 import { live } from 'lit/directives/live.js';
-import { findCandidates, readableSeries } from '../../logs/drives.ts';
-import type { Drive } from '../../logs/pairs.ts';
+import { findCandidates, planDrives, readableSeries, type LogPlan } from '../../logs/drives.ts';
 import { ROLES, UNITS, framesText, summaryLines, type LogChoice, type Question, type Recording, type Role } from '../../logs/log.ts';
 import { alignedPath, pathOf, svgPathData, type Path } from '../../logs/path.ts';
 import { language } from '../../messages/registry.ts';
 import { radioGroup } from '../../ui/controls.ts';
 import { fixed } from '../../ui/format.ts';
 import type { AlphaCalibratorElement } from './alpha-calibrator.ts';
+import type { Drive } from '../../logs/pairs.ts';
 import type { OpenQuestion, ChosenFiles, LogOpener, LogWords } from './open.ts';
+
+export { english as en } from '../../logs/en.ts';
+export { german as de } from '../../logs/de.ts';
+export { calibrationLogOf, warningsOf } from '../../logs/pairs.ts';
 
 const COLUMN_FIELDS = ['t', 'x', 'y', 'yaw', 'qx', 'qy', 'qz', 'qw', 'v', 'omega'] as const;
 
 /** Maximum number of characters of a cell next to the number of its column. */
 const MAX_CELL_LENGTH = 16;
 
+/** Maximum number of files in the name of a log. */
+const MAX_NAMED_FILES = 4;
+
 /** Returns the name of a choice: its series, with the frames of transforms. */
 export const choiceLabel = ({ series, frames }: LogChoice) => (frames ? `${series}: ${framesText(frames)}` : series);
+
+/** Plans which logs are read, by the user's choices. */
+export function planOf({ recordings, userChoices, roles }: ChosenFiles, kind: 'commands' | undefined): LogPlan {
+  return planDrives(recordings, { ...userChoices, kind, roles: new Map([...roles].map(([index, role]) => [recordings[index], role])) });
+}
+
+/** Returns the name of a log: its files, and its topics if a single recording has both odometry and reference. */
+export function logNameOf({ drives, unpaired }: LogPlan) {
+  const plannedLogs = [...drives.map(({ odometry }) => odometry), ...unpaired.odometry, ...unpaired.reference];
+  const names = plannedLogs.map(({ recording }) => recording.name);
+  const [onlyDrive] = plannedLogs.length === 1 ? drives : [];
+  return [...names.slice(0, MAX_NAMED_FILES), ...(names.length > MAX_NAMED_FILES ? ['…'] : []), ...(onlyDrive ? [onlyDrive.odometry, onlyDrive.reference].map(({ choice }) => choiceLabel(choice)) : [])].filter(Boolean).join(', ');
+}
 
 /** Returns all logs that can be chosen for a role, with labels. Each pair of frames is a separate choice. */
 function labelledChoicesOf(recording: Recording, role?: Role): [label: string, LogChoice][] {

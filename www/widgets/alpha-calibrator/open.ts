@@ -19,7 +19,7 @@ export type LogWords = typeof import('../../logs/en.ts').english;
 /** Reason why files were refused: an error of the page, or a failure of the worker. */
 type Refusal = Pick<Error, 'message'> & Partial<import('../../logs/log.ts').LogError & LogFailure>;
 
-type LogModules = Awaited<ReturnType<typeof loadLogModules>>;
+type LogModule = typeof import('./log-choice.ts');
 
 /** Question about a file that the user has answered, or still has to answer. */
 export interface OpenQuestion { file: string; ask: Question }
@@ -47,9 +47,6 @@ export interface ChosenFiles {
 /** Extensions that the file dialog offers. */
 const EXTENSIONS = ['.csv', '.txt', '.tum', '.log', '.mcap', '.bag', '.db3', '.zst', '.zstd', '.yaml'];
 
-/** Maximum number of files in the name of a log. */
-const MAX_NAMED_FILES = 4;
-
 export class LogOpener extends FileOpener<Figure> {
   id = 'log';
   chosen: ChosenFiles | undefined;
@@ -57,8 +54,8 @@ export class LogOpener extends FileOpener<Figure> {
   #resultFiles: ChosenFiles | undefined;
   /** Files with only one log of a drive. The next file may contain the other log. */
   #loneLogFiles: ChosenFiles | undefined;
-  /** Modules that plan and show logs, with their texts. They are loaded when a file is chosen. */
-  logModules: LogModules | undefined;
+  /** Module that plans and shows logs, with their texts. It is loaded when a file is chosen. */
+  logModule: LogModule | undefined;
   /** Fraction of the files that has been read; undefined if no file is being read. */
   readFraction: number | undefined;
   /** Value of `kind` when the log was read. */
@@ -71,7 +68,7 @@ export class LogOpener extends FileOpener<Figure> {
 
   /** Words of logs in the present language. */
   get texts(): LogWords | undefined {
-    return this.logModules?.[language === 'de' ? 'de' : 'en'];
+    return this.logModule?.[language === 'de' ? 'de' : 'en'];
   }
 
   /** Reads the files again if the model has changed and prefers another odometry in them. */
@@ -79,9 +76,9 @@ export class LogOpener extends FileOpener<Figure> {
     const { chosen } = this;
     if (!chosen?.log || chosen.log !== this.host.log || this.readFraction !== undefined || this.#preferredKind === this.kind) return;
     const previousPlanText = planText(chosen.plan);
-    this.#restart(async (logModules) => {
-      const plan = planOf(logModules, chosen, this.kind);
-      if (planText(plan) !== previousPlanText) await this.#read((this.chosen = { ...chosen }), plan, logModules);
+    this.#restart(async (logModule) => {
+      const plan = logModule.planOf(chosen, this.kind);
+      if (planText(plan) !== previousPlanText) await this.#read((this.chosen = { ...chosen }), plan, logModule);
     });
   }
 
@@ -145,17 +142,17 @@ export class LogOpener extends FileOpener<Figure> {
   #open(chosen: ChosenFiles) {
     this.chosen = { ...chosen, plan: undefined, drives: undefined, log: undefined };
     const openedFiles = this.chosen;
-    this.#restart(async (logModules) => {
+    this.#restart(async (logModule) => {
       if (openedFiles.recordings.length === 0) Object.assign(openedFiles, await this.host.service.open(openedFiles.files, openedFiles.answers));
-      await this.#read(openedFiles, await this.#plan(openedFiles, logModules), logModules);
+      await this.#read(openedFiles, await this.#plan(openedFiles, logModule), logModule);
     });
   }
 
   /** Plans which series are read. A file with one log is paired with the previous file if that also has only one log. */
-  async #plan(chosen: ChosenFiles, logModules: LogModules): Promise<LogPlan> {
+  async #plan(chosen: ChosenFiles, logModule: LogModule): Promise<LogPlan> {
     try {
       if (chosen.recordings.length === 0) throw chosen.skipped[0];
-      return planOf(logModules, chosen, this.kind);
+      return logModule.planOf(chosen, this.kind);
     } catch (error) {
       // A skipped file may be the missing log, so its question comes first.
       const skipped = chosen.skipped.find(({ ask }) => ask);
@@ -167,11 +164,11 @@ export class LogOpener extends FileOpener<Figure> {
       const [files, questions] = [[...loneLogFiles.files, ...chosen.files], [...loneLogFiles.questions, ...chosen.questions]];
       Object.assign(chosen, { files, questions, answers: { ...loneLogFiles.answers, ...chosen.answers } });
       Object.assign(chosen, await this.host.service.open(files, chosen.answers));
-      return planOf(logModules, chosen, this.kind);
+      return logModule.planOf(chosen, this.kind);
     }
   }
 
-  async #read(chosen: ChosenFiles, plan: LogPlan, logModules: LogModules) {
+  async #read(chosen: ChosenFiles, plan: LogPlan, logModule: LogModule) {
     const { service } = this.host;
     chosen.plan = plan;
     if (service.openRecordings !== chosen.recordings) {
@@ -182,8 +179,8 @@ export class LogOpener extends FileOpener<Figure> {
       this.readFraction = readFraction;
       this.host.requestUpdate();
     });
-    const log = { name: logNameOf(plan, logModules), ...logModules.calibrationLogOf(drives) };
-    const fitPromise = this.host.open(log, logModules.warningsOf(drives.flatMap(({ odometry, reference }) => [odometry, reference])), ({ count }) => {
+    const log = { name: logModule.logNameOf(plan), ...logModule.calibrationLogOf(drives) };
+    const fitPromise = this.host.open(log, logModule.warningsOf(drives.flatMap(({ odometry, reference }) => [odometry, reference])), ({ count }) => {
       if (count === 0) throw new RangeError(words.calibrator.none);
     });
     // The summary of logs is shown while they are fitted.
@@ -210,15 +207,15 @@ export class LogOpener extends FileOpener<Figure> {
     const { chosen } = this;
     const newQuestion = ask && chosen && { file: place?.file ?? '', ask };
     if (newQuestion && !chosen.questions.some((question) => question.file === newQuestion.file && question.ask.what === ask.what)) chosen.questions.push(newQuestion);
-    await super.refuse(error, () => newQuestion && this.logModules?.focusChooser(this.host, newQuestion));
+    await super.refuse(error, () => newQuestion && this.logModule?.focusChooser(this.host, newQuestion));
   }
 
   /** Cancels reading, and starts new work. */
-  async #restart(work: (logModules: LogModules) => Promise<void>) {
+  async #restart(work: (logModule: LogModule) => Promise<void>) {
     this.host.service.stop();
     this.#preferredKind = this.kind;
     this.readFraction = 0;
-    const isLatest = await this.runAttempt(async () => work(this.logModules ??= await loadLogModules()));
+    const isLatest = await this.runAttempt(async () => work(this.logModule ??= await import('./log-choice.ts')));
     if (isLatest) this.#setIdle();
   }
 }
@@ -226,38 +223,19 @@ export class LogOpener extends FileOpener<Figure> {
 /** Checks whether a file may be a log, because folders also have other files. */
 const isPossibleLog = ({ name, path }: File & { path?: string }) => path === undefined || name === 'metadata.yaml' || [...EXTENSIONS.slice(0, -1), '-wal'].some((extension) => name.endsWith(extension));
 
-function planOf(logModules: LogModules, { recordings, userChoices, roles }: ChosenFiles, kind: 'commands' | undefined): LogPlan {
-  return logModules.planDrives(recordings, { ...userChoices, kind, roles: new Map([...roles].map(([index, role]) => [recordings[index], role])) });
-}
-
 /** Returns the choices of a plan as a text, to compare plans. */
 const planText = (plan: LogPlan | undefined) => JSON.stringify(plan && [plan.drives, plan.unpaired]);
-
-/** Returns the name of a log: its files, and its topics if a single recording has both odometry and reference. */
-function logNameOf({ drives, unpaired }: LogPlan, logModules: LogModules) {
-  const plannedLogs = [...drives.map(({ odometry }) => odometry), ...unpaired.odometry, ...unpaired.reference];
-  const names = plannedLogs.map(({ recording }) => recording.name);
-  const [onlyDrive] = plannedLogs.length === 1 ? drives : [];
-  return [...names.slice(0, MAX_NAMED_FILES), ...(names.length > MAX_NAMED_FILES ? ['…'] : []), ...(onlyDrive ? [onlyDrive.odometry, onlyDrive.reference].map(({ choice }) => logModules.choiceLabel(choice)) : [])].filter(Boolean).join(', ');
-}
-
-async function loadLogModules() {
-  const [drives, pairs, choice, { english: en }, { german: de }] = await Promise.all([
-    import('../../logs/drives.ts'), import('../../logs/pairs.ts'), import('./log-choice.ts'), import('../../logs/en.ts'), import('../../logs/de.ts'),
-  ]);
-  return { ...drives, ...pairs, ...choice, en, de };
-}
 
 /** Returns the drop zone for logs. Below it are the choosers, the progress or name of the log, and the reason for a refusal. */
 export function dropZone(figure: Figure, opener: LogOpener) {
   const texts = words.calibrator.own;
-  const { readFraction, logModules } = opener;
+  const { readFraction, logModule } = opener;
   return html`<div class="drop-zone" id=${opener.id} part="drop">
     <p title=${texts.dropTitle}>
       ${texts.drop}
       ${opener.button('log-files', texts.files, EXTENSIONS)}
     </p>
-    ${logModules?.logChoosers(opener)}
+    ${logModule?.logChoosers(opener)}
     ${readFraction !== undefined
       ? html`<p><progress aria-label=${words.progress.label} .value=${readFraction}></progress> ${button(words.progress.stop, () => opener.stop())}</p>`
       : figure.log ? html`<p><span class="present">${texts.present(figure.logName)}</span> ${button(texts.leave, () => opener.close())}</p>` : nothing}

@@ -116,12 +116,6 @@ const styles = css`
     }
   }
 
-  @container (min-width: 52em) {
-    canvas {
-      aspect-ratio: 7 / 4;
-    }
-  }
-
   .stepper {
     display: grid;
     grid-template-columns: auto auto 1fr;

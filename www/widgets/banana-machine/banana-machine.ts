@@ -158,18 +158,6 @@ const styles = css`
       grid-template-columns: repeat(3, 1fr);
     }
   }
-
-  @container (min-width: 38em) {
-    canvas {
-      aspect-ratio: 1.45;
-    }
-  }
-
-  @container (min-width: 56em) {
-    canvas {
-      aspect-ratio: 1.6;
-    }
-  }
 `;
 
 /**

@@ -12,7 +12,7 @@ import { Cloud, cloudControls, cloudProperties } from '../shared/cloud.ts';
 import { presetButtons } from '../shared/controls.ts';
 import { PathPicture, StepPicture } from './pictures.ts';
 import { headlineHtml, markedRobotField, missTable, ratioPlot, straightGrowthPlot, captionOf, planeText, stepText } from './readouts.ts';
-import { OUTLINE_STYLES, RECURSIONS, definition, COMMAND_SLIDERS, NOISE_SLIDERS, SAMPLE_COUNTS, COMPONENTS, viewModelOf, type ViewModel } from './settings.ts';
+import { CURVE_STYLES, OUTLINE_STYLES, RECURSIONS, definition, COMMAND_SLIDERS, NOISE_SLIDERS, SAMPLE_COUNTS, COMPONENTS, viewModelOf, type ViewModel } from './settings.ts';
 import type { Values } from '../../figure/settings.ts';
 import type { DeadReckoning as Simulation, Motion } from '../../types.d.ts';
 
@@ -39,35 +39,6 @@ function moreControls(figure: DeadReckoningElement) {
   </div>`;
 }
 
-/** The chart stays visible while scrolling, because its line is dragged. */
-const chartAlone = css`
-  .ratios,
-  .chart {
-    display: contents;
-  }
-
-  .chart .plotted {
-    position: sticky;
-    top: var(--top);
-    z-index: 2;
-    max-width: none;
-    margin-bottom: 0.5em;
-    box-sizing: border-box;
-    background: var(--paper);
-    border-inline: max(0px, (100cqi - 45svh * 1.52) / 2) solid var(--paper);
-    box-shadow:
-      -0.5em 0 var(--paper),
-      0.5em 0 var(--paper),
-      0 0.25em 0.25em var(--paper);
-  }
-
-  .floor .stage[part='picture'] {
-    position: relative;
-    z-index: auto;
-    box-shadow: none;
-  }
-`;
-
 const styles = css`
   .chart .plotted {
     max-width: calc(var(--most, 60svh) * 1.52);
@@ -82,20 +53,6 @@ const styles = css`
 
   :host([presentation]) .views {
     --most: 41svh;
-  }
-
-  :host([presentation]) .ratios {
-    display: grid;
-  }
-
-  :host([presentation]) .chart {
-    display: block;
-  }
-
-  :host([presentation]) .chart .plotted {
-    position: relative;
-    border: 0;
-    box-shadow: none;
   }
 
   :host([presentation]) .step .stage {
@@ -148,11 +105,6 @@ const styles = css`
       grid-template-columns: minmax(0, 1.75fr) repeat(2, minmax(0, 1fr));
     }
 
-    /* Sliders that have their names in the same row need wide columns: two instead of three. */
-    .folded .controls {
-      grid-template-columns: repeat(2, minmax(0, 1fr));
-    }
-
     .summary {
       grid-area: 2 / 1 / auto / -1;
       grid-template-columns: fit-content(12em) 1fr auto;
@@ -161,18 +113,6 @@ const styles = css`
 
     .summary .choices {
       grid-column: auto;
-    }
-  }
-
-  @media (min-height: 22em) {
-    @container (width < 30em) {
-      ${chartAlone}
-    }
-  }
-
-  @media (22em <= height < 40em) {
-    @container (width < 56em) {
-      ${chartAlone}
     }
   }
 `;
@@ -241,7 +181,7 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
     const texts = words.reckoning;
     return html`
       <div class="views">
-        ${titledPicture(texts.chart, html`<div class="chart">${ratioPlot(this, viewModel)}</div>`, 'ratios')}
+        ${titledPicture(texts.chart, html`<div class="chart">${ratioPlot(this, viewModel)}</div> ${legend(this, CURVE_STYLES)}`, 'ratios')}
         <div class="summary">
           ${headlineHtml(viewModel, overlays)}
           <p part="caption" class="caption ${condition !== 'certain' && 'note'}">${captionOf(viewModel, overlays)}</p>

@@ -1,8 +1,8 @@
 /** Readouts of Dead Reckoning, sentences and text equivalents: chart of predicted over measured variance by step, and table of wrong predictions (misses). */
 
 import { greatest, max } from 'd3-array';
-import { html } from 'lit';
-import { legend } from '../../figure/controls.ts';
+import { html, nothing } from 'lit';
+import {  } from '../../figure/controls.ts';
 import { addEnglish, words } from '../../messages/registry.ts';
 import { formatMarkup } from '../../ui/controls.ts';
 import { NO_VALUE, integer, fixed, formatWithError, formatSignificant } from '../../ui/format.ts';
@@ -111,7 +111,7 @@ export function ratioPlot(figure: import('./dead-reckoning.ts').DeadReckoningEle
       input: (newStep) => figure.settings.request({ step: Math.max(1, newStep) }),
       commit: () => figure.gesture.commit(),
     },
-    legend: legend(figure, CURVE_STYLES),
+    legend: nothing,
   });
 }
 

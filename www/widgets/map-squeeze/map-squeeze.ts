@@ -1,6 +1,6 @@
 /** <map-squeeze>: motion conditioned on a map, and walls on the path that a test of the end pose does not see. */
 
-import { html, nothing } from 'lit';
+import { html, nothing, css } from 'lit';
 import { instantiate } from '../../core.ts';
 import { pictureCanvas, disclosures, titledPicture, settingCheckbox, settingRadios, settingSlider, settingSliders, legend } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
@@ -17,7 +17,6 @@ import { measureCosts, overviewMapHtml, costTable, tallyReadouts, captionOf, hea
 import { applyMap, gridOf, mapDataOf } from './maps/data.ts';
 import { FloorPicture } from './picture.ts';
 import { LINE_STYLES, OPENING_POSE, PRESET_SETTING, definition, COMMAND_SLIDERS, MAX_SAMPLES, SAMPLE_COUNTS, outcomeIndex, viewModelOf, type ViewModel } from './settings.ts';
-import { styles } from './styles.ts';
 import { WallHandles } from './wall-handles.ts';
 import { wallContact } from './walls.ts';
 import type { Values } from '../../figure/settings.ts';
@@ -124,6 +123,146 @@ function userMapControls(figure: MapSqueezeElement, opener: MapOpener, mapText: 
     </div>
   </div>`);
 }
+
+const styles = css`
+  .handle:is(.jamb, .side) {
+    --ring: var(--truth);
+    width: 1.75em;
+    height: 1.75em;
+    border-radius: 0;
+  }
+
+  .handle.jamb::after {
+    inset: 0.6em;
+    border-width: 1.5px;
+    border-radius: 1px;
+  }
+
+  .handle.side {
+    transform-origin: 0 0;
+  }
+
+  /* Name of a wall's handle, along the wall and towards the middle of the picture. */
+  .handle:is(.jamb, .side):is(:hover, :focus-visible):not(.held)::before {
+    content: attr(title);
+    top: 100%;
+    background: var(--ink);
+  }
+
+  .handle.right:is(.jamb, .side)::before {
+    right: 0;
+  }
+
+  .handle.side::after {
+    inset: 0.625em 0.2em;
+    border-width: 1.5px;
+    border-radius: 0.25em;
+  }
+
+  /* Handles of walls are visible while a pointer is over the picture, and always on touch screens. */
+  @media (hover) {
+    .stage:not(:hover) .handle.side:not(:focus-visible)::after {
+      opacity: 0;
+    }
+  }
+
+  /* Height of the longest headline and sentence, so that nothing moves when they change. */
+  .result {
+    display: flow-root;
+    min-height: calc(12.2em - 16.5cqi);
+  }
+
+  .headline {
+    margin: 0.15em 0 0;
+    font-size: 1.7em;
+    line-height: 1.15;
+    text-wrap: balance;
+  }
+
+  .verdict.caption {
+    min-height: 0;
+    margin-bottom: 0.3em;
+    font-size: 0.92em;
+  }
+
+  .judge .choices {
+    margin-bottom: 0.2em;
+  }
+
+  .judge .effect {
+    margin: 0 0 0.5em;
+  }
+
+  .about {
+    margin: 0;
+  }
+
+  .overview {
+    display: none;
+  }
+
+  .views {
+    margin-bottom: 0.5em;
+  }
+
+  /* The picture is as high as possible, with the sentence and the presets next to it. */
+  @container (min-width: 38em) {
+    .views {
+      grid-template-columns: minmax(0, 60svh) minmax(18.25em, 1fr);
+      column-gap: 1.25em;
+    }
+
+    :host([presentation]) .views {
+      grid-template-columns: minmax(0, 1fr) 17em;
+    }
+
+    canvas {
+      aspect-ratio: 4 / 3;
+    }
+  }
+
+  /* The headline has the same number of lines for every share. */
+  @container (38em <= width < 56em) {
+    .result {
+      min-height: 12em;
+    }
+  }
+
+  @container (min-width: 56em) {
+    .headline {
+      font-size: 2em;
+    }
+
+    :host(:not([presentation])) .overview {
+      display: block;
+      width: 11em;
+    }
+  }
+
+  .marked label {
+    color: var(--ink);
+  }
+
+  .own-map p {
+    margin: 0 0 0.6em;
+  }
+
+  .own-map .note {
+    /* When it is scrolled into view, the name of the current map is visible too. */
+    scroll-margin: 4em;
+    overflow-wrap: anywhere;
+  }
+
+  textarea {
+    margin: 0.35em 0 0.7em;
+  }
+
+  @media print {
+    .own-map :not(.present, :has(.present)) {
+      display: none !important;
+    }
+  }
+`;
 
 /**
  * Motion conditioned on a map, and what the condition cannot see.

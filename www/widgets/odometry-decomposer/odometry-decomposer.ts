@@ -59,12 +59,6 @@ const styles = css`
     aspect-ratio: 1;
   }
 
-  @container (30em <= width < 38em) {
-    .stage canvas {
-      aspect-ratio: 8 / 5;
-    }
-  }
-
   /* The legs next to the world, each with its text. */
   @container (min-width: 38em) {
     .views {

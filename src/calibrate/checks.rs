@@ -6,9 +6,7 @@ use super::residuals::Model;
 use super::result::LegFit;
 use super::systematic::{ERROR_COUNT, ErrorMask, Systematic, SystematicError};
 use super::trajectory::median;
-use crate::geom::se2::SE2;
 use crate::models::OdometryRule;
-use nalgebra::Complex;
 use serde::{Deserialize, Serialize};
 
 /// Overall judgement of a calibration.
@@ -31,7 +29,7 @@ pub enum Verdict {
 #[serde(rename_all = "kebab-case")]
 pub enum CheckName {
     /// Median difference of a leg's motions by odometry and by reference, divided by the median motion. For a copy of the odometry it is the
-    /// drift over a hundred metres, m.
+    /// square root of the largest end of the intervals of α's.
     ReferenceMatches,
     /// Number of legs.
     EnoughLegs,
@@ -196,13 +194,9 @@ const MIN_USABLE_LEGS: f64 = 30.0;
 /// Maximum median difference of the motions by odometry and reference, over the median motion, of logs of the same drive.
 const MAX_MISMATCH: f64 = 0.7;
 
-/// Drift (m) over a hundred metres, below which one path is a copy of the other. Numbers of a copy may be rounded to millimetres, but errors of
-/// wheels accumulate along a path. Robots that err by 0.7 mm and 0.5 mrad over a metre drift by 7e-4 or more in thousands of simulated logs,
-/// because the alignment removes most of a short path's drift.
-const MIN_DRIFT: f64 = 5e-4;
-
-/// Lengths (m) of the long and of the short pieces of both paths. With drift, the paths differ more in long pieces.
-const PIECE_LENGTHS: [f64; 2] = [200.0, 5.0];
+/// Relative error below which the reference is a copy of the odometry: no wheels measure every motion to a thousandth. Numbers of a copy may be
+/// rounded to millimetres, because rounding is noise of the reference: the ends of its intervals are then below 5e-4.
+const MIN_RELATIVE_ERROR: f64 = 1e-3;
 
 /// Minimum number of windows for conclusions from their coverage.
 pub(super) const MIN_WINDOWS: usize = 20;
@@ -215,17 +209,21 @@ pub(super) fn log_checks(
     sample: &Sample,
     lost: &LostLegs,
     systematic: &Systematic,
+    alpha_intervals: &[Option<[f64; 2]>],
     inflation: f64,
 ) -> Vec<Check> {
     let count = sample.legs.len();
-    // A copy fails by its drift, any other reference by the difference of its motions. A drift that is NaN says nothing.
-    let drift = Some(drift(sample, systematic)).filter(|drift| *drift < MIN_DRIFT);
-    let mismatch = drift.or_else(|| mismatch(sample, systematic));
+    // α's are squares of relative errors. A copy fails by the largest end of their intervals, any other reference by the difference of its
+    // motions.
+    let max_alpha = alpha_intervals.iter().flatten().map(|[_, end]| *end).reduce(f64::max);
+    let copy_error = max_alpha.map(f64::sqrt).filter(|error| *error < MIN_RELATIVE_ERROR);
+    let mismatch = || mismatch(sample, systematic).map(|ratio| ratio.max(MIN_RELATIVE_ERROR));
+    let mismatch = copy_error.or_else(mismatch);
     let mut ratios: Vec<f64> =
         sample.legs.iter().map(|leg| sample.options.legs.ratio(&leg.odometry, leg.duration())).collect();
     let outlier_count = sample.outliers.iter().filter(|is| **is).count();
     let lost_count = lost.total() - lost.standing;
-    let matches_range = [MIN_DRIFT, MAX_MISMATCH];
+    let matches_range = [MIN_RELATIVE_ERROR, MAX_MISMATCH];
     let mismatch = mismatch.map(|value| Check::new(CheckName::ReferenceMatches, value, matches_range));
     let mut checks = Vec::from_iter(mismatch);
     checks.extend([
@@ -244,79 +242,26 @@ pub(super) fn log_checks(
     checks
 }
 
-/// Returns the drift (m) between the paths by odometry and by reference over 100 m, or a larger number if few legs leave it uncertain. NaN if the
-/// log has no long pieces. Drift adds to the squared differences of long pieces. The noise of the reference does not: it is equal in long and in
-/// short pieces.
-fn drift(sample: &Sample, systematic: &Systematic) -> f64 {
-    let [[square, freedom, length], [short_square, short_freedom, short_length]] =
-        PIECE_LENGTHS.map(|piece_length| path_difference(sample, systematic, piece_length));
-    let std_by_chance = short_square * (1.0 / short_freedom - 1.0 / freedom).sqrt();
-    let added_square = (square - short_square).max(0.0) + 2.0 * std_by_chance;
-    (100.0 * added_square / (length - short_length)).sqrt()
-}
-
-/// Cuts the paths by odometry and by reference into pieces of a length (m), and aligns each pair of pieces. Returns their mean squared distance
-/// (m²), its degrees of freedom, and the mean length of the pieces. An alignment takes the degrees of freedom of two points.
-fn path_difference(sample: &Sample, systematic: &Systematic, piece_length: f64) -> [f64; 3] {
-    let (mut square_sum, mut freedom, mut length_sum) = (0.0, 0.0, 0.0);
-    let (mut points, mut length, base) = (Vec::new(), 0.0, systematic.base());
-    for (i, leg) in sample.legs.iter().enumerate() {
-        let [start, end, reference_end] = [leg.odometry[0], leg.odometry[1], leg.reference[1] * base]
-            .map(|pose| Complex::new(pose.x(), pose.y()));
-        points.push([end, reference_end]);
-        length += (end - start).norm();
-        if length >= piece_length || sample.legs.get(i + 1).is_none_or(|next| !next.follows) {
-            if points.len() > 2 {
-                let piece_freedom = points.len() as f64 - 2.0;
-                square_sum += aligned_square_sum(&points);
-                length_sum += piece_freedom * length;
-                freedom += piece_freedom;
-            }
-            points.clear();
-            length = 0.0;
-        }
-    }
-    [square_sum / freedom, freedom, length_sum / freedom]
-}
-
-/// Returns the sum of the squared distances of pairs of points, minimized by shift, rotation and scaling of the first points.
-fn aligned_square_sum(points: &[[Complex<f64>; 2]]) -> f64 {
-    let mean =
-        [0, 1].map(|path| points.iter().map(|pair| pair[path]).sum::<Complex<f64>>() / points.len() as f64);
-    let centred = || points.iter().map(|pair| [pair[0] - mean[0], pair[1] - mean[1]]);
-    let [first_square, second_square] =
-        [0, 1].map(|path| centred().map(|pair| pair[path].norm_sqr()).sum::<f64>());
-    let product: Complex<f64> = centred().map(|[first, second]| first.conj() * second).sum();
-    // All points are equal if the robot only turns on the spot. The bound avoids 0/0.
-    (second_square - product.norm_sqr() / first_square.max(f64::MIN_POSITIVE)).max(0.0)
-}
-
 /// Returns the median difference between the motions of a leg by odometry and by reference, divided by the median motion. Of the ratios for
 /// turns and for drives the larger one is returned. `None` if too few legs turn and too few drive. Scales are not corrected, because a scale far
 /// from 1 is another unit.
 fn mismatch(sample: &Sample, systematic: &Systematic) -> Option<f64> {
     let systematic = Systematic { distance_scale: 1.0, turn_scale: 1.0, ..*systematic };
-    let motions = sample.legs.iter();
-    let motions: Vec<[SE2; 2]> =
-        motions.map(|leg| [systematic.expected(sample.options.model, leg), systematic.motion(leg)]).collect();
-    // Median difference over median size of the motions that are larger than a minimum.
-    let median_ratio = |size: fn(&SE2) -> f64, difference: fn(&[SE2; 2]) -> f64, min_size: f64| {
-        let moving = || motions.iter().filter(|[expected, _]| size(expected) > min_size);
-        let mut differences: Vec<f64> = moving().map(difference).collect();
-        let mut sizes: Vec<f64> = moving().map(|[expected, _]| size(expected)).collect();
-        (sizes.len() >= MIN_LEGS).then(|| median(&mut differences) / median(&mut sizes))
-    };
-    let turns = median_ratio(
-        turn,
-        |[expected, measured]| (measured.theta() - expected.theta()).abs(),
-        MIN_TURN_ANGLE,
-    );
-    let drives = median_ratio(
-        distance,
-        |[expected, measured]| libm::hypot(measured.x() - expected.x(), measured.y() - expected.y()),
-        MIN_DRIVE_DISTANCE,
-    );
-    [turns, drives].into_iter().flatten().reduce(f64::max)
+    // Sizes and differences of turns and of drives.
+    let [mut turns, mut drives]: [(Vec<f64>, Vec<f64>); 2] = Default::default();
+    for leg in &sample.legs {
+        let (expected, measured) = (systematic.expected(sample.options.model, leg), systematic.motion(leg));
+        if turn(&expected) > MIN_TURN_ANGLE {
+            turns.extend([(turn(&expected), (measured.theta() - expected.theta()).abs())]);
+        }
+        if distance(&expected) > MIN_DRIVE_DISTANCE {
+            let [dx, dy] = [measured.x() - expected.x(), measured.y() - expected.y()];
+            drives.extend([(distance(&expected), libm::hypot(dx, dy))]);
+        }
+    }
+    let compared = [turns, drives].into_iter().filter(|(sizes, _)| sizes.len() >= MIN_LEGS);
+    let ratios = compared.map(|(mut sizes, mut differences)| median(&mut differences) / median(&mut sizes));
+    ratios.reduce(f64::max)
 }
 
 /// Returns the checks of the innovations: correlation of neighbours and tails.
@@ -379,12 +324,11 @@ pub(super) fn scale_checks(fit: &Fit, correlation: f64) -> (Vec<Check>, ErrorMas
         (SystematicError::TurnScale, CheckName::TurnScaleConstant),
     ];
     for (scale, name) in scales.into_iter().filter(|(scale, _)| fit.sample.estimated[*scale as usize]) {
-        // Difference of the scales of two groups, and its tolerance.
+        // Difference of the scales of two groups, and its standard error.
         let compare_groups = |in_first: &dyn Fn(usize) -> bool| {
             let [a, a_std] = scale_of(fit, scale, correlation, in_first)?;
             let [b, b_std] = scale_of(fit, scale, correlation, |leg| !in_first(leg))?;
-            let tolerance = NEGLIGIBLE_SCALE_DIFFERENCE.max(MAX_SCALE_STD_ERRORS * libm::hypot(a_std, b_std));
-            Some((a - b, tolerance))
+            Some((a - b, libm::hypot(a_std, b_std)))
         };
         let halves = compare_groups(&|leg| leg < first_half_count);
         let other = match scale {
@@ -392,7 +336,9 @@ pub(super) fn scale_checks(fit: &Fit, correlation: f64) -> (Vec<Check>, ErrorMas
             _ => compare_long_turns(fit, correlation),
         };
         let relative_size = |(difference, tolerance): &(f64, f64)| difference.abs() / tolerance;
-        let comparisons = halves.into_iter().chain(other);
+        let comparisons = halves.into_iter().chain(other).map(|(difference, std)| {
+            (difference, NEGLIGIBLE_SCALE_DIFFERENCE.max(MAX_SCALE_STD_ERRORS * std))
+        });
         let largest_difference = comparisons.max_by(|a, b| relative_size(a).total_cmp(&relative_size(b)));
         let (difference, tolerance) = largest_difference.unwrap_or((0.0, NEGLIGIBLE_SCALE_DIFFERENCE));
         let check = Check::new(name, difference, [-tolerance, tolerance]);
@@ -405,26 +351,21 @@ pub(super) fn scale_checks(fit: &Fit, correlation: f64) -> (Vec<Check>, ErrorMas
 /// Number of neighbouring legs whose turns are added up.
 const RUN_LEGS: usize = 8;
 
-/// Returns the scale of turns of single legs minus that of runs of [`RUN_LEGS`] legs, and the tolerance of this difference.
+/// Returns the scale of turns of single legs minus that of runs of [`RUN_LEGS`] legs, and the standard error of this difference.
 ///
 /// Noise of the odometry makes the scale of small turns too small (regression dilution). Over a run, turns add up more than their noise.
 fn compare_long_turns(Fit { sample, maximum, .. }: &Fit, correlation: f64) -> Option<(f64, f64)> {
+    let is_inlier = |leg: usize| !sample.outliers[leg];
+    let inliers: Vec<usize> = (0..sample.legs.len()).filter(|leg| is_inlier(*leg)).collect();
+    let sections = inliers.chunk_by(|_, next| sample.follows(*next, is_inlier));
     // Turns by the corrected odometry and by the reference.
-    let (mut runs, mut run, mut run_legs) = (Vec::new(), [0.0; 2], 0);
-    for (i, leg) in sample.legs.iter().enumerate() {
-        if !leg.follows || sample.outliers[i] || run_legs == RUN_LEGS {
-            (run, run_legs) = ([0.0; 2], 0);
-        }
-        if sample.outliers[i] {
-            continue;
-        }
-        run[0] += sample.observations[i].expected.theta();
-        run[1] += sample.observations[i].measured.theta();
-        run_legs += 1;
-        if run_legs == RUN_LEGS {
-            runs.push(run);
-        }
-    }
+    let turns_of_run = |run: &[usize]| {
+        let observations = || run.iter().map(|leg| &sample.observations[*leg]);
+        let expected_turn: f64 = observations().map(|leg| leg.expected.theta()).sum();
+        [expected_turn, observations().map(|leg| leg.measured.theta()).sum()]
+    };
+    let runs: Vec<[f64; 2]> =
+        sections.flat_map(|section| section.chunks_exact(RUN_LEGS)).map(turns_of_run).collect();
     if runs.len() < MIN_GROUP_LEGS {
         return None;
     }
@@ -433,11 +374,9 @@ fn compare_long_turns(Fit { sample, maximum, .. }: &Fit, correlation: f64) -> Op
     let score_squares = runs.iter().map(|[read, measured]| (read * (measured - slope * read)).powi(2));
     let slope_std = score_squares.sum::<f64>().sqrt() / square_sum;
     let scale_index = SystematicError::TurnScale as usize;
-    let std = maximum.expansion.filtered.error_stds(correlation)[scale_index];
+    let std = maximum.filtered.error_stds(correlation)[scale_index];
     let turn_scale = sample.systematic.turn_scale;
-    let tolerance =
-        NEGLIGIBLE_SCALE_DIFFERENCE.max(MAX_SCALE_STD_ERRORS * libm::hypot(std, turn_scale * slope_std));
-    Some((turn_scale * (1.0 - slope), tolerance))
+    Some((turn_scale * (1.0 - slope), libm::hypot(std, turn_scale * slope_std)))
 }
 
 /// Returns the scale of the selected legs minus that of all legs, and the standard error of this difference. Other systematic errors are

@@ -2,12 +2,14 @@
 
 use super::alignment::clock_offset;
 use super::legs::{Leg, LostLegs, MIN_LEGS};
-use super::likelihood::{POSITION_VARIANCE, Parameters, Residuals, Term, YAW_VARIANCE, identifiable_errors};
-use super::optimizer::{FreeMask, Maximum, maximize};
-use super::options::{CalibrateError, Drive, Options};
+use super::likelihood::{
+    Expansion, FreeMask, POSITION_VARIANCE, Parameters, Residuals, Term, YAW_VARIANCE, identifiable_errors,
+};
+use super::optimizer::maximize;
 use super::residuals::Observation;
 use super::systematic::{ERROR_COUNT, ErrorMask, Systematic, SystematicError};
 use super::trajectory::median;
+use super::{CalibrateError, Drive, Options};
 use crate::geom::se2::wrap_angle;
 use std::ops::Range;
 
@@ -30,7 +32,7 @@ pub(super) struct Sample {
 pub(super) struct Fit {
     pub sample: Sample,
     pub residuals: Residuals,
-    pub maximum: Maximum,
+    pub maximum: Expansion,
 }
 
 /// Maximum number of legs that are fitted, in blocks spread over the log. With this many legs the standard error of an α is about 3 %.
@@ -66,7 +68,9 @@ impl Sample {
     pub fn residuals(&self, estimated: ErrorMask, select: impl Fn(usize) -> bool) -> Residuals {
         let selected_legs = (0..self.legs.len()).filter(|leg| select(*leg));
         let term_of_leg = |leg: usize| self.terms[leg].with_follows(self.follows(leg, &select));
-        Residuals { model: self.options.model, estimated, terms: selected_legs.map(term_of_leg).collect() }
+        let Options { model, .. } = self.options;
+        let free = free_parameters(&self.options);
+        Residuals { model, free, estimated, terms: selected_legs.map(term_of_leg).collect() }
     }
 
     /// Returns the residuals of the legs in a range that are not outliers.
@@ -94,7 +98,7 @@ impl Sample {
             if residuals.terms.len() < MIN_LEGS {
                 return Err(CalibrateError::TooFewLegs { legs: residuals.terms.len() });
             }
-            let maximum = maximize(&residuals, start_parameters, &free_parameters(&self.options));
+            let maximum = maximize(&residuals, start_parameters);
             let corrected = log.map(|log| self.corrected_errors(log, &maximum));
             let has_converged = corrected.is_none_or(|(_, is_small_change)| is_small_change);
             if !has_new_outliers && round > 1 && has_converged || round == MAX_ROUNDS {
@@ -112,9 +116,9 @@ impl Sample {
 
     /// Returns the systematic errors after a step of generalized least squares, and true if the step is small. Errors that are not identifiable
     /// have no correction.
-    fn corrected_errors(&self, log: &Log, maximum: &Maximum) -> (Systematic, bool) {
+    fn corrected_errors(&self, log: &Log, maximum: &Expansion) -> (Systematic, bool) {
         let (mut corrected, mut is_small_change) = (log.initial_errors(), true);
-        let solution = &maximum.expansion.filtered;
+        let solution = &maximum.filtered;
         for error in SystematicError::ALL.into_iter().filter(|error| self.estimated[*error as usize]) {
             let (i, max_change) = (error as usize, 4.0 * error.identifiability_limit());
             is_small_change &=
@@ -154,7 +158,7 @@ const MEDIAN_CHI2_1: f64 = 0.4549;
 const INITIAL_REFERENCE_STD: f64 = 1e-3;
 
 /// Returns the parameters that are fitted: α's of the model, and those variances of the reference that the options do not state.
-pub(super) fn free_parameters(options: &Options) -> FreeMask {
+fn free_parameters(options: &Options) -> FreeMask {
     std::array::from_fn(|parameter| match parameter {
         POSITION_VARIANCE => options.position_std.is_none(),
         YAW_VARIANCE => options.yaw_std.is_none(),
@@ -216,10 +220,10 @@ fn with_max_legs(legs: &[Leg]) -> Vec<Leg> {
     }
     let block_count = MAX_LEGS / LEGS_PER_BLOCK;
     let blocks = (0..block_count).map(|block| block * (legs.len() - LEGS_PER_BLOCK) / (block_count - 1));
-    let first_leg_of_block = |first: usize| Leg { follows: false, ..legs[first] };
     let legs_of_block = |first: usize| {
-        std::iter::once(first_leg_of_block(first))
-            .chain(legs[first + 1..first + LEGS_PER_BLOCK].iter().copied())
+        let mut block = legs[first..first + LEGS_PER_BLOCK].to_vec();
+        block[0].follows = false;
+        block
     };
     blocks.flat_map(legs_of_block).collect()
 }
@@ -248,7 +252,7 @@ pub(super) fn fit_corrected(
         let parameters = &fit.maximum.parameters;
         all_legs = Sample::new(legs, corrected, mask, options);
         all_legs.update_observations(parameters[POSITION_VARIANCE].sqrt());
-        all_legs.mark_outliers(parameters, &fit.maximum.expansion.filtered.errors, 1);
+        all_legs.mark_outliers(parameters, &fit.maximum.filtered.errors, 1);
     }
     Ok((fit, all_legs, lost))
 }

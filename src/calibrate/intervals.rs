@@ -2,8 +2,8 @@
 
 use super::fit::Fit;
 use super::legs::{MIN_DRIVE_DISTANCE, MIN_TURN_ANGLE, distance, turn};
-use super::likelihood::{Information, PARAMETER_COUNT, Parameters, block_length};
-use super::optimizer::{Maximum, feasible_step};
+use super::likelihood::{PARAMETER_COUNT, Parameters, block_length};
+use super::optimizer::feasible_parameters;
 use super::residuals::Observation;
 use serde::{Deserialize, Serialize};
 
@@ -27,9 +27,9 @@ pub(super) fn intervals(
     correlation: f64,
 ) -> impl Fn(usize) -> [f64; 2] {
     let threshold = student_95(residuals.terms.len().saturating_sub(PARAMETER_COUNT));
-    let blocks = maximum.expansion.scores.chunks(block_length(residuals.terms.len()));
+    let blocks = maximum.scores.chunks(block_length(residuals.terms.len()));
     // The mean score is not 0 if a variance is 0.
-    let mean_score = maximum.expansion.score / blocks.len() as f64;
+    let mean_score = maximum.score / blocks.len() as f64;
     let block_scores: Vec<Parameters> =
         blocks.map(|block| block.iter().sum::<Parameters>() - mean_score).collect();
     let quantile = student_95(block_scores.len().saturating_sub(1));
@@ -37,7 +37,7 @@ pub(super) fn intervals(
     let min_widening = ((1.0 + squared_correlation) / (1.0 - squared_correlation)).sqrt();
     move |parameter| {
         let estimate = maximum.parameters[parameter];
-        if !maximum.free[parameter] {
+        if !residuals.free[parameter] {
             return [estimate; 2];
         }
         let covariances = maximum.covariance.column(parameter);
@@ -45,17 +45,12 @@ pub(super) fn intervals(
         if variance <= 0.0 {
             return [0.0, f64::INFINITY];
         }
-        let Maximum { parameters, expansion, free, .. } = maximum;
+        let mut others = residuals.free;
+        others[parameter] = false;
         let deviance_root = |distance: f64| {
-            let step_of = |covariance: &Information, score: &Parameters| {
-                let newton_step = covariance * score;
-                let correction = (distance - newton_step[parameter]) / covariance[(parameter, parameter)];
-                newton_step + covariance.column(parameter) * correction
-            };
-            let step = feasible_step(parameters, expansion, free, step_of);
-            let candidate = (parameters + step).map(|parameter| parameter.max(0.0));
+            let candidate = feasible_parameters(maximum, others, Parameters::ith(parameter, distance));
             let log_likelihood = residuals.filtered(&candidate).log_likelihood;
-            (2.0 * (expansion.filtered.log_likelihood - log_likelihood)).max(0.0).sqrt()
+            (2.0 * (maximum.filtered.log_likelihood - log_likelihood)).max(0.0).sqrt()
         };
         let guess = threshold * variance.sqrt();
         let end = |sign: f64| profile_end(deviance_root, sign * guess, -estimate, threshold);
@@ -119,7 +114,7 @@ const MIN_MOVING_LEGS: usize = 50;
 pub(super) fn identifiability(Fit { sample, maximum, .. }: &Fit) -> Vec<Option<NotIdentifiable>> {
     let motion_model = sample.options.model;
     let reason_for = |alpha: usize| {
-        let marginal_information = maximum.expansion.information[(alpha, alpha)];
+        let marginal_information = maximum.information[(alpha, alpha)];
         let variance = maximum.covariance[(alpha, alpha)];
         let free_information = if variance > 0.0 { 1.0 / variance } else { 0.0 };
         if free_information >= MIN_INFORMATION

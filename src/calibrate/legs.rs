@@ -3,7 +3,7 @@
 //! Fitted α's depend on the length of the legs. In the models the variance of a drive grows with the square of its length, but that of real
 //! wheels mostly with the length itself.
 
-use super::options::Drive;
+use super::Drive;
 use super::trajectory::Trajectory;
 use crate::geom::se2::{SE2, wrap_angle};
 use crate::models::MAX_SPIN_DISTANCE;

@@ -9,12 +9,11 @@
 //!
 //! ℓ = −½ [ln|V| + ln|XᵀV⁻¹X| + rᵀV⁻¹r − rᵀV⁻¹X (XᵀV⁻¹X)⁻¹ XᵀV⁻¹r − (N − q) ln 2π],
 //!
-//! with N residuals and q errors. A forward recursion over 3 × 3 blocks (a Kalman filter with the state eᵢ) gives ℓ, and a backward
-//! recursion gives its score. V is linear in the parameters, so that the average of observed and expected information is a product of
-//! vectors (Gilmour, Thompson and Cullis 1995).
+//! with N residuals and q errors. A Kalman filter with the state eᵢ gives ℓ: it turns residuals into innovations νᵢ, which are independent, with
+//! covariances Fᵢ. Their derivatives with respect to the parameters give the score, and the Fisher information
+//! Σ ½ tr(F⁻¹ ∂ⱼF F⁻¹ ∂ₖF) + ∂ⱼνᵀ F⁻¹ ∂ₖν (Harvey 1989, 3.4).
 
 use super::legs::Leg;
-use super::matrices::{masked_inverse, product, propagated, quadratic_form, transposed_product};
 use super::residuals::{Model, Observation};
 use super::result::LegFit;
 use super::systematic::{ERROR_COUNT, ErrorMask, Systematic, SystematicError};
@@ -46,7 +45,7 @@ pub(super) type ErrorVector = SVector<f64, ERROR_COUNT>;
 /// Minimum standard deviation of a residual (rad, m or their rates). It keeps the likelihood of a log without noise finite.
 const MIN_STD: f64 = 1e-7;
 
-/// Maximum absolute value of residuals and their derivatives. Legs with larger values are not used, because their squares would overflow.
+/// Maximum absolute value of residuals, their derivatives, and coefficients of their variances. Legs with larger values are not used, because their squares would overflow.
 const MAX_ENTRY: f64 = 1e30;
 
 /// Residuals of one leg in the form that the likelihood needs. By default it has no observed component.
@@ -64,18 +63,22 @@ pub(super) struct Term {
     pub follows: bool,
 }
 
-/// Residuals of several legs, with the model and the systematic errors that are estimated with them.
+/// Mask of the parameters that are fitted. All other parameters are kept fixed.
+pub(super) type FreeMask = [bool; PARAMETER_COUNT];
+
+/// Residuals of several legs, with the model, and the parameters and systematic errors that are fitted to them.
 #[derive(Clone, Debug)]
 pub(super) struct Residuals {
     pub model: Model,
+    pub free: FreeMask,
     pub estimated: ErrorMask,
     pub terms: Vec<Term>,
 }
 
-/// Innovation of one leg: its residual, and optionally the Jacobian of the residual, minus their predictions from the previous legs.
+/// Innovation of one leg: its residual and the Jacobian of the residual, minus their predictions from the previous legs.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Innovation<const N: usize> {
-    columns: SMatrix<f64, 3, N>,
+pub(super) struct Innovation {
+    columns: Columns,
     /// Variance of each component; NaN for a component that is not observed.
     variances: [f64; 3],
     /// Inverse covariance.
@@ -86,20 +89,10 @@ pub(super) struct Innovation<const N: usize> {
     determinant: f64,
 }
 
-/// Kalman filter whose state is the error of the reference at the end of a leg.
-pub(super) struct Filter<'a, const N: usize> {
-    model: Model,
-    parameters: &'a Parameters,
-    reference_covariance: Matrix3<f64>,
-    /// Mean and covariance of the reference's error at the start of the leg.
-    mean: SMatrix<f64, 3, N>,
-    prior: Matrix3<f64>,
-}
-
 /// Innovations of all legs under given variances, and generalized least squares of the systematic errors.
 #[derive(Clone, Debug)]
 pub(super) struct FilterResult {
-    pub innovations: Vec<Innovation<COLUMN_COUNT>>,
+    pub innovations: Vec<Innovation>,
     pub log_likelihood: f64,
     /// Information on all errors, XᵀV⁻¹X.
     pub information: ErrorMatrix,
@@ -111,24 +104,27 @@ pub(super) struct FilterResult {
     pub covariance: ErrorMatrix,
 }
 
-/// Log-likelihood with its derivatives with respect to the parameters.
+/// Log-likelihood under some parameters, with its derivatives with respect to those that are fitted; 0 for all others.
 #[derive(Clone, Debug)]
 pub(super) struct Expansion {
+    pub parameters: Parameters,
     pub filtered: FilterResult,
-    /// Sum of the scores of all legs: ½ (rᵀP Vⱼ P r − tr(P Vⱼ)) for each parameter j.
+    /// Sum of the scores of all legs.
     pub score: Parameters,
-    /// tr(P Vⱼ) for each parameter j.
-    pub traces: Parameters,
     /// Score of each leg.
     pub scores: Vec<Parameters>,
+    /// Fisher information.
     pub information: Information,
+    /// Inverse of the information; 0 for parameters without information.
+    pub covariance: Information,
 }
 
 impl Term {
     pub fn new(model: Model, leg: &Leg, observation: &Observation, corrected: &Systematic) -> Self {
         let Observation { residuals, coefficients, jacobian, expected, measured, .. } = observation;
         let error_jacobian = jacobian * corrected.motion_jacobian(model, leg, expected);
-        if residuals.iter().chain(&error_jacobian).any(|entry| entry.abs() > MAX_ENTRY) {
+        let mut entries = residuals.iter().chain(&error_jacobian).chain(coefficients.as_flattened());
+        if entries.any(|entry| entry.abs() > MAX_ENTRY) {
             return Self::default();
         }
         let observed = residuals.map(|residual| !residual.is_nan());
@@ -147,41 +143,35 @@ impl Term {
     pub fn with_follows(self, follows: bool) -> Self {
         Self { follows, ..self }
     }
-
-    /// Returns the residual minus the part that these systematic errors explain.
-    pub fn residual_without(&self, errors: &ErrorVector) -> Vector3<f64> {
-        residual_without_errors(&self.columns, errors)
-    }
 }
 
-impl<'a, const N: usize> Filter<'a, N> {
-    pub fn new(model: Model, parameters: &'a Parameters) -> Self {
-        let reference_covariance = reference_covariance(parameters);
-        let (mean, prior) = (SMatrix::zeros(), reference_covariance);
-        Self { model, parameters, reference_covariance, mean, prior }
-    }
-
-    /// Returns the innovation of the next leg, given its columns. `follows` is false for a leg that does not start where the last one ended.
-    #[inline(always)]
-    pub fn next(&mut self, term: &Term, columns: &SMatrix<f64, 3, N>, follows: bool) -> Innovation<N> {
+/// Returns the innovations of legs, by a Kalman filter whose state is the error of the reference at the end of a leg. A leg that does not follow
+/// the one before it starts at a new pose of the reference.
+pub(super) fn innovations<'a>(
+    model: Model,
+    parameters: &Parameters,
+    terms_with_follows: impl Iterator<Item = (&'a Term, bool)>,
+) -> impl Iterator<Item = Innovation> {
+    let reference_covariance = reference_covariance(parameters);
+    let (mut mean, mut prior) = (Columns::zeros(), reference_covariance);
+    terms_with_follows.map(move |(term, follows)| {
         if !follows {
-            (self.mean, self.prior) = (SMatrix::zeros(), self.reference_covariance);
+            (mean, prior) = (Columns::zeros(), reference_covariance);
         }
-        let columns = columns - product(&term.start, &self.mean);
-        let scaled_end = product(&term.end, &self.reference_covariance);
-        let mut covariance =
-            propagated(&term.start, &self.prior) + product(&scaled_end, &term.end.transpose());
-        let wheels = self.model.wheel_variances(&term.coefficients, self.parameters);
+        let columns = term.columns - product(&term.start, &mean);
+        let scaled_end = product(&term.end, &reference_covariance);
+        let mut covariance = propagated(&term.start, &prior) + product(&scaled_end, &term.end.transpose());
+        let wheels = model.wheel_variances(&term.coefficients, parameters);
         for k in 0..3 {
             covariance[(k, k)] += wheels[k] + if term.observed[k] { MIN_STD * MIN_STD } else { 1.0 };
         }
         let weight = covariance.try_inverse().unwrap_or_default();
-        let gain = product(&scaled_end.transpose(), &weight);
-        self.mean = product(&gain, &columns);
-        self.prior = self.reference_covariance - product(&gain, &scaled_end);
+        let gain = transposed_product(&scaled_end, &weight);
+        mean = product(&gain, &columns);
+        prior = reference_covariance - product(&gain, &scaled_end);
         let variances = std::array::from_fn(|k| if term.observed[k] { covariance[(k, k)] } else { f64::NAN });
         Innovation { columns, variances, weight, gain, determinant: covariance.determinant() }
-    }
+    })
 }
 
 impl FilterResult {
@@ -192,8 +182,8 @@ impl FilterResult {
     /// block.
     pub fn error_stds(&self, correlation: f64) -> [f64; ERROR_COUNT] {
         let Self { innovations, errors, covariance, .. } = self;
-        let score_of_leg = |innovation: &Innovation<COLUMN_COUNT>| {
-            let weighted = innovation.weight * residual_without_errors(&innovation.columns, errors);
+        let score_of_leg = |innovation: &Innovation| {
+            let weighted = innovation.weight * innovation.without(errors);
             innovation.columns.fixed_columns::<ERROR_COUNT>(0).tr_mul(&weighted)
         };
         let scores = innovations.chunks(block_length(innovations.len())).map(|block| {
@@ -207,9 +197,7 @@ impl FilterResult {
 
     /// Returns the innovation of each leg, without the part that the estimated errors explain.
     pub fn leg_fits(&self) -> impl Iterator<Item = LegFit> {
-        self.innovations.iter().map(|innovation| {
-            innovation.leg_fit(residual_without_errors(&innovation.columns, &self.errors), false)
-        })
+        self.innovations.iter().map(|innovation| innovation.leg_fit(&self.errors, false))
     }
 
     /// Returns the estimates of the systematic errors in a mask; 0 for all others.
@@ -223,17 +211,15 @@ pub(super) fn block_length(legs: usize) -> usize {
     ((2.0 * (legs as f64).cbrt()).ceil() as usize).max(1)
 }
 
-impl Innovation<1> {
-    /// Returns the innovation as [`LegFit`].
-    pub fn fit_of_residual(&self, is_outlier: bool) -> LegFit {
-        self.leg_fit(self.columns, is_outlier)
+impl Innovation {
+    /// Returns the innovation of the residual, without the part that these systematic errors explain.
+    fn without(&self, errors: &ErrorVector) -> Vector3<f64> {
+        self.columns * -errors.push(-1.0)
     }
-}
 
-impl<const N: usize> Innovation<N> {
-    /// Returns an innovation, without the part that systematic errors explain, with its standard deviations and its squared distance.
-    fn leg_fit(&self, innovation: Vector3<f64>, is_outlier: bool) -> LegFit {
-        let stds = self.variances.map(f64::sqrt);
+    /// Returns the innovation, without the part that systematic errors explain, with its standard deviations and its squared distance.
+    pub fn leg_fit(&self, errors: &ErrorVector, is_outlier: bool) -> LegFit {
+        let (innovation, stds) = (self.without(errors), self.variances.map(f64::sqrt));
         LegFit {
             stds,
             standardized: std::array::from_fn(|k| innovation[k] / stds[k]),
@@ -243,25 +229,15 @@ impl<const N: usize> Innovation<N> {
     }
 }
 
-/// Returns the residual minus the part that these systematic errors explain.
-#[inline(always)]
-fn residual_without_errors(columns: &Columns, errors: &ErrorVector) -> Vector3<f64> {
-    Vector3::from_fn(|k, _| {
-        columns[(k, ERROR_COUNT)]
-            - (0..ERROR_COUNT).map(|error| columns[(k, error)] * errors[error]).sum::<f64>()
-    })
-}
-
 impl Residuals {
     /// Runs the forward recursion under the given variances.
     pub fn filtered(&self, parameters: &Parameters) -> FilterResult {
-        let mut innovations = Vec::with_capacity(self.terms.len());
-        let mut filter = Filter::new(self.model, parameters);
+        let terms = self.terms.iter().map(|term| (term, term.follows));
+        let innovations: Vec<Innovation> = innovations(self.model, parameters, terms).collect();
         let (mut log_det, mut gram) = (0.0, SMatrix::<f64, COLUMN_COUNT, COLUMN_COUNT>::zeros());
         // Determinants are multiplied, because one logarithm is cheaper than many.
         let mut det = 1.0;
-        for term in &self.terms {
-            let innovation = filter.next(term, &term.columns, term.follows);
+        for innovation in &innovations {
             det *= innovation.determinant;
             if innovation.determinant <= 0.0 {
                 // Variances differ by so many orders of magnitude that rounding makes the covariance indefinite.
@@ -272,7 +248,6 @@ impl Residuals {
             }
             gram +=
                 transposed_product(&innovation.columns, &product(&innovation.weight, &innovation.columns));
-            innovations.push(innovation);
         }
         log_det += libm::log(det.abs());
         let information: ErrorMatrix = gram.fixed_view::<ERROR_COUNT, ERROR_COUNT>(0, 0).into_owned();
@@ -289,101 +264,75 @@ impl Residuals {
         FilterResult { innovations, log_likelihood, information, weighted_residual, errors, covariance }
     }
 
-    /// Returns the log-likelihood with its derivatives, from the innovations under the same parameters.
-    pub fn expansion(&self, filtered: FilterResult) -> Expansion {
+    /// Returns the expansion of the log-likelihood around parameters, from the filter's result under them.
+    ///
+    /// The derivatives of a leg with respect to a parameter follow from those of the previous leg, which have a prime. K is the gain of the
+    /// previous leg, B its Jacobian, and T = A K.
+    ///
+    /// - ∂F = T ∂F' Tᵀ + ∂D + A ∂R Aᵀ + Bᵢ ∂R Bᵢᵀ − C − Cᵀ with C = T B ∂R Aᵀ
+    /// - ∂ν = −T (∂ν' − ∂F' F'⁻¹ν') − A ∂R Bᵀ F'⁻¹ν'
+    pub fn expansion(&self, parameters: &Parameters, filtered: FilterResult) -> Expansion {
         let FilterResult { innovations, errors, covariance, .. } = &filtered;
-        let alphas = self.model.component_alphas();
-        let (mut scores, mut traces) = (vec![Parameters::zeros(); self.terms.len()], Parameters::zeros());
-        // For each leg: P r, and its projections on the errors of the reference poses at start and end. A and B are the Jacobians by the pose
-        // at the start and by that at the end. The projection at a pose is Bᵀ P r of the leg that ends there, plus Aᵀ P r of the leg that
-        // starts there. It is stored with the leg that ends there, if there is one.
-        let mut projected = vec![[Vector3::zeros(); 3]; self.terms.len()];
-        // V⁻¹[X r] of the next leg in the log, its block on the diagonal of V⁻¹, and its Jacobian A.
-        let mut next_leg: Option<(Columns, Matrix3<f64>, Matrix3<f64>)> = None;
-        for (i, (term, innovation)) in self.terms.iter().zip(innovations).enumerate().rev() {
-            let Innovation { columns, weight, gain, .. } = innovation;
-            let (mut solved, mut block) = (product(weight, columns), *weight);
-            let (mut at_end, mut end_block) = (Columns::zeros(), Matrix3::zeros());
-            if let Some((next, next_block, start)) = &next_leg {
-                let carried_gain = product(start, gain);
-                at_end = transposed_product(start, next);
-                solved -= transposed_product(gain, &at_end);
-                let off_diagonal = -product(next_block, &carried_gain);
-                block -= transposed_product(&carried_gain, &off_diagonal);
-                let cross_block = product(&transposed_product(start, &off_diagonal), &term.end);
-                end_block =
-                    propagated(&start.transpose(), next_block) + cross_block + cross_block.transpose();
-            }
-            at_end += transposed_product(&term.end, &solved);
-            end_block += propagated(&term.end.transpose(), &block);
-            // Adds the scores of variances, given V⁻¹[X r] of their components and the block of V⁻¹. Returns P r of the components.
-            let mut add_scores = |solved: &Columns,
-                                  block: &Matrix3<f64>,
-                                  variances: [[(usize, f64); 2]; 3]| {
-                let projection = residual_without_errors(solved, errors);
-                for (row, variances) in variances.into_iter().enumerate() {
-                    // P = V⁻¹ − V⁻¹X C XᵀV⁻¹ with the covariance C of the errors. x is a row of V⁻¹X.
-                    let x = std::array::from_fn(|error| solved[(row, error)]);
-                    let trace = block[(row, row)] - quadratic_form(covariance, &x);
-                    for (parameter, factor) in variances {
-                        traces[parameter] += factor * trace;
-                        scores[i][parameter] += 0.5 * factor * (projection[row] * projection[row] - trace);
-                    }
-                }
-                projection
-            };
-            let wheels = [0, 1, 2].map(|row| [0, 1].map(|k| (alphas[row][k], term.coefficients[row][k])));
-            let reference = REFERENCE_VARIANCES.map(|variance| [(variance, 1.0), (variance, 0.0)]);
-            let leg_projection = add_scores(&solved, &block, wheels);
-            let end = add_scores(&at_end, &end_block, reference);
-            let start = if term.follows {
-                Vector3::zeros()
-            } else {
-                let start_block = propagated(&term.start.transpose(), &block);
-                add_scores(&transposed_product(&term.start, &solved), &start_block, reference)
-            };
-            projected[i] = [leg_projection, start, end];
-            next_leg = term.follows.then_some((solved, block, term.start));
-        }
-        let information = self.average_information(innovations, &projected, covariance);
-        Expansion { filtered, score: scores.iter().sum(), traces, scores, information }
-    }
-
-    /// Returns the average information ½ rᵀP Vⱼ P Vₖ P r for each pair of parameters j and k.
-    fn average_information(
-        &self,
-        innovations: &[Innovation<COLUMN_COUNT>],
-        projected: &[[Vector3<f64>; 3]],
-        covariance: &ErrorMatrix,
-    ) -> Information {
-        let mut gram = Information::zeros();
-        let mut cross_products = SMatrix::<f64, COLUMN_COUNT, PARAMETER_COUNT>::zeros();
-        let (mut mean, mut pose) = (SMatrix::<f64, 3, PARAMETER_COUNT>::zeros(), Vector3::zeros());
-        let alphas = self.model.component_alphas();
-        for ((term, innovation), [projected_noise, start, end]) in
-            self.terms.iter().zip(innovations).zip(projected)
-        {
+        // A leg adds ln|F| + tr(M νᵀ F⁻¹ ν) to −2 times the log-likelihood: with the estimated errors β and their covariance C fixed, M is
+        // (−β, 1)(−β, 1)ᵀ + C.
+        let contrast = -errors.push(-1.0);
+        let mut error_weights = contrast * contrast.transpose();
+        let mut error_block = error_weights.fixed_view_mut::<ERROR_COUNT, ERROR_COUNT>(0, 0);
+        error_block += covariance;
+        let units: [Parameters; PARAMETER_COUNT] = std::array::from_fn(|j| Parameters::ith(j, 1.0));
+        let reference_derivatives = units.map(|unit| reference_covariance(&unit));
+        let mut covariance_derivatives = [Matrix3::zeros(); PARAMETER_COUNT];
+        let mut innovation_derivatives = [Columns::zeros(); PARAMETER_COUNT];
+        let (mut gain_before, mut end_before) = (Matrix3::zeros(), Matrix3::zeros());
+        let mut weighted_before = Columns::zeros();
+        let (mut scores, mut information) = (Vec::with_capacity(self.terms.len()), Information::zeros());
+        for (term, Innovation { columns, weight, gain, .. }) in self.terms.iter().zip(innovations) {
             if !term.follows {
-                (mean, pose) = (SMatrix::zeros(), *start);
+                (gain_before, end_before) = (Matrix3::zeros(), Matrix3::zeros());
             }
-            let mut columns = -product(&term.start, &mean);
-            for k in 0..3 {
-                for (alpha, factor) in alphas[k].into_iter().zip(term.coefficients[k]) {
-                    columns[(k, alpha)] += factor * projected_noise[k];
+            let transition = product(&term.start, &gain_before);
+            let carried_end = product(&transition, &end_before);
+            let at_start = transposed_product(&end_before, &weighted_before);
+            let weighted = product(weight, columns);
+            let projected = weighted * error_weights;
+            let score_weight = weight - projected * weighted.transpose();
+            let mut score = Parameters::zeros();
+            let mut residual_derivatives = [Vector3::zeros(); PARAMETER_COUNT];
+            let mut relative_derivatives = [Matrix3::zeros(); PARAMETER_COUNT];
+            for j in (0..PARAMETER_COUNT).filter(|j| self.free[*j]) {
+                let (innovation, covariance) =
+                    (&mut innovation_derivatives[j], &mut covariance_derivatives[j]);
+                *innovation = product(&transition, &(product(covariance, &weighted_before) - *innovation));
+                *covariance = propagated(&transition, covariance);
+                let wheels = self.model.wheel_variances(&term.coefficients, &units[j]);
+                for k in 0..3 {
+                    covariance[(k, k)] += wheels[k];
                 }
-                for (axis, variance) in REFERENCE_VARIANCES.into_iter().enumerate() {
-                    columns[(k, variance)] +=
-                        term.start[(k, axis)] * pose[axis] + term.end[(k, axis)] * end[axis];
+                if j >= MAX_ALPHAS {
+                    let reference = &reference_derivatives[j];
+                    *innovation -= product(&product(&term.start, reference), &at_start);
+                    let cross = product(&product(&carried_end, reference), &term.start.transpose());
+                    *covariance += propagated(&term.start, reference) + propagated(&term.end, reference)
+                        - cross
+                        - cross.transpose();
+                }
+                score[j] = -0.5 * score_weight.dot(covariance) - projected.dot(innovation);
+                residual_derivatives[j] = *innovation * contrast;
+                relative_derivatives[j] = product(weight, covariance);
+                let weighted_residual = weight * residual_derivatives[j];
+                let transposed = relative_derivatives[j].transpose();
+                for k in 0..=j {
+                    information[(j, k)] += 0.5 * transposed.dot(&relative_derivatives[k])
+                        + weighted_residual.dot(&residual_derivatives[k]);
                 }
             }
-            let weighted_columns = product(&innovation.weight, &columns);
-            gram += transposed_product(&columns, &weighted_columns);
-            cross_products += transposed_product(&innovation.columns, &weighted_columns);
-            mean = product(&innovation.gain, &columns);
-            pose = *end;
+            scores.push(score);
+            (gain_before, end_before, weighted_before) = (*gain, term.end, weighted);
         }
-        let cross_products = cross_products.fixed_rows::<ERROR_COUNT>(0);
-        (gram - cross_products.transpose() * covariance * cross_products) * 0.5
+        information.fill_upper_triangle_with_lower_triangle();
+        let (covariance, _) = masked_inverse(&information, &self.free);
+        let score = scores.iter().sum();
+        Expansion { parameters: *parameters, filtered, score, scores, information, covariance }
     }
 }
 
@@ -407,4 +356,57 @@ pub(super) fn identifiable_errors(information: &ErrorMatrix) -> ErrorMask {
             _ => return mask,
         }
     }
+}
+
+/// Returns the product of two matrices.
+#[inline(always)]
+fn product<const N: usize>(left: &Matrix3<f64>, right: &SMatrix<f64, 3, N>) -> SMatrix<f64, 3, N> {
+    transposed_product(&left.transpose(), right)
+}
+
+/// Returns the product of the transpose of a matrix and another matrix. In WebAssembly a call of nalgebra's general product takes longer than the
+/// product itself; the module would be larger if this one were inlined there.
+#[cfg_attr(target_arch = "wasm32", inline(never))]
+#[cfg_attr(not(target_arch = "wasm32"), inline(always))]
+fn transposed_product<const M: usize, const N: usize>(
+    left: &SMatrix<f64, 3, M>,
+    right: &SMatrix<f64, 3, N>,
+) -> SMatrix<f64, M, N> {
+    let mut product = SMatrix::<f64, M, N>::zeros();
+    for (product_column, [x, y, z]) in product.data.0.iter_mut().zip(&right.data.0) {
+        for (entry, [a, b, c]) in product_column.iter_mut().zip(&left.data.0) {
+            *entry = a * x + b * y + c * z;
+        }
+    }
+    product
+}
+
+/// Returns the covariance J C Jᵀ of a linear function with the Jacobian J.
+#[inline(always)]
+fn propagated(jacobian: &Matrix3<f64>, covariance: &Matrix3<f64>) -> Matrix3<f64> {
+    product(&product(jacobian, covariance), &jacobian.transpose())
+}
+
+/// Relative amount by which the diagonal of a matrix is increased before it is inverted, because rows may be collinear.
+const REGULARIZATION: f64 = 1e-9;
+
+/// Returns the inverse of the submatrix that a mask selects, with 0 elsewhere, and the logarithm of its determinant. The matrix is an
+/// information. Variables without information are not selected.
+pub(super) fn masked_inverse<const N: usize>(
+    information: &SMatrix<f64, N, N>,
+    mask: &[bool; N],
+) -> (SMatrix<f64, N, N>, f64) {
+    // The diagonal is scaled to 1, because variables differ by orders of magnitude.
+    let scales: [f64; N] = std::array::from_fn(|i| {
+        if mask[i] && information[(i, i)] > 0.0 { 1.0 / information[(i, i)].sqrt() } else { 0.0 }
+    });
+    let scaled_information = SMatrix::<f64, N, N>::from_fn(|i, j| {
+        if i == j { 1.0 + REGULARIZATION } else { information[(i, j)] * scales[i] * scales[j] }
+    });
+    let Some(cholesky) = nalgebra::Cholesky::new(scaled_information) else { return (SMatrix::zeros(), 0.0) };
+    let inverse = cholesky.inverse();
+    let selected_scales = scales.iter().filter(|scale| **scale > 0.0);
+    let log_det =
+        cholesky.ln_determinant() - 2.0 * selected_scales.map(|scale| libm::log(*scale)).sum::<f64>();
+    (SMatrix::from_fn(|i, j| inverse[(i, j)] * scales[i] * scales[j]), log_det)
 }

@@ -11,9 +11,7 @@ mod fit;
 mod intervals;
 mod legs;
 mod likelihood;
-mod matrices;
 mod optimizer;
-mod options;
 mod outliers;
 mod residuals;
 mod result;
@@ -24,7 +22,6 @@ mod windows;
 pub use checks::{Check, CheckName, Diagnostics, Verdict, WindowCoverage};
 pub use intervals::NotIdentifiable;
 pub use legs::{Leg, LegLength, LostLegs, MIN_LEGS, split_into_legs};
-pub use options::{CalibrateError, Drive, Options, Outliers};
 pub use residuals::{Model, Observation};
 pub use result::{Calibration, Estimate, LegFit, Persistence, Recommendation};
 pub use systematic::{ERROR_COUNT, ErrorMask, Systematic, SystematicError};
@@ -34,6 +31,62 @@ use fit::{Fit, Log, fit_corrected, fit_systematic};
 use intervals::{NORMAL_95, identifiability, intervals};
 use legs::distance;
 use likelihood::{POSITION_VARIANCE, YAW_VARIANCE};
+use thiserror::Error;
+
+/// Odometry and reference of one drive.
+#[derive(Clone, Copy, Debug)]
+pub struct Drive<'a> {
+    /// Poses by the odometry, in its own frame.
+    pub odometry: &'a Trajectory,
+    /// Poses by the reference, in another frame and by another clock.
+    pub reference: &'a Trajectory,
+}
+
+/// Treatment of outliers: legs whose residuals the fit does not explain.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Outliers {
+    /// Outliers are left out of the fit.
+    #[default]
+    Reject,
+    /// Outliers are fitted as noise.
+    Keep,
+}
+
+/// Options of a calibration.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    /// Model whose α's are fitted.
+    pub model: Model,
+    /// Condition on which a leg ends.
+    pub legs: LegLength,
+    /// Treatment of outliers.
+    pub outliers: Outliers,
+    /// True or false for each of [`SystematicError::ALL`] that is corrected or not. None: an error is corrected if
+    /// it is identifiable and constant.
+    pub correct: [Option<bool>; ERROR_COUNT],
+    /// Standard deviation of each coordinate of the reference, m. None: estimated.
+    pub position_std: Option<f64>,
+    /// Standard deviation of the reference's heading, rad. None: estimated.
+    pub yaw_std: Option<f64>,
+}
+
+/// Reason for which a log cannot be fitted.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum CalibrateError {
+    /// The times of odometry and reference do not overlap, and at no clock offset are their turn rates correlated.
+    #[error(
+        "odometry and reference have no time in common, and their turn rates correlate at no clock offset; give two logs of one drive"
+    )]
+    NoCommonTime,
+    /// There are fewer than [`MIN_LEGS`] legs.
+    #[error(
+        "the log has {legs} legs for which both trajectories are known; at least {MIN_LEGS} are needed: choose shorter legs, drive longer, or check the clocks"
+    )]
+    TooFewLegs {
+        /// Number of legs.
+        legs: usize,
+    },
+}
 
 /// Calibrates the α's of a robot from one drive or several.
 ///
@@ -67,7 +120,7 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
     let errors = systematic.sample.systematic;
     let persistence = persistence(&systematic);
     let correlation = persistence.correlation.value;
-    let error_stds = systematic.maximum.expansion.filtered.error_stds(correlation);
+    let error_stds = systematic.maximum.filtered.error_stds(correlation);
     let (scale_checks, is_constant) = checks::scale_checks(&systematic, correlation);
     let is_corrected: ErrorMask =
         std::array::from_fn(|i| error_stds[i] > 0.0 && options.correct[i].unwrap_or(is_constant[i]));
@@ -83,16 +136,16 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
     let identified = not_identifiable.iter().enumerate();
     let identified = identified.map(|(alpha, reason)| reason.is_none().then_some(alpha));
     let alphas: Vec<Option<f64>> = identified.clone().map(|alpha| Some(parameters[alpha?])).collect();
-    let alpha_intervals = identified.map(|alpha| alpha.map(&interval_of)).collect();
+    let alpha_intervals: Vec<Option<[f64; 2]>> = identified.map(|alpha| alpha.map(&interval_of)).collect();
     let reference_noise = [POSITION_VARIANCE, YAW_VARIANCE].map(|variance| Estimate {
         value: parameters[variance].sqrt(),
         interval: interval_of(variance).map(f64::sqrt),
     });
-    let leg_fits = all_legs.leg_fits(parameters, &fit.maximum.expansion.filtered.errors);
+    let leg_fits = all_legs.leg_fits(parameters, &fit.maximum.filtered.errors);
     let cross_validation = windows::cross_validate(&fit, &all_legs, &alphas);
     let inflation = cross_validation.recommended.as_ref().map_or(f64::INFINITY, |found| found.inflation);
     let identifies = alphas.iter().any(Option::is_some);
-    let mut checks = checks::log_checks(&all_legs, &lost, &errors, inflation);
+    let mut checks = checks::log_checks(&all_legs, &lost, &errors, &alpha_intervals, inflation);
     checks.extend(scale_checks);
     checks.extend(checks::residual_checks(&leg_fits, neighbour_correlation(&fit).0));
     checks.extend(cross_validation.checks);
@@ -108,7 +161,7 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
         is_corrected,
         reference_noise,
         persistence,
-        log_likelihood: fit.maximum.expansion.filtered.log_likelihood,
+        log_likelihood: fit.maximum.filtered.log_likelihood,
         legs: all_legs.legs,
         observations: all_legs.observations,
         leg_fits,
@@ -120,7 +173,7 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
 
 /// Returns the correlation of the innovations of neighbouring legs, and its standard error.
 fn neighbour_correlation(Fit { residuals, maximum, .. }: &Fit) -> (f64, f64) {
-    let fits: Vec<LegFit> = maximum.expansion.filtered.leg_fits().collect();
+    let fits: Vec<LegFit> = maximum.filtered.leg_fits().collect();
     let (mut product, mut square_sum, mut count) = (0.0, 0.0, 0);
     for (pair, _) in fits.windows(2).zip(&residuals.terms[1..]).filter(|(_, term)| term.follows) {
         for (before, after) in pair[0].standardized.into_iter().zip(pair[1].standardized) {

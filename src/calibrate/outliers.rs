@@ -1,8 +1,8 @@
 //! Outliers: legs whose innovation is outside a gate, for example because the reference jumped. They are listed, and not fitted.
 
+use super::Outliers;
 use super::fit::Sample;
-use super::likelihood::{ErrorVector, Filter, Parameters};
-use super::options::Outliers;
+use super::likelihood::{ErrorVector, Parameters, innovations};
 use super::result::LegFit;
 use super::trajectory::median;
 
@@ -19,14 +19,12 @@ impl Sample {
     /// Returns the innovations of all legs under these parameters, without the part that these systematic errors explain. Each outlier is
     /// filtered by itself.
     pub(super) fn leg_fits(&self, parameters: &Parameters, errors: &ErrorVector) -> Vec<LegFit> {
-        let mut filter = Filter::new(self.options.model, parameters);
         let is_inlier = |leg: usize| !self.outliers[leg];
-        let fit_of_leg = |leg: usize| {
-            let term = &self.terms[leg];
-            let innovation = filter.next(term, &term.residual_without(errors), self.follows(leg, is_inlier));
-            innovation.fit_of_residual(self.outliers[leg])
-        };
-        (0..self.legs.len()).map(fit_of_leg).collect()
+        let terms = self.terms.iter().enumerate().map(|(leg, term)| (term, self.follows(leg, is_inlier)));
+        innovations(self.options.model, parameters, terms)
+            .zip(&self.outliers)
+            .map(|(innovation, is_outlier)| innovation.leg_fit(errors, *is_outlier))
+            .collect()
     }
 
     /// Marks the outliers under these parameters and systematic errors, and returns true if they changed. `round` counts the rounds of the fit from 1.
@@ -43,10 +41,8 @@ impl Sample {
         // Variances may still be too small in early rounds. The gate is wider then, so that at most half of the legs are outliers.
         let mut squared_distances: Vec<f64> = fits.iter().map(|fit| fit.squared).collect();
         let gate_factor = (median(&mut squared_distances) / MEDIAN_CHI2).max(1.0);
-        let is_marked = |fit: &LegFit| {
-            fit.is_outlier && round > LAST_RETURN_ROUND
-                || fit.observed_count() > 0 && fit.squared > gate_factor * CHI2_9999[fit.observed_count() - 1]
-        };
+        let gate = CHI2_9999.map(|quantile| gate_factor * quantile);
+        let is_marked = |fit: &LegFit| fit.is_outlier && round > LAST_RETURN_ROUND || !fit.is_within(&gate);
         let new_outliers: Vec<bool> = fits.iter().map(is_marked).collect();
         let has_changed = new_outliers != self.outliers;
         self.outliers = new_outliers;

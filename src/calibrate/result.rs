@@ -60,9 +60,10 @@ pub struct LegFit {
 }
 
 impl LegFit {
-    /// Returns the number of components that are observed.
-    pub(super) fn observed_count(&self) -> usize {
-        self.stds.iter().filter(|std| !std.is_nan()).count()
+    /// Returns true if the squared distance is below the quantile for its degrees of freedom, given quantiles for 1, 2 and 3 of them.
+    pub(super) fn is_within(&self, chi2_quantiles: &[f64; 3]) -> bool {
+        let observed_count = self.stds.iter().filter(|std| !std.is_nan()).count();
+        observed_count == 0 || self.squared < chi2_quantiles[observed_count - 1]
     }
 }
 

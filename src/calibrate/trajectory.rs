@@ -12,9 +12,9 @@ pub struct Trajectory {
     poses: Vec<SE2>,
     /// Ascending indices of samples before which the pose may have jumped, so that the motion there is unknown.
     breaks: Vec<usize>,
+    /// Ascending indices of samples before which poses are unknown: after a break, or after a pause of the recording.
+    gaps: Vec<usize>,
     median_period: f64,
-    /// Longest period (s) between samples that is not a pause of the recording. Poses are unknown in a pause, and correct at its ends.
-    max_period: f64,
 }
 
 /// Reason why a sample is not allowed in a trajectory. `sample` is the index (from 0) of the first such sample.
@@ -64,8 +64,9 @@ impl Trajectory {
         }
         let mut periods: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let median_period = median(&mut periods);
-        let max_period = MAX_PERIOD_RATIO * median_period;
-        Ok(Self { times, poses, breaks: Vec::new(), median_period, max_period })
+        let is_pause = |sample: &usize| times[*sample] - times[sample - 1] > MAX_PERIOD_RATIO * median_period;
+        let gaps = (1..times.len()).filter(is_pause).collect();
+        Ok(Self { times, poses, breaks: Vec::new(), gaps, median_period })
     }
 
     /// Returns the trajectory with a break before each of these samples, for example where the reference jumped. No leg leads across a break.
@@ -73,8 +74,11 @@ impl Trajectory {
     pub fn with_breaks_before(mut self, samples: impl IntoIterator<Item = usize>) -> Self {
         let count = self.times.len();
         self.breaks.extend(samples.into_iter().filter(|sample| (1..count).contains(sample)));
-        self.breaks.sort_unstable();
-        self.breaks.dedup();
+        self.gaps.extend(&self.breaks);
+        for samples in [&mut self.breaks, &mut self.gaps] {
+            samples.sort_unstable();
+            samples.dedup();
+        }
         self
     }
 
@@ -105,7 +109,7 @@ impl Trajectory {
                 pose = pose.boxplus(Vector3::new(v * dt, 0.0, omega * dt));
             }
         }
-        Ok(Self { max_period: f64::INFINITY, ..Self::new(integrated_samples)? })
+        Ok(Self { gaps: Vec::new(), ..Self::new(integrated_samples)? })
     }
 
     /// Returns the times (s) and poses of all samples.
@@ -160,21 +164,23 @@ impl Trajectory {
 
     /// Returns true if a pause or a break is between the previous sample and this one.
     fn has_gap_before(&self, sample: usize) -> bool {
-        let time_before = self.times[sample.saturating_sub(1)];
-        self.times[sample] - time_before > self.max_period || self.breaks.binary_search(&sample).is_ok()
+        self.gaps.binary_search(&sample).is_ok()
     }
 
     /// Returns true if a pause or a break lies between two times (s).
     pub(super) fn has_gap(&self, from: f64, to: f64) -> bool {
-        let next_index = self.times.partition_point(|time| *time <= from).max(1);
-        let mut samples = (next_index..self.times.len()).take_while(|sample| self.times[sample - 1] < to);
-        samples.any(|sample| self.has_gap_before(sample))
+        self.has_any_between(&self.gaps, from, to)
     }
 
     /// Returns true if a break lies between two times (s).
     pub(super) fn has_break(&self, from: f64, to: f64) -> bool {
-        let next_index = self.breaks.partition_point(|sample| self.times[*sample] <= from);
-        self.breaks.get(next_index).is_some_and(|sample| self.times[sample - 1] < to)
+        self.has_any_between(&self.breaks, from, to)
+    }
+
+    /// Returns true if a motion before one of these samples lies between two times (s), at least in part.
+    fn has_any_between(&self, samples: &[usize], from: f64, to: f64) -> bool {
+        let next_index = samples.partition_point(|sample| self.times[*sample] <= from);
+        samples.get(next_index).is_some_and(|sample| self.times[sample - 1] < to)
     }
 
     /// Returns the first sample that is not earlier than `time` (s), and the fraction of the step to it that has passed; 1 at the sample. None

@@ -150,17 +150,13 @@ pub(super) fn cross_validate(fit: &Fit, all_legs: &Sample, alphas: &[Option<f64>
     let half_ranges = |count: usize| [0..count / 2, count / 2..count];
     let count = fit.sample.legs.len();
     let residuals = half_ranges(count).map(|half| fit.sample.inlier_residuals(half));
-    let parameters_of =
-        |half: &Residuals| maximize(half, fit.maximum.parameters, &fit.maximum.free).parameters;
+    let parameters_of = |half: &Residuals| maximize(half, fit.maximum.parameters).parameters;
     let parameters_by_other_half = [parameters_of(&residuals[1]), parameters_of(&residuals[0])];
     let (mut covered_legs, mut compared_legs) = (0, 0);
     for (residuals, parameters) in residuals.iter().zip(&parameters_by_other_half) {
         compared_legs += residuals.terms.len();
-        let filtered = residuals.filtered(parameters);
-        covered_legs += filtered
-            .leg_fits()
-            .filter(|fit| fit.observed_count() > 0 && fit.squared < CHI2_95[fit.observed_count() - 1])
-            .count();
+        covered_legs +=
+            residuals.filtered(parameters).leg_fits().filter(|fit| fit.is_within(&CHI2_95)).count();
     }
     // Variances estimated from the 3n components of n legs have the relative variance 2/3n; several α's share them.
     let scale_std = (2.0 * alphas.len() as f64 / (3 * count / 2).max(1) as f64).sqrt();

@@ -365,7 +365,7 @@ test('an unusable log has a sentence and no lines for Nav2', async () => {
   assert.equal(exitCode, 3);
   for (const linePattern of [
     /^Do not use\. Failed check: mismatch of odometry and reference \(6 of 13 failed\)\.\nThe reference does not follow the odometry: /m,
-    /^reference-matches +\S+ +0\.0005 to 0\.7 +FAILED +mismatch of odometry and reference$/m,
+    /^reference-matches +\S+ +0\.001 to 0\.7 +FAILED +mismatch of odometry and reference$/m,
     /^alpha1 .* – +rotation noise/m, /^No lines for nav2_params\.yaml: the log is unusable\.$/m,
   ]) assert.match(out, linePattern);
   assert.doesNotMatch(out, /amcl:|not identifiable: /);

@@ -4,10 +4,10 @@
 
 use std::sync::LazyLock;
 
-static TARGET: LazyLock<fn(&[u8])> = LazyLock::new(|| {
-    let name = std::env::var("FUZZ_TARGET").expect("FUZZ_TARGET names the target");
-    let target = motion_fuzz::TARGETS.iter().find(|(known_name, _)| *known_name == name);
-    target.expect("FUZZ_TARGET is a module of fuzz/src").1
+static SELECTED_TARGET: LazyLock<fn(&[u8])> = LazyLock::new(|| {
+    let target_name = std::env::var("FUZZ_TARGET").expect("FUZZ_TARGET names the target");
+    let named_target = motion_fuzz::TARGETS.iter().find(|(known_name, _)| *known_name == target_name);
+    named_target.expect("FUZZ_TARGET is a module of fuzz/src").1
 });
 
-libfuzzer_sys::fuzz_target!(|bytes: &[u8]| TARGET(bytes));
+libfuzzer_sys::fuzz_target!(|input_bytes: &[u8]| SELECTED_TARGET(input_bytes));

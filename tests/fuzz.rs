@@ -11,7 +11,7 @@ use std::fs::read_to_string;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::path::Path;
 
-type Target = fn(&[u8]);
+type FuzzTarget = fn(&[u8]);
 
 /// Defines a test for each target. It runs every n-th input of the corpus and a number of mutations, in about a tenth of a
 /// second.
@@ -45,7 +45,7 @@ fn calibrate_runs_on_its_whole_corpus() {
 
 #[test]
 fn every_target_of_cargo_fuzz_has_a_test() {
-    let target_names: Vec<_> = targets::TARGETS.iter().map(|(name, _)| *name).collect();
+    let target_names: Vec<_> = targets::TARGETS.iter().map(|(target_name, _)| *target_name).collect();
     assert_eq!(target_names, TESTED_TARGETS);
 }
 
@@ -70,19 +70,19 @@ regressions! {
         919191bfff91919191c400ffd9116f9191919191919121ffff91919191919191919191919191d9d9d9d991919191d991919191919191",
 }
 
-fn run_on_corpus_and_mutations(name: &str, target: Target, every: usize, mutations: u32) {
+fn run_on_corpus_and_mutations(name: &str, target: FuzzTarget, corpus_step: usize, mutation_count: u32) {
     let corpus_text = read_to_string(repository_root().join("fuzz/corpus").join(name).with_extension("txt"))
         .expect("a file");
     let corpus_inputs: Vec<_> = corpus_text.lines().map(bytes_from_hex).collect();
     assert!(corpus_inputs.len() > 20, "{} inputs of {name}", corpus_inputs.len());
-    corpus_inputs.iter().step_by(every).for_each(|bytes| run_target(target, bytes));
+    corpus_inputs.iter().step_by(corpus_step).for_each(|input_bytes| run_target(target, input_bytes));
     let mut rng = seeded_rng(2911);
-    for _ in 0..mutations {
-        let mut mutant = random_item(&corpus_inputs, &mut rng).clone();
+    for _ in 0..mutation_count {
+        let mut mutated_input = random_item(&corpus_inputs, &mut rng).clone();
         for _ in 0..=random_below(4, &mut rng) {
-            mutate(&mut mutant, &corpus_inputs, &mut rng);
+            mutate_input(&mut mutated_input, &corpus_inputs, &mut rng);
         }
-        run_target(target, &mutant);
+        run_target(target, &mutated_input);
     }
 }
 
@@ -91,27 +91,27 @@ fn repository_root() -> &'static Path {
 }
 
 fn bytes_from_hex(hex: &str) -> Vec<u8> {
-    let parse_byte_at = |at| u8::from_str_radix(&hex[at..at + 2], 16).expect("two hexadecimal digits");
+    let parse_byte_at = |i| u8::from_str_radix(&hex[i..i + 2], 16).expect("two hexadecimal digits");
     (0..hex.len()).step_by(2).map(parse_byte_at).collect()
 }
 
-fn run_target(target: Target, bytes: &[u8]) {
-    catch_unwind(AssertUnwindSafe(|| target(bytes))).unwrap_or_else(|panic| {
+fn run_target(target: FuzzTarget, bytes: &[u8]) {
+    catch_unwind(AssertUnwindSafe(|| target(bytes))).unwrap_or_else(|panic_payload| {
         eprintln!("on the bytes {bytes:02x?}");
-        resume_unwind(panic);
+        resume_unwind(panic_payload);
     });
 }
 
-fn random_below(count: usize, rng: &mut impl Rng) -> usize {
-    rng.next_u32() as usize % count
+fn random_below(limit: usize, rng: &mut impl Rng) -> usize {
+    rng.next_u32() as usize % limit
 }
 
-fn random_item<'a, T>(all: &'a [T], rng: &mut impl Rng) -> &'a T {
-    &all[random_below(all.len(), rng)]
+fn random_item<'a, T>(items: &'a [T], rng: &mut impl Rng) -> &'a T {
+    &items[random_below(items.len(), rng)]
 }
 
 /// Returns the input with one of the changes that libFuzzer makes.
-fn mutate(bytes: &mut Vec<u8>, corpus: &[Vec<u8>], rng: &mut impl Rng) {
+fn mutate_input(bytes: &mut Vec<u8>, corpus_inputs: &[Vec<u8>], rng: &mut impl Rng) {
     const SPECIAL_BYTES: [u8; 9] = [0, 1, 16, 32, 48, 57, 127, 128, 255];
     let byte_count = bytes.len();
     let edit_start = random_below(byte_count + 1, rng);
@@ -121,7 +121,7 @@ fn mutate(bytes: &mut Vec<u8>, corpus: &[Vec<u8>], rng: &mut impl Rng) {
         1 => drop(bytes.drain(edit_start..edit_start + edit_length)),
         2 => bytes.extend_from_within(edit_start..edit_start + edit_length),
         3 => {
-            let other_input = random_item(corpus, rng);
+            let other_input = random_item(corpus_inputs, rng);
             bytes.splice(
                 edit_start..,
                 other_input[random_below(other_input.len() + 1, rng)..].iter().copied(),

@@ -1,6 +1,6 @@
 //! Arc Anatomy under any settings and calls.
 
-use super::input::{Input, is_selected_by_hash};
+use super::input::{InputReader, is_selected_by_hash};
 use super::settings::{are_settings_allowed, change_settings};
 use super::{assertions, banana};
 use motion::geom::se2::SE2;
@@ -10,8 +10,8 @@ use motion::sim::views::Grid;
 /// Maximum number of calls in a run.
 const MAX_CALLS: usize = 4;
 
-pub fn run(bytes: &[u8]) {
-    let mut input = Input(bytes);
+pub fn run(input_bytes: &[u8]) {
+    let mut input = InputReader(input_bytes);
     let should_check_paths = input.next_below(8) == 1;
     let first_settings = change_settings(&Settings::default(), &mut input);
     if !are_settings_allowed(&first_settings) {
@@ -26,21 +26,21 @@ pub fn run(bytes: &[u8]) {
         if input.next_below(3) == 0 {
             position_at(&simulation, input.draw_number_within(0.0..=1.0));
         } else {
-            configure(&mut simulation, &mut input);
+            change_simulation_settings(&mut simulation, &mut input);
         }
     }
     assert_results(&simulation);
     // Paths are rarely checked, because each of their thousand points needs a sine and a cosine.
-    if should_check_paths && is_selected_by_hash(4, bytes) {
+    if should_check_paths && is_selected_by_hash(4, input_bytes) {
         assert_paths(&simulation);
     }
-    // Heat maps are rarely checked, because one takes as long as hundreds of other calls.
-    if is_selected_by_hash(256, bytes) {
+    // Heat maps are rarely checked, because a heat map takes as long as hundreds of other calls.
+    if is_selected_by_hash(256, input_bytes) {
         assert_surface(&simulation, &mut input);
     }
 }
 
-fn configure(simulation: &mut ArcAnatomy, input: &mut Input) {
+fn change_simulation_settings(simulation: &mut ArcAnatomy, input: &mut InputReader) {
     let settings = change_settings(simulation.settings(), input);
     if are_settings_allowed(&settings) {
         simulation.configure(settings).expect("allowed");
@@ -51,13 +51,13 @@ fn configure(simulation: &mut ArcAnatomy, input: &mut Input) {
     assert_eq!(*simulation.settings(), settings_before);
 }
 
-/// Asserts that all results are finite, or have the documented value where they are undefined.
+/// Asserts that all results are finite. An undefined result must have its documented value.
 fn assert_results(simulation: &ArcAnatomy) {
     let settings = simulation.settings();
     let Stats { commanded, inverted, driven, last_turn, factors, weakest, prob, share, density, xi } =
         simulation.stats();
-    for (label, arc) in [("commanded", &commanded), ("inverted", &inverted), ("driven", &driven)] {
-        assert_arc(label, arc);
+    for (arc_name, tested_arc) in [("commanded", &commanded), ("inverted", &inverted), ("driven", &driven)] {
+        assert_arc(arc_name, tested_arc);
     }
     assertions::assert_finite("last turn", &[last_turn]);
     assertions::assert_finite("xi", &xi);
@@ -76,12 +76,12 @@ fn assert_results(simulation: &ArcAnatomy) {
 
     let (start_pose, next_pose) = start_and_next_pose(settings);
     let largest_coordinate =
-        [start_pose.x(), start_pose.y(), next_pose.x(), next_pose.y()].iter().fold(0.0, |largest: f64, at| largest.max(at.abs()));
+        [start_pose.x(), start_pose.y(), next_pose.x(), next_pose.y()].iter().fold(0.0, |max_so_far: f64, coordinate| max_so_far.max(coordinate.abs()));
     let distance_to_next_pose = |[x, y]: [f64; 2]| (x - next_pose.x()).hypot(y - next_pose.y());
     // With a signed radius, both the inverted arc and the constant twist lead to the final position.
     let end_positions = [[inverted.end[0], inverted.end[1]], position_at(simulation, 1.0)];
-    let tolerance = assertions::ROUNDING_TOLERANCE * largest_coordinate + f64::MIN_POSITIVE;
-    assert!(end_positions.iter().all(|end| distance_to_next_pose(*end) <= tolerance), "{end_positions:?} for {settings:?}");
+    let position_tolerance = assertions::ROUNDING_TOLERANCE * largest_coordinate + f64::MIN_POSITIVE;
+    assert!(end_positions.iter().all(|end_position| distance_to_next_pose(*end_position) <= position_tolerance), "{end_positions:?} for {settings:?}");
     assert_eq!(position_at(simulation, 0.0), [start_pose.x(), start_pose.y()]);
     assert_table(simulation, prob);
 }
@@ -95,7 +95,7 @@ fn assert_table(simulation: &ArcAnatomy, prob: f64) {
     let Table { lines: [mu, x, y, radius, controls @ ..], middle, normal } = simulation.table();
     let relative_pose = start_pose.inverse() * next_pose;
     let has_no_displacement = [relative_pose.x(), relative_pose.y()] == [0.0; 2];
-    assert!([x, y, radius].iter().all(|line| !line.is_nan()), "{x} {y} {radius}");
+    assert!([x, y, radius].iter().all(|table_value| !table_value.is_nan()), "{x} {y} {radius}");
     assert!(!mu.is_nan() || has_no_displacement, "{mu} for {relative_pose:?}");
     assert!(!simulation.settings().printed || radius >= 0.0, "{radius}");
     assertions::assert_finite("controls", &controls[..4]);
@@ -105,33 +105,33 @@ fn assert_table(simulation: &ArcAnatomy, prob: f64) {
 
 fn assert_paths(simulation: &ArcAnatomy) {
     let Paths { commanded, inverted, driven, lie, ticks } = simulation.paths();
-    for (label, path) in
+    for (path_name, path_points) in
         [("commanded", &commanded), ("inverted", &inverted), ("driven", &driven), ("lie", &lie)]
     {
-        assertions::assert_finite(label, path.as_flattened());
+        assertions::assert_finite(path_name, path_points.as_flattened());
     }
     assertions::assert_finite("ticks", ticks.as_flattened());
     let Stats { inverted: ArcWithCircle { end: [x, y, _], .. }, .. } = simulation.stats();
     assert_eq!(inverted.last(), Some(&[x, y]));
 }
 
-fn assert_arc(label: &str, arc: &ArcWithCircle) {
-    assertions::assert_finite(label, &[arc.arc_length, arc.turn]);
-    assertions::assert_finite(label, &arc.end);
-    assert!(!arc.radius.is_nan(), "{label}: {arc:?}");
-    assert_eq!(arc.centre.is_some(), arc.radius.is_finite(), "{label}: {arc:?}");
-    assertions::assert_finite(label, &arc.centre.unwrap_or_default());
+fn assert_arc(arc_name: &str, tested_arc: &ArcWithCircle) {
+    assertions::assert_finite(arc_name, &[tested_arc.arc_length, tested_arc.turn]);
+    assertions::assert_finite(arc_name, &tested_arc.end);
+    assert!(!tested_arc.radius.is_nan(), "{arc_name}: {tested_arc:?}");
+    assert_eq!(tested_arc.centre.is_some(), tested_arc.radius.is_finite(), "{arc_name}: {tested_arc:?}");
+    assertions::assert_finite(arc_name, &tested_arc.centre.unwrap_or_default());
 }
 
-/// Returns the position on the path with constant twist after a fraction of the time.
-fn position_at(simulation: &ArcAnatomy, fraction: f64) -> [f64; 2] {
-    let poses = simulation.poses_at(fraction);
+/// Returns the position on the path with constant twist after `time_fraction` of the time.
+fn position_at(simulation: &ArcAnatomy, time_fraction: f64) -> [f64; 2] {
+    let poses = simulation.poses_at(time_fraction);
     poses.iter().for_each(|pose| assertions::assert_pose("poses_at", pose));
     [poses[2].x(), poses[2].y()]
 }
 
 /// Asserts that the contours of the heat map are inside its rectangle.
-fn assert_surface(simulation: &ArcAnatomy, input: &mut Input) {
+fn assert_surface(simulation: &ArcAnatomy, input: &mut InputReader) {
     let Grid { min, max, .. } = banana::read_grid(input);
     let surface = simulation.surface(min, max);
     assert_eq!(surface.is_none(), simulation.settings().map == SurfaceKind::Nothing);

@@ -1,6 +1,6 @@
 //! The Banana Machine under any settings and calls.
 
-use super::input::Input;
+use super::input::InputReader;
 use super::assertions;
 use super::settings::{are_settings_allowed, change_settings};
 use motion::geom::se2::SE2;
@@ -12,12 +12,13 @@ use motion::sim::picture::RAMP_STEP_COUNT;
 use motion::sim::settings::QUANTITY_RANGE;
 use motion::sim::views::{EXTENT_RANGE, Grid};
 
-/// Maximum numbers of samples and of calls in a run. They are large enough to reach every branch, and small enough to allow many runs.
+/// Maximum numbers of samples and of calls in a run. The limits are large enough to reach every branch, and small enough to allow many
+/// runs.
 const MAX_SAMPLES: usize = 12;
 const MAX_CALLS: usize = 4;
 
-pub fn run(bytes: &[u8]) {
-    let mut input = Input(bytes);
+pub fn run(input_bytes: &[u8]) {
+    let mut input = InputReader(input_bytes);
     let [should_check_curves, should_compare_new_simulation] = [0; 2].map(|_| input.next_below(4) == 1);
     let first_settings = change_settings(&limit_samples(Settings::default()), &mut input);
     if !are_settings_allowed(&first_settings) {
@@ -49,9 +50,9 @@ fn limit_samples(settings: Settings) -> Settings {
     Settings { samples: settings.samples.min(MAX_SAMPLES), ..settings }
 }
 
-fn call_method(simulation: &mut BananaMachine, input: &mut Input) {
+fn call_method(simulation: &mut BananaMachine, input: &mut InputReader) {
     match input.next_below(9) {
-        0 => configure(simulation, input),
+        0 => change_simulation_settings(simulation, input),
         1 => assert_same_if_added_in_blocks(simulation, input),
         2 => {
             let count_before = simulation.shown_count();
@@ -77,7 +78,7 @@ fn call_method(simulation: &mut BananaMachine, input: &mut Input) {
     }
 }
 
-fn configure(simulation: &mut BananaMachine, input: &mut Input) {
+fn change_simulation_settings(simulation: &mut BananaMachine, input: &mut InputReader) {
     let settings = change_settings(simulation.settings(), input);
     if are_settings_allowed(&settings) {
         simulation.configure(limit_samples(settings)).expect("allowed");
@@ -90,7 +91,7 @@ fn configure(simulation: &mut BananaMachine, input: &mut Input) {
 }
 
 /// Asserts that samples that are added in several blocks equal samples that are added in one call.
-fn assert_same_if_added_in_blocks(simulation: &mut BananaMachine, input: &mut Input) {
+fn assert_same_if_added_in_blocks(simulation: &mut BananaMachine, input: &mut InputReader) {
     let settings = change_settings(simulation.settings(), input);
     if !are_settings_allowed(&settings) {
         return;
@@ -123,13 +124,13 @@ fn all_results(simulation: &BananaMachine) -> Vec<f64> {
     all_numbers.extend([stats.cross_track_skew, stats.cross_track_skew_error]);
     all_numbers.extend([stats.rho_cross_heading, stats.gaussian_skew]);
     all_numbers.extend([coverage.ellipse, coverage.exponential, stats.area_ratio, stats.area_ratio_error]);
-    for gain in [stats.likelihood_gain, stats.likelihood_gain_error] {
-        all_numbers.extend([gain.pose, gain.floor]);
+    for gain_or_error in [stats.likelihood_gain, stats.likelihood_gain_error] {
+        all_numbers.extend([gain_or_error.pose, gain_or_error.floor]);
     }
     all_numbers
 }
 
-/// Asserts that all results are finite, or NaN where they are undefined.
+/// Asserts that all results are finite. An undefined result must be NaN.
 fn assert_results(simulation: &BananaMachine) {
     let (n, stats) = (simulation.shown_count(), simulation.stats());
     simulation.poses().for_each(|pose| assertions::assert_pose("a pose", &pose));
@@ -148,7 +149,7 @@ fn assert_results(simulation: &BananaMachine) {
     if is_chart_defined && n > 1 {
         assertions::assert_moments("exponential", &stats.exponential.mean, &stats.exponential.cov);
     } else {
-        assert!(n == 1 || stats.exponential.cov.iter().all(|number| number.is_nan()));
+        assert!(n == 1 || stats.exponential.cov.iter().all(|cov_entry| cov_entry.is_nan()));
     }
     let (skew, skew_error) = (stats.cross_track_skew, stats.cross_track_skew_error);
     assertions::assert_all_finite_or_all_nan("skew", &[skew, skew_error]);
@@ -156,21 +157,21 @@ fn assert_results(simulation: &BananaMachine) {
     let max_skew = (n as f64 - 2.0) / (n as f64 - 1.0).sqrt();
     assert!(skew.is_nan() || skew.abs() <= max_skew * (1.0 + 1e-9), "{skew} of {n}");
     assert!(skew_error.is_nan() || skew_error >= 0.0, "{skew_error}");
-    let rho = stats.rho_cross_heading;
-    assert!(rho.is_nan() || rho.abs() <= 1.0, "{rho}");
+    let lateral_heading_correlation = stats.rho_cross_heading;
+    assert!(lateral_heading_correlation.is_nan() || lateral_heading_correlation.abs() <= 1.0, "{lateral_heading_correlation}");
     assertions::assert_all_finite_or_all_nan("gaussian skew", &[stats.gaussian_skew]);
     assertions::assert_fraction("inside the ellipse", stats.coverage.ellipse);
     assertions::assert_fraction("inside the contour", stats.coverage.exponential);
     assert!(stats.area_ratio.is_nan() || stats.area_ratio >= 0.0, "{}", stats.area_ratio);
-    let (gain, error) = (stats.likelihood_gain, stats.likelihood_gain_error);
-    for (gain, error) in [(gain.pose, error.pose), (gain.floor, error.floor)] {
-        assert!(error.is_nan() || (error >= 0.0 && gain.is_finite()), "gain {gain} ± {error}");
+    let (likelihood_gain, gain_error) = (stats.likelihood_gain, stats.likelihood_gain_error);
+    for (likelihood_gain, gain_error) in [(likelihood_gain.pose, gain_error.pose), (likelihood_gain.floor, gain_error.floor)] {
+        assert!(gain_error.is_nan() || (gain_error >= 0.0 && likelihood_gain.is_finite()), "gain {likelihood_gain} ± {gain_error}");
     }
 }
 
 fn assert_contours(simulation: &BananaMachine) {
     let Contours { command, ellipse, linearized, exponential, twist_ellipse, additive } = simulation.contours();
-    for (label, outline) in [
+    for (outline_name, outline) in [
         ("command", &command),
         ("ellipse", &ellipse),
         ("linearized", &linearized),
@@ -178,7 +179,7 @@ fn assert_contours(simulation: &BananaMachine) {
         ("twist ellipse", &twist_ellipse),
         ("additive", &additive),
     ] {
-        assertions::assert_finite(label, outline.as_flattened());
+        assertions::assert_finite(outline_name, outline.as_flattened());
     }
     for outline in [&ellipse, &linearized, &exponential, &twist_ellipse, &additive] {
         assert_eq!(outline.first(), outline.last(), "an outline is closed");
@@ -187,18 +188,18 @@ fn assert_contours(simulation: &BananaMachine) {
     assert_eq!(exponential.is_empty(), simulation.shown_count() < 2 || !simulation.is_chart_defined());
 }
 
-/// Checks every column of the table. This is slow, because exact moments need quadrature.
+/// Checks every column of the table. The check is slow, because exact moments need quadrature.
 fn assert_table(simulation: &BananaMachine) {
     let table = simulation.table();
-    for (label, column) in [("linearized", &table.linearized), ("exact", &table.exact)] {
-        let TableColumn { mean, cov, cross_track_skew, likelihood_gain, area_ratio } = column;
-        assertions::assert_moments(label, mean, cov);
-        assertions::assert_all_finite_or_all_nan(label, &[*cross_track_skew]);
+    for (column_name, table_column) in [("linearized", &table.linearized), ("exact", &table.exact)] {
+        let TableColumn { mean, cov, cross_track_skew, likelihood_gain, area_ratio } = table_column;
+        assertions::assert_moments(column_name, mean, cov);
+        assertions::assert_all_finite_or_all_nan(column_name, &[*cross_track_skew]);
         assert!(
             !likelihood_gain.pose.is_infinite() || likelihood_gain.pose > 0.0,
-            "{label}: {likelihood_gain:?}"
+            "{column_name}: {likelihood_gain:?}"
         );
-        assert!(area_ratio.is_nan() || *area_ratio >= 0.0, "{label}: {area_ratio}");
+        assert!(area_ratio.is_nan() || *area_ratio >= 0.0, "{column_name}: {area_ratio}");
     }
     if let Some(tangent) = table.tangent {
         assertions::assert_moments("tangent", &tangent.mean, &tangent.cov);
@@ -207,29 +208,29 @@ fn assert_table(simulation: &BananaMachine) {
     assertions::assert_finite("reading", &[reading.rot1, reading.trans, reading.rot2]);
 }
 
-fn assert_executed_motion(simulation: &BananaMachine, index: usize) {
-    let Some(sample) = simulation.inspect(index) else {
-        assert!(index >= simulation.shown_count());
+fn assert_executed_motion(simulation: &BananaMachine, robot_index: usize) {
+    let Some(inspected_sample) = simulation.inspect(robot_index) else {
+        assert!(robot_index >= simulation.shown_count());
         return;
     };
-    assertions::assert_pose("inspected", &sample.pose.into());
-    assertions::assert_finite("path", sample.path.as_flattened());
-    if let Some(legs) = sample.legs {
-        assertions::assert_finite("legs", &[legs.rot1, legs.trans, legs.rot2]);
+    assertions::assert_pose("inspected", &inspected_sample.pose.into());
+    assertions::assert_finite("path", inspected_sample.path.as_flattened());
+    if let Some(executed_legs) = inspected_sample.legs {
+        assertions::assert_finite("legs", &[executed_legs.rot1, executed_legs.trans, executed_legs.rot2]);
     }
-    let [x, y] = *sample.path.last().expect("a path has an end");
-    // Paths are computed by scalar functions, and poses by SIMD functions. They agree to 2e-15 of the length.
-    let path_length = sample.path.windows(2).map(|ends| point_distance(ends[0], ends[1])).sum::<f64>();
+    let [x, y] = *inspected_sample.path.last().expect("a path has an end");
+    // Paths are computed by scalar functions, and poses by SIMD functions. Paths and poses agree to 2e-15 of the length.
+    let path_length = inspected_sample.path.windows(2).map(|segment_ends| point_distance(segment_ends[0], segment_ends[1])).sum::<f64>();
     let command = simulation.settings().command;
     let commanded_path_length = (command.v * command.dt).abs();
-    let max_path_length = sample.legs.map_or((sample.v_hat * command.dt).abs(), |legs| legs.trans.abs());
+    let max_path_length = inspected_sample.legs.map_or((inspected_sample.v_hat * command.dt).abs(), |executed_legs| executed_legs.trans.abs());
     assert!(path_length <= max_path_length * (1.0 + 1e-9) + 1e-9, "{path_length}, {max_path_length}");
     // If the noise nearly cancels the command, the motion still has the rounding error of the command.
     let rounding_factor = 1.0 + (command.omega * command.dt).abs();
     let rounding_error = 1e-14 * (max_path_length * rounding_factor + commanded_path_length) + f64::MIN_POSITIVE;
     assert!(
-        point_distance([x, y], [sample.pose[0], sample.pose[1]]) <= rounding_error,
-        "{sample:?} of {:?}",
+        point_distance([x, y], [inspected_sample.pose[0], inspected_sample.pose[1]]) <= rounding_error,
+        "{inspected_sample:?} of {:?}",
         simulation.settings()
     );
 }
@@ -239,30 +240,30 @@ fn point_distance(a: [f64; 2], b: [f64; 2]) -> f64 {
 }
 
 /// Returns a rectangle of a view with few cells.
-pub fn read_grid(input: &mut Input) -> Grid {
-    let min = [0; 2].map(|_| input.draw_number_within(EXTENT_RANGE));
-    let max = min.map(|lower| input.draw_number_within(lower..=*EXTENT_RANGE.end()));
-    let [columns, rows] = [0; 2].map(|_| 1 + input.next_below(40));
-    Grid { min, max, columns, rows }
+pub fn read_grid(input: &mut InputReader) -> Grid {
+    let grid_min = [0; 2].map(|_| input.draw_number_within(EXTENT_RANGE));
+    let grid_max = grid_min.map(|min_coordinate| input.draw_number_within(min_coordinate..=*EXTENT_RANGE.end()));
+    let [column_count, row_count] = [0; 2].map(|_| 1 + input.next_below(40));
+    Grid { min: grid_min, max: grid_max, columns: column_count, rows: row_count }
 }
 
-fn assert_picture(simulation: &mut BananaMachine, input: &mut Input) {
+fn assert_picture(simulation: &mut BananaMachine, input: &mut InputReader) {
     let (view, grid) = (input.choose_one(&[View::Plane, View::Twist]), read_grid(input));
     let cell_counts = simulation.density(view, &grid);
     assert_eq!(cell_counts.len(), grid.columns * grid.rows);
     assert!(cell_counts.iter().sum::<u32>() as usize <= simulation.shown_count(), "{grid:?}: {cell_counts:?}");
     let pixels = simulation.paint(view, &grid, &[[1; 4]; RAMP_STEP_COUNT]);
     assert_eq!(pixels.len(), cell_counts.len());
-    assert!(pixels.iter().zip(&cell_counts).all(|(pixel, count)| (pixel[3] > 0) == (*count > 0)), "{grid:?}");
+    assert!(pixels.iter().zip(&cell_counts).all(|(pixel, cell_count)| (pixel[3] > 0) == (*cell_count > 0)), "{grid:?}");
 }
 
-fn assert_nearest_pose(simulation: &BananaMachine, input: &mut Input) {
+fn assert_nearest_pose(simulation: &BananaMachine, input: &mut InputReader) {
     let search_point = [0; 2].map(|_| input.next_number());
     let search_radii = [0; 2].map(|_| input.draw_number_within(0.0..=f64::INFINITY));
-    let Some(index) = simulation.nearest(View::Plane, search_point, search_radii) else { return };
-    let nearest_pose: SE2 = simulation.pose(index).expect("a sample that is shown");
+    let Some(nearest_index) = simulation.nearest(View::Plane, search_point, search_radii) else { return };
+    let nearest_pose: SE2 = simulation.pose(nearest_index).expect("a sample that is shown");
     let relative_distance_to = |pose: &SE2| ((pose.x() - search_point[0]) / search_radii[0]).hypot((pose.y() - search_point[1]) / search_radii[1]);
     // The square of a distance below 1e-154 underflows to 0.
     let min_relative_distance = simulation.poses().map(|pose| relative_distance_to(&pose)).fold(f64::INFINITY, f64::min);
-    assert!(relative_distance_to(&nearest_pose) <= min_relative_distance * (1.0 + 1e-9) + 1e-150, "{search_point:?} {search_radii:?}: {index}");
+    assert!(relative_distance_to(&nearest_pose) <= min_relative_distance * (1.0 + 1e-9) + 1e-150, "{search_point:?} {search_radii:?}: {nearest_index}");
 }

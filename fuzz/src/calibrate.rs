@@ -1,6 +1,6 @@
 //! Calibration of random logs with random options.
 
-use super::input::{Input, is_selected_by_hash};
+use super::input::{InputReader, is_selected_by_hash};
 use super::assertions;
 use motion::calibrate::{
     CalibrateError, Calibration, Check, Drive, LegLength, MIN_LEGS, Model, Options, Outliers,
@@ -27,10 +27,10 @@ const MODELS: [Model; 5] = [
     Model::Velocity,
 ];
 
-pub fn run(bytes: &[u8]) {
-    let mut input = Input(bytes);
+pub fn run(input_bytes: &[u8]) {
+    let mut input = InputReader(input_bytes);
     let options = read_options(&mut input);
-    let mut odometry_log = odometry_rows(&mut input, if is_selected_by_hash(128, bytes) { MAX_PART_ROWS } else { MAX_PART_ROWS_OF_MOST_RUNS });
+    let mut odometry_log = odometry_rows(&mut input, if is_selected_by_hash(128, input_bytes) { MAX_PART_ROWS } else { MAX_PART_ROWS_OF_MOST_RUNS });
     let mut reference_log = reference_rows(&odometry_log, &mut input);
     edit_rows(&mut odometry_log, &mut input);
     edit_rows(&mut reference_log, &mut input);
@@ -42,13 +42,13 @@ pub fn run(bytes: &[u8]) {
         Ok(calibration) => assert_calibration(&calibration, &options),
         Err(CalibrateError::TooFewLegs { legs }) => assert!(legs < MIN_LEGS),
         Err(CalibrateError::NoCommonTime) => {
-            let [odometry_span, reference_span] = [&odometry, &reference].map(|log| log.span().expect("a row at least"));
+            let [odometry_span, reference_span] = [&odometry, &reference].map(|trajectory| trajectory.span().expect("a row at least"));
             assert!(odometry_span[1] < reference_span[0] || reference_span[1] < odometry_span[0], "{odometry_span:?} {reference_span:?}");
         }
     }
 }
 
-fn read_options(input: &mut Input) -> Options {
+fn read_options(input: &mut InputReader) -> Options {
     let leg_length = match input.next_below(4) {
         0 => LegLength::AMCL,
         1 => LegLength::Duration { duration: read_leg_size(input) },
@@ -62,84 +62,84 @@ fn read_options(input: &mut Input) -> Options {
         model: input.choose_one(&MODELS),
         legs: leg_length,
         outliers,
-        correct: std::array::from_fn(|error| (correction_bits >> error & 1 == 1).then_some(correction_bits & 64 == 0)),
+        correct: std::array::from_fn(|error_index| (correction_bits >> error_index & 1 == 1).then_some(correction_bits & 64 == 0)),
         position_std,
         yaw_std,
     }
 }
 
 /// Returns the length of a leg in m, rad or s.
-fn read_leg_size(input: &mut Input) -> f64 {
+fn read_leg_size(input: &mut InputReader) -> f64 {
     if input.next_bool() { input.choose_one(&[0.1, 0.2, 0.25, 0.5]) } else { input.draw_number_within(1e-6..=1e6) }
 }
 
 type LogRow = (f64, SE2);
 
-/// Returns one of the given numbers, or sometimes any other number.
-fn choice_or_any_number(choices: &[f64], input: &mut Input) -> f64 {
-    let choice_index = input.next_below(choices.len() + 1);
-    choices.get(choice_index).copied().unwrap_or_else(|| input.draw_number_within(-1e9..=1e9))
+/// Returns one of the usual numbers, or sometimes any other number.
+fn choice_or_any_number(usual_numbers: &[f64], input: &mut InputReader) -> f64 {
+    let choice_index = input.next_below(usual_numbers.len() + 1);
+    usual_numbers.get(choice_index).copied().unwrap_or_else(|| input.draw_number_within(-1e9..=1e9))
 }
 
-fn odometry_rows(input: &mut Input, max_rows_of_part: usize) -> Vec<LogRow> {
+fn odometry_rows(input: &mut InputReader, max_rows_of_part: usize) -> Vec<LogRow> {
     let time_step = choice_or_any_number(&[0.05, 0.1, 0.1, 0.5, 1.0], input).abs();
     let mut log_rows = vec![(choice_or_any_number(&[0.0, 10.0, 1.7e9], input), SE2::identity())];
     for _ in 0..=input.next_below(MAX_DRIVE_PARTS) {
         let v = choice_or_any_number(&[0.0, 0.2, 0.5, 0.8, -0.3], input);
         let omega = choice_or_any_number(&[0.0, 0.2, -0.4, 0.9, -0.9], input);
         for _ in 0..1 + usize::from(input.next_byte()) % max_rows_of_part {
-            let (time, pose) = log_rows[log_rows.len() - 1];
-            log_rows.push((time + time_step, pose.boxplus(Vector3::new(v, 0.0, omega) * time_step)));
+            let (time, last_pose) = log_rows[log_rows.len() - 1];
+            log_rows.push((time + time_step, last_pose.boxplus(Vector3::new(v, 0.0, omega) * time_step)));
         }
     }
     log_rows
 }
 
-/// Returns the reference: the odometry with an error in each step, and with occasional jumps.
-fn reference_rows(odometry: &[LogRow], input: &mut Input) -> Vec<LogRow> {
+/// Returns the rows of the reference. The reference is the odometry with an error in each step, and with occasional jumps.
+fn reference_rows(odometry: &[LogRow], input: &mut InputReader) -> Vec<LogRow> {
     let clock_offset = choice_or_any_number(&[0.0, 0.12, -3.0, 50.0], input);
     let mount_pose = SE2::new(0.1 * f64::from(input.next_below(3) as u8), 0.0, choice_or_any_number(&[0.0, 0.07, 3.0], input));
     let relative_noise = choice_or_any_number(&[0.0, 0.01, 0.1, 0.5], input);
     let jump_interval = usize::from(input.next_byte());
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(u64::from(input.next_byte()));
     let mut pose = SE2::new(1.0, 2.0, 3.0);
-    let mut rows = vec![(odometry[0].0 + clock_offset, pose * mount_pose)];
-    for (i, pair) in odometry.windows(2).enumerate() {
-        let odometry_motion = pair[1].1.boxminus(&pair[0].1);
+    let mut reference_log = vec![(odometry[0].0 + clock_offset, pose * mount_pose)];
+    for (i, adjacent_rows) in odometry.windows(2).enumerate() {
+        let odometry_motion = adjacent_rows[1].1.boxminus(&adjacent_rows[0].1);
         let motion_noise = Vector3::from_fn(|_, _| rng.random_range(-1.0..=1.0)) * relative_noise * odometry_motion.norm();
         pose = pose.boxplus(odometry_motion + motion_noise);
         if jump_interval > 0 && i % jump_interval == 0 {
             pose = SE2::new(0.5, 0.0, 0.0) * pose;
         }
-        rows.push((pair[1].0 + clock_offset, pose * mount_pose));
+        reference_log.push((adjacent_rows[1].0 + clock_offset, pose * mount_pose));
     }
-    rows
+    reference_log
 }
 
 /// Changes or removes some rows.
-fn edit_rows(rows: &mut Vec<LogRow>, input: &mut Input) {
+fn edit_rows(log_rows: &mut Vec<LogRow>, input: &mut InputReader) {
     for _ in 0..input.next_below(4) {
-        let row_index = usize::from(u16::from_le_bytes(input.next_bytes())) % rows.len();
-        let (time, pose) = rows[row_index];
+        let row_index = usize::from(u16::from_le_bytes(input.next_bytes())) % log_rows.len();
+        let (time, pose) = log_rows[row_index];
         let [x, y, theta] = [pose.x(), pose.y(), pose.theta()];
         match input.next_below(6) {
-            0 => rows[row_index].0 = input.next_number(),
-            1 => rows[row_index].1 = SE2::new(input.next_number(), y, theta),
-            2 => rows[row_index].1 = SE2::new(x, y, input.next_number()),
-            3 => rows[row_index..].iter_mut().for_each(|row| row.0 += 10.0),
-            4 => rows[row_index].0 = time.next_up(),
-            _ => drop(rows.drain(row_index..(row_index + 1 + usize::from(input.next_byte()) % MAX_PART_ROWS).min(rows.len()))),
+            0 => log_rows[row_index].0 = input.next_number(),
+            1 => log_rows[row_index].1 = SE2::new(input.next_number(), y, theta),
+            2 => log_rows[row_index].1 = SE2::new(x, y, input.next_number()),
+            3 => log_rows[row_index..].iter_mut().for_each(|row| row.0 += 10.0),
+            4 => log_rows[row_index].0 = time.next_up(),
+            _ => drop(log_rows.drain(row_index..(row_index + 1 + usize::from(input.next_byte()) % MAX_PART_ROWS).min(log_rows.len()))),
         }
-        if rows.is_empty() {
-            rows.push((time, pose));
+        if log_rows.is_empty() {
+            log_rows.push((time, pose));
         }
     }
 }
 
-/// Returns the trajectory of the rows, with breaks before some rows. Returns None if a row is refused.
-fn trajectory_from_rows(rows: &[LogRow], input: &mut Input) -> Option<Trajectory> {
+/// Returns the trajectory of the rows, with breaks before some rows. Returns None if the trajectory refuses a row.
+fn trajectory_from_rows(rows: &[LogRow], input: &mut InputReader) -> Option<Trajectory> {
     let trajectory_or_error = match input.next_below(4) {
-        // x and θ are used as speed and turn rate.
+        // The columns x and θ are used as speed and turn rate.
         0 => Trajectory::from_commands(rows.iter().map(|(time, pose)| (*time, pose.x(), pose.theta()))),
         _ => Trajectory::new(rows.iter().copied()),
     };
@@ -149,8 +149,8 @@ fn trajectory_from_rows(rows: &[LogRow], input: &mut Input) -> Option<Trajectory
             let break_indices: Vec<usize> = (0..input.next_below(4)).map(|_| usize::from(input.next_byte())).collect();
             Some(trajectory.with_breaks_before(break_indices))
         }
-        Err(TrajectoryError::NotLater { sample, before }) => {
-            assert!(sample > 0 && rows[sample].0 <= before && rows[sample - 1].0 == before);
+        Err(TrajectoryError::NotLater { sample, before: time_before }) => {
+            assert!(sample > 0 && rows[sample].0 <= time_before && rows[sample - 1].0 == time_before);
             None
         }
         // Poses after large commands may overflow.
@@ -167,31 +167,31 @@ fn assert_calibration(calibration: &Calibration, options: &Options) {
     assert_eq!([observations.len(), leg_fits.len()], [legs.len(); 2]);
     let alpha_count = options.model.alphas();
     assert_eq!([alphas.len(), intervals.len(), not_identifiable.len()], [alpha_count; 3]);
-    for (k, alpha) in alphas.iter().enumerate() {
-        assert_eq!([alpha.is_none(), intervals[k].is_none()], [not_identifiable[k].is_some(); 2]);
-        let Some((alpha, [low, high])) = alpha.zip(intervals[k]) else { continue };
-        let is_in_interval = 0.0 <= low && low <= alpha && alpha <= high && alpha.is_finite();
-        assert!(is_in_interval, "α{}: {low} {alpha} {high}", k + 1);
+    for (k, fitted_alpha) in alphas.iter().enumerate() {
+        assert_eq!([fitted_alpha.is_none(), intervals[k].is_none()], [not_identifiable[k].is_some(); 2]);
+        let Some((fitted_alpha, [low, high])) = fitted_alpha.zip(intervals[k]) else { continue };
+        let is_in_interval = 0.0 <= low && low <= fitted_alpha && fitted_alpha <= high && fitted_alpha.is_finite();
+        assert!(is_in_interval, "α{}: {low} {fitted_alpha} {high}", k + 1);
     }
-    for noise in calibration.reference_noise {
-        let [low, high] = noise.interval;
-        assert!(0.0 <= low && low <= noise.value && noise.value <= high, "{noise:?}");
+    for noise_estimate in calibration.reference_noise {
+        let [low, high] = noise_estimate.interval;
+        assert!(0.0 <= low && low <= noise_estimate.value && noise_estimate.value <= high, "{noise_estimate:?}");
     }
     // A log is unusable if squares of its coordinates overflow.
     let is_usable = calibration.diagnostics.verdict != Verdict::Unusable;
     assert!(!is_usable || !calibration.log_likelihood.is_nan());
-    for (i, error) in SystematicError::ALL.into_iter().enumerate() {
-        let (estimate, interval) = (calibration.systematic.get(error), calibration.interval_of(error));
-        assert!(estimate.is_finite() && interval.is_none_or(|[low, high]| low <= estimate && estimate <= high));
-        let may_be_corrected = interval.is_some() && options.correct[i] != Some(false);
-        assert!(may_be_corrected || !calibration.is_corrected[i], "{error:?}");
+    for (i, error_kind) in SystematicError::ALL.into_iter().enumerate() {
+        let (estimate, error_interval) = (calibration.systematic.get(error_kind), calibration.interval_of(error_kind));
+        assert!(estimate.is_finite() && error_interval.is_none_or(|[low, high]| low <= estimate && estimate <= high));
+        let may_be_corrected = error_interval.is_some() && options.correct[i] != Some(false);
+        assert!(may_be_corrected || !calibration.is_corrected[i], "{error_kind:?}");
     }
-    for pair in legs.windows(2) {
-        assert!(pair[0].times[1] <= pair[1].times[0]);
+    for adjacent_legs in legs.windows(2) {
+        assert!(adjacent_legs[0].times[1] <= adjacent_legs[1].times[0]);
     }
     assert!(legs.iter().all(|leg| leg.times[0] < leg.times[1]));
     for leg in leg_fits {
-        let is_finite = leg.squared.is_finite() && leg.stds.iter().all(|std| std.is_nan() || *std >= 0.0);
+        let is_finite = leg.squared.is_finite() && leg.stds.iter().all(|innovation_std| innovation_std.is_nan() || *innovation_std >= 0.0);
         assert!(!is_usable || is_finite, "{leg:?}");
         assert!(options.outliers == Outliers::Reject || !leg.is_outlier);
     }
@@ -199,11 +199,11 @@ fn assert_calibration(calibration: &Calibration, options: &Options) {
 }
 
 fn assert_diagnostics(Calibration { alphas, diagnostics, persistence, recommended, .. }: &Calibration) {
-    for Check { name, value, expected: [low, high], passed, message } in &diagnostics.checks {
-        assert_eq!(message.is_empty(), *passed, "{name:?}");
-        assert_eq!(*passed, low <= value && value <= high, "{name:?}: {value} {low} {high}");
+    for Check { name: check_name, value: check_value, expected: [low, high], passed, message } in &diagnostics.checks {
+        assert_eq!(message.is_empty(), *passed, "{check_name:?}");
+        assert_eq!(*passed, low <= check_value && check_value <= high, "{check_name:?}: {check_value} {low} {high}");
     }
-    let have_all_passed = diagnostics.checks.iter().all(|check| check.passed);
+    let have_all_passed = diagnostics.checks.iter().all(|diagnostic_check| diagnostic_check.passed);
     assert!(have_all_passed || diagnostics.verdict != Verdict::Consistent);
     for window in diagnostics.windows.iter().filter(|window| window.count > 0) {
         assertions::assert_fraction("covered windows", window.coverage);
@@ -212,7 +212,7 @@ fn assert_diagnostics(Calibration { alphas, diagnostics, persistence, recommende
     assert_eq!(recommended.is_none(), diagnostics.verdict == Verdict::Unusable);
     let Some(recommended) = recommended else { return };
     assert!((1.0..=100.0).contains(&recommended.inflation), "{recommended:?}");
-    for (alpha, inflated) in alphas.iter().zip(&recommended.alphas) {
-        assert_eq!(alpha.map(|alpha| alpha * recommended.inflation), *inflated);
+    for (alpha, inflated_alpha) in alphas.iter().zip(&recommended.alphas) {
+        assert_eq!(alpha.map(|alpha| alpha * recommended.inflation), *inflated_alpha);
     }
 }

@@ -1,6 +1,6 @@
 //! The Odometry Decomposer under any settings and calls.
 
-use super::input::Input;
+use super::input::InputReader;
 use super::assertions;
 use super::settings::{are_settings_allowed, change_settings};
 use motion::geom::se2::SE2;
@@ -13,8 +13,8 @@ const MAX_SAMPLES: usize = 12;
 const MAX_CURVE_POINTS: usize = 6;
 const MAX_CALLS: usize = 4;
 
-pub fn run(bytes: &[u8]) {
-    let mut input = Input(bytes);
+pub fn run(input_bytes: &[u8]) {
+    let mut input = InputReader(input_bytes);
     let first_settings = change_settings(&limit_samples(Settings::default()), &mut input);
     if !are_settings_allowed(&first_settings) {
         assert!(OdometryDecomposer::new(first_settings).is_err());
@@ -35,10 +35,10 @@ fn limit_samples(settings: Settings) -> Settings {
     Settings { samples: settings.samples.min(MAX_SAMPLES), ..settings }
 }
 
-fn call_method(simulation: &mut OdometryDecomposer, input: &mut Input) {
+fn call_method(simulation: &mut OdometryDecomposer, input: &mut InputReader) {
     let shown_count = simulation.poses().len();
     match input.next_below(7) {
-        0 | 1 => configure(simulation, input),
+        0 | 1 => change_simulation_settings(simulation, input),
         2 => {
             let added_count = input.next_below(MAX_SAMPLES);
             assert_eq!(simulation.add_samples(added_count), (shown_count + added_count).min(simulation.settings().samples));
@@ -58,7 +58,7 @@ fn call_method(simulation: &mut OdometryDecomposer, input: &mut Input) {
     }
 }
 
-fn configure(simulation: &mut OdometryDecomposer, input: &mut Input) {
+fn change_simulation_settings(simulation: &mut OdometryDecomposer, input: &mut InputReader) {
     let settings = change_settings(simulation.settings(), input);
     let (settings_before, poses_before) = (*simulation.settings(), simulation.poses().to_vec());
     if !are_settings_allowed(&settings) {
@@ -72,27 +72,27 @@ fn configure(simulation: &mut OdometryDecomposer, input: &mut Input) {
     assert_eq!(simulation.poses().len(), settings.samples);
 }
 
-fn assert_deviation_curve(simulation: &OdometryDecomposer, max_distance: f64, count: usize) {
-    let curve_points = simulation.deviation_curve(max_distance, count);
-    assert_eq!(curve_points.len(), count);
-    for point in curve_points {
-        assertions::assert_finite("curve", &point);
-        assert!(point[1..].iter().all(|deviation| *deviation >= 0.0), "{point:?}");
+fn assert_deviation_curve(simulation: &OdometryDecomposer, max_distance: f64, point_count: usize) {
+    let curve_points = simulation.deviation_curve(max_distance, point_count);
+    assert_eq!(curve_points.len(), point_count);
+    for curve_point in curve_points {
+        assertions::assert_finite("curve", &curve_point);
+        assert!(curve_point[1..].iter().all(|deviation| *deviation >= 0.0), "{curve_point:?}");
     }
 }
 
-fn assert_nearest_pose(simulation: &OdometryDecomposer, input: &mut Input) {
+fn assert_nearest_pose(simulation: &OdometryDecomposer, input: &mut InputReader) {
     let search_point = [0; 2].map(|_| input.next_number());
     let search_radius = input.draw_number_within(0.0..=f64::INFINITY);
-    let Some(index) = simulation.nearest(search_point, search_radius) else { return };
+    let Some(nearest_index) = simulation.nearest(search_point, search_radius) else { return };
     let relative_distance_to = |pose: &SE2| ((pose.x() - search_point[0]) / search_radius).hypot((pose.y() - search_point[1]) / search_radius);
     let min_relative_distance = simulation.poses().iter().map(relative_distance_to).fold(f64::INFINITY, f64::min);
     // The square of a distance below 1e-154 of the radius underflows to 0.
-    let found_relative_distance = relative_distance_to(&simulation.poses()[index]);
-    assert!(found_relative_distance <= min_relative_distance * (1.0 + 1e-9) + 1e-150 && found_relative_distance <= 1.0 + 1e-9, "{search_point:?} {search_radius}: {index}");
+    let found_relative_distance = relative_distance_to(&simulation.poses()[nearest_index]);
+    assert!(found_relative_distance <= min_relative_distance * (1.0 + 1e-9) + 1e-150 && found_relative_distance <= 1.0 + 1e-9, "{search_point:?} {search_radius}: {nearest_index}");
 }
 
-/// Asserts that all results are finite, or NaN without outcomes.
+/// Asserts that all results are finite. Without outcomes they must be NaN.
 fn assert_results(simulation: &OdometryDecomposer) {
     let settings = simulation.settings();
     simulation.poses().iter().for_each(|pose| assertions::assert_pose("an outcome", pose));
@@ -121,17 +121,17 @@ fn assert_results(simulation: &OdometryDecomposer) {
     assertions::assert_all_finite_or_all_nan("measured", &measured_values);
     assert_eq!(n == 0, cross_track.is_nan());
     assert!(
-        exact_values.iter().chain(&measured_values).all(|value| value.is_nan() || *value >= 0.0),
+        exact_values.iter().chain(&measured_values).all(|deviation| deviation.is_nan() || *deviation >= 0.0),
         "{exact_values:?} {measured_values:?}"
     );
 
-    for noise in simulation.rule_noises() {
-        assert_legs("legs", &noise.legs);
-        let rule_deviations = [&noise.deviations[..], &[noise.cross_track, noise.heading]].concat();
+    for rule_noise in simulation.rule_noises() {
+        assert_legs("legs", &rule_noise.legs);
+        let rule_deviations = [&rule_noise.deviations[..], &[rule_noise.cross_track, rule_noise.heading]].concat();
         assertions::assert_finite("a rule", &rule_deviations);
-        assert!(rule_deviations.iter().all(|value| *value >= 0.0), "{noise:?}");
-        if noise.rule == settings.rule {
-            assert_eq!(noise.legs, simulation.legs());
+        assert!(rule_deviations.iter().all(|rule_deviation| *rule_deviation >= 0.0), "{rule_noise:?}");
+        if rule_noise.rule == settings.rule {
+            assert_eq!(rule_noise.legs, simulation.legs());
             assertions::assert_same_numbers("exact", &rule_deviations[4..], &[exact_cross_track, exact_heading]);
         }
     }
@@ -140,7 +140,7 @@ fn assert_results(simulation: &OdometryDecomposer) {
     let [x, y, _] = settings.to;
     let [.., last_leg_end] = simulation.leg_poses();
     let distance_to_second_pose = (last_leg_end.x() - x).hypot(last_leg_end.y() - y);
-    let largest_coordinate = settings.from.iter().chain(&settings.to).fold(0.0, |largest: f64, at| largest.max(at.abs()));
+    let largest_coordinate = settings.from.iter().chain(&settings.to).fold(0.0, |max_so_far: f64, coordinate| max_so_far.max(coordinate.abs()));
     assert!(distance_to_second_pose <= 2.0 * MAX_SPIN_DISTANCE + 1e-14 * largest_coordinate, "{last_leg_end:?} for {settings:?}: {distance_to_second_pose}");
 
     // Asserts that a simulation depends on its settings only, and not on earlier calls.
@@ -152,7 +152,7 @@ fn assert_results(simulation: &OdometryDecomposer) {
     assert_eq!(new_simulation.poses(), simulation.poses());
 }
 
-fn assert_legs(label: &str, legs: &OdomDelta) {
-    assertions::assert_finite(label, &[legs.rot1, legs.trans, legs.rot2]);
-    assert!(legs.trans >= 0.0, "{label}: {legs:?}");
+fn assert_legs(legs_name: &str, legs: &OdomDelta) {
+    assertions::assert_finite(legs_name, &[legs.rot1, legs.trans, legs.rot2]);
+    assert!(legs.trans >= 0.0, "{legs_name}: {legs:?}");
 }

@@ -1,6 +1,6 @@
 //! Grids with arbitrary cells, thresholds, resolution and origin.
 
-use super::input::Input;
+use super::input::InputReader;
 use super::plan;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
@@ -14,11 +14,11 @@ const MAX_ARCS: usize = 3;
 /// Maximum number of cells along a side.
 const MAX_SIDE_CELLS: usize = 3;
 
-pub fn run(bytes: &[u8]) {
-    let mut input = Input(bytes);
+pub fn run(input_bytes: &[u8]) {
+    let mut input = InputReader(input_bytes);
     let Some((grid, unknown_cells)) = read_random_grid(&mut input) else { return };
-    let [columns, rows] = grid.size();
-    assert_eq!(grid.cells().len(), columns * rows);
+    let [column_count, row_count] = grid.size();
+    assert_eq!(grid.cells().len(), column_count * row_count);
     // Most runs stop here, because the distance field of a plan takes a hundred times as long as everything else.
     if input.next_below(16) != 1 {
         assert_outlines(&grid.with_unknown(unknown_cells), unknown_cells);
@@ -27,12 +27,12 @@ pub fn run(bytes: &[u8]) {
     let plan = match FloorPlan::from_grid(grid.with_unknown(unknown_cells)) {
         Ok(plan) => plan,
         Err(FloorPlanError::BadGrid(_)) => return,
-        Err(error) => panic!("{error}"),
+        Err(plan_error) => panic!("{plan_error}"),
     };
     let grid = plan.grid().expect("made of a grid");
     assert_outlines(grid, unknown_cells);
-    for (middle, is_obstacle) in middles_and_obstacles(grid, unknown_cells) {
-        assert_eq!(plan.test_point(middle, 0.0).free, !is_obstacle, "{middle:?} in {grid:?}");
+    for (cell_middle, is_obstacle) in middles_and_obstacles(grid, unknown_cells) {
+        assert_eq!(plan.test_point(cell_middle, 0.0).free, !is_obstacle, "{cell_middle:?} in {grid:?}");
     }
     for _ in 0..MAX_ARCS {
         plan::assert_collision_verdicts(&plan, &mut input);
@@ -45,8 +45,8 @@ pub fn run(bytes: &[u8]) {
 /// Returns the middle of each cell, and true for an obstacle. The list is empty if the coordinates are too large to
 /// distinguish cells.
 fn middles_and_obstacles(grid: &OccupancyGrid, unknown_cells: UnknownCells) -> Vec<([f64; 2], bool)> {
-    let ([columns, rows], origin, cell_side) = (grid.size(), grid.origin(), grid.resolution());
-    let largest_coordinate = origin.x().abs().max(origin.y().abs()) + (columns + rows) as f64 * cell_side;
+    let ([column_count, row_count], grid_origin, cell_side) = (grid.size(), grid.origin(), grid.resolution());
+    let largest_coordinate = grid_origin.x().abs().max(grid_origin.y().abs()) + (column_count + row_count) as f64 * cell_side;
     if cell_side <= 1e3 * f64::EPSILON * largest_coordinate {
         return Vec::new();
     }
@@ -54,9 +54,9 @@ fn middles_and_obstacles(grid: &OccupancyGrid, unknown_cells: UnknownCells) -> V
         |cell: Cell| cell == Cell::Occupied || (cell == Cell::Unknown && unknown_cells == UnknownCells::Blocked);
     let indexed_cells = grid.cells().enumerate();
     let cell_middle = |i: usize| {
-        let [u, v] = [i % columns, i / columns].map(|at| (at as f64 + 0.5) * cell_side);
-        let middle = origin * SE2::new(u, v, 0.0);
-        [middle.x(), middle.y()]
+        let [u, v] = [i % column_count, i / column_count].map(|cell_index| (cell_index as f64 + 0.5) * cell_side);
+        let middle_pose = grid_origin * SE2::new(u, v, 0.0);
+        [middle_pose.x(), middle_pose.y()]
     };
     indexed_cells.map(|(i, cell)| (cell_middle(i), is_blocking(cell))).collect()
 }
@@ -69,9 +69,9 @@ fn assert_outlines(grid: &OccupancyGrid, unknown_cells: UnknownCells) {
         assert_eq!(grid.is_blocked_at(*middle), *is_obstacle, "{middle:?} in {grid:?}");
     }
     let [columns, rows] = grid.size();
-    let is_obstacle_at = |column: usize, row: usize| {
-        (column < columns && row < rows)
-            .then(|| middles_and_obstacles.get(row * columns + column))
+    let is_obstacle_at = |column_index: usize, row_index: usize| {
+        (column_index < columns && row_index < rows)
+            .then(|| middles_and_obstacles.get(row_index * columns + column_index))
             .flatten()
             .is_some_and(|cell| cell.1)
     };
@@ -95,17 +95,17 @@ fn wall_length(wall: &Segment) -> f64 {
 }
 
 /// Reads a grid of a few cells, and the setting for its unknown cells.
-pub fn read_random_grid(input: &mut Input) -> Option<(OccupancyGrid, UnknownCells)> {
+pub fn read_random_grid(input: &mut InputReader) -> Option<(OccupancyGrid, UnknownCells)> {
     let resolution = input.draw_number_near(&RESOLUTION_RANGE);
     let [x, y, yaw] = [0; 3].map(|_| input.draw_number_near(&QUANTITY_RANGE));
-    if !RESOLUTION_RANGE.contains(&resolution) || ![x, y, yaw].iter().all(|number| QUANTITY_RANGE.contains(number)) {
+    if !RESOLUTION_RANGE.contains(&resolution) || ![x, y, yaw].iter().all(|origin_coordinate| QUANTITY_RANGE.contains(origin_coordinate)) {
         return None;
     }
     let [width, height] = [0; 2].map(|_| 1 + input.next_below(MAX_SIDE_CELLS));
-    let mode = input.choose_one(&[MapMode::Trinary, MapMode::Scale, MapMode::Raw]);
-    let negate = input.next_bool();
+    let map_mode = input.choose_one(&[MapMode::Trinary, MapMode::Scale, MapMode::Raw]);
+    let is_negated = input.next_bool();
     let [a, b] = [0; 2].map(|_| f64::from(input.next_byte()) / 255.0);
-    let interpretation = Interpretation { mode, negate, occupied_thresh: a.max(b), free_thresh: a.min(b) };
+    let interpretation = Interpretation { mode: map_mode, negate: is_negated, occupied_thresh: a.max(b), free_thresh: a.min(b) };
     let unknown_cells = input.choose_one(&[UnknownCells::Free, UnknownCells::Blocked]);
     let is_opaque = input.next_bool();
     let pixels: Vec<Pixel> = (0..width * height)
@@ -125,9 +125,9 @@ pub fn read_random_grid(input: &mut Input) -> Option<(OccupancyGrid, UnknownCell
 /// right.
 fn assert_cell_of_pixel(interpretation: &Interpretation, pixel: Pixel) {
     let Interpretation { mode, negate, occupied_thresh, free_thresh } = *interpretation;
-    let shade = f64::from(pixel.shade);
-    let occupancy = if negate { shade } else { 1.0 - shade };
-    let grey_value = (255.0 * shade).round();
+    let pixel_shade = f64::from(pixel.shade);
+    let occupancy = if negate { pixel_shade } else { 1.0 - pixel_shade };
+    let grey_value = (255.0 * pixel_shade).round();
     let is_near = |threshold: f64| (occupancy - threshold).abs() < 2.0 * f64::from(f32::EPSILON);
     let expected_cell = match mode {
         MapMode::Raw if grey_value == 100.0 => Cell::Occupied,

@@ -1,18 +1,18 @@
-//! Reads numbers and choices from the bytes of an input.
+//! Reader of numbers and choices from the bytes of a fuzz input.
 
 use std::ops::RangeInclusive;
 
-/// Remaining bytes of the input. All bytes after its end are 0.
-pub struct Input<'a>(pub &'a [u8]);
+/// Remaining bytes of a fuzz input. All bytes after the end of the input are 0.
+pub struct InputReader<'a>(pub &'a [u8]);
 
 /// Returns true for one in `interval` inputs, selected by a hash of all bytes. Slow checks run for these inputs only.
 ///
-/// A single byte cannot select them, because most mutations of an input keep that byte.
-pub fn is_selected_by_hash(interval: u64, bytes: &[u8]) -> bool {
+/// A single byte would not do, because most mutations of an input keep that byte.
+pub fn is_selected_by_hash(interval: u64, input_bytes: &[u8]) -> bool {
     // FNV-1a.
     let mix_byte =
         |input_hash: u64, byte: &u8| (input_hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);
-    let input_hash = bytes.iter().fold(0xcbf2_9ce4_8422_2325, mix_byte);
+    let input_hash = input_bytes.iter().fold(0xcbf2_9ce4_8422_2325, mix_byte);
     (input_hash >> 32) % interval == 0
 }
 
@@ -44,7 +44,7 @@ const LIMIT_NUMBERS: [f64; 24] = [
     f64::NAN,
 ];
 
-impl Input<'_> {
+impl InputReader<'_> {
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
@@ -63,9 +63,9 @@ impl Input<'_> {
         self.next_byte() & 1 == 1
     }
 
-    /// Returns an integer from 0 to `count` − 1.
-    pub fn next_below(&mut self, count: usize) -> usize {
-        usize::from(self.next_byte()) % count
+    /// Returns an integer from 0 to `limit` − 1.
+    pub fn next_below(&mut self, limit: usize) -> usize {
+        usize::from(self.next_byte()) % limit
     }
 
     pub fn choose_one<T: Copy>(&mut self, choices: &[T]) -> T {
@@ -84,22 +84,22 @@ impl Input<'_> {
         }
     }
 
-    /// Returns a double, mostly in this range.
+    /// Returns a double, mostly in the given range.
     pub fn draw_number_near(&mut self, range: &RangeInclusive<f64>) -> f64 {
-        let number = self.next_number();
-        if self.next_below(8) == 0 || number.is_nan() {
-            return number;
+        let drawn_number = self.next_number();
+        if self.next_below(8) == 0 || drawn_number.is_nan() {
+            return drawn_number;
         }
-        number.clamp(*range.start(), *range.end())
+        drawn_number.clamp(*range.start(), *range.end())
     }
 
-    /// Returns a double in this range.
+    /// Returns a double in the given range.
     pub fn draw_number_within(&mut self, range: RangeInclusive<f64>) -> f64 {
         let number = self.next_number();
         if number.is_nan() { *range.start() } else { number.clamp(*range.start(), *range.end()) }
     }
 
-    /// Returns a whole number, mostly in this range.
+    /// Returns a whole number, mostly in the given range.
     pub fn draw_integer_near(&mut self, range: &RangeInclusive<u64>) -> u64 {
         let integer = match self.next_below(4) {
             0 => u64::from_le_bytes(self.next_bytes()),

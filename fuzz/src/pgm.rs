@@ -4,8 +4,8 @@ use motion::geom::se2::SE2;
 use motion::map::{FloorPlan, Image, Interpretation, MAX_PIXELS, OccupancyGrid, read_grid, read_pgm};
 use std::fmt::Write;
 
-pub fn run(bytes: &[u8]) {
-    match read_pgm(bytes).map_err(|error| error.to_string()) {
+pub fn run(pgm_bytes: &[u8]) {
+    match read_pgm(pgm_bytes).map_err(|pgm_error| pgm_error.to_string()) {
         Ok(image) => {
             let Image { width, height, ref pixels } = image;
             assert!(width > 0 && height > 0 && width * height <= MAX_PIXELS);
@@ -15,7 +15,7 @@ pub fn run(bytes: &[u8]) {
                 assert_survives_writing(&image);
                 let grid = OccupancyGrid::new(&image, &Interpretation::default(), 1.0, SE2::identity());
                 assert_eq!(
-                    read_grid(bytes, &Interpretation::default(), 1.0, SE2::identity()).as_ref(),
+                    read_grid(pgm_bytes, &Interpretation::default(), 1.0, SE2::identity()).as_ref(),
                     Ok(&grid)
                 );
                 assert!(FloorPlan::from_grid(grid).is_ok());
@@ -27,8 +27,7 @@ pub fn run(bytes: &[u8]) {
     }
 }
 
-/// Asserts that an image written with 16 bits, as text or binary, is read as the same image. Shades may differ by their rounding to
-/// 1/65 535.
+/// Asserts that an image written with 16 bits, as text or binary, is read as the same image. Shades are rounded to 1/65 535.
 fn assert_survives_writing(image: &Image<f32>) {
     const MAX_VALUE: f32 = 65_535.0;
     let mut plain_text = format!("P2\n{} {}\n{MAX_VALUE}", image.width, image.height);

@@ -1,6 +1,6 @@
 //! Dead Reckoning under any settings and calls.
 
-use super::input::{Input, is_selected_by_hash};
+use super::input::{InputReader, is_selected_by_hash};
 use super::assertions;
 use super::settings::{are_settings_allowed, change_settings};
 use motion::sim::dead_reckoning::{
@@ -9,14 +9,14 @@ use motion::sim::dead_reckoning::{
 use nalgebra::Matrix3;
 
 /// Maximum numbers of robots, steps and calls in a run. The simulation drives robots in blocks of 256. Most runs have one block, and a few
-/// several.
+/// have several.
 const MAX_SAMPLES_OF_MOST_RUNS: usize = 200;
 const MAX_SAMPLES: usize = 800;
 const MAX_STEPS: u32 = 5;
 const MAX_CALLS: usize = 4;
 
-pub fn run(bytes: &[u8]) {
-    let mut input = Input(bytes);
+pub fn run(input_bytes: &[u8]) {
+    let mut input = InputReader(input_bytes);
     let [should_check_straight_growth, should_compare_new_simulation] = [0; 2].map(|_| input.next_below(4) == 1);
     let first_settings = Settings { samples: 3, steps: MAX_STEPS, ..Settings::default() };
     let first_settings = change_settings(&first_settings, &mut input);
@@ -24,7 +24,7 @@ pub fn run(bytes: &[u8]) {
         assert!(DeadReckoning::with_shown_count(first_settings, 0).is_err());
         return;
     }
-    let max_samples = if is_selected_by_hash(16, bytes) { MAX_SAMPLES } else { MAX_SAMPLES_OF_MOST_RUNS };
+    let max_samples = if is_selected_by_hash(16, input_bytes) { MAX_SAMPLES } else { MAX_SAMPLES_OF_MOST_RUNS };
     let limit_size = |settings| limit_size(settings, max_samples);
     let mut simulation = DeadReckoning::with_shown_count(limit_size(first_settings), 0).expect("allowed");
     if input.next_bool() {
@@ -38,10 +38,10 @@ pub fn run(bytes: &[u8]) {
     }
     assert_results(&simulation);
     // Slow checks run for some inputs only.
-    if should_check_straight_growth && is_selected_by_hash(8, bytes) {
+    if should_check_straight_growth && is_selected_by_hash(8, input_bytes) {
         assert_straight_growth(&simulation);
     }
-    if should_compare_new_simulation && is_selected_by_hash(8, bytes) {
+    if should_compare_new_simulation && is_selected_by_hash(8, input_bytes) {
         assert_equals_new_simulation(&simulation);
     }
 }
@@ -56,10 +56,10 @@ fn limit_size(settings: Settings, max_samples: usize) -> Settings {
     }
 }
 
-fn call_method(simulation: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> Settings, input: &mut Input) {
+fn call_method(simulation: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> Settings, input: &mut InputReader) {
     let shown_count = simulation.shown_count();
     match input.next_below(9) {
-        0 | 1 => configure(simulation, limit_size, input),
+        0 | 1 => change_simulation_settings(simulation, limit_size, input),
         2 | 3 => assert_same_if_added_in_blocks(simulation, limit_size, input),
         4 => {
             let added_count = usize::from(u16::from_le_bytes(input.next_bytes())) % MAX_SAMPLES;
@@ -75,7 +75,7 @@ fn call_method(simulation: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> 
     }
 }
 
-fn configure(simulation: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> Settings, input: &mut Input) {
+fn change_simulation_settings(simulation: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> Settings, input: &mut InputReader) {
     let settings = change_settings(simulation.settings(), input);
     if are_settings_allowed(&settings) {
         simulation.configure(limit_size(settings)).expect("allowed");
@@ -87,7 +87,7 @@ fn configure(simulation: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> Se
 }
 
 /// Asserts that robots that are added in several blocks equal robots that are added in one call.
-fn assert_same_if_added_in_blocks(simulation: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> Settings, input: &mut Input) {
+fn assert_same_if_added_in_blocks(simulation: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> Settings, input: &mut InputReader) {
     let settings = change_settings(simulation.settings(), input);
     if !are_settings_allowed(&settings) {
         return;
@@ -113,16 +113,16 @@ fn assert_equals_new_simulation(simulation: &DeadReckoning) {
 
 /// Returns the settings and statistics as text, in which NaN equals NaN, and the coordinates of the selected step as bits.
 fn all_results(simulation: &DeadReckoning) -> (String, Vec<u64>) {
-    let (settings, stats, measured) = (simulation.settings(), simulation.stats(), simulation.measured_moments());
+    let (settings, stats, measured_moments) = (simulation.settings(), simulation.stats(), simulation.measured_moments());
     let outlines = simulation.outlines(settings.step);
-    let outline_lines = outlines.iter().flat_map(|Outlines { ellipse, exponential, predicted, measured }| {
-        [ellipse, exponential, predicted, measured].into_iter().flat_map(|line| line.as_flattened())
+    let outline_lines = outlines.iter().flat_map(|Outlines { ellipse, exponential, predicted, measured: measured_moments }| {
+        [ellipse, exponential, predicted, measured_moments].into_iter().flat_map(|outline| outline.as_flattened())
     });
-    let coordinates = simulation.poses(settings.step).as_flattened().iter().chain(outline_lines);
-    (format!("{settings:?} {stats:?} {measured:?}"), coordinates.map(|number| number.to_bits()).collect())
+    let all_coordinates = simulation.poses(settings.step).as_flattened().iter().chain(outline_lines);
+    (format!("{settings:?} {stats:?} {measured_moments:?}"), all_coordinates.map(|coordinate| coordinate.to_bits()).collect())
 }
 
-/// Asserts that all results are finite, or NaN or empty where they are undefined.
+/// Asserts that all results are finite. An undefined result must be NaN or empty.
 fn assert_results(simulation: &DeadReckoning) {
     let settings = simulation.settings();
     let (n, step_count) = (simulation.shown_count(), settings.steps as usize);
@@ -130,88 +130,88 @@ fn assert_results(simulation: &DeadReckoning) {
     assert_eq!([simulation.measured_moments().len(), simulation.nominal_poses().len()], [step_count; 2]);
     simulation.nominal_poses().iter().for_each(|pose| assertions::assert_pose("nominal", pose));
     assertions::assert_finite("commanded", simulation.commanded_path().as_flattened());
-    for measured in simulation.measured_moments() {
+    for measured_moments in simulation.measured_moments() {
         if n > 0 {
-            assertions::assert_finite("mean", measured.mean.as_slice());
+            assertions::assert_finite("mean", measured_moments.mean.as_slice());
         }
         if n > 1 {
-            assert_covariance("measured", &measured.cov, rounding_error_of_sums(measured));
+            assert_covariance("measured", &measured_moments.cov, rounding_error_of_sums(measured_moments));
         }
-        for (i, error) in measured.relative_error.iter().enumerate() {
-            assert!(error.is_nan() || *error >= 0.0, "{measured:?}");
-            // A relative error needs a variance above 0.
-            let has_variance = n > 1 && measured.cov[(i, i)] > 0.0;
-            assert!(error.is_nan() || has_variance, "{measured:?} of {n}");
+        for (i, relative_error) in measured_moments.relative_error.iter().enumerate() {
+            assert!(relative_error.is_nan() || *relative_error >= 0.0, "{measured_moments:?}");
+            // A relative error is defined only for a variance above 0.
+            let has_variance = n > 1 && measured_moments.cov[(i, i)] > 0.0;
+            assert!(relative_error.is_nan() || has_variance, "{measured_moments:?} of {n}");
         }
     }
-    let step = settings.step;
-    assert_eq!(simulation.poses(step).len(), n.min(MAX_SHOWN_ROBOTS));
+    let selected_step = settings.step;
+    assert_eq!(simulation.poses(selected_step).len(), n.min(MAX_SHOWN_ROBOTS));
     assert!(simulation.poses(0).is_empty() && simulation.poses(settings.steps + 1).is_empty());
-    assertions::assert_finite("poses", simulation.poses(step).as_flattened());
+    assertions::assert_finite("poses", simulation.poses(selected_step).as_flattened());
     simulation.twists().for_each(|twist| assertions::assert_finite("a twist", &twist));
     assert_eq!(simulation.twists().len(), n.min(MAX_SHOWN_ROBOTS));
-    for order in RECURSIONS {
-        let (predicted, comparison) = (simulation.predicted_covariances(order), simulation.comparison(order));
-        assert_eq!([predicted.len(), comparison.ratios.len()], [step_count; 2]);
-        for (cov, ratio) in predicted.iter().zip(&comparison.ratios) {
+    for recursion in RECURSIONS {
+        let (predicted_covs, comparison) = (simulation.predicted_covariances(recursion), simulation.comparison(recursion));
+        assert_eq!([predicted_covs.len(), comparison.ratios.len()], [step_count; 2]);
+        for (cov, variance_ratios) in predicted_covs.iter().zip(&comparison.ratios) {
             assert!(
-                ratio.iter().all(|ratio| ratio.is_nan() || (cov.is_some() && *ratio >= 0.0)),
-                "{ratio:?}"
+                variance_ratios.iter().all(|variance_ratios| variance_ratios.is_nan() || (cov.is_some() && *variance_ratios >= 0.0)),
+                "{variance_ratios:?}"
             );
             let Some(cov) = cov else { continue };
-            // The heading of each step mixes the errors along and across the drive, and with them their rounding errors.
+            // The heading of each step mixes the errors along and across the drive, and mixes their rounding errors.
             assert_covariance("predicted", cov, |_, _| 1e-12 * cov.amax());
         }
         comparison.misses.iter().for_each(|misses| assert_misses(misses, step_count));
     }
     let Stats { n: robot_count, .. } = simulation.stats();
     assert_eq!(robot_count, n);
-    assert_outlines(simulation, step);
+    assert_outlines(simulation, selected_step);
 }
 
-/// Asserts that a matrix is finite and symmetric, and has no correlation above 1, to within `rounding`.
-fn assert_covariance(label: &str, cov: &Matrix3<f64>, rounding: impl Fn(usize, usize) -> f64) {
-    assertions::assert_finite(label, cov.as_slice());
+/// Asserts that a matrix is finite and symmetric, and has no correlation above 1. `rounding_of_entry` gives the tolerance of an entry.
+fn assert_covariance(cov_name: &str, cov: &Matrix3<f64>, rounding_of_entry: impl Fn(usize, usize) -> f64) {
+    assertions::assert_finite(cov_name, cov.as_slice());
     for i in 0..3 {
-        assert!(cov[(i, i)] >= 0.0, "{label}: {cov:?}");
+        assert!(cov[(i, i)] >= 0.0, "{cov_name}: {cov:?}");
         for j in 0..i {
-            let tolerance = rounding(i, j) + f64::MIN_POSITIVE;
-            assert!((cov[(i, j)] - cov[(j, i)]).abs() <= tolerance, "{label}: {cov:?}");
-            let [row_std, column_std] = [i, j].map(|k| (cov[(k, k)] + rounding(k, k)).sqrt());
-            assert!(cov[(i, j)].abs() <= row_std * column_std + tolerance, "{label}: {cov:?}");
+            let tolerance = rounding_of_entry(i, j) + f64::MIN_POSITIVE;
+            assert!((cov[(i, j)] - cov[(j, i)]).abs() <= tolerance, "{cov_name}: {cov:?}");
+            let [row_std, column_std] = [i, j].map(|k| (cov[(k, k)] + rounding_of_entry(k, k)).sqrt());
+            assert!(cov[(i, j)].abs() <= row_std * column_std + tolerance, "{cov_name}: {cov:?}");
         }
     }
 }
 
 /// Returns the rounding error of a covariance that is computed as the mean of products minus the product of means.
 fn rounding_error_of_sums(MeasuredMoments { mean, cov, .. }: &MeasuredMoments) -> impl Fn(usize, usize) -> f64 + use<> {
-    let [along, lateral, heading] = [0, 1, 2].map(|i| mean[i].abs() + cov[(i, i)].sqrt());
-    let scale_of_coordinates = [along + lateral, along + lateral, heading];
+    let [along_size, lateral_size, heading_size] = [0, 1, 2].map(|i| mean[i].abs() + cov[(i, i)].sqrt());
+    let scale_of_coordinates = [along_size + lateral_size, along_size + lateral_size, heading_size];
     move |i, j| assertions::ROUNDING_TOLERANCE * scale_of_coordinates[i] * scale_of_coordinates[j] + assertions::MAX_UNDERFLOWING_DEVIATION * (scale_of_coordinates[i] + scale_of_coordinates[j])
 }
 
-fn assert_misses(misses: &Misses, steps: usize) {
+fn assert_misses(misses: &Misses, step_count: usize) {
     let Misses { decidable, first, last, end, error } = *misses;
     assert_eq!(first.is_some(), last.is_some(), "{misses:?}");
     assert!(decidable || first.is_none(), "{misses:?}");
-    let are_in_order = 1 <= first.unwrap_or(1) && first <= last && last.unwrap_or(1) as usize <= steps;
+    let are_in_order = 1 <= first.unwrap_or(1) && first <= last && last.unwrap_or(1) as usize <= step_count;
     assert!(are_in_order && !end.is_infinite() && (error.is_nan() || error >= 0.0), "{misses:?}");
 }
 
 fn assert_straight_growth(simulation: &DeadReckoning) {
     let StraightGrowth { durations, along, across, along_first_order, across_first_order, crossing } =
         simulation.straight_growth();
-    for curve in [&durations, &along, &across, &along_first_order, &across_first_order] {
-        assertions::assert_finite("straight", curve);
-        assert!(curve.len() == durations.len() && curve.iter().all(|variance| *variance >= 0.0), "{curve:?}");
+    for growth_curve in [&durations, &along, &across, &along_first_order, &across_first_order] {
+        assertions::assert_finite("straight", growth_curve);
+        assert!(growth_curve.len() == durations.len() && growth_curve.iter().all(|variance| *variance >= 0.0), "{growth_curve:?}");
     }
     assert!(crossing.is_none_or(|crossing| crossing.is_finite() && crossing > 0.0), "{crossing:?}");
 }
 
-fn assert_outlines(simulation: &DeadReckoning, step: u32) {
+fn assert_outlines(simulation: &DeadReckoning, selected_step: u32) {
     let settings = simulation.settings();
-    let Some(outlines) = simulation.outlines(step) else {
-        assert!(step > settings.steps);
+    let Some(outlines) = simulation.outlines(selected_step) else {
+        assert!(selected_step > settings.steps);
         return;
     };
     let Outlines { ellipse, exponential, predicted, measured } = outlines;
@@ -219,32 +219,32 @@ fn assert_outlines(simulation: &DeadReckoning, step: u32) {
         assertions::assert_finite("an outline", outline.as_flattened());
         assert_eq!(outline.first(), outline.last(), "an outline is closed");
     }
-    let has_no_covariance = simulation.predicted_covariances(settings.compounding)[step as usize - 1].is_none();
+    let has_no_covariance = simulation.predicted_covariances(settings.compounding)[selected_step as usize - 1].is_none();
     assert!([&ellipse, &exponential, &predicted].iter().all(|outline| outline.is_empty() == has_no_covariance));
     assert_eq!(measured.is_empty(), simulation.shown_count() < 2);
 }
 
-/// Asserts that the poses along the path of one robot equal its poses in the clouds of the steps.
-fn assert_rollout(simulation: &DeadReckoning, index: usize) {
-    let Some(path) = simulation.rollout(index) else {
-        assert!(index >= simulation.shown_count());
+/// Asserts that the path of a robot equals the poses of this robot in the clouds of the steps.
+fn assert_rollout(simulation: &DeadReckoning, robot_index: usize) {
+    let Some(rollout_path) = simulation.rollout(robot_index) else {
+        assert!(robot_index >= simulation.shown_count());
         return;
     };
-    assert_eq!(path.len(), simulation.settings().steps as usize);
-    assertions::assert_finite("a path", path.as_flattened());
-    for (step, pose) in (1..).zip(&path) {
-        assert!(simulation.poses(step).get(index).is_none_or(|shown| shown == pose), "{index} at {step}");
+    assert_eq!(rollout_path.len(), simulation.settings().steps as usize);
+    assertions::assert_finite("a path", rollout_path.as_flattened());
+    for (step, pose) in (1..).zip(&rollout_path) {
+        assert!(simulation.poses(step).get(robot_index).is_none_or(|shown_pose| shown_pose == pose), "{robot_index} at {step}");
     }
 }
 
-fn assert_nearest_pose(simulation: &DeadReckoning, input: &mut Input) {
+fn assert_nearest_pose(simulation: &DeadReckoning, input: &mut InputReader) {
     let search_point = [0; 2].map(|_| input.next_number());
     let search_radius = input.draw_number_within(0.0..=f64::INFINITY);
-    let Some(index) = simulation.nearest(search_point, search_radius) else { return };
+    let Some(nearest_index) = simulation.nearest(search_point, search_radius) else { return };
     let poses = simulation.poses(simulation.settings().step);
     let relative_distance_to = |[x, y, _]: &[f64; 3]| ((x - search_point[0]) / search_radius).hypot((y - search_point[1]) / search_radius);
     let min_relative_distance = poses.iter().map(relative_distance_to).fold(f64::INFINITY, f64::min);
     // The square of a distance below 1e-154 of the radius underflows to 0.
-    let found_relative_distance = relative_distance_to(&poses[index]);
-    assert!(found_relative_distance <= min_relative_distance * (1.0 + 1e-9) + 1e-150 && found_relative_distance <= 1.0 + 1e-9, "{search_point:?} {search_radius}: {index}");
+    let found_relative_distance = relative_distance_to(&poses[nearest_index]);
+    assert!(found_relative_distance <= min_relative_distance * (1.0 + 1e-9) + 1e-150 && found_relative_distance <= 1.0 + 1e-9, "{search_point:?} {search_radius}: {nearest_index}");
 }

@@ -1,6 +1,6 @@
 //! Map Squeeze under any settings, maps and calls.
 
-use super::input::Input;
+use super::input::InputReader;
 use super::settings::{are_settings_allowed, change_settings};
 use super::{assertions, banana, grid, plan};
 use motion::geom::segment::Segment;
@@ -26,9 +26,9 @@ thread_local! {
     });
 }
 
-pub fn run(bytes: &[u8]) {
-    let mut input = Input(bytes);
-    let mut simulation = OPENING_SIMULATION.with(|opening| (**opening).clone());
+pub fn run(input_bytes: &[u8]) {
+    let mut input = InputReader(input_bytes);
+    let mut simulation = OPENING_SIMULATION.with(|opening_simulation| (**opening_simulation).clone());
     for _ in 0..MAX_CALLS {
         if input.is_empty() {
             break;
@@ -51,9 +51,9 @@ fn without_sub_steps(sampler: Sampler) -> Sampler {
     if let Sampler::SubStepped(_) = sampler { Sampler::WholeArc } else { sampler }
 }
 
-fn call_method(simulation: &mut MapSqueeze, input: &mut Input) {
+fn call_method(simulation: &mut MapSqueeze, input: &mut InputReader) {
     match input.next_below(10) {
-        0 => configure(simulation, input),
+        0 => change_simulation_settings(simulation, input),
         1 => assert_same_if_added_in_blocks(simulation, input),
         2 => {
             if let Some(plan) = plan::read_plan(input) {
@@ -80,7 +80,7 @@ fn call_method(simulation: &mut MapSqueeze, input: &mut Input) {
             let search_point = [0; 2].map(|_| input.next_number());
             let search_radius = input.draw_number_within(0.0..=f64::INFINITY);
             let nearest_index = simulation.nearest(search_point, search_radius);
-            assert!(nearest_index.is_none_or(|index| index < simulation.attempts().len()));
+            assert!(nearest_index.is_none_or(|nearest| nearest < simulation.attempts().len()));
         }
         // A free pose is rarely checked: the search along 72 headings takes as long as ten other calls.
         8 => assert_equals_new_simulation(simulation),
@@ -89,7 +89,7 @@ fn call_method(simulation: &mut MapSqueeze, input: &mut Input) {
     }
 }
 
-fn configure(simulation: &mut MapSqueeze, input: &mut Input) {
+fn change_simulation_settings(simulation: &mut MapSqueeze, input: &mut InputReader) {
     let settings = change_settings(simulation.settings(), input);
     let settings_before = *simulation.settings();
     if are_settings_allowed(&settings) {
@@ -104,7 +104,7 @@ fn configure(simulation: &mut MapSqueeze, input: &mut Input) {
 }
 
 /// Asserts that attempts that are added in several blocks equal attempts that are added in one call.
-fn assert_same_if_added_in_blocks(simulation: &mut MapSqueeze, input: &mut Input) {
+fn assert_same_if_added_in_blocks(simulation: &mut MapSqueeze, input: &mut InputReader) {
     let settings = limit_size(change_settings(simulation.settings(), input), false);
     if !are_settings_allowed(&settings) {
         return;
@@ -135,7 +135,7 @@ fn assert_free_pose(simulation: &MapSqueeze) {
     assert!(is_free, "{free_pose:?}");
 }
 
-/// Asserts that all results are finite and agree with each other.
+/// Asserts that all results are finite and consistent.
 fn assert_results(simulation: &MapSqueeze) {
     let (settings, stats, attempts) = (simulation.settings(), simulation.stats(), simulation.attempts());
     assert_eq!(stats.attempts, attempts.len());
@@ -145,13 +145,13 @@ fn assert_results(simulation: &MapSqueeze) {
     assert_eq!(stats.through_wall, through_wall_count);
     assertions::assert_fraction("acceptance", stats.acceptance_rate);
     assertions::assert_fraction("through a wall", stats.through_wall_rate);
-    let [low, high] = stats.through_wall_interval;
-    assert!(0.0 <= low && low <= high && high <= 1.0, "{stats:?}");
+    let [interval_low, interval_high] = stats.through_wall_interval;
+    assert!(0.0 <= interval_low && interval_low <= interval_high && interval_high <= 1.0, "{stats:?}");
     if stats.accepted > 0 {
-        assert!((low..=high).contains(&stats.through_wall_rate), "{stats:?}");
+        assert!((interval_low..=interval_high).contains(&stats.through_wall_rate), "{stats:?}");
         assert!(stats.draws_per_accepted >= 1.0 && stats.draws_per_accepted.is_finite(), "{stats:?}");
     }
-    for (index, attempt) in attempts.iter().enumerate() {
+    for (attempt_index, attempt) in attempts.iter().enumerate() {
         assertions::assert_pose("an attempt", &attempt.pose);
         assert!(attempt.end_free || !attempt.path_free, "{attempt:?}");
         let should_be_accepted = match settings.sampler {
@@ -161,17 +161,17 @@ fn assert_results(simulation: &MapSqueeze) {
             Sampler::SubStepped(_) => attempt.accepted,
         };
         assert_eq!(attempt.accepted, should_be_accepted, "{attempt:?}");
-        let arcs = simulation.arcs(index);
+        let arcs = simulation.arcs(attempt_index);
         if attempt.accepted || !settings.conditioned {
             assert_eq!(arcs.len(), settings.part_count() as usize);
         }
-        for arc in &arcs {
-            assertions::assert_finite("arc", &[arc.length, arc.turn]);
+        for path_arc in &arcs {
+            assertions::assert_finite("arc", &[path_arc.length, path_arc.turn]);
         }
     }
     assert!(simulation.arcs(attempts.len()).is_empty());
-    if let Some(arc) = simulation.arcs(0).first() {
-        assertions::assert_finite("path", arc.points().as_flattened());
+    if let Some(path_arc) = simulation.arcs(0).first() {
+        assertions::assert_finite("path", path_arc.points().as_flattened());
     }
     assert_finite_plan(simulation.plan());
 }
@@ -183,7 +183,7 @@ fn assert_finite_plan(plan: &FloorPlan) {
     }
 }
 
-fn assert_picture(simulation: &mut MapSqueeze, input: &mut Input) {
+fn assert_picture(simulation: &mut MapSqueeze, input: &mut InputReader) {
     let grid = banana::read_grid(input);
     let shown_count = simulation.attempts().len();
     let pixels = simulation.paint(&grid, &[[[1; 4]; RAMP_STEP_COUNT]; OUTCOME_KIND_COUNT]);

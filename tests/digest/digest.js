@@ -1,6 +1,6 @@
 /**
- * Digests of the results that simulations give through their JavaScript interface, to the last bit. Node and web pages can run this
- * module. For the Rust simulations tests/native/digest computes the same digests.
+ * Digests of simulation results, read through the JavaScript interface, to the last bit. Node and web pages can run this
+ * module. tests/native/digest computes the same digests in Rust.
  *
  * @module
  */
@@ -21,10 +21,13 @@ import { presets } from '../../build/settings.js';
 /** Bits that replace those of every NaN (not a number). The reason is in tests/native/digest/encoding.rs. */
 const NAN_BITS = 0x7ff8_0000_0000_0000n;
 
-/** Returns the settings of a widget's preset; an empty object if the configuration has no preset. @param {keyof typeof presets} tag @param {string} [preset] @returns {Record<string, any>} */
-const settingsOfPreset = (tag, preset) => presets[tag].find(({ name }) => name === preset)?.settings ?? {};
+/** Returns the settings of a widget's preset, or an empty object if the configuration has no preset. @param {keyof typeof presets} widgetTag @param {string} [presetName] @returns {Record<string, any>} */
+const settingsOfPreset = (widgetTag, presetName) => presets[widgetTag].find(({ name }) => name === presetName)?.settings ?? {};
 
-/** Functions that return the results of each widget's simulation, by parts. @type {Record<string, (motion: Motion, document: Configurations, configuration: Configuration) => Record<string, Encodable>>} */
+/**
+ * Functions that return the results of each widget's simulation, divided into named parts.
+ * @type {Record<string, (motion: Motion, document: Configurations, configuration: Configuration) => Record<string, Encodable>>}
+ */
 export const resultFunctions = {
   'banana-machine'({ BananaMachine, commandReaching }, configurations, { preset, bounds = configurations.widgets['banana-machine'].bounds, settings }) {
     const { command: presetCommand } = settingsOfPreset('banana-machine', preset);
@@ -32,9 +35,9 @@ export const resultFunctions = {
     const { shown, config: { command } } = simulation;
     const [xMin, yMin, xMax, yMax] = bounds;
     const { columns, rows } = configurations.picture;
-    const readPictureOf = (/** @type {'plane' | 'twist'} */ view) =>
-      simulation.picture(view, xMin, yMin, xMax, yMax, columns, rows, createRamps(1)).slice();
-    // The native digest has no error of the area ratio.
+    const readPictureOf = (/** @type {'plane' | 'twist'} */ viewName) =>
+      simulation.picture(viewName, xMin, yMin, xMax, yMax, columns, rows, createRamps(1)).slice();
+    // The native digest leaves out the error of the area ratio.
     const stats = { ...simulation.stats, areaRatioError: undefined };
     delete stats.areaRatioError;
     const simulationResults = {
@@ -46,8 +49,8 @@ export const resultFunctions = {
       contours: simulation.contours,
       curve: simulation.skewCurve(-3, 3, 25),
       samples: {
-        inspected: everyNthIndex(shown, 501).map((index) => ({ ...simulation.inspect(index), heading: simulation.heading(index) })),
-        nearest: VIEWS.map((view) => simulation.nearest(view, 0.9, 0.2, 0.5, 0.3)),
+        inspected: everyNthIndex(shown, 501).map((sampleIndex) => ({ ...simulation.inspect(sampleIndex), heading: simulation.heading(sampleIndex) })),
+        nearest: VIEWS.map((viewName) => simulation.nearest(viewName, 0.9, 0.2, 0.5, 0.3)),
         reaching: [[1, 0.5], [-0.3, 0.8], [0, 0], [2, -1.5]].map(([x, y]) => commandReaching(x, y, command)),
       },
       densities: VIEWS.map((view) => simulation.density(view, xMin, yMin, xMax, yMax, columns, rows)),
@@ -74,14 +77,14 @@ export const resultFunctions = {
       statistics: { shown, startFree, openPlace, noise, stats },
       paths: {
         commanded: simulation.commanded,
-        driven: everyNthIndex(shown, 101).map((index) => simulation.path(index)),
+        driven: everyNthIndex(shown, 101).map((sampleIndex) => simulation.path(sampleIndex)),
         nearest: simulation.nearest(2.1, 2.4, 0.5),
       },
       trials: SAMPLERS.map((sampler) => {
         try {
           return simulation.trial(sampler, 4, 50);
         } catch {
-          // The robot is wedged, and the trial throws.
+          // If the robot cannot move, the trial throws.
           return null;
         }
       }),
@@ -98,7 +101,7 @@ export const resultFunctions = {
     const simulationResults = {
       statistics: simulation.stats,
       table: simulation.table,
-      paths: { ...simulation.paths, underway: [0, 0.3, 1].map((share) => simulation.underway(share)) },
+      paths: { ...simulation.paths, underway: [0, 0.3, 1].map((pathFraction) => simulation.underway(pathFraction)) },
       surface: simulation.surface(xMin, yMin, xMax, yMax),
       forms: ArcAnatomy.formErrors(),
     };
@@ -152,9 +155,9 @@ export const resultFunctions = {
     };
     // The poses at the starts of the legs are the second log.
     const { count, times, odometry, reference } = legs;
-    const columnOfArray = (/** @type {Float64Array} */ array, /** @type {number} */ size, /** @type {number} */ offset) =>
-      Float64Array.from({ length: count }, (_, leg) => array[size * leg + offset]);
-    const legPoseColumns = (/** @type {Float64Array} */ ends) => ({ t: columnOfArray(times, 2, 0), x: columnOfArray(ends, 6, 0), y: columnOfArray(ends, 6, 1), theta: columnOfArray(ends, 6, 2) });
+    const columnOfArray = (/** @type {Float64Array} */ flatArray, /** @type {number} */ itemSize, /** @type {number} */ columnOffset) =>
+      Float64Array.from({ length: count }, (_, leg) => flatArray[itemSize * leg + columnOffset]);
+    const legPoseColumns = (/** @type {Float64Array} */ legPoses) => ({ t: columnOfArray(times, 2, 0), x: columnOfArray(legPoses, 6, 0), y: columnOfArray(legPoses, 6, 1), theta: columnOfArray(legPoses, 6, 2) });
     if (count > 1) simulation.setLog(legPoseColumns(odometry), legPoseColumns(reference));
     const resultsOfLog = [simulation.fits, simulation.stats.alphas, simulation.stats.intervals];
     simulation.free();
@@ -181,21 +184,21 @@ export const resultFunctions = {
 const VIEWS = /** @type {const} */ (['plane', 'twist']);
 const SAMPLERS = /** @type {const} */ (['endpoint', 'whole-arc', 'sub-stepped']);
 
-/** Returns the multiples of a step below a count. @type {(count: number, step: number) => number[]} */
-const everyNthIndex = (count, step) => Array.from({ length: Math.ceil(count / step) }, (_, i) => i * step);
+/** Returns the multiples of `indexStep` below `count`. @type {(count: number, step: number) => number[]} */
+const everyNthIndex = (count, indexStep) => Array.from({ length: Math.ceil(count / indexStep) }, (_, i) => i * indexStep);
 
 /** Returns colour ramps whose colours all differ, equal to those of configuration.rs. @param {number} count number of ramps */
-const createRamps = (count) => Uint8Array.from({ length: 1024 * count }, (_, offset) => {
-  const i = (offset >> 2) & 255;
-  return [i, 255 - i, 85 * (offset >> 10), 255][offset & 3];
+const createRamps = (count) => Uint8Array.from({ length: 1024 * count }, (_, byteOffset) => {
+  const i = (byteOffset >> 2) & 255;
+  return [i, 255 - i, 85 * (byteOffset >> 10), 255][byteOffset & 3];
 });
 
-/** Returns true for arrays of all kinds. @param {any} value @returns {value is ArrayLike<unknown>} */
+/** Returns true for arrays and typed arrays. @param {any} value @returns {value is ArrayLike<unknown>} */
 const isList = (value) => Array.isArray(value) || ArrayBuffer.isView(value);
 
 /**
- * Appends a value to a list of numbers: a list as its length and items, a string as a list of its character codes, an object as its
- * values in order, and null as NaN.
+ * Appends a value to a list of numbers. A list becomes its length and its items. A string becomes the list of its character codes. An
+ * object becomes its values in order, and null becomes NaN.
  *
  * @param {Encodable} value
  * @param {number[]} encodedNumbers
@@ -208,7 +211,7 @@ function appendNumbers(value, encodedNumbers) {
   else if (isList(value)) {
     encodedNumbers.push(value.length);
     for (let i = 0; i < value.length; i++) appendNumbers(/** @type {any} */ (value)[i], encodedNumbers);
-  } else for (const member of Object.values(value)) appendNumbers(member, encodedNumbers);
+  } else for (const memberValue of Object.values(value)) appendNumbers(memberValue, encodedNumbers);
 }
 
 /** Returns a hash of every bit of a value. @param {Encodable} value */
@@ -217,46 +220,46 @@ export async function computeHash(value) {
   const encodedNumbers = [];
   appendNumbers(value, encodedNumbers);
   const dataView = new DataView(new ArrayBuffer(8 * encodedNumbers.length));
-  encodedNumbers.forEach((number, i) => {
-    if (Number.isNaN(number)) dataView.setBigUint64(8 * i, NAN_BITS, true);
-    else dataView.setFloat64(8 * i, number, true);
+  encodedNumbers.forEach((encodedNumber, i) => {
+    if (Number.isNaN(encodedNumber)) dataView.setBigUint64(8 * i, NAN_BITS, true);
+    else dataView.setFloat64(8 * i, encodedNumber, true);
   });
-  return hex(await crypto.subtle.digest('SHA-256', dataView)).slice(0, 16);
+  return hexOfBytes(await crypto.subtle.digest('SHA-256', dataView)).slice(0, 16);
 }
 
-/** Returns bytes as hexadecimal digits. @param {ArrayBuffer} bytes */
-const hex = (bytes) => Array.from(new Uint8Array(bytes), (byte) => byte.toString(16).padStart(2, '0')).join('');
+/** Returns bytes as hexadecimal digits. @param {ArrayBuffer} hashBytes */
+const hexOfBytes = (hashBytes) => Array.from(new Uint8Array(hashBytes), (byte) => byte.toString(16).padStart(2, '0')).join('');
 
 /**
- * Returns the text that golden.txt must have, or its lines on some widgets.
+ * Returns the text that golden.txt must have, or only the lines of some widgets.
  *
- * @param {Motion} motion
+ * @param {Motion} core
  * @param {Configurations} configurations
- * @param {string[]} [tags] of these widgets
+ * @param {string[]} [widgetTags] of these widgets
  */
-export async function computeDigest(motion, configurations, tags = Object.keys(configurations.widgets)) {
+export async function computeDigest(core, configurations, widgetTags = Object.keys(configurations.widgets)) {
   const digestLines = [];
-  for (const widget of tags) {
-    for (const [name, configuration] of Object.entries(configurations.widgets[widget].configurations)) {
-      const resultParts = Object.entries(resultFunctions[widget](motion, configurations, configuration));
-      const partHashes = await Promise.all(resultParts.map(async ([part, value]) => ` ${part}:${await computeHash(value)}`));
-      digestLines.push(`${widget}/${name}${partHashes.join('')}\n`);
+  for (const widgetTag of widgetTags) {
+    for (const [configurationName, configuration] of Object.entries(configurations.widgets[widgetTag].configurations)) {
+      const resultParts = Object.entries(resultFunctions[widgetTag](core, configurations, configuration));
+      const partHashes = await Promise.all(resultParts.map(async ([partName, partResult]) => ` ${partName}:${await computeHash(partResult)}`));
+      digestLines.push(`${widgetTag}/${configurationName}${partHashes.join('')}\n`);
     }
   }
   return digestLines.sort().join('');
 }
 
-/** Returns a line for each configuration whose digest differs. @param {string} golden @param {string} computed */
-export function findDifferences(golden, computed) {
-  const hashesByName = (/** @type {string} */ text) =>
-    new Map(text.trimEnd().split('\n').map((line) => /** @type {[string, string[]]} */ ([line.split(' ')[0], line.split(' ').slice(1)])));
-  const [expectedByName, computedByName] = [hashesByName(golden), hashesByName(computed)];
+/** Returns a line for each configuration whose digest differs. @param {string} goldenText @param {string} computedText */
+export function findDifferences(goldenText, computedText) {
+  const hashesByName = (/** @type {string} */ digestText) =>
+    new Map(digestText.trimEnd().split('\n').map((digestLine) => /** @type {[string, string[]]} */ ([digestLine.split(' ')[0], digestLine.split(' ').slice(1)])));
+  const [expectedByName, computedByName] = [hashesByName(goldenText), hashesByName(computedText)];
   const configurationNames = [...new Set([...expectedByName.keys(), ...computedByName.keys()])];
   return configurationNames.flatMap((name) => {
     const [goldenHashes, computedHashes] = [expectedByName.get(name), computedByName.get(name)];
     if (goldenHashes === undefined) return [`${name} is not in golden.txt`];
     if (computedHashes === undefined) return [`${name} is gone`];
-    const changedParts = computedHashes.filter((part) => !goldenHashes.includes(part)).map((part) => part.split(':')[0]);
+    const changedParts = computedHashes.filter((partHash) => !goldenHashes.includes(partHash)).map((partHash) => partHash.split(':')[0]);
     return changedParts.length > 0 || goldenHashes.length !== computedHashes.length ? [`${name}: ${changedParts.join(', ')}`] : [];
   });
 }

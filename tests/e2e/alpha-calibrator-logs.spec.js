@@ -13,46 +13,46 @@ test.use(REDUCED_MOTION);
 testWithWarnings.use(REDUCED_MOTION);
 
 test('two tables of a user replace the simulated log, and a button brings it back', async ({ page }) => {
-  const widget = await openCalibrator(page);
-  const logTables = await simulatedTablesOf(widget);
-  await chooseTables(widget, { 'truth.csv': logTables.reference, 'odom.csv': logTables.odometry });
-  await waitUntilSettled(widget);
-  expect(await captionOf(widget).innerText()).toMatch(/ \d+ legs of odom\.csv, truth\.csv[.,]/);
-  expect(await widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).simulation.truth)).toBeNull();
-  await expect(widget.locator('.drop-zone .present')).toHaveText('Log: odom.csv, truth.csv.');
-  // The summary stays visible next to the result.
-  await expect(widget.getByRole('row', { name: /^read \d+ of \d+ rows/ })).toBeVisible();
-  await expect(widget.getByRole('img', { name: /^Paths from above: .* m by .* m\.$/ })).toBeVisible();
-  // The names of the files decide their roles, not the order in which they are chosen.
-  await widget.getByLabel('odom.csv').selectOption('Reference');
-  await expect(captionOf(widget)).toHaveText(/of truth\.csv, odom\.csv[.,]/);
-  await widget.getByRole('button', { name: 'Back to the simulated log' }).click();
-  await expect(captionOf(widget)).toHaveText(/of the simulated log/);
-  // A single file is not used until the other file is given too.
-  const errorAlert = widget.getByRole('alert');
-  await chooseTables(widget, { 'odom.csv': logTables.odometry });
+  const calibrator = await openCalibrator(page);
+  const logTables = await simulatedTablesOf(calibrator);
+  await chooseTables(calibrator, { 'truth.csv': logTables.reference, 'odom.csv': logTables.odometry });
+  await waitUntilSettled(calibrator);
+  expect(await captionOf(calibrator).innerText()).toMatch(/ \d+ legs of odom\.csv, truth\.csv[.,]/);
+  expect(await calibrator.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).simulation.truth)).toBeNull();
+  await expect(calibrator.locator('.drop-zone .present')).toHaveText('Log: odom.csv, truth.csv.');
+  // The summary of the logs stays visible next to the result.
+  await expect(calibrator.getByRole('row', { name: /^read \d+ of \d+ rows/ })).toBeVisible();
+  await expect(calibrator.getByRole('img', { name: /^Paths from above: .* m by .* m\.$/ })).toBeVisible();
+  // File names decide the roles of the logs. The order of the chosen files has no effect.
+  await calibrator.getByLabel('odom.csv').selectOption('Reference');
+  await expect(captionOf(calibrator)).toHaveText(/of truth\.csv, odom\.csv[.,]/);
+  await calibrator.getByRole('button', { name: 'Back to the simulated log' }).click();
+  await expect(captionOf(calibrator)).toHaveText(/of the simulated log/);
+  // A single file is used only together with a second one.
+  const errorAlert = calibrator.getByRole('alert');
+  await chooseTables(calibrator, { 'odom.csv': logTables.odometry });
   await expect(errorAlert).toHaveText(/^odom\.csv: it has the odometry only, .*; give the reference too\. Drop or choose the other file too,/);
-  // The α's on screen belong to another log. They are not copied until the user keeps these results.
+  // The α's on screen belong to the previous log. They cannot be copied until the user confirms these results.
   const outdatedResultsText = 'The results are still those of the simulated log, not of the files chosen last.';
-  await expect(widget.locator('.drop-zone .muted')).toContainText(outdatedResultsText);
-  await expect(widget.locator('.to-do')).toHaveText(outdatedResultsText);
-  await openDisclosures(widget);
-  const resultButtons = ['Fit for Nav2', 'Save all as JSON'].map((name) => widget.getByRole('button', { name }));
+  await expect(calibrator.locator('.drop-zone .muted')).toContainText(outdatedResultsText);
+  await expect(calibrator.locator('.to-do')).toHaveText(outdatedResultsText);
+  await openDisclosures(calibrator);
+  const resultButtons = ['Fit for Nav2', 'Save all as JSON'].map((name) => calibrator.getByRole('button', { name }));
   for (const resultButton of resultButtons) await expect(resultButton).toBeDisabled();
-  await widget.getByRole('button', { name: 'Keep these results' }).click();
+  await calibrator.getByRole('button', { name: 'Keep these results' }).click();
   for (const resultButton of resultButtons) await expect(resultButton).toBeEnabled();
   await expect(errorAlert).toHaveCount(0);
-  await chooseTables(widget, { 'odom.csv': logTables.odometry });
+  await chooseTables(calibrator, { 'odom.csv': logTables.odometry });
   await expect(errorAlert).toHaveCount(1);
-  await chooseTables(widget, { 'truth.csv': logTables.reference });
-  await expect(captionOf(widget)).toHaveText(/of odom\.csv, truth\.csv[.,]/);
-  await chooseTables(widget, { 'odom.csv': '', 'truth.csv': '' });
+  await chooseTables(calibrator, { 'truth.csv': logTables.reference });
+  await expect(captionOf(calibrator)).toHaveText(/of odom\.csv, truth\.csv[.,]/);
+  await chooseTables(calibrator, { 'odom.csv': '', 'truth.csv': '' });
   await expect(errorAlert).toHaveText(/^odom\.csv: there is nothing in it/);
-  await expect(widget.locator('.to-do')).toHaveText('The results are still those of odom.csv, truth.csv, not of the files chosen last.');
+  await expect(calibrator.locator('.to-do')).toHaveText('The results are still those of odom.csv, truth.csv, not of the files chosen last.');
   // The choosers return with the results to which they belong.
-  await widget.getByRole('button', { name: 'Keep these results' }).click();
-  await widget.getByLabel('odom.csv').selectOption('Reference');
-  await expect(captionOf(widget)).toHaveText(/of truth\.csv, odom\.csv[.,]/);
+  await calibrator.getByRole('button', { name: 'Keep these results' }).click();
+  await calibrator.getByLabel('odom.csv').selectOption('Reference');
+  await expect(captionOf(calibrator)).toHaveText(/of truth\.csv, odom\.csv[.,]/);
 });
 
 test('results are those of the command line, to the last bit, and a recording whose topics the user chooses gives them too', async ({ page }) => {
@@ -62,7 +62,7 @@ test('results are those of the command line, to the last bit, and a recording wh
   await waitUntilSettled(widget);
   const figureResults = await widget.evaluate((element) => {
     const { simulation: { stats, legs } } = /** @type {AlphaCalibratorElement} */ (element);
-    return JSON.stringify({ ...stats, legs }, (_, value) => (ArrayBuffer.isView(value) ? [.../** @type {Float64Array} */ (value)] : value));
+    return JSON.stringify({ ...stats, legs }, (_, jsonValue) => (ArrayBuffer.isView(jsonValue) ? [.../** @type {Float64Array} */ (jsonValue)] : jsonValue));
   });
   const fileArguments = ['odometry', 'reference'].flatMap((name) => [`--${name}`, `examples/calibration/${name}.csv`]);
   const { stdout } = spawnSync(process.execPath, ['dist/cli.js', 'calibrate', ...fileArguments, '--json'], {
@@ -79,16 +79,16 @@ test('results are those of the command line, to the last bit, and a recording wh
   await waitUntilSettled(widget);
   const { alphas } = await readStats(widget);
   // The recording has quaternions, whose conversion rounds the headings.
-  for (const [i, alpha] of cliResults.alphas.entries()) expect(Number(alphas[i]) / alpha).toBeCloseTo(1, 9);
+  for (const [i, cliAlpha] of cliResults.alphas.entries()) expect(Number(alphas[i]) / cliAlpha).toBeCloseTo(1, 9);
 });
 
 test('with the velocity model the commands of a file are used, with other models its poses @nightly', async ({ page }) => {
   const widget = await openCalibrator(page, 'model="velocity"');
   await openDisclosures(widget);
   const readOdometryKeys = () => widget.evaluate((element) => Object.keys(/** @type {AlphaCalibratorElement} */ (element).log?.odometry ?? {}));
-  const selectModel = async (/** @type {string} */ name, /** @type {string} */ key) => {
-    await widget.getByRole('radio', { name }).check();
-    await expect.poll(readOdometryKeys).toContain(key);
+  const selectModel = async (/** @type {string} */ modelName, /** @type {string} */ modelKey) => {
+    await widget.getByRole('radio', { name: modelName }).check();
+    await expect.poll(readOdometryKeys).toContain(modelKey);
     await waitUntilSettled(widget);
   };
   // The command of a row is driven until the next row.
@@ -108,15 +108,15 @@ test('with the velocity model the commands of a file are used, with other models
 test('files of several drives are read together, and a user assigns roles that their names do not tell @nightly', async ({ page }) => {
   const widget = await openCalibrator(page);
   const splitExampleTable = (/** @type {'odometry' | 'reference'} */ name) => {
-    const [header, ...lines] = readExampleTable(name).trim().split('\n');
-    const middleTime = Number(lines.at(-1)?.split(',')[0]) / 2;
-    return [false, true].map((isLate) => [header, ...lines.filter((line) => Number(line.split(',')[0]) > middleTime === isLate)].join('\n'));
+    const [headerLine, ...rowLines] = readExampleTable(name).trim().split('\n');
+    const middleTime = Number(rowLines.at(-1)?.split(',')[0]) / 2;
+    return [false, true].map((isLate) => [headerLine, ...rowLines.filter((rowLine) => Number(rowLine.split(',')[0]) > middleTime === isLate)].join('\n'));
   };
   const [[a, c], [b, d]] = [splitExampleTable('odometry'), splitExampleTable('reference')];
   await chooseTables(widget, { 'a.csv': a, 'b.csv': b, 'c.csv': c, 'd.csv': d });
   await expect(widget.getByRole('alert')).toHaveText(/^a\.csv: its name does not say whether it is odometry or reference;/);
   await expect(widget.getByLabel('a.csv')).toBeFocused();
-  for (const [name, role] of [['a', 'Odometry'], ['b', 'Reference'], ['c', 'Odometry'], ['d', 'Reference']]) await widget.getByLabel(`${name}.csv`).selectOption(role);
+  for (const [name, logRole] of [['a', 'Odometry'], ['b', 'Reference'], ['c', 'Odometry'], ['d', 'Reference']]) await widget.getByLabel(`${name}.csv`).selectOption(logRole);
   await expect(captionOf(widget)).toHaveText(/of a\.csv, c\.csv, b\.csv, d\.csv[.,]/);
   await expect(widget.locator('.found caption')).toHaveText(['Drive 1', 'Drive 2']);
 });
@@ -141,17 +141,17 @@ test('names and units of columns that a table does not state are asked for, and 
 test('the files of a dropped folder are one recording, and others are not used', async ({ page }) => {
   const widget = await openCalibrator(page);
   const cameraRecording = await recordingOf([0, 1].map((t) => ({ topic: '/image', type: 'std_msgs/msg/String', t, message: { data: '' } })));
-  const base64Recordings = [await exampleRecordingWith(['/mocap/pose']), cameraRecording].map((bytes) => bytes.toString('base64'));
-  await widget.locator('section.simulation').evaluate(async (section, encodedRecordings) => {
-    const [bytes, cameraBytes] = await Promise.all(encodedRecordings.map(async (base64) => (await fetch(`data:;base64,${base64}`)).arrayBuffer()));
+  const base64Recordings = [await exampleRecordingWith(['/mocap/pose']), cameraRecording].map((recordingBytes) => recordingBytes.toString('base64'));
+  await widget.locator('section.simulation').evaluate(async (dropTarget, encodedRecordings) => {
+    const [recordingBytes, cameraBytes] = await Promise.all(encodedRecordings.map(async (encodedRecording) => (await fetch(`data:;base64,${encodedRecording}`)).arrayBuffer()));
     const splitRecordingMetadata = 'rosbag2_bagfile_information:\n  relative_file_paths: [run_0.mcap]\n';
     const journalFile = new File([new Uint8Array([0x37, 0x7f, 0x06, 0x82])], 'run_0.db3-wal');
-    const fileEntries = [new File([bytes], 'run_0.mcap'), new File([splitRecordingMetadata], 'metadata.yaml'), new File([cameraBytes], 'camera.mcap'), journalFile].map((file) =>
-      ({ name: file.name, isDirectory: false, fullPath: `/run/${file.name}`, file: (/** @type {(file: File) => void} */ take) => take(file) }));
+    const fileEntries = [new File([recordingBytes], 'run_0.mcap'), new File([splitRecordingMetadata], 'metadata.yaml'), new File([cameraBytes], 'camera.mcap'), journalFile].map((droppedFile) =>
+      ({ name: droppedFile.name, isDirectory: false, fullPath: `/run/${droppedFile.name}`, file: (/** @type {(file: File) => void} */ onFile) => onFile(droppedFile) }));
     const entryBatches = [fileEntries, []];
-    const folderEntry = { isDirectory: true, createReader: () => ({ readEntries: (/** @type {(some: unknown) => void} */ take) => take(entryBatches.shift()) }) };
+    const folderEntry = { isDirectory: true, createReader: () => ({ readEntries: (/** @type {(some: unknown) => void} */ onEntries) => onEntries(entryBatches.shift()) }) };
     const dataTransfer = { types: ['Files'], items: [{ kind: 'file', webkitGetAsEntry: () => folderEntry, getAsFile: () => null }] };
-    section.dispatchEvent(Object.defineProperty(new Event('drop'), 'dataTransfer', { value: dataTransfer }));
+    dropTarget.dispatchEvent(Object.defineProperty(new Event('drop'), 'dataTransfer', { value: dataTransfer }));
   }, base64Recordings);
   await expect(captionOf(widget)).toHaveText(/of run, \/odom, \/mocap\/pose[.,]/);
   await expect(widget.locator('.choosers > p')).toHaveText([/^Not used: run_0\.db3-wal: it is a journal /, /^Not used: camera\.mcap: the topics are \/image /]);
@@ -166,7 +166,6 @@ test('a log without enough legs is refused, and the present log keeps its place 
   const { alphas } = await readStats(widget);
   const standstillTable = Buffer.from('t,x,y,yaw\n0,0,0,0\n1,0,0,0\n2,0,0,0\n');
   await dropFiles(widget.locator('.stage').first(), ['odom.csv', 'truth.csv'].map((name) => ({ name, buffer: standstillTable })));
-  // The message is shown in one place only: in the drop zone, which is visible.
   await expect(widget.locator('.drop-zone').getByRole('alert')).toBeInViewport();
   await expect(widget.getByRole('alert')).toHaveText('Log refused: Not enough data: fewer than 8 legs, or the logs do not overlap in time. Take both logs from one drive, choose shorter legs, or drive longer.');
   await waitUntilSettled(widget);
@@ -181,7 +180,7 @@ test('a log without enough legs is refused, and the present log keeps its place 
   await expect(widget.locator('.views')).toHaveCSS('filter', 'none');
 });
 
-/** Chooses two tables of 15 minutes, as a user does, and returns the time of the choice. @param {Locator} widget */
+/** Chooses two tables of 15 minutes, and returns the time of the choice. @param {Locator} widget */
 const chooseLongTables = (widget) => widget.evaluate((element) => {
   const fileInput = /** @type {HTMLInputElement} */ (element.shadowRoot?.querySelector('#log-files'));
   const csvRowAt = (/** @type {number} */ i, /** @type {number} */ swayWidth) => {
@@ -202,28 +201,28 @@ test('a log is read and fitted in a worker, and the page stays free', async ({ p
   const widget = await openCalibrator(page);
   await page.evaluate(() => {
     const performanceEntries = /** @type {PerformanceEntry[]} */ ([]);
-    const longTaskObserver = new PerformanceObserver((list) => void performanceEntries.push(...list.getEntries()));
+    const longTaskObserver = new PerformanceObserver((entryList) => void performanceEntries.push(...entryList.getEntries()));
     for (const entryType of ['longtask', 'layout-shift']) longTaskObserver.observe({ type: entryType });
     Object.assign(window, { entries: performanceEntries });
   });
   const startTime = await chooseLongTables(widget);
   await expect(captionOf(widget)).toHaveText(/of odom\.csv, truth\.csv[.,]/, { timeout: 20_000 });
   expect(page.workers().map((worker) => new URL(worker.url()).pathname)).toEqual(['/chunks/log-worker.js']);
-  const { longestTaskShare, layoutShifts } = await page.evaluate((since) => {
-    const recentEntries = /** @type {(PerformanceEntry & { value?: number, hadRecentInput?: boolean })[]} */ (Reflect.get(window, 'entries')).filter((entry) => entry.startTime > since);
+  const { longestTaskShare, layoutShifts } = await page.evaluate((startTime) => {
+    const recentEntries = /** @type {(PerformanceEntry & { value?: number, hadRecentInput?: boolean })[]} */ (Reflect.get(window, 'entries')).filter((performanceEntry) => performanceEntry.startTime > startTime);
     const taskDurations = recentEntries.filter(({ entryType }) => entryType === 'longtask').map(({ duration }) => duration);
-    return { longestTaskShare: Math.max(0, ...taskDurations) / (performance.now() - since), layoutShifts: recentEntries.flatMap(({ value, hadRecentInput }) => (value && !hadRecentInput ? value : [])) };
+    return { longestTaskShare: Math.max(0, ...taskDurations) / (performance.now() - startTime), layoutShifts: recentEntries.flatMap(({ value, hadRecentInput }) => (value && !hadRecentInput ? value : [])) };
   }, startTime);
-  // On the main thread, reading a log would be one task that takes a third of the time.
+  // If the main thread read the log, a single task would take a third of the time.
   expect(longestTaskShare).toBeLessThan(0.2);
-  // The Web Vitals call a layout unstable from 0.1 on.
-  expect(layoutShifts.reduce((sum, shift) => sum + shift, 0)).toBeLessThan(0.1);
-  // A changed setting starts another fit; the previous result is shown meanwhile.
+  // The Web Vitals call a layout unstable if its shift is 0.1 or more.
+  expect(layoutShifts.reduce((shiftSum, layoutShift) => shiftSum + layoutShift, 0)).toBeLessThan(0.1);
+  // A changed setting starts another fit. The figure shows the previous result meanwhile.
   const { alphas } = await readStats(widget);
   const resultsWhileFitting = await widget.evaluate((element) => {
-    const figure = /** @type {any} */ (element);
-    figure.distance = 0.5;
-    return { distance: figure.distance, alphas: figure.simulation.stats.alphas };
+    const calibratorElement = /** @type {any} */ (element);
+    calibratorElement.distance = 0.5;
+    return { distance: calibratorElement.distance, alphas: calibratorElement.simulation.stats.alphas };
   });
   expect(resultsWhileFitting).toEqual({ distance: 0.5, alphas });
   await waitUntilSettled(widget);
@@ -266,17 +265,17 @@ test('another log replaces one that is being fitted, and the removal of the figu
   const widget = await openCalibrator(page);
   const widgetHandle = await widget.elementHandle();
   const firedErrors = await widget.evaluate(async (element) => {
-    const figure = /** @type {AlphaCalibratorElement & { settled: Promise<void> }} */ (element);
+    const calibratorElement = /** @type {AlphaCalibratorElement & { settled: Promise<void> }} */ (element);
     const errorMessages = /** @type {string[]} */ ([]);
-    figure.addEventListener('error', (event) => void errorMessages.push(/** @type {ErrorEvent} */ (event).message));
+    calibratorElement.addEventListener('error', (errorEvent) => void errorMessages.push(/** @type {ErrorEvent} */ (errorEvent).message));
     const poseColumnsOf = (/** @type {number} */ swayWidth) => {
-      const angles = Float64Array.from({ length: 60_000 }, (_, i) => i / 400);
-      return { t: angles.map((angle) => 4 * angle), x: angles.map(Math.sin), y: angles.map((angle) => swayWidth * Math.sin(28 * angle) - Math.cos(angle)), theta: angles };
+      const circleAngles = Float64Array.from({ length: 60_000 }, (_, i) => i / 400);
+      return { t: circleAngles.map((angle) => 4 * angle), x: circleAngles.map(Math.sin), y: circleAngles.map((angle) => swayWidth * Math.sin(28 * angle) - Math.cos(angle)), theta: circleAngles };
     };
-    const [first, second] = ['first', 'second'].map((name) => ({ name, odometry: poseColumnsOf(0), reference: poseColumnsOf(0.02) }));
-    figure.log = first;
-    figure.log = second;
-    await figure.settled;
+    const [firstLog, secondLog] = ['first', 'second'].map((name) => ({ name, odometry: poseColumnsOf(0), reference: poseColumnsOf(0.02) }));
+    calibratorElement.log = firstLog;
+    calibratorElement.log = secondLog;
+    await calibratorElement.settled;
     return errorMessages;
   });
   await expect(captionOf(widget)).toHaveText(/of second[.,]/);
@@ -304,8 +303,8 @@ test('a log that a page gives is fitted, and is in no state; one that is refused
   const refusalMessages = await widget.evaluate(async (element) => {
     const figure = /** @type {AlphaCalibratorElement} */ (element);
     const { legs } = figure.simulation;
-    const t = Array.from({ length: legs.count }, (_, leg) => leg);
-    const poseComponentOf = (/** @type {Float64Array} */ poses, /** @type {number} */ component) => t.map((leg) => poses[6 * leg + component]);
+    const t = Array.from({ length: legs.count }, (_, legIndex) => legIndex);
+    const poseComponentOf = (/** @type {Float64Array} */ legPoses, /** @type {number} */ componentIndex) => t.map((legIndex) => legPoses[6 * legIndex + componentIndex]);
     const poseColumnsOf = (/** @type {Float64Array} */ legPoses) => ({ t, x: poseComponentOf(legPoses, 0).map((x) => x + 0.01), y: poseComponentOf(legPoses, 1), theta: poseComponentOf(legPoses, 2) });
     const pageLog = { name: 'of the page', odometry: poseColumnsOf(legs.odometry), reference: poseColumnsOf(legs.reference) };
     const waitForErrorMessage = () => new Promise((resolve) => {
@@ -317,9 +316,9 @@ test('a log that a page gives is fitted, and is in no state; one that is refused
     figure.log = pageLog;
     await new Promise((resolve) => figure.addEventListener('stats', resolve, { once: true }));
     const errorMessages = [];
-    for (const log of [{ ...pageLog, odometry: { ...pageLog.odometry, t: t.with(3, 1) } }, 5]) {
+    for (const refusedLog of [{ ...pageLog, odometry: { ...pageLog.odometry, t: t.with(3, 1) } }, 5]) {
       const messagePromise = waitForErrorMessage();
-      Object.assign(figure, { log });
+      Object.assign(figure, { log: refusedLog });
       errorMessages.push(await messagePromise);
     }
     return errorMessages;
@@ -330,7 +329,7 @@ test('a log that a page gives is fitted, and is in no state; one that is refused
     return [log?.name, count > 100];
   })).toEqual(['of the page', true]);
   expect(await readState(widget)).toEqual(stateBefore);
-  // The picture is fitted to the new path, although the previous extent had room for it.
+  // The view is fitted to the new path, although the path had room in the previous view.
   await expect.poll(readLeftEdge).not.toBe(leftEdgeBefore);
   await chooseTables(widget, { 'odometry.csv': readExampleTable('odometry'), 'reference.csv': readExampleTable('reference') });
   await expect(captionOf(widget)).toHaveText(/of odometry\.csv, reference\.csv[.,]/);

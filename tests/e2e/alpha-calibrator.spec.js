@@ -37,13 +37,13 @@ test('the true α’s are shown where the fit is of their rule and legs, and now
 test('the meaning of each α stands beside its numbers, and fits on a phone, in German and in a wide font', async ({ page }) => {
   const widget = await openCalibrator(page, 'lang="de"');
   await expect(alphaRowsOf(widget).locator('th')).toHaveText(['α1 Drehrauschen durch Drehen', 'α2 Drehrauschen durch Fahren', 'α3 Streckenrauschen durch Fahren', 'α4 Streckenrauschen durch Drehen']);
-  for (const [width, letterSpacing] of [[375, 0], [920, 0.1], [1280, 0], [1280, 0.1]]) {
-    await page.setViewportSize({ width, height: 900 });
-    await page.evaluate((em) => void (document.body.style.letterSpacing = `${em}em`), letterSpacing);
+  for (const [pageWidth, letterSpacing] of [[375, 0], [920, 0.1], [1280, 0], [1280, 0.1]]) {
+    await page.setViewportSize({ width: pageWidth, height: 900 });
+    await page.evaluate((spacingEm) => void (document.body.style.letterSpacing = `${spacingEm}em`), letterSpacing);
     await waitForFrames(page);
-    expect(await page.evaluate(() => document.documentElement.scrollWidth), `${width} px, ${letterSpacing} em`).toBeLessThanOrEqual(width);
-    // Rows of 40 px have the name in at most two lines.
-    if (letterSpacing === 0 && width === 1280) for (const row of await alphaRowsOf(widget).all()) expect((await readBox(row)).height, `${width} px`).toBeLessThan(40);
+    expect(await page.evaluate(() => document.documentElement.scrollWidth), `${pageWidth} px, ${letterSpacing} em`).toBeLessThanOrEqual(pageWidth);
+    // Table rows of 40 px show the name of the α in at most two lines.
+    if (letterSpacing === 0 && pageWidth === 1280) for (const alphaRow of await alphaRowsOf(widget).all()) expect((await readBox(alphaRow)).height, `${pageWidth} px`).toBeLessThan(40);
   }
 });
 
@@ -57,8 +57,8 @@ test('outliers are ringed, and decide the fit where they are not set aside', asy
   await widget.getByRole('radio', { name: 'fit as noise' }).check();
   await waitUntilSettled(widget);
   const statsAfter = await readStats(widget);
-  // The text of www/index.html contains these numbers.
-  const alphaRatios = [1, 2].map((alpha) => Math.round(Number(statsAfter.alphas[alpha]) / Number(statsBefore.alphas[alpha])));
+  // The text of www/index.html contains the computed ratios.
+  const alphaRatios = [1, 2].map((alphaIndex) => Math.round(Number(statsAfter.alphas[alphaIndex]) / Number(statsBefore.alphas[alphaIndex])));
   const outlierCheck = statsBefore.diagnostics.checks.find(({ name }) => name === 'outliers-few');
   expect([10 * Math.round(0.1 / (outlierCheck?.value ?? NaN)), ...alphaRatios]).toEqual([60, 9, 15]);
   expect(readFileSync(new URL('../../www/index.html', import.meta.url), 'utf8')).toMatch(/One in sixty is an outlier[^]* becomes nine times and .* fifteen times as large, and two checks fail/);
@@ -75,7 +75,7 @@ test('a systematic error that is not corrected is named in the advice', async ({
   const statsAfter = await readStats(widget);
   expect(statsAfter.systematicErrors.mountYaw.corrected).toBe(false);
   expect(statsAfter.systematicErrors.mountYaw.value).toBeCloseTo(0.07, 2);
-  // The text of www/index.html contains these numbers.
+  // The text of www/index.html contains the two estimates.
   const [yawStdBefore, yawStdAfter] = [statsBefore, statsAfter].map(({ referenceNoise: { yawStd } }) => yawStd.value.toFixed(3));
   expect(readFileSync(new URL('../../www/index.html', import.meta.url), 'utf8')).toContain(`goes from ${yawStdBefore} to ${yawStdAfter}&nbsp;rad`);
   await expect(captionOf(widget)).toHaveText(/^! Caution\s+Failed check: correlation of neighbouring legs \(1 of 14 failed\)\.\s+\d+ legs /);
@@ -103,18 +103,17 @@ test('a leg is chosen in the picture, by its slider, and from one large residual
   expect(await readState(widget)).toMatchObject({ leg: worst[0] });
   await nextResidualButton.click();
   expect(await readState(widget)).toMatchObject({ leg: worst[1] });
-  // The thumb moves with the next picture.
   await waitForFrames(page);
   await widget.locator('#leg').press('ArrowRight');
   expect(await readState(widget)).toMatchObject({ leg: worst[1] + 1 });
-  const canvas = widget.locator('canvas.plane');
+  const planeCanvas = widget.locator('canvas.plane');
   const clickTarget = await widget.evaluate((element) => {
     const { pictures: [{ view }], simulation } = /** @type {any} */ (element);
     const { reference } = simulation.legs;
-    const legMidpoint = [0, 1].map((axis) => (reference[6 * 40 + axis] + reference[6 * 40 + 3 + axis]) / 2);
+    const legMidpoint = [0, 1].map((axisIndex) => (reference[6 * 40 + axisIndex] + reference[6 * 40 + 3 + axisIndex]) / 2);
     return { x: view.toPixelX(legMidpoint[0]), y: view.toPixelY(legMidpoint[1]), leg: simulation.nearest(legMidpoint[0], legMidpoint[1], 1) };
   });
-  await canvas.click({ position: { x: clickTarget.x, y: clickTarget.y } });
+  await planeCanvas.click({ position: { x: clickTarget.x, y: clickTarget.y } });
   expect(await readState(widget)).toMatchObject({ leg: clickTarget.leg });
   await expect(widget.locator('canvas.leg')).toHaveAttribute('aria-label', new RegExp(`^Leg ${clickTarget.leg + 1} `));
 });
@@ -122,16 +121,16 @@ test('a leg is chosen in the picture, by its slider, and from one large residual
 test('an exported picture has a legend, and describes the verdict and the α’s with their intervals @nightly', async ({ page }) => {
   const widget = await openCalibrator(page);
   const alphaTexts = await alphaRowsOf(widget).evaluateAll((rowElements) => rowElements.map((row) => {
-    const [fitted, between, recommended] = [...row.querySelectorAll('td div, td strong')].map((part) => part.textContent?.trim());
-    return `: ${fitted}, ${between}, recommended ${recommended}.`;
+    const [fittedText, intervalText, recommendedText] = [...row.querySelectorAll('td div, td strong')].map((cellElement) => cellElement.textContent?.trim());
+    return `: ${fittedText}, ${intervalText}, recommended ${recommendedText}.`;
   }));
   const captionText = ((await captionOf(widget).textContent()) ?? '').replace(/^\s*✓?!?\s*/, '').replace(/\s+/g, ' ').trim();
   const { texts, description } = await widget.evaluate((element) => {
     const { documentElement: svgRoot } = new DOMParser().parseFromString(/** @type {any} */ (element).toSVG(), 'image/svg+xml');
-    return { texts: [...svgRoot.querySelectorAll('text')].map((text) => text.textContent), description: svgRoot.querySelector('desc')?.textContent ?? '' };
+    return { texts: [...svgRoot.querySelectorAll('text')].map((textElement) => textElement.textContent), description: svgRoot.querySelector('desc')?.textContent ?? '' };
   });
   expect(alphaTexts).toHaveLength(4);
-  for (const text of alphaTexts) expect(description).toContain(text);
+  for (const alphaText of alphaTexts) expect(description).toContain(alphaText);
   expect(description.replaceAll(/(Trust|Caution)\./g, '$1')).toContain(captionText);
   for (const legendText of ['p > 0.5', 'p 0.05–0.5', 'p 0.001–0.05', 'p < 0.001']) expect(texts).toContain(legendText);
 });
@@ -141,9 +140,9 @@ test('the lines for Nav2 have the numbers of the table, and are copied by the bu
   const widget = await openCalibrator(page, 'rule="nav2" distance="0.3"');
   await openDisclosures(widget);
   const nav2Yaml = await widget.locator('textarea.yaml').inputValue();
-  const alphaTexts = await alphaRowsOf(widget).evaluateAll((rowElements) => rowElements.map((row) => [...row.querySelectorAll('td div, td strong')].map((part) => part.textContent?.trim() ?? '')));
+  const alphaTexts = await alphaRowsOf(widget).evaluateAll((rowElements) => rowElements.map((row) => [...row.querySelectorAll('td div, td strong')].map((cellElement) => cellElement.textContent?.trim() ?? '')));
   expect(alphaTexts).toHaveLength(4);
-  alphaTexts.forEach(([fitted, between, recommended], i) => expect(nav2Yaml).toContain(`    alpha${i + 1}: ${recommended}  # fitted ${fitted}, 95 % ${between.replace(' – ', ' to ')}\n`));
+  alphaTexts.forEach(([fittedText, intervalText, recommendedText], i) => expect(nav2Yaml).toContain(`    alpha${i + 1}: ${recommendedText}  # fitted ${fittedText}, 95 % ${intervalText.replace(' – ', ' to ')}\n`));
   await page.setViewportSize({ width: 360, height: 400 });
   await widget.getByRole('button', { name: 'Copy for Nav2' }).click();
   await expect(widget.getByText('Copied.')).toBeInViewport({ ratio: 1 });
@@ -187,7 +186,7 @@ test('for an α that a log does not determine, the table says why, and what to a
     const sampleCount = 2000;
     const t = Float64Array.from({ length: sampleCount }, (_, i) => i / 20);
     const zeroColumn = new Float64Array(sampleCount);
-    const noisyXColumn = (/** @type {number} */ error) => t.map((time, i) => 0.5 * time + error * Math.sin(i * i));
+    const noisyXColumn = (/** @type {number} */ noiseAmplitude) => t.map((time, i) => 0.5 * time + noiseAmplitude * Math.sin(i * i));
     Object.assign(element, { log: { odometry: { t, x: noisyXColumn(0), y: zeroColumn, theta: zeroColumn }, reference: { t, x: noisyXColumn(0.002), y: zeroColumn, theta: zeroColumn } } });
   });
   await waitUntilSettled(widget);

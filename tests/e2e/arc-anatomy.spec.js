@@ -9,10 +9,10 @@ import { REDUCED_MOTION, readCentre, waitForFrames, mountFigure, parseNumberIn, 
 
 test.use(REDUCED_MOTION);
 
-/** Opens a page with the figure. @param {Page} page @param {string} [attributes] */
+/** Opens a page with an Arc Anatomy. @param {Page} page @param {string} [attributes] */
 const openArcAnatomy = (page, attributes) => mountFigure(page, 'arc-anatomy', { attributes });
 
-/** Returns the results of the simulation after the next frames. @param {Locator} widget */
+/** Returns the results of the simulation after the requested frames. @param {Locator} widget */
 async function readResults(widget) {
   await waitForFrames(widget.page());
   return widget.evaluate((element) => {
@@ -44,7 +44,7 @@ test('opens off the arc, and says which factor is the worst', async ({ page }) =
   await openDisclosures(widget);
   expect(parseNumberIn(await readoutValue(widget, 'p of the tables').textContent())).toBeCloseTo(stats.prob, 3);
   expect(parseNumberIn(await readoutValue(widget, 'density').textContent())).toBeCloseTo(stats.density ?? NaN, 3);
-  // The pointer must not be on an entry of the legend, which would highlight its line.
+  // The pointer must not be on an entry of the legend, because the entry would highlight its line.
   await page.mouse.move(0, 0);
   for (const colorRole of ['prior', 'prediction', 'accent', 'truth']) expect(await countPixelsOfRole(canvasOf(widget), colorRole), colorRole).toBeGreaterThan(colorRole === 'accent' ? 10 : 20);
 });
@@ -98,7 +98,7 @@ test('the start moves and turns, the commanded arc with it, and the robot stays 
   expect(resultsAfterMove.config.start).toEqual({ x: 0.05, y: -0.05, theta: 0 });
   expect(resultsAfterMove.config.next).toEqual(resultsBefore.config.next);
   const [endX, endY, endTheta] = resultsBefore.stats.commanded.end;
-  for (const [i, coordinate] of [endX + 0.05, endY - 0.05, endTheta].entries()) expect(resultsAfterMove.stats.commanded.end[i]).toBeCloseTo(coordinate, 12);
+  for (const [i, expectedCoordinate] of [endX + 0.05, endY - 0.05, endTheta].entries()) expect(resultsAfterMove.stats.commanded.end[i]).toBeCloseTo(expectedCoordinate, 12);
   await expect(widget).toHaveAttribute('startx', '0.05');
   await startHeadingHandle.press('ArrowLeft');
   expect((await readResults(widget)).config.start.theta).toBe(Math.PI / 36);
@@ -110,8 +110,8 @@ test('the angle at a centre out of sight stands in the picture @nightly', async 
   await widget.evaluate((element) => void Object.assign(element, { omega: 0.025, nextY: 0.012 }));
   await waitForFrames(page);
   const centreLabels = [...(await readSVG()).matchAll(/<text[^>]* y="([\d.]+)"[^>]*>(ω[^<]*)</g)];
-  expect([...new Set(centreLabels.map(([, , text]) => text))].sort()).toEqual(['ω̂Δt = 0.02', 'ωΔt = 0.03']);
-  // Two labels on one side stand below each other.
+  expect([...new Set(centreLabels.map(([, , labelText]) => labelText))].sort()).toEqual(['ω̂Δt = 0.02', 'ωΔt = 0.03']);
+  // Two labels on the same side are placed one below the other.
   const labelYs = [...new Set(centreLabels.map(([, y]) => Number(y)))];
   expect(Math.abs(labelYs[0] - labelYs[1])).toBeGreaterThan(12);
 });
@@ -156,9 +156,9 @@ test('each line of the table highlights its construction, and tells its value', 
     planePictures.push(await readPicture(canvasOf(widget)));
   }
   await expect(nextButton).toBeDisabled();
-  // The last row is the product that the bars are factors of.
+  // The last row of the table highlights the bars of its factors.
   await expect(widget.locator('.factors')).toHaveClass(/lit/);
-  // The lines of x* and y* highlight the same construction: the centre.
+  // The table rows of x* and y* highlight the same construction, the centre.
   expect(new Set(planePictures.slice(0, 9)).size).toBe(8);
   expect(planePictures[2]).toBe(planePictures[3]);
   expect(planePictures[9]).toBe(planePictures[0]);
@@ -180,7 +180,7 @@ test('heat maps of p and of the density are drawn below the arcs, with the conto
 test('entries of the legend are the toggles of the lines', async ({ page }) => {
   const widget = await openArcAnatomy(page);
   expect(await countPixelsOfRole(canvasOf(widget), 'posterior')).toBe(0);
-  // A toggle with the pointer or the focus on it highlights its line.
+  // A toggle highlights its line while the pointer or the focus is on the toggle.
   const clickToggle = async (/** @type {string} */ name) => {
     await widget.getByRole('checkbox', { name }).click();
     await page.mouse.move(0, 0);
@@ -200,12 +200,12 @@ test('entries of the legend are the toggles of the lines', async ({ page }) => {
 test('a robot is drawn on each arc at the time that is chosen @nightly', async ({ page }) => {
   const widget = await openArcAnatomy(page);
   const pictureAtEnd = await readPicture(canvasOf(widget));
-  const slider = widget.getByRole('slider', { name: 'time along the arc' });
+  const timeSlider = widget.getByRole('slider', { name: 'time along the arc' });
   await expect(widget.getByRole('button', { name: 'Play' })).toHaveCount(0);
-  await slider.fill('40');
-  await expect(slider).toHaveAttribute('aria-valuetext', '0.40 of 1.00 s');
+  await timeSlider.fill('40');
+  await expect(timeSlider).toHaveAttribute('aria-valuetext', '0.40 of 1.00 s');
   expect(await readPicture(canvasOf(widget))).not.toBe(pictureAtEnd);
-  await slider.fill('100');
+  await timeSlider.fill('100');
   expect(await readPicture(canvasOf(widget))).toBe(pictureAtEnd);
 });
 
@@ -215,7 +215,7 @@ test('the factors are exported as CSV', async ({ page }) => {
   const [settingsLine, headerLine, ...dataLines] = (await widget.evaluate((element) => /** @type {ArcAnatomyElement} */ (element).toCSV())).trim().split('\n');
   expect(JSON.parse(settingsLine.slice(2))).toMatchObject({ element: 'arc-anatomy', next: { x: 1.1, y: 0.5, theta: 1.1 } });
   expect(headerLine).toBe('estimate,residual,standard_deviation,residual_over_deviation,prob,share_of_peak');
-  expect(dataLines.map((row) => row.split(',').map(Number))).toEqual(
+  expect(dataLines.map((csvRow) => csvRow.split(',').map(Number))).toEqual(
     stats.factors.map(({ estimate, residual, deviation, deviations, value, share }) => [estimate, residual, deviation, deviations, value, share]),
   );
 });
@@ -249,7 +249,7 @@ test('a button plays the drive along the arcs', async ({ page }) => {
 test('a change of size while a slider plays is no step', async ({ page }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   const widget = await openArcAnatomy(page);
-  // The figure draws at once after a change of size, without elapsed time.
+  // After a change of size, the figure draws before any time has elapsed.
   await widget.evaluate((element) => element.addEventListener('input', () => {
     /** @type {HTMLElement} */ (element).style.width = `${element.clientWidth - 1}px`;
   }));

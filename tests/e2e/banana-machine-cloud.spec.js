@@ -14,10 +14,10 @@ const GROWTH_STEPS = 150;
 /** @param {Locator} widget */
 const captionOf = (widget) => widget.locator('p[part=caption]');
 
-/** Returns the three numbers that are printed for the marked robot. @param {Locator} widget */
+/** Returns the three numbers that the figure prints for the marked robot. @param {Locator} widget */
 async function readNumbersOfMarkedSample(widget) {
   const outputText = (await widget.locator('.marked output').textContent()) ?? '';
-  const printedNumbers = [...outputText.matchAll(/= (\S+)/g)].map(([, number]) => parseNumberIn(number));
+  const printedNumbers = [...outputText.matchAll(/= (\S+)/g)].map(([, printedNumber]) => parseNumberIn(printedNumber));
   expect(printedNumbers).toHaveLength(3);
   return printedNumbers;
 }
@@ -37,10 +37,9 @@ test('the cloud grows by itself, pauses, and goes on', async ({ page }) => {
   await playButton.click();
   await widget.getByRole('button', { name: 'Pin' }).click();
   await expect.poll(async () => (await readBananaResults(widget)).shown, { timeout: 20_000 }).toBe(pausedResults.config.samples);
-  // Numbers pinned while the cloud grows are those of the whole cloud.
+  // Numbers that are pinned while the cloud grows are numbers of the whole cloud.
   await expect(readoutValue(widget, 'cross-track skew')).toHaveText(/^(.+ ± .+) pinned: \1$/);
   await expect(playButton).toBeVisible();
-  // The robots of the paused cloud are the first robots of the complete one.
   expect((await readPoses(widget)).slice(0, firstPoses.length)).toEqual(firstPoses);
 });
 
@@ -51,22 +50,22 @@ test('opens with the whole cloud of the opening command, and shows the numbers o
   expect(shownCount).toBe(config.samples);
   expect(Math.abs(table.exact.areaRatio - 1.967)).toBeLessThan(5e-4);
   const readReadoutText = async (/** @type {string | RegExp} */ name) => (await readoutValue(widget, name).textContent()) ?? '';
-  const [skew, skewError] = (await readReadoutText('cross-track skew')).split(' ± ').map(parseNumberIn);
-  expect(skew).toBeCloseTo(stats.crossTrackSkew, 3);
+  const [printedSkew, skewError] = (await readReadoutText('cross-track skew')).split(' ± ').map(parseNumberIn);
+  expect(printedSkew).toBeCloseTo(stats.crossTrackSkew, 3);
   expect(skewError).toBeCloseTo(stats.crossTrackSkewError, 3);
   await expect(readoutDetail(widget, 'cross-track skew')).toHaveText('exactly 0.000');
   expect(parseNumberIn(await readReadoutText('predicts'))).toBeCloseTo(stats.gaussianSkew, 3);
   expect(parseNumberIn(await readReadoutText('ρ'))).toBeCloseTo(stats.rhoCrossHeading, 3);
   expect((await readReadoutText('robots shown')).split(' of ').map(parseNumberIn)).toEqual([stats.n, config.samples]);
-  const [gain, gainError] = (await readReadoutText('gain in fit')).split(' ± ').map(parseNumberIn);
-  expect(gain).toBeCloseTo(stats.likelihoodGain.pose, 3);
+  const [printedGain, gainError] = (await readReadoutText('gain in fit')).split(' ± ').map(parseNumberIn);
+  expect(printedGain).toBeCloseTo(stats.likelihoodGain.pose, 3);
   expect(gainError).toBeCloseTo(stats.likelihoodGainError.pose, 3);
   expect(await readReadoutText('area covered')).toBe(`${stats.areaRatio.toFixed(2)} ×`);
-  const coverageTexts = [stats.coverage.ellipse, stats.coverage.exponential].map((share) => `${(100 * share).toFixed(1)}\u202f%`);
+  const coverageTexts = [stats.coverage.ellipse, stats.coverage.exponential].map((coverageShare) => `${(100 * coverageShare).toFixed(1)}\u202f%`);
   await expect(readoutDetail(widget, 'area covered')).toHaveText(`± ${stats.areaRatioError.toPrecision(1)}; inside: ellipse ${coverageTexts.join(', outline ')}`);
   await expect(readoutDetail(widget, 'gain in fit')).toHaveText(`exactly ${table.exact.likelihoodGain.pose.toFixed(3)}; 1 nat: a factor of e`);
-  const row = widget.locator('tr').filter({ has: page.getByRole('rowheader', { name: 'Σxx', exact: true }) });
-  const xVariances = (await row.getByRole('cell').allTextContents()).map(parseNumberIn);
+  const varianceRow = widget.locator('tr').filter({ has: page.getByRole('rowheader', { name: 'Σxx', exact: true }) });
+  const xVariances = (await varianceRow.getByRole('cell').allTextContents()).map(parseNumberIn);
   for (const [i, tableColumn] of [table.linearized, table.exact, table.measured].entries()) expect(xVariances[i] / tableColumn.cov[0][0]).toBeCloseTo(1, 2);
   // The picture has a text equivalent.
   const floorCanvas = widget.locator('canvas.plane');
@@ -76,7 +75,7 @@ test('opens with the whole cloud of the opening command, and shows the numbers o
 
 test('Clear empties the cloud, Step adds a batch of the same robots', async ({ page }) => {
   const widget = await openBanana(page, 'samples="3000"');
-  const [wholeCloud, poses] = [await readBananaResults(widget), await readPoses(widget)];
+  const [wholeCloud, wholeCloudPoses] = [await readBananaResults(widget), await readPoses(widget)];
   await widget.getByRole('button', { name: 'Clear' }).click();
   expect((await readBananaResults(widget)).shown).toBe(0);
   await expect(readoutValue(widget, 'cross-track skew')).toHaveText('—');
@@ -86,7 +85,7 @@ test('Clear empties the cloud, Step adds a batch of the same robots', async ({ p
   for (const expectedCount of [batchSize, 2 * batchSize]) {
     await widget.getByRole('button', { name: 'Step' }).click();
     expect((await readBananaResults(widget)).shown).toBe(expectedCount);
-    expect(await readPoses(widget)).toEqual(poses.slice(0, 3 * expectedCount));
+    expect(await readPoses(widget)).toEqual(wholeCloudPoses.slice(0, 3 * expectedCount));
   }
 });
 
@@ -95,23 +94,22 @@ test('each overlay has a toggle', async ({ page }) => {
   const floorCanvas = widget.locator('canvas.plane');
   const twistCanvas = widget.locator('canvas.twist');
   const pictureBefore = await readPicture(floorCanvas);
-  for (const [label, colorRole] of [
+  for (const [legendLabel, colorRole] of [
     ['commanded arc', 'prior'],
     ['Gaussian in (x, y)', 'prediction'],
     ['linearized (EKF)', 'prediction'],
     ['noise added to the pose', 'prediction'],
     ['Gaussian in ξ', 'posterior'],
   ]) {
-    const checkbox = widget.getByRole('checkbox', { name: label });
-    const isShown = await checkbox.isChecked();
+    const legendCheckbox = widget.getByRole('checkbox', { name: legendLabel });
+    const isShown = await legendCheckbox.isChecked();
     const pixelCountBefore = await countPixelsOfRole(floorCanvas, colorRole);
-    await checkbox.setChecked(!isShown);
-    // Pointing at an entry highlights its line.
+    await legendCheckbox.setChecked(!isShown);
     await page.mouse.move(0, 0);
     const pixelCountChange = (await countPixelsOfRole(floorCanvas, colorRole)) - pixelCountBefore;
-    expect(isShown ? -pixelCountChange : pixelCountChange, label).toBeGreaterThan(30);
+    expect(isShown ? -pixelCountChange : pixelCountChange, legendLabel).toBeGreaterThan(30);
     if (colorRole === 'posterior') expect(await countPixelsOfRole(twistCanvas, colorRole)).toBe(0);
-    await checkbox.setChecked(isShown);
+    await legendCheckbox.setChecked(isShown);
     await page.mouse.move(0, 0);
   }
   expect(await readPicture(floorCanvas)).toBe(pictureBefore);
@@ -135,13 +133,13 @@ test('a robot pointed at in one view is marked in both, with what it executed', 
 
   const handleCentre = await readCentre(widget.locator('.handle'));
   await page.mouse.move(handleCentre.x + 30, handleCentre.y + 20);
-  for (const count of await countMarkPixels()) expect(count).toBeGreaterThan(20);
+  for (const markPixelCount of await countMarkPixels()) expect(markPixelCount).toBeGreaterThan(20);
   const indexInPlane = await checkMarkedRobot();
 
   await twistCanvas.scrollIntoViewIfNeeded();
   const { x, y, width, height } = await readBox(twistCanvas);
   await page.mouse.move(x + width * 0.45, y + height * 0.45);
-  for (const count of await countMarkPixels()) expect(count).toBeGreaterThan(20);
+  for (const markPixelCount of await countMarkPixels()) expect(markPixelCount).toBeGreaterThan(20);
   expect(await checkMarkedRobot()).not.toBe(indexInPlane);
 
   await robotField.fill('');
@@ -155,23 +153,23 @@ test('the sentence says what holds exactly for the model, and what the robots sh
   await widget.locator('#omega').fill('-0.5');
   await expect(captionOf(widget)).toHaveText(/tail to the left/);
 
-  // This cloud is symmetric: the skew is exactly 0 for any number of robots, and the ellipse has twice the area.
+  // The cloud of the preset "Banana" is symmetric. Its skew is exactly 0 for any number of robots, and its ellipse has twice the area.
   await pressPreset('Banana');
   await waitForFrames(page);
   const { table } = await readBananaResults(widget);
   expect(Math.abs(table.exact.crossTrackSkew)).toBeLessThan(1e-9);
   expect(Math.abs(table.exact.areaRatio - 1.97)).toBeLessThan(0.005);
-  // The caption contains the number of the readout.
+  // The caption contains the area ratio of the readout.
   const [areaRatioText] = (await readoutValue(widget, 'area covered').innerText()).split(' ');
   await expect(captionOf(widget)).toHaveText(
     new RegExp(`^The cloud is bent: its ellipse covers ${areaRatioText} times the area of the ξ outline\\. Both sides are alike: skew −?0\\.\\d+\\s±\\s0\\.\\d+, exactly 0 by symmetry\\.$`),
   );
-  // This cloud is nearly symmetric, but as strongly bent.
+  // With ω = 0.02 the cloud is nearly symmetric, and is still strongly bent.
   await widget.locator('#omega').fill('0.02');
   await expect(captionOf(widget)).toHaveText(/^The cloud is bent: its ellipse covers .* Both sides are nearly alike: skew −?0\.\d+\s±\s0\.\d+, exactly −?0\.0\d+\.$/);
   await widget.locator('#omega').fill('0');
-  // With little noise of the turn the cloud is not bent.
-  for (const id of ['alpha3', 'alpha4']) await widget.locator(`#${id}`).fill('0.001');
+  // A cloud with little noise of the turn is not bent.
+  for (const sliderId of ['alpha3', 'alpha4']) await widget.locator(`#${sliderId}`).fill('0.001');
   await expect(captionOf(widget)).toHaveText(/^Both sides are alike: skew [^.]*\.\d+\s±\s[\d.]+, exactly 0 by symmetry\.$/);
 });
 
@@ -225,14 +223,14 @@ test('the odometry model shows the noise of a marked robot’s legs, and has an 
 
 test('captions and notes depend on the model and its noise', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page);
-  const caption = widget.locator('.figures figure p');
-  await expect(caption).toContainText('nearly a Gaussian');
+  const cloudCaption = widget.locator('.figures figure p');
+  await expect(cloudCaption).toContainText('nearly a Gaussian');
   await setSliders(widget, { alpha5: 0, alpha6: 0 });
-  await expect(caption).toContainText('exactly a Gaussian');
+  await expect(cloudCaption).toContainText('exactly a Gaussian');
   await widget.getByLabel('triangular').check();
-  await expect(caption).toContainText('triangular noise is not Gaussian');
+  await expect(cloudCaption).toContainText('triangular noise is not Gaussian');
   await widget.getByLabel('odometry').check();
-  await expect(caption).toContainText('only roughly');
+  await expect(cloudCaption).toContainText('only roughly');
   await setSliders(widget, { v: -1 });
   await expect(widget.locator('.note')).toContainText('Odometry reads backing up as two half turns');
   await widget.getByLabel('velocity').check();

@@ -8,10 +8,10 @@ const countCalloutsOf = (/** @type {import('@playwright/test').Locator} */ widge
 test('one slider carries the floor to exponential coordinates and back, and callouts are on the floor alone', async ({ page }) => {
   const widget = await openBanana(page);
   const floorCanvas = widget.locator('canvas.plane');
-  const slider = widget.getByRole('slider', { name: 'From the floor' });
+  const morphSlider = widget.getByRole('slider', { name: 'From the floor' });
   const floorPictures = [await readPicture(floorCanvas)];
   for (const [morphText, panelTitle] of [['0.5', 'On the way'], ['1', 'The floor, morphed'], ['0', 'On the floor']]) {
-    await slider.fill(morphText);
+    await morphSlider.fill(morphText);
     floorPictures.push(await readPicture(floorCanvas));
     expect(/** @type {any} */ (await readState(widget)).morph).toBe(Number(morphText));
     await expect(widget).toHaveAttribute('morph', morphText);
@@ -42,15 +42,15 @@ test('Play carries the floor all the way', async ({ page }) => {
 
 test('the end of the arc is moved where the morph shows it @nightly', async ({ page }) => {
   const widget = await openBanana(page, 'morph="1"');
-  const handle = widget.locator('.handle');
-  await handle.press('ArrowUp');
-  await handle.press('ArrowRight');
+  const arcEndHandle = widget.locator('.handle');
+  await arcEndHandle.press('ArrowUp');
+  await arcEndHandle.press('ArrowRight');
   let { command } = (await readBananaResults(widget)).config;
   expect(command.omega * command.dt).toBeCloseTo(0.02, 9);
   expect(command.v * command.dt).toBeCloseTo(2.02, 9);
   await widget.evaluate((element) => void Reflect.set(element, 'morph', 0.4));
   const [x, y] = /** @type {number[]} */ (await readProperty(widget, 'visibleArcEnd'));
-  await handle.press('ArrowUp');
+  await arcEndHandle.press('ArrowUp');
   const [seenX, seenY] = /** @type {number[]} */ (await readProperty(widget, 'visibleArcEnd'));
   expect(seenX).toBeCloseTo(x, 9);
   expect(seenY).toBeCloseTo(y + 0.02, 9);
@@ -72,7 +72,7 @@ test('Pin keeps the numbers and outlines to compare with, and lets go of them', 
   const hiddenCoordinates = await widget.evaluate((element) => {
     const { scene, pictures: floorPictures } = /** @type {any} */ (element);
     const { xMin, xMax, yMin, yMax } = floorPictures[0].view.extent;
-    return scene.pinnedAt(0).filter((/** @type {number} */ at, /** @type {number} */ i) => (i % 2 ? at < yMin || at > yMax : at < xMin || at > xMax));
+    return scene.pinnedAt(0).filter((/** @type {number} */ coordinate, /** @type {number} */ i) => (i % 2 ? coordinate < yMin || coordinate > yMax : coordinate < xMin || coordinate > xMax));
   });
   expect(hiddenCoordinates).toEqual([]);
   const pinnedState = await readState(widget);
@@ -90,7 +90,7 @@ test('Pin keeps the numbers and outlines to compare with, and lets go of them', 
   expect(await readPicture(widget.locator('canvas.plane'))).toBe(pictureWithPin);
   await expect(restoreState({ ...pinnedState, pinned: { ...pinnedState.pinned, samples: 0 } })).rejects.toThrow('state.pinned.samples is 0; allowed is');
   await expect(areaReadout).toContainText(`pinned: ${areaTextBefore}`);
-  // The pinned gain is that of the poses. It is not compared with a gain on the floor.
+  // The pinned gain is the gain of the poses. It must not be compared with the gain on the floor.
   await widget.getByRole('button', { name: 'Worked example' }).click();
   await expect(widget.locator('.readouts div').filter({ hasText: 'gain in fit on the floor' })).not.toContainText('pinned');
 });
@@ -98,18 +98,18 @@ test('Pin keeps the numbers and outlines to compare with, and lets go of them', 
 test('the title of the floor agrees with the fit of the ellipse', async ({ page }) => {
   const widget = await openBanana(page);
   const panelTitle = widget.locator('.panel-title').first();
-  for (const [settings, fitText, expectedCallouts] of /** @type {const} */ ([
+  for (const [changedSettings, fitText, expectedCallouts] of /** @type {const} */ ([
     [{ preset: 'banana' }, 'no ellipse fits', 2],
     [{ preset: 'pivot' }, 'the ellipse fits in size only', 0],
-    // Only the skew is visible here.
+    // In the preset "gentle" only the skew is visible.
     [{ preset: 'gentle' }, 'the ellipse fits in size only', 0],
     [{ preset: 'straight', alphas: [0.002, 0.002, 0.002, 0.002, 0, 0] }, 'the ellipse nearly fits', 0],
-    // The cloud is symmetric, and the ellipse is as large as the outline in ξ. Only the gain of the poses shows the bend.
+    // The straight cloud is symmetric, and its ellipse is as large as the outline in ξ. Only the gain of the poses shows the bend.
     [{ preset: 'straight', alpha3: 0.2 }, 'the ellipse fits in size only', 0],
-    // Robots turn by up to π, where there are no exact statistics.
+    // After 3 s the robots turn by up to π, where no exact statistics exist.
     [{ preset: 'straight', alpha3: 0.2, dt: 3 }, 'the ellipse fits in size only', 0],
   ])) {
-    await widget.evaluate((element, settings) => void Object.assign(element, settings), settings);
+    await widget.evaluate((element, settings) => void Object.assign(element, settings), changedSettings);
     await expect(panelTitle).toHaveText(`On the floor: ${fitText}`);
     expect(await countCalloutsOf(widget)).toBe(expectedCallouts);
   }

@@ -3,30 +3,30 @@ import { REDUCED_MOTION, readBananaResults, readCentre, dragSlider, waitForFrame
 
 test.use(REDUCED_MOTION);
 
-/** Attribute for a bent cloud, on which every α has an effect. */
+/** Attribute for a bent cloud, in which every α has an effect. */
 const GENTLE_PRESET = 'preset="gentle"';
 
 /** Returns the fraction of the robots that are inside the view of exponential coordinates. @param {import('@playwright/test').Locator} widget @returns {Promise<number>} */
 const visibleTwistShareOf = (widget) => widget.evaluate((element) => {
   const { twists, pictures } = /** @type {any} */ (element);
   const { xMin, xMax, yMin, yMax } = pictures[1].view.extent;
-  const isInView = (/** @type {number} */ along, /** @type {number} */ i) =>
-    i % 3 === 0 && along >= xMin && along <= xMax && twists[i + 2] >= yMin && twists[i + 2] <= yMax;
+  const isInView = (/** @type {number} */ twistCoordinate, /** @type {number} */ i) =>
+    i % 3 === 0 && twistCoordinate >= xMin && twistCoordinate <= xMax && twists[i + 2] >= yMin && twists[i + 2] <= yMax;
   return twists.filter(isInView).length / (twists.length / 3);
 });
 
 test('a drag keeps the scale under the handle, and that view zooms out after it', async ({ page }) => {
   const widget = await openBanana(page, 'preset="banana"');
-  const handle = widget.getByRole('slider', { name: 'End of the commanded arc' });
+  const arcEndHandle = widget.getByRole('slider', { name: 'End of the commanded arc' });
   const readViewExtent = () => widget.evaluate((element) => ({ .../** @type {any} */ (element).pictures[0].view.extent }));
-  const handleBefore = await readCentre(handle);
+  const handleBefore = await readCentre(arcEndHandle);
   const extentBefore = await readViewExtent();
   await page.mouse.move(handleBefore.x, handleBefore.y);
   await page.mouse.down();
   for (const [dx, dy] of [[-40, 60], [-90, 120]]) {
     await page.mouse.move(handleBefore.x + dx, handleBefore.y + dy, { steps: 8 });
     await waitForFrames(page);
-    const { x, y } = await readCentre(handle);
+    const { x, y } = await readCentre(arcEndHandle);
     expect(Math.hypot(x - handleBefore.x - dx, y - handleBefore.y - dy)).toBeLessThan(2);
     expect(await readViewExtent()).toEqual(extentBefore);
     expect(await visibleTwistShareOf(widget)).toBeGreaterThan(0.95);
@@ -39,7 +39,7 @@ test('a drag keeps the scale under the handle, and that view zooms out after it'
   expect(extentAfter.yMin).toBeLessThanOrEqual(extentBefore.yMin);
   expect(extentAfter.xMax).toBeGreaterThanOrEqual(extentBefore.xMax);
   expect(extentAfter.yMax).toBeGreaterThanOrEqual(extentBefore.yMax);
-  // A smaller cloud does not zoom in, but a preset fits the view again.
+  // A smaller cloud does not zoom the view in. A preset fits the view again.
   await dragSlider(widget.locator('#dt'), 0.05);
   await waitForFrames(page);
   expect(await readViewExtent()).toEqual(extentAfter);
@@ -54,13 +54,13 @@ test('the view of exponential coordinates shows most robots also if turns near 2
 
 test('Home and End move the end of the arc to the ends of v, and no key scrolls the page', async ({ page }) => {
   const widget = await openBanana(page, 'style="margin-bottom: 3000px"');
-  const handle = widget.locator('.handle');
-  await handle.focus();
+  const arcEndHandle = widget.locator('.handle');
+  await arcEndHandle.focus();
   await page.evaluate(() => scrollTo(0, 100));
-  for (const [key, v] of /** @type {const} */ ([['End', 1.5], ['Home', -1.5], ['PageDown', undefined], ['ArrowDown', undefined]])) {
-    await page.keyboard.press(key);
+  for (const [keyName, expectedSpeed] of /** @type {const} */ ([['End', 1.5], ['Home', -1.5], ['PageDown', undefined], ['ArrowDown', undefined]])) {
+    await page.keyboard.press(keyName);
     const { command } = (await readBananaResults(widget)).config;
-    if (v) expect(command.v).toBeCloseTo(v, 1);
+    if (expectedSpeed) expect(command.v).toBeCloseTo(expectedSpeed, 1);
   }
   expect(await page.evaluate(() => scrollY)).toBe(100);
 });
@@ -96,7 +96,7 @@ test('the chart sets ω by pointer and by keyboard', async ({ page }) => {
 });
 
 test('a dragged α moves the same robots, once a frame', async ({ page }) => {
-  // All samples are in the first block, so that no later one changes the statistics.
+  // All samples are in the first block, so that no later block changes the statistics.
   const widget = await openBananaWithDisclosures(page, `${GENTLE_PRESET} samples="20000"`);
   const resultsBefore = await readBananaResults(widget);
   const pictureBefore = await readPicture(widget.locator('canvas.plane'));
@@ -114,10 +114,10 @@ test('a dragged α moves the same robots, once a frame', async ({ page }) => {
   const statsChangeCount = await widget.evaluate(async (element) => {
     let statsEventCount = 0;
     element.addEventListener('stats', () => statsEventCount++);
-    const slider = /** @type {HTMLInputElement} */ (element.shadowRoot?.querySelector('#alpha1'));
+    const alpha1Slider = /** @type {HTMLInputElement} */ (element.shadowRoot?.querySelector('#alpha1'));
     for (const alphaText of ['0.06', '0.07', '0.08', '0.09']) {
-      slider.value = alphaText;
-      slider.dispatchEvent(new Event('input', { bubbles: true, composed: true }));
+      alpha1Slider.value = alphaText;
+      alpha1Slider.dispatchEvent(new Event('input', { bubbles: true, composed: true }));
     }
     await /** @type {{ settled: Promise<void> }} */ (/** @type {unknown} */ (element)).settled;
     return statsEventCount;
@@ -134,7 +134,6 @@ test('Isolate leaves one α in effect, shows the others as off, and lets go agai
   await expect(widget.locator('.slider .value', { hasText: 'off' })).toHaveCount(5);
   await widget.getByRole('radio', { name: 'Only α₁' }).check();
   expect((await readBananaResults(widget)).config.isolate).toBe(1);
-  // Moving the slider of another α selects that α.
   await widget.getByRole('slider', { name: 'α3' }).fill('0.06');
   const { config } = await readBananaResults(widget);
   expect(config).toMatchObject({ isolate: 3, alphas: resultsBefore.config.alphas.with(2, 0.06) });
@@ -146,17 +145,17 @@ test('Isolate leaves one α in effect, shows the others as off, and lets go agai
 test('no slider moves under the finger when there is something to note', async ({ page }) => {
   await page.setViewportSize({ width: 375, height: 812 });
   const widget = await openBananaWithDisclosures(page, GENTLE_PRESET);
-  const slider = widget.locator('#omega');
+  const omegaSlider = widget.locator('#omega');
   const chapterNote = widget.locator('.note');
   const readSliderTop = async () => {
     await waitForFrames(page);
-    return slider.evaluate((element) => element.getBoundingClientRect().top + scrollY);
+    return omegaSlider.evaluate((element) => element.getBoundingClientRect().top + scrollY);
   };
   const topBefore = await readSliderTop();
   await widget.getByLabel('Isolate one').check();
   await expect(chapterNote).toContainText('they lie on a line');
   expect(Math.abs((await readSliderTop()) - topBefore)).toBeLessThan(0.5);
-  await slider.fill('0');
+  await omegaSlider.fill('0');
   await expect(chapterNote).toContainText('no noise at all');
   expect(Math.abs((await readSliderTop()) - topBefore)).toBeLessThan(0.5);
 });

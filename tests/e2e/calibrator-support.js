@@ -18,7 +18,7 @@ import { mountFigure, waitUntilSettled } from './support.js';
 /** Opens a page with the figure, and waits until its log is fitted. @param {Page} page @param {string} [attributes] */
 export async function openCalibrator(page, attributes) {
   const widget = await mountFigure(page, 'alpha-calibrator', {
-    attributes, script: ['motion-widgets', 'de'].map((name) => `<script type="module" src="/${name}.js"></script>`).join(''),
+    attributes, script: ['motion-widgets', 'de'].map((scriptName) => `<script type="module" src="/${scriptName}.js"></script>`).join(''),
   });
   await waitUntilSettled(widget);
   return widget;
@@ -26,38 +26,38 @@ export async function openCalibrator(page, attributes) {
 
 export const captionOf = (/** @type {Locator} */ widget) => widget.locator('p[part=caption]');
 export const alphaRowsOf = (/** @type {Locator} */ widget) => widget.locator('.alphas tbody tr');
-export const findFoldedGroup = (/** @type {Locator} */ widget, /** @type {string} */ name) => widget.locator('.folded fieldset', { has: widget.page().locator('> legend', { hasText: name }) });
+export const findFoldedGroup = (/** @type {Locator} */ widget, /** @type {string} */ groupName) => widget.locator('.folded fieldset', { has: widget.page().locator('> legend', { hasText: groupName }) });
 export const readStats = (/** @type {Locator} */ widget) => widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).simulation.stats);
 
-/** Returns two tables of the simulated drive, as a user's files have them. @param {Locator} widget */
+/** Returns two tables of the simulated drive, in the form of a user's files. @param {Locator} widget */
 export const simulatedTablesOf = (widget) =>
   widget.evaluate((element) => {
     const { legs } = /** @type {AlphaCalibratorElement} */ (element).simulation;
-    const tableOfPoses = (/** @type {Float64Array} */ poses) =>
-      ['t,x,y,yaw', ...Array.from({ length: legs.count }, (_, leg) => [legs.times[2 * leg], ...poses.subarray(6 * leg, 6 * leg + 3)].join(','))].join('\n');
+    const tableOfPoses = (/** @type {Float64Array} */ legPoses) =>
+      ['t,x,y,yaw', ...Array.from({ length: legs.count }, (_, legIndex) => [legs.times[2 * legIndex], ...legPoses.subarray(6 * legIndex, 6 * legIndex + 3)].join(','))].join('\n');
     return { odometry: tableOfPoses(legs.odometry), reference: tableOfPoses(legs.reference) };
   });
 
-/** Chooses a recording, as a user does. @param {Locator} widget @param {string} name @param {Buffer} buffer */
-export const chooseRecording = (widget, name, buffer) =>
-  widget.locator('#log-files').setInputFiles({ name, mimeType: 'application/octet-stream', buffer });
+/** Chooses a recording in the file input. @param {Locator} widget @param {string} fileName @param {Buffer} recordingBytes */
+export const chooseRecording = (widget, fileName, recordingBytes) =>
+  widget.locator('#log-files').setInputFiles({ name: fileName, mimeType: 'application/octet-stream', buffer: recordingBytes });
 
-/** Chooses tables, as a user does. @param {Locator} widget @param {Record<string, string>} files */
-export async function chooseTables(widget, files) {
-  await widget.locator('#log-files').setInputFiles(Object.entries(files).map(([name, text]) => ({ name, mimeType: 'text/csv', buffer: Buffer.from(text) })));
+/** Chooses tables in the file input. @param {Locator} widget @param {Record<string, string>} textByName */
+export async function chooseTables(widget, textByName) {
+  await widget.locator('#log-files').setInputFiles(Object.entries(textByName).map(([name, tableText]) => ({ name, mimeType: 'text/csv', buffer: Buffer.from(tableText) })));
 }
 
 /** Returns a table of the example log. @param {'odometry' | 'reference'} name */
 export const readExampleTable = (name) => readFileSync(new URL(`../../examples/calibration/${name}.csv`, import.meta.url), 'utf8');
 
 /** Returns t, x, y and yaw of each row of a table of the example log. @param {'odometry' | 'reference'} name */
-export const exampleRowsOf = (name) => readExampleTable(name).trim().split('\n').slice(1).map((line) => line.split(',').map(Number));
+export const exampleRowsOf = (name) => readExampleTable(name).trim().split('\n').slice(1).map((csvLine) => csvLine.split(',').map(Number));
 
-/** Returns the example log as a recording. @param {string[]} topics that have the poses of the reference */
-export async function exampleRecordingWith(topics) {
-  const referenceMessages = topics.flatMap((topic) => exampleRowsOf('reference').map(([t, x, y, yaw]) => ({
-    topic, type: 'geometry_msgs/msg/PoseStamped', t, message: { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(x, y, yaw) },
+/** Returns the example log as a recording. @param {string[]} referenceTopics that have the poses of the reference */
+export async function exampleRecordingWith(referenceTopics) {
+  const referenceMessages = referenceTopics.flatMap((referenceTopic) => exampleRowsOf('reference').map(([t, x, y, yaw]) => ({
+    topic: referenceTopic, type: 'geometry_msgs/msg/PoseStamped', t, message: { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(x, y, yaw) },
   })));
   const odometryMessages = exampleRowsOf('odometry').map(([t, x, y, yaw]) => ({ topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometryMessageOf(t, x, y, yaw) }));
-  return recordingOf([...odometryMessages, ...referenceMessages].sort((one, other) => one.t - other.t), { compression: 'zstd', chunkSize: 100_000 });
+  return recordingOf([...odometryMessages, ...referenceMessages].sort((messageA, messageB) => messageA.t - messageB.t), { compression: 'zstd', chunkSize: 100_000 });
 }

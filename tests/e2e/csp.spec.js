@@ -9,12 +9,12 @@ const DIST_DIRECTORY = fileURLToPath(new URL('../../dist', import.meta.url));
 const STRICT_POLICY = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self'";
 
 /** @type {Awaited<ReturnType<typeof startServer>> | undefined} */
-let server;
+let policyServer;
 
 for (const { afterEach } of [test, testWithWarnings]) {
   afterEach(() => {
-    server?.close();
-    server = undefined;
+    policyServer?.close();
+    policyServer = undefined;
   });
 }
 
@@ -23,11 +23,11 @@ for (const { afterEach } of [test, testWithWarnings]) {
  *
  * @param {import('@playwright/test').Page} page
  * @param {string} policy
- * @param {string} path
+ * @param {string} pagePath
  * @returns {Promise<() => Promise<string[]>>} function that returns the violations so far
  */
-async function openUnderPolicy(page, policy, path) {
-  server = await startServer(DIST_DIRECTORY, { port: 0, headers: { 'content-security-policy': policy } });
+async function openUnderPolicy(page, policy, pagePath) {
+  policyServer = await startServer(DIST_DIRECTORY, { port: 0, headers: { 'content-security-policy': policy } });
   await page.addInitScript(() => {
     const policyViolations = /** @type {string[]} */ ([]);
     Object.assign(globalThis, { violations: policyViolations });
@@ -35,16 +35,16 @@ async function openUnderPolicy(page, policy, path) {
       policyViolations.push(`${effectiveDirective} ${blockedURI} ${sample}`);
     });
   });
-  await page.goto(server.address + path);
+  await page.goto(policyServer.address + pagePath);
   return () => page.evaluate(() => /** @type {any} */ (globalThis).violations);
 }
 
-/** Returns a policy that allows only the named Trusted Types policies. @param {string} names */
-const policyWithTrustedTypes = (names) => `${STRICT_POLICY}; require-trusted-types-for 'script'; trusted-types ${names}`;
+/** Returns a policy that allows only the named Trusted Types policies. @param {string} policyNames */
+const policyWithTrustedTypes = (policyNames) => `${STRICT_POLICY}; require-trusted-types-for 'script'; trusted-types ${policyNames}`;
 
 test('a figure asks for nothing that a strict policy forbids, beside a Lit of the page that has its own Trusted Types policy', async ({ page, figureName }) => {
-  // A copy of Lit that the page loads before the figures makes this policy.
-  await page.addInitScript(() => void Reflect.get(window, 'trustedTypes').createPolicy('lit-html', { createHTML: (/** @type {string} */ text) => text }));
+  // A copy of Lit that the page loads before the figures makes this Trusted Types policy.
+  await page.addInitScript(() => void Reflect.get(window, 'trustedTypes').createPolicy('lit-html', { createHTML: (/** @type {string} */ htmlText) => htmlText }));
   const readViolations = await openUnderPolicy(page, policyWithTrustedTypes('lit-html motion-widgets'), `embed.html?widget=${figureName}`);
   const widget = page.locator(figureName);
   await waitUntilReady(widget);
@@ -61,7 +61,7 @@ testWithWarnings('a Trusted Types policy that is named as that of Lit is enough 
 });
 
 testWithWarnings('where no Trusted Types policy may be made, a sentence names the one that is missing @nightly', async ({ page }) => {
-  const consoleWarning = page.waitForEvent('console', (message) => message.type() === 'warning' && message.text().includes('lacks'));
+  const consoleWarning = page.waitForEvent('console', (consoleMessage) => consoleMessage.type() === 'warning' && consoleMessage.text().includes('lacks'));
   await openUnderPolicy(page, policyWithTrustedTypes("'none'"), 'embed.html?widget=banana-machine');
   const policyExplanation = "This page's Content-Security-Policy forbids the figure's templates: its trusted-types directive lacks motion-widgets.";
   await expect(page.locator('banana-machine')).toHaveText(`This interactive figure cannot run here. ${policyExplanation}`);
@@ -75,7 +75,7 @@ testWithWarnings('where WebAssembly is forbidden, a sentence names the directive
 
 testWithWarnings('where there is no WebAssembly, a sentence says that it cannot run, in the colours of the page', async ({ page }) => {
   const pageErrors = /** @type {Error[]} */ ([]);
-  page.on('pageerror', (error) => pageErrors.push(error));
+  page.on('pageerror', (pageError) => pageErrors.push(pageError));
   await page.addInitScript(() => void Reflect.deleteProperty(globalThis, 'WebAssembly'));
   const pageHtml = '<style>body { background: #123; color: #eee }</style><script type="module" src="./motion-widgets.js"></script><banana-machine></banana-machine>';
   await page.route('**/dark.html', (route) => route.fulfill({ contentType: 'text/html', body: pageHtml }));
@@ -84,7 +84,7 @@ testWithWarnings('where there is no WebAssembly, a sentence says that it cannot 
   await expect(widget.getByRole('alert')).toContainText('This interactive figure cannot run here.');
   expect(pageErrors).toEqual([]);
   const schemesAndGrounds = await widget.evaluate(async (element) => {
-    // A figure that is not visible yet has the same colours.
+    // A figure that is not visible yet has the same colours as a visible one.
     const farFigure = /** @type {HTMLElement} */ (element.cloneNode());
     farFigure.style.marginTop = '5000px';
     document.body.append(farFigure);
@@ -102,7 +102,7 @@ testWithWarnings('where the module in a file of its own is forbidden, the embedd
   await page.route('**/external.html', (route) =>
     route.fulfill({ contentType: 'text/html', headers: { 'content-security-policy': STRICT_POLICY }, body: pageHtml }),
   );
-  const consoleWarning = page.waitForEvent('console', (message) => message.type() === 'warning');
+  const consoleWarning = page.waitForEvent('console', (consoleMessage) => consoleMessage.type() === 'warning');
   await openUnderPolicy(page, STRICT_POLICY, 'external.html');
   await expect(page.locator('banana-machine canvas').first()).toBeVisible();
   expect((await consoleWarning).text()).toMatch(/\.wasm cannot be fetched .*connect-src/);

@@ -9,7 +9,7 @@ import { REDUCED_MOTION, dragSlider, waitForFrames, mountFigure, readPicture, co
 
 test.use(REDUCED_MOTION);
 
-/** Opens a page with the figure, and waits for all of its robots. @param {Page} page @param {string} [attributes] */
+/** Opens a page with a Dead Reckoning, and waits for all its robots. @param {Page} page @param {string} [attributes] */
 async function openDeadReckoning(page, attributes) {
   const widget = await mountFigure(page, 'dead-reckoning', { attributes });
   await waitUntilSettled(widget);
@@ -22,14 +22,14 @@ const captionOf = (/** @type {Locator} */ widget) => widget.locator('p[part=capt
 const plotOf = (/** @type {Locator} */ widget) => widget.locator('.ratios svg.plot');
 
 /**
- * Returns for each component the steps whose prediction is off by more than 5 %, as text.
+ * Returns the steps whose prediction is off by more than 5 %, as text for each component.
  *
  * @param {Locator} widget
- * @param {number} [recursion] index of its column
+ * @param {number} [recursionColumn] index of its column
  */
-async function readMissedSteps(widget, recursion = 0) {
+async function readMissedSteps(widget, recursionColumn = 0) {
   await openDisclosures(widget);
-  return Promise.all([0, 2, 4].map((row) => widget.locator('.folds tbody tr').nth(row).locator('td').nth(recursion).textContent()));
+  return Promise.all([0, 2, 4].map((tableRow) => widget.locator('.folds tbody tr').nth(tableRow).locator('td').nth(recursionColumn).textContent()));
 }
 
 test('opens with the chapter’s 6 % along the track, and says that the lateral variance misses more before', async ({ page }) => {
@@ -119,7 +119,7 @@ test('presets are paths, and tell which one it is', async ({ page }) => {
 
 test('more steps are shorter ones of the same path, seen from the same place', async ({ page }) => {
   const widget = await openDeadReckoning(page, 'step="10" samples="1000"');
-  const commandedEndOf = (/** @type {Locator} */ figure) => figure.evaluate((element) => [.../** @type {DeadReckoningElement} */ (element).simulation.commanded.slice(-2)]);
+  const commandedEndOf = (/** @type {Locator} */ deadReckoning) => deadReckoning.evaluate((element) => [.../** @type {DeadReckoningElement} */ (element).simulation.commanded.slice(-2)]);
   const [xBefore, yBefore] = await commandedEndOf(widget);
   await dragSlider(widget.locator('#steps'), 0.5);
   await waitUntilSettled(widget);
@@ -175,7 +175,7 @@ test('CSV has a row a step', async ({ page }) => {
   const [, headerLine, ...dataLines] = csvLines;
   const columnNames = headerLine.split(',');
   expect(dataLines).toHaveLength(20);
-  const valueAt = (/** @type {number} */ row, /** @type {string} */ name) => Number(dataLines[row].split(',')[columnNames.indexOf(name)]);
+  const valueAt = (/** @type {number} */ lineIndex, /** @type {string} */ name) => Number(dataLines[lineIndex].split(',')[columnNames.indexOf(name)]);
   expect(valueAt(0, 'step')).toBe(1);
   expect(valueAt(4, 'measured_lateral_m2')).toBe(measured[13]);
   expect(valueAt(19, 'first_order_heading_rad2')).toBe(predicted[59]);
@@ -185,12 +185,12 @@ test('CSV has a row a step', async ({ page }) => {
 test('a million robots answer with a block at once, and the others follow', async ({ page }) => {
   const widget = await openDeadReckoning(page);
   const [countInFirstBlock, finalCount] = await widget.evaluate(async (element) => {
-    const figure = /** @type {any} */ (element);
-    await figure.settled;
-    Object.assign(figure, { samples: 1_000_000 });
-    const { n } = figure.stats;
-    await figure.settled;
-    return [n, figure.stats.n];
+    const deadReckoning = /** @type {any} */ (element);
+    await deadReckoning.settled;
+    Object.assign(deadReckoning, { samples: 1_000_000 });
+    const { n } = deadReckoning.stats;
+    await deadReckoning.settled;
+    return [n, deadReckoning.stats.n];
   });
   expect(countInFirstBlock).toBeLessThan(1_000_000);
   expect(finalCount).toBe(1_000_000);

@@ -16,11 +16,11 @@ test('attributes of every kind say how the figure opens', async ({ page }) => {
      <map-squeeze preset="wall" x="3.25" noise="0.2" conditioned="false" sampler="sub-stepped" steps="4"
        clearance="0.2" samples="77" seed="5" view="close"></map-squeeze>`,
   );
-  const [banana, squeeze] = TWO_NAMES.map((name) => page.locator(name));
-  await waitUntilReady(banana);
-  await squeeze.scrollIntoViewIfNeeded();
-  await waitUntilReady(squeeze);
-  const config = await banana.evaluate((element) => Reflect.get(element, 'simulation').config);
+  const [bananaWidget, squeezeWidget] = TWO_NAMES.map((figureName) => page.locator(figureName));
+  await waitUntilReady(bananaWidget);
+  await squeezeWidget.scrollIntoViewIfNeeded();
+  await waitUntilReady(squeezeWidget);
+  const config = await bananaWidget.evaluate((element) => Reflect.get(element, 'simulation').config);
   expect(config).toMatchObject({
     model: 'odometry',
     noise: 'triangular',
@@ -30,8 +30,8 @@ test('attributes of every kind say how the figure opens', async ({ page }) => {
     seed: 11,
   });
   expect(config.alphas[3]).toBe(0.125);
-  expect(await readProperty(banana, 'overlays')).toEqual(['command', 'linearized']);
-  expect(await squeeze.evaluate((element) => Reflect.get(element, 'simulation').config)).toMatchObject({
+  expect(await readProperty(bananaWidget, 'overlays')).toEqual(['command', 'linearized']);
+  expect(await squeezeWidget.evaluate((element) => Reflect.get(element, 'simulation').config)).toMatchObject({
     start: { x: 3.25, y: 2.6, theta: Math.PI / 2 },
     alphas: [0.2, 0.2, 0.2, 0.2, 0.05, 0.05],
     conditioned: false,
@@ -41,7 +41,7 @@ test('attributes of every kind say how the figure opens', async ({ page }) => {
     samples: 77,
     seed: 5,
   });
-  expect(await readProperty(squeeze, 'view')).toBe('close');
+  expect(await readProperty(squeezeWidget, 'view')).toBe('close');
   expect((await takeEvents(page)).map(({ name, target }) => [name, target])).toEqual(TWO_NAMES.map((name) => ['load', name]));
 });
 
@@ -53,7 +53,7 @@ test('attributes stay as written until a setting changes, and then reflect it', 
   const readAttributes = (/** @type {import('@playwright/test').Locator} */ widget) =>
     widget.evaluate((element) => Object.fromEntries([...element.attributes].map(({ name, value }) => [name, value])));
   expect(await readAttributes(banana)).toEqual({ preset: 'hard', seed: '3' });
-  // Reflected values of the preset "hard", which no longer applies.
+  // The preset "hard" does not apply after a change. Its values are then reflected as attributes.
   const alphaAttributes = { alpha1: '0.05', alpha2: '0.05', alpha3: '0.05', alpha4: '0.09', alpha5: '0.01', alpha6: '0.01' };
   await banana.locator('#v').fill('0.5');
   await waitForFrames(page);
@@ -85,10 +85,10 @@ test('attributes follow the controls of a figure, and lead back to the default w
   await widget.locator(`#${sliderId}`).fill(String(firstValue));
   await expect(widget).toHaveAttribute(sliderId, String(firstValue));
   expect(await readProperty(widget, sliderId)).toBe(firstValue);
-  await widget.evaluate((element, [key, value]) => element.setAttribute(key, value), [sliderId, String(secondValue)]);
+  await widget.evaluate((element, [attributeName, attributeText]) => element.setAttribute(attributeName, attributeText), [sliderId, String(secondValue)]);
   expect(await readProperty(widget, sliderId)).toBe(secondValue);
   await expect(widget.locator(`#${sliderId}`)).toHaveValue(String(secondValue));
-  await widget.evaluate((element, key) => element.removeAttribute(key), sliderId);
+  await widget.evaluate((element, attributeName) => element.removeAttribute(attributeName), sliderId);
   expect(await readProperty(widget, sliderId)).toBe(defaultValue);
 });
 
@@ -128,7 +128,7 @@ test('elements in the table of doc/embedding/figures.md have the attributes that
   expect(await takeEvents(page, ['error'])).toEqual([]);
 });
 
-/** Values of state fields that no attribute can set, or that one attribute sets together. */
+/** Values of state fields that no attribute can set, or that several settings of one attribute form. */
 const VALUES_WITHOUT_ATTRIBUTES = { 'map-squeeze': { map: null, alphas: [0.2, 0.2, 0.2, 0.2, 0.05, 0.05] } };
 
 testEach('code to embed opens the settings of a state, with its attributes in any order', async (page, name, isFull) => {
@@ -136,7 +136,7 @@ testEach('code to embed opens the settings of a state, with its attributes in an
   const widget = page.locator(name).first();
   await waitUntilReady(widget);
   for (const seed of isFull ? STATE_SEEDS : STATE_SEEDS.slice(0, 2)) {
-    const state = { ...randomStates(seed)[name], ...Reflect.get(VALUES_WITHOUT_ATTRIBUTES, name) };
+    const randomState = { ...randomStates(seed)[name], ...Reflect.get(VALUES_WITHOUT_ATTRIBUTES, name) };
     const [originalConfig, ...copiedConfigs] = await widget.evaluate(async (element, newState) => {
       /** @type {any} */ (element).setState(newState);
       const codeContainer = document.createElement('div');
@@ -144,17 +144,17 @@ testEach('code to embed opens the settings of a state, with its attributes in an
       const embeddedCopy = /** @type {HTMLElement} */ (codeContainer.firstElementChild);
       const reorderedCopy = document.createElement(element.localName);
       for (const { name, value } of [...embeddedCopy.attributes].reverse()) reorderedCopy.setAttribute(name, value);
-      const loadPromises = [embeddedCopy, reorderedCopy].map((copy) => new Promise((resolve) => copy.addEventListener('load', resolve)));
+      const loadPromises = [embeddedCopy, reorderedCopy].map((figureCopy) => new Promise((resolve) => figureCopy.addEventListener('load', resolve)));
       // A figure in the window starts at once.
-      for (const copy of [embeddedCopy, reorderedCopy]) copy.style.cssText = 'position: fixed; inset: 0';
+      for (const figureCopy of [embeddedCopy, reorderedCopy]) figureCopy.style.cssText = 'position: fixed; inset: 0';
       element.before(embeddedCopy, reorderedCopy);
       await Promise.all(loadPromises);
-      // After a change of its state, a calibrator fits its log in later frames.
+      // After a change of its state, a calibrator fits its log in one of the next frames.
       while (/** @type {any} */ (element).isBusy) await new Promise(requestAnimationFrame);
-      const figureConfigs = [element, embeddedCopy, reorderedCopy].map((figure) => /** @type {AnyElement} */ (figure).simulation.config);
+      const figureConfigs = [element, embeddedCopy, reorderedCopy].map((figureElement) => /** @type {AnyElement} */ (figureElement).simulation.config);
       for (const copy of [embeddedCopy, reorderedCopy]) copy.remove();
       return figureConfigs;
-    }, /** @type {any} */ (state));
+    }, /** @type {any} */ (randomState));
     for (const copiedConfig of copiedConfigs) expect(copiedConfig, `seed ${seed}`).toEqual(originalConfig);
   }
   expect(await takeEvents(page, ['error'])).toEqual([]);
@@ -185,17 +185,17 @@ test('properties that were set before the element was defined are taken up, in a
       ['dead-reckoning', { step: 30, steps: 40 }, ['step', 'steps']],
       ['map-squeeze', { marked: 3, start: { x: 3, y: 1, theta: 0 }, map }, ['marked', 'start']],
     ]);
-    const figures = propertyCases.flatMap(([tag, values]) => [Object.entries(values), Object.entries(values).reverse()].map((entries) =>
-      Object.assign(document.createElement(tag), Object.fromEntries(entries))));
-    const loadPromises = figures.map((figure) => new Promise((resolve) => figure.addEventListener('load', resolve)));
+    const figureElements = propertyCases.flatMap(([widgetTag, propertyValues]) => [Object.entries(propertyValues), Object.entries(propertyValues).reverse()].map((propertyEntries) =>
+      Object.assign(document.createElement(widgetTag), Object.fromEntries(propertyEntries))));
+    const loadPromises = figureElements.map((figureElement) => new Promise((resolve) => figureElement.addEventListener('load', resolve)));
     await import(/** @type {any} */ ('/motion-widgets.js'));
-    for (const figure of figures) figure.style.cssText = 'position: fixed; inset: 0';
-    document.body.append(...figures);
+    for (const figure of figureElements) figure.style.cssText = 'position: fixed; inset: 0';
+    document.body.append(...figureElements);
     await Promise.all(loadPromises);
     const namesByFigure = propertyCases.flatMap(([, , checkedNames]) => [checkedNames, checkedNames]);
-    return figures.map((figure, i) => namesByFigure[i].map((name) => Reflect.get(figure, name)));
+    return figureElements.map((figure, i) => namesByFigure[i].map((name) => Reflect.get(figure, name)));
   });
-  const repeatTwice = (/** @type {unknown[]} */ values) => [values, values];
+  const repeatTwice = (/** @type {unknown[]} */ repeatedValues) => [repeatedValues, repeatedValues];
   expect(propertyValues).toEqual([
     ...repeatTwice([3, [0.1, 0.1, 0.1, 0.1, 0, 0], ['ellipse'], 'dark']),
     ...repeatTwice([0.7, 1, 1.4, [0.1, 0.3, 0.1, 0.1]]),
@@ -208,11 +208,11 @@ test('properties that were set before the element was defined are taken up, in a
 
 test('properties that are assigned their own value change nothing @nightly', async ({ page, figureName }) => {
   const widget = await mountFigure(page, figureName);
-  await widget.evaluate((element, state) => /** @type {any} */ (element).setState(state), /** @type {any} */ (randomStates(2)[figureName]));
+  await widget.evaluate((element, newState) => /** @type {any} */ (element).setState(newState), /** @type {any} */ (randomStates(2)[figureName]));
   await takeEvents(page, ['stats']);
-  const assignedCount = await widget.evaluate((element, keys) => {
+  const assignedCount = await widget.evaluate((element, propertyKeys) => {
     const figure = /** @type {any} */ (element);
-    const propertyNames = keys.filter((key) => key in figure && key !== 'playing');
+    const propertyNames = propertyKeys.filter((key) => key in figure && key !== 'playing');
     for (const key of propertyNames) figure[key] = structuredClone(figure[key]);
     for (const { name, value } of [...element.attributes]) element.setAttribute(name, value);
     return propertyNames.length;
@@ -238,12 +238,12 @@ test('properties that are refused fire an error event that does not bubble, and 
   const firedMessages = await widget.evaluate((element) => {
     const firedMessages = /** @type {string[]} */ ([]);
     for (const target of [window, document, document.body]) target.addEventListener('error', () => firedMessages.push('above'));
-    element.addEventListener('error', (event) => firedMessages.push(/** @type {ErrorEvent} */ (event).message));
+    element.addEventListener('error', (errorEvent) => firedMessages.push(/** @type {ErrorEvent} */ (errorEvent).message));
     Object.assign(element, { omega: NaN });
     return firedMessages;
   });
   expect(firedMessages).toEqual(['command.omega is NaN; allowed is a number from -1000000 to 1000000']);
-  // On a page without listeners, the error is printed as a warning.
+  // A page without listeners for errors gets a warning in the console.
   const otherPage = await page.context().newPage();
   await otherPage.goto('/embed.html?widget=banana-machine');
   const warningPromise = otherPage.waitForEvent('console', (message) => message.type() === 'warning');

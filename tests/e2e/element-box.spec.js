@@ -5,7 +5,7 @@ import { NEW_PAGE_TAG, REDUCED_MOTION, readBox, waitForFrames, mountFigure, show
 
 test.use(REDUCED_MOTION);
 
-/** Preferred width of a figure in CSS pixels: see `preferredWidth`. */
+/** Preferred width of a figure in CSS pixels, equal to `preferredWidth`. */
 const PREFERRED_WIDTH = 44 * 16;
 
 /** HTML of containers in which the width of an element, the X, may depend on its contents. @type {Record<string, string>} */
@@ -28,38 +28,38 @@ const CONTAINERS_BY_NAME = {
 };
 
 test('a figure is as wide as it prefers, or as there is room, in every kind of box, before its script and after', NEW_PAGE_TAG, async ({ page, figureName }) => {
-  const containerSections = Object.entries(CONTAINERS_BY_NAME).map(([box, html]) => {
-    const containerHtml = html === 'X' ? '<X></X>' : html;
-    return `<section data-box="${box}" style="display: flow-root">${containerHtml.replace('<X', `<${figureName}`).replace('</X>', `</${figureName}>`)}</section>`;
+  const containerSections = Object.entries(CONTAINERS_BY_NAME).map(([containerName, htmlPattern]) => {
+    const containerHtml = htmlPattern === 'X' ? '<X></X>' : htmlPattern;
+    return `<section data-box="${containerName}" style="display: flow-root">${containerHtml.replace('<X', `<${figureName}`).replace('</X>', `</${figureName}>`)}</section>`;
   });
   const pageHead = '<link rel="stylesheet" href="/motion-widgets.css"><style>body { margin: 0; font: 16px/1.5 sans-serif }</style>';
-  const findWrongWidths = async (/** @type {number} */ width) => {
-    await page.setViewportSize({ width, height: 900 });
+  const findWrongWidths = async (/** @type {number} */ pageWidth) => {
+    await page.setViewportSize({ width: pageWidth, height: 900 });
     await waitForFrames(page);
     const figureWidths = await page.locator(figureName).evaluateAll((figureElements) =>
       figureElements.map((element) => [/** @type {HTMLElement} */ (element.closest('section')).dataset.box ?? '', element.getBoundingClientRect().width]));
     expect(figureWidths).toHaveLength(containerSections.length);
-    return figureWidths.filter(([, figureWidth]) => Number(figureWidth) > width + 0.5 || Number(figureWidth) < Math.min(PREFERRED_WIDTH, width) - 0.5);
+    return figureWidths.filter(([, figureWidth]) => Number(figureWidth) > pageWidth + 0.5 || Number(figureWidth) < Math.min(PREFERRED_WIDTH, pageWidth) - 0.5);
   };
   for (const scriptTag of ['', '<script type="module" src="/motion-widgets.js"></script>']) {
     await showPage(page, containerSections.join(''), { head: pageHead, script: scriptTag });
-    if (scriptTag) await page.waitForFunction((tag) => customElements.get(tag) !== undefined, figureName);
+    if (scriptTag) await page.waitForFunction((widgetTag) => customElements.get(widgetTag) !== undefined, figureName);
     for (const w of [320, 600, 1280]) expect.soft(await findWrongWidths(w), `${scriptTag ? 'defined' : 'not defined'}, ${w} px`).toEqual([]);
   }
 });
 
-/** Returns the bounding boxes of all parts of a figure, in em. @param {Page} page @param {string} name @param {number} em CSS pixels */
-const partBoxesOf = (page, name, em) =>
-  page.locator(name).evaluate(
-    (element, size) => {
+/** Returns the bounding boxes of all parts of a figure, in em. @param {Page} page @param {string} figureName @param {number} pixelsPerEm CSS pixels */
+const partBoxesOf = (page, figureName, pixelsPerEm) =>
+  page.locator(figureName).evaluate(
+    (element, emPixels) => {
       const elementBox = element.getBoundingClientRect();
-      return [...(element.shadowRoot?.querySelectorAll('.surface *') ?? [])].map((child) => {
-        const { left, top, width, height } = child.getBoundingClientRect();
-        const boxInEm = [left - elementBox.left, top - elementBox.top, width, height].map((pixels) => pixels / size);
-        return { part: `${child.localName}.${child.getAttribute('class')}`, numbers: boxInEm };
+      return [...(element.shadowRoot?.querySelectorAll('.surface *') ?? [])].map((partElement) => {
+        const { left, top, width, height } = partElement.getBoundingClientRect();
+        const boxInEm = [left - elementBox.left, top - elementBox.top, width, height].map((boxPixels) => boxPixels / emPixels);
+        return { part: `${partElement.localName}.${partElement.getAttribute('class')}`, numbers: boxInEm };
       });
     },
-    em,
+    pixelsPerEm,
   );
 
 test('a figure is in proportion to the letters around it, whatever the font size of the root', async ({ page, figureName }) => {
@@ -78,7 +78,7 @@ test('a figure is in proportion to the letters around it, whatever the font size
   for (const { root, em, boxes } of otherLayouts) {
     expect(boxes.map(({ part }) => part)).toEqual(firstLayout.boxes.map(({ part }) => part));
     // Browsers round the widths of letters to pixels, so that boxes differ by up to a quarter of the font size.
-    const differingBoxes = boxes.filter(({ numbers }, i) => numbers.some((number, k) => Math.abs(number - firstLayout.boxes[i].numbers[k]) > 0.25));
+    const differingBoxes = boxes.filter(({ numbers }, i) => numbers.some((boxNumber, k) => Math.abs(boxNumber - firstLayout.boxes[i].numbers[k]) > 0.25));
     expect(differingBoxes, `${em} px, root ${root}`).toEqual([]);
   }
 });
@@ -90,26 +90,26 @@ test('the picture of a figure stays in sight on a phone, below the header of the
   });
   const widget = page.locator(figureName);
   await waitUntilReady(widget);
-  const picture = widget.locator('[part=picture]').first();
+  const pictureLocator = widget.locator('[part=picture]').first();
   await widget.locator('.slider input[type=range]').nth(1).evaluate((element) => element.scrollIntoView({ block: 'start' }));
   await waitForFrames(page);
-  const { y, height } = await readBox(picture);
-  // The picture of the Banana Machine has a title with a verdict on the ellipse, which stays in sight too.
+  const { y, height } = await readBox(pictureLocator);
+  // The picture of the Banana Machine has a title with a verdict on the ellipse. The title stays in sight too.
   const topmostBox = figureName === 'banana-machine' ? await readBox(widget.locator('.panel-title').first()) : { y };
   expect(topmostBox.y).toBeCloseTo(56, 0);
   expect((await readBox(widget.locator('.slider input[type=range]').nth(1))).y).toBeGreaterThanOrEqual(y + height);
 });
 
-for (const name of ['map-squeeze', 'dead-reckoning']) {
-  test(`at 200 % zoom the picture of ${name} stays in sight and covers no slider`, async ({ page }) => {
+for (const figureName of ['map-squeeze', 'dead-reckoning']) {
+  test(`at 200 % zoom the picture of ${figureName} stays in sight and covers no slider`, async ({ page }) => {
     await page.setViewportSize({ width: 640, height: 400 });
-    await showPage(page, `<${name}></${name}><div style="height: 2000px"></div>`);
-    const widget = page.locator(name);
+    await showPage(page, `<${figureName}></${figureName}><div style="height: 2000px"></div>`);
+    const widget = page.locator(figureName);
     await waitUntilReady(widget);
-    for (const slider of await widget.locator('.slider input[type=range]').all()) {
-      await slider.evaluate((element) => element.scrollIntoView({ block: 'start' }));
+    for (const rangeInput of await widget.locator('.slider input[type=range]').all()) {
+      await rangeInput.evaluate((element) => element.scrollIntoView({ block: 'start' }));
       await waitForFrames(page);
-      expect(await slider.evaluate((element) => {
+      expect(await rangeInput.evaluate((element) => {
         const { left, top, width, height } = element.getBoundingClientRect();
         return /** @type {ShadowRoot} */ (element.getRootNode()).elementFromPoint(left + width / 2, top + height / 2) === element;
       })).toBe(true);
@@ -133,10 +133,10 @@ test('tables of a figure scroll over the picture that stays in sight, unless a h
   });
   expect(await isTableOnTop()).toBe(true);
   await widget.locator('#numbers button').last().focus();
-  const handle = widget.getByRole('slider', { name: 'selected step', exact: true });
-  await handle.press('ArrowLeft');
+  const stepHandle = widget.getByRole('slider', { name: 'selected step', exact: true });
+  await stepHandle.press('ArrowLeft');
   await waitForFrames(page);
-  expect(await handle.evaluate((element) => {
+  expect(await stepHandle.evaluate((element) => {
     const { left, top, width, height } = element.getBoundingClientRect();
     return /** @type {ShadowRoot} */ (element.getRootNode()).elementFromPoint(left + width / 2, top + height / 2)?.closest('#numbers') === null;
   })).toBe(true);
@@ -149,13 +149,13 @@ test.describe('on a screen with two pixels a CSS pixel', () => {
     await showPage(page, `<${figureName}></${figureName}>`);
     const widget = page.locator(figureName);
     await waitUntilReady(widget);
-    const pixelRatios = await widget.locator('canvas:visible').evaluateAll((canvases) => canvases.map((canvas) => /** @type {HTMLCanvasElement} */ (canvas).width / canvas.getBoundingClientRect().width));
+    const pixelRatios = await widget.locator('canvas:visible').evaluateAll((canvasElements) => canvasElements.map((canvasElement) => /** @type {HTMLCanvasElement} */ (canvasElement).width / canvasElement.getBoundingClientRect().width));
     expect(pixelRatios.length).toBeGreaterThan(0);
     for (const pixelRatio of pixelRatios) expect(pixelRatio).toBeCloseTo(2, 1);
   });
 });
 
-/** Sliders below texts of variable length: element, language, page width, slider, and values at which the texts are short or long. */
+/** Sliders below texts of variable length. Each entry has element, language, page width, slider, and the values at which the texts are short or long. */
 const SLIDERS_BELOW_TEXTS = /** @type {const} */ ([
   ['arc-anatomy', 'de', 375, 'v', ['1', '-0.25', '0.3']],
   ['alpha-calibrator', 'en', 375, 'angle', ['0.25', '0.96']],
@@ -168,11 +168,11 @@ const SLIDERS_BELOW_TEXTS = /** @type {const} */ ([
   ['banana-machine', 'en', 1280, 'alpha3', ['0.1', '0.05', '0.02', '0', '0.2']],
 ]);
 
-for (const [name, lang, width, sliderId, sliderValues] of SLIDERS_BELOW_TEXTS) {
-  test(`texts do not move the slider ${sliderId} while it is dragged, and do not overlap: ${name}, ${lang}, ${width} px @nightly`, async ({ page }) => {
-    await page.setViewportSize({ width, height: 900 });
+for (const [figureName, figureLanguage, pageWidth, sliderId, sliderValues] of SLIDERS_BELOW_TEXTS) {
+  test(`texts do not move the slider ${sliderId} while it is dragged, and do not overlap: ${figureName}, ${figureLanguage}, ${pageWidth} px @nightly`, async ({ page }) => {
+    await page.setViewportSize({ width: pageWidth, height: 900 });
     const scriptTag = ['motion-widgets', 'de'].map((scriptName) => `<script type="module" src="/${scriptName}.js"></script>`).join('');
-    const widget = await mountFigure(page, name, { attributes: `lang="${lang}"`, script: scriptTag, head: "<style>body { margin: 16px; font: 16px 'DejaVu Sans', Verdana }</style>" });
+    const widget = await mountFigure(page, figureName, { attributes: `lang="${figureLanguage}"`, script: scriptTag, head: "<style>body { margin: 16px; font: 16px 'DejaVu Sans', Verdana }</style>" });
     const sliderTops = [];
     for (const sliderValue of sliderValues) {
       await widget.locator(`#${sliderId}`).fill(sliderValue);
@@ -180,10 +180,10 @@ for (const [name, lang, width, sliderId, sliderValues] of SLIDERS_BELOW_TEXTS) {
       sliderTops.push(await widget.locator(`#${sliderId}`).evaluate((element) => element.getBoundingClientRect().top + scrollY));
     }
     expect(Math.max(...sliderTops) - Math.min(...sliderTops)).toBeLessThan(0.5);
-    const textBoxes = await widget.locator('.controls .slider [for], .controls .slider .value, .controls button').evaluateAll((elements) =>
-      elements.map((element) => ({ text: element.textContent, box: element.getBoundingClientRect() })).filter(({ box }) => box.width > 0));
-    const overlappingTexts = textBoxes.flatMap((one, i) => textBoxes.slice(i + 1).filter(({ box }) =>
-      box.left < one.box.right - 1 && box.right - 1 > one.box.left && box.top < one.box.bottom - 1 && box.bottom - 1 > one.box.top).map((other) => [one.text, other.text]));
+    const textBoxes = await widget.locator('.controls .slider [for], .controls .slider .value, .controls button').evaluateAll((textElements) =>
+      textElements.map((element) => ({ text: element.textContent, box: element.getBoundingClientRect() })).filter(({ box }) => box.width > 0));
+    const overlappingTexts = textBoxes.flatMap((textBox, i) => textBoxes.slice(i + 1).filter(({ box }) =>
+      box.left < textBox.box.right - 1 && box.right - 1 > textBox.box.left && box.top < textBox.box.bottom - 1 && box.bottom - 1 > textBox.box.top).map((otherBox) => [textBox.text, otherBox.text]));
     expect([textBoxes.length > 3, overlappingTexts]).toEqual([true, []]);
   });
 }

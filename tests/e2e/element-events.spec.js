@@ -7,8 +7,8 @@ import { REDUCED_MOTION, setProperty, readBox, readCentre, dragSlider, waitForFr
 
 test.use(REDUCED_MOTION);
 
-/** @param {{ name: string }[]} events */
-const eventNamesOf = (events) => events.map(({ name }) => name);
+/** @param {{ name: string }[]} recordedEvents */
+const eventNamesOf = (recordedEvents) => recordedEvents.map(({ name }) => name);
 
 test('a drag fires input at each step and one change at its end, composed, with the value', async ({ page }) => {
   await showPage(page, '<div id="host"></div>');
@@ -18,9 +18,9 @@ test('a drag fires input at each step and one change at its end, composed, with 
     const recordedEvents = /** @type {unknown[]} */ ([]);
     Object.assign(window, { all: recordedEvents });
     for (const name of ['input', 'change', 'load', 'stats']) {
-      document.addEventListener(name, (event) => {
-        const [eventOrigin] = event.composedPath();
-        recordedEvents.push([name, /** @type {Element} */ (eventOrigin).localName, Reflect.get(eventOrigin, 'v'), event.bubbles, event.composed]);
+      document.addEventListener(name, (recordedEvent) => {
+        const [eventOrigin] = recordedEvent.composedPath();
+        recordedEvents.push([name, /** @type {Element} */ (eventOrigin).localName, Reflect.get(eventOrigin, 'v'), recordedEvent.bubbles, recordedEvent.composed]);
       });
     }
   });
@@ -32,7 +32,7 @@ test('a drag fires input at each step and one change at its end, composed, with 
   await dragSlider(widget.locator('#v'), 0.75);
   await waitForFrames(page);
   const recordedEvents = await takeRecordedEvents();
-  // All recorded events come from the element itself, and none from a native control inside it.
+  // All recorded events come from the element itself. None comes from a native control inside the element.
   for (const [, eventOrigin, , bubbles, composed] of [...openingEvents, ...recordedEvents]) expect([eventOrigin, bubbles, composed]).toEqual(['banana-machine', true, true]);
   const gestureEvents = recordedEvents.filter(([name]) => name !== 'stats');
   expect(gestureEvents.length).toBeGreaterThan(3);
@@ -43,7 +43,7 @@ test('a drag fires input at each step and one change at its end, composed, with 
   expect(recordedEvents.some(([name]) => name === 'stats')).toBe(true);
 });
 
-/** Actions of a user other than dragging, with all folds open. @type {Record<Name, [string, (widget: Locator) => Promise<void>][]>} */
+/** Actions of a user other than dragging. All folds are open. @type {Record<Name, [string, (widget: Locator) => Promise<void>][]>} */
 const USER_ACTIONS = {
   'banana-machine': [
     ['preset', (widget) => widget.getByRole('button', { name: 'Hard arc' }).click()],
@@ -133,13 +133,13 @@ testEach('a frame after an input event calls the core at most six times, and a r
     const callsByFrame = /** @type {string[][]} */ ([[]]);
     Object.assign(element, { callsByFrame });
     const { prototype } = /** @type {import('./support.js').AnyElement} */ (element).simulation.constructor;
-    for (const [key, { get, value }] of Object.entries(Object.getOwnPropertyDescriptors(prototype))) {
-      const withRecordedCalls = (/** @type {Function} */ member) => /** @this {unknown} */ function (/** @type {any[]} */ ...given) {
-        /** @type {string[]} */ (callsByFrame.at(-1)).push(key);
-        return member.apply(this, given);
+    for (const [memberName, { get, value }] of Object.entries(Object.getOwnPropertyDescriptors(prototype))) {
+      const withRecordedCalls = (/** @type {Function} */ simulationMethod) => /** @this {unknown} */ function (/** @type {any[]} */ ...methodArguments) {
+        /** @type {string[]} */ (callsByFrame.at(-1)).push(memberName);
+        return simulationMethod.apply(this, methodArguments);
       };
-      if (get) Object.defineProperty(prototype, key, { get: withRecordedCalls(get) });
-      else if (!['constructor', '__destroy_into_raw'].includes(key)) Object.defineProperty(prototype, key, { value: withRecordedCalls(value) });
+      if (get) Object.defineProperty(prototype, memberName, { get: withRecordedCalls(get) });
+      else if (!['constructor', '__destroy_into_raw'].includes(memberName)) Object.defineProperty(prototype, memberName, { value: withRecordedCalls(value) });
     }
     const startNextFrame = () => {
       callsByFrame.push([]);
@@ -147,24 +147,24 @@ testEach('a frame after an input event calls the core at most six times, and a r
     };
     startNextFrame();
   });
-  // Returns the methods of the simulation that were called, as one list for each frame.
+  // Returns the called methods of the simulation, as one list for each frame.
   const takeCallsByFrame = async () => {
     await waitUntilSettled(widget);
     return widget.evaluate((element) => /** @type {string[][]} */ (Reflect.get(element, 'callsByFrame')).splice(0, Infinity, []));
   };
-  const slider = widget.locator(`#${FIGURE_FACTS[name].sliderId}`);
-  await slider.scrollIntoViewIfNeeded();
+  const figureSlider = widget.locator(`#${FIGURE_FACTS[name].sliderId}`);
+  await figureSlider.scrollIntoViewIfNeeded();
   await takeCallsByFrame();
-  const { x, y, width, height } = await readBox(slider);
-  const thumbShare = await slider.evaluate((input) => {
-    const { value, min, max } = /** @type {HTMLInputElement} */ (input);
+  const { x, y, width, height } = await readBox(figureSlider);
+  const thumbShare = await figureSlider.evaluate((rangeInput) => {
+    const { value, min, max } = /** @type {HTMLInputElement} */ (rangeInput);
     return (Number(value) - Number(min)) / (Number(max) - Number(min));
   });
   await page.mouse.move(x + thumbShare * width, y + height / 2);
   await page.mouse.down();
   await page.mouse.move(x + (thumbShare < 0.5 ? thumbShare + 0.1 : thumbShare - 0.1) * width, y + height / 2, { steps: 3 });
   const callsByFrame = await takeCallsByFrame();
-  const callsFromInputOn = callsByFrame.slice(callsByFrame.findIndex((frameCalls) => frameCalls.some((key) => key.startsWith('configure'))));
+  const callsFromInputOn = callsByFrame.slice(callsByFrame.findIndex((frameCalls) => frameCalls.some((calledMember) => calledMember.startsWith('configure'))));
   expect(Math.max(...callsFromInputOn.map(({ length }) => length)), `${name}: ${JSON.stringify(callsFromInputOn)}`).toBeLessThanOrEqual(6);
   expect(callsFromInputOn.flat(), name).toEqual(expect.arrayContaining([expect.stringMatching(/^configure/), 'read']));
   await page.mouse.up();
@@ -191,7 +191,7 @@ test('a handle that is dragged fires input at each step and one change', async (
   expect(eventNamesOf(await takeEvents(page))).toEqual(Array(4).fill('input'));
   await page.mouse.up();
   expect(eventNamesOf(await takeEvents(page))).toEqual(['change']);
-  // A handle that is pressed and released without a move fires nothing.
+  // A handle that is pressed and released without a move fires no event.
   await page.mouse.down();
   await page.mouse.up();
   expect(eventNamesOf(await takeEvents(page))).toEqual([]);
@@ -211,11 +211,11 @@ test('changes by the page fire stats alone, also out of sight', async ({ page, f
     expect(eventNamesOf(await takeEvents(page, ['load', 'input', 'change', 'error', 'stats'])), String(newValue)).toEqual(['stats']);
   }
   expect(await readState(widget)).toEqual(stateBefore);
-  await widget.evaluate((element, [attribute, newValue]) => element.setAttribute(attribute, String(newValue)), FIGURE_FACTS[figureName].otherSetting);
+  await widget.evaluate((element, [attributeName, newValue]) => element.setAttribute(attributeName, String(newValue)), FIGURE_FACTS[figureName].otherSetting);
   expect(eventNamesOf(await takeEvents(page, ['load', 'input', 'change', 'error', 'stats']))).toEqual(['stats']);
   const changedState = await readState(widget);
   expect(changedState).not.toEqual(stateBefore);
-  await widget.evaluate((element, state) => Reflect.get(element, 'setState').call(element, state), stateBefore);
+  await widget.evaluate((element, restoredState) => Reflect.get(element, 'setState').call(element, restoredState), stateBefore);
   expect(eventNamesOf(await takeEvents(page, ['load', 'input', 'change', 'error', 'stats']))).toEqual(['stats']);
   expect(await readState(widget)).toEqual(stateBefore);
 });
@@ -226,10 +226,10 @@ test('events report changes alone, whatever is drawn and asked', async ({ page, 
   await widget.locator('canvas.plane').hover({ position: { x: 100, y: 100 } });
   await page.emulateMedia({ colorScheme: 'dark' });
   await widget.evaluate((element) => {
-    const figure = /** @type {import('./support.js').AnyElement} */ (element);
-    figure.toSVG();
-    figure.toCSV();
-    figure.getState();
+    const figureElement = /** @type {import('./support.js').AnyElement} */ (element);
+    figureElement.toSVG();
+    figureElement.toCSV();
+    figureElement.getState();
   });
   expect(await takeEvents(page, ['input', 'change', 'stats'])).toEqual([]);
 });
@@ -239,20 +239,20 @@ test('an arrow key or a space that a control used goes no further; any other key
     'arc-anatomy': ['.handle.body.start', '#omega', 'input[type=radio] >> nth=0'],
     'banana-machine': ['#chart-omega', '.to-present'],
   };
-  for (const [name, selectors] of Object.entries(selectorsByFigure)) {
-    const widget = await mountFigure(page, name);
+  for (const [figureName, controlSelectors] of Object.entries(selectorsByFigure)) {
+    const widget = await mountFigure(page, figureName);
     await openDisclosures(widget);
     await page.evaluate(() => {
       const pressedKeys = /** @type {string[]} */ ([]);
       Object.assign(window, { keys: pressedKeys });
       addEventListener('keydown', ({ key }) => pressedKeys.push(key));
     });
-    for (const selector of selectors) {
-      await widget.locator(selector).focus();
-      const usedKeys = selector === '.to-present' ? ['Space'] : ['ArrowRight', 'ArrowLeft'];
+    for (const controlSelector of controlSelectors) {
+      await widget.locator(controlSelector).focus();
+      const usedKeys = controlSelector === '.to-present' ? ['Space'] : ['ArrowRight', 'ArrowLeft'];
       for (const key of [...usedKeys, 's', '/', 'Escape']) await page.keyboard.press(key);
       const passedKeys = await page.evaluate(() => /** @type {string[]} */ (Reflect.get(window, 'keys')).splice(0));
-      expect(passedKeys, selector).toEqual(['s', '/', 'Escape']);
+      expect(passedKeys, controlSelector).toEqual(['s', '/', 'Escape']);
     }
   }
 });

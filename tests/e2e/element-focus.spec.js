@@ -6,12 +6,13 @@ import { REDUCED_MOTION, holdRequests, waitForFrames, readProperty, showPage, te
 test.use(REDUCED_MOTION);
 
 /**
- * Opens a page with a figure far below the window, between a link and a button. Observers are disabled, so that they do not start it.
+ * Opens a page with a figure far below the window, between a link and a button. Observers are disabled, so that they do not start the
+ * figure.
  *
  * @param {Page} page
- * @param {string} name
+ * @param {string} figureName
  */
-async function showFigureFarBelow(page, name) {
+async function showFigureFarBelow(page, figureName) {
   await page.addInitScript(() => {
     window.IntersectionObserver = /** @type {any} */ (
       class {
@@ -22,25 +23,25 @@ async function showFigureFarBelow(page, name) {
   });
   await showPage(
     page,
-    `<a id="before" tabindex="-1">Before</a><div style="position: absolute; top: 4000px; width: 600px"><${name}></${name}></div><button id="after">After</button>`,
+    `<a id="before" tabindex="-1">Before</a><div style="position: absolute; top: 4000px; width: 600px"><${figureName}></${figureName}></div><button id="after">After</button>`,
     { script: '<script type="module" src="/external.js"></script>' },
   );
-  const widget = page.locator(name);
+  const widget = page.locator(figureName);
   await widget.locator('.reserved').waitFor({ state: 'attached' });
   expect(await readProperty(widget, 'simulation')).toBe(undefined);
   return widget;
 }
 
-for (const [direction, originSelector, key] of /** @type {const} */ ([['above', '#before', 'Tab'], ['below', '#after', 'Shift+Tab']])) {
-  test(`a figure that Tab reaches from ${direction} before it has started has the focus where it would be`, async ({ page, figureName }) => {
+for (const [sideOfFigure, originSelector, tabKey] of /** @type {const} */ ([['above', '#before', 'Tab'], ['below', '#after', 'Shift+Tab']])) {
+  test(`a figure that Tab reaches from ${sideOfFigure} before it has started has the focus where it would be`, async ({ page, figureName }) => {
     const widget = await showFigureFarBelow(page, figureName);
     const readFocusedHtml = () => widget.evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.outerHTML);
     await page.locator(originSelector).focus();
-    await page.keyboard.press(key);
+    await page.keyboard.press(tabKey);
     await waitUntilReady(widget);
     const firstFocusedHtml = await readFocusedHtml();
     await page.locator(originSelector).focus();
-    await page.keyboard.press(key);
+    await page.keyboard.press(tabKey);
     expect(firstFocusedHtml).toBe(await readFocusedHtml());
     expect(firstFocusedHtml).toBeTruthy();
   });

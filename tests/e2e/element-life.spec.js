@@ -14,20 +14,23 @@ async function countFramesAndModules(page) {
     const frameAndModuleCounts = { frames: 0, compiled: 0, instances: 0 };
     Object.assign(window, { counts: frameAndModuleCounts, quietFrame: requestAnimationFrame.bind(window) });
     const { requestAnimationFrame: requestFrame } = window;
-    window.requestAnimationFrame = (callback) => {
+    window.requestAnimationFrame = (frameCallback) => {
       frameAndModuleCounts.frames++;
-      return requestFrame.call(window, callback);
+      return requestFrame.call(window, frameCallback);
     };
     const { compile, compileStreaming, instantiate } = WebAssembly;
-    WebAssembly.compile = (...args) => (frameAndModuleCounts.compiled++, compile.apply(WebAssembly, args));
-    WebAssembly.compileStreaming = (...args) => (frameAndModuleCounts.compiled++, compileStreaming.apply(WebAssembly, args));
+    WebAssembly.compile = (...compileArguments) => (frameAndModuleCounts.compiled++, compile.apply(WebAssembly, compileArguments));
+    WebAssembly.compileStreaming = (...compileArguments) => (frameAndModuleCounts.compiled++, compileStreaming.apply(WebAssembly, compileArguments));
     WebAssembly.instantiate = /** @type {any} */ (
       (/** @type {[any, any]} */ ...args) => (frameAndModuleCounts.instances++, instantiate.apply(WebAssembly, args))
     );
   });
 }
 
-/** Returns the numbers of frames and modules so far. @param {Page} page @returns {Promise<{ frames: number, compiled: number, instances: number }>} */
+/**
+ * Returns the numbers of frames and modules that the page has counted.
+ * @param {Page} page @returns {Promise<{ frames: number, compiled: number, instances: number }>}
+ */
 const readPageCounts = (page) => page.evaluate(() => Reflect.get(window, 'counts'));
 
 /** Waits for six frames, which the counts of the page do not include. @param {Page} page */
@@ -41,17 +44,17 @@ test('figures far from the window fetch and compute nothing, and one module serv
   const fetchedPaths = [];
   page.on('request', (request) => fetchedPaths.push(new URL(request.url()).pathname));
   await countFramesAndModules(page);
-  await showPage(page, `<div style="height: 5000px"></div>${TWO_NAMES.map((name) => `<${name}></${name}>`).join('')}`, {
+  await showPage(page, `<div style="height: 5000px"></div>${TWO_NAMES.map((figureName) => `<${figureName}></${figureName}>`).join('')}`, {
     script: '<script type="module" src="/external.js"></script>',
   });
-  // Polling is avoided, because it requests frames.
-  await page.evaluate((tags) => Promise.all(tags.map((tag) => customElements.whenDefined(tag))).then(() => true), [...TWO_NAMES]);
+  // The test avoids polling, because polling requests frames.
+  await page.evaluate((widgetTags) => Promise.all(widgetTags.map((widgetTag) => customElements.whenDefined(widgetTag))).then(() => true), [...TWO_NAMES]);
   await waitForSixFrames(page);
   expect(await readPageCounts(page)).toEqual({ frames: 0, compiled: 0, instances: 0 });
-  expect(fetchedPaths.filter((path) => path.endsWith('.wasm'))).toEqual([]);
-  for (const name of TWO_NAMES) {
-    await page.locator(name).scrollIntoViewIfNeeded();
-    await waitUntilReady(page.locator(name));
+  expect(fetchedPaths.filter((fetchedPath) => fetchedPath.endsWith('.wasm'))).toEqual([]);
+  for (const figureName of TWO_NAMES) {
+    await page.locator(figureName).scrollIntoViewIfNeeded();
+    await waitUntilReady(page.locator(figureName));
   }
   expect(await readPageCounts(page)).toMatchObject({ compiled: 1, instances: TWO_NAMES.length });
   expect(fetchedPaths.filter((path) => path.endsWith('.wasm'))).toEqual(['/motion.wasm']);
@@ -68,22 +71,22 @@ test('a page with one figure fetches the module of that figure @nightly', async 
 
 test('a script that contains the module compiles it while it is evaluated, and no placeholder is rendered then', async ({ page }) => {
   await countFramesAndModules(page);
-  // The second import is evaluated in the same task as the first one.
+  // The two imports are evaluated in one task, so that the second script sees what the first has compiled.
   const countReaderUrl = 'data:text/javascript,window.compiledDuringScript = counts.compiled';
   await showPage(page, '<banana-machine></banana-machine>', { script: `<script type="module">import '/motion-widgets.js'; import '${countReaderUrl}'</script>` });
   await waitUntilReady(page.locator('banana-machine'));
   expect(await page.evaluate(() => Reflect.get(window, 'compiledDuringScript'))).toBe(1);
   const [hasSimulation, hasPlaceholder] = await page.evaluate(async () => {
-    const figure = /** @type {any} */ (document.createElement('banana-machine'));
-    document.body.prepend(figure);
-    await figure.updateComplete;
-    return ['.simulation', '.reserved'].map((selector) => figure.shadowRoot.querySelector(selector) !== null);
+    const bananaMachine = /** @type {any} */ (document.createElement('banana-machine'));
+    document.body.prepend(bananaMachine);
+    await bananaMachine.updateComplete;
+    return ['.simulation', '.reserved'].map((partSelector) => bananaMachine.shadowRoot.querySelector(partSelector) !== null);
   });
   expect([hasSimulation, hasPlaceholder]).toEqual([true, false]);
 });
 
 test('figures within six hundred pixels of the window start, and others do not', async ({ page }) => {
-  const figureSections = [560, 620].map((below) => `<div style="position: absolute; top: calc(100vh + ${below}px); width: 600px"><map-squeeze></map-squeeze></div>`);
+  const figureSections = [560, 620].map((distanceBelow) => `<div style="position: absolute; top: calc(100vh + ${distanceBelow}px); width: 600px"><map-squeeze></map-squeeze></div>`);
   await showPage(page, figureSections.join(''));
   const squeezeFigures = page.locator('map-squeeze');
   await waitUntilReady(squeezeFigures.nth(0));
@@ -103,7 +106,7 @@ test('a cloud that is out of sight asks for no frames, and goes on growing where
     /** @type {AnyElement} */ (element).setState({ widget: element.localName, version: 1, shown: 0, playing: true });
     await statsEvent;
     scrollTo(0, 6000);
-    // Waits for an observer of this test. The observer of the figure reports in the same frame.
+    // The test waits for its own observer. The observer of the figure reports in the same frame.
     await new Promise((resolve) => new IntersectionObserver(([{ isIntersecting }]) => isIntersecting || resolve(undefined)).observe(element));
   });
   expect(await readProperty(widget, 'playing')).toBe(true);
@@ -121,9 +124,9 @@ test('settled waits for the figure and all of its samples, in sight and far from
   for (const heightAbove of [0, 6000]) {
     await showPage(page, `<div style="height: ${heightAbove}px"></div><${cloudFigureName}></${cloudFigureName}>`);
     const [shownCount, sampleCount, isPlaying] = await page.locator(cloudFigureName).evaluate(async (element) => {
-      const figure = /** @type {any} */ (element);
-      await figure.settled;
-      return [figure.simulation.shown, figure.samples, figure.playing];
+      const figureElement = /** @type {any} */ (element);
+      await figureElement.settled;
+      return [figureElement.simulation.shown, figureElement.samples, figureElement.playing];
     });
     expect([shownCount, isPlaying]).toEqual([sampleCount, false]);
   }
@@ -153,7 +156,7 @@ test('a cloud that is half grown stays so over a move and over a removal', async
   // With this seed every robot is inside the view, so that the view does not zoom out.
   await setProperty(widget, 'seed', 11);
   await openDisclosures(widget);
-  const pressButton = (/** @type {string} */ button) => widget.locator('.cloud').getByRole('button', { name: button, exact: true }).click();
+  const pressButton = (/** @type {string} */ buttonName) => widget.locator('.cloud').getByRole('button', { name: buttonName, exact: true }).click();
   await pressButton('Clear');
   for (let i = 0; i < 5; i++) await pressButton('Step');
   const stateBefore = await readState(widget);
@@ -183,12 +186,12 @@ test('folds, fields and height of a figure stay over a move and over a removal',
   const widget = page.locator(figureName);
   await waitUntilReady(widget);
   const { fieldInFold } = FIGURE_FACTS[figureName];
-  const disclosures = widget.locator('details');
-  await expect.poll(() => disclosures.count()).toBeGreaterThan(1);
+  const foldDisclosures = widget.locator('details');
+  await expect.poll(() => foldDisclosures.count()).toBeGreaterThan(1);
   await openDisclosures(widget);
-  const readOpenFolds = () => disclosures.evaluateAll((foldElements) => foldElements.map((details) => /** @type {HTMLDetailsElement} */ (details).open));
+  const readOpenFolds = () => foldDisclosures.evaluateAll((foldElements) => foldElements.map((foldElement) => /** @type {HTMLDetailsElement} */ (foldElement).open));
   const openFoldsBefore = await readOpenFolds();
-  const fieldInDisclosure = disclosures.nth(fieldInFold.foldIndex).locator(fieldInFold.field);
+  const fieldInDisclosure = foldDisclosures.nth(fieldInFold.foldIndex).locator(fieldInFold.field);
   await fieldInDisclosure.fill(fieldInFold.value);
   await widget.evaluate((element) => document.querySelector('#b')?.append(element));
   await waitForFrames(page);
@@ -205,18 +208,18 @@ test('folds, fields and height of a figure stay over a move and over a removal',
   await waitUntilReady(widget);
   expect(await readOpenFolds()).toEqual(openFoldsBefore);
   await expect(fieldInDisclosure).toHaveValue(fieldInFold.value);
-  await expect(disclosures.nth(fieldInFold.foldIndex).locator('.folded')).not.toBeEmpty();
-  // The figure has its former height in both frames.
+  await expect(foldDisclosures.nth(fieldInFold.foldIndex).locator('.folded')).not.toBeEmpty();
+  // The figure has its former height in the first and in the second frame.
   expect(heightsAfter).toEqual([heightBefore, heightBefore]);
 });
 
 test('a figure keeps what the user did in the moment before it was removed', async ({ page, figureName }) => {
   const { sliderId, statePath, sliderValues: [sliderValue] } = FIGURE_FACTS[figureName];
   const widget = await mountFigure(page, figureName);
-  const stateAfter = await widget.evaluate(async (element, [id, to]) => {
-    const slider = /** @type {HTMLInputElement} */ (element.shadowRoot?.querySelector(`#${id}`));
-    slider.value = String(to);
-    slider.dispatchEvent(new Event('input', { bubbles: true, composed: true }));
+  const stateAfter = await widget.evaluate(async (element, [sliderId, sliderValue]) => {
+    const rangeInput = /** @type {HTMLInputElement} */ (element.shadowRoot?.querySelector(`#${sliderId}`));
+    rangeInput.value = String(sliderValue);
+    rangeInput.dispatchEvent(new Event('input', { bubbles: true, composed: true }));
     element.remove();
     await new Promise(requestAnimationFrame);
     return /** @type {AnyElement} */ (element).getState();
@@ -228,20 +231,20 @@ test('a figure that is moved while a handle is held lets go of it, and fits its 
   await showPage(page, `<div id="a" style="width: 1100px"><${handleFigureName}></${handleFigureName}></div><div id="b" style="width: 500px"></div>`);
   const widget = page.locator(handleFigureName);
   await waitUntilReady(widget);
-  const handle = widget.locator('.handle').first();
+  const firstHandle = widget.locator('.handle').first();
   const stateBefore = await readState(widget);
-  const { x, y } = await readCentre(handle);
+  const { x, y } = await readCentre(firstHandle);
   await page.mouse.move(x, y);
   await page.mouse.down();
   await page.mouse.move(x + 30, y + 20, { steps: 3 });
   await waitForFrames(page);
-  await expect(handle).toHaveClass(/held/);
+  await expect(firstHandle).toHaveClass(/held/);
   const stateAfterDrag = await readState(widget);
   expect(stateAfterDrag).not.toEqual(stateBefore);
   await takeEvents(page);
   await widget.evaluate((element) => document.querySelector('#b')?.append(element));
   await waitForFrames(page);
-  await expect(handle).not.toHaveClass(/held/);
+  await expect(firstHandle).not.toHaveClass(/held/);
   expect((await takeEvents(page)).map(({ name }) => name)).toEqual(['change']);
   await page.mouse.move(700, 300);
   await waitForFrames(page);
@@ -251,18 +254,18 @@ test('a figure that is moved while a handle is held lets go of it, and fits its 
 
 test('a canvas that has got its context back is drawn again', async ({ page, figureName }) => {
   const widget = await mountFigure(page, figureName);
-  const canvas = widget.locator('canvas.plane');
-  const pictureBefore = await readPicture(canvas);
-  const blankPicture = await canvas.evaluate((element) => {
-    const canvas = /** @type {HTMLCanvasElement} */ (element);
-    // A browser that restores a lost context leaves the canvas blank and fires this event.
-    canvas.getContext('2d')?.reset();
-    const blankPicture = canvas.toDataURL();
-    canvas.dispatchEvent(new Event('contextrestored'));
+  const planeCanvas = widget.locator('canvas.plane');
+  const pictureBefore = await readPicture(planeCanvas);
+  const blankPicture = await planeCanvas.evaluate((element) => {
+    const canvasElement = /** @type {HTMLCanvasElement} */ (element);
+    // A browser that restores a lost context leaves the canvas blank and fires `contextrestored`.
+    canvasElement.getContext('2d')?.reset();
+    const blankPicture = canvasElement.toDataURL();
+    canvasElement.dispatchEvent(new Event('contextrestored'));
     return blankPicture;
   });
   expect(blankPicture).not.toBe(pictureBefore);
-  expect(await readPicture(canvas)).toBe(pictureBefore);
+  expect(await readPicture(planeCanvas)).toBe(pictureBefore);
 });
 
 test('a figure that comes back is drawn on the screen again, even if it was removed during print', async ({ page, figureName }) => {
@@ -283,9 +286,9 @@ test('a figure that was removed and comes back has no more observers, and does n
     Object.assign(window, { counts: frameAndModuleCounts });
     const { observe, disconnect } = IntersectionObserver.prototype;
     const intersectionObservers = new Set();
-    IntersectionObserver.prototype.observe = function (target) {
+    IntersectionObserver.prototype.observe = function (observedElement) {
       frameAndModuleCounts.observers = intersectionObservers.add(this).size;
-      observe.call(this, target);
+      observe.call(this, observedElement);
     };
     IntersectionObserver.prototype.disconnect = function () {
       intersectionObservers.delete(this);
@@ -305,7 +308,7 @@ test('a figure that was removed and comes back has no more observers, and does n
   const countsBefore = await readCounts();
   expect(Math.min(countsBefore.observers, countsBefore.paths)).toBeGreaterThan(0);
   for (const y of [3500, 0]) {
-    await page.evaluate((top) => scrollTo(0, top), y);
+    await page.evaluate((scrollTop) => scrollTo(0, scrollTop), y);
     await waitForFrames(page);
   }
   expect(await readCounts()).toEqual(countsBefore);
@@ -325,14 +328,14 @@ test('a figure that was not displayed shows what was set meanwhile @nightly', as
   await waitUntilReady(widget);
   const canvas = widget.locator('canvas.plane');
   const pictureBefore = await readPicture(canvas);
-  const setDisplay = (/** @type {string} */ value) => page.locator('#box').evaluate((box, to) => void (/** @type {HTMLElement} */ (box).style.display = to), value);
+  const setDisplay = (/** @type {string} */ displayValue) => page.locator('#box').evaluate((boxElement, displayStyle) => void (/** @type {HTMLElement} */ (boxElement).style.display = displayStyle), displayValue);
   await setDisplay('none');
   await waitForFrames(page);
   await setProperty(widget, ...FIGURE_FACTS[figureName].otherSetting);
   await waitForFrames(page);
   await setDisplay('block');
   await expect.poll(() => readPicture(canvas)).not.toBe(pictureBefore);
-  await expect(widget).toHaveAttribute(FIGURE_FACTS[figureName].otherSetting[0].replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`), String(FIGURE_FACTS[figureName].otherSetting[1]));
+  await expect(widget).toHaveAttribute(FIGURE_FACTS[figureName].otherSetting[0].replace(/[A-Z]/g, (capitalLetter) => `-${capitalLetter.toLowerCase()}`), String(FIGURE_FACTS[figureName].otherSetting[1]));
 });
 
 test('a page that comes back from the back-forward cache is alive @nightly', async ({ baseURL }) => {
@@ -368,12 +371,12 @@ test('figures that were removed leave no memory, no observers and no nodes @nigh
   await page.evaluate(() => document.body.replaceChildren());
   const cdpSession = await page.context().newCDPSession(page);
   await cdpSession.send('HeapProfiler.enable');
-  /** Mounts one figure of each kind after the other, and removes each when it is drawn. @param {number} rounds */
-  const mountAndRemove = async (rounds) => {
-    for (let round = 0; round < rounds; round++) {
+  /** Mounts one figure of each kind after the other, and removes each figure after it is drawn. @param {number} roundCount */
+  const mountAndRemove = async (roundCount) => {
+    for (let roundIndex = 0; roundIndex < roundCount; roundIndex++) {
       for (const name of ALL_NAMES) {
-        await page.evaluate(async ([tag, few]) => {
-          const figure = Object.assign(document.createElement(tag), few);
+        await page.evaluate(async ([widgetTag, sampleCount]) => {
+          const figure = Object.assign(document.createElement(widgetTag), sampleCount);
           const loadEvent = new Promise((resolve) => figure.addEventListener('load', resolve, { once: true }));
           document.body.append(figure);
           await loadEvent;
@@ -383,7 +386,7 @@ test('figures that were removed leave no memory, no observers and no nodes @nigh
       }
     }
   };
-  /** Counts living objects of some classes after a garbage collection. */
+  /** Counts the living objects of some classes after a garbage collection. */
   const countObjects = async () => {
     await cdpSession.send('HeapProfiler.collectGarbage');
     /** @type {Record<string, number>} */
@@ -401,11 +404,11 @@ test('figures that were removed leave no memory, no observers and no nodes @nigh
     return objectCounts;
   };
   await mountAndRemove(2);
-  // The engine may keep the latest object of a class for a while.
+  // The JavaScript engine may keep the latest object of a class for a while.
   await expect.poll(async () => (await countObjects()).ShadowRoot, { timeout: 30_000 }).toBeLessThanOrEqual(1);
   const objectsBefore = await countObjects();
   await mountAndRemove(20);
   await expect.poll(async () => (await countObjects()).ShadowRoot, { timeout: 30_000 }).toBeLessThanOrEqual(1);
   const objectsAfter = await countObjects();
-  for (const [name, count] of Object.entries(objectsAfter)) expect.soft(count - objectsBefore[name], name).toBeLessThanOrEqual(2);
+  for (const [className, objectCount] of Object.entries(objectsAfter)) expect.soft(objectCount - objectsBefore[className], className).toBeLessThanOrEqual(2);
 });

@@ -12,7 +12,7 @@ test('a preset sets every setting but samples and seed, and is marked while all 
   await expect(presetButton).toHaveAttribute('aria-pressed', 'false');
   await presetButton.click();
   await expect(presetButton).toHaveAttribute('aria-pressed', 'true');
-  expect(await Promise.all(['clearance', 'samples', 'seed'].map((key) => readProperty(widget, key)))).toEqual([0.13, 50, 4]);
+  expect(await Promise.all(['clearance', 'samples', 'seed'].map((settingKey) => readProperty(widget, settingKey)))).toEqual([0.13, 50, 4]);
 });
 
 test('Start over brings back the settings, the seed and the lines as the figure opened', async ({ page }) => {

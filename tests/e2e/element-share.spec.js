@@ -44,9 +44,9 @@ test('two widgets and an anchor share the fragment, and the link shows what was 
   expect(await page.evaluate(() => history.length)).toBe(historyLength);
 
   const sharedLink = await readShareLink(firstFigure);
-  // A link scrolls to the figure of its first part.
-  const [anchor, theme, firstFigurePart, secondFigurePart] = hashBefore.slice(1).split('&');
-  expect(new URL(sharedLink).hash).toBe(`#${[firstFigurePart, anchor, theme, secondFigurePart].join('&')}`);
+  // A link scrolls to the figure that is named in its first part.
+  const [pageAnchor, themePart, firstFigurePart, secondFigurePart] = hashBefore.slice(1).split('&');
+  expect(new URL(sharedLink).hash).toBe(`#${[firstFigurePart, pageAnchor, themePart, secondFigurePart].join('&')}`);
   const newPage = await context.newPage();
   await showPage(newPage, THREE_FIGURES_HTML, { fragment: new URL(sharedLink).hash });
   const [firstCopy, secondCopy, thirdCopy] = [0, 1, 2].map((i) => newPage.locator('banana-machine').nth(i));
@@ -63,9 +63,9 @@ test('two widgets and an anchor share the fragment, and the link shows what was 
 
 test('figures in shadow roots, closed ones too, have parts of their own in the fragment @nightly', NEW_PAGE_TAG, async ({ page }) => {
   await page.addInitScript(() => {
-    for (const [name, mode] of [['open-host', 'open'], ['closed-host', 'closed']]) {
-      customElements.define(name, class extends HTMLElement {
-        figure = this.attachShadow({ mode: /** @type {ShadowRootMode} */ (mode) }).appendChild(document.createElement('banana-machine'));
+    for (const [hostTag, shadowMode] of [['open-host', 'open'], ['closed-host', 'closed']]) {
+      customElements.define(hostTag, class extends HTMLElement {
+        figure = this.attachShadow({ mode: /** @type {ShadowRootMode} */ (shadowMode) }).appendChild(document.createElement('banana-machine'));
       });
     }
   });
@@ -74,9 +74,9 @@ test('figures in shadow roots, closed ones too, have parts of their own in the f
   await page.locator('body > banana-machine').scrollIntoViewIfNeeded();
   await waitUntilReady(page.locator('body > banana-machine'));
   const linkKeys = await page.evaluate(async () => {
-    const shadowFigures = [...document.querySelectorAll('open-host, closed-host')].map((host) => Reflect.get(host, 'figure'));
-    const figures = /** @type {AnyElement[]} */ ([...shadowFigures, document.querySelector('body > banana-machine')]);
-    return Promise.all(figures.map(async (figure) => new URL(await figure.shareLink()).hash.slice(1).split('=')[0]));
+    const shadowFigures = [...document.querySelectorAll('open-host, closed-host')].map((hostElement) => Reflect.get(hostElement, 'figure'));
+    const figureElements = /** @type {AnyElement[]} */ ([...shadowFigures, document.querySelector('body > banana-machine')]);
+    return Promise.all(figureElements.map(async (figure) => new URL(await figure.shareLink()).hash.slice(1).split('=')[0]));
   });
   expect(linkKeys).toEqual([
     'open-host.1/banana-machine.1', 'open-host.2/banana-machine.1', 'closed-host:c/banana-machine.1', 'banana-machine.1',
@@ -84,8 +84,8 @@ test('figures in shadow roots, closed ones too, have parts of their own in the f
 });
 
 test('a link leads to the figure that it was copied from, once; a reload leads nowhere', NEW_PAGE_TAG, async ({ page, context }) => {
-  const gap = '<p style="margin: 2000px 0">Between</p>';
-  const pageBody = `${gap}<banana-machine></banana-machine>${gap}<banana-machine></banana-machine>${gap}`;
+  const gapHtml = '<p style="margin: 2000px 0">Between</p>';
+  const pageBody = `${gapHtml}<banana-machine></banana-machine>${gapHtml}<banana-machine></banana-machine>${gapHtml}`;
   await showPage(page, pageBody);
   const figureAt = (/** @type {import('@playwright/test').Page} */ openPage, /** @type {number} */ i) => openPage.locator('banana-machine').nth(i);
   const readFigureTops = (/** @type {import('@playwright/test').Page} */ openPage) =>
@@ -94,12 +94,12 @@ test('a link leads to the figure that it was copied from, once; a reload leads n
   for (const i of [0, 1]) {
     await figureAt(page, i).scrollIntoViewIfNeeded();
     await waitUntilReady(figureAt(page, i));
-    // The address contains the state of this figure when the link to the next one is copied.
+    // When the link to the next figure is copied, the address already contains the state of the previous figure.
     linkFragments.push(await readLinkFragment(figureAt(page, i)));
-    await page.evaluate((hash) => history.replaceState(null, '', hash), linkFragments[i]);
+    await page.evaluate((linkFragment) => history.replaceState(null, '', linkFragment), linkFragments[i]);
   }
   expect(linkFragments[1]).toMatch(/^#banana-machine\.2=.*&banana-machine\.1=/);
-  // A figure whose state is already in the address gets no second part there.
+  // A figure whose state is in the address gets no second part in the address.
   expect(await readLinkFragment(figureAt(page, 1))).toBe(linkFragments[1]);
   for (const [i, fragment] of linkFragments.entries()) {
     const newPage = await context.newPage();
@@ -117,9 +117,8 @@ test('a link leads to the figure that it was copied from, once; a reload leads n
     expect(scrollYAfterMove).toBe(100);
     await newPage.close();
   }
-  // A link to a figure on the same page scrolls to it.
   await page.evaluate(() => scrollTo(0, 0));
-  await page.evaluate((hash) => (location.hash = hash), linkFragments[0]);
+  await page.evaluate((linkFragment) => (location.hash = linkFragment), linkFragments[0]);
   await expect.poll(async () => (await readFigureTops(page))[0]).toBeCloseTo(0);
   await page.evaluate(() => scrollTo(0, 700));
   await page.reload();
@@ -144,7 +143,7 @@ test('a page with a base of its own keeps its address @nightly', async ({ page }
   const readAddress = () => page.evaluate(() => location.href);
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
   await expect.poll(readAddress).toMatch(/\/bare\.html#map-squeeze\.1=[\w-]+$/);
-  // A later state replaces the earlier one.
+  // A later state in the address replaces the earlier state.
   const formerAddress = await readAddress();
   await widget.getByRole('button', { name: 'Open corridor' }).click();
   await expect.poll(readAddress).not.toBe(formerAddress);
@@ -154,7 +153,7 @@ test('a page with a base of its own keeps its address @nightly', async ({ page }
 test('a figure without share leaves the address alone, and opens its part of a link and keeps it up to date', NEW_PAGE_TAG, async ({ page, context, figureName }) => {
   const { sliderId, sliderValues, buttonLabel } = FIGURE_FACTS[figureName];
   const widget = await mountFigure(page, figureName, { fragment: '#elsewhere' });
-  await widget.evaluate((element, [key, value]) => void Reflect.set(element, key, value), /** @type {const} */ ([sliderId, sliderValues[0]]));
+  await widget.evaluate((element, [settingKey, settingValue]) => void Reflect.set(element, settingKey, settingValue), /** @type {const} */ ([sliderId, sliderValues[0]]));
   await widget.getByRole('button', { name: buttonLabel, exact: true }).click();
   await waitForFrames(page);
   expect(await page.evaluate(() => location.hash)).toBe('#elsewhere');
@@ -165,7 +164,7 @@ test('a figure without share leaves the address alone, and opens its part of a l
   await waitUntilReady(newPage.locator(figureName));
   const openedState = await readState(newPage.locator(figureName));
   expect(openedState).toEqual(await readState(widget));
-  // From then on the address follows the figure, and "back" leaves the page.
+  // From the first change on, the address follows the figure. The "back" button leaves the page.
   const historyLength = await newPage.evaluate(() => history.length);
   await newPage.locator(figureName).locator(`#${sliderId}`).fill(String(sliderValues[1]));
   await expect.poll(async () => (await newPage.evaluate(() => location.hash)) === (await readLinkFragment(newPage.locator(figureName)))).toBe(true);
@@ -191,7 +190,6 @@ test('a figure with share keeps its state in the address, and follows it', async
   expect(await readState(widget)).not.toEqual(stateBefore);
   await page.evaluate((fragment) => (location.hash = fragment), formerHash);
   await expect.poll(() => readState(widget)).toEqual(stateBefore);
-  // An anchor without a state changes nothing.
   await page.evaluate(() => (location.hash = '#end'));
   await waitForFrames(page);
   expect(await page.evaluate(() => document.querySelector(':target')?.id)).toBe('end');
@@ -235,11 +233,11 @@ test('copies a link, and the code to embed with the address of the script', asyn
     await expect(widget.getByText('Copied.')).toContainText('Your map is not in it');
     await widget.getByRole('button', { name: 'Copy link' }).click();
     await expect(widget.getByText('Copied.')).toHaveText('Copied.');
-    const random = randomGenerator(1);
-    // Random cells cannot be compressed.
-    const [columns, rows] = [4000, 2000];
-    const byteCount = (columns * rows) / 8;
-    const map = { columns, rows, resolution: 0.05, origin: [0, 0, 0], occupied: Buffer.alloc(byteCount).toString('base64'), unknown: Buffer.from(Array.from({ length: byteCount }, () => 256 * random())).toString('base64') };
+    const nextRandom = randomGenerator(1);
+    // A map of random cells cannot be compressed.
+    const [columnCount, rowCount] = [4000, 2000];
+    const byteCount = (columnCount * rowCount) / 8;
+    const map = { columns: columnCount, rows: rowCount, resolution: 0.05, origin: [0, 0, 0], occupied: Buffer.alloc(byteCount).toString('base64'), unknown: Buffer.from(Array.from({ length: byteCount }, () => 256 * nextRandom())).toString('base64') };
     await widget.evaluate((element, newMap) => void Object.assign(element, { map: newMap }), map);
     await widget.getByRole('button', { name: 'Copy link' }).click();
     await expect(widget.getByText('Copied.')).toContainText('Your map is too large for a link and is not in it');
@@ -252,7 +250,7 @@ test('copies a link, and the code to embed with the address of the script', asyn
 
 test('the menu shows what the clipboard does not take @nightly', async ({ page }) => {
   await page.addInitScript(() => Object.defineProperty(navigator, 'clipboard', { value: undefined }));
-  // In a lower window, the open disclosure covers a part of the legend when the page has scrolled.
+  // In a lower window, the open disclosure covers a part of the legend after the page has scrolled.
   await page.setViewportSize({ width: 1280, height: 1300 });
   const widget = await mountFigure(page, 'map-squeeze', { attributes: 'seed="4"' });
   await widget.getByText('Numbers and data').click();

@@ -20,7 +20,6 @@ test('a figure has the title above and the caption below that the page gives it'
   await expect(widget.getByRole('heading')).toHaveCount(0);
   await widget.evaluate((element) => element.replaceChildren());
   await expect(widget.getByRole('region', { name: /^(The Banana Machine|Map Squeeze|Arc Anatomy|The Odometry Decomposer|Dead Reckoning|The Alpha Calibrator)$/ })).toBeVisible();
-  // Without text there is no heading, at any level.
   await widget.evaluate((element) => element.setAttribute('heading-level', '3'));
   await expect(widget.getByRole('heading')).toHaveCount(0);
 });

@@ -6,20 +6,20 @@ import { REDUCED_MOTION, waitForFrames, mountFigure, showPage, readState, takeEv
 
 test.use(REDUCED_MOTION);
 
-testEach('random states go in and come out, and a second element in the same state is equal', async (page, name, isFull) => {
-  await showPage(page, `<${name} id="one"></${name}><div style="position: fixed; inset: 0 0 auto"><${name} id="two"></${name}></div>`);
-  const [firstWidget, secondWidget] = ['#one', '#two'].map((id) => page.locator(id));
+testEach('random states go in and come out, and a second element in the same state is equal', async (page, figureName, isFull) => {
+  await showPage(page, `<${figureName} id="one"></${figureName}><div style="position: fixed; inset: 0 0 auto"><${figureName} id="two"></${figureName}></div>`);
+  const [firstWidget, secondWidget] = ['#one', '#two'].map((elementSelector) => page.locator(elementSelector));
   await waitUntilReady(firstWidget);
   await waitUntilReady(secondWidget);
   for (const seed of isFull ? STATE_SEEDS : STATE_SEEDS.slice(0, 2)) {
-    const state = randomStates(seed)[name];
+    const randomState = randomStates(seed)[figureName];
     const [firstResults, secondResults] = await page.evaluate(async (newState) => {
-      const figureElements = ['one', 'two'].map((id) => /** @type {AnyElement} */ (/** @type {unknown} */ (document.getElementById(id))));
+      const figureElements = ['one', 'two'].map((elementId) => /** @type {AnyElement} */ (/** @type {unknown} */ (document.getElementById(elementId))));
       figureElements[0].setState(newState);
       figureElements[1].setState(JSON.parse(JSON.stringify(figureElements[0].getState())));
       return figureElements.map((element) => ({ state: element.getState(), stats: element.stats, poses: [...(element.poses ?? [])] }));
-    }, /** @type {any} */ (state));
-    expect(firstResults.state, `seed ${seed}`).toEqual(state);
+    }, /** @type {any} */ (randomState));
+    expect(firstResults.state, `seed ${seed}`).toEqual(randomState);
     expect(secondResults).toEqual(firstResults);
   }
   await waitForFrames(page);
@@ -37,14 +37,14 @@ test('a state that is refused names the field, and changes nothing', async ({ pa
     ['map-squeeze', { map: { columns: 2, rows: 2, resolution: 1, origin: [0, 0, 0], occupied: '?' } }, 'RangeError: map.occupied is "?"; allowed is base64 of 1 bytes'],
     ['dead-reckoning', { steps: 1, step: 2 }, 'RangeError: step is 2; allowed is'],
   ]);
-  for (const name of new Set(refusedStates.map(([caseName]) => caseName))) {
-    const widget = await mountFigure(page, name);
+  for (const figureName of new Set(refusedStates.map(([caseName]) => caseName))) {
+    const widget = await mountFigure(page, figureName);
     const stateBefore = await readState(widget);
-    for (const [, refusedFields, expectedMessage] of refusedStates.filter(([caseName]) => caseName === name)) {
-      const [thrownMessage, stateAfter] = await widget.evaluate((element, part) => {
+    for (const [, refusedFields, expectedMessage] of refusedStates.filter(([caseName]) => caseName === figureName)) {
+      const [thrownMessage, stateAfter] = await widget.evaluate((element, statePart) => {
         const widget = /** @type {AnyElement} */ (element);
         try {
-          widget.setState({ widget: element.localName, version: 1, ...part });
+          widget.setState({ widget: element.localName, version: 1, ...statePart });
           return ['nothing', widget.getState()];
         } catch (error) {
           return [String(error), widget.getState()];
@@ -61,7 +61,7 @@ test('a part of a state leaves the rest, and both models keep their noise', asyn
   await openDisclosures(widget);
   await widget.locator('#alpha1').fill('0.15');
   await widget.getByLabel('odometry').check();
-  // In each model another slider bends the cloud. It is in the element `.pair`.
+  // In each model the slider of another α bends the cloud. That slider is in the element `.pair`.
   await widget.locator('.pair #alpha2').fill('0.07');
   const stateBefore = /** @type {any} */ (await readState(widget));
   expect(stateBefore.alphas.velocity[0]).toBe(0.15);
@@ -74,9 +74,9 @@ test('a part of a state leaves the rest, and both models keep their noise', asyn
 test('a property set right after a state holds, however long the state takes @nightly', async ({ page }) => {
   const widget = await mountFigure(page, 'banana-machine');
   await widget.evaluate((element) => {
-    const figure = /** @type {any} */ (element);
-    figure.setState({ widget: 'banana-machine', version: 1, samples: 3e6, shown: 3e6, playing: false, morph: 0 });
-    figure.morph = 0.5;
+    const bananaMachine = /** @type {any} */ (element);
+    bananaMachine.setState({ widget: 'banana-machine', version: 1, samples: 3e6, shown: 3e6, playing: false, morph: 0 });
+    bananaMachine.morph = 0.5;
   });
   await waitForFrames(page);
   await expect.poll(() => readState(widget)).toMatchObject({ samples: 3e6, morph: 0.5 });
@@ -98,14 +98,13 @@ test('a state that comes while a slider plays is what is shown from then on @nig
 test('a state in part keeps the share of samples that are shown, and the mark that is among them @nightly', async ({ page, cloudFigureName }) => {
   const widget = await mountFigure(page, cloudFigureName, { attributes: 'samples="300"' });
   const statesAfter = await widget.evaluate((element) => {
-    const figure = /** @type {AnyElement} */ (element);
+    const figureElement = /** @type {AnyElement} */ (element);
     const partialStates = [{ shown: 100, marked: 50 }, { seed: 5 }, { shown: 50 }, { samples: 30 }, { samples: 300 }, { shown: 100, playing: true }];
-    return partialStates.map((part) => {
-      figure.setState({ widget: element.localName, version: 1, ...part });
-      const { shown, playing, marked } = /** @type {any} */ (figure.getState());
+    return partialStates.map((partialState) => {
+      figureElement.setState({ widget: element.localName, version: 1, ...partialState });
+      const { shown, playing, marked } = /** @type {any} */ (figureElement.getState());
       return [shown, playing, marked];
     });
   });
-  // A cloud that was complete stays complete, and does not play for users who prefer reduced motion.
   expect(statesAfter).toEqual([[100, false, 50], [100, false, 50], [50, false, null], [30, false, null], [300, false, null], [300, false, null]]);
 });

@@ -6,7 +6,7 @@ import { REDUCED_MOTION, readColours, mountFigure, countPixelsOfRole, showPage, 
 
 test.use(REDUCED_MOTION);
 
-/** Background and text colours of themes of books and documentation sites, as computed by a browser: the most extreme of eighteen themes. */
+/** Background and text colours of the most extreme of eighteen themes for books and documentation sites, as computed by a browser. */
 const THEME_COLORS = {
   'mdBook, light': ['#ffffff', '#000000'],
   'mdBook, rust': ['#e1e1db', '#262625'],
@@ -19,18 +19,18 @@ const THEME_COLORS = {
   sepia: ['#f4ecd8', '#5b4636'],
 };
 
-/** Minimum contrast with the background of text, lines and dots. */
+/** Minimum contrast of text, lines and dots with the background. */
 const MIN_CONTRAST = { ink: 4.5, muted: 4.5, prior: 4.5, prediction: 4.5, posterior: 4.5, accent: 4.5, cloud: 3, truth: 3 };
 
 /** Returns the background colour of a figure as hexadecimal digits. @param {Locator} widget @returns {Promise<string>} */
-const readPaperColor = async (widget) => hex((await readColours(widget, ['paper']))[0]);
+const readPaperColor = async (widget) => hexOfColor((await readColours(widget, ['paper']))[0]);
 
-/** @param {number[]} channels */
-const hex = (channels) => `#${channels.map((channel) => channel.toString(16).padStart(2, '0')).join('')}`;
+/** @param {number[]} colorChannels */
+const hexOfColor = (colorChannels) => `#${colorChannels.map((colorChannel) => colorChannel.toString(16).padStart(2, '0')).join('')}`;
 
 const { Color, getContrast } = /** @type {any} */ (axe).commons.color;
-/** Returns the contrast of two colours by WCAG. @param {number[]} first @param {number[]} second @returns {number} */
-const contrastOf = (first, second) => getContrast(new Color(...first), new Color(...second));
+/** Returns the contrast of two colours by WCAG. @param {number[]} firstChannels @param {number[]} secondChannels @returns {number} */
+const contrastOf = (firstChannels, secondChannels) => getContrast(new Color(...firstChannels), new Color(...secondChannels));
 
 /** Returns computed styles of the surface of a figure. @param {Locator} widget */
 const readSurfaceStyle = (widget) =>
@@ -39,23 +39,23 @@ const readSurfaceStyle = (widget) =>
     return { backgroundColor, color, fontFamily, fontSize, colorScheme };
   });
 
-/** Returns the colour scheme of a figure, by its background. @param {Locator} widget */
+/** Returns the colour scheme of a figure, judged by the lightness of its background. @param {Locator} widget */
 const readColorScheme = async (widget) => ((await readColours(widget, ['paper']))[0][0] > 128 ? 'light' : 'dark');
 
-/** Sources of a figure's colour scheme: the name, the head of the page, and a script that sets a scheme. */
+/** Sources of a figure's colour scheme. Each has a name, the head of the page, and a script that sets a scheme. */
 const SCHEME_SOURCES = /** @type {[string, string, (scheme: 'light' | 'dark') => string][]} */ ([
-  ['the inherited color-scheme', '<style>body { color: #333 }</style>', (scheme) => `document.body.style.colorScheme = '${scheme}'`],
+  ['the inherited color-scheme', '<style>body { color: #333 }</style>', (schemeName) => `document.body.style.colorScheme = '${schemeName}'`],
   [
     'colours that a page switches',
     '<style>body { background: white; color: #222 } .night body { background: #111; color: oklch(0.9 0 0) }</style>',
-    (scheme) => `document.documentElement.classList.toggle('night', ${scheme === 'dark'})`,
+    (schemeName) => `document.documentElement.classList.toggle('night', ${schemeName === 'dark'})`,
   ],
   ['its theme attribute', '<style>:root { color-scheme: light }</style>', (scheme) => `document.querySelector('#it').theme = '${scheme}'`],
 ]);
 
-for (const [sourceName, head, scriptForScheme] of SCHEME_SOURCES) {
+for (const [sourceName, headHtml, scriptForScheme] of SCHEME_SOURCES) {
   test(`a figure follows ${sourceName}`, async ({ page, figureName }) => {
-    const widget = await mountFigure(page, figureName, { attributes: 'id="it"', head });
+    const widget = await mountFigure(page, figureName, { attributes: 'id="it"', head: headHtml });
     expect(await readColorScheme(widget)).toBe('light');
     for (const scheme of /** @type {const} */ (['dark', 'light'])) {
       await page.evaluate(scriptForScheme(scheme));
@@ -79,8 +79,8 @@ test('a figure on the ground of any theme has its ink and letters, and enough co
   const { backgroundColor, fontFamily, fontSize } = await readSurfaceStyle(widget);
   expect({ backgroundColor, fontFamily, fontSize }).toEqual({ backgroundColor: 'rgba(0, 0, 0, 0)', fontFamily: '"DejaVu Sans", sans-serif', fontSize: '17px' });
   for (const [themeName, [backgroundColor, textColor]] of Object.entries(THEME_COLORS)) {
-    await page.evaluate(([background, color]) => Object.assign(document.body.style, { background, color }), [backgroundColor, textColor]);
-    await expect.poll(async () => (await readColours(widget, ['paper', 'ink'])).map(hex), themeName).toEqual([backgroundColor, textColor]);
+    await page.evaluate(([pageBackground, pageColor]) => Object.assign(document.body.style, { background: pageBackground, color: pageColor }), [backgroundColor, textColor]);
+    await expect.poll(async () => (await readColours(widget, ['paper', 'ink'])).map(hexOfColor), themeName).toEqual([backgroundColor, textColor]);
     const [paperColour, ...roleColours] = await readColours(widget, ['paper', ...Object.keys(MIN_CONTRAST)]);
     for (const [i, [colorRole, minContrast]] of Object.entries(MIN_CONTRAST).entries()) {
       expect.soft(contrastOf(roleColours[i], paperColour), `${colorRole} on ${themeName}`).toBeGreaterThanOrEqual(minContrast);
@@ -88,23 +88,23 @@ test('a figure on the ground of any theme has its ink and letters, and enough co
   }
   expect(await countPixelsOfRole(widget.locator('canvas.plane'), 'prior')).toBeGreaterThan(50);
   // An exported picture has the background of the page.
-  const svg = await widget.evaluate((element) => /** @type {any} */ (element).toSVG());
-  expect(svg).toContain('<rect width="100%" height="100%" fill="rgb(244, 236, 216)"/>');
+  const svgText = await widget.evaluate((element) => /** @type {any} */ (element).toSVG());
+  expect(svgText).toContain('<rect width="100%" height="100%" fill="rgb(244, 236, 216)"/>');
 });
 
 test('the ground is the nearest, through shadow roots and what is half transparent @nightly', async ({ page }) => {
   await showPage(page, '<div id="card" style="background: rgb(0 0 0 / 50%)"></div>', {
     head: '<style>body { background: rgb(200 100 50); color: white }</style>',
   });
-  await page.locator('#card').evaluate((card) => {
-    card.attachShadow({ mode: 'open' }).innerHTML = '<section><slot></slot></section>';
-    card.innerHTML = '<banana-machine></banana-machine>';
+  await page.locator('#card').evaluate((cardElement) => {
+    cardElement.attachShadow({ mode: 'open' }).innerHTML = '<section><slot></slot></section>';
+    cardElement.innerHTML = '<banana-machine></banana-machine>';
   });
   const widget = page.locator('banana-machine');
   await waitUntilReady(widget);
   expect(await readPaperColor(widget)).toBe('#643219');
-  await page.locator('#card').evaluate((card) => {
-    card.shadowRoot?.querySelector('section')?.setAttribute('style', 'background: #eee; color: #111');
+  await page.locator('#card').evaluate((cardElement) => {
+    cardElement.shadowRoot?.querySelector('section')?.setAttribute('style', 'background: #eee; color: #111');
   });
   await expect.poll(() => readPaperColor(widget)).toBe('#eeeeee');
 });
@@ -116,7 +116,7 @@ test('a ground that fades arrives where the page does, also where the text has c
   const widget = page.locator('banana-machine');
   await waitUntilReady(widget);
   for (const [isNight, expectedPaper] of /** @type {const} */ ([[true, '#101418'], [false, '#ffffff']])) {
-    await page.evaluate((on) => document.documentElement.classList.toggle('night', on), isNight);
+    await page.evaluate((isNightClassOn) => document.documentElement.classList.toggle('night', isNightClassOn), isNight);
     await expect.poll(() => readPaperColor(widget)).toBe(expectedPaper);
   }
 });
@@ -126,22 +126,22 @@ test('a light text on an image of the page asks for dark paper @nightly', async 
   expect((await readColours(widget, ['paper']))[0]).toEqual([18, 18, 18]);
 });
 
-/** Pages with black text on a dark background, by forced colours of the system and by their own scheme. */
+/** Pages with black text on a dark background. The colours come from forced colours of the system, or from the page's own scheme. */
 const BLACK_ON_DARK = /** @type {[string, Parameters<import('@playwright/test').Page['emulateMedia']>[0], string][]} */ ([
   ['black text in forced dark colours', { forcedColors: 'active', colorScheme: 'dark' }, 'body { background: white; color: black }'],
   ['black text in a dark scheme', { colorScheme: 'dark' }, ':root { color-scheme: light dark } body { color: #000 }'],
 ]);
 
-for (const [situation, media, pageStyle] of BLACK_ON_DARK) {
-  test(`a figure on a page with ${situation} is legible`, async ({ page, figureName }) => {
-    await page.emulateMedia(media);
+for (const [situationName, emulatedMedia, pageStyle] of BLACK_ON_DARK) {
+  test(`a figure on a page with ${situationName} is legible`, async ({ page, figureName }) => {
+    await page.emulateMedia(emulatedMedia);
     const widget = await mountFigure(page, figureName, { attributes: 'theme="auto"', head: `<style>${pageStyle}</style>` });
-    const setTheme = (/** @type {string} */ name) => widget.evaluate((element, to) => element.setAttribute('theme', to), name);
-    for (const theme of media?.forcedColors ? ['auto', 'light', 'dark'] : ['auto']) {
-      await setTheme(theme);
+    const setTheme = (/** @type {string} */ themeName) => widget.evaluate((element, newTheme) => element.setAttribute('theme', newTheme), themeName);
+    for (const themeName of emulatedMedia?.forcedColors ? ['auto', 'light', 'dark'] : ['auto']) {
+      await setTheme(themeName);
       const [paperColour, ...roleColours] = await readColours(widget, ['paper', ...Object.keys(MIN_CONTRAST)]);
       for (const [i, [colorRole, minContrast]] of Object.entries(MIN_CONTRAST).entries()) {
-        expect.soft(contrastOf(roleColours[i], paperColour), `${colorRole} in ${theme}`).toBeGreaterThanOrEqual(minContrast);
+        expect.soft(contrastOf(roleColours[i], paperColour), `${colorRole} in ${themeName}`).toBeGreaterThanOrEqual(minContrast);
       }
     }
     expect(await countPixelsOfRole(widget.locator('canvas.plane'), 'prior')).toBeGreaterThan(50);
@@ -152,15 +152,15 @@ test('a theme other than that of the page gives a figure its own paper and ink @
   const pageStyle = 'body { background: #fff; color: #333; --color-foreground-muted: #112233; --color-background-border: #445566 }';
   const widget = await mountFigure(page, 'banana-machine', { attributes: 'theme="dark"', head: `<style>${pageStyle}</style><link rel="stylesheet" href="/motion-widgets.css">` });
   expect(await readSurfaceStyle(widget)).toMatchObject({ backgroundColor: 'rgb(22, 24, 27)', color: 'rgb(235, 233, 227)', colorScheme: 'dark' });
-  // The page's colours for muted text and rules do not fit that background, and are not used.
+  // The page's colours for muted text and rules do not fit that background. The figure must not use them.
   const pageColors = ['#112233', '#445566'];
-  for (const colour of (await readColours(widget, ['muted', 'rule'])).map(hex)) expect(pageColors).not.toContain(colour);
+  for (const pageColour of (await readColours(widget, ['muted', 'rule'])).map(hexOfColor)) expect(pageColors).not.toContain(pageColour);
   await widget.evaluate((element) => element.setAttribute('theme', 'light'));
   await expect.poll(() => readSurfaceStyle(widget)).toMatchObject({ backgroundColor: 'rgba(0, 0, 0, 0)', color: 'rgb(51, 51, 51)', colorScheme: 'light' });
-  expect((await readColours(widget, ['muted', 'rule'])).map(hex)).toEqual(pageColors);
+  expect((await readColours(widget, ['muted', 'rule'])).map(hexOfColor)).toEqual(pageColors);
 });
 
-/** Custom properties of themes for muted text, hairlines and the height of the header, which the stylesheet uses. */
+/** Custom properties of themes for muted text, hairlines and the height of the header. The stylesheet of the figures uses them. */
 const THEME_PROPERTIES = {
   Docusaurus: ['--ifm-color-emphasis-700', '--ifm-color-emphasis-300', '--ifm-navbar-height'],
   VitePress: ['--vp-c-text-2', '--vp-c-border', '--vp-nav-height'],
@@ -172,7 +172,7 @@ const THEME_PROPERTIES = {
 test('the stylesheet adopts muted text, hairlines and header height of a theme, and --motion- properties override them', async ({ page }) => {
   const widget = await mountFigure(page, 'banana-machine', { head: '<link rel="stylesheet" href="/motion-widgets.css">' });
   const readAdoptedStyle = async () => [
-    ...(await readColours(widget, ['muted', 'rule'])).map(hex),
+    ...(await readColours(widget, ['muted', 'rule'])).map(hexOfColor),
     await widget.locator('.surface').evaluate((element) => {
       const heightProbe = Object.assign(document.createElement('span'), { style: 'position: absolute; height: var(--top)' });
       element.append(heightProbe);
@@ -181,7 +181,7 @@ test('the stylesheet adopts muted text, hairlines and header height of a theme, 
       return height;
     }),
   ];
-  const setStyle = (/** @type {string} */ style) => page.evaluate((text) => void (document.documentElement.style.cssText = text), style);
+  const setStyle = (/** @type {string} */ styleText) => page.evaluate((cssText) => void (document.documentElement.style.cssText = cssText), styleText);
   for (const [themeName, [mutedProperty, ruleProperty, heightProperty]] of Object.entries(THEME_PROPERTIES)) {
     await setStyle(`${mutedProperty}: #112233; ${ruleProperty}: #445566; ${heightProperty}: 60px`);
     expect.soft(await readAdoptedStyle(), themeName).toEqual(['#112233', '#445566', 60]);
@@ -192,16 +192,16 @@ test('the stylesheet adopts muted text, hairlines and header height of a theme, 
 
 test('a figure has the paper and ink of --motion-paper and --motion-ink', async ({ page, figureName }) => {
   const widget = await mountFigure(page, figureName, { attributes: 'style="--motion-paper: #102030; --motion-ink: #f0f0f0"', head: '<style>body { background: #fff; color: #000 }</style>' });
-  // Light text on a dark background gets the dark palette.
+  // A page with light text on a dark background gets the dark palette.
   expect(await readSurfaceStyle(widget)).toMatchObject({ backgroundColor: 'rgb(16, 32, 48)', color: 'rgb(240, 240, 240)', colorScheme: 'dark' });
   expect(await widget.locator('.slider .effect').first().evaluate((element) => getComputedStyle(element).backgroundColor)).toBe('rgb(16, 32, 48)');
 });
 
 test('custom properties colour controls and canvases, also when they change', async ({ page }) => {
   const widget = await mountFigure(page, 'banana-machine');
-  const canvas = widget.locator('canvas.plane');
+  const planeCanvas = widget.locator('canvas.plane');
   await page.addStyleTag({ content: 'banana-machine { --motion-posterior: rgb(200, 20, 90); --motion-font: monospace }' });
-  await expect.poll(() => countPixelsOfRole(canvas, 'posterior')).toBeGreaterThan(100);
+  await expect.poll(() => countPixelsOfRole(planeCanvas, 'posterior')).toBeGreaterThan(100);
   expect(await widget.evaluate((element) => getComputedStyle(element).fontFamily)).toBe('monospace');
 });
 
@@ -209,8 +209,8 @@ test('no control has custom properties of its own, which extensions that darken 
   const widget = await mountFigure(page, figureName);
   await openDisclosures(widget);
   expect(await widget.locator('.simulation [style*="--"]').count()).toBe(0);
-  const thumbProperties = await widget.getByRole('slider').evaluateAll((sliders) =>
-    sliders.filter((slider) => slider.matches('input')).map((slider) => getComputedStyle(slider).getPropertyValue('--thumb')));
+  const thumbProperties = await widget.getByRole('slider').evaluateAll((sliderElements) =>
+    sliderElements.filter((sliderElement) => sliderElement.matches('input')).map((sliderElement) => getComputedStyle(sliderElement).getPropertyValue('--thumb')));
   expect(thumbProperties.length).toBeGreaterThan(3);
   expect(thumbProperties).not.toContain('');
 });

@@ -7,15 +7,15 @@ import { REDUCED_MOTION, waitForFrames, mountFigure, readPicture, showPage, read
 
 test.use(REDUCED_MOTION);
 
-/** Makes the next call of the core crash, and fires an event of a slider that causes this call. @param {Locator} widget @param {string} slider */
-function trapNextCall(widget, slider) {
-  return widget.evaluate((element, id) => {
+/** Makes the next call of the core crash, and fires an event of a slider that causes this call. @param {Locator} widget @param {string} sliderId */
+function trapNextCall(widget, sliderId) {
+  return widget.evaluate((element, inputId) => {
     const { simulation, shadowRoot } = /** @type {AnyElement} */ (element);
     Object.assign(window, { trapped: simulation });
-    // This address is outside of the core's memory.
+    // The simulation's address is outside of the core's memory, so that the next call crashes.
     simulation.__wbg_ptr = 0x7ffffff0;
-    shadowRoot?.querySelector(`#${id}`)?.dispatchEvent(new Event('input', { bubbles: true, composed: true }));
-  }, slider);
+    shadowRoot?.querySelector(`#${inputId}`)?.dispatchEvent(new Event('input', { bubbles: true, composed: true }));
+  }, sliderId);
 }
 
 /** Waits until a figure has a new simulation after a crash. @param {Locator} widget */
@@ -46,10 +46,9 @@ test('a core that traps is restarted with the same state and picture, and no oth
   expect(await readState(widget)).toEqual(stateBefore);
   expect(await readPicture(widget.locator('canvas.plane'))).toBe(pictureBefore);
   expect(await otherWidget.evaluate((element) => /** @type {AnyElement} */ (element).simulation === Reflect.get(window, 'otherSimulation'))).toBe(true);
-  // The figure works again.
   await widget.locator(`#${sliderId}`).fill(String(sliderValues[1]));
   await expect(widget).toHaveAttribute(sliderId, String(sliderValues[1]));
-  // After the next picture, the figure recovers from another trap too.
+  // After the next picture, the figure recovers from a second trap too.
   await waitForFrames(page);
   await trapNextCall(widget, sliderId);
   await expectRestarted(widget);
@@ -62,7 +61,7 @@ test('a core that traps twice without a picture between ends in a sentence @nigh
   await widget.evaluate((element) => {
     const widget = /** @type {any} */ (element);
     const { createSimulation } = widget;
-    widget.createSimulation = (/** @type {unknown[]} */ ...args) => Object.assign(createSimulation.apply(widget, args), { __wbg_ptr: 0x7ffffff0 });
+    widget.createSimulation = (/** @type {unknown[]} */ ...constructorArguments) => Object.assign(createSimulation.apply(widget, constructorArguments), { __wbg_ptr: 0x7ffffff0 });
   });
   await trapNextCall(widget, 'v');
   await expect(widget.getByRole('alert')).toContainText('This interactive figure cannot run here.');

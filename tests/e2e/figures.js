@@ -1,5 +1,5 @@
 /**
- * Facts about all elements for the tests, and the choice of the figure on which a test about all of them runs.
+ * Facts about all elements for the tests, and the choice of the figure on which a test about all figures runs.
  *
  * @module
  */
@@ -61,19 +61,19 @@ export const ALL_NAMES = /** @type {Name[]} */ (Object.keys(FIGURE_FACTS));
 export const TWO_NAMES = /** @type {const} */ (['banana-machine', 'map-squeeze']);
 
 /** Names of the elements with a cloud. */
-export const CLOUD_NAMES = ALL_NAMES.filter((name) => FIGURE_FACTS[name].hasCloud);
+export const CLOUD_NAMES = ALL_NAMES.filter((figureName) => FIGURE_FACTS[figureName].hasCloud);
 
 /** Names of the elements with a handle. */
-export const NAMES_WITH_HANDLES = ALL_NAMES.filter((name) => FIGURE_FACTS[name].handleSelectors);
+export const NAMES_WITH_HANDLES = ALL_NAMES.filter((figureName) => FIGURE_FACTS[figureName].handleSelectors);
 
 /**
- * Returns the figure on which a test about all figures runs. It depends on the title only, and every figure has some tests.
+ * Returns the figure on which a test about all figures runs. The choice depends on the title only, and every figure has some tests.
  *
- * @param {string} title of the test; a tag at its end has no effect
- * @param {Name[]} [candidates]
+ * @param {string} testTitle of the test; a tag at its end has no effect
+ * @param {Name[]} [candidateNames]
  */
-export function figureNameFor(title, candidates = ALL_NAMES) {
+export function figureNameFor(testTitle, candidateNames = ALL_NAMES) {
   let titleHash = 0;
-  for (const character of title.replace(/ @\w+$/, '')) titleHash = (53 * titleHash + character.charCodeAt(0)) % 65_521;
-  return candidates[titleHash % candidates.length];
+  for (const character of testTitle.replace(/ @\w+$/, '')) titleHash = (53 * titleHash + character.charCodeAt(0)) % 65_521;
+  return candidateNames[titleHash % candidateNames.length];
 }

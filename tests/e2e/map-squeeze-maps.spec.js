@@ -10,7 +10,7 @@ import { REDUCED_MOTION, dropFiles, waitForFrames, readPicture, countPixelsOfRol
 
 test.use(REDUCED_MOTION);
 
-/** White image of a corridor of 4 m × 1 m, whose right half is transparent, so that it is unknown. */
+/** White image of a corridor of 4 m × 1 m. The right half is transparent, and therefore unknown. */
 const CORRIDOR_PNG =
   'iVBORw0KGgoAAAANSUhEUgAAAFAAAAAUCAQAAACw0XJcAAAAKklEQVR4nO3OMQ0AAAgDsPkXDZjYRZoaaGbL0hVBQUFBQUFBQUFBwc/BAwzfUOhgpknpAAAAAElFTkSuQmCC';
 
@@ -22,18 +22,18 @@ const ROOM_PLAN = {
 /** Room of 60 × 40 cells whose border is occupied. */
 const ROOM_COLUMNS = 60;
 const ROOM_ROWS = 40;
-const isOnBorder = (/** @type {number} */ column, /** @type {number} */ row) =>
-  column === 0 || row === 0 || column === ROOM_COLUMNS - 1 || row === ROOM_ROWS - 1;
+const isOnBorder = (/** @type {number} */ columnIndex, /** @type {number} */ rowIndex) =>
+  columnIndex === 0 || rowIndex === 0 || columnIndex === ROOM_COLUMNS - 1 || rowIndex === ROOM_ROWS - 1;
 
 const YAML_FIELDS = { image: 'room.pgm', resolution: 0.05, origin: '[0.0, 0.0, 0.0]', negate: 0, occupied_thresh: 0.65, free_thresh: 0.1 };
 
 const mapErrorOf = (/** @type {Locator} */ widget) => widget.locator('.own-map [role=alert]');
 const currentMapOf = (/** @type {Locator} */ widget) => widget.locator('.own-map .present');
 
-/** Chooses files, as a user does. @param {Locator} widget @param {MapFile[]} files */
-async function chooseFiles(widget, files) {
+/** Chooses files in the file input. @param {Locator} widget @param {MapFile[]} mapFiles */
+async function chooseFiles(widget, mapFiles) {
   await openDisclosures(widget);
-  await widget.getByLabel('Choose map files').setInputFiles(files);
+  await widget.getByLabel('Choose map files').setInputFiles(mapFiles);
 }
 
 test('a JSON floor plan takes the apartment’s place, and the robot finds room in it', async ({ page }) => {
@@ -45,7 +45,7 @@ test('a JSON floor plan takes the apartment’s place, and the robot finds room 
   const { bounds, walls, startFree, openPlace, config, shown } = await readSqueezeResults(widget);
   expect(bounds).toEqual(ROOM_PLAN.bounds);
   expect(walls).toEqual(ROOM_PLAN.walls.flat());
-  // The start in the corridor, (1.4, 4.4), is outside this room.
+  // The start in the corridor, (1.4, 4.4), is outside of the tested room.
   expect(startFree).toBe(true);
   expect(config.start).toEqual(openPlace);
   expect(shown).toBe(config.samples);
@@ -61,7 +61,7 @@ test('a button leads back to the apartment, which has the presets', async ({ pag
   const widget = await openSqueeze(page);
   await chooseFiles(widget, [makeMapFile('room.json', JSON.stringify(ROOM_PLAN))]);
   await expect(currentMapOf(widget)).toContainText('room.json');
-  // The presets are positions in the apartment, and are not offered here.
+  // The presets are positions in the apartment, and are not offered in another map.
   for (const name of ['Facing a doorway', 'Facing a wall', 'Open corridor']) {
     await expect(widget.getByRole('button', { name })).toHaveCount(0);
   }
@@ -80,28 +80,28 @@ test('unknown cells are hatched, and free or blocked as the user chooses', async
   const imageFile = makeMapFile('map.png', Buffer.from(CORRIDOR_PNG, 'base64'));
   await chooseFiles(widget, [makeYamlFile('map.yaml', { ...YAML_FIELDS, image: 'map.png', mode: 'scale' }), imageFile]);
   await expect(currentMapOf(widget)).toContainText('map.yaml');
-  // The robot is in the left half, whose cells are not unknown.
+  // The robot is in the left half of the corridor, whose cells are known.
   expect((await readSqueezeResults(widget)).config.start.x).toBeLessThan(2);
   await widget.evaluate((element) => Object.assign(element, { theta: 0 }));
-  const canvas = widget.locator('canvas.plane');
+  const planeCanvas = widget.locator('canvas.plane');
   const unknownCellsChoice = widget.getByRole('radiogroup', { name: 'Unknown cells' });
   await expect(unknownCellsChoice.getByLabel('free')).toBeChecked();
   const resultsIfFree = await readSqueezeResults(widget);
-  const pictureIfFree = await readPicture(canvas);
+  const pictureIfFree = await readPicture(planeCanvas);
   await unknownCellsChoice.getByLabel('blocked').check();
   const resultsIfBlocked = await readSqueezeResults(widget);
   expect(resultsIfBlocked.config.unknown).toBe('blocked');
   expect(resultsIfBlocked.poses).toEqual(resultsIfFree.poses);
   expect(resultsIfBlocked.stats.accepted).toBeLessThan(resultsIfFree.stats.accepted);
   expect(resultsIfBlocked.walls.length).toBeGreaterThan(resultsIfFree.walls.length);
-  expect(await readPicture(canvas)).not.toBe(pictureIfFree);
+  expect(await readPicture(planeCanvas)).not.toBe(pictureIfFree);
   await expect(widget.locator('.legend').getByLabel('unknown cells')).toBeChecked();
 
-  // A state contains the map and the setting of its unknown cells, and restores both.
+  // A state contains the map and the setting for unknown cells. Setting the state restores both.
   const stateJson = await widget.evaluate((element) => JSON.stringify(/** @type {any} */ (element).getState()));
   await widget.getByRole('button', { name: 'Back to the apartment' }).click();
   await expect(unknownCellsChoice).toHaveCount(0);
-  await widget.evaluate((element, text) => /** @type {any} */ (element).setState(JSON.parse(text)), stateJson);
+  await widget.evaluate((element, stateText) => /** @type {any} */ (element).setState(JSON.parse(stateText)), stateJson);
   await expect(unknownCellsChoice.getByLabel('blocked')).toBeChecked();
   expect(await readSqueezeResults(widget)).toEqual(resultsIfBlocked);
 });
@@ -111,7 +111,6 @@ test('a floor plan can be written on the page', async ({ page }) => {
   await openDisclosures(widget);
   const planField = widget.getByLabel('Or a floor plan here');
   const useButton = widget.getByRole('button', { name: 'Use this plan' });
-  // The text field opens with an example of a floor plan.
   await useButton.click();
   await expect(currentMapOf(widget)).toHaveText('Pasted plan: 6.0 m × 4.0 m, 6 walls.');
   await planField.fill('{"bounds": [0, 0, 3, 3],\n"walls": [[0, 0, 3, 3]}');
@@ -131,8 +130,8 @@ test('a map_server pair can be dropped on the widget', async ({ page }) => {
   await expect(currentMapOf(widget)).toContainText('room.yaml: 3.0 m × 2.0 m');
   await expect(currentMapOf(widget)).toBeVisible();
   const { bounds, walls, startFree, config, openPlace } = await readSqueezeResults(widget);
-  expect(bounds.map((bound) => Number(bound.toFixed(12)))).toEqual([0, 0, 3, 2]);
-  // Eight walls: the outer and the inner outline of the border.
+  expect(bounds.map((planBound) => Number(planBound.toFixed(12)))).toEqual([0, 0, 3, 2]);
+  // The plan has eight walls: four along the outer outline of the border, and four along the inner one.
   expect(walls).toHaveLength(8 * 4);
   expect(startFree).toBe(true);
   expect(config.start).toEqual(openPlace);
@@ -143,11 +142,11 @@ test('the reason why a dropped map is refused is scrolled into view @nightly', a
   await page.setViewportSize({ width: 375, height: 812 });
   const widget = await openSqueeze(page);
   const resultsBefore = await readSqueezeResults(widget);
-  await widget.locator('.stage').evaluate((stage) => stage.scrollIntoView());
+  await widget.locator('.stage').evaluate((stageElement) => stageElement.scrollIntoView());
   await dropFiles(widget.locator('.stage'), [makeMapFile('room.txt', 'a room')]);
   const errorAlert = widget.getByRole('alert');
   await expect(errorAlert).toHaveText(/^room\.txt: expected is one \.json floor plan/);
-  // Rounding to device pixels makes the visible ratio slightly smaller than 1.
+  // Rounding to device pixels makes the visible aspect ratio slightly smaller than 1.
   await expect(errorAlert).toBeInViewport({ ratio: 0.99 });
   expect(await readSqueezeResults(widget)).toEqual(resultsBefore);
   await expect(currentMapOf(widget)).toContainText('The apartment');
@@ -160,7 +159,7 @@ test('a map that is refused is reported in a sentence, and the present map stays
   const resultsBefore = await readSqueezeResults(widget);
   await chooseFiles(widget, [roomYaml]);
   await expect(mapErrorOf(widget)).toHaveText(/^room\.yaml: image names room\.pgm, which is not there; expected are both files/);
-  // This image has a valid header and too few pixels. The page accepts it, and the core refuses it.
+  // The image has a valid header and too few pixels. The page accepts the file, and the core refuses it.
   await chooseFiles(widget, [roomYaml, makeMapFile('room.pgm', 'P5\n60 40\n255\nabc')]);
   await expect(mapErrorOf(widget)).toHaveText(/^room\.pgm.*(2400|60 × 40)/);
   expect(await readSqueezeResults(widget)).toEqual(resultsBefore);
@@ -173,23 +172,23 @@ test('a map that is refused is reported in a sentence, and the present map stays
 
 test('a map set by a page is shown, an equal one changes nothing, and an incomplete one is refused', async ({ page }) => {
   const widget = await openSqueeze(page);
-  const mapOutcomes = await widget.evaluate(async (element, room) => {
-    const figure = /** @type {any} */ (element);
-    /** Sets a map, and returns its keys or the error message. @param {any} map @returns {Promise<string>} */
-    const setMap = (map) => new Promise((resolve) => {
-      figure.addEventListener('stats', () => resolve(Object.keys(figure.map).join()), { once: true });
-      figure.addEventListener('error', (/** @type {ErrorEvent} */ event) => {
-        event.preventDefault();
-        resolve(event.message);
+  const mapOutcomes = await widget.evaluate(async (element, roomPlan) => {
+    const mapSqueeze = /** @type {any} */ (element);
+    /** Sets a map, and returns the keys of the map or the error message. @param {any} newMap @returns {Promise<string>} */
+    const setMap = (newMap) => new Promise((resolve) => {
+      mapSqueeze.addEventListener('stats', () => resolve(Object.keys(mapSqueeze.map).join()), { once: true });
+      mapSqueeze.addEventListener('error', (/** @type {ErrorEvent} */ errorEvent) => {
+        errorEvent.preventDefault();
+        resolve(errorEvent.message);
       }, { once: true });
-      figure.map = map;
+      mapSqueeze.map = newMap;
     });
     const gridMap = { name: 'grid', columns: 8, rows: 1, resolution: 0.5, origin: [0, 0, 0], occupied: 'gA==' };
     const mapOutcomes = [];
-    for (const map of [room, { bounds: room.bounds }, gridMap]) mapOutcomes.push(await setMap(map));
+    for (const roomMap of [roomPlan, { bounds: roomPlan.bounds }, gridMap]) mapOutcomes.push(await setMap(roomMap));
     let statsEventCount = 0;
-    figure.addEventListener('stats', () => statsEventCount++);
-    figure.map = { ...gridMap };
+    mapSqueeze.addEventListener('stats', () => statsEventCount++);
+    mapSqueeze.map = { ...gridMap };
     for (let i = 0; i < 5; i++) await new Promise(requestAnimationFrame);
     return [...mapOutcomes, statsEventCount];
   }, ROOM_PLAN);

@@ -11,7 +11,7 @@ test.use(REDUCED_MOTION);
 const bodyHandleOf = (/** @type {Locator} */ widget) => widget.getByRole('slider', { name: 'Robot', exact: true });
 const headingHandleOf = (/** @type {Locator} */ widget) => widget.getByRole('slider', { name: 'Heading of the robot' });
 
-/** Returns the number of CSS pixels per metre. @param {Locator} widget */
+/** Returns the number of CSS pixels per metre of the map. @param {Locator} widget */
 const readPixelsPerMetre = (widget) => widget.evaluate((element) => {
   const { view } = /** @type {any} */ (element).picture;
   return view.toPixelX(1) - view.toPixelX(0);
@@ -32,12 +32,12 @@ test('the robot moves and turns by keyboard', async ({ page }) => {
     [headingHandleOf, 'Shift+ArrowRight', 0, 0, -5 * fiveDegrees],
     [headingHandleOf, 'PageDown', 0, 0, -10 * fiveDegrees],
   ]);
-  for (const [handleOf, key, dx, dy, dTheta] of keyEffects) {
-    await handleOf(widget).press(key);
+  for (const [handleOf, keyName, expectedDx, expectedDy, dTheta] of keyEffects) {
+    await handleOf(widget).press(keyName);
     const movedStart = /** @type {any} */ (await readState(widget)).start;
-    expect(movedStart.x - start.x, key).toBeCloseTo(dx, 9);
-    expect(movedStart.y - start.y, key).toBeCloseTo(dy, 9);
-    expect(movedStart.theta - start.theta, key).toBeCloseTo(dTheta, 9);
+    expect(movedStart.x - start.x, keyName).toBeCloseTo(expectedDx, 9);
+    expect(movedStart.y - start.y, keyName).toBeCloseTo(expectedDy, 9);
+    expect(movedStart.theta - start.theta, keyName).toBeCloseTo(dTheta, 9);
     start = movedStart;
   }
   await expect(bodyHandleOf(widget)).toHaveAttribute('aria-valuetext', `x = ${start.x.toFixed(2)} m, y = ${start.y.toFixed(2)} m`);
@@ -64,7 +64,7 @@ test('the robot stays inside the map, and says so to the eye and to the ear', as
   expect(await readEdgeLabel()).toBe('none');
   expect((await readSqueezeResults(widget)).config.start.x).toBe(0);
 
-  // With the keyboard, the position and the obstacle are announced.
+  // If the robot is moved by keyboard, its position and the obstacle are announced.
   const valueTextAtEdge = /^x = 0\.00 m, y = \d\.\d\d m\. The floor ends here$/;
   await expect(bodyHandleOf(widget)).toHaveAttribute('aria-valuetext', valueTextAtEdge);
   await bodyHandleOf(widget).press('ArrowRight');
@@ -95,18 +95,18 @@ test('the sampler is chosen by name, and the readouts are those of the simulatio
   const samplersByLabel = { Endpoint: 'endpoint', 'Whole arc': 'whole-arc' };
   await openDisclosures(widget);
   await widget.getByRole('button', { name: 'Facing a wall' }).click();
-  for (const [label, sampler] of Object.entries(samplersByLabel)) {
-    await widget.getByLabel(label, { exact: true }).check();
+  for (const [samplerLabel, samplerName] of Object.entries(samplersByLabel)) {
+    await widget.getByLabel(samplerLabel, { exact: true }).check();
     const { config, stats } = await readSqueezeResults(widget);
-    expect(config.sampler).toBe(sampler);
+    expect(config.sampler).toBe(samplerName);
     const readNumber = async (/** @type {string | RegExp} */ name) => parseNumberIn(await readoutValue(widget, name).textContent());
     expect(await readNumber(/^\s*drawn/)).toBe(stats.drawn);
     expect(await readNumber('samples drawn per accepted sample')).toBeCloseTo(stats.drawsPerAccepted, 2);
     expect(await readNumber('wall distances computed per accepted sample')).toBeCloseTo(stats.wallTestsPerAccepted, 2);
-    const intervalText = stats.throughWallInterval.map((end) => (100 * end).toFixed(1)).join('\u2060–\u2060');
+    const intervalText = stats.throughWallInterval.map((intervalEnd) => (100 * intervalEnd).toFixed(1)).join('\u2060–\u2060');
     const throughWallText = `${stats.throughWall} of them, ${(100 * stats.throughWallRate).toFixed(1)}\u202f%, went through a wall (95\u202f% interval ${intervalText}\u202f%)`;
     await expect(widget.locator('.verdict')).toHaveText(new RegExp(`^${stats.accepted} of 600 motions .* and are accepted; `));
-    await expect(widget.locator('.verdict')).toContainText(sampler === 'whole-arc' ? 'none of them went through a wall.' : throughWallText);
+    await expect(widget.locator('.verdict')).toContainText(samplerName === 'whole-arc' ? 'none of them went through a wall.' : throughWallText);
   }
 });
 
@@ -122,8 +122,8 @@ test('the headline gives the share, and has words for none', async ({ page }) =>
     [{ x: 3.9, y: 2.6, theta: 0 }, 'No motion was accepted'],
     [{ sampler: 'endpoint', conditioned: false }, '100.0\u202f% of the accepted motions went through a wall'],
   ]);
-  for (const [settings, headlineText] of headlineCases) {
-    await widget.evaluate((element, values) => Object.assign(element, values), settings);
+  for (const [changedSettings, headlineText] of headlineCases) {
+    await widget.evaluate((element, changedValues) => Object.assign(element, changedValues), changedSettings);
     await expect(resultHeadline).toHaveText(headlineText);
   }
 });
@@ -136,12 +136,13 @@ test('the table of costs has each sampler, and the share of a processor core fol
   await costTable.getByRole('button').click();
   await expect(costTable.locator('tbody tr')).toHaveCount(3);
   const cellTextsOfRows = await costTable.locator('tbody tr').evaluateAll((rowElements) =>
-    rowElements.map((row) => [...row.querySelectorAll('td')].map((cell) => cell.textContent ?? '')),
+    rowElements.map((tableRow) => [...tableRow.querySelectorAll('td')].map((tableCell) => tableCell.textContent ?? '')),
   );
-  for (const [, , microseconds, corePercent] of cellTextsOfRows.map((row) => row.map(parseNumberIn))) {
-    expect(microseconds).toBeGreaterThan(0);
-    // 2000 motions at 20 Hz take 4 % of a core for each microsecond. Both numbers are rounded to two digits, by up to 5 %.
-    expect(Math.abs(corePercent / (4 * microseconds) - 1)).toBeLessThan(0.11);
+  for (const [, , printedMicroseconds, corePercent] of cellTextsOfRows.map((rowTexts) => rowTexts.map(parseNumberIn))) {
+    expect(printedMicroseconds).toBeGreaterThan(0);
+    // 2000 motions at 20 Hz take 4 % of a core for each microsecond. The microseconds and the percentage are each rounded to two digits, by
+    // up to 5 %.
+    expect(Math.abs(corePercent / (4 * printedMicroseconds) - 1)).toBeLessThan(0.11);
   }
 });
 
@@ -157,7 +158,7 @@ test('a wedged robot is reported with the number of draws @nightly', async ({ pa
   expect(stats.gaveUp).toBe(true);
   await expect(verdictNote).toContainText('The robot is wedged');
   const noteText = ((await verdictNote.textContent()) ?? '').replaceAll('\u202f', '');
-  // The note is this one sentence, without a second count of the same motions.
+  // The note is a single sentence, without a second count of the same motions.
   const throughWallText = stats.throughWall === 0 ? 'none of them' : `${stats.throughWall} of them, ${(100 * stats.throughWallRate).toFixed(1)}%,`;
   const completedText = `completed only ${stats.accepted} of ${config.samples} motions; ${throughWallText} went through a wall`;
   expect(noteText.trim()).toBe(`The robot is wedged: ${stats.drawn} sub-steps drawn ${completedText}.`);
@@ -182,24 +183,24 @@ test('a sample pointed at, or named, shows its verdict', async ({ page }) => {
   const widget = await openSqueeze(page);
   const { verdicts, poses } = await readSqueezeResults(widget);
   const throughWallIndex = verdicts.indexOf(5);
-  const rejectedIndex = verdicts.findIndex((verdict) => (verdict & 4) === 0);
+  const rejectedIndex = verdicts.findIndex((verdictBits) => (verdictBits & 4) === 0);
   const sampleField = widget.getByRole('spinbutton', { name: 'Sample' });
   const verdictOutput = widget.locator('.marked output');
-  const canvas = widget.locator('canvas.plane');
+  const planeCanvas = widget.locator('canvas.plane');
   await openDisclosures(widget);
-  const pictureBefore = await readPicture(canvas);
+  const pictureBefore = await readPicture(planeCanvas);
 
   await sampleField.fill(String(throughWallIndex + 1));
   await expect(verdictOutput).toHaveText('accepted through a wall: the end pose is free, but the path touches a wall or leaves the map');
-  expect(await readPicture(canvas)).not.toBe(pictureBefore);
+  expect(await readPicture(planeCanvas)).not.toBe(pictureBefore);
   await sampleField.fill(String(rejectedIndex + 1));
   await expect(verdictOutput).toHaveText('rejected: the end pose is in collision');
   await sampleField.fill(String(verdicts.indexOf(7) + 1));
   await expect(verdictOutput).toHaveText('accepted: end pose and path are collision-free');
   await sampleField.fill('');
-  expect(await readPicture(canvas)).toBe(pictureBefore);
+  expect(await readPicture(planeCanvas)).toBe(pictureBefore);
 
-  // The pointer is moved to the rightmost sample, which has no near neighbour.
+  // The pointer is moved to the rightmost sample, because it has no near neighbour.
   let rightmostIndex = 0;
   for (let i = 0; i < verdicts.length; i++) if (poses[3 * i] > poses[3 * rightmostIndex]) rightmostIndex = i;
   const { x, y } = await readCentre(bodyHandleOf(widget));
@@ -211,10 +212,10 @@ test('a sample pointed at, or named, shows its verdict', async ({ page }) => {
 test('a marked motion that went through a wall has a leader to it, and no other has @nightly', async ({ page }) => {
   const widget = await openSqueeze(page);
   const { verdicts } = await readSqueezeResults(widget);
-  const hasWallLabel = (/** @type {number | null} */ index) => widget.evaluate((element, marked) => {
-    Object.assign(element, { marked });
+  const hasWallLabel = (/** @type {number | null} */ attemptIndex) => widget.evaluate((element, markedIndex) => {
+    Object.assign(element, { marked: markedIndex });
     return /** @type {any} */ (element).toSVG().includes('through this wall');
-  }, index);
+  }, attemptIndex);
   expect(await hasWallLabel(null)).toBe(false);
   expect(await hasWallLabel(verdicts.indexOf(5))).toBe(true);
   expect(await hasWallLabel(verdicts.indexOf(7))).toBe(false);
@@ -223,8 +224,8 @@ test('a marked motion that went through a wall has a leader to it, and no other 
 test('the edge of a doorway and a wall are dragged, and Back to the apartment undoes it', async ({ page }) => {
   const widget = await openSqueeze(page);
   const resultsBefore = await readSqueezeResults(widget);
-  const dragHandle = async (/** @type {Locator} */ handle, /** @type {number} */ dx, /** @type {number} */ dy) => {
-    const { x, y } = await readCentre(handle);
+  const dragHandle = async (/** @type {Locator} */ draggedHandle, /** @type {number} */ dx, /** @type {number} */ dy) => {
+    const { x, y } = await readCentre(draggedHandle);
     await page.mouse.move(x, y);
     await page.mouse.down();
     await page.mouse.move(x + dx, y + dy, { steps: 4 });
@@ -237,15 +238,15 @@ test('the edge of a doorway and a wall are dragged, and Back to the apartment un
   expect(resultsAfterEdgeDrag.stats.throughWall).toBeGreaterThan(resultsBefore.stats.throughWall);
   expect(resultsAfterEdgeDrag.config).toEqual(resultsBefore.config);
   const resultsAfterWallDrag = await dragHandle(widget.locator('.handle.side-8'), 10, -20);
-  const [x0, y0, x1, y1] = resultsAfterWallDrag.walls.slice(32, 36);
-  expect([x0, x1]).toEqual([0, 2.8]);
-  expect(y0).toBeGreaterThan(5);
-  expect(y1).toBe(y0);
+  const [wallStartX, wallStartY, wallEndX, wallEndY] = resultsAfterWallDrag.walls.slice(32, 36);
+  expect([wallStartX, wallEndX]).toEqual([0, 2.8]);
+  expect(wallStartY).toBeGreaterThan(5);
+  expect(wallEndY).toBe(wallStartY);
   await expect(widget.locator('canvas.plane')).toHaveAttribute('aria-label', /Edited apartment/);
   // The full number of samples is tested after the walls have stopped moving.
   await widget.evaluate((element) => Object.assign(element, { samples: 5000 }));
   const resultsAfterSecondDrag = await dragHandle(widget.locator('.handle.side-8'), 0, -20);
-  expect(resultsAfterSecondDrag.walls[33]).toBeGreaterThan(y0 + 0.1);
+  expect(resultsAfterSecondDrag.walls[33]).toBeGreaterThan(wallStartY + 0.1);
   expect(resultsAfterSecondDrag.shown).toBe(5000);
   await widget.getByRole('button', { name: 'Back to the apartment' }).click();
   expect((await readSqueezeResults(widget)).walls).toEqual(resultsBefore.walls);
@@ -274,26 +275,25 @@ test('walls are moved by keyboard from one stop of Tab, and their handles are na
 test('the picture has a description, and a user’s change is announced', async ({ page }) => {
   const widget = await openSqueeze(page);
   const { stats } = await readSqueezeResults(widget);
-  const canvas = widget.locator('canvas.plane');
-  await expect(canvas).toHaveAttribute('aria-label', /The apartment: 12\.0 m × 9\.0 m, 18 walls/);
-  await expect(canvas).toHaveAttribute('aria-label', new RegExp(`; ${stats.throughWall} of them, [^;]* went through a wall`));
+  const planeCanvas = widget.locator('canvas.plane');
+  await expect(planeCanvas).toHaveAttribute('aria-label', /The apartment: 12\.0 m × 9\.0 m, 18 walls/);
+  await expect(planeCanvas).toHaveAttribute('aria-label', new RegExp(`; ${stats.throughWall} of them, [^;]* went through a wall`));
   await widget.getByLabel('Whole arc').check();
   const statsAfter = (await readSqueezeResults(widget)).stats;
   const statusLine = widget.locator('p[role=status]');
   const expectedAnnouncement = `${statsAfter.accepted} of 600 motions keep clear of walls all the way and are accepted; none of them went through a wall.`;
   await expect(statusLine).toHaveText(expectedAnnouncement);
   await expect(widget.locator('.verdict')).toHaveText(expectedAnnouncement);
-  // Without the condition all samples are accepted.
   await openDisclosures(widget);
   await widget.getByLabel('Check samples against the map').uncheck();
   const { throughWall } = (await readSqueezeResults(widget)).stats;
   await expect(statusLine).toContainText(`Without the map all 600 motions are accepted; ${throughWall} of them, `);
-  // Changes by the page are not announced, and end the last announcement.
+  // A change by the page is not announced, and ends the last announcement.
   await widget.evaluate((element) => Object.assign(element, { conditioned: true }));
   await expect(statusLine).toBeEmpty();
   await widget.evaluate((element) => Object.assign(element, { conditioned: false }));
   await expect(statusLine).toBeEmpty();
-  await expect(canvas).toHaveAttribute('aria-label', new RegExp(`all 600 motions are accepted; ${throughWall} of them, `));
+  await expect(planeCanvas).toHaveAttribute('aria-label', new RegExp(`all 600 motions are accepted; ${throughWall} of them, `));
 });
 
 test('either view is within the apartment, and a close one has the whole map beside it', async ({ page }) => {
@@ -337,23 +337,23 @@ test('many samples are a density, those through a wall in a colour of their own'
   await widget.evaluate((element) => Object.assign(element, { samples: 20_000 }));
   await expect(densityNote).toContainText('Density');
   expect((await readSqueezeResults(widget)).stats.throughWall).toBeGreaterThan(4000);
-  // All samples behind the wall at y = 5 went through a wall. Hardly any of those between the posts of the doorway did.
+  // All samples behind the wall at y = 5 went through a wall. Hardly any sample between the posts of the doorway did.
   const [greenExcessBehindWall, greenExcessBetweenPosts] = await widget.evaluate((element) => {
     const { picture: { view }, renderRoot } = /** @type {any} */ (element);
     const canvas = renderRoot.querySelector('canvas.plane');
     const pixelRatio = canvas.width / canvas.clientWidth;
     const pixelCopy = Object.assign(document.createElement('canvas'), { width: canvas.width, height: canvas.height });
-    const context = /** @type {CanvasRenderingContext2D} */ (pixelCopy.getContext('2d', { willReadFrequently: true }));
-    context.drawImage(canvas, 0, 0);
+    const pixelContext = /** @type {CanvasRenderingContext2D} */ (pixelCopy.getContext('2d', { willReadFrequently: true }));
+    pixelContext.drawImage(canvas, 0, 0);
     return [[1.75, 5.4], [2.35, 4.2]].map(([x, y]) => {
-      const [left, top] = [pixelRatio * view.toPixelX(x) - 8, pixelRatio * view.toPixelY(y) - 8];
-      const { data } = context.getImageData(left, top, 16, 16);
+      const [patchLeft, patchTop] = [pixelRatio * view.toPixelX(x) - 8, pixelRatio * view.toPixelY(y) - 8];
+      const { data } = pixelContext.getImageData(patchLeft, patchTop, 16, 16);
       let greenExcess = 0;
       for (let i = 0; i < data.length; i += 4) greenExcess += data[i + 3] * (data[i + 1] - data[i + 2]);
       return greenExcess;
     });
   });
-  // Purple has more blue than green, orange more green than blue.
+  // The purple of the palette has more blue than green, and the orange has more green than blue.
   expect(greenExcessBehindWall).toBeLessThan(0);
   expect(greenExcessBetweenPosts).toBeGreaterThan(0);
   await widget.evaluate((element) => Object.assign(element, { samples: 600 }));

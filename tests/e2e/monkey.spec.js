@@ -1,7 +1,7 @@
 // Monkey test: random clicks, drags, keys, numbers, files, attributes, sizes and languages. No event may cause an error message, a crash of
 // the core or a broken figure. A second figure in the same state must show the same results.
 //
-// MONKEY_EVENTS is the number of events, MONKEY_SEED the seed. The message of a failure contains both, for a replay.
+// MONKEY_EVENTS is the number of events, and MONKEY_SEED is the seed. The message of a failure contains number and seed, for a replay.
 
 import { expect } from '@playwright/test';
 import { randomGenerator } from '../random.js';
@@ -28,7 +28,7 @@ const PART_SELECTOR = 'button, summary, input, .handle, canvas, textarea, label'
 const TYPED_NUMBERS = ['0', '1', '0.5', '-3', '\u22120.25', '1,5', '1e-300', '1e9', '12345678901', '100', '7', 'NaN', 'Infinity', '', ' ', 'abc', '2 m', '0x10', '1e'];
 const PRESSABLE_KEYS = ['Tab', 'Shift+Tab', 'Enter', ' ', 'Escape', 'ArrowLeft', 'ArrowRight', 'ArrowUp', 'ArrowDown', 'PageUp', 'PageDown', 'Home', 'End', 'c', 'C', '5', 'Backspace', 'Delete'];
 const ATTRIBUTE_TEXTS = ['', 'null', 'true', 'false', 'toString', '__proto__', '\u0000', 'velocity', 'odometry', 'normal', 'triangular', 'close', 'whole', 'endpoint', 'whole-arc', 'sub-stepped', 'free', 'occupied', 'unknown', 'command ellipse', 'Banana', 'Hard arc', 'doorway', ...TYPED_NUMBERS];
-const LANGUAGES = ['en', 'de', 'de-AT', 'fr', '', 'constructor', 'x'];
+const LANGUAGE_CODES = ['en', 'de', 'de-AT', 'fr', '', 'constructor', 'x'];
 const WINDOW_SIZES = [[1280, 720], [375, 667], [320, 480], [800, 400], [1920, 1080], [600, 900]];
 
 const HALL_IMAGE = makePgmFile('hall.pgm', 30, 20, (column, row) => column % 29 === 0 || row % 19 === 0);
@@ -43,61 +43,61 @@ const DROPPED_FILES = [
   [makeMapFile('notes.txt', 'no map')],
 ];
 
-/** Returns a generator of random numbers and list elements. @param {number} seed @returns {Random} */
+/** Returns a generator of random integers and of random list elements. @param {number} seed @returns {Random} */
 function createRandom(seed) {
-  const random = randomGenerator(seed);
-  const randomBelow = (/** @type {number} */ end) => Math.floor(end * random());
-  return { integerBelow: randomBelow, itemOf: (list) => list[randomBelow(list.length)] };
+  const nextRandom = randomGenerator(seed);
+  const randomBelow = (/** @type {number} */ limit) => Math.floor(limit * nextRandom());
+  return { integerBelow: randomBelow, itemOf: (itemList) => itemList[randomBelow(itemList.length)] };
 }
 
-/** Scrolls a random part of a widget into view, and returns a random point in it. @param {Page} page @param {Random} random @param {string} selector */
-async function findReachablePart(page, random, selector) {
-  const [name, choiceIndex, x, y] = [random.itemOf(ALL_NAMES), random.integerBelow(1e6), random.integerBelow(99) + 1, random.integerBelow(99) + 1];
-  const box = await page.evaluate(
-    ([name, selector, choiceIndex]) => {
-      const visibleParts = [...(document.querySelector(`${name}`)?.shadowRoot?.querySelectorAll(`${selector}`) ?? [])].filter((reachablePart) => reachablePart.checkVisibility());
+/** Scrolls a random part of a widget into view, and returns a random point in it. @param {Page} page @param {Random} randomSource @param {string} partSelector */
+async function findReachablePart(page, randomSource, partSelector) {
+  const [figureName, choiceIndex, x, y] = [randomSource.itemOf(ALL_NAMES), randomSource.integerBelow(1e6), randomSource.integerBelow(99) + 1, randomSource.integerBelow(99) + 1];
+  const partBox = await page.evaluate(
+    ([figureName, partSelector, choiceIndex]) => {
+      const visibleParts = [...(document.querySelector(`${figureName}`)?.shadowRoot?.querySelectorAll(`${partSelector}`) ?? [])].filter((reachablePart) => reachablePart.checkVisibility());
       const reachablePart = visibleParts[Number(choiceIndex) % visibleParts.length];
       if (!reachablePart) return;
       reachablePart.scrollIntoView({ block: 'nearest', behavior: 'instant' });
       const { left, top, width, height } = reachablePart.getBoundingClientRect();
       return { left, top, width, height, description: `${reachablePart.localName} ${reachablePart.id || reachablePart.className} ${reachablePart.textContent?.trim().slice(0, 20)}` };
     },
-    [name, selector, choiceIndex],
+    [figureName, partSelector, choiceIndex],
   );
-  return box && { x: box.left + (box.width * x) / 100, y: box.top + (box.height * y) / 100, description: `${name} ${box.description}` };
+  return partBox && { x: partBox.left + (partBox.width * x) / 100, y: partBox.top + (partBox.height * y) / 100, description: `${figureName} ${partBox.description}` };
 }
 
 /** @type {Record<string, Action>} */
 const RANDOM_ACTIONS = {
-  async click(page, random) {
-    const reachablePart = await findReachablePart(page, random, PART_SELECTOR);
-    if (reachablePart) await page.mouse.click(reachablePart.x, reachablePart.y, { clickCount: random.itemOf([1, 1, 1, 2]) });
+  async click(page, randomSource) {
+    const reachablePart = await findReachablePart(page, randomSource, PART_SELECTOR);
+    if (reachablePart) await page.mouse.click(reachablePart.x, reachablePart.y, { clickCount: randomSource.itemOf([1, 1, 1, 2]) });
     return `${reachablePart?.description}`;
   },
-  async tap(page, random) {
-    const reachablePart = await findReachablePart(page, random, PART_SELECTOR);
+  async tap(page, randomSource) {
+    const reachablePart = await findReachablePart(page, randomSource, PART_SELECTOR);
     if (reachablePart) await page.touchscreen.tap(reachablePart.x, reachablePart.y);
     return `${reachablePart?.description}`;
   },
-  async drag(page, random) {
-    const reachablePart = await findReachablePart(page, random, 'input[type=range], .handle, canvas');
+  async drag(page, randomSource) {
+    const reachablePart = await findReachablePart(page, randomSource, 'input[type=range], .handle, canvas');
     if (!reachablePart) return 'nothing';
-    const dragOffset = [random.integerBelow(400) - 200, random.integerBelow(200) - 100];
+    const dragOffset = [randomSource.integerBelow(400) - 200, randomSource.integerBelow(200) - 100];
     await page.mouse.move(reachablePart.x, reachablePart.y);
     await page.mouse.down();
     await page.mouse.move(reachablePart.x + dragOffset[0], reachablePart.y + dragOffset[1], { steps: 4 });
     // Sometimes another event happens during a drag.
-    if (random.integerBelow(4) > 0) await page.mouse.up();
+    if (randomSource.integerBelow(4) > 0) await page.mouse.up();
     return `${reachablePart.description} by ${dragOffset}`;
   },
-  async key(page, random) {
-    const pressedKeys = Array.from({ length: 1 + random.integerBelow(4) }, () => random.itemOf(PRESSABLE_KEYS));
+  async key(page, randomSource) {
+    const pressedKeys = Array.from({ length: 1 + randomSource.integerBelow(4) }, () => randomSource.itemOf(PRESSABLE_KEYS));
     for (const key of pressedKeys) await page.keyboard.press(key);
     return pressedKeys.join(' ');
   },
-  async type(page, random) {
-    const reachablePart = await findReachablePart(page, random, 'input:not([type=range], [type=checkbox], [type=radio]), textarea');
-    const [typedText, endKey] = [random.itemOf(TYPED_NUMBERS), random.itemOf(['Enter', 'Tab', 'Escape'])];
+  async type(page, randomSource) {
+    const reachablePart = await findReachablePart(page, randomSource, 'input:not([type=range], [type=checkbox], [type=radio]), textarea');
+    const [typedText, endKey] = [randomSource.itemOf(TYPED_NUMBERS), randomSource.itemOf(['Enter', 'Tab', 'Escape'])];
     if (reachablePart) {
       await page.mouse.click(reachablePart.x, reachablePart.y, { clickCount: 3 });
       await page.keyboard.insertText(typedText);
@@ -105,39 +105,39 @@ const RANDOM_ACTIONS = {
     }
     return `${reachablePart?.description}: ${JSON.stringify(typedText)} ${endKey}`;
   },
-  async wheel(page, random) {
-    const scrollDelta = random.integerBelow(2000) - 1000;
+  async wheel(page, randomSource) {
+    const scrollDelta = randomSource.integerBelow(2000) - 1000;
     await page.mouse.wheel(0, scrollDelta);
     return `${scrollDelta}`;
   },
-  async attribute(page, random) {
-    const [name, choiceIndex, text] = [random.itemOf(ALL_NAMES), random.integerBelow(1e6), random.integerBelow(4) === 0 ? null : random.itemOf(ATTRIBUTE_TEXTS)];
-    return page.evaluate(([name, choiceIndex, text]) => {
+  async attribute(page, randomSource) {
+    const [figureName, choiceIndex, attributeText] = [randomSource.itemOf(ALL_NAMES), randomSource.integerBelow(1e6), randomSource.integerBelow(4) === 0 ? null : randomSource.itemOf(ATTRIBUTE_TEXTS)];
+    return page.evaluate(([name, choiceIndex, attributeText]) => {
       const attributeNames = [.../** @type {any} */ (customElements.get(`${name}`)).observedAttributes, 'lang', 'dir', 'id', 'hidden'];
       const attributeName = attributeNames[Number(choiceIndex) % attributeNames.length];
-      const element = document.querySelector(`${name}`);
-      if (text === null) element?.removeAttribute(attributeName);
-      else element?.setAttribute(attributeName, `${text}`);
-      return `${name} ${attributeName}=${text}`;
-    }, [name, choiceIndex, text]);
+      const figureElement = document.querySelector(`${name}`);
+      if (attributeText === null) figureElement?.removeAttribute(attributeName);
+      else figureElement?.setAttribute(attributeName, `${attributeText}`);
+      return `${name} ${attributeName}=${attributeText}`;
+    }, [figureName, choiceIndex, attributeText]);
   },
-  async resize(page, random) {
-    const [width, height] = random.itemOf(WINDOW_SIZES);
+  async resize(page, randomSource) {
+    const [width, height] = randomSource.itemOf(WINDOW_SIZES);
     await page.setViewportSize({ width, height });
     return `${width} × ${height}`;
   },
-  async media(page, random) {
-    const mediaFeatures = { colorScheme: random.itemOf(/** @type {const} */ (['light', 'dark'])), reducedMotion: random.itemOf(/** @type {const} */ (['reduce', 'no-preference'])), mediaFeatures: random.itemOf(/** @type {const} */ (['screen', 'screen', 'print'])) };
+  async media(page, randomSource) {
+    const mediaFeatures = { colorScheme: randomSource.itemOf(/** @type {const} */ (['light', 'dark'])), reducedMotion: randomSource.itemOf(/** @type {const} */ (['reduce', 'no-preference'])), mediaFeatures: randomSource.itemOf(/** @type {const} */ (['screen', 'screen', 'print'])) };
     await page.emulateMedia(mediaFeatures);
     return JSON.stringify(mediaFeatures);
   },
-  async language(page, random) {
-    const newLanguage = random.itemOf(LANGUAGES);
-    await page.evaluate((to) => (document.documentElement.lang = to), newLanguage);
+  async language(page, randomSource) {
+    const newLanguage = randomSource.itemOf(LANGUAGE_CODES);
+    await page.evaluate((language) => (document.documentElement.lang = language), newLanguage);
     return newLanguage;
   },
-  async hash(page, random) {
-    const [name, choiceIndex] = [random.itemOf(ALL_NAMES), random.integerBelow(4)];
+  async hash(page, randomSource) {
+    const [name, choiceIndex] = [randomSource.itemOf(ALL_NAMES), randomSource.integerBelow(4)];
     return page.evaluate(async ([name, choiceIndex]) => {
       const shareLink = await /** @type {AnyElement} */ (document.querySelector(`${name}`)).shareLink();
       const { hash } = new URL(shareLink);
@@ -145,8 +145,8 @@ const RANDOM_ACTIONS = {
       return location.hash.slice(0, 60);
     }, [name, choiceIndex]);
   },
-  async files(page, random) {
-    const files = random.itemOf(DROPPED_FILES);
+  async files(page, randomSource) {
+    const files = randomSource.itemOf(DROPPED_FILES);
     await page.evaluate(async (files) => {
       const mapSection = document.querySelector('map-squeeze')?.shadowRoot?.querySelector('section');
       const dataTransfer = new DataTransfer();
@@ -155,8 +155,8 @@ const RANDOM_ACTIONS = {
     }, files.map(({ name, buffer }) => ({ name, bytes: [...buffer] })));
     return files.map(({ name }) => name).join(' ');
   },
-  async state(page, random) {
-    const [name, choiceIndex, fieldIndex, newValue] = [random.itemOf(ALL_NAMES), random.integerBelow(3), random.integerBelow(1e6), random.itemOf([0, 1, -1, 0.5, 1e9, null, 'x', [], {}, true])];
+  async state(page, randomSource) {
+    const [name, choiceIndex, fieldIndex, newValue] = [randomSource.itemOf(ALL_NAMES), randomSource.integerBelow(3), randomSource.integerBelow(1e6), randomSource.itemOf([0, 1, -1, 0.5, 1e9, null, 'x', [], {}, true])];
     return page.evaluate(([name, choiceIndex, fieldIndex, newValue]) => {
       const element = /** @type {any} */ (document.querySelector(`${name}`));
       const keptStates = /** @type {any} */ (window).keptStates;
@@ -174,16 +174,16 @@ const RANDOM_ACTIONS = {
       return `${name} ${choiceIndex === 0 ? `${fieldName}: ${JSON.stringify(newValue)}` : 'a former state'}`;
     }, [name, choiceIndex, fieldIndex, newValue]);
   },
-  /** Sets a small number of samples, because events are slow with millions. */
-  async reduceSamples(page, random) {
-    const [name, samples] = [random.itemOf(ALL_NAMES), random.itemOf([1, 20, 300, 2000])];
-    return page.evaluate(([name, samples]) => {
-      Object.assign(/** @type {Element} */ (document.querySelector(`${name}`)), { samples });
-      return `${name} ${samples}`;
-    }, [name, samples]);
+  /** Sets a small number of samples, because events are slow with millions of samples. */
+  async reduceSamples(page, randomSource) {
+    const [figureName, sampleCount] = [randomSource.itemOf(ALL_NAMES), randomSource.itemOf([1, 20, 300, 2000])];
+    return page.evaluate(([figureName, sampleCount]) => {
+      Object.assign(/** @type {Element} */ (document.querySelector(`${figureName}`)), { samples: sampleCount });
+      return `${figureName} ${sampleCount}`;
+    }, [figureName, sampleCount]);
   },
-  async move(page, random) {
-    const [name, choiceIndex] = [random.itemOf(ALL_NAMES), random.integerBelow(3)];
+  async move(page, randomSource) {
+    const [name, choiceIndex] = [randomSource.itemOf(ALL_NAMES), randomSource.integerBelow(3)];
     return page.evaluate(async ([name, choiceIndex]) => {
       const element = document.querySelector(`${name}`);
       const moveMarker = document.createComment('');
@@ -197,12 +197,13 @@ const RANDOM_ACTIONS = {
   },
 };
 
-/** Relative frequencies of the actions. @type {Record<string, number>} */
+/** Relative frequencies of the random actions. @type {Record<string, number>} */
 const ACTION_FREQUENCIES = { click: 12, tap: 3, drag: 12, key: 8, type: 6, wheel: 3, attribute: 6, resize: 1, media: 1, language: 1, hash: 1, files: 1, state: 2, reduceSamples: 4, move: 1 };
-const WEIGHTED_ACTION_NAMES = Object.entries(ACTION_FREQUENCIES).flatMap(([name, share]) => Array(share).fill(name));
+const WEIGHTED_ACTION_NAMES = Object.entries(ACTION_FREQUENCIES).flatMap(([actionName, frequency]) => Array(frequency).fill(actionName));
 
 /**
- * Returns faults of a widget: of its picture, of its texts, and results that differ from those of a second widget in the same state.
+ * Returns faults of a widget. Faults are a wrong picture, wrong texts, and results that differ from those of a second widget in the same
+ * state.
  *
  * @param {Page} page
  * @param {string} name
@@ -219,17 +220,17 @@ function readFaults(page, name) {
     await untilShown(element);
     const failureElement = element.shadowRoot.querySelector('.failure');
     if (failureElement || !element.simulation) return [`it shows ${failureElement?.textContent ?? 'nothing'}`];
-    const faults = [...element.shadowRoot.querySelectorAll('dd, td, output, .typed, .note, .caption')]
-      .map((field) => field.value ?? field.textContent)
+    const faultMessages = [...element.shadowRoot.querySelectorAll('dd, td, output, .typed, .note, .caption')]
+      .map((textElement) => textElement.value ?? textElement.textContent)
       .filter((text) => /NaN|Infinity|undefined|\[object/.test(text))
       .map((text) => `it says ${text}`);
 
-    const resultTextOf = async (/** @type {any} */ figure) => {
-      const resultBytes = new Uint8Array(await new Blob([figure.poses, figure.verdicts ?? figure.executed]).arrayBuffer());
+    const resultTextOf = async (/** @type {any} */ figureElement) => {
+      const resultBytes = new Uint8Array(await new Blob([figureElement.poses, figureElement.verdicts ?? figureElement.executed]).arrayBuffer());
       const resultHash = [...new Uint8Array(await crypto.subtle.digest('SHA-256', resultBytes))].join();
-      return JSON.stringify([figure.getState(), figure.stats, resultHash], (_, value) => (Number.isFinite(value) || typeof value !== 'number' ? value : String(value)));
+      return JSON.stringify([figureElement.getState(), figureElement.stats, resultHash], (_, resultValue) => (Number.isFinite(resultValue) || typeof resultValue !== 'number' ? resultValue : String(resultValue)));
     };
-    // A growing cloud is paused, because it would have more samples a moment later.
+    // A growing cloud is paused before its results are read, because it would have more samples a moment later.
     element.setState({ ...element.getState(), ...('playing' in element.getState() && { playing: false }) });
     await element.settled;
     const resultText = await resultTextOf(element);
@@ -240,8 +241,8 @@ function readFaults(page, name) {
     await untilShown(secondElement);
     const secondResultText = await resultTextOf(secondElement);
     secondElement.remove();
-    if (secondResultText !== resultText) faults.push(`a second figure with its state differs: ${resultText.slice(0, 2000)} became ${secondResultText.slice(0, 2000)}`);
-    return faults;
+    if (secondResultText !== resultText) faultMessages.push(`a second figure with its state differs: ${resultText.slice(0, 2000)} became ${secondResultText.slice(0, 2000)}`);
+    return faultMessages;
   }, name);
 }
 
@@ -252,14 +253,14 @@ test('random actions leave every figure sound @nightly', NEW_PAGE_TAG, async ({ 
   page.on('dialog', (dialog) => dialog.dismiss());
   await page.addInitScript(() => {
     Object.assign(window, { keptStates: [], unexpectedErrors: [] });
-    // Full screen is refused, as in many frames, because a window in full screen cannot be resized.
+    // The page refuses full screen, as many frames do, because a window in full screen cannot be resized.
     Element.prototype.requestFullscreen = () => Promise.reject(new TypeError('Fullscreen is not permitted'));
-    // A refused value fires an `error` event, which is expected. Other errors are not.
-    addEventListener('error', (event) => {
-      const { error } = event;
-      event.preventDefault();
-      const isExpectedError = event.target instanceof Element && (error instanceof TypeError || error instanceof RangeError) && /allowed|state/.test(error.message);
-      if (!isExpectedError) Reflect.get(window, 'unexpectedErrors').push(`${error?.stack ?? event.message}`);
+    // A refused value fires an `error` event, which is expected. Other errors are not expected.
+    addEventListener('error', (errorEvent) => {
+      const { error } = errorEvent;
+      errorEvent.preventDefault();
+      const isExpectedError = errorEvent.target instanceof Element && (error instanceof TypeError || error instanceof RangeError) && /allowed|state/.test(error.message);
+      if (!isExpectedError) Reflect.get(window, 'unexpectedErrors').push(`${error?.stack ?? errorEvent.message}`);
     }, true);
   });
   await page.goto('/');

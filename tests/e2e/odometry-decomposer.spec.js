@@ -6,10 +6,10 @@ import { REDUCED_MOTION, waitForFrames, mountFigure, readPicture, playSlider, re
 
 test.use(REDUCED_MOTION);
 
-/** Opens a page with the figure. @param {Page} page @param {string} [attributes] */
+/** Opens a page with an Odometry Decomposer. @param {Page} page @param {string} [attributes] */
 const openDecomposer = (page, attributes) => mountFigure(page, 'odometry-decomposer', { attributes });
 
-/** Returns the results of the simulation after the next frames. @param {Locator} widget */
+/** Returns the results of the simulation after the requested frames. @param {Locator} widget */
 async function readResults(widget) {
   await waitForFrames(widget.page());
   return widget.evaluate((element) => {
@@ -18,7 +18,7 @@ async function readResults(widget) {
   });
 }
 
-const sliderOf = (/** @type {Locator} */ widget, /** @type {string} */ name) => widget.getByRole('slider', { name, exact: true });
+const sliderOf = (/** @type {Locator} */ widget, /** @type {string} */ sliderName) => widget.getByRole('slider', { name: sliderName, exact: true });
 
 test('the views have room for the arcs of the turns and for nearly every outcome', async ({ page }) => {
   await page.setViewportSize({ width: 656, height: 900 });
@@ -28,7 +28,7 @@ test('the views have room for the arcs of the turns and for nearly every outcome
     const { pictures, scene } = /** @type {any} */ (element);
     const outsideCounts = pictures.map((/** @type {any} */ { view: { extent } }) => Array.from({ length: scene.poses.length / 3 }, (_, i) => scene.poses.subarray(3 * i, 3 * i + 2))
       .filter(([x, y]) => x < extent.xMin || x > extent.xMax || y < extent.yMin || y > extent.yMax).length);
-    // `pixelsBelow` is the space below the end of the drive, which has a ring with a radius of about 64 pixels for half a turn.
+    // `pixelsBelow` is the space below the end of the drive. At the end there is a ring with a radius of about 64 pixels for half a turn.
     const { view } = pictures[0];
     return { outsideCounts, pixelsBelow: view.frame.bottom - view.toPixelY(scene.linkage[7]) };
   });
@@ -82,7 +82,7 @@ test('the picture names the spreads of two noise models, drawn to one scale', as
   expect(factsBefore.names).toEqual(['by AMCL of Nav2', 'by Table 5.6']);
   await widget.getByRole('radio', { name: 'AMCL of Nav2' }).check();
   expect(await readPictureFacts()).toEqual(factsBefore);
-  // On a forward drive both models have the same noise.
+  // On a forward drive Table 5.6 and Nav2 have the same noise.
   await widget.getByRole('button', { name: 'Turn, drive, turn' }).click();
   expect((await readPictureFacts()).names).toEqual(['by Table 5.6']);
 });
@@ -108,7 +108,7 @@ test('a rule is chosen in the table, which has the deviations of each rule', asy
   await expect(rowOf('Table 5.6').locator('td')).toHaveText(['0.517', '0.602', '0.534', '0.000', '0.626', '0.743']);
   await expect(rowOf('AMCL of Nav2').locator('td')).toHaveText(['0.131', '0.130', '0.126', '0.000', '0.161', '0.182']);
   await expect(rowOf('AMCL, omnidirectional').locator('td')).toHaveText(['0.000', '0.124', '0.125', '0.124', '0.124', '0.125']);
-  // Cells that differ from the printed table are marked.
+  // Cells of the table that differ from the printed table are marked.
   await expect(rowOf('Table 5.6').locator('strong')).toHaveCount(0);
   await expect(rowOf('AMCL of Nav2').locator('strong')).toHaveText(['0.131', '0.130', '0.126', '0.161', '0.182']);
   const resultsBefore = await readResults(widget);
@@ -126,7 +126,7 @@ test('on paper every rule has its name, and the chosen one stands out @nightly',
   for (const rule of ['Table 5.6', 'AMCL of Nav2', 'Beluga 2', 'AMCL, omnidirectional']) await expect(ruleLabelOf(rule)).toBeVisible();
   await expect(ruleLabelOf('Table 5.6')).toHaveCSS('font-weight', '700');
   await expect(ruleLabelOf('Beluga 2')).not.toHaveCSS('font-weight', '700');
-  // Other groups of radio buttons print the selected one only.
+  // Printed groups of other radio buttons show the selected button only.
   await page.emulateMedia({ media: 'screen' });
   await openDisclosures(widget);
   await page.emulateMedia({ media: 'print' });
@@ -155,14 +155,13 @@ test('the spread against the drive has the outcomes beside the curve', async ({ 
   await expect(deviationPlot).toHaveAttribute('aria-label', /At the reading, 1\.56 m, 0\.305 m across/);
   await expect(deviationPlot.locator('circle')).toHaveCount(1);
   await expect(widget.locator('.readouts').last()).toContainText('exactly 0.305 m');
-  // Without an outcome there is no point.
   await widget.getByRole('button', { name: 'Clear' }).click();
   await expect(deviationPlot.locator('circle')).toHaveCount(0);
 });
 
 test('the path is scrubbed, and is played to its end and again from its beginning', async ({ page }) => {
   const widget = await openDecomposer(page, 'phase="2.8"');
-  // Users who prefer reduced motion have no button.
+  // Users who prefer reduced motion get no play button.
   await expect(widget.locator('.playable button')).toHaveCount(0);
   await sliderOf(widget, 'progress of the motion').press('Home');
   const { robot, config } = await readResults(widget);

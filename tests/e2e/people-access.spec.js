@@ -13,21 +13,21 @@ test.use(REDUCED_MOTION);
  * Opens a page with a figure, with all folds open.
  *
  * @param {Page} page
- * @param {string} name
+ * @param {string} figureName
  * @param {{ attributes?: string, before?: string, after?: string }} [options]
  */
-async function openWithDisclosures(page, name, { attributes = '', before = '', after = '' } = {}) {
-  await showPage(page, `<main><h1>Bare</h1>${before}<${name} heading-level="2" ${attributes}></${name}>${after}</main>`, {
+async function openWithDisclosures(page, figureName, { attributes = '', before = '', after = '' } = {}) {
+  await showPage(page, `<main><h1>Bare</h1>${before}<${figureName} heading-level="2" ${attributes}></${figureName}>${after}</main>`, {
     head: '<meta name="viewport" content="width=device-width"><style>body { margin: 0 }</style>',
     script: ['motion-widgets', 'de'].map((script) => `<script type="module" src="/${script}.js"></script>`).join(''),
   });
-  const widget = page.locator(name);
+  const widget = page.locator(figureName);
   await waitUntilReady(widget);
   await openDisclosures(widget);
   return widget;
 }
 
-/** Media, attributes and widths of figures that are tested for accessibility. Daily tests use the first two, nightly ones all. */
+/** Media, attributes and widths of figures that are tested for accessibility. Daily tests use the first two entries, and nightly tests use all. */
 const COLOR_SETTINGS = /** @type {[Parameters<Page['emulateMedia']>[0], string, number][]} */ ([
   [{ colorScheme: 'light' }, 'theme="light"', 1280],
   [{ colorScheme: 'light' }, 'theme="dark"', 1280],
@@ -36,12 +36,12 @@ const COLOR_SETTINGS = /** @type {[Parameters<Page['emulateMedia']>[0], string, 
   [{ colorScheme: 'light', forcedColors: 'none' }, 'lang="de"', 320],
 ]);
 
-testEach('a figure has no accessibility violations in any look', async (page, name, isFull) => {
-  for (const [media, attributes, width] of isFull ? COLOR_SETTINGS : COLOR_SETTINGS.slice(0, 2)) {
-    await page.emulateMedia(media);
-    await page.setViewportSize({ width, height: 812 });
-    await openWithDisclosures(page, name, { attributes });
-    await expectAccessible(page, JSON.stringify([media, attributes]));
+testEach('a figure has no accessibility violations in any look', async (page, figureName, isFull) => {
+  for (const [emulatedMedia, attributes, figureWidth] of isFull ? COLOR_SETTINGS : COLOR_SETTINGS.slice(0, 2)) {
+    await page.emulateMedia(emulatedMedia);
+    await page.setViewportSize({ width: figureWidth, height: 812 });
+    await openWithDisclosures(page, figureName, { attributes });
+    await expectAccessible(page, JSON.stringify([emulatedMedia, attributes]));
   }
 });
 
@@ -52,24 +52,24 @@ test('a figure keeps its roles, its tracks and its pressed button in forced colo
     expect(await countPixelsOfRole(widget.locator('canvas.plane'), colorRole), colorRole).toBeGreaterThan(25);
   }
   const [pressedColor, otherColor] = await Promise.all(['Banana', 'Straight'].map((name) =>
-    widget.getByRole('button', { name }).evaluate((button) => getComputedStyle(button).backgroundColor)));
+    widget.getByRole('button', { name }).evaluate((buttonElement) => getComputedStyle(buttonElement).backgroundColor)));
   expect(pressedColor).not.toBe(otherColor);
-  // The right end of a slider in its leftmost position shows the track only.
+  // The right end of a slider in its leftmost position shows the track, and not the thumb.
   await openDisclosures(widget);
-  const slider = widget.locator('#alpha5');
-  const trackScreenshot = await slider.screenshot();
-  await slider.evaluate((element) => element.style.setProperty('--muted', 'Canvas'));
-  expect(trackScreenshot.equals(await slider.screenshot())).toBe(false);
+  const alpha5Slider = widget.locator('#alpha5');
+  const trackScreenshot = await alpha5Slider.screenshot();
+  await alpha5Slider.evaluate((element) => element.style.setProperty('--muted', 'Canvas'));
+  expect(trackScreenshot.equals(await alpha5Slider.screenshot())).toBe(false);
 });
 
 testEach('Tab leads to every handle and control of a figure, once, and beyond', async (page, name) => {
   const widget = await openWithDisclosures(page, name, { before: '<a id="before" href="#">Before</a>', after: '<a id="after" href="#">After</a>' });
   await widget.evaluate((element) => {
     const shadowRoot = /** @type {ShadowRoot} */ (element.shadowRoot);
-    const tabStops = [...shadowRoot.querySelectorAll('button, input, select, textarea, summary, a[href], .handle')].filter((stop) => {
-      const { type, name, checked } = /** @type {HTMLInputElement} */ (stop);
-      // The field of a slider is reached from the slider, and other radio buttons of a group from the selected one.
-      if (stop.matches(':disabled, .typed, [tabindex="-1"]') || !stop.checkVisibility({ visibilityProperty: true })) return false;
+    const tabStops = [...shadowRoot.querySelectorAll('button, input, select, textarea, summary, a[href], .handle')].filter((stopElement) => {
+      const { type, name, checked } = /** @type {HTMLInputElement} */ (stopElement);
+      // The field of a slider is reached from the slider. Other radio buttons of a group are reached from the selected one.
+      if (stopElement.matches(':disabled, .typed, [tabindex="-1"]') || !stopElement.checkVisibility({ visibilityProperty: true })) return false;
       return type !== 'radio' || checked || !shadowRoot.querySelector(`input[name="${name}"]:checked`);
     });
     Object.assign(window, { stops: tabStops });
@@ -77,13 +77,13 @@ testEach('Tab leads to every handle and control of a figure, once, and beyond', 
   await page.locator('#before').focus();
   /** @type {(number | string)[]} */
   const reachedStops = [];
-  const readFocusedStop = () => page.evaluate((tag) => {
-    const focusedElement = document.querySelector(tag)?.shadowRoot?.activeElement;
+  const readFocusedStop = () => page.evaluate((widgetTag) => {
+    const focusedElement = document.querySelector(widgetTag)?.shadowRoot?.activeElement;
     return focusedElement ? Reflect.get(window, 'stops').indexOf(focusedElement) : `${document.activeElement?.id}`;
   }, name);
   const [stopCount, stopTexts] = await page.evaluate(() => {
     const tabStops = /** @type {Element[]} */ (Reflect.get(window, 'stops'));
-    return [tabStops.length, tabStops.map((stop) => stop.outerHTML.slice(0, 120))];
+    return [tabStops.length, tabStops.map((stopElement) => stopElement.outerHTML.slice(0, 120))];
   });
   expect(stopCount).toBeGreaterThan(10);
   do {
@@ -119,10 +119,10 @@ test('the focus stays near a control that goes or is disabled by its own action'
 test('sliders speak their value with its unit, and nothing is announced while one moves', async ({ page }) => {
   const widget = await openBanana(page);
   const statusLine = widget.locator('p[role=status]');
-  const slider = widget.locator('#v');
-  await slider.scrollIntoViewIfNeeded();
-  await expect(slider).toHaveAttribute('aria-valuetext', '1.00 m/s');
-  const { x, y, width, height } = await readBox(slider);
+  const speedSlider = widget.locator('#v');
+  await speedSlider.scrollIntoViewIfNeeded();
+  await expect(speedSlider).toHaveAttribute('aria-valuetext', '1.00 m/s');
+  const { x, y, width, height } = await readBox(speedSlider);
   await page.mouse.move(x + 0.83 * width, y + height / 2);
   await page.mouse.down();
   for (const pointerShare of [0.7, 0.6, 0.5]) {
@@ -143,8 +143,8 @@ test('a figure has targets that are large enough for a finger', async ({ page, f
   const widget = await openWithDisclosures(page, figureName);
   const smallTargets = await widget.evaluate((element) =>
     [.../** @type {ShadowRoot} */ (element.shadowRoot).querySelectorAll('button, input[type=range], label:has(input):not(td label, th label), .handle')]
-      .filter((target) => target.checkVisibility())
-      .map((target) => ({ html: target.outerHTML.slice(0, 80), box: target.getBoundingClientRect() }))
+      .filter((touchTarget) => touchTarget.checkVisibility())
+      .map((touchTarget) => ({ html: touchTarget.outerHTML.slice(0, 80), box: touchTarget.getBoundingClientRect() }))
       .filter(({ box }) => Math.min(box.width, box.height) < 24));
   expect(smallTargets).toEqual([]);
 });
@@ -152,57 +152,53 @@ test('a figure has targets that are large enough for a finger', async ({ page, f
 test.describe('a finger', () => {
   test.use({ hasTouch: true, viewport: { width: 375, height: 812 } });
 
-  /** Swipes upwards from a place, as fingers do. @param {Page} page @param {{ x: number, y: number }} start */
-  async function swipeUpFrom(page, start) {
+  /** Swipes upwards from a point by touch events. @param {Page} page @param {{ x: number, y: number }} startPoint */
+  async function swipeUpFrom(page, startPoint) {
     const cdpSession = await page.context().newCDPSession(page);
-    await cdpSession.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: [start] });
+    await cdpSession.send('Input.dispatchTouchEvent', { type: 'touchStart', touchPoints: [startPoint] });
     for (let moveNumber = 1; moveNumber <= 10; moveNumber++) {
-      const touchPoint = { x: start.x + moveNumber / 5, y: start.y - 16 * moveNumber };
+      const touchPoint = { x: startPoint.x + moveNumber / 5, y: startPoint.y - 16 * moveNumber };
       await cdpSession.send('Input.dispatchTouchEvent', { type: 'touchMove', touchPoints: [touchPoint] });
     }
     await cdpSession.send('Input.dispatchTouchEvent', { type: 'touchEnd', touchPoints: [] });
     await waitForFrames(page);
   }
 
-  /**
-   * Scrolls a part of a figure to the lower half of the screen, clear of the picture that stays in sight above.
-   *
-   * @param {Locator} part
-   */
-  async function scrollToLowerHalf(part) {
-    await part.evaluate((element) => {
+  /** Scrolls a part of a figure to the lower half of the screen, below the picture that stays in sight. @param {Locator} partLocator */
+  async function scrollToLowerHalf(partLocator) {
+    await partLocator.evaluate((element) => {
       const { top, height } = element.getBoundingClientRect();
       scrollBy({ top: top + height / 2 - 0.7 * innerHeight, behavior: 'instant' });
     });
-    await waitForFrames(part.page());
+    await waitForFrames(partLocator.page());
   }
   const surroundingHtml = { before: '<div style="height: 300px"></div>', after: '<div style="height: 1500px"></div>' };
 
   test('moves each handle of a figure and not the page', async ({ page, handleFigureName }) => {
     const widget = await openWithDisclosures(page, handleFigureName, surroundingHtml);
-    for (const selector of FIGURE_FACTS[handleFigureName].handleSelectors ?? []) {
-      const handle = widget.locator(selector);
-      await scrollToLowerHalf(handle);
+    for (const handleSelector of FIGURE_FACTS[handleFigureName].handleSelectors ?? []) {
+      const figureHandle = widget.locator(handleSelector);
+      await scrollToLowerHalf(figureHandle);
       const stateBefore = await readState(widget);
-      const [handleCentre, scrollYBefore] = [await readCentre(handle), await page.evaluate(() => scrollY)];
+      const [handleCentre, scrollYBefore] = [await readCentre(figureHandle), await page.evaluate(() => scrollY)];
       await swipeUpFrom(page, handleCentre);
-      expect(await page.evaluate(() => scrollY), selector).toBe(scrollYBefore);
-      expect(await readState(widget), selector).not.toEqual(stateBefore);
+      expect(await page.evaluate(() => scrollY), handleSelector).toBe(scrollYBefore);
+      expect(await readState(widget), handleSelector).not.toEqual(stateBefore);
     }
   });
 
   test('that swipes over a picture or a slider scrolls the page and changes nothing', async ({ page, figureName }) => {
     const widget = await openWithDisclosures(page, figureName, surroundingHtml);
-    for (const selector of ['canvas.plane', `#${FIGURE_FACTS[figureName].sliderId}`]) {
-      const part = widget.locator(selector);
-      await scrollToLowerHalf(part);
+    for (const swipedSelector of ['canvas.plane', `#${FIGURE_FACTS[figureName].sliderId}`]) {
+      const swipedPart = widget.locator(swipedSelector);
+      await scrollToLowerHalf(swipedPart);
       const stateBefore = await readState(widget);
-      const { x, y, width, height } = await readBox(part);
+      const { x, y, width, height } = await readBox(swipedPart);
       const scrollYBefore = await page.evaluate(() => scrollY);
-      // No thumb is at a third of the width, so that the track is visible there.
+      // No slider has its thumb at a third of the width, so that the track is visible there.
       await swipeUpFrom(page, { x: x + 0.3 * width, y: y + height / 2 });
       await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(scrollYBefore + 60);
-      expect(await readState(widget), selector).toEqual(stateBefore);
+      expect(await readState(widget), swipedSelector).toEqual(stateBefore);
     }
   });
 
@@ -213,7 +209,7 @@ test.describe('a finger', () => {
     const { x, y, width, height } = await readBox(omegaChart);
     await page.touchscreen.tap(x + 0.8 * width, y + height / 2);
     await expect.poll(async () => (await readBananaResults(widget)).config.command.omega).toBeGreaterThan(1);
-    const canvas = widget.locator('canvas.plane');
+    const planeCanvas = widget.locator('canvas.plane');
     await widget.evaluate((element) => element.scrollIntoView());
     const [xShare, yShare] = await widget.evaluate((element) => {
       const { pictures: [{ view }], poses, viewModel: { end } } = /** @type {any} */ (element);
@@ -227,7 +223,7 @@ test.describe('a finger', () => {
       }
       throw new Error('No robot is clear of the handle.');
     });
-    const box = await readBox(canvas);
+    const box = await readBox(planeCanvas);
     await page.touchscreen.tap(box.x + xShare * box.width, box.y + yShare * box.height);
     await expect(widget.locator('#robot')).not.toHaveValue('');
   });
@@ -236,34 +232,34 @@ test.describe('a finger', () => {
 test('paper has the figure and its settings, in light colours, and nothing to press', async ({ page }) => {
   await page.emulateMedia({ colorScheme: 'light' });
   const widget = await mountFigure(page, 'banana-machine', { head: '<style>:root { color-scheme: light dark }</style>' });
-  const canvas = widget.locator('canvas.plane');
-  // Both events are fired synchronously, without a frame in between.
-  const takePrintedPicture = () => canvas.evaluate((element) => {
+  const planeCanvas = widget.locator('canvas.plane');
+  // Two print events are fired synchronously, without a frame between them.
+  const takePrintedPicture = () => planeCanvas.evaluate((element) => {
     dispatchEvent(new Event('beforeprint'));
     const printedPixels = /** @type {HTMLCanvasElement} */ (element).toDataURL();
     dispatchEvent(new Event('afterprint'));
     return printedPixels;
   });
   const lightPicture = await takePrintedPicture();
-  const screenPicture = await readPicture(canvas);
+  const screenPicture = await readPicture(planeCanvas);
   await page.emulateMedia({ colorScheme: 'dark' });
-  await expect.poll(() => readPicture(canvas)).not.toBe(screenPicture);
+  await expect.poll(() => readPicture(planeCanvas)).not.toBe(screenPicture);
   expect((await takePrintedPicture()) === lightPicture).toBe(true);
   await page.emulateMedia({ colorScheme: 'dark', media: 'print' });
-  const readAspectRatio = () => canvas.evaluate((element) => {
+  const readAspectRatio = () => planeCanvas.evaluate((element) => {
     const { width, height, clientWidth, clientHeight } = /** @type {HTMLCanvasElement} */ (element);
     return (width * clientHeight) / (height * clientWidth);
   });
   await expect.poll(readAspectRatio).toBeCloseTo(1, 1);
   await expect(widget.locator('.on-paper')).toHaveText(/α1\s=\s0\.002\s+α2\s=.*\sα6\s=\s0\.002/);
   for (const valueText of ['1.00 m/s', '2.00 s']) await expect(widget.getByText(valueText, { exact: true }).first()).toBeVisible();
-  // On paper the pixels of a canvas determine its proportions. Setting them in every frame would resize it each time.
+  // On paper the pixels of a canvas determine its proportions. Setting them in every frame would resize the canvas each time.
   await page.evaluate(() => {
     addEventListener('error', ({ message }) => Object.assign(window, { recordedError: message }));
     document.querySelector('banana-machine')?.replaceWith(document.createElement('banana-machine'));
   });
   await waitUntilReady(widget);
-  const readCanvasSize = () => canvas.evaluate((element) => ['width', 'height'].map((side) => Reflect.get(element, side)));
+  const readCanvasSize = () => planeCanvas.evaluate((element) => ['width', 'height'].map((sideName) => Reflect.get(element, sideName)));
   for (const width of [600, 701, 1127, 1920]) {
     await page.setViewportSize({ width, height: 900 });
     await waitForFrames(page);
@@ -281,8 +277,8 @@ test('paper has figures that were far from the window, with their pictures @nigh
   await page.evaluate(() => {
     addEventListener('afterprint', () => {
       const canvas = document.querySelector('map-squeeze')?.shadowRoot?.querySelector('canvas');
-      const pixels = canvas?.width ? canvas.getContext('2d')?.getImageData(0, 0, canvas.width, canvas.height).data : [];
-      Object.assign(window, { inked: pixels?.some((channel) => channel > 0) });
+      const canvasPixels = canvas?.width ? canvas.getContext('2d')?.getImageData(0, 0, canvas.width, canvas.height).data : [];
+      Object.assign(window, { inked: canvasPixels?.some((colorChannel) => colorChannel > 0) });
     }, { once: true, capture: true });
   });
   await page.pdf();
@@ -292,15 +288,15 @@ test('paper has figures that were far from the window, with their pictures @nigh
 test('a print shows the disclosures that the user opened, and no controls @nightly', async ({ page, figureName }) => {
   const widget = await mountFigure(page, figureName);
   const { foldIndex, part } = FIGURE_FACTS[figureName].printedPart;
-  const disclosure = widget.locator('.folds details').nth(foldIndex);
-  await expect(disclosure).toBeVisible();
+  const foldDisclosure = widget.locator('.folds details').nth(foldIndex);
+  await expect(foldDisclosure).toBeVisible();
   await page.emulateMedia({ media: 'print' });
-  await expect(disclosure.locator(part).first()).toBeHidden();
+  await expect(foldDisclosure.locator(part).first()).toBeHidden();
   await page.emulateMedia({ media: 'screen' });
-  await disclosure.locator('summary').click();
-  await expect(disclosure.locator(part).first()).toBeVisible();
+  await foldDisclosure.locator('summary').click();
+  await expect(foldDisclosure.locator(part).first()).toBeVisible();
   await page.emulateMedia({ media: 'print' });
-  await expect(disclosure.locator(part).first()).toBeVisible();
+  await expect(foldDisclosure.locator(part).first()).toBeVisible();
   await expect(widget.locator('.readouts').first()).toBeVisible();
   await expect(widget.locator('[part=caption]')).toBeVisible();
   await expect(widget.locator(':is(button, input, summary, textarea):visible')).toHaveCount(0);
@@ -309,45 +305,45 @@ test('a print shows the disclosures that the user opened, and no controls @night
 testEach('a figure with all folds open fits into 320 px', async (page, name, isFull) => {
   await page.setViewportSize({ width: 320, height: 812 });
   const widget = await openWithDisclosures(page, name);
-  /** Returns the widths of the page, and elements beyond the right edge of the window that cannot be scrolled to. */
+  /** Returns the widths of the page, and the elements beyond the right edge of the window that cannot be scrolled to. */
   const findOverflow = () => widget.evaluate((element) => {
     const { body } = document;
     const isVisibleOverflow = (/** @type {Element} */ part) => {
-      for (let ancestor = part.parentElement; ancestor; ancestor = ancestor.parentElement) if (getComputedStyle(ancestor).overflowX !== 'visible') return false;
+      for (let ancestorElement = part.parentElement; ancestorElement; ancestorElement = ancestorElement.parentElement) if (getComputedStyle(ancestorElement).overflowX !== 'visible') return false;
       return part.checkVisibility({ visibilityProperty: true });
     };
     const overflowingParts = [.../** @type {ShadowRoot} */ (element.shadowRoot).querySelectorAll('*')].filter((part) => part.getBoundingClientRect().right > innerWidth + 0.5 && isVisibleOverflow(part));
     return [document.documentElement.scrollWidth, body.scrollWidth, ...overflowingParts.map(({ outerHTML }) => outerHTML.slice(0, 80))];
   });
-  for (const lang of isFull ? ['en', 'de'] : ['en']) {
-    await widget.evaluate((element, to) => element.setAttribute('lang', to), lang);
+  for (const figureLanguage of isFull ? ['en', 'de'] : ['en']) {
+    await widget.evaluate((element, newLanguage) => element.setAttribute('lang', newLanguage), figureLanguage);
     await waitForFrames(page);
-    expect(await findOverflow(), lang).toEqual([320, 320]);
+    expect(await findOverflow(), figureLanguage).toEqual([320, 320]);
   }
 });
 
-testEach('the help of a slider covers no slider of its group and no rule, and no outline crosses it', async (page, figure) => {
-  const widget = await openWithDisclosures(page, figure);
-  for (const [width, lang] of /** @type {const} */ ([[320, 'en'], [700, 'de']])) {
+testEach('the help of a slider covers no slider of its group and no rule, and no outline crosses it', async (page, figureName) => {
+  const widget = await openWithDisclosures(page, figureName);
+  for (const [width, figureLanguage] of /** @type {const} */ ([[320, 'en'], [700, 'de']])) {
     await page.setViewportSize({ width, height: 812 });
-    await widget.evaluate((element, to) => element.setAttribute('lang', to), lang);
+    await widget.evaluate((element, newLanguage) => element.setAttribute('lang', newLanguage), figureLanguage);
     await waitForFrames(page);
     const coveredSliders = await widget.evaluate((element) => {
       const shadowRoot = /** @type {ShadowRoot} */ (element.shadowRoot);
       const foldsTop = /** @type {Element} */ (shadowRoot.querySelector('.folds')).getBoundingClientRect().top;
-      return [...shadowRoot.querySelectorAll('.slider')].flatMap((row) => {
-        const slider = /** @type {HTMLInputElement} */ (row.querySelector('input[type=range]'));
+      return [...shadowRoot.querySelectorAll('.slider')].flatMap((sliderRow) => {
+        const slider = /** @type {HTMLInputElement} */ (sliderRow.querySelector('input[type=range]'));
         slider.focus();
-        const helpBox = row.querySelector('.effect')?.getBoundingClientRect();
+        const helpBox = sliderRow.querySelector('.effect')?.getBoundingClientRect();
         if (!helpBox) return [];
-        // The outline of a thumb ends 4 px outside it, and a thumb has the radius 0.525 rem.
-        return [.../** @type {Element} */ (row.closest('fieldset, .controls, .with-button')).querySelectorAll('.slider input[type=range]')]
-          .map((control) => control.getBoundingClientRect())
+        // The outline of a thumb ends 4 px outside the thumb, which has the radius 0.525 rem.
+        return [.../** @type {Element} */ (sliderRow.closest('fieldset, .controls, .with-button')).querySelectorAll('.slider input[type=range]')]
+          .map((controlElement) => controlElement.getBoundingClientRect())
           .filter(({ top, bottom }) => (top + bottom) / 2 + 0.525 * 16 + 4 > helpBox.top && (top + bottom) / 2 < helpBox.bottom)
           .map(() => slider.id)
           .concat(helpBox.top < foldsTop && helpBox.bottom > foldsTop ? `${slider.id} on the rule` : []);
       });
     });
-    expect(coveredSliders, `${width} px, ${lang}`).toEqual([]);
+    expect(coveredSliders, `${width} px, ${figureLanguage}`).toEqual([]);
   }
 });

@@ -3,13 +3,13 @@ import { REDUCED_MOTION, waitForFrames, test, waitUntilReady } from './support.j
 
 /** @import { Locator, Page } from '@playwright/test' */
 
-// The chapter's exercises 4, 5 and 7 on the page, by keyboard only: a user predicts the answer, and then reveals it.
+// Exercises 4, 5 and 7 of the chapter on the page, by keyboard only. A user predicts the answer, and then reveals it.
 test.use(REDUCED_MOTION);
 
-/** Opens the page at the section of a figure. @param {Page} page @param {string} section */
-async function openSection(page, section) {
-  await page.goto(`/#${section}`);
-  const sectionArticle = page.locator(`#${section}`);
+/** Opens the page at the section of a figure. @param {Page} page @param {string} sectionId */
+async function openSection(page, sectionId) {
+  await page.goto(`/#${sectionId}`);
+  const sectionArticle = page.locator(`#${sectionId}`);
   await waitUntilReady(sectionArticle.locator('.stand > *'));
   return sectionArticle;
 }
@@ -25,11 +25,11 @@ async function revealAnswer(sketchForm) {
 test('exercise 4: a sketch is chosen, and the robots of α₄ alone and α₆ alone appear below it', async ({ page }) => {
   const sectionArticle = await openSection(page, 'banana');
   const sketchForm = sectionArticle.locator('.sketch');
-  const readIsolateAndOmega = () => sectionArticle.locator('banana-machine').evaluate((figure) => [Reflect.get(figure, 'isolate'), Reflect.get(figure, 'omega')]);
+  const readIsolateAndOmega = () => sectionArticle.locator('banana-machine').evaluate((bananaMachine) => [Reflect.get(bananaMachine, 'isolate'), Reflect.get(bananaMachine, 'omega')]);
   const caseRadios = sketchForm.locator('[name=case]');
-  const predictAndReveal = async (shape = 'an ellipse') => {
+  const predictAndReveal = async (predictedShape = 'an ellipse') => {
     await expect(sketchForm.getByRole('button')).toBeDisabled();
-    await sketchForm.getByLabel(shape).press('Space');
+    await sketchForm.getByLabel(predictedShape).press('Space');
     await expect(sketchForm.locator('.drawn')).toHaveAttribute('d', /^M.*Z$/);
     const revealedText = await revealAnswer(sketchForm);
     await expect(sketchForm.locator('.robots')).toHaveAttribute('d', /^M/);
@@ -38,7 +38,7 @@ test('exercise 4: a sketch is chosen, and the robots of α₄ alone and α₆ al
   const expectedNoCloudText = 'Not what you expected. Every robot stops at the same point, with the same heading. There is no cloud.';
   expect(await predictAndReveal()).toBe(expectedNoCloudText);
   expect(await readIsolateAndOmega()).toEqual([4, 0]);
-  const { alphas, command } = await sectionArticle.locator('banana-machine').evaluate((figure) => /** @type {any} */ (figure).getState());
+  const { alphas, command } = await sectionArticle.locator('banana-machine').evaluate((bananaMachine) => /** @type {any} */ (bananaMachine).getState());
   expect([alphas.velocity[3], alphas.velocity[5], command.v * command.dt, command.dt]).toEqual([0.09, 0.01, 2, 2]);
   await caseRadios.nth(0).press('ArrowDown');
   expect(await predictAndReveal()).toBe(expectedNoCloudText);
@@ -53,21 +53,21 @@ test('exercise 4: a sketch is chosen, and the robots of α₄ alone and α₆ al
 
 test('exercise 4: a sketch drawn with the pointer stays over the robots', async ({ page }) => {
   const sketchForm = (await openSection(page, 'banana')).locator('.sketch');
-  const pad = sketchForm.locator('.pad');
-  await pad.scrollIntoViewIfNeeded();
-  await pad.dragTo(pad, { sourcePosition: { x: 150, y: 40 }, targetPosition: { x: 220, y: 120 } });
+  const sketchPad = sketchForm.locator('.pad');
+  await sketchPad.scrollIntoViewIfNeeded();
+  await sketchPad.dragTo(sketchPad, { sourcePosition: { x: 150, y: 40 }, targetPosition: { x: 220, y: 120 } });
   const sketchPath = await sketchForm.locator('.drawn').getAttribute('d');
   expect(sketchPath?.split('L').length).toBeGreaterThan(1);
-  // The first case has no noise.
+  // The first case of the sketch exercise has no noise.
   expect(await revealAnswer(sketchForm)).toMatch(/^Not what you expected\. Every robot stops at the same point/);
   expect(await sketchForm.locator('.drawn').getAttribute('d')).toBe(sketchPath);
   await sketchForm.locator('[name=case]').nth(2).check();
-  // The outline is a rectangle along the edge of the pad, which contains every robot.
-  const { x: left, y: top, width, height } = /** @type {{ x: number, y: number, width: number, height: number }} */ (await pad.boundingBox());
+  // The sketched outline is a rectangle along the edge of the pad. It contains every robot.
+  const { x: padLeft, y: padTop, width, height } = /** @type {{ x: number, y: number, width: number, height: number }} */ (await sketchPad.boundingBox());
   const rectangleCorners = [[2, 2], [width - 2, 2], [width - 2, height - 2], [2, height - 2]];
-  await pad.hover({ position: { x: 2, y: 2 } });
+  await sketchPad.hover({ position: { x: 2, y: 2 } });
   await sketchForm.page().mouse.down();
-  for (const [x, y] of rectangleCorners.slice(1)) await sketchForm.page().mouse.move(left + x, top + y);
+  for (const [x, y] of rectangleCorners.slice(1)) await sketchForm.page().mouse.move(padLeft + x, padTop + y);
   await sketchForm.page().mouse.up();
   expect(await revealAnswer(sketchForm)).toMatch(/^100 % of the robots stop inside your outline\. The robots spread/);
 });
@@ -107,7 +107,7 @@ test('exercise 7: the steps of both noises are bet on, and then the curve of the
 test('on a phone, the picture that stays beside an item shows what the item sets', async ({ page }) => {
   await page.setViewportSize({ width: 375, height: 800 });
   const sectionArticle = await openSection(page, 'reckoning');
-  const takePicture = () => sectionArticle.locator('dead-reckoning canvas').first().evaluate((canvas) => /** @type {HTMLCanvasElement} */ (canvas).toDataURL());
+  const takePicture = () => sectionArticle.locator('dead-reckoning canvas').first().evaluate((canvasElement) => /** @type {HTMLCanvasElement} */ (canvasElement).toDataURL());
   const stepsButton = sectionArticle.getByRole('button', { name: '200 steps', exact: true });
   await stepsButton.scrollIntoViewIfNeeded();
   const pictureBefore = await takePicture();

@@ -8,22 +8,22 @@ import { REDUCED_MOTION, readBananaResults, readBox, waitForFrames, mountFigure,
 
 test.use(REDUCED_MOTION);
 
-/** Parses a CSV export of a figure. @param {string} text */
-function parseCSV(text) {
-  const [commentLine, headerLine, ...dataLines] = text.trimEnd().split('\n');
+/** Parses a CSV export of a figure. @param {string} csvText */
+function parseCSV(csvText) {
+  const [commentLine, headerLine, ...dataLines] = csvText.trimEnd().split('\n');
   expect(commentLine.startsWith('# ')).toBe(true);
-  return { settings: JSON.parse(commentLine.slice(2)), columns: headerLine.split(','), rows: dataLines.map((line) => line.split(',').map(Number)) };
+  return { settings: JSON.parse(commentLine.slice(2)), columns: headerLine.split(','), rows: dataLines.map((csvLine) => csvLine.split(',').map(Number)) };
 }
 
 const readCSV = (/** @type {Locator} */ widget) => widget.evaluate((element) => /** @type {Figure} */ (element).toCSV());
 const readSVG = (/** @type {Locator} */ widget) => widget.evaluate((element) => /** @type {Figure} */ (element).toSVG());
 
-/** Returns the title, description and size of an SVG file, and the numbers of its elements. @param {import('@playwright/test').Page} page @param {string} svg */
-function describeSVG(page, svg) {
-  return page.evaluate((text) => {
-    const svgDocument = new DOMParser().parseFromString(text, 'image/svg+xml');
+/** Returns the title, description and size of an SVG file, and the counts of its elements. @param {import('@playwright/test').Page} page @param {string} svgText */
+function describeSVG(page, svgText) {
+  return page.evaluate((svgText) => {
+    const svgDocument = new DOMParser().parseFromString(svgText, 'image/svg+xml');
     if (svgDocument.querySelector('parsererror')) throw new Error(svgDocument.documentElement.textContent ?? '');
-    const countElements = (/** @type {string} */ selector) => svgDocument.querySelectorAll(selector).length;
+    const countElements = (/** @type {string} */ svgSelector) => svgDocument.querySelectorAll(svgSelector).length;
     return {
       title: svgDocument.querySelector('title')?.textContent,
       description: svgDocument.querySelector('desc')?.textContent,
@@ -33,22 +33,21 @@ function describeSVG(page, svg) {
       dashed: countElements('[stroke-dasharray]'),
       size: [svgDocument.documentElement.getAttribute('width'), svgDocument.documentElement.getAttribute('height')].map(Number),
     };
-  }, svg);
+  }, svgText);
 }
 
 test('CSV of the Banana Machine has the samples, and the settings that bring them back', async ({ page }) => {
   const widget = await openBanana(page, 'samples="2000"');
   await widget.getByRole('button', { name: 'Hard arc' }).click();
   const { config, shown } = await readBananaResults(widget);
-  const poses = await readPoses(widget);
+  const cloudPoses = await readPoses(widget);
   const { settings, columns, rows } = parseCSV(await readCSV(widget));
   expect(columns).toEqual([
     ...['x_m', 'y_m', 'theta_rad', 'xi_along_m', 'xi_lateral_m', 'xi_heading_rad'],
     ...['v_hat_m_per_s', 'omega_hat_rad_per_s', 'gamma_hat_rad_per_s'],
   ]);
   expect(rows).toHaveLength(shown);
-  // Numbers are exported with all digits.
-  expect(rows.flatMap((row) => row.slice(0, 3))).toEqual(poses);
+  expect(rows.flatMap((csvRow) => csvRow.slice(0, 3))).toEqual(cloudPoses);
   expect(settings).toEqual({ element: 'banana-machine', ...config });
   const recomputedPoses = await widget.evaluate((element, { element: _name, ...given }) => {
     const { motion } = /** @type {import('./support.js').BananaMachineElement} */ (element);
@@ -57,7 +56,7 @@ test('CSV of the Banana Machine has the samples, and the settings that bring the
     simulation.free();
     return posesCopy;
   }, settings);
-  expect(recomputedPoses).toEqual(poses);
+  expect(recomputedPoses).toEqual(cloudPoses);
 });
 
 test('CSV of Map Squeeze has the verdicts, which add up to the readouts', async ({ page }) => {
@@ -67,7 +66,7 @@ test('CSV of Map Squeeze has the verdicts, which add up to the readouts', async 
   expect(settings).toEqual({ element: 'map-squeeze', map: null, ...config });
   expect(columns).toEqual(['x_m', 'y_m', 'theta_rad', 'end_free', 'path_free', 'accepted']);
   expect(rows).toHaveLength(stats.attempts);
-  expect(rows.filter((row) => row[5] === 1)).toHaveLength(stats.accepted);
+  expect(rows.filter((csvRow) => csvRow[5] === 1)).toHaveLength(stats.accepted);
   expect(rows.filter((row) => row[5] === 1 && row[4] === 0)).toHaveLength(stats.throughWall);
 });
 
@@ -75,7 +74,7 @@ test('SVG is vectors with a title and a description: dots while they are few, el
   const widget = await openBanana(page);
   const floorCanvas = widget.locator('canvas.plane');
   await openDisclosures(widget);
-  // Position 6 of the slider is a thousand samples.
+  // Position 6 of the slider means a thousand samples.
   await widget.locator('#samples').fill('6');
   await waitForFrames(page);
   const svgOfFewSamples = await describeSVG(page, await readSVG(widget));
@@ -88,7 +87,7 @@ test('SVG is vectors with a title and a description: dots while they are few, el
   expect(svgOfFewSamples.texts).toBeGreaterThan(8);
   const svgText = await readSVG(widget);
   for (const labelText of ['Gaussian in (x, y)', 'Gaussian in ξ', 'command']) expect(svgText).toContain(`>${labelText}`);
-  // The handle, an element on the page, is exported as a ring.
+  // The handle is an element on the page. In an export it is drawn as a ring.
   expect(svgText).toMatch(/<path[^>]*a7\.5,7\.5[^>]*stroke-width="3"/);
   await widget.locator('#samples').fill('9');
   await waitForFrames(page);
@@ -106,16 +105,16 @@ test('PNG of a figure has twice the pixels and opaque paper', async ({ page, fig
   await page.emulateMedia({ colorScheme: 'dark' });
   const widget = await mountFigure(page, figureName);
   const pngMeasures = await widget.evaluate(async (element) => {
-    const figure = /** @type {Figure} */ (element);
-    const svgRoot = new DOMParser().parseFromString(figure.toSVG(), 'image/svg+xml').documentElement;
-    const pngBlob = await figure.toPNG();
+    const figureElement = /** @type {Figure} */ (element);
+    const svgRoot = new DOMParser().parseFromString(figureElement.toSVG(), 'image/svg+xml').documentElement;
+    const pngBlob = await figureElement.toPNG();
     const pngBitmap = await createImageBitmap(pngBlob);
-    const context = /** @type {OffscreenCanvasRenderingContext2D} */ (new OffscreenCanvas(pngBitmap.width, pngBitmap.height).getContext('2d'));
-    context.drawImage(pngBitmap, 0, 0);
-    const pixels = new Uint32Array(context.getImageData(0, 0, pngBitmap.width, pngBitmap.height).data.buffer);
+    const pngContext = /** @type {OffscreenCanvasRenderingContext2D} */ (new OffscreenCanvas(pngBitmap.width, pngBitmap.height).getContext('2d'));
+    pngContext.drawImage(pngBitmap, 0, 0);
+    const pngPixels = new Uint32Array(pngContext.getImageData(0, 0, pngBitmap.width, pngBitmap.height).data.buffer);
     return {
-      type: pngBlob.type, width: pngBitmap.width, height: pngBitmap.height, opaque: pixels.every((pixel) => pixel >>> 24 === 255),
-      colours: new Set(pixels).size, svg: ['width', 'height'].map((name) => Number(svgRoot.getAttribute(name))),
+      type: pngBlob.type, width: pngBitmap.width, height: pngBitmap.height, opaque: pngPixels.every((pngPixel) => pngPixel >>> 24 === 255),
+      colours: new Set(pngPixels).size, svg: ['width', 'height'].map((name) => Number(svgRoot.getAttribute(name))),
     };
   });
   expect(pngMeasures).toMatchObject({ type: 'image/png', opaque: true });
@@ -129,16 +128,16 @@ test('the menu saves files with names that say what they are, from the keyboard 
   await openDisclosures(widget);
   await widget.locator('.exports button').first().focus();
   for (const fileEnding of ['png', 'svg', 'csv']) {
-    const [download] = await Promise.all([page.waitForEvent('download'), page.keyboard.press('Enter')]);
-    expect(download.suggestedFilename()).toBe(`banana-machine-${await readProperty(widget, 'seed')}.${fileEnding}`);
-    const fileContents = readFileSync(await download.path());
+    const [csvDownload] = await Promise.all([page.waitForEvent('download'), page.keyboard.press('Enter')]);
+    expect(csvDownload.suggestedFilename()).toBe(`banana-machine-${await readProperty(widget, 'seed')}.${fileEnding}`);
+    const fileContents = readFileSync(await csvDownload.path());
     expect(fileContents.length).toBeGreaterThan(1000);
     if (fileEnding === 'csv') expect(fileContents.toString()).toBe(await readCSV(widget));
     await page.keyboard.press('Tab');
   }
 });
 
-/** Characters that XML forbids or that end a part of it. */
+/** Characters that XML forbids, and characters that end a part of an XML document. */
 const HOSTILE_TEXT = ']]> --> <!-- <![CDATA[ </svg><script>alert(1)</script> & &amp; " \u0027 \u0000\u0001\u0008\u000b\u000c\u001f\ufffe\uffff \ud800 \udc00 \u{1f916} é';
 
 /** Returns a text with the replacements that an export to SVG makes. @param {string} text */
@@ -147,9 +146,9 @@ const replaceForbiddenCharacters = (text) => text.replace(/[\0-\x08\x0b\x0c\x1f\
 
 test('SVG is well-formed whatever the names of a page are @nightly', async ({ page }) => {
   const widget = await openSqueeze(page);
-  await widget.evaluate(async (element, json) => {
+  await widget.evaluate(async (element, stateJson) => {
     // JSON keeps unpaired surrogates.
-    const hostileText = JSON.parse(json);
+    const hostileText = JSON.parse(stateJson);
     element.append(Object.assign(document.createElement('span'), { slot: 'title', textContent: hostileText }));
     element.style.setProperty('--motion-font', `"${hostileText.replaceAll('"', '').replaceAll('\0', '')}", serif`);
     Object.assign(element, { map: { bounds: [0, 0, 6, 4], walls: [[3, 0, 3, 1.5]], name: hostileText } });

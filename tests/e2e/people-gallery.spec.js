@@ -7,53 +7,52 @@ test.use(REDUCED_MOTION);
 
 test('examples of the reference start when they are opened, and are what their code says', async ({ page }) => {
   await page.goto('/reference.html');
-  const examples = page.locator('.example');
-  await expect(examples).toHaveCount(5);
-  for (const example of await examples.all()) {
-    const exampleFigure = example.locator('banana-machine, map-squeeze');
-    expect(await exampleFigure.evaluate((figure) => Reflect.get(figure, 'simulation') === undefined)).toBe(true);
-    // The attributes are read before the figure starts, which adds attributes if the settings match no preset.
-    const attributes = await exampleFigure.evaluate((figure) => Object.fromEntries([...figure.attributes].map(({ name, value }) => [name, value])));
-    await example.locator('summary').first().click();
+  const exampleSections = page.locator('.example');
+  await expect(exampleSections).toHaveCount(5);
+  for (const exampleSection of await exampleSections.all()) {
+    const exampleFigure = exampleSection.locator('banana-machine, map-squeeze');
+    expect(await exampleFigure.evaluate((figureElement) => Reflect.get(figureElement, 'simulation') === undefined)).toBe(true);
+    // The attributes are read before the figure starts. A starting figure adds attributes if its settings match no preset.
+    const figureAttributes = await exampleFigure.evaluate((figureElement) => Object.fromEntries([...figureElement.attributes].map(({ name, value }) => [name, value])));
+    await exampleSection.locator('summary').first().click();
     await exampleFigure.locator('canvas').first().scrollIntoViewIfNeeded();
     await expect(exampleFigure.locator('.cloud button').first()).toBeVisible();
     await waitForFrames(page);
-    const exampleCode = (await example.locator('code').first().textContent()) ?? '';
-    const config = await exampleFigure.evaluate((figure) => Reflect.get(figure, 'simulation').config);
-    for (const [name, value] of Object.entries(attributes)) expect(exampleCode).toContain(`${name}="${value}"`);
-    for (const name of ['samples', 'isolate', 'sampler']) if (name in attributes) expect(String(config[name])).toBe(attributes[name]);
-    if (attributes.lang === 'de') await expect(exampleFigure.getByRole('button', { name: 'Stichproben ziehen' })).toBeVisible();
-    await example.locator('summary').first().click();
+    const exampleCode = (await exampleSection.locator('code').first().textContent()) ?? '';
+    const config = await exampleFigure.evaluate((figureElement) => Reflect.get(figureElement, 'simulation').config);
+    for (const [name, value] of Object.entries(figureAttributes)) expect(exampleCode).toContain(`${name}="${value}"`);
+    for (const name of ['samples', 'isolate', 'sampler']) if (name in figureAttributes) expect(String(config[name])).toBe(figureAttributes[name]);
+    if (figureAttributes.lang === 'de') await expect(exampleFigure.getByRole('button', { name: 'Stichproben ziehen' })).toBeVisible();
+    await exampleSection.locator('summary').first().click();
   }
 });
 
-/** Settings of items that do not change the preset. */
+/** Settings of gallery items that do not change the preset. */
 const KEYS_OUTSIDE_PRESETS = ['preset', 'samples', 'overlays', 'line', 'morph'];
 
 testEach('each item sets the whole state that it describes, whatever was pressed before', async (page, name) => {
   await page.goto('/');
   const figureArticle = page.locator('article', { has: page.locator(name) });
-  const figure = figureArticle.locator(name);
-  await figure.scrollIntoViewIfNeeded();
-  await waitUntilReady(figure);
+  const figureLocator = figureArticle.locator(name);
+  await figureLocator.scrollIntoViewIfNeeded();
+  await waitUntilReady(figureLocator);
   const itemButtons = await figureArticle.locator('button[data-try]').all();
-  const pressAndReadState = async (/** @type {import('@playwright/test').Locator} */ button) => {
-    // The button is clicked by script, because some buttons are in a closed disclosure.
-    await button.evaluate((exampleFigure) => /** @type {HTMLElement} */ (exampleFigure).click());
-    await expect(button).toHaveAttribute('aria-current', 'true');
+  const pressAndReadState = async (/** @type {import('@playwright/test').Locator} */ presetButton) => {
+    // The button is clicked by a script, because some buttons are in a closed disclosure.
+    await presetButton.evaluate((exampleFigure) => /** @type {HTMLElement} */ (exampleFigure).click());
+    await expect(presetButton).toHaveAttribute('aria-current', 'true');
     await waitForFrames(page);
-    const itemSettings = JSON.parse((await button.getAttribute('data-try')) ?? '{}');
-    const [state, properties] = await figure.evaluate((exampleFigure, keys) => {
-      const state = /** @type {any} */ (exampleFigure).getState();
-      return [state, Object.fromEntries(keys.map((key) => [key, key in exampleFigure ? Reflect.get(exampleFigure, key) : Reflect.get(state, key)]))];
+    const itemSettings = JSON.parse((await presetButton.getAttribute('data-try')) ?? '{}');
+    const [figureState, figureProperties] = await figureLocator.evaluate((exampleFigure, propertyKeys) => {
+      const figureState = /** @type {any} */ (exampleFigure).getState();
+      return [figureState, Object.fromEntries(propertyKeys.map((propertyKey) => [propertyKey, propertyKey in exampleFigure ? Reflect.get(exampleFigure, propertyKey) : Reflect.get(figureState, propertyKey)]))];
     }, Object.keys(itemSettings));
-    // After a change no preset is selected.
-    const expectedPreset = Object.keys(itemSettings).every((key) => KEYS_OUTSIDE_PRESETS.includes(key)) ? itemSettings.preset : properties.preset;
-    expect(properties).toEqual({ ...itemSettings, ...(itemSettings.preset && { preset: expectedPreset }) });
-    return state;
+    const expectedPreset = Object.keys(itemSettings).every((key) => KEYS_OUTSIDE_PRESETS.includes(key)) ? itemSettings.preset : figureProperties.preset;
+    expect(figureProperties).toEqual({ ...itemSettings, ...(itemSettings.preset && { preset: expectedPreset }) });
+    return figureState;
   };
   const firstStates = [];
-  for (const button of itemButtons) firstStates.push(await pressAndReadState(button));
+  for (const itemButton of itemButtons) firstStates.push(await pressAndReadState(itemButton));
   for (const [i, button] of [...itemButtons.entries()].reverse()) expect(await pressAndReadState(button)).toEqual(firstStates[i]);
 });
 
@@ -69,32 +68,32 @@ test('a term and an entry of the legend highlight their line in the picture', as
   const figureArticle = page.locator('#banana');
   const figure = figureArticle.locator('banana-machine');
   await waitUntilReady(figure);
-  const canvas = figure.locator('canvas.plane');
-  const pictureBefore = await readPicture(canvas);
+  const planeCanvas = figure.locator('canvas.plane');
+  const pictureBefore = await readPicture(planeCanvas);
   const termElement = figureArticle.getByText('dashed ellipse', { exact: true });
   await termElement.focus();
   expect(await readProperty(figure, 'highlight')).toBe('ellipse');
   await waitForFrames(page);
-  const highlightedPicture = await readPicture(canvas);
+  const highlightedPicture = await readPicture(planeCanvas);
   expect(highlightedPicture).not.toBe(pictureBefore);
   await termElement.blur();
   await waitForFrames(page);
-  expect(await readPicture(canvas)).toBe(pictureBefore);
+  expect(await readPicture(planeCanvas)).toBe(pictureBefore);
   await figure.locator('.legend').getByText('Gaussian in (x, y)').hover();
   await waitForFrames(page);
-  expect(await readPicture(canvas)).toBe(highlightedPicture);
+  expect(await readPicture(planeCanvas)).toBe(highlightedPicture);
 });
 
 test('contents lead to every section', async ({ page }) => {
   await page.goto('/');
   const contentsLinks = page.getByRole('navigation', { name: 'Contents' }).getByRole('link');
-  const linkTargets = await contentsLinks.evaluateAll((linkElements) => linkElements.map((link) => link.getAttribute('href')));
+  const linkTargets = await contentsLinks.evaluateAll((linkElements) => linkElements.map((linkElement) => linkElement.getAttribute('href')));
   expect(linkTargets).toEqual(await page.locator('main > [id]').evaluateAll((targetElements) => targetElements.map(({ id }) => `#${id}`)));
 });
 
-for (const [width, height] of [[1280, 720], [375, 760]]) {
-  test(`a figure stands below its heading, and stays in sight while its items are read, ${width} px wide`, async ({ page }) => {
-    await page.setViewportSize({ width, height });
+for (const [pageWidth, pageHeight] of [[1280, 720], [375, 760]]) {
+  test(`a figure stands below its heading, and stays in sight while its items are read, ${pageWidth} px wide`, async ({ page }) => {
+    await page.setViewportSize({ width: pageWidth, height: pageHeight });
     await page.goto('/');
     const figureArticle = page.locator('#banana');
     await waitUntilReady(figureArticle.locator('banana-machine'));
@@ -111,8 +110,8 @@ test('nothing on the page moves while figures load', async ({ page }) => {
   await page.addInitScript(() => {
     const layoutShifts = /** @type {string[]} */ ([]);
     Object.assign(window, { layoutShifts });
-    new PerformanceObserver((list) => {
-      const shiftSources = list.getEntries().flatMap((entry) => [...Reflect.get(entry, 'sources')]);
+    new PerformanceObserver((entryList) => {
+      const shiftSources = entryList.getEntries().flatMap((shiftEntry) => [...Reflect.get(shiftEntry, 'sources')]);
       for (const { node, previousRect, currentRect } of shiftSources) layoutShifts.push(`${node?.className ?? node?.nodeName}: ${JSON.stringify([previousRect, currentRect])}`);
     }).observe({ type: 'layout-shift', buffered: true });
   });
@@ -132,9 +131,9 @@ for (const pagePath of ['/', '/reference.html']) {
 }
 
 plainTest('the gallery says what is missing without JavaScript', async ({ browser, baseURL }) => {
-  const context = await browser.newContext({ javaScriptEnabled: false, baseURL });
-  const page = await context.newPage();
+  const scriptlessContext = await browser.newContext({ javaScriptEnabled: false, baseURL });
+  const page = await scriptlessContext.newPage();
   await page.goto('/');
   await expect(page.getByText('needs a browser with JavaScript and WebAssembly')).toBeVisible();
-  await context.close();
+  await scriptlessContext.close();
 });

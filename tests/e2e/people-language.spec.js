@@ -4,19 +4,19 @@ import { REDUCED_MOTION, readBananaResults, waitForFrames, mountFigure, parseNum
 
 test.use(REDUCED_MOTION);
 
-/** Names of figures that are equal in both languages. */
+/** Names of figures that are the same in English and German. */
 const UNTRANSLATED_NAMES = ['Map Squeeze', 'Arc Anatomy'];
 
-/** Returns all messages of a language. @param {string} lang @returns {Promise<any>} */
-async function loadCatalogue(lang) {
-  const widgetCatalogues = ALL_NAMES.map(async (name) => (await import(`../../www/widgets/${name}/${lang}.js`))[lang]);
-  return { ...(await import(`../../www/messages/${lang}.js`))[lang], ...(await Promise.all(widgetCatalogues)) };
+/** Returns all messages of a language. @param {string} languageCode @returns {Promise<any>} */
+async function loadCatalogue(languageCode) {
+  const widgetCatalogues = ALL_NAMES.map(async (figureName) => (await import(`../../www/widgets/${figureName}/${languageCode}.js`))[languageCode]);
+  return { ...(await import(`../../www/messages/${languageCode}.js`))[languageCode], ...(await Promise.all(widgetCatalogues)) };
 }
 
-/** Returns path and message of each entry. @param {any} catalogue @param {string} [path] @returns {[string, string | Function][]} */
-function listMessages(catalogue, path = '') {
-  return Object.entries(catalogue).flatMap(([key, message]) =>
-    typeof message === 'object' ? listMessages(message, `${path}.${key}`) : [[`${path}.${key}`, message]],
+/** Returns the path and the message of each entry of a catalogue. @param {any} messageCatalogue @param {string} [parentPath] @returns {[string, string | Function][]} */
+function listMessages(messageCatalogue, parentPath = '') {
+  return Object.entries(messageCatalogue).flatMap(([messageKey, messageOrGroup]) =>
+    typeof messageOrGroup === 'object' ? listMessages(messageOrGroup, `${parentPath}.${messageKey}`) : [[`${parentPath}.${messageKey}`, messageOrGroup]],
   );
 }
 
@@ -24,58 +24,58 @@ function listMessages(catalogue, path = '') {
 function readVisibleTexts(widget) {
   return widget.evaluate((element) => {
     const shadowRoot = /** @type {ShadowRoot} */ (element.shadowRoot);
-    const texts = [];
+    const nodeTexts = [];
     const treeWalker = document.createTreeWalker(shadowRoot, NodeFilter.SHOW_ELEMENT | NodeFilter.SHOW_TEXT);
     while (treeWalker.nextNode()) {
-      const node = treeWalker.currentNode;
-      if (node instanceof Element) {
+      const textNode = treeWalker.currentNode;
+      if (textNode instanceof Element) {
         for (const attributeName of ['aria-label', 'aria-description', 'aria-valuetext', 'title', 'placeholder', 'data-longest']) {
-          texts.push(node.getAttribute(attributeName) ?? '');
+          nodeTexts.push(textNode.getAttribute(attributeName) ?? '');
         }
-      } else if (node.parentElement?.localName !== 'style' && node.parentElement?.localName !== 'textarea') {
-        texts.push(node.textContent ?? '');
+      } else if (textNode.parentElement?.localName !== 'style' && textNode.parentElement?.localName !== 'textarea') {
+        nodeTexts.push(textNode.textContent ?? '');
       }
     }
     // Italics and subscripts split a sentence into several nodes.
     const textElements = [...shadowRoot.querySelectorAll('p, li, dt, dd, th, td, caption, figcaption, legend, label')];
-    texts.push(...textElements.map((node) => node.textContent ?? ''));
-    return texts.map((text) => text.replace(/\s+/g, ' ').trim()).filter(Boolean);
+    nodeTexts.push(...textElements.map((textElement) => textElement.textContent ?? ''));
+    return nodeTexts.map((nodeText) => nodeText.replace(/\s+/g, ' ').trim()).filter(Boolean);
   });
 }
 
 test('both catalogues have the same messages, with the same values in them', async () => {
   const [englishMessages, germanMessages] = (await Promise.all(['en', 'de'].map(loadCatalogue))).map((catalogue) => listMessages(catalogue));
-  const messageShapesOf = (/** @type {[string, string | Function][]} */ messages) =>
-    messages.map(([path, message]) => [path, typeof message, typeof message === 'function' ? message.length : 0]);
+  const messageShapesOf = (/** @type {[string, string | Function][]} */ catalogueMessages) =>
+    catalogueMessages.map(([path, message]) => [path, typeof message, typeof message === 'function' ? message.length : 0]);
   expect(messageShapesOf(germanMessages)).toEqual(messageShapesOf(englishMessages));
   expect(englishMessages.length).toBeGreaterThan(200);
 });
 
-testEach('no English is left in a German figure', async (page, name) => {
+testEach('no English is left in a German figure', async (page, figureName) => {
   const [englishCatalogue, germanCatalogue] = await Promise.all(['en', 'de'].map(loadCatalogue));
   const germanTexts = new Set(listMessages(germanCatalogue).map(([, message]) => message));
   const englishTexts = listMessages(englishCatalogue)
     .map(([, message]) => (typeof message === 'string' ? message : String(message(...'\ue001\ue002\ue003\ue004\ue005'))))
-    // Text around the values of a message is English too.
+    // The text around the values of an error message is English too.
     .flatMap((message) => message.replace(/[*]/g, '').split(/[\ue001-\ue005]/))
-    .map((part) => part.replace(/[₀-₉]/g, (/** @type {string} */ digit) => String(digit.charCodeAt(0) - 0x2080)).trim())
-    .filter((part) => /\p{L}{4}/u.test(part) && !UNTRANSLATED_NAMES.includes(part) && !germanTexts.has(part));
+    .map((messagePart) => messagePart.replace(/[₀-₉]/g, (/** @type {string} */ digit) => String(digit.charCodeAt(0) - 0x2080)).trim())
+    .filter((messagePart) => /\p{L}{4}/u.test(messagePart) && !UNTRANSLATED_NAMES.includes(messagePart) && !germanTexts.has(messagePart));
   expect(englishTexts.length).toBeGreaterThan(400);
-  await showPage(page, `<${name} lang="de-AT"></${name}>`, {
+  await showPage(page, `<${figureName} lang="de-AT"></${figureName}>`, {
     script: ['motion-widgets', 'de'].map((script) => `<script type="module" src="/${script}.js"></script>`).join(''),
   });
-  const widget = page.locator(name);
+  const widget = page.locator(figureName);
   await waitUntilReady(widget);
   await openDisclosures(widget);
-  const texts = await readVisibleTexts(widget);
-  expect(texts.length).toBeGreaterThan(60);
-  expect(englishTexts.filter((part) => texts.some((text) => text === part || (part.includes(' ') && text.includes(part))))).toEqual([]);
+  const visibleTexts = await readVisibleTexts(widget);
+  expect(visibleTexts.length).toBeGreaterThan(60);
+  expect(englishTexts.filter((part) => visibleTexts.some((visibleText) => visibleText === part || (part.includes(' ') && visibleText.includes(part))))).toEqual([]);
 });
 
 test('the nearest lang decides, also on the form of numbers; a language without words is English', async ({ page }) => {
   const widget = await openBanana(page);
   await page.addScriptTag({ type: 'module', url: '/de.js' });
-  const expectPlayButton = (/** @type {string} */ name) => expect(widget.getByRole('button', { name, exact: true })).toBeVisible();
+  const expectPlayButton = (/** @type {string} */ buttonName) => expect(widget.getByRole('button', { name: buttonName, exact: true })).toBeVisible();
   const englishSkew = (await readoutValue(widget, 'cross-track skew').textContent()) ?? '';
   await widget.evaluate((element) => element.setAttribute('lang', 'de'));
   await expectPlayButton('Stichproben ziehen');
@@ -108,9 +108,9 @@ test('a page may replace words and add languages; a message of another shape is 
       ['fr', { banana: { settings: { model: 'x' } } }],
       ['de_AT', { play: 'Los' }],
     ]);
-    return refusedMessages.map(([lang, messages]) => {
+    return refusedMessages.map(([languageCode, messages]) => {
       try {
-        setMessages(lang, messages);
+        setMessages(languageCode, messages);
       } catch (error) {
         return String(error);
       }
@@ -128,40 +128,40 @@ test('a page may replace words and add languages; a message of another shape is 
   await expect(widget.getByRole('spinbutton', { name: 'Automate' })).toBeVisible();
   await expect(widget.getByRole('button', { name: 'Step' })).toBeVisible();
   await expect(widget.locator('p[part=caption]')).toHaveText('À droite.');
-  // Digits and decimal separators are Latin in all languages.
+  // Digits and decimal separators are the Latin ones in all languages.
   await widget.evaluate((element) => element.setAttribute('lang', 'ar-EG'));
   await expect(readoutValue(widget, 'cross-track skew')).toHaveText(/^−0\.\d{3}/);
 });
 
 test('a page from right to left has the same picture, and nothing beside its figure @nightly', async ({ page, figureName }) => {
   const widget = await mountFigure(page, figureName);
-  const canvas = widget.locator('canvas.plane');
-  const pictureBefore = await readPicture(canvas);
+  const planeCanvas = widget.locator('canvas.plane');
+  const pictureBefore = await readPicture(planeCanvas);
   await page.evaluate(() => void (document.documentElement.dir = 'rtl'));
   await widget.evaluate((element) => /** @type {any} */ (element).renderer.requestFrame());
-  expect(await readPicture(canvas)).toBe(pictureBefore);
+  expect(await readPicture(planeCanvas)).toBe(pictureBefore);
   expect(await page.evaluate(() => document.documentElement.scrollWidth - innerWidth)).toBeLessThanOrEqual(0);
-  const slider = widget.locator('.slider input[type=range]').first();
-  const valueBefore = Number(await slider.inputValue());
-  await slider.press('ArrowUp');
-  expect(Number(await slider.inputValue())).toBeGreaterThan(valueBefore);
+  const firstSlider = widget.locator('.slider input[type=range]').first();
+  const valueBefore = Number(await firstSlider.inputValue());
+  await firstSlider.press('ArrowUp');
+  expect(Number(await firstSlider.inputValue())).toBeGreaterThan(valueBefore);
 });
 
 test('signs stand left of their numbers on a page from right to left, also among words from right to left', async ({ page, figureName }) => {
   const headHtml = '<script type="module">import { setMessages } from "/motion-widgets.js"; setMessages("he", { play: "נגן" })</script>';
-  for (const [lang, direction, numberSelector] of [['en', 'ltr', '.simulation'], ['he', 'rtl', '.simulation :is(bdi, [dir=ltr])']]) {
-    await showPage(page, `<div dir="rtl" lang="${lang}"><${figureName}><p slot="caption">נגן</p></${figureName}></div>`, { head: headHtml });
+  for (const [figureLanguage, textDirection, numberSelector] of [['en', 'ltr', '.simulation'], ['he', 'rtl', '.simulation :is(bdi, [dir=ltr])']]) {
+    await showPage(page, `<div dir="rtl" lang="${figureLanguage}"><${figureName}><p slot="caption">נגן</p></${figureName}></div>`, { head: headHtml });
     const widget = page.locator(figureName);
     await waitUntilReady(widget);
     await openDisclosures(widget);
-    const signsAndSides = await widget.evaluate(({ shadowRoot }, selector) => {
+    const signsAndSides = await widget.evaluate(({ shadowRoot }, numberPart) => {
       const characterRange = new Range();
-      const boxOfCharacter = (/** @type {Text} */ text, /** @type {number} */ index) => {
-        characterRange.setStart(text, index);
-        characterRange.setEnd(text, index + 1);
+      const boxOfCharacter = (/** @type {Text} */ text, /** @type {number} */ characterIndex) => {
+        characterRange.setStart(text, characterIndex);
+        characterRange.setEnd(text, characterIndex + 1);
         return characterRange.getBoundingClientRect();
       };
-      return [.../** @type {ShadowRoot} */ (shadowRoot).querySelectorAll(selector)].flatMap((element) => {
+      return [.../** @type {ShadowRoot} */ (shadowRoot).querySelectorAll(numberPart)].flatMap((element) => {
         const treeWalker = document.createTreeWalker(element, NodeFilter.SHOW_TEXT);
         const signBoxes = [];
         while (treeWalker.nextNode()) {
@@ -174,21 +174,21 @@ test('signs stand left of their numbers on a page from right to left, also among
     }, numberSelector);
     expect(signsAndSides.length).toBeGreaterThan(1);
     expect(signsAndSides.filter(([, isLeftOfNumber]) => !isLeftOfNumber)).toEqual([]);
-    const readTextDirection = (/** @type {string} */ selector) => widget.locator(selector).evaluate((element) => getComputedStyle(element).direction);
-    expect(await readTextDirection('.simulation')).toBe(direction);
+    const readTextDirection = (/** @type {string} */ directedPart) => widget.locator(directedPart).evaluate((element) => getComputedStyle(element).direction);
+    expect(await readTextDirection('.simulation')).toBe(textDirection);
     expect(await readTextDirection('[slot=caption]')).toBe('rtl');
   }
 });
 
 test('a page translator that replaces every text freezes none @nightly', async ({ page, figureName }) => {
-  // A figure outside the viewport is not drawn: both have to be visible.
+  // A figure outside the viewport is not drawn. The two figures must therefore be visible.
   await page.setViewportSize({ width: 1280, height: 4000 });
   await showPage(page, `<${figureName} id="translated"></${figureName}><${figureName} id="other"></${figureName}>`);
-  const [translatedFigure, otherFigure] = ['#translated', '#other'].map((id) => page.locator(id));
+  const [translatedFigure, otherFigure] = ['#translated', '#other'].map((figureSelector) => page.locator(figureSelector));
   const { sliderId, sliderValues } = FIGURE_FACTS[figureName];
   const readTexts = async () => {
     await waitForFrames(page);
-    return Promise.all([translatedFigure, otherFigure].map((widget) => widget.locator('.simulation').evaluate((simulation) => simulation.textContent)));
+    return Promise.all([translatedFigure, otherFigure].map((widget) => widget.locator('.simulation').evaluate((simulationElement) => simulationElement.textContent)));
   };
   for (const widget of [translatedFigure, otherFigure]) {
     await waitUntilReady(widget);

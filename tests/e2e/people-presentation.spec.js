@@ -4,7 +4,7 @@ import { REDUCED_MOTION, readBox, readCentre, waitForFrames, mountFigure, showPa
 
 test.use({ ...REDUCED_MOTION, viewport: { width: 1920, height: 1080 } });
 
-/** Returns true if a presented figure needs no scrolling. @param {import('@playwright/test').Locator} widget */
+/** Returns true if a presented figure fits without scrolling. @param {import('@playwright/test').Locator} widget */
 const fitsSurface = (widget) => widget.locator('.surface').evaluate((element) => element.scrollHeight <= element.clientHeight && element.scrollWidth <= element.clientWidth);
 
 test('the button fills the screen, C shows the controls, and Escape leaves', async ({ page }) => {
@@ -20,13 +20,12 @@ test('the button fills the screen, C shows the controls, and Escape leaves', asy
   await expect(widget.locator('.title-slot')).toBeVisible();
   await expect(widget.locator('.slider').first()).toBeHidden();
   await expectAccessible(page, undefined, 'banana-machine');
-  // Copying a selection shows no controls.
   await page.keyboard.press('Control+c');
   await expect(controlsButton).toHaveAttribute('aria-pressed', 'false');
   await page.keyboard.press('c');
   await expect(controlsButton).toHaveAttribute('aria-pressed', 'true');
   await expect(widget.locator('.slider').first()).toBeVisible();
-  // In the field of a value, C is a letter and Escape leaves the field.
+  // In the text field of a value, C is a letter, and Escape leaves the field.
   await widget.locator('.typed').first().click();
   await page.keyboard.press('c');
   await expect(controlsButton).toHaveAttribute('aria-pressed', 'true');
@@ -42,20 +41,20 @@ test('the button fills the screen, C shows the controls, and Escape leaves', asy
 test('without full screen the attribute fills the window, and the button leaves', async ({ page }) => {
   await page.addInitScript(() => (Element.prototype.requestFullscreen = () => Promise.reject(new TypeError('refused'))));
   const widget = await mountFigure(page, 'banana-machine');
-  // Slides are scaled by a transform, to which fixed boxes would be relative.
+  // Slides are scaled by a transform. Fixed boxes would be relative to that transform.
   await page.evaluate(() => (document.body.style.transform = 'scale(0.5)'));
   const boxBefore = await readBox(widget);
   await widget.evaluate((element) => void Object.assign(element, { presentation: true }));
   await expect.poll(() => readBox(widget)).toEqual({ x: 0, y: 0, width: 1920, height: 1080 });
   // A handle stays under the pointer at any font size.
-  const handle = widget.getByRole('slider', { name: 'End of the commanded arc' });
+  const arcEndHandle = widget.getByRole('slider', { name: 'End of the commanded arc' });
   await waitForFrames(page);
-  const centreBefore = await readCentre(handle);
+  const centreBefore = await readCentre(arcEndHandle);
   await page.mouse.move(centreBefore.x, centreBefore.y);
   await page.mouse.down();
   await page.mouse.move(centreBefore.x + 60, centreBefore.y - 40, { steps: 4 });
   await waitForFrames(page);
-  const centreAfter = await readCentre(handle);
+  const centreAfter = await readCentre(arcEndHandle);
   expect(Math.hypot(centreAfter.x - centreBefore.x - 60, centreAfter.y - centreBefore.y + 40)).toBeLessThan(2);
   await page.mouse.up();
   await widget.getByRole('button', { name: 'Esc Exit' }).click();
@@ -74,7 +73,6 @@ test('the keys 1 to 9 choose presets, and entering from the keyboard leads to a 
     await expect(widget).toHaveAttribute('preset', presetNames[i]);
     await expect(widget).toHaveAttribute('morph', '0');
   }
-  // No preset has this key.
   await page.keyboard.press('9');
   await expect(widget).toHaveAttribute('preset', presetNames[0]);
 });
@@ -134,8 +132,8 @@ testEach('a presented figure has large pictures and legible letters, with and wi
   await waitForFrames(page);
   expect(await fitsSurface(widget)).toBe(true);
   const buttonsBottom = Math.max(...(await Promise.all((await widget.locator('.presenting button').all()).map(readBox))).map(({ y, height }) => y + height));
-  for (const picture of await widget.locator('.stage canvas').all()) {
-    const { y, height } = await readBox(picture);
+  for (const canvasLocator of await widget.locator('.stage canvas').all()) {
+    const { y, height } = await readBox(canvasLocator);
     expect(y).toBeGreaterThanOrEqual(buttonsBottom);
     expect(height).toBeGreaterThanOrEqual(0.3 * 1080);
   }
@@ -146,9 +144,9 @@ testEach('a figure presented on a phone has its pictures below their titles, and
     await page.setViewportSize(viewport);
     const widget = await mountFigure(page, name, { attributes: 'presentation' });
     await waitForFrames(page);
-    const panelTitles = await widget.evaluate(({ shadowRoot }) => [...(shadowRoot?.querySelectorAll('.panel') ?? [])].map((panel) => {
-      const [title, picture] = ['.panel-title', '.stage, .plotted'].map((selector) => panel.querySelector(selector)?.getBoundingClientRect());
-      return { title, picture };
+    const panelTitles = await widget.evaluate(({ shadowRoot }) => [...(shadowRoot?.querySelectorAll('.panel') ?? [])].map((panelElement) => {
+      const [titleBox, pictureBox] = ['.panel-title', '.stage, .plotted'].map((boxSelector) => panelElement.querySelector(boxSelector)?.getBoundingClientRect());
+      return { title: titleBox, picture: pictureBox };
     }));
     const shownPanels = panelTitles.filter(({ picture }) => picture && picture.height > 0);
     expect(shownPanels.length).toBeGreaterThan(0);
@@ -157,13 +155,13 @@ testEach('a figure presented on a phone has its pictures below their titles, and
       expect(picture?.top).toBeGreaterThanOrEqual(Number(title?.bottom) - 1);
       expect(picture?.left).toBeLessThan(Number(title?.right));
     }
-    const overlap = await widget.evaluate(({ shadowRoot }) => {
-      const views = /** @type {Element} */ (shadowRoot?.querySelector('.views'));
-      const lowestPicture = Math.max(...[...views.querySelectorAll('.stage')].map((stage) => stage.getBoundingClientRect().bottom));
-      const following = [...(views.parentElement?.children ?? [])].filter((element) => views.compareDocumentPosition(element) === Node.DOCUMENT_POSITION_FOLLOWING);
-      const followingTops = following.map((element) => element.getBoundingClientRect()).filter(({ height }) => height > 0).map(({ top }) => top);
+    const overlapPixels = await widget.evaluate(({ shadowRoot }) => {
+      const viewsElement = /** @type {Element} */ (shadowRoot?.querySelector('.views'));
+      const lowestPicture = Math.max(...[...viewsElement.querySelectorAll('.stage')].map((stageElement) => stageElement.getBoundingClientRect().bottom));
+      const elementsBelow = [...(viewsElement.parentElement?.children ?? [])].filter((element) => viewsElement.compareDocumentPosition(element) === Node.DOCUMENT_POSITION_FOLLOWING);
+      const followingTops = elementsBelow.map((element) => element.getBoundingClientRect()).filter(({ height }) => height > 0).map(({ top }) => top);
       return lowestPicture - Math.min(...followingTops);
     });
-    expect(overlap).toBeLessThanOrEqual(0);
+    expect(overlapPixels).toBeLessThanOrEqual(0);
   }
 });

@@ -6,31 +6,28 @@ import { REDUCED_MOTION, waitForFrames, openBananaWithDisclosures, readProperty,
 
 test.use(REDUCED_MOTION);
 
-/** Returns the help text of a slider. @param {Locator} widget @param {string} key of the setting */
-const helpOf = (widget, key) => widget.locator(`#${key}-effect`);
+/** Returns the help text of a slider. @param {Locator} widget @param {string} settingKey of the setting */
+const helpOf = (widget, settingKey) => widget.locator(`#${settingKey}-effect`);
 
 test('a digit on a slider leads into its value, Enter back, and the value may lie beyond the slider', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page);
-  const slider = widget.locator('#alpha1');
-  await slider.focus();
+  const alpha1Slider = widget.locator('#alpha1');
+  await alpha1Slider.focus();
   await page.keyboard.type('0.4');
   await expect(valueField(widget, 'alpha1')).toBeFocused();
   await page.keyboard.press('Enter');
-  await expect(slider).toBeFocused();
+  await expect(alpha1Slider).toBeFocused();
   expect(await readProperty(widget, 'alpha1')).toBe(0.4);
   expect((await takeEvents(page, ['input', 'change'])).map(({ name }) => name)).toEqual(['input', 'change']);
-  // The thumb is at the end of the slider.
-  await expect(slider).toHaveValue('0.2');
-  await expect(slider).toHaveAttribute('aria-valuetext', '0.400');
+  await expect(alpha1Slider).toHaveValue('0.2');
+  await expect(alpha1Slider).toHaveAttribute('aria-valuetext', '0.400');
   await expect(helpOf(widget, 'alpha1')).toHaveText('Ends at 0.200; type values beyond.');
   await expect(helpOf(widget, 'alpha1')).toBeVisible();
-  // An arrow key on the slider starts from the end of the slider, not from the typed value beyond it.
+  // An arrow key starts from the end of the slider, not from the typed value beyond the end.
   await page.keyboard.press('ArrowLeft');
   expect(await readProperty(widget, 'alpha1')).toBeLessThan(0.2);
-  // Values beyond the end of the slider can be typed.
   await page.keyboard.press('End');
   await expect(helpOf(widget, 'alpha1')).toHaveText('Ends at 0.200; type values beyond.');
-  // The minimum of this slider is the minimum of the setting.
   await page.keyboard.press('Home');
   await expect(helpOf(widget, 'alpha1')).not.toContainText('Ends at');
 });
@@ -39,7 +36,7 @@ test('a value is typed with its unit, a true minus and few more decimals, and Es
   const widget = await openBananaWithDisclosures(page);
   const valueInput = valueField(widget, 'v');
   await expect(helpOf(widget, 'v')).toHaveText('How far the robot drives: vΔt; below zero it backs up.');
-  // The numeric keyboard of a phone has no minus.
+  // The numeric keyboard of a phone has no minus sign.
   await expect(valueInput).toHaveAttribute('inputmode', 'text');
   await valueInput.click();
   await page.keyboard.type('\u22122.125 m/s');
@@ -53,7 +50,7 @@ test('a value is typed with its unit, a true minus and few more decimals, and Es
   await expect(widget.locator('#v')).toBeFocused();
   await expect(valueInput).toHaveValue('\u22122.125 m/s');
   expect(await readProperty(widget, 'v')).toBe(-2.125);
-  // Enter leads from the slider to the field, and changes nothing by itself.
+  // Enter leads from the slider to its text field, and changes no value.
   await takeEvents(page);
   await page.keyboard.press('Enter');
   await expect(valueInput).toBeFocused();
@@ -63,27 +60,26 @@ test('a value is typed with its unit, a true minus and few more decimals, and Es
 
 test('a value that is refused is reported with the allowed range, and the last good one stays', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page);
-  for (const [key, typedText, expectedError] of [
+  for (const [settingKey, typedText, expectedError] of [
     ['alpha1', ' -1 ', 'α₁ must be between 0 and 1\u202f000\u202f000 (got −1).'],
     ['omega', '1,5', 'ω must be between −1\u202f000\u202f000 and 1\u202f000\u202f000, with a decimal point (got "1,5").'],
     ['omega', '', 'ω must be between −1\u202f000\u202f000 and 1\u202f000\u202f000 (got "").'],
     ['samples', '2.5', 'N must be a whole number between 1 and 10\u202f000\u202f000 (got 2.5).'],
   ]) {
-    const valueBefore = await readProperty(widget, key);
-    const valueInput = valueField(widget, key);
+    const valueBefore = await readProperty(widget, settingKey);
+    const valueInput = valueField(widget, settingKey);
     const shownText = await valueInput.inputValue();
     await valueInput.click();
     await valueInput.fill(typedText);
     await page.keyboard.press('Enter');
     await expect(widget.locator('[role=alert]')).toHaveText(expectedError);
-    await expect(helpOf(widget, key)).toBeVisible();
+    await expect(helpOf(widget, settingKey)).toBeVisible();
     await expect(valueInput).toBeFocused();
     await expect(valueInput).toHaveValue(shownText);
-    await expect(valueInput).toHaveAttribute('aria-describedby', `${key}-effect`);
-    expect(await readProperty(widget, key)).toBe(valueBefore);
+    await expect(valueInput).toHaveAttribute('aria-describedby', `${settingKey}-effect`);
+    expect(await readProperty(widget, settingKey)).toBe(valueBefore);
     expect(await takeEvents(page, ['input', 'change', 'error'])).toEqual([]);
-    if (key === 'samples') await expectAccessible(page, undefined, 'banana-machine');
-    // The message disappears when the text changes.
+    if (settingKey === 'samples') await expectAccessible(page, undefined, 'banana-machine');
     await page.keyboard.type('1');
     await expect(widget.locator('[role=alert]')).toHaveCount(0);
     await page.keyboard.press('Escape');
@@ -99,10 +95,10 @@ test('a value that is refused is reported with the allowed range, and the last g
 test('a change by the page leaves what is being typed @nightly', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page);
   const valueInput = valueField(widget, 'alpha1');
-  const setAlpha1 = (/** @type {number} */ value) => widget.evaluate(async (element, value) => {
-    /** @type {any} */ (element).alpha1 = value;
+  const setAlpha1 = (/** @type {number} */ newAlpha1) => widget.evaluate(async (element, newAlpha1) => {
+    /** @type {any} */ (element).alpha1 = newAlpha1;
     await /** @type {import('lit').LitElement} */ (element).updateComplete;
-  }, value);
+  }, newAlpha1);
   await valueInput.focus();
   await page.keyboard.type('0.1');
   await setAlpha1(0.15);
@@ -111,7 +107,6 @@ test('a change by the page leaves what is being typed @nightly', async ({ page }
   await page.keyboard.type('2');
   await page.keyboard.press('Enter');
   expect(await readProperty(widget, 'alpha1')).toBe(0.12);
-  // Escape leads back to the slider, with the current value.
   await valueInput.focus();
   await page.keyboard.type('9');
   await setAlpha1(0.17);
@@ -133,7 +128,7 @@ test('German has a decimal comma, and takes a point too', async ({ page }) => {
     expect(await readProperty(widget, 'alpha1')).toBe(expectedValue);
   }
   await expect(valueField(widget, 'alpha1')).toHaveValue('0,450');
-  // Numbers of robots are integers: a point before three digits separates thousands.
+  // The number of robots is an integer, so that a point before three digits separates thousands.
   await widget.locator('#samples').focus();
   await page.keyboard.type('20.000');
   await page.keyboard.press('Enter');

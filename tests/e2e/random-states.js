@@ -9,14 +9,14 @@ import { randomGenerator } from '../random.js';
 
 export const STATE_SEEDS = [1, 2, 3, 4, 5, 6, 7, 8];
 
-/** Returns a random state of each element, by its tag name. The states have all fields. @param {number} seed */
+/** Returns a random state of each element, by tag name. The states have all fields. @param {number} seed */
 export function randomStates(seed) {
-  const random = randomGenerator(seed);
-  const randomNumber = (/** @type {number} */ min, /** @type {number} */ max) => min + (max - min) * random();
+  const nextRandom = randomGenerator(seed);
+  const randomNumber = (/** @type {number} */ minNumber, /** @type {number} */ maxNumber) => minNumber + (maxNumber - minNumber) * nextRandom();
   const randomInteger = (/** @type {number} */ min, /** @type {number} */ max) => Math.floor(randomNumber(min, max + 1));
-  const randomItem = (/** @type {readonly unknown[]} */ choices) => choices[randomInteger(0, choices.length - 1)];
-  const randomSublist = (/** @type {string} */ words) => words.split(' ').filter(() => random() < 0.5);
-  const randomAlphas = (/** @type {number} */ count) => Array.from({ length: count }, () => randomNumber(0, 0.2));
+  const randomItem = (/** @type {readonly unknown[]} */ itemChoices) => itemChoices[randomInteger(0, itemChoices.length - 1)];
+  const randomSublist = (/** @type {string} */ itemWords) => itemWords.split(' ').filter(() => nextRandom() < 0.5);
+  const randomAlphas = (/** @type {number} */ alphaCount) => Array.from({ length: alphaCount }, () => randomNumber(0, 0.2));
   const randomPose = () => ({ x: randomNumber(-4, 4), y: randomNumber(-4, 4), theta: randomNumber(-4, 4) });
   const sampleCount = randomInteger(2, 3000);
   const cloudFields = {
@@ -40,7 +40,7 @@ export function randomStates(seed) {
         { model: 'odometry', noise: 'normal', command: { v: 1, omega: 0.3, dt: 2 }, alphas: [0.1, 0.02, 0.05, 0.01], samples: randomInteger(1, 3000), seed: 9, isolate: null, reverseAware: true },
       ]),
       overlays: randomSublist('command ellipse exponential linearized additive'),
-      morph: random() < 0.5 ? 0 : random(),
+      morph: nextRandom() < 0.5 ? 0 : nextRandom(),
     },
     'map-squeeze': {
       ...cloudFields,
@@ -48,7 +48,7 @@ export function randomStates(seed) {
       start: { x: randomNumber(1, 5), y: randomNumber(1, 3), theta: randomNumber(-3, 3) },
       alphas: randomAlphas(6),
       clearance: randomNumber(0, 0.2),
-      // The whole-arc sampler always draws every sample, and its settings are valid in any order.
+      // The whole-arc sampler always draws every sample. Its settings are valid in any order.
       sampler: 'whole-arc',
       steps: randomInteger(1, 64),
       view: randomItem(['whole', 'close']),
@@ -105,9 +105,9 @@ export function randomStates(seed) {
       overlays: randomSublist('likely plausible unlikely implausible outlier odometry predicted reference'),
     },
   };
-  return Object.fromEntries(Object.entries(fieldsByTag).map(([widget, fields]) => {
-    // Every word of a setting is allowed, and both values of one that is true or false.
-    const choices = settings[widget].flatMap(({ key, type, words = [true, false] }) => (['word', 'boolean'].includes(type) ? [[key, randomItem(words)]] : []));
-    return [widget, { version: 1, widget, ...Object.fromEntries(choices), ...fields }];
+  return Object.fromEntries(Object.entries(fieldsByTag).map(([widgetTag, stateFields]) => {
+    // Every word of a keyword setting is allowed, and both values of a Boolean setting.
+    const settingChoices = settings[widgetTag].flatMap(({ key, type, words = [true, false] }) => (['word', 'boolean'].includes(type) ? [[key, randomItem(words)]] : []));
+    return [widgetTag, { version: 1, widget: widgetTag, ...Object.fromEntries(settingChoices), ...stateFields }];
   }));
 }

@@ -6,19 +6,19 @@ test.use(REDUCED_MOTION);
 /** Maximum difference between the reserved height and the height of a figure, em, in any font and at any width up to 80 em. */
 const MAX_HEIGHT_DIFFERENCE_EM = 8;
 
-testEach('the height reserved for a figure until its script is loaded is about that of the figure', async (page, name, isFull) => {
+testEach('the height reserved for a figure until its script is loaded is about that of the figure', async (page, figureName, isFull) => {
   const pageWidths = isFull ? [320, 375, 414, 480, 560, 640, 700, 760, 900, 1024, 1280] : [375, 700, 1280];
   await showPage(page, '', {
     head: '<style>body { margin: 0; font: 16px "Liberation Serif", serif }</style>',
     script: '<script type="module" src="/external.js"></script>',
   });
   const allowScript = await holdRequests(page, '**/chunks/**');
-  await page.evaluate((tag) => document.body.append(document.createElement(tag)), name);
-  const widget = page.locator(name);
+  await page.evaluate((widgetTag) => document.body.append(document.createElement(widgetTag)), figureName);
+  const widget = page.locator(figureName);
   const readHeightsInEm = async () => {
     const heightsInEm = [];
-    for (const width of pageWidths) {
-      await page.setViewportSize({ width, height: 900 });
+    for (const pageWidth of pageWidths) {
+      await page.setViewportSize({ width: pageWidth, height: 900 });
       await waitForFrames(page);
       heightsInEm.push((await readBox(widget)).height / 16);
     }
@@ -33,9 +33,8 @@ testEach('the height reserved for a figure until its script is loaded is about t
     expect(height).toBeGreaterThanOrEqual(reservedHeights[i]);
     expect(height - reservedHeights[i]).toBeLessThan(MAX_HEIGHT_DIFFERENCE_EM);
   }
-  // Little space is left empty below the figure.
   const emptyHeightEm = await widget.evaluate((element) => {
-    const [simulationBottom, foldsBottom] = ['.simulation', '.folds'].map((part) => element.shadowRoot?.querySelector(part)?.getBoundingClientRect().bottom ?? NaN);
+    const [simulationBottom, foldsBottom] = ['.simulation', '.folds'].map((partSelector) => element.shadowRoot?.querySelector(partSelector)?.getBoundingClientRect().bottom ?? NaN);
     return (simulationBottom - foldsBottom) / 16;
   });
   expect(emptyHeightEm).toBeLessThan(MAX_HEIGHT_DIFFERENCE_EM);
@@ -48,7 +47,7 @@ test('a title and a caption move nothing when the script is loaded', async ({ pa
   const textBelow = page.locator('#after');
   const readTextTop = async () => (await readBox(textBelow)).y;
   await textBelow.waitFor();
-  // The first frame comes after the stylesheet, which reserves the height.
+  // The first frame comes after the stylesheet, which reserves the height of the figure.
   await waitForFrames(page);
   const topBefore = await readTextTop();
   allowScript();
@@ -57,8 +56,8 @@ test('a title and a caption move nothing when the script is loaded', async ({ pa
   expect(await readTextTop()).toBe(topBefore);
 });
 
-testEach('a figure is no wider than a phone, the column of a book or a screen, also in a wide font, and at most a third higher than a screen', async (page, name) => {
-  const widget = await mountFigure(page, name, { head: '<style>body { margin: 0 }</style>' });
+testEach('a figure is no wider than a phone, the column of a book or a screen, also in a wide font, and at most a third higher than a screen', async (page, figureName) => {
+  const widget = await mountFigure(page, figureName, { head: '<style>body { margin: 0 }</style>' });
   await expect(widget.locator('.folds')).toBeVisible();
   for (const width of [375, 480, 640, 900, 1280]) {
     await page.setViewportSize({ width, height: 720 });

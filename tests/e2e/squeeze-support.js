@@ -24,7 +24,7 @@ export async function openSqueeze(page, attributes = '') {
   return widget;
 }
 
-/** Returns the results of the simulation after the next frames. @param {Locator} widget */
+/** Returns the results of the simulation after the requested frames. @param {Locator} widget */
 export async function readSqueezeResults(widget) {
   await waitForFrames(widget.page());
   const { plan: { bounds, walls }, poses, verdicts, ...others } = await widget.evaluate((element) => {
@@ -34,26 +34,26 @@ export async function readSqueezeResults(widget) {
   return { ...others, bounds: [...bounds], walls: [...walls], poses: [...poses], verdicts: [...verdicts] };
 }
 
-/** Returns a file to choose. @param {string} name @param {string | Uint8Array} contents @returns {MapFile} */
-export function makeMapFile(name, contents) {
-  return { name, mimeType: 'application/octet-stream', buffer: Buffer.from(contents) };
+/** Returns a file for a file input. @param {string} fileName @param {string | Uint8Array} fileContents @returns {MapFile} */
+export function makeMapFile(fileName, fileContents) {
+  return { name: fileName, mimeType: 'application/octet-stream', buffer: Buffer.from(fileContents) };
 }
 
-/** Returns the YAML file of a map. @param {string} name @param {Record<string, unknown>} fields */
-export function makeYamlFile(name, fields) {
-  return makeMapFile(name, Object.entries(fields).map(([key, value]) => `${key}: ${value}\n`).join(''));
+/** Returns the YAML file that describes a map. @param {string} fileName @param {Record<string, unknown>} yamlFields */
+export function makeYamlFile(fileName, yamlFields) {
+  return makeMapFile(fileName, Object.entries(yamlFields).map(([fieldName, fieldValue]) => `${fieldName}: ${fieldValue}\n`).join(''));
 }
 
 /**
  * Returns a PGM image of black and white cells.
  *
- * @param {string} name
- * @param {number} columns
- * @param {number} rows
+ * @param {string} fileName
+ * @param {number} columnCount
+ * @param {number} rowCount
  * @param {CellTest} isBlack
  */
-export function makePgmFile(name, columns, rows, isBlack) {
-  const cellBytes = Buffer.from(Array.from({ length: columns * rows }, (_, i) => (isBlack(i % columns, Math.floor(i / columns)) ? 0 : 254)));
-  const pgmHeader = `P5\n# by hand\n${columns} ${rows}\n# and another comment\n255\n`;
-  return makeMapFile(name, Buffer.concat([Buffer.from(pgmHeader), cellBytes]));
+export function makePgmFile(fileName, columnCount, rowCount, isBlack) {
+  const cellBytes = Buffer.from(Array.from({ length: columnCount * rowCount }, (_, i) => (isBlack(i % columnCount, Math.floor(i / columnCount)) ? 0 : 254)));
+  const pgmHeader = `P5\n# by hand\n${columnCount} ${rowCount}\n# and another comment\n255\n`;
+  return makeMapFile(fileName, Buffer.concat([Buffer.from(pgmHeader), cellBytes]));
 }

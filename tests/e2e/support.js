@@ -19,8 +19,8 @@ import { ALL_NAMES, CLOUD_NAMES, NAMES_WITH_HANDLES, figureNameFor } from './fig
  */
 
 /**
- * Fixtures. The first three are names of the element on which a test about all figures, all clouds or all handles runs; the test's title
- * decides. With the last one, the page behaves as if the user had seen the introduction that a figure shows on the first visit.
+ * Fixtures. The first three fixtures are the names of the element on which a test about all figures, all clouds or all handles runs. The
+ * title of the test decides which element that is. The last fixture marks the introduction of a figure as seen.
  *
  * @typedef {{ figureName: Name, cloudFigureName: Name, handleFigureName: Name, isIntroductionSkipped: boolean }} FigureFixtures
  */
@@ -32,7 +32,7 @@ import { ALL_NAMES, CLOUD_NAMES, NAMES_WITH_HANDLES, figureNameFor } from './fig
  */
 export const test = playwrightTest.extend({
   /* oxlint-disable no-empty-pattern */
-  figureName: async ({}, use, { title }) => use(figureNameFor(title)),
+  figureName: async ({}, useFixture, { title }) => useFixture(figureNameFor(title)),
   cloudFigureName: async ({}, use, { title }) => use(figureNameFor(title, CLOUD_NAMES)),
   handleFigureName: async ({}, use, { title }) => use(figureNameFor(title, NAMES_WITH_HANDLES)),
   /* oxlint-enable no-empty-pattern */
@@ -41,10 +41,10 @@ export const test = playwrightTest.extend({
     if (isIntroductionSkipped) await page.addInitScript(skipIntroduction);
     /** @type {string[]} */
     const consoleMessages = [];
-    page.on('console', (message) => {
-      if (['error', 'warning'].includes(message.type())) consoleMessages.push(message.text());
+    page.on('console', (consoleMessage) => {
+      if (['error', 'warning'].includes(consoleMessage.type())) consoleMessages.push(consoleMessage.text());
     });
-    page.on('pageerror', (error) => consoleMessages.push(String(error)));
+    page.on('pageerror', (pageError) => consoleMessages.push(String(pageError)));
     await use(page);
     expect(consoleMessages).toEqual([]);
   },
@@ -53,16 +53,16 @@ export const test = playwrightTest.extend({
 /**
  * Declares a test about all figures. Daily tests run it with one figure, chosen by the title. Nightly tests run it with each figure.
  *
- * @param {string} title
+ * @param {string} testTitle
  * @param {(page: Page, name: Name, isFull: boolean) => Promise<void>} testBody body of the test; `isFull` is true in nightly tests
- * @param {{ tag?: string }} [details]
+ * @param {{ tag?: string }} [testDetails]
  */
-export function testEach(title, testBody, details = {}) {
-  test(title, details, ({ page, figureName }) => testBody(page, figureName, false));
-  for (const name of ALL_NAMES) {
-    test(`${title}: ${name} @nightly`, details, ({ page }) => {
+export function testEach(testTitle, testBody, testDetails = {}) {
+  test(testTitle, testDetails, ({ page, figureName }) => testBody(page, figureName, false));
+  for (const figureName of ALL_NAMES) {
+    test(`${testTitle}: ${figureName} @nightly`, testDetails, ({ page }) => {
       test.slow();
-      return testBody(page, name, true);
+      return testBody(page, figureName, true);
     });
   }
 }
@@ -72,11 +72,11 @@ function skipIntroduction() {
   try {
     sessionStorage.setItem('motion-widgets.introduced', 'yes');
   } catch {
-    // On a page without storage a figure shows no introduction.
+    // A page without storage shows no introduction of a figure.
   }
 }
 
-/** Tag of tests of a first visit or of the browser history. They get a new page, see playwright.config.js. */
+/** Tag of tests of a first visit or of the browser history. Such tests get a new page, see playwright.config.js. */
 export const NEW_PAGE_TAG = { tag: '@fresh' };
 
 /** Options of tests that need a complete cloud. With reduced motion a cloud is complete at once. */
@@ -86,35 +86,35 @@ export const REDUCED_MOTION = { contextOptions: { reducedMotion: /** @type {cons
  * Opens a page with a body, and records the events of its elements.
  *
  * @param {Page} page
- * @param {string} body
+ * @param {string} bodyHtml
  * @param {{ head?: string, fragment?: string, script?: string }} [options]
  */
-export async function showPage(page, body, { head = '', fragment = '', script = '<script type="module" src="/motion-widgets.js"></script>' } = {}) {
+export async function showPage(page, bodyHtml, { head = '', fragment = '', script = '<script type="module" src="/motion-widgets.js"></script>' } = {}) {
   await page.addInitScript(() => {
     const firedEvents = /** @type {FiredEvent[]} */ ([]);
     Object.assign(window, { heard: firedEvents });
-    for (const name of ['load', 'input', 'change', 'stats', 'error']) {
-      document.addEventListener(name, (event) => {
-        const target = /** @type {Element} */ (event.target);
-        if (!(target instanceof Element) || !target.localName.includes('-')) return;
-        const { message = '' } = /** @type {ErrorEvent} */ (event);
-        // With a listener that handles errors, the figure prints no warning.
-        event.preventDefault();
-        firedEvents.push({ name, target: target.localName, message });
+    for (const eventName of ['load', 'input', 'change', 'stats', 'error']) {
+      document.addEventListener(eventName, (figureEvent) => {
+        const figureElement = /** @type {Element} */ (figureEvent.target);
+        if (!(figureElement instanceof Element) || !figureElement.localName.includes('-')) return;
+        const { message = '' } = /** @type {ErrorEvent} */ (figureEvent);
+        // If a listener handles errors, the figure prints no warning.
+        figureEvent.preventDefault();
+        firedEvents.push({ name: eventName, target: figureElement.localName, message });
         // Error events do not bubble.
-      }, { capture: name === 'error' });
+      }, { capture: eventName === 'error' });
     }
   });
   await page.route('**/bare.html', (route) =>
     route.fulfill({
       contentType: 'text/html',
-      body: `<!doctype html><html lang="en"><head><meta charset="utf-8"><title>Bare</title><link rel="icon" href="data:,">${head}${script}</head><body>${body}</body></html>`,
+      body: `<!doctype html><html lang="en"><head><meta charset="utf-8"><title>Bare</title><link rel="icon" href="data:,">${head}${script}</head><body>${bodyHtml}</body></html>`,
     }),
   );
   await page.goto(`/bare.html${fragment}`);
 }
 
-/** Waits until an element has its simulation, and has drawn its picture if it is visible. @param {Locator} widget */
+/** Waits until an element has its simulation. If the element is visible, waits until it has drawn its picture. @param {Locator} widget */
 export async function waitUntilReady(widget) {
   await widget.evaluate(async (element) => {
     while (Reflect.get(element, 'simulation') === undefined) await new Promise(requestAnimationFrame);
@@ -137,16 +137,16 @@ export async function mountFigure(page, name, { attributes = '', ...options } = 
   return widget;
 }
 
-/** Takes the events of the elements since the last call. @param {Page} page @param {string[]} [names] */
-export async function takeEvents(page, names = ['load', 'input', 'change', 'error']) {
+/** Returns the events of the elements since the last call, and forgets them. @param {Page} page @param {string[]} [eventNames] */
+export async function takeEvents(page, eventNames = ['load', 'input', 'change', 'error']) {
   await waitForFrames(page);
   const takenEvents = /** @type {FiredEvent[]} */ (await page.evaluate(() => Reflect.get(window, 'heard').splice(0)));
-  return takenEvents.filter(({ name }) => names.includes(name));
+  return takenEvents.filter(({ name }) => eventNames.includes(name));
 }
 
 /** Returns a property of a figure. @param {Locator} widget @param {string} name */
 export function readProperty(widget, name) {
-  return widget.evaluate((element, key) => Reflect.get(element, key), name);
+  return widget.evaluate((element, propertyName) => Reflect.get(element, propertyName), name);
 }
 
 /**
@@ -154,25 +154,25 @@ export function readProperty(widget, name) {
  *
  * @param {Locator} widget
  * @param {string} name
- * @param {unknown} value
+ * @param {unknown} propertyValue
  * @returns {Promise<string>} error of the error event; empty if there is none
  */
-export function setProperty(widget, name, value) {
+export function setProperty(widget, name, propertyValue) {
   return widget.evaluate(
-    (element, [key, newValue]) => {
+    (element, [propertyName, newValue]) => {
       let errorText = '';
       const recordError = (/** @type {Event} */ event) => void (errorText = String(/** @type {ErrorEvent} */ (event).error));
       element.addEventListener('error', recordError);
-      Reflect.set(element, /** @type {string} */ (key), newValue);
+      Reflect.set(element, /** @type {string} */ (propertyName), newValue);
       element.removeEventListener('error', recordError);
       return errorText;
     },
-    [name, value],
+    [name, propertyValue],
   );
 }
 
 /**
- * Plays a slider by its button. The code runs in the page, where it misses no step.
+ * Plays a slider by its button. The code runs in the page, where no step can be missed.
  *
  * @param {Locator} widget
  * @param {string} key of the setting in a state, and class of its group
@@ -183,21 +183,21 @@ export function playSlider(widget, key, maxSteps = Infinity) {
   return widget.evaluate(
     (element, [key, maxSteps]) =>
       new Promise((resolve) => {
-        const figure = /** @type {AnyElement} */ (element);
-        const playButton = /** @type {HTMLButtonElement} */ (figure.shadowRoot?.querySelector(`.${key} button`));
+        const figureElement = /** @type {AnyElement} */ (element);
+        const playButton = /** @type {HTMLButtonElement} */ (figureElement.shadowRoot?.querySelector(`.${key} button`));
         const sliderValues = /** @type {number[]} */ ([]);
         let buttonLabel = '';
         const recordStep = async () => {
-          sliderValues.push(/** @type {any} */ (figure.getState())[key]);
+          sliderValues.push(/** @type {any} */ (figureElement.getState())[key]);
           if (sliderValues.length === 1) {
-            await /** @type {any} */ (figure).updateComplete;
+            await /** @type {any} */ (figureElement).updateComplete;
             buttonLabel = playButton.innerText;
           }
           if (sliderValues.length === maxSteps) playButton.click();
         };
-        figure.addEventListener('input', recordStep);
-        figure.addEventListener('change', () => {
-          figure.removeEventListener('input', recordStep);
+        figureElement.addEventListener('input', recordStep);
+        figureElement.addEventListener('change', () => {
+          figureElement.removeEventListener('input', recordStep);
           resolve({ sliderValues, buttonLabel });
         }, { once: true });
         playButton.click();
@@ -228,7 +228,8 @@ export async function openBanana(page, attributes = '') {
 }
 
 /**
- * Pauses the first figure with this name after one step of its cloud's growth. The code runs in the page, because a test could be too late.
+ * Pauses the first figure with this name after one step of its cloud's growth. The code runs in the page, because code of the test could be
+ * too late.
  *
  * @param {Page} page which is opened later
  * @param {string} name of the widget
@@ -236,9 +237,9 @@ export async function openBanana(page, attributes = '') {
 export async function pauseEarly(page, name) {
   await page.addInitScript((tag) => {
     const pauseAnimation = () => {
-      const figure = /** @type {any} */ (document.querySelector(tag));
-      const playButton = figure.shadowRoot.querySelector('.cloud button');
-      if (!playButton || !figure.playing || figure.simulation.shown === 0) return;
+      const figureElement = /** @type {any} */ (document.querySelector(tag));
+      const playButton = figureElement.shadowRoot.querySelector('.cloud button');
+      if (!playButton || !figureElement.playing || figureElement.simulation.shown === 0) return;
       document.removeEventListener('stats', pauseAnimation);
       playButton.click();
     };
@@ -250,7 +251,7 @@ export async function pauseEarly(page, name) {
 export async function openDisclosures(widget) {
   await widget.evaluate(async ({ shadowRoot }) => {
     for (const disclosure of shadowRoot?.querySelectorAll('details') ?? []) disclosure.open ||= disclosure.matches('[part=fold]');
-    // Contents are rendered after the browser's `toggle` event.
+    // A disclosure renders its contents after the browser's `toggle` event.
     while (shadowRoot?.querySelector('details[open] > .folded:empty')) await new Promise(requestAnimationFrame);
   });
   await waitForFrames(widget.page());
@@ -261,14 +262,14 @@ export function valueField(widget, key) {
   return widget.locator(`.slider:has(#${key}) .typed`);
 }
 
-/** Waits until all requested frames have been drawn. @param {Page} page */
+/** Waits until all requested animation frames have been drawn. @param {Page} page */
 export async function waitForFrames(page) {
   await page.evaluate(async () => {
     for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
   });
 }
 
-/** Returns results of a Banana Machine after the next frames, without its many poses. @param {Locator} widget */
+/** Returns results of a Banana Machine after the requested frames, without its many poses. @param {Locator} widget */
 export async function readBananaResults(widget) {
   await waitForFrames(widget.page());
   return widget.evaluate((element) => {
@@ -277,34 +278,34 @@ export async function readBananaResults(widget) {
   });
 }
 
-/** Returns the poses of a simulation after the next frames. @param {Locator} widget @returns {Promise<number[]>} */
+/** Returns the poses of a simulation after the requested frames. @param {Locator} widget @returns {Promise<number[]>} */
 export async function readPoses(widget) {
   await waitForFrames(widget.page());
   return [...(await widget.evaluate((element) => /** @type {BananaMachineElement} */ (element).simulation.poses))];
 }
 
-/** Sets sliders by their ids. @param {Locator} widget @param {Record<string, number>} values */
-export async function setSliders(widget, values) {
-  for (const [id, value] of Object.entries(values)) await widget.locator(`#${id}`).fill(String(value));
+/** Sets sliders, given by their ids. @param {Locator} widget @param {Record<string, number>} valuesById */
+export async function setSliders(widget, valuesById) {
+  for (const [sliderId, sliderValue] of Object.entries(valuesById)) await widget.locator(`#${sliderId}`).fill(String(sliderValue));
   await waitForFrames(widget.page());
 }
 
 /**
  * Drags a slider's thumb with the mouse.
  *
- * @param {Locator} slider
+ * @param {Locator} sliderLocator
  * @param {number} endShare position at which the thumb is released, as a fraction of the range
  */
-export async function dragSlider(slider, endShare) {
-  const page = slider.page();
-  await slider.scrollIntoViewIfNeeded();
-  const { x, y, width, height } = await readBox(slider);
-  const startShare = await slider.evaluate((element) => {
+export async function dragSlider(sliderLocator, endShare) {
+  const page = sliderLocator.page();
+  await sliderLocator.scrollIntoViewIfNeeded();
+  const { x, y, width, height } = await readBox(sliderLocator);
+  const startShare = await sliderLocator.evaluate((element) => {
     const { value, min, max } = /** @type {HTMLInputElement} */ (element);
     return (Number(value) - Number(min)) / (Number(max) - Number(min));
   });
-  // The centre of the thumb moves over the width of the input minus the width of the thumb.
-  const xAtShare = (/** @type {number} */ share) => x + height * 0.3 + share * (width - height * 0.6);
+  // The centre of the thumb moves over the width of the input, less the width of the thumb.
+  const xAtShare = (/** @type {number} */ widthShare) => x + height * 0.3 + widthShare * (width - height * 0.6);
   await page.mouse.move(xAtShare(startShare), y + height / 2);
   await page.mouse.down();
   await page.mouse.move(xAtShare((startShare + endShare) / 2), y + height / 2, { steps: 4 });
@@ -312,68 +313,68 @@ export async function dragSlider(slider, endShare) {
   await page.mouse.up();
 }
 
-/** Returns the bounding box of an element. @param {Locator} locator */
-export async function readBox(locator) {
-  const box = await locator.boundingBox();
-  if (!box) throw new Error('It is not on the page.');
-  return box;
+/** Returns the bounding box of an element. @param {Locator} boxLocator */
+export async function readBox(boxLocator) {
+  const boundingBox = await boxLocator.boundingBox();
+  if (!boundingBox) throw new Error('It is not on the page.');
+  return boundingBox;
 }
 
-/** Returns the centre of an element. @param {Locator} locator */
-export async function readCentre(locator) {
-  const { x, y, width, height } = await readBox(locator);
+/** Returns the centre of an element. @param {Locator} boxLocator */
+export async function readCentre(boxLocator) {
+  const { x, y, width, height } = await readBox(boxLocator);
   return { x: x + width / 2, y: y + height / 2 };
 }
 
-/** Returns the pixels of a canvas as text. @param {Locator} canvas @returns {Promise<string>} */
-export async function readPicture(canvas) {
-  await waitForFrames(canvas.page());
-  return canvas.evaluate((element) => /** @type {HTMLCanvasElement} */ (element).toDataURL());
+/** Returns the pixels of a canvas as text. @param {Locator} canvasLocator @returns {Promise<string>} */
+export async function readPicture(canvasLocator) {
+  await waitForFrames(canvasLocator.page());
+  return canvasLocator.evaluate((element) => /** @type {HTMLCanvasElement} */ (element).toDataURL());
 }
 
 /**
- * Returns the colours of roles on a figure, or on a part of it.
+ * Returns the colours of some roles on a figure, or on a part of a figure.
  *
- * @param {Locator} part
- * @param {string[]} roles names of custom properties
+ * @param {Locator} coloredPart
+ * @param {string[]} colorRoles names of custom properties
  * @returns {Promise<number[][]>} red, green, blue, 0 to 255
  */
-export async function readColours(part, roles) {
-  await waitForFrames(part.page());
-  return part.evaluate((element, names) => {
-    const context = /** @type {OffscreenCanvasRenderingContext2D} */ (new OffscreenCanvas(1, 1).getContext('2d', { willReadFrequently: true }));
-    return names.map((name) => {
+export async function readColours(coloredPart, colorRoles) {
+  await waitForFrames(coloredPart.page());
+  return coloredPart.evaluate((element, roleNames) => {
+    const colorContext = /** @type {OffscreenCanvasRenderingContext2D} */ (new OffscreenCanvas(1, 1).getContext('2d', { willReadFrequently: true }));
+    return roleNames.map((name) => {
       const colourSwatch = document.createElement('span');
-      // The figures keep the hues of their colour roles in forced colours. Without this property the swatch would not.
+      // In forced colours a figure keeps the hues of its colour roles. The swatch keeps them only with this property.
       colourSwatch.style.cssText = `color: var(--${name}); forced-color-adjust: none`;
       (element.shadowRoot?.querySelector('.surface') ?? element).append(colourSwatch);
-      // The canvas converts colours of any notation to numbers.
-      context.fillStyle = getComputedStyle(colourSwatch).color;
+      // The canvas converts a colour of any notation to numbers.
+      colorContext.fillStyle = getComputedStyle(colourSwatch).color;
       colourSwatch.remove();
-      context.fillRect(0, 0, 1, 1);
-      return [...context.getImageData(0, 0, 1, 1).data.slice(0, 3)];
+      colorContext.fillRect(0, 0, 1, 1);
+      return [...colorContext.getImageData(0, 0, 1, 1).data.slice(0, 3)];
     });
-  }, roles);
+  }, colorRoles);
 }
 
-/** Returns the number of pixels of a canvas that have a role's colour. @param {Locator} canvas @param {string} role */
-export async function countPixelsOfRole(canvas, role) {
-  const [roleColour] = await readColours(canvas, [role]);
-  return canvas.evaluate((element, colour) => {
+/** Returns the number of pixels of a canvas that have a role's colour. @param {Locator} canvasLocator @param {string} colorRole */
+export async function countPixelsOfRole(canvasLocator, colorRole) {
+  const [roleColour] = await readColours(canvasLocator, [colorRole]);
+  return canvasLocator.evaluate((element, roleColour) => {
     const { width, height } = /** @type {HTMLCanvasElement} */ (element);
-    const context = /** @type {OffscreenCanvasRenderingContext2D} */ (new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true }));
-    context.drawImage(/** @type {HTMLCanvasElement} */ (element), 0, 0);
-    const { data } = context.getImageData(0, 0, width, height);
+    const pixelContext = /** @type {OffscreenCanvasRenderingContext2D} */ (new OffscreenCanvas(width, height).getContext('2d', { willReadFrequently: true }));
+    pixelContext.drawImage(/** @type {HTMLCanvasElement} */ (element), 0, 0);
+    const { data } = pixelContext.getImageData(0, 0, width, height);
     let pixelCount = 0;
     for (let i = 0; i < data.length; i += 4) {
-      const channelDifference = Math.max(...colour.map((channel, k) => Math.abs(channel - data[i + k])));
+      const channelDifference = Math.max(...roleColour.map((channelValue, k) => Math.abs(channelValue - data[i + k])));
       if (data[i + 3] > 250 && channelDifference < 8) pixelCount++;
     }
     return pixelCount;
   }, roleColour);
 }
 
-/** Returns the element with the value of a readout, without its detail. @param {Locator} widget @param {string | RegExp} name */
+/** Returns the element with the value of a readout. The element does not contain the line of detail. @param {Locator} widget @param {string | RegExp} name */
 export function readoutValue(widget, name) {
   return widget.locator('.readouts div').filter({ hasText: name }).locator('dd').first();
 }
@@ -383,9 +384,9 @@ export function readoutDetail(widget, name) {
   return widget.locator('.readouts div').filter({ hasText: name }).locator('dd.detail');
 }
 
-/** Drops files on a part of the widget. @param {Locator} part @param {{ name: string, buffer: Buffer }[]} files */
-export function dropFiles(part, files) {
-  return part.evaluate(
+/** Drops files on a part of the widget. @param {Locator} dropTarget @param {{ name: string, buffer: Buffer }[]} droppedFiles */
+export function dropFiles(dropTarget, droppedFiles) {
+  return dropTarget.evaluate(
     (target, newFiles) => {
       const dataTransfer = new DataTransfer();
       for (const { name, bytes } of newFiles) dataTransfer.items.add(new File([new Uint8Array(bytes)], name));
@@ -397,7 +398,7 @@ export function dropFiles(part, files) {
       if (!dropEvent.defaultPrevented) throw new Error('The browser takes the file.');
       if (target.closest('.dropping')) throw new Error('It is still marked.');
     },
-    files.map(({ name, buffer }) => ({ name, bytes: [...buffer] })),
+    droppedFiles.map(({ name, buffer }) => ({ name, bytes: [...buffer] })),
   );
 }
 
@@ -410,14 +411,14 @@ export async function openBananaWithDisclosures(page, attributes = '') {
   return widget;
 }
 
-/** Parses a number in the notation of the widgets. @param {string | null} text */
-export function parseNumberIn(text) {
-  const [mantissa, power = '0'] = (text ?? '').replace('\u2212', '-').replace(/[\u202f%]/g, '').split('·10');
-  const exponent = power.replace('⁻', '-').replace(/[⁰¹²³⁴⁵⁶⁷⁸⁹]/g, (digit) => String('⁰¹²³⁴⁵⁶⁷⁸⁹'.indexOf(digit)));
-  return Number(mantissa) * 10 ** Number(exponent);
+/** Parses a number in the notation of the figures. @param {string | null} numberText */
+export function parseNumberIn(numberText) {
+  const [mantissaText, powerText = '0'] = (numberText ?? '').replace('\u2212', '-').replace(/[\u202f%]/g, '').split('·10');
+  const exponentText = powerText.replace('⁻', '-').replace(/[⁰¹²³⁴⁵⁶⁷⁸⁹]/g, (digit) => String('⁰¹²³⁴⁵⁶⁷⁸⁹'.indexOf(digit)));
+  return Number(mantissaText) * 10 ** Number(exponentText);
 }
 
-/** Waits until a figure has computed and drawn everything. @param {Locator} widget */
+/** Waits until a figure has computed and drawn all its results. @param {Locator} widget */
 export async function waitUntilSettled(widget) {
   await widget.evaluate((element) => /** @type {AnyElement} */ (element).settled);
   await waitForFrames(widget.page());

@@ -1,5 +1,5 @@
 /**
- * Checks that run on the pages of every engine, a tool that makes web pages, such as Hugo, Next or JupyterLab.
+ * Checks that run on the pages of every engine. An engine is a tool that makes web pages, such as Hugo, Next or JupyterLab.
  *
  * @module
  */
@@ -11,36 +11,36 @@ import { ROOT } from '../../scripts/process.mjs';
 /** @typedef {import('@playwright/test').Page} Page */
 /** @typedef {{ name: string, definition: import('./project.mjs').Engine, serving: import('./project.mjs').Serving, url: string }} Site */
 
-/** Time limit in milliseconds; it is long because a development server compiles a page at the first request. */
+/** Time limit in milliseconds. It is long, because a development server compiles a page at the first request. */
 const TIMEOUT_MS = 90_000;
 
-/** Runs the checks of a site. @param {import('@playwright/test').Browser} browser @param {Site} site */
-export async function runChecks(browser, site) {
-  const { definition, serving } = site;
+/** Runs the checks of a site. @param {import('@playwright/test').Browser} browser @param {Site} servedSite */
+export async function runChecks(browser, servedSite) {
+  const { definition, serving } = servedSite;
   /** @type {string[]} */
   const consoleMessages = [];
-  const failures = [];
+  const failedChecks = [];
   let passedCount = 0;
-  for (const [checkName, checkFunction] of Object.entries(serving.checks ?? checksOf(site))) {
-    const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, colorScheme: 'light' });
-    const page = await context.newPage();
+  for (const [checkName, checkFunction] of Object.entries(serving.checks ?? checksOf(servedSite))) {
+    const browserContext = await browser.newContext({ viewport: { width: 1280, height: 800 }, colorScheme: 'light' });
+    const page = await browserContext.newPage();
     page.setDefaultTimeout(TIMEOUT_MS);
     recordMessages(page, consoleMessages);
     try {
-      await checkFunction(page, site);
+      await checkFunction(page, servedSite);
       passedCount++;
     } catch (error) {
-      failures.push(`${checkName}: ${error instanceof Error ? error.message : error}`);
+      failedChecks.push(`${checkName}: ${error instanceof Error ? error.message : error}`);
     }
-    await page.screenshot({ path: join(ROOT, `test-results/embeddings/${[site.name, serving.name, checkName].join(' ').replaceAll(' ', '-')}.png`) }).catch(() => {});
-    await context.close();
+    await page.screenshot({ path: join(ROOT, `test-results/embeddings/${[servedSite.name, serving.name, checkName].join(' ').replaceAll(' ', '-')}.png`) }).catch(() => {});
+    await browserContext.close();
   }
-  // An aborted request means that the page was left.
+  // An aborted request means that the browser has left the page.
   const allowedPatterns = [/ net::ERR_ABORTED$/, ...(definition.allowed ?? []).map(({ message }) => message)];
-  const unexpectedMessages = [...new Set(consoleMessages)].filter((message) => !allowedPatterns.some((pattern) => pattern.test(message)));
-  if (unexpectedMessages.length > 0) failures.push(`console: ${unexpectedMessages.join('\n')}`);
+  const unexpectedMessages = [...new Set(consoleMessages)].filter((message) => !allowedPatterns.some((allowedPattern) => allowedPattern.test(message)));
+  if (unexpectedMessages.length > 0) failedChecks.push(`console: ${unexpectedMessages.join('\n')}`);
   else passedCount++;
-  return { passed: passedCount, failures };
+  return { passed: passedCount, failures: failedChecks };
 }
 
 /** Returns the checks of a site, by name. @param {Site} site @returns {NonNullable<import('./project.mjs').Serving['checks']>} */
@@ -64,47 +64,42 @@ export function recordMessages(page, messages) {
   page.on('pageerror', (error) => messages.push(String(error)));
   page.on('requestfailed', (request) => messages.push(`${request.url()} ${request.failure()?.errorText}`));
   page.on('response', (response) => {
-    // Browsers request the icon on their own.
+    // Browsers request the icon without being asked.
     const isIcon = new URL(response.url()).pathname === '/favicon.ico';
     if (response.status() >= 400 && !isIcon) messages.push(`${response.url()} ${response.status()}`);
   });
 }
 
-/** Returns the address of a page. @param {Site} site @param {string} path */
+/** Returns the address of a page of the site. @param {Site} site @param {string} path */
 const addressOf = ({ url }, path) => new URL(path.replace(/^\//, ''), url).href;
 
 /** Waits until every figure has drawn its present settings. @param {Page} page @param {Site} site */
 export async function untilLive(page, { definition }) {
   assert.ok(definition.expected.length > 0, 'No figure is expected.');
   for (const { selector, properties } of definition.expected) {
-    const figure = page.locator(selector);
-    await figure.waitFor({ state: 'attached' });
-    // An element without height is not visible, and a locator would wait for it.
-    await figure.evaluate((element) => element.scrollIntoView({ block: 'center' }));
-    await figure.locator('canvas').first().waitFor();
-    assert.deepEqual(await figure.evaluate(propertiesOf, Object.keys(properties)), properties, selector);
-    await figure.evaluate(untilComplete);
+    const figureLocator = page.locator(selector);
+    await figureLocator.waitFor({ state: 'attached' });
+    // An element without height is not visible, so that a locator would wait for it.
+    await figureLocator.evaluate((element) => element.scrollIntoView({ block: 'center' }));
+    await figureLocator.locator('canvas').first().waitFor();
+    assert.deepEqual(await figureLocator.evaluate(propertiesOf, Object.keys(properties)), properties, selector);
+    await figureLocator.evaluate(untilComplete);
   }
 }
 
-/**
- * Returns properties of a figure, arrays of numbers as plain arrays. Runs in the page.
- *
- * @param {Element} element
- * @param {string[]} names
- */
-export function propertiesOf(element, names) {
-  const toPlainValue = (/** @type {any} */ value) => (ArrayBuffer.isView(value) ? Array.from(/** @type {any} */ (value)) : value);
-  return Object.fromEntries(names.map((name) => [name, toPlainValue(/** @type {any} */ (element)[name])]));
+/** Returns properties of a figure, with arrays of numbers as plain arrays. Runs in the page. @param {Element} element @param {string[]} propertyNames */
+export function propertiesOf(element, propertyNames) {
+  const toPlainValue = (/** @type {any} */ propertyValue) => (ArrayBuffer.isView(propertyValue) ? Array.from(/** @type {any} */ (propertyValue)) : propertyValue);
+  return Object.fromEntries(propertyNames.map((propertyName) => [propertyName, toPlainValue(/** @type {any} */ (element)[propertyName])]));
 }
 
-/** Resolves when a figure has all of its samples, and its picture more than one colour. Runs in the page. @param {Element} element */
+/** Resolves when a figure has all its samples, and its picture has more than one colour. Runs in the page. @param {Element} element */
 export async function untilComplete(element) {
   const figure = /** @type {any} */ (element);
-  const canvas = /** @type {HTMLCanvasElement} */ (figure.shadowRoot.querySelector('canvas'));
+  const firstCanvas = /** @type {HTMLCanvasElement} */ (figure.shadowRoot.querySelector('canvas'));
   const isDrawn = () => {
     const context = /** @type {CanvasRenderingContext2D} */ (Object.assign(document.createElement('canvas'), { width: 64, height: 64 }).getContext('2d'));
-    context.drawImage(canvas, 0, 0, 64, 64);
+    context.drawImage(firstCanvas, 0, 0, 64, 64);
     return new Set(new Uint32Array(context.getImageData(0, 0, 64, 64).data.buffer)).size > 1;
   };
   while ((figure.stats?.n ?? figure.stats?.drawn ?? figure.stats?.attempts) !== figure.samples || !isDrawn()) await new Promise(requestAnimationFrame);
@@ -117,18 +112,18 @@ async function checkFirstLoad(page, site) {
 }
 
 /**
- * Follows a link of the page, and waits until the first figure is on the page or no longer there.
+ * Follows a link of the page, and waits until the first figure has appeared or disappeared.
  *
  * @param {Page} page
  * @param {Site} site
- * @param {'first' | 'second'} which
+ * @param {'first' | 'second'} linkKind
  */
-async function followLink(page, { definition }, which) {
-  await definition.go?.(page, definition.pages[which] ?? which);
-  await page.locator(definition.expected[0].selector).waitFor({ state: which === 'first' ? 'attached' : 'detached' });
+async function followLink(page, { definition }, linkKind) {
+  await definition.go?.(page, definition.pages[linkKind] ?? linkKind);
+  await page.locator(definition.expected[0].selector).waitFor({ state: linkKind === 'first' ? 'attached' : 'detached' });
 }
 
-/** Follows a link away from the figures, and another one back. @type {(page: Page, site: Site) => Promise<void>} */
+/** Follows a link away from the figures, and a link back to them. @type {(page: Page, site: Site) => Promise<void>} */
 async function checkAwayAndBack(page, site) {
   await checkFirstLoad(page, site);
   await followLink(page, site, 'second');
@@ -136,7 +131,11 @@ async function checkAwayAndBack(page, site) {
   await untilLive(page, site);
 }
 
-/** Opens the figure by a link on another page. It is created before its class is defined, and must apply properties that were set before. @type {(page: Page, site: Site) => Promise<void>} */
+/**
+ * Opens the figure by a link on another page. The figure is created before its class is defined, and must apply properties that were set
+ * before.
+ * @type {(page: Page, site: Site) => Promise<void>}
+ */
 async function checkFromOtherPage(page, site) {
   await page.goto(addressOf(site, site.definition.pages.second ?? ''));
   // When the network is idle, the engine's script handles links.
@@ -145,23 +144,18 @@ async function checkFromOtherPage(page, site) {
   await untilLive(page, site);
 }
 
-/** Turns dark mode on and off. @type {(page: Page, site: Site) => Promise<void>} */
+/** Turns dark mode on and off again. @type {(page: Page, site: Site) => Promise<void>} */
 async function checkDarkMode(page, site) {
   const setDark = site.serving.dark ?? site.definition.dark;
   await checkFirstLoad(page, site);
-  for (const on of [true, false]) {
-    await setDark?.(page, on);
-    await page.locator(site.definition.expected[0].selector).evaluate(untilScheme, on ? 'dark' : 'light');
+  for (const isDark of [true, false]) {
+    await setDark?.(page, isDark);
+    await page.locator(site.definition.expected[0].selector).evaluate(untilScheme, isDark ? 'dark' : 'light');
   }
 }
 
-/**
- * Resolves when a figure has a colour scheme. Runs in the page.
- *
- * @param {Element} figure
- * @param {string} scheme "dark" or "light"
- */
-export async function untilScheme(figure, scheme) {
-  const surface = /** @type {HTMLElement} */ (figure.shadowRoot?.querySelector('.surface'));
-  while (getComputedStyle(surface).colorScheme !== scheme) await new Promise(requestAnimationFrame);
+/** Resolves when a figure has a given colour scheme. Runs in the page. @param {Element} figure @param {string} expectedScheme "dark" or "light" */
+export async function untilScheme(figure, expectedScheme) {
+  const figureSurface = /** @type {HTMLElement} */ (figure.shadowRoot?.querySelector('.surface'));
+  while (getComputedStyle(figureSurface).colorScheme !== expectedScheme) await new Promise(requestAnimationFrame);
 }

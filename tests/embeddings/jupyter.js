@@ -1,4 +1,4 @@
-/** Notebook in JupyterLab, with the Python package, and the page that nbconvert makes of it. */
+/** Notebook in JupyterLab with the Python package, and the page that nbconvert makes of it. */
 
 import assert from 'node:assert/strict';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
@@ -23,12 +23,12 @@ let packagesDirectory = '';
 
 const ORIGINAL_SETTINGS = { omega: 0.8, samples: 20000, alphas: [0.1, 0.1, 0.1, 0.1, 0.01, 0.01], overlays: ['command', 'exponential'] };
 
-/** Chooses an item of JupyterLab's menus. @param {Page} page @param {string} menu @param {string[]} path names of the items in it */
-async function chooseMenuItem(page, menu, ...path) {
-  await page.locator('.lm-MenuBar-item', { hasText: menu }).click();
-  for (const [i, name] of path.entries()) {
-    const menuItem = page.locator('.lm-Menu').nth(i).locator('.lm-Menu-item').filter({ has: page.getByText(name, { exact: true }) });
-    if (i < path.length - 1) await menuItem.hover();
+/** Chooses an item of JupyterLab's menus. @param {Page} page @param {string} menuName @param {string[]} itemNames names of the items in it */
+async function chooseMenuItem(page, menuName, ...itemNames) {
+  await page.locator('.lm-MenuBar-item', { hasText: menuName }).click();
+  for (const [i, itemName] of itemNames.entries()) {
+    const menuItem = page.locator('.lm-Menu').nth(i).locator('.lm-Menu-item').filter({ has: page.getByText(itemName, { exact: true }) });
+    if (i < itemNames.length - 1) await menuItem.hover();
     else await menuItem.click();
   }
 }
@@ -37,7 +37,7 @@ async function chooseMenuItem(page, menu, ...path) {
 async function runNotebook(page, site) {
   await page.goto(new URL('lab/tree/motion.ipynb?reset', site.url).href);
   await page.locator('.jp-Notebook-ExecutionIndicator[data-status="idle"]').waitFor();
-  // The page says "Idle" even before there is a kernel.
+  // The page says "Idle" even if no kernel is running.
   await page.waitForFunction(async () => {
     const kernelSessions = await (await fetch('/api/sessions')).json();
     return kernelSessions.some((/** @type {any} */ { kernel }) => kernel.connections > 0 && kernel.execution_state === 'idle');
@@ -46,7 +46,7 @@ async function runNotebook(page, site) {
   await page.getByText('Python 3 (ipykernel) | Idle').waitFor();
   await chooseMenuItem(page, 'Kernel', 'Restart Kernel and Run All Cells…');
   await page.locator('.jp-Dialog .jp-mod-accept').click();
-  // JupyterLab shows the number of a cell after it has run.
+  // JupyterLab shows the number of a cell after it has run the cell.
   await page.locator('.jp-CodeCell .jp-InputArea-prompt', { hasText: '[4]:' }).waitFor();
   await untilLive(page, site);
 }
@@ -54,13 +54,13 @@ async function runNotebook(page, site) {
 /** Returns the Banana Machine of a page. @param {Page} page */
 const bananaMachineOf = (page) => page.locator('banana-machine');
 
-/** Evaluates Python code in the last cell of the notebook. @param {Page} page @param {string} code @returns {Promise<any>} its value */
-async function evaluatePython(page, code) {
+/** Evaluates Python code in the last cell of the notebook. @param {Page} page @param {string} pythonCode @returns {Promise<any>} its value */
+async function evaluatePython(page, pythonCode) {
   const codeCell = page.locator('.jp-CodeCell').last();
   await codeCell.locator('.cm-content').click();
   await page.keyboard.press('ControlOrMeta+A');
   const cellCount = await page.locator('.jp-CodeCell').count();
-  await page.keyboard.insertText(`import json; print('=' + json.dumps(${code}))`);
+  await page.keyboard.insertText(`import json; print('=' + json.dumps(${pythonCode}))`);
   await page.keyboard.press('Shift+Enter');
   const cellOutput = page.locator('.jp-CodeCell').nth(cellCount - 1).locator('.jp-OutputArea-output', { hasText: /^(=|.*Error)/s });
   await cellOutput.waitFor();
@@ -71,19 +71,19 @@ async function evaluatePython(page, code) {
 }
 
 /**
- * Evaluates Python code until it has the expected value, because the figure's values arrive later.
+ * Evaluates Python code until its result is the expected value, because the figure's values arrive later.
  *
  * @param {Page} page
- * @param {string} code
- * @param {unknown} expected
+ * @param {string} pythonCode
+ * @param {unknown} expectedValue
  */
-async function untilValue(page, code, expected) {
+async function untilValue(page, pythonCode, expectedValue) {
   let actualValue;
   for (let i = 0; i < 10; i++) {
-    actualValue = await evaluatePython(page, code);
-    if (JSON.stringify(actualValue) === JSON.stringify(expected)) return;
+    actualValue = await evaluatePython(page, pythonCode);
+    if (JSON.stringify(actualValue) === JSON.stringify(expectedValue)) return;
   }
-  assert.deepEqual(actualValue, expected, code);
+  assert.deepEqual(actualValue, expectedValue, pythonCode);
 }
 
 /** @type {import('./project.mjs').Serving['checks']} */
@@ -92,7 +92,7 @@ const JUPYTERLAB_CHECKS = {
     await runNotebook(page, site);
     await untilValue(page, '[machine.stats["n"], machine.v, machine.preset, machine.error]', [20000, 1, null, '']);
     assert.ok((await evaluatePython(page, 'len(skews)')) > 0);
-    // The second assignment does not wait for the result of the first.
+    // The second assignment does not wait for the result of the first assignment.
     await evaluatePython(page, '[setattr(machine, "preset", "hard"), setattr(machine, "omega", 0.2)]');
     await untilValue(page, '[machine.preset, machine.omega, machine.dt, machine.command]', [null, 0.2, 1.4, { v: 1, omega: 0.2, dt: 1.4 }]);
     assert.deepEqual(await bananaMachineOf(page).evaluate(propertiesOf, ['preset', 'omega', 'dt']), { preset: null, omega: 0.2, dt: 1.4 });
@@ -102,8 +102,8 @@ const JUPYTERLAB_CHECKS = {
     const omegaSlider = bananaMachineOf(page).getByRole('slider', { name: /ω/ }).first();
     await omegaSlider.focus();
     const cellCount = await page.locator('.jp-Cell').count();
-    for (const key of ['ArrowRight', 'ArrowRight', 'ArrowDown', 'ArrowUp']) await page.keyboard.press(key);
-    // These letters and digits are shortcuts of JupyterLab, for inserting cells and changing their type.
+    for (const arrowKey of ['ArrowRight', 'ArrowRight', 'ArrowDown', 'ArrowUp']) await page.keyboard.press(arrowKey);
+    // The typed letters and digits are shortcuts of JupyterLab for inserting cells and changing their type.
     for (const key of ['b', 'a', 'm', '1', '2', 'Enter']) await page.keyboard.press(key);
     assert.equal(await page.locator('.jp-Cell').count(), cellCount);
     assert.equal(await page.locator('.jp-CodeCell').count(), cellCount - 3);
@@ -113,9 +113,9 @@ const JUPYTERLAB_CHECKS = {
   },
   async 'light and dark with JupyterLab'(page, site) {
     await runNotebook(page, site);
-    for (const [theme, scheme] of /** @type {const} */ ([['JupyterLab Dark', 'dark'], ['JupyterLab Light', 'light']])) {
-      await chooseMenuItem(page, 'Settings', 'Theme', theme);
-      await bananaMachineOf(page).evaluate(untilScheme, scheme);
+    for (const [themeName, colorScheme] of /** @type {const} */ ([['JupyterLab Dark', 'dark'], ['JupyterLab Light', 'light']])) {
+      await chooseMenuItem(page, 'Settings', 'Theme', themeName);
+      await bananaMachineOf(page).evaluate(untilScheme, colorScheme);
     }
   },
 };
@@ -124,7 +124,7 @@ const JUPYTERLAB_CHECKS = {
 const EXPORT_CHECKS = {
   async 'live without a kernel, as it was when it was run'(page, site) {
     for (const [urlPattern, packagePath] of Object.entries(PACKAGE_FILES)) await page.route(urlPattern, (route) => route.fulfill({ path: join(packagesDirectory, packagePath) }));
-    // The page has no formulas.
+    // The page has no formulas, so that an empty MathJax is enough.
     await page.route('**/mathjax/**', (route) => route.fulfill({ contentType: 'text/javascript', body: '' }));
     await page.goto(new URL('motion.html', site.url).href);
     await untilLive(page, site);
@@ -155,7 +155,7 @@ export default {
     const toolsDirectory = pythonDirectoryOf(directory);
     await installPythonPackages(directory, { run: execute, start }, [wheel]);
     await execute('npm', ['install', '--prefix', toolsDirectory, '--ignore-scripts', '--no-audit', '--no-fund', '--loglevel', 'error', ...NPM_PACKAGES]);
-    // JupyterLab would ask for permission to fetch news.
+    // JupyterLab would otherwise ask for permission to fetch news.
     const settingsDirectory = join(toolsDirectory, 'share/jupyter/lab/settings');
     mkdirSync(settingsDirectory, { recursive: true });
     writeFileSync(join(settingsDirectory, 'overrides.json'), '{ "@jupyterlab/apputils-extension:notification": { "fetchNews": "false" } }');
@@ -173,8 +173,8 @@ export default {
         const labArguments = ['--no-browser', '--allow-root', '--IdentityProvider.token=', '--ServerApp.port_retries=0'];
         // JupyterLab has a separate configuration directory, so that this user's settings do not affect the test.
         const ownDirectoryOf = (/** @type {string} */ name) => join(pythonDirectoryOf(directory), 'own', name);
-        const env = { JUPYTER_CONFIG_DIR: ownDirectoryOf('config'), JUPYTERLAB_SETTINGS_DIR: ownDirectoryOf('settings'), JUPYTERLAB_WORKSPACES_DIR: ownDirectoryOf('workspaces') };
-        return [pythonProgramPath(directory, 'jupyter'), ['lab', ...labArguments, '--port', port], env];
+        const jupyterEnvironment = { JUPYTER_CONFIG_DIR: ownDirectoryOf('config'), JUPYTERLAB_SETTINGS_DIR: ownDirectoryOf('settings'), JUPYTERLAB_WORKSPACES_DIR: ownDirectoryOf('workspaces') };
+        return [pythonProgramPath(directory, 'jupyter'), ['lab', ...labArguments, '--port', port], jupyterEnvironment];
       }),
       checks: JUPYTERLAB_CHECKS,
     },

@@ -3,8 +3,8 @@ import { join } from 'node:path';
 import { installNpmPackages, pinnedVersions } from './project.mjs';
 import { serveFiles, serveByProgram } from './serving.mjs';
 
-/** Returns a function that serves a site by Next's own server. @param {string} command @param {string[]} args */
-const serveWithNext = (command, ...args) => serveByProgram((port) => ['npx', ['next', command, '--port', port, ...args]]);
+/** Returns a function that serves a site by the server of Next. @param {string} command @param {string[]} nextArguments */
+const serveWithNext = (command, ...nextArguments) => serveByProgram((port) => ['npx', ['next', command, '--port', port, ...nextArguments]]);
 
 /** @type {import('./project.mjs').Engine} */
 export default {
@@ -18,7 +18,7 @@ export default {
     {
       name: 'static export',
       async serve(directory, tools) {
-        // A static export has no partly static pages, which the example turns on, and its addresses suit any file server.
+        // A static export has no partly static pages, which the example turns on. Its addresses suit any file server.
         writeFileSync(join(directory, 'next.config.ts'), "export default { output: 'export', basePath: '/book', trailingSlash: true };\n");
         await tools.run('npm', ['run', 'build']);
         return serveFiles('out', '/book/')(directory, tools);
@@ -27,8 +27,8 @@ export default {
   ],
   pages: { first: '/', second: '/sensors' },
   go: (page, path) => page.getByRole('link', { name: path === '/' ? 'Motion' : 'Sensors' }).click(),
-  dark: (page, on) => page.emulateMedia({ colorScheme: on ? 'dark' : 'light' }),
-  // Next keeps the pages that the user has left in the document, but hides them.
+  dark: (page, isDark) => page.emulateMedia({ colorScheme: isDark ? 'dark' : 'light' }),
+  // Next keeps pages that the user has left in the document, and hides them.
   expected: [
     { selector: 'main:visible banana-machine >> nth=0', properties: { omega: 0.8, samples: 20000, alphas: [0.1, 0.05, 0.05, 0.1, 0.01, 0.01] } },
     { selector: 'main:visible banana-machine >> nth=1', properties: { omega: 0, alphas: [0.1, 0.1, 0.1, 0.1, 0, 0] } },

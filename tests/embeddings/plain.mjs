@@ -1,5 +1,5 @@
 /**
- * Engines that are described by data alone: `npm run build` writes their site, and `npm run dev` serves it for authors.
+ * Engines that need no code of their own. `npm run build` writes their site, and `npm run dev` serves it for authors.
  *
  * @module
  */
@@ -54,9 +54,9 @@ const ENGINE_DEFINITIONS = {
     devBase: '/book/',
     pages: { first: '/motion.html', second: '/sensors.html' },
     go: (page, path) => page.locator(`.VPSidebar a[href$="${path}"]`).click(),
-    async dark(page, on) {
+    async dark(page, isDark) {
       const htmlElement = page.locator('html');
-      if ((await htmlElement.getAttribute('class'))?.includes('dark') !== on) await page.locator('.VPNavBarAppearance .VPSwitchAppearance').click();
+      if ((await htmlElement.getAttribute('class'))?.includes('dark') !== isDark) await page.locator('.VPNavBarAppearance .VPSwitchAppearance').click();
     },
     expected: [
       { selector: 'banana-machine >> nth=0', properties: FIGURE_SETTINGS },
@@ -96,7 +96,7 @@ const ENGINE_DEFINITIONS = {
   observable: { heading: 'Observable Framework', packages: ['@observablehq/framework'], output: 'dist', base: '/book/', copies: 'src', go: undefined },
 };
 
-/** Copies the single files of a release into a directory. @param {string} directory */
+/** Copies the single-file scripts of a release into a directory. @param {string} directory */
 export function copySingleFiles(directory) {
   mkdirSync(directory, { recursive: true });
   for (const name of ['motion-widgets.iife.js', 'motion-widgets.css']) copyFileSync(join(ROOT, 'dist', name), join(directory, name));
@@ -113,12 +113,12 @@ const engineEntries = Object.entries(ENGINE_DEFINITIONS).map(([name, { packages,
   servings: [
     { name: 'production', serve: output ? serveFiles(output, base) : serveByProgram((port) => ['npm', ['start'], { PORT: port }]) },
     { name: 'development', serve: serveByProgram((port) => ['npm', ['run', 'dev', '--', '--port', port]], devBase) },
-  ].filter(({ name: serving }) => !only || serving === only),
+  ].filter(({ name: servingName }) => !only || servingName === only),
   pages: { first: '/', second: '/sensors' },
   go: (page, path) => page.getByRole('link', { name: path === '/' ? 'Motion' : 'Sensors' }).first().click(),
   expected: [{ selector: 'banana-machine', properties: { ...FIGURE_SETTINGS, ...(lists && { alphas: FIGURE_ALPHAS }) } }],
   ...more,
 }]);
 
-/** Engines by the name of the example. */
+/** Plain engines, by the name of the example. */
 export const plainEngines = Object.fromEntries(engineEntries);

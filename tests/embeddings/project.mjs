@@ -1,6 +1,6 @@
 /**
- * Packs the npm and Python packages, and copies each example to a directory outside of this repository, so that nothing of
- * it can be imported by accident. The copies and the packages installed in them are kept between runs.
+ * Projects for the tests: packs the npm and Python packages, and copies each example to a directory outside of this repository. There no
+ * file of the repository can be imported by accident. The copies and the packages installed in them are kept between runs.
  *
  * @module
  */
@@ -14,7 +14,7 @@ import { startProgram } from './serving.mjs';
 import { CACHE_DIRECTORY } from '../../scripts/toolchain.mjs';
 
 /**
- * Description of an engine: the default export of a file in this folder.
+ * Description of an engine, which is the default export of a file in this folder.
  *
  * @typedef {object} Engine
  * @property {string} heading of its section in doc/embedding/, and its name in the table of doc/embedding.md
@@ -59,13 +59,13 @@ const SILENT_ENVIRONMENT = {
   FORCE_COLOR: '0',
 };
 
-/** Directory for this clone alone, because tests of other clones may run at the same time. */
+/** Directory for this clone of the repository. Tests of other clones may run at the same time. */
 const SCRATCH_DIRECTORY = join(CACHE_DIRECTORY, 'embeddings', createHash('sha256').update(ROOT).digest('hex').slice(0, 8));
 
 /** Returns the names of all engines. @returns {Promise<string[]>} */
 export async function findEngineNames() {
   const { plainEngines } = await import('./plain.mjs');
-  return [...Object.keys(plainEngines), ...readdirSync(join(ROOT, 'tests/embeddings')).flatMap((name) => name.match(/^(.+)\.js$/)?.slice(1) ?? [])];
+  return [...Object.keys(plainEngines), ...readdirSync(join(ROOT, 'tests/embeddings')).flatMap((fileName) => fileName.match(/^(.+)\.js$/)?.slice(1) ?? [])];
 }
 
 /** Returns the description of an engine. @param {string} name @returns {Promise<Engine>} */
@@ -74,17 +74,17 @@ export async function loadEngine(name) {
   return plainEngines[name] ?? (await import(`./${name}.js`)).default;
 }
 
-/** Returns packages with the versions that an example pins. @param {string} example @param {string[]} packages */
-export function pinnedVersions(example, ...packages) {
-  const directory = join(ROOT, 'examples', example);
-  const readText = (/** @type {string} */ name) => (existsSync(join(directory, name)) ? readFileSync(join(directory, name), 'utf8') : '');
+/** Returns packages with the versions to which an example pins them. @param {string} exampleName @param {string[]} packageNames */
+export function pinnedVersions(exampleName, ...packageNames) {
+  const exampleDirectory = join(ROOT, 'examples', exampleName);
+  const readText = (/** @type {string} */ name) => (existsSync(join(exampleDirectory, name)) ? readFileSync(join(exampleDirectory, name), 'utf8') : '');
   const { dependencies = {}, devDependencies = {} } = JSON.parse(readText('package.json') || '{}');
   const versionByPackage = new Map(Object.entries({ ...dependencies, ...devDependencies }));
-  for (const [, name, version] of readText('requirements.txt').matchAll(/^([\w.-]+)(?:\[[\w,]+\])?==(\S+)$/gm)) versionByPackage.set(name, version);
-  return packages
+  for (const [, name, pinnedVersion] of readText('requirements.txt').matchAll(/^([\w.-]+)(?:\[[\w,]+\])?==(\S+)$/gm)) versionByPackage.set(name, pinnedVersion);
+  return packageNames
     .map((name) => {
       const version = versionByPackage.get(name);
-      if (!/^\d+\.\d+[\w.]*$/.test(version ?? '')) throw new Error(`examples/${example}: ${name} is ${version}, and must be one version.`);
+      if (!/^\d+\.\d+[\w.]*$/.test(version ?? '')) throw new Error(`examples/${exampleName}: ${name} is ${version}, and must be one version.`);
       return `${name} ${version}`;
     })
     .join(', ');
@@ -95,7 +95,11 @@ export async function installNpmPackages(_directory, { run, tarball }) {
   await run('npm', ['install', '--no-audit', '--no-fund', '--prefer-offline', '--loglevel', 'error', tarball]);
 }
 
-/** Returns the directory of an example's Python tools. It is outside of the example, because some engines read all its files. @param {string} directory */
+/**
+ * Returns the directory of an example's Python tools. The directory is outside of the example, because some engines read all files of an
+ * example.
+ * @param {string} directory
+ */
 export const pythonDirectoryOf = (directory) => `${directory}.tools`;
 
 /** Returns the path of a program that `installPythonPackages` has installed. @param {string} directory @param {string} name */
@@ -106,15 +110,15 @@ export const pythonProgramPath = (directory, name) => join(pythonDirectoryOf(dir
  *
  * @param {string} directory
  * @param {Tools} tools
- * @param {string[]} wheels Python packages that are installed even if their versions have not changed
+ * @param {string[]} wheelPaths Python packages that are installed even if their versions have not changed
  */
-export async function installPythonPackages(directory, { run }, wheels) {
+export async function installPythonPackages(directory, { run }, wheelPaths) {
   await run('python3', ['-m', 'venv', pythonDirectoryOf(directory)]);
-  const pip = pythonProgramPath(directory, 'pip');
+  const pipPath = pythonProgramPath(directory, 'pip');
   const pipArguments = ['install', '--quiet', '--disable-pip-version-check'];
-  await run(pip, [...pipArguments, '--requirement', 'requirements.txt', ...wheels]);
-  // The package may have changed without a new version.
-  if (wheels.length > 0) await run(pip, [...pipArguments, '--force-reinstall', '--no-deps', ...wheels]);
+  await run(pipPath, [...pipArguments, '--requirement', 'requirements.txt', ...wheelPaths]);
+  // The package may have changed although its version is the same.
+  if (wheelPaths.length > 0) await run(pipPath, [...pipArguments, '--force-reinstall', '--no-deps', ...wheelPaths]);
 }
 
 /** Packs the present build as npm would publish it, and returns the path of the package. @param {string} directory */
@@ -123,33 +127,33 @@ export function packInto(directory) {
   return join(directory, packageName.trim());
 }
 
-/** Packs the npm package, once, and returns its path. */
+/** Packs the npm package once, and returns the path of the packed file. */
 const packTarball = runOnce(async () => packInto(makeEmptyDirectory('npm')));
 
-/** Builds the wheel of the Python package, once, and returns its path. */
+/** Builds the wheel of the Python package once, and returns its path. */
 const buildWheel = runOnce(async () => {
   const directory = makeEmptyDirectory('python');
   execFileSync('python3', ['-m', 'pip', 'wheel', '--quiet', '--no-deps', '--wheel-dir', directory, join(ROOT, 'python')]);
   return join(directory, readdirSync(directory)[0]);
 });
 
-/** Returns an empty directory for the package of a registry. @param {string} registry */
-function makeEmptyDirectory(registry) {
-  const directory = join(SCRATCH_DIRECTORY, 'packed', registry);
+/** Returns an empty directory for a package of a registry. @param {string} registryName */
+function makeEmptyDirectory(registryName) {
+  const directory = join(SCRATCH_DIRECTORY, 'packed', registryName);
   rmSync(directory, { recursive: true, force: true });
   mkdirSync(directory, { recursive: true });
   return directory;
 }
 
-/** Returns the tools for a copy of an example. @param {string} directory @param {Record<string, string>} env @returns {Tools} */
-function toolsIn(directory, env) {
+/** Returns the tools for a copy of an example. @param {string} directory @param {Record<string, string>} toolEnvironment @returns {Tools} */
+function toolsIn(directory, toolEnvironment) {
   return {
-    async run(command, args, more) {
-      const errorMessage = `\`${[command, ...args].join(' ')}\` fails: see above.`;
-      const runOptions = { cwd: directory, env: { ...env, ...more }, quiet: true, seconds: 900 };
-      return (await mustRun(errorMessage, command, args, runOptions)).output;
+    async run(command, commandArguments, moreOptions) {
+      const errorMessage = `\`${[command, ...commandArguments].join(' ')}\` fails: see above.`;
+      const runOptions = { cwd: directory, env: { ...toolEnvironment, ...moreOptions }, quiet: true, seconds: 900 };
+      return (await mustRun(errorMessage, command, commandArguments, runOptions)).output;
     },
-    start: (command, args, more) => startProgram(command, args, { cwd: directory, env: { ...env, ...more } }),
+    start: (command, args, more) => startProgram(command, args, { cwd: directory, env: { ...toolEnvironment, ...more } }),
   };
 }
 
@@ -161,52 +165,55 @@ const KEPT_NAMES = ['node_modules', '.venv', '.installed'];
  * the package, change.
  *
  * @param {string} name
- * @param {Engine} definition
+ * @param {Engine} engineDefinition
  */
-export async function prepareExample(name, definition) {
+export async function prepareExample(name, engineDefinition) {
   const exampleDirectory = join(ROOT, 'examples', name);
   const directory = join(SCRATCH_DIRECTORY, name);
-  const tools = toolsIn(directory, { ...SILENT_ENVIRONMENT, ...(await environmentWithNode(definition)) });
+  const exampleTools = toolsIn(directory, { ...SILENT_ENVIRONMENT, ...(await environmentWithNode(engineDefinition)) });
   mkdirSync(directory, { recursive: true });
   for (const entryName of readdirSync(directory)) {
     if (!KEPT_NAMES.includes(entryName)) rmSync(join(directory, entryName), { recursive: true });
   }
   cpSync(exampleDirectory, directory, { recursive: true, filter: (path) => !KEPT_NAMES.includes(basename(path)) });
-  const packagePaths = { tarball: await packTarball(), wheel: definition.python ? await buildWheel() : '' };
-  const pinFiles = ['package.json', 'requirements.txt'].map((file) => join(exampleDirectory, file)).filter((path) => existsSync(path));
+  const packagePaths = { tarball: await packTarball(), wheel: engineDefinition.python ? await buildWheel() : '' };
+  const pinFiles = ['package.json', 'requirements.txt'].map((fileName) => join(exampleDirectory, fileName)).filter((path) => existsSync(path));
   const packageHash = createHash('sha256');
   for (const path of [...pinFiles, ...Object.values(packagePaths).filter((path) => path !== '')]) packageHash.update(readFileSync(path));
   const stampFile = join(directory, '.installed');
   const currentHash = packageHash.digest('hex');
-  if (existsSync(stampFile) && readFileSync(stampFile, 'utf8') === currentHash) return { directory, tools };
+  if (existsSync(stampFile) && readFileSync(stampFile, 'utf8') === currentHash) return { directory, tools: exampleTools };
   rmSync(stampFile, { force: true });
   removeCaches(join(directory, 'node_modules'));
   printStep(`${name}: installing`);
-  await definition.install(directory, { ...tools, ...packagePaths });
+  await engineDefinition.install(directory, { ...exampleTools, ...packagePaths });
   writeFileSync(stampFile, currentHash);
-  return { directory, tools };
+  return { directory, tools: exampleTools };
 }
 
 /**
- * Removes our package and caches of bundlers. Neither npm nor a bundler expects that the package changes under the same version.
+ * Removes this package and the caches of bundlers from a copy. Neither npm nor a bundler expects that the package changes under the same version.
  *
- * @param {string} modules
+ * @param {string} modulesDirectory
  */
-function removeCaches(modules) {
-  if (!existsSync(modules)) return;
-  for (const name of readdirSync(modules)) {
-    if (name === 'motion-widgets' || (name.startsWith('.') && name !== '.bin')) rmSync(join(modules, name), { recursive: true });
+function removeCaches(modulesDirectory) {
+  if (!existsSync(modulesDirectory)) return;
+  for (const name of readdirSync(modulesDirectory)) {
+    if (name === 'motion-widgets' || (name.startsWith('.') && name !== '.bin')) rmSync(join(modulesDirectory, name), { recursive: true });
   }
 }
 
-/** Returns an environment with the Node that an engine needs, installed if this one is older. @param {Engine} definition @returns {Promise<Record<string, string>>} */
+/**
+ * Returns an environment with the version of Node that an engine needs. That version is installed if the current one is older.
+ * @param {Engine} definition @returns {Promise<Record<string, string>>}
+ */
 async function environmentWithNode({ node = 0 }) {
   if (Number.parseInt(process.versions.node) >= node) return {};
   const directory = join(SCRATCH_DIRECTORY, `node-${node}`);
-  const bin = join(directory, 'node_modules/node/bin');
-  if (!existsSync(bin)) {
+  const nodeBinDirectory = join(directory, 'node_modules/node/bin');
+  if (!existsSync(nodeBinDirectory)) {
     const missingMessage = `Node ${node} is needed and this is ${process.versions.node}: install it from nodejs.org.`;
     await mustRun(missingMessage, 'npm', ['install', '--prefix', directory, '--no-audit', '--no-fund', `node@${node}`], { quiet: true, seconds: 300 });
   }
-  return { PATH: [bin, process.env.PATH].join(delimiter) };
+  return { PATH: [nodeBinDirectory, process.env.PATH].join(delimiter) };
 }

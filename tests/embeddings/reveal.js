@@ -8,11 +8,11 @@ const SLIDE_CHECKS = {
   async 'a figure fits its slide, keeps its keys, and is presented'(page, site) {
     await page.goto(new URL('index.html#/1', site.url).href);
     await untilLive(page, site);
-    const figure = page.locator('banana-machine');
-    assert.ok((await figure.evaluate((element) => element.clientHeight)) <= 700);
-    await figure.getByRole('button', { name: 'Pivot' }).press('Space');
+    const bananaMachine = page.locator('banana-machine');
+    assert.ok((await bananaMachine.evaluate((element) => element.clientHeight)) <= 700);
+    await bananaMachine.getByRole('button', { name: 'Pivot' }).press('Space');
     assert.equal(new URL(page.url()).hash, '#/1');
-    await figure.evaluate((element) => Object.assign(element, { presentation: true }));
+    await bananaMachine.evaluate((element) => Object.assign(element, { presentation: true }));
     await page.waitForFunction(() => document.querySelector('banana-machine')?.getBoundingClientRect().width === innerWidth);
   },
 };

@@ -1,6 +1,6 @@
 /**
  * `npm run test:embeddings`: builds, packs, and opens each example as its engine serves it. `npm run test:embeddings -- ENGINE…`
- * selects some of them. Pictures of the pages are in test-results/embeddings.
+ * selects some of the engines. Pictures of the pages are in test-results/embeddings.
  *
  * @module
  */
@@ -17,32 +17,32 @@ import { loadEngine, findEngineNames, prepareExample } from './project.mjs';
 /** @typedef {{ name: string, serving: string, passed: number, failures: string[], seconds: number }} Outcome */
 
 /**
- * Returns an outcome for each serving, or one if the engine cannot be served.
+ * Returns an outcome for each way of serving a site. If the engine cannot be served, returns a single outcome.
  *
  * @param {import('@playwright/test').Browser} browser
- * @param {string} name
+ * @param {string} engineName
  */
-async function testEngine(browser, name) {
-  const definition = await loadEngine(name);
+async function testEngine(browser, engineName) {
+  const engineDefinition = await loadEngine(engineName);
   /** @type {Outcome[]} */
-  const outcomes = [];
+  const servingOutcomes = [];
   let startTime = Date.now();
-  const addOutcome = (/** @type {string} */ serving, /** @type {number} */ passed, /** @type {string[]} */ failures) => {
-    outcomes.push({ name, serving, passed, failures, seconds: (Date.now() - startTime) / 1000 });
+  const addOutcome = (/** @type {string} */ servingName, /** @type {number} */ passedCount, /** @type {string[]} */ failures) => {
+    servingOutcomes.push({ name: engineName, serving: servingName, passed: passedCount, failures, seconds: (Date.now() - startTime) / 1000 });
     for (const failure of failures) console.log(`FAILED ${failure}`);
     startTime = Date.now();
   };
   let servingName = 'build';
   try {
-    const { directory, tools } = await prepareExample(name, definition);
-    printStep(`${name}: building`);
-    await definition.build?.(directory, tools);
-    for (const currentServing of definition.servings) {
+    const { directory, tools } = await prepareExample(engineName, engineDefinition);
+    printStep(`${engineName}: building`);
+    await engineDefinition.build?.(directory, tools);
+    for (const currentServing of engineDefinition.servings) {
       servingName = currentServing.name;
-      printStep(`${name}: ${servingName}`);
+      printStep(`${engineName}: ${servingName}`);
       const { url, stop } = await currentServing.serve(directory, tools);
       try {
-        const { passed, failures } = await runChecks(browser, { name, definition, serving: currentServing, url });
+        const { passed, failures } = await runChecks(browser, { name: engineName, definition: engineDefinition, serving: currentServing, url });
         addOutcome(servingName, passed, failures);
       } finally {
         await stop();
@@ -51,10 +51,10 @@ async function testEngine(browser, name) {
   } catch (error) {
     addOutcome(servingName, 0, [error instanceof UserError ? error.message : String(error instanceof Error ? error.stack : error)]);
   }
-  return outcomes;
+  return servingOutcomes;
 }
 
-/** Tests some engines, or all if none is named, and returns true if they pass. @param {string[]} engineNames */
+/** Tests the named engines, or all engines if none is named. Returns true if all of them pass. @param {string[]} engineNames */
 async function testEngines(engineNames) {
   const allEngineNames = await findEngineNames();
   const unknownName = engineNames.find((name) => !allEngineNames.includes(name));
@@ -71,12 +71,12 @@ async function testEngines(engineNames) {
   } finally {
     await browser.close();
   }
-  await summarize(outcomes, version);
+  await printSummary(outcomes, version);
   return outcomes.every(({ failures }) => failures.length === 0);
 }
 
-/** Prints versions and outcomes. @param {Outcome[]} outcomes @param {string} version of the browser */
-async function summarize(outcomes, version) {
+/** Prints the versions of the packages and the outcomes. @param {Outcome[]} outcomes @param {string} version of the browser */
+async function printSummary(outcomes, version) {
   printStep(`Versions: Node ${process.versions.node}, Chromium ${version}`);
   for (const name of new Set(outcomes.map(({ name }) => name))) console.log(`${name.padEnd(16)} ${(await loadEngine(name)).versions()}`);
   printStep('Summary');

@@ -1,5 +1,5 @@
 /**
- * Starts servers for the sites of the engines: a file server, or the server of an engine.
+ * Servers for the sites of the engines. A site has a file server or the server of its engine.
  *
  * @module
  */
@@ -9,18 +9,18 @@ import { join } from 'node:path';
 import { ROOT, endGroup, endGroupWithProcess, forgetGroup } from '../../scripts/process.mjs';
 import { startServer } from '../../scripts/serve.mjs';
 
-/** Seconds until a server has to answer. */
+/** Time limit in seconds within which a server has to answer. */
 const TIMEOUT_SECONDS = 120;
 
 /**
- * Serves the files that a build has written, with a plain file server.
+ * Serves the files of a build by a plain file server.
  *
- * @param {string} output directory of the files, relative to the copy of the example
- * @param {string} [base] configured path of the site, with a slash at both ends
+ * @param {string} outputDirectory directory of the files, relative to the copy of the example
+ * @param {string} [basePath] configured path of the site, with a slash at both ends
  * @returns {import('./project.mjs').Serving['serve']}
  */
-export const serveFiles = (output, base) => async (directory) => {
-  const { address, close } = await startServer(join(directory, output), { port: 0, base });
+export const serveFiles = (outputDirectory, basePath) => async (directory) => {
+  const { address, close } = await startServer(join(directory, outputDirectory), { port: 0, base: basePath });
   return { url: address, stop: close };
 };
 
@@ -44,12 +44,12 @@ export const serveByProgram = (command, base = '/') => async (directory, { start
     await engineServer.stop();
     throw error;
   }
-  // The server may end from now on.
+  // From here on, the server may end.
   earlyEnd.catch(() => {});
   return { url, stop: engineServer.stop };
 };
 
-/** Returns a free port: one that a server has just left. */
+/** Returns a free port, which a temporary server has just left. */
 async function findFreePort() {
   const { address, close } = await startServer(ROOT, { port: 0 });
   close();
@@ -58,34 +58,34 @@ async function findFreePort() {
 
 /** Waits until a server answers with status 200. @param {string} url */
 async function untilAnswered(url) {
-  const deadline = Date.now() + TIMEOUT_SECONDS * 1000;
+  const answerDeadline = Date.now() + TIMEOUT_SECONDS * 1000;
   for (;;) {
     const lastStatus = await fetch(url, { signal: AbortSignal.timeout(TIMEOUT_SECONDS * 1000) }).then(({ status }) => status, String);
     if (lastStatus === 200) return;
-    if (Date.now() > deadline) throw new Error(`${url} has not answered for ${TIMEOUT_SECONDS} s; the last was ${lastStatus}.`);
-    // A server that begins to listen fires no event.
+    if (Date.now() > answerDeadline) throw new Error(`${url} has not answered for ${TIMEOUT_SECONDS} s; the last was ${lastStatus}.`);
+    // A server fires no event when it begins to listen.
     await new Promise((resolve) => setTimeout(resolve, 200));
   }
 }
 
 /**
- * Starts a server, and ends it with all its children at the latest with this process.
+ * Starts a server. It ends with all its children at the latest when this process ends.
  *
  * @param {string} command
- * @param {string[]} args
+ * @param {string[]} commandArguments
  * @param {{ env?: Record<string, string>, cwd?: string }} [options]
  * @returns {{ output: () => string, said: (pattern: RegExp) => Promise<string>, ended: Promise<void>, stop: () => Promise<void> }}
  *   `output` returns the text printed so far; `said` waits for a match of a pattern and returns its first group; both other
  *   promises are resolved when the program has ended
  */
-export function startProgram(command, args, { env = {}, cwd = ROOT } = {}) {
-  const childProcess = spawn(command, args, { cwd, env: { ...process.env, ...env }, stdio: ['ignore', 'pipe', 'pipe'], detached: true });
+export function startProgram(command, commandArguments, { env = {}, cwd = ROOT } = {}) {
+  const childProcess = spawn(command, commandArguments, { cwd, env: { ...process.env, ...env }, stdio: ['ignore', 'pipe', 'pipe'], detached: true });
   const groupId = childProcess.pid;
   if (groupId !== undefined) endGroupWithProcess(groupId);
   let outputText = '';
-  for (const stream of [childProcess.stdout, childProcess.stderr]) stream.setEncoding('utf8').on('data', (text) => (outputText += text));
+  for (const outputStream of [childProcess.stdout, childProcess.stderr]) outputStream.setEncoding('utf8').on('data', (outputChunk) => (outputText += outputChunk));
   /** @type {Promise<void>} */
-  const ended = new Promise((resolve) => {
+  const endPromise = new Promise((resolve) => {
     childProcess.on('error', (error) => {
       outputText += error.message;
       resolve();
@@ -97,20 +97,20 @@ export function startProgram(command, args, { env = {}, cwd = ROOT } = {}) {
   });
   return {
     output: () => outputText,
-    said: (pattern) =>
+    said: (outputPattern) =>
       new Promise((resolve, reject) => {
         const checkOutput = () => {
-          const match = outputText.match(pattern);
-          if (match) resolve(match[1]);
+          const outputMatch = outputText.match(outputPattern);
+          if (outputMatch) resolve(outputMatch[1]);
         };
         for (const stream of [childProcess.stdout, childProcess.stderr]) stream.on('data', checkOutput);
-        ended.then(() => reject(new Error(`${command} has ended:\n${outputText}`)));
+        endPromise.then(() => reject(new Error(`${command} has ended:\n${outputText}`)));
         checkOutput();
       }),
-    ended,
+    ended: endPromise,
     stop() {
       if (groupId !== undefined) endGroup(groupId);
-      return ended;
+      return endPromise;
     },
   };
 }

@@ -1,14 +1,17 @@
-/** Book by Sphinx with a classic script. Every link loads another document. */
+/** Book by Sphinx with a classic script. Every link of the book loads another document. */
 
 import { join } from 'node:path';
 import { copySingleFiles } from './plain.mjs';
 import { pinnedVersions, installPythonPackages, pythonProgramPath } from './project.mjs';
 import { serveFiles } from './serving.mjs';
 
-/** Functions that switch a theme between light and dark, by the theme's name. One theme has no switch. @type {Record<string, import('./project.mjs').Engine['dark']>} */
+/**
+ * Functions that switch a theme between light and dark, by the theme's name. One of the themes has no switch.
+ * @type {Record<string, import('./project.mjs').Engine['dark']>}
+ */
 const DARK_SWITCH_OF_THEME = {
-  async furo(page, on) {
-    const activeThemeMark = page.locator(`[data-theme="${on ? 'dark' : 'light'}"]`);
+  async furo(page, isDark) {
+    const activeThemeMark = page.locator(`[data-theme="${isDark ? 'dark' : 'light'}"]`);
     // The button cycles through light, dark, and the system's scheme.
     for (let i = 0; i < 3 && (await activeThemeMark.count()) === 0; i++) await page.locator('.theme-toggle').filter({ visible: true }).click();
   },
@@ -23,7 +26,7 @@ const themeNames = Object.keys(DARK_SWITCH_OF_THEME);
 /** @type {import('./project.mjs').Engine} */
 export default {
   heading: 'Sphinx',
-  versions: () => pinnedVersions('sphinx', 'sphinx', ...themeNames.map((theme) => theme.replaceAll('_', '-'))),
+  versions: () => pinnedVersions('sphinx', 'sphinx', ...themeNames.map((themeName) => themeName.replaceAll('_', '-'))),
   async install(directory, tools) {
     await installPythonPackages(directory, tools, []);
   },

@@ -1,6 +1,6 @@
 /**
- * The browser engines, driven by WebDriver. All of them report reduced motion, so that clouds are complete at once. The growth of a cloud
- * would depend on the number of frames, and so on the load of the computer.
+ * Browser engines, driven by WebDriver. All engines report reduced motion, so that clouds are complete at once. A growing cloud would
+ * depend on the number of frames, and therefore on the load of the computer.
  *
  * @module
  */
@@ -56,9 +56,9 @@ async function startWebKit() {
   const configDirectory = mkdtempSync(join(tmpdir(), 'motion-engines-'));
   mkdirSync(join(configDirectory, 'gtk-3.0'));
   writeFileSync(join(configDirectory, 'gtk-3.0/settings.ini'), '[Settings]\ngtk-enable-animations=false\n');
-  const env = { DISPLAY: `:${displayNumber}`, XDG_CONFIG_HOME: configDirectory };
-  // The driver starts its own MiniBrowser.
-  return startEngine(driver, env, { browserName: 'MiniBrowser' }, async () => {
+  const displayEnvironment = { DISPLAY: `:${displayNumber}`, XDG_CONFIG_HOME: configDirectory };
+  // WebKit's driver starts MiniBrowser by itself.
+  return startEngine(driver, displayEnvironment, { browserName: 'MiniBrowser' }, async () => {
     await screenProcess.stop();
     rmSync(configDirectory, { recursive: true });
   });
@@ -67,23 +67,23 @@ async function startWebKit() {
 /**
  * Starts an engine by its driver.
  *
- * @param {string} driver program that speaks WebDriver
- * @param {Record<string, string>} env
- * @param {object} capabilities
- * @param {() => Promise<unknown>} [end] called after the driver has ended
+ * @param {string} driverPath program that speaks WebDriver
+ * @param {Record<string, string>} driverEnvironment
+ * @param {object} browserCapabilities
+ * @param {() => Promise<unknown>} [cleanUp] called after the driver has ended
  * @returns {Promise<Engine>}
  */
-async function startEngine(driver, env, capabilities, end = async () => {}) {
-  const driverServer = await serveByProgram((port) => [driver, [`--port=${port}`], env], '/status')('', {
-    start: (command, args) => startProgram(command, args, { env }),
+async function startEngine(driverPath, driverEnvironment, browserCapabilities, cleanUp = async () => {}) {
+  const driverServer = await serveByProgram((port) => [driverPath, [`--port=${port}`], driverEnvironment], '/status')('', {
+    start: (command, args) => startProgram(command, args, { env: driverEnvironment }),
     run: () => Promise.reject(new Error('It runs nothing.')),
   });
   const stopDriver = async () => {
     await driverServer.stop();
-    await end();
+    await cleanUp();
   };
   try {
-    return await openSession(driverServer.url.replace('/status', ''), capabilities, stopDriver);
+    return await openSession(driverServer.url.replace('/status', ''), browserCapabilities, stopDriver);
   } catch (error) {
     await stopDriver();
     throw error;
@@ -93,13 +93,13 @@ async function startEngine(driver, env, capabilities, end = async () => {}) {
 /**
  * Opens a session of a running driver.
  *
- * @param {string} url of the driver
+ * @param {string} driverUrl of the driver
  * @param {object} capabilities
- * @param {() => Promise<void>} stop
+ * @param {() => Promise<void>} stopDriver
  * @returns {Promise<Engine>}
  */
-async function openSession(url, capabilities, stop) {
-  const driverSession = await new Builder().usingServer(url).withCapabilities(new Capabilities(/** @type {any} */ (capabilities))).build();
+async function openSession(driverUrl, capabilities, stopDriver) {
+  const driverSession = await new Builder().usingServer(driverUrl).withCapabilities(new Capabilities(/** @type {any} */ (capabilities))).build();
   await driverSession.manage().setTimeouts({ script: SCRIPT_TIMEOUT_MS, pageLoad: SCRIPT_TIMEOUT_MS });
   const browserWindow = driverSession.manage().window();
   await browserWindow.setRect(PAGE_SIZE);
@@ -107,10 +107,11 @@ async function openSession(url, capabilities, stop) {
   await browserWindow.setRect({ width: 2 * PAGE_SIZE.width - innerWidth, height: 2 * PAGE_SIZE.height - innerHeight });
   return {
     version: (await driverSession.getCapabilities()).get('browserVersion'),
-    open: (url) => driverSession.get(url),
-    async ask(work, given) {
-      // A script of the page runs the function, because Firefox runs scripts of WebDriver in a sandbox, whose arrays are not of the page's type.
-      const pageScript = `(async () => (${work})(${JSON.stringify(given) ?? 'undefined'}))().then((result) => [result], (error) => [null, \`\${error}\\n\${error.stack}\`])`;
+    open: (pageUrl) => driverSession.get(pageUrl),
+    async ask(pageFunction, functionArgument) {
+      // A script of the page runs the function. Firefox runs scripts of WebDriver in a sandbox, whose arrays differ in type from arrays of
+      // the page.
+      const pageScript = `(async () => (${pageFunction})(${JSON.stringify(functionArgument) ?? 'undefined'}))().then((result) => [result], (error) => [null, \`\${error}\\n\${error.stack}\`])`;
       const answerJson = await driverSession.executeAsyncScript(
         `const [run, done] = arguments;
         const script = document.createElement('script');
@@ -119,24 +120,25 @@ async function openSession(url, capabilities, stop) {
         document.head.append(script);`,
         `{ const script = document.currentScript; ${pageScript}.then((answer) => { script.dataset.answer = JSON.stringify(answer); script.remove(); dispatchEvent(new Event('answer')); }); }`,
       );
-      const [result, error] = /** @type {[any, string?]} */ (JSON.parse(answerJson));
+      const [functionResult, error] = /** @type {[any, string?]} */ (JSON.parse(answerJson));
       if (error) throw new Error(error);
-      return result;
+      return functionResult;
     },
-    async drag([[x, y], ...points]) {
-      // The drag is one chain of actions, because some drivers release the button between two. Each move takes longer than a frame.
+    async drag([[x, y], ...nextPoints]) {
+      // The drag is one chain of actions, because some drivers release the mouse button between two chains. Each move takes longer than a
+      // frame.
       const dragActions = driverSession.actions({ async: false }).move({ x, y, duration: 0 }).press();
-      for (const [x, y] of points) dragActions.move({ x, y, duration: 40 });
+      for (const [x, y] of nextPoints) dragActions.move({ x, y, duration: 40 });
       await dragActions.release().perform();
     },
-    press: (...keys) => driverSession.actions().sendKeys(...keys.map((key) => KEY_CODES[key])).perform(),
+    press: (...keyNames) => driverSession.actions().sendKeys(...keyNames.map((keyName) => KEY_CODES[keyName])).perform(),
     screenshot: async () => Buffer.from(await driverSession.takeScreenshot(), 'base64'),
     async close() {
       await driverSession.quit();
-      await stop();
+      await stopDriver();
     },
   };
 }
 
-/** Functions that start the engines, by the names that the command line takes. @type {Record<string, () => Promise<Engine>>} */
+/** Functions that start the engines, by the engine names of the command line. @type {Record<string, () => Promise<Engine>>} */
 export const engineStarters = { chromium: startChromium, firefox: startFirefox, webkit: startWebKit };

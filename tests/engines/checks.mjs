@@ -21,54 +21,50 @@ const DRAG_STEPS = 8;
 /** Maximum number of colours of a blank picture. Antialiased lines, text and a cloud have many more shades. */
 const MAX_COLOURS_OF_BLANK = 16;
 
-const readSource = (/** @type {string} */ path) => readFileSync(join(ROOT, path), 'utf8');
+const readSource = (/** @type {string} */ repositoryPath) => readFileSync(join(ROOT, repositoryPath), 'utf8');
 
-/** Page in one engine. `ask` calls functions of inside.js in the page. */
-class Page {
-  /**
-   * @param {string} name
-   * @param {Engine} engine
-   * @param {string} address
-   */
-  constructor(name, engine, address) {
-    this.name = name;
-    this.engine = engine;
-    this.address = address;
+/** Page in one engine. `ask` calls functions of inside.js in that page. */
+class EnginePage {
+  /** @param {string} engineName @param {Engine} engineSession @param {string} pageUrl */
+  constructor(engineName, engineSession, pageUrl) {
+    this.name = engineName;
+    this.engine = engineSession;
+    this.address = pageUrl;
   }
 
   /**
    * Calls a function of inside.js in the page.
    *
    * @template {keyof typeof import('./inside.js')} Name
-   * @param {Name} name
-   * @param {Parameters<typeof import('./inside.js')[Name]>[0]} [given]
+   * @param {Name} functionName
+   * @param {Parameters<typeof import('./inside.js')[Name]>[0]} [functionArgument]
    * @returns {Promise<Awaited<ReturnType<typeof import('./inside.js')[Name]>>>}
    */
-  ask(name, given) {
+  ask(functionName, functionArgument) {
     return this.engine.ask(
       async ({ name, given }) => (await import(new URL('/tests/engines/inside.js', location.href).href))[name](given),
-      { name, given },
+      { name: functionName, given: functionArgument },
     );
   }
 
-  /** Loads the page again. @param {string} [tag] of a figure to scroll to and wait for */
-  async open(tag) {
+  /** Loads the page again. @param {string} [widgetTag] of a figure to scroll to and wait for */
+  async open(widgetTag) {
     await this.engine.open(this.address);
-    if (tag !== undefined) await this.untilSettled(tag);
+    if (widgetTag !== undefined) await this.untilSettled(widgetTag);
   }
 
-  /** Waits until a figure has settled, and checks that its pictures are not blank. @param {string} tag */
-  async untilSettled(tag) {
-    const { stats, samples } = await this.ask('untilSettled', tag);
+  /** Waits until a figure has settled, and checks that no picture of the figure is blank. @param {string} widgetTag */
+  async untilSettled(widgetTag) {
+    const { stats, samples } = await this.ask('untilSettled', widgetTag);
     assert.equal(stats, samples, `The statistics are of ${stats} samples.`);
-    for (const count of await this.ask('colourCountsOf', tag)) assert.ok(count > MAX_COLOURS_OF_BLANK, `A picture has ${count} colours.`);
+    for (const colourCount of await this.ask('colourCountsOf', widgetTag)) assert.ok(colourCount > MAX_COLOURS_OF_BLANK, `A picture has ${colourCount} colours.`);
   }
 
-  /** Writes a screenshot to a file. @param {string} what part of the file name */
-  async keepScreenshot(what) {
+  /** Writes a screenshot to a file. @param {string} screenshotName part of the file name */
+  async keepScreenshot(screenshotName) {
     const screenshotDirectory = join(ROOT, 'test-results/engines');
     mkdirSync(screenshotDirectory, { recursive: true });
-    writeFileSync(join(screenshotDirectory, `${this.name}-${what}.png`), await this.engine.screenshot());
+    writeFileSync(join(screenshotDirectory, `${this.name}-${screenshotName}.png`), await this.engine.screenshot());
   }
 
   /** Returns the new messages of the console. @returns {Promise<string[]>} */
@@ -83,11 +79,11 @@ class Page {
  *
  * @param {string} name of the engine
  * @param {Engine} engine
- * @param {string} address
+ * @param {string} pageUrl
  * @returns {Promise<{ passed: number, failures: string[] }>}
  */
-export async function runChecks(name, engine, address) {
-  const page = new Page(name, engine, address);
+export async function runChecks(name, engine, pageUrl) {
+  const page = new EnginePage(name, engine, pageUrl);
   /** @type {string[]} */
   const failedChecks = [];
   let passedCount = 0;
@@ -107,16 +103,16 @@ export async function runChecks(name, engine, address) {
   await runCheck('the digest', () => checkDigest(page));
   for (const tag of Object.keys(settings)) {
     await runCheck(`${tag} opens`, () => checkOpening(page, tag));
-    for (const handle of handlesByTag[tag] ?? []) {
-      await runCheck(`${tag} is dragged by its handle "${handle.name}"`, () => checkDragging(page, tag, handle));
-      await runCheck(`the handle "${handle.name}" of ${tag} follows the keyboard`, () => checkHandleKeys(page, tag, handle));
+    for (const handleName of handlesByTag[tag] ?? []) {
+      await runCheck(`${tag} is dragged by its handle "${handleName.name}"`, () => checkDragging(page, tag, handleName));
+      await runCheck(`the handle "${handleName.name}" of ${tag} follows the keyboard`, () => checkHandleKeys(page, tag, handleName));
     }
     await runCheck(`sliders of ${tag} follow the keyboard`, () => checkSliderKeys(page, tag));
   }
   return { passed: passedCount, failures: failedChecks };
 }
 
-/** Compares the digest of all configurations with golden.txt. @param {Page} page */
+/** Compares the digest of all configurations with golden.txt. @param {EnginePage} page */
 async function checkDigest(page) {
   await page.open();
   assert.deepEqual(findDifferences(readSource('tests/digest/golden.txt'), await page.ask('computeWholeDigest')), []);
@@ -125,7 +121,7 @@ async function checkDigest(page) {
 /**
  * Compares the results of a figure with those of a simulation of the same settings in Node, to the last bit.
  *
- * @param {Page} page
+ * @param {EnginePage} page
  * @param {string} tag
  * @returns {Promise<{ simulation: any, hash: string }>} the simulation in Node
  */
@@ -136,7 +132,7 @@ async function compareWithNode(page, tag) {
   return { simulation, hash };
 }
 
-/** Compares the state in which a figure opens. @type {(page: Page, tag: string) => Promise<void>} */
+/** Compares the state of a figure that has just opened with that of a simulation in Node. @type {(page: EnginePage, tag: string) => Promise<void>} */
 async function checkOpening(page, tag) {
   await page.open(tag);
   await compareWithNode(page, tag);
@@ -146,7 +142,7 @@ async function checkOpening(page, tag) {
 /**
  * Checks that a dragged handle moves to the pointer, to within a pixel.
  *
- * @param {Page} page
+ * @param {EnginePage} page
  * @param {string} tag
  * @param {import('./figures.mjs').Handle} handle
  */
@@ -157,7 +153,7 @@ async function checkDragging(page, tag, { name, to, placeOf }) {
   // Pointer positions are whole pixels. A handle that is grabbed beside its centre keeps its offset from the pointer.
   const grabPoint = [Math.round(handlePlaces.from.x), Math.round(handlePlaces.from.y)];
   const dragVector = [handlePlaces.to.x - handlePlaces.from.x, handlePlaces.to.y - handlePlaces.from.y];
-  const pointAt = (/** @type {number} */ share) => /** @type {[number, number]} */ (grabPoint.map((coordinate, i) => Math.round(coordinate + share * dragVector[i])));
+  const pointAt = (/** @type {number} */ dragFraction) => /** @type {[number, number]} */ (grabPoint.map((coordinate, i) => Math.round(coordinate + dragFraction * dragVector[i])));
   await page.engine.drag(Array.from({ length: DRAG_STEPS + 1 }, (_, i) => pointAt(i / DRAG_STEPS)));
   await page.untilSettled(tag);
   await page.keepScreenshot(`${tag}-${name}-dragged`);
@@ -168,7 +164,7 @@ async function checkDragging(page, tag, { name, to, placeOf }) {
   assert.notEqual(await page.ask('pictureHashOf', tag), hashBefore, 'The picture is as it was.');
 }
 
-/** Moves a handle by keys. @param {Page} page @param {string} tag @param {import('./figures.mjs').Handle} handle */
+/** Moves a handle by arrow keys, and checks its new position. @param {EnginePage} page @param {string} tag @param {import('./figures.mjs').Handle} handle */
 async function checkHandleKeys(page, tag, { name }) {
   await page.open(tag);
   const { hash: hashBefore } = await page.ask('stateOf', tag);
@@ -179,14 +175,14 @@ async function checkHandleKeys(page, tag, { name }) {
   assert.notEqual(hash, hashBefore, 'Nothing has moved.');
 }
 
-/** Moves each slider by keys, and compares its value. @type {(page: Page, tag: string) => Promise<void>} */
+/** Moves each slider by keys, and compares its value. @type {(page: EnginePage, tag: string) => Promise<void>} */
 async function checkSliderKeys(page, tag) {
   await page.open(tag);
   await page.ask('renderAfterInputs', tag);
   const sliderStates = await page.ask('sliderStatesOf', tag);
   assert.ok(sliderStates.length >= 2, `${sliderStates.length} sliders are to be seen.`);
   for (const { key } of sliderStates) {
-    const readSlider = async () => (await page.ask('sliderStatesOf', tag)).find((slider) => slider.key === key);
+    const readSlider = async () => (await page.ask('sliderStatesOf', tag)).find((sliderState) => sliderState.key === key);
     const sliderBefore = await readSlider();
     assert.ok(sliderBefore && (await page.ask('focus', { tag, selector: `#${key}` })), `${key} does not take the focus.`);
     await page.engine.press('ArrowRight', 'ArrowRight', 'ArrowLeft');

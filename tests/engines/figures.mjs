@@ -15,7 +15,7 @@ import { toPascalCase } from '../../scripts/declarations.mjs';
  *   dragged to the place `to`
  */
 
-/** Handles of the figures by tag; two figures have none. @type {Record<string, Handle[] | undefined>} */
+/** Handles of the figures by tag. Two figures have no handles. @type {Record<string, Handle[] | undefined>} */
 export const handlesByTag = {
   'banana-machine': [{ name: 'end', to: [0.8, 0.4], placeOf: ({ contours }) => [...contours.command.slice(-2)] }],
   'map-squeeze': [
@@ -36,8 +36,8 @@ export const handlesByTag = {
   ],
 };
 
-/** Returns the simulation of a figure, in Node. @param {string} tag @param {any} config @returns {Promise<any>} */
-export async function createSimulation(tag, config) {
-  const motion = /** @type {any} */ (await load());
-  return new motion[toPascalCase(tag)](config);
+/** Returns the simulation of a figure, in Node. @param {string} widgetTag @param {any} config @returns {Promise<any>} */
+export async function createSimulation(widgetTag, config) {
+  const core = /** @type {any} */ (await load());
+  return new core[toPascalCase(widgetTag)](config);
 }

@@ -12,26 +12,26 @@ import { computeDigest, computeHash } from '../digest/digest.js';
  * @typedef {{ config: any, hash: string }} State settings of a simulation, and a hash of all bits of its results
  */
 
-const figureOf = (/** @type {string} */ tag) => /** @type {Figure} */ (document.querySelector(tag));
-const shadowRootOf = (/** @type {string} */ tag) => /** @type {ShadowRoot} */ (figureOf(tag).shadowRoot);
+const figureOf = (/** @type {string} */ widgetTag) => /** @type {Figure} */ (document.querySelector(widgetTag));
+const shadowRootOf = (/** @type {string} */ widgetTag) => /** @type {ShadowRoot} */ (figureOf(widgetTag).shadowRoot);
 const firstCanvasOf = (/** @type {string} */ tag) => /** @type {HTMLCanvasElement} */ (shadowRootOf(tag).querySelector('canvas'));
 
 /**
- * Scrolls to a figure and waits until its cloud is complete and all is drawn.
+ * Scrolls to a figure and waits until its cloud is complete and all pictures are drawn.
  *
  * @param {string} tag
  * @returns {Promise<{ stats: number, samples: number }>} number of samples in the statistics, and number requested
  */
 export async function untilSettled(tag) {
   await customElements.whenDefined(tag);
-  const figure = /** @type {any} */ (figureOf(tag));
-  await figure.settled;
+  const figureElement = /** @type {any} */ (figureOf(tag));
+  await figureElement.settled;
   firstCanvasOf(tag).scrollIntoView({ block: 'center' });
-  // A browser reports in a frame of its own that the figure has come into sight.
+  // A browser reports that a figure has come into view in a later frame.
   for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
-  await figure.settled;
-  // Statistics of some figures count attempts, and others have no samples.
-  return { stats: figure.stats?.n ?? figure.stats?.attempts ?? figure.stats?.drawn ?? 0, samples: figure.samples ?? 0 };
+  await figureElement.settled;
+  // The statistics of some figures count attempts, and other figures have no samples.
+  return { stats: figureElement.stats?.n ?? figureElement.stats?.attempts ?? figureElement.stats?.drawn ?? 0, samples: figureElement.samples ?? 0 };
 }
 
 /** Returns the state of a figure. @param {string} tag */
@@ -52,22 +52,22 @@ export function handlePlacesOf({ tag, handle, to: [x, y] }) {
   const { view } = figureOf(tag).pictures[0];
   const { left, top, width } = firstCanvasOf(tag).getBoundingClientRect();
   const pixelsPerViewPixel = width / view.width;
-  const box = /** @type {Element} */ (shadowRootOf(tag).querySelector(`.handle.${handle}`)).getBoundingClientRect();
+  const handleBox = /** @type {Element} */ (shadowRootOf(tag).querySelector(`.handle.${handle}`)).getBoundingClientRect();
   return {
-    from: { x: box.x + box.width / 2, y: box.y + box.height / 2 },
+    from: { x: handleBox.x + handleBox.width / 2, y: handleBox.y + handleBox.height / 2 },
     to: { x: left + pixelsPerViewPixel * view.toPixelX(x), y: top + pixelsPerViewPixel * view.toPixelY(y) },
     pixel: 1 / (pixelsPerViewPixel * view.scaleX),
   };
 }
 
-/** Focuses an element of a figure; returns true if it got the focus. @param {{ tag: string, selector: string }} given */
-export function focus({ tag, selector }) {
+/** Focuses an element of a figure, and returns true if the element got the focus. @param {{ tag: string, selector: string }} given */
+export function focusElement({ tag, selector }) {
   const focusTarget = /** @type {HTMLElement} */ (shadowRootOf(tag).querySelector(selector));
   focusTarget.focus();
   return shadowRootOf(tag).activeElement === focusTarget;
 }
 
-/** Makes a figure render between each input event and the next frame, as other events can at any time. @param {string} tag */
+/** Makes a figure render between each input event and the next frame, because other events can cause such a rendering at any time. @param {string} tag */
 export function renderAfterInputs(tag) {
   const figure = /** @type {any} */ (figureOf(tag));
   figure.addEventListener('input', () => figure.requestUpdate());
@@ -76,10 +76,10 @@ export function renderAfterInputs(tag) {
 /** Returns a hash of every pixel of a figure's first picture. @param {string} tag @returns {Promise<string>} */
 export const pictureHashOf = (tag) => computeHash(pixelsOf(firstCanvasOf(tag)));
 
-/** Returns the pixels of a canvas. @param {HTMLCanvasElement} canvas */
-function pixelsOf(canvas) {
-  const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext('2d'));
-  return context.getImageData(0, 0, canvas.width, canvas.height).data;
+/** Returns the pixels of a canvas. @param {HTMLCanvasElement} canvasElement */
+function pixelsOf(canvasElement) {
+  const drawContext = /** @type {CanvasRenderingContext2D} */ (canvasElement.getContext('2d'));
+  return drawContext.getImageData(0, 0, canvasElement.width, canvasElement.height).data;
 }
 
 /** Returns the number of colours of each visible picture. @param {string} tag */
@@ -88,11 +88,11 @@ export function colourCountsOf(tag) {
   return visibleCanvases.map((canvas) => new Set(new Uint32Array(pixelsOf(canvas).buffer)).size);
 }
 
-/** Returns the visible sliders of a figure: value of the setting, position of the slider, its step and its end. @param {string} tag */
+/** Returns the visible sliders of a figure, with the value of the setting and the position, step and end of the slider. @param {string} tag */
 export function sliderStatesOf(tag) {
   const figure = /** @type {any} */ (figureOf(tag));
   return [...shadowRootOf(tag).querySelectorAll('input[type=range]')]
-    .filter((slider) => slider.checkVisibility())
+    .filter((sliderInput) => sliderInput.checkVisibility())
     .map((slider) => {
       const { id, value, step, max } = /** @type {HTMLInputElement} */ (slider);
       const sliderPosition = Number(value);
@@ -102,11 +102,11 @@ export function sliderStatesOf(tag) {
     });
 }
 
-/** Returns the digest of all configurations, by the published core. */
+/** Returns the digest of all configurations, computed by the published core. */
 export async function computeWholeDigest() {
-  const [{ load }, response] = await Promise.all([
+  const [{ load }, configurationsResponse] = await Promise.all([
     import(new URL('/core.js', location.href).href),
     fetch('/tests/digest/configurations.json'),
   ]);
-  return computeDigest(await load(), await response.json());
+  return computeDigest(await load(), await configurationsResponse.json());
 }

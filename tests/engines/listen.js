@@ -5,11 +5,11 @@
   addEventListener('error', ({ message, target }) => recordedErrors.push(message ?? `${/** @type {any} */ (target).src ?? target} cannot be loaded`), true);
   addEventListener('unhandledrejection', ({ reason }) => recordedErrors.push(String(reason)));
   addEventListener('securitypolicyviolation', ({ violatedDirective }) => recordedErrors.push(violatedDirective));
-  for (const name of /** @type {const} */ (['error', 'warn', 'assert'])) {
-    const { [name]: original } = console;
-    console[name] = (...args) => {
-      if (name !== 'assert' || !args[0]) recordedErrors.push(args.map(String).join(' '));
-      original.apply(console, args);
+  for (const consoleMethod of /** @type {const} */ (['error', 'warn', 'assert'])) {
+    const { [consoleMethod]: originalMethod } = console;
+    console[consoleMethod] = (...messageArguments) => {
+      if (consoleMethod !== 'assert' || !messageArguments[0]) recordedErrors.push(messageArguments.map(String).join(' '));
+      originalMethod.apply(console, messageArguments);
     };
   }
 }

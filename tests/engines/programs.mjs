@@ -1,4 +1,4 @@
-// Finds Firefox and WebKit for `npm run test:engines`, or installs them by apt.
+// Programs of Firefox and WebKit for `npm run test:engines`. Missing programs are installed by apt.
 
 import { join } from 'node:path';
 import { UserError, findProgram, mustRun, printStep, run } from '../../scripts/process.mjs';
@@ -12,32 +12,32 @@ const WEBKIT_MISSING_MESSAGE =
 
 /** Returns the programs of Firefox. Installs them if they are missing. @returns {Promise<{ firefox: string, driver: string }>} */
 export async function ensureFirefox() {
-  const findFirefox = () => process.env.FIREFOX ?? FIREFOX_NAMES.map((name) => findProgram(name)).find((path) => path !== undefined);
+  const findFirefox = () => process.env.FIREFOX ?? FIREFOX_NAMES.map((programName) => findProgram(programName)).find((programPath) => programPath !== undefined);
   if (findFirefox() === undefined) await aptInstall(['firefox-esr'], FIREFOX_MISSING_MESSAGE);
-  const firefox = findFirefox();
-  if (firefox === undefined || !(await run(firefox, ['--version'], { quiet: true, seconds: 60 })).ok) throw new UserError(FIREFOX_MISSING_MESSAGE);
-  return { firefox, driver: await ensureGeckodriver() };
+  const firefoxPath = findFirefox();
+  if (firefoxPath === undefined || !(await run(firefoxPath, ['--version'], { quiet: true, seconds: 60 })).ok) throw new UserError(FIREFOX_MISSING_MESSAGE);
+  return { firefox: firefoxPath, driver: await ensureGeckodriver() };
 }
 
-/** Returns the path of geckodriver. If it is not found, it is compiled once, because distributions have no package of it. */
+/** Returns the path of geckodriver. A missing geckodriver is compiled once, because distributions have no package of it. */
 async function ensureGeckodriver() {
   const { GECKOWEBDRIVER } = process.env;
-  const bin = join(CACHE_DIRECTORY, 'geckodriver/bin');
-  const findGeckodriver = () => findProgram('geckodriver', [...(GECKOWEBDRIVER ? [GECKOWEBDRIVER] : []), bin]);
+  const geckodriverDirectory = join(CACHE_DIRECTORY, 'geckodriver/bin');
+  const findGeckodriver = () => findProgram('geckodriver', [...(GECKOWEBDRIVER ? [GECKOWEBDRIVER] : []), geckodriverDirectory]);
   const existingDriver = findGeckodriver();
   if (existingDriver !== undefined) return existingDriver;
   const rustTools = await ensureNativeRust();
   printStep('Compiling geckodriver, once');
   const cargoArguments = ['install', '--quiet', '--locked', '--debug', 'geckodriver', '--root', join(CACHE_DIRECTORY, 'geckodriver')];
   await mustRun(FIREFOX_MISSING_MESSAGE, join(rustTools.bin, 'cargo'), cargoArguments, { env: rustTools.env, seconds: 1200 });
-  return join(bin, 'geckodriver');
+  return join(geckodriverDirectory, 'geckodriver');
 }
 
 /** Returns the driver of WebKit, and the program of a virtual screen. Installs them if they are missing. */
 export async function ensureWebKit() {
-  const findWebKit = () => ['WebKitWebDriver', 'Xvfb'].map((name) => findProgram(name));
+  const findWebKit = () => ['WebKitWebDriver', 'Xvfb'].map((programName) => findProgram(programName));
   if (findWebKit().includes(undefined)) await aptInstall(['webkit2gtk-driver', 'xvfb'], WEBKIT_MISSING_MESSAGE);
-  const [driver, display] = findWebKit();
-  if (driver === undefined || display === undefined) throw new UserError(WEBKIT_MISSING_MESSAGE);
-  return { driver, display };
+  const [driverProgram, displayProgram] = findWebKit();
+  if (driverProgram === undefined || displayProgram === undefined) throw new UserError(WEBKIT_MISSING_MESSAGE);
+  return { driver: driverProgram, display: displayProgram };
 }

@@ -1,6 +1,6 @@
 /**
  * `npm run test:engines`: builds the page, and checks it in Chromium, Firefox and WebKit. `npm run test:engines -- ENGINE…` selects some of
- * them. Screenshots are written to test-results/engines.
+ * the engines. Screenshots are written to test-results/engines.
  *
  * @module
  */
@@ -17,14 +17,14 @@ const PAGE_NAME = 'index.html';
 const LISTENER_TAG = '<script src="/tests/engines/listen.js"></script>';
 
 /**
- * Serves a copy of the page of `npm start` with two more scripts: one records errors, the other has functions that tests call.
+ * Serves a copy of the page of `npm start` with two more scripts. The first script records errors. The second has functions that tests call.
  *
  * @returns {Promise<{ address: string, stop: () => void }>}
  */
 async function serveSite() {
   const siteDirectory = mkdtempSync(join(tmpdir(), 'motion-engines-'));
-  for (const name of readdirSync(join(ROOT, 'dist'))) if (name !== PAGE_NAME) symlinkSync(join(ROOT, 'dist', name), join(siteDirectory, name));
-  for (const name of ['tests', 'build']) symlinkSync(join(ROOT, name), join(siteDirectory, name));
+  for (const fileName of readdirSync(join(ROOT, 'dist'))) if (fileName !== PAGE_NAME) symlinkSync(join(ROOT, 'dist', fileName), join(siteDirectory, fileName));
+  for (const folderName of ['tests', 'build']) symlinkSync(join(ROOT, folderName), join(siteDirectory, folderName));
   writeFileSync(join(siteDirectory, PAGE_NAME), readFileSync(join(ROOT, 'dist', PAGE_NAME), 'utf8').replace('<head>', `<head>${LISTENER_TAG}`));
   const { address, close } = await startServer(siteDirectory, { port: 0 });
   return {
@@ -36,19 +36,19 @@ async function serveSite() {
   };
 }
 
-/** Opens a page in an engine, and returns what its checks found. @param {string} name @param {string} address */
+/** Opens a page in an engine, and returns the failures that the checks found. @param {string} name @param {string} address */
 async function runChecksIn(name, address) {
   printStep(name);
   let engineVersion = 'none';
   try {
-    const engine = await engineStarters[name]();
-    engineVersion = engine.version;
+    const engineSession = await engineStarters[name]();
+    engineVersion = engineSession.version;
     try {
-      // Imported only here, because checks.mjs imports dist/, which has to be built first.
+      // checks.mjs is imported only here, because it imports dist/, which has to be built first.
       const { runChecks } = await import('./checks.mjs');
-      return { version: engineVersion, ...(await runChecks(name, engine, address)) };
+      return { version: engineVersion, ...(await runChecks(name, engineSession, address)) };
     } finally {
-      await engine.close();
+      await engineSession.close();
     }
   } catch (error) {
     const failureMessage = error instanceof UserError ? error.message : String(error instanceof Error ? error.stack : error);
@@ -57,7 +57,7 @@ async function runChecksIn(name, address) {
   }
 }
 
-/** Tests some engines, or all if none is named, and returns true if they pass. @param {string[]} engineNames */
+/** Tests the named engines, or all engines if none is named. Returns true if all of them pass. @param {string[]} engineNames */
 async function testEngines(engineNames) {
   const allEngineNames = Object.keys(engineStarters);
   const unknownName = engineNames.find((name) => !allEngineNames.includes(name));

@@ -1,6 +1,6 @@
 /**
  * Parsers of www/ as functions of bytes. Each returns true if it accepts the bytes and false if it refuses them with a proper
- * sentence. Any other exception is a failure.
+ * sentence. An exception of another kind is a failure.
  */
 
 import assert from 'node:assert/strict';
@@ -25,30 +25,30 @@ import { fileWith, catchRefusalMessage } from '../node/map-support.js';
  * @property {(bytes: Buffer<ArrayBuffer>) => Promise<boolean>} run
  */
 
-const motion = await load();
+const core = await load();
 
 /** Calibrator with a log of one second, which it calibrates again after each change. */
-const calibrator = new motion.AlphaCalibrator();
+const calibrator = new core.AlphaCalibrator();
 const logOfOneSecond = { t: [0, 0.5, 1], x: [0, 0.5, 1], y: [0, 0, 0], theta: [0, 0, 0] };
 calibrator.setLog(logOfOneSecond, logOfOneSecond);
 
-const mapSqueeze = new motion.MapSqueeze({ samples: 1 });
+const mapSqueeze = new core.MapSqueeze({ samples: 1 });
 
 /**
  * Simulations of the elements, with their attributes and opening settings.
  *
  * @type {{ attributes: ReturnType<typeof selectAttributes>, simulation: any, opening: any }[]}
  */
-const widgetSimulations = Object.entries(settings).map(([tag, declaredSettings]) => {
+const widgetSimulations = Object.entries(settings).map(([widgetTag, declaredSettings]) => {
   const hasSamples = declaredSettings.some(({ key }) => key === 'samples');
-  const simulation = { 'map-squeeze': mapSqueeze, 'alpha-calibrator': calibrator }[tag] ?? new (/** @type {any} */ (motion)[toPascalCase(tag)])(hasSamples ? { samples: 1 } : {});
+  const simulation = { 'map-squeeze': mapSqueeze, 'alpha-calibrator': calibrator }[widgetTag] ?? new (/** @type {any} */ (core)[toPascalCase(widgetTag)])(hasSamples ? { samples: 1 } : {});
   return { attributes: selectAttributes(propertiesOf(declaredSettings)), simulation, opening: simulation.config };
 });
 
 /** Maximum length of the message of a refusal, in which long quotations are shortened. */
 const MAX_MESSAGE_LENGTH = 700;
 
-/** Pattern of every message of a refusal: it says which values are allowed, or what to do. */
+/** Pattern of the message of a refusal. The message says which values are allowed, or what to do. */
 const REFUSAL_PATTERN = /; (allowed|expected) (is|are) |; (add|choose|convert|copy|decompress|export|give|keep|name|open|split|state|unzip|write) /;
 
 /** Asserts that the message of a refusal is proper. @param {string} refusalMessage */
@@ -57,19 +57,19 @@ function assertProperMessage(refusalMessage) {
   assert.ok(refusalMessage.length <= MAX_MESSAGE_LENGTH, `${refusalMessage.length} characters: ${refusalMessage}`);
 }
 
-/** Returns true if the files are accepted as a map. @param {File[]} files */
-async function areFilesAccepted(...files) {
-  const refusalMessage = await catchRefusalMessage(files);
+/** Returns true if the files are accepted as a map. @param {File[]} mapFiles */
+async function areFilesAccepted(...mapFiles) {
+  const refusalMessage = await catchRefusalMessage(mapFiles);
   if (refusalMessage === '') return true;
-  assert.ok(refusalMessage.startsWith(files[0].name.replace(/\..*/, '')), refusalMessage);
+  assert.ok(refusalMessage.startsWith(mapFiles[0].name.replace(/\..*/, '')), refusalMessage);
   assertProperMessage(refusalMessage);
   return false;
 }
 
-/** Returns true if the core accepts the value, and checks the message of a refusal. @param {() => void} give */
-function isAccepted(give) {
+/** Returns true if the core accepts the value, and checks the message of a refusal. @param {() => void} passValue */
+function isAccepted(passValue) {
   try {
-    give();
+    passValue();
     return true;
   } catch (error) {
     if (!(error instanceof RangeError || error instanceof TypeError)) throw error;
@@ -78,60 +78,60 @@ function isAccepted(give) {
   }
 }
 
-/** Returns true if a log is read. It must have finite numbers and rising times. @param {() => ReturnType<typeof readLog>} read */
-async function isLogRead(read) {
-  let log;
+/** Returns true if a log is read. The log must have finite numbers and rising times. @param {() => ReturnType<typeof readLog>} readRecordingLog */
+async function isLogRead(readRecordingLog) {
+  let loadedLog;
   try {
-    log = await read();
+    loadedLog = await readRecordingLog();
   } catch (error) {
     if (!(error instanceof LogError)) throw error;
     assert.ok(error.message.startsWith('run.'), error.message);
     assertProperMessage(error.message);
     return false;
   }
-  const { t, breaks, ...columns } = log.data;
-  assert.ok(t.length > 1 && t.every((time, i) => Number.isFinite(time) && time > (t[i - 1] ?? -1)));
-  for (const column of Object.values(columns)) assert.ok(column.length === t.length && column.every(Number.isFinite));
-  const { rows, dropped } = log.summary;
-  assert.equal(Object.values(dropped).reduce((sum, { count }) => sum + count, t.length), rows);
-  assert.ok(breaks.every((row, i) => row > (breaks[i - 1] ?? 0) && row < t.length));
+  const { t, breaks, ...columns } = loadedLog.data;
+  assert.ok(t.length > 1 && t.every((rowTime, i) => Number.isFinite(rowTime) && rowTime > (t[i - 1] ?? -1)));
+  for (const logColumn of Object.values(columns)) assert.ok(logColumn.length === t.length && logColumn.every(Number.isFinite));
+  const { rows, dropped } = loadedLog.summary;
+  assert.equal(Object.values(dropped).reduce((rowSum, { count }) => rowSum + count, t.length), rows);
+  assert.ok(breaks.every((breakRow, i) => breakRow > (breaks[i - 1] ?? 0) && breakRow < t.length));
   return true;
 }
 
-/** Returns recordings of four topics in several forms: compressed or not, with an index and chunks or without. */
+/** Returns recordings of four topics in several forms, with or without compression, index and chunks. */
 async function createRecordings() {
   const messages = Array.from({ length: 2 }, (_, i) => {
-    const [t, stamp] = [1 + i / 8, stampOf(1 + i / 8)];
+    const [t, rosStamp] = [1 + i / 8, stampOf(1 + i / 8)];
     const TF = 'tf2_msgs/msg/TFMessage';
     return [
       { topic: '/odom', type: 'nav_msgs/msg/Odometry', t, message: odometryMessageOf(t, i, 0, 0) },
-      { topic: '/pose', type: 'geometry_msgs/msg/PoseStamped', t, message: { header: { stamp, frame_id: 'map' }, pose: poseOf(i, 0, 0) } },
-      { topic: '/cmd_vel', type: 'geometry_msgs/msg/TwistStamped', t, message: { header: { stamp, frame_id: '' }, twist: twistOf(1, 0) } },
+      { topic: '/pose', type: 'geometry_msgs/msg/PoseStamped', t, message: { header: { stamp: rosStamp, frame_id: 'map' }, pose: poseOf(i, 0, 0) } },
+      { topic: '/cmd_vel', type: 'geometry_msgs/msg/TwistStamped', t, message: { header: { stamp: rosStamp, frame_id: '' }, twist: twistOf(1, 0) } },
       { topic: '/tf', type: TF, t, message: { transforms: [transformMessageOf(t, 'map', 'odom', i, 0, 0), transformMessageOf(t, 'odom', 'base', i, 0, 0)] } },
     ];
   }).flat();
   const recordingOptions = /** @type {const} */ ([{ chunkSize: 4096 }, { compression: 'zstd' }, { compression: 'lz4' }, { index: false }, { index: false, chunks: true, compression: 'lz4' }]);
-  return Promise.all(recordingOptions.map(async (form) => clearChecksums(await recordingOf(messages, { chunkSize: 1024, ...form }))));
+  return Promise.all(recordingOptions.map(async (recordingForm) => clearChecksums(await recordingOf(messages, { chunkSize: 1024, ...recordingForm }))));
 }
 
-/** Clears the checksums of a recording, with which readers would refuse any changed chunk. @param {Buffer<ArrayBuffer>} bytes */
-function clearChecksums(bytes) {
+/** Clears the checksums of a recording. Otherwise readers would refuse every changed chunk. @param {Buffer<ArrayBuffer>} recordingBytes */
+function clearChecksums(recordingBytes) {
   const [CHUNK_CODE, FOOTER_CODE] = [6, 2];
-  for (let i = 8; i + 9 < bytes.length; i += 9 + Number(bytes.readBigUInt64LE(i + 1))) {
-    // The checksum follows two times and a size in a chunk, and two positions in the footer.
-    const checksumOffset = { [CHUNK_CODE]: 24, [FOOTER_CODE]: 16 }[bytes[i]];
-    if (checksumOffset) bytes.writeUInt32LE(0, i + 9 + checksumOffset);
+  for (let i = 8; i + 9 < recordingBytes.length; i += 9 + Number(recordingBytes.readBigUInt64LE(i + 1))) {
+    // In an MCAP file the checksum is after the two times and the size of a chunk, and after the two positions of the footer.
+    const checksumOffset = { [CHUNK_CODE]: 24, [FOOTER_CODE]: 16 }[recordingBytes[i]];
+    if (checksumOffset) recordingBytes.writeUInt32LE(0, i + 9 + checksumOffset);
   }
-  return bytes;
+  return recordingBytes;
 }
 
-/** Reads recordings that other libraries wrote. @param {string[]} names */
-function readFixtures(...names) {
+/** Reads recordings that other libraries wrote. @param {string[]} fixtureNames */
+function readFixtures(...fixtureNames) {
   const compressedFiles = JSON.parse(readFileSync(new URL('../reference/logs/recordings.json', import.meta.url), 'utf8'));
-  return names.map((name) => gunzipSync(Buffer.from(compressedFiles[name], 'base64')));
+  return fixtureNames.map((fixtureName) => gunzipSync(Buffer.from(compressedFiles[fixtureName], 'base64')));
 }
 
-/** Topics and frames that are read from a recording. */
+/** Topics and frames that the targets read from a recording. */
 const TOPIC_CHOICES = [{ series: '/odom' }, { series: '/pose' }, { series: '/cmd_vel' }, { series: '/tf', frames: { parent: 'map', child: 'base' } }];
 
 /** Options of the fastest deflation. */
@@ -174,9 +174,9 @@ export const fuzzTargets = {
     async run(/** @type {Buffer<ArrayBuffer>} */ bytes) {
       const recordingFile = new File([bytes], 'run.mcap');
       const { length } = TOPIC_CHOICES;
-      const byteSum = bytes.reduce((sum, byte) => sum + byte, 0);
+      const byteSum = bytes.reduce((sum, inputByte) => sum + inputByte, 0);
       const isRead = await isLogRead(() => readLog(recordingFile, TOPIC_CHOICES[byteSum % length]));
-      // One input in four is also asked for its list of topics.
+      // For one input in four, the list of topics is read too.
       if (Math.floor(byteSum / length) % 4) return isRead;
       try {
         for (const { name, count } of (await openRecordings([recordingFile]))[0].series) assert.ok(typeof name === 'string' && count >= 0);
@@ -211,7 +211,7 @@ export const fuzzTargets = {
         return false;
       }
       const { map = null, ...fields } = Object(parsedState);
-      // The element itself checks this field.
+      // The element itself checks the field `map`.
       delete fields.widget;
       const mapBefore = currentMapOf(mapSqueeze, '');
       const isMapAccepted = map === null || isAccepted(() => applyMap(mapSqueeze, map));
@@ -237,14 +237,14 @@ export const fuzzTargets = {
   },
 };
 
-/** Returns the map that a simulation has, as data of a link. @param {InstanceType<typeof motion.MapSqueeze>} simulation @param {string} name */
+/** Returns the map of a simulation as data of a link. @param {InstanceType<typeof core.MapSqueeze>} simulation @param {string} name */
 function currentMapOf(simulation, name) {
   return mapDataOf(simulation, name, gridOf(simulation));
 }
 
 /** Returns states of Map Squeeze as links contain them. */
 function createStates() {
-  const simulation = new motion.MapSqueeze({ samples: 1 });
+  const simulation = new core.MapSqueeze({ samples: 1 });
   const { config } = simulation;
   const planMap = { name: 'room.json', bounds: [0, 0, 3, 3], walls: [[0, 0, 3, 3]] };
   simulation.setGrid({ resolution: 0.5, origin: [0, 0, 0.5] }, Buffer.from('P5 3 2 255\n\0\xff\x80\0\xff\xff', 'latin1'));

@@ -6,18 +6,18 @@ import { differencesFromCore } from '../../benches/check.js';
 import { importFreshModule } from './support.js';
 
 test('baseline has the statistics and the picture of the core', async () => {
-  const motion = await (await importFreshModule()).load();
-  assert.deepEqual(differencesFromCore(motion, 2000), []);
+  const core = await (await importFreshModule()).load();
+  assert.deepEqual(differencesFromCore(core, 2000), []);
 });
 
 test('comparison finds a core with another skew', async () => {
-  const motion = await (await importFreshModule()).load();
-  class SimulationWithOtherSkew extends motion.BananaMachine {
+  const core = await (await importFreshModule()).load();
+  class SimulationWithOtherSkew extends core.BananaMachine {
     get stats() {
       const stats = super.stats;
       return { ...stats, crossTrackSkew: stats.crossTrackSkew * 1.1 };
     }
   }
   const differenceTexts = differencesFromCore(/** @type {any} */ ({ BananaMachine: SimulationWithOtherSkew }), 2000);
-  assert.deepEqual([...new Set(differenceTexts.map((text) => text.split(':')[0]))], ['crossTrackSkew']);
+  assert.deepEqual([...new Set(differenceTexts.map((differenceText) => differenceText.split(':')[0]))], ['crossTrackSkew']);
 });

@@ -1,4 +1,4 @@
-// Alpha Calibrator without a page: numbers, sentences, and lines for Nav2.
+// Text of the Alpha Calibrator without a page: numbers, sentences, and lines for Nav2.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
@@ -10,7 +10,7 @@ import { settings } from '../../build/settings.js';
 
 test('a leg has the class of its p-value, by as many noises as it shows', () => {
   const residuals = Float64Array.of(0, 0, 0, 0, 0, NaN, 0, NaN, NaN);
-  const classesOf = (/** @type {number[]} */ ...squared) => [...legClassesOf({ count: 3, squared: Float64Array.from(squared), residuals })];
+  const classesOf = (/** @type {number[]} */ ...squaredResiduals) => [...legClassesOf({ count: 3, squared: Float64Array.from(squaredResiduals), residuals })];
   // Quantiles of χ² with 3, 2 and 1 degrees of freedom, from tables.
   assert.deepEqual(classesOf(2.36, 1.38, 0.45), [0, 0, 0]);
   assert.deepEqual(classesOf(7.81, 5.99, 3.84), [1, 1, 1]);
@@ -23,7 +23,7 @@ test('a number in the format of files is printed as on screen', () => {
 });
 
 test('numbers in files have the digits that the interval makes meaningful, and tiny ones an exponent', () => {
-  for (const [value, interval, estimateText, rangeText] of /** @type {[number, [number, number], string, string][]} */ ([
+  for (const [estimateValue, interval, estimateText, rangeText] of /** @type {[number, [number, number], string, string][]} */ ([
     [0.0123, [0.01, 0.015], '0.0123', '0.0100 to 0.0150'],
     [2.34e-13, [1.8e-13, 2.9e-13], '2.3e-13', '1.8e-13 to 2.9e-13'],
     [3e-8, [0, 1.6e-7], '3.0e-8', '0 to 1.6e-7'],
@@ -31,7 +31,7 @@ test('numbers in files have the digits that the interval makes meaningful, and t
     [-0.0024, [-0.0048, -1e-5], '-0.0024', '-0.0048 to 0.0000'],
     [0.5, [0.5 - 1e-9, 0.5 + 1e-9], '0.5000000000', '0.4999999990 to 0.5000000010'],
   ])) {
-    assert.deepEqual([formatEstimate(value, interval), ends(interval)], [estimateText, rangeText]);
+    assert.deepEqual([formatEstimate(estimateValue, interval), ends(interval)], [estimateText, rangeText]);
   }
   assert.deepEqual([formatNumber(1e-7), formatNumber(-2.5e-9), formatNumber(0.25)], ['1.0e-7', '-2.5e-9', '0.25']);
   assert.deepEqual([ends([0, Infinity]), ends([-Infinity, Infinity]), ends(null)], ['', '', '']);
@@ -54,10 +54,10 @@ const calibrationWith = (changedFields) => ({
   ...changedFields,
 });
 
-/** Returns the lines for Nav2 without indentation. @param {object} [changedFields] of the calibration @param {object} [other] options */
-const nav2LinesOf = (changedFields, other) =>
-  nav2Lines({ calibration: calibrationWith(changedFields), count: 9, model: 'odometry', rule: 'nav2', legs: { distance: 0.25, angle: 0.2 }, log: 'a.csv and b.csv', warnings: [], date: '2026-01-02', ...other }, en.nav2)
-    .map((line) => line.trim());
+/** Returns the lines for Nav2 without indentation. @param {object} [changedFields] of the calibration @param {object} [otherFields] options */
+const nav2LinesOf = (changedFields, otherFields) =>
+  nav2Lines({ calibration: calibrationWith(changedFields), count: 9, model: 'odometry', rule: 'nav2', legs: { distance: 0.25, angle: 0.2 }, log: 'a.csv and b.csv', warnings: [], date: '2026-01-02', ...otherFields }, en.nav2)
+    .map((nav2Line) => nav2Line.trim());
 
 test('lines for Nav2 have the recommended α’s, and the fitted ones in comments', () => {
   assert.deepEqual(nav2LinesOf(), [
@@ -86,12 +86,12 @@ test('lines for Nav2 warn of failed checks, of another rule, and of a localizer 
   const { diagnostics } = calibrationWith();
   const failedChecks = ['tails-normal', 'outliers-few'].map((name) => ({ name, passed: false, message: 'Drive on.' }));
   assert.ok(nav2LinesOf({ diagnostics: { ...diagnostics, checks: failedChecks } }).includes('# Caution, these checks failed: tails-normal, outliers-few'));
-  for (const [warning, options] of /** @type {[string, object][]} */ ([
+  for (const [expectedWarning, changedOptions] of /** @type {[string, object][]} */ ([
     [en.nav2.otherRule, { rule: 'thrun' }],
     [en.nav2.localizer, { warnings: ['localizer'] }],
   ])) {
-    assert.ok(nav2LinesOf({}, options).includes(`# ${warning}`));
-    assert.ok(!nav2LinesOf().includes(`# ${warning}`));
+    assert.ok(nav2LinesOf({}, changedOptions).includes(`# ${expectedWarning}`));
+    assert.ok(!nav2LinesOf().includes(`# ${expectedWarning}`));
   }
 });
 
@@ -118,7 +118,7 @@ test('legs of the simulated log are those that the settings open with', () => {
 });
 
 test('the picture of the path has room for the odometry, as far as the reference keeps half of it', () => {
-  const viewCornersWith = (/** @type {number[]} */ ...odometry) => viewCornersOf([0, 0, 0, 10, 4, 0], odometry);
+  const viewCornersWith = (/** @type {number[]} */ ...odometryCoordinates) => viewCornersOf([0, 0, 0, 10, 4, 0], odometryCoordinates);
   assert.deepEqual(viewCornersWith(), [0, 0, 10, 4]);
   assert.deepEqual(viewCornersWith(5, -2, 12, 3), [0, -2, 12, 4]);
   assert.deepEqual(viewCornersWith(-40, -50, 60, 70), [-5, -5, 15, 9]);

@@ -19,8 +19,8 @@ import { useLanguageOf } from '../../www/messages/registry.ts';
 import { judge } from '../../www/widgets/alpha-calibrator/readouts.ts';
 import { odometryMessageOf, poseOf, recordingOf, stampOf, transformMessageOf, twistOf } from '../mcap.js';
 
-const CLI = fileURLToPath(new URL('../../dist/cli.js', import.meta.url));
-const examplePath = (/** @type {string} */ name) => fileURLToPath(new URL(`../../examples/calibration/${name}.csv`, import.meta.url));
+const CLI_PATH = fileURLToPath(new URL('../../dist/cli.js', import.meta.url));
+const examplePath = (/** @type {string} */ exampleName) => fileURLToPath(new URL(`../../examples/calibration/${exampleName}.csv`, import.meta.url));
 const LOG_ARGS = ['--odometry', examplePath('odometry'), '--reference', examplePath('reference')];
 
 /** @type {string} */
@@ -28,25 +28,25 @@ let temporaryFolder;
 before(() => (temporaryFolder = mkdtempSync(join(tmpdir(), 'motion-cli-'))));
 after(() => rmSync(temporaryFolder, { recursive: true, force: true }));
 
-/** Writes a file in the temporary folder, and returns its path. @param {string} name @param {string | Uint8Array} contents */
-function writeInFolder(name, contents) {
-  const filePath = join(temporaryFolder, name);
-  writeFileSync(filePath, contents);
+/** Writes a file in the temporary folder, and returns its path. @param {string} fileName @param {string | Uint8Array} fileContents */
+function writeInFolder(fileName, fileContents) {
+  const filePath = join(temporaryFolder, fileName);
+  writeFileSync(filePath, fileContents);
   return filePath;
 }
 
-/** Runs the command in this process, and returns its exit code and its output. @param {string[]} args @param {() => Promise<any>} [core] */
-async function runCalibrate(args, core = load) {
-  let [out, err] = ['', ''];
-  const exitCode = await run(['calibrate', ...args], { load: core, print: (text) => (out += text), complain: (text) => (err += text), now: new Date('2026-01-02T03:04:05Z') });
-  return { code: exitCode, out, err };
+/** Runs the command in this process, and returns its exit code and its output. @param {string[]} cliArguments @param {() => Promise<any>} [loadCore] */
+async function runCalibrate(cliArguments, loadCore = load) {
+  let [outputText, errorText] = ['', ''];
+  const exitCode = await run(['calibrate', ...cliArguments], { load: loadCore, print: (text) => (outputText += text), complain: (text) => (errorText += text), now: new Date('2026-01-02T03:04:05Z') });
+  return { code: exitCode, out: outputText, err: errorText };
 }
 
-/** Returns the options with which the core is called, with logs in arrays. @param {string[]} args @returns {Promise<any>} */
+/** Returns the options that the command passes to the core, with logs in arrays. @param {string[]} args @returns {Promise<any>} */
 async function readCoreOptions(args) {
   /** @type {any} */
   let coreOptions;
-  const { err } = await runCalibrate(args, async () => ({ calibrate(/** @type {any} */ options) { coreOptions = { ...options, odometry: [options.odometry].flat(), reference: [options.reference].flat() }; throw new RangeError('stop'); } }));
+  const { err } = await runCalibrate(args, async () => ({ calibrate(/** @type {any} */ calibrateOptions) { coreOptions = { ...calibrateOptions, odometry: [calibrateOptions.odometry].flat(), reference: [calibrateOptions.reference].flat() }; throw new RangeError('stop'); } }));
   assert.ok(coreOptions, err);
   return coreOptions;
 }
@@ -56,7 +56,7 @@ useLanguageOf(/** @type {any} */ ({ closest: () => ({ getAttribute: () => 'en' }
 test('options reach the core', async () => {
   const { odometry, reference, ...fitOptions } = await readCoreOptions(LOG_ARGS);
   assert.deepEqual(fitOptions, { legs: { distance: 0.25, angle: 0.2 } });
-  for (const log of [...odometry, ...reference]) assert.deepEqual(Object.keys(log), ['t', 'x', 'y', 'theta', 'breaks']);
+  for (const coreLog of [...odometry, ...reference]) assert.deepEqual(Object.keys(coreLog), ['t', 'x', 'y', 'theta', 'breaks']);
   const optionsText = '--model omnidirectional --rule omni --update-min-d 0.5 --update-min-a 0.3 --outliers keep --reference-position-std 0.001 --reference-yaw-std 2e-3';
   const coreOptions = await readCoreOptions([...LOG_ARGS, ...optionsText.split(' ')]);
   assert.deepEqual({ ...coreOptions, odometry: [], reference: [] }, { odometry: [], reference: [], model: 'omnidirectional', rule: 'omni', legs: { distance: 0.5, angle: 0.3 }, outliers: 'keep', positionStd: 0.001, yawStd: 0.002 });
@@ -66,13 +66,13 @@ test('options reach the core', async () => {
 
 test('files without an option are recordings, paired where each is one table', async () => {
   const [odometryPath, referencePath] = [examplePath('odometry'), examplePath('reference')];
-  const writeLaterCopy = (/** @type {string} */ name, /** @type {string} */ from) => writeInFolder(name, readFileSync(from, 'utf8').replaceAll(/^(\d+)/gm, (_, seconds) => `${Number(seconds) + 1000}`));
+  const writeLaterCopy = (/** @type {string} */ copyName, /** @type {string} */ sourcePath) => writeInFolder(copyName, readFileSync(sourcePath, 'utf8').replaceAll(/^(\d+)/gm, (_, seconds) => `${Number(seconds) + 1000}`));
   const expectedOptions = await readCoreOptions(LOG_ARGS);
   assert.deepEqual(await readCoreOptions([referencePath, odometryPath]), expectedOptions);
   assert.deepEqual(await readCoreOptions([referencePath, '--recording', odometryPath]), expectedOptions);
   const [laterOdometryPath, laterReferencePath] = [writeLaterCopy('odom2.csv', odometryPath), writeLaterCopy('truth2.csv', referencePath)];
   const { odometry: odometryLogs, reference: referenceLogs } = await readCoreOptions([laterReferencePath, odometryPath, '--odometry', laterOdometryPath, '--reference', referencePath]);
-  for (const logs of [odometryLogs, referenceLogs]) assert.deepEqual(logs.map((/** @type {any} */ { t }) => Math.floor(t[0] / 1000)), [0, 1]);
+  for (const coreLogs of [odometryLogs, referenceLogs]) assert.deepEqual(coreLogs.map((/** @type {any} */ { t }) => Math.floor(t[0] / 1000)), [0, 1]);
 });
 
 test('systematic errors are corrected or left in by name, all of them or single ones', async () => {
@@ -84,7 +84,7 @@ test('systematic errors are corrected or left in by name, all of them or single 
 });
 
 test('a recording has both logs, by topics and frames that are clear or named', async () => {
-  const messages = Array.from({ length: 40 }, (_, i) => {
+  const odometryMessages = Array.from({ length: 40 }, (_, i) => {
     const t = 100 + i / 20;
     const poseStamped = { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(1.01 * i, 2, 0) };
     return [
@@ -96,8 +96,8 @@ test('a recording has both logs, by topics and frames that are clear or named', 
       { topic: '/tf', type: 'tf2_msgs/msg/TFMessage', t, message: { transforms: [transformMessageOf(t, 'odom', 'base_link', i, 1, 0), transformMessageOf(t, 'map', 'base_link', 1.01 * i, 2, 0)] } },
     ];
   }).flat();
-  const writeRecordingArgs = async (/** @type {string} */ name, /** @type {string[]} */ ...topics) =>
-    ['--recording', writeInFolder(name, await recordingOf(messages.filter(({ topic }) => topics.includes(topic)), { compression: 'zstd' }))];
+  const writeRecordingArgs = async (/** @type {string} */ name, /** @type {string[]} */ ...recordedTopics) =>
+    ['--recording', writeInFolder(name, await recordingOf(odometryMessages.filter(({ topic }) => recordedTopics.includes(topic)), { compression: 'zstd' }))];
   const readFourthRow = async (/** @type {string[]} */ ...args) => {
     const coreOptions = await readCoreOptions(args);
     return [coreOptions.odometry[0].y?.[3], coreOptions.odometry[0].omega?.[3], coreOptions.reference[0].y[3]];
@@ -154,7 +154,7 @@ test('bad input has the exit code 2 and a sentence', async () => {
     [[LOG_ARGS[1], LOG_ARGS[1]], 'odometry.csv: it is given twice; give two independent measurements of one drive, odometry and reference.'],
     [[...LOG_ARGS.slice(0, 2), '--reference', join(temporaryFolder, 'no.csv')], `${join(temporaryFolder, 'no.csv')}: there is no such file or folder.`],
     [[...LOG_ARGS, '--plot', join(temporaryFolder, 'no', 'plot.svg')], '--plot '],
-    // Errors of the core name options and files.
+    // Error messages of the core name options and files of the command line.
     [[...LOG_ARGS, '--update-min-d=-1'], '--update-min-d is -1; allowed is '],
     [[...LOG_ARGS, '--reference-position-std=-1'], '--reference-position-std is -1; allowed is '],
     [[...LOG_ARGS.slice(0, 2), '--reference', straightLogPath], 'odometry.csv and straight.csv: odometry and reference have no time in common, and their turn rates correlate at no clock offset; '],
@@ -166,14 +166,14 @@ test('bad input has the exit code 2 and a sentence', async () => {
 });
 
 test('a shell gets help and errors, and may close the pipe', () => {
-  const runInShell = (/** @type {string[]} */ ...args) => spawnSync(process.execPath, [CLI, ...args], { encoding: 'utf8' });
+  const runInShell = (/** @type {string[]} */ ...args) => spawnSync(process.execPath, [CLI_PATH, ...args], { encoding: 'utf8' });
   for (const helpOutput of [runInShell(), runInShell('calibrate', '--help')]) assert.deepEqual([helpOutput.status, helpOutput.stdout, helpOutput.stderr], [0, HELP, '']);
   const refusalOutput = runInShell('calibrate', '--odometry', 'no.csv', '--reference', 'no.csv');
   assert.deepEqual([refusalOutput.status, refusalOutput.stdout, refusalOutput.stderr], [2, '', 'no.csv: there is no such file or folder.\n']);
   assert.match(runInShell('my/bag').stderr, /^the command must be calibrate or inspect \(got “my\/bag”\), as in npx motion-widgets inspect my\/bag; --help has examples\.$/m);
-  const outputOfClosedPipe = spawnSync('sh', ['-c', '"$0" "$@" | head -c 1', process.execPath, CLI, 'calibrate', ...LOG_ARGS, '--json'], { encoding: 'utf8' });
+  const outputOfClosedPipe = spawnSync('sh', ['-c', '"$0" "$@" | head -c 1', process.execPath, CLI_PATH, 'calibrate', ...LOG_ARGS, '--json'], { encoding: 'utf8' });
   assert.deepEqual([outputOfClosedPipe.stdout, outputOfClosedPipe.stderr], ['{', '']);
-  const outputOfPipedLog = spawnSync('sh', ['-c', 'cat "$2" | "$0" "$1" inspect /dev/stdin', process.execPath, CLI, examplePath('odometry')], { encoding: 'utf8' });
+  const outputOfPipedLog = spawnSync('sh', ['-c', 'cat "$2" | "$0" "$1" inspect /dev/stdin', process.execPath, CLI_PATH, examplePath('odometry')], { encoding: 'utf8' });
   assert.match(outputOfPipedLog.stdout, /^stdin: table\n.*\n.* 4494 /);
 });
 
@@ -181,22 +181,22 @@ test('a recording of the example has the truth in its intervals, and its JSON th
   /** @type {import('../mcap.js').Message[]} */
   const messages = [];
   for (const [topic, name, type] of [['/odom', 'odometry', 'nav_msgs/msg/Odometry'], ['/truth', 'reference', 'geometry_msgs/msg/PoseStamped']]) {
-    for (const row of readFileSync(examplePath(name), 'utf8').trim().split('\n').slice(1)) {
-      const [t, x, y, theta] = row.split(',').map(Number);
+    for (const csvRow of readFileSync(examplePath(name), 'utf8').trim().split('\n').slice(1)) {
+      const [t, x, y, theta] = csvRow.split(',').map(Number);
       const message = topic === '/odom' ? odometryMessageOf(t, x, y, theta) : { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(x, y, theta) };
       messages.push({ topic, type, t, message });
     }
   }
   const recordingPath = writeInFolder('example.mcap', await recordingOf(messages.sort((a, b) => a.t - b.t), { compression: 'zstd', chunkSize: 100_000 }));
-  const { status, stdout, stderr } = spawnSync(process.execPath, [CLI, 'calibrate', '--recording', recordingPath, '--json'], { encoding: 'utf8' });
+  const { status, stdout, stderr } = spawnSync(process.execPath, [CLI_PATH, 'calibrate', '--recording', recordingPath, '--json'], { encoding: 'utf8' });
   assert.equal(status, 0, stderr);
   const calibrationResult = JSON.parse(stdout);
-  const assertInside = (/** @type {number} */ value, /** @type {[number, number]} */ [low, high]) => assert.ok(low <= value && value <= high, `${value}: ${low} to ${high}`);
-  for (const [i, alpha] of TRUE_MODEL.alphas.entries()) assertInside(alpha, calibrationResult.intervals[i]);
+  const assertInside = (/** @type {number} */ trueValue, /** @type {[number, number]} */ [low, high]) => assert.ok(low <= trueValue && trueValue <= high, `${trueValue}: ${low} to ${high}`);
+  for (const [i, trueAlpha] of TRUE_MODEL.alphas.entries()) assertInside(trueAlpha, calibrationResult.intervals[i]);
   for (const name of /** @type {const} */ (['mountYaw', 'clockOffset', 'distanceScale'])) assertInside(TRUE_MODEL[name], calibrationResult.systematicErrors[name].interval);
   assert.deepEqual([calibrationResult.diagnostics.verdict, calibrationResult.start, calibrationResult.date.length], ['consistent', 9, 10]);
   const [, jsonSection] = readFileSync(new URL('../../doc/calibration.md', import.meta.url), 'utf8').match(/\n### JSON\n(.*?)\n### /s) ?? [];
-  assert.deepEqual(Object.keys(calibrationResult).filter((key) => !jsonSection.includes(`\`${key}\``)), []);
+  assert.deepEqual(Object.keys(calibrationResult).filter((resultKey) => !jsonSection.includes(`\`${resultKey}\``)), []);
 });
 
 test('the report names the noise that is stated, and the outliers', async () => {
@@ -212,13 +212,13 @@ test('doc/calibration.md shows the report of the example', async () => {
 });
 
 test('units are stated for both logs, or for each', async () => {
-  const [header, ...rows] = readFileSync(examplePath('odometry'), 'utf8').trim().split('\n');
-  const scaledPath = writeInFolder('scaled.csv', [header, ...rows.map((row) => row.split(',').map((cell, i) => Number(cell) * [1000, 1000, 1000, 180 / Math.PI][i]).join(','))].join('\n'));
+  const [header, ...csvRows] = readFileSync(examplePath('odometry'), 'utf8').trim().split('\n');
+  const scaledPath = writeInFolder('scaled.csv', [header, ...csvRows.map((csvRow) => csvRow.split(',').map((cell, i) => Number(cell) * [1000, 1000, 1000, 180 / Math.PI][i]).join(','))].join('\n'));
   const unitArgs = ['--time-unit', 'ms,s', '--length-unit', 'mm,m', '--angle-unit', 'deg,rad'];
   const [siOptions, statedUnitOptions] = [await readCoreOptions(LOG_ARGS), await readCoreOptions(['--odometry', scaledPath, ...LOG_ARGS.slice(2), ...unitArgs])];
   assert.deepEqual(statedUnitOptions.reference, siOptions.reference);
   for (const name of ['t', 'x', 'theta']) assert.ok(Math.abs(statedUnitOptions.odometry[0][name][999] - siOptions.odometry[0][name][999]) < 1e-9, name);
-  const degreesPath = writeInFolder('degrees.csv', [header, ...rows.map((row) => row.split(',').map((cell, i) => Number(cell) * [1, 1, 1, 180 / Math.PI][i]).join(','))].join('\n'));
+  const degreesPath = writeInFolder('degrees.csv', [header, ...csvRows.map((row) => row.split(',').map((cell, i) => Number(cell) * [1, 1, 1, 180 / Math.PI][i]).join(','))].join('\n'));
   const refusalOutput = await runCalibrate(['--odometry', degreesPath, ...LOG_ARGS.slice(2), '--angle-unit', 'rad']);
   assert.match(refusalOutput.err, /^degrees\.csv: headings in rad would turn at .*; if odometry and reference differ, with --odometry FILE --reference FILE --angle-unit rad,deg\.$/m);
 });
@@ -243,7 +243,7 @@ test('a journal beside a recording is named, unless it is empty', async () => {
     const { code: exitCode, err } = await runCalibrate(['--odometry', writeInFolder('odometry.db3', readFileSync(examplePath('odometry'))), ...LOG_ARGS.slice(2)]);
     assert.deepEqual([exitCode, err.split(' with')[0]], [0, expectedMessage]);
   }
-  // All messages are in the journal.
+  // All messages of the recording are in the journal of the database.
   const databasePath = writeInFolder('run.db3', 'SQLite format 3\0');
   writeInFolder('run.db3-wal', Buffer.from('377f0682', 'hex'));
   for (const jsonArgs of [[], ['--json']]) {
@@ -254,7 +254,7 @@ test('a journal beside a recording is named, unless it is empty', async () => {
   }
 });
 
-/** Writes the reference of another drive: the path of the example from its end to its start. */
+/** Writes the reference of another drive. It is the path of the example from its end to its start. */
 const writeReversedReference = () => {
   const [header, ...rows] = readFileSync(examplePath('reference'), 'utf8').trim().split('\n').map((row) => row.split(','));
   return writeInFolder('other.csv', [header, ...rows.map(([t], i) => [t, ...rows[rows.length - 1 - i].slice(1)])].join('\n'));
@@ -272,9 +272,9 @@ test('--yaml prints the lines for Nav2 alone, or none of an unusable log', async
   const [header, ...rows] = readFileSync(examplePath('reference'), 'utf8').trim().split('\n');
   const sparsePath = writeInFolder('sparse.csv', [header, ...rows.filter((_, i) => i % 20 === 0)].join('\n'));
   const sparseOutput = await runCalibrate([...LOG_ARGS.slice(0, 3), sparsePath, '--yaml', '--rule', 'nav2']);
-  const [, ratio, distance, angle] = /legs are (\S+) times as long as asked\. .*\n +update_min_d: (\S+)\n +update_min_a: (\S+)\n$/.exec(sparseOutput.out)?.map(Number) ?? [];
-  assert.ok(ratio > 1.5, sparseOutput.out);
-  assert.deepEqual([distance / 0.25, angle / 0.2].map((scale) => Math.abs(scale / ratio - 1) < 0.005), [true, true]);
+  const [, lengthRatio, printedDistance, printedAngle] = /legs are (\S+) times as long as asked\. .*\n +update_min_d: (\S+)\n +update_min_a: (\S+)\n$/.exec(sparseOutput.out)?.map(Number) ?? [];
+  assert.ok(lengthRatio > 1.5, sparseOutput.out);
+  assert.deepEqual([printedDistance / 0.25, printedAngle / 0.2].map((printedRatio) => Math.abs(printedRatio / lengthRatio - 1) < 0.005), [true, true]);
   const reversedPath = writeReversedReference();
   const refusalOutput = await runCalibrate([...LOG_ARGS.slice(0, 3), reversedPath, '--yaml']);
   assert.deepEqual([refusalOutput.code, refusalOutput.out], [3, '']);
@@ -285,23 +285,23 @@ test('--plot writes a panel for each drive, with both paths aligned, and the end
   const plotPath = join(temporaryFolder, 'plot.svg');
   assert.equal((await runCalibrate([...LOG_ARGS, '--plot', plotPath])).code, 0);
   assert.match(readFileSync(plotPath, 'utf8'), /^<svg xmlns=/);
-  /** Returns a drive of ten seconds along x. In the odometry it leads along y, and begins half a second earlier. @returns {any} */
-  const driveStartingAt = (/** @type {number} */ start) => {
-    const positions = Float64Array.from({ length: 101 }, (_, i) => i / 10);
-    const log = (/** @type {string} */ role, /** @type {number} */ delay, /** @type {Float64Array} */ x, /** @type {Float64Array} */ y) => ({ name: `${role}${start}.csv`, data: { t: positions.map((t) => start + t + delay), x, y, theta: positions, breaks: [] } });
-    return { odometry: log('odom', 0, positions.map(() => 7), positions), reference: log('truth', 0.5, positions, positions.map(() => 2)) };
+  /** Returns a drive of ten seconds along x. Its odometry leads along y, and begins half a second earlier. @returns {any} */
+  const driveStartingAt = (/** @type {number} */ startTime) => {
+    const drivePositions = Float64Array.from({ length: 101 }, (_, i) => i / 10);
+    const createLog = (/** @type {string} */ logRole, /** @type {number} */ delay, /** @type {Float64Array} */ x, /** @type {Float64Array} */ y) => ({ name: `${logRole}${startTime}.csv`, data: { t: drivePositions.map((t) => startTime + t + delay), x, y, theta: drivePositions, breaks: [] } });
+    return { odometry: createLog('odom', 0, drivePositions.map(() => 7), drivePositions), reference: createLog('truth', 0.5, drivePositions, drivePositions.map(() => 2)) };
   };
   const legs = { count: 3, times: [1, 3, 4, 6, 21, 23], outliers: [0, 1, 0] };
-  const svg = drivesSvg([driveStartingAt(0), driveStartingAt(20)], { legs, systematicErrors: { clockOffset: { value: 0.5 } } });
-  const [, ...panels] = svg.split('<title>');
-  assert.deepEqual(panels.map((panel) => panel.split('<')[0]), ['odom0.csv and truth0.csv: 2 legs, 1 outlier', 'odom20.csv and truth20.csv: 1 legs, 0 outliers']);
-  for (const panel of panels) {
+  const svgText = drivesSvg([driveStartingAt(0), driveStartingAt(20)], { legs, systematicErrors: { clockOffset: { value: 0.5 } } });
+  const [, ...panelTexts] = svgText.split('<title>');
+  assert.deepEqual(panelTexts.map((panelText) => panelText.split('<')[0]), ['odom0.csv and truth0.csv: 2 legs, 1 outlier', 'odom20.csv and truth20.csv: 1 legs, 0 outliers']);
+  for (const panel of panelTexts) {
     for (const labelPattern of [/>x \(m\)</, />y \(m\)</, />odometry, aligned</]) assert.match(panel, labelPattern);
-    // The pixels of two axis marks are compared with those of the ends of paths.
-    const [axisLeft, axisMiddle] = ['0', '5'].map((mark) => Number(RegExp(`<text x="([\\d.]+)" [^>]*text-anchor="middle"[^>]*>${mark}<`).exec(panel)?.[1]));
+    // The pixels of two axis marks are compared with the pixels of the ends of paths.
+    const [axisLeft, axisMiddle] = ['0', '5'].map((axisMark) => Number(RegExp(`<text x="([\\d.]+)" [^>]*text-anchor="middle"[^>]*>${axisMark}<`).exec(panel)?.[1]));
     const axisRight = 2 * axisMiddle - axisLeft;
     const isNear = (/** @type {number} */ x, /** @type {number} */ expectedX) => Math.abs(x - expectedX) < 2;
-    const drawnPaths = Array.from(panel.matchAll(/d="M([\d.]+),[^"]{40,}L([\d.]+),[^"]*" fill="none" stroke="([^"]*)" stroke-width="1.5"/g), ([, from, to, color]) => ({ from: Number(from), to: Number(to), color }));
+    const drawnPaths = Array.from(panel.matchAll(/d="M([\d.]+),[^"]{40,}L([\d.]+),[^"]*" fill="none" stroke="([^"]*)" stroke-width="1.5"/g), ([, startX, endX, strokeColor]) => ({ from: Number(startX), to: Number(endX), color: strokeColor }));
     assert.ok(drawnPaths.every(({ from, to }) => isNear(from, axisLeft) && isNear(to, axisRight)), JSON.stringify(drawnPaths));
     assert.equal(new Set(drawnPaths.map(({ color }) => color)).size, 2);
     // A disc is drawn from its left side.
@@ -316,11 +316,11 @@ test('a terminal gets colours', async () => {
 });
 
 test('inspect lists what is in a file, and the command to go on with', async () => {
-  const inspectionOf = async (/** @type {string[]} */ args, expected = 0) => {
-    let [out, err] = ['', ''];
-    assert.equal(await run(['inspect', ...args], { load, print: (text) => (out += text), complain: (text) => (err += text) }), expected);
-    assert.equal(err === '', expected === 0);
-    return (out + err).replaceAll(temporaryFolder, 'DIR');
+  const inspectionOf = async (/** @type {string[]} */ inspectArguments, expectedExitCode = 0) => {
+    let [outputText, errorText] = ['', ''];
+    assert.equal(await run(['inspect', ...inspectArguments], { load, print: (text) => (outputText += text), complain: (text) => (errorText += text) }), expectedExitCode);
+    assert.equal(errorText === '', expectedExitCode === 0);
+    return (outputText + errorText).replaceAll(temporaryFolder, 'DIR');
   };
   const messages = Array.from({ length: 40 }, (_, i) => {
     const t = 100 + i / 20;
@@ -374,8 +374,8 @@ test('an unusable log has a sentence and no lines for Nav2', async () => {
 test('the report, the lines for Nav2 and the figure’s verdict agree whether the reference is a localizer’s', async () => {
   for (const [name, isLocalizer] of /** @type {const} */ ([['slam_pose', true], ['cartographer', true], ['truth_amcl', false]])) {
     const args = [...LOG_ARGS.slice(0, 3), writeInFolder(`${name}.csv`, readFileSync(examplePath('reference')))];
-    const [{ out }, { out: json }] = [await runCalibrate(args), await runCalibrate([...args, '--json'])];
-    const { logs, ...stats } = JSON.parse(json);
+    const [{ out }, { out: jsonText }] = [await runCalibrate(args), await runCalibrate([...args, '--json'])];
+    const { logs, ...stats } = JSON.parse(jsonText);
     const { rating } = judge(/** @type {any} */ ({ stats, legs: stats.legs, fitted: stats.systematicErrors }), warningsOf(logs));
     const areNoted = [out.includes(`\nCaution. ${en.nav2.localizer}\n`) && !out.includes(en.useAnyway), out.includes(`# ${en.nav2.localizer}`), rating === 'questionable'];
     assert.deepEqual(areNoted, [isLocalizer, isLocalizer, isLocalizer], name);
@@ -386,7 +386,7 @@ test('the report says what failed, what is lost, and what to drive', async () =>
   const { odometry: odometryLogs, reference, ...options } = await readCoreOptions(LOG_ARGS);
   const calibration = /** @type {any} */ (await load()).calibrate({ ...options, odometry: odometryLogs, reference });
   const { diagnostics, lost, persistence, systematicErrors } = calibration;
-  const reportWith = (/** @type {any} */ change, other = {}) => reportText({ calibration: { ...calibration, ...change }, options: { ...options, ...other }, logs: [], start: 0, driveStarts: [10, 1000], date: '' });
+  const reportWith = (/** @type {any} */ calibrationChange, optionsChange = {}) => reportText({ calibration: { ...calibration, ...calibrationChange }, options: { ...options, ...optionsChange }, logs: [], start: 0, driveStarts: [10, 1000], date: '' });
   const failedChecks = [{ name: 'enough-legs', value: 20, expected: [100, Infinity], passed: false, message: 'Drive on.' }];
   const reportOfFailure = reportWith({ diagnostics: { ...diagnostics, verdict: 'questionable', checks: failedChecks } });
   assert.match(reportOfFailure, /^\nCaution\. Failed check: number of legs \(1 of 1 failed\)\.\nDrive on\.\nIf the log .*\n[^]*^enough-legs +20 +≥ 100 +FAILED +number of legs\nenough-legs: Drive on\.$/m);
@@ -410,7 +410,7 @@ test('the report says what failed, what is lost, and what to drive', async () =>
   assert.match(reportWith({ ...unidentifiedAlphas, notIdentifiable: [null, 'insufficient-rotation', null, null] }, { model: 'velocity' }), /^Caution\. Not determined by this log: α₂; add ~50 legs in tight bends\.$/m);
   assert.match(reportWith({ alphas: [0, 0.1, 0.1, 0.1], intervals: [[0, 0.00123], [0.05, 0.2], null, null] }), /^alpha1 +≤ 0\.0012 +0\.0000 to 0\.0012 +≤ 0\.0015 /m);
   assert.match(reportWith({}, { model: 'velocity' }), /^No lines for nav2_params\.yaml: Nav2 has no velocity model\.$/m);
-  for (const reason of readDeclaredReasons()) assert.ok(reason in en.alphas.lacking, reason);
+  for (const declaredReason of readDeclaredReasons()) assert.ok(declaredReason in en.alphas.lacking, declaredReason);
 });
 
 /** Returns the reasons for which an α is not identifiable, as the core declares them. */

@@ -1,5 +1,5 @@
-// Interface of dist/core.js in Node: how it is loaded, and which names it exports. tests/digest compares the results of simulations, and
-// tests/web those of other exports.
+// Interface of dist/core.js in Node: loading, and names of exports. tests/digest compares the results of simulations, and tests/web
+// compares those of other exports.
 
 import assert from 'node:assert/strict';
 import { readFile } from 'node:fs/promises';
@@ -13,15 +13,15 @@ test('importing and loading touch neither the DOM nor the network, and load give
   /** @type {string[]} */
   const accessedGlobals = [];
   const browserGlobals = ['document', 'window', 'customElements', 'fetch', 'XMLHttpRequest', 'WebSocket'];
-  const descriptorsBefore = browserGlobals.map((name) => Object.getOwnPropertyDescriptor(globalThis, name));
+  const descriptorsBefore = browserGlobals.map((globalName) => Object.getOwnPropertyDescriptor(globalThis, globalName));
   for (const name of browserGlobals) {
     Object.defineProperty(globalThis, name, { configurable: true, get: () => void accessedGlobals.push(name) });
   }
   try {
-    const core = await importFreshModule();
+    const coreModule = await importFreshModule();
     assert.deepEqual(accessedGlobals, []);
-    const motion = await core.load();
-    assert.equal(await core.load(), motion);
+    const loadedCore = await coreModule.load();
+    assert.equal(await coreModule.load(), loadedCore);
   } finally {
     browserGlobals.forEach((name, i) => {
       const descriptor = descriptorsBefore[i];
@@ -58,17 +58,17 @@ test('a page finds every name of the contract', async () => {
       for (const memberName of [...memberNames, 'free', Symbol.dispose]) assert.ok(memberName in motion[name].prototype, `${name}: ${String(memberName)}`);
     }
   }
-  const se2 = ['adjoint', 'boxminus', 'boxplus', 'compose', 'exp', 'inverse', 'log', 'rightJacobian'];
-  assert.deepEqual(Object.keys(motion.se2).sort(), se2);
+  const se2FunctionNames = ['adjoint', 'boxminus', 'boxplus', 'compose', 'exp', 'inverse', 'log', 'rightJacobian'];
+  assert.deepEqual(Object.keys(motion.se2).sort(), se2FunctionNames);
 });
 
 test('a simulation opens with the settings that its declarations give', async () => {
   const motion = await (await importFreshModule()).load();
-  for (const [tag, declaredSettings] of Object.entries(settings)) {
-    const SimulationClass = motion[toPascalCase(tag)];
-    const fieldsOf = (/** @type {string} */ group) => declaredSettings.filter((setting) => setting.in === group).map(({ key, field = key, default: value }) => [field, value]);
+  for (const [widgetTag, declaredSettings] of Object.entries(settings)) {
+    const SimulationClass = motion[toPascalCase(widgetTag)];
+    const fieldsOf = (/** @type {string} */ groupKey) => declaredSettings.filter((setting) => setting.in === groupKey).map(({ key, field = key, default: value }) => [field, value]);
     const topLevelSettings = declaredSettings.filter((setting) => !setting.in && !setting.of).map(({ key, type, default: value }) => [key, type === 'group' ? Object.fromEntries(fieldsOf(key)) : value]);
-    assert.deepEqual(new SimulationClass().config, Object.fromEntries(topLevelSettings), tag);
+    assert.deepEqual(new SimulationClass().config, Object.fromEntries(topLevelSettings), widgetTag);
   }
 });
 

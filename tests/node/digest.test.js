@@ -7,54 +7,54 @@ import { presets, settings } from '../../build/settings.js';
 import { findDifferences, computeDigest, resultFunctions } from '../digest/digest.js';
 import { importFreshModule } from './support.js';
 
-const readText = (/** @type {string} */ path) => readFileSync(new URL(`../../${path}`, import.meta.url), 'utf8');
+const readText = (/** @type {string} */ repositoryPath) => readFileSync(new URL(`../../${repositoryPath}`, import.meta.url), 'utf8');
 
 /** @type {import('../digest/digest.js').Configurations} */
 const configurationList = JSON.parse(readText('tests/digest/configurations.json'));
-const motion = await (await importFreshModule()).load();
+const core = await (await importFreshModule()).load();
 
-/** Exports without a seed, and models that draw as in Rust. They are covered by tests/web and tests/native. */
+/** Exports without a seed, and models that draw as in Rust. tests/web and tests/native cover these exports. */
 const EXCLUDED_EXPORTS = new Set(['VelocityModel', 'OdometryModel', 'invertArc', 'decompose', 'propagate', 'se2', 'calibrate']);
 
 /** Classes of the simulations in core.js, by tag name. @type {Map<string, any>} */
 const simulationClasses = new Map(
-  Object.entries(motion)
-    .filter(([name, exported]) => 'free' in (exported.prototype ?? {}) && !EXCLUDED_EXPORTS.has(name))
+  Object.entries(core)
+    .filter(([exportName, exportedValue]) => 'free' in (exportedValue.prototype ?? {}) && !EXCLUDED_EXPORTS.has(exportName))
     .map(([name, exported]) => [name.replace(/\B[A-Z]/g, '-$&').toLowerCase(), exported]),
 );
 
 const goldenDigest = readText('tests/digest/golden.txt');
 
 test('a seed gives the bits that it gave', async () => {
-  const computedDigest = await computeDigest(motion, configurationList);
+  const computedDigest = await computeDigest(core, configurationList);
   if (process.env.UPDATE_DIGEST) writeFileSync(new URL('../digest/golden.txt', import.meta.url), computedDigest);
   else assert.deepEqual(findDifferences(goldenDigest, computedDigest), []);
 });
 
 test('every widget and every class of the core has configurations, and every function is asked', () => {
-  const listedTags = [...readText('www/motion-widgets.ts').matchAll(/^import '\.\/widgets\/([\w-]+)\//gm)].map(([, tag]) => tag);
+  const listedTags = [...readText('www/motion-widgets.ts').matchAll(/^import '\.\/widgets\/([\w-]+)\//gm)].map(([, widgetTag]) => widgetTag);
   assert.deepEqual(Object.keys(configurationList.widgets).sort(), listedTags.sort(), 'www/motion-widgets.ts');
   assert.deepEqual(Object.keys(configurationList.widgets).sort(), [...simulationClasses.keys()].sort(), 'core.js');
   assert.deepEqual(Object.keys(resultFunctions).sort(), listedTags, 'digest.js');
-  const functionNames = Object.keys(motion).filter((name) => !('free' in (motion[name].prototype ?? {})) && !MEMBERS_TESTED_ELSEWHERE.has(name) && !EXCLUDED_EXPORTS.has(name));
+  const functionNames = Object.keys(core).filter((name) => !('free' in (core[name].prototype ?? {})) && !MEMBERS_TESTED_ELSEWHERE.has(name) && !EXCLUDED_EXPORTS.has(name));
   for (const name of functionNames) assert.match(readText('tests/digest/digest.js'), new RegExp(`\\b${name}\\(`));
-  const configurationCount = Object.values(configurationList.widgets).reduce((sum, { configurations }) => sum + Object.keys(configurations).length, 0);
-  // golden.txt has no lines of removed configurations.
+  const configurationCount = Object.values(configurationList.widgets).reduce((countSum, { configurations }) => countSum + Object.keys(configurations).length, 0);
+  // golden.txt must have no lines of configurations that were removed.
   assert.equal(configurationCount, readText('tests/digest/golden.txt').match(/^.+$/gm)?.length);
 });
 
 for (const [tag, { configurations }] of Object.entries(configurationList.widgets)) {
-  const coveredValuesOf = (/** @type {string} */ key) => new Set(Object.values(configurations).map((configuration) => JSON.stringify(configuration.settings[key])));
+  const coveredValuesOf = (/** @type {string} */ settingKey) => new Set(Object.values(configurations).map((configuration) => JSON.stringify(configuration.settings[settingKey])));
 
   test(`configurations of ${tag} take every setting, every word and every preset`, () => {
-    for (const { key, type, words, nullable, default: opening, in: group } of settings[tag]) {
-      if (group) continue;
+    for (const { key, type, words, nullable, default: defaultValue, in: groupKey } of settings[tag]) {
+      if (groupKey) continue;
       const coveredValues = coveredValuesOf(key);
       const allowedValues = type === 'boolean' ? [true, false] : (words ?? []);
-      for (const allowedValue of allowedValues) assert.ok(coveredValues.has(JSON.stringify(allowedValue)) || allowedValue === opening, `${key}: ${allowedValue}`);
-      const otherValues = [...coveredValues].filter((value) => value !== undefined && value !== JSON.stringify(opening));
+      for (const allowedValue of allowedValues) assert.ok(coveredValues.has(JSON.stringify(allowedValue)) || allowedValue === defaultValue, `${key}: ${allowedValue}`);
+      const otherValues = [...coveredValues].filter((coveredValue) => coveredValue !== undefined && coveredValue !== JSON.stringify(defaultValue));
       assert.ok(otherValues.length > 0, `${key} is never set`);
-      if (nullable && opening !== null && type !== 'number') assert.ok(coveredValues.has('null'), `${key}: null`);
+      if (nullable && defaultValue !== null && type !== 'number') assert.ok(coveredValues.has('null'), `${key}: null`);
     }
     for (const { name } of presets[/** @type {keyof typeof presets} */ (tag)]) {
       assert.ok(Object.values(configurations).some(({ preset }) => preset === name), `preset ${name}`);
@@ -79,7 +79,7 @@ test('every map is used, and what differs is named', () => {
   ]);
 });
 
-/** Members that the digest does not contain. They are tested in tests/native/simulations: banana, morph, squeeze, dead_reckoning and alpha_calibrator. */
+/** Members that the digest does not contain. tests/native/simulations covers them: banana, morph, squeeze, dead_reckoning and alpha_calibrator. */
 const MEMBERS_TESTED_ELSEWHERE = new Set([
   'constructor', 'free', '__destroy_into_raw', 'config', 'fittedConfig', 'isPending', 'save', 'read', 'firstPoses', 'firstTwists', 'configure', 'configureFirst', 'addSamples', 'block', 'alphasOfModels', 'milestones',
   'randomSeed', 'readMapImage', 'unbendGaussian', 'unbendLine', 'gaps',

@@ -1,5 +1,5 @@
-// Documents: their links and lengths, numbers in them (limits of the pages, presets, true parameters of the example log), and names of files
-// and commands.
+// Documents. The tests check links, lengths, names of files and commands, and numbers: limits of the pages, presets, and true parameters of
+// the example log.
 
 import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';
@@ -9,7 +9,7 @@ import { LEG_LIMIT, TRUE_MODEL } from '../../scripts/example-log.mjs';
 import { ROOT, filesOf } from '../../scripts/process.mjs';
 import { presets } from '../../build/settings.js';
 
-const readText = (/** @type {string} */ path) => readFileSync(new URL(`../../${path}`, import.meta.url), 'utf8');
+const readText = (/** @type {string} */ documentPath) => readFileSync(new URL(`../../${documentPath}`, import.meta.url), 'utf8');
 
 /** Files and names of constants, with the sentence of the document that contains the value. @type {[string, string, RegExp][]} */
 const DOCUMENTED_LIMITS = [
@@ -22,17 +22,17 @@ const DOCUMENTED_LIMITS = [
 
 test('doc/model.md and doc/statistics.md have the limits of the pages', () => {
   const documentTexts = `${readText('doc/model.md')}${readText('doc/statistics.md')}`.replace(/\s+/g, ' ');
-  for (const [file, constantName, pattern] of DOCUMENTED_LIMITS) {
-    const [, limitText] = readText(file).match(new RegExp(`const ${constantName} = ([\\d._]+);`)) ?? [];
-    assert.ok(limitText, `${constantName} of ${file}`);
-    assert.equal(documentTexts.match(pattern)?.[1], limitText, `${constantName} of ${file}`);
+  for (const [sourcePath, constantName, sentencePattern] of DOCUMENTED_LIMITS) {
+    const [, limitText] = readText(sourcePath).match(new RegExp(`const ${constantName} = ([\\d._]+);`)) ?? [];
+    assert.ok(limitText, `${constantName} of ${sourcePath}`);
+    assert.equal(documentTexts.match(sentencePattern)?.[1], limitText, `${constantName} of ${sourcePath}`);
   }
 });
 
 test('README.md has the presets of each figure', () => {
   const readmeText = readText('README.md').replace(/\s+/g, ' ');
-  for (const [tag, presetsOfTag] of Object.entries(presets)) {
-    if (presetsOfTag.length > 0) assert.ok(readmeText.includes(`\`${tag}\` ${presetsOfTag.map(({ name }) => name).join(', ')}`), tag);
+  for (const [widgetTag, presetsOfTag] of Object.entries(presets)) {
+    if (presetsOfTag.length > 0) assert.ok(readmeText.includes(`\`${widgetTag}\` ${presetsOfTag.map(({ name }) => name).join(', ')}`), widgetTag);
   }
 });
 
@@ -59,9 +59,9 @@ test('doc/reliability.md names files and commands that are there', () => {
 const TEXT_BY_DOCUMENT = new Map(['README.md', ...filesOf('doc').filter((path) => path.endsWith('.md'))]
   .map((path) => [path, readText(path).replaceAll(/^```.*?^```/gms, '')]));
 
-/** Returns the anchors of headings, as GitHub makes them. */
-const anchorsOf = (/** @type {string} */ text, level = '#+') =>
-  [...text.matchAll(new RegExp(`^${level} (.*)$`, 'gm'))].map(([, heading]) => heading.toLowerCase().replace(/[^\p{L}\p{N} _-]/gu, '').replaceAll(' ', '-'));
+/** Returns the anchors of headings, in the form that GitHub gives them. */
+const anchorsOf = (/** @type {string} */ markdownText, headingPattern = '#+') =>
+  [...markdownText.matchAll(new RegExp(`^${headingPattern} (.*)$`, 'gm'))].map(([, headingText]) => headingText.toLowerCase().replace(/[^\p{L}\p{N} _-]/gu, '').replaceAll(' ', '-'));
 
 /** Returns the relative links of a text, as path and anchor. */
 const linksOf = (/** @type {string} */ text) =>

@@ -9,7 +9,7 @@ import { scaleRatioTexts } from '../../www/widgets/dead-reckoning/pictures.ts';
 
 test('boolean attributes may be empty or "true", and lists may have any space', () => {
   const { conditioned } = selectAttributes(propertiesOf(settings['map-squeeze']));
-  assert.deepEqual(['false', 'true', ''].map((text) => conditioned.converter.parse(text)), [false, true, true]);
+  assert.deepEqual(['false', 'true', ''].map((attributeText) => conditioned.converter.parse(attributeText)), [false, true, true]);
   assert.deepEqual([' linearized\n  command ', ''].map((text) => WORD_LIST_CONVERTER.parse(text)), [['linearized', 'command'], []]);
 });
 
@@ -21,7 +21,7 @@ test('a view that was fitted to a tiny canvas zooms in on a larger one, and keep
     return view.extent.xMax - view.extent.xMin;
   };
   view.resize(100, 60);
-  // In a tiny view a mark of some pixels needs many metres.
+  // In a tiny view a mark of some pixels is many metres long.
   assert.ok(fitTo(20) >= 40);
   view.resize(600, 400);
   assert.ok(fitTo(1) < 10);

@@ -1,5 +1,5 @@
-// Seeded mutations of valid files, links, states and attributes, given to each parser of www/. Each input has to end in a
-// result or in a sentence, within a second and in little memory.
+// Seeded mutations of valid files, links, states and attributes, given to each parser of www/. Each input must end in a result or in an
+// error message, within a second and in little memory.
 
 import assert from 'node:assert/strict';
 import { Buffer } from 'node:buffer';
@@ -20,35 +20,35 @@ const [MAX_SECONDS, MAX_BYTES] = [1, 256 * 2 ** 20];
 /** Number of inputs after which the test yields to the event loop, so that decompressed data can be released. */
 const INPUTS_PER_TURN = 100;
 
-/** Returns the inputs of a target that fuzzing found. The file has one input a line, in hexadecimal. @param {string} target */
-function readFoundInputs(target) {
-  const corpusFile = new URL(`../fuzz/corpus/${target}.txt`, import.meta.url);
+/** Returns the inputs of a target that fuzzing found. The corpus file has one input a line, in hexadecimal. @param {string} targetName */
+function readFoundInputs(targetName) {
+  const corpusFile = new URL(`../fuzz/corpus/${targetName}.txt`, import.meta.url);
   const inputLines = existsSync(corpusFile) ? readFileSync(corpusFile, 'latin1').split('\n').slice(0, -1) : [];
-  return inputLines.map((line) => Buffer.from(line, 'hex'));
+  return inputLines.map((hexLine) => Buffer.from(hexLine, 'hex'));
 }
 
-for (const [name, { corpus, run }] of Object.entries(fuzzTargets)) {
-  test(`${name}: every input gives a result or a sentence`, async () => {
-    const random = randomGenerator(FUZZ_SEED);
-    const allInputs = [...corpus, ...readFoundInputs(name)];
-    /** Runs a target on an input, and returns true if the input is accepted. @param {Buffer<ArrayBuffer>} bytes */
-    const checkInput = async (bytes) => {
+for (const [targetName, { corpus, run }] of Object.entries(fuzzTargets)) {
+  test(`${targetName}: every input gives a result or a sentence`, async () => {
+    const nextRandom = randomGenerator(FUZZ_SEED);
+    const allInputs = [...corpus, ...readFoundInputs(targetName)];
+    /** Runs a target on an input, and returns true if the input is accepted. @param {Buffer<ArrayBuffer>} inputBytes */
+    const checkInput = async (inputBytes) => {
       const cpuBefore = process.cpuUsage();
       try {
-        const isAccepted = await run(bytes);
+        const isAccepted = await run(inputBytes);
         const { user, system } = process.cpuUsage(cpuBefore);
         assert.ok(user + system < 1e6 * MAX_SECONDS, `${user + system} µs`);
         return isAccepted;
       } catch (error) {
-        throw new Error(`${name} fails on ${bytes.toString('hex')}`, { cause: error });
+        throw new Error(`${targetName} fails on ${inputBytes.toString('hex')}`, { cause: error });
       }
     };
     for (const bytes of allInputs) await checkInput(Buffer.from(bytes));
     const memoryBefore = process.resourceUsage().maxRSS;
     let acceptedCount = 0;
     for (let i = 0; i < INPUT_COUNT; i++) {
-      // Inputs that fuzzing found are mostly refused. Half of the mutations therefore start from valid inputs.
-      if (await checkInput(createMutant(random() < 0.5 ? corpus : allInputs, random))) acceptedCount += 1;
+      // Inputs that fuzzing found are mostly refused. For that reason half of the mutations start from valid inputs.
+      if (await checkInput(createMutant(nextRandom() < 0.5 ? corpus : allInputs, nextRandom))) acceptedCount += 1;
       if (i % INPUTS_PER_TURN === 0) await yieldToEventLoop();
     }
     assert.ok(acceptedCount > 0 && acceptedCount < INPUT_COUNT, `${acceptedCount} of ${INPUT_COUNT} are accepted`);

@@ -1,4 +1,4 @@
-// Imports between the folders of www/: only those that doc/implementation-notes.md allows. The linter finds circles of imports.
+// Imports between the folders of www/. Only imports that doc/implementation-notes.md allows may exist. The linter finds circles of imports.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
@@ -7,7 +7,7 @@ import { test } from 'node:test';
 import { build } from 'esbuild';
 import { settings } from '../../build/settings.js';
 
-/** Layers from top to bottom: a file imports from its own layer and from lower ones. */
+/** Layers from top to bottom. A file imports from its own layer and from lower layers. */
 const LAYERS = ['www/widgets', 'www/figure', 'www/scene', 'www/ui', 'www/messages', 'www/data'];
 
 const { metafile } = await build({
@@ -22,22 +22,22 @@ const { metafile } = await build({
 });
 
 /** @type {[string, string][]} importing and imported file of each import within www/ */
-const imports = Object.entries(metafile.inputs).flatMap(([importer, { imports }]) =>
-  imports.filter(({ path }) => importer.startsWith('www/') && path.startsWith('www/')).map(({ path }) => /** @type {[string, string]} */ ([importer, path])),
+const importPairs = Object.entries(metafile.inputs).flatMap(([importerPath, { imports: importPairs }]) =>
+  importPairs.filter(({ path }) => importerPath.startsWith('www/') && path.startsWith('www/')).map(({ path }) => /** @type {[string, string]} */ ([importerPath, path])),
 );
 
 test('all scripts of the page are looked at', () => {
-  assert.ok(imports.length > 150, `${imports.length} imports`);
-  for (const layer of LAYERS) assert.ok(imports.some(([, imported]) => imported.startsWith(layer)), layer);
+  assert.ok(importPairs.length > 150, `${importPairs.length} imports`);
+  for (const layer of LAYERS) assert.ok(importPairs.some(([, importedPath]) => importedPath.startsWith(layer)), layer);
 });
 
 test('no import runs up, and none from one widget to another', () => {
   const layerOf = (/** @type {string} */ path) => LAYERS.findIndex((layer) => path.startsWith(`${layer}/`));
-  for (const [importer, imported] of imports) {
+  for (const [importer, imported] of importPairs) {
     const [importerLayer, importedLayer] = [layerOf(importer), layerOf(imported)];
     if (importerLayer >= 0 && importedLayer >= 0) assert.ok(importerLayer <= importedLayer, `${importer} imports ${imported}`);
-    const [widget, otherWidget] = [importer, imported].map((path) => path.match(/^www\/widgets\/([^/]+)\//)?.[1]);
-    if (widget && otherWidget) assert.ok(widget === otherWidget || otherWidget === 'shared', `${importer} imports ${imported}`);
+    const [importerWidget, importedWidget] = [importer, imported].map((path) => path.match(/^www\/widgets\/([^/]+)\//)?.[1]);
+    if (importerWidget && importedWidget) assert.ok(importerWidget === importedWidget || importedWidget === 'shared', `${importer} imports ${imported}`);
   }
 });
 
@@ -50,21 +50,21 @@ test('readers of logs import neither the page, nor Node, nor the core', () => {
 });
 
 test('only core.ts touches the generated glue', () => {
-  const importers = Object.entries(metafile.inputs).filter(([, { imports }]) => imports.some(({ path }) => /^build\/motion/.test(path)));
-  assert.deepEqual(importers.map(([path]) => [dirname(path), path]), [['www', 'www/core.ts']]);
+  const coreImporters = Object.entries(metafile.inputs).filter(([, { imports }]) => imports.some(({ path }) => /^build\/motion/.test(path)));
+  assert.deepEqual(coreImporters.map(([path]) => [dirname(path), path]), [['www', 'www/core.ts']]);
 });
 
 test('a widget is one class above the base, which is one above Lit', () => {
-  const sourceFiles = new Set(imports.flat());
-  const classes = [...sourceFiles].flatMap((file) =>
-    [...readFileSync(new URL(`../../${file}`, import.meta.url), 'utf8').matchAll(/\bclass (\w+)(?:<.+>)? extends (\w+)/g)].map(([, name, base]) => ({ file, name, base })),
+  const sourceFiles = new Set(importPairs.flat());
+  const classDeclarations = [...sourceFiles].flatMap((sourcePath) =>
+    [...readFileSync(new URL(`../../${sourcePath}`, import.meta.url), 'utf8').matchAll(/\bclass (\w+)(?:<.+>)? extends (\w+)/g)].map(([, className, baseClassName]) => ({ file: sourcePath, name: className, base: baseClassName })),
   );
-  const elementClasses = classes.filter(({ base }) => /Element$/.test(base));
+  const elementClasses = classDeclarations.filter(({ base }) => /Element$/.test(base));
   assert.deepEqual(
     elementClasses.filter(({ base }) => base !== 'FigureElement').map(({ file, name, base }) => [file, name, base]),
     [['www/figure/figure.ts', 'FigureElement', 'LitElement']],
   );
-  for (const tag of Object.keys(settings)) {
-    assert.ok(elementClasses.some(({ file, base }) => file === `www/widgets/${tag}/${tag}.ts` && base === 'FigureElement'), tag);
+  for (const widgetTag of Object.keys(settings)) {
+    assert.ok(elementClasses.some(({ file, base }) => file === `www/widgets/${widgetTag}/${widgetTag}.ts` && base === 'FigureElement'), widgetTag);
   }
 });

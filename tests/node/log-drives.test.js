@@ -1,4 +1,4 @@
-// Drives: guesses which logs are odometry and reference, pairing of logs, checks of two logs, and their summaries.
+// Drives: the guess which logs are odometry and reference, the pairing of logs, checks of two logs, and summaries.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
@@ -20,29 +20,33 @@ const SERIES_TYPE_AND_KIND = /** @type {const} */ ({
 /**
  * Returns a recording with series that are never read.
  *
- * @param {Record<string, keyof typeof SERIES_TYPE_AND_KIND>} series types by name
- * @param {Partial<Recording>} [more]
- * @param {string[]} [frames] of transforms, as "odom base_link"
+ * @param {Record<string, keyof typeof SERIES_TYPE_AND_KIND>} kindsBySeries types by name
+ * @param {Partial<Recording>} [moreFields]
+ * @param {string[]} [framePairs] of transforms, as "odom base_link"
  * @returns {Recording}
  */
-const recordingWith = (series, more, frames = []) => ({
+const recordingWith = (kindsBySeries, moreFields, framePairs = []) => ({
   name: 'run.mcap',
   format: 'mcap',
-  series: Object.entries(series).map(([name, of]) => {
-    const [type, kind] = SERIES_TYPE_AND_KIND[of];
-    return { name, type, kind, count: 9, ...(kind === 'transforms' && { frames: frames.map((pair) => ({ parent: pair.split(' ')[0], child: pair.split(' ')[1] })) }) };
+  series: Object.entries(kindsBySeries).map(([seriesName, seriesKind]) => {
+    const [type, kind] = SERIES_TYPE_AND_KIND[seriesKind];
+    return { name: seriesName, type, kind, count: 9, ...(kind === 'transforms' && { frames: framePairs.map((framePair) => ({ parent: framePair.split(' ')[0], child: framePair.split(' ')[1] })) }) };
   }),
   read: () => Promise.reject(new Error('not read')),
-  ...more,
+  ...moreFields,
 });
 
-/** Returns a choice of a series, with its frames, as text. @param {{ series: string, frames?: { parent: string, child: string } }} choice */
+/** Returns the choice of a series and its frames as text. @param {{ series: string, frames?: { parent: string, child: string } }} choice */
 const choiceTextOf = ({ series, frames }) => (frames ? `${series} ${frames.parent} ${frames.child}` : series);
 
-/** Plans drives. A refusal rejects the promise. @param {Recording[]} recordings @param {import('../../www/logs/drives.ts').UserChoices} [userChoices] */
+/** Plans drives. If the plan is refused, the promise is rejected. @param {Recording[]} recordings @param {import('../../www/logs/drives.ts').UserChoices} [userChoices] */
 const planDrivesAsync = async (recordings, userChoices) => planDrives(recordings, userChoices);
 
-/** Cases with one answer: the series of a recording, the expected odometry and reference, the frames in /tf, the user's options. @type {[Parameters<typeof recordingWith>[0], string, string, string[]?, any?][]} */
+/**
+ * Cases with a single answer. Each has the series of a recording, the expected odometry and reference, the frames in /tf, and the user's
+ * options.
+ * @type {[Parameters<typeof recordingWith>[0], string, string, string[]?, any?][]}
+ */
 const CLEAR_ROLE_CASES = [
   [{ '/odom': 'odometry', '/vrpn_client_node/robot/pose': 'pose', '/amcl_pose': 'pose', '/cmd_vel': 'twist' }, '/odom', '/vrpn_client_node/robot/pose'],
   [{ '/odom': 'odometry', '/vicon/robot': 'pose', '/cmd_vel': 'twist' }, '/cmd_vel', '/vicon/robot', [], { kind: 'commands' }],
@@ -76,7 +80,7 @@ test('groups of columns are guessed as topics are, and may be named without a se
 });
 
 test('a question is asked where a role is not clear', async () => {
-  for (const [series, expectedSentence, what, role, choices, frames, userChoices] of /** @type {[Parameters<typeof recordingWith>[0], string, string?, string?, string[]?, string[]?, any?][]} */ ([
+  for (const [series, expectedSentence, askedWhat, logRole, expectedChoices, frames, userChoices] of /** @type {[Parameters<typeof recordingWith>[0], string, string?, string?, string[]?, string[]?, any?][]} */ ([
     [{ '/odom': 'odometry', '/a': 'pose', '/b': 'pose' }, 'it is not clear what the reference is: /odom (Odometry), /a (PoseStamped), /b (PoseStamped).', 'series', 'reference', ['/a', '/b']],
     [{ '/odom': 'odometry', '/wheel/odometry': 'odometry', '/mocap': 'pose' }, 'it is not clear what the odometry is: ', 'series', 'odometry'],
     [{ '/odom': 'odometry', '/odometry/filtered': 'odometry', '/cmd_vel': 'twist' }, 'by its names and types it has no reference, but /odom (Odometry), ', 'series', 'reference', []],
@@ -97,8 +101,8 @@ test('a question is asked where a role is not clear', async () => {
   ])) {
     const { message, ask } = await catchRefusalError(planDrivesAsync([recordingWith(series, {}, frames)], userChoices));
     assert.ok(message.startsWith('run.mcap') && message.includes(`: ${expectedSentence}`), message);
-    assert.deepEqual([ask?.what, ask?.role], [what, role], message);
-    if (choices) assert.deepEqual(ask?.choices, choices);
+    assert.deepEqual([ask?.what, ask?.role], [askedWhat, logRole], message);
+    if (expectedChoices) assert.deepEqual(ask?.choices, expectedChoices);
   }
 });
 
@@ -109,20 +113,20 @@ test('several recordings are drives of their own, or give one log each', async (
   assert.deepEqual([unpaired.odometry[0].choice.series, unpaired.reference[0].choice.series], ['/odom', '/mocap']);
   const { drives, unpaired: { odometry: [unpairedOdometry] } } = planDrives([recordingWithBothLogs, recordingWith({ '': 'columns' }, { name: 'truth.csv', format: 'csv' })]);
   assert.deepEqual([drives.length, unpairedOdometry.choice.series], [0, '/odom']);
-  // A recording that has neither odometry nor a reference is left out, unless the user chose it as one of the two.
+  // A recording without odometry and reference is left out, unless the user chose it for one of these roles.
   const cameraRecording = recordingWith({ '/image': 'text' }, { name: 'camera.mcap' });
   const { drives: [drive], unused } = planDrives([cameraRecording, recordingWithBothLogs]);
   assert.deepEqual([drive.odometry.recording, unused.map(({ message }) => message.slice(0, 48))], [recordingWithBothLogs, ['camera.mcap: the topics are /image (String); exp']]);
   assert.match(await catchRefusalSentence(planDrivesAsync([recordingWithBothLogs, cameraRecording], { roles: new Map([[cameraRecording, 'reference']]) })), /^camera\.mcap: the topics are \/image \(String\); /);
-  const unpairedNamesOf = async (/** @type {string[]} */ ...names) => {
-    const drivePlan = planDrives(names.map((name) => recordingWith({ '': 'columns' }, { name, format: 'csv' })));
-    return [drivePlan.unpaired.odometry, drivePlan.unpaired.reference].map((parts) => parts.map(({ recording: { name } }) => name));
+  const unpairedNamesOf = async (/** @type {string[]} */ ...recordingNames) => {
+    const drivePlan = planDrives(recordingNames.map((name) => recordingWith({ '': 'columns' }, { name, format: 'csv' })));
+    return [drivePlan.unpaired.odometry, drivePlan.unpaired.reference].map((unpairedSeries) => unpairedSeries.map(({ recording: { name } }) => name));
   };
   assert.deepEqual(await unpairedNamesOf('truth.csv', 'a.csv'), [['a.csv'], ['truth.csv']]);
   assert.deepEqual(await unpairedNamesOf('odom1.csv', 'x.csv', 'y.csv', 'odom2.csv'), [['odom1.csv', 'odom2.csv'], ['x.csv', 'y.csv']]);
   assert.match(await catchRefusalSentence(unpairedNamesOf('a.csv', 'b.csv')), /^a\.csv: its name does not say whether it is odometry or reference; /);
   assert.match(await catchRefusalSentence(unpairedNamesOf('odom1.csv', 'odom2.csv', 'truth.csv')), /^odom1\.csv: the odometry is in odom1\.csv, odom2\.csv, and the reference in truth\.csv; /);
-  // A log may be ambiguous in one role only.
+  // A log may be ambiguous in one of its roles only.
   const twoBodyRecording = recordingWith({ Robot: 'columns', Cart: 'columns' }, { name: 'take.csv', format: 'csv' });
   const odometryTable = recordingWith({ '': 'columns' }, { name: 'odom.csv', format: 'csv' });
   const { ask } = await catchRefusalError(planDrivesAsync([odometryTable, twoBodyRecording]));
@@ -132,17 +136,17 @@ test('several recordings are drives of their own, or give one log each', async (
   assert.match(await catchRefusalSentence(planDrivesAsync([ambiguousRecording, ambiguousRecording])), /^run\.mcap: it is not clear what the reference is: /);
 });
 
-/** Reads drives from tables by their names. @param {Record<string, string>} files @param {import('../../www/logs/drives.ts').UserChoices} [userChoices] */
-const readDrivesOf = async (files, userChoices) => readDrives(planDrives(await openRecordings(Object.entries(files).map(([name, text]) => new File([text], name))), userChoices));
+/** Reads drives from tables, which are given by name. @param {Record<string, string>} textByName @param {import('../../www/logs/drives.ts').UserChoices} [userChoices] */
+const readDrivesOf = async (textByName, userChoices) => readDrives(planDrives(await openRecordings(Object.entries(textByName).map(([name, text]) => new File([text], name))), userChoices));
 
-/** Returns a table of poses. @param {number} count @param {(i: number) => number[]} row */
-const poseTableOf = (count, row) => ['t,x,y,yaw', ...Array.from({ length: count }, (_, i) => row(i).join(','))].join('\n');
+/** Returns a table of poses with a time column. @param {number} rowCount @param {(i: number) => number[]} rowAt */
+const poseTableOf = (rowCount, rowAt) => ['t,x,y,yaw', ...Array.from({ length: rowCount }, (_, i) => rowAt(i).join(','))].join('\n');
 
-/** Returns a table of poses along x at 20 Hz. @param {(i: number) => number} x @param {number} [start] */
-const straightTableOf = (x, start = 0) => poseTableOf(400, (i) => [start + i / 20, x(i), 0, 0]);
+/** Returns a table of poses along x at 20 Hz. @param {(i: number) => number} xAt @param {number} [startTime] */
+const straightTableOf = (xAt, startTime = 0) => poseTableOf(400, (i) => [startTime + i / 20, xAt(i), 0, 0]);
 
 test('logs of several drives are paired by their times, their names, or their order', async () => {
-  const pairedNamesOf = async (/** @type {Record<string, number>} */ starts) => (await readDrivesOf(Object.fromEntries(Object.entries(starts).map(([name, start], k) => [name, straightTableOf((i) => (i * (10 + k)) / 1000, start)])))).map(({ odometry, reference }) => [odometry.name, reference.name]);
+  const pairedNamesOf = async (/** @type {Record<string, number>} */ startTimes) => (await readDrivesOf(Object.fromEntries(Object.entries(startTimes).map(([name, start], k) => [name, straightTableOf((i) => (i * (10 + k)) / 1000, start)])))).map(({ odometry, reference }) => [odometry.name, reference.name]);
   assert.deepEqual(await pairedNamesOf({ 'odom1.csv': 100, 'odom2.csv': 500, 'truth_a.csv': 501, 'truth_b.csv': 99 }), [['odom1.csv', 'truth_b.csv'], ['odom2.csv', 'truth_a.csv']]);
   assert.deepEqual(await pairedNamesOf({ 'odom1.csv': 0, 'odom2.csv': 0, 'truth2.csv': 0, 'truth1.csv': 0 }), [['odom1.csv', 'truth1.csv'], ['odom2.csv', 'truth2.csv']]);
   assert.deepEqual(await pairedNamesOf({ 'odom1.csv': 0, 'odom2.csv': 0, 'truth_a.csv': 0, 'truth_b.csv': 0 }), [['odom1.csv', 'truth_a.csv'], ['odom2.csv', 'truth_b.csv']]);
@@ -170,7 +174,7 @@ test('names of a localizer, and swapped ones, are noted', async () => {
   const [{ odometry, reference }] = await readDrivesOf({ 'odom.csv': straightTableOf((i) => i / 90), 'truth.csv': straightTableOf((i) => i / 80) });
   const notesWithFrame = (/** @type {string} */ parent) => pairLogs(odometry, { ...reference, summary: { ...reference.summary, frames: { parent, child: 'base_link' } } }).reference.summary.notes;
   assert.deepEqual([notesWithFrame('mocap'), notesWithFrame('map')], [[], [{ name: 'localizer', values: [] }]]);
-  for (const [one, other] of [['wheels.csv', 'truth.csv'], ['odom.csv', 'reference-by-odom.csv'], ['a.csv', 'b.csv']]) assert.deepEqual(await noteNamesOf(one, other), [], one);
+  for (const [firstName, secondName] of [['wheels.csv', 'truth.csv'], ['odom.csv', 'reference-by-odom.csv'], ['a.csv', 'b.csv']]) assert.deepEqual(await noteNamesOf(firstName, secondName), [], firstName);
 });
 
 test('a frozen reference has breaks while the odometry moves on, and none while it stands', async () => {
@@ -183,13 +187,13 @@ test('a frozen reference has breaks while the odometry moves on, and none while 
   const { data, summary } = await readReference(frozenTable);
   assert.deepEqual([data.t.length, [...data.breaks], summary.used, summary.dropped], [400, Array.from({ length: 100 }, (_, i) => 201 + i), 301, { held: { count: 99, first: 0 } }]);
   assert.equal(await catchRefusalSentence(readReference(straightTableOf(() => 7))), 'truth.csv: its pose stands still while the odometry moves on: it has lost the robot; give one that follows the robot.');
-  // A pause of two seconds, or one in which the odometry moves by five centimetres, does not count as lost.
-  const droppedCountDuring = async (/** @type {number} */ seconds, /** @type {number} */ speed) => {
-    const xOf = (/** @type {number} */ i) => (speed * i) / 20;
-    return (await readReference(straightTableOf((i) => 1.01 * xOf(i >= 200 && i <= 200 + 20 * seconds ? 200 : i)), straightTableOf(xOf))).summary.dropped.held?.count;
+  // A pause of two seconds does not count as lost. A pause in which the odometry moves by five centimetres does not count as lost either.
+  const droppedCountDuring = async (/** @type {number} */ pauseSeconds, /** @type {number} */ pauseSpeed) => {
+    const xOf = (/** @type {number} */ i) => (pauseSpeed * i) / 20;
+    return (await readReference(straightTableOf((i) => 1.01 * xOf(i >= 200 && i <= 200 + 20 * pauseSeconds ? 200 : i)), straightTableOf(xOf))).summary.dropped.held?.count;
   };
   assert.deepEqual([await droppedCountDuring(2, 0.4), await droppedCountDuring(2.2, 0.4), await droppedCountDuring(7, 0.0095), await droppedCountDuring(7, 0.0105)], [undefined, 44, undefined, 140]);
-  // Speeds of a log of commands also show that the robot moves.
+  // A log of commands shows by its speeds that the robot moves.
   const commandTable = ['t,v,omega', ...Array.from({ length: 400 }, (_, i) => `${i / 20},${i < 100 ? 0 : 0.4},0`)].join('\n');
   assert.equal((await readReference(frozenTable, commandTable)).summary.dropped.held?.count, 99);
 });
@@ -197,10 +201,10 @@ test('a frozen reference has breaks while the odometry moves on, and none while 
 test('a log that does not follow the other one names the correction that makes it follow', async () => {
   const exampleHeadings = Array.from({ length: 1200 }, (_, i) => 2 * Math.sin(i / 60) + Math.cos(i / 23) + i / 300);
   const pathPoints = [[0, 0]];
-  for (const [i, heading] of exampleHeadings.entries()) pathPoints.push([pathPoints[i][0] + Math.cos(heading) / 40, pathPoints[i][1] + Math.sin(heading) / 40]);
-  const tableWithChange = (/** @type {(row: number[]) => number[]} */ change) => poseTableOf(1200, (i) => change([i / 20, ...pathPoints[i], exampleHeadings[i]]).map((value) => Number(value.toFixed(6))));
+  for (const [i, stepHeading] of exampleHeadings.entries()) pathPoints.push([pathPoints[i][0] + Math.cos(stepHeading) / 40, pathPoints[i][1] + Math.sin(stepHeading) / 40]);
+  const tableWithChange = (/** @type {(row: number[]) => number[]} */ changeRow) => poseTableOf(1200, (i) => changeRow([i / 20, ...pathPoints[i], exampleHeadings[i]]).map((value) => Number(value.toFixed(6))));
   const distortRow = (/** @type {number[]} */ [t, x, y, yaw]) => [t + 0.2, 1.02 * x + 3, 1.02 * y, 1.01 * yaw];
-  const scaledBy = (/** @type {number} */ factor) => (/** @type {number[]} */ [t, x, y, yaw]) => [t, factor * x, factor * y, yaw];
+  const scaledBy = (/** @type {number} */ lengthFactor) => (/** @type {number[]} */ [t, x, y, yaw]) => [t, lengthFactor * x, lengthFactor * y, yaw];
   for (const [changeRow, expectedMessage, what, pair] of /** @type {[(row: number[]) => number[], RegExp, string?, string?][]} */ ([
     [([t, x, y, yaw]) => [t, x, -y, -yaw], /it turns left where \S+ turns right: /],
     [scaledBy(5), /: multiplied by 0\.196, its lengths match those of odom\.csv; multiply them\./],
@@ -211,18 +215,18 @@ test('a log that does not follow the other one names the correction that makes i
     assert.match(refusalError.message, /^truth\.csv: .*\. The motions then agree \(correlation (1\.00|0\.9\d)\)\.$/);
     assert.deepEqual([refusalError.ask?.what, refusalError.ask?.pair], [what, pair]);
   }
-  // A reference that is mounted backwards is not taken for a mirrored axis, even if the robot hardly turns.
+  // A reference that is mounted backwards must not count as a mirrored axis, even if the robot hardly turns.
   const drivesOfBackwardReference = await readDrivesOf({ 'odom.csv': poseTableOf(400, (i) => [i / 20, i / 40, 0, Math.sin(i / 9) / 9]), 'truth.csv': poseTableOf(400, (i) => [i / 20, i / 39, 0, Math.PI + Math.sin(i / 9) / 9]) });
   assert.equal(drivesOfBackwardReference.length, 1);
-  // Mirrored axes, swapped axes and compass headings, which are clockwise from north.
+  // The changed tables have mirrored axes, swapped axes, and compass headings, which are clockwise from north.
   const mirrorRows = /** @type {((row: number[]) => number[])[]} */ ([([t, x, y, yaw]) => [t, x, -y, yaw], ([t, x, y, yaw]) => [t, -x, y, yaw], ([t, x, y, yaw]) => [t, y, x, yaw], ([t, x, y, yaw]) => [t, x, y, Math.PI / 2 - yaw]]);
   for (const mirrorRow of mirrorRows) {
     const [mirroredTable, otherTable] = [tableWithChange((row) => mirrorRow(distortRow(row))), tableWithChange(distortRow)];
-    for (const [odometry, reference, file] of [[mirroredTable, otherTable, 'odom'], [otherTable, mirroredTable, 'truth'], [mirroredTable, mirroredTable, 'odom']]) {
-      assert.match(await catchRefusalSentence(readDrivesOf({ 'odom.csv': odometry, 'truth.csv': reference })), RegExp(`^${file}\\.csv: the headings turn the other way than the path; expected`));
+    for (const [odometry, reference, questionedLog] of [[mirroredTable, otherTable, 'odom'], [otherTable, mirroredTable, 'truth'], [mirroredTable, mirroredTable, 'odom']]) {
+      assert.match(await catchRefusalSentence(readDrivesOf({ 'odom.csv': odometry, 'truth.csv': reference })), RegExp(`^${questionedLog}\\.csv: the headings turn the other way than the path; expected`));
     }
   }
-  // The unit of a slow robot is not asked for when its log is read alone.
+  // If the log of a slow robot is read alone, no question about its unit is asked.
   const slowTable = (/** @type {number} */ factor) => tableWithChange(([t, x, y, yaw]) => [20 * t, factor * x, factor * y, yaw]);
   for (const [odometry, reference, file, pair] of /** @type {const} */ ([[1, 100, 'truth', 'm,cm'], [100, 1, 'odom', 'cm,m']])) {
     const { message, ask } = await catchRefusalError(readDrivesOf({ 'odom.csv': slowTable(odometry), 'truth.csv': slowTable(reference) }));

@@ -1,5 +1,5 @@
-// One drive in all formats of recordings, each written by the library of the format (tests/reference/logs/generate.py). Other inputs test
-// checks without which a wrong result would be given instead of an error.
+// One drive in all formats of recordings, each written by the library of the format (tests/reference/logs/generate.py). Damaged inputs test
+// checks that give an error instead of a wrong result.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
@@ -13,30 +13,30 @@ import { openRecordings } from '../../www/logs/open.ts';
 import { odometryMessageOf, recordingOf, transformMessageOf, type Message } from '../mcap.js';
 import { catchRefusalError, catchRefusalSentence } from './log-support.js';
 
-/** Compressed files by name. */
+/** Compressed files of the drive, by name. */
 const COMPRESSED_FILES: Record<string, string> = JSON.parse(readFileSync(new URL('../reference/logs/recordings.json', import.meta.url), 'utf8'));
 
-const decompressFile = (name: string) => gunzipSync(Buffer.from(COMPRESSED_FILES[name], 'base64'));
+const decompressFile = (fileName: string) => gunzipSync(Buffer.from(COMPRESSED_FILES[fileName], 'base64'));
 
-const createFile = (bytes: Uint8Array | string, name: string, path?: string): Source => Object.assign(new File([bytes as BlobPart], name), path ? { path } : {});
+const createFile = (fileContents: Uint8Array | string, fileName: string, folderPath?: string): Source => Object.assign(new File([fileContents as BlobPart], fileName), folderPath ? { path: folderPath } : {});
 
-/** Returns the files of a rosbag2 folder. In recordings.json the folder's name is the prefix of their names. */
+/** Returns the files of a rosbag2 folder. In recordings.json their names begin with the name of the folder. */
 const filesOfFolder = (name: string): Source[] =>
   Object.keys(COMPRESSED_FILES).filter((fileName) => fileName.startsWith(`${name}-metadata`) || fileName.startsWith(`${name}-${name}.`)).map((fileName) => {
     const nameInFolder = fileName.slice(name.length + 1);
     return createFile(decompressFile(fileName), nameInFolder, `${name}/${nameInFolder}`);
   });
 
-async function openRecording(...sources: Source[]): Promise<Recording> {
-  const recordings = await openRecordings(sources);
+async function openRecording(...fileSources: Source[]): Promise<Recording> {
+  const recordings = await openRecordings(fileSources);
   assert.equal(recordings.length, 1);
   return recordings[0];
 }
 
 const summaryTextOf = (log: Log) => summarySentences(log, english.found).join('. ');
 
-/** Odometry and reference of the drive, from its tables. */
-const tableLogPromises = (await openRecordings(['odometry.csv', 'reference.csv'].map((name) => createFile(decompressFile(name), name)))).map((table) => table.read([{ series: '' }]));
+/** Odometry and reference of the drive, read from its tables. */
+const tableLogPromises = (await openRecordings(['odometry.csv', 'reference.csv'].map((name) => createFile(decompressFile(name), name)))).map((tableName) => tableName.read([{ series: '' }]));
 const [[odometryLog], [referenceLog]] = await Promise.all(tableLogPromises);
 const BOTH_CHOICES: LogChoice[] = [{ series: '/odom' }, { series: '/truth' }];
 
@@ -44,8 +44,8 @@ const fileListOf = (name: string) => [createFile(decompressFile(name), name)];
 
 /** Metadata of a recording in two files. */
 const SPLIT_METADATA = 'rosbag2_bagfile_information:\n  version: 5\n  relative_file_paths: [split0.mcap, split1.mcap]\n';
-const filesOfSplitRecording = (...parts: number[]) => [
-  ...parts.map((part) => createFile(decompressFile(`split${part}-split${part}.mcap`), `split${part}.mcap`, `drive/split${part}.mcap`)),
+const filesOfSplitRecording = (...partNumbers: number[]) => [
+  ...partNumbers.map((partNumber) => createFile(decompressFile(`split${partNumber}-split${partNumber}.mcap`), `split${partNumber}.mcap`, `drive/split${partNumber}.mcap`)),
   createFile(SPLIT_METADATA, 'metadata.yaml', 'drive/metadata.yaml'),
 ];
 
@@ -71,53 +71,53 @@ for (const [name, sources] of Object.entries(SOURCES_BY_RECORDING)) {
   });
 }
 
-/** Returns the rows of the drive that a log has, and compares their poses. Headings may differ by the error. */
-function rowIndicesOf({ start, data }: Log, error = 0): number[] {
-  const [poses, allPoses] = [data, odometryLog.data] as Poses[];
-  const rowIndices = Array.from(poses.t, (t) => Math.round(20 * (start - odometryLog.start + t - allPoses.t[0])));
-  for (const coordinate of ['x', 'y'] as const) assert.deepEqual([...poses[coordinate]], rowIndices.map((row) => allPoses[coordinate][row]));
-  for (const [i, row] of rowIndices.entries()) assert.ok(Math.abs(poses.theta[i] - allPoses.theta[row]) <= error, `${poses.theta[i]}, not ${allPoses.theta[row]}`);
+/** Returns the rows of the drive that a log has, and compares their poses. Headings may differ by `headingTolerance`. */
+function rowIndicesOf({ start, data }: Log, headingTolerance = 0): number[] {
+  const [logPoses, allPoses] = [data, odometryLog.data] as Poses[];
+  const rowIndices = Array.from(logPoses.t, (t) => Math.round(20 * (start - odometryLog.start + t - allPoses.t[0])));
+  for (const coordinate of ['x', 'y'] as const) assert.deepEqual([...logPoses[coordinate]], rowIndices.map((rowIndex) => allPoses[coordinate][rowIndex]));
+  for (const [i, row] of rowIndices.entries()) assert.ok(Math.abs(logPoses.theta[i] - allPoses.theta[row]) <= headingTolerance, `${logPoses.theta[i]}, not ${allPoses.theta[row]}`);
   return rowIndices;
 }
 
-const integersFrom = (start: number, end: number) => Array.from({ length: end - start }, (_, i) => start + i);
+const integersFrom = (firstInteger: number, endInteger: number) => Array.from({ length: endInteger - firstInteger }, (_, i) => firstInteger + i);
 
 for (const name of ['types.bag', 'types.mcap']) {
   test(`${name}: poses and commands of all types`, async () => {
     const recording = await openRecording(createFile(decompressFile(name), name));
     const frames = { parent: 'odom', child: 'base_link' };
     const poses = await recording.read([...['/fused', '/vicon', '/pose2d'].map((series) => ({ series })), { series: '/tf', frames }]);
-    // Headings that are computed from quaternions are rounded to steps of 1e-12. Pose2D has its heading as it is.
+    // Headings that are computed from quaternions are rounded to steps of 1e-12. Pose2D stores the heading itself.
     for (const log of poses) assert.deepEqual(rowIndicesOf(log, log === poses[2] ? 0.5e-12 + Number.EPSILON : 0), integersFrom(0, 40), log.name);
-    // The commands have the same formulas as in tests/reference/logs/generate.py.
-    const roundCommand = (value: number) => Math.round(4096 * value) / 4096;
-    const commands = [integersFrom(0, 40).map((i) => roundCommand(0.5 + 0.2 * Math.sin(i / 9))), integersFrom(0, 40).map((i) => roundCommand(0.8 * Math.sin(i / 23)))];
+    // The expected commands have the same formulas as in tests/reference/logs/generate.py.
+    const roundCommand = (commandValue: number) => Math.round(4096 * commandValue) / 4096;
+    const expectedCommands = [integersFrom(0, 40).map((i) => roundCommand(0.5 + 0.2 * Math.sin(i / 9))), integersFrom(0, 40).map((i) => roundCommand(0.8 * Math.sin(i / 23)))];
     const logs = await recording.read(['/cmd_vel', '/cmd_stamped', '/cmd_fused'].map((series) => ({ series })));
-    for (const { data, name: topic } of logs) assert.deepEqual([[...(data as Commands).v], [...(data as Commands).omega]], commands, topic);
+    for (const { data, name: topic } of logs) assert.deepEqual([[...(data as Commands).v], [...(data as Commands).omega]], expectedCommands, topic);
     assert.equal(logs[0].summary.clock, 'log time');
-    // Joints only turn, and are no candidates. A frame that is fixed to the moving base is also a candidate.
+    // Joints only turn, and are no candidates for a reference. A frame that is fixed to the moving base is a candidate.
     const { frames: framePairs } = recording.series.find(({ name: topic }) => topic === '/tf') as Recording['series'][number];
     assert.deepEqual(framePairs?.map(({ parent, child }) => `${parent} → ${child}`), ['odom → base_link', 'odom → base_footprint']);
   });
 }
 
 test('a recording of which a file is missing is refused', async () => {
-  for (const [parts, missing] of [[[1], 'split0.mcap'], [[], 'split0.mcap, split1.mcap']] as const) {
-    assert.equal(await catchRefusalSentence(openRecordings(filesOfSplitRecording(...parts))), `drive/metadata.yaml: it describes a recording in ${missing}; give that file too, or the whole folder.`);
+  for (const [partNumbers, missingParts] of [[[1], 'split0.mcap'], [[], 'split0.mcap, split1.mcap']] as const) {
+    assert.equal(await catchRefusalSentence(openRecordings(filesOfSplitRecording(...partNumbers))), `drive/metadata.yaml: it describes a recording in ${missingParts}; give that file too, or the whole folder.`);
   }
   assert.match(await catchRefusalSentence(openRecordings([createFile(SPLIT_METADATA, 'metadata.yaml', '')])), /^metadata\.yaml: it describes/);
 });
 
-/** Reads the odometry of a file. */
+/** Reads the odometry of a file's contents. */
 const readOdometry = async (bytes: Uint8Array, name: string) => (await (await openRecording(createFile(bytes, name))).read([{ series: '/odom' }]))[0];
 
 /** Reads the odometry of a file in which some bytes are overwritten. */
-const readDamagedOdometry = (name: string, at: number) => readOdometry(decompressFile(name).fill(0xff, at, at + 40), name);
+const readDamagedOdometry = (name: string, damagePosition: number) => readOdometry(decompressFile(name).fill(0xff, damagePosition, damagePosition + 40), name);
 
-const findPositions = (bytes: Buffer, text: string) => Array.from(bytes.toString('latin1').matchAll(RegExp(text, 'g')), ({ index }) => index);
+const findPositions = (bytes: Buffer, searchText: string) => Array.from(bytes.toString('latin1').matchAll(RegExp(searchText, 'g')), ({ index }) => index);
 
-/** Returns a function that finds a position inside each chunk of a file: 60 bytes after a text in the header of the chunk. */
-const findPositionsInChunks = (field: string) => (bytes: Buffer) => findPositions(bytes, field).map((at) => at + 60);
+/** Returns a function that finds a position inside each chunk of a file. The position is 60 bytes after a text in the header of the chunk. */
+const findPositionsInChunks = (headerText: string) => (bytes: Buffer) => findPositions(bytes, headerText).map((at) => at + 60);
 
 /** Functions that find positions in the blocks with messages of the odometry. In an MCAP file, chunk indexes name the compression too. */
 const BLOCK_FINDERS: Record<string, (bytes: Buffer) => number[]> = {
@@ -130,8 +130,8 @@ for (const [name, findBlocks] of Object.entries(BLOCK_FINDERS)) {
     const rowsSoFar: number[] = [];
     for (const at of findBlocks(decompressFile(name))) {
       const log = await readDamagedOdometry(name, at);
-      const rows = rowIndicesOf(log);
-      const lostRows = integersFrom(0, 100).filter((row) => !rows.includes(row));
+      const keptRows = rowIndicesOf(log);
+      const lostRows = integersFrom(0, 100).filter((row) => !keptRows.includes(row));
       if (lostRows.length > 0) assert.match(summaryTextOf(log), /1 damaged block skipped \(.+\)$/);
       const truncatedLogPromise = readOdometry(decompressFile(name).subarray(0, at), name);
       if (rowsSoFar.length === 0) await catchRefusalError(truncatedLogPromise);
@@ -148,8 +148,8 @@ for (const [name, findBlocks] of Object.entries(BLOCK_FINDERS)) {
 
 test('a database whose transaction was never finished has the messages of all its pages', async () => {
   const bytes = decompressFile('sqlite-sqlite.db3');
-  const rootPage = integersFrom(0, bytes.length / 4096).map((page) => 4096 * page).find((at) => bytes[at] === 5) ?? 0;
-  // The number of pages and the root of the messages are those before the transaction: an empty page.
+  const rootPage = integersFrom(0, bytes.length / 4096).map((pageStart) => 4096 * pageStart).find((at) => bytes[at] === 5) ?? 0;
+  // The overwritten number of pages and root of the messages are those before the transaction: an empty page.
   bytes.writeUInt32BE(8, 28);
   bytes.fill(0, rootPage, rootPage + 5)[rootPage] = 13;
   const log = await readOdometry(bytes, 'run.db3');
@@ -159,7 +159,7 @@ test('a database whose transaction was never finished has the messages of all it
 
 test('a damaged message is dropped, and a file of damaged headers or compression is refused', async () => {
   const name = 'mcap-messages-mcap-messages.mcap';
-  // The file has frames of Zstandard, which contain messages of the odometry and the reference in turns.
+  // The file has Zstandard frames with messages of the odometry and the reference in turns.
   const log = await readDamagedOdometry(name, findPositions(decompressFile(name), '\\(\xb5/\xfd')[6] + 20);
   assert.deepEqual([rowIndicesOf(log), log.summary.dropped], [[...integersFrom(0, 3), ...integersFrom(4, 100)], { damaged: { count: 1, first: 4 } }]);
   const bagWithoutTopics = Buffer.from(decompressFile('none.bag').toString('latin1').replaceAll('topic=', 'topic-'), 'latin1');
@@ -169,17 +169,17 @@ test('a damaged message is dropped, and a file of damaged headers or compression
 
 test('LZ4 frames of another size are refused, and any damage to one with checksums', async () => {
   const bytes = decompressFile('lz4.mcap');
-  // The header of the first chunk contains the size of its records, a checksum, the compression, and the size of the frame.
+  // The header of the first chunk contains the size of its records, a checksum, the compression, and the size of the compressed frame.
   const namePosition = bytes.indexOf('lz4');
-  const [contentSize, frameSize] = [namePosition - 16, namePosition + 3].map((from) => Number(bytes.readBigUInt64LE(from)));
-  const frame = bytes.subarray(namePosition + 11, namePosition + 11 + frameSize);
-  const chunkRecords = await unlz4(frame, contentSize);
-  for (const wrongSize of [contentSize - 1, contentSize + 1]) await assert.rejects(unlz4(frame, wrongSize), RangeError);
-  // Checksums are added for the only block and for the contents.
+  const [contentSize, frameSize] = [namePosition - 16, namePosition + 3].map((sizePosition) => Number(bytes.readBigUInt64LE(sizePosition)));
+  const compressedFrame = bytes.subarray(namePosition + 11, namePosition + 11 + frameSize);
+  const chunkRecords = await unlz4(compressedFrame, contentSize);
+  for (const wrongSize of [contentSize - 1, contentSize + 1]) await assert.rejects(unlz4(compressedFrame, wrongSize), RangeError);
+  // Checksums of the only block and of the contents are added.
   const { h32Raw } = await xxhash();
   const checksumOf = (part: Uint8Array) => Buffer.from(Uint32Array.of(h32Raw(part)).buffer);
-  const blockStart = frame[4] & 0x08 ? 15 : 7;
-  const frameWithChecksums = Buffer.concat([frame.subarray(0, -4), checksumOf(frame.subarray(blockStart + 4, -4)), frame.subarray(-4), checksumOf(chunkRecords)]);
+  const blockStart = compressedFrame[4] & 0x08 ? 15 : 7;
+  const frameWithChecksums = Buffer.concat([compressedFrame.subarray(0, -4), checksumOf(compressedFrame.subarray(blockStart + 4, -4)), compressedFrame.subarray(-4), checksumOf(chunkRecords)]);
   frameWithChecksums[4] |= 0x14;
   assert.deepEqual(await unlz4(frameWithChecksums, contentSize), chunkRecords);
   for (let i = blockStart + 4; i < frameWithChecksums.length; i++) {
@@ -194,22 +194,22 @@ test('formats that are not read are refused with the cure, by their contents', a
     ['rosbag1', '#ROSBAG V1.2\n'], ['ulog', 'ULog\x01\x12\x35'], ['dataflash', '\xa3\x95\x80'], ['wal', '\x37\x7f\x06\x82'], ['zip', 'PK\x03\x04'],
     ['compressed', '\x1f\x8b\x08'], ['compressed', 'BZh9'], ['compressed', '\xfd7zXZ\0'], ['compressed', '\x04\x22\x4d\x18'], ['hdf5', '\x89HDF\r\n\x1a\n'], ['parquet', 'PAR1'],
   ];
-  for (const [format, magicText] of magicBytes) assert.equal(await catchRefusalSentence(openRecordings([createFile(Buffer.from(magicText, 'latin1'), 'run.mcap')])), `run.mcap: it is ${UNSUPPORTED_FORMATS[format]}`);
+  for (const [formatName, magicText] of magicBytes) assert.equal(await catchRefusalSentence(openRecordings([createFile(Buffer.from(magicText, 'latin1'), 'run.mcap')])), `run.mcap: it is ${UNSUPPORTED_FORMATS[formatName]}`);
   assert.deepEqual(new Set(magicBytes.map(([format]) => format)), new Set(Object.keys(UNSUPPORTED_FORMATS)));
 });
 
 test('a recording without one whole message is incomplete, and the tool that repairs it is named', async () => {
-  for (const [name, tool] of [['none.bag', 'rosbag reindex'], ['unindexed.mcap', 'mcap recover'], ['sqlite-sqlite.db3', 'sqlite3 FILE .recover | sqlite3 NEW.db3']]) {
+  for (const [name, repairCommand] of [['none.bag', 'rosbag reindex'], ['unindexed.mcap', 'mcap recover'], ['sqlite-sqlite.db3', 'sqlite3 FILE .recover | sqlite3 NEW.db3']]) {
     for (const byteCount of [20, 200]) {
       const message = await catchRefusalSentence(openRecordings([createFile(decompressFile(name).slice(0, byteCount), name)]));
-      assert.ok(message.startsWith(`${name}: it is damaged or incomplete (`) && message.includes(`“${tool}”`), message);
+      assert.ok(message.startsWith(`${name}: it is damaged or incomplete (`) && message.includes(`“${repairCommand}”`), message);
     }
   }
 });
 
 test('files that are no recording are refused', async () => {
   const emptyDatabase = Uint8Array.from({ length: 4096 }, (_, i) => 'SQLite format 3\0\x10'.charCodeAt(i) || 0);
-  // The first page is a leaf without tables.
+  // The first page of the database is a leaf without tables.
   emptyDatabase[100] = 13;
   assert.match(await catchRefusalSentence(openRecordings([createFile(emptyDatabase, 'run.db3')])), /without the tables “topics” and “messages” of rosbag2; expected/);
   assert.match(await catchRefusalSentence(openRecordings([createFile('t,x,y,yaw\n', 'split0.mcap', 'drive/split0.mcap'), ...filesOfSplitRecording(1)])), /^split0\.mcap: it is listed in the metadata\.yaml of a recording, and is none;/);
@@ -223,7 +223,7 @@ const TF_TYPE = 'tf2_msgs/msg/TFMessage';
 const timeAt = (i: number) => 1_700_000_000 + i / 20;
 const tfMessageAt = (i: number, ...transforms: unknown[]): Message => ({ topic: '/tf', type: TF_TYPE, t: timeAt(i), message: { transforms } });
 const stepCount = 40;
-const mapSteps = <T>(make: (i: number) => T): T[] => Array.from({ length: stepCount }, (_, i) => make(i));
+const mapSteps = <T>(makeItem: (i: number) => T): T[] => Array.from({ length: stepCount }, (_, i) => makeItem(i));
 const readLogsOf = async (messages: Message[], ...choices: LogChoice[]) => (await openRecording(createFile(await recordingOf(messages), 'run.mcap'))).read(choices);
 const BASE_CHOICE = { series: '/tf', frames: { parent: 'odom', child: 'base_link' } };
 const movingTransformAt = (i: number) => transformMessageOf(timeAt(i), 'odom', 'base_footprint', i / 50, 0, 0);

@@ -22,30 +22,30 @@ const ODOMETRY_TYPE = 'nav_msgs/msg/Odometry';
 /** Returns the messages of a drive along an arc. @returns {Message[]} */
 function createDriveMessages() {
   /** @type {Message[]} */
-  const messages = [];
+  const driveMessages = [];
   for (let i = 0; i < MESSAGE_COUNT; i++) {
-    // Messages are recorded a little after their stamps.
+    // Messages are recorded a little later than their stamps.
     const [t, recordTime] = [timeOf(i), timeOf(i) + 0.01];
     const [x, y, theta] = [i / 100, i / 200, i / 50];
-    const add = (/** @type {string} */ topic, /** @type {string} */ type, /** @type {any} */ message) => messages.push({ topic, type, t: recordTime, message });
-    if (i === MESSAGE_COUNT - 1) add('/tf_static', TF_TYPE, { transforms: [transformMessageOf(t, '/base_footprint', 'base_link', 0.5, 0, 0)] });
-    if (i % 5 === 0) add('/tf', TF_TYPE, { transforms: [transformMessageOf(t + 1, 'map', 'odom', 1, 2, Math.PI / 2)] });
-    add('/tf', TF_TYPE, { transforms: [transformMessageOf(t, 'odom', 'base_footprint', x, y, theta), transformMessageOf(t, 'base_link', 'wheel', 0, 0, 9 * theta)] });
-    add('/odom', ODOMETRY_TYPE, odometryMessageOf(t, x, y, theta));
-    add('/mocap/pose', 'geometry_msgs/msg/PoseStamped', { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(x, y, theta) });
-    add('/cmd_vel', 'geometry_msgs/msg/Twist', twistOf(0.5, x));
-    add('/chatter', 'std_msgs/msg/String', { data: 'hello '.repeat(20) });
+    const addMessage = (/** @type {string} */ topic, /** @type {string} */ type, /** @type {any} */ message) => driveMessages.push({ topic, type, t: recordTime, message });
+    if (i === MESSAGE_COUNT - 1) addMessage('/tf_static', TF_TYPE, { transforms: [transformMessageOf(t, '/base_footprint', 'base_link', 0.5, 0, 0)] });
+    if (i % 5 === 0) addMessage('/tf', TF_TYPE, { transforms: [transformMessageOf(t + 1, 'map', 'odom', 1, 2, Math.PI / 2)] });
+    addMessage('/tf', TF_TYPE, { transforms: [transformMessageOf(t, 'odom', 'base_footprint', x, y, theta), transformMessageOf(t, 'base_link', 'wheel', 0, 0, 9 * theta)] });
+    addMessage('/odom', ODOMETRY_TYPE, odometryMessageOf(t, x, y, theta));
+    addMessage('/mocap/pose', 'geometry_msgs/msg/PoseStamped', { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(x, y, theta) });
+    addMessage('/cmd_vel', 'geometry_msgs/msg/Twist', twistOf(0.5, x));
+    addMessage('/chatter', 'std_msgs/msg/String', { data: 'hello '.repeat(20) });
   }
-  return messages;
+  return driveMessages;
 }
 
-/** Returns messages of odometry along x. @param {number} count @param {(i: number) => any} [message] */
-const createOdometryMessages = (count, message = (i) => odometryMessageOf(timeOf(i), i, 0, 0)) => Array.from({ length: count }, (_, i) => ({ topic: '/odom', type: ODOMETRY_TYPE, t: timeOf(i), message: message(i) }));
+/** Returns messages of odometry along x. @param {number} messageCount @param {(i: number) => any} [messageAt] */
+const createOdometryMessages = (messageCount, messageAt = (i) => odometryMessageOf(timeOf(i), i, 0, 0)) => Array.from({ length: messageCount }, (_, i) => ({ topic: '/odom', type: ODOMETRY_TYPE, t: timeOf(i), message: messageAt(i) }));
 
-const mcapFileOf = (/** @type {Uint8Array<ArrayBuffer>} */ bytes) => new File([bytes], 'run.mcap');
+const mcapFileOf = (/** @type {Uint8Array<ArrayBuffer>} */ mcapBytes) => new File([mcapBytes], 'run.mcap');
 
-const assertAllClose = (/** @type {ArrayLike<number>} */ values, /** @type {(i: number) => number} */ expected) => {
-  for (let i = 0; i < values.length; i++) assert.ok(Math.abs(values[i] - expected(i)) < 1e-9, `${i}: ${values[i]}, not ${expected(i)}`);
+const assertAllClose = (/** @type {ArrayLike<number>} */ actualValues, /** @type {(i: number) => number} */ expectedAt) => {
+  for (let i = 0; i < actualValues.length; i++) assert.ok(Math.abs(actualValues[i] - expectedAt(i)) < 1e-9, `${i}: ${actualValues[i]}, not ${expectedAt(i)}`);
 };
 
 test('topics are listed, and topics and chains of frames are read in one pass', async () => {
@@ -62,8 +62,8 @@ test('topics are listed, and topics and chains of frames are read in one pass', 
   assert.equal(recording.series[3].type, ODOMETRY_TYPE);
 
   const logs = await recording.read([
-    ...['/odom', '/cmd_vel'].map((series) => ({ series })),
-    ...[['map', '/base_link'], ['odom', 'base_footprint']].map(([parent, child]) => ({ series: '/tf', frames: { parent, child } })),
+    ...['/odom', '/cmd_vel'].map((seriesName) => ({ series: seriesName })),
+    ...[['map', '/base_link'], ['odom', 'base_footprint']].map(([parentFrame, childFrame]) => ({ series: '/tf', frames: { parent: parentFrame, child: childFrame } })),
   ]);
   for (const log of logs) assert.deepEqual([log.start, log.data.t.length, log.summary.notes], [START_TIME, MESSAGE_COUNT, []], log.name);
   assert.deepEqual(await readLog(mcapFile, { series: '/odom' }), logs[0]);
@@ -71,7 +71,7 @@ test('topics are listed, and topics and chains of frames are read in one pass', 
   assertAllClose(odometryData.t, (i) => i / 20);
   // Messages of a type without a stamp have the time of recording.
   assertAllClose(commandData.t, (i) => i / 20 + 0.01);
-  // The chain has the drifting odom frame and a static transform, which is recorded last. base_link is half a metre ahead.
+  // The chain has the drifting odom frame and a static transform, which is recorded last. The frame base_link is half a metre ahead.
   assertAllClose(mapToBase.t, (i) => i / 20);
   assertAllClose(mapToBase.x, (i) => 1 - i / 200 - 0.5 * Math.sin(i / 50));
   assertAllClose(mapToBase.y, (i) => 2 + i / 100 + 0.5 * Math.cos(i / 50));
@@ -100,7 +100,7 @@ test('stamps that begin at 0 are used; messages without stamps have the times of
   };
   const simulatedLog = await readLogWithStamps((i) => i / 10);
   assert.deepEqual([simulatedLog.start, simulatedLog.summary.rows, simulatedLog.data.t[0], simulatedLog.data.t[99]], [0, 100, 0, 9.9]);
-  // Most messages have no stamp.
+  // Most of these messages have no stamp.
   const unstampedLog = await readLogWithStamps((i) => (i < 48 ? i : 0));
   assert.deepEqual([unstampedLog.start, unstampedLog.data.t.length, unstampedLog.data.t[20]], [1_700_000_000, 100, 1]);
   assert.match(unstampedLog.sentences, /times: when messages were recorded/);
@@ -142,12 +142,12 @@ test('topics and frames that cannot be read are refused', async () => {
   const poseTypes = 'nav_msgs/Odometry, geometry_msgs/PoseStamped, PoseWithCovarianceStamped, TransformStamped, Pose, Pose2D or tf2_msgs/TFMessage';
   const commandTypes = 'geometry_msgs/Twist, TwistStamped or TwistWithCovarianceStamped';
   const mcapFile = mcapFileOf(await recordingOf(createDriveMessages()));
-  for (const [choice, expectedError] of /** @type {const} */ ([
+  for (const [logChoice, expectedError] of /** @type {const} */ ([
     [{ series: '/chatter' }, `run.mcap, topic /chatter: its type is “std_msgs/msg/String”; expected is ${poseTypes}, or ${commandTypes} (encoded as cdr or ros1).`],
     [{ series: '/cmd_vel', kind: 'poses' }, `run.mcap, topic /cmd_vel: its type is “geometry_msgs/msg/Twist”; expected is ${poseTypes} (encoded as cdr or ros1).`],
     [{ series: '/odom', frames: { parent: 'map', child: 'odom' } }, 'run.mcap, topic /odom: its type is “nav_msgs/msg/Odometry”; expected is tf2_msgs/TFMessage, which has frames (encoded as cdr or ros1).'],
     [{ series: '/tf', frames: { parent: 'map', child: 'laser' } }, 'run.mcap, topic /tf: no transforms lead along map → laser; expected are frames that are connected, of base_footprint → base_link, map → odom, odom → base_footprint, base_link → wheel.'],
-  ])) assert.equal(await catchRefusalSentence(readLog(mcapFile, choice)), expectedError);
+  ])) assert.equal(await catchRefusalSentence(readLog(mcapFile, logChoice)), expectedError);
 });
 
 test('a transform that never changes holds from the beginning, and a moving one from its first message', async () => {
@@ -160,12 +160,12 @@ test('a transform that never changes holds from the beginning, and a moving one 
     return [data.t.length, start + data.t[0], /** @type {any} */ (data).x[0], summary.rows];
   };
   assert.deepEqual(await readWith(() => 0.5), [60, 0, 0.5, 60]);
-  // A static transform that is published again with another value does not set the times of the poses.
+  // A static transform may be published again with another value. The times of this transform are not times of poses.
   const staticTransformMessages = [0, 3].map((t) => ({ topic: '/tf_static', type: TF_TYPE, t, message: { transforms: [transformMessageOf(t, 'base', 'laser', t, 0, 0)] } }));
-  const recalibratedFile = mcapFileOf(await recordingOf([...messagesWith(() => 0.5), ...staticTransformMessages].sort((one, other) => one.t - other.t)));
+  const recalibratedFile = mcapFileOf(await recordingOf([...messagesWith(() => 0.5), ...staticTransformMessages].sort((messageA, messageB) => messageA.t - messageB.t)));
   const { data: { t } } = await readLog(recalibratedFile, { series: '/tf', frames: { parent: 'world', child: 'laser' } });
   assert.equal(t.length, 60);
-  // The pose is known from 3 s on, at the times of the transform to the robot's own frame.
+  // The pose is known from 3 s on. Its times are those of the transform to the robot's own frame.
   assert.deepEqual(await readWith((i) => i / 100), [10, 3, 1.8, 10]);
 });
 
@@ -180,14 +180,14 @@ test('positions without a heading are refused, by their type', async () => {
 });
 
 test('other recordings are refused', async () => {
-  const refusalOf = async (/** @type {Parameters<typeof recordingOf>[1]} */ options, messages = createDriveMessages()) => catchRefusalSentence(readLog(mcapFileOf(await recordingOf(messages, options)), { series: '/odom' }));
+  const refusalOf = async (/** @type {Parameters<typeof recordingOf>[1]} */ recordingOptions, messages = createDriveMessages()) => catchRefusalSentence(readLog(mcapFileOf(await recordingOf(messages, recordingOptions)), { series: '/odom' }));
   assert.equal(await refusalOf({ compression: 'odd' }), 'run.mcap, topic /odom: it is damaged or incomplete (compression by snappy, not by zstd or lz4); copy it again from the robot, or try “mcap recover”.');
   assert.match(await refusalOf({ encoding: 'json' }), /^run\.mcap, topic \/odom: its type is “nav_msgs\/msg\/Odometry as json”; /);
   const [jsonRecording] = await openRecordings([mcapFileOf(await recordingOf(createOdometryMessages(3), { encoding: 'json' }))]);
   assert.match(await catchRefusalSentence((async () => planDrives([jsonRecording]))()), /^run\.mcap: the topics are \/odom \(Odometry as json\); /);
   assert.equal(await refusalOf({}, []), 'run.mcap: 0 of 0 rows can be used; expected are at least 2.');
   assert.equal(await refusalOf({}, createDriveMessages().slice(0, 6)), 'run.mcap, topic /odom: 1 of 1 rows can be used; expected are at least 2.');
-  // These messages claim to be odometry, and are too short.
+  // The type of these messages is odometry, and their contents are too short.
   const shortMessages = createOdometryMessages(3, () => ({ data: 'x' })).map((message) => ({ ...message, type: 'std_msgs/msg/String', schema: ODOMETRY_TYPE }));
   assert.match(await refusalOf({}, shortMessages), /^run\.mcap, topic \/odom, message 1: it cannot be read \(.+\); expected is one of the topic's type\.$/);
 });
@@ -211,12 +211,12 @@ test('chunks with another checksum or size than they state are not read', async 
 });
 
 test('a file that is read in pieces has its bytes, one after the other, across pieces and after gaps', async () => {
-  const random = randomGenerator(7);
-  const bytes = Buffer.alloc(60e6, Buffer.from(Array.from({ length: 9973 }, () => random() * 256)));
+  const nextRandom = randomGenerator(7);
+  const bytes = Buffer.alloc(60e6, Buffer.from(Array.from({ length: 9973 }, () => nextRandom() * 256)));
   const readRange = readAhead(new File([bytes], 'run.mcap'));
   for (let start = 0; start < bytes.length; ) {
-    const end = Math.min(bytes.length, start + Math.floor(random() ** 8 * 3e7));
-    assert.deepEqual([end, bytes.compare(await readRange(start, end), 0, end - start, start, end)], [end, 0]);
-    start = random() < 0.05 ? Math.min(bytes.length, end + 3e6) : end;
+    const chunkEnd = Math.min(bytes.length, start + Math.floor(nextRandom() ** 8 * 3e7));
+    assert.deepEqual([chunkEnd, bytes.compare(await readRange(start, chunkEnd), 0, chunkEnd - start, start, chunkEnd)], [chunkEnd, 0]);
+    start = nextRandom() < 0.05 ? Math.min(bytes.length, chunkEnd + 3e6) : chunkEnd;
   }
 });

@@ -1,4 +1,4 @@
-// Logs as text tables: dropped rows, guessed units, and refused tables.
+// Logs as text tables of unusual kinds: dropped rows, guessed units, and refused tables.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
@@ -7,30 +7,30 @@ import { german } from '../../www/logs/de.ts';
 import { Rows } from '../../www/logs/rows.ts';
 import { catchRefusalError, catchRefusalSentence } from './log-support.js';
 
-/** Reads one log of a table. @param {string | Uint8Array<ArrayBuffer>} text @param {import('../../www/logs/log.ts').OpenOptions} [options] @param {string} [series] */
-async function readTable(text, options, series = '') {
-  const [recording] = await openRecordings([new File([text], 'run.csv')], options);
-  const [log] = await recording.read([{ series }]);
+/** Reads one log of a table. @param {string | Uint8Array<ArrayBuffer>} tableText @param {import('../../www/logs/log.ts').OpenOptions} [openOptions] @param {string} [seriesName] */
+async function readTable(tableText, openOptions, seriesName = '') {
+  const [recording] = await openRecordings([new File([tableText], 'run.csv')], openOptions);
+  const [log] = await recording.read([{ series: seriesName }]);
   return { ...log, data: /** @type {any} */ (log.data) };
 }
 
 /** Rows of a drive on a circle with a radius of 1 m, at 0.5 m/s, with 20 rows a second: time, x, y, heading. */
 const CIRCLE_ROWS = Array.from({ length: 800 }, (_, i) => [i / 20, Math.sin(i / 40), -Math.cos(i / 40), Math.atan2(Math.sin(i / 40), Math.cos(i / 40))]);
 
-/** Returns a table of the drive on the circle. @param {(row: number[], i: number) => (string | number)[]} [cells] of each row @param {string} [header] */
-const circleTableOf = (cells = (row) => row, header = 't,x,y,yaw') => [header, ...CIRCLE_ROWS.map((row, i) => cells(row, i).join(','))].join('\n');
+/** Returns a table of the drive on the circle. @param {(row: number[], i: number) => (string | number)[]} [cellsOf] of each row @param {string} [headerLine] */
+const circleTableOf = (cellsOf = (row) => row, headerLine = 't,x,y,yaw') => [headerLine, ...CIRCLE_ROWS.map((row, i) => cellsOf(row, i).join(','))].join('\n');
 
-/** Returns a table of a robot that drives straight on, with a row at each time. @param {(number | string)[]} times */
-const straightTableAt = (times) => ['t,x,y,yaw', ...times.map((t, i) => `${t},${i / 50},0,0`)].join('\n');
-const timesFrom = (/** @type {number} */ count, from = 0) => Array.from({ length: count }, (_, i) => from + i / 10);
+/** Returns a table of a robot that drives straight on, with a row at each time. @param {(number | string)[]} rowTimes */
+const straightTableAt = (rowTimes) => ['t,x,y,yaw', ...rowTimes.map((t, i) => `${t},${i / 50},0,0`)].join('\n');
+const timesFrom = (/** @type {number} */ timeCount, startTime = 0) => Array.from({ length: timeCount }, (_, i) => startTime + i / 10);
 
 test('times of the present keep their microseconds, in every unit', async () => {
   const times = ['1699999999999999000', '1700000000000001000'];
-  for (const [unit, digits] of Object.entries({ ns: 0, us: 3, ms: 6, s: 9 })) {
-    const [one, other] = times.map((time) => (digits ? `${time.slice(0, -digits)}.${time.slice(-digits)}` : time));
-    for (const header of ['t', `t_${unit}`]) {
-      const { data, start, summary } = await readTable(`${header},x,y,yaw\n${one},0,0,0\n${other},0,0,0`);
-      assert.deepEqual([start, summary.units.time], [1_699_999_999, { unit, by: header === 't' ? 'size' : 'name' }]);
+  for (const [timeUnit, decimalDigits] of Object.entries({ ns: 0, us: 3, ms: 6, s: 9 })) {
+    const [firstTime, secondTime] = times.map((time) => (decimalDigits ? `${time.slice(0, -decimalDigits)}.${time.slice(-decimalDigits)}` : time));
+    for (const header of ['t', `t_${timeUnit}`]) {
+      const { data, start, summary } = await readTable(`${header},x,y,yaw\n${firstTime},0,0,0\n${secondTime},0,0,0`);
+      assert.deepEqual([start, summary.units.time], [1_699_999_999, { unit: timeUnit, by: header === 't' ? 'size' : 'name' }]);
       assert.deepEqual([...data.t].map((t) => Math.round(t * 1e6)), [999_999, 1_000_001]);
     }
   }
@@ -38,7 +38,7 @@ test('times of the present keep their microseconds, in every unit', async () => 
 
 test('numbers are the nearest doubles', async () => {
   const numberTexts = ['0.1', '-12345.6789012345', '1e-7', '123456789.012345678', '3.141592653589793238462643', '-0', '.5', '7.', '+4.', '2.2250738585072014e-308'];
-  const { x } = (await readTable(['t,x,y,yaw', ...numberTexts.map((value, i) => `${i},${value},0,0`)].join('\n'), { lengthUnit: 'm' })).data;
+  const { x } = (await readTable(['t,x,y,yaw', ...numberTexts.map((numberText, i) => `${i},${numberText},0,0`)].join('\n'), { lengthUnit: 'm' })).data;
   assert.deepEqual([...x], numberTexts.map(Number));
 });
 
@@ -57,38 +57,38 @@ test('late rows are sorted; before and after a time far from all others the path
   assert.deepEqual([data.x[20], summary.notes], [21 / 50, [{ name: 'sorted', values: [2] }]]);
   const swappedLog = await readTable(straightTableAt([...timesFrom(50, 100), ...timesFrom(50)]));
   assert.deepEqual([swappedLog.data.t.length, swappedLog.data.t[0], swappedLog.data.x[0]], [100, 0, 1]);
-  for (const [strayTime, order] of /** @type {[number, number[]][]} */ ([[1e6, [...times.keys()].toSpliced(20, 1).concat(20)], [-1e6, [20, ...[...times.keys()].toSpliced(20, 1)]]])) {
+  for (const [strayTime, expectedOrder] of /** @type {[number, number[]][]} */ ([[1e6, [...times.keys()].toSpliced(20, 1).concat(20)], [-1e6, [20, ...[...times.keys()].toSpliced(20, 1)]]])) {
     const strayLog = await readTable(straightTableAt(times.with(20, strayTime)));
-    assert.deepEqual([[...strayLog.data.x], strayLog.summary.gaps.count], [order.map((i) => i / 50), 1]);
+    assert.deepEqual([[...strayLog.data.x], strayLog.summary.gaps.count], [expectedOrder.map((i) => i / 50), 1]);
   }
 });
 
 test('a log that is out of order everywhere is sorted, and one of two clocks in turns is not taken for it', async () => {
-  const [header, ...rows] = circleTableOf().split('\n');
-  const rowOrder = rows.map((_, i) => (i * 301) % rows.length);
-  for (const shuffleRange of [8, rows.length]) {
-    const shuffledIndices = rows.map((_, i) => i).toSorted((one, other) => one + (rowOrder[one] % shuffleRange) - other - (rowOrder[other] % shuffleRange));
-    const { data, summary } = await readTable([header, ...shuffledIndices.map((i) => rows[i])].join('\n'));
-    assert.deepEqual([[...data.x], [...data.breaks], summary.used], [CIRCLE_ROWS.map(([, x]) => x), [], rows.length]);
-    assert.ok(summary.notes[0].name === 'sorted' && Number(summary.notes[0].values[0]) > rows.length / 8, JSON.stringify(summary.notes));
+  const [header, ...rowLines] = circleTableOf().split('\n');
+  const rowOrder = rowLines.map((_, i) => (i * 301) % rowLines.length);
+  for (const shuffleRange of [8, rowLines.length]) {
+    const shuffledIndices = rowLines.map((_, i) => i).toSorted((one, other) => one + (rowOrder[one] % shuffleRange) - other - (rowOrder[other] % shuffleRange));
+    const { data, summary } = await readTable([header, ...shuffledIndices.map((i) => rowLines[i])].join('\n'));
+    assert.deepEqual([[...data.x], [...data.breaks], summary.used], [CIRCLE_ROWS.map(([, x]) => x), [], rowLines.length]);
+    assert.ok(summary.notes[0].name === 'sorted' && Number(summary.notes[0].values[0]) > rowLines.length / 8, JSON.stringify(summary.notes));
   }
-  // Stamps that vary by a fifth of a step, and every third row late.
-  const jitteredRows = CIRCLE_ROWS.map(([t, ...pose], i) => [t + ((rowOrder[i] % 21) - 10) / 1000, ...pose]);
+  // Stamps vary by a fifth of a step, and every third row comes late.
+  const jitteredRows = CIRCLE_ROWS.map(([t, ...poseCells], i) => [t + ((rowOrder[i] % 21) - 10) / 1000, ...poseCells]);
   const lateTable = jitteredRows.map((_, i) => i).toSorted((one, other) => one + (one % 3 ? 0 : 3.5) - other - (other % 3 ? 0 : 3.5)).map((i) => jitteredRows[i].join(','));
   assert.deepEqual([...(await readTable([header, ...lateTable].join('\n'))).data.x], CIRCLE_ROWS.map(([, x]) => x));
-  const rowsOfTwoClocks = rows.flatMap((row, i) => [row, [CIRCLE_ROWS[i][0] + 5.02, ...CIRCLE_ROWS[rows.length - 1 - i].slice(1)].join(',')]);
+  const rowsOfTwoClocks = rowLines.flatMap((row, i) => [row, [CIRCLE_ROWS[i][0] + 5.02, ...CIRCLE_ROWS[rowLines.length - 1 - i].slice(1)].join(',')]);
   assert.match(await catchRefusalSentence(readTable([header, ...rowsOfTwoClocks].join('\n'))), /^run\.csv, line 202: times go back by 4\.97 s and repeat those before;/);
 });
 
 test('a clock that was set back is refused', async () => {
-  for (const [firstTimes, nextTimes, line, seconds] of /** @type {[number[], number[], number, string][]} */ ([
+  for (const [firstTimes, nextTimes, expectedLine, expectedSeconds] of /** @type {[number[], number[], number, string][]} */ ([
     [timesFrom(200), timesFrom(100, 15), 202, '4\\.90'], [timesFrom(200), timesFrom(100, 15.04), 202, '4\\.86'], [timesFrom(60), timesFrom(140, 4.03), 62, '1\\.87'],
     [timesFrom(900), timesFrom(100, 89.6), 902, '0\\.300'],
   ])) {
     const refusalSentence = await catchRefusalSentence(readTable(straightTableAt([...firstTimes, ...nextTimes])));
-    assert.match(refusalSentence, RegExp(`^run\\.csv, line ${line}: times go back by ${seconds} s and repeat those before; split the file there, give one recording only, or write fractions with their leading zeros .*\\.$`));
+    assert.match(refusalSentence, RegExp(`^run\\.csv, line ${expectedLine}: times go back by ${expectedSeconds} s and repeat those before; split the file there, give one recording only, or write fractions with their leading zeros .*\\.$`));
   }
-  // The rows of one recording that is given twice are used once.
+  // If one recording is given twice, its rows are used once.
   const twiceGiven = straightTableAt(timesFrom(50));
   assert.equal((await readTable(twiceGiven + twiceGiven.slice(twiceGiven.indexOf('\n')))).data.t.length, 50);
 });
@@ -116,7 +116,7 @@ test('poses that a table repeats at the rate of another log are taken once', asy
   const { data, summary } = await readTable(circleTableOf((row, i) => [row[0], ...CIRCLE_ROWS[i - (i % 5)].slice(1)]));
   assert.deepEqual([data.t.length, data.t[1], data.x[1]], [160, 0.25, CIRCLE_ROWS[5][1]]);
   assert.deepEqual([summary.dropped, [...data.breaks]], [{ repeated: { count: 640, first: 3 } }, []]);
-  // A localizer that publishes its last pose all the time, until the robot has moved far enough.
+  // The localizer publishes its last pose again and again until the robot has moved far enough.
   const poseOfRow = Array.from({ length: 700 }, (_, i) => Math.floor(i / 10) * 10 - (i % 70 >= 10 && i % 70 < 16 ? 10 : 0));
   const republishedLog = await readTable(circleTableOf((row, i) => [row[0], ...CIRCLE_ROWS[poseOfRow[i] ?? 690].slice(1)]));
   const firstRows = poseOfRow.flatMap((pose, i) => (pose === poseOfRow[i - 1] ? [] : [i / 20]));
@@ -125,7 +125,7 @@ test('poses that a table repeats at the rate of another log are taken once', asy
 });
 
 test('pauses and jumps are found, and a heading that wraps is no jump', async () => {
-  // Five median steps are not a pause, and eight times the usual speed is not a jump.
+  // Five median steps are not long enough for a pause. Eight times the usual speed is not fast enough for a jump.
   const delayAt = (/** @type {number} */ i) => (i >= 50 ? 0.19 : 0) + (i >= 60 ? 0.21 : 0) + (i >= 100 ? 3 : 0);
   const offsetAt = (/** @type {number} */ i) => (i >= 150 ? 0.34 : 0) + (i >= 200 ? 0.36 : 0);
   const tableRows = Array.from({ length: 400 }, (_, i) => [i / 20 + delayAt(i), i / 20 + offsetAt(i), 0, i / 500 + (i >= 300 ? 1.5 : 0)].join(','));
@@ -138,20 +138,21 @@ test('pauses and jumps are found, and a heading that wraps is no jump', async ()
 
 test('ordinary logs are neither of two paths nor in another unit', async () => {
   const wrapAngle = (/** @type {number} */ angle) => Math.atan2(Math.sin(angle), Math.cos(angle));
-  for (const table of [
-    // Few rows a round, vibrations, a single pose elsewhere, a robot that reverses on a curve, a car, and a unit in the name.
+  for (const tableText of [
+    // Tables with few rows a round, vibrations, a single pose elsewhere, a robot that reverses on a curve, a car, and a unit in the column
+    // name.
     circleTableOf((_, i) => [2 * i, Math.sin(i), -Math.cos(i), wrapAngle(i)]),
     circleTableOf(([t, , , yaw], i) => [t, (i % 2) / 25, 0, yaw]),
     circleTableOf(([t], i) => (i < 10 ? [t, i === 4 ? 5 : 0, 0, 0] : [])),
     circleTableOf(([t], i) => [t, ...CIRCLE_ROWS[Math.min(i, 799 - i)].slice(1)]),
     circleTableOf(([t]) => [t, 40 * Math.sin(0.3 * t), 0, 0]),
     circleTableOf(([t]) => [t, 15 * Math.sin(t), 0, 0], 't,x_m,y_m,yaw'),
-  ]) assert.equal((await readTable(table)).summary.units.length.unit, 'm');
+  ]) assert.equal((await readTable(tableText)).summary.units.length.unit, 'm');
 });
 
 test('units are guessed from two signs', async () => {
   const toDegrees = (/** @type {number} */ yaw) => (yaw * 180) / Math.PI;
-  /** Tables and their units of time and angle. @type {[string, string, string][]} */
+  /** Tables with the units of time and angle that are expected. @type {[string, string, string][]} */
   const unitCases = [
     [circleTableOf(), 's', 'rad'],
     [circleTableOf(([t, x, y], i) => [t, x, y, i / 40]), 's', 'rad'],
@@ -171,7 +172,11 @@ test('units are guessed from two signs', async () => {
   }
 });
 
-/** Tables that lead to a question about a unit. Each has the option that answers it, and a field of row 9 with its value after the answer. @type {[string, string, RegExp, import('../../www/logs/log.ts').OpenOptions, [string, number]][]} */
+/**
+ * Tables that lead to a question about a unit. Each table has the option that answers the question, and a field of row 9 with its value
+ * after the answer.
+ * @type {[string, string, RegExp, import('../../www/logs/log.ts').OpenOptions, [string, number]][]}
+ */
 const UNIT_QUESTIONS = [
   ['millimetres', circleTableOf(([t, x, y, yaw]) => [t, 1000 * x, 1000 * y, yaw]), /in m, the robot would drive at \d+ m\/s; .*: mm or cm or m or in or ft\.$/, { lengthUnit: 'mm' }, ['x', CIRCLE_ROWS[9][1]]],
   ['centimetres of a slow robot', circleTableOf(([t]) => [t, 15 * Math.sin(t), 0, 0]), /in m, the robot would drive at 1\d\.\d m\/s; .*: cm or m or mm or in or ft\.$/, { lengthUnit: 'cm' }, ['x', 0.15 * Math.sin(0.45)]],
@@ -184,18 +189,18 @@ const UNIT_QUESTIONS = [
 
 test('times in minutes or hours are refused by their name', async () => {
   for (const [header, unit] of [['t_min', 'min'], ['Time [hours]', 'h']]) assert.match(await catchRefusalSentence(readTable(circleTableOf(undefined, `${header},x,y,yaw`))), new RegExp(`^run\\.csv: the unit ${unit} of a column is not known`));
-  assert.equal((await readTable(circleTableOf(([t, ...rest]) => [`0:00:${t.toFixed(3).padStart(6, '0')}`, ...rest], 'Time [HH:MM:SS],x,y,yaw'))).summary.units.time.by, 'date');
+  assert.equal((await readTable(circleTableOf(([t, ...poseCells]) => [`0:00:${t.toFixed(3).padStart(6, '0')}`, ...poseCells], 'Time [HH:MM:SS],x,y,yaw'))).summary.units.time.by, 'date');
 });
 
 for (const [name, tableText, expectedMessage, options, [fieldName, expectedValue]] of UNIT_QUESTIONS) {
   test(`asks about ${name}`, async () => {
     const refusalError = await catchRefusalError(readTable(tableText));
     assert.match(refusalError.message, expectedMessage);
-    const [[what, answer]] = Object.entries(options);
-    assert.equal(refusalError.ask?.what, what);
-    assert.ok(refusalError.ask.choices.includes(answer), String(refusalError.ask.choices));
+    const [[questionedUnit, chosenUnit]] = Object.entries(options);
+    assert.equal(refusalError.ask?.what, questionedUnit);
+    assert.ok(refusalError.ask.choices.includes(chosenUnit), String(refusalError.ask.choices));
     const { data, summary: { units } } = await readTable(tableText, options);
-    assert.deepEqual(units[/** @type {'time' | 'length' | 'angle'} */ (what.replace('Unit', ''))], { unit: answer, by: 'option' });
+    assert.deepEqual(units[/** @type {'time' | 'length' | 'angle'} */ (questionedUnit.replace('Unit', ''))], { unit: chosenUnit, by: 'option' });
     assert.ok(Math.abs(data[fieldName][9] - expectedValue) < 1e-12, `${data[fieldName][9]}, not ${expectedValue}`);
   });
 }
@@ -203,7 +208,7 @@ for (const [name, tableText, expectedMessage, options, [fieldName, expectedValue
 const LONG_WORD = 'x'.repeat(100);
 const KITTI_ROW = Array.from({ length: 12 }, () => 1).join(' ');
 
-/** Tables, and how each is refused. @type {[string, string | Uint8Array<ArrayBuffer>, RegExp, import('../../www/logs/log.ts').OpenOptions?][]} */
+/** Tables that are refused, with the expected message. @type {[string, string | Uint8Array<ArrayBuffer>, RegExp, import('../../www/logs/log.ts').OpenOptions?][]} */
 const REFUSED_TABLES = [
   ['nothing', '', /^run\.csv: there is nothing in it;/],
   ['a header alone', 't,x,y,yaw\n', /0 of 0 rows can be used;/],
@@ -242,9 +247,9 @@ const REFUSED_TABLES = [
   ['columns for a table of another width', '0 1 2 3 4\n1 1 2 3 4\n', /has 5 cells, and --columns names 4;/, { columns: ['t', 'x', 'y', 'yaw'] }],
 ];
 
-for (const [name, contents, expectedMessage, options] of REFUSED_TABLES) {
+for (const [name, tableText, expectedMessage, options] of REFUSED_TABLES) {
   test(`refuses ${name}`, async () => {
-    const refusalError = await catchRefusalError(readTable(contents, options));
+    const refusalError = await catchRefusalError(readTable(tableText, options));
     assert.match(refusalError.message, expectedMessage);
     assert.match(refusalError.message, /; [a-z].+\.$/);
     assert.match(refusalError.sentence(german), /^run\.csv(, Zeile \d+)?: .+; .+\.$/);

@@ -1,4 +1,4 @@
-// Logs as text tables: each format is read, and has the expected rows.
+// Logs as text tables. Each format is read, and gives the expected rows.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
@@ -30,27 +30,27 @@ const CIRCLE_ROWS = Array.from({ length: 24 }, (_, i) => {
 
 /** @typedef {typeof CIRCLE_ROWS[0]} Row */
 
-/** Returns a table of all rows. @param {string} header @param {(row: Row) => (string | number)[]} cells @param {string} [separator] */
-const tableOf = (header, cells, separator = ',') => [header, ...CIRCLE_ROWS.map((row) => cells(row).join(separator)), ''].join('\n');
+/** Returns a table of all rows of the circle. @param {string} headerCells @param {(row: Row) => (string | number)[]} cellsOf @param {string} [separator] */
+const tableOf = (headerCells, cellsOf, separator = ',') => [headerCells, ...CIRCLE_ROWS.map((circleRow) => cellsOf(circleRow).join(separator)), ''].join('\n');
 
 const EPOCH_SECONDS = 1_718_000_000;
-/** Returns the digits of a time in nanoseconds. @param {number} t */
+/** Returns the digits of a time (s) in nanoseconds. @param {number} t */
 const nanosecondText = (t) => `${EPOCH_SECONDS + Math.floor(t)}${String(Math.round((t % 1) * 1e9)).padStart(9, '0')}`;
 const secondsAndNanoseconds = (/** @type {number} */ t) => [EPOCH_SECONDS + Math.floor(t), Math.round((t % 1) * 1e9)];
-const withDecimalComma = (/** @type {unknown} */ value) => String(value).replace('.', ',');
+const withDecimalComma = (/** @type {unknown} */ cellValue) => String(cellValue).replace('.', ',');
 const toDegrees = (/** @type {number} */ radians) => (radians * 180) / Math.PI;
 const isoDateOf = (/** @type {number} */ t) => new Date((EPOCH_SECONDS + Math.floor(t)) * 1000).toISOString().slice(0, 19) + `.${String(Math.round((t % 1) * 1e9)).padStart(9, '0')}`;
 const poseCellsOf = (/** @type {Row} */ { x, y, qz, qw }) => [x, y, 0, 0, 0, qz, qw];
-const zerosOf = (/** @type {number} */ count) => Array.from({ length: count }, () => 0);
+const zerosOf = (/** @type {number} */ zeroCount) => Array.from({ length: zeroCount }, () => 0);
 const ABBREVIATED_ARRAY = '<array type: double[36]>';
 const utf16BytesOf = (/** @type {string} */ text) => new Uint8Array(Buffer.from(`\ufeff${text}`, 'utf16le'));
 
 const ODOMETRY_COLUMNS = 'seq header.frame_id child_frame_id pose.pose.position.x pose.pose.position.y pose.pose.position.z pose.pose.orientation.x pose.pose.orientation.y pose.pose.orientation.z pose.pose.orientation.w'.split(' ');
 const VELOCITY_COLUMNS = ['twist.twist.linear.x', 'twist.twist.linear.y', 'twist.twist.angular.x', 'twist.twist.angular.z'];
-const rostopicTableOf = (/** @type {(row: Row) => string | number} */ stamp) =>
-  tableOf(['%time', 'field.header.stamp', ...[...ODOMETRY_COLUMNS, 'pose.covariance0', ...VELOCITY_COLUMNS].map((name) => `field.${name}`)].join(','), (row) => [nanosecondText(row.t), stamp(row), row.i, 'odom', 'base', ...poseCellsOf(row), 9, row.v, 9, 9, row.omega]);
-const bagpyTableOf = (/** @type {string} */ sec, /** @type {string} */ nsec) =>
-  tableOf(['Time', sec, nsec, ...ODOMETRY_COLUMNS, ...VELOCITY_COLUMNS].join(','), (row) => [EPOCH_SECONDS + row.t + 7, ...secondsAndNanoseconds(row.t), row.i, 'odom', 'base', ...poseCellsOf(row), row.v, 9, 9, row.omega]);
+const rostopicTableOf = (/** @type {(row: Row) => string | number} */ stampOf) =>
+  tableOf(['%time', 'field.header.stamp', ...[...ODOMETRY_COLUMNS, 'pose.covariance0', ...VELOCITY_COLUMNS].map((fieldName) => `field.${fieldName}`)].join(','), (row) => [nanosecondText(row.t), stampOf(row), row.i, 'odom', 'base', ...poseCellsOf(row), 9, row.v, 9, 9, row.omega]);
+const bagpyTableOf = (/** @type {string} */ secondsColumn, /** @type {string} */ nanosecondsColumn) =>
+  tableOf(['Time', secondsColumn, nanosecondsColumn, ...ODOMETRY_COLUMNS, ...VELOCITY_COLUMNS].join(','), (row) => [EPOCH_SECONDS + row.t + 7, ...secondsAndNanoseconds(row.t), row.i, 'odom', 'base', ...poseCellsOf(row), row.v, 9, 9, row.omega]);
 
 /** PlotJuggler's table of two topics, in which each sample of a topic has its own row. */
 const plotjugglerTable = [
@@ -62,12 +62,12 @@ const plotjugglerTable = [
   ]).map((cells) => cells.join(',')),
 ].join('\n');
 
-/** Returns an export of Motive, with preamble, body and marker. @param {'Meters' | 'Millimeters'} unit @param {boolean} isYUp */
-function motiveTableOf(unit, isYUp) {
-  const unitsPerMetre = unit === 'Meters' ? 1 : 1000;
+/** Returns an export of the Motive software, with preamble, body and marker. @param {'Meters' | 'Millimeters'} lengthUnit @param {boolean} isYUp */
+function motiveTableOf(lengthUnit, isYUp) {
+  const unitsPerMetre = lengthUnit === 'Meters' ? 1 : 1000;
   const repeatCell = (/** @type {string} */ text, /** @type {number} */ count) => Array.from({ length: count }, () => text).join(',');
   return [
-    `Format Version,1.25,Take Name,drive,Take Notes,,Capture Frame Rate,16.000000,Export Frame Rate,16.000000,Capture Start Time,2024-06-10 06.13.20.000 AM,Total Frames in Take,60,Rotation Type,Quaternion,Length Units,${unit},Coordinate Space,Global`,
+    `Format Version,1.25,Take Name,drive,Take Notes,,Capture Frame Rate,16.000000,Export Frame Rate,16.000000,Capture Start Time,2024-06-10 06.13.20.000 AM,Total Frames in Take,60,Rotation Type,Quaternion,Length Units,${lengthUnit},Coordinate Space,Global`,
     '',
     `,Type,${repeatCell('Rigid Body', 8)},${repeatCell('Rigid Body Marker', 3)}`,
     `,Name,${repeatCell('Robot', 8)},${repeatCell('Robot:Marker1', 3)}`,
@@ -75,7 +75,7 @@ function motiveTableOf(unit, isYUp) {
     `,,${repeatCell('Rotation', 4)},${repeatCell('Position', 3)},Mean Marker Error,${repeatCell('Position', 3)}`,
     'Frame,Time (Seconds),X,Y,Z,W,X,Y,Z,,X,Y,Z',
     ...CIRCLE_ROWS.map(({ i, t, x, y, qz, qw }) => {
-      // Heading about Y turns Z towards X.
+      // A heading about Y turns Z towards X.
       const bodyCells = isYUp ? [0, qz, 0, qw, y * unitsPerMetre, 0.1, x * unitsPerMetre] : [0, 0, qz, qw, x * unitsPerMetre, y * unitsPerMetre, 0.1];
       return [i, t, ...bodyCells, 0.0001, 1, 2, 3].join(',');
     }),
@@ -150,7 +150,7 @@ const READABLE_TABLES = [
 for (const { name, text, kind = 'poses', start = 0, series = [''], choice, options, says } of READABLE_TABLES) {
   test(`reads ${name}`, async () => {
     const [recording] = await openRecordings([new File([text], 'run.csv')], options);
-    assert.deepEqual(recording.series.map((entry) => entry.name), series);
+    assert.deepEqual(recording.series.map((foundSeries) => foundSeries.name), series);
     const [log] = await recording.read([{ series: '', ...choice }]);
     const { t, ...columns } = /** @type {any} */ (log.data);
     assert.equal(log.kind, kind);
@@ -158,11 +158,11 @@ for (const { name, text, kind = 'poses', start = 0, series = [''], choice, optio
     assert.equal(t.length, CIRCLE_ROWS.length);
     for (const row of CIRCLE_ROWS) {
       assert.equal(log.start - start + t[row.i], row.t);
-      // Other units and quaternions round values up to 1.25 in the last place.
+      // Conversion from other units or from quaternions rounds values, by up to 1.25 in the last place.
       for (const fieldName of fieldNames) assert.ok(Math.abs(columns[fieldName][row.i] - row[fieldName]) <= Number.EPSILON, `${fieldName} ${columns[fieldName][row.i]} ${row[fieldName]}`);
     }
-    const sentences = summarySentences(log, english.found);
-    if (says) assert.match(sentences.join('\n'), says);
-    assert.equal(summarySentences(log, german.found).length, sentences.length);
+    const summaryLines = summarySentences(log, english.found);
+    if (says) assert.match(summaryLines.join('\n'), says);
+    assert.equal(summarySentences(log, german.found).length, summaryLines.length);
   });
 }

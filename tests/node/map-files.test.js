@@ -6,29 +6,29 @@ import { crc32 } from 'node:zlib';
 import { limits } from '../../build/settings.js';
 import { mapYamlFile, fileWith, simulationWithMap, catchRefusalMessage } from './map-support.js';
 
-const PGM = fileWith('map.pgm', 'P5 2 1 255\n\x00\x7f');
-/** PNG image of the same two pixels. */
+const PGM_FILE = fileWith('map.pgm', 'P5 2 1 255\n\x00\x7f');
+/** PNG image of the same two pixels as the PGM image. */
 const PNG_BYTES = Buffer.from('iVBORw0KGgoAAAANSUhEUgAAAAIAAAABCAAAAADRSSBWAAAAC0lEQVR4nGNgqAcAAIIAgCASGTYAAAAASUVORK5CYII=', 'base64');
 
-/** Time limit of a refusal, ms: a thousand times the usual time. */
+/** Time limit of a refusal in ms. It is a thousand times the usual time. */
 const MAX_REFUSAL_MS = 1000;
 
-/** Expects that a description is refused at once, for a reason. @param {string} yaml @param {string} reason */
-async function assertRefusedAtOnce(yaml, reason) {
+/** Expects that a map description is refused at once, for a given reason. @param {string} yamlText @param {string} expectedReason */
+async function assertRefusedAtOnce(yamlText, expectedReason) {
   const startTime = performance.now();
-  const message = await catchRefusalMessage([fileWith('map.yaml', yaml), PGM]);
+  const refusalMessage = await catchRefusalMessage([fileWith('map.yaml', yamlText), PGM_FILE]);
   const durationMs = performance.now() - startTime;
-  assert.match(message, new RegExp(`^map\\.yaml, line \\d+: (${reason}); expected is one field a line, as in resolution: 0\\.05\\.$`));
-  assert.ok(durationMs < MAX_REFUSAL_MS, `${yaml.slice(0, 40)} took ${durationMs} ms`);
+  assert.match(refusalMessage, new RegExp(`^map\\.yaml, line \\d+: (${expectedReason}); expected is one field a line, as in resolution: 0\\.05\\.$`));
+  assert.ok(durationMs < MAX_REFUSAL_MS, `${yamlText.slice(0, 40)} took ${durationMs} ms`);
 }
 
 test('a map that repeats or contains itself is refused at once', async () => {
   const aliasError = 'aliases exceeded maxAliases \\(0\\)';
   await assertRefusedAtOnce('image: &a [*a]', aliasError);
   await assertRefusedAtOnce('image: &a map.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nmode: *a', aliasError);
-  for (const [levels, width] of [[9, 9], [7, 5], [30, 2]]) {
-    const aliasLines = Array.from({ length: levels }, (_, i) => `k${i}: &a${i} [${Array(width).fill(i ? `*a${i - 1}` : 'x').join(', ')}]`);
-    await assertRefusedAtOnce(`${aliasLines.join('\n')}\nimage: *a${levels - 1}`, aliasError);
+  for (const [nestingLevels, listLength] of [[9, 9], [7, 5], [30, 2]]) {
+    const aliasLines = Array.from({ length: nestingLevels }, (_, i) => `k${i}: &a${i} [${Array(listLength).fill(i ? `*a${i - 1}` : 'x').join(', ')}]`);
+    await assertRefusedAtOnce(`${aliasLines.join('\n')}\nimage: *a${nestingLevels - 1}`, aliasError);
   }
 });
 
@@ -40,9 +40,9 @@ test('YAML features other than fields and values are refused at once', async () 
   await assertRefusedAtOnce(`image: !${'x'.repeat(9e4)} y`, 'unknown scalar tag .{81}…');
   await assertRefusedAtOnce('image: map.pgm\n---\nimage: map.pgm', 'expected a single document in the stream, but found more');
   await assertRefusedAtOnce('image: *a', 'unidentified alias "a"|aliases exceeded maxAliases \\(0\\)');
-  // A long key, or one with the name of a property of objects, is ignored like other unknown fields.
-  for (const key of ['x'.repeat(9e4), '__proto__', 'constructor', 'toString', '<<']) {
-    const { grid } = await simulationWithMap(mapYamlFile({ image: 'map.pgm', [key]: '{resolution: 9, image: [1]}' }), PGM);
+  // A long key is ignored like other unknown fields. So is a key that is the name of a property of objects.
+  for (const ignoredKey of ['x'.repeat(9e4), '__proto__', 'constructor', 'toString', '<<']) {
+    const { grid } = await simulationWithMap(mapYamlFile({ image: 'map.pgm', [ignoredKey]: '{resolution: 9, image: [1]}' }), PGM_FILE);
     assert.deepEqual([grid?.columns, grid?.rows, grid?.resolution], [2, 1, 0.05]);
   }
   assert.equal(Reflect.get({}, 'resolution'), undefined);
@@ -51,23 +51,23 @@ test('YAML features other than fields and values are refused at once', async () 
 test('files that are not one map, or a plan that is not JSON, are refused with what is expected', async () => {
   const yamlFile = mapYamlFile({ image: 'map.pgm' });
   const planFile = fileWith('plan.json', '{"bounds": [0, 0, 1, 1], "walls": []}');
-  for (const files of [[yamlFile, PGM, planFile], [PGM], [yamlFile, PGM, fileWith('notes.txt', '')]]) {
-    const fileNames = files.map(({ name }) => name).join(', ');
-    assert.equal(await catchRefusalMessage(files), `${fileNames}: expected is one .json floor plan, or one .yaml file together with its .pgm or .png image.`);
+  for (const fileSelection of [[yamlFile, PGM_FILE, planFile], [PGM_FILE], [yamlFile, PGM_FILE, fileWith('notes.txt', '')]]) {
+    const fileNames = fileSelection.map(({ name }) => name).join(', ');
+    assert.equal(await catchRefusalMessage(fileSelection), `${fileNames}: expected is one .json floor plan, or one .yaml file together with its .pgm or .png image.`);
   }
   assert.match(await catchRefusalMessage([fileWith('plan.json', '{"bounds": [0, 0, 1, 1], "walls": [],}')]), /^plan\.json: .+; expected is \{"bounds"/);
 });
 
 test('a description is read as leniently as map_server reads it', async () => {
-  const expectedSimulation = await simulationWithMap(mapYamlFile({ image: 'map.pgm', origin: '[-1, 2, 0]', mode: 'trinary', negate: 1 }), PGM);
+  const expectedSimulation = await simulationWithMap(mapYamlFile({ image: 'map.pgm', origin: '[-1, 2, 0]', mode: 'trinary', negate: 1 }), PGM_FILE);
   for (const yaml of [
     'image: map.pgm\r\nresolution: "0.05"\r\norigin: ["-1.0", \'2\', 0]\r\nnegate: "1"\r\nmode: Trinary\r\n',
     'image:\tmap.pgm\nresolution:\t0.05\t\norigin:\t[-1,\t2,\t0]\n\tnegate: Yes\nmode:\tTRINARY\n',
-  ]) assert.deepEqual((await simulationWithMap(fileWith('map.yaml', yaml), PGM)).grid, expectedSimulation.grid, yaml);
+  ]) assert.deepEqual((await simulationWithMap(fileWith('map.yaml', yaml), PGM_FILE)).grid, expectedSimulation.grid, yaml);
 });
 
 test('a PNG image may have any extension', async () => {
-  const [pgmMap, pngMap] = await Promise.all([PGM, fileWith('map.pgm', PNG_BYTES)].map((image) => simulationWithMap(mapYamlFile({ image: 'map.pgm' }), image)));
+  const [pgmMap, pngMap] = await Promise.all([PGM_FILE, fileWith('map.pgm', PNG_BYTES)].map((image) => simulationWithMap(mapYamlFile({ image: 'map.pgm' }), image)));
   assert.deepEqual(pngMap.grid, pgmMap.grid);
 });
 
@@ -75,7 +75,7 @@ test('a value of any kind or length is refused by a sentence that can be read', 
   const longText = 'x'.repeat(9e4);
   for (const yamlValue of [`"${longText}"`, `[${'[1], '.repeat(1e4)}]`, '{a: {b: [c]}}', 'null', 'true', '.nan', '1e999', '""']) {
     for (const fieldName of ['image', 'resolution', 'origin', 'negate', 'mode', 'occupied_thresh', 'free_thresh']) {
-      const message = await catchRefusalMessage([mapYamlFile({ image: 'map.pgm', [fieldName]: yamlValue }), PGM]);
+      const message = await catchRefusalMessage([mapYamlFile({ image: 'map.pgm', [fieldName]: yamlValue }), PGM_FILE]);
       const isAccepted = fieldName === 'negate' && yamlValue === 'true';
       assert.match(message, isAccepted ? /^$/ : new RegExp(`^map\\.yaml: ${fieldName}(\\[0\\])? .+; (allowed|expected) (is|are) .+\\.$`), `${fieldName}: ${yamlValue.slice(0, 30)}`);
       assert.ok(message.length < 400, `${fieldName}: ${yamlValue.slice(0, 30)}: ${message.length} characters`);
@@ -98,7 +98,7 @@ test('a damaged or too large PNG image is refused by a sentence', async () => {
   assert.match(message, /^map\.png: the PNG image is damaged or cut short before byte \d+ of 50; allowed is a complete one\.$/);
   const largeImage = Buffer.from(PNG_BYTES);
   largeImage.fill(Buffer.of(0, 1, 0x86, 0xa0), 16, 24);
-  // The checksum of the header follows its type and its data.
+  // The checksum of the PNG header follows its type and its data.
   largeImage.writeUInt32BE(crc32(largeImage.subarray(12, 29)), 29);
   assert.equal(await catchRefusalMessage([mapYamlFile(), fileWith('map.png', largeImage)]), 'map.png: image has 100000 × 100000 pixels; allowed are at most 33554432.');
 });

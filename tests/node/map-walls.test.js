@@ -11,8 +11,8 @@ const WALLS = Float64Array.of(...OUTER_WALLS, 3, 0, 3, 1.5, 3, 2.5, 3, 4, 0, 1, 
 /** Index in WALLS of the part of the wall below the doorway. */
 const LOWER_WALL_INDEX = OUTER_WALLS.length;
 
-/** Returns the grip of a part of a wall. @param {string} part @param {number} [wall] index in WALLS */
-const gripOf = (part, wall = LOWER_WALL_INDEX) => wallGrips({ bounds: ROOM_BOUNDS, walls: WALLS }).find((grip) => grip?.part === part && grip.wall === wall);
+/** Returns the grip of a part of a wall. @param {string} gripPart @param {number} [wallIndex] index in WALLS */
+const gripOf = (gripPart, wallIndex = LOWER_WALL_INDEX) => wallGrips({ bounds: ROOM_BOUNDS, walls: WALLS }).find((grip) => grip?.part === gripPart && grip.wall === wallIndex);
 
 test('free ends and inner walls have grips, the shell and ends at other walls have none', () => {
   const grips = wallGrips({ bounds: ROOM_BOUNDS, walls: WALLS });
@@ -25,7 +25,7 @@ test('a jamb goes along its wall, up to the other jamb and down to a stub', () =
   const grip = gripOf('to');
   assert.ok(grip);
   assert.deepEqual(grip.axis, [0, 1]);
-  assert.deepEqual(grip.range.map((limit) => Number(limit.toFixed(9))), [-1.45, 0.95]);
+  assert.deepEqual(grip.range.map((rangeLimit) => Number(rangeLimit.toFixed(9))), [-1.45, 0.95]);
   assert.deepEqual([...wallsAfterMove(WALLS, grip, 0.5).subarray(LOWER_WALL_INDEX, LOWER_WALL_INDEX + 4)], [3, 0, 3, 2]);
 });
 

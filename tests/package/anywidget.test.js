@@ -1,4 +1,4 @@
-// Tests of the module for notebooks (anywidget). Its trait models are those of Jupyter notebooks and MyST books.
+// Module for notebooks (anywidget). The trait models of the tests are those of Jupyter notebooks and MyST books.
 
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
@@ -10,45 +10,45 @@ import { serveDirectory } from './support.js';
 const site = serveDirectory(() => join(ROOT, 'dist'));
 
 /**
- * Opens a page that shows a model. Its global variable `view` is for the test: `log` lists what was set and saved, `end()` removes
- * the figure, and `state` has the traits, which are the values of the model.
+ * Opens a page that shows a model. The page's global variable `view` is for the test. `log` lists the traits that were set and saved.
+ * `end()` removes the figure. `state` has the traits, which are the values of the model.
  *
- * @param {Record<string, unknown>} state
+ * @param {Record<string, unknown>} modelState
  * @param {'notebook' | 'book'} hostKind in a book, some methods of the model throw as MyST's model does, and the figure is in a shadow root
  */
-async function openPageShowing(state, hostKind) {
+async function openPageShowing(modelState, hostKind) {
   const page = await site.openPage();
   const pageHtml = '<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><div id="cell"></div>';
   await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body: pageHtml }));
   await page.goto(`${site.address}page.html`);
-  await page.evaluate(renderModel, { state, inBook: hostKind === 'book' });
+  await page.evaluate(renderModel, { state: modelState, inBook: hostKind === 'book' });
   return page;
 }
 
 /** Renders a figure of a model. Runs in the page. @param {{ state: Record<string, unknown>, inBook: boolean }} given */
 async function renderModel({ state, inBook }) {
   const listeners = new Map();
-  const log = /** @type {unknown[]} */ ([]);
-  const throwMissing = (/** @type {string} */ name) => {
-    throw new Error(`${name} not implemented yet.`);
+  const traitLog = /** @type {unknown[]} */ ([]);
+  const throwMissing = (/** @type {string} */ memberName) => {
+    throw new Error(`${memberName} not implemented yet.`);
   };
   const widgetModel = {
     get: (/** @type {string} */ name) => state[name],
-    set(/** @type {string} */ name, /** @type {unknown} */ value) {
-      log.push([name, value]);
-      state[name] = value;
-      for (const listener of listeners.get(`change:${name}`) ?? []) listener();
+    set(/** @type {string} */ traitName, /** @type {unknown} */ traitValue) {
+      traitLog.push([traitName, traitValue]);
+      state[traitName] = traitValue;
+      for (const changeListener of listeners.get(`change:${traitName}`) ?? []) changeListener();
     },
     on: (/** @type {string} */ name, /** @type {() => void} */ listener) => listeners.set(name, (listeners.get(name) ?? new Set()).add(listener)),
     off: (/** @type {string} */ name, /** @type {() => void} */ listener) => (inBook ? throwMissing('off') : listeners.get(name)?.delete(listener)),
-    save_changes: () => (inBook ? throwMissing('save_changes') : log.push('saved')),
+    save_changes: () => (inBook ? throwMissing('save_changes') : traitLog.push('saved')),
   };
   const cellElement = /** @type {HTMLElement} */ (document.querySelector('#cell'));
   const el = inBook ? cellElement.attachShadow({ mode: 'open' }).appendChild(document.createElement('div')) : cellElement;
   const moduleAddress = '/anywidget.js';
   const { default: anywidgetModule } = await import(moduleAddress);
-  const end = anywidgetModule.render({ model: widgetModel, el });
-  Object.assign(globalThis, { view: { model: widgetModel, state, log, el, end, listeners } });
+  const endView = anywidgetModule.render({ model: widgetModel, el });
+  Object.assign(globalThis, { view: { model: widgetModel, state, log: traitLog, el, end: endView, listeners } });
 }
 
 /** Waits until the figure of a page has all its samples. @param {import('@playwright/test').Page} page */
@@ -58,33 +58,33 @@ async function untilComplete(page) {
   await waitForFrames(page);
 }
 
-/** Waits for three frames. @param {import('@playwright/test').Page} page */
+/** Waits for three animation frames. @param {import('@playwright/test').Page} page */
 const waitForFrames = (page) =>
   page.evaluate(async () => {
     for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
   });
 
 /**
- * Returns traits of the model, and the properties of the figure that have the same names.
+ * Returns traits of the model, and the figure's properties of the same names.
  *
  * @param {import('@playwright/test').Page} page
- * @param {string[]} names
+ * @param {string[]} requestedNames
  * @returns {Promise<{ traits: Record<string, unknown>, figure: Record<string, unknown> }>}
  */
-const readTraitsAndProperties = (page, names) =>
-  page.evaluate((traitNames) => {
+const readTraitsAndProperties = (page, requestedNames) =>
+  page.evaluate((requestedNames) => {
     const { el, state } = /** @type {any} */ (globalThis).view;
-    const pickTraits = (/** @type {any} */ object) => Object.fromEntries(traitNames.map((name) => [name, object[name]]));
+    const pickTraits = (/** @type {any} */ modelOrFigure) => Object.fromEntries(requestedNames.map((name) => [name, modelOrFigure[name]]));
     return { traits: pickTraits(state), figure: pickTraits(el.firstElementChild) };
-  }, names);
+  }, requestedNames);
 
-/** Sets traits of the model and clears its log. @param {import('@playwright/test').Page} page @param {Record<string, unknown>} changes */
-const setTraits = async (page, changes) => {
+/** Sets traits of the model and clears its log. @param {import('@playwright/test').Page} page @param {Record<string, unknown>} changedTraits */
+const setTraits = async (page, changedTraits) => {
   await page.evaluate((newValues) => {
     const { model: widgetModel, log } = /** @type {any} */ (globalThis).view;
     log.length = 0;
     for (const [name, value] of Object.entries(newValues)) widgetModel.set(name, value);
-  }, changes);
+  }, changedTraits);
   await waitForFrames(page);
 };
 
@@ -127,7 +127,7 @@ test('a change of the model reaches the figure, what follows of it the model, an
   const { traits: { _shown } } = await readTraitsAndProperties(page, ['_shown']);
   assert.deepEqual(_shown, { heard: 1, settings: { ...traits, samples: 100, isolate: null } });
 
-  // A kernel may send several changes at once. Then no earlier value is sent back.
+  // A kernel may send several changes at once. The figure must not send an earlier value back.
   await page.evaluate(() => {
     const { state, listeners } = /** @type {any} */ (globalThis).view;
     Object.assign(state, { omega: 0.2, v: 0.5 });
@@ -165,7 +165,7 @@ test('in a book whose models keep nothing the figure is as live, and what is tak
     await page.keyboard.press('ArrowRight');
     await page.keyboard.press('Tab');
     await waitForFrames(page);
-    // The model has only the traits that it was given.
+    // The model has only the traits that the page has set.
     assert.deepEqual(Object.keys(await page.evaluate(() => /** @type {any} */ (globalThis).view.state)).sort(), ['preset', 'samples', 'view', 'widget']);
     assert.equal(traits.preset, 'corridor');
     const remainsAfterRemoval = await page.evaluate(() => {

@@ -1,4 +1,4 @@
-// The documents on embedding quote the examples that `npm run test:embeddings` opens, and name the versions of their packages.
+// Documents on embedding. They must quote the examples that `npm run test:embeddings` opens, and name the versions of the packages.
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
@@ -8,25 +8,25 @@ import { ROOT, filesOf } from '../../scripts/process.mjs';
 import { loadEngine, findEngineNames } from '../embeddings/project.mjs';
 
 const embeddingDocuments = filesOf('doc').filter((path) => /embedding.*\.md$/.test(path)).map((path) => readFileSync(join(ROOT, path), 'utf8')).join('\n');
-const linesOf = (/** @type {string} */ text) => text.split('\n').map((line) => line.trim()).filter((line) => line !== '');
+const linesOf = (/** @type {string} */ sourceText) => sourceText.split('\n').map((line) => line.trim()).filter((line) => line !== '');
 
-/** Returns the lines of a file, or those of a notebook's cells. @param {string} path @returns {string[]} */
+/** Returns the lines of a file, or the lines of a notebook's cells. @param {string} path @returns {string[]} */
 function linesOfFile(path) {
   const text = readFileSync(join(ROOT, path), 'utf8');
   return linesOf(path.endsWith('.ipynb') ? JSON.parse(text).cells.map((/** @type {any} */ { source }) => source.join('')).join('\n') : text);
 }
 
-for (const name of await findEngineNames()) {
-  const { heading, versions } = await loadEngine(name);
+for (const engineName of await findEngineNames()) {
+  const { heading, versions } = await loadEngine(engineName);
 
   test(`${heading}: the document has lines of the example, and the versions that were tried`, () => {
     const tableRow = embeddingDocuments.split('\n').find((line) => line.startsWith(`| ${heading} |`));
     assert.ok(tableRow?.includes(` ${versions()} `), `The row "${heading}" of what was tried has to say ${versions()}.`);
-    const section = embeddingDocuments.split(/^## /m).find((text) => text.startsWith(`${heading}\n`)) ?? '';
-    // Shell commands are not in a file of the example.
-    const codeBlocks = [...section.matchAll(/^```(\w*)\n(.*?)^```$/gms)].filter(([, language]) => language !== 'sh');
-    const exampleLines = new Set(filesOf(join('examples', name)).flatMap(linesOfFile));
-    const missingLines = codeBlocks.flatMap(([, , block]) => linesOf(block)).filter((line) => !exampleLines.has(line));
-    assert.deepEqual(missingLines, [], `examples/${name} does not have these lines of the document.`);
+    const documentSection = embeddingDocuments.split(/^## /m).find((text) => text.startsWith(`${heading}\n`)) ?? '';
+    // The files of the example contain no shell commands.
+    const codeBlocks = [...documentSection.matchAll(/^```(\w*)\n(.*?)^```$/gms)].filter(([, codeLanguage]) => codeLanguage !== 'sh');
+    const exampleLines = new Set(filesOf(join('examples', engineName)).flatMap(linesOfFile));
+    const missingLines = codeBlocks.flatMap(([, , codeBlock]) => linesOf(codeBlock)).filter((line) => !exampleLines.has(line));
+    assert.deepEqual(missingLines, [], `examples/${engineName} does not have these lines of the document.`);
   });
 }

@@ -1,4 +1,5 @@
-// Entry points of the package, imported by Node, by TypeScript, and by pages that import several of them, and its version and options.
+// Entry points of the package, imported by Node, by TypeScript, and by pages that import several of them. The version and the options are
+// checked too.
 
 import assert from 'node:assert/strict';
 import { execFileSync, spawnSync } from 'node:child_process';
@@ -9,19 +10,19 @@ import { ROOT } from '../../scripts/process.mjs';
 import { settings } from '../../build/settings.js';
 import { serveProject } from './support.js';
 
-const project = serveProject();
-const packagedPathOf = (/** @type {string} */ path) => join(project.directory, 'node_modules/motion-widgets', path);
+const installedProject = serveProject();
+const packagedPathOf = (/** @type {string} */ packagePath) => join(installedProject.directory, 'node_modules/motion-widgets', packagePath);
 
-/** Runs a module next to the installed package, and returns what it prints. @param {string} source */
-function outputOfNode(source) {
-  const scriptPath = join(project.directory, 'script.mjs');
-  writeFileSync(scriptPath, source);
+/** Runs a module next to the installed package, and returns what it prints. @param {string} moduleSource */
+function outputOfNode(moduleSource) {
+  const scriptPath = join(installedProject.directory, 'script.mjs');
+  writeFileSync(scriptPath, moduleSource);
   return execFileSync(process.execPath, [scriptPath], { encoding: 'utf8' });
 }
 
 test('every script of the package can be imported in Node, and leaves no names behind', () => {
   const { exports } = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
-  const scriptNames = Object.keys(exports).filter((name) => /\.js$/.test(exports[name].default));
+  const scriptNames = Object.keys(exports).filter((entryName) => /\.js$/.test(exports[entryName].default));
   const importNames = scriptNames.map((name) => join('motion-widgets', name));
   assert.ok(importNames.length >= 4, importNames.join(' '));
   const scriptOutput = outputOfNode(`
@@ -44,16 +45,16 @@ test('the elements find the core in Node', () => {
 });
 
 test('a server component is told that no browser would get the elements', () => {
-  const scriptPath = join(project.directory, 'server.mjs');
+  const scriptPath = join(installedProject.directory, 'server.mjs');
   writeFileSync(scriptPath, "import 'motion-widgets';");
   const { stderr } = spawnSync(process.execPath, ['--conditions=react-server', scriptPath], { encoding: 'utf8' });
   assert.match(stderr, /Error: motion-widgets is imported by a server component.*'motion-widgets\/react'/);
-  // The core has no elements, and can be imported on a server.
+  // The core has no elements, so that a server can import it.
   writeFileSync(scriptPath, "import { load } from 'motion-widgets/core'; console.log(typeof load);");
   assert.equal(execFileSync(process.execPath, ['--conditions=react-server', scriptPath], { encoding: 'utf8' }), 'function\n');
 });
 
-/** Source of a page in TypeScript with React: components, their events, and tags of the elements. */
+/** Source of a page in TypeScript with React. The page uses components, their events, and tags of the elements. */
 const REACT_SOURCE = `
     import { useRef } from 'react';
     import { BananaMachine, MapSqueeze } from 'motion-widgets/react';
@@ -93,7 +94,7 @@ const REACT_SOURCE = `
 
 test('TypeScript knows the elements, the components of React and the core, however it resolves', () => {
   writeFileSync(
-    join(project.directory, 'typed.ts'),
+    join(installedProject.directory, 'typed.ts'),
     `import 'motion-widgets';
      import 'motion-widgets/motion-widgets.css';
      import { load, type Stats } from 'motion-widgets/core';
@@ -110,38 +111,38 @@ test('TypeScript knows the elements, the components of React and the core, howev
      document.createElement('banana-machine').omega = true;
      export { omega, stats };`,
   );
-  writeFileSync(join(project.directory, 'typed.tsx'), REACT_SOURCE);
-  for (const name of ['@types/react', 'csstype']) cpSync(join(ROOT, 'node_modules', name), join(project.directory, 'node_modules', name), { recursive: true });
-  // The script has to be in the directory of a module, so that top-level await is allowed.
-  writeFileSync(join(project.directory, 'package.json'), '{ "private": true, "type": "module" }');
-  for (const [module, resolution] of [['esnext', 'bundler'], ['nodenext', 'nodenext']]) {
+  writeFileSync(join(installedProject.directory, 'typed.tsx'), REACT_SOURCE);
+  for (const name of ['@types/react', 'csstype']) cpSync(join(ROOT, 'node_modules', name), join(installedProject.directory, 'node_modules', name), { recursive: true });
+  // The script must be in the directory of a module, so that top-level await is allowed.
+  writeFileSync(join(installedProject.directory, 'package.json'), '{ "private": true, "type": "module" }');
+  for (const [moduleOption, resolutionOption] of [['esnext', 'bundler'], ['nodenext', 'nodenext']]) {
     const compilerOptions = ['--noEmit', '--strict', '--jsx', 'react-jsx', '--target', 'es2023', '--lib', 'es2023,esnext.disposable,dom,dom.iterable', '--types', ''];
     const sourceFiles = ['typed.ts', 'typed.tsx'];
-    const compilerArguments = [join(ROOT, 'node_modules/typescript/bin/tsc'), ...compilerOptions, '--module', module, '--moduleResolution', resolution, ...sourceFiles];
-    const { status, stdout } = spawnSync(process.execPath, compilerArguments, { cwd: project.directory, encoding: 'utf8' });
+    const compilerArguments = [join(ROOT, 'node_modules/typescript/bin/tsc'), ...compilerOptions, '--module', moduleOption, '--moduleResolution', resolutionOption, ...sourceFiles];
+    const { status, stdout } = spawnSync(process.execPath, compilerArguments, { cwd: installedProject.directory, encoding: 'utf8' });
     assert.equal(status, 0, stdout);
   }
 });
 
 /**
- * Opens a page with three elements and some of the package's scripts, until the elements have drawn.
+ * Opens a page with three elements and some of the package's scripts. Waits until the elements have drawn.
  *
- * @param {string} scripts
+ * @param {string} scriptNames
  * @returns {Promise<string[]>} addresses of requested WebAssembly modules
  */
-async function openPageWith(scripts) {
+async function openPageWith(scriptNames) {
   const elementsHtml = '<banana-machine></banana-machine><banana-machine></banana-machine><map-squeeze></map-squeeze>';
-  const page = await project.openPage();
+  const page = await installedProject.openPage();
   /** @type {string[]} */
   const requestedUrls = [];
   page.on('request', (request) => requestedUrls.push(request.url()));
   await page.route('**/page.html', (route) => {
-    route.fulfill({ contentType: 'text/html', body: `<!doctype html><link rel="icon" href="data:,">${scripts}${elementsHtml}` });
+    route.fulfill({ contentType: 'text/html', body: `<!doctype html><link rel="icon" href="data:,">${scriptNames}${elementsHtml}` });
   });
-  await page.goto(`${project.address}page.html`);
-  for (const element of await page.locator('banana-machine, map-squeeze').all()) {
-    await element.scrollIntoViewIfNeeded();
-    await element.locator('canvas').first().waitFor({ timeout: 10_000 });
+  await page.goto(`${installedProject.address}page.html`);
+  for (const figureElement of await page.locator('banana-machine, map-squeeze').all()) {
+    await figureElement.scrollIntoViewIfNeeded();
+    await figureElement.locator('canvas').first().waitFor({ timeout: 10_000 });
   }
   return requestedUrls.filter((url) => url.includes('.wasm'));
 }
@@ -154,19 +155,19 @@ test('custom-elements.json says what the elements have', async () => {
   /** @type {any[]} */
   const declarations = modules[0].declarations;
   assert.deepEqual(declarations.map(({ tagName }) => tagName).sort(), Object.keys(settings).sort());
-  const page = await project.browser.newPage();
-  await page.goto(`${project.address}plain/`);
+  const page = await installedProject.browser.newPage();
+  await page.goto(`${installedProject.address}plain/`);
   for (const { tagName, attributes, members, events, cssParts, cssProperties } of declarations) {
-    const sortedNamesOf = (/** @type {{ name: string }[]} */ list) => list.map(({ name }) => name).sort();
-    const actualNames = await page.evaluate(async ([tag, memberNames]) => {
-      const element = /** @type {any} */ (document.body.appendChild(document.createElement(tag)));
-      await customElements.whenDefined(tag);
+    const sortedNamesOf = (/** @type {{ name: string }[]} */ namedItems) => namedItems.map(({ name }) => name).sort();
+    const actualNames = await page.evaluate(async ([widgetTag, memberNames]) => {
+      const element = /** @type {any} */ (document.body.appendChild(document.createElement(widgetTag)));
+      await customElements.whenDefined(widgetTag);
       await element.settled;
       const { shadowRoot, constructor } = element;
       for (const disclosure of shadowRoot.querySelectorAll('details')) disclosure.open = true;
-      // Contents are rendered after the browser's `toggle` event.
+      // A disclosure renders its contents after the browser's `toggle` event.
       while (shadowRoot.querySelector('details[open] > .folded:empty')) await new Promise(requestAnimationFrame);
-      // This button of Map Squeeze adds a table.
+      // The pressed button of Map Squeeze adds a table.
       shadowRoot.querySelector('div.table button')?.click();
       await element.settled;
       const cssText = [...new Set(constructor.elementStyles.map(String))].join('');
@@ -177,19 +178,19 @@ test('custom-elements.json says what the elements have', async () => {
         properties: [...new Set(cssText.match(/--motion-[a-z-]+/g))],
       };
     }, /** @type {[string, string[]]} */ ([tagName, sortedNamesOf(members)]));
-    // HTML attributes have no capital letters.
+    // Names of HTML attributes have no capital letters.
     assert.deepEqual(sortedNamesOf(attributes).map((name) => name.toLowerCase()).sort(), actualNames.attributes.sort(), tagName);
     assert.deepEqual(actualNames.missingMembers, [], tagName);
     for (const { name, description } of [...attributes, ...members, ...events, ...cssParts, ...cssProperties]) assert.ok(description, `${name} of ${tagName}`);
     assert.deepEqual(sortedNamesOf(events), ['change', 'error', 'input', 'load', 'stats']);
-    // The element with the part notice exists only while there is a notice.
+    // The element with the part `notice` exists only while there is a notice.
     assert.deepEqual(sortedNamesOf(cssParts), [...new Set([...actualNames.parts, 'notice'])].sort(), `parts of ${tagName}`);
     assert.deepEqual(sortedNamesOf(cssProperties), actualNames.properties.sort(), `properties of ${tagName}`);
   }
 });
 
 test('external.js loads a widget when its tag is met, with the words that the page gave it before', async () => {
-  const page = await project.browser.newPage();
+  const page = await installedProject.browser.newPage();
   /** @type {string[]} */
   const requestedPaths = [];
   page.on('request', (request) => requestedPaths.push(new URL(request.url()).pathname));
@@ -197,11 +198,11 @@ test('external.js loads a widget when its tag is met, with the words that the pa
     setMessages('fr', { step: 'Un pas', squeeze: { title: 'Le plan' } });</script>`;
   const pageHtml = `<!doctype html><html lang="fr"><link rel="icon" href="data:,">${moduleScript}<banana-machine></banana-machine><x-late></x-late>`;
   await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body: pageHtml }));
-  await page.goto(`${project.address}page.html`);
+  await page.goto(`${installedProject.address}page.html`);
   await page.locator('banana-machine canvas').first().waitFor();
   const squeezeRequestPaths = () => requestedPaths.filter((path) => path.includes('/map-squeeze-'));
   assert.deepEqual(squeezeRequestPaths(), []);
-  // An element that is defined later has a Map Squeeze in its shadow root.
+  // The element that is defined later has a Map Squeeze in its shadow root.
   await page.evaluate(() => {
     const LateElement = class extends HTMLElement {
       connectedCallback() {
@@ -218,7 +219,7 @@ test('external.js loads a widget when its tag is met, with the words that the pa
 test('package.json names no file that the package leaves out', () => {
   const { bin, exports, main, types, unpkg, jsdelivr, customElements } = JSON.parse(readFileSync(packagedPathOf('package.json'), 'utf8'));
   /** @type {(value: any) => string[]} */
-  const pathsIn = (value) => (typeof value === 'string' ? [value] : Object.values(value).flatMap(pathsIn));
+  const pathsIn = (exportTarget) => (typeof exportTarget === 'string' ? [exportTarget] : Object.values(exportTarget).flatMap(pathsIn));
   const allPaths = [...pathsIn(bin), ...pathsIn(exports), main, types, unpkg, jsdelivr, customElements];
   assert.ok(allPaths.length > 10, allPaths.join(' '));
   assert.deepEqual(allPaths.filter((path) => !existsSync(packagedPathOf(path))), []);
@@ -230,7 +231,7 @@ test('doc/calibration.md describes every option of the command that the package 
   const commandOptions = new Set(stdout.match(/--[a-z-]+/g));
   assert.ok(commandOptions.size > 15, [...commandOptions].join(' '));
   const calibrationDocument = readFileSync(join(ROOT, 'doc/calibration.md'), 'utf8');
-  assert.deepEqual([...commandOptions].filter((option) => option !== '--help' && !calibrationDocument.includes(`\`${option}`) && !calibrationDocument.includes(` ${option}`)), []);
+  assert.deepEqual([...commandOptions].filter((commandOption) => commandOption !== '--help' && !calibrationDocument.includes(`\`${commandOption}`) && !calibrationDocument.includes(` ${commandOption}`)), []);
 });
 
 test('all that is released has one version', () => {
@@ -242,7 +243,7 @@ test('all that is released has one version', () => {
 
 test('the classic script is ASCII: it means the same, whatever encoding its page has', () => {
   const scriptBytes = readFileSync(join(ROOT, 'dist/motion-widgets.iife.js'));
-  assert.equal(scriptBytes.find((byte) => byte > 127), undefined);
+  assert.equal(scriptBytes.find((scriptByte) => scriptByte > 127), undefined);
 });
 
 test('two copies of the bundle on a page get along @nightly', async () => {
@@ -255,19 +256,19 @@ test('two copies of the bundle on a page get along @nightly', async () => {
 test('the address of the external module can be set by the script that imports it', async () => {
   const moduleAddress = `${DIST_PATH}motion.wasm?mine`;
   const modules = await openPageWith(`<script type="module">import { load } from '${DIST_PATH}external.js'; load('${moduleAddress}');</script>`);
-  assert.deepEqual(modules, [new URL(moduleAddress, project.address).href]);
+  assert.deepEqual(modules, [new URL(moduleAddress, installedProject.address).href]);
 });
 
-/** Opens a page with a figure on a server that answers requests for modules by HTML, as some servers do for missing files. @param {string} script */
-async function openWithoutModules(script) {
-  const page = await project.browser.newPage();
+/** Opens a page with a figure. Its server answers requests for modules with HTML, as some servers do for missing files. @param {string} scriptTag */
+async function openWithoutModules(scriptTag) {
+  const page = await installedProject.browser.newPage();
   /** @type {string[]} */
   const warnings = [];
-  page.on('console', (message) => void (message.type() === 'warning' && warnings.push(message.text())));
+  page.on('console', (consoleMessage) => void (consoleMessage.type() === 'warning' && warnings.push(consoleMessage.text())));
   await page.route('**/*.wasm', (route) => route.fulfill({ contentType: 'text/html', body: '<!doctype html>' }));
-  const pageHtml = `<!doctype html><link rel="icon" href="data:,">${script}<banana-machine></banana-machine>`;
+  const pageHtml = `<!doctype html><link rel="icon" href="data:,">${scriptTag}<banana-machine></banana-machine>`;
   await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body: pageHtml }));
-  await page.goto(`${project.address}page.html`);
+  await page.goto(`${installedProject.address}page.html`);
   return { page, warnings };
 }
 
@@ -277,7 +278,7 @@ test('where the file of a module cannot be had, the embedded one is used, and a 
   const { page, warnings } = await openWithoutModules(scriptTagOf('external.js'));
   await page.locator('banana-machine canvas').first().waitFor();
   assert.equal(warnings.length, 1);
-  assert.match(warnings[0], new RegExp(`${project.address}\\S+\\.wasm answers with text/html, which is no WebAssembly module`));
+  assert.match(warnings[0], new RegExp(`${installedProject.address}\\S+\\.wasm answers with text/html, which is no WebAssembly module`));
   assert.ok(warnings[0].includes(LOAD_ADVICE));
 });
 

@@ -10,22 +10,22 @@ import { rollup } from 'rollup';
 import { ROOT } from '../../scripts/process.mjs';
 import { openWithCloud, serveProject } from './support.js';
 
-const project = serveProject(() => writeFileSync(join(project.directory, 'main.js'), "import 'motion-widgets';\n"));
+const installedProject = serveProject(() => writeFileSync(join(installedProject.directory, 'main.js'), "import 'motion-widgets';\n"));
 
 test('a page with a module script', async () => {
-  await openWithCloud(project, `${project.address}plain/`);
+  await openWithCloud(installedProject, `${installedProject.address}plain/`);
 });
 
 test('a frame that takes the height of its widget', async () => {
-  const { page } = await openWithCloud(project, `${project.address}iframe/`);
+  const { page } = await openWithCloud(installedProject, `${installedProject.address}iframe/`);
   const readHeights = () =>
     page.evaluate(() => {
       const iframeElement = /** @type {HTMLIFrameElement} */ (document.querySelector('iframe'));
       const innerRoot = /** @type {Document} */ (iframeElement.contentDocument).documentElement;
       return { frameHeight: iframeElement.clientHeight, contentHeight: innerRoot.scrollHeight, scrolls: innerRoot.scrollHeight > innerRoot.clientHeight };
     });
-  for (const width of [1100, 420]) {
-    await page.setViewportSize({ width, height: 800 });
+  for (const pageWidth of [1100, 420]) {
+    await page.setViewportSize({ width: pageWidth, height: 800 });
     await page.waitForFunction(() => {
       const iframeElement = /** @type {HTMLIFrameElement} */ (document.querySelector('iframe'));
       const innerBody = /** @type {Document} */ (iframeElement.contentDocument).body;
@@ -38,61 +38,61 @@ test('a frame that takes the height of its widget', async () => {
 });
 
 test('a frame names what is wrong with its address @nightly', async () => {
-  const page = await project.browser.newPage();
-  for (const [query, expectedMessage] of [
+  const page = await installedProject.browser.newPage();
+  for (const [urlQuery, expectedMessage] of [
     ['', /widget is missing; allowed is banana-machine or map-squeeze/],
     ['?widget=banana', /widget is "banana"; allowed is/],
     ['?widget=banana-machine&omga=1', /omga is an unknown parameter of banana-machine; allowed are .*\bomega\b/],
     ['?widget=map-squeeze&v=1&v=2', /v is given more than once/],
   ]) {
-    await page.goto(`${project.address}iframe/embed.html${query}`);
+    await page.goto(`${installedProject.address}iframe/embed.html${urlQuery}`);
     assert.match(await page.getByRole('alert').innerText(), /** @type {RegExp} */ (expectedMessage));
   }
 });
 
 test('a classic script, from a server and from a disk', async () => {
-  const fileAddress = pathToFileURL(join(project.directory, 'classic-script/index.html')).href;
-  for (const address of [`${project.address}classic-script/`, fileAddress]) {
-    const { requests } = await openWithCloud(project, address);
+  const fileAddress = pathToFileURL(join(installedProject.directory, 'classic-script/index.html')).href;
+  for (const pageUrl of [`${installedProject.address}classic-script/`, fileAddress]) {
+    const { requests } = await openWithCloud(installedProject, pageUrl);
     assert.equal(requests.length, 3, requests.join(' '));
   }
 });
 
 test('the one file of a classroom, from a disk', async () => {
   const { href } = pathToFileURL(join(ROOT, 'dist/classroom.html'));
-  assert.deepEqual((await openWithCloud(project, href)).requests, [href]);
+  assert.deepEqual((await openWithCloud(installedProject, href)).requests, [href]);
 });
 
-// The bundlers below do not copy the WebAssembly modules into their output, because they do not process `new URL(…, import.meta.url)`.
+// The bundlers below do not copy the WebAssembly modules into their output. They do not process `new URL(…, import.meta.url)`.
 
-/** Returns a function that bundles main.js into a directory by esbuild. @param {import('esbuild').BuildOptions} options */
-const esbuildBundler = (options) => async (/** @type {string} */ outdir) => {
-  const entryPoints = [join(project.directory, 'main.js')];
-  const { warnings } = await build({ entryPoints, outdir, bundle: true, minify: true, logLevel: 'silent', ...options });
+/** Returns a function by which esbuild bundles main.js into a directory. @param {import('esbuild').BuildOptions} buildOptions */
+const esbuildBundler = (buildOptions) => async (/** @type {string} */ outputDirectory) => {
+  const entryPoints = [join(installedProject.directory, 'main.js')];
+  const { warnings } = await build({ entryPoints, outdir: outputDirectory, bundle: true, minify: true, logLevel: 'silent', ...buildOptions });
   assert.deepEqual(warnings, []);
 };
 
-/** Bundlers by the names of their tests; each writes main.js into a directory. @type {Record<string, (outdir: string) => Promise<void>>} */
+/** Bundlers by the names of their tests. Each bundler writes main.js into a directory. @type {Record<string, (outdir: string) => Promise<void>>} */
 const BUNDLERS = {
   'esbuild with chunks': esbuildBundler({ format: 'esm', splitting: true }),
   "esbuild in one file, as Hugo's js.Build": esbuildBundler({ format: 'esm' }),
   'esbuild as a classic script': esbuildBundler({ format: 'iife' }),
-  async Rollup(dir) {
-    // Rollup finds packages only with a plugin.
-    const rollupBundle = await rollup({ input: { main: join(project.directory, 'node_modules/motion-widgets/dist/external.js') } });
-    await rollupBundle.write({ dir });
+  async Rollup(outputDirectory) {
+    // Rollup needs a plugin to find packages.
+    const rollupBundle = await rollup({ input: { main: join(installedProject.directory, 'node_modules/motion-widgets/dist/external.js') } });
+    await rollupBundle.write({ dir: outputDirectory });
   },
 };
 
-for (const [name, writeBundle] of Object.entries(BUNDLERS)) {
-  test(`${name}: a figure is live from the embedded module, and no file is asked for in vain${name.includes('chunks') ? '' : ' @nightly'}`, async () => {
-    const directoryName = name.replaceAll(/\W+/g, '-');
-    const directory = join(project.directory, directoryName);
-    mkdirSync(directory);
-    await writeBundle(directory);
-    const scriptTag = `<script ${name.endsWith('classic script') ? 'defer' : 'type="module"'} src="main.js"></script>`;
-    writeFileSync(join(directory, 'index.html'), `<!doctype html><link rel="icon" href="data:,">${scriptTag}<banana-machine></banana-machine>`);
-    const { requests } = await openWithCloud(project, `${project.address}${directoryName}/`);
+for (const [bundlerName, writeBundle] of Object.entries(BUNDLERS)) {
+  test(`${bundlerName}: a figure is live from the embedded module, and no file is asked for in vain${bundlerName.includes('chunks') ? '' : ' @nightly'}`, async () => {
+    const directoryName = bundlerName.replaceAll(/\W+/g, '-');
+    const outputDirectory = join(installedProject.directory, directoryName);
+    mkdirSync(outputDirectory);
+    await writeBundle(outputDirectory);
+    const scriptTag = `<script ${bundlerName.endsWith('classic script') ? 'defer' : 'type="module"'} src="main.js"></script>`;
+    writeFileSync(join(outputDirectory, 'index.html'), `<!doctype html><link rel="icon" href="data:,">${scriptTag}<banana-machine></banana-machine>`);
+    const { requests } = await openWithCloud(installedProject, `${installedProject.address}${directoryName}/`);
     assert.deepEqual(requests.filter((address) => address.includes('.wasm')), []);
   });
 }

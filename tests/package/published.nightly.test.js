@@ -1,4 +1,4 @@
-// Checks the package as npm would publish it: its size, its types and its licences.
+// Package as npm would publish it: its size, its types and its licences.
 
 import assert from 'node:assert/strict';
 import { execFileSync, spawnSync } from 'node:child_process';
@@ -16,32 +16,32 @@ const packageManifest = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf
 /** @type {string} */
 let temporaryDirectory;
 /** @type {string} */
-let tarball;
+let tarballPath;
 
 before(() => {
   temporaryDirectory = mkdtempSync(join(tmpdir(), 'motion-widgets-'));
-  tarball = packInto(temporaryDirectory);
+  tarballPath = packInto(temporaryDirectory);
 });
 
 after(() => rmSync(temporaryDirectory, { recursive: true, force: true }));
 
 test('the package has at most 1.5 MB', () => {
-  const { size } = statSync(tarball);
+  const { size } = statSync(tarballPath);
   assert.ok(size <= 1_500_000, `${size} bytes`);
 });
 
 test('publint finds nothing', async () => {
-  const { buffer } = readFileSync(tarball);
+  const { buffer } = readFileSync(tarballPath);
   const { messages } = await publint({ pack: { tarball: /** @type {ArrayBuffer} */ (buffer) }, strict: true });
-  assert.deepEqual(messages.map((message) => formatMessage(message, packageManifest)), []);
+  assert.deepEqual(messages.map((publintMessage) => formatMessage(publintMessage, packageManifest)), []);
 });
 
 test('Are the types wrong? finds nothing', () => {
-  // Only scripts have types.
-  const entriesWithoutTypes = Object.keys(packageManifest.exports).filter((name) => /\.(css|wasm|json)$/.test(name));
-  const cli = join(ROOT, 'node_modules/@arethetypeswrong/cli/dist/index.js');
-  // All scripts are modules: `require` is not supported, nor resolution without `exports`.
-  const attwArguments = [cli, tarball, '--profile', 'esm-only', '--exclude-entrypoints', ...entriesWithoutTypes];
+  // Only the entry points of scripts have types.
+  const entriesWithoutTypes = Object.keys(packageManifest.exports).filter((entryName) => /\.(css|wasm|json)$/.test(entryName));
+  const attwPath = join(ROOT, 'node_modules/@arethetypeswrong/cli/dist/index.js');
+  // All scripts are modules. `require` and resolution without `exports` are not supported.
+  const attwArguments = [attwPath, tarballPath, '--profile', 'esm-only', '--exclude-entrypoints', ...entriesWithoutTypes];
   const { status, stdout } = spawnSync(process.execPath, attwArguments, { encoding: 'utf8' });
   assert.equal(status, 0, stdout);
   assert.match(stdout, /"motion-widgets\/core"/);
@@ -56,6 +56,6 @@ test('whoever wrote what the bundles carry is named, with the licence', () => {
   const dependencyNames = [...new Set(packageNames), ...[...(crateList ?? '').matchAll(/^[\w-]+/gm)].map(String)];
   assert.ok(dependencyNames.includes('lit-html') && dependencyNames.includes('nalgebra'), dependencyNames.join(' '));
   for (const name of dependencyNames) assert.match(licenceText, new RegExp(`^${name} \\d\\S* \\(.+\\)$`, 'm'));
-  const packedFiles = execFileSync('tar', ['-tf', tarball], { encoding: 'utf8' }).split('\n');
+  const packedFiles = execFileSync('tar', ['-tf', tarballPath], { encoding: 'utf8' }).split('\n');
   assert.ok(packedFiles.includes('package/dist/LICENSE-third-party.txt'));
 });

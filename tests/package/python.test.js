@@ -1,4 +1,4 @@
-// The Python package as pip builds it: its wheel is installed, imported and used.
+// Python package as pip builds it. The wheel is installed, imported and used.
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
@@ -12,46 +12,46 @@ import { ROOT } from '../../scripts/process.mjs';
 import { CACHE_DIRECTORY, ensurePip } from '../../scripts/toolchain.mjs';
 
 const SOURCE_DIRECTORY = join(ROOT, 'python');
-const pyproject = readFileSync(join(SOURCE_DIRECTORY, 'pyproject.toml'), 'utf8');
+const pyprojectText = readFileSync(join(SOURCE_DIRECTORY, 'pyproject.toml'), 'utf8');
 
 /** @type {string} */
 let temporaryDirectory;
 /** Search path of Python: the directories of the package and of its dependencies. @type {string} */
 let searchPath;
 
-/** Runs Python, and returns its output. @param {string[]} args @param {string} [pythonPath] */
-const runPython = (args, pythonPath = '') => {
+/** Runs Python, and returns its output. @param {string[]} pythonArguments @param {string} [pythonPath] */
+const runPython = (pythonArguments, pythonPath = '') => {
   const env = { ...process.env, PYTHONPATH: pythonPath, PIP_ROOT_USER_ACTION: 'ignore', PIP_DISABLE_PIP_VERSION_CHECK: '1' };
-  return execFileSync('python3', args, { encoding: 'utf8', env });
+  return execFileSync('python3', pythonArguments, { encoding: 'utf8', env });
 };
 
-/** Runs pip. @param {string[]} args @param {string} [pythonPath] */
-const pip = (args, pythonPath) => runPython(['-m', 'pip', '--quiet', ...args], pythonPath);
+/** Runs pip. @param {string[]} pipArguments @param {string} [pythonPath] */
+const runPip = (pipArguments, pythonPath) => runPython(['-m', 'pip', '--quiet', ...pipArguments], pythonPath);
 
-/** Installs what the package needs to be built and to run, once for all clones of the repository, and returns its directory. */
+/** Installs the packages that the Python package needs to be built and to run. Returns their directory, which all clones of the repository share. */
 function installDependencies() {
-  const requirementLists = pyproject.match(/^(?:requires|dependencies) = .*$/gm) ?? [];
-  const requirements = requirementLists.flatMap((list) => list.match(/(?<=")[\w<>=.,]+(?=")/g) ?? []);
-  assert.ok(requirements.length >= 2, pyproject);
+  const requirementLists = pyprojectText.match(/^(?:requires|dependencies) = .*$/gm) ?? [];
+  const requirements = requirementLists.flatMap((requirementList) => requirementList.match(/(?<=")[\w<>=.,]+(?=")/g) ?? []);
+  assert.ok(requirements.length >= 2, pyprojectText);
   const pythonVersion = runPython(['--version']);
-  const directory = join(CACHE_DIRECTORY, `python-${createHash('sha256').update(requirements + pythonVersion).digest('hex').slice(0, 12)}`);
-  if (existsSync(directory)) return directory;
-  const incompleteDirectory = `${directory}-${process.pid}`;
-  pip(['install', '--target', incompleteDirectory, ...requirements]);
-  renameSync(incompleteDirectory, directory);
-  return directory;
+  const installDirectory = join(CACHE_DIRECTORY, `python-${createHash('sha256').update(requirements + pythonVersion).digest('hex').slice(0, 12)}`);
+  if (existsSync(installDirectory)) return installDirectory;
+  const incompleteDirectory = `${installDirectory}-${process.pid}`;
+  runPip(['install', '--target', incompleteDirectory, ...requirements]);
+  renameSync(incompleteDirectory, installDirectory);
+  return installDirectory;
 }
 
 before(async () => {
   await ensurePip();
   temporaryDirectory = mkdtempSync(join(tmpdir(), 'motion-widgets-'));
   const dependencyDirectory = installDependencies();
-  pip(['wheel', '--no-deps', '--no-build-isolation', '--wheel-dir', temporaryDirectory, SOURCE_DIRECTORY], dependencyDirectory);
-  const [wheel] = readdirSync(temporaryDirectory);
+  runPip(['wheel', '--no-deps', '--no-build-isolation', '--wheel-dir', temporaryDirectory, SOURCE_DIRECTORY], dependencyDirectory);
+  const [wheelName] = readdirSync(temporaryDirectory);
   const { version } = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
-  assert.equal(wheel, `motion_widgets-${version}-py3-none-any.whl`);
+  assert.equal(wheelName, `motion_widgets-${version}-py3-none-any.whl`);
   const installDirectory = join(temporaryDirectory, 'site');
-  pip(['install', '--no-deps', '--target', installDirectory, join(temporaryDirectory, wheel)]);
+  runPip(['install', '--no-deps', '--target', installDirectory, join(temporaryDirectory, wheelName)]);
   searchPath = [installDirectory, dependencyDirectory].join(delimiter);
 });
 
@@ -64,9 +64,9 @@ test('the wheel is imported, and a setting that is a keyword of Python has an un
     'm.BananaMachine(reverse_aware=True, morph=0.5); m.MapSqueeze(steps=4)',
     'print(json.dumps([m.__file__, figure.get_state(["widget", "from_"])]))',
   ];
-  const [file, state] = JSON.parse(runPython(['-c', pythonLines.join('\n')], searchPath));
-  assert.ok(file.startsWith(temporaryDirectory), file);
-  assert.deepEqual(state, { widget: 'odometry-decomposer', from_: { x: 1, y: 2, theta: 0.5 } });
+  const [importedFile, figureState] = JSON.parse(runPython(['-c', pythonLines.join('\n')], searchPath));
+  assert.ok(importedFile.startsWith(temporaryDirectory), importedFile);
+  assert.deepEqual(figureState, { widget: 'odometry-decomposer', from_: { x: 1, y: 2, theta: 0.5 } });
 });
 
 test('no trait hides what every widget has', () => {
@@ -90,8 +90,8 @@ test('a value out of its range, and parts that are wrong or missing, are refused
     ['BananaMachine(alphas=[1, "2"])', "alphas[1] is '2'; allowed is a number from 0 to 1000000"],
     ['BananaMachine(overlays=["elipse"])', "overlays[0] is 'elipse'; allowed is one of command, ellipse, exponential, linearized, additive"],
   ];
-  const pythonLines = ['import motion_widgets as m, traitlets', ...refusedCalls.flatMap(([call]) => [`try: m.${call}`, 'except traitlets.TraitError as error: print(error)'])];
-  assert.deepEqual(runPython(['-c', pythonLines.join('\n')], searchPath).trim().split('\n'), refusedCalls.map(([, message]) => message));
+  const pythonLines = ['import motion_widgets as m, traitlets', ...refusedCalls.flatMap(([refusedCall]) => [`try: m.${refusedCall}`, 'except traitlets.TraitError as error: print(error)'])];
+  assert.deepEqual(runPython(['-c', pythonLines.join('\n')], searchPath).trim().split('\n'), refusedCalls.map(([, expectedMessage]) => expectedMessage));
 });
 
 test('what a figure reports is applied and echoed if the figure sent it and Python has not changed it since', () => {
@@ -118,5 +118,5 @@ test('names of generated code are those that its language allows', () => {
   assert.deepEqual(['reverseAware', 'lambda', 'log'].map(pythonNameOf), ['reverse_aware', 'lambda_', 'log_']);
   assert.throws(() => pythonNameOf('2d'), /2d cannot be the name of a trait/);
   assert.equal(checkScriptName('From'), 'From');
-  for (const name of ['Map', 'class', '2d']) assert.throws(() => checkScriptName(name), { message: new RegExp(`^${name} `) });
+  for (const scriptName of ['Map', 'class', '2d']) assert.throws(() => checkScriptName(scriptName), { message: new RegExp(`^${scriptName} `) });
 });

@@ -1,4 +1,4 @@
-// motion-widgets/react in an application: its types, the server's HTML, and the behaviour of the components on a page.
+// The module motion-widgets/react in an application: its types, the server's HTML, and the behaviour of the components on a page.
 
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
@@ -9,11 +9,11 @@ import { buildSync } from 'esbuild';
 import { ROOT } from '../../scripts/process.mjs';
 import { serveProject } from './support.js';
 
-const project = serveProject(prepareProject);
+const installedProject = serveProject(prepareProject);
 /** @type {import('@playwright/test').Page} */
 let page;
 
-/** Source of a React application: a test changes its props by `page`, and reads the received events in `receivedEvents`. */
+/** Source of a React application. A test changes the props by `page`, and reads the received events in `receivedEvents`. */
 const APPLICATION_SOURCE = `
   import { createElement, useRef, useState } from 'react';
   import { BananaMachine, MapSqueeze } from 'motion-widgets/react';
@@ -27,7 +27,7 @@ const APPLICATION_SOURCE = `
     const figure = useRef(null);
     Object.assign(page, { figure, setProps, renderings: (page.renderings ?? 0) + 1 });
     const recordEvent = (name) => (event) => {
-      // Without this call the figure would also write the error to the console.
+      // Without preventDefault() the figure would also write the error to the console.
       event.preventDefault();
       receivedEvents.push([name, event.currentTarget === figure.current, ...(event.message ? [event.message] : [])]);
     };
@@ -59,29 +59,29 @@ const CLIENT_SOURCE = `
 `;
 
 function prepareProject() {
-  for (const name of ['react-dom', 'scheduler']) {
-    cpSync(join(ROOT, 'node_modules', name), join(project.directory, 'node_modules', name), { recursive: true });
+  for (const packageName of ['react-dom', 'scheduler']) {
+    cpSync(join(ROOT, 'node_modules', packageName), join(installedProject.directory, 'node_modules', packageName), { recursive: true });
   }
-  mkdirSync(join(project.directory, 'react'));
+  mkdirSync(join(installedProject.directory, 'react'));
   writeInProject('application.js', APPLICATION_SOURCE);
   writeInProject('client.js', CLIENT_SOURCE);
   const pageHtmlOf = (/** @type {string} */ serverHtml) => `<!doctype html><html lang="en"><link rel="icon" href="data:,"><div id="root">${serverHtml}</div><script type="module" src="./bundle.js"></script>`;
   writeInProject('index.html', pageHtmlOf(''));
   writeInProject('sent.html', pageHtmlOf(renderServerHtml({ omega: 0.8 })));
-  const directory = join(project.directory, 'react');
+  const appDirectory = join(installedProject.directory, 'react');
   // The development build of React reports errors.
   const esbuildDefine = { 'process.env.NODE_ENV': '"development"' };
-  buildSync({ entryPoints: [join(directory, 'client.js')], bundle: true, format: 'esm', define: esbuildDefine, outfile: join(directory, 'bundle.js'), logLevel: 'silent' });
+  buildSync({ entryPoints: [join(appDirectory, 'client.js')], bundle: true, format: 'esm', define: esbuildDefine, outfile: join(appDirectory, 'bundle.js'), logLevel: 'silent' });
 }
 
-/** Writes a file next to the installed package. @param {string} name @param {string} contents */
-function writeInProject(name, contents) {
-  writeFileSync(join(project.directory, 'react', name), contents);
+/** Writes a file next to the installed package. @param {string} fileName @param {string} fileContents */
+function writeInProject(fileName, fileContents) {
+  writeFileSync(join(installedProject.directory, 'react', fileName), fileContents);
 }
 
-/** Returns the HTML that a server renders for a figure. @param {object} props of the figure; they may contain NaN */
-function renderServerHtml(props) {
-  const propsSource = JSON.stringify(props, (_, value) => (Number.isNaN(value) ? 'NaN' : value)).replaceAll('"NaN"', 'NaN');
+/** Returns the HTML that a server renders for a figure. @param {object} figureProps of the figure; they may contain NaN */
+function renderServerHtml(figureProps) {
+  const propsSource = JSON.stringify(figureProps, (_, propValue) => (Number.isNaN(propValue) ? 'NaN' : propValue)).replaceAll('"NaN"', 'NaN');
   const serverSource = `
     import { createElement } from 'react';
     import { renderToString } from 'react-dom/server';
@@ -89,17 +89,17 @@ function renderServerHtml(props) {
     console.log(renderToString(createElement(Application, { first: ${propsSource} })));`;
   writeInProject('server.mjs', serverSource);
   writeInProject('package.json', '{ "type": "module" }');
-  const scriptPath = join(project.directory, 'react/server.mjs');
+  const scriptPath = join(installedProject.directory, 'react/server.mjs');
   return execFileSync(process.execPath, [scriptPath], { encoding: 'utf8', env: { ...process.env, NODE_ENV: 'development' } }).trim();
 }
 
-/** Waits until the page shows the 2000 samples that the last `stats` event of the first figure has. */
+/** Waits until the last `stats` event of the first figure has 2000 samples. */
 const untilComplete = () => page.getByText('of 2000').waitFor();
 
 /** Opens a page of the application. @param {string} name of the file */
 async function openPage(name) {
-  page = await project.openPage();
-  await page.goto(new URL(`react/${name}`, project.address).href);
+  page = await installedProject.openPage();
+  await page.goto(new URL(`react/${name}`, installedProject.address).href);
   await page.waitForFunction(() => 'hydrate' in globalThis);
 }
 
@@ -107,7 +107,7 @@ async function openPage(name) {
 const setProps = (props) => page.evaluate((newProps) => /** @type {any} */ (globalThis).page.setProps(newProps), props);
 
 /** Returns a property of the first figure. @param {string} name */
-const readProperty = (name) => page.evaluate((key) => /** @type {any} */ (document.querySelector('banana-machine'))[key], name);
+const readProperty = (name) => page.evaluate((propertyName) => /** @type {any} */ (document.querySelector('banana-machine'))[propertyName], name);
 
 /** Returns the events that the page received. @returns {Promise<[name: string, onFigure: boolean, message?: string][]>} */
 const readReceivedEvents = () => page.evaluate(() => /** @type {any} */ (globalThis).receivedEvents);
@@ -116,7 +116,7 @@ test('a server sends what attributes say', () => {
   const serverHtml = renderServerHtml({ omega: '0.8', overlays: ['command', 'ellipse'], reverseAware: true, headingLevel: '2', share: true, isolate: null });
   const [openingTag] = serverHtml.match(/<banana-machine[^>]*>/) ?? [];
   const expectedAttributes = { reverseAware: '', omega: '0.8', samples: '2000', overlays: 'command ellipse', share: '', 'heading-level': '2', class: 'wide' };
-  const actualAttributes = Object.fromEntries([...(openingTag ?? '').matchAll(/ ([\w-]+)="([^"]*)"/g)].map(([, name, text]) => [name, text]));
+  const actualAttributes = Object.fromEntries([...(openingTag ?? '').matchAll(/ ([\w-]+)="([^"]*)"/g)].map(([, attributeName, attributeText]) => [attributeName, attributeText]));
   assert.deepEqual(actualAttributes, expectedAttributes);
   assert.match(serverHtml, /<map-squeeze conditioned="false" heading-level="3">/);
   assert.match(serverHtml, /<span slot="title">Figure 1<\/span>/);

@@ -8,55 +8,55 @@ import { brotliCompressSync, constants } from 'node:zlib';
 import { ROOT } from '../../scripts/process.mjs';
 import { settings } from '../../build/settings.js';
 
-const pathOf = (/** @type {string} */ path) => join(ROOT, path);
+const pathOf = (/** @type {string} */ repositoryPath) => join(ROOT, repositoryPath);
 
-/** Report of esbuild on each file that it has written, by the file's path from the root. @type {Record<string, { entryPoint?: string, imports: { path: string, kind: string }[] }>} */
+/** Report of esbuild on each written file, by the path from the root. @type {Record<string, { entryPoint?: string, imports: { path: string, kind: string }[] }>} */
 const esbuildOutputs = JSON.parse(readFileSync(pathOf('build/outputs.json'), 'utf8'));
 
-/** Returns a module with its static imports, which a browser loads with it, and without dynamic imports. @param {string} path */
+/** Returns a module with its static imports, which a browser loads together. Dynamic imports are left out. @param {string} path */
 function filesLoadedWith(path) {
   const loadedPaths = new Set([path]);
   for (const loadedPath of loadedPaths) {
-    for (const { path: imported, kind } of esbuildOutputs[loadedPath].imports) if (kind === 'import-statement') loadedPaths.add(imported);
+    for (const { path: importedPath, kind } of esbuildOutputs[loadedPath].imports) if (kind === 'import-statement') loadedPaths.add(importedPath);
   }
   return [...loadedPaths];
 }
 
-/** Returns the chunk of external.js whose entry point is a source file, and what a browser loads with it. @param {string} source */
-function filesOfChunk(source) {
-  const chunkEntry = Object.entries(esbuildOutputs).find(([product, { entryPoint }]) => entryPoint === source && product.startsWith('dist/chunks/'));
-  assert.ok(chunkEntry, `external.js has no chunk of ${source}.`);
+/** Returns the files that a browser loads with a chunk of external.js. The entry point of the chunk is a source file. @param {string} sourcePath */
+function filesOfChunk(sourcePath) {
+  const chunkEntry = Object.entries(esbuildOutputs).find(([outputPath, { entryPoint }]) => entryPoint === sourcePath && outputPath.startsWith('dist/chunks/'));
+  assert.ok(chunkEntry, `external.js has no chunk of ${sourcePath}.`);
   return filesLoadedWith(chunkEntry[0]);
 }
 
-/** Returns the scripts that a page with some widgets loads before a user uses them. @param {string[]} widgetTags @param {string} core */
-const scriptsOf = (widgetTags, core) =>
-  [...new Set([...filesLoadedWith('dist/external.js'), ...widgetTags.flatMap((tag) => filesOfChunk(`www/widgets/${tag}/${tag}.ts`)), ...filesOfChunk(`build/${core}.js`)])];
+/** Returns the scripts that a page with some widgets loads before a user uses them. @param {string[]} widgetTags @param {string} coreEntry */
+const scriptsOf = (widgetTags, coreEntry) =>
+  [...new Set([...filesLoadedWith('dist/external.js'), ...widgetTags.flatMap((widgetTag) => filesOfChunk(`www/widgets/${widgetTag}/${widgetTag}.ts`)), ...filesOfChunk(`build/${coreEntry}.js`)])];
 
 /** Returns the path of the WebAssembly module of a widget. @param {string} tag */
 function modulePathOf(tag) {
-  const fileName = readdirSync(pathOf('dist/chunks')).find((name) => name.startsWith(`${tag}-`) && name.endsWith('.wasm'));
+  const fileName = readdirSync(pathOf('dist/chunks')).find((wasmName) => wasmName.startsWith(`${tag}-`) && wasmName.endsWith('.wasm'));
   assert.ok(fileName, `dist/chunks has no module for ${tag}.`);
   return `dist/chunks/${fileName}`;
 }
 
-/** Asserts that files compressed by brotli are within a limit. @param {string} name @param {string[]} paths @param {number} limit bytes */
-function assertSize(name, paths, limit) {
+/** Asserts that files compressed by brotli are within a limit. @param {string} loadName @param {string[]} filePaths @param {number} maxBytes */
+function assertSize(loadName, filePaths, maxBytes) {
   const brotliOptions = { params: { [constants.BROTLI_PARAM_QUALITY]: 11 } };
-  const compressedBytes = paths.reduce((sum, path) => sum + brotliCompressSync(readFileSync(pathOf(path)), brotliOptions).length, 0);
-  console.log(`${name}: ${compressedBytes} of ${limit} bytes`);
-  assert.ok(compressedBytes <= limit, `${name}: ${paths.join(' + ')} are ${compressedBytes} bytes by brotli; allowed are ${limit}`);
+  const compressedBytes = filePaths.reduce((byteSum, path) => byteSum + brotliCompressSync(readFileSync(pathOf(path)), brotliOptions).length, 0);
+  console.log(`${loadName}: ${compressedBytes} of ${maxBytes} bytes`);
+  assert.ok(compressedBytes <= maxBytes, `${loadName}: ${filePaths.join(' + ')} are ${compressedBytes} bytes by brotli; allowed are ${maxBytes}`);
 }
 
 /**
- * Limits in kilobytes: the budget of a page with one widget, and the present sizes of other files, rounded up. See "The size of
+ * Limits in kilobytes. The budget of a page with one widget is fixed. The other limits are the present sizes, rounded up. See "The size of
  * the module" in doc/implementation-notes.md.
  */
 const LIMITS_KB = {
   page: 118, moduleOfWidget: 56, pageOfCalibrator: 159, moduleOfCalibrator: 93, module: 225, classicScript: 438, notebook: 441,
 };
 
-/** Widget whose module also has all of motion::calibrate. */
+/** Widget whose module also contains all of motion::calibrate. */
 const CALIBRATOR_TAG = 'alpha-calibrator';
 
 test('what a page loads does not grow', () => {

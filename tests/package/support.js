@@ -20,56 +20,56 @@ import { packInto } from '../embeddings/project.mjs';
 /** Files of dist/ that an author copies next to a page. */
 const COPIED_FILES = ['motion-widgets.iife.js', 'motion-widgets.css', 'embed.html', 'embed.css', 'embed.js'];
 
-/** Copies the examples to a directory, and installs only the packed package there. @param {string} directory */
-function installPackage(directory) {
-  const tarball = packInto(directory);
-  const modulesDirectory = join(directory, 'node_modules');
+/** Copies the examples to a directory, and installs only the packed package there. @param {string} installDirectory */
+function installPackage(installDirectory) {
+  const tarballPath = packInto(installDirectory);
+  const modulesDirectory = join(installDirectory, 'node_modules');
   mkdirSync(modulesDirectory);
-  execFileSync('tar', ['-xzf', tarball, '-C', modulesDirectory]);
+  execFileSync('tar', ['-xzf', tarballPath, '-C', modulesDirectory]);
   renameSync(join(modulesDirectory, 'package'), join(modulesDirectory, 'motion-widgets'));
-  writeFileSync(join(directory, 'package.json'), '{ "private": true }');
-  // npm leaves the installation of peer dependencies to the application.
+  writeFileSync(join(installDirectory, 'package.json'), '{ "private": true }');
+  // The application must install peer dependencies by itself.
   const { peerDependencies } = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
-  for (const name of Object.keys(peerDependencies)) cpSync(join(ROOT, 'node_modules', name), join(modulesDirectory, name), { recursive: true });
-  cpSync(join(ROOT, 'examples'), directory, { recursive: true });
+  for (const packageName of Object.keys(peerDependencies)) cpSync(join(ROOT, 'node_modules', packageName), join(modulesDirectory, packageName), { recursive: true });
+  cpSync(join(ROOT, 'examples'), installDirectory, { recursive: true });
   for (const name of COPIED_FILES) {
-    for (const example of ['classic-script', 'iframe']) cpSync(join(ROOT, 'dist', name), join(directory, example, name));
+    for (const exampleName of ['classic-script', 'iframe']) cpSync(join(ROOT, 'dist', name), join(installDirectory, exampleName, name));
   }
   for (const exampleEntry of readdirSync(join(ROOT, 'examples'), { withFileTypes: true })) {
-    if (exampleEntry.isDirectory()) symlinkSync(modulesDirectory, join(directory, exampleEntry.name, 'node_modules'));
+    if (exampleEntry.isDirectory()) symlinkSync(modulesDirectory, join(installDirectory, exampleEntry.name, 'node_modules'));
   }
 }
 
 /**
- * Serves a directory for all tests of a file, and launches a browser. After a test its pages are closed, and those that `openPage` has
- * opened must have printed no errors or warnings.
+ * Serves a directory for all tests of a file, and launches a browser. After a test its pages are closed. Pages that `openPage` has opened
+ * must have printed no errors or warnings.
  *
- * @param {() => string} prepare returns the directory
- * @param {string} [base] path of the site
+ * @param {() => string} prepareDirectory returns the directory
+ * @param {string} [basePath] path of the site
  */
-export function serveDirectory(prepare, base) {
+export function serveDirectory(prepareDirectory, basePath) {
   const siteServer = {
     address: '',
     browser: /** @type {import('@playwright/test').Browser} */ ({}),
     consoleMessages: /** @type {string[]} */ ([]),
-    /** Opens a page. @param {import('@playwright/test').BrowserContextOptions} [options] */
-    async openPage(options) {
-      const page = await siteServer.browser.newPage(options);
+    /** Opens a page. @param {import('@playwright/test').BrowserContextOptions} [pageOptions] */
+    async openPage(pageOptions) {
+      const page = await siteServer.browser.newPage(pageOptions);
       recordMessages(page, siteServer.consoleMessages);
       return page;
     },
   };
   let closeServer = () => {};
   before(async () => {
-    // The test file must be evaluated before `prepare` is called.
+    // The test file must be evaluated before `prepareDirectory` is called.
     await null;
-    const { address, close } = await startServer(prepare(), { port: 0, base });
+    const { address, close } = await startServer(prepareDirectory(), { port: 0, base: basePath });
     closeServer = close;
     const browser = await chromium.launch({ executablePath: process.env.CHROME ?? findChrome(), args: CHROME_ARGUMENTS });
     Object.assign(siteServer, { address, browser });
   });
   afterEach(async () => {
-    // A page that is closed aborts its requests, which is no fault.
+    // A closed page aborts its requests, which is no error.
     const testMessages = [...siteServer.consoleMessages];
     for (const context of siteServer.browser.contexts()) await context.close();
     siteServer.consoleMessages = [];
@@ -94,12 +94,7 @@ export function serveProject(prepare) {
   return Object.assign(siteServer, { directory });
 }
 
-/**
- * Opens a page and waits until its figure has all of its samples.
- *
- * @param {ReturnType<typeof serveDirectory>} siteServer
- * @param {string} address
- */
+/** Opens a page and waits until its figure has all its samples. @param {ReturnType<typeof serveDirectory>} siteServer @param {string} address */
 export async function openWithCloud(siteServer, address) {
   const page = await siteServer.openPage();
   /** @type {string[]} */
@@ -107,8 +102,8 @@ export async function openWithCloud(siteServer, address) {
   page.on('request', (request) => requestedUrls.push(request.url()));
   await page.goto(address);
   const figureFrame = (await page.locator('iframe').count()) > 0 ? page.frameLocator('iframe') : page;
-  const canvas = figureFrame.locator('banana-machine canvas').first();
-  await canvas.waitFor({ timeout: 10_000 }).catch((error) => {
+  const cloudCanvas = figureFrame.locator('banana-machine canvas').first();
+  await cloudCanvas.waitFor({ timeout: 10_000 }).catch((error) => {
     throw new Error([...siteServer.consoleMessages, error.message].join('\n'));
   });
   await figureFrame.locator('banana-machine').first().evaluate(untilComplete);

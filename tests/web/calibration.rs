@@ -1,6 +1,6 @@
 //! JavaScript interface of `calibrate` and `AlphaCalibrator`: logs as arguments, α's as results.
 
-use crate::support::Object;
+use crate::support::JsObject;
 use motion::geom::se2::SE2;
 use motion::{MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel};
 use nalgebra::Vector3;
@@ -27,25 +27,25 @@ struct Columns {
 
 /// Returns odometry and reference of 400 legs, each a second long with ten rows. The reference is simulated with `ALPHAS` and a mount yaw of
 /// 0.03 rad.
-fn simulated_logs() -> Object {
+fn simulated_logs() -> JsObject {
     let model = OdometryModel { alphas: OdomAlphas(ALPHAS), noise: NoiseKind::Normal };
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(5);
     let (mut odometry_pose, mut true_pose) = (SE2::identity(), SE2::identity());
     let (mut odometry_poses, mut reference_poses) = (Vec::new(), Vec::new());
-    for leg in 0..400 {
-        let turn = 0.5 * libm::sin(0.7 * f64::from(leg));
-        let twist = Vector3::new(0.3 + 0.1 * libm::sin(1.3 * f64::from(leg)), 0.0, turn);
+    for leg_index in 0..400 {
+        let turn = 0.5 * libm::sin(0.7 * f64::from(leg_index));
+        let twist = Vector3::new(0.3 + 0.1 * libm::sin(1.3 * f64::from(leg_index)), 0.0, turn);
         let odom_delta = OdomDelta::from_poses(&SE2::identity(), &SE2::exp(&twist));
         let executed_twist = model.sample(&odom_delta, &SE2::identity(), &mut rng).log();
-        for row in 0..10 {
-            let fraction = f64::from(row) / 10.0;
-            odometry_poses.push(odometry_pose.boxplus(twist * fraction));
-            reference_poses.push(true_pose.boxplus(executed_twist * fraction) * SE2::new(0.0, 0.0, 0.03));
+        for row_index in 0..10 {
+            let leg_fraction = f64::from(row_index) / 10.0;
+            odometry_poses.push(odometry_pose.boxplus(twist * leg_fraction));
+            reference_poses.push(true_pose.boxplus(executed_twist * leg_fraction) * SE2::new(0.0, 0.0, 0.03));
         }
         (odometry_pose, true_pose) = (odometry_pose.boxplus(twist), true_pose.boxplus(executed_twist));
     }
     let columns_of = |poses: &[SE2]| Columns {
-        t: (0..poses.len()).map(|row| row as f64 / 10.0).collect(),
+        t: (0..poses.len()).map(|row_index| row_index as f64 / 10.0).collect(),
         x: poses.iter().map(SE2::x).collect(),
         y: poses.iter().map(SE2::y).collect(),
         theta: poses.iter().map(SE2::theta).collect(),
@@ -55,37 +55,37 @@ fn simulated_logs() -> Object {
 
 #[wasm_bindgen_test]
 fn alphas_of_a_log_are_found_with_their_intervals() {
-    let it = simulated_logs();
-    it.run("it.found = motion.calibrate({ ...it, legs: { duration: 1 } })");
-    let intervals: Vec<(f64, f64)> = it.get("it.found.intervals");
-    let alphas: Vec<f64> = it.get("it.found.alphas");
+    let js_logs = simulated_logs();
+    js_logs.run("it.found = motion.calibrate({ ...it, legs: { duration: 1 } })");
+    let intervals: Vec<(f64, f64)> = js_logs.get("it.found.intervals");
+    let alphas: Vec<f64> = js_logs.get("it.found.alphas");
     for ((alpha, (low, high)), truth) in alphas.iter().zip(&intervals).zip(ALPHAS) {
-        // Intervals of twice the width miss the true value in one of ten thousand logs.
+        // An interval of twice the width misses the true value in one of ten thousand logs.
         assert!(low < alpha && alpha < high, "{low} {alpha} {high}");
         assert!(2.0 * low - alpha < truth && truth < 2.0 * high - alpha, "{low} {truth} {high}");
     }
     let [leg_count, time_count, squared_count]: [usize; 3] =
-        it.get("[it.found.legs.count, it.found.legs.times.length, it.found.legs.squared.length]");
+        js_logs.get("[it.found.legs.count, it.found.legs.times.length, it.found.legs.squared.length]");
     assert!(
         (390..=400).contains(&leg_count) && time_count == 2 * leg_count && squared_count == leg_count,
         "{leg_count} {time_count} {squared_count}"
     );
-    assert_eq!(it.get::<Vec<Option<String>>>("it.found.notIdentifiable"), [None, None, None, None]);
-    it.assert(
+    assert_eq!(js_logs.get::<Vec<Option<String>>>("it.found.notIdentifiable"), [None, None, None, None]);
+    js_logs.assert(
         "it.found.recommended.alphas.every((alpha, i) =>
         alpha === it.found.recommended.inflation * it.found.alphas[i])",
     );
-    it.assert(
+    js_logs.assert(
         "it.found.diagnostics.checks.every(({ passed, message, value, expected: [low, high] }) =>
         passed === (low <= value && value <= high) && passed === (message === ''))",
     );
     let typed_odometry = "Object.fromEntries(Object.entries(it.odometry).map(([key, column]) => [key,
         Float64Array.from(column)]))";
-    it.run(&format!(
+    js_logs.run(&format!(
         "it.again = motion.calibrate({{ odometry: {typed_odometry}, reference: it.reference,
         legs: {{ duration: 1 }}, rule: 'thrun' }})"
     ));
-    assert_eq!(it.get::<Vec<f64>>("it.again.alphas"), alphas);
+    assert_eq!(js_logs.get::<Vec<f64>>("it.again.alphas"), alphas);
 }
 
 #[wasm_bindgen_test]
@@ -129,7 +129,7 @@ fn no_leg_spans_a_break() {
 
 #[wasm_bindgen_test]
 fn the_figure_opens_with_a_log_of_known_alphas() {
-    let it = Object::new("new motion.AlphaCalibrator()");
+    let it = JsObject::new("new motion.AlphaCalibrator()");
     it.assert(
         "it.truth.alphas.length === 4 && it.count === it.legs.count && it.count === it.legs.squared.length
         && it.fits === 1 && it.stats.legs === undefined",

@@ -1,6 +1,6 @@
 //! Memory of the WebAssembly module: the largest clouds fit, and freed memory is used again.
 
-use crate::support::Object;
+use crate::support::JsObject;
 use js_sys::{ArrayBuffer, WebAssembly};
 use motion::geom::segment::Segment;
 use motion::map::FloorPlan;
@@ -8,7 +8,6 @@ use motion::sim::squeeze::{self, MapSqueeze};
 use wasm_bindgen::JsCast;
 use wasm_bindgen_test::wasm_bindgen_test;
 
-/// Returns the number of bytes of the module's memory.
 fn memory_byte_length() -> u32 {
     let memory: WebAssembly::Memory = wasm_bindgen::memory().unchecked_into();
     memory.buffer().unchecked_into::<ArrayBuffer>().byte_length()
@@ -29,36 +28,36 @@ const SCORE_CALL: &str = "prob(it.pose, it.pose, it.pose)";
 
 #[wasm_bindgen_test]
 fn a_freed_object_is_gone_with_its_memory() {
-    let it = Object::new("({ pose: { x: 0, y: 0, theta: 0 } })");
-    for (class, expression) in CLASSES {
-        let use_and_free = format!("[it.one = new motion.{class}, it.one.stats, it.one.free()]");
-        it.run(&use_and_free);
+    let js = JsObject::new("({ pose: { x: 0, y: 0, theta: 0 } })");
+    for (class_name, read_expression) in CLASSES {
+        let use_and_free = format!("[it.one = new motion.{class_name}, it.one.stats, it.one.free()]");
+        js.run(&use_and_free);
         let byte_length_before = memory_byte_length();
         for _ in 0..10 {
-            it.run(&use_and_free);
+            js.run(&use_and_free);
         }
         // A cloud would take more than a page of memory.
         assert!(
             memory_byte_length() <= byte_length_before + 65_536,
-            "{class} left {} bytes",
+            "{class_name} left {} bytes",
             memory_byte_length() - byte_length_before
         );
-        assert!(it.error(&format!("it.one.{expression}")).starts_with("Error: "), "{class}");
-        it.run(&format!("[it.one = new motion.{class}, it.one[Symbol.dispose]()]"));
-        assert!(it.error(&format!("it.one.{expression}")).starts_with("Error: "), "{class}");
+        assert!(js.error(&format!("it.one.{read_expression}")).starts_with("Error: "), "{class_name}");
+        js.run(&format!("[it.one = new motion.{class_name}, it.one[Symbol.dispose]()]"));
+        assert!(js.error(&format!("it.one.{read_expression}")).starts_with("Error: "), "{class_name}");
     }
 }
 
 #[wasm_bindgen_test]
 fn the_largest_cloud_fits_and_outlives_refused_settings() {
-    let it = Object::new("new motion.BananaMachine({ samples: 10_000_000, seed: 1 })");
-    let skew: f64 = it.get("it.stats.crossTrackSkew");
-    assert!(it.error("it.configure({ samples: 10_000_001 })").starts_with("RangeError: samples "));
-    assert!(it.error("it.configure({ alphas: Array(6).fill(NaN) })").starts_with("RangeError: alphas[0] "));
-    assert_eq!(it.get::<(usize, f64)>("[it.shown, it.stats.crossTrackSkew]"), (10_000_000, skew));
-    it.run("it.configure({ samples: 10 })");
-    assert_eq!(it.get::<usize>("it.poses.length"), 30);
-    it.run("it.free()");
+    let js = JsObject::new("new motion.BananaMachine({ samples: 10_000_000, seed: 1 })");
+    let skew: f64 = js.get("it.stats.crossTrackSkew");
+    assert!(js.error("it.configure({ samples: 10_000_001 })").starts_with("RangeError: samples "));
+    assert!(js.error("it.configure({ alphas: Array(6).fill(NaN) })").starts_with("RangeError: alphas[0] "));
+    assert_eq!(js.get::<(usize, f64)>("[it.shown, it.stats.crossTrackSkew]"), (10_000_000, skew));
+    js.run("it.configure({ samples: 10 })");
+    assert_eq!(js.get::<usize>("it.poses.length"), 30);
+    js.run("it.free()");
 }
 
 #[wasm_bindgen_test]
@@ -75,7 +74,7 @@ fn the_largest_cloud_fits_in_the_largest_plan() {
 
 #[wasm_bindgen_test]
 fn the_results_of_read_equal_the_properties_of_the_same_names() {
-    for name in [
+    for property_name in [
         "BananaMachine",
         "ArcAnatomy",
         "DeadReckoning",
@@ -83,13 +82,13 @@ fn the_results_of_read_equal_the_properties_of_the_same_names() {
         "MapSqueeze",
         "AlphaCalibrator",
     ] {
-        let it = Object::new(&format!("new motion.{name}()"));
-        it.assert("Object.keys(it.read()).length > 3");
-        let differing_keys: Vec<String> = it.get(
+        let js = JsObject::new(&format!("new motion.{property_name}()"));
+        js.assert("Object.keys(it.read()).length > 3");
+        let differing_keys: Vec<String> = js.get(
             "Object.entries(it.read())
                 .filter(([key, value]) => typeof it[key] !== 'function' && key in it && JSON.stringify(value) !== JSON.stringify(it[key]))
                 .map(([key]) => key)",
         );
-        assert_eq!(differing_keys, Vec::<String>::new(), "{name}");
+        assert_eq!(differing_keys, Vec::<String>::new(), "{property_name}");
     }
 }

@@ -1,6 +1,6 @@
 //! Models, arcs and SE(2): functions that users call in exercises.
 
-use crate::support::{Object, assert_near, get};
+use crate::support::{JsObject, assert_near, get};
 use motion::geom::se2::SE2;
 use motion::{
     Compounding, ConfiguredOdometry, MotionModel, NoiseKind, OdomAlphas, OdomDelta, OdometryModel,
@@ -51,8 +51,8 @@ fn sampled_coordinates<M: MotionModel>(model: &M, control: &M::Control) -> Vec<f
     (0..5).flat_map(|_| pose_coordinates(&model.sample(control, &start_pose(), &mut rng))).collect()
 }
 
-fn prob_and_density<M: MotionModel>(model: &M, next: &SE2, control: &M::Control) -> (f64, Option<f64>) {
-    (model.prob(next, control, &start_pose()), model.pose_density(next, control, &start_pose()))
+fn prob_and_density<M: MotionModel>(model: &M, x_next: &SE2, control: &M::Control) -> (f64, Option<f64>) {
+    (model.prob(x_next, control, &start_pose()), model.pose_density(x_next, control, &start_pose()))
 }
 
 fn matrix_rows(matrix: &Matrix3<f64>) -> Vec<Vec<f64>> {
@@ -61,9 +61,9 @@ fn matrix_rows(matrix: &Matrix3<f64>) -> Vec<Vec<f64>> {
 
 #[wasm_bindgen_test]
 fn poses_and_twists_are_those_of_rust() {
-    let it = Object::new(JS_VALUES);
+    let js = JsObject::new(JS_VALUES);
     let twist = Vector3::new(0.3, -0.1, 0.7);
-    let pose_of = |expression: &str| it.get::<[f64; 3]>(&format!("Object.values(motion.se2.{expression})"));
+    let pose_of = |expression: &str| js.get::<[f64; 3]>(&format!("Object.values(motion.se2.{expression})"));
     assert_eq!(pose_of("exp([0.3, -0.1, 0.7])"), pose_coordinates(&SE2::exp(&twist)));
     assert_eq!(pose_of("compose(it.start, it.next)"), pose_coordinates(&(start_pose() * next_pose())));
     assert_eq!(pose_of("inverse(it.start)"), pose_coordinates(&start_pose().inverse()));
@@ -71,24 +71,24 @@ fn poses_and_twists_are_those_of_rust() {
         pose_of("boxplus(it.start, new Float64Array([0.3, -0.1, 0.7]))"),
         pose_coordinates(&start_pose().boxplus(twist))
     );
-    assert_eq!(it.get::<Vec<f64>>("motion.se2.log(it.next)"), next_pose().log().as_slice());
+    assert_eq!(js.get::<Vec<f64>>("motion.se2.log(it.next)"), next_pose().log().as_slice());
     assert_eq!(
-        it.get::<Vec<f64>>("motion.se2.boxminus(it.next, it.start)"),
+        js.get::<Vec<f64>>("motion.se2.boxminus(it.next, it.start)"),
         next_pose().boxminus(&start_pose()).as_slice()
     );
-    let matrix_of = |expression: &str| it.get::<Vec<Vec<f64>>>(&format!("motion.se2.{expression}"));
+    let matrix_of = |expression: &str| js.get::<Vec<Vec<f64>>>(&format!("motion.se2.{expression}"));
     assert_eq!(matrix_of("adjoint(it.start)"), matrix_rows(&start_pose().adjoint()));
     assert_eq!(matrix_of("rightJacobian([0.3, -0.1, 0.7])"), matrix_rows(&SE2::right_jacobian(&twist)));
-    assert_eq!(it.get::<Vec<String>>("Object.keys(motion.se2.inverse(it.start))"), ["x", "y", "theta"]);
+    assert_eq!(js.get::<Vec<String>>("Object.keys(motion.se2.inverse(it.start))"), ["x", "y", "theta"]);
 }
 
 #[wasm_bindgen_test]
 fn an_arc_is_inverted_and_two_poses_are_decomposed() {
-    let it = Object::new(JS_VALUES);
+    let js = JsObject::new(JS_VALUES);
     let arc = invert_arc(&start_pose(), &next_pose(), 2.0);
     let [x, y] = arc.centre(&start_pose()).expect("an arc");
     assert_eq!(
-        it.get::<Vec<f64>>(
+        js.get::<Vec<f64>>(
             "(({ vHat, omegaHat, gammaHat, center, radius, turn }) =>
                 [vHat, omegaHat, gammaHat, center.x, center.y, radius, turn])(motion.invertArc(it.start, it.next, 2))"
         ),
@@ -106,8 +106,8 @@ fn an_arc_is_inverted_and_two_poses_are_decomposed() {
 
 #[wasm_bindgen_test]
 fn models_score_and_draw_as_in_rust() {
-    let it = Object::new(JS_VALUES);
-    let [velocity_scores, odometry_scores, reverse_aware_scores]: [(f64, Option<f64>); 3] = it.get(
+    let js = JsObject::new(JS_VALUES);
+    let [velocity_scores, odometry_scores, reverse_aware_scores]: [(f64, Option<f64>); 3] = js.get(
         "[[it.velocity, it.next, it.command], [it.odometry, it.next, it.control], [it.aware, it.back,
             it.reverse]]
             .map(([model, next, control]) =>
@@ -125,18 +125,18 @@ fn models_score_and_draw_as_in_rust() {
         "the option has an effect"
     );
 
-    for (call, expected) in [
+    for (js_call, expected) in [
         ("velocity.sample(it.command", sampled_coordinates(&VELOCITY_MODEL, &COMMAND)),
         ("odometry.sample(it.control", sampled_coordinates(&ODOMETRY_MODEL, &READING)),
         ("aware.sample(it.reverse", sampled_coordinates(&reverse_aware_model, &REVERSE_READING)),
     ] {
-        assert_eq!(it.get::<Vec<f64>>(&format!("it.{call}, it.start, 5, 9)")), expected, "{call}");
+        assert_eq!(js.get::<Vec<f64>>(&format!("it.{js_call}, it.start, 5, 9)")), expected, "{js_call}");
     }
-    it.assert("it.aware.sample(it.reverse, it.start, 5, 9) instanceof Float64Array");
+    js.assert("it.aware.sample(it.reverse, it.start, 5, 9) instanceof Float64Array");
     // Without a last turn the poses lie on a surface, and have no density over x, y and θ.
     let model_without_last_turn = "new motion.VelocityModel({ alphas: [0.02, 0.02, 0.02, 0.02, 0, 0] })";
     assert_eq!(
-        it.get::<Option<f64>>(&format!(
+        js.get::<Option<f64>>(&format!(
             "{model_without_last_turn}.poseDensity(it.next, it.command, it.start)"
         )),
         None
@@ -147,30 +147,30 @@ fn models_score_and_draw_as_in_rust() {
 fn covariances_are_propagated_as_in_rust() {
     let noise_model = TangentNoiseModel::from_velocity(&VELOCITY_MODEL, &COMMAND).expect("a covariance");
     let twist = TangentNoiseModel::twist(&COMMAND);
-    let it = Object::new(JS_VALUES);
-    for (keyword, order) in [
+    let js = JsObject::new(JS_VALUES);
+    for (js_keyword, recursion) in [
         ("chapter", Compounding::Chapter),
         ("first-order", Compounding::FirstOrder),
         ("fourth-order", Compounding::FourthOrder),
     ] {
         let mut sigma = Matrix3::from_diagonal(&Vector3::new(0.01, 0.02, 0.03));
         for _ in 0..3 {
-            sigma = noise_model.propagate(&sigma, &twist, order);
+            sigma = noise_model.propagate(&sigma, &twist, recursion);
         }
-        let options = format!(
+        let js_options = format!(
             "{{ sigma: [[0.01, 0, 0], [0, 0.02, 0], [0, 0, 0.03]], command: it.command,
-                alphas: [0.02, 0.03, 0.04, 0.05, 0.01, 0.02], compounding: '{keyword}', steps: 3 }}"
+                alphas: [0.02, 0.03, 0.04, 0.05, 0.01, 0.02], compounding: '{js_keyword}', steps: 3 }}"
         );
         assert_eq!(
-            it.get::<Vec<Vec<f64>>>(&format!("motion.propagate({options})")),
+            js.get::<Vec<Vec<f64>>>(&format!("motion.propagate({js_options})")),
             matrix_rows(&sigma),
-            "{keyword}"
+            "{js_keyword}"
         );
     }
     let propagate_call =
         "motion.propagate({ command: it.command, alphas: [0.02, 0.03, 0.04, 0.05, 0.01, 0.02] })";
     let cov_after_one_step = noise_model.propagate(&Matrix3::zeros(), &twist, Compounding::Chapter);
-    assert_eq!(it.get::<Vec<Vec<f64>>>(propagate_call), matrix_rows(&cov_after_one_step));
+    assert_eq!(js.get::<Vec<Vec<f64>>>(propagate_call), matrix_rows(&cov_after_one_step));
 }
 
 #[wasm_bindgen_test]
@@ -188,8 +188,8 @@ fn the_reaching_command_ends_at_its_target_and_seeds_are_random() {
 
 #[wasm_bindgen_test]
 fn errors_name_the_refused_value_and_what_is_allowed() {
-    let it = Object::new(JS_VALUES);
-    it.assert_refused(
+    let js = JsObject::new(JS_VALUES);
+    js.assert_refused(
         "it",
         r#"
         new motion.VelocityModel({ alphas: [1, 2] })

@@ -1,12 +1,12 @@
 //! JavaScript interface of `DeadReckoning`.
 
-use crate::support::Object;
+use crate::support::JsObject;
 use wasm_bindgen_test::wasm_bindgen_test;
 
 #[wasm_bindgen_test]
 fn a_refused_call_changes_nothing() {
-    let it = Object::new("new motion.DeadReckoning({ samples: 20 })");
-    it.assert_refused(
+    let js = JsObject::new("new motion.DeadReckoning({ samples: 20 })");
+    js.assert_refused(
         "[it.config, it.stats]",
         r#"
         it.configure({ seed: 1, steps: 201 })

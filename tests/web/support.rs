@@ -17,25 +17,22 @@ extern "C" {
 
 /// JavaScript value that expressions call `it`. In expressions, `motion` is the module under test, and `pick` returns some properties of an
 /// object as an array.
-pub struct Object(JsValue);
+pub struct JsObject(JsValue);
 
-impl Object {
+impl JsObject {
     pub fn new(expression: &str) -> Self {
         Self(Self(JsValue::UNDEFINED).evaluate(expression))
     }
 
-    /// Returns the value of an expression.
     pub fn get<T: DeserializeOwned>(&self, expression: &str) -> T {
         serde_wasm_bindgen::from_value(self.evaluate(expression))
             .unwrap_or_else(|error| panic!("{expression}: {error}"))
     }
 
-    /// Runs an expression for its effect.
     pub fn run(&self, expression: &str) {
         self.evaluate(expression);
     }
 
-    /// Asserts that an expression is true.
     pub fn assert(&self, expression: &str) {
         assert!(self.get::<bool>(expression), "{expression}");
     }
@@ -50,11 +47,12 @@ impl Object {
 
     /// Asserts that each expression throws the error in the line below it and does not change the state. A line with more
     /// indentation than the first continues the line before it.
-    pub fn assert_refused(&self, state_expression: &str, cases: &str) {
+    pub fn assert_refused(&self, state_expression: &str, expressions_and_errors: &str) {
         let indentation = |line: &str| line.len() - line.trim_start().len();
-        let base_indentation = cases.lines().find(|line| !line.trim().is_empty()).map_or(0, indentation);
+        let base_indentation =
+            expressions_and_errors.lines().find(|line| !line.trim().is_empty()).map_or(0, indentation);
         let mut cases_and_errors: Vec<String> = Vec::new();
-        for line in cases.lines().filter(|line| !line.trim().is_empty()) {
+        for line in expressions_and_errors.lines().filter(|line| !line.trim().is_empty()) {
             match cases_and_errors.last_mut() {
                 Some(previous_line) if indentation(line) > base_indentation => {
                     *previous_line += &format!(" {}", line.trim())
@@ -64,9 +62,9 @@ impl Object {
         }
         let state_expression = format!("JSON.stringify({state_expression})");
         let state_before: String = self.get(&state_expression);
-        for case in cases_and_errors.chunks(2) {
-            assert_eq!(self.error(&case[0]), case[1], "{}", case[0]);
-            assert_eq!(self.get::<String>(&state_expression), state_before, "{}", case[0]);
+        for [expression, error] in cases_and_errors.as_chunks().0 {
+            assert_eq!(self.error(expression), *error, "{expression}");
+            assert_eq!(self.get::<String>(&state_expression), state_before, "{expression}");
         }
     }
 
@@ -75,7 +73,7 @@ impl Object {
     }
 }
 
-impl<T: serde::Serialize> From<&T> for Object {
+impl<T: serde::Serialize> From<&T> for JsObject {
     fn from(value: &T) -> Self {
         Self(serde_wasm_bindgen::to_value(value).expect("a plain value"))
     }
@@ -83,15 +81,15 @@ impl<T: serde::Serialize> From<&T> for Object {
 
 /// Returns the value of a JavaScript expression that does not use `it`.
 pub fn get<T: DeserializeOwned>(expression: &str) -> T {
-    Object(JsValue::UNDEFINED).get(expression)
+    JsObject(JsValue::UNDEFINED).get(expression)
 }
 
 /// Asserts that numbers are equal to within a tolerance.
-pub fn assert_near<const N: usize>(actual: [f64; N], expected: [f64; N], tolerance: f64) {
-    for (number, expected_number) in actual.iter().zip(&expected) {
+pub fn assert_near<const N: usize>(actual_numbers: [f64; N], expected_numbers: [f64; N], tolerance: f64) {
+    for (actual_number, expected_number) in actual_numbers.iter().zip(&expected_numbers) {
         assert!(
-            (number - expected_number).abs() <= tolerance,
-            "{actual:?} is not {expected:?} to {tolerance}"
+            (actual_number - expected_number).abs() <= tolerance,
+            "{actual_numbers:?} is not {expected_numbers:?} to {tolerance}"
         );
     }
 }

@@ -4,18 +4,17 @@ use super::calibrate_simulation;
 use super::simulated::{ALPHAS, MODELS, Sampling, Simulation, Violation};
 use motion::calibrate::{ERROR_COUNT, Model, Systematic, SystematicError};
 
-const LEG_COUNT: usize = 600;
+const LEGS_PER_LOG: usize = 600;
 
-/// Kind of simulated log.
 struct Scenario {
     name: &'static str,
-    modify: fn(&mut Simulation),
-    /// Allowed relative error of a median in addition to three standard errors.
+    modify_simulation: fn(&mut Simulation),
+    /// Allowed bias of a median α, relative to the true α. Three standard errors are allowed in addition.
     allowed_bias: f64,
 }
 
-const fn scenario(name: &'static str, modify: fn(&mut Simulation)) -> Scenario {
-    Scenario { name, modify, allowed_bias: 0.05 }
+const fn scenario(name: &'static str, modify_simulation: fn(&mut Simulation)) -> Scenario {
+    Scenario { name, modify_simulation, allowed_bias: 0.05 }
 }
 
 const EXACT_REFERENCE: Scenario = scenario("exact reference", |_| ());
@@ -44,113 +43,121 @@ const TRUE_SYSTEMATIC_ERRORS: Systematic = Systematic {
 /// of noise and clock offset within a row of 50 ms.
 const INTERVAL_MARGIN: f64 = 1e-3;
 
-/// Results of calibrations of many logs.
-struct StudyResults {
-    /// Sorted ratios of fitted to true value, for each α.
-    ratios: Vec<Vec<f64>>,
+/// Results of the calibrations of many simulated logs.
+struct Study {
+    /// Sorted ratios of fitted α to true α, for each α.
+    alpha_ratios: Vec<Vec<f64>>,
     /// Number of 95 % intervals that contain the true value, for each α.
-    covered_counts: Vec<usize>,
-    errors_covered: [usize; ERROR_COUNT],
-    /// Sorted estimates of the reference's standard deviations: position (m) and yaw (rad).
-    stds: [Vec<f64>; 2],
-    stds_covered: [usize; 2],
+    covered_alphas: Vec<usize>,
+    covered_errors: [usize; ERROR_COUNT],
+    /// Sorted estimates of the reference's standard deviations, of position (m) and yaw (rad).
+    reference_stds: [Vec<f64>; 2],
+    covered_stds: [usize; 2],
     log_count: usize,
 }
 
-/// Returns 1 if an interval contains a value, and otherwise 0.
-fn count_covered(interval: Option<[f64; 2]>, value: f64) -> usize {
-    usize::from(interval.is_some_and(|[low, high]| (low..=high).contains(&value)))
+/// Returns 1 if the interval contains the true value, and 0 otherwise.
+fn count_covered(interval: Option<[f64; 2]>, true_value: f64) -> usize {
+    usize::from(interval.is_some_and(|[low, high]| (low..=high).contains(&true_value)))
 }
 
-fn run_study(model: Model, scenario: &Scenario, log_count: usize) -> StudyResults {
+fn run_calibration_study(model: Model, scenario: &Scenario, log_count: usize) -> Study {
     let alpha_count = model.alphas();
-    let mut study = StudyResults {
-        ratios: vec![Vec::new(); alpha_count],
-        covered_counts: vec![0; alpha_count],
-        errors_covered: [0; ERROR_COUNT],
-        stds: [Vec::new(), Vec::new()],
-        stds_covered: [0; 2],
+    let mut study = Study {
+        alpha_ratios: vec![Vec::new(); alpha_count],
+        covered_alphas: vec![0; alpha_count],
+        covered_errors: [0; ERROR_COUNT],
+        reference_stds: [Vec::new(), Vec::new()],
+        covered_stds: [0; 2],
         log_count,
     };
     for seed in 0..log_count as u64 {
-        let mut sim = Simulation::of(model, LEG_COUNT, 5000 + seed);
-        (scenario.modify)(&mut sim);
+        let mut sim = Simulation::of(model, LEGS_PER_LOG, 5000 + seed);
+        (scenario.modify_simulation)(&mut sim);
         let calibration = calibrate_simulation(&sim);
-        for (alpha, truth) in ALPHAS.into_iter().enumerate().take(alpha_count) {
-            study.ratios[alpha].extend(calibration.alphas[alpha].map(|fitted| fitted / truth));
-            study.covered_counts[alpha] += count_covered(calibration.intervals[alpha], truth);
+        for (alpha_index, true_alpha) in ALPHAS.into_iter().enumerate().take(alpha_count) {
+            study.alpha_ratios[alpha_index]
+                .extend(calibration.alphas[alpha_index].map(|fitted| fitted / true_alpha));
+            study.covered_alphas[alpha_index] +=
+                count_covered(calibration.intervals[alpha_index], true_alpha);
         }
-        for (error, covered_counts) in SystematicError::ALL.into_iter().zip(&mut study.errors_covered) {
-            let interval = calibration.interval_of(error);
+        for (error_kind, covered_count) in SystematicError::ALL.into_iter().zip(&mut study.covered_errors) {
+            let interval = calibration.interval_of(error_kind);
             let extended_interval =
                 interval.map(|[low, high]| [low - INTERVAL_MARGIN, high + INTERVAL_MARGIN]);
-            *covered_counts += count_covered(extended_interval, sim.systematic_errors.get(error));
+            *covered_count += count_covered(extended_interval, sim.systematic_errors.get(error_kind));
         }
-        for (index, noise) in calibration.reference_noise.iter().enumerate() {
-            study.stds[index].push(noise.value);
-            study.stds_covered[index] += count_covered(Some(noise.interval), sim.reference_stds[index]);
+        for (std_index, noise_estimate) in calibration.reference_noise.iter().enumerate() {
+            study.reference_stds[std_index].push(noise_estimate.value);
+            study.covered_stds[std_index] +=
+                count_covered(Some(noise_estimate.interval), sim.reference_stds[std_index]);
         }
     }
-    study.ratios.iter_mut().chain(&mut study.stds).for_each(|sample| sample.sort_unstable_by(f64::total_cmp));
-    let median_ratios: Vec<f64> = study.ratios.iter().map(|ratios| sorted_median(ratios)).collect();
-    let StudyResults { covered_counts, errors_covered, stds_covered, .. } = &study;
-    let median_stds = [0, 1].map(|index| sorted_median(&study.stds[index]));
+    study
+        .alpha_ratios
+        .iter_mut()
+        .chain(&mut study.reference_stds)
+        .for_each(|estimates| estimates.sort_unstable_by(f64::total_cmp));
+    let median_ratios: Vec<f64> =
+        study.alpha_ratios.iter().map(|sorted_ratios| sorted_median(sorted_ratios)).collect();
+    let Study { covered_alphas, covered_errors, covered_stds, .. } = &study;
+    let median_stds = [0, 1].map(|std_index| sorted_median(&study.reference_stds[std_index]));
     println!(
-        "{}, {model:?}: {median_ratios:.3?}, covered {covered_counts:?}, σ {median_stds:.4?} {stds_covered:?}, errors {errors_covered:?}",
+        "{}, {model:?}: {median_ratios:.3?}, covered {covered_alphas:?}, σ {median_stds:.4?} {covered_stds:?}, errors {covered_errors:?}",
         scenario.name
     );
     study
 }
 
-fn sorted_median(sorted: &[f64]) -> f64 {
-    sorted[sorted.len() / 2]
+fn sorted_median(sorted_values: &[f64]) -> f64 {
+    sorted_values[sorted_values.len() / 2]
 }
 
 /// Returns the standard error of the median of normal numbers, estimated from the range of their middle 68 %.
-fn standard_error_of_median(sorted: &[f64]) -> f64 {
-    let value_count = sorted.len();
-    let [low, high] = [0.16, 0.84].map(|quantile| sorted[(quantile * value_count as f64) as usize]);
+fn standard_error_of_median(sorted_values: &[f64]) -> f64 {
+    let value_count = sorted_values.len();
+    let [low, high] = [0.16, 0.84].map(|quantile| sorted_values[(quantile * value_count as f64) as usize]);
     1.25 * 0.5 * (high - low) / (value_count as f64).sqrt()
 }
 
 /// Returns three standard errors of a fraction that is estimated from `log_count` logs.
-fn three_standard_errors(fraction: f64, log_count: usize) -> f64 {
-    3.0 * (fraction * (1.0 - fraction) / log_count as f64).sqrt()
+fn three_standard_errors(true_fraction: f64, log_count: usize) -> f64 {
+    3.0 * (true_fraction * (1.0 - true_fraction) / log_count as f64).sqrt()
 }
 
 /// Reports the fraction of intervals that contain the truth, if it is outside of 92 to 98 % by more than three standard errors.
-fn report_wrong_coverage(name: &str, covered_count: usize, log_count: usize) -> Option<String> {
+fn report_wrong_coverage(quantity_name: &str, covered_count: usize, log_count: usize) -> Option<String> {
     let covered_fraction = covered_count as f64 / log_count as f64;
     let allowed_fractions =
         0.92 - three_standard_errors(0.92, log_count)..=0.98 + three_standard_errors(0.98, log_count);
     (!allowed_fractions.contains(&covered_fraction))
-        .then(|| format!("{covered_count} of {log_count} intervals hold {name}"))
+        .then(|| format!("{covered_count} of {log_count} intervals hold {quantity_name}"))
 }
 
 /// Reports α's whose medians are off by more than the allowed bias plus three standard errors, and α's with wrong intervals.
-fn report_wrong_alphas(model: Model, scenario: &Scenario, study: &StudyResults) -> Vec<String> {
-    let report_alpha = |alpha: usize| {
-        let (ratios, name) = (&study.ratios[alpha], format!("α{}", alpha + 1));
+fn report_wrong_alphas(model: Model, scenario: &Scenario, study: &Study) -> Vec<String> {
+    let report_wrong_alpha = |alpha_index: usize| {
+        let (ratios, name) = (&study.alpha_ratios[alpha_index], format!("α{}", alpha_index + 1));
         let (median_ratio, standard_error) = (sorted_median(ratios), standard_error_of_median(ratios));
-        let is_off = ratios.len() < study.log_count
+        let is_wrong = ratios.len() < study.log_count
             || (median_ratio - 1.0).abs() > scenario.allowed_bias + 3.0 * standard_error;
-        let median_report = is_off.then(|| {
+        let median_report = is_wrong.then(|| {
             format!("median of {name} in {} logs: {median_ratio:.3} ± {standard_error:.3}", ratios.len())
         });
-        [median_report, report_wrong_coverage(&name, study.covered_counts[alpha], study.log_count)]
+        [median_report, report_wrong_coverage(&name, study.covered_alphas[alpha_index], study.log_count)]
     };
-    let alpha_reports = (0..study.covered_counts.len()).flat_map(report_alpha).flatten();
-    alpha_reports.map(|report| format!("{}, {model:?}: {report}", scenario.name)).collect()
+    let alpha_reports = (0..study.covered_alphas.len()).flat_map(report_wrong_alpha).flatten();
+    alpha_reports.map(|message| format!("{}, {model:?}: {message}", scenario.name)).collect()
 }
 
 /// Asserts that the α's of every model are right in a hundred logs, and that `further_reports` reports nothing.
-fn assert_right_in_every_model(scenario: &Scenario, further_reports: impl Fn(&StudyResults) -> Vec<String>) {
+fn assert_right_in_every_model(scenario: &Scenario, further_reports: impl Fn(&Study) -> Vec<String>) {
     let reports: Vec<String> = MODELS
         .into_iter()
         .flat_map(|model| {
-            let study = run_study(model, scenario, 100);
+            let study = run_calibration_study(model, scenario, 100);
             let other_reports =
-                further_reports(&study).into_iter().map(move |report| format!("{model:?}: {report}"));
+                further_reports(&study).into_iter().map(move |message| format!("{model:?}: {message}"));
             report_wrong_alphas(model, scenario, &study).into_iter().chain(other_reports).collect::<Vec<_>>()
         })
         .collect();
@@ -158,11 +165,11 @@ fn assert_right_in_every_model(scenario: &Scenario, further_reports: impl Fn(&St
 }
 
 /// Reports a standard deviation of the reference that is off by more than 10 % plus three standard errors.
-fn report_wrong_std(study: &StudyResults, component: usize, true_std: f64) -> Vec<String> {
-    let median_std = sorted_median(&study.stds[component]);
-    let tolerance = 0.1 * true_std + 3.0 * standard_error_of_median(&study.stds[component]);
-    let is_off = (median_std - true_std).abs() > tolerance;
-    is_off.then(|| format!("median of std {component}: {median_std}")).into_iter().collect()
+fn report_wrong_std(study: &Study, std_index: usize, true_std: f64) -> Vec<String> {
+    let median_std = sorted_median(&study.reference_stds[std_index]);
+    let tolerance = 0.1 * true_std + 3.0 * standard_error_of_median(&study.reference_stds[std_index]);
+    let is_wrong = (median_std - true_std).abs() > tolerance;
+    is_wrong.then(|| format!("median of std {std_index}: {median_std}")).into_iter().collect()
 }
 
 #[test]
@@ -178,7 +185,7 @@ fn alphas_of_one_rule_are_right_in_every_kind_of_log() {
     ];
     for scenario in &scenarios {
         assert_eq!(
-            report_wrong_alphas(model, scenario, &run_study(model, scenario, 10)),
+            report_wrong_alphas(model, scenario, &run_calibration_study(model, scenario, 10)),
             Vec::<String>::new()
         );
     }
@@ -201,7 +208,7 @@ fn alphas_are_right_with_an_unstated_noise_of_5_mm_and_2_mrad() {
 #[ignore = "nightly: 500 calibrations"]
 fn alphas_are_right_with_an_unstated_noise_of_20_mm_and_20_mrad() {
     assert_right_in_every_model(&COARSE_REFERENCE, |study| {
-        [0, 1].map(|component| report_wrong_std(study, component, 0.02)).concat()
+        [0, 1].map(|std_index| report_wrong_std(study, std_index, 0.02)).concat()
     });
 }
 
@@ -209,14 +216,14 @@ fn alphas_are_right_with_an_unstated_noise_of_20_mm_and_20_mrad() {
 #[ignore = "nightly: 500 calibrations"]
 fn alphas_and_errors_are_right_with_five_systematic_errors() {
     assert_right_in_every_model(&SYSTEMATIC_ERRORS, |study| {
-        let report_error = |error: SystematicError| {
+        let report_wrong_interval = |error_kind: SystematicError| {
             report_wrong_coverage(
-                &format!("{error:?}"),
-                study.errors_covered[error as usize],
+                &format!("{error_kind:?}"),
+                study.covered_errors[error_kind as usize],
                 study.log_count,
             )
         };
-        SystematicError::ALL.into_iter().filter_map(report_error).collect()
+        SystematicError::ALL.into_iter().filter_map(report_wrong_interval).collect()
     });
 }
 

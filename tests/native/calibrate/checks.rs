@@ -1,4 +1,4 @@
-//! Diagnostic checks of a calibration. Each fails on a log that violates it, and all pass on good logs.
+//! Diagnostic checks of a calibration. Each check fails on a log that violates its assumption. All checks pass on good logs.
 
 use super::simulated::{MODELS, Simulation, Violation};
 use super::{NAV2, calibrate_log, calibrate_simulation, new_trajectory, with_noisy_steps};
@@ -12,22 +12,22 @@ use motion::models::OdometryRule;
 use motion::{NoiseKind, Variance};
 use nalgebra::Vector3;
 
-/// Returns a simulation whose log should pass all checks.
-fn good_simulation(count: usize, seed: u64) -> Simulation {
-    Simulation::of(NAV2, count, seed)
+fn simulation_that_passes(leg_count: usize, seed: u64) -> Simulation {
+    Simulation::of(NAV2, leg_count, seed)
 }
 
 fn names_of_failed_checks(calibration: &Calibration) -> Vec<CheckName> {
-    let failing_checks = calibration.diagnostics.checks.iter().filter(|check| !check.passed);
+    let failing_checks =
+        calibration.diagnostics.checks.iter().filter(|diagnostic_check| !diagnostic_check.passed);
     failing_checks.map(|check| check.name).collect()
 }
 
-/// Asserts that a check fails, with a message, and that the log is therefore questionable.
-fn assert_fails(name: CheckName, calibration: &Calibration) {
+/// Asserts that a check fails with a message, and that the verdict is `Questionable`.
+fn assert_fails(check_name: CheckName, calibration: &Calibration) {
     let failing_checks = names_of_failed_checks(calibration);
-    assert!(failing_checks.contains(&name), "{name:?} is not among {failing_checks:?}");
+    assert!(failing_checks.contains(&check_name), "{check_name:?} is not among {failing_checks:?}");
     assert!(calibration.diagnostics.checks.iter().all(|check| check.passed == check.message.is_empty()));
-    assert_eq!(calibration.diagnostics.verdict, Verdict::Questionable, "{name:?}");
+    assert_eq!(calibration.diagnostics.verdict, Verdict::Questionable, "{check_name:?}");
     let recommended_alphas = calibration.recommended.as_ref().expect("it is usable");
     assert!(recommended_alphas.inflation >= 1.0 && !recommended_alphas.reason.is_empty());
 }
@@ -41,16 +41,16 @@ fn assert_unusable(calibration: &Calibration, description: &str) {
     );
 }
 
-/// Returns a trajectory whose poses are changed, and whose times are not.
-fn with_poses(log: &Trajectory, mut pose: impl FnMut(SE2) -> SE2) -> Trajectory {
-    new_trajectory(log.samples().map(|(time, old)| (time, pose(old))))
+/// Returns a trajectory with changed poses and the same times.
+fn change_poses(trajectory: &Trajectory, mut change_pose: impl FnMut(SE2) -> SE2) -> Trajectory {
+    new_trajectory(trajectory.samples().map(|(time, old_pose)| (time, change_pose(old_pose))))
 }
 
 #[test]
 fn a_reference_with_other_units_or_axes_or_of_another_drive_is_unusable() {
-    let sim = good_simulation(600, 1);
+    let sim = simulation_that_passes(600, 1);
     let [odometry, reference] = sim.log();
-    let [_, other_reference] = good_simulation(600, 2).log();
+    let [_, other_reference] = simulation_that_passes(600, 2).log();
     type PoseChange = fn(SE2) -> SE2;
     let pose_changes: [(&str, PoseChange); 5] = [
         ("degrees", |pose| SE2::new(pose.x(), pose.y(), pose.theta().to_degrees())),
@@ -59,26 +59,31 @@ fn a_reference_with_other_units_or_axes_or_of_another_drive_is_unusable() {
         ("columns swapped", |pose| SE2::new(pose.y(), pose.x(), pose.theta())),
         ("millimetres", |pose| SE2::new(1e3 * pose.x(), 1e3 * pose.y(), pose.theta())),
     ];
-    let corrupted_references = pose_changes.map(|(name, change)| (name, with_poses(&reference, change)));
-    for (name, reference) in corrupted_references.into_iter().chain([("another drive", other_reference)]) {
+    let corrupted_references =
+        pose_changes.map(|(corruption, change)| (corruption, change_poses(&reference, change)));
+    for (corruption, reference) in
+        corrupted_references.into_iter().chain([("another drive", other_reference)])
+    {
         let calibration = calibrate_log(&[odometry.clone(), reference], &sim.calibration_options());
-        assert!(names_of_failed_checks(&calibration).contains(&ReferenceMatches), "{name}");
-        assert_unusable(&calibration, name);
+        assert!(names_of_failed_checks(&calibration).contains(&ReferenceMatches), "{corruption}");
+        assert_unusable(&calibration, corruption);
     }
 }
 
 #[test]
 fn a_copy_of_the_odometry_is_no_reference() {
-    // The copies are in another frame. Their lengths are scaled by 1.02, times are delayed by 0.1 s, and coordinates are rounded.
-    for (leg_count, digits) in [(600, 6), (600, 3), (250, 3)] {
-        let sim = good_simulation(leg_count, 1);
+    // The copied references are in another frame. Their lengths are scaled by 1.02, their times are delayed by 0.1 s, and their coordinates
+    // are rounded.
+    for (leg_count, decimals) in [(600, 6), (600, 3), (250, 3)] {
+        let sim = simulation_that_passes(leg_count, 1);
         let [odometry, _] = sim.log();
-        let round_to_digits = |value: f64| (value * 10_f64.powi(digits)).round() / 10_f64.powi(digits);
+        let round_to_decimals =
+            |coordinate: f64| (coordinate * 10_f64.powi(decimals)).round() / 10_f64.powi(decimals);
         let copied_samples = odometry.samples().map(|(time, pose)| {
             let transformed_pose =
                 SE2::new(3.0, 1.0, 0.5) * SE2::new(1.02 * pose.x(), 1.02 * pose.y(), pose.theta());
             let [x, y, theta] =
-                [transformed_pose.x(), transformed_pose.y(), transformed_pose.theta()].map(round_to_digits);
+                [transformed_pose.x(), transformed_pose.y(), transformed_pose.theta()].map(round_to_decimals);
             (time + 0.1, SE2::new(x, y, theta))
         });
         let calibration =
@@ -86,18 +91,18 @@ fn a_copy_of_the_odometry_is_no_reference() {
         let failure_message = &calibration.diagnostics.checks[0].message;
         assert!(
             failure_message.starts_with("The reference has the errors of the odometry: "),
-            "{leg_count} legs, {digits} digits: {failure_message}"
+            "{leg_count} legs, {decimals} digits: {failure_message}"
         );
         assert_unusable(&calibration, "a copy");
     }
     // A precise robot that errs by a millimetre and half a milliradian over a metre is not a copy, even if the log is short or the reference hides
     // the noise of the wheels.
     for seed in 1..=12 {
-        for (leg_count, std) in [(600, 0.0), (60, 0.0), (100, 0.03)] {
+        for (leg_count, reference_std) in [(600, 0.0), (60, 0.0), (100, 0.03)] {
             let precise_simulation = Simulation {
                 violation: Violation::Scaled(0.01),
-                reference_stds: [std; 2],
-                ..good_simulation(leg_count, seed)
+                reference_stds: [reference_std; 2],
+                ..simulation_that_passes(leg_count, seed)
             };
             let failed_checks = names_of_failed_checks(&calibrate_simulation(&precise_simulation));
             assert!(!failed_checks.contains(&ReferenceMatches), "{leg_count} legs, seed {seed}");
@@ -110,7 +115,7 @@ fn a_copy_of_the_odometry_is_no_reference() {
 fn legs_that_hardly_move_are_not_compared() {
     let leg_length = LegLength::Duration { duration: 1.0 };
     let slow_simulation =
-        Simulation { leg_length, leg_velocity: Some(|_| [0.03, 0.05]), ..good_simulation(200, 4) };
+        Simulation { leg_length, leg_velocity: Some(|_| [0.03, 0.05]), ..simulation_that_passes(200, 4) };
     let calibration = calibrate_simulation(&slow_simulation);
     let check_names: Vec<CheckName> = calibration.diagnostics.checks.iter().map(|check| check.name).collect();
     assert!(check_names.contains(&EnoughLegs) && !check_names.contains(&ReferenceMatches), "{check_names:?}");
@@ -118,8 +123,8 @@ fn legs_that_hardly_move_are_not_compared() {
 
 #[test]
 fn few_legs_are_questionable_and_fewer_unusable() {
-    assert_fails(EnoughLegs, &calibrate_simulation(&good_simulation(80, 3)));
-    let fit_of_few_legs = calibrate_simulation(&good_simulation(25, 3));
+    assert_fails(EnoughLegs, &calibrate_simulation(&simulation_that_passes(80, 3)));
+    let fit_of_few_legs = calibrate_simulation(&simulation_that_passes(25, 3));
     assert!(names_of_failed_checks(&fit_of_few_legs).contains(&EnoughLegs));
     assert_unusable(&fit_of_few_legs, "25 legs");
 }
@@ -127,7 +132,7 @@ fn few_legs_are_questionable_and_fewer_unusable() {
 /// The reference is missing during 30 s of each 90 s.
 #[test]
 fn lost_legs_are_reported() {
-    let sim = good_simulation(600, 4);
+    let sim = simulation_that_passes(600, 4);
     let [odometry, reference] = sim.log();
     let reference_with_gaps =
         new_trajectory(reference.samples().filter(|(time, _)| time.rem_euclid(90.0) > 30.0));
@@ -137,33 +142,33 @@ fn lost_legs_are_reported() {
 /// The reference has only one row in two seconds.
 #[test]
 fn legs_that_are_longer_than_asked_for_are_reported() {
-    let sim = good_simulation(600, 5);
+    let sim = simulation_that_passes(600, 5);
     let [odometry, reference] = sim.log();
     let sparse_reference = new_trajectory(reference.samples().step_by(40));
     assert_fails(SamplingDense, &calibrate_log(&[odometry, sparse_reference], &sim.calibration_options()));
 }
 
-/// A tenth of the legs are outliers. The kurtosis of Student's t is infinite with four degrees of freedom, and 9 with five. If the noise grows
-/// in the second half, a fit to the first half covers only two thirds of it.
+/// A tenth of the legs are outliers. The kurtosis of Student's t is infinite with four degrees of freedom, and 9 with five. If the noise
+/// grows in the second half, a fit to the first half covers only two thirds of the second half.
 #[test]
 fn violations_of_the_model_are_reported() {
-    let noise_factor: fn(f64) -> f64 = |fraction| if fraction < 0.5 { 1.0 } else { 1.5 };
-    let simulate_violation = |violation, seed| Simulation { violation, ..good_simulation(600, seed) };
-    for (name, simulation) in [
-        (OutliersFew, Simulation { jump_fraction: 0.1, ..good_simulation(600, 6) }),
+    let noise_factor_at: fn(f64) -> f64 = |log_fraction| if log_fraction < 0.5 { 1.0 } else { 1.5 };
+    let simulate_violation = |violation, seed| Simulation { violation, ..simulation_that_passes(600, seed) };
+    for (check_name, simulation) in [
+        (OutliersFew, Simulation { jump_fraction: 0.1, ..simulation_that_passes(600, 6) }),
         (TailsNormal, simulate_violation(Violation::HeavyTails(4), 10)),
         (TailsNormal, simulate_violation(Violation::HeavyTails(5), 10)),
-        (HoldoutCovered, simulate_violation(Violation::Changing(noise_factor), 11)),
+        (HoldoutCovered, simulate_violation(Violation::Changing(noise_factor_at), 11)),
     ] {
-        assert_fails(name, &calibrate_simulation(&simulation));
+        assert_fails(check_name, &calibrate_simulation(&simulation));
     }
 }
 
-/// One jump of 10 m is fitted as noise. The fit to the half without the jump predicts so much less noise that no factor on its α's covers the
-/// other half.
+/// A jump of 10 m is fitted as noise. The fit to the half of the log without the jump predicts too little noise. No inflation of its α's
+/// covers the half with the jump.
 #[test]
 fn a_log_that_no_inflation_covers_is_unusable() {
-    let sim = good_simulation(600, 12);
+    let sim = simulation_that_passes(600, 12);
     let [odometry, reference] = sim.log();
     let jump_time = 0.75 * reference.span().expect("samples")[1];
     let jump_of_reference = SE2::new(10.0, 0.0, 0.0);
@@ -176,20 +181,21 @@ fn a_log_that_no_inflation_covers_is_unusable() {
     assert_unusable(&calibration, "a jump");
 }
 
-/// Returns the calibration of a log whose odometry is divided by varying scales. `scale` returns the scales of distance and turn at a time
+/// Returns the calibration of a log whose odometry is divided by varying scales. `scales` returns the scales of distance and turn at a time
 /// (as a fraction of the log) and a velocity.
-fn calibrate_with_scales(sim: &Simulation, scale: impl Fn(f64, &Vector3<f64>) -> [f64; 2]) -> Calibration {
+fn calibrate_with_scales(sim: &Simulation, scales: impl Fn(f64, &Vector3<f64>) -> [f64; 2]) -> Calibration {
     let [odometry, reference] = sim.log();
     let odometry_rows: Vec<(f64, SE2)> = odometry.samples().collect();
     let log_duration = odometry_rows[odometry_rows.len() - 1].0;
-    let mut pose = SE2::identity();
-    let mut scaled_odometry = vec![(odometry_rows[0].0, pose)];
-    for pair in odometry_rows.windows(2) {
-        let twist = pair[1].1.boxminus(&pair[0].1);
+    let mut odometry_pose = SE2::identity();
+    let mut scaled_odometry = vec![(odometry_rows[0].0, odometry_pose)];
+    for adjacent_rows in odometry_rows.windows(2) {
+        let twist = adjacent_rows[1].1.boxminus(&adjacent_rows[0].1);
         let [distance_scale, turn_scale] =
-            scale(pair[1].0 / log_duration, &(twist / (pair[1].0 - pair[0].0)));
-        pose = pose.boxplus(Vector3::new(twist.x / distance_scale, 0.0, twist.z / turn_scale));
-        scaled_odometry.push((pair[1].0, pose));
+            scales(adjacent_rows[1].0 / log_duration, &(twist / (adjacent_rows[1].0 - adjacent_rows[0].0)));
+        odometry_pose =
+            odometry_pose.boxplus(Vector3::new(twist.x / distance_scale, 0.0, twist.z / turn_scale));
+        scaled_odometry.push((adjacent_rows[1].0, odometry_pose));
     }
     calibrate_log(&[new_trajectory(scaled_odometry), reference], &sim.calibration_options())
 }
@@ -198,15 +204,17 @@ fn calibrate_with_scales(sim: &Simulation, scale: impl Fn(f64, &Vector3<f64>) ->
 /// less than a centimetre as a turn on the spot. Noise of a millimetre is therefore reported under Table 5.6, but not under the rule of Nav2.
 #[test]
 fn odometry_that_moves_sideways_is_reported_if_the_rule_takes_its_direction() {
-    let sim = good_simulation(600, 12);
+    let sim = simulation_that_passes(600, 12);
     let [odometry, reference] = sim.log();
-    let jittered_odometry = |std: f64| {
+    let jittered_odometry = |jitter_std: f64| {
         let mut rng = seeded_rng(12);
-        let mut draw_noise = || NoiseKind::Normal.sample(Variance(std * std), &mut rng);
-        with_poses(&odometry, |pose| SE2::new(pose.x() + draw_noise(), pose.y() + draw_noise(), pose.theta()))
+        let mut draw_noise = || NoiseKind::Normal.sample(Variance(jitter_std * jitter_std), &mut rng);
+        change_poses(&odometry, |pose| {
+            SE2::new(pose.x() + draw_noise(), pose.y() + draw_noise(), pose.theta())
+        })
     };
-    let shifted_odometry = with_poses(&odometry, |pose| pose * SE2::new(0.05, 0.0, 0.0));
-    let run_sideways_check = |odometry: &Trajectory, model: Model| {
+    let shifted_odometry = change_poses(&odometry, |pose| pose * SE2::new(0.05, 0.0, 0.0));
+    let does_sideways_check_pass = |odometry: &Trajectory, model: Model| {
         let calibration = calibrate_log(
             &[odometry.clone(), reference.clone()],
             &Options { model, ..sim.calibration_options() },
@@ -217,62 +225,64 @@ fn odometry_that_moves_sideways_is_reported_if_the_rule_takes_its_direction() {
             .inspect(|check| assert_eq!(check.passed, check.message.is_empty()))
             .map(|check| check.passed)
     };
-    let [table_model, omni_model] = [OdometryRule::Table, OdometryRule::Omni].map(Model::Odometry);
-    for (odometry, model, expected) in [
+    let [table_5_6_model, omni_model] = [OdometryRule::Table, OdometryRule::Omni].map(Model::Odometry);
+    for (odometry, model, expected_pass) in [
         (&jittered_odometry(0.01), NAV2, Some(false)),
         (&shifted_odometry, NAV2, Some(false)),
-        (&jittered_odometry(1e-3), table_model, Some(false)),
+        (&jittered_odometry(1e-3), table_5_6_model, Some(false)),
         (&jittered_odometry(1e-3), NAV2, Some(true)),
         (&shifted_odometry, omni_model, None),
         (&shifted_odometry, Model::Velocity, None),
     ] {
-        assert_eq!(run_sideways_check(odometry, model), expected, "{model:?}");
+        assert_eq!(does_sideways_check_pass(odometry, model), expected_pass, "{model:?}");
     }
     // Table 5.6 treats a backward drive as half a turn, a forward drive and half a turn.
     let reversing_simulation = Simulation {
-        leg_velocity: Some(|leg| [if leg % 5 == 0 { -0.3 } else { 0.3 }, 0.2]),
-        ..good_simulation(300, 12)
+        leg_velocity: Some(|leg_index| [if leg_index % 5 == 0 { -0.3 } else { 0.3 }, 0.2]),
+        ..simulation_that_passes(300, 12)
     };
     let is_sideways_motion_reported = |model| {
         let calibration =
             calibrate_log(&reversing_simulation.log(), &Options { model, ..sim.calibration_options() });
         names_of_failed_checks(&calibration).contains(&SidewaysRare)
     };
-    assert_eq!([table_model, NAV2].map(is_sideways_motion_reported), [true, false]);
+    assert_eq!([table_5_6_model, NAV2].map(is_sideways_motion_reported), [true, false]);
 }
 
 /// Asserts that a check fails because a systematic error is not constant, and that the error is not corrected.
-fn assert_not_constant(name: CheckName, error: SystematicError, calibration: &Calibration) {
-    assert_fails(name, calibration);
-    assert!(!calibration.is_constant[error as usize] && !calibration.is_corrected[error as usize]);
+fn assert_not_constant(check_name: CheckName, error_kind: SystematicError, calibration: &Calibration) {
+    assert_fails(check_name, calibration);
+    assert!(!calibration.is_constant[error_kind as usize] && !calibration.is_corrected[error_kind as usize]);
 }
 
-/// The distance scale is 1 on straight legs and 0.85 on turning legs. Both estimates have a standard error of 0.01.
+/// The distance scale is 1 on straight legs and 0.85 on turning legs. Its estimates from straight legs and from turning legs have standard
+/// errors of 0.01.
 #[test]
 fn a_distance_scale_that_differs_in_turns_is_no_constant() {
     let odometry_scales_at =
         |_, velocity: &Vector3<f64>| [if velocity.z.abs() > 0.05 { 0.85 } else { 1.0 }, 1.0];
-    let calibration = calibrate_with_scales(&good_simulation(600, 7), odometry_scales_at);
+    let calibration = calibrate_with_scales(&simulation_that_passes(600, 7), odometry_scales_at);
     assert_not_constant(DistanceScaleConstant, SystematicError::DistanceScale, &calibration);
 }
 
 /// The turn scales of the two halves of the log differ by 0.1. Their estimates have standard errors of a few hundredths.
 #[test]
 fn a_turn_scale_that_changes_is_no_constant() {
-    let odometry_scales_at = |fraction: f64, _: &Vector3<f64>| [1.0, if fraction < 0.5 { 1.0 } else { 1.1 }];
-    let calibration = calibrate_with_scales(&good_simulation(600, 8), odometry_scales_at);
+    let odometry_scales_at =
+        |log_fraction: f64, _: &Vector3<f64>| [1.0, if log_fraction < 0.5 { 1.0 } else { 1.1 }];
+    let calibration = calibrate_with_scales(&simulation_that_passes(600, 8), odometry_scales_at);
     assert_not_constant(TurnScaleConstant, SystematicError::TurnScale, &calibration);
 }
 
-/// The noise of a leg's turn is as large as the turn, so that the scale of single legs is too small (regression dilution). The turns of 16 legs
-/// have one sign, and add up more than their noise.
+/// The noise of a leg's turn is as large as the turn, so that the scale of single legs is too small (regression dilution). The turns of 16
+/// successive legs have one sign, so that their sum grows faster than their noise.
 #[test]
 fn a_turn_scale_of_noisy_encoders_is_not_corrected() {
     let sim = Simulation {
-        leg_velocity: Some(|leg| {
-            [0.3 + 0.1 * (leg % 3) as f64, if leg / 16 % 2 == 0 { 0.15 } else { -0.15 }]
+        leg_velocity: Some(|leg_index| {
+            [0.3 + 0.1 * (leg_index % 3) as f64, if leg_index / 16 % 2 == 0 { 0.15 } else { -0.15 }]
         }),
-        ..good_simulation(600, 8)
+        ..simulation_that_passes(600, 8)
     };
     let [odometry, reference] = sim.log();
     let calibration = calibrate_log(
@@ -287,15 +297,15 @@ fn a_turn_scale_of_noisy_encoders_is_not_corrected() {
 fn errors_that_persist_are_correlated_and_leave_windows_uncovered() {
     let calibration = calibrate_simulation(&Simulation {
         violation: Violation::Autoregressive(0.7),
-        ..good_simulation(600, 9)
+        ..simulation_that_passes(600, 9)
     });
-    for name in [ResidualsUncorrelated, Window1Covered, Window2Covered] {
-        assert_fails(name, &calibration);
+    for check_name in [ResidualsUncorrelated, Window1Covered, Window2Covered] {
+        assert_fails(check_name, &calibration);
     }
     // A correlation of 1,800 residuals has a standard error of 0.02.
     let correlation = calibration.persistence.correlation.value;
     assert!((correlation - 0.7).abs() < 0.08, "{correlation}");
-    // A window ends with the leg that completes its length. No leg is longer than 0.4 m.
+    // A window of a given length ends with the leg that completes this length. No leg is longer than 0.4 m.
     for (window, min_length) in calibration.diagnostics.windows.iter().zip([1.0, 2.0, 5.0]) {
         assert!(min_length < window.length && window.length < min_length + 0.4, "{window:?}");
     }
@@ -305,12 +315,12 @@ fn errors_that_persist_are_correlated_and_leave_windows_uncovered() {
 /// Returns the number of consistent logs among `log_count` simulated logs, and prints the checks that failed.
 fn count_consistent(model: Model, log_count: u64) -> usize {
     let mut failing_checks = Vec::new();
-    let calibrate_good_log = |seed: u64| calibrate_simulation(&Simulation::of(model, 600, 3000 + seed));
+    let calibrate_log_of_seed = |seed: u64| calibrate_simulation(&Simulation::of(model, 600, 3000 + seed));
     let is_consistent = |calibration: &Calibration| {
         failing_checks.extend(names_of_failed_checks(calibration));
         calibration.diagnostics.verdict == Verdict::Consistent
     };
-    let consistent_count = (0..log_count).map(calibrate_good_log).filter(is_consistent).count();
+    let consistent_count = (0..log_count).map(calibrate_log_of_seed).filter(is_consistent).count();
     println!("{model:?}: {consistent_count} of {log_count} are consistent; failed: {failing_checks:?}");
     consistent_count
 }

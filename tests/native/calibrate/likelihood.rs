@@ -8,21 +8,21 @@ use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
 use std::f64::consts::{PI, TAU};
 
 /// Returns a simulation of bends in both directions, where no special case of the model applies.
-fn simulation_of_bends(count: usize) -> Simulation {
+fn simulation_of_bends(leg_count: usize) -> Simulation {
     Simulation {
-        leg_velocity: Some(|leg| [0.3, [0.3, -0.2, 0.1][leg / 3 % 3]]),
+        leg_velocity: Some(|leg_index| [0.3, [0.3, -0.2, 0.1][leg_index / 3 % 3]]),
         reference_stds: [0.004, 0.01],
-        ..Simulation::of(NAV2, count, 12)
+        ..Simulation::of(NAV2, leg_count, 12)
     }
 }
 
 /// Returns the Jacobian of a function at 0, by central differences. Angles are wrapped.
 fn jacobian_of(function: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Matrix3<f64> {
     const H: f64 = 1e-6;
-    let jacobian_column = |axis: usize| {
-        let noise_offset = Vector3::from_fn(|k, _| if k == axis { H } else { 0.0 });
-        let mut central_difference = function(noise_offset) - function(-noise_offset);
-        central_difference.iter_mut().for_each(|angle| *angle = wrap_angle(*angle));
+    let jacobian_column = |argument_index: usize| {
+        let argument_offset = Vector3::from_fn(|k, _| if k == argument_index { H } else { 0.0 });
+        let mut central_difference = function(argument_offset) - function(-argument_offset);
+        central_difference.iter_mut().for_each(|component| *component = wrap_angle(*component));
         central_difference / (2.0 * H)
     };
     Matrix3::from_columns(&[0, 1, 2].map(jacobian_column))
@@ -32,66 +32,70 @@ fn pose_coordinates(pose: &SE2) -> Vector3<f64> {
     Vector3::new(pose.x(), pose.y(), pose.theta())
 }
 
-fn rot_trans_rot(motion: &Vector3<f64>) -> Vector3<f64> {
+fn odometry_reading(motion: &Vector3<f64>) -> Vector3<f64> {
     let bearing = libm::atan2(motion.y, motion.x);
     Vector3::new(bearing, libm::hypot(motion.x, motion.y), wrap_angle(motion.z - bearing))
 }
 
 /// Returns the Jacobian of (rot1, trans, rot2) with respect to the motion, at the expected motion.
-fn reading_jacobian(leg: &Leg, corrected: &Systematic) -> Matrix3<f64> {
-    let expected_motion = pose_coordinates(&expected_motion(leg, corrected));
-    jacobian_of(|offset| rot_trans_rot(&(expected_motion + offset)))
+fn reading_jacobian(leg: &Leg, systematic_errors: &Systematic) -> Matrix3<f64> {
+    let expected_motion = pose_coordinates(&expected_motion(leg, systematic_errors));
+    jacobian_of(|motion_offset| odometry_reading(&(expected_motion + motion_offset)))
 }
 
-/// Returns the motion that the odometry measured, with both scales corrected.
-fn expected_motion(leg: &Leg, corrected: &Systematic) -> SE2 {
+/// Returns the motion that the odometry measured, with the scales of distance and turn corrected.
+fn expected_motion(leg: &Leg, systematic_errors: &Systematic) -> SE2 {
     let twist = leg.odometry[1].boxminus(&leg.odometry[0]);
     SE2::exp(&Vector3::new(
-        corrected.distance_scale * twist.x,
-        corrected.distance_scale * twist.y,
-        corrected.turn_scale * twist.z,
+        systematic_errors.distance_scale * twist.x,
+        systematic_errors.distance_scale * twist.y,
+        systematic_errors.turn_scale * twist.z,
     ))
 }
 
 /// Returns the Jacobian of the residuals with respect to the pose error of the reference at one end of a leg.
-fn pose_jacobian(leg: &Leg, corrected: &Systematic, end: usize) -> Matrix3<f64> {
-    let motion_with_pose_error = |error: Vector3<f64>| {
-        let mut poses = leg.reference;
-        poses[end] = poses[end] * SE2::new(error.x, error.y, error.z);
-        let [start_pose, end_pose] = poses.map(|pose| pose * corrected.base());
+fn pose_jacobian(leg: &Leg, systematic_errors: &Systematic, end_index: usize) -> Matrix3<f64> {
+    let motion_with_pose_error = |pose_error: Vector3<f64>| {
+        let mut reference_poses = leg.reference;
+        reference_poses[end_index] =
+            reference_poses[end_index] * SE2::new(pose_error.x, pose_error.y, pose_error.z);
+        let [start_pose, end_pose] = reference_poses.map(|pose| pose * systematic_errors.base());
         pose_coordinates(&(start_pose.inverse() * end_pose))
     };
-    reading_jacobian(leg, corrected) * jacobian_of(motion_with_pose_error)
+    reading_jacobian(leg, systematic_errors) * jacobian_of(motion_with_pose_error)
 }
 
 /// Returns the derivative of the residuals with respect to a systematic error, for a leg without noise.
-fn error_derivative(leg: &Leg, corrected: &Systematic, error: SystematicError) -> Vector3<f64> {
+fn error_derivative(leg: &Leg, systematic_errors: &Systematic, error_kind: SystematicError) -> Vector3<f64> {
     const H: f64 = 1e-6;
-    let odometry_motion = expected_motion(leg, corrected);
-    let motion_error = |step: f64| {
-        let mut changed_errors = *corrected;
-        *changed_errors.get_mut(error) += step;
+    let odometry_motion = expected_motion(leg, systematic_errors);
+    let motion_error = |error_step: f64| {
+        let mut changed_errors = *systematic_errors;
+        *changed_errors.get_mut(error_kind) += error_step;
         // The reference has the corrected errors, and its robot executes the odometry motion.
-        let mount_pose = |e: &Systematic| SE2::new(e.lever_arm[0], e.lever_arm[1], e.mount_yaw);
-        let reference_motion = mount_pose(corrected).inverse() * odometry_motion * mount_pose(corrected);
+        let mount_pose =
+            |errors: &Systematic| SE2::new(errors.lever_arm[0], errors.lever_arm[1], errors.mount_yaw);
+        let reference_motion =
+            mount_pose(systematic_errors).inverse() * odometry_motion * mount_pose(systematic_errors);
         let measured_motion = changed_errors.base().inverse() * (reference_motion * changed_errors.base());
         pose_coordinates(&measured_motion) - pose_coordinates(&expected_motion(leg, &changed_errors))
     };
-    reading_jacobian(leg, corrected) * (motion_error(H) - motion_error(-H)) / (2.0 * H)
+    reading_jacobian(leg, systematic_errors) * (motion_error(H) - motion_error(-H)) / (2.0 * H)
 }
 
 /// Returns the restricted log-likelihood, from a dense covariance matrix of all residuals.
-fn dense_log_likelihood(calibration: &Calibration, errors: &[SystematicError]) -> f64 {
+fn dense_log_likelihood(calibration: &Calibration, error_kinds: &[SystematicError]) -> f64 {
     let Calibration { legs, observations, corrected, alphas, reference_noise, .. } = calibration;
     let residual_count = 3 * legs.len();
-    let [position_variance, yaw_variance] = reference_noise.map(|std| std.value * std.value);
+    let [position_variance, yaw_variance] =
+        reference_noise.map(|std_estimate| std_estimate.value * std_estimate.value);
     let reference_covariance =
         Matrix3::from_diagonal(&Vector3::new(position_variance, position_variance, yaw_variance));
-    // `pose_count` counts poses of the reference. A leg starts at the end of the previous leg if it follows it, and otherwise at a new pose.
+    // `pose_count` counts poses of the reference. Successive legs share a pose. Any other leg starts at a new pose.
     let (mut pose_jacobians, mut pose_count) = (DMatrix::zeros(residual_count, 3 * (residual_count + 3)), 0);
     let mut covariance = DMatrix::zeros(residual_count, residual_count);
     let mut stacked_residuals = DVector::zeros(residual_count);
-    let mut design_matrix = DMatrix::zeros(residual_count, errors.len());
+    let mut design_matrix = DMatrix::zeros(residual_count, error_kinds.len());
     for (i, (leg, observation)) in legs.iter().zip(observations).enumerate() {
         if !leg.follows {
             pose_count += 1;
@@ -105,20 +109,19 @@ fn dense_log_likelihood(calibration: &Calibration, errors: &[SystematicError]) -
         pose_count += 1;
         for k in 0..3 {
             let [first_alpha, second_alpha] =
-                NAV2.component_alphas()[k].map(|alpha| alphas[alpha].expect("identifiable"));
+                NAV2.component_alphas()[k].map(|alpha_index| alphas[alpha_index].expect("identifiable"));
             let [first_coefficient, second_coefficient] = observation.coefficients[k];
             covariance[(3 * i + k, 3 * i + k)] =
                 first_alpha * first_coefficient + second_alpha * second_coefficient;
             stacked_residuals[3 * i + k] = observation.residuals[k];
         }
-        for (column, error) in errors.iter().enumerate() {
-            design_matrix
-                .fixed_view_mut::<3, 1>(3 * i, column)
-                .copy_from(&error_derivative(leg, corrected, *error));
+        for (column_index, error_kind) in error_kinds.iter().enumerate() {
+            let derivative = error_derivative(leg, corrected, *error_kind);
+            design_matrix.fixed_view_mut::<3, 1>(3 * i, column_index).copy_from(&derivative);
         }
     }
-    for pose in 0..pose_count {
-        let jacobian = pose_jacobians.columns(3 * pose, 3);
+    for pose_index in 0..pose_count {
+        let jacobian = pose_jacobians.columns(3 * pose_index, 3);
         covariance += jacobian * reference_covariance * jacobian.transpose();
     }
     let cholesky = covariance.cholesky().expect("positive definite");
@@ -128,13 +131,14 @@ fn dense_log_likelihood(calibration: &Calibration, errors: &[SystematicError]) -
     let weighted_residuals = cholesky.solve(&stacked_residuals);
     let mut deviance = log_det(&cholesky)
         + stacked_residuals.dot(&weighted_residuals)
-        + (residual_count - errors.len()) as f64 * libm::log(TAU);
-    if !errors.is_empty() {
-        let information = (design_matrix.transpose() * cholesky.solve(&design_matrix))
+        + (residual_count - error_kinds.len()) as f64 * libm::log(TAU);
+    if !error_kinds.is_empty() {
+        let error_information = (design_matrix.transpose() * cholesky.solve(&design_matrix))
             .cholesky()
             .expect("positive definite");
-        let gradient = design_matrix.transpose() * weighted_residuals;
-        deviance += log_det(&information) - gradient.dot(&information.solve(&gradient));
+        let error_gradient = design_matrix.transpose() * weighted_residuals;
+        deviance +=
+            log_det(&error_information) - error_gradient.dot(&error_information.solve(&error_gradient));
     }
     -0.5 * deviance
 }
@@ -143,25 +147,25 @@ fn dense_log_likelihood(calibration: &Calibration, errors: &[SystematicError]) -
 #[test]
 fn the_recursion_gives_the_likelihood_of_the_dense_covariance() {
     let sim = simulation_of_bends(40);
-    let corrected_errors = [
+    let five_errors = [
         SystematicError::MountYaw,
         SystematicError::LeverArmAhead,
         SystematicError::LeverArmLeft,
         SystematicError::DistanceScale,
         SystematicError::TurnScale,
     ];
-    for errors in [&corrected_errors[..0], &corrected_errors] {
-        let correct = SystematicError::ALL.map(|error| Some(errors.contains(&error)));
+    for corrected_kinds in [&five_errors[..0], &five_errors] {
+        let correct = SystematicError::ALL.map(|error_kind| Some(corrected_kinds.contains(&error_kind)));
         let calibration = calibrate_log(&sim.log(), &Options { correct, ..sim.calibration_options() });
         assert_eq!(calibration.leg_fits.iter().filter(|fit| fit.is_outlier).count(), 0);
-        let (log_likelihood, expected) =
-            (calibration.log_likelihood, dense_log_likelihood(&calibration, errors));
-        assert!((log_likelihood - expected).abs() < 1e-5, "{log_likelihood} is not {expected}");
+        let (log_likelihood, dense_value) =
+            (calibration.log_likelihood, dense_log_likelihood(&calibration, corrected_kinds));
+        assert!((log_likelihood - dense_value).abs() < 1e-5, "{log_likelihood} is not {dense_value}");
     }
 }
 
-/// An error of 20 mm on legs of 16 mm makes bearings of several radians. The turn of a leg, the sum of both rotations, stays small: the second
-/// rotation is not wrapped, because its covariance with the first one is not.
+/// An error of 20 mm on legs of 16 mm makes bearings of several radians. The turn of a leg, the sum of both rotations, stays small. The
+/// second rotation is not wrapped, because its covariance with the first rotation is computed without wrapping.
 #[test]
 fn rotations_of_a_short_leg_add_up_to_its_turn() {
     let sim = Simulation {
@@ -170,15 +174,16 @@ fn rotations_of_a_short_leg_add_up_to_its_turn() {
         reference_stds: [0.02, 0.02],
         ..Simulation::of(NAV2, 200, 9)
     };
-    let residuals = calibrate_simulation(&sim).observations.into_iter().map(|leg| leg.residuals);
+    let residuals =
+        calibrate_simulation(&sim).observations.into_iter().map(|observation| observation.residuals);
     let (max_rotation, max_turn) = residuals.fold((0.0, 0.0), |(rotation, turn), [rot1, _, rot2]| {
         (f64::max(rotation, rot2.abs()), f64::max(turn, (rot1 + rot2).abs()))
     });
     assert!(max_rotation > PI && max_turn < 0.2, "{max_rotation} {max_turn}");
 }
 
-/// The innovation of a leg is its residual if the filter knows nothing of the reference's error at its start. This is so for an outlier, and
-/// for the leg after it.
+/// The innovation of a leg equals its residual if the filter knows nothing about the reference's error at the start of the leg. That holds
+/// for an outlier, and for the leg after an outlier.
 #[test]
 fn an_outlier_is_filtered_by_itself() {
     let sim =
@@ -187,9 +192,9 @@ fn an_outlier_is_filtered_by_itself() {
     let Calibration { leg_fits, legs, observations, .. } = calibrate_log(&sim.log(), &options);
     assert!(leg_fits.iter().filter(|fit| fit.is_outlier).count() > 10);
     for (i, (fit, observation)) in leg_fits.iter().zip(observations).enumerate() {
-        let is_alone = !legs[i].follows || fit.is_outlier || leg_fits[i - 1].is_outlier;
+        let has_no_prior_error = !legs[i].follows || fit.is_outlier || leg_fits[i - 1].is_outlier;
         let innovation = fit.standardized[1] * fit.stds[1];
-        assert_eq!((innovation - observation.residuals[1]).abs() < 1e-12, is_alone, "leg {i}");
+        assert_eq!((innovation - observation.residuals[1]).abs() < 1e-12, has_no_prior_error, "leg {i}");
     }
 }
 
@@ -208,15 +213,15 @@ fn an_interval_ends_where_the_profile_likelihood_has_fallen() {
     let calibration = calibrate_log(&sim.log(), &exact_options);
     let n = calibration.legs.len() as f64;
     // The noise of translation and strafe grows with the distance only.
-    for (component, alpha) in [(1, 2), (2, 4)] {
+    for (component_index, alpha_index) in [(1, 2), (2, 4)] {
         let alpha_estimate = |observation: &motion::calibrate::Observation| {
-            observation.residuals[component].powi(2) / observation.coefficients[component][0]
+            observation.residuals[component_index].powi(2) / observation.coefficients[component_index][0]
         };
         let expected_alpha = calibration.observations.iter().map(alpha_estimate).sum::<f64>() / n;
-        let fitted_alpha = calibration.alphas[alpha].expect("identifiable");
+        let fitted_alpha = calibration.alphas[alpha_index].expect("identifiable");
         assert!((fitted_alpha / expected_alpha - 1.0).abs() < 1e-3, "{fitted_alpha} {expected_alpha}");
-        for end in calibration.intervals[alpha].expect("identifiable") {
-            let alpha_ratio = end / expected_alpha;
+        for interval_bound in calibration.intervals[alpha_index].expect("identifiable") {
+            let alpha_ratio = interval_bound / expected_alpha;
             let deviance = n * (libm::log(alpha_ratio) + 1.0 / alpha_ratio - 1.0);
             // Intervals are longer if squared residuals of neighbouring legs are correlated, by chance up to a tenth.
             assert!((3.7..5.2).contains(&deviance), "{deviance}");
@@ -235,22 +240,22 @@ fn alphas_and_their_intervals_scale_with_the_noise() {
             let exact_options =
                 Options { position_std: Some(0.0), yaw_std: Some(0.0), ..sim.calibration_options() };
             let Calibration { alphas, intervals, .. } = calibrate_log(&sim.log(), &exact_options);
-            let divide_by_squared_factor = |number: f64| number / (noise_factor * noise_factor);
-            let bounds_and_alphas = alphas.into_iter().zip(intervals).map(|(alpha, interval)| {
-                let [low, high] = interval.expect("identifiable");
+            let divide_by_squared_factor = |bound: f64| bound / (noise_factor * noise_factor);
+            let bounds_and_alphas = alphas.into_iter().zip(intervals).map(|(alpha, alpha_interval)| {
+                let [low, high] = alpha_interval.expect("identifiable");
                 [low, alpha.expect("identifiable"), high].map(divide_by_squared_factor)
             });
             bounds_and_alphas.collect::<Vec<_>>()
         };
         let bounds_of_larger_noise = calibrate_scaled_noise(0.01);
-        for (k, (smaller, expected)) in
+        for (k, (bounds, expected_bounds)) in
             calibrate_scaled_noise(0.001).into_iter().zip(bounds_of_larger_noise).enumerate()
         {
-            for (number, expected_number) in smaller.into_iter().zip(expected) {
-                let tolerance = 0.025 * (expected[2] - expected[0]);
+            for (bound, expected_bound) in bounds.into_iter().zip(expected_bounds) {
+                let tolerance = 0.025 * (expected_bounds[2] - expected_bounds[0]);
                 assert!(
-                    (number - expected_number).abs() < tolerance,
-                    "{model:?} α{}: {smaller:?} {expected:?}",
+                    (bound - expected_bound).abs() < tolerance,
+                    "{model:?} α{}: {bounds:?} {expected_bounds:?}",
                     k + 1
                 );
             }
@@ -258,15 +263,16 @@ fn alphas_and_their_intervals_scale_with_the_noise() {
     }
 }
 
-/// If the estimated noise of the reference is set as an option, the likelihood stays the same. Any other value gives a smaller likelihood.
+/// If the estimated noise of the reference is set as an option, the likelihood stays the same. Any other noise of the reference gives a
+/// smaller likelihood.
 #[test]
 fn the_noise_of_the_reference_maximizes_the_likelihood() {
     let sim = Simulation { reference_stds: [0.02, 0.02], ..Simulation::of(NAV2, 400, 5) };
-    let log = sim.log();
+    let simulated_log = sim.log();
     // Systematic errors are not corrected, so that all likelihoods are of the same residuals.
     let calibrate_with_stds = |position_std: Option<f64>, yaw_std: Option<f64>| {
         calibrate_log(
-            &log,
+            &simulated_log,
             &Options { correct: [Some(false); 6], position_std, yaw_std, ..sim.calibration_options() },
         )
     };
@@ -281,11 +287,11 @@ fn the_noise_of_the_reference_maximizes_the_likelihood() {
         "{} {max_log_likelihood}",
         log_likelihood_at(position_std, yaw_std)
     );
-    for factor in [0.8, 1.25] {
+    for std_factor in [0.8, 1.25] {
         assert!(
-            log_likelihood_at(factor * position_std, yaw_std) < max_log_likelihood
-                && log_likelihood_at(position_std, factor * yaw_std) < max_log_likelihood,
-            "{factor}"
+            log_likelihood_at(std_factor * position_std, yaw_std) < max_log_likelihood
+                && log_likelihood_at(position_std, std_factor * yaw_std) < max_log_likelihood,
+            "{std_factor}"
         );
     }
 }

@@ -12,14 +12,14 @@ fn straight_drive(row_count: usize, step_length: f64) -> Trajectory {
     new_trajectory((0..row_count).map(|row| (0.1 * row as f64, SE2::new(step_length * row as f64, 0.0, 0.0))))
 }
 
-/// Returns the trajectory without the rows between the first and last row given.
+/// Returns the trajectory without the rows between `first_row` and `last_row`.
 fn without_rows_between(trajectory: &Trajectory, first_row: usize, last_row: usize) -> Trajectory {
     super::new_trajectory(
         trajectory
             .samples()
             .enumerate()
             .filter(|(row, _)| !(first_row < *row && *row < last_row))
-            .map(|(_, row)| row),
+            .map(|(_, sample)| sample),
     )
 }
 
@@ -75,18 +75,19 @@ fn rounding_does_not_decide_where_a_leg_ends() {
 #[test]
 fn a_leg_leads_across_a_pause_if_it_stays_short_enough() {
     let drive = straight_drive(101, 0.0625);
-    for (after, ends, across_pauses) in [(1, 37, 0), (4, 40, 1)] {
-        let drive_with_pause = without_rows_between(&drive, 30 + after, 30 + after + 6);
+    for (steps_before_pause, end_row, across_pauses) in [(1, 37, 0), (4, 40, 1)] {
+        let drive_with_pause =
+            without_rows_between(&drive, 30 + steps_before_pause, 30 + steps_before_pause + 6);
         let (legs, lost_legs) = split_into_legs(&drive_with_pause, &drive, AMCL_LEG, 0.0);
         assert_eq!(lost_legs, LostLegs { across_pauses, ..LostLegs::default() });
         let leg_across_pause = legs.iter().find(|leg| leg.times[0] == sample_times(&drive)[30]);
         assert_eq!(
             leg_across_pause.map(|leg| leg.times[1]),
-            (across_pauses == 0).then_some(sample_times(&drive)[ends])
+            (across_pauses == 0).then_some(sample_times(&drive)[end_row])
         );
         // A leg after a lost leg does not follow the previous leg of the list.
         let next_leg =
-            legs.iter().find(|leg| leg.times[0] == sample_times(&drive)[ends]).expect("it goes on");
+            legs.iter().find(|leg| leg.times[0] == sample_times(&drive)[end_row]).expect("it goes on");
         assert_eq!(next_leg.follows, across_pauses == 0);
     }
     // If the reference lacks rows between the ends of a leg, the leg is not lost.
@@ -121,13 +122,13 @@ fn no_leg_leads_across_a_break() {
     let all_legs = split_into_legs(&drive, &drive, AMCL_LEG, 0.0).0;
     let break_rows = [17, 33, 34, 70];
     let drive_with_breaks = drive.clone().with_breaks_before(break_rows);
-    let has_break = |leg: &Leg| {
-        let does_lead_across = |row: usize| {
+    let spans_break = |leg: &Leg| {
+        let spans_row = |row: usize| {
             leg.times[0] < sample_times(&drive)[row] && sample_times(&drive)[row] <= leg.times[1]
         };
-        break_rows.into_iter().any(does_lead_across)
+        break_rows.into_iter().any(spans_row)
     };
-    let kept_legs: Vec<Leg> = all_legs.iter().filter(|leg| !has_break(leg)).copied().collect();
+    let kept_legs: Vec<Leg> = all_legs.iter().filter(|leg| !spans_break(leg)).copied().collect();
     // A break of the reference removes the legs across it, and no others.
     let (legs, lost_legs) = split_into_legs(&drive, &drive_with_breaks, AMCL_LEG, 0.0);
     assert_eq!(leg_times(&legs), leg_times(&kept_legs));
@@ -135,7 +136,7 @@ fn no_leg_leads_across_a_break() {
     assert_eq!(lost_legs, LostLegs { across_breaks, ..LostLegs::default() });
     // After a break of the odometry a leg begins at the break.
     let (legs, lost_legs) = split_into_legs(&drive_with_breaks, &drive, AMCL_LEG, 0.0);
-    assert!(legs.len() > 25 && !legs.iter().any(has_break));
+    assert!(legs.len() > 25 && !legs.iter().any(spans_break));
     assert_eq!(lost_legs, LostLegs { across_breaks: 4, ..LostLegs::default() });
     assert!([17, 34, 70].iter().all(|row| legs.iter().any(|leg| leg.times[0] == sample_times(&drive)[*row])));
     // There is no pose between the rows of a break, and no break before the first row or after the last.
@@ -147,12 +148,12 @@ fn no_leg_leads_across_a_break() {
 #[test]
 fn no_velocity_spans_a_declared_jump() {
     let jump_offset = |row: usize| if (40..43).contains(&row) { 5.0 } else { 0.0 };
-    let rows = straight_drive(101, 0.1);
-    let rows = rows
+    let rows_before_jumps = straight_drive(101, 0.1);
+    let rows_before_jumps = rows_before_jumps
         .samples()
         .enumerate()
         .map(|(row, (time, pose))| (time, SE2::new(pose.x(), jump_offset(row), 0.0)));
-    let drive_with_jumps = new_trajectory(rows).with_breaks_before([40, 43]);
+    let drive_with_jumps = new_trajectory(rows_before_jumps).with_breaks_before([40, 43]);
     // Some legs consist of the three rows between the jumps.
     let leg_length = LegLength::Displacement { distance: 0.15, angle: 0.2 };
     let legs = split_into_legs(&drive_with_jumps, &drive_with_jumps, leg_length, 0.0).0;
@@ -162,30 +163,30 @@ fn no_velocity_spans_a_declared_jump() {
     }
 }
 
-/// An end by the length is moved to the sample of the reference that is nearest in time, and the next leg is measured from where it was.
+/// A leg's end by the length is moved to the reference sample that is nearest in time. The next leg is measured from the unmoved end.
 #[test]
 fn a_leg_ends_at_the_sample_of_the_reference_nearest_to_a_reading() {
     let drive = straight_drive(1001, 0.05);
     let leg_length = LegLength::Duration { duration: 0.5 };
     let all_legs = split_into_legs(&drive, &drive, leg_length, 0.0).0;
-    for step in [2, 4, 8] {
-        let sparse_reference = new_trajectory(drive.samples().skip(3).step_by(step));
+    for row_step in [2, 4, 8] {
+        let sparse_reference = new_trajectory(drive.samples().skip(3).step_by(row_step));
         let (legs, _) = split_into_legs(&drive, &sparse_reference, leg_length, 0.0);
         for leg in &legs {
             assert!(leg.times.iter().all(|time| sample_times(&sparse_reference).contains(time)), "{leg:?}");
             assert_eq!(leg.odometry, leg.reference);
         }
-        assert!(legs.windows(2).all(|pair| pair[0].times[1] == pair[1].times[0]));
+        assert!(legs.windows(2).all(|adjacent_legs| adjacent_legs[0].times[1] == adjacent_legs[1].times[0]));
         // Samples that are less than a leg apart lengthen no leg on average.
         let count_ratio = legs.len() as f64 / all_legs.len() as f64;
-        assert!((count_ratio - if step == 8 { 5.0 / 8.0 } else { 1.0 }).abs() < 0.02, "{count_ratio}");
+        assert!((count_ratio - if row_step == 8 { 5.0 / 8.0 } else { 1.0 }).abs() < 0.02, "{count_ratio}");
     }
     // Clocks differ by 0.01 s, or 5 mm. The odometry has a reading only each 0.8 s, and is interpolated at the nearest sample.
     let sparse_odometry = new_trajectory(drive.samples().step_by(8));
     let (legs, _) = split_into_legs(&sparse_odometry, &drive, leg_length, 0.01);
     assert!(legs.len() > 100);
     for leg in legs {
-        let offsets = [0, 1].map(|end| leg.reference[end].x() - leg.odometry[end].x());
+        let offsets = [0, 1].map(|end_index| leg.reference[end_index].x() - leg.odometry[end_index].x());
         assert!(offsets.iter().all(|offset| (offset - 0.005).abs() < 1e-9), "{leg:?}");
     }
 }
@@ -202,9 +203,9 @@ fn poses_between_samples_lie_on_an_arc() {
 
 #[test]
 fn times_must_rise_and_numbers_must_be_finite() {
-    let rejection_message = |samples: &[(f64, f64)]| {
-        let poses = samples.iter().map(|(time, x)| (*time, SE2::new(*x, 0.0, 0.0)));
-        Trajectory::new(poses).err().map(|error| error.to_string())
+    let rejection_message = |rows: &[(f64, f64)]| {
+        let poses = rows.iter().map(|(time, x)| (*time, SE2::new(*x, 0.0, 0.0)));
+        Trajectory::new(poses).err().map(|trajectory_error| trajectory_error.to_string())
     };
     assert_eq!([rejection_message(&[]), rejection_message(&[(1.0, 2.0)])], [None, None]);
     let not_later_message = "sample 2 is not later than the one before, at 1 s; allowed are times that rise";
@@ -223,11 +224,12 @@ fn commands_are_integrated_along_arcs() {
     let trajectory = trajectory.expect("times rise");
     // The commands are a metre straight ahead, an arc of a metre that turns by 2 rad, and a turn on the spot back to the first
     // heading. The radius of the arc is ½ m.
-    let arc = SE2::new(1.0 + 0.5 * libm::sin(2.0), 0.5 * (1.0 - libm::cos(2.0)), 2.0);
-    let expected_poses = [SE2::identity(), SE2::new(1.0, 0.0, 0.0), arc, SE2::new(arc.x(), arc.y(), 0.0)];
-    for (time, expected_poses) in [0.0, 1.0, 3.0, 4.0].into_iter().zip(expected_poses) {
+    let arc_end = SE2::new(1.0 + 0.5 * libm::sin(2.0), 0.5 * (1.0 - libm::cos(2.0)), 2.0);
+    let expected_poses =
+        [SE2::identity(), SE2::new(1.0, 0.0, 0.0), arc_end, SE2::new(arc_end.x(), arc_end.y(), 0.0)];
+    for (time, expected_pose) in [0.0, 1.0, 3.0, 4.0].into_iter().zip(expected_poses) {
         let pose = trajectory.pose_at(time).expect("inside");
-        assert!(pose.boxminus(&expected_poses).norm() < 1e-12, "{pose:?} is not {expected_poses:?}");
+        assert!(pose.boxminus(&expected_pose).norm() < 1e-12, "{pose:?} is not {expected_pose:?}");
     }
 }
 

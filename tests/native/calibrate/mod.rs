@@ -19,12 +19,10 @@ use simulated::Simulation;
 
 const NAV2: Model = Model::Odometry(OdometryRule::Nav2);
 
-/// Returns the calibration of a simulated log.
 fn calibrate_simulation(simulation: &Simulation) -> Calibration {
     calibrate_log(&simulation.log(), &simulation.calibration_options())
 }
 
-/// Returns the calibration of odometry and reference.
 fn calibrate_log([odometry, reference]: &[Trajectory; 2], options: &Options) -> Calibration {
     calibrate(&[Drive { odometry, reference }], options).expect("enough legs")
 }
@@ -37,13 +35,16 @@ fn new_trajectory(samples: impl IntoIterator<Item = (f64, SE2)>) -> Trajectory {
     Trajectory::new(samples.into_iter().collect::<Vec<_>>()).expect("times rise")
 }
 
-/// Returns odometry with normal noise of each step, with these standard deviations ahead (m) and in the heading (rad).
+/// Returns the odometry with normal noise added to each step. `stds` are the standard deviations of distance (m) and heading (rad).
 fn with_noisy_steps(odometry: &Trajectory, stds: [f64; 2], seed: u64) -> Trajectory {
-    let (mut rng, mut pose) = (seeded_rng(seed), SE2::identity());
+    let (mut rng, mut noisy_pose) = (seeded_rng(seed), SE2::identity());
     let odometry_samples: Vec<(f64, SE2)> = odometry.samples().collect();
-    new_trajectory(odometry_samples.windows(2).map(|pair| {
-        let [ahead, turn] = stds.map(|std| NoiseKind::Normal.sample(Variance(std * std), &mut rng));
-        pose = pose.boxplus(pair[1].1.boxminus(&pair[0].1) + Vector3::new(ahead, 0.0, turn));
-        (pair[1].0, pose)
+    new_trajectory(odometry_samples.windows(2).map(|sample_pair| {
+        let [distance_noise, turn_noise] =
+            stds.map(|std| NoiseKind::Normal.sample(Variance(std * std), &mut rng));
+        noisy_pose = noisy_pose.boxplus(
+            sample_pair[1].1.boxminus(&sample_pair[0].1) + Vector3::new(distance_noise, 0.0, turn_noise),
+        );
+        (sample_pair[1].0, noisy_pose)
     }))
 }

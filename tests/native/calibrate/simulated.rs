@@ -14,7 +14,6 @@ use rand::{Rng, RngExt};
 /// True α's of every simulated robot.
 pub const ALPHAS: [f64; 6] = [0.03, 0.01, 0.02, 0.005, 0.015, 0.008];
 
-/// Every model and rule.
 pub const MODELS: [Model; 5] = [
     Model::Odometry(OdometryRule::Table),
     Model::Odometry(OdometryRule::Nav2),
@@ -28,17 +27,16 @@ pub const MODELS: [Model; 5] = [
 pub enum Violation {
     /// Noise as the model assumes it.
     None,
-    /// Student's t distribution with this number of degrees of freedom.
+    /// Noise with Student's t distribution, with this number of degrees of freedom.
     HeavyTails(usize),
-    /// Autocorrelated noise, the sum of this fraction of the noise of the previous leg and independent noise.
+    /// Autocorrelated noise, with this correlation between successive legs.
     Autoregressive(f64),
-    /// Standard deviation times this factor.
+    /// Noise whose standard deviation is multiplied by this factor.
     Scaled(f64),
-    /// Standard deviation as a function of the position in the log, from 0 to 1.
+    /// Noise whose standard deviation is a function of the position in the log, from 0 to 1.
     Changing(fn(f64) -> f64),
 }
 
-/// Parameters of a simulated log.
 #[derive(Clone, Copy, Debug)]
 pub struct Simulation {
     pub model: Model,
@@ -86,7 +84,6 @@ impl Simulation {
         }
     }
 
-    /// Returns the options for a calibration of the log.
     pub fn calibration_options(&self) -> Options {
         let Self { model, leg_length, .. } = *self;
         Options {
@@ -108,7 +105,7 @@ impl Simulation {
         let rows_per_step = (STEP_SECONDS / step_seconds).round() as usize;
         let mut rng = seeded_rng(self.seed);
         let [distance_scale, turn_scale] =
-            [Error::DistanceScale, Error::TurnScale].map(|scale| self.systematic_errors.get(scale));
+            [Error::DistanceScale, Error::TurnScale].map(|scale_kind| self.systematic_errors.get(scale_kind));
         let mut odometry = vec![(0.0, SE2::identity())];
         let mut base_poses = vec![(0.0, SE2::new(1.0, 2.0, 0.5))];
         let (mut velocity, mut rows_left, mut start_row) = ([0.3, 0.0], 40 * rows_per_step, 0);
@@ -158,16 +155,18 @@ impl Simulation {
             }
             if rng.random_bool(self.jump_fraction) {
                 let jump_direction = rng.random_range(-3.0..3.0);
-                let jump = SE2::new(0.5 * libm::cos(jump_direction), 0.5 * libm::sin(jump_direction), 0.0);
+                let jump_offset =
+                    SE2::new(0.5 * libm::cos(jump_direction), 0.5 * libm::sin(jump_direction), 0.0);
                 let (_, last_pose) = base_poses.last_mut().expect("some");
-                *last_pose = jump * *last_pose;
+                *last_pose = jump_offset * *last_pose;
             }
             (leg_motion, start_row, leg_index) = (SE2::identity(), odometry.len() - 1, leg_index + 1);
             leg_rows.clear();
         }
         let [lever_ahead, lever_left] = self.systematic_errors.lever_arm;
         let mount_pose = SE2::new(lever_ahead, lever_left, self.systematic_errors.mount_yaw);
-        let [position_variance, yaw_variance] = self.reference_stds.map(|std| Variance(std * std));
+        let [position_variance, yaw_variance] =
+            self.reference_stds.map(|reference_std| Variance(reference_std * reference_std));
         let mut draw_reference_error = |variance| NoiseKind::Normal.sample(variance, &mut rng);
         let reference = base_poses.iter().map(|(t, pose)| {
             let sensor_pose = *pose * mount_pose;
@@ -204,9 +203,9 @@ impl Simulation {
         }
     }
 
-    /// Returns the three unit noises of a leg. `fraction` is the position of the leg in the log, from 0 to 1.
-    fn next_unit_noise(&self, fraction: f64, previous: [f64; 3], rng: &mut impl Rng) -> [f64; 3] {
-        previous.map(|previous| {
+    /// Returns the three unit noises of a leg. `log_fraction` is the position of the leg in the log, from 0 to 1.
+    fn next_unit_noise(&self, log_fraction: f64, previous_noise: [f64; 3], rng: &mut impl Rng) -> [f64; 3] {
+        previous_noise.map(|previous_noise| {
             let normal_draw = NoiseKind::Normal.sample(Variance(1.0), rng);
             match self.violation {
                 Violation::None => normal_draw,
@@ -216,37 +215,37 @@ impl Simulation {
                     normal_draw * f64::sqrt((degrees_of_freedom as f64 - 2.0) / chi_squared)
                 }
                 Violation::Autoregressive(correlation) => {
-                    correlation * previous + (1.0 - correlation * correlation).sqrt() * normal_draw
+                    correlation * previous_noise + (1.0 - correlation * correlation).sqrt() * normal_draw
                 }
-                Violation::Scaled(times) => times * normal_draw,
-                Violation::Changing(deviation) => deviation(fraction) * normal_draw,
+                Violation::Scaled(std_factor) => std_factor * normal_draw,
+                Violation::Changing(std_at) => std_at(log_fraction) * normal_draw,
             }
         })
     }
 }
 
-/// Returns the motion that a robot executed while its odometry measured `reading_motion` in the time `dt`.
+/// Returns the motion that a robot executed while its odometry measured `odometry_motion` in the time `dt`.
 pub fn executed_motion(
     model: Model,
     alphas: &[f64; 6],
-    reading_motion: &SE2,
+    odometry_motion: &SE2,
     dt: f64,
-    next_unit_noise: [f64; 3],
+    unit_noise: [f64; 3],
 ) -> SE2 {
     let origin_pose = SE2::identity();
     match model {
         Model::Odometry(rule) => {
-            let odom_delta = OdomDelta::from_poses(&origin_pose, reading_motion);
+            let odom_delta = OdomDelta::from_poses(&origin_pose, odometry_motion);
             let model_alphas = std::array::from_fn(|k| alphas[k]);
             rule.variances(&odom_delta, &model_alphas)
-                .executed_motion(&rule.legs(&odom_delta), next_unit_noise)
+                .executed_motion(&rule.legs(&odom_delta), unit_noise)
                 .poses(&origin_pose)[3]
         }
         Model::Velocity => {
-            let twist = reading_motion.log();
+            let twist = odometry_motion.log();
             let command = VelocityCmd { v: twist.x / dt, omega: twist.z / dt, dt };
             let model = VelocityModel { alphas: VelocityAlphas(*alphas), noise: NoiseKind::Normal };
-            model.apply_noise(&command, &origin_pose, next_unit_noise)
+            model.apply_noise(&command, &origin_pose, unit_noise)
         }
     }
 }
@@ -254,18 +253,19 @@ pub fn executed_motion(
 /// Relative tolerance of the length of a leg, because sums of equal steps reach a limit only up to rounding.
 const ROUNDING_TOLERANCE: f64 = 1e-6;
 
-/// Returns true if a leg ends at an odometry pose, as `LegLength` documents it.
-fn has_leg_ended(legs: LegLength, duration_so_far: f64, start: &SE2, reading: &SE2) -> bool {
-    match legs {
+/// Returns true if a leg ends at the odometry pose, by the rule that `LegLength` documents.
+fn has_leg_ended(leg_length: LegLength, elapsed_time: f64, leg_start: &SE2, odometry_pose: &SE2) -> bool {
+    match leg_length {
         LegLength::Displacement { distance, angle } => {
-            let turn = motion::geom::se2::wrap_angle(reading.theta() - start.theta());
-            let displacement = [reading.x() - start.x(), reading.y() - start.y()];
-            let largest_displacement = displacement
-                .iter()
-                .fold(0.0, |largest_displacement, along| f64::max(largest_displacement, along.abs()));
+            let leg_turn = motion::geom::se2::wrap_angle(odometry_pose.theta() - leg_start.theta());
+            let axis_displacements = [odometry_pose.x() - leg_start.x(), odometry_pose.y() - leg_start.y()];
+            let largest_displacement =
+                axis_displacements.iter().fold(0.0, |largest_so_far, axis_displacement| {
+                    f64::max(largest_so_far, axis_displacement.abs())
+                });
             largest_displacement > distance * (1.0 + ROUNDING_TOLERANCE)
-                || turn.abs() > angle * (1.0 + ROUNDING_TOLERANCE)
+                || leg_turn.abs() > angle * (1.0 + ROUNDING_TOLERANCE)
         }
-        LegLength::Duration { duration } => duration_so_far > duration - 1e-6,
+        LegLength::Duration { duration } => elapsed_time > duration - 1e-6,
     }
 }

@@ -16,29 +16,31 @@ const SAMPLES_PER_WINDOW: usize = 400;
 /// Quantile 0.95 of χ² with 3 degrees of freedom.
 const CHI2_95: f64 = 7.815;
 
-/// Returns the motion that the odometry of a leg measured.
 fn odometry_motion(leg: &Leg) -> SE2 {
     leg.odometry[0].inverse() * leg.odometry[1]
 }
 
-/// Returns true if the reference motion over some legs is inside of the 95 % ellipsoid of sampled motions, in exponential coordinates.
-fn is_covered(model: Model, alphas: &[f64; 6], legs: &[Leg], rng: &mut impl Rng) -> bool {
-    let compose_motions =
-        |motions: &mut dyn Iterator<Item = SE2>| motions.fold(SE2::identity(), |pose, motion| pose * motion);
-    let odom_motion = compose_motions(&mut legs.iter().map(odometry_motion));
+/// Returns true if the reference motion over the legs of a window is inside the 95 % ellipsoid of sampled motions, in exponential
+/// coordinates.
+fn is_window_covered(model: Model, alphas: &[f64; 6], window_legs: &[Leg], rng: &mut impl Rng) -> bool {
+    let compose_motions = |motions: &mut dyn Iterator<Item = SE2>| {
+        motions.fold(SE2::identity(), |composed_motion, motion| composed_motion * motion)
+    };
+    let odom_motion = compose_motions(&mut window_legs.iter().map(odometry_motion));
     let mut sample_motion = |leg| {
         let unit_noise = std::array::from_fn(|_| NoiseKind::Normal.sample(Variance(1.0), rng));
         executed_motion(model, alphas, &odometry_motion(leg), leg.duration(), unit_noise)
     };
     let window_samples: Vec<Vector3<f64>> = (0..SAMPLES_PER_WINDOW)
-        .map(|_| compose_motions(&mut legs.iter().map(&mut sample_motion)).boxminus(&odom_motion))
+        .map(|_| compose_motions(&mut window_legs.iter().map(&mut sample_motion)).boxminus(&odom_motion))
         .collect();
     let window_mean = window_samples.iter().sum::<Vector3<f64>>() / SAMPLES_PER_WINDOW as f64;
     let scatter_matrix = window_samples
         .iter()
-        .map(|sample_motion| (sample_motion - window_mean) * (sample_motion - window_mean).transpose())
+        .map(|sampled_motion| (sampled_motion - window_mean) * (sampled_motion - window_mean).transpose())
         .sum::<Matrix3<f64>>();
-    let reference_motion = legs[0].reference[0].inverse() * legs[legs.len() - 1].reference[1];
+    let reference_motion =
+        window_legs[0].reference[0].inverse() * window_legs[window_legs.len() - 1].reference[1];
     let reference_deviation = reference_motion.boxminus(&odom_motion) - window_mean;
     let inverse_covariance =
         (scatter_matrix / SAMPLES_PER_WINDOW as f64).try_inverse().expect("noise in all directions");
@@ -62,7 +64,7 @@ fn count_covered_windows(model: Model, violation: Violation, log_count: u64) -> 
             window_length += odometry_motion(leg).x().hypot(odometry_motion(leg).y());
             if window_length >= 1.0 {
                 covered_and_all_counts[0] +=
-                    usize::from(is_covered(model, &alphas, &legs[first_leg..=leg_index], &mut rng));
+                    usize::from(is_window_covered(model, &alphas, &legs[first_leg..=leg_index], &mut rng));
                 covered_and_all_counts[1] += 1;
                 (first_leg, window_length) = (leg_index + 1, 0.0);
             }

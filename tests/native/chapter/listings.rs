@@ -27,11 +27,11 @@ impl MotionModel for RadiusModel {
     fn sample<R: Rng + ?Sized>(&self, u: &VelocityCmd, x: &SE2, rng: &mut R) -> SE2 {
         let [v, omega, gamma] = self.variances(u).map(|variance| self.noise.sample(variance, rng));
         let (v_hat, omega_hat) = (u.v + v, u.omega + omega);
-        let (radius, heading) = (v_hat / omega_hat, x.theta() + omega_hat * u.dt);
+        let (arc_radius, end_heading) = (v_hat / omega_hat, x.theta() + omega_hat * u.dt);
         SE2::new(
-            x.x() + radius * (heading.sin() - x.theta().sin()),
-            x.y() - radius * (heading.cos() - x.theta().cos()),
-            wrap_angle(heading + gamma * u.dt),
+            x.x() + arc_radius * (end_heading.sin() - x.theta().sin()),
+            x.y() - arc_radius * (end_heading.cos() - x.theta().cos()),
+            wrap_angle(end_heading + gamma * u.dt),
         )
     }
 
@@ -78,20 +78,20 @@ fn a_readers_velocity_model_equals_the_crates_model() {
     let x = SE2::new(2.0, -1.0, 0.4);
     let (mut rng1, mut rng2) = (SmallRng::seed_from_u64(7), SmallRng::seed_from_u64(7));
     for _ in 0..1000 {
-        let (pose, expected_pose) =
+        let (readers_pose, expected_pose) =
             (readers_model.sample(&COMMAND, &x, &mut rng1), crate_model.sample(&COMMAND, &x, &mut rng2));
         // A small ω̂ loses digits, because the radius v̂/ω̂ multiplies the rounding of two sines, 2e-16 each.
         let position_tolerance = 1e-15 * (1.0 + 4.0 / invert_arc(&x, &expected_pose, 1.0).omega_hat.abs());
         assert!(
-            (pose.x() - expected_pose.x()).abs() < position_tolerance
-                && (pose.y() - expected_pose.y()).abs() < position_tolerance
+            (readers_pose.x() - expected_pose.x()).abs() < position_tolerance
+                && (readers_pose.y() - expected_pose.y()).abs() < position_tolerance
         );
-        assert!((pose.theta() - expected_pose.theta()).abs() < 1e-15 * 4.0);
-        let [prob, expected] = [
+        assert!((readers_pose.theta() - expected_pose.theta()).abs() < 1e-15 * 4.0);
+        let [prob, expected_prob] = [
             readers_model.prob(&expected_pose, &COMMAND, &x),
             crate_model.prob(&expected_pose, &COMMAND, &x),
         ];
-        assert!((prob - expected).abs() <= 1e-14 * expected);
+        assert!((prob - expected_prob).abs() <= 1e-14 * expected_prob);
     }
     assert_eq!(readers_model.tangent_cov(&COMMAND), crate_model.tangent_cov(&COMMAND));
 }

@@ -4,7 +4,7 @@
 //! digit. Measured numbers are checked to 4.5 standard errors, which are estimated from 100 batches of the sample. The
 //! chapter's measurements come from another sample of the same size, which multiplies the tolerance by √2.
 
-use crate::common::{MAX_STANDARD_ERRORS, with_standard_error};
+use crate::common::{MAX_STANDARD_ERRORS, statistic_with_standard_error};
 use approx::assert_relative_eq;
 use motion::geom::se2::SE2;
 use motion::stats::{CartesianMoments, ExactMoments, ExponentialMoments};
@@ -23,13 +23,13 @@ fn sample_cloud(model: &VelocityModel) -> Vec<SE2> {
 }
 
 /// Asserts that a value equals a number printed with `decimals` decimals.
-fn assert_printed(value: f64, printed: f64, decimals: i32, quantity: &str) {
+fn assert_printed(computed_value: f64, printed: f64, decimals: i32, quantity: &str) {
     let tolerance = 0.5 * 10f64.powi(-decimals) * (1.0 + 1e-9);
-    assert!((value - printed).abs() <= tolerance, "{quantity}: {value}, printed {printed}");
+    assert!((computed_value - printed).abs() <= tolerance, "{quantity}: {computed_value}, printed {printed}");
 }
 
-/// Asserts that a printed estimate agrees with a measured one. Both come from 200 000 samples.
-fn assert_sampled(quantity: &str, measured: f64, standard_error: f64, printed: f64, decimals: i32) {
+/// Asserts that a printed estimate agrees with a measured one. Both estimates come from 200 000 samples each.
+fn assert_printed_estimate(quantity: &str, measured: f64, standard_error: f64, printed: f64, decimals: i32) {
     let tolerance = MAX_STANDARD_ERRORS * 2f64.sqrt() * standard_error + 0.5 * 10f64.powi(-decimals);
     assert!(
         (measured - printed).abs() < tolerance,
@@ -42,10 +42,10 @@ fn the_arc_and_the_exponential_map_end_at_the_printed_pose() {
     let model = VelocityModel { alphas: VelocityAlphas([0.0; 6]), noise: NoiseKind::Normal };
     let arc_end = model.sample(&U, &SE2::identity(), &mut SmallRng::seed_from_u64(0));
     let twist_end = SE2::exp(&Vector3::new(U.v * U.dt, 0.0, U.omega * U.dt));
-    for end in [arc_end, twist_end] {
-        assert_relative_eq!(end.x(), 0.958_851_077_208, epsilon = 1e-12);
-        assert_relative_eq!(end.y(), 0.244_834_876_219, epsilon = 1e-12);
-        assert_eq!(end.theta(), 0.5);
+    for computed_end in [arc_end, twist_end] {
+        assert_relative_eq!(computed_end.x(), 0.958_851_077_208, epsilon = 1e-12);
+        assert_relative_eq!(computed_end.y(), 0.244_834_876_219, epsilon = 1e-12);
+        assert_eq!(computed_end.theta(), 0.5);
     }
     assert_relative_eq!(arc_end.x(), 2.0 * 0.5f64.sin(), epsilon = 1e-15);
     assert_relative_eq!(arc_end.y(), 2.0 * (1.0 - 0.5f64.cos()), epsilon = 1e-15);
@@ -91,8 +91,8 @@ fn exact_moments_equal_the_printed_table() {
     assert_printed(exact_moments.cov[(0, 0)], 0.023497983, 9, "Σxx");
     assert_printed(exact_moments.cov[(1, 1)], 0.007057304, 9, "Σyy");
     assert_printed(exact_moments.cross_track_skew, -0.30056, 5, "skew");
-    let gentle_alphas = VelocityAlphas([0.05, 0.05, 0.05, 0.09, 0.01, 0.01]);
-    let opening_moments = ExactMoments::of_velocity(&VelocityModel { alphas: gentle_alphas, ..MODEL }, &U);
+    let opening_alphas = VelocityAlphas([0.05, 0.05, 0.05, 0.09, 0.01, 0.01]);
+    let opening_moments = ExactMoments::of_velocity(&VelocityModel { alphas: opening_alphas, ..MODEL }, &U);
     assert_printed(opening_moments.cross_track_skew, -0.43093, 5, "skew of the opening command");
 }
 
@@ -124,12 +124,12 @@ fn measured_moments_agree_with_the_printed_table() {
         ("E x", Box::new(|poses| CartesianMoments::from_poses(poses).mean.x), 0.955, 3, exact_moments.mean.x),
     ];
     for (quantity, statistic, printed, decimals, exact_value) in statistics {
-        let (measured, standard_error) = with_standard_error(&cloud, statistic);
+        let (measured, standard_error) = statistic_with_standard_error(&cloud, statistic);
         assert!(
             (measured - exact_value).abs() < MAX_STANDARD_ERRORS * standard_error,
             "{quantity}: {measured} ± {standard_error}, exactly {exact_value}"
         );
-        assert_sampled(quantity, measured, standard_error, printed, decimals);
+        assert_printed_estimate(quantity, measured, standard_error, printed, decimals);
     }
     let exponential_moments = ExponentialMoments::from_poses(&cloud, &SE2::identity());
     assert!(
@@ -150,8 +150,9 @@ fn a_last_turn_adds_variance_to_the_lateral_coordinate() {
     assert_eq!(predicted_cov[(1, 1)], 0.0);
     let exponential_variance =
         |i| move |poses: &[SE2]| ExponentialMoments::from_poses(poses, &SE2::identity()).cov[(i, i)];
-    for (axis, printed) in [(2, 0.0312), (1, 0.0016)] {
-        let (measured, standard_error) = with_standard_error(&cloud, exponential_variance(axis));
-        assert_sampled(&format!("axis {axis}"), measured, standard_error, printed, 4);
+    for (twist_axis, printed) in [(2, 0.0312), (1, 0.0016)] {
+        let (measured, standard_error) =
+            statistic_with_standard_error(&cloud, exponential_variance(twist_axis));
+        assert_printed_estimate(&format!("axis {twist_axis}"), measured, standard_error, printed, 4);
     }
 }

@@ -21,90 +21,89 @@ const GAUSS_LEGENDRE_RULE: [(f64, f64); 8] = [
     (0.960_289_856_497_536, 0.101_228_536_290_376),
 ];
 
-/// A box of the coordinates (c, β, θ), which are defined at the top of this file. It is divided into equal cells.
+/// Box of the polar coordinates (c, β, θ) of poses, divided into equal cells. The coordinates are defined at the top of this file.
 pub struct PolarGrid {
-    start: SE2,
+    start_pose: SE2,
     slope: f64,
-    /// Middle of the box. β is within a quarter turn of its coordinate, and θ within half a turn.
+    /// Middle of the box. Poses in the box differ from it by at most a quarter turn in β and half a turn in θ.
     centre: [f64; 3],
     cell_size: [f64; 3],
     cell_counts: [usize; 3],
 }
 
 impl PolarGrid {
-    /// Returns the box around the pose `middle` that extends by `half_extent` to either side.
+    /// Returns the box around the pose `middle_pose` that extends by `half_extent` to either side.
     pub fn new(
-        start: &SE2,
-        middle: &SE2,
+        start_pose: &SE2,
+        middle_pose: &SE2,
         slope: f64,
         half_extent: [f64; 3],
         cell_counts: [usize; 3],
     ) -> Self {
-        let (dx, dy) = (middle.x() - start.x(), middle.y() - start.y());
-        let bearing = if dx.hypot(dy) > 0.0 { dy.atan2(dx) } else { start.theta() };
-        let cell_centre = [dx.hypot(dy), bearing, middle.theta() - slope * bearing];
+        let (dx, dy) = (middle_pose.x() - start_pose.x(), middle_pose.y() - start_pose.y());
+        let bearing = if dx.hypot(dy) > 0.0 { dy.atan2(dx) } else { start_pose.theta() };
+        let cell_centre = [dx.hypot(dy), bearing, middle_pose.theta() - slope * bearing];
         let cell_size = [0, 1, 2].map(|axis| 2.0 * half_extent[axis] / cell_counts[axis] as f64);
-        Self { start: *start, slope, centre: cell_centre, cell_size, cell_counts }
+        Self { start_pose: *start_pose, slope, centre: cell_centre, cell_size, cell_counts }
     }
 
-    /// Returns the box of all poses within `radius` of the start.
-    pub fn around_start(start: &SE2, slope: f64, radius: f64, cell_counts: [usize; 3]) -> Self {
-        Self::new(start, start, slope, [radius, PI / 2.0, PI], cell_counts)
+    /// Returns the box of all poses within `max_distance` of the start.
+    pub fn around_start(start_pose: &SE2, slope: f64, max_distance: f64, cell_counts: [usize; 3]) -> Self {
+        Self::new(start_pose, start_pose, slope, [max_distance, PI / 2.0, PI], cell_counts)
     }
 
-    /// Returns c, β and θ of a pose.
     fn grid_coordinates(&self, pose: &SE2) -> [f64; 3] {
-        let (dx, dy) = (pose.x() - self.start.x(), pose.y() - self.start.y());
+        let (dx, dy) = (pose.x() - self.start_pose.x(), pose.y() - self.start_pose.y());
         let bearing_offset = wrap_angle(dy.atan2(dx) - self.centre[1]);
-        let (distance, bearing_offset) = if bearing_offset.abs() <= PI / 2.0 {
+        let (signed_distance, bearing_offset) = if bearing_offset.abs() <= PI / 2.0 {
             (dx.hypot(dy), bearing_offset)
         } else {
             (-dx.hypot(dy), bearing_offset - PI.copysign(bearing_offset))
         };
         let bearing = self.centre[1] + bearing_offset;
         let heading_offset = wrap_angle(pose.theta() - self.slope * bearing - self.centre[2]);
-        [distance, bearing, self.centre[2] + heading_offset]
+        [signed_distance, bearing, self.centre[2] + heading_offset]
     }
 
     /// Returns the lower bound of a cell along an axis.
-    fn lower_bound(&self, axis: usize, index: usize) -> f64 {
-        self.centre[axis] + (index as f64 - 0.5 * self.cell_counts[axis] as f64) * self.cell_size[axis]
+    fn lower_bound(&self, axis: usize, cell_index: usize) -> f64 {
+        self.centre[axis] + (cell_index as f64 - 0.5 * self.cell_counts[axis] as f64) * self.cell_size[axis]
     }
 
     /// Returns the probability mass of each cell, by an 8 × 8 × 8 Gauss rule in each cell.
     pub fn cell_masses(&self, density: impl Fn(&SE2) -> f64) -> Vec<f64> {
-        let nodes_and_weights = |axis: usize, index: usize| {
-            let (low, cell_size) = (self.lower_bound(axis, index), self.cell_size[axis]);
-            GAUSS_LEGENDRE_RULE
-                .map(|(node, weight)| (low + 0.5 * (1.0 + node) * cell_size, 0.5 * weight * cell_size))
+        let nodes_and_weights = |axis: usize, cell_index: usize| {
+            let (cell_start, cell_size) = (self.lower_bound(axis, cell_index), self.cell_size[axis]);
+            GAUSS_LEGENDRE_RULE.map(|(gauss_node, gauss_weight)| {
+                (cell_start + 0.5 * (1.0 + gauss_node) * cell_size, 0.5 * gauss_weight * cell_size)
+            })
         };
         let mut cell_masses = Vec::with_capacity(self.cell_counts.iter().product());
         for i in 0..self.cell_counts[0] {
             for j in 0..self.cell_counts[1] {
                 for k in 0..self.cell_counts[2] {
-                    let mut cell_mass = 0.0;
-                    for (c, wc) in nodes_and_weights(0, i) {
-                        for (beta, wb) in nodes_and_weights(1, j) {
-                            let (x, y) = (self.start.x() + c * beta.cos(), self.start.y() + c * beta.sin());
-                            for (theta, wt) in nodes_and_weights(2, k) {
+                    let mut mass = 0.0;
+                    for (c, c_weight) in nodes_and_weights(0, i) {
+                        for (beta, beta_weight) in nodes_and_weights(1, j) {
+                            let (x, y) =
+                                (self.start_pose.x() + c * beta.cos(), self.start_pose.y() + c * beta.sin());
+                            for (theta, theta_weight) in nodes_and_weights(2, k) {
                                 let pose = SE2::new(x, y, self.slope * beta + theta);
-                                cell_mass += wc * wb * wt * c.abs() * density(&pose);
+                                mass += c_weight * beta_weight * theta_weight * c.abs() * density(&pose);
                             }
                         }
                     }
-                    cell_masses.push(cell_mass);
+                    cell_masses.push(mass);
                 }
             }
         }
         cell_masses
     }
 
-    /// Returns the integral over the whole box.
     pub fn integrate_density(&self, density: impl Fn(&SE2) -> f64) -> f64 {
         self.cell_masses(density).iter().sum()
     }
 
-    /// Returns the number of poses in each cell.
     fn pose_counts(&self, poses: &[SE2]) -> Vec<f64> {
         let mut pose_counts = vec![0.0; self.cell_counts.iter().product()];
         for pose in poses {
@@ -123,13 +122,12 @@ impl PolarGrid {
         pose_counts
     }
 
-    /// Asserts that sampler and density of a model are the same distribution.
     pub fn assert_sampled<M: MotionModel>(&self, model: &M, u: &M::Control, x: &SE2, seed: u64) {
         let mut rng = seeded_rng(seed);
         let poses: Vec<SE2> = (0..SAMPLE_COUNT).map(|_| model.sample(u, x, &mut rng)).collect();
-        let (chi_square, limit) =
+        let (chi_square, chi_square_limit) =
             self.chi_square(&poses, |pose| model.pose_density(pose, u, x).expect("noise of full rank"));
-        assert!(chi_square < limit, "seed {seed}: χ² = {chi_square}, limit {limit}");
+        assert!(chi_square < chi_square_limit, "seed {seed}: χ² = {chi_square}, limit {chi_square_limit}");
     }
 
     /// Returns χ² of a sample against the density, and the limit that χ² exceeds with probability 1e-4. Everything outside the box is
@@ -153,7 +151,7 @@ impl PolarGrid {
             pooled_cell.1
         );
         let chi_square_term = |(observed, expected): &(f64, f64)| (observed - expected).powi(2) / expected;
-        // If few poses remain, the quadrature error may exceed their number. They are therefore left out.
+        // The pooled cell is left out if it expects few poses, because the quadrature error may exceed their number.
         let pooled_term = if pooled_cell.1 >= 20.0 { chi_square_term(&pooled_cell) } else { 0.0 };
         (
             full_cells.iter().map(chi_square_term).sum::<f64>() + pooled_term,

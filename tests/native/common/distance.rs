@@ -47,12 +47,12 @@ pub fn distance_to_segment(p: Point, [a, b]: [Point; 2]) -> f64 {
 }
 
 pub fn distance_of_segments(p: [Point; 2], q: [Point; 2]) -> f64 {
-    let are_on_both_sides = |[a, b]: [Point; 2], [c, d]: [Point; 2]| {
+    let is_split_by_line = |[a, b]: [Point; 2], [c, d]: [Point; 2]| {
         cross_product(subtract_points(b, a), subtract_points(c, a))
             * cross_product(subtract_points(b, a), subtract_points(d, a))
             < 0.0
     };
-    if are_on_both_sides(p, q) && are_on_both_sides(q, p) {
+    if is_split_by_line(p, q) && is_split_by_line(q, p) {
         return 0.0;
     }
     [
@@ -90,7 +90,7 @@ pub fn distance_by_halving(arc: &Arc, wall: &Segment) -> [f64; 2] {
             .collect();
         let min_distance = starts_and_distances
             .iter()
-            .fold(f64::INFINITY, |smallest, (_, distance)| smallest.min(*distance));
+            .fold(f64::INFINITY, |min_so_far, (_, piece_distance)| min_so_far.min(*piece_distance));
         if max_deviation <= 0.1 * f64::EPSILON * max_coordinate(arc, wall)
             || starts_and_distances.len() > 1000
         {

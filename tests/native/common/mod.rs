@@ -13,7 +13,6 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 
 pub const NOISE_KINDS: [NoiseKind; 2] = [NoiseKind::Normal, NoiseKind::Triangular];
 
-/// Sample size of the distribution tests.
 pub const SAMPLE_COUNT: usize = 100_000;
 
 /// Maximum deviation of an estimate in standard errors. With random seeds one comparison in 150 000 would fail.
@@ -35,20 +34,21 @@ pub fn draw_signed_log_uniform(rng: &mut impl Rng, low: f64, high: f64) -> f64 {
     if rng.next_u64() >> 63 == 0 { magnitude } else { -magnitude }
 }
 
-/// Returns the largest difference in x, y and heading (on the circle).
+/// Returns the largest absolute difference of two poses in x, y and heading. Headings are compared on the circle.
 pub fn pose_distance(a: &SE2, b: &SE2) -> f64 {
     let heading_difference = (a.theta() - b.theta()).sin().atan2((a.theta() - b.theta()).cos());
     (a.x() - b.x()).abs().max((a.y() - b.y()).abs()).max(heading_difference.abs())
 }
 
-/// Returns the derivative of a pose with respect to three unit noises, by central differences.
-pub fn derivative_by_noise(noise: [f64; 3], apply: impl Fn([f64; 3]) -> SE2) -> Matrix3<f64> {
+/// Returns the derivative of a pose with respect to three unit noises, by central differences. `pose_of_noise` returns the pose for given
+/// noises.
+pub fn derivative_by_noise(unit_noise: [f64; 3], pose_of_noise: impl Fn([f64; 3]) -> SE2) -> Matrix3<f64> {
     const STEP: f64 = 1e-5;
-    Matrix3::from_columns(&[0, 1, 2].map(|axis| {
-        let [pose_after, pose_before] = [STEP, -STEP].map(|step| {
-            let mut noise = noise;
-            noise[axis] += step;
-            apply(noise)
+    Matrix3::from_columns(&[0, 1, 2].map(|noise_axis| {
+        let [pose_after, pose_before] = [STEP, -STEP].map(|noise_step| {
+            let mut unit_noise = unit_noise;
+            unit_noise[noise_axis] += noise_step;
+            pose_of_noise(unit_noise)
         });
         let heading_difference = wrap_angle(pose_after.theta() - pose_before.theta());
         Vector3::new(pose_after.x() - pose_before.x(), pose_after.y() - pose_before.y(), heading_difference)
@@ -57,16 +57,16 @@ pub fn derivative_by_noise(noise: [f64; 3], apply: impl Fn([f64; 3]) -> SE2) -> 
 }
 
 /// Returns the settings of a preset.
-pub fn settings_of_preset<S: Rules>(name: &str) -> S {
-    S::PRESETS.iter().find(|preset| preset.0 == name).expect("a preset of that name").1
+pub fn settings_of_preset<S: Rules>(preset_name: &str) -> S {
+    S::PRESETS.iter().find(|preset| preset.0 == preset_name).expect("a preset of that name").1
 }
 
 /// Returns true if a closed outline winds around a point.
 pub fn winds_around(outline: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
     let winding_count: i32 = outline
         .windows(2)
-        .map(|ends| {
-            let [[ax, ay], [bx, by]] = [ends[0], ends[1]];
+        .map(|segment_ends| {
+            let [[ax, ay], [bx, by]] = [segment_ends[0], segment_ends[1]];
             let is_left = (bx - ax) * (y - ay) > (x - ax) * (by - ay);
             i32::from(ay <= y && by > y && is_left) - i32::from(ay > y && by <= y && !is_left)
         })
@@ -74,23 +74,20 @@ pub fn winds_around(outline: &[[f64; 2]], [x, y]: [f64; 2]) -> bool {
     winding_count != 0
 }
 
-// ------------------------------------------------------------------------------------------- reference tables
-
 /// Table of reference values in tests/reference, written by generate.py.
 pub struct ReferenceTable {
     column_names: Vec<&'static str>,
     rows: Vec<Vec<&'static str>>,
 }
 
-/// Row of a reference table.
 pub struct ReferenceRow<'a> {
     table: &'a ReferenceTable,
-    cells: &'a [&'static str],
+    row_cells: &'a [&'static str],
 }
 
 impl ReferenceTable {
     pub fn parse(text: &'static str) -> Self {
-        let mut line_fields = text.lines().map(|line| line.split(',').collect::<Vec<_>>());
+        let mut line_fields = text.lines().map(|csv_line| csv_line.split(',').collect::<Vec<_>>());
         let column_names = line_fields.next().expect("a header");
         let rows: Vec<_> = line_fields.collect();
         assert!(!rows.is_empty(), "a table without rows");
@@ -98,18 +95,18 @@ impl ReferenceTable {
     }
 
     pub fn rows(&self) -> impl Iterator<Item = ReferenceRow<'_>> {
-        self.rows.iter().map(|cells| ReferenceRow { table: self, cells })
+        self.rows.iter().map(|row_cells| ReferenceRow { table: self, row_cells })
     }
 }
 
 impl ReferenceRow<'_> {
-    pub fn cell_text(&self, column: &str) -> &'static str {
-        let index = self.table.column_names.iter().position(|name| *name == column);
-        self.cells[index.unwrap_or_else(|| panic!("no column {column}"))]
+    pub fn cell_text(&self, column_name: &str) -> &'static str {
+        let column_index = self.table.column_names.iter().position(|known_name| *known_name == column_name);
+        self.row_cells[column_index.unwrap_or_else(|| panic!("no column {column_name}"))]
     }
 
-    pub fn cell_number(&self, column: &str) -> f64 {
-        self.cell_text(column).parse().expect("a number")
+    pub fn cell_number(&self, column_name: &str) -> f64 {
+        self.cell_text(column_name).parse().expect("a number")
     }
 
     pub fn cell_numbers<const N: usize>(&self, column_names: [&str; N]) -> [f64; N] {
@@ -120,35 +117,34 @@ impl ReferenceRow<'_> {
         match self.cell_text("kind") {
             "normal" => NoiseKind::Normal,
             "triangular" => NoiseKind::Triangular,
-            other => panic!("unknown kind {other}"),
+            unknown_name => panic!("unknown kind {unknown_name}"),
         }
     }
 
-    /// Returns the absolute error of `computed`. The reference is the sum of two columns: the nearest double and a remainder (`_lo`).
-    pub fn deviation(&self, column: &str, computed: f64) -> f64 {
-        ((computed - self.cell_number(column)) - self.cell_number(&format!("{column}_lo"))).abs()
+    /// Returns the absolute error of `computed_value`. The reference is the sum of two columns: the nearest double and a remainder (`_lo`).
+    pub fn deviation(&self, column_name: &str, computed_value: f64) -> f64 {
+        ((computed_value - self.cell_number(column_name)) - self.cell_number(&format!("{column_name}_lo")))
+            .abs()
     }
 }
-
-// ------------------------------------------------------------------------------------------------- statistics
 
 /// Limit of √n times the Kolmogorov–Smirnov distance. The distance exceeds it with probability 2·exp(−2·1.95²) = 0.001.
 pub const MAX_KOLMOGOROV_SMIRNOV: f64 = 1.95;
 
 /// Returns √n times the Kolmogorov–Smirnov distance between a sample of n numbers and a distribution function.
-pub fn kolmogorov_smirnov(mut sample: Vec<f64>, cdf: impl Fn(f64) -> f64) -> f64 {
-    sample.sort_by(f64::total_cmp);
-    let n = sample.len() as f64;
-    let distance = sample.iter().enumerate().map(|(i, &value)| {
-        let cumulative_probability = cdf(value);
+pub fn kolmogorov_smirnov(mut sample_values: Vec<f64>, distribution_function: impl Fn(f64) -> f64) -> f64 {
+    sample_values.sort_by(f64::total_cmp);
+    let n = sample_values.len() as f64;
+    let distance = sample_values.iter().enumerate().map(|(i, &sample_value)| {
+        let cumulative_probability = distribution_function(sample_value);
         (cumulative_probability - i as f64 / n).max((i + 1) as f64 / n - cumulative_probability)
     });
     distance.fold(0.0, f64::max) * n.sqrt()
 }
 
 /// Returns P(Z < z) for noise Z with variance 1, by formulas that src/ does not use.
-pub fn unit_cdf(kind: NoiseKind, z: f64) -> f64 {
-    match kind {
+pub fn unit_cdf(noise_kind: NoiseKind, z: f64) -> f64 {
+    match noise_kind {
         NoiseKind::Normal => 0.5 * libm::erfc(-z / 2f64.sqrt()),
         NoiseKind::Triangular => {
             let support_end = 6f64.sqrt();
@@ -158,7 +154,7 @@ pub fn unit_cdf(kind: NoiseKind, z: f64) -> f64 {
     }
 }
 
-/// Returns the χ² value that `cells` cells exceed with probability 1e-4 (Wilson and Hilferty, z = 3.719). One degree of
+/// Returns the χ² value that `row_cells` cells exceed with probability 1e-4 (Wilson and Hilferty, z = 3.719). One degree of
 /// freedom goes to the fixed total.
 pub fn chi_square_limit(cells: usize) -> f64 {
     let k = (cells - 1) as f64;
@@ -175,7 +171,7 @@ pub fn variance(values: &[f64]) -> f64 {
 }
 
 /// Returns a statistic of a sample and its standard error, from the spread of the statistic over 100 equal batches.
-pub fn with_standard_error<T>(sample: &[T], statistic: impl Fn(&[T]) -> f64) -> (f64, f64) {
+pub fn statistic_with_standard_error<T>(sample: &[T], statistic: impl Fn(&[T]) -> f64) -> (f64, f64) {
     let batch_size = sample.len() / 100;
     let batch_statistics: Vec<f64> = sample.chunks_exact(batch_size).map(&statistic).collect();
     (statistic(sample), (variance(&batch_statistics) / batch_statistics.len() as f64).sqrt())

@@ -1,9 +1,8 @@
 //! Numbers printed in the text of a page or a document, which tests compare with computed numbers.
 
 /// Text of a page or a document in one line.
-pub struct Text(String);
+pub struct PlainText(String);
 
-/// Number printed in a text.
 #[derive(Clone, Copy, Debug)]
 pub struct PrintedNumber {
     pub value: f64,
@@ -12,31 +11,29 @@ pub struct PrintedNumber {
 }
 
 impl PrintedNumber {
-    /// Asserts that the printed number equals a computed one, to within `error`.
-    pub fn assert_near(&self, computed: f64, error: f64) {
-        let deviation = (computed - self.value).abs();
+    /// Asserts that the printed number equals a computed one, within `tolerance` and the rounding of the last printed digit.
+    pub fn assert_near(&self, computed_value: f64, tolerance: f64) {
+        let deviation = (computed_value - self.value).abs();
         assert!(
-            deviation <= self.rounding * (1.0 + 1e-9) + error,
-            "{computed} ± {error} is printed as {}",
+            deviation <= self.rounding * (1.0 + 1e-9) + tolerance,
+            "{computed_value} ± {tolerance} is printed as {}",
             self.value
         );
     }
 
-    /// Asserts that a printed percentage equals a computed fraction.
-    pub fn assert_percent(&self, share: f64, error: f64) {
-        self.assert_near(100.0 * share, 100.0 * error);
+    pub fn assert_percent(&self, computed_fraction: f64, tolerance: f64) {
+        self.assert_near(100.0 * computed_fraction, 100.0 * tolerance);
     }
 }
 
 /// Separator of thousands.
 const THIN_SPACE: char = '\u{202f}';
 
-impl Text {
-    /// Returns the text of a page without its markup.
+impl PlainText {
     pub fn of_page(html: &str) -> Self {
         let mut plain_text = String::new();
         for markup_and_text in html.split('<') {
-            // The first part has no markup before it.
+            // The text before the first tag has no markup.
             plain_text.push_str(markup_and_text.split_once('>').map_or(markup_and_text, |(_, text)| text));
         }
         for (entity, character) in [("&nbsp;", " "), ("&#8239;", "\u{202f}"), ("&lt;", "<"), ("&gt;", ">")] {
@@ -56,21 +53,20 @@ impl Text {
         let number_lists: Vec<Vec<PrintedNumber>> = self
             .0
             .match_indices(sentence_parts[0])
-            .filter_map(|(at, _)| numbers_in(&self.0[at..], &sentence_parts))
+            .filter_map(|(sentence_start, _)| numbers_in(&self.0[sentence_start..], &sentence_parts))
             .collect();
         assert_eq!(number_lists.len(), 1, "times that the text says: {sentence}");
         std::array::from_fn(|i| number_lists[0][i])
     }
 
-    /// Asserts that the printed numbers equal computed ones.
-    pub fn assert_numbers<const N: usize>(&self, sentence: &str, computed: [f64; N]) {
+    /// Asserts that the numbers printed in a sentence equal computed numbers.
+    pub fn assert_numbers<const N: usize>(&self, sentence: &str, computed_numbers: [f64; N]) {
         self.sentence_numbers::<N>(sentence)
             .iter()
-            .zip(computed)
-            .for_each(|(printed, computed)| printed.assert_near(computed, 0.0));
+            .zip(computed_numbers)
+            .for_each(|(printed_number, computed)| printed_number.assert_near(computed, 0.0));
     }
 
-    /// Asserts that the text contains a sentence exactly once.
     pub fn assert_contains(&self, sentence: &str) {
         let [] = self.sentence_numbers(sentence);
     }
@@ -82,11 +78,11 @@ fn is_thousands(word: &str) -> bool {
 }
 
 /// Returns the numbers between the parts of a sentence. Returns None if the text does not begin with the sentence.
-fn numbers_in(text: &str, parts: &[&str]) -> Option<Vec<PrintedNumber>> {
-    let mut remaining_text = text.strip_prefix(parts[0])?;
-    parts[1..]
+fn numbers_in(remaining_text: &str, sentence_parts: &[&str]) -> Option<Vec<PrintedNumber>> {
+    let mut remaining_text = remaining_text.strip_prefix(sentence_parts[0])?;
+    sentence_parts[1..]
         .iter()
-        .map(|part| {
+        .map(|sentence_part| {
             let is_in_number = |c: char| c.is_ascii_digit() || ['−', '.', THIN_SPACE].contains(&c);
             let mut number_end = remaining_text.find(|c| !is_in_number(c)).unwrap_or(remaining_text.len());
             // Documents separate thousands by a plain space.
@@ -100,7 +96,7 @@ fn numbers_in(text: &str, parts: &[&str]) -> Option<Vec<PrintedNumber>> {
             let digits: String =
                 remaining_text[..number_end].replace('−', "-").replace([THIN_SPACE, ' '], "");
             let decimal_count = digits.split_once('.').map_or(0, |(_, decimals)| decimals.len() as i32);
-            remaining_text = remaining_text[number_end..].strip_prefix(part)?;
+            remaining_text = remaining_text[number_end..].strip_prefix(sentence_part)?;
             Some(PrintedNumber { value: digits.parse().ok()?, rounding: 0.5 * 10f64.powi(-decimal_count) })
         })
         .collect()

@@ -5,57 +5,64 @@ use motion::sim::settings::{Rules, Setting};
 use motion::sim::views::Grid;
 use serde_json::Value;
 
-const CONFIGURATIONS: &str = include_str!("../../digest/configurations.json");
+const CONFIGURATIONS_JSON: &str = include_str!("../../digest/configurations.json");
 
-/// Configuration of a widget.
 pub struct Configuration<'a> {
-    pub document: &'a Value,
+    pub configurations_json: &'a Value,
     pub widget: &'a str,
     pub name: &'a str,
-    pub value: &'a Value,
+    pub settings_json: &'a Value,
 }
 
 pub fn parsed_configurations() -> Value {
-    serde_json::from_str(CONFIGURATIONS).expect("configurations.json is JSON")
+    serde_json::from_str(CONFIGURATIONS_JSON).expect("configurations.json is JSON")
 }
 
-/// Returns every configuration of every widget.
-pub fn configurations_of(document: &Value) -> impl Iterator<Item = Configuration<'_>> {
-    let widgets_json = document["widgets"].as_object().expect("widgets");
-    widgets_json.iter().flat_map(move |(widget, entry)| {
-        let configurations_json = entry["configurations"].as_object().expect("configurations");
-        configurations_json.iter().map(move |(name, value)| Configuration { document, widget, name, value })
+pub fn configurations_of(configurations_json: &Value) -> impl Iterator<Item = Configuration<'_>> {
+    let widgets_json = configurations_json["widgets"].as_object().expect("widgets");
+    widgets_json.iter().flat_map(move |(widget, widget_json)| {
+        let settings_by_name = widget_json["configurations"].as_object().expect("configurations");
+        settings_by_name.iter().map(move |(name, settings_json)| Configuration {
+            configurations_json,
+            widget,
+            name,
+            settings_json,
+        })
     })
 }
 
 impl Configuration<'_> {
     /// Returns the preset on which the configuration is based, or the defaults, with the settings of the configuration.
     pub fn settings<S: Rules>(&self) -> S {
-        let preset_name = self.value.get("preset").map(|name| name.as_str().expect("a name"));
+        let preset_name =
+            self.settings_json.get("preset").map(|name_json| name_json.as_str().expect("a name"));
         let is_named = |(name, _): &&(&str, S)| preset_name == Some(*name);
-        let defaults = match S::PRESETS.iter().find(is_named) {
+        let default_settings = match S::PRESETS.iter().find(is_named) {
             Some((_, settings)) => *settings,
             None if preset_name.is_none() => S::default(),
             None => panic!("{preset_name:?} is no preset"),
         };
-        let given_settings = self.value["settings"].as_object().expect("settings");
-        let unknown_key = given_settings.keys().find(|key| !S::KEYS.contains(&key.as_str()));
+        let given_settings = self.settings_json["settings"].as_object().expect("settings");
+        let unknown_key = given_settings.keys().find(|setting_key| !S::KEYS.contains(&setting_key.as_str()));
         assert!(unknown_key.is_none(), "{}/{} has {unknown_key:?}", self.widget, self.name);
-        let (mut settings, mut given_keys) = (defaults, Vec::new());
-        settings.visit_settings(&mut |declaration, setting| {
-            if let Some(value) = given_settings.get(declaration.key) {
-                given_keys.push(declaration.key);
-                set_from_json(setting, value);
+        let (mut settings, mut given_keys) = (default_settings, Vec::new());
+        settings.visit_settings(&mut |setting_declaration, setting| {
+            if let Some(setting_json) = given_settings.get(setting_declaration.key) {
+                given_keys.push(setting_declaration.key);
+                set_from_json(setting, setting_json);
             }
         });
-        settings.adjust(&defaults, &given_keys);
+        settings.adjust(&default_settings, &given_keys);
         settings
     }
 
     pub fn grid(&self) -> Grid {
-        let bounds = self.value.get("bounds").unwrap_or(&self.document["widgets"][self.widget]["bounds"]);
+        let bounds = self
+            .settings_json
+            .get("bounds")
+            .unwrap_or(&self.configurations_json["widgets"][self.widget]["bounds"]);
         let [x_min, y_min, x_max, y_max] = numbers_of(bounds);
-        let picture_size = |key| self.document["picture"][key].as_u64().expect("a size") as usize;
+        let picture_size = |key| self.configurations_json["picture"][key].as_u64().expect("a size") as usize;
         Grid {
             min: [x_min, y_min],
             max: [x_max, y_max],
@@ -65,22 +72,31 @@ impl Configuration<'_> {
     }
 }
 
-fn set_from_json(setting: Setting, value: &Value) {
+fn set_from_json(setting: Setting, setting_json: &Value) {
     match setting {
-        Setting::Number(slot, _) => *slot = number_of(value),
-        Setting::Integer(slot, _) => slot.set(value.as_u64().expect("a whole number")),
-        Setting::OptionalInteger(slot, _) => *slot = value.as_u64().map(|whole| whole as usize),
-        Setting::Boolean(slot) => *slot = value.as_bool().expect("true or false"),
-        Setting::Keyword(slot) => assert!(slot.set(value.as_str().expect("a word")), "{value}"),
-        Setting::Numbers(slots, _) => {
-            let given_numbers = value.as_array().expect("a list");
-            assert_eq!(given_numbers.len(), slots.len(), "{value}");
-            slots.iter_mut().zip(given_numbers).for_each(|(slot, value)| *slot = number_of(value));
+        Setting::Number(setting_value, _) => *setting_value = number_of(setting_json),
+        Setting::Integer(setting_value, _) => {
+            setting_value.set(setting_json.as_u64().expect("a whole number"))
         }
-        Setting::Level(mut slot, _) => slot.set(number_of(value)),
-        Setting::Group(group) => {
-            for (field, number) in group.fields().iter().zip(group.numbers_mut()) {
-                *number = number_of(&value[field.declaration.key]);
+        Setting::OptionalInteger(setting_value, _) => {
+            *setting_value = setting_json.as_u64().map(|integer| integer as usize)
+        }
+        Setting::Boolean(setting_value) => *setting_value = setting_json.as_bool().expect("true or false"),
+        Setting::Keyword(setting_value) => {
+            assert!(setting_value.set(setting_json.as_str().expect("a word")), "{setting_json}")
+        }
+        Setting::Numbers(setting_values, _) => {
+            let given_numbers = setting_json.as_array().expect("a list");
+            assert_eq!(given_numbers.len(), setting_values.len(), "{setting_json}");
+            setting_values
+                .iter_mut()
+                .zip(given_numbers)
+                .for_each(|(setting_value, number_json)| *setting_value = number_of(number_json));
+        }
+        Setting::Level(mut setting_value, _) => setting_value.set(number_of(setting_json)),
+        Setting::Group(setting_group) => {
+            for (field, number) in setting_group.fields().iter().zip(setting_group.numbers_mut()) {
+                *number = number_of(&setting_json[field.declaration.key]);
             }
         }
     }

@@ -10,7 +10,7 @@ const NAN_BITS: u64 = 0x7ff8_0000_0000_0000;
 /// Encoding of values as doubles of eight bytes, with the lowest byte first. A list begins with its length, a tuple stands
 /// for the fields of an object, and a missing value is NaN.
 pub trait Encode {
-    fn encode(&self, bytes: &mut Vec<u8>);
+    fn encode(&self, encoded_bytes: &mut Vec<u8>);
 }
 
 impl Encode for f64 {
@@ -44,7 +44,7 @@ encode_as! {
 impl<T: Encode> Encode for [T] {
     fn encode(&self, bytes: &mut Vec<u8>) {
         self.len().encode(bytes);
-        self.iter().for_each(|item| item.encode(bytes));
+        self.iter().for_each(|list_item| list_item.encode(bytes));
     }
 }
 
@@ -93,11 +93,11 @@ encode_fields! {
 pub struct HashedPart(pub &'static str, pub String);
 
 impl HashedPart {
-    pub fn new(name: &'static str, results: impl Encode) -> Self {
+    pub fn new(part_name: &'static str, results: impl Encode) -> Self {
         let mut encoded_bytes = Vec::new();
         results.encode(&mut encoded_bytes);
-        // 64 bits of the hash are enough: one change in 10¹⁹ would go unnoticed.
-        Self(name, hex(&Sha256::digest(encoded_bytes))[..16].to_owned())
+        // A hash of 64 bits is long enough. One change in 10¹⁹ would go unnoticed.
+        Self(part_name, hex(&Sha256::digest(encoded_bytes))[..16].to_owned())
     }
 }
 

@@ -28,13 +28,13 @@ fn the_same_seed_gives_the_same_bits() {
             .lines()
             .find_map(|golden_hashes| golden_hashes.strip_prefix(&line_prefix))
             .unwrap_or_default();
-        let is_golden = |HashedPart(part, hash): &HashedPart| {
-            golden_hashes.split(' ').any(|golden_hash| golden_hash == format!("{part}:{hash}"))
+        let is_golden = |HashedPart(part_name, part_hash): &HashedPart| {
+            golden_hashes.split(' ').any(|golden_hash| golden_hash == format!("{part_name}:{part_hash}"))
         };
         differing_parts.extend(
             hashed_parts
                 .iter()
-                .filter(|part| !is_golden(part))
+                .filter(|hashed_part| !is_golden(hashed_part))
                 .map(|part| format!("{line_prefix}{}", part.0)),
         );
     }
@@ -53,9 +53,10 @@ fn the_changelog_names_the_digest() {
     let golden_digest = hex(&Sha256::digest(&golden_bytes));
     let changelog =
         std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/CHANGELOG.md")).expect("a changelog");
-    // The newest digest comes first.
-    let printed_digest =
-        changelog.split(|c: char| !c.is_ascii_hexdigit()).find(|word| word.len() == golden_digest.len());
+    // The changelog names the newest digest first.
+    let printed_digest = changelog
+        .split(|c: char| !c.is_ascii_hexdigit())
+        .find(|hexadecimal_word| hexadecimal_word.len() == golden_digest.len());
     assert_eq!(
         printed_digest,
         Some(golden_digest.as_str()),

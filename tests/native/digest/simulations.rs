@@ -19,10 +19,9 @@ pub fn banana_machine(configuration: &Configuration) -> Vec<HashedPart> {
     let mut simulation = BananaMachine::new(configuration.settings()).expect("a valid setting");
     let (reading, contours, table) = (simulation.reading(), simulation.contours(), simulation.table());
     let stats = *simulation.stats();
-    let gain_fields = |gain: LikelihoodGain| (gain.pose, gain.floor);
-    let column_values = |col: TableColumn| {
-        (col.mean, col.cov, col.cross_track_skew, gain_fields(col.likelihood_gain), col.area_ratio)
-    };
+    let gain_fields = |likelihood_gain: LikelihoodGain| (likelihood_gain.pose, likelihood_gain.floor);
+    let column_values =
+        |c: TableColumn| (c.mean, c.cov, c.cross_track_skew, gain_fields(c.likelihood_gain), c.area_ratio);
     let stats = (
         stats.n,
         (stats.cartesian.mean, stats.cartesian.cov),
@@ -66,12 +65,12 @@ pub fn banana_machine(configuration: &Configuration) -> Vec<HashedPart> {
 
 pub fn map_squeeze(configuration: &Configuration) -> Vec<HashedPart> {
     let mut simulation = MapSqueeze::new(configuration.settings()).expect("a valid setting");
-    if let Some(name) = configuration.value.get("map") {
-        let map = &configuration.document["maps"][name.as_str().expect("a name")];
-        match map.get("plan") {
+    if let Some(map_name) = configuration.settings_json.get("map") {
+        let map_json = &configuration.configurations_json["maps"][map_name.as_str().expect("a name")];
+        match map_json.get("plan") {
             Some(plan) => simulation.set_plan(read_plan(plan)),
             None => simulation
-                .set_grid(read_grid(map, &configuration.document["images"]))
+                .set_grid(read_grid(map_json, &configuration.configurations_json["images"]))
                 .expect("not too many walls"),
         }
     }
@@ -81,7 +80,7 @@ pub fn map_squeeze(configuration: &Configuration) -> Vec<HashedPart> {
     let grid_fields = plan.grid().map(|grid| {
         let [columns, rows] = grid.size();
         let [are_occupied, are_unknown] = [Cell::Occupied, Cell::Unknown]
-            .map(|kind| grid.cells().map(|cell| cell == kind).collect::<Vec<_>>());
+            .map(|cell_kind| grid.cells().map(|cell| cell == cell_kind).collect::<Vec<_>>());
         (columns, rows, grid.resolution(), pose_coordinates(grid.origin()), are_occupied, are_unknown)
     });
     let encoded_stats = (
@@ -110,15 +109,16 @@ pub fn map_squeeze(configuration: &Configuration) -> Vec<HashedPart> {
 pub fn dead_reckoning(configuration: &Configuration) -> Vec<HashedPart> {
     let simulation = DeadReckoning::new(configuration.settings()).expect("a valid setting");
     let (settings, stats) = (simulation.settings(), simulation.stats());
-    let values_by_step = |value: &dyn Fn(usize) -> Vector3<f64>| -> Vec<f64> {
-        (0..simulation.measured_moments().len()).flat_map(|k| <[f64; 3]>::from(value(k))).collect()
+    let values_by_step = |vector_of_step: &dyn Fn(usize) -> Vector3<f64>| -> Vec<f64> {
+        (0..simulation.measured_moments().len()).flat_map(|k| <[f64; 3]>::from(vector_of_step(k))).collect()
     };
     let undefined_variances = Vector3::repeat(f64::NAN);
-    let [ratios, predicted] = [
-        RECURSIONS.map(|order| values_by_step(&|k| simulation.comparison(order).ratios[k])),
-        RECURSIONS.map(|order| {
+    let [variance_ratios, predicted_variances] = [
+        RECURSIONS.map(|recursion| values_by_step(&|k| simulation.comparison(recursion).ratios[k])),
+        RECURSIONS.map(|recursion| {
             values_by_step(&|k| {
-                simulation.predicted_covariances(order)[k].map_or(undefined_variances, |cov| cov.diagonal())
+                simulation.predicted_covariances(recursion)[k]
+                    .map_or(undefined_variances, |cov| cov.diagonal())
             })
         }),
     ]
@@ -126,8 +126,9 @@ pub fn dead_reckoning(configuration: &Configuration) -> Vec<HashedPart> {
     let measured_variances = values_by_step(&|k| simulation.measured_moments()[k].cov.diagonal());
     let relative_errors = values_by_step(&|k| simulation.measured_moments()[k].relative_error);
     let encoded_misses =
-        [stats.misses.chapter, stats.misses.first_order, stats.misses.fourth_order].map(|axes| {
-            axes.map(|Misses { decidable, first, last, end, error }| (decidable, first, last, end, error))
+        [stats.misses.chapter, stats.misses.first_order, stats.misses.fourth_order].map(|misses_by_axis| {
+            misses_by_axis
+                .map(|Misses { decidable, first, last, end, error }| (decidable, first, last, end, error))
         });
     let encoded_predictions =
         (stats.predicted.chapter, stats.predicted.first_order, stats.predicted.fourth_order);
@@ -140,7 +141,7 @@ pub fn dead_reckoning(configuration: &Configuration) -> Vec<HashedPart> {
     let outlines = simulation.outlines(settings.step).expect("a step");
     vec![
         HashedPart::new("statistics", (simulation.shown_count(), settings.heading_noise(), statistics)),
-        HashedPart::new("steps", (ratios, predicted, measured_variances, relative_errors)),
+        HashedPart::new("steps", (variance_ratios, predicted_variances, measured_variances, relative_errors)),
         HashedPart::new(
             "poses",
             (
@@ -169,10 +170,10 @@ pub fn alpha_calibrator(configuration: &Configuration) -> Vec<HashedPart> {
         calibration.systematic_stds[error as usize].map(|_| calibration.systematic.get(error))
     };
     let error_interval = |error: SystematicError| calibration.interval_of(error);
-    let is_constant_and_corrected = |errors: &[SystematicError]| {
-        let [constant, corrected] = [calibration.is_constant, calibration.is_corrected]
-            .map(|mask| errors.iter().any(|error| mask[*error as usize]));
-        (constant, corrected)
+    let is_constant_and_corrected = |error_kinds: &[SystematicError]| {
+        let [is_constant, is_corrected] = [calibration.is_constant, calibration.is_corrected]
+            .map(|error_flags| error_kinds.iter().any(|error| error_flags[*error as usize]));
+        (is_constant, is_corrected)
     };
     let error_fields =
         |error| (error_estimate(error), error_interval(error), is_constant_and_corrected(&[error]));
@@ -203,9 +204,9 @@ pub fn alpha_calibrator(configuration: &Configuration) -> Vec<HashedPart> {
         .recommended
         .as_ref()
         .map(|Recommendation { alphas, inflation, .. }| (alphas.clone(), *inflation));
-    let encoded_truth = simulation.truth().map(|truth| {
-        let alphas = (truth.alphas, truth.clock_offset, truth.mount_yaw);
-        (alphas, truth.lever_arm, truth.distance_scale, truth.turn_scale)
+    let encoded_truth = simulation.truth().map(|simulated_truth| {
+        let alphas = (simulated_truth.alphas, simulated_truth.clock_offset, simulated_truth.mount_yaw);
+        (alphas, simulated_truth.lever_arm, simulated_truth.distance_scale, simulated_truth.turn_scale)
     });
     let encoded_persistence =
         (estimate_fields(&calibration.persistence.correlation), calibration.persistence.length);
@@ -237,18 +238,18 @@ fn read_plan(plan: &Value) -> FloorPlan {
     FloorPlan::new(walls.collect(), numbers_of(&plan["bounds"])).expect("a valid plan")
 }
 
-fn read_grid(map: &Value, images: &Value) -> OccupancyGrid {
-    let image_lines = images[map["image"].as_str().expect("a name")].as_array().expect("lines");
+fn read_grid(map_json: &Value, images_json: &Value) -> OccupancyGrid {
+    let image_lines = images_json[map_json["image"].as_str().expect("a name")].as_array().expect("lines");
     let image_text: String =
-        image_lines.iter().map(|line| format!("{}\n", line.as_str().expect("a line"))).collect();
-    let description = &map["description"];
+        image_lines.iter().map(|image_line| format!("{}\n", image_line.as_str().expect("a line"))).collect();
+    let description = &map_json["description"];
     let [x, y, yaw] = numbers_of(&description["origin"]);
     let interpretation = Interpretation {
         mode: match description["mode"].as_str() {
             None | Some("trinary") => MapMode::Trinary,
             Some("scale") => MapMode::Scale,
             Some("raw") => MapMode::Raw,
-            Some(other) => panic!("{other} is no mode"),
+            Some(unknown_mode) => panic!("{unknown_mode} is no mode"),
         },
         negate: number_of(&description["negate"]) == 1.0,
         occupied_thresh: number_of(&description["occupied_thresh"]),

@@ -1,6 +1,6 @@
 //! Numbers of Arc Anatomy on the page, compared with computed numbers.
 
-use super::page;
+use super::page_text;
 use crate::common::settings_of_preset;
 use crate::common::text::PrintedNumber;
 use crate::simulations::arc_anatomy::stats;
@@ -14,7 +14,7 @@ fn without_wedge(settings: Settings) -> Settings {
 
 #[test]
 fn the_last_turn_explains_the_low_probability() {
-    let [printed_sigma_count, printed_factor_percentage, printed_product_percentage] = page().sentence_numbers(
+    let [printed_sigma_count, printed_factor_percentage, printed_product_percentage] = page_text().sentence_numbers(
         "The last turn is off by # standard deviations: that factor alone leaves # % of its peak, all three leave # %.",
     );
     let Stats { factors, weakest, share, .. } = stats(Settings::default());
@@ -22,7 +22,7 @@ fn the_last_turn_explains_the_low_probability() {
     printed_sigma_count.assert_near(factors[2].deviations, 0.0);
     printed_factor_percentage.assert_percent(factors[2].share, 0.0);
     printed_product_percentage.assert_percent(share, 0.0);
-    let [printed_remaining_percentage] = page()
+    let [printed_remaining_percentage] = page_text()
         .sentence_numbers("With the heading of the arc the wedge is gone: # % are left, and the position");
     let Stats { factors, share, .. } = stats(without_wedge(Settings::default()));
     printed_remaining_percentage.assert_percent(share, 0.0);
@@ -32,9 +32,9 @@ fn the_last_turn_explains_the_low_probability() {
 #[test]
 fn the_printed_table_gives_no_probability_to_centres_on_the_right() {
     let [printed_speed]: [PrintedNumber; 1] =
-        page().sentence_numbers("and v̂, the speed along the arc, comes out as # m/s in a right turn.");
-    for name in ["right", "reverse"] {
-        let settings = Settings { printed: true, ..settings_of_preset(name) };
+        page_text().sentence_numbers("and v̂, the speed along the arc, comes out as # m/s in a right turn.");
+    for preset_name in ["right", "reverse"] {
+        let settings = Settings { printed: true, ..settings_of_preset(preset_name) };
         let Stats { factors, share, inverted, .. } = stats(settings);
         assert!(inverted.radius < 0.0 && share < 1e-15);
         // The estimated speed has the opposite sign of the command.
@@ -49,7 +49,8 @@ fn the_printed_table_gives_no_probability_to_centres_on_the_right() {
             heat_map.prob.iter().flatten().map(|[x, y]| x.hypot(*y)).fold(0.0, f64::max)
         };
         assert!(
-            max_distance_to_start(settings) < 0.5 && max_distance_to_start(settings_of_preset(name)) > 1.0,
+            max_distance_to_start(settings) < 0.5
+                && max_distance_to_start(settings_of_preset(preset_name)) > 1.0,
             "{}",
             max_distance_to_start(settings)
         );

@@ -1,19 +1,19 @@
 //! Numbers of the Banana Machine on the page and in doc/statistics.md, compared with computed numbers.
 
-use super::page;
-use crate::common::text::{PrintedNumber, Text};
+use super::page_text;
+use crate::common::text::{PlainText, PrintedNumber};
 use crate::common::{MAX_STANDARD_ERRORS, settings_of_preset, winds_around};
 use crate::simulations::banana::simulation;
 use motion::VelocityCmd;
 use motion::sim::banana::{BananaMachine, ModelKind, Settings};
 
-fn statistics_document() -> Text {
-    Text::of_document(include_str!("../../../doc/statistics.md"))
+fn statistics_document() -> PlainText {
+    PlainText::of_document(include_str!("../../../doc/statistics.md"))
 }
 
 #[test]
 fn the_presets_are_those_in_the_document() {
-    for (name, label) in [
+    for (preset_name, printed_label) in [
         ("straight", "Straight"),
         ("gentle", "Gentle arc"),
         ("hard", "Hard arc"),
@@ -21,23 +21,26 @@ fn the_presets_are_those_in_the_document() {
         ("banana", "Banana"),
         ("worked", "Worked example"),
     ] {
-        let printed_numbers: [PrintedNumber; 9] =
-            statistics_document().sentence_numbers(&format!("| {label} | #, #, # | #, #, #, #, #, # |"));
-        let Settings { command: c, velocity_alphas: [a1, a2, a3, a4, a5, a6], .. } = settings_of_preset(name);
+        let printed_numbers: [PrintedNumber; 9] = statistics_document()
+            .sentence_numbers(&format!("| {printed_label} | #, #, # | #, #, #, #, #, # |"));
+        let Settings { command: c, velocity_alphas: [a1, a2, a3, a4, a5, a6], .. } =
+            settings_of_preset(preset_name);
         assert_eq!(
-            printed_numbers.map(|number| number.value),
+            printed_numbers.map(|printed_number| printed_number.value),
             [c.v, c.omega, c.dt, a1, a2, a3, a4, a5, a6],
-            "{name}"
+            "{preset_name}"
         );
     }
 }
 
-/// Checks the rows of the table, and sentences of the page about the same presets. Fractions may differ by 4.5 standard errors.
+/// Checks the rows of the table in doc/statistics.md, and the sentences of the page about the same presets. Fractions may differ by 4.5
+/// standard errors.
 #[test]
 fn numbers_in_the_table_and_on_the_page_are_those_of_the_simulation() {
     const ROBOT_COUNT: usize = 300_000;
     let coverage_error = MAX_STANDARD_ERRORS * (0.117 / ROBOT_COUNT as f64).sqrt();
-    let simulate_preset = |name| simulation(Settings { samples: ROBOT_COUNT, ..settings_of_preset(name) });
+    let simulate_preset =
+        |preset_name| simulation(Settings { samples: ROBOT_COUNT, ..settings_of_preset(preset_name) });
     let assert_row = |simulation: &BananaMachine, printed_row: [PrintedNumber; 4]| {
         let [printed_floor_gain, printed_area_ratio, printed_ellipse_percentage, printed_skew] = printed_row;
         let exact_column = simulation.table().exact;
@@ -63,7 +66,7 @@ fn numbers_in_the_table_and_on_the_page_are_those_of_the_simulation() {
         printed_pose_gain.assert_near(exact_column.likelihood_gain.pose, 0.0);
         (exact_column, simulation)
     });
-    let [printed_ellipse_percentage, printed_outline_percentage, printed_skew, printed_gaussian_skew] = page().sentence_numbers(
+    let [printed_ellipse_percentage, printed_outline_percentage, printed_skew, printed_gaussian_skew] = page_text().sentence_numbers(
         "do not give the ellipse away, # % and # %. The cross-track skew, the lopsidedness across the path, does: #, \
          where any Gaussian in (x, y) has #, and so has the banana.",
     );
@@ -74,7 +77,7 @@ fn numbers_in_the_table_and_on_the_page_are_those_of_the_simulation() {
     assert!(banana_exact.cross_track_skew.abs() < 1e-9);
     let [banana_gain, gentle_gain, hard_gain] =
         [&banana_exact, &gentle_exact, &hard_exact].map(|exact_column| exact_column.likelihood_gain.pose);
-    page().assert_numbers(
+    page_text().assert_numbers(
         "The ellipse covers # times the floor of the green outline: where it alone lies, robots stop a seventh as \
          densely as where the outline alone does. The Gaussian in ξ fits better: a log-likelihood gain of # nats a robot \
          (# nat is a factor of e); on the gentle arc it is #, on the hard one #.",
@@ -96,15 +99,16 @@ fn numbers_in_the_table_and_on_the_page_are_those_of_the_simulation() {
 /// With 300,000 robots, the densities in the areas that only one of the outlines encloses have relative errors of 2 %.
 #[test]
 fn the_ellipse_covers_floor_where_few_robots_stop() {
-    page().assert_contains(
+    page_text().assert_contains(
         "where it alone lies, robots stop a seventh as densely as where the outline alone does.",
     );
     let simulation = simulation(Settings { samples: 300_000, ..settings_of_preset("banana") });
     let contours = simulation.contours();
-    let is_inside_outlines =
-        |at| [&contours.ellipse, &contours.exponential].map(|outline| winds_around(outline, at));
+    let is_inside_outlines = |floor_point| {
+        [&contours.ellipse, &contours.exponential].map(|outline| winds_around(outline, floor_point))
+    };
     const CELL_SIZE: f64 = 0.02;
-    let cell_indices = (0..250).flat_map(|column| (0..250).map(move |row| (column, row)));
+    let cell_indices = (0..250).flat_map(|column_index| (0..250).map(move |row| (column_index, row)));
     let cells_inside: Vec<[bool; 2]> = cell_indices
         .map(|(column, row)| {
             is_inside_outlines([f64::from(column) * CELL_SIZE, f64::from(row) * CELL_SIZE - 2.5])
@@ -113,8 +117,9 @@ fn the_ellipse_covers_floor_where_few_robots_stop() {
     let robots_inside: Vec<[bool; 2]> =
         simulation.poses().map(|pose| is_inside_outlines([pose.x(), pose.y()])).collect();
     let robot_density = |inside_outlines: [bool; 2]| {
-        let count_points =
-            |points: &[[bool; 2]]| points.iter().filter(|point| **point == inside_outlines).count() as f64;
+        let count_points = |inside_flags: &[[bool; 2]]| {
+            inside_flags.iter().filter(|flags_of_point| **flags_of_point == inside_outlines).count() as f64
+        };
         count_points(&robots_inside) / (count_points(&cells_inside) * CELL_SIZE * CELL_SIZE)
     };
     let density_ratio = robot_density([false, true]) / robot_density([true, false]);
@@ -123,7 +128,7 @@ fn the_ellipse_covers_floor_where_few_robots_stop() {
 
 #[test]
 fn a_tenth_of_the_time_leaves_less_than_a_tenth_of_the_cloud() {
-    page().assert_contains(
+    page_text().assert_contains(
         "In a tenth of the time the cloud shrinks to less than a tenth, and the circle stays:",
     );
     let long_drive_settings: Settings = settings_of_preset("gentle");
@@ -147,8 +152,8 @@ fn a_tenth_of_the_time_leaves_less_than_a_tenth_of_the_cloud() {
 
 #[test]
 fn the_predicted_skew_misses_under_the_odometry_model() {
-    let [robot_count, min_standard_errors] =
-        page().sentence_numbers("and the prediction misses: with # robots by more than # standard errors.");
+    let [robot_count, min_standard_errors] = page_text()
+        .sentence_numbers("and the prediction misses: with # robots by more than # standard errors.");
     let settings = Settings { samples: robot_count.value as usize, ..settings_of_preset("gentle") };
     let mut velocity_alphas = settings.velocity_alphas;
     velocity_alphas[4..].fill(0.0);
@@ -166,7 +171,7 @@ fn the_predicted_skew_misses_under_the_odometry_model() {
 
 #[test]
 fn a_hundred_times_the_robots_leave_a_tenth_of_the_error() {
-    page().assert_contains("A hundred times the robots leave a tenth of the standard error.");
+    page_text().assert_contains("A hundred times the robots leave a tenth of the standard error.");
     let skew_error = |samples| {
         simulation(Settings { samples, ..settings_of_preset("gentle") }).stats().cross_track_skew_error
     };

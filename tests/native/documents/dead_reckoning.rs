@@ -1,46 +1,46 @@
 //! Numbers of Dead Reckoning on the page, compared with computed numbers.
 
-use super::{exercises_document, page};
+use super::{exercises_document, page_text};
 use crate::common::text::PrintedNumber;
 use crate::common::{MAX_STANDARD_ERRORS, settings_of_preset};
 use crate::simulations::dead_reckoning::simulation;
 use motion::Compounding;
 use motion::sim::dead_reckoning::{DeadReckoning, MISS_TOLERANCE, Settings};
 
-fn simulation_of_preset(name: &str) -> DeadReckoning {
-    simulation(settings_of_preset(name))
+fn simulation_of_preset(preset_name: &str) -> DeadReckoning {
+    simulation(settings_of_preset(preset_name))
 }
 
 /// Returns the predicted variances of an axis after each step, divided by those of the fourth order, which are accurate to a few
 /// thousandths.
-fn ratios_to_fourth_order(simulation: &DeadReckoning, order: Compounding, axis: usize) -> Vec<f64> {
-    let predicted_variances = |order| {
+fn ratios_to_fourth_order(simulation: &DeadReckoning, recursion: Compounding, axis_index: usize) -> Vec<f64> {
+    let predicted_variances = |recursion| {
         simulation
-            .predicted_covariances(order)
+            .predicted_covariances(recursion)
             .iter()
-            .map(move |variance| variance.expect("a covariance")[(axis, axis)])
+            .map(move |variance| variance.expect("a covariance")[(axis_index, axis_index)])
     };
-    predicted_variances(order)
+    predicted_variances(recursion)
         .zip(predicted_variances(Compounding::FourthOrder))
         .map(|(variance, exact_variance)| variance / exact_variance)
         .collect()
 }
 
 /// Returns the steps at which a ratio differs from 1 by more than the tolerance.
-fn missed_steps(ratios: &[f64]) -> Vec<usize> {
-    (1..=ratios.len()).filter(|k| (ratios[k - 1] - 1.0).abs() > MISS_TOLERANCE).collect()
+fn missed_steps(variance_ratios: &[f64]) -> Vec<usize> {
+    (1..=variance_ratios.len()).filter(|k| (variance_ratios[k - 1] - 1.0).abs() > MISS_TOLERANCE).collect()
 }
 
 #[test]
 fn printed_losses_of_variance_equal_those_of_the_simulation() {
     let initial_simulation = simulation(Settings::default());
     let [printed_loss]: [PrintedNumber; 1] =
-        page().sentence_numbers("what its own loses by the end: # % of the variance along the track");
+        page_text().sentence_numbers("what its own loses by the end: # % of the variance along the track");
     let comparison = initial_simulation.comparison(Compounding::Chapter);
     printed_loss.assert_percent(-comparison.misses[0].end, 0.0);
     printed_loss
         .assert_percent(1.0 - ratios_to_fourth_order(&initial_simulation, Compounding::Chapter, 0)[19], 0.0);
-    let [printed_along_loss, printed_lateral_loss]: [PrintedNumber; 2] = page().sentence_numbers(
+    let [printed_along_loss, printed_lateral_loss]: [PrintedNumber; 2] = page_text().sentence_numbers(
         "After the chapter’s 20 steps the variance along the track is # % below that of 50\u{202f}000 robots. Across the track \
          it is 0 after step 1, and # % too small at the end.",
     );
@@ -51,30 +51,30 @@ fn printed_losses_of_variance_equal_those_of_the_simulation() {
             0.0,
         );
     }
-    page().assert_contains("the Gaussian that the chapter predicts is a line, for its R, the noise covariance of one step, has no lateral noise");
+    page_text().assert_contains("the Gaussian that the chapter predicts is a line, for its R, the noise covariance of one step, has no lateral noise");
     assert_eq!(comparison.ratios[0].y, 0.0);
     assert!(initial_simulation.measured_moments()[0].cov[(1, 1)] > 0.0);
     let [printed_ratio_at_2, printed_ratio_at_5]: [PrintedNumber; 2] =
-        page().sentence_numbers("At step 2 it predicts # of the lateral variance, at step 5 #.");
+        page_text().sentence_numbers("At step 2 it predicts # of the lateral variance, at step 5 #.");
     for ratios in [
         ratios_to_fourth_order(&initial_simulation, Compounding::Chapter, 1),
-        comparison.ratios.iter().map(|ratio| ratio.y).collect(),
+        comparison.ratios.iter().map(|axis_ratios| axis_ratios.y).collect(),
     ] {
         printed_ratio_at_2.assert_near(ratios[1], 0.0);
         printed_ratio_at_5.assert_near(ratios[4], 0.0);
     }
-    page().assert_contains(
+    page_text().assert_contains(
         "With the right Jacobian Jr, the turn during a step, every ratio is 1 to a hundredth, and fourth order looks the same.",
     );
-    for order in [Compounding::FirstOrder, Compounding::FourthOrder] {
-        for ratio in &initial_simulation.comparison(order).ratios {
-            assert!(ratio.iter().all(|ratio| (ratio - 1.0).abs() < 0.01), "{order:?}: {ratio}");
+    for recursion in [Compounding::FirstOrder, Compounding::FourthOrder] {
+        for ratio in &initial_simulation.comparison(recursion).ratios {
+            assert!(ratio.iter().all(|ratio| (ratio - 1.0).abs() < 0.01), "{recursion:?}: {ratio}");
         }
     }
 }
 
-/// Checks the numbers on the page and in doc/exercises.md. A ratio to the variance of n robots has the standard error √(2/n), or more if
-/// the tails are heavy.
+/// Checks the error ratios on the page and in doc/exercises.md. A ratio to the variance of n robots has the standard error √(2/n), or more
+/// if the tails are heavy.
 #[test]
 fn ratios_and_crossings_are_those_of_exercise_7() {
     let exercises_text = exercises_document();
@@ -105,7 +105,7 @@ fn ratios_and_crossings_are_those_of_exercise_7() {
          large) it is from step # on",
         first_missed_steps,
     );
-    page().assert_numbers(
+    page_text().assert_numbers(
         "it is off by more than 5 % from step # on, and with the heading σ doubled from step # on, which is earlier, \
          but not by half.",
         first_missed_steps,
@@ -113,14 +113,14 @@ fn ratios_and_crossings_are_those_of_exercise_7() {
     assert!(first_missed_steps[1] > first_missed_steps[0] / 2.0);
 }
 
-/// Checks the numbers on the page and in doc/exercises.md.
+/// Checks the crossing times on the page and in doc/exercises.md.
 #[test]
 fn the_crossing_times_are_those_of_exercise_2() {
     let initial_simulation = simulation(Settings { samples: 1, ..Settings::default() });
     let straight_growth = initial_simulation.straight_growth();
     let last_index = straight_growth.durations.len() - 1;
-    let growth_exponent = |stds: &[f64]| {
-        (stds[last_index] / stds[0]).ln()
+    let growth_exponent = |stds_by_step: &[f64]| {
+        (stds_by_step[last_index] / stds_by_step[0]).ln()
             / (straight_growth.durations[last_index] / straight_growth.durations[0]).ln()
     };
     let growth_exponents = [&straight_growth.along_first_order, &straight_growth.across_first_order]
@@ -131,12 +131,13 @@ fn the_crossing_times_are_those_of_exercise_2() {
     let crossing_times = [&straight_growth, &doubled_simulation.straight_growth()]
         .map(|straight_growth| straight_growth.crossing.expect("a crossing"));
     let exercises_text = exercises_document();
-    page().assert_numbers(
+    page_text().assert_numbers(
         "along the track with the power #, across it with the power #. They cross",
         growth_exponents,
     );
     exercises_text.assert_numbers("grows with the power # of Δt, across it with #. ", growth_exponents);
-    page().assert_numbers("They cross after # s; with the heading σ doubled, after # s.", crossing_times);
+    page_text()
+        .assert_numbers("They cross after # s; with the heading σ doubled, after # s.", crossing_times);
     exercises_text.assert_numbers(
         "with α₁ = α₃ after # s, and with the heading's σ doubled (α₃ four times as large) after # s",
         crossing_times,
@@ -145,7 +146,7 @@ fn the_crossing_times_are_those_of_exercise_2() {
 
 #[test]
 fn with_two_hundred_steps_the_recursion_misses_for_half_a_second() {
-    page().assert_contains(
+    page_text().assert_contains(
         "In 200 steps nothing along the track is off by 5 %, and the lateral variance for half a second instead of three:",
     );
     let [chapter_simulation, fine_simulation] = ["chapter", "fine"].map(simulation_of_preset);

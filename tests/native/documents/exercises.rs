@@ -23,16 +23,17 @@ fn velocity_model(alphas: [f64; 6]) -> VelocityModel {
 /// Returns the root mean square error (m) of the arc form over all headings, at v = 1 m/s. The exact end is computed by a
 /// series for small turns.
 fn rms_error_of_arc_form(omega: f64, dt: f64) -> f64 {
-    let (radius, phi) = (1.0 / omega, omega * dt);
-    let (forward, left) = (dt * (1.0 - phi * phi / 6.0), dt * phi * (0.5 - phi * phi / 24.0));
+    let (arc_radius, arc_turn) = (1.0 / omega, omega * dt);
+    let (forward, left) =
+        (dt * (1.0 - arc_turn * arc_turn / 6.0), dt * arc_turn * (0.5 - arc_turn * arc_turn / 24.0));
     let heading_count = 1001;
     let squared_errors = (0..heading_count).map(|i| {
         let theta = 2.0 * PI * f64::from(i) / f64::from(heading_count) - PI;
         let (sin, cos) = theta.sin_cos();
         let (x, y) = (forward * cos - left * sin, forward * sin + left * cos);
-        let end_heading = theta + phi;
-        (radius * end_heading.sin() - radius * sin - x).powi(2)
-            + (radius * cos - radius * end_heading.cos() - y).powi(2)
+        let end_heading = theta + arc_turn;
+        (arc_radius * end_heading.sin() - arc_radius * sin - x).powi(2)
+            + (arc_radius * cos - arc_radius * end_heading.cos() - y).powi(2)
     });
     (squared_errors.sum::<f64>() / f64::from(heading_count)).sqrt()
 }
@@ -41,7 +42,7 @@ fn rms_error_of_arc_form(omega: f64, dt: f64) -> f64 {
 fn exercise_1_prints_the_errors_of_the_straight_line_branch() {
     let dt = 0.1;
     let expected_line_error = |omega: f64| 0.5 * omega * dt * dt;
-    // The error varies strongly with ω. Its geometric mean over a tenth of a decade is therefore compared.
+    // The error of the arc form varies strongly with ω. Its geometric mean over a tenth of a decade is therefore compared.
     let line_to_arc_error_ratio = |omega: f64| {
         let turn_rates = (0..20).map(|i| omega * 10f64.powf(f64::from(i) / 200.0 - 0.05));
         (turn_rates
@@ -70,7 +71,7 @@ fn exercise_1_prints_the_errors_of_the_straight_line_branch() {
     assert!(((arc_end.x() - 1.0).hypot(arc_end.y()) - 0.5e-6).abs() < 1e-12, "{arc_end:?}");
 }
 
-/// The determinant is computed by central differences, with an error proportional to the square of the step.
+/// The Jacobian determinant is computed by central differences, with an error proportional to the square of the step.
 #[test]
 fn exercise_3_prints_the_jacobian_determinant() {
     let model = velocity_model([0.02, 0.02, 0.02, 0.02, 0.01, 0.01]);
@@ -78,9 +79,9 @@ fn exercise_3_prints_the_jacobian_determinant() {
     let noise_free_end = x.boxplus(TangentNoiseModel::twist(&U));
     let [printed_determinant]: [PrintedNumber; 1] = exercises_document()
         .sentence_numbers("At the noise-free end of the worked example's command it is #, and");
-    let stds = model.variances(&U).map(|variance| variance.0.sqrt());
-    let noise_jacobian = derivative_by_noise([0.0; 3], |unit| model.apply_noise(&U, &x, unit));
-    let unit_jacobian_determinant = noise_jacobian.determinant() / stds.iter().product::<f64>();
+    let noise_stds = model.variances(&U).map(|variance| variance.0.sqrt());
+    let noise_jacobian = derivative_by_noise([0.0; 3], |unit_noise| model.apply_noise(&U, &x, unit_noise));
+    let unit_jacobian_determinant = noise_jacobian.determinant() / noise_stds.iter().product::<f64>();
     printed_determinant.assert_near(unit_jacobian_determinant, 0.0);
     let prob_ratio = model.prob(&noise_free_end, &U, &x)
         / model.pose_density(&noise_free_end, &U, &x).expect("noise of full rank");
@@ -99,9 +100,9 @@ fn exercise_3_prints_the_jacobian_determinant() {
 
 #[test]
 fn exercise_4_prints_the_effect_of_each_alpha() {
-    let exact_and_is_one_pose = |index: usize, command: VelocityCmd| {
+    let exact_and_is_one_pose = |alpha_index: usize, command: VelocityCmd| {
         let mut alphas = [0.0; 6];
-        alphas[index] = 0.09;
+        alphas[alpha_index] = 0.09;
         let settings =
             Settings { command, velocity_alphas: alphas, samples: 1000, ..settings_of_preset("straight") };
         let simulation = BananaMachine::new(settings).expect("valid settings");
@@ -120,34 +121,34 @@ fn exercise_4_prints_the_effect_of_each_alpha() {
     .map(|sentence| exercises_document().sentence_numbers::<1>(sentence)[0]);
     assert_eq!(printed_alpha.value, 0.09);
     let [exact_with_alpha4, exact_with_alpha6] =
-        [3, 5].map(|index| exact_and_is_one_pose(index, turning_command).0);
+        [3, 5].map(|alpha_index| exact_and_is_one_pose(alpha_index, turning_command).0);
     printed_variance.assert_near(exact_with_alpha4.cov[(2, 2)], 0.0);
     printed_variance.assert_near(exact_with_alpha6.cov[(2, 2)], 0.0);
     printed_skew.assert_near(exact_with_alpha4.cross_track_skew, 0.0);
     assert_eq!(exact_with_alpha6.cov.fixed_rows::<2>(0).amax(), 0.0);
 }
 
-/// Equal seeds give equal motions. The fractions therefore equal those of the table in every digit.
+/// Equal seeds give equal motions. The computed fractions therefore equal those of the table in every digit.
 #[test]
 fn exercise_5_prints_the_fractions_through_walls() {
-    let settings_with = |n: f64, omega: f64, sampler: Sampler| {
+    let settings_with = |noise_level: f64, omega: f64, sampler: Sampler| {
         let command = VelocityCmd { omega, ..squeeze::Settings::default().command };
-        let (alphas, steps, samples) = (alphas_of_noise_level(n), sampler.part_count(), 20_000);
+        let (alphas, steps, samples) = (alphas_of_noise_level(noise_level), sampler.part_count(), 20_000);
         squeeze::Settings { command, alphas, sampler, steps, samples, ..Default::default() }
     };
     let squeeze_stats = |settings| MapSqueeze::new(settings).expect("valid settings").stats();
     for n in ["0.02", "0.05", "0.12", "0.4"] {
         let printed_numbers: [PrintedNumber; 5] =
             exercises_document().sentence_numbers(&format!("| {n} | # | # | # | # | # |"));
-        for (printed, omega) in printed_numbers.into_iter().zip([0.0, 0.2, 0.4, 0.6, 0.8]) {
+        for (printed_fraction, omega) in printed_numbers.into_iter().zip([0.0, 0.2, 0.4, 0.6, 0.8]) {
             let settings = settings_with(n.parse().expect("a number"), omega, Sampler::Endpoint);
-            printed.assert_percent(squeeze_stats(settings).through_wall_rate, 0.0);
+            printed_fraction.assert_percent(squeeze_stats(settings).through_wall_rate, 0.0);
         }
     }
     exercises_document().assert_contains("Noise alone, up to 0.4, never gets it to 40 %.");
     for i in [8, 24, 40, 56, 80] {
-        let stats = squeeze_stats(settings_with(0.005 * f64::from(i), 0.0, Sampler::Endpoint));
-        assert!(stats.through_wall_rate < 0.4, "{i}: {}", stats.through_wall_rate);
+        let endpoint_stats = squeeze_stats(settings_with(0.005 * f64::from(i), 0.0, Sampler::Endpoint));
+        assert!(endpoint_stats.through_wall_rate < 0.4, "{i}: {}", endpoint_stats.through_wall_rate);
     }
     let [printed_arc_draws, printed_quarters_draws, printed_quarters_percentage, printed_eighths_draws]: [PrintedNumber; 4] = [
         "Judging the whole arc costs # draws",
@@ -160,13 +161,14 @@ fn exercise_5_prints_the_fractions_through_walls() {
     let whole_arc_stats = sampler_stats(Sampler::WholeArc);
     printed_arc_draws.assert_near(whole_arc_stats.draws_per_accepted, 0.0);
     assert_eq!(whole_arc_stats.through_wall, 0);
-    let [quarters_stats, eighths_stats] = [4, 8].map(|parts| sampler_stats(Sampler::SubStepped(parts)));
+    let [quarters_stats, eighths_stats] =
+        [4, 8].map(|part_count| sampler_stats(Sampler::SubStepped(part_count)));
     printed_quarters_draws.assert_near(quarters_stats.draws_per_accepted, 0.0);
     printed_quarters_percentage.assert_percent(quarters_stats.through_wall_rate, 0.0);
     printed_eighths_draws.assert_near(eighths_stats.draws_per_accepted, 0.0);
     let [draws_per_second]: [PrintedNumber; 1] =
         exercises_document().sentence_numbers("at 20 Hz that is # draws a second");
-    // The number is printed in thousands.
+    // The number of draws a second is printed in thousands.
     assert!((draws_per_second.value - 2000.0 * 20.0 * whole_arc_stats.draws_per_accepted).abs() <= 500.0);
 }
 

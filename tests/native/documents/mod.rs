@@ -7,17 +7,16 @@ mod exercises;
 mod odometry_decomposer;
 mod squeeze;
 
-use crate::common::text::Text;
+use crate::common::text::PlainText;
 
-/// Returns the text of the page without markup.
-fn page() -> Text {
-    Text::of_page(include_str!("../../../www/index.html"))
+fn page_text() -> PlainText {
+    PlainText::of_page(include_str!("../../../www/index.html"))
 }
 
-fn exercises_document() -> Text {
-    Text::of_document(include_str!("../../../doc/exercises.md"))
+fn exercises_document() -> PlainText {
+    PlainText::of_document(include_str!("../../../doc/exercises.md"))
 }
 
-fn model_document() -> Text {
-    Text::of_document(include_str!("../../../doc/model.md"))
+fn model_document() -> PlainText {
+    PlainText::of_document(include_str!("../../../doc/model.md"))
 }

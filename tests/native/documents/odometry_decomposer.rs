@@ -1,6 +1,6 @@
 //! Numbers of the Odometry Decomposer on the page, and of the noise rules in doc/model.md, compared with computed numbers.
 
-use super::{model_document, page};
+use super::{model_document, page_text};
 use crate::common::settings_of_preset;
 use crate::simulations::odometry_decomposer::simulation;
 use motion::models::OdometryRule::{self, Beluga, Nav2, Omni, Table};
@@ -12,8 +12,8 @@ fn rule_noise(settings: Settings, rule: OdometryRule) -> RuleNoise {
 
 #[test]
 fn the_lever_grows_faster_than_the_drive() {
-    // The page states the exact standard deviation at the end, not lever arm times angle.
-    let [printed_rot1_std, printed_lateral_std, printed_growth] = page().sentence_numbers(
+    // The page states the exact standard deviation at the end, which is not the product of lever arm and angle.
+    let [printed_rot1_std, printed_lateral_std, printed_growth] = page_text().sentence_numbers(
         "the noise of the first rotation: ± # rad at the start are ± # m across at the end. Twice as far it is # times as much",
     );
     let settings = settings_of_preset("all");
@@ -30,7 +30,7 @@ fn the_lever_grows_faster_than_the_drive() {
 
 #[test]
 fn only_the_table_adds_noise_of_two_half_turns_in_reverse() {
-    let [printed_table_std, printed_localizer_std] = page().sentence_numbers(
+    let [printed_table_std, printed_localizer_std] = page_text().sentence_numbers(
         "adds ± # rad and more; the localizers AMCL of Nav2 and Beluga add ± # for either.",
     );
     let rule_deviations = |rule| rule_noise(settings_of_preset("reverse"), rule).deviations;
@@ -46,7 +46,7 @@ fn only_the_table_adds_noise_of_two_half_turns_in_reverse() {
 
 #[test]
 fn correlation_changes_the_heading_deviation_from_difference_to_sum() {
-    let [printed_min_std, printed_max_std] = page().sentence_numbers(
+    let [printed_min_std, printed_max_std] = page_text().sentence_numbers(
         "No outcome moves, and the standard deviation of the heading goes from # to # rad.",
     );
     let simulate_correlation =
@@ -63,13 +63,13 @@ fn correlation_changes_the_heading_deviation_from_difference_to_sum() {
 fn the_variances_of_the_rules_are_those_in_the_document() {
     let preset_row_names = [("reverse", "reverse"), ("spin", "spin"), ("rest", "at rest")];
     let rule_column_names = [(Table, "Table 5.6"), (Nav2, "Nav2, Beluga"), (Omni, "omnidirectional")];
-    for ((preset, row_name), (rule, rule_name)) in
-        preset_row_names.into_iter().flat_map(|preset| rule_column_names.map(|rule| (preset, rule)))
+    for ((preset_name, row_name), (rule, rule_name)) in
+        preset_row_names.into_iter().flat_map(|preset_name| rule_column_names.map(|rule| (preset_name, rule)))
     {
-        let stds = rule_noise(settings_of_preset(preset), rule).deviations;
-        model_document().assert_numbers(&format!("| {row_name} | {rule_name} | # | # | # | # |"), stds);
+        let leg_stds = rule_noise(settings_of_preset(preset_name), rule).deviations;
+        model_document().assert_numbers(&format!("| {row_name} | {rule_name} | # | # | # | # |"), leg_stds);
         if rule == Nav2 {
-            assert_eq!(rule_noise(settings_of_preset(preset), Beluga).deviations, stds);
+            assert_eq!(rule_noise(settings_of_preset(preset_name), Beluga).deviations, leg_stds);
         }
     }
 }
@@ -77,8 +77,8 @@ fn the_variances_of_the_rules_are_those_in_the_document() {
 #[test]
 fn encoders_at_rest_are_noisy_by_the_table_alone() {
     let [printed_heading_std] =
-        page().sentence_numbers("the heading of a robot that has not moved is uncertain by ± # rad,");
-    page().assert_contains("The encoders have jittered by half a centimetre.");
+        page_text().sentence_numbers("the heading of a robot that has not moved is uncertain by ± # rad,");
+    page_text().assert_contains("The encoders have jittered by half a centimetre.");
     let [x, y, _] = settings_of_preset::<Settings>("rest").to;
     assert_eq!((1000.0 * x.hypot(y)).round(), 5.0);
     let stats = simulation(settings_of_preset("rest")).stats();

@@ -1,6 +1,6 @@
 //! Fractions of Map Squeeze on the page and in doc/model.md, compared with computed numbers.
 
-use super::{model_document, page};
+use super::{model_document, page_text};
 use crate::common::text::PrintedNumber;
 use crate::common::{MAX_STANDARD_ERRORS, seeded_rng};
 use motion::geom::arc::Arc;
@@ -17,7 +17,7 @@ const WALL_PRESET: usize = 1;
 const CORRIDOR_PRESET: usize = 2;
 
 /// Returns the initial settings with another start, sampler and turn rate.
-fn settings(preset: usize, sampler: Sampler, omega: f64) -> Settings {
+fn settings_at(preset: usize, sampler: Sampler, omega: f64) -> Settings {
     let command = VelocityCmd { omega, ..Settings::default().command };
     let steps = sampler.part_count();
     let samples = 100_000.min(800_000 / steps as usize);
@@ -32,45 +32,50 @@ fn settings(preset: usize, sampler: Sampler, omega: f64) -> Settings {
     }
 }
 
-fn simulation(settings: Settings) -> MapSqueeze {
+fn new_simulation(settings: Settings) -> MapSqueeze {
     MapSqueeze::new(settings).expect("valid settings")
 }
 
 /// Returns the fraction of accepted samples whose path crosses a wall, and its standard error.
 fn fraction_through_wall(settings: Settings) -> (f64, f64) {
-    let simulation = simulation(settings);
+    let simulation = new_simulation(settings);
     assert!(!simulation.stats().gave_up, "{settings:?}");
-    let (fraction, count) = (simulation.stats().through_wall_rate, simulation.stats().accepted as f64);
-    // A fraction of 0 would have a standard error of 0. The error of one sample through the wall is used instead.
-    (fraction, ((fraction * (1.0 - fraction)).max(1.0 / count) / count).sqrt())
+    let (fraction, accepted_count) =
+        (simulation.stats().through_wall_rate, simulation.stats().accepted as f64);
+    // A fraction of 0 would have a standard error of 0. The standard error of a single sample through the wall is used instead.
+    (fraction, ((fraction * (1.0 - fraction)).max(1.0 / accepted_count) / accepted_count).sqrt())
 }
 
-fn fraction_in_parts(preset: usize, parts: u32, omega: f64) -> (f64, f64) {
-    fraction_through_wall(settings(preset, Sampler::SubStepped(parts), omega))
+fn fraction_in_parts(preset: usize, part_count: u32, omega: f64) -> (f64, f64) {
+    fraction_through_wall(settings_at(preset, Sampler::SubStepped(part_count), omega))
 }
 
-/// Asserts that a printed percentage equals a computed fraction.
-fn assert_printed((fraction, error): (f64, f64), printed: PrintedNumber) {
-    printed.assert_percent(fraction, MAX_STANDARD_ERRORS * error);
+/// Asserts that a printed percentage equals a computed fraction, within its standard error.
+fn assert_printed_percentage((fraction, standard_error): (f64, f64), printed_percentage: PrintedNumber) {
+    printed_percentage.assert_percent(fraction, MAX_STANDARD_ERRORS * standard_error);
 }
 
-/// Asserts that one fraction is less than the other by more than [`MAX_STANDARD_ERRORS`] of their difference.
-fn assert_less(smaller: (f64, f64), larger: (f64, f64), description: &str) {
+/// Asserts that `smaller_fraction` is less than `larger_fraction` by more than [`MAX_STANDARD_ERRORS`] of their difference.
+fn assert_smaller_fraction(smaller_fraction: (f64, f64), larger_fraction: (f64, f64), description: &str) {
     assert!(
-        larger.0 - smaller.0 > MAX_STANDARD_ERRORS * smaller.1.hypot(larger.1),
-        "{description}: {smaller:?} is not less than {larger:?}"
+        larger_fraction.0 - smaller_fraction.0
+            > MAX_STANDARD_ERRORS * smaller_fraction.1.hypot(larger_fraction.1),
+        "{description}: {smaller_fraction:?} is not less than {larger_fraction:?}"
     );
 }
 
 #[test]
 fn most_accepted_samples_lie_behind_the_wall() {
-    let [printed_fraction] = page().sentence_numbers(
+    let [printed_fraction] = page_text().sentence_numbers(
         "Drive at a wall # % of what is accepted went through a wall, where the robot could never have gone. Test the \
          whole arc, and only what stopped short of the wall is left.",
     );
-    assert_printed(fraction_through_wall(settings(WALL_PRESET, Sampler::Endpoint, 0.0)), printed_fraction);
+    assert_printed_percentage(
+        fraction_through_wall(settings_at(WALL_PRESET, Sampler::Endpoint, 0.0)),
+        printed_fraction,
+    );
     let fraction_behind_wall = |sampler| {
-        let simulation = simulation(settings(WALL_PRESET, sampler, 0.0));
+        let simulation = new_simulation(settings_at(WALL_PRESET, sampler, 0.0));
         let accepted_y: Vec<f64> =
             simulation.attempts().iter().filter(|a| a.accepted).map(|a| a.pose.y()).collect();
         // The wall ahead is at y = 3.8. Robots that turn aside also end before it.
@@ -82,11 +87,14 @@ fn most_accepted_samples_lie_behind_the_wall() {
 
 #[test]
 fn a_third_of_the_accepted_motions_went_through_a_wall_at_the_doorway() {
-    let [printed_noise_level, printed_fraction] = page().sentence_numbers(
+    let [printed_noise_level, printed_fraction] = page_text().sentence_numbers(
         "straight ahead at noise level #, # % of the accepted motions went through a wall.",
     );
     assert_eq!(Settings::default().alphas, alphas_of_noise_level(printed_noise_level.value));
-    assert_printed(fraction_through_wall(settings(DOORWAY_PRESET, Sampler::Endpoint, 0.0)), printed_fraction);
+    assert_printed_percentage(
+        fraction_through_wall(settings_at(DOORWAY_PRESET, Sampler::Endpoint, 0.0)),
+        printed_fraction,
+    );
 }
 
 #[test]
@@ -95,37 +103,37 @@ fn fractions_through_walls_by_substeps_are_those_in_the_documents() {
     let printed_fractions = model_document().sentence_numbers(
         "On a straight command it falls with k: to # % at k = 16 facing the doorway, and to # % in the corridor.",
     );
-    for (place, printed_fraction) in
+    for (preset, printed_fraction) in
         [DOORWAY_PRESET, CORRIDOR_PRESET].into_iter().zip::<[PrintedNumber; 2]>(printed_fractions)
     {
-        assert_printed(fraction_in_parts(place, 16, 0.0), printed_fraction);
-        assert!(fraction_in_parts(place, 64, 0.0).0 < 1e-3, "nearly nothing at the end of the slider");
+        assert_printed_percentage(fraction_in_parts(preset, 16, 0.0), printed_fraction);
+        assert!(fraction_in_parts(preset, 64, 0.0).0 < 1e-3, "nearly nothing at the end of the slider");
     }
-    let [printed_omega, printed_endpoint, printed_parts, printed_part_count] = page().sentence_numbers(
+    let [printed_omega, printed_endpoint, printed_parts, printed_part_count] = page_text().sentence_numbers(
         "With ω = # more pass at first, from # % by the endpoint test to # % in # parts, and only then fewer.",
     );
-    assert_printed(
-        fraction_through_wall(settings(DOORWAY_PRESET, Sampler::Endpoint, printed_omega.value)),
+    assert_printed_percentage(
+        fraction_through_wall(settings_at(DOORWAY_PRESET, Sampler::Endpoint, printed_omega.value)),
         printed_endpoint,
     );
-    assert_printed(
+    assert_printed_percentage(
         fraction_in_parts(DOORWAY_PRESET, printed_part_count.value as u32, printed_omega.value),
         printed_parts,
     );
-    let [d1, d4, d6, d8, d16, c1, c4, c6, c8, c12] = model_document().sentence_numbers(
+    let [doorway_1, doorway_4, doorway_6, doorway_8, doorway_16, corridor_1, corridor_4, corridor_6, corridor_8, corridor_12] = model_document().sentence_numbers(
         "At the doorway it is # % at k = 1, # % at 4, # % at 6, # % at 8, and # % at 16. In the corridor it rises from # % \
          over # and # % to # % at k = 8, and falls to # % at 12.",
     );
-    for (place, endpoint, printed_fractions) in [
-        (DOORWAY_PRESET, d1, [(4, d4), (6, d6), (8, d8), (16, d16)]),
-        (CORRIDOR_PRESET, c1, [(4, c4), (6, c6), (8, c8), (12, c12)]),
+    for (preset, endpoint_fraction, printed_fractions) in [
+        (DOORWAY_PRESET, doorway_1, [(4, doorway_4), (6, doorway_6), (8, doorway_8), (16, doorway_16)]),
+        (CORRIDOR_PRESET, corridor_1, [(4, corridor_4), (6, corridor_6), (8, corridor_8), (12, corridor_12)]),
     ] {
-        assert_printed(
-            fraction_through_wall(settings(place, Sampler::Endpoint, printed_omega.value)),
-            endpoint,
+        assert_printed_percentage(
+            fraction_through_wall(settings_at(preset, Sampler::Endpoint, printed_omega.value)),
+            endpoint_fraction,
         );
-        for (parts, fraction) in printed_fractions {
-            assert_printed(fraction_in_parts(place, parts, printed_omega.value), fraction);
+        for (part_count, fraction) in printed_fractions {
+            assert_printed_percentage(fraction_in_parts(preset, part_count, printed_omega.value), fraction);
         }
     }
 }
@@ -134,33 +142,37 @@ fn fractions_through_walls_by_substeps_are_those_in_the_documents() {
 #[ignore = "nightly: clouds of 100,000"]
 fn more_substeps_facing_the_wall_send_more_samples_through_it() {
     let through_wall_fractions = [2, 4, 8].map(|parts| fraction_in_parts(WALL_PRESET, parts, 0.0));
-    through_wall_fractions.windows(2).for_each(|pair| assert_less(pair[0], pair[1], "more parts"));
+    through_wall_fractions
+        .windows(2)
+        .for_each(|fraction_pair| assert_smaller_fraction(fraction_pair[0], fraction_pair[1], "more parts"));
     let [printed_with_endpoint, printed_with_2_parts, printed_with_4_parts, printed_with_8_parts, printed_wedged_parts] = model_document().sentence_numbers(
         "it rises from # % at k = 1 to # %, # % and # % at k = 2, 4 and 8. From k = # on, so few parts reach across that \
          the widget gives up.",
     );
-    assert_printed(
-        fraction_through_wall(settings(WALL_PRESET, Sampler::Endpoint, 0.0)),
+    assert_printed_percentage(
+        fraction_through_wall(settings_at(WALL_PRESET, Sampler::Endpoint, 0.0)),
         printed_with_endpoint,
     );
     through_wall_fractions
         .into_iter()
         .zip([printed_with_2_parts, printed_with_4_parts, printed_with_8_parts])
-        .for_each(|(fraction, printed)| assert_printed(fraction, printed));
+        .for_each(|(fraction, printed_percentage)| assert_printed_percentage(fraction, printed_percentage));
     let [printed_first_parts, printed_last_parts, printed_first_fraction, printed_last_fraction] =
-        page().sentence_numbers("go from # parts to #. The share through the wall rises, from # % to # %:");
+        page_text()
+            .sentence_numbers("go from # parts to #. The share through the wall rises, from # % to # %:");
     assert_eq!((printed_first_parts.value, printed_last_parts.value), (2.0, 8.0));
-    assert_printed(through_wall_fractions[0], printed_first_fraction);
-    assert_printed(through_wall_fractions[2], printed_last_fraction);
-    page().assert_contains(
+    assert_printed_percentage(through_wall_fractions[0], printed_first_fraction);
+    assert_printed_percentage(through_wall_fractions[2], printed_last_fraction);
+    page_text().assert_contains(
         "From 16 parts on hardly one is long enough to jump, and the robot stands wedged before the wall.",
     );
     assert_eq!(printed_wedged_parts.value, 16.0);
-    assert!(!simulation(settings(WALL_PRESET, Sampler::SubStepped(12), 0.0)).stats().gave_up);
-    for parts in [16, 24, 32, 64] {
+    assert!(!new_simulation(settings_at(WALL_PRESET, Sampler::SubStepped(12), 0.0)).stats().gave_up);
+    for part_count in [16, 24, 32, 64] {
         for samples in [600, 10_000] {
-            let settings = Settings { samples, ..settings(WALL_PRESET, Sampler::SubStepped(parts), 0.0) };
-            assert!(simulation(settings).stats().gave_up, "{parts} parts");
+            let settings =
+                Settings { samples, ..settings_at(WALL_PRESET, Sampler::SubStepped(part_count), 0.0) };
+            assert!(new_simulation(settings).stats().gave_up, "{part_count} parts");
         }
     }
 }

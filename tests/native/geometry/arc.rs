@@ -10,21 +10,19 @@ use motion::geom::segment::Segment;
 use rand::Rng;
 use std::f64::consts::{PI, TAU};
 
-// ------------------------------------------------------------------------------------------------- random pairs
-
-fn random_point(rng: &mut impl Rng, reach: f64) -> Point {
-    [draw_uniform(rng, -reach, reach), draw_uniform(rng, -reach, reach)]
+fn random_point(rng: &mut impl Rng, max_coordinate: f64) -> Point {
+    [draw_uniform(rng, -max_coordinate, max_coordinate), draw_uniform(rng, -max_coordinate, max_coordinate)]
 }
 
-fn random_arc(rng: &mut impl Rng, length: f64, turn: f64) -> Arc {
+fn random_arc(rng: &mut impl Rng, max_length: f64, max_turn: f64) -> Arc {
     let [x, y] = random_point(rng, 5.0);
-    Arc { start: SE2::new(x, y, draw_uniform(rng, -PI, PI)), length, turn }
+    Arc { start: SE2::new(x, y, draw_uniform(rng, -PI, PI)), length: max_length, turn: max_turn }
 }
 
 /// Returns an arc of up to 8 m in either direction, which turns by up to two circles to either side.
 fn any_arc(rng: &mut impl Rng) -> Arc {
-    let (length, turn) = (draw_uniform(rng, -8.0, 8.0), draw_uniform(rng, -2.0 * TAU, 2.0 * TAU));
-    random_arc(rng, length, turn)
+    let (arc_length, arc_turn) = (draw_uniform(rng, -8.0, 8.0), draw_uniform(rng, -2.0 * TAU, 2.0 * TAU));
+    random_arc(rng, arc_length, arc_turn)
 }
 
 fn nearly_straight_arc(rng: &mut impl Rng) -> Arc {
@@ -50,24 +48,24 @@ fn absolute_position(arc: &Arc, relative_point: Point) -> Point {
 /// Returns a wall along a tangent of the arc, at a tiny distance.
 fn tangent_wall(rng: &mut impl Rng, arc: &Arc) -> Segment {
     let f = draw_uniform(rng, 0.0, 1.0);
-    let heading = arc.start.theta() + f * arc.turn;
+    let tangent_heading = arc.start.theta() + f * arc.turn;
     let [x, y] = position_along(arc, f);
     let tangent_offset = draw_signed_log_uniform(rng, 1e-15, 1e-1);
-    let tangent_point = [x - tangent_offset * heading.sin(), y + tangent_offset * heading.cos()];
+    let tangent_point =
+        [x - tangent_offset * tangent_heading.sin(), y + tangent_offset * tangent_heading.cos()];
     let mut draw_end = || {
         let distance_along = draw_uniform(rng, -5.0, 5.0);
         absolute_position(
             arc,
             [
-                tangent_point[0] + distance_along * heading.cos(),
-                tangent_point[1] + distance_along * heading.sin(),
+                tangent_point[0] + distance_along * tangent_heading.cos(),
+                tangent_point[1] + distance_along * tangent_heading.sin(),
             ],
         )
     };
     Segment { from: draw_end(), to: draw_end() }
 }
 
-/// Returns a wall that ends near the end of the arc, or extends beyond it.
 fn wall_near_end(rng: &mut impl Rng, arc: &Arc) -> Segment {
     let [x, y] = position_along(arc, f64::from(rng.next_u32() % 2));
     let mut draw_offset = || draw_signed_log_uniform(rng, 1e-15, 1e-1);
@@ -84,17 +82,17 @@ fn wall_near_end(rng: &mut impl Rng, arc: &Arc) -> Segment {
 /// Returns a wall with an end near the centre of the arc's circle, where all points of the circle are equally near.
 fn wall_from_centre(rng: &mut impl Rng, arc: &Arc) -> Segment {
     let (radius, theta) = (arc.length / arc.turn, arc.start.theta());
-    let mut offset = || draw_signed_log_uniform(rng, 1e-16, 1e-1);
-    let near_end = absolute_position(arc, [offset() - radius * theta.sin(), offset() + radius * theta.cos()]);
+    let mut draw_offset = || draw_signed_log_uniform(rng, 1e-16, 1e-1);
+    let near_end =
+        absolute_position(arc, [draw_offset() - radius * theta.sin(), draw_offset() + radius * theta.cos()]);
     let reach = draw_uniform(rng, 0.0, 1.2) * radius;
     let heading = draw_uniform(rng, -PI, PI);
     Segment { from: near_end, to: [near_end[0] + reach * heading.cos(), near_end[1] + reach * heading.sin()] }
 }
 
-/// Returns a wall of length 0.
 fn point_wall(rng: &mut impl Rng, _: &Arc) -> Segment {
-    let point = random_point(rng, 8.0);
-    Segment { from: point, to: point }
+    let wall_point = random_point(rng, 8.0);
+    Segment { from: wall_point, to: wall_point }
 }
 
 type ArcGenerator = fn(&mut rand_xoshiro::Xoshiro256PlusPlus) -> Arc;
@@ -132,27 +130,25 @@ const ARC_AND_WALL_KINDS: [(&str, ArcGenerator, WallGenerator, u32); 14] = [
     ("long", LONG_ARC, tangent_wall, 1500),
 ];
 
-// --------------------------------------------------------------------------------------------------------- tests
-
 /// Both the analytic distance and the reference round coordinates a few times. The tolerance is eight units in the last place of the
 /// extent.
 #[test]
 fn the_distance_to_an_arc_matches_bisection() {
     let (mut pair_count, mut crossing_count, mut narrow_bounds_count) = (0, 0, 0);
-    for (seed, (name, make_arc, make_wall, count)) in (0..).zip(ARC_AND_WALL_KINDS) {
+    for (seed, (kind_name, make_arc, make_wall, pair_count_of_kind)) in (0..).zip(ARC_AND_WALL_KINDS) {
         let mut rng = seeded_rng(9000 + seed);
-        for _ in 0..count {
+        for _ in 0..pair_count_of_kind {
             let arc = make_arc(&mut rng);
             let wall = make_wall(&mut rng, &arc);
-            let distance = wall.distance_to_arc(&arc);
-            let [low, high] = distance_by_halving(&arc, &wall);
+            let computed_distance = wall.distance_to_arc(&arc);
+            let [min_distance, max_distance] = distance_by_halving(&arc, &wall);
             let tolerance = 8.0 * f64::EPSILON * max_coordinate(&arc, &wall);
             assert!(
-                (low - tolerance..=high + tolerance).contains(&distance),
-                "{name}: {distance:e} instead of {low:e} to {high:e}: {arc:?} {wall:?}"
+                (min_distance - tolerance..=max_distance + tolerance).contains(&computed_distance),
+                "{kind_name}: {computed_distance:e} instead of {min_distance:e} to {max_distance:e}: {arc:?} {wall:?}"
             );
-            crossing_count += u32::from(distance == 0.0);
-            narrow_bounds_count += u32::from(high - low <= tolerance);
+            crossing_count += u32::from(computed_distance == 0.0);
+            narrow_bounds_count += u32::from(max_distance - min_distance <= tolerance);
             pair_count += 1;
         }
     }
@@ -181,8 +177,8 @@ fn chords_of_an_arc_stay_within_a_twentieth_of_a_millimetre() {
                 absolute_position(&arc, position_along(&arc, 1.0))
             )) < 1e-14
         );
-        for (i, ends) in chord_points.windows(2).enumerate() {
-            let chord_middle = [0, 1].map(|axis| 0.5 * (ends[0][axis] + ends[1][axis]));
+        for (i, chord_ends) in chord_points.windows(2).enumerate() {
+            let chord_middle = [0, 1].map(|axis| 0.5 * (chord_ends[0][axis] + chord_ends[1][axis]));
             let arc_middle =
                 absolute_position(&arc, position_along(&arc, (i as f64 + 0.5) / chord_count as f64));
             let chord_deviation = norm(subtract_points(chord_middle, arc_middle));

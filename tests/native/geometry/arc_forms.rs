@@ -1,22 +1,22 @@
 //! Double-double arithmetic, compared with fifty-digit references.
 
-use motion::geom::arc_forms::{DoubleDouble, FormErrors, STRAIGHT_LINE_THRESHOLD, form_errors};
+use motion::geom::arc_forms::{DoubleDouble, STRAIGHT_LINE_THRESHOLD, form_errors};
 
 /// Returns the rows of the reference: an angle, and the high and low parts of its sine, cosine and sinc.
 fn reference_rows() -> impl Iterator<Item = [f64; 7]> {
     include_str!("../../reference/double_double.csv")
         .lines()
-        .filter(|line| !line.starts_with('#'))
+        .filter(|csv_line| !csv_line.starts_with('#'))
         .skip(1)
-        .map(|line| {
-            let mut numbers = line.split(',').map(|number| number.parse().expect("a number"));
-            std::array::from_fn(|_| numbers.next().expect("seven numbers"))
+        .map(|csv_line| {
+            let mut row_numbers = csv_line.split(',').map(|number| number.parse().expect("a number"));
+            std::array::from_fn(|_| row_numbers.next().expect("seven numbers"))
         })
 }
 
 /// Returns the absolute difference between a value and a reference, which consists of a high and a low part.
-fn relative_deviation(value: DoubleDouble, high: f64, low: f64) -> f64 {
-    (value - DoubleDouble { high, low }).to_f64().abs()
+fn absolute_deviation(computed: DoubleDouble, reference_high: f64, reference_low: f64) -> f64 {
+    (computed - DoubleDouble { high: reference_high, low: reference_low }).to_f64().abs()
 }
 
 #[test]
@@ -25,9 +25,9 @@ fn sine_cosine_and_sinc_match_fifty_digit_references() {
     for [angle, sin_high, sin_low, cos_high, cos_low, sinc_high, sinc_low] in reference_rows() {
         let angle = DoubleDouble::from(angle);
         let (sin, cos) = angle.sin_cos();
-        assert!(relative_deviation(sin, sin_high, sin_low) <= 1e-30, "sin {}", angle.high);
-        assert!(relative_deviation(cos, cos_high, cos_low) <= 1e-30, "cos {}", angle.high);
-        assert!(relative_deviation(angle.sinc(), sinc_high, sinc_low) <= 1e-30, "sinc {}", angle.high);
+        assert!(absolute_deviation(sin, sin_high, sin_low) <= 1e-30, "sin {}", angle.high);
+        assert!(absolute_deviation(cos, cos_high, cos_low) <= 1e-30, "cos {}", angle.high);
+        assert!(absolute_deviation(angle.sinc(), sinc_high, sinc_low) <= 1e-30, "sinc {}", angle.high);
         row_count += 1;
     }
     assert!(row_count >= 60);
@@ -36,21 +36,21 @@ fn sine_cosine_and_sinc_match_fifty_digit_references() {
 
 #[test]
 fn errors_of_the_three_arc_forms_grow_as_their_formulas_say() {
-    let FormErrors { omega, arc, straight, chord, estimated_crossover, .. } = form_errors();
+    let errors = form_errors();
     // The chord form loses no digits. Its error is the rounding of a product and two sums.
-    assert!(chord.iter().all(|error| *error < 3e-17), "{chord:?}");
-    for (i, omega) in omega.iter().enumerate() {
+    assert!(errors.chord.iter().all(|chord_error| *chord_error < 3e-17), "{:?}", errors.chord);
+    for (i, omega) in errors.omega.iter().enumerate() {
         let straight_line_error = 0.5 * omega * 0.01;
         if (1e-9..1e-2).contains(omega) {
-            assert!((straight[i] / straight_line_error - 1.0).abs() < 1e-3, "{omega} {}", straight[i]);
+            assert!((errors.straight[i] / straight_line_error - 1.0).abs() < 1e-3, "{omega}: {errors:?}");
         }
-        // The error is about ε/ω.
-        let ratio_to_estimate = arc[i] / (f64::EPSILON / omega);
+        // The error of the arc form is about ε/ω.
+        let ratio_to_estimate = errors.arc[i] / (f64::EPSILON / omega);
         if (1e-11..0.1).contains(omega) {
             assert!((0.05..3.0).contains(&ratio_to_estimate), "{omega} {ratio_to_estimate}");
         }
     }
     // The errors of the straight line and of the arc are equal at the turn rate with ½ωΔt² = ε/ω, for Δt = 0.1 s.
-    assert!((estimated_crossover / ((2.0 * f64::EPSILON).sqrt() / 0.1) - 1.0).abs() < 1e-9);
+    assert!((errors.estimated_crossover / ((2.0 * f64::EPSILON).sqrt() / 0.1) - 1.0).abs() < 1e-9);
     assert_eq!(STRAIGHT_LINE_THRESHOLD, 1e-6);
 }

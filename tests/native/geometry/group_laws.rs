@@ -10,7 +10,7 @@ use std::f64::consts::{PI, TAU};
 
 const LAW_TOLERANCE: f64 = 32.0 * f64::EPSILON;
 
-/// Maximum error of exp, log and both Jacobians for |ω| ≤ π, relative to the size of the twist if that exceeds 1.
+/// Maximum error of exp, log and both Jacobians for |ω| ≤ π, relative to the size of the twist if the size exceeds 1.
 const RELATIVE_ACCURACY: f64 = 4e-16;
 
 fn assert_same_pose(a: &SE2, b: &SE2, tolerance: f64, law: &str) {
@@ -37,15 +37,15 @@ fn composition_places_the_second_pose_in_the_frame_of_the_first() {
 fn the_logarithm_near_a_turn_uses_the_branch_of_that_turn() {
     let mut rng = seeded_rng(6);
     for _ in 0..2000 {
-        let mut draw_within = |limit: f64| draw_uniform(&mut rng, -limit, limit);
+        let mut draw_within = |max_abs: f64| draw_uniform(&mut rng, -max_abs, max_abs);
         let twist = Vector3::new(draw_within(3.0), draw_within(3.0), draw_within(2.0 * PI - 0.3));
         let pose = SE2::exp(&twist);
-        let turn = twist.z + draw_within(3.0);
-        let pose_log = pose.log_near(turn);
+        let expected_turn = twist.z + draw_within(3.0);
+        let pose_log = pose.log_near(expected_turn);
         // The factor 1/sinc(ω/2) amplifies the rounding of the pose, up to 20 times at 0.3 rad from a full turn.
         assert!(
             (pose_log - twist).amax() < 20.0 * LAW_TOLERANCE * twist.norm().max(1.0),
-            "log_near({turn}) of exp({twist}) = {pose_log}"
+            "log_near({expected_turn}) of exp({twist}) = {pose_log}"
         );
         assert_eq!(pose.log_near(pose.theta()), pose.log());
         let other_logarithm = pose.log_near(twist.z + TAU);
@@ -57,14 +57,14 @@ fn the_logarithm_near_a_turn_uses_the_branch_of_that_turn() {
 #[test]
 fn exp_and_jacobians_match_the_references() {
     let reference_table = ReferenceTable::parse(include_str!("../../reference/group.csv"));
-    for row in reference_table.rows() {
-        let twist = Vector3::from(row.cell_numbers(["a", "b", "w"]));
+    for csv_row in reference_table.rows() {
+        let twist = Vector3::from(csv_row.cell_numbers(["a", "b", "w"]));
         let tolerance = RELATIVE_ACCURACY * twist.norm().max(1.0);
-        let assert_near = |column: &str, computed: f64| {
-            let error = row.deviation(column, computed);
+        let assert_near = |column_name: &str, computed_value: f64| {
+            let absolute_error = csv_row.deviation(column_name, computed_value);
             assert!(
-                error <= tolerance,
-                "{column} at {:?}: off by {error:e}, allowed {tolerance:e}",
+                absolute_error <= tolerance,
+                "{column_name} at {:?}: off by {absolute_error:e}, allowed {tolerance:e}",
                 twist.as_slice()
             );
         };
@@ -72,11 +72,11 @@ fn exp_and_jacobians_match_the_references() {
         assert_near("x", pose.x());
         assert_near("y", pose.y());
         assert_eq!(pose.theta(), twist.z);
-        for (prefix, matrix) in
+        for (column_prefix, matrix) in
             [("j", SE2::right_jacobian(&twist)), ("i", SE2::right_jacobian_inverse(&twist))]
         {
             for (i, j) in [(0, 0), (0, 1), (0, 2), (1, 2)] {
-                assert_near(&format!("{prefix}{i}{j}"), matrix[(i, j)]);
+                assert_near(&format!("{column_prefix}{i}{j}"), matrix[(i, j)]);
             }
             assert_eq!(matrix[(1, 1)], matrix[(0, 0)]);
             assert_eq!(matrix[(1, 0)], -matrix[(0, 1)]);

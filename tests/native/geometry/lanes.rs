@@ -23,8 +23,8 @@ fn tested_angles() -> Vec<f64> {
     tested_angles
 }
 
-fn first_lane(lanes: f64x4) -> f64 {
-    lanes.to_array()[0]
+fn first_lane(lane_values: f64x4) -> f64 {
+    lane_values.to_array()[0]
 }
 
 #[test]
@@ -37,7 +37,7 @@ fn sines_and_cosines_agree_with_libm_over_the_whole_range() {
         assert!((first_lane(sin_cos.cos) - libm::cos(angle)).abs() <= MAX_SIN_COS_ERROR, "cos {angle}");
         assert!((first_lane(sin_cos.sinc) - sinc).abs() <= MAX_SIN_COS_ERROR, "sinc {angle}");
         if angle.abs() <= FRAC_PI_2 {
-            // No digits are lost towards 0.
+            // The sine of a small angle has the same relative accuracy as that of a large one.
             assert!(
                 (first_lane(sin_cos.sin) - libm::sin(angle)).abs() <= MAX_SIN_COS_ERROR * angle.abs(),
                 "sin {angle}"
@@ -55,8 +55,8 @@ fn half_headings_lie_on_the_requested_branch() {
                 trigonometry.sin_cos_on_branch(f64x4::splat(half_heading), branch_centre);
             let expected_half_turn = branch_centre + 0.5 * wrap_angle(2.0 * (half_heading - branch_centre));
             let half_turn = first_lane(branch_half);
-            // Reducing the angle by half circles causes rounding in proportion to their number. At the end of the branch
-            // either side is correct.
+            // Reducing the angle by half circles causes rounding in proportion to their number. At the end of the branch the half heading
+            // may lie on either end.
             let rounding_tolerance = MAX_SIN_COS_ERROR * (1.0 + half_heading.abs());
             let half_turn_deviation = (half_turn - expected_half_turn)
                 .abs()

@@ -9,18 +9,17 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Returns a configuration with a fixed seed, so that results are equal on every machine. Failing cases are not stored. Each becomes a
 /// test of its own in `regressions.rs`.
-pub fn proptest_config(count: u32) -> ProptestConfig {
+pub fn proptest_config(case_count: u32) -> ProptestConfig {
     ProptestConfig {
-        cases: count,
+        cases: case_count,
         rng_seed: RngSeed::Fixed(19),
         failure_persistence: None,
-        max_global_rejects: 10 * count,
-        max_local_rejects: 100 * count,
+        max_global_rejects: 10 * case_count,
+        max_local_rejects: 100 * case_count,
         ..ProptestConfig::default()
     }
 }
 
-/// Returns doubles with arbitrary bits, often infinite or NaN.
 pub fn any_double() -> impl Strategy<Value = f64> {
     prop_oneof![
         2 => any::<u64>().prop_map(f64::from_bits),
@@ -57,13 +56,13 @@ fn range_limits() -> impl Strategy<Value = f64> {
         9_007_199_254_740_993.0,
         f64::MAX,
     ];
-    (0..SPECIAL_LIMITS.len(), any::<bool>(), -1..=1).prop_map(|(i, negative, neighbour)| {
-        let limit = match neighbour {
+    (0..SPECIAL_LIMITS.len(), any::<bool>(), -1..=1).prop_map(|(i, is_negative, neighbour_offset)| {
+        let nearby_limit = match neighbour_offset {
             -1 => SPECIAL_LIMITS[i].next_down(),
             0 => SPECIAL_LIMITS[i],
             _ => SPECIAL_LIMITS[i].next_up().min(f64::MAX),
         };
-        if negative { -limit } else { limit }
+        if is_negative { -nearby_limit } else { nearby_limit }
     })
 }
 
@@ -76,7 +75,7 @@ pub fn doubles_up_to(max_abs: f64) -> impl Strategy<Value = f64> {
     ]
 }
 
-/// Largest coordinate of the poses and twists. Its sums, and its products with an angle, do not overflow.
+/// Largest coordinate of the poses and twists. Sums of such coordinates, and their products with an angle, do not overflow.
 pub const MAX_COORDINATE: f64 = 1e300;
 
 pub fn any_pose() -> impl Strategy<Value = SE2> {
@@ -84,7 +83,7 @@ pub fn any_pose() -> impl Strategy<Value = SE2> {
         .prop_map(|(x, y, theta)| SE2::new(x, y, theta))
 }
 
-/// Returns twists that turn by up to `max`.
+/// Returns twists that turn by up to `max_turn`.
 pub fn any_twist(max_turn: f64) -> impl Strategy<Value = Vector3<f64>> {
     (doubles_up_to(MAX_COORDINATE), doubles_up_to(MAX_COORDINATE), doubles_up_to(max_turn))
         .prop_map(|(x, y, turn)| Vector3::new(x, y, turn))

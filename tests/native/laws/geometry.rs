@@ -60,10 +60,10 @@ proptest! {
     /// Turns are on the principal branch. The turn is returned exactly.
     #[test]
     fn log_inverts_exp(twist in any_twist(3.1)) {
-        let logarithm = SE2::exp(&twist).log();
+        let pose_log = SE2::exp(&twist).log();
         let tolerance = TOLERANCE_UNITS * f64::EPSILON * (twist.x.abs() + twist.y.abs()) + f64::MIN_POSITIVE;
-        prop_assert_eq!(logarithm.z, twist.z);
-        prop_assert!((logarithm.x - twist.x).abs() <= tolerance && (logarithm.y - twist.y).abs() <= tolerance, "{:?}", logarithm);
+        prop_assert_eq!(pose_log.z, twist.z);
+        prop_assert!((pose_log.x - twist.x).abs() <= tolerance && (pose_log.y - twist.y).abs() <= tolerance, "{:?}", pose_log);
     }
 
     #[test]
@@ -110,11 +110,11 @@ proptest! {
     }
 }
 
-/// Asserts equality up to rounding, which is relative to 1 for turns and to `size` for positions.
-fn assert_close(a: &Matrix3<f64>, b: &Matrix3<f64>, size: f64) -> Result<(), TestCaseError> {
+/// Asserts equality up to rounding, which is relative to 1 for turns and to `extent` for positions.
+fn assert_close(a: &Matrix3<f64>, b: &Matrix3<f64>, extent: f64) -> Result<(), TestCaseError> {
     for i in 0..3 {
         for j in 0..3 {
-            let tolerance_scale = if j == 2 { 1.0 + size } else { 1.0 };
+            let tolerance_scale = if j == 2 { 1.0 + extent } else { 1.0 };
             let entry_difference = (a[(i, j)] - b[(i, j)]).abs();
             prop_assert!(
                 entry_difference <= TOLERANCE_UNITS * f64::EPSILON * tolerance_scale,

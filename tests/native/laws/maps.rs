@@ -20,25 +20,25 @@ proptest! {
     /// The image depends neither on white space and comments in the file, nor on its kind (plain or binary).
     #[test]
     fn pgm_headers_may_have_any_white_space_and_comments(
-        (width, height) in (1..6usize, 1..6usize), max_value in 1..=65_535u32, seeds in vec(any::<u32>(), 36),
+        (width, height) in (1..6usize, 1..6usize), max_value in 1..=65_535u32, grey_seeds in vec(any::<u32>(), 36),
         separators in vec(any_separator(), 40), cut_position in any::<usize>(),
     ) {
-        let grey_values: Vec<u32> = seeds.into_iter().take(width * height).map(|seed| seed % (max_value + 1)).collect();
+        let grey_values: Vec<u32> = grey_seeds.into_iter().take(width * height).map(|seed| seed % (max_value + 1)).collect();
         let mut plain_file = "P2".to_owned();
-        for (number, gap) in [width as u32, height as u32, max_value].iter().chain(&grey_values).zip(&separators) {
-            plain_file.push_str(gap);
-            plain_file.push_str(&number.to_string());
+        for (grey_or_header_value, separator) in [width as u32, height as u32, max_value].iter().chain(&grey_values).zip(&separators) {
+            plain_file.push_str(separator);
+            plain_file.push_str(&grey_or_header_value.to_string());
         }
         let mut binary_file = format!("P5{}{width}{}{height}{}{max_value}\n", separators[0], separators[1], separators[2]).into_bytes();
-        for value in &grey_values {
-            let number_bytes = value.to_be_bytes();
+        for grey_value in &grey_values {
+            let number_bytes = grey_value.to_be_bytes();
             binary_file.extend(if max_value < 256 { &number_bytes[3..] } else { &number_bytes[2..] });
         }
         let image = read_pgm(plain_file.as_bytes()).expect("a plain file");
         prop_assert!(image.pixels == read_pgm(&binary_file).expect("a binary file").pixels);
         prop_assert_eq!((image.width, image.height), (width, height));
-        for (shade, value) in image.pixels.iter().zip(&grey_values) {
-            prop_assert_eq!(*shade, *value as f32 / max_value as f32);
+        for (shade, grey_value) in image.pixels.iter().zip(&grey_values) {
+            prop_assert_eq!(*shade, *grey_value as f32 / max_value as f32);
         }
         // A truncated binary file is refused. A truncated plain file is refused too, unless the cut is in or after its last number.
         prop_assert!(read_pgm(&binary_file[..cut_position % binary_file.len()]).is_err());

@@ -15,8 +15,8 @@ fn noise_kinds() -> impl Strategy<Value = NoiseKind> {
 }
 
 /// Returns numbers in the range of a setting, including its ends.
-fn numbers_in(range: std::ops::RangeInclusive<f64>) -> impl Strategy<Value = f64> {
-    let [low, high] = [*range.start(), *range.end()];
+fn numbers_in(setting_range: std::ops::RangeInclusive<f64>) -> impl Strategy<Value = f64> {
+    let [low, high] = [*setting_range.start(), *setting_range.end()];
     doubles_up_to(high).prop_map(move |number| if low >= 0.0 { number.abs().max(low) } else { number })
 }
 
@@ -25,7 +25,6 @@ fn any_alphas<const N: usize>() -> impl Strategy<Value = [f64; N]> {
         .prop_map(|alphas| std::array::from_fn(|i| alphas[i]))
 }
 
-/// Returns commands in the range of the settings.
 fn any_command() -> impl Strategy<Value = VelocityCmd> {
     (doubles_up_to(1e6), doubles_up_to(1e6), numbers_in(DURATION_RANGE))
         .prop_map(|(v, omega, dt)| VelocityCmd { v, omega, dt })
@@ -48,13 +47,14 @@ fn odometry_readings() -> impl Strategy<Value = OdomDelta> {
 fn uniform_draws() -> impl Strategy<Value = f64> {
     let number_spacing = 1.0 / (1u64 << 53) as f64;
     prop_oneof![
-        any::<i64>().prop_map(|bits| bits >> 11),
+        any::<i64>().prop_map(|random_bits| random_bits >> 11),
         (0i64..64).prop_map(|i| (1 << 52) - 1 - i),
         (0i64..64).prop_map(|i| i - (1 << 52)),
         -64i64..64,
-        (0u32..53, any::<i64>()).prop_map(|(shift, bits)| bits >> 11 >> shift),
+        (0u32..53, any::<i64>())
+            .prop_map(|(magnitude_shift, random_bits)| random_bits >> 11 >> magnitude_shift),
     ]
-    .prop_map(move |mantissa| (mantissa as f64 + 0.5) * number_spacing)
+    .prop_map(move |integer| (integer as f64 + 0.5) * number_spacing)
 }
 
 proptest! {
@@ -88,31 +88,31 @@ proptest! {
 
     #[test]
     fn velocity_likelihoods_are_never_negative_or_nan(
-        kind in noise_kinds(), alphas in any_alphas(), u in any_command(), x in start_poses(), next in start_poses(),
+        kind in noise_kinds(), alphas in any_alphas(), u in any_command(), x in start_poses(), x_next in start_poses(),
     ) {
         let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: kind };
-        assert_likelihoods_not_negative_or_nan(&model, &u, &x, &next)?;
+        assert_likelihoods_not_negative_or_nan(&model, &u, &x, &x_next)?;
         let has_zero_variance = model.variances(&u).iter().any(|variance| variance.0 == 0.0);
-        prop_assert_eq!(model.pose_density(&next, &u, &x).is_none(), has_zero_variance);
+        prop_assert_eq!(model.pose_density(&x_next, &u, &x).is_none(), has_zero_variance);
     }
 
     #[test]
     fn odometry_likelihoods_are_never_negative_or_nan(
-        kind in noise_kinds(), alphas in any_alphas(), u in odometry_readings(), x in start_poses(), next in start_poses(), is_reverse_aware in any::<bool>(),
+        kind in noise_kinds(), alphas in any_alphas(), u in odometry_readings(), x in start_poses(), x_next in start_poses(), is_reverse_aware in any::<bool>(),
     ) {
         let model = OdometryModel { alphas: OdomAlphas(alphas), noise: kind };
         if is_reverse_aware {
-            assert_likelihoods_not_negative_or_nan(&ConfiguredOdometry { model, reverse_aware: true }, &u, &x, &next)?;
+            assert_likelihoods_not_negative_or_nan(&ConfiguredOdometry { model, reverse_aware: true }, &u, &x, &x_next)?;
         } else {
-            assert_likelihoods_not_negative_or_nan(&model, &u, &x, &next)?;
+            assert_likelihoods_not_negative_or_nan(&model, &u, &x, &x_next)?;
         }
     }
 
     #[test]
-    fn exponential_likelihoods_are_never_nan(alphas in any_alphas(), u in any_command(), x in start_poses(), next in start_poses()) {
+    fn exponential_likelihoods_are_never_nan(alphas in any_alphas(), u in any_command(), x in start_poses(), x_next in start_poses()) {
         let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal };
         let tangent_model = TangentNoiseModel::from_velocity(&model, &u).expect("variances of settings");
-        let log_prob = tangent_model.log_prob(&next, &u, &x);
+        let log_prob = tangent_model.log_prob(&x_next, &u, &x);
         prop_assert!(!log_prob.is_nan(), "{}", log_prob);
     }
 }
@@ -121,12 +121,12 @@ fn assert_likelihoods_not_negative_or_nan<M: MotionModel>(
     model: &M,
     u: &M::Control,
     x: &SE2,
-    next: &SE2,
+    x_next: &SE2,
 ) -> Result<(), TestCaseError> {
-    for next in [next, x] {
-        let table_score = model.prob(next, u, x);
+    for x_next in [x_next, x] {
+        let table_score = model.prob(x_next, u, x);
         prop_assert!(table_score >= 0.0, "prob is {}", table_score);
-        let density = model.pose_density(next, u, x);
+        let density = model.pose_density(x_next, u, x);
         prop_assert!(density.is_none_or(|density| density >= 0.0), "pose_density is {:?}", density);
     }
     Ok(())

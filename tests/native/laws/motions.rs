@@ -19,29 +19,29 @@ proptest! {
 
     /// For any two poses, the inverted controls lead from one to the other.
     #[test]
-    fn an_inverted_arc_ends_at_the_given_pose(x in any_pose(), next in any_pose(), dt in any_duration()) {
-        let inversion = invert_arc(&x, &next, dt);
-        let [length, turn, last_turn] = [inversion.v_hat, inversion.omega_hat, inversion.gamma_hat].map(|rate| rate * dt);
+    fn an_inverted_arc_ends_at_the_given_pose(x in any_pose(), x_next in any_pose(), dt in any_duration()) {
+        let inversion = invert_arc(&x, &x_next, dt);
+        let [arc_length, arc_turn, last_turn] = [inversion.v_hat, inversion.omega_hat, inversion.gamma_hat].map(|rate| rate * dt);
         let max_turn = PI * (1.0 + 2.0 * f64::EPSILON);
-        prop_assert!(turn.abs() <= max_turn && last_turn.abs() <= max_turn, "{:?}", inversion);
-        let (forward, left) = arc_end(length, turn);
-        let end_pose = x * SE2::new(forward, left, turn + last_turn);
-        assert_same_pose(&end_pose, &next, TOLERANCE_UNITS, position_extent(&x) + position_extent(&next))?;
+        prop_assert!(arc_turn.abs() <= max_turn && last_turn.abs() <= max_turn, "{:?}", inversion);
+        let (forward, left) = arc_end(arc_length, arc_turn);
+        let end_pose = x * SE2::new(forward, left, arc_turn + last_turn);
+        assert_same_pose(&end_pose, &x_next, TOLERANCE_UNITS, position_extent(&x) + position_extent(&x_next))?;
     }
 
     /// The start is the origin, whose coordinates add no rounding. Turns stay below half a turn, where rounding would decide
     /// between forward and reverse.
     #[test]
-    fn inverting_a_driven_arc_returns_its_controls(length in doubles_up_to(1e300), turn in doubles_up_to(3.1), last_turn in doubles_up_to(3.1), dt in any_duration()) {
-        let (forward, left) = arc_end(length, turn);
-        // The bearing of a shorter chord is inaccurate.
+    fn inverting_a_driven_arc_returns_its_controls(arc_length in doubles_up_to(1e300), arc_turn in doubles_up_to(3.1), last_turn in doubles_up_to(3.1), dt in any_duration()) {
+        let (forward, left) = arc_end(arc_length, arc_turn);
+        // The bearing of a chord outside these limits is inaccurate.
         prop_assume!(forward.hypot(left) > 1e-290 && forward.hypot(left) < 1e290);
-        let inversion = invert_arc(&SE2::identity(), &SE2::new(forward, left, turn + last_turn), dt);
+        let inversion = invert_arc(&SE2::identity(), &SE2::new(forward, left, arc_turn + last_turn), dt);
         let rounding_tolerance = TOLERANCE_UNITS * f64::EPSILON;
-        prop_assert!((inversion.v_hat * dt - length).abs() <= rounding_tolerance * length.abs(), "{:?}", inversion);
-        // Turns below this tolerance are lost in the rounding of the chord.
+        prop_assert!((inversion.v_hat * dt - arc_length).abs() <= rounding_tolerance * arc_length.abs(), "{:?}", inversion);
+        // Turns below `chord_rounding` are lost in the rounding of the chord.
         let chord_rounding = f64::MIN_POSITIVE * (1.0 + 1.0 / forward.hypot(left));
-        prop_assert!((inversion.omega_hat * dt - turn).abs() <= rounding_tolerance * turn.abs() + chord_rounding, "{:?}", inversion);
+        prop_assert!((inversion.omega_hat * dt - arc_turn).abs() <= rounding_tolerance * arc_turn.abs() + chord_rounding, "{:?}", inversion);
         prop_assert!((inversion.gamma_hat * dt - last_turn).abs() <= rounding_tolerance * PI, "{:?}", inversion);
     }
 
@@ -49,20 +49,20 @@ proptest! {
     #[test]
     fn arcs_with_additional_full_turns_end_at_the_same_position(x in -50.0..50.0, y in -50.0..50.0, near_turn in -300.0..300.0) {
         let target_pose = SE2::new(x, y, 0.0);
-        let (length, turn) = arc_with_turn_near(&SE2::identity(), &target_pose, near_turn);
+        let (arc_length, arc_turn) = arc_with_turn_near(&SE2::identity(), &target_pose, near_turn);
         // The circle of a nearly straight arc is so long that its end cannot be represented.
-        prop_assume!(length.abs() < 1e6);
-        prop_assert!(turn == 0.0 || (turn - near_turn).abs() <= PI * (1.0 + 1e-12), "{}", turn);
-        let end_pose = Arc { start: SE2::identity(), length, turn }.end();
+        prop_assume!(arc_length.abs() < 1e6);
+        prop_assert!(arc_turn == 0.0 || (arc_turn - near_turn).abs() <= PI * (1.0 + 1e-12), "{}", arc_turn);
+        let end_pose = Arc { start: SE2::identity(), length: arc_length, turn: arc_turn }.end();
         let end_position_error = (end_pose.x() - x).hypot(end_pose.y() - y);
-        prop_assert!(end_position_error <= TOLERANCE_UNITS * f64::EPSILON * (length.abs() + position_extent(&target_pose)), "{:e}", end_position_error);
+        prop_assert!(end_position_error <= TOLERANCE_UNITS * f64::EPSILON * (arc_length.abs() + position_extent(&target_pose)), "{:e}", end_position_error);
     }
 
     /// A displacement below a nanometre counts as 0 in an odometry reading.
     #[test]
     fn an_odometry_reading_leads_to_the_second_pose(prev in any_pose(), curr in any_pose()) {
         let reading = OdomDelta::from_poses(&prev, &curr);
-        prop_assert!(reading.trans >= 0.0 && [reading.rot1, reading.rot2].iter().all(|turn| -PI < *turn && *turn <= PI));
+        prop_assert!(reading.trans >= 0.0 && [reading.rot1, reading.rot2].iter().all(|arc_turn| -PI < *arc_turn && *arc_turn <= PI));
         let total_extent = position_extent(&prev) + position_extent(&curr);
         let displacement_tolerance = 1e-9 / (TOLERANCE_UNITS * f64::EPSILON);
         assert_same_pose(&reading.apply(&prev), &curr, TOLERANCE_UNITS, total_extent + if reading.trans == 0.0 { displacement_tolerance } else { 0.0 })?;

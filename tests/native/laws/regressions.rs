@@ -30,8 +30,8 @@ fn an_arc_of_subnormal_length_is_tested_correctly() {
     let plan = FloorPlan::apartment();
     for length in [0.0, 1e-300, 9.7e-310, 5e-324, -5e-324] {
         for turn in [0.0, 1.7e-308, 0.5, 3.0, 100.0] {
-            let start = SE2::new(2.05, 2.6, 1.0);
-            assert!(plan.test_arc(&Arc { start, length, turn }, 0.13).free, "{length} {turn}");
+            let start_pose = SE2::new(2.05, 2.6, 1.0);
+            assert!(plan.test_arc(&Arc { start: start_pose, length, turn }, 0.13).free, "{length} {turn}");
             assert!(!plan.test_arc(&Arc { start: SE2::new(2.05, 0.1, 1.0), length, turn }, 0.13).free);
         }
     }
@@ -46,8 +46,8 @@ fn model_with_alphas(alphas: [f64; 6]) -> VelocityModel {
 fn a_circle_too_long_for_a_double_is_not_driven() {
     let model_with_alphas = model_with_alphas([0.0, 0.55, 0.0, 0.29, 0.0, 0.41]);
     let u = VelocityCmd { v: 0.0, omega: 882_194.88, dt: 1e-6 };
-    let (x, next) = (SE2::new(0.0, -3e-269, 0.0), SE2::new(5.3e17, 0.0, 0.0));
-    assert_eq!(model_with_alphas.pose_density(&next, &u, &x), Some(0.0));
+    let (x, x_next) = (SE2::new(0.0, -3e-269, 0.0), SE2::new(5.3e17, 0.0, 0.0));
+    assert_eq!(model_with_alphas.pose_density(&x_next, &u, &x), Some(0.0));
 }
 
 /// A displacement whose square underflows must count as 0, instead of giving 0 / 0.

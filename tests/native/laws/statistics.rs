@@ -34,8 +34,8 @@ fn any_covariance() -> impl Strategy<Value = Matrix3<f64>> {
     })
 }
 
-fn is_close(a: f64, b: f64, scale: f64) -> bool {
-    a == b || (a.is_nan() && b.is_nan()) || (a - b).abs() <= RELATIVE_ROUNDING * scale
+fn is_close(a: f64, b: f64, magnitude: f64) -> bool {
+    a == b || (a.is_nan() && b.is_nan()) || (a - b).abs() <= RELATIVE_ROUNDING * magnitude
 }
 
 /// Maximum distance of a robot from the origin in any frame, m.
@@ -53,8 +53,8 @@ proptest! {
         let rotation = SE2::new(0.0, 0.0, frame.theta()).adjoint();
         let expected_cov = rotation * moments.cov * rotation.transpose();
         assert_same_moments((&Vector3::new(expected_mean.x(), expected_mean.y(), expected_mean.theta()), &expected_cov), (&moved_moments.mean, &moved_moments.cov))?;
-        let [moments_in_origin, moments_in_frame] = [(&cloud, SE2::identity()), (&moved_cloud, frame)].map(|(cloud, start)| ExponentialMoments::from_poses(cloud, &start));
-        // Near a full turn coordinates diverge, and near half a turn the mean heading is ambiguous.
+        let [moments_in_origin, moments_in_frame] = [(&cloud, SE2::identity()), (&moved_cloud, frame)].map(|(cloud, start_pose)| ExponentialMoments::from_poses(cloud, &start_pose));
+        // Near a full turn exponential coordinates diverge, and near half a turn the mean heading is ambiguous.
         if cloud.iter().all(|pose| pose.theta().abs() < 2.0) {
             assert_same_moments((&moments_in_origin.mean, &moments_in_origin.cov), (&moments_in_frame.mean, &moments_in_frame.cov))?;
         }
@@ -63,47 +63,47 @@ proptest! {
     /// A change of the unit by a power of two, from 10⁻³⁰ m to 10³⁰ m, changes no bit of dimensionless results. A
     /// mirror image changes their sign only.
     #[test]
-    fn cross_track_statistics_do_not_depend_on_the_unit(cloud in any_cloud(), power in -100..100i32, is_mirrored in any::<bool>()) {
-        let (unit, sign) = (2f64.powi(power), if is_mirrored { -1.0 } else { 1.0 });
+    fn cross_track_statistics_do_not_depend_on_the_unit(cloud in any_cloud(), exponent_of_two in -100..100i32, is_mirrored in any::<bool>()) {
+        let (length_unit, mirror_sign) = (2f64.powi(exponent_of_two), if is_mirrored { -1.0 } else { 1.0 });
         let scaled_cloud: Vec<SE2> =
-            cloud.iter().map(|pose| SE2::new(unit * pose.x(), sign * unit * pose.y(), sign * pose.theta())).collect();
+            cloud.iter().map(|pose| SE2::new(length_unit * pose.x(), mirror_sign * length_unit * pose.y(), mirror_sign * pose.theta())).collect();
         let (a, b) = (CrossTrack::from_poses(&cloud), CrossTrack::from_poses(&scaled_cloud));
-        for (a, b) in [(a.skew, sign * b.skew), (a.skew_error, b.skew_error), (a.rho_heading, b.rho_heading)] {
+        for (a, b) in [(a.skew, mirror_sign * b.skew), (a.skew_error, b.skew_error), (a.rho_heading, b.rho_heading)] {
             prop_assert!(is_close(a, b, 0.0), "{} {}", a, b);
         }
     }
 
-    /// Points of the outline are tested after moving them by a billionth towards the centre and away from it.
+    /// The tested points are points of the outline, moved by a billionth towards the centre or away from it.
     #[test]
-    fn ellipses_contain_points_inside_their_outline_only(a in 0.01..10.0f64, b in 0.01..10.0f64, rho in -0.99..0.99f64, power in -300..300i32, centre in (-9.0..9.0, -9.0..9.0)) {
-        let length_unit = 2f64.powi(power);
-        let cov = Matrix2::new(a * a, rho * a * b, rho * a * b, b * b) * (length_unit * length_unit);
+    fn ellipses_contain_points_inside_their_outline_only(a in 0.01..10.0f64, b in 0.01..10.0f64, correlation in -0.99..0.99f64, exponent_of_two in -300..300i32, centre in (-9.0..9.0, -9.0..9.0)) {
+        let length_unit = 2f64.powi(exponent_of_two);
+        let cov = Matrix2::new(a * a, correlation * a * b, correlation * a * b, b * b) * (length_unit * length_unit);
         let centre = Vector2::new(centre.0, centre.1) * length_unit;
         let ellipse = Ellipse::new(centre, cov);
-        let expected_area: f64 = 4.0 * PI * a * b * (1.0 - rho * rho).sqrt() * length_unit * length_unit;
+        let expected_area: f64 = 4.0 * PI * a * b * (1.0 - correlation * correlation).sqrt() * length_unit * length_unit;
         prop_assert!(ellipse.has_area() && (ellipse.area() - expected_area).abs() <= 1e-12 * expected_area, "{} {}", ellipse.area(), expected_area);
         prop_assert!(ellipse.contains(centre.into()));
         let outline = ellipse.boundary(32);
         prop_assert_eq!(outline.first(), outline.last());
-        for point in outline {
-            let scale_point_from_centre = |fraction: f64| (centre + (Vector2::from(point) - centre) * fraction).into();
-            prop_assert!(ellipse.contains(scale_point_from_centre(1.0 - 1e-9)) && !ellipse.contains(scale_point_from_centre(1.0 + 1e-9)), "{:?}", point);
+        for outline_point in outline {
+            let scale_point_from_centre = |scale: f64| (centre + (Vector2::from(outline_point) - centre) * scale).into();
+            prop_assert!(ellipse.contains(scale_point_from_centre(1.0 - 1e-9)) && !ellipse.contains(scale_point_from_centre(1.0 + 1e-9)), "{:?}", outline_point);
         }
     }
 
     #[test]
-    fn matrices_that_are_not_covariances_are_refused(cov in any_covariance(), entry in (0..3usize, 0..3usize), number in any_double(), reduction in 0.01..1.0) {
+    fn matrices_that_are_not_covariances_are_refused(cov in any_covariance(), entry_indices in (0..3usize, 0..3usize), new_entry in any_double(), eigenvalue_reduction in 0.01..1.0) {
         let mut changed_cov = cov;
-        changed_cov[entry] = number;
+        changed_cov[entry_indices] = new_entry;
         match TangentNoiseModel::new(changed_cov) {
             Ok(model) => prop_assert_eq!(model.r, changed_cov),
-            Err(error) => prop_assert_eq!(error == TangentNoiseError::NotFinite, !number.is_finite()),
+            Err(error) => prop_assert_eq!(error == TangentNoiseError::NotFinite, !new_entry.is_finite()),
         }
-        let indefinite_matrix = cov - Matrix3::identity() * (cov.symmetric_eigenvalues().min().max(0.0) + reduction);
+        let indefinite_matrix = cov - Matrix3::identity() * (cov.symmetric_eigenvalues().min().max(0.0) + eigenvalue_reduction);
         prop_assert_eq!(TangentNoiseModel::new(indefinite_matrix), Err(TangentNoiseError::NotPositiveSemidefinite));
-        if entry.0 != entry.1 {
+        if entry_indices.0 != entry_indices.1 {
             let mut asymmetric_cov = cov;
-            asymmetric_cov[entry] += reduction * (1.0 + cov.amax());
+            asymmetric_cov[entry_indices] += eigenvalue_reduction * (1.0 + cov.amax());
             prop_assert_eq!(TangentNoiseModel::new(asymmetric_cov), Err(TangentNoiseError::NotSymmetric));
         }
     }
@@ -112,17 +112,17 @@ proptest! {
 /// Asserts that moments are equal up to the rounding errors of a cloud within 20 m of the origin.
 fn assert_same_moments(
     (mean, cov): (&Vector3<f64>, &Matrix3<f64>),
-    (other, other_cov): (&Vector3<f64>, &Matrix3<f64>),
+    (other_mean, other_cov): (&Vector3<f64>, &Matrix3<f64>),
 ) -> Result<(), TestCaseError> {
     let (max_distance, heading_difference) =
-        (MAX_ROBOT_DISTANCE, libm::remainder(mean.z - other.z, 2.0 * PI));
+        (MAX_ROBOT_DISTANCE, libm::remainder(mean.z - other_mean.z, 2.0 * PI));
     prop_assert!(
-        is_close(mean.x, other.x, max_distance) && is_close(mean.y, other.y, max_distance),
+        is_close(mean.x, other_mean.x, max_distance) && is_close(mean.y, other_mean.y, max_distance),
         "{} {}",
         mean,
-        other
+        other_mean
     );
-    prop_assert!(is_close(heading_difference, 0.0, max_distance), "{} {}", mean, other);
+    prop_assert!(is_close(heading_difference, 0.0, max_distance), "{} {}", mean, other_mean);
     let are_close =
         cov.iter().zip(other_cov.iter()).all(|(a, b)| is_close(*a, *b, max_distance * max_distance));
     prop_assert!(are_close, "{} {}", cov, other_cov);

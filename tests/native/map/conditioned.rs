@@ -22,8 +22,8 @@ fn conditioned_model(plan: &FloorPlan, sampler: Sampler) -> MapConditioned<'_> {
     MapConditioned { model: velocity_model(), plan, clearance: 0.13, sampler }
 }
 
-fn start_of_preset(name: &str) -> SE2 {
-    let [x, y, theta] = settings_of_preset::<Settings>(name).start;
+fn start_of_preset(preset_name: &str) -> SE2 {
+    let [x, y, theta] = settings_of_preset::<Settings>(preset_name).start;
     SE2::new(x, y, theta)
 }
 
@@ -31,15 +31,13 @@ fn unit_noise(rng: &mut Xoshiro256PlusPlus) -> [f64; 3] {
     std::array::from_fn(|_| NoiseKind::Normal.quantile(draw_centred_uniform(rng)))
 }
 
-// -------------------------------------------------------------------------------------- the chapter's numbers
-
 /// Asserts that a fraction equals a published fraction. Both come from 60 000 draws, and the published fraction is rounded.
-fn assert_fraction(name: &str, accepted_count: usize, total_count: usize, published_fraction: f64) {
+fn assert_fraction(fraction_name: &str, accepted_count: usize, total_count: usize, published_fraction: f64) {
     let computed_fraction = accepted_count as f64 / total_count as f64;
     let standard_error = (2.0 * published_fraction * (1.0 - published_fraction) / total_count as f64).sqrt();
     assert!(
         (computed_fraction - published_fraction).abs() < MAX_STANDARD_ERRORS * standard_error + 0.0005,
-        "{name}: {computed_fraction} instead of {published_fraction}"
+        "{fraction_name}: {computed_fraction} instead of {published_fraction}"
     );
 }
 
@@ -59,7 +57,7 @@ fn fractions_equal_the_published_ones() {
         let tested_draws: Vec<_> = (0..DRAW_COUNT)
             .map(|_| endpoint_model.collision_tester(&command, &start_pose).test_draw(unit_noise(&mut rng)))
             .collect();
-        let accepted_count = tested_draws.iter().filter(|draw| draw.end_verdict.free).count();
+        let accepted_count = tested_draws.iter().filter(|tested_draw| tested_draw.end_verdict.free).count();
         let through_wall_count =
             tested_draws.iter().filter(|draw| draw.end_verdict.free && !draw.path_verdict.free).count();
         assert_fraction(name, accepted_count, DRAW_COUNT, published_acceptance);
@@ -71,8 +69,6 @@ fn fractions_equal_the_published_ones() {
     }
 }
 
-// --------------------------------------------------------------------------------------------------- the samplers
-
 /// The expected poses are drawn as in table 5.7, until the end or the whole path is free. Equal random numbers give equal poses, after
 /// the same number of draws.
 #[test]
@@ -81,14 +77,14 @@ fn samples_are_those_of_table_5_7() {
     let command = VelocityCmd { omega: 0.2, ..STRAIGHT_COMMAND };
     for sampler in [Sampler::Endpoint, Sampler::WholeArc] {
         for (name, _) in Settings::PRESETS {
-            let (start_pose, conditioned) = (start_of_preset(name), conditioned_model(&plan, sampler));
+            let (start_pose, map_model) = (start_of_preset(name), conditioned_model(&plan, sampler));
             let (mut rng, mut expected_rng) = (seeded_rng(9), seeded_rng(9));
             for _ in 0..1000 {
-                let accepted_motion = conditioned.sample(&command, &start_pose, &mut rng).expect("it fits");
+                let accepted_motion = map_model.sample(&command, &start_pose, &mut rng).expect("it fits");
                 let mut draw_count = 0;
-                let pose = loop {
+                let accepted_pose = loop {
                     let mut noise_rng = expected_rng.clone();
-                    let pose = velocity_model().sample(&command, &start_pose, &mut expected_rng);
+                    let accepted_pose = velocity_model().sample(&command, &start_pose, &mut expected_rng);
                     let executed_motion =
                         velocity_model().executed_motion(&command, unit_noise(&mut noise_rng));
                     let arc = Arc {
@@ -97,14 +93,14 @@ fn samples_are_those_of_table_5_7() {
                         turn: 2.0 * executed_motion.omega_hat,
                     };
                     draw_count += 1;
-                    let is_end_free = plan.test_point([pose.x(), pose.y()], 0.13).free;
+                    let is_end_free = plan.test_point([accepted_pose.x(), accepted_pose.y()], 0.13).free;
                     let is_free = is_end_free
-                        && (conditioned.sampler == Sampler::Endpoint || plan.test_arc(&arc, 0.13).free);
+                        && (map_model.sampler == Sampler::Endpoint || plan.test_arc(&arc, 0.13).free);
                     if is_free {
-                        break pose;
+                        break accepted_pose;
                     }
                 };
-                assert!(crate::common::pose_distance(&pose, &accepted_motion.pose) < 1e-14);
+                assert!(crate::common::pose_distance(&accepted_pose, &accepted_motion.pose) < 1e-14);
                 assert_eq!(accepted_motion.cost.draws, draw_count);
             }
         }

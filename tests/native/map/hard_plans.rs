@@ -16,14 +16,15 @@ fn clamped_wall(x0: f64, y0: f64, x1: f64, y1: f64) -> Segment {
 }
 
 /// Returns names and walls of plans. Their many walls are in one place, on one line, through one point, around one point, or nearly equal.
-fn hard_plans(count: usize) -> Vec<(&'static str, Vec<Segment>)> {
+fn hard_plans(wall_count: usize) -> Vec<(&'static str, Vec<Segment>)> {
     let mut rng = seeded_rng(9800);
-    let make_walls =
-        |make: &mut dyn FnMut(f64) -> Segment| (0..count).map(|i| make(i as f64 / count as f64)).collect();
+    let make_walls = |make: &mut dyn FnMut(f64) -> Segment| {
+        (0..wall_count).map(|i| make(i as f64 / wall_count as f64)).collect()
+    };
     let diagonal_wall = |width: f64| move |s: f64| clamped_wall(width * s, 0.0, 10.0, 10.0 - width * s);
-    let ray = |s: f64, reach: f64| {
+    let wall_along_ray = |s: f64, ray_length: f64| {
         let (sin, cos) = (TAU * s).sin_cos();
-        clamped_wall(5.0, 5.0, 5.0 + reach * cos, 5.0 + reach * sin)
+        clamped_wall(5.0, 5.0, 5.0 + ray_length * cos, 5.0 + ray_length * sin)
     };
     let mut random_coordinate = move || draw_uniform(&mut rng, 0.0, 10.0);
     vec![
@@ -43,8 +44,8 @@ fn hard_plans(count: usize) -> Vec<(&'static str, Vec<Segment>)> {
         ),
         ("overlapping", make_walls(&mut |s| clamped_wall(6.0 * s, 3.0, 6.0 * s + 4.0, 3.0))),
         ("dots on a line", make_walls(&mut |s| clamped_wall(10.0 * s, 5.0, 10.0 * s, 5.0))),
-        ("a star", make_walls(&mut |s| ray(s, 5.0))),
-        ("all in one cell", make_walls(&mut |s| ray(s, 1e-3))),
+        ("a star", make_walls(&mut |s| wall_along_ray(s, 5.0))),
+        ("all in one cell", make_walls(&mut |s| wall_along_ray(s, 1e-3))),
         (
             "tangents to a circle",
             make_walls(&mut |s| {
@@ -93,11 +94,11 @@ const MAX_MEAN_WALL_TESTS: usize = FloorPlan::MAX_WALLS / 200;
 
 #[test]
 fn a_collision_check_in_a_hard_plan_measures_few_walls() {
-    for (name, walls) in hard_plans(FloorPlan::MAX_WALLS) {
+    for (plan_name, walls) in hard_plans(FloorPlan::MAX_WALLS) {
         let plan = FloorPlan::new(walls, ROOM_BOUNDS).expect("allowed");
         assert_eq!(plan.walls().len(), FloorPlan::MAX_WALLS);
         let mut rng = seeded_rng(9802);
         let wall_tests: usize = (0..300).map(|_| plan.test_arc(&random_arc(&mut rng), 0.13).wall_tests).sum();
-        assert!(wall_tests < 300 * MAX_MEAN_WALL_TESTS, "{name}: {wall_tests}");
+        assert!(wall_tests < 300 * MAX_MEAN_WALL_TESTS, "{plan_name}: {wall_tests}");
     }
 }

@@ -43,19 +43,20 @@ impl GridCells {
     }
 
     /// Returns the map position (m) of a point whose coordinates are given in cells, along the axes of the grid.
-    fn to_map(&self, column: f64, row: f64) -> [f64; 2] {
-        let ([x, y, yaw], (u, v)) = (self.origin, (column * self.resolution, row * self.resolution));
+    fn map_position(&self, column_coordinate: f64, row_coordinate: f64) -> [f64; 2] {
+        let ([x, y, yaw], (u, v)) =
+            (self.origin, (column_coordinate * self.resolution, row_coordinate * self.resolution));
         [x + u * yaw.cos() - v * yaw.sin(), y + u * yaw.sin() + v * yaw.cos()]
     }
 
     /// Returns the distance (m) from a point to the nearest occupied cell, which is 0 inside of a cell.
     fn distance_to_occupied(&self, [x, y]: [f64; 2]) -> f64 {
-        let ([x0, y0, yaw], cell_side) = (self.origin, self.resolution);
-        let u = (x - x0) * yaw.cos() + (y - y0) * yaw.sin();
-        let v = (y - y0) * yaw.cos() - (x - x0) * yaw.sin();
-        let axis_distance_to_cell = |at: f64, cell: usize| {
-            let cell_start = cell as f64 * cell_side;
-            (cell_start - at).max(at - cell_start - cell_side).max(0.0)
+        let ([origin_x, origin_y, yaw], cell_side) = (self.origin, self.resolution);
+        let u = (x - origin_x) * yaw.cos() + (y - origin_y) * yaw.sin();
+        let v = (y - origin_y) * yaw.cos() - (x - origin_x) * yaw.sin();
+        let axis_distance_to_cell = |coordinate: f64, cell_index: usize| {
+            let cell_start = cell_index as f64 * cell_side;
+            (cell_start - coordinate).max(coordinate - cell_start - cell_side).max(0.0)
         };
         let occupied_indices = (0..self.occupied.len()).filter(|i| self.occupied[*i]);
         occupied_indices
@@ -67,8 +68,6 @@ impl GridCells {
     }
 }
 
-// ----------------------------------------------------------------------------------------------------- distances
-
 /// For points outside the occupied cells, the distance to the walls of a grid equals the distance to the cells.
 #[test]
 fn distances_to_walls_equal_distances_to_cells() {
@@ -79,9 +78,9 @@ fn distances_to_walls_equal_distances_to_cells() {
         let plan = FloorPlan::from_grid(grid_cells.grid()).expect("a small grid");
         let [left, bottom, right, top] = plan.bounds();
         for _ in 0..50 {
-            let column = draw_uniform(&mut rng, 0.0, grid_cells.width as f64);
-            let row = draw_uniform(&mut rng, 0.0, grid_cells.height as f64);
-            let point = grid_cells.to_map(column, row);
+            let column_coordinate = draw_uniform(&mut rng, 0.0, grid_cells.width as f64);
+            let row_coordinate = draw_uniform(&mut rng, 0.0, grid_cells.height as f64);
+            let point = grid_cells.map_position(column_coordinate, row_coordinate);
             assert!((left..=right).contains(&point[0]) && (bottom..=top).contains(&point[1]));
             let cell_distance = grid_cells.distance_to_occupied(point);
             if cell_distance == 0.0 {
@@ -113,13 +112,14 @@ fn distances_to_walls_equal_distances_to_cells() {
 #[test]
 fn sides_of_neighbouring_cells_form_one_wall() {
     let drawn_rows = ["##.", "#..", "..#"];
-    let occupied = drawn_rows.iter().flat_map(|row| row.chars().map(|cell| cell == '#')).collect();
-    let cells = GridCells { width: 3, height: 3, occupied, resolution: 0.5, origin: [1.0, 2.0, 0.0] };
-    let plan = FloorPlan::from_grid(cells.grid()).expect("a small grid");
+    let occupied =
+        drawn_rows.iter().flat_map(|row| row.chars().map(|drawn_cell| drawn_cell == '#')).collect();
+    let grid_cells = GridCells { width: 3, height: 3, occupied, resolution: 0.5, origin: [1.0, 2.0, 0.0] };
+    let plan = FloorPlan::from_grid(grid_cells.grid()).expect("a small grid");
     let mut walls: Vec<[f64; 4]> =
         plan.walls().iter().map(|Segment { from, to }| [from[0], from[1], to[0], to[1]]).collect();
     walls.sort_by(|a, b| a.partial_cmp(b).expect("numbers"));
-    let expected_walls = [
+    let expected_bound = [
         [1.0, 2.5, 1.0, 3.5],
         [1.0, 2.5, 1.5, 2.5],
         [1.0, 3.5, 2.0, 3.5],
@@ -131,12 +131,12 @@ fn sides_of_neighbouring_cells_form_one_wall() {
         [2.0, 3.0, 2.0, 3.5],
         [2.5, 2.0, 2.5, 2.5],
     ];
-    assert_eq!(walls, expected_walls);
+    assert_eq!(walls, expected_bound);
     assert_eq!(plan.bounds(), [1.0, 2.0, 2.5, 3.5]);
-    let rotated_cells = GridCells { origin: [1.0, 2.0, FRAC_PI_2], ..cells };
+    let rotated_cells = GridCells { origin: [1.0, 2.0, FRAC_PI_2], ..grid_cells };
     let bounds = FloorPlan::from_grid(rotated_cells.grid()).expect("a small grid").bounds();
-    for (bound, expected_walls) in bounds.into_iter().zip([-0.5, 2.0, 1.0, 3.5]) {
-        assert!((bound - expected_walls).abs() < 1e-15, "{bounds:?}");
+    for (map_bound, expected_bound) in bounds.into_iter().zip([-0.5, 2.0, 1.0, 3.5]) {
+        assert!((map_bound - expected_bound).abs() < 1e-15, "{bounds:?}");
     }
 }
 
@@ -154,9 +154,9 @@ fn a_grid_of_too_many_walls_is_refused() {
         origin: [0.0; 3],
     };
     // The grid has 160 · 160 single cells with four sides each.
-    let error = FloorPlan::from_grid(single_cells.grid()).err();
-    assert_eq!(error, Some(FloorPlanError::TooManySides(20_001)));
-    let error_message = error.map(|error| error.to_string()).unwrap_or_default();
+    let plan_error = FloorPlan::from_grid(single_cells.grid()).err();
+    assert_eq!(plan_error, Some(FloorPlanError::TooManySides(20_001)));
+    let error_message = plan_error.map(|plan_error| plan_error.to_string()).unwrap_or_default();
     assert_eq!(
         error_message,
         "image has blocked cells with 20001 sides or more; allowed are at most 20000: remove specks or use larger cells"
@@ -178,19 +178,17 @@ fn a_grid_outside_the_range_of_coordinates_is_refused() {
     }
 }
 
-// ----------------------------------------------------------------------------------------------------- free poses
-
 /// Returns a grid with cells of 10 cm that are drawn as `#` (occupied), `?` (unknown) and `.` (free). The first row is at the
 /// top.
-fn grid_from_drawing(rows: &[&str], unknown: UnknownCells) -> OccupancyGrid {
+fn grid_from_drawing(drawn_rows: &[&str], unknown_cells: UnknownCells) -> OccupancyGrid {
     let cell_shade = |cell| match cell {
         '#' => 0.0,
         '?' => 0.5,
         _ => 1.0,
     };
-    let pixels = rows.iter().flat_map(|row| row.chars()).map(cell_shade).collect();
-    let image = Image::<f32> { width: rows[0].len(), height: rows.len(), pixels };
-    OccupancyGrid::new(&image, &Interpretation::default(), 0.1, SE2::identity()).with_unknown(unknown)
+    let pixels = drawn_rows.iter().flat_map(|row| row.chars()).map(cell_shade).collect();
+    let image = Image::<f32> { width: drawn_rows[0].len(), height: drawn_rows.len(), pixels };
+    OccupancyGrid::new(&image, &Interpretation::default(), 0.1, SE2::identity()).with_unknown(unknown_cells)
 }
 
 /// The pose is in the middle of the largest square of free cells. Its heading is that of the longest free straight path. Unknown
@@ -216,8 +214,8 @@ fn the_free_pose_is_in_the_largest_free_square() {
         let straight_arc = Arc { start: free_pose, length: 0.5, turn: 0.0 };
         assert!(plan.test_arc(&straight_arc, 0.0).free && free_pose.theta().abs() < 0.5, "{free_pose:?}");
     }
-    let find_free_pose_in_rows = |rows: [&str; 3], unknown_cells, clearance| {
-        let plan = FloorPlan::from_grid(grid_from_drawing(&rows, unknown_cells)).expect("a small grid");
+    let find_free_pose_in_rows = |drawn_rows: [&str; 3], unknown_cells, clearance| {
+        let plan = FloorPlan::from_grid(grid_from_drawing(&drawn_rows, unknown_cells)).expect("a small grid");
         plan.find_free_pose(clearance)
     };
     // A robot that just fits cannot move. The heading is then 0.

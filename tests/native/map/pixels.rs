@@ -3,14 +3,12 @@
 use motion::geom::se2::SE2;
 use motion::map::{Cell, Image, Interpretation, MAX_PIXELS, MapMode, OccupancyGrid, Pixel, read_pgm};
 
-// -------------------------------------------------------------------------------------------- map_server's pixels
-
 /// As in `map_server`, a cell is occupied if its occupancy is above the threshold, but not if it equals the threshold.
 #[test]
 fn pixels_are_read_as_map_server_reads_them() {
     let trinary_mode = Interpretation::default();
-    let grey_pixel = |value: u8| Pixel { shade: f32::from(value) / 255.0, opacity: 1.0 };
-    let transparent_pixel = |value: u8| Pixel { opacity: 0.0, ..grey_pixel(value) };
+    let grey_pixel = |grey_value: u8| Pixel { shade: f32::from(grey_value) / 255.0, opacity: 1.0 };
+    let transparent_pixel = |grey_value: u8| Pixel { opacity: 0.0, ..grey_pixel(grey_value) };
     let scale_mode = Interpretation { mode: MapMode::Scale, ..trinary_mode };
     let raw_mode = Interpretation { mode: MapMode::Raw, ..trinary_mode };
     let with_occupied_threshold = |occupied_thresh| Interpretation { occupied_thresh, ..trinary_mode };
@@ -54,16 +52,14 @@ fn pixels_are_read_as_map_server_reads_them() {
         ("raw does not negate", Interpretation { negate: true, ..raw_mode }, grey_pixel(100), Cell::Occupied),
         ("raw does not negate", Interpretation { negate: true, ..raw_mode }, grey_pixel(155), Cell::Unknown),
     ];
-    for (name, interpretation, grey_pixel, cell) in interpretation_cases {
+    for (case_name, interpretation, grey_pixel, expected_cell) in interpretation_cases {
         assert_eq!(
             interpretation.classify_pixel(grey_pixel),
-            cell,
-            "{name}: {interpretation:?} {grey_pixel:?}"
+            expected_cell,
+            "{case_name}: {interpretation:?} {grey_pixel:?}"
         );
     }
 }
-
-// ----------------------------------------------------------------------------------------------------------- PGM
 
 fn image_shades(image: &Image<f32>) -> &[f32] {
     assert_eq!(image.pixels.len(), image.width * image.height);
@@ -99,7 +95,7 @@ fn pgm_rasters_may_hold_any_bytes() {
 /// The error message names the line, the field, its value and what is allowed.
 #[test]
 fn errors_of_malformed_pgm_files_name_line_field_and_value() {
-    let cases: [(&[u8], &str); 13] = [
+    let files_and_errors: [(&[u8], &str); 13] = [
         (b"", "line 1: the magic number is missing; allowed is P5 or P2"),
         (b"\x89PNG\r\n\x1a\n", r#"line 1: the magic number is "�PNG"; allowed is P5 or P2"#),
         (b"P5\n#384\n", "line 3: the width is missing; allowed is a whole number from 1 to 33554432"),
@@ -132,8 +128,9 @@ fn errors_of_malformed_pgm_files_name_line_field_and_value() {
             r#"line 5: a pixel is "+5"; allowed is a whole number from 0 to 255"#,
         ),
     ];
-    for (file, sentence) in cases {
-        assert_eq!(read_pgm(file).expect_err("malformed").to_string(), sentence, "{}", file.escape_ascii());
+    for (file_bytes, expected_error) in files_and_errors {
+        let refusal = read_pgm(file_bytes).expect_err("malformed").to_string();
+        assert_eq!(refusal, expected_error, "{}", file_bytes.escape_ascii());
     }
     let file_header = format!("P2\n{MAX_PIXELS} 1\n255\n");
     assert_eq!(read_pgm(file_header.as_bytes()).expect_err("no pixels").field, "a pixel");
@@ -142,9 +139,10 @@ fn errors_of_malformed_pgm_files_name_line_field_and_value() {
 /// In mode trinary, `map_server` averages opacity with the colours, if the image has transparency.
 #[test]
 fn transparency_counts_as_a_colour_in_trinary() {
-    let are_cells_occupied = |pixels: &[(f32, f32)]| -> Vec<bool> {
-        let pixels: Vec<Pixel> = pixels.iter().map(|&(shade, opacity)| Pixel { shade, opacity }).collect();
-        let image = Image { width: pixels.len(), height: 1, pixels };
+    let are_cells_occupied = |shades_and_opacities: &[(f32, f32)]| -> Vec<bool> {
+        let pixels: Vec<Pixel> =
+            shades_and_opacities.iter().map(|&(shade, opacity)| Pixel { shade, opacity }).collect();
+        let image = Image { width: shades_and_opacities.len(), height: 1, pixels };
         let grid = OccupancyGrid::new(&image, &Interpretation::default(), 0.05, SE2::identity());
         grid.cells().map(|cell| cell == Cell::Occupied).collect()
     };

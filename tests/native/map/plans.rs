@@ -19,20 +19,20 @@ fn random_point([left, bottom, right, top]: [f64; 4], rng: &mut impl Rng) -> [f6
 }
 
 /// Returns a straight or curved, long or short arc, forward or in reverse.
-fn random_arc_from(start: [f64; 2], rng: &mut impl Rng) -> Arc {
+fn random_arc_from(start_position: [f64; 2], rng: &mut impl Rng) -> Arc {
     let turn = match rng.next_u32() % 3 {
         0 => draw_signed_log_uniform(rng, 1e-18, 1e-3),
         1 => 0.0,
         _ => draw_uniform(rng, -TAU, TAU),
     };
     let length = draw_uniform(rng, -3.0, 3.0);
-    Arc { start: SE2::new(start[0], start[1], draw_uniform(rng, -PI, PI)), length, turn }
+    Arc { start: SE2::new(start_position[0], start_position[1], draw_uniform(rng, -PI, PI)), length, turn }
 }
 
 /// Returns walls whose coordinates extend by at most `max_extent` m, a third of them along the axes.
-fn random_walls(count: usize, max_extent: f64, bounds: [f64; 4], rng: &mut impl Rng) -> Vec<Segment> {
+fn random_walls(wall_count: usize, max_extent: f64, bounds: [f64; 4], rng: &mut impl Rng) -> Vec<Segment> {
     let [left, bottom, right, top] = bounds;
-    (0..count)
+    (0..wall_count)
         .map(|_| {
             let start_point = random_point(bounds, rng);
             let mut end_point = [
@@ -40,8 +40,8 @@ fn random_walls(count: usize, max_extent: f64, bounds: [f64; 4], rng: &mut impl 
                 start_point[1] + draw_uniform(rng, -max_extent, max_extent),
             ];
             if rng.next_u32().is_multiple_of(3) {
-                let axis = (rng.next_u32() % 2) as usize;
-                end_point[axis] = start_point[axis];
+                let constant_axis = (rng.next_u32() % 2) as usize;
+                end_point[constant_axis] = start_point[constant_axis];
             }
             Segment {
                 from: start_point,
@@ -51,15 +51,13 @@ fn random_walls(count: usize, max_extent: f64, bounds: [f64; 4], rng: &mut impl 
         .collect()
 }
 
-// --------------------------------------------------------------------------------------------------- construction
-
 #[test]
 fn plans_with_too_many_walls_are_refused() {
     let wall_segment = new_wall(1.0, 1.0, 9.0, 1.0);
-    let error =
+    let plan_error =
         FloorPlan::new(vec![wall_segment; FloorPlan::MAX_WALLS + 1], ROOM_BOUNDS).expect_err("too many");
-    assert_eq!(error, FloorPlanError::TooManyWalls(20_001));
-    assert_eq!(error.to_string(), "walls has a length of 20001 or more; allowed is at most 20000");
+    assert_eq!(plan_error, FloorPlanError::TooManyWalls(20_001));
+    assert_eq!(plan_error.to_string(), "walls has a length of 20001 or more; allowed is at most 20000");
     for wall_count in [0, 1, 16, 17, FloorPlan::MAX_WALLS] {
         let plan = FloorPlan::new(vec![wall_segment; wall_count], ROOM_BOUNDS).expect("allowed");
         assert_eq!(plan.walls().len(), wall_count);
@@ -68,22 +66,21 @@ fn plans_with_too_many_walls_are_refused() {
     }
 }
 
-// ------------------------------------------------------------------------------------------------------ verdicts
-
 /// The plans are the apartment, rooms with long slanted walls close together, and a rotated grid. Arcs of all sizes turn by up to two
 /// circles, and robots have several sizes.
 #[test]
 fn collision_results_equal_those_of_a_loop_over_all_walls() {
     let mut rng = seeded_rng(9650);
-    let diagonal_walls = |count: u32| -> Vec<Segment> {
-        let end_coordinates = |offset: f64| (offset.min(10.0), (offset - 10.0).max(0.0));
-        let wall_offsets = (0..count).map(|i| 20.0 * (f64::from(i) + 0.5) / f64::from(count));
+    let diagonal_walls = |wall_count: u32| -> Vec<Segment> {
+        let end_coordinates =
+            |diagonal_offset: f64| (diagonal_offset.min(10.0), (diagonal_offset - 10.0).max(0.0));
+        let wall_offsets = (0..wall_count).map(|i| 20.0 * (f64::from(i) + 0.5) / f64::from(wall_count));
         wall_offsets
             .map(end_coordinates)
             .map(|(larger, smaller)| new_wall(smaller, larger, larger, smaller))
             .collect()
     };
-    let binary_pixel = |dark: bool| Pixel { shade: if dark { 0.0 } else { 1.0 }, opacity: 1.0 };
+    let binary_pixel = |is_dark: bool| Pixel { shade: if is_dark { 0.0 } else { 1.0 }, opacity: 1.0 };
     let pixels: Vec<_> = (0..1600).map(|_| binary_pixel(rng.next_u32().is_multiple_of(40))).collect();
     let image = Image { width: 40, height: 40, pixels };
     let grid = OccupancyGrid::new(&image, &Interpretation::default(), 0.25, SE2::new(3.0, -2.0, 0.4));
@@ -100,7 +97,7 @@ fn collision_results_equal_those_of_a_loop_over_all_walls() {
     for (plan_index, plan) in tested_plans.iter().enumerate() {
         let [left, bottom, right, top] = plan.bounds();
         let box_corners = [[left, bottom], [right, bottom], [right, top], [left, top]];
-        let corners = plan.grid().map_or(box_corners, OccupancyGrid::corners);
+        let map_corners = plan.grid().map_or(box_corners, OccupancyGrid::corners);
         let mut verdict_counts = [0; 3];
         for _ in 0..3_000 {
             let start_point = random_point(plan.bounds(), &mut rng);
@@ -110,8 +107,8 @@ fn collision_results_equal_those_of_a_loop_over_all_walls() {
             let arc = Arc { length: length_factor * arc.length, turn, ..arc };
             let clearance = [0.0, 0.01, 0.13, 0.4][(rng.next_u32() % 4) as usize];
             let arc_end = [arc.end().x(), arc.end().y()];
-            let min_distance = |distance: &dyn Fn(&Segment) -> f64| {
-                plan.walls().iter().map(distance).fold(f64::INFINITY, f64::min)
+            let min_distance = |distance_to_wall: &dyn Fn(&Segment) -> f64| {
+                plan.walls().iter().map(distance_to_wall).fold(f64::INFINITY, f64::min)
             };
             let distance_to_end = min_distance(&|wall| wall.distance_to_point(arc_end));
             let distance_to_arc = min_distance(&|wall| wall.distance_to_arc(&arc));
@@ -120,13 +117,13 @@ fn collision_results_equal_those_of_a_loop_over_all_walls() {
             }
             let is_on_map = |point: [f64; 2]| {
                 (0..4).all(|i| {
-                    let ([x0, y0], [x1, y1]) = (corners[i], corners[(i + 1) % 4]);
+                    let ([x0, y0], [x1, y1]) = (map_corners[i], map_corners[(i + 1) % 4]);
                     (x1 - x0) * (point[1] - y0) - (y1 - y0) * (point[0] - x0) >= 0.0
                 })
             };
-            let map_edges = (0..4).map(|i| Segment { from: corners[i], to: corners[(i + 1) % 4] });
+            let map_edges = (0..4).map(|i| Segment { from: map_corners[i], to: map_corners[(i + 1) % 4] });
             let does_cross_edge =
-                map_edges.map(|edge| edge.distance_to_arc(&arc)).fold(f64::INFINITY, f64::min) == 0.0;
+                map_edges.map(|map_edge| map_edge.distance_to_arc(&arc)).fold(f64::INFINITY, f64::min) == 0.0;
             let is_in_occupied_cell = |point| plan.grid().is_some_and(|grid| grid.is_blocked_at(point));
             let is_end_free =
                 is_on_map(arc_end) && !is_in_occupied_cell(arc_end) && distance_to_end > clearance;

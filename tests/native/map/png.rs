@@ -7,91 +7,93 @@ use png::{BitDepth, ColorType, Encoder, Filter};
 use rand::Rng;
 
 /// Colour type, depth and tables of an image.
-struct Format {
-    color: ColorType,
-    bits: u32,
+struct PngFormat {
+    color_type: ColorType,
+    bit_depth: u32,
     palette: Option<Vec<u8>>,
     transparency: Option<Vec<u8>>,
 }
 
 /// Returns the file of an image. The samples of a pixel are adjacent.
-fn encoded_png(format: &Format, width: u32, samples: &[u16]) -> Vec<u8> {
-    let row_length = width as usize * format.color.samples();
+fn encoded_png(png_format: &PngFormat, image_width: u32, samples: &[u16]) -> Vec<u8> {
+    let row_length = image_width as usize * png_format.color_type.samples();
     let mut packed_rows = Vec::new();
-    for row in samples.chunks(row_length) {
-        let row_bits: String =
-            row.iter().map(|sample| format!("{sample:0width$b}", width = format.bits as usize)).collect();
-        let row_bytes = row_bits.as_bytes().chunks(8).map(|byte| {
-            let byte_value = byte.iter().fold(0, |byte, digit| 2 * byte + (digit - b'0'));
-            byte_value << (8 - byte.len())
+    for sample_row in samples.chunks(row_length) {
+        let bit_depth = png_format.bit_depth as usize;
+        let row_bits: String = sample_row.iter().map(|sample| format!("{sample:0bit_depth$b}")).collect();
+        let row_bytes = row_bits.as_bytes().chunks(8).map(|digits| {
+            let byte_value = digits.iter().fold(0, |byte, digit| 2 * byte + (digit - b'0'));
+            byte_value << (8 - digits.len())
         });
         packed_rows.extend(row_bytes);
     }
     let mut file_bytes = Vec::new();
-    let mut encoder = Encoder::new(&mut file_bytes, width, (samples.len() / row_length) as u32);
-    encoder.set_color(format.color);
-    encoder.set_depth(BitDepth::from_u8(format.bits as u8).expect("a depth"));
+    let mut encoder = Encoder::new(&mut file_bytes, image_width, (samples.len() / row_length) as u32);
+    encoder.set_color(png_format.color_type);
+    encoder.set_depth(BitDepth::from_u8(png_format.bit_depth as u8).expect("a depth"));
     encoder.set_filter(Filter::Adaptive);
     // A gamma chunk changes the shades in browsers. It must not affect the reader under test.
     encoder.set_source_gamma(png::ScaledFloat::new(0.3));
-    if let Some(palette) = &format.palette {
+    if let Some(palette) = &png_format.palette {
         encoder.set_palette(palette.clone());
     }
-    if let Some(transparency) = &format.transparency {
+    if let Some(transparency) = &png_format.transparency {
         encoder.set_trns(transparency.clone());
     }
     encoder.write_header().expect("a header").write_image_data(&packed_rows).expect("an image");
     file_bytes
 }
 
-/// Returns the file of an opaque grey image of 8 bits.
 fn grey_png(width: u32, samples: &[u16]) -> Vec<u8> {
-    let grey_format = Format { color: ColorType::Grayscale, bits: 8, palette: None, transparency: None };
+    let grey_format =
+        PngFormat { color_type: ColorType::Grayscale, bit_depth: 8, palette: None, transparency: None };
     encoded_png(&grey_format, width, samples)
 }
 
 #[test]
 fn every_kind_of_image_is_decoded_exactly() {
     let mut rng = seeded_rng(9911);
-    let formats = [
+    let color_types_and_depths = [
         (ColorType::Grayscale, &[1, 2, 4, 8, 16][..]),
         (ColorType::Rgb, &[8, 16]),
         (ColorType::Indexed, &[1, 2, 4, 8]),
         (ColorType::GrayscaleAlpha, &[8, 16]),
         (ColorType::Rgba, &[8, 16]),
     ];
-    for (color, depths) in formats {
-        for (&bits, (width, height)) in depths.iter().flat_map(|bits| [(bits, (1, 1)), (bits, (33, 17))]) {
+    for (color_type, bit_depths) in color_types_and_depths {
+        for (&bit_depth, (image_width, image_height)) in
+            bit_depths.iter().flat_map(|bit_depth| [(bit_depth, (1, 1)), (bit_depth, (33, 17))])
+        {
             for has_transparency in [false, true] {
-                let sample_count = width as usize * height * color.samples();
-                let mut random_below = |end: u32| (rng.next_u32() % end) as u16;
-                let samples: Vec<u16> = (0..sample_count).map(|_| random_below(1 << bits)).collect();
-                let palette: Vec<u8> = (0..3 << bits.min(8)).map(|_| random_below(256) as u8).collect();
+                let sample_count = image_width as usize * image_height * color_type.samples();
+                let mut random_below = |limit: u32| (rng.next_u32() % limit) as u16;
+                let samples: Vec<u16> = (0..sample_count).map(|_| random_below(1 << bit_depth)).collect();
+                let palette: Vec<u8> = (0..3 << bit_depth.min(8)).map(|_| random_below(256) as u8).collect();
                 let opacities: Vec<u8> =
-                    (0..1 << (bits.min(8) - 1)).map(|_| random_below(256) as u8).collect();
-                let first_pixel = &samples[..color.samples()];
-                let transparency = match color {
+                    (0..1 << (bit_depth.min(8) - 1)).map(|_| random_below(256) as u8).collect();
+                let first_pixel = &samples[..color_type.samples()];
+                let transparency = match color_type {
                     ColorType::Indexed => opacities.clone(),
                     _ => first_pixel.iter().flat_map(|sample| sample.to_be_bytes()).collect(),
                 };
                 let has_transparent_colour =
-                    has_transparency && !matches!(color, ColorType::GrayscaleAlpha | ColorType::Rgba);
-                let format = Format {
-                    color,
-                    bits,
-                    palette: (color == ColorType::Indexed).then(|| palette.clone()),
+                    has_transparency && !matches!(color_type, ColorType::GrayscaleAlpha | ColorType::Rgba);
+                let format = PngFormat {
+                    color_type,
+                    bit_depth,
+                    palette: (color_type == ColorType::Indexed).then(|| palette.clone()),
                     transparency: has_transparent_colour.then_some(transparency),
                 };
-                let max_sample = f64::from((1u32 << bits) - 1);
+                let max_sample = f64::from((1u32 << bit_depth) - 1);
                 let to_byte = |sample: u16| (255.0 * f64::from(sample) / max_sample).round() as u8;
                 let expected_pixels: Vec<[u8; 4]> = samples
-                    .chunks(color.samples())
-                    .map(|pixel| {
-                        let sample_bytes: Vec<u8> = pixel.iter().map(|sample| to_byte(*sample)).collect();
-                        let opacity = if has_transparent_colour && pixel == first_pixel { 0 } else { 255 };
+                    .chunks(color_type.samples())
+                    .map(|samples| {
+                        let sample_bytes: Vec<u8> = samples.iter().map(|sample| to_byte(*sample)).collect();
+                        let opacity = if has_transparent_colour && samples == first_pixel { 0 } else { 255 };
                         match *sample_bytes {
-                            [_] if color == ColorType::Indexed => {
-                                let palette_index = usize::from(pixel[0]);
+                            [_] if color_type == ColorType::Indexed => {
+                                let palette_index = usize::from(samples[0]);
                                 let opacity = opacities.get(palette_index).filter(|_| has_transparent_colour);
                                 let [red, green, blue] = [0, 1, 2].map(|k| palette[3 * palette_index + k]);
                                 [red, green, blue, opacity.copied().unwrap_or(255)]
@@ -104,9 +106,12 @@ fn every_kind_of_image_is_decoded_exactly() {
                         }
                     })
                     .collect();
-                let image = read_png(&encoded_png(&format, width, &samples)).expect("an image");
-                assert_eq!((image.width, image.height), (width as usize, height));
-                assert_eq!(image.pixels, expected_pixels, "{color:?} {bits} {width} {has_transparency}");
+                let image = read_png(&encoded_png(&format, image_width, &samples)).expect("an image");
+                assert_eq!((image.width, image.height), (image_width as usize, image_height));
+                assert_eq!(
+                    image.pixels, expected_pixels,
+                    "{color_type:?} {bit_depth} {image_width} {has_transparency}"
+                );
             }
         }
     }
@@ -114,18 +119,18 @@ fn every_kind_of_image_is_decoded_exactly() {
 
 #[test]
 fn an_image_that_is_cut_short_is_refused() {
-    let file = grey_png(20, &[7; 400]);
-    assert!(read_png(&file).is_ok());
-    for length in 0..file.len() {
-        match read_png(&file[..length]) {
-            Err(PngError::Damaged { at, length: n }) => assert!(n == length && at <= length as u64),
-            other => panic!("{length} bytes: {other:?}"),
+    let file_bytes = grey_png(20, &[7; 400]);
+    assert!(read_png(&file_bytes).is_ok());
+    for cut_length in 0..file_bytes.len() {
+        match read_png(&file_bytes[..cut_length]) {
+            Err(PngError::Damaged { at, length: n }) => assert!(n == cut_length && at <= cut_length as u64),
+            other_result => panic!("{cut_length} bytes: {other_result:?}"),
         }
     }
-    let error =
-        read_grid(&file[..60], &Interpretation::default(), 0.05, SE2::identity()).expect_err("it ends");
-    assert!(matches!(error, ImageError::Png(_)));
-    let message = error.to_string();
+    let png_error =
+        read_grid(&file_bytes[..60], &Interpretation::default(), 0.05, SE2::identity()).expect_err("it ends");
+    assert!(matches!(png_error, ImageError::Png(_)));
+    let message = png_error.to_string();
     assert!(
         message.starts_with("the PNG image is damaged or cut short before byte ")
             && message.ends_with(" of 60; allowed is a complete one"),
@@ -133,11 +138,11 @@ fn an_image_that_is_cut_short_is_refused() {
     );
 }
 
-/// A small file may contain an enormous image. It must be refused because of the size in its header.
+/// A small file may contain an enormous image. Such a file must be refused because of the size in its header.
 #[test]
 fn an_image_that_is_too_large_is_refused_by_its_header() {
-    let mut file = Vec::new();
+    let mut file_bytes = Vec::new();
     let side_pixels = 1 + (MAX_PIXELS as f64).sqrt() as u32;
-    drop(Encoder::new(&mut file, side_pixels, side_pixels).write_header().expect("a header"));
-    assert_eq!(read_png(&file), Err(PngError::TooLarge { width: side_pixels, height: side_pixels }));
+    drop(Encoder::new(&mut file_bytes, side_pixels, side_pixels).write_header().expect("a header"));
+    assert_eq!(read_png(&file_bytes), Err(PngError::TooLarge { width: side_pixels, height: side_pixels }));
 }

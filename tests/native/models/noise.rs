@@ -6,17 +6,17 @@ use crate::common::{
 };
 use motion::{NoiseKind, Variance};
 
-fn draw_noise_sample(kind: NoiseKind, variance: f64, count: usize, seed: u64) -> Vec<f64> {
+fn draw_noise_sample(noise_kind: NoiseKind, variance: f64, sample_count: usize, seed: u64) -> Vec<f64> {
     let mut rng = seeded_rng(seed);
-    (0..count).map(|_| kind.sample(Variance(variance), &mut rng)).collect()
+    (0..sample_count).map(|_| noise_kind.sample(Variance(variance), &mut rng)).collect()
 }
 
 #[test]
 fn samples_follow_the_exact_distribution() {
     for kind in NOISE_KINDS {
         for (seed, variance) in [(1, 1.0), (2, 0.025), (3, 1e-8), (4, 400.0)] {
-            let sample = draw_noise_sample(kind, variance, SAMPLE_COUNT, seed);
-            let ks_statistic = kolmogorov_smirnov(sample, |a| unit_cdf(kind, a / variance.sqrt()));
+            let noise_sample = draw_noise_sample(kind, variance, SAMPLE_COUNT, seed);
+            let ks_statistic = kolmogorov_smirnov(noise_sample, |a| unit_cdf(kind, a / variance.sqrt()));
             assert!(
                 ks_statistic < MAX_KOLMOGOROV_SMIRNOV,
                 "{kind:?} of variance {variance}: √n·D = {ks_statistic}"
@@ -29,25 +29,26 @@ fn samples_follow_the_exact_distribution() {
 fn prob_is_the_density_of_the_samples() {
     for kind in NOISE_KINDS {
         for variance in [1e-6, 0.025, 1.0, 90.0] {
-            let std = f64::sqrt(variance);
+            let noise_std = f64::sqrt(variance);
             // Simpson's rule over each of 60 intervals must give the increase of the distribution function, and 1 in total. The kinks of
             // the triangular density lie on ends of intervals.
-            let (integration_limit, interval_count) = (6f64.sqrt() * 4.0 * std, 60);
+            let (integration_limit, interval_count) = (6f64.sqrt() * 4.0 * noise_std, 60);
             let interval_width = 2.0 * integration_limit / interval_count as f64;
             let mut integral = 0.0;
-            for interval in 0..interval_count {
-                let interval_start = -integration_limit + interval as f64 * interval_width;
+            for interval_index in 0..interval_count {
+                let interval_start = -integration_limit + interval_index as f64 * interval_width;
                 let integration_step = interval_width / 64.0;
                 let interval_integral: f64 = (0..=64)
                     .map(|i| {
-                        let weight = if i == 0 || i == 64 { 1.0 } else { 2.0 + 2.0 * (i % 2) as f64 };
-                        weight * kind.prob(interval_start + i as f64 * integration_step, Variance(variance))
+                        let simpson_weight = if i == 0 || i == 64 { 1.0 } else { 2.0 + 2.0 * (i % 2) as f64 };
+                        simpson_weight
+                            * kind.prob(interval_start + i as f64 * integration_step, Variance(variance))
                     })
                     .sum::<f64>()
                     * integration_step
                     / 3.0;
-                let cdf_increase = unit_cdf(kind, (interval_start + interval_width) / std)
-                    - unit_cdf(kind, interval_start / std);
+                let cdf_increase = unit_cdf(kind, (interval_start + interval_width) / noise_std)
+                    - unit_cdf(kind, interval_start / noise_std);
                 assert!(
                     (interval_integral - cdf_increase).abs() < 3e-10,
                     "{kind:?} b² = {variance} at {interval_start}: {interval_integral}, not {cdf_increase}"
@@ -85,11 +86,11 @@ fn with_zero_variance_samples_are_zero_and_prob_is_zero_or_one() {
 
 #[test]
 fn quantiles_match_references_to_1e_15() {
-    for row in ReferenceTable::parse(include_str!("../../reference/quantile.csv")).rows() {
-        let q = row.cell_number("q");
-        for (kind, column) in [(NoiseKind::Normal, "normal"), (NoiseKind::Triangular, "triangular")] {
+    for csv_row in ReferenceTable::parse(include_str!("../../reference/quantile.csv")).rows() {
+        let q = csv_row.cell_number("q");
+        for (kind, column_name) in [(NoiseKind::Normal, "normal"), (NoiseKind::Triangular, "triangular")] {
             let z = kind.quantile(q);
-            let relative_error = row.deviation(column, z) / row.cell_number(column);
+            let relative_error = csv_row.deviation(column_name, z) / csv_row.cell_number(column_name);
             assert!(
                 relative_error <= 1e-15,
                 "{kind:?} quantile({q}) = {z}: relative error {relative_error:e}"

@@ -33,21 +33,21 @@ fn odometry_readings() -> [OdomDelta; 6] {
 /// Returns the variances of Table 5.6. `effective_angle` is the angle from which the noise of a rotation is computed.
 fn table_variances(reading: &OdomDelta, effective_angle: impl Fn(f64) -> f64) -> [f64; 3] {
     let [a1, a2, a3, a4] = ALPHAS.0;
-    let [r1, t, r2] =
+    let [rot1_angle, trans, rot2_angle] =
         [effective_angle(reading.rot1).powi(2), reading.trans.powi(2), effective_angle(reading.rot2).powi(2)];
-    [a1 * r1 + a2 * t, a3 * t + a4 * (r1 + r2), a1 * r2 + a2 * t]
+    [a1 * rot1_angle + a2 * trans, a3 * trans + a4 * (rot1_angle + rot2_angle), a1 * rot2_angle + a2 * trans]
 }
 
 /// Without translation atan2 gives no bearing. The whole turn then counts as the second rotation.
 #[test]
 fn a_spin_on_the_spot_counts_as_the_second_rotation() {
-    for turn in [0.0, 0.4, -2.9, PI] {
-        for jitter in [0.0, 1e-13, -1e-10] {
+    for spin_turn in [0.0, 0.4, -2.9, PI] {
+        for position_jitter in [0.0, 1e-13, -1e-10] {
             let prev = SE2::new(3.0, -2.0, 1.0);
-            let curr = SE2::new(3.0 + jitter, -2.0 - jitter, 1.0 + turn);
+            let curr = SE2::new(3.0 + position_jitter, -2.0 - position_jitter, 1.0 + spin_turn);
             let spin_reading = OdomDelta::from_poses(&prev, &curr);
             assert_eq!((spin_reading.rot1, spin_reading.trans), (0.0, 0.0));
-            assert!((spin_reading.rot2 - turn).abs() < 1e-15);
+            assert!((spin_reading.rot2 - spin_turn).abs() < 1e-15);
         }
     }
     // A translation of a nanometre or more has a direction.
@@ -64,17 +64,17 @@ fn a_spin_on_the_spot_counts_as_the_second_rotation() {
 fn prob_is_the_score_of_table_5_5() {
     let mut rng = seeded_rng(92);
     let x = SE2::new(1.0, 2.0, -0.5);
-    for kind in NOISE_KINDS {
+    for noise_kind in NOISE_KINDS {
         for u in odometry_readings() {
             for _ in 0..200 {
-                let mut perturb_value = |value: f64| value + draw_uniform(&mut rng, -0.4, 0.4);
+                let mut perturb_value = |leg_value: f64| leg_value + draw_uniform(&mut rng, -0.4, 0.4);
                 let executed_legs =
                     odom_delta(perturb_value(u.rot1), perturb_value(u.trans), perturb_value(u.rot2));
                 let [r1, t, r2] = table_variances(&executed_legs, f64::abs);
-                let expected_score = kind.prob(u.rot1 - executed_legs.rot1, Variance(r1))
-                    * kind.prob(u.trans - executed_legs.trans, Variance(t))
-                    * kind.prob(u.rot2 - executed_legs.rot2, Variance(r2));
-                let score = odometry_model(kind).prob(&executed_legs.apply(&x), &u, &x);
+                let expected_score = noise_kind.prob(u.rot1 - executed_legs.rot1, Variance(r1))
+                    * noise_kind.prob(u.trans - executed_legs.trans, Variance(t))
+                    * noise_kind.prob(u.rot2 - executed_legs.rot2, Variance(r2));
+                let score = odometry_model(noise_kind).prob(&executed_legs.apply(&x), &u, &x);
                 assert!(
                     (score - expected_score).abs() <= 1e-9 * (1.0 + expected_score),
                     "{executed_legs:?} for {u:?}: {score}, not {expected_score}"
@@ -88,8 +88,8 @@ fn prob_is_the_score_of_table_5_5() {
 fn without_noise_samples_are_exact_and_there_is_no_density() {
     let mut rng = seeded_rng(93);
     let x = SE2::new(-1.0, 0.5, 2.0);
-    for kind in NOISE_KINDS {
-        let noise_free_model = OdometryModel { alphas: OdomAlphas([0.0; 4]), noise: kind };
+    for noise_kind in NOISE_KINDS {
+        let noise_free_model = OdometryModel { alphas: OdomAlphas([0.0; 4]), noise: noise_kind };
         for u in odometry_readings() {
             let noise_free_end = u.apply(&x);
             assert_eq!(noise_free_model.sample(&u, &x, &mut rng), noise_free_end);
@@ -99,16 +99,16 @@ fn without_noise_samples_are_exact_and_there_is_no_density() {
                 0.0
             );
             assert_eq!(noise_free_model.pose_density(&noise_free_end, &u, &x), None);
-            assert!(odometry_model(kind).pose_density(&noise_free_end, &u, &x).is_some());
+            assert!(odometry_model(noise_kind).pose_density(&noise_free_end, &u, &x).is_some());
             assert_eq!(
-                odometry_model(kind).tangent_cov(&u),
+                odometry_model(noise_kind).tangent_cov(&u),
                 None,
                 "noise of three legs is not one Gaussian in se(2)"
             );
         }
         let no_motion = odom_delta(0.0, 0.0, 0.0);
-        assert_eq!(odometry_model(kind).sample(&no_motion, &x, &mut rng), x);
-        assert_eq!(odometry_model(kind).prob(&x, &no_motion, &x), 1.0);
+        assert_eq!(odometry_model(noise_kind).sample(&no_motion, &x, &mut rng), x);
+        assert_eq!(odometry_model(noise_kind).prob(&x, &no_motion, &x), 1.0);
     }
 }
 
@@ -122,14 +122,15 @@ fn the_pose_density_divides_by_the_jacobian() {
         for u in odometry_readings() {
             let table_variances = table_variances(&u, f64::abs);
             for _ in 0..100 {
-                let leg_noise = table_variances.map(|b2| draw_uniform(&mut rng, -1.0, 1.0) * b2.sqrt());
+                let leg_noise =
+                    table_variances.map(|variance| draw_uniform(&mut rng, -1.0, 1.0) * variance.sqrt());
                 let executed_legs =
                     odom_delta(u.rot1 - leg_noise[0], u.trans - leg_noise[1], u.rot2 - leg_noise[2]);
-                let [r1, t, r2] =
-                    [0, 1, 2].map(|leg| kind.prob(leg_noise[leg], Variance(table_variances[leg])));
+                let [r1, t, r2] = [0, 1, 2]
+                    .map(|leg_index| kind.prob(leg_noise[leg_index], Variance(table_variances[leg_index])));
                 let expected_density = r1 * t * r2 / executed_legs.trans;
                 let density = odometry_model(kind).pose_density(&executed_legs.apply(&x), &u, &x).unwrap();
-                // Other legs that lead to the same pose, in reverse or with full turns, add less than 1e-6 with this noise.
+                // Other legs lead to the same pose, in reverse or with full turns. They add less than 1e-6 to the density with this noise.
                 assert!(
                     (density / expected_density - 1.0).abs() < 1e-6,
                     "{u:?} at {executed_legs:?}: {density}, not {expected_density}"
@@ -150,15 +151,16 @@ fn box_around(u: &OdomDelta, x: &SE2, table_variances: [f64; 3]) -> PolarGrid {
 #[test]
 fn the_pose_density_integrates_to_one_for_large_noise() {
     let x = SE2::new(0.4, 0.4, -2.2);
-    for (kind, tolerance, u) in [
+    for (kind, integral_tolerance, u) in [
         (NoiseKind::Normal, 1e-6, odometry_readings()[5]),
         (NoiseKind::Triangular, 1e-3, odom_delta(0.7, 0.8, -0.4)),
     ] {
         let odometry_model = OdometryModel { alphas: OdomAlphas([0.9, 0.9, 1.1, 0.4]), noise: kind };
-        let radius = u.trans + 7.0 * (1.1 * u.trans.powi(2) + 0.4 * (u.rot1.powi(2) + u.rot2.powi(2))).sqrt();
-        let integral = PolarGrid::around_start(&x, 1.0, radius, [14, 8, 8])
+        let max_distance =
+            u.trans + 7.0 * (1.1 * u.trans.powi(2) + 0.4 * (u.rot1.powi(2) + u.rot2.powi(2))).sqrt();
+        let integral = PolarGrid::around_start(&x, 1.0, max_distance, [14, 8, 8])
             .integrate_density(|pose| odometry_model.pose_density(pose, &u, &x).unwrap());
-        assert!((integral - 1.0).abs() < tolerance, "{kind:?} {u:?}: {integral}");
+        assert!((integral - 1.0).abs() < integral_tolerance, "{kind:?} {u:?}: {integral}");
     }
 }
 
@@ -178,8 +180,9 @@ fn cartesian_cov_is_the_linearized_motion() {
     let x = SE2::new(4.0, 1.0, -1.2);
     let odometry_model = odometry_model(NoiseKind::Normal);
     for u in odometry_readings() {
-        let jacobian =
-            derivative_by_noise([0.0; 3], |unit| odometry_model.executed_motion(&u, unit).apply(&x));
+        let jacobian = derivative_by_noise([0.0; 3], |unit_noise| {
+            odometry_model.executed_motion(&u, unit_noise).apply(&x)
+        });
         let cov = odometry_model.cartesian_cov(&u, &x);
         assert!((cov - jacobian * jacobian.transpose()).amax() < 1e-8, "{u:?}\n{cov}");
     }

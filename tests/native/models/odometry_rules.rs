@@ -28,15 +28,15 @@ fn leg_variances(rule: OdometryRule, reading: OdomDelta) -> [f64; 4] {
 fn the_variances_of_each_rule_match_its_source() {
     // The robot turns by 0.5, drives 2 m and turns back by 1. No angle is nearer to π than to 0, and the total turn is −0.5.
     let bend_reading = odom_delta(0.5, 2.0, -1.0);
-    // 0.1·0.25 + 0.2·4, 0.3·4 + 0.4·(0.25 + 1), 0.1·1 + 0.2·4.
+    // Variances by hand: 0.1·0.25 + 0.2·4, 0.3·4 + 0.4·(0.25 + 1), 0.1·1 + 0.2·4.
     let bend_variances = [0.825, 1.7, 0.9, 0.0];
-    // 0.3·4 + 0.4·0.25, 0.1·0.25 + 0.2·4, 0.5·4 + 0.4·0.25.
+    // Variances by hand: 0.3·4 + 0.4·0.25, 0.1·0.25 + 0.2·4, 0.5·4 + 0.4·0.25.
     let omni_bend_variances = [0.0, 1.3, 0.825, 2.1];
     // The robot backs up by 1 m. Both rotations are π − 3 without their half turns, and the total turn is 0.
     let backward_reading = odom_delta(3.0, 1.0, -3.0);
     let table_reverse_variances = [1.1, 7.5, 1.1, 0.0];
     let nav2_reverse_variances = [0.202004848, 0.316038784, 0.202004848, 0.0];
-    // A turn on the spot by more than a quarter turn.
+    // The robot turns on the spot by more than a quarter turn.
     let spin_reading = odom_delta(0.0, 0.0, 2.2);
     // The encoders jitter by half a centimetre, to the left and backwards, with a turn of 0.01 rad.
     let jitter_reading = odom_delta(2.0, 0.005, -1.99);
@@ -53,15 +53,15 @@ fn the_variances_of_each_rule_match_its_source() {
         (Nav2, spin_reading, [0.0, 0.35463869, 0.088659673, 0.0]),
         (Beluga, spin_reading, [0.0, 0.35463869, 0.088659673, 0.0]),
         (Omni, spin_reading, [0.0, 1.936, 0.484, 1.936]),
-        // 0.1·4 + 0.2·2.5e-5, 0.3·2.5e-5 + 0.4·(4 + 3.9601), 0.1·3.9601 + 0.2·2.5e-5.
+        // Variances by hand: 0.1·4 + 0.2·2.5e-5, 0.3·2.5e-5 + 0.4·(4 + 3.9601), 0.1·3.9601 + 0.2·2.5e-5.
         (Table, jitter_reading, [0.400005, 3.1840475, 0.396015, 0.0]),
-        // 0.2·2.5e-5, 0.3·2.5e-5 + 0.4·1e-4, 0.1·1e-4 + 0.2·2.5e-5.
+        // Variances by hand: 0.2·2.5e-5, 0.3·2.5e-5 + 0.4·1e-4, 0.1·1e-4 + 0.2·2.5e-5.
         (Nav2, jitter_reading, [0.000005, 0.0000475, 0.000015, 0.0]),
         (Beluga, jitter_reading, [0.000005, 0.0000475, 0.000015, 0.0]),
         (Omni, jitter_reading, [0.0, 0.0000475, 0.000015, 0.0000525]),
     ];
-    for (rule, reading, expected) in variance_cases {
-        for (computed, expected) in leg_variances(rule, reading).into_iter().zip(expected) {
+    for (rule, reading, expected_variances) in variance_cases {
+        for (computed, expected) in leg_variances(rule, reading).into_iter().zip(expected_variances) {
             assert!(
                 (computed - expected).abs() < 2e-9,
                 "{rule:?} of {reading:?}: {computed}, not {expected}"
@@ -90,19 +90,19 @@ fn nav2_and_beluga_differ_at_exactly_a_centimetre_only() {
 /// The closed forms of E[sin² ε] are compared with quadrature where it is accurate, and with their limit for larger noise.
 #[test]
 fn the_mean_squared_sine_is_that_of_the_noise() {
-    for kind in NOISE_KINDS {
-        for exponent in -60..=4 {
-            let std = 10f64.powf(f64::from(exponent) / 10.0);
+    for noise_kind in NOISE_KINDS {
+        for tenths_of_decade in -60..=4 {
+            let std = 10f64.powf(f64::from(tenths_of_decade) / 10.0);
             let expected_mean_square: f64 =
-                nodes(kind).iter().map(|node| node.weight * (std * node.value).sin().powi(2)).sum();
-            let computed_mean_square = kind.mean_squared_sine(Variance(std * std));
+                nodes(noise_kind).iter().map(|node| node.weight * (std * node.value).sin().powi(2)).sum();
+            let computed_mean_square = noise_kind.mean_squared_sine(Variance(std * std));
             assert!(
                 (computed_mean_square / expected_mean_square - 1.0).abs() < 1e-10,
-                "{kind:?} at {std}: {computed_mean_square}, not {expected_mean_square}"
+                "{noise_kind:?} at {std}: {computed_mean_square}, not {expected_mean_square}"
             );
         }
-        assert_eq!(kind.mean_squared_sine(Variance(0.0)), 0.0);
-        assert!((kind.mean_squared_sine(Variance(1e12)) - 0.5).abs() < 1e-6);
+        assert_eq!(noise_kind.mean_squared_sine(Variance(0.0)), 0.0);
+        assert!((noise_kind.mean_squared_sine(Variance(1e12)) - 0.5).abs() < 1e-6);
     }
 }
 
@@ -113,33 +113,34 @@ fn exact_variances_match_samples() {
         [odom_delta(0.7, 1.5, 0.5), odom_delta(3.0, 1.0, -3.0), odom_delta(0.2, 0.3, FRAC_PI_2)];
     for (kind, rule) in NOISE_KINDS.into_iter().flat_map(|kind| OdometryRule::ALL.map(|rule| (kind, rule))) {
         for reading in tested_readings {
-            let (legs, leg_variances) = (rule.legs(&reading), rule.variances(&reading, &[0.05; 5]));
+            let (executed_legs, leg_variances) = (rule.legs(&reading), rule.variances(&reading, &[0.05; 5]));
             let mut rng = seeded_rng(192);
             let mut draw_unit_noise = || kind.quantile(draw_centred_uniform(&mut rng));
             let start_pose = SE2::new(0.4, -0.2, 1.0);
-            let bearing = start_pose.theta() + legs.rot1;
+            let bearing = start_pose.theta() + executed_legs.rot1;
             let correlation: f64 = -0.6;
             let sampled_outcomes: Vec<[f64; 2]> = (0..SAMPLE_COUNT)
                 .map(|_| {
                     let [a, b, c] = [draw_unit_noise(), draw_unit_noise(), draw_unit_noise()];
                     let executed_motion = leg_variances.executed_motion(
-                        &legs,
+                        &executed_legs,
                         [a, b, correlation * a + (1.0 - correlation * correlation).sqrt() * c],
                     );
                     let [_, _, drive_end, _] = executed_motion.poses(&start_pose);
                     let (dx, dy) = (drive_end.x() - start_pose.x(), drive_end.y() - start_pose.y());
-                    let turn_error =
-                        executed_motion.legs.rot1 + executed_motion.legs.rot2 - legs.rot1 - legs.rot2;
+                    let turn_error = executed_motion.legs.rot1 + executed_motion.legs.rot2
+                        - executed_legs.rot1
+                        - executed_legs.rot2;
                     [dy * bearing.cos() - dx * bearing.sin(), turn_error]
                 })
                 .collect();
             let exact_variances = [
-                leg_variances.cross_track_variance(legs.trans, kind),
+                leg_variances.cross_track_variance(executed_legs.trans, kind),
                 leg_variances.heading_variance(correlation),
             ];
             for (k, exact_variances) in exact_variances.into_iter().enumerate() {
-                let mean_power = |power| {
-                    sampled_outcomes.iter().map(|outcome| outcome[k].powi(power)).sum::<f64>()
+                let mean_power = |exponent| {
+                    sampled_outcomes.iter().map(|outcome| outcome[k].powi(exponent)).sum::<f64>()
                         / SAMPLE_COUNT as f64
                 };
                 let (mean_square, mean_fourth_power) = (mean_power(2), mean_power(4));

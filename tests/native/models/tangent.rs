@@ -21,7 +21,7 @@ fn velocity_model(alphas: VelocityAlphas) -> VelocityModel {
     VelocityModel { alphas, noise: NoiseKind::Normal }
 }
 
-/// Returns a covariance without zeros.
+/// Returns a covariance without zero entries.
 fn full_cov() -> Matrix3<f64> {
     Matrix3::new(0.09, 0.02, 0.03, 0.02, 0.05, -0.02, 0.03, -0.02, 0.12)
 }
@@ -57,8 +57,8 @@ fn log_prob_is_a_gaussian_in_exponential_coordinates() {
         &U,
     );
     let tangent_model = tangent_model.unwrap();
-    let log_prob_at = |deviation: Vector3<f64>| {
-        tangent_model.log_prob(&SE2::exp(&(Vector3::new(1.0, 0.0, 0.5) + deviation)), &U, &SE2::identity())
+    let log_prob_at = |xi_deviation: Vector3<f64>| {
+        tangent_model.log_prob(&SE2::exp(&(Vector3::new(1.0, 0.0, 0.5) + xi_deviation)), &U, &SE2::identity())
     };
     let peak = log_prob_at(Vector3::zeros());
     assert!((log_prob_at(Vector3::new(0.1, 0.0, 0.1)) - peak + 0.5 * 2.0 * 0.01 / 0.025).abs() < 1e-6);
@@ -122,17 +122,17 @@ fn sampler_and_density_agree() {
     let whitened_samples: Vec<Vector3<f64>> = (0..SAMPLE_COUNT)
         .map(|_| inverse_cov_root * (tangent_model.sample(&U, &x, &mut rng).boxminus(&x) - tau))
         .collect();
-    for axis in 0..3 {
-        let whitened_component = whitened_samples.iter().map(|w| w[axis]).collect();
+    for xi_axis in 0..3 {
+        let whitened_component = whitened_samples.iter().map(|w| w[xi_axis]).collect();
         let ks_statistic = kolmogorov_smirnov(whitened_component, |z| unit_cdf(NoiseKind::Normal, z));
-        assert!(ks_statistic < MAX_KOLMOGOROV_SMIRNOV, "axis {axis}: √n·D = {ks_statistic}");
+        assert!(ks_statistic < MAX_KOLMOGOROV_SMIRNOV, "axis {xi_axis}: √n·D = {ks_statistic}");
     }
     // Quartiles of χ² with three degrees of freedom.
     const CHI_SQUARE_QUARTILES: [f64; 3] =
         [1.212_532_903_045_966, 2.365_973_884_375_339, 4.108_344_935_632_316];
     let mut sample_counts = [0.0; 32];
     for w in &whitened_samples {
-        let octant_index = (0..3).map(|axis| usize::from(w[axis] > 0.0) << axis).sum::<usize>();
+        let octant_index = (0..3).map(|xi_axis| usize::from(w[xi_axis] > 0.0) << xi_axis).sum::<usize>();
         sample_counts[4 * octant_index
             + CHI_SQUARE_QUARTILES.iter().filter(|quartile| w.norm_squared() > **quartile).count()] += 1.0;
     }
@@ -149,7 +149,7 @@ fn compound_is_the_chapters_recursion() {
     for r in [full_cov(), Matrix3::from_diagonal(&Vector3::new(0.025, 0.0, 0.025))] {
         let tangent_model = TangentNoiseModel::new(r).unwrap();
         for _ in 0..100 {
-            let mut draw_within = |limit: f64| draw_uniform(&mut rng, -limit, limit);
+            let mut draw_within = |max_abs: f64| draw_uniform(&mut rng, -max_abs, max_abs);
             let tau = Vector3::new(draw_within(2.0), draw_within(2.0), draw_within(3.0));
             let sigma_root = Matrix3::from_fn(|_, _| draw_within(1.0));
             let sigma = sigma_root * sigma_root.transpose();
@@ -185,22 +185,23 @@ fn first_order_transforms_the_noise_inside_the_arc_only() {
     assert!((separate_cov - merged_cov).amax() > 1e-4);
 }
 
-fn cov_after_twenty_steps(model: &TangentNoiseModel, order: Compounding) -> Matrix3<f64> {
+fn cov_after_twenty_steps(model: &TangentNoiseModel, recursion: Compounding) -> Matrix3<f64> {
     let tau = TangentNoiseModel::twist(&STEP_COMMAND);
-    (0..20).fold(Matrix3::zeros(), |sigma, _| model.propagate(&sigma, &tau, order))
+    (0..20).fold(Matrix3::zeros(), |sigma, _| model.propagate(&sigma, &tau, recursion))
 }
 
 #[test]
 fn twenty_steps_match_the_references() {
     let tangent_model =
         TangentNoiseModel::from_velocity(&velocity_model(FULL_RANK_ALPHAS), &STEP_COMMAND).unwrap();
-    let table = ReferenceTable::parse(include_str!("../../reference/compounding.csv"));
-    for (row, order) in
-        table.rows().zip([Compounding::Chapter, Compounding::FirstOrder, Compounding::FourthOrder])
+    let reference_table = ReferenceTable::parse(include_str!("../../reference/compounding.csv"));
+    for (csv_row, recursion) in
+        reference_table.rows().zip([Compounding::Chapter, Compounding::FirstOrder, Compounding::FourthOrder])
     {
-        let [aa, ab, aw, bb, bw, ww] = row.cell_numbers(["caa", "cab", "caw", "cbb", "cbw", "cww"]);
+        let [aa, ab, aw, bb, bw, ww] = csv_row.cell_numbers(["caa", "cab", "caw", "cbb", "cbw", "cww"]);
         let expected_cov = Matrix3::new(aa, ab, aw, ab, bb, bw, aw, bw, ww);
-        let sigma = cov_after_twenty_steps(&tangent_model, order);
-        assert!((sigma - expected_cov).amax() < 1e-14, "{}: {sigma}{expected_cov}", row.cell_text("order"));
+        let sigma = cov_after_twenty_steps(&tangent_model, recursion);
+        let recursion_name = csv_row.cell_text("order");
+        assert!((sigma - expected_cov).amax() < 1e-14, "{recursion_name}: {sigma}{expected_cov}");
     }
 }

@@ -40,22 +40,22 @@ fn start_poses() -> [SE2; 3] {
 #[test]
 fn prob_falls_off_as_the_noise_does() {
     // At one standard deviation a Gaussian falls to exp(−1/2), and a triangular density to 1 − 1/√6.
-    for (kind, expected_ratio) in
+    for (noise_kind, expected_ratio) in
         [(NoiseKind::Normal, (-0.5f64).exp()), (NoiseKind::Triangular, 1.0 - 1.0 / 6f64.sqrt())]
     {
-        let velocity_model = velocity_model(ALPHAS_WITH_LAST_TURN, kind);
+        let velocity_model = velocity_model(ALPHAS_WITH_LAST_TURN, noise_kind);
         for u in new_commands().into_iter().filter(|u| u.v != 0.0) {
             for x in start_poses() {
-                let peak = velocity_model.prob(&noise_free_end(&u, &x), &u, &x);
-                for control in 0..3 {
+                let peak_score = velocity_model.prob(&noise_free_end(&u, &x), &u, &x);
+                for control_index in 0..3 {
                     for sign in [1.0, -1.0] {
                         let mut unit_noise = [0.0; 3];
-                        unit_noise[control] = sign;
+                        unit_noise[control_index] = sign;
                         let score =
                             velocity_model.prob(&velocity_model.apply_noise(&u, &x, unit_noise), &u, &x);
                         assert!(
-                            (score / peak - expected_ratio).abs() < 1e-9,
-                            "{kind:?} {u:?} noise {unit_noise:?}"
+                            (score / peak_score - expected_ratio).abs() < 1e-9,
+                            "{noise_kind:?} {u:?} noise {unit_noise:?}"
                         );
                     }
                 }
@@ -89,7 +89,6 @@ fn without_noise_samples_are_exact_and_there_is_no_density() {
                 );
             }
         }
-        // Noise is proportional to motion. A parked robot has none.
         let standstill_command = velocity_command(0.0, 0.0, 1.0);
         for x in start_poses() {
             assert_eq!(
@@ -109,15 +108,15 @@ fn without_noise_samples_are_exact_and_there_is_no_density() {
 #[test]
 fn samples_far_from_the_origin_have_a_positive_score() {
     let mut rng = seeded_rng(56);
-    for (distance, u) in [
+    for (start_distance, u) in [
         (1000.0, velocity_command(1.0, 0.5, 0.01)),
         (100.0, velocity_command(-0.05, 0.05, 0.01)),
         (10.0, velocity_command(0.01, 0.0, 0.02)),
     ] {
         for alphas in [ALPHAS_WITHOUT_LAST_TURN, VelocityAlphas([0.0; 6])] {
             for _ in 0..1000 {
-                let mut draw_within = |limit: f64| draw_uniform(&mut rng, -limit, limit);
-                let x = SE2::new(draw_within(distance), draw_within(distance), draw_within(PI));
+                let mut draw_within = |max_abs: f64| draw_uniform(&mut rng, -max_abs, max_abs);
+                let x = SE2::new(draw_within(start_distance), draw_within(start_distance), draw_within(PI));
                 let unit_noise = [draw_within(2.0), draw_within(2.0), 0.0];
                 let end_pose = velocity_model(alphas, NoiseKind::Normal).apply_noise(&u, &x, unit_noise);
                 assert!(
@@ -132,7 +131,8 @@ fn samples_far_from_the_origin_have_a_positive_score() {
 /// Returns a box around the noise-free pose, which reaches twice as far as triangular noise. The kinks of the triangular density, at
 /// multiples of √6 deviations, lie on bounds of cells. A turn changes the bearing by half the turn.
 fn box_around(velocity_model: &VelocityModel, u: &VelocityCmd, x: &SE2) -> PolarGrid {
-    let [v, omega, gamma] = velocity_model.variances(u).map(|b2| 2.0 * (6.0 * b2.0).sqrt() * u.dt);
+    let [v, omega, gamma] =
+        velocity_model.variances(u).map(|variance| 2.0 * (6.0 * variance.0).sqrt() * u.dt);
     PolarGrid::new(x, &noise_free_end(u, x), 2.0, [v, 0.5 * omega, gamma], [8; 3])
 }
 
@@ -147,9 +147,9 @@ fn the_pose_density_integrates_to_one_for_large_noise() {
         let u = velocity_command(v, omega, 1.5);
         let velocity_model = velocity_model(large_alphas, kind);
         // No robot is further away than the length of its arc, and none drives seven standard deviations more than commanded.
-        let radius = (v.abs() + 7.0 * velocity_model.variances(&u)[0].0.sqrt()) * u.dt;
-        let integrate_over_cells = |cells| {
-            PolarGrid::around_start(&x, 2.0, radius, [cells; 3])
+        let max_distance = (v.abs() + 7.0 * velocity_model.variances(&u)[0].0.sqrt()) * u.dt;
+        let integrate_over_cells = |cell_counts| {
+            PolarGrid::around_start(&x, 2.0, max_distance, [cell_counts; 3])
                 .integrate_density(|pose| velocity_model.pose_density(pose, &u, &x).unwrap())
         };
         // Arcs of a full turn end near the start. The integrand has a corner there, and the error is proportional to the width
@@ -167,14 +167,14 @@ fn the_noise_of_the_last_turn_does_not_change_the_density_of_positions() {
     let x = SE2::new(1.0, -1.0, -2.0);
     let u = velocity_command(1.0, 0.5, 1.0);
     for (a, b) in [(1.0, 0.2), (0.8, 0.1)] {
-        let position = x * SE2::new(a, b, 0.0);
-        let density_of_position = |std: f64| -> f64 {
-            let alpha5 = std * std;
+        let end_position = x * SE2::new(a, b, 0.0);
+        let density_of_position = |last_turn_std: f64| -> f64 {
+            let alpha5 = last_turn_std * last_turn_std;
             let velocity_model =
                 velocity_model(VelocityAlphas([0.05, 0.05, 0.05, 0.09, alpha5, 0.0]), NoiseKind::Normal);
             let heading_spacing = TAU / f64::from(HEADING_COUNT);
             let poses = (0..HEADING_COUNT)
-                .map(|i| SE2::new(position.x(), position.y(), heading_spacing * f64::from(i)));
+                .map(|i| SE2::new(end_position.x(), end_position.y(), heading_spacing * f64::from(i)));
             poses.map(|pose| velocity_model.pose_density(&pose, &u, &x).unwrap()).sum::<f64>()
                 * heading_spacing
         };
@@ -195,8 +195,8 @@ fn the_noise_of_the_last_turn_does_not_change_the_density_of_positions() {
 fn sampler_and_density_agree() {
     let x = SE2::new(0.5, -0.25, 1.0);
     let small_alphas = VelocityAlphas(ALPHAS_WITH_LAST_TURN.0.map(|alpha| 0.1 * alpha));
-    let cases = [(ALPHAS_WITH_LAST_TURN, -1.0, 0.5), (small_alphas, 0.9, 3.6)];
-    for (seed, (alphas, v, omega)) in (60..).zip(cases) {
+    let alphas_and_velocities = [(ALPHAS_WITH_LAST_TURN, -1.0, 0.5), (small_alphas, 0.9, 3.6)];
+    for (seed, (alphas, v, omega)) in (60..).zip(alphas_and_velocities) {
         let u = velocity_command(v, omega, 1.0);
         for kind in NOISE_KINDS {
             let velocity_model = velocity_model(alphas, kind);

@@ -9,7 +9,7 @@ use motion::sim::alpha_calibrator::{AlphaCalibrator, Log, Model, Regressor, Sett
 use motion::{NoiseKind, OdomDelta, Variance};
 use nalgebra::Vector3;
 
-fn simulation(settings: Settings) -> AlphaCalibrator {
+fn new_simulation(settings: Settings) -> AlphaCalibrator {
     AlphaCalibrator::new(settings).expect("allowed")
 }
 
@@ -26,18 +26,18 @@ fn do_intervals_contain_truth(simulation: &AlphaCalibrator) -> Vec<bool> {
     let [distance_scale, turn_scale] = [truth.distance_scale, truth.turn_scale];
     let true_errors =
         [truth.clock_offset, truth.mount_yaw, lever_ahead, lever_left, distance_scale, turn_scale];
-    let error_intervals = SystematicError::ALL.map(|error| calibration.interval_of(error));
+    let error_intervals = SystematicError::ALL.map(|error_kind| calibration.interval_of(error_kind));
     let intervals = calibration.intervals.iter().copied().chain(error_intervals);
-    let contains_value = |(interval, value): (Option<[f64; 2]>, f64)| {
+    let contains_value = |(interval, true_value): (Option<[f64; 2]>, f64)| {
         let [low, high] = interval.expect("the log turns and drives");
-        (low..=high).contains(&value)
+        (low..=high).contains(&true_value)
     };
     intervals.zip(truth.alphas.into_iter().chain(true_errors)).map(contains_value).collect()
 }
 
 #[test]
 fn the_initial_intervals_contain_the_true_values() {
-    let simulation = simulation(Settings::default());
+    let simulation = new_simulation(Settings::default());
     assert_eq!(do_intervals_contain_truth(&simulation), [true; 10]);
     assert_eq!(simulation.calibration().diagnostics.verdict, Verdict::Consistent);
 }
@@ -46,10 +46,10 @@ fn the_initial_intervals_contain_the_true_values() {
 #[test]
 fn a_small_noise_of_the_reference_does_not_narrow_the_intervals_of_alphas() {
     for seed in [107, 178] {
-        let simulation = simulation(Settings { seed, ..Settings::default() });
+        let simulation = new_simulation(Settings { seed, ..Settings::default() });
         let Calibration { alphas, intervals, .. } = simulation.calibration();
-        for (alpha, interval) in alphas.iter().flatten().zip(intervals.iter().flatten()) {
-            assert!(interval[1] - interval[0] > 0.2 * alpha, "{seed}: {alpha} {interval:?}");
+        for (fitted_alpha, interval) in alphas.iter().flatten().zip(intervals.iter().flatten()) {
+            assert!(interval[1] - interval[0] > 0.2 * fitted_alpha, "{seed}: {fitted_alpha} {interval:?}");
         }
     }
 }
@@ -58,7 +58,7 @@ fn a_small_noise_of_the_reference_does_not_narrow_the_intervals_of_alphas() {
 #[test]
 fn legs_end_after_a_duration_where_one_is_set() {
     let settings = Settings { duration: 0.8, ..Settings::default() };
-    let mut simulation = simulation(settings);
+    let mut simulation = new_simulation(settings);
     assert!(simulation.legs().len() > 100, "{}", simulation.legs().len());
     for Leg { times: [start_time, end_time], .. } in simulation.legs() {
         assert!((end_time - start_time - 0.8).abs() < 0.06, "{start_time} {end_time}");
@@ -70,11 +70,11 @@ fn legs_end_after_a_duration_where_one_is_set() {
     assert!(simulation.legs().len() < legs_before.len() / 2);
 }
 
-/// A standard deviation set to 0 is estimated from the log. Any other is used as stated.
+/// A standard deviation set to 0 is estimated from the log. Any other standard deviation is used as stated.
 #[test]
 fn the_reference_noise_is_estimated_unless_it_is_stated() {
     let stds_and_is_stated = |position_std: f64, yaw_std: f64| {
-        let simulation = simulation(Settings { position_std, yaw_std, ..Settings::default() });
+        let simulation = new_simulation(Settings { position_std, yaw_std, ..Settings::default() });
         simulation.calibration().reference_noise.map(|std| (std.value, std.interval[0] == std.interval[1]))
     };
     let [position_std, yaw_std] = stds_and_is_stated(0.0, 0.003);
@@ -89,7 +89,7 @@ fn the_reference_noise_is_estimated_unless_it_is_stated() {
 /// other α of the residual and to the reference is subtracted.
 #[test]
 fn panels_are_means_of_squared_innovations() {
-    let simulation = simulation(Settings::default());
+    let simulation = new_simulation(Settings::default());
     let Calibration { alphas, intervals, observations, leg_fits, .. } = simulation.calibration();
     let [rot1_panel, trans_panel, rot2_panel] = simulation.panels(Regressor::Turn);
     assert_eq!([rot1_panel.alpha, trans_panel.alpha, rot2_panel.alpha], [0, 3, 0]);
@@ -100,11 +100,11 @@ fn panels_are_means_of_squared_innovations() {
     let mut regression_points: Vec<[f64; 2]> = observations
         .iter()
         .zip(leg_fits)
-        .filter(|(_, fit)| !fit.is_outlier)
-        .map(|(observation, fit)| {
+        .filter(|(_, leg_fit)| !leg_fit.is_outlier)
+        .map(|(observation, leg_fit)| {
             let [rot1, _, rot2] = observation.reading;
             let squared_turns = rot1 * rot1 + rot2 * rot2;
-            let [variance, innovation] = [fit.stds[1].powi(2), fit.standardized[1] * fit.stds[1]];
+            let [variance, innovation] = [leg_fit.stds[1].powi(2), leg_fit.standardized[1] * leg_fit.stds[1]];
             [squared_turns, innovation * innovation - (variance - fitted_slope * squared_turns)]
         })
         .collect();
@@ -112,13 +112,16 @@ fn panels_are_means_of_squared_innovations() {
     let bin_size = regression_points.len().div_ceil(8);
     // Legs that turned by equal amounts are in the same bin.
     let bin_end_index = |i: usize| {
-        regression_points.partition_point(|point| {
-            point[0] <= regression_points[(i * bin_size).min(regression_points.len()) - 1][0]
+        regression_points.partition_point(|regression_point| {
+            regression_point[0] <= regression_points[(i * bin_size).min(regression_points.len()) - 1][0]
         })
     };
     for i in 0..8 {
-        let bin = &regression_points[if i == 0 { 0 } else { bin_end_index(i) }..bin_end_index(i + 1)];
-        let bin_mean = |axis: usize| bin.iter().map(|point| point[axis]).sum::<f64>() / bin.len() as f64;
+        let bin_points = &regression_points[if i == 0 { 0 } else { bin_end_index(i) }..bin_end_index(i + 1)];
+        let bin_mean = |coordinate_index: usize| {
+            bin_points.iter().map(|regression_point| regression_point[coordinate_index]).sum::<f64>()
+                / bin_points.len() as f64
+        };
         assert!(
             (trans_panel.x[i] - bin_mean(0)).abs() < 1e-12 && (trans_panel.y[i] - bin_mean(1)).abs() < 1e-12,
             "bin {i}"
@@ -141,7 +144,7 @@ fn panels_are_means_of_squared_innovations() {
 fn the_error_bars_of_panels_hold_the_fitted_lines() {
     let [mut bin_count, mut count_over_2, mut count_over_3] = [0; 3];
     for seed in 0..40 {
-        let simulation = simulation(Settings { seed, ..Settings::default() });
+        let simulation = new_simulation(Settings { seed, ..Settings::default() });
         for panel in [Regressor::Distance, Regressor::Turn]
             .into_iter()
             .flat_map(|regressor| simulation.panels(regressor))
@@ -155,7 +158,7 @@ fn the_error_bars_of_panels_hold_the_fitted_lines() {
             }
         }
     }
-    let fraction_of_bins = |count: usize| count as f64 / bin_count as f64;
+    let fraction_of_bins = |count_outside: usize| count_outside as f64 / bin_count as f64;
     assert!(
         fraction_of_bins(count_over_2) < 0.0455 && fraction_of_bins(count_over_3) < 0.0027,
         "{count_over_2} and {count_over_3} of {bin_count}"
@@ -165,22 +168,23 @@ fn the_error_bars_of_panels_hold_the_fitted_lines() {
 /// A turn on the spot may end a tenth of a millimetre behind its start. Table 5.6 then counts it as two half turns.
 #[test]
 fn turns_that_the_robot_did_not_make_are_in_no_panel() {
-    let mut simulation = simulation(Settings::default());
+    let mut simulation = new_simulation(Settings::default());
     let mut rng = seeded_rng(1);
     let mut pose = SE2::identity();
-    let odometry: Vec<(f64, SE2)> = (0..3000)
-        .map(|row| {
-            let [forward_step, turn_step] = [[-1e-5, 0.03], [0.03, 0.01], [0.03, 0.0]][row / 30 % 3];
+    let odometry_samples: Vec<(f64, SE2)> = (0..3000)
+        .map(|row_index| {
+            let [forward_step, turn_step] = [[-1e-5, 0.03], [0.03, 0.01], [0.03, 0.0]][row_index / 30 % 3];
             pose = pose.boxplus(Vector3::new(forward_step, 0.0, turn_step));
-            (0.1 * row as f64, pose)
+            (0.1 * row_index as f64, pose)
         })
         .collect();
-    let reference = odometry.iter().map(|(time, pose)| {
+    let reference_samples = odometry_samples.iter().map(|(time, pose)| {
         let draw_error = |_| NoiseKind::Normal.sample(Variance(1e-6), &mut rng);
         (*time, pose.boxplus([0; 3].map(draw_error).into()))
     });
-    let reference = Trajectory::new(reference.collect::<Vec<_>>()).expect("times rise");
-    simulation.set_log(vec![Log { odometry: Trajectory::new(odometry).expect("times rise"), reference }]);
+    let reference = Trajectory::new(reference_samples.collect::<Vec<_>>()).expect("times rise");
+    let odometry = Trajectory::new(odometry_samples).expect("times rise");
+    simulation.set_log(vec![Log { odometry, reference }]);
     let rot1_readings =
         simulation.calibration().observations.iter().map(|observation| observation.reading[0]);
     assert!(rot1_readings.filter(|rot1| rot1.abs() > 3.0).count() > 50);
@@ -191,7 +195,7 @@ fn turns_that_the_robot_did_not_make_are_in_no_panel() {
 
 #[test]
 fn a_leg_is_shown_in_the_frame_of_its_start() {
-    let simulation = simulation(Settings { inflation: 4.0, ..Settings::default() });
+    let simulation = new_simulation(Settings { inflation: 4.0, ..Settings::default() });
     let calibration = simulation.calibration();
     let leg_index = 100;
     let leg_view = simulation.leg(leg_index).expect("a leg");
@@ -205,17 +209,19 @@ fn a_leg_is_shown_in_the_frame_of_its_start() {
             .read
             .iter()
             .zip([odometry_end.x(), odometry_end.y(), odometry_end.theta()])
-            .all(|(computed, expected)| (computed - expected).abs() < 1e-12)
+            .all(|(computed_value, expected_value)| (computed_value - expected_value).abs() < 1e-12)
     );
     // Outcomes are drawn by the rule, with variances that are inflated by four.
     let mut alphas = [0.0; 5];
-    alphas.iter_mut().zip(&calibration.alphas).for_each(|(alpha, fitted)| *alpha = fitted.expect("known"));
+    for (alpha, fitted_alpha) in alphas.iter_mut().zip(&calibration.alphas) {
+        *alpha = fitted_alpha.expect("known");
+    }
     let leg_variances =
         OdometryRule::Table.variances(&OdomDelta { rot1, trans, rot2 }, &alphas.map(|alpha| 4.0 * alpha));
     let outcome_count = leg_view.outcomes.len() as f64;
-    let outcome_variance = |quantity: &dyn Fn(&[f64; 3]) -> f64| {
-        let mean = leg_view.outcomes.iter().map(quantity).sum::<f64>() / outcome_count;
-        leg_view.outcomes.iter().map(|outcome| (quantity(outcome) - mean).powi(2)).sum::<f64>()
+    let outcome_variance = |quantity_of: &dyn Fn(&[f64; 3]) -> f64| {
+        let quantity_mean = leg_view.outcomes.iter().map(quantity_of).sum::<f64>() / outcome_count;
+        leg_view.outcomes.iter().map(|outcome| (quantity_of(outcome) - quantity_mean).powi(2)).sum::<f64>()
             / outcome_count
     };
     let drive_variance = outcome_variance(&|[x, y, _]| libm::hypot(*x, *y));
@@ -232,26 +238,29 @@ fn a_leg_is_shown_in_the_frame_of_its_start() {
 
 #[test]
 fn the_nearest_leg_passes_through_the_point() {
-    let simulation = simulation(Settings::default());
+    let simulation = new_simulation(Settings::default());
     let calibration = simulation.calibration();
     let [start_pose, end_pose] = base_poses(calibration, 7);
-    let midpoint = [0.5 * (start_pose.x() + end_pose.x()), 0.5 * (start_pose.y() + end_pose.y())];
-    let nearest_index = simulation.nearest(midpoint, 1e-9).expect("it leads through there");
+    let leg_midpoint = [0.5 * (start_pose.x() + end_pose.x()), 0.5 * (start_pose.y() + end_pose.y())];
+    let nearest_index = simulation.nearest(leg_midpoint, 1e-9).expect("it leads through there");
     let distance = |a: [f64; 2], b: [f64; 2]| libm::hypot(a[0] - b[0], a[1] - b[1]);
-    let [start, end] = base_poses(calibration, nearest_index).map(|pose| [pose.x(), pose.y()]);
-    assert!(distance(start, midpoint) + distance(midpoint, end) - distance(start, end) < 1e-9);
+    let [leg_start, leg_end] = base_poses(calibration, nearest_index).map(|pose| [pose.x(), pose.y()]);
+    assert!(
+        distance(leg_start, leg_midpoint) + distance(leg_midpoint, leg_end) - distance(leg_start, leg_end)
+            < 1e-9
+    );
     assert_eq!(simulation.nearest([1e6, 0.0], 1.0), None);
-    assert_eq!(simulation.nearest(midpoint, 0.0), None);
+    assert_eq!(simulation.nearest(leg_midpoint, 0.0), None);
 }
 
 #[test]
 fn changing_the_model_or_the_rule_adjusts_the_other() {
     use motion::sim::settings::Rules;
-    let change_settings = |change: fn(&mut Settings), named: &str| {
+    let change_settings = |apply_change: fn(&mut Settings), changed_key: &str| {
         let settings_before = Settings::default();
         let mut settings = settings_before;
-        change(&mut settings);
-        settings.adjust(&settings_before, &[named]);
+        apply_change(&mut settings);
+        settings.adjust(&settings_before, &[changed_key]);
         settings
     };
     assert_eq!(change_settings(|s| s.model = Model::Omnidirectional, "model").rule, OdometryRule::Omni);
@@ -267,7 +276,7 @@ fn changing_the_model_or_the_rule_adjusts_the_other() {
 #[test]
 fn a_restored_fit_equals_the_saved_one_to_the_last_bit() {
     let settings = Settings { rule: OdometryRule::Nav2, distance: 0.4, ..Settings::default() };
-    let simulation = simulation(settings);
+    let simulation = new_simulation(settings);
     let saved_fit = postcard::to_allocvec(simulation.calibration()).expect("plain data");
     let fit = postcard::from_bytes(&saved_fit).expect("a fit");
     let mut restored_simulation = AlphaCalibrator::restore(settings, fit).expect("allowed");
@@ -295,7 +304,7 @@ fn a_restored_fit_equals_the_saved_one_to_the_last_bit() {
 
 #[test]
 fn a_log_without_legs_gives_an_empty_calibration() {
-    let mut simulation = simulation(Settings::default());
+    let mut simulation = new_simulation(Settings::default());
     let standing_trajectory =
         |count: usize| Trajectory::new((0..count).map(|i| (i as f64, SE2::identity()))).expect("times rise");
     simulation.set_log(vec![Log { odometry: standing_trajectory(10), reference: standing_trajectory(10) }]);

@@ -6,12 +6,12 @@ use motion::sim::arc_anatomy::{ArcAnatomy, Settings, Stats};
 use motion::{MotionModel, NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
 use std::f64::consts::PI;
 
-fn simulation(settings: Settings) -> ArcAnatomy {
+fn new_simulation(settings: Settings) -> ArcAnatomy {
     ArcAnatomy::new(settings).expect("valid settings")
 }
 
 pub fn stats(settings: Settings) -> Stats {
-    simulation(settings).stats()
+    new_simulation(settings).stats()
 }
 
 fn start_and_next_pose(settings: &Settings) -> (SE2, SE2) {
@@ -22,15 +22,15 @@ fn start_and_next_pose(settings: &Settings) -> (SE2, SE2) {
 fn random_settings(seed: u64) -> impl Iterator<Item = Settings> {
     let mut rng = seeded_rng(seed);
     std::iter::repeat_with(move || {
-        let mut draw_uniform_up_to = |limit: f64| draw_uniform(&mut rng, -limit, limit);
-        let start = [draw_uniform_up_to(3.0), draw_uniform_up_to(3.0), draw_uniform_up_to(PI)];
-        let next = [draw_uniform_up_to(3.0), draw_uniform_up_to(3.0), draw_uniform_up_to(PI)];
+        let mut draw_uniform_up_to = |max_abs: f64| draw_uniform(&mut rng, -max_abs, max_abs);
+        let start_pose = [draw_uniform_up_to(3.0), draw_uniform_up_to(3.0), draw_uniform_up_to(PI)];
+        let final_pose = [draw_uniform_up_to(3.0), draw_uniform_up_to(3.0), draw_uniform_up_to(PI)];
         let command = VelocityCmd {
             v: draw_uniform_up_to(1.5),
             omega: draw_uniform_up_to(2.0),
             dt: 0.1 + draw_uniform_up_to(1.0).abs(),
         };
-        Settings { start, next, command, ..Settings::default() }
+        Settings { start: start_pose, next: final_pose, command, ..Settings::default() }
     })
 }
 
@@ -43,28 +43,28 @@ fn table_as_printed(settings: &Settings) -> [f64; 8] {
     let mu = 0.5 * (dx * cos + dy * sin) / (dy * cos - dx * sin);
     let centre_x = 0.5 * (x.x() + next.x()) + mu * dy;
     let centre_y = 0.5 * (x.y() + next.y()) - mu * dx;
-    let radius = (x.x() - centre_x).hypot(x.y() - centre_y);
-    let turn = wrap_angle(
+    let arc_radius = (x.x() - centre_x).hypot(x.y() - centre_y);
+    let arc_turn = wrap_angle(
         (next.y() - centre_y).atan2(next.x() - centre_x) - (x.y() - centre_y).atan2(x.x() - centre_x),
     );
-    let gamma = wrap_angle(next.theta() - x.theta() - turn) / dt;
-    [mu, centre_x, centre_y, radius, turn, turn / dt * radius, turn / dt, gamma]
+    let gamma = wrap_angle(next.theta() - x.theta() - arc_turn) / dt;
+    [mu, centre_x, centre_y, arc_radius, arc_turn, arc_turn / dt * arc_radius, arc_turn / dt, gamma]
 }
 
 #[test]
 fn the_printed_option_computes_the_lines_of_the_table() {
     for settings in random_settings(1).take(20_000) {
-        let computed_lines = simulation(Settings { printed: true, ..settings }).table().lines;
+        let computed_lines = new_simulation(Settings { printed: true, ..settings }).table().lines;
         let expected_lines = table_as_printed(&settings);
         // The table loses digits if the radius is much larger than the distance, and for nearly full circles.
         let error_factor = 1.0 + expected_lines[0].abs() + expected_lines[3].abs();
-        for (line, expected) in expected_lines.iter().enumerate() {
-            let line_deviation = (computed_lines[line] - expected).abs();
+        for (line_index, expected_value) in expected_lines.iter().enumerate() {
+            let line_deviation = (computed_lines[line_index] - expected_value).abs();
             assert!(
                 line_deviation <= 1e-12 * error_factor * error_factor / settings.command.dt,
-                "line {}: {} for {expected}, {settings:?}",
-                line + 1,
-                computed_lines[line]
+                "line {}: {} for {expected_value}, {settings:?}",
+                line_index + 1,
+                computed_lines[line_index]
             );
         }
     }
@@ -76,9 +76,9 @@ fn robots_end_where_their_arcs_do_and_the_last_turn_gives_the_final_heading() {
         let (_, next_pose) = start_and_next_pose(&settings);
         let Stats { commanded, driven, last_turn, .. } = stats(settings);
         assert!(wrap_angle(driven.end[2] + last_turn - next_pose.theta()).abs() < 1e-13, "{settings:?}");
-        let [commanded_end, driven_end, _] = simulation(settings).poses_at(1.0);
-        for (robot, arc) in [(commanded_end, commanded), (driven_end, driven)] {
-            assert_eq!([robot.x(), robot.y()], arc.end[..2], "{settings:?}");
+        let [commanded_end, driven_end, _] = new_simulation(settings).poses_at(1.0);
+        for (end_pose, driven_arc) in [(commanded_end, commanded), (driven_end, driven)] {
+            assert_eq!([end_pose.x(), end_pose.y()], driven_arc.end[..2], "{settings:?}");
         }
     }
 }
@@ -149,10 +149,10 @@ fn without_noise_a_residual_is_zero_or_infinite() {
 #[test]
 fn a_last_turn_gives_the_twist_a_lateral_velocity() {
     for settings in random_settings(6).take(200) {
-        let simulation = simulation(settings);
-        let [along, lateral, _] = simulation.stats().xi;
+        let simulation = new_simulation(settings);
+        let [along_velocity, xi_lateral, _] = simulation.stats().xi;
         let time_step = 1e-5;
-        for (i, tick) in simulation.paths().ticks.iter().enumerate().take(8) {
+        for (i, path_tick) in simulation.paths().ticks.iter().enumerate().take(8) {
             let path_fraction = 0.125 * i as f64 + time_step;
             let [pose_before, middle_pose, pose_after] =
                 [path_fraction - time_step, path_fraction, path_fraction + time_step]
@@ -164,12 +164,14 @@ fn a_last_turn_gives_the_twist_a_lateral_velocity() {
             let (sin, cos) = middle_pose.theta().sin_cos();
             let lateral_velocity = cos * velocity[1] - sin * velocity[0];
             assert!(
-                (lateral_velocity - lateral).abs() < 1e-8 * (1.0 + along.abs() + lateral.abs()),
+                (lateral_velocity - xi_lateral).abs()
+                    < 1e-8 * (1.0 + along_velocity.abs() + xi_lateral.abs()),
                 "{settings:?}"
             );
-            let [x, y, to_x, to_y] = *tick;
-            assert!(((to_x - x).hypot(to_y - y) - lateral.abs()).abs() < 1e-12 * (1.0 + lateral.abs()));
-            assert!((pose_before.x() - x).hypot(pose_before.y() - y) < 1e-12 * (1.0 + along.abs()));
+            let [x, y, to_x, to_y] = *path_tick;
+            let lateral_speed = xi_lateral.abs();
+            assert!(((to_x - x).hypot(to_y - y) - lateral_speed).abs() < 1e-12 * (1.0 + lateral_speed));
+            assert!((pose_before.x() - x).hypot(pose_before.y() - y) < 1e-12 * (1.0 + along_velocity.abs()));
         }
         // Without the last turn the lateral component of the twist is 0.
         let Stats { driven, .. } = simulation.stats();
@@ -182,7 +184,7 @@ fn a_last_turn_gives_the_twist_a_lateral_velocity() {
 #[test]
 fn straight_motion_has_no_centre_and_no_motion_has_no_arc() {
     let settings = Settings { next: [2.0, 0.0, 0.0], ..Settings::default() };
-    let simulation = simulation(settings);
+    let simulation = new_simulation(settings);
     let Stats { inverted, factors, .. } = simulation.stats();
     assert_eq!((inverted.centre, inverted.radius, inverted.turn), (None, f64::INFINITY, 0.0));
     assert_eq!(factors[0].estimate, 2.0);

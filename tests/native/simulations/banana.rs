@@ -32,25 +32,25 @@ fn settings_of_both_models() -> [Settings; 2] {
 pub fn check_varied_clouds(
     command: [f64; 3],
     sample_counts: &[usize],
-    mut check: impl FnMut(&BananaMachine, &str),
+    mut check_simulation: impl FnMut(&BananaMachine, &str),
 ) {
     for settings in settings_of_both_models() {
         for noise in NOISE_KINDS {
             for [v, omega, dt] in
                 [[1.0, 0.5, 1.0], [-1.0, 1.2, 1.4], [0.06, -1.5, 1.0], [2.0, 0.0, 2.0], command]
             {
-                for &samples in sample_counts {
+                for &sample_count in sample_counts {
                     let command = VelocityCmd { v, omega, dt };
                     let odometry_alphas = [0.02, 0.01, 0.02, 0.01];
-                    let settings = Settings { noise, command, odometry_alphas, samples, ..settings };
-                    check(&simulation(settings), &format!("{settings:?}"));
+                    let settings =
+                        Settings { noise, command, odometry_alphas, samples: sample_count, ..settings };
+                    check_simulation(&simulation(settings), &format!("{settings:?}"));
                 }
             }
         }
     }
 }
 
-/// Returns all results of a simulation as text.
 fn results_as_text(simulation: &BananaMachine) -> String {
     format!(
         "{:?} {:?} {:?} {:?}",
@@ -67,34 +67,35 @@ const POSE_ACCURACY: f64 = 4.0 * MAX_SIN_COS_ERROR;
 /// The poses equal samples of the model with the same seed, forward and in reverse.
 #[test]
 fn the_cloud_equals_samples_of_the_model() {
-    let origin = SE2::identity();
+    let origin_pose = SE2::identity();
     let reverse_command = VelocityCmd { v: -1.0, omega: 0.5, dt: 1.0 };
     for (noise, command) in NOISE_KINDS
         .into_iter()
         .flat_map(|noise| [GENTLE_COMMAND, reverse_command].map(|command| (noise, command)))
     {
         let settings = Settings { noise, command, samples: 500, seed: 2005, ..settings_of_preset("gentle") };
-        let assert_same_poses = |settings: Settings, draw: &mut dyn FnMut(&mut Xoshiro256PlusPlus) -> SE2| {
-            let mut rng = seeded_rng(2005);
-            for pose in simulation(settings).poses() {
-                assert!(pose_distance(&pose, &draw(&mut rng)) < POSE_ACCURACY, "{settings:?}");
-            }
-        };
+        let assert_same_poses =
+            |settings: Settings, draw_pose: &mut dyn FnMut(&mut Xoshiro256PlusPlus) -> SE2| {
+                let mut rng = seeded_rng(2005);
+                for pose in simulation(settings).poses() {
+                    assert!(pose_distance(&pose, &draw_pose(&mut rng)) < POSE_ACCURACY, "{settings:?}");
+                }
+            };
         let model = VelocityModel { alphas: VelocityAlphas(settings.velocity_alphas), noise };
-        assert_same_poses(settings, &mut |rng| model.sample(&command, &origin, rng));
+        assert_same_poses(settings, &mut |rng| model.sample(&command, &origin_pose, rng));
         let odometry_settings = Settings { model: ModelKind::Odometry, ..settings };
         let model = OdometryModel { alphas: OdomAlphas(settings.odometry_alphas), noise };
-        let commanded_end = origin.boxplus(Vector3::new(command.v, 0.0, command.omega));
-        let reading = OdomDelta::from_poses(&origin, &commanded_end);
-        assert_same_poses(odometry_settings, &mut |rng| model.sample(&reading, &origin, rng));
+        let commanded_end = origin_pose.boxplus(Vector3::new(command.v, 0.0, command.omega));
+        let odometry_reading = OdomDelta::from_poses(&origin_pose, &commanded_end);
+        assert_same_poses(odometry_settings, &mut |rng| model.sample(&odometry_reading, &origin_pose, rng));
         let reverse_aware_settings = Settings { reverse_aware: true, ..odometry_settings };
         assert_same_poses(reverse_aware_settings, &mut |rng| {
-            ConfiguredOdometry { model, reverse_aware: true }.sample(&reading, &origin, rng)
+            ConfiguredOdometry { model, reverse_aware: true }.sample(&odometry_reading, &origin_pose, rng)
         });
     }
 }
 
-/// Each robot keeps its unit noises, such as (v̂ − v)/σ, if settings change.
+/// Each robot keeps its unit noises, such as (v̂ − v)/σ, when settings change.
 #[test]
 fn changed_settings_move_the_same_robots() {
     let first_settings = Settings { samples: 300, ..settings_of_preset("gentle") };
@@ -102,7 +103,8 @@ fn changed_settings_move_the_same_robots() {
     let unit_noises = |simulation: &BananaMachine| -> Vec<[f64; 3]> {
         let settings = simulation.settings();
         let model = VelocityModel { alphas: VelocityAlphas(settings.velocity_alphas), noise: settings.noise };
-        let [v_std, omega_std, gamma_std] = model.variances(&settings.command).map(|b2| b2.0.sqrt());
+        let [v_std, omega_std, gamma_std] =
+            model.variances(&settings.command).map(|variance| variance.0.sqrt());
         (0..300)
             .map(|i| {
                 let inspected_sample = simulation.inspect(i).unwrap();
@@ -187,9 +189,10 @@ fn isolating_an_alpha_sets_the_others_to_zero() {
         ..settings_of_preset("gentle")
     };
     let commanded_end = SE2::new(2.0, 0.0, 0.0);
-    let simulate_isolated = |alpha| simulation(Settings { isolate: Some(alpha), ..straight_settings });
-    for alpha in [4, 6] {
-        let simulation = simulate_isolated(alpha);
+    let simulate_isolated =
+        |isolated_alpha| simulation(Settings { isolate: Some(isolated_alpha), ..straight_settings });
+    for alpha_number in [4, 6] {
+        let simulation = simulate_isolated(alpha_number);
         assert!(
             simulation.poses().all(|pose| pose == commanded_end),
             "α₄ and α₆ are silent where nothing is turned"
@@ -259,7 +262,7 @@ fn exponential_statistics_are_undefined_near_a_full_turn() {
         let (stats, contours) = (simulation.stats(), simulation.contours());
         let exponential_values = [stats.gaussian_skew, stats.coverage.exponential, stats.exponential.mean.x];
         assert!(
-            exponential_values.iter().all(|value| value.is_nan() != is_defined),
+            exponential_values.iter().all(|statistic| statistic.is_nan() != is_defined),
             "ω = {omega}: {stats:?}"
         );
         assert_eq!(contours.exponential.is_empty(), !is_defined);
@@ -283,8 +286,9 @@ fn both_views_find_the_nearest_sample() {
         // The outermost sample is found from a target just inside of the search radius, and not from a target just outside.
         let rightmost_index =
             (0..view_points.len()).max_by(|&a, &b| view_points[a][0].total_cmp(&view_points[b][0])).unwrap();
-        let position_right_of_rightmost =
-            |distance| [view_points[rightmost_index][0] + distance, view_points[rightmost_index][1]];
+        let position_right_of_rightmost = |target_distance| {
+            [view_points[rightmost_index][0] + target_distance, view_points[rightmost_index][1]]
+        };
         assert_eq!(
             simulation.nearest(view, position_right_of_rightmost(0.0099), [0.01, 1e-9]),
             Some(rightmost_index)
@@ -323,14 +327,16 @@ fn a_reverse_aware_robot_has_no_noise_of_half_turns() {
     let command = VelocityCmd { v: -1.0, ..GENTLE_COMMAND };
     let odometry_settings =
         Settings { model: ModelKind::Odometry, command, samples: 10, ..settings_of_preset("gentle") };
-    let simulations =
+    let aware_and_unaware_simulations =
         [false, true].map(|reverse_aware| simulation(Settings { reverse_aware, ..odometry_settings }));
     let [alpha1, alpha2, ..] = odometry_settings.odometry_alphas;
-    let reading = simulations[0].reading();
-    // Without `reverse_aware`, both rotations are half a turn minus half the turn of the command. With it, they are half the turn of the command.
+    let reading = aware_and_unaware_simulations[0].reading();
+    // Without `reverse_aware`, both rotations are half a turn minus half the turn of the command. With `reverse_aware`, they are half the
+    // turn of the command.
     let possible_rotations = [reading.rot1.abs(), PI - reading.rot1.abs()];
-    for (simulation, rotation) in simulations.iter().zip(possible_rotations) {
-        let heading_variance = 2.0 * (alpha1 * rotation * rotation + alpha2 * reading.trans * reading.trans);
+    for (simulation, expected_rotation) in aware_and_unaware_simulations.iter().zip(possible_rotations) {
+        let heading_variance =
+            2.0 * (alpha1 * expected_rotation * expected_rotation + alpha2 * reading.trans * reading.trans);
         assert!((simulation.exact_moments().cov[(2, 2)] / heading_variance - 1.0).abs() < 1e-12);
         assert!((simulation.linearized_moments().cov[(2, 2)] / heading_variance - 1.0).abs() < 1e-12);
     }
@@ -344,8 +350,8 @@ fn additive_noise_does_not_depend_on_the_motion() {
         let simulation = simulation(Settings { command, samples: 10, ..settings_of_preset("gentle") });
         let commanded_end = simulation.linearized_moments().mean;
         for [x, y] in simulation.contours().additive {
-            let radius = libm::hypot(x - commanded_end.x, y - commanded_end.y);
-            assert!((radius - 2.0 * ADDITIVE_DEVIATION).abs() < 1e-12);
+            let circle_radius = libm::hypot(x - commanded_end.x, y - commanded_end.y);
+            assert!((circle_radius - 2.0 * ADDITIVE_DEVIATION).abs() < 1e-12);
         }
     }
     let cov = simulation(Settings { samples: 10, ..settings_of_preset("gentle") }).exact_moments().cov;
@@ -371,13 +377,13 @@ fn the_initial_cloud_is_close_to_the_exact_values() {
 
 #[test]
 fn numbers_in_messages_are_formatted_as_in_javascript() {
-    let assert_message = |field: &str, text: &str, change: &dyn Fn(&mut VelocityCmd)| {
+    let assert_message = |field_name: &str, message: &str, change_command: &dyn Fn(&mut VelocityCmd)| {
         let mut settings = Settings::default();
-        change(&mut settings.command);
-        let error = BananaMachine::new(settings).expect_err(text);
-        assert!(error.to_string().starts_with(&format!("command.{field} is {text}; ")), "{error}");
+        change_command(&mut settings.command);
+        let error = BananaMachine::new(settings).expect_err(message);
+        assert!(error.to_string().starts_with(&format!("command.{field_name} is {message}; ")), "{error}");
     };
-    for (number, text) in [
+    for (invalid_speed, message) in [
         (f64::INFINITY, "Infinity"),
         (f64::NEG_INFINITY, "-Infinity"),
         (f64::NAN, "NaN"),
@@ -386,9 +392,9 @@ fn numbers_in_messages_are_formatted_as_in_javascript() {
         (1e21, "1e21"),
         (-2.5e300, "-2.5e300"),
     ] {
-        assert_message("v", text, &|command| command.v = number);
+        assert_message("v", message, &|command| command.v = invalid_speed);
     }
-    for (seconds, text) in [(0.0, "0"), (-0.000_001, "-0.000001"), (5e-7, "5e-7"), (-1e-300, "-1e-300")] {
-        assert_message("dt", text, &|command| command.dt = seconds);
+    for (seconds, message) in [(0.0, "0"), (-0.000_001, "-0.000001"), (5e-7, "5e-7"), (-1e-300, "-1e-300")] {
+        assert_message("dt", message, &|command| command.dt = seconds);
     }
 }

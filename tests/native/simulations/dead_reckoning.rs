@@ -8,13 +8,12 @@ use nalgebra::{Matrix3, Vector3};
 
 /// Returns a simulation. If the selected step is beyond the end of the path, the last step is selected instead.
 pub fn simulation(settings: Settings) -> DeadReckoning {
-    let step = settings.step.min(settings.steps);
-    DeadReckoning::new(Settings { step, ..settings }).expect("valid settings")
+    let selected_step = settings.step.min(settings.steps);
+    DeadReckoning::new(Settings { step: selected_step, ..settings }).expect("valid settings")
 }
 
-/// Returns the default settings with another number of robots.
-fn settings_with_robots(samples: usize) -> Settings {
-    Settings { samples, ..Settings::default() }
+fn settings_with_robots(robot_count: usize) -> Settings {
+    Settings { samples: robot_count, ..Settings::default() }
 }
 
 /// Returns settings where approximations fail, such as sharp turns, reverse, large noise, and headings beyond half a turn.
@@ -39,12 +38,12 @@ fn challenging_settings() -> Vec<Settings> {
     ]
 }
 
-/// Asserts that two poses are equal up to rounding, which is proportional to `scale`.
-fn assert_same_pose([x, y, theta]: [f64; 3], expected: &SE2, scale: f64) {
-    let pose_difference = SE2::new(x, y, theta).boxminus(expected);
+/// Asserts that two poses are equal up to rounding, which is proportional to `path_scale`.
+fn assert_same_pose([x, y, theta]: [f64; 3], expected_pose: &SE2, path_scale: f64) {
+    let pose_difference = SE2::new(x, y, theta).boxminus(expected_pose);
     assert!(
-        pose_difference.amax() < 1e-13 * scale,
-        "({x}, {y}, {theta}), not {expected:?}: {pose_difference}"
+        pose_difference.amax() < 1e-13 * path_scale,
+        "({x}, {y}, {theta}), not {expected_pose:?}: {pose_difference}"
     );
 }
 
@@ -59,20 +58,20 @@ fn lanes_agree_with_poses_composed_one_by_one() {
         let mut block_rng = seeded_rng(settings.seed);
         block_rng.jump();
         block_rng.jump();
-        let mut pose = SE2::identity();
+        let mut composed_pose = SE2::identity();
         let rollout_poses = simulation.rollout(513).expect("a robot");
         let mut path_size = 1.0;
         for rollout_pose in rollout_poses {
             let uniform_draws: Vec<[f64; 3]> =
                 (0..256).map(|_| std::array::from_fn(|_| draw_centred_uniform(&mut block_rng))).collect();
             let unit_noise = uniform_draws[1].map(|q| NoiseKind::Normal.quantile(q));
-            let previous_pose = pose;
-            pose = model.apply_noise(&u, &pose, unit_noise);
+            let previous_pose = composed_pose;
+            composed_pose = model.apply_noise(&u, &composed_pose, unit_noise);
             // The rounding of a path grows with its length and its turn.
-            path_size +=
-                (pose.x() - previous_pose.x()).hypot(pose.y() - previous_pose.y()) + (u.omega * u.dt).abs();
+            path_size += (composed_pose.x() - previous_pose.x()).hypot(composed_pose.y() - previous_pose.y())
+                + (u.omega * u.dt).abs();
             let turn_noise = model.variances(&u)[1].0.sqrt() * u.dt * unit_noise[1].abs();
-            assert_same_pose(rollout_pose, &pose, path_size * (1.0 + turn_noise) * 4.0);
+            assert_same_pose(rollout_pose, &composed_pose, path_size * (1.0 + turn_noise) * 4.0);
         }
     }
 }
@@ -83,8 +82,9 @@ fn moments_are_those_of_the_cloud() {
     for (i, settings) in challenging_settings().into_iter().enumerate() {
         let simulation = simulation(settings);
         let n = settings.samples as f64;
-        let rollout_paths: Vec<_> =
-            (0..settings.samples).map(|index| simulation.rollout(index).expect("a robot")).collect();
+        let rollout_paths: Vec<_> = (0..settings.samples)
+            .map(|robot_index| simulation.rollout(robot_index).expect("a robot"))
+            .collect();
         for k in [0, settings.steps as usize / 2, settings.steps as usize - 1] {
             let nominal_pose = simulation.nominal_poses()[k];
             let twists: Vec<Vector3<f64>> = rollout_paths
@@ -131,12 +131,12 @@ fn moments_are_those_of_the_cloud() {
 #[test]
 fn ratios_and_misses_are_counted() {
     let simulation = simulation(Settings::default());
-    for order in RECURSIONS {
-        let comparison = simulation.comparison(order);
+    for recursion in RECURSIONS {
+        let comparison = simulation.comparison(recursion);
         for (axis, misses) in comparison.misses.iter().enumerate() {
             let expected_ratios: Vec<f64> = (0..20)
                 .map(|k| {
-                    let predicted_cov = simulation.predicted_covariances(order)[k].expect("a covariance");
+                    let predicted_cov = simulation.predicted_covariances(recursion)[k].expect("a covariance");
                     predicted_cov[(axis, axis)] / simulation.measured_moments()[k].cov[(axis, axis)]
                 })
                 .collect();
@@ -145,7 +145,7 @@ fn ratios_and_misses_are_counted() {
                     .ratios
                     .iter()
                     .zip(&expected_ratios)
-                    .all(|(ratio_row, ratio)| ratio_row[axis] == *ratio)
+                    .all(|(ratio_row, axis_ratio)| ratio_row[axis] == *axis_ratio)
             );
             let missed_steps: Vec<u32> =
                 (1..=20).filter(|k| (expected_ratios[*k as usize - 1] - 1.0).abs() > 0.05).collect();
@@ -192,10 +192,10 @@ fn a_zero_variance_has_no_relative_error() {
         assert!(
             relative_errors(Settings { alphas: [0.0; 6], ..settings_with_robots(samples) })
                 .iter()
-                .all(|error| error.is_nan())
+                .all(|relative_error| relative_error.is_nan())
         );
     }
-    assert!(relative_errors(settings_with_robots(1)).iter().all(|error| error.is_nan()));
+    assert!(relative_errors(settings_with_robots(1)).iter().all(|relative_error| relative_error.is_nan()));
     // Two robots always have a kurtosis of 1. The formula would therefore give an error of 0.
     assert!(
         relative_errors(settings_with_robots(2))
@@ -204,13 +204,13 @@ fn a_zero_variance_has_no_relative_error() {
     );
     // Robots that only turn have no variance along the track.
     let command_on_the_spot = VelocityCmd { v: 0.0, omega: 0.5, dt: 0.2 };
-    let [along, _, heading] = relative_errors(Settings {
+    let [along_error, _, heading_error] = relative_errors(Settings {
         command: command_on_the_spot,
         alphas: [0.0, 0.0, 0.0, 0.02, 0.0, 0.0],
         ..settings_with_robots(300)
     })
     .into();
-    assert!(along.is_nan() && heading.is_finite(), "{along} {heading}");
+    assert!(along_error.is_nan() && heading_error.is_finite(), "{along_error} {heading_error}");
     // The squares of such small variances underflow to 0.
     let slow_drive_settings =
         Settings { command: VelocityCmd { v: 1e-100, omega: 0.0, dt: 0.2 }, ..settings_with_robots(300) };
@@ -228,7 +228,7 @@ fn a_fourth_order_without_a_covariance_has_no_ratio() {
     assert!(
         simulation.comparison(Compounding::FourthOrder).ratios[first_undefined..]
             .iter()
-            .all(|ratio| ratio.x.is_nan())
+            .all(|variance_ratio| variance_ratio.x.is_nan())
     );
     assert!(simulation.predicted_covariances(Compounding::FirstOrder).iter().all(Option::is_some));
     let settings =
@@ -248,10 +248,10 @@ fn a_seed_gives_the_same_draws() {
     let short_simulation = simulation(Settings { steps: 7, ..settings_with_robots(300) });
     let noisy_simulation =
         simulation(Settings { alphas: [0.08, 0.08, 0.08, 0.08, 0.02, 0.02], ..settings_with_robots(300) });
-    for index in [0, 1, 255, 256, 299] {
-        let path = large_simulation.rollout(index).expect("a robot");
-        assert_eq!(small_simulation.rollout(index).as_ref(), Some(&path));
-        assert_eq!(short_simulation.rollout(index).as_deref(), Some(&path[..7]));
+    for robot_index in [0, 1, 255, 256, 299] {
+        let path = large_simulation.rollout(robot_index).expect("a robot");
+        assert_eq!(small_simulation.rollout(robot_index).as_ref(), Some(&path));
+        assert_eq!(short_simulation.rollout(robot_index).as_deref(), Some(&path[..7]));
         // With twice the noise, the executed velocities of the first step differ from the command by twice as much.
         let u = Settings::default().command;
         let first_step_noise = |path: &[[f64; 3]]| {
@@ -259,7 +259,7 @@ fn a_seed_gives_the_same_draws() {
             let inversion = motion::invert_arc(&SE2::identity(), &SE2::new(x, y, theta), u.dt);
             Vector3::new(inversion.v_hat - u.v, inversion.omega_hat - u.omega, inversion.gamma_hat)
         };
-        let double_noise = first_step_noise(&noisy_simulation.rollout(index).expect("a robot"));
+        let double_noise = first_step_noise(&noisy_simulation.rollout(robot_index).expect("a robot"));
         assert!((double_noise - first_step_noise(&path) * 2.0).amax() < 1e-12, "{double_noise}");
     }
     assert_ne!(
@@ -277,20 +277,21 @@ fn noise_of_the_whole_path_is_divided_among_its_steps() {
         VelocityModel { alphas: VelocityAlphas(Settings::default().alphas), noise: NoiseKind::Normal }
             .variances(&whole_command)
             .map(|variance| variance.0 * whole_command.dt * whole_command.dt);
-    for steps in [1, 20, 200] {
-        let command = VelocityCmd { dt: whole_command.dt / f64::from(steps), ..whole_command };
-        let settings = Settings { command, steps, step: 1, per: NoisePer::Path, ..settings_with_robots(1) };
+    for step_count in [1, 20, 200] {
+        let command = VelocityCmd { dt: whole_command.dt / f64::from(step_count), ..whole_command };
+        let settings =
+            Settings { command, steps: step_count, step: 1, per: NoisePer::Path, ..settings_with_robots(1) };
         let step_variances =
             settings.model().variances(&command).map(|variance| variance.0 * command.dt * command.dt);
         for i in 0..3 {
             assert!(
-                (step_variances[i] * f64::from(steps) / expected_variances[i] - 1.0).abs() < 1e-12,
-                "{steps}, {i}"
+                (step_variances[i] * f64::from(step_count) / expected_variances[i] - 1.0).abs() < 1e-12,
+                "{step_count}, {i}"
             );
         }
-        // The heading variances of the steps add up.
+        // The heading variances of all steps add up.
         let covariance = simulation(settings).predicted_covariances(Compounding::FirstOrder)
-            [steps as usize - 1]
+            [step_count as usize - 1]
             .expect("a covariance");
         assert!((covariance[(2, 2)] / (expected_variances[1] + expected_variances[2]) - 1.0).abs() < 1e-12);
     }
@@ -323,8 +324,8 @@ fn outlines_are_two_standard_deviations_from_the_commanded_pose() {
         let relative_pose = nominal_pose.inverse() * SE2::new(*x, *y, 0.0);
         [relative_pose.x(), relative_pose.y()]
     });
-    for position in relative_positions.chain(outlines.predicted).map(nalgebra::Vector2::from) {
-        assert!((position.dot(&(inverse_cov * position)) - 4.0).abs() < 1e-9);
+    for outline_position in relative_positions.chain(outlines.predicted).map(nalgebra::Vector2::from) {
+        assert!((outline_position.dot(&(inverse_cov * outline_position)) - 4.0).abs() < 1e-9);
     }
     // In the first step the predicted lateral variance is 0, so that the outline is a line.
     let first_outlines =

@@ -25,20 +25,20 @@ impl CompensatedSum {
 }
 
 fn exact_mean(terms: impl Iterator<Item = f64>) -> f64 {
-    let (mut sum, mut count) = (CompensatedSum::default(), 0.0);
+    let (mut sum, mut term_count) = (CompensatedSum::default(), 0.0);
     for term in terms {
         sum.add(term);
-        count += 1.0;
+        term_count += 1.0;
     }
-    (sum.sum + sum.rounding_errors) / count
+    (sum.sum + sum.rounding_errors) / term_count
 }
 
-fn assert_close(name: &str, computed: f64, expected: f64, scale: f64) {
-    assert!((computed - expected).abs() <= 1e-12 * scale, "{name}: {computed} is not {expected}");
+fn assert_close(quantity_name: &str, computed: f64, expected: f64, scale: f64) {
+    assert!((computed - expected).abs() <= 1e-12 * scale, "{quantity_name}: {computed} is not {expected}");
 }
 
 /// Asserts that statistics of a cloud equal their definitions. `cross_track` has the skew, the skew error and the correlation with the heading.
-fn assert_exact_moments(poses: &[SE2], cartesian: &CartesianMoments, cross_track: [f64; 3]) {
+fn assert_exact_moments(poses: &[SE2], moments: &CartesianMoments, cross_track: [f64; 3]) {
     let n = poses.len() as f64;
     let (sin, cos) = (
         exact_mean(poses.iter().map(|pose| libm::sin(pose.theta()))),
@@ -46,9 +46,9 @@ fn assert_exact_moments(poses: &[SE2], cartesian: &CartesianMoments, cross_track
     );
     let mean_heading = libm::atan2(sin, cos);
     let mean_position = [exact_mean(poses.iter().map(SE2::x)), exact_mean(poses.iter().map(SE2::y))];
-    assert_close("mean heading", cartesian.mean.z, mean_heading, 1.0);
-    assert_close("mean x", cartesian.mean.x, mean_position[0], 1.0);
-    assert_close("mean y", cartesian.mean.y, mean_position[1], 1.0);
+    assert_close("mean heading", moments.mean.z, mean_heading, 1.0);
+    assert_close("mean x", moments.mean.x, mean_position[0], 1.0);
+    assert_close("mean y", moments.mean.y, mean_position[1], 1.0);
 
     let pose_residuals = || {
         poses.iter().map(|pose| {
@@ -68,8 +68,8 @@ fn assert_exact_moments(poses: &[SE2], cartesian: &CartesianMoments, cross_track
                 pose_residuals().map(|r| subtract_expected_mean(r, i) * subtract_expected_mean(r, j)),
             ) * n
                 / (n - 1.0);
-            let std_product = (cartesian.cov[(i, i)] * cartesian.cov[(j, j)]).sqrt();
-            assert_close(&format!("cov {i}{j}"), cartesian.cov[(i, j)], expected_cov, std_product);
+            let std_product = (moments.cov[(i, i)] * moments.cov[(j, j)]).sqrt();
+            assert_close(&format!("cov {i}{j}"), moments.cov[(i, j)], expected_cov, std_product);
         }
     }
 
@@ -95,7 +95,7 @@ fn assert_exact_moments(poses: &[SE2], cartesian: &CartesianMoments, cross_track
             + heading_factor * libm::sin(turn)
     };
     let expected_skew_error =
-        (exact_mean(all_track_coordinates().map(|track| influence_on_skew(track).powi(2))) / n).sqrt();
+        (exact_mean(all_track_coordinates().map(|robot| influence_on_skew(robot).powi(2))) / n).sqrt();
     assert_close("skew error", cross_track[1], expected_skew_error, expected_skew_error);
     let heading_variance = exact_mean(pose_residuals().map(|r| (r.z - mean_heading_residual).powi(2)));
     let expected_correlation = exact_mean(all_track_coordinates().map(|(_, d, turn)| d * turn))
@@ -113,14 +113,15 @@ fn assert_exact_stats(simulation: &BananaMachine) {
 
     let pose_twist =
         |pose: &SE2| pose.log_near(simulation.settings().command.omega * simulation.settings().command.dt);
-    let twists = || poses.iter().map(pose_twist);
-    let twist_mean = Vector3::from_fn(|i, _| exact_mean(twists().map(|pose_twist| pose_twist[i])));
+    let robot_twists = || poses.iter().map(pose_twist);
+    let twist_mean = Vector3::from_fn(|i, _| exact_mean(robot_twists().map(|pose_twist| pose_twist[i])));
     // Exponential coordinates are undefined if robots turn by a full circle.
     for i in if simulation.is_chart_defined() { 0..3 } else { 0..0 } {
         assert_close(&format!("twist {i}"), exponential.mean[i], twist_mean[i], 1.0);
         for j in 0..3 {
             let expected_cov =
-                exact_mean(twists().map(|t| (t[i] - twist_mean[i]) * (t[j] - twist_mean[j]))) * n / (n - 1.0);
+                exact_mean(robot_twists().map(|t| (t[i] - twist_mean[i]) * (t[j] - twist_mean[j]))) * n
+                    / (n - 1.0);
             let std_product = (exponential.cov[(i, i)] * exponential.cov[(j, j)]).sqrt();
             assert_close(&format!("twist cov {i}{j}"), exponential.cov[(i, j)], expected_cov, std_product);
         }
@@ -150,7 +151,7 @@ fn small_and_unusual_clouds_agree_with_exact_sums() {
         assert_exact_stats(simulation);
         let poses: Vec<SE2> = simulation.poses().collect();
         let CrossTrack { skew, skew_error, rho_heading } = CrossTrack::from_poses(&poses);
-        let cartesian_moments = CartesianMoments::from_poses(&poses);
-        assert_exact_moments(&poses, &cartesian_moments, [skew, skew_error, rho_heading]);
+        let moments = CartesianMoments::from_poses(&poses);
+        assert_exact_moments(&poses, &moments, [skew, skew_error, rho_heading]);
     });
 }

@@ -36,12 +36,12 @@ fn nearest_finds_robots_at_their_morphed_positions() {
         Settings { command: VelocityCmd { v: 1.0, omega: 2.4, dt: 1.5 }, ..settings_of_preset("banana") },
     ] {
         let simulation = simulation(Settings { samples: 103, ..settings });
-        for (index, (pose, twist)) in simulation.poses().zip(simulation.twists()).enumerate() {
+        for (robot_index, (pose, twist)) in simulation.poses().zip(simulation.twists()).enumerate() {
             for morph in MORPH_FRACTIONS {
                 let morphed_position = unbend(&twist, morph);
                 assert_eq!(
                     simulation.nearest(View::from_morph(morph), morphed_position, [1e-10; 2]),
-                    Some(index),
+                    Some(robot_index),
                     "{morph}"
                 );
                 let bend_factor = 1.0 - morph;
@@ -80,14 +80,14 @@ fn the_same_robots_stay_inside_an_outline() {
             samples: 5000,
             ..settings_of_preset("banana")
         });
-        let contour = ExponentialContour::new(&simulation.stats().exponential, &SE2::identity());
+        let exponential_contour = ExponentialContour::new(&simulation.stats().exponential, &SE2::identity());
         let are_robots_inside = |morph: f64| {
-            let ellipse = unbend_line(&simulation.contours().ellipse, omega * 2.0, morph);
-            let outline = contour.morphed_boundary(OUTLINE_SEGMENTS, morph);
-            [ellipse, outline].map(|outline| {
+            let morphed_ellipse = unbend_line(&simulation.contours().ellipse, omega * 2.0, morph);
+            let morphed_outline = exponential_contour.morphed_boundary(OUTLINE_SEGMENTS, morph);
+            [morphed_ellipse, morphed_outline].map(|morphed_outline| {
                 simulation
                     .twists()
-                    .map(|twist| winds_around(&outline, unbend(&twist, morph)))
+                    .map(|twist| winds_around(&morphed_outline, unbend(&twist, morph)))
                     .collect::<Vec<_>>()
             })
         };
@@ -108,8 +108,8 @@ fn the_morphed_outline_equals_that_of_each_view_at_its_end() {
     let stats = simulation.stats();
     let contour = ExponentialContour::new(&stats.exponential, &SE2::identity());
     assert_eq!(contour.morphed_boundary(OUTLINE_SEGMENTS, 0.0), simulation.contours().exponential);
-    for point in contour.morphed_boundary(OUTLINE_SEGMENTS, 1.0) {
-        assert!((contour.ellipse.mahalanobis_distance(point) - 2.0).abs() < 1e-9);
+    for outline_point in contour.morphed_boundary(OUTLINE_SEGMENTS, 1.0) {
+        assert!((contour.ellipse.mahalanobis_distance(outline_point) - 2.0).abs() < 1e-9);
     }
 }
 
@@ -126,18 +126,18 @@ fn a_morphed_line_stays_connected_or_is_omitted() {
         assert_eq!(morphed_line.len(), 129);
         assert!(morphed_line.windows(2).all(|ends| distance(ends[0], ends[1]) < 0.4), "{morph}");
     }
-    for (point, morphed_point) in circle_at(0.7).iter().zip(unbend_line(&circle_at(0.7), 0.3, 0.0)) {
-        assert!(distance(*point, morphed_point) < 1e-12);
+    for (circle_point, morphed_point) in circle_at(0.7).iter().zip(unbend_line(&circle_at(0.7), 0.3, 0.0)) {
+        assert!(distance(*circle_point, morphed_point) < 1e-12);
     }
 }
 
 #[test]
 fn find_arc_inverts_the_morph() {
     for morph in MORPH_FRACTIONS {
-        for [length, turn] in [[1.0, 0.5], [2.0, -1.0], [1.4, 1.7], [0.3, 0.0]] {
-            let position = unbend(&Vector3::new(length, 0.0, turn), morph);
-            let arc = find_arc(position, [length + 0.1, turn - 0.1], morph).expect("an arc");
-            assert!(distance(arc, [length, turn]) < 1e-9, "{morph}: {arc:?}");
+        for [arc_length, arc_turn] in [[1.0, 0.5], [2.0, -1.0], [1.4, 1.7], [0.3, 0.0]] {
+            let position = unbend(&Vector3::new(arc_length, 0.0, arc_turn), morph);
+            let found_arc = find_arc(position, [arc_length + 0.1, arc_turn - 0.1], morph).expect("an arc");
+            assert!(distance(found_arc, [arc_length, arc_turn]) < 1e-9, "{morph}: {found_arc:?}");
         }
     }
 }
@@ -151,7 +151,7 @@ fn gaps_are_inside_the_ellipse_only_and_contain_no_robot() {
         assert!(winds_around(&contours.ellipse, gap) && !winds_around(&contours.exponential, gap));
         assert_eq!(simulation.nearest(View::Plane, gap, [0.03; 2]), None, "{gap:?}");
     }
-    for name in ["straight", "gentle", "hard", "pivot", "worked"] {
-        assert!(self::simulation(settings_of_preset(name)).gaps().is_empty(), "{name}");
+    for preset_name in ["straight", "gentle", "hard", "pivot", "worked"] {
+        assert!(self::simulation(settings_of_preset(preset_name)).gaps().is_empty(), "{preset_name}");
     }
 }

@@ -54,12 +54,12 @@ fn the_leg_poses_follow_the_legs_of_the_reading() {
         for rule in OdometryRule::ALL {
             let simulation = simulation(Settings { rule, ..*preset });
             let [start_pose, pose_after_rot1, pose_after_drive, final_pose] = simulation.leg_poses();
-            let legs = simulation.legs();
+            let reading_legs = simulation.legs();
             assert_eq!(start_pose, preset.from.into());
             assert_eq!((pose_after_rot1.x(), pose_after_rot1.y()), (start_pose.x(), start_pose.y()));
             assert!(
                 ((pose_after_drive.x() - start_pose.x()).hypot(pose_after_drive.y() - start_pose.y())
-                    - legs.trans)
+                    - reading_legs.trans)
                     .abs()
                     < 1e-15
             );
@@ -68,8 +68,8 @@ fn the_leg_poses_follow_the_legs_of_the_reading() {
                 [final_pose.x(), final_pose.y(), pose_after_rot1.theta()]
             );
             assert!(pose_distance(&final_pose, &preset.to.into()) < 0.01, "{name} by {rule:?}");
-            let robot_pose_at = |phase| {
-                let settings = Settings { phase, ..*simulation.settings() };
+            let robot_pose_at = |animation_phase| {
+                let settings = Settings { phase: animation_phase, ..*simulation.settings() };
                 OdometryDecomposer::new(settings).expect("a valid setting").robot_pose()
             };
             for (phase, pose) in
@@ -93,25 +93,25 @@ fn the_leg_poses_follow_the_legs_of_the_reading() {
 /// The prediction depends only on the relative motion. A drift of the odometry frame does not change it.
 #[test]
 fn the_prediction_does_not_depend_on_the_drift() {
-    let simulate_drift = |drift| simulation(Settings { drift, ..Settings::default() });
+    let simulate_drift = |drift_seconds| simulation(Settings { drift: drift_seconds, ..Settings::default() });
     let (simulation_without_drift, simulation_with_long_drift) = (simulate_drift(0.0), simulate_drift(300.0));
     assert_eq!(simulation_without_drift.poses(), simulation_with_long_drift.poses());
     assert_eq!(simulation_without_drift.rule_noises(), simulation_with_long_drift.rule_noises());
     let [fixed_odometry, drifted_odometry] =
         [&simulation_without_drift, &simulation_with_long_drift].map(OdometryDecomposer::drifted_odometry);
     assert_eq!(fixed_odometry.poses[0], [0.0; 3]);
-    // The poses have moved by metres, and the legs are the same.
+    // The drift moves the poses by metres and keeps the legs of the reading.
     assert!(
         (drifted_odometry.poses[2][0] - fixed_odometry.poses[2][0])
             .hypot(drifted_odometry.poses[2][1] - fixed_odometry.poses[2][1])
             > 2.0
     );
-    let [a, b] = [&drifted_odometry, &fixed_odometry].map(|odometry| odometry.legs);
+    let [a, b] = [&drifted_odometry, &fixed_odometry].map(|odometry_view| odometry_view.legs);
     let leg_differences = [a.rot1 - b.rot1, a.trans - b.trans, a.rot2 - b.rot2];
-    assert!(leg_differences.iter().all(|difference| difference.abs() < 1e-14), "{leg_differences:?}");
+    assert!(leg_differences.iter().all(|leg_difference| leg_difference.abs() < 1e-14), "{leg_differences:?}");
 }
 
-/// With a large noise of the rotation, the linear estimate `lever` exceeds the length of the drive, which is impossible for robots.
+/// With a large noise of the rotation, the linear estimate `lever_estimate` exceeds the length of the drive, which is impossible for robots.
 #[test]
 fn the_curve_contains_the_values_of_the_readouts() {
     for rule in OdometryRule::ALL {
@@ -123,14 +123,14 @@ fn the_curve_contains_the_values_of_the_readouts() {
             curve_points.iter().map(|[trans, ..]| *trans).collect::<Vec<_>>(),
             [0.0, drive_distance, 2.0 * drive_distance]
         );
-        let [_, cross_track, lever, along] = curve_points[1];
-        assert_eq!((cross_track, lever), (stats.exact_cross_track, stats.lever));
+        let [_, cross_track, lever_estimate, along_deviation] = curve_points[1];
+        assert_eq!((cross_track, lever_estimate), (stats.exact_cross_track, stats.lever));
         let rule_noise =
             simulation.rule_noises().into_iter().find(|noise| noise.rule == rule).expect("all rules");
-        assert_eq!((rule_noise.deviations[1], rule_noise.cross_track), (along, cross_track));
+        assert_eq!((rule_noise.deviations[1], rule_noise.cross_track), (along_deviation, cross_track));
         assert_eq!(simulation.deviation_curve(1.0, 1).len(), 1);
     }
     let noisy_simulation = simulation(Settings { alphas: [2.0, 2.0, 0.0, 0.0, 0.0], ..Settings::default() });
-    let [trans, cross_track, lever, _] = noisy_simulation.deviation_curve(10.0, 2)[1];
-    assert!(cross_track < trans && lever > 10.0 * trans);
+    let [trans, cross_track, lever_estimate, _] = noisy_simulation.deviation_curve(10.0, 2)[1];
+    assert!(cross_track < trans && lever_estimate > 10.0 * trans);
 }

@@ -15,7 +15,7 @@ fn grids_over(min: [f64; 2], max: [f64; 2]) -> [Grid; 4] {
 
 /// Returns a colour ramp whose colours contain their step and the number of the ramp.
 fn numbered_ramp(ramp_number: u8) -> Ramp {
-    std::array::from_fn(|step| [step as u8, ramp_number, 7, 255])
+    std::array::from_fn(|ramp_step| [ramp_step as u8, ramp_number, 7, 255])
 }
 
 /// Returns the index of the cell that contains a point, row by row from the top.
@@ -28,8 +28,8 @@ fn cell_index(grid: &Grid, [x, y]: [f64; 2]) -> Option<usize> {
 }
 
 /// Returns the step of the ramp for a count: 255·√(count/max_count), rounded.
-fn ramp_step(count: u32, max_count: u32) -> u8 {
-    ((RAMP_STEP_COUNT - 1) as f64 * (f64::from(count) / f64::from(max_count)).sqrt()).round() as u8
+fn ramp_step(sample_count: u32, max_count: u32) -> u8 {
+    ((RAMP_STEP_COUNT - 1) as f64 * (f64::from(sample_count) / f64::from(max_count)).sqrt()).round() as u8
 }
 
 #[test]
@@ -38,27 +38,27 @@ fn pixels_show_the_density_of_the_cloud() {
     let mut simulation = BananaMachine::new(settings).expect("a valid setting");
     let positions: Vec<[f64; 2]> = simulation.poses().map(|pose| [pose.x(), pose.y()]).collect();
     let twists: Vec<[f64; 2]> = simulation.twists().map(|twist| [twist.x, twist.z]).collect();
-    let new_case = |view, points| move |grid| (view, points, grid);
+    let new_case = |view, sample_points| move |grid| (view, sample_points, grid);
     let plane_cases = grids_over([0.75, -0.2], [1.2, 0.4]).map(new_case(View::Plane, &positions));
     let twist_cases = grids_over([0.75, 0.1], [1.2, 0.7]).map(new_case(View::Twist, &twists));
     for (view, points, grid) in plane_cases.into_iter().chain(twist_cases) {
         let mut cell_counts = vec![0u32; grid.columns * grid.rows];
         points
             .iter()
-            .filter_map(|point| cell_index(&grid, *point))
+            .filter_map(|sample_point| cell_index(&grid, *sample_point))
             .for_each(|cell_index| cell_counts[cell_index] += 1);
         let max_count = *cell_counts.iter().max().expect("there are cells");
         assert!((1..3000).contains(&cell_counts.iter().sum::<u32>()), "some are outside");
         // The picture is painted twice, because no pixel may remain from the first time.
-        for attempt in ["first", "second"] {
+        for paint_pass in ["first", "second"] {
             let pixels = simulation.paint(view, &grid, &numbered_ramp(3));
             assert_eq!(pixels.len(), cell_counts.len());
-            for (i, (pixel, count)) in pixels.iter().zip(&cell_counts).enumerate() {
+            for (i, (pixel, cell_count)) in pixels.iter().zip(&cell_counts).enumerate() {
                 let expected_pixel =
-                    if *count == 0 { [0; 4] } else { [ramp_step(*count, max_count), 3, 7, 255] };
-                assert_eq!(*pixel, expected_pixel, "{attempt}, cell {i} of {grid:?}");
+                    if *cell_count == 0 { [0; 4] } else { [ramp_step(*cell_count, max_count), 3, 7, 255] };
+                assert_eq!(*pixel, expected_pixel, "{paint_pass}, cell {i} of {grid:?}");
             }
-            assert_eq!(simulation.density(view, &grid), cell_counts, "{attempt}");
+            assert_eq!(simulation.density(view, &grid), cell_counts, "{paint_pass}");
         }
     }
 }
@@ -82,26 +82,27 @@ fn cells_have_the_colour_of_their_most_frequent_outcome() {
         let max_count = *cell_totals.iter().max().expect("there are cells");
         assert!((1..3000).contains(&cell_totals.iter().sum::<u32>()), "some are outside");
         for _ in 0..2 {
-            let ramps = std::array::from_fn(|kind| numbered_ramp(kind as u8));
+            let ramps = std::array::from_fn(|outcome| numbered_ramp(outcome as u8));
             let pixels = simulation.paint(&grid, &ramps);
             assert_eq!(pixels.len(), cell_totals.len());
-            for ((pixel, counts_by_kind), total) in pixels.iter().zip(&cell_counts).zip(&cell_totals) {
-                if *total == 0 {
+            for ((pixel, counts_by_kind), cell_total) in pixels.iter().zip(&cell_counts).zip(&cell_totals) {
+                if *cell_total == 0 {
                     assert_eq!(*pixel, [0; 4]);
                     continue;
                 }
-                let [shade, kind, ..] = *pixel;
-                assert_eq!(*pixel, [ramp_step(*total, max_count), kind, 7, 255], "{counts_by_kind:?}");
+                let [ramp_shade, outcome, ..] = *pixel;
+                let expected_step = ramp_step(*cell_total, max_count);
+                assert_eq!(*pixel, [expected_step, outcome, 7, 255], "{counts_by_kind:?}");
                 assert!(
-                    counts_by_kind.iter().all(|count| *count <= counts_by_kind[usize::from(kind)]),
-                    "{shade}: {counts_by_kind:?}"
+                    counts_by_kind.iter().all(|count| *count <= counts_by_kind[usize::from(outcome)]),
+                    "{ramp_shade}: {counts_by_kind:?}"
                 );
-                painted_cell_counts[usize::from(kind)] += 1;
+                painted_cell_counts[usize::from(outcome)] += 1;
             }
         }
     }
     assert!(
-        painted_cell_counts.iter().all(|cells| *cells > 0),
+        painted_cell_counts.iter().all(|painted_count| *painted_count > 0),
         "all kinds are seen: {painted_cell_counts:?}"
     );
 }

@@ -8,15 +8,14 @@ use motion::sim::settings::Rules;
 use motion::sim::squeeze::{MapSqueeze, Settings, wilson_interval};
 use motion::{NoiseKind, VelocityAlphas, VelocityCmd, VelocityModel};
 
-fn simulation(settings: Settings) -> MapSqueeze {
+fn new_simulation(settings: Settings) -> MapSqueeze {
     MapSqueeze::new(settings).expect("a valid setting")
 }
 
-fn poses(simulation: &MapSqueeze) -> Vec<SE2> {
+fn attempt_poses(simulation: &MapSqueeze) -> Vec<SE2> {
     simulation.attempts().iter().map(|attempt| attempt.pose).collect()
 }
 
-/// Returns all results of a simulation as text.
 fn results_as_text(simulation: &MapSqueeze) -> String {
     let (settings, stats) = (simulation.settings(), simulation.stats());
     format!(
@@ -31,8 +30,8 @@ fn results_as_text(simulation: &MapSqueeze) -> String {
 #[test]
 fn changed_samplers_and_maps_move_no_sample() {
     let settings = Settings { samples: 3000, ..Settings::default() };
-    let mut simulation = simulation(settings);
-    let (results_before, poses_before) = (results_as_text(&simulation), poses(&simulation));
+    let mut simulation = new_simulation(settings);
+    let (results_before, poses_before) = (results_as_text(&simulation), attempt_poses(&simulation));
     let attempt_verdicts = |simulation: &MapSqueeze| -> Vec<[bool; 2]> {
         simulation.attempts().iter().map(|attempt| [attempt.end_free, attempt.path_free]).collect()
     };
@@ -41,14 +40,14 @@ fn changed_samplers_and_maps_move_no_sample() {
     simulation.configure(Settings { sampler: Sampler::WholeArc, ..settings }).expect("valid");
     assert!(simulation.attempts().iter().all(|attempt| attempt.accepted == attempt.path_free));
     assert_eq!(
-        (poses(&simulation), attempt_verdicts(&simulation)),
+        (attempt_poses(&simulation), attempt_verdicts(&simulation)),
         (poses_before.clone(), verdicts_before.clone())
     );
     assert_eq!(simulation.stats().through_wall, 0);
     for sampler in [Sampler::Endpoint, Sampler::WholeArc] {
         simulation.configure(Settings { conditioned: false, sampler, ..settings }).expect("valid");
         assert!(
-            (poses(&simulation), attempt_verdicts(&simulation))
+            (attempt_poses(&simulation), attempt_verdicts(&simulation))
                 == (poses_before.clone(), verdicts_before.clone()),
             "{sampler:?}"
         );
@@ -56,30 +55,34 @@ fn changed_samplers_and_maps_move_no_sample() {
         assert_eq!((simulation.stats().drawn, simulation.stats().wall_tests_per_accepted), (3000, 0.0));
     }
     simulation.set_plan(too_small_room());
-    assert_eq!(poses(&simulation), poses_before);
+    assert_eq!(attempt_poses(&simulation), poses_before);
     assert_eq!(simulation.stats().through_wall, 3000);
     simulation.set_plan(FloorPlan::apartment());
     simulation.configure(settings).expect("valid");
     assert_eq!(results_as_text(&simulation), results_before, "and back again to the bit");
     simulation.configure(Settings { seed: 8, ..settings }).expect("valid");
-    assert!(poses(&simulation).iter().zip(&poses_before).all(|(a, b)| a != b), "a new seed changes it");
+    assert!(
+        attempt_poses(&simulation).iter().zip(&poses_before).all(|(a, b)| a != b),
+        "a new seed changes it"
+    );
 }
 
 /// A rejected part is drawn again, which moves the parts after it. Without a rejection, conditioning moves no sample.
 #[test]
 fn only_rejected_parts_move_samples() {
     let settings = Settings { sampler: Sampler::SubStepped(4), samples: 500, ..Settings::default() };
-    let mut simulation = simulation(settings);
+    let mut simulation = new_simulation(settings);
     simulation.set_plan(FloorPlan::new(Vec::new(), [-50.0, -50.0, 50.0, 50.0]).expect("an open field"));
-    let poses_in_open_field = poses(&simulation);
+    let poses_in_open_field = attempt_poses(&simulation);
     simulation.configure(Settings { conditioned: false, ..settings }).expect("valid");
-    assert!(poses(&simulation) == poses_in_open_field);
+    assert!(attempt_poses(&simulation) == poses_in_open_field);
     simulation.set_plan(FloorPlan::apartment());
-    assert!(poses(&simulation) == poses_in_open_field, "without conditioning walls have no effect");
+    assert!(attempt_poses(&simulation) == poses_in_open_field, "without conditioning walls have no effect");
     let stats = simulation.stats();
     assert_eq!((stats.accepted, stats.drawn, stats.wall_tests_per_accepted), (500, 2000, 0.0));
     simulation.configure(settings).expect("valid");
-    let moved_count = poses(&simulation).iter().zip(&poses_in_open_field).filter(|(a, b)| a != b).count();
+    let moved_count =
+        attempt_poses(&simulation).iter().zip(&poses_in_open_field).filter(|(a, b)| a != b).count();
     let rejected_count = simulation.stats().drawn - 2000;
     assert!(
         moved_count > 0 && moved_count <= rejected_count,
@@ -90,7 +93,7 @@ fn only_rejected_parts_move_samples() {
 #[test]
 fn the_arcs_of_an_attempt_end_at_its_pose() {
     for sampler in SAMPLERS {
-        let simulation = simulation(Settings { sampler, samples: 2000, ..Settings::default() });
+        let simulation = new_simulation(Settings { sampler, samples: 2000, ..Settings::default() });
         let (stats, attempts) = (simulation.stats(), simulation.attempts());
         let part_count = if let Sampler::SubStepped(part_count) = sampler { part_count } else { 1 };
         assert!(stats.drawn >= attempts.len() * part_count as usize);
@@ -103,16 +106,16 @@ fn the_arcs_of_an_attempt_end_at_its_pose() {
             stats.wall_tests_per_accepted > 0.0 && acceptance_rate > 0.4 && acceptance_rate < 1.0,
             "{stats:?}"
         );
-        for (index, attempt) in attempts.iter().enumerate().step_by(17) {
-            let arcs = simulation.arcs(index);
+        for (attempt_index, attempt) in attempts.iter().enumerate().step_by(17) {
+            let arcs = simulation.arcs(attempt_index);
             assert_eq!(arcs.len(), part_count as usize);
             let arc_end = arcs[arcs.len() - 1].end();
             assert!((arc_end.x() - attempt.pose.x()).abs() + (arc_end.y() - attempt.pose.y()).abs() < 1e-12);
             let is_path_free = arcs.iter().all(|arc| simulation.plan().test_arc(arc, 0.13).free);
             assert_eq!(attempt.path_free, is_path_free);
-            let are_joined = arcs.windows(2).all(|pair| {
-                let first_end = pair[0].end();
-                (first_end.x(), first_end.y()) == (pair[1].start.x(), pair[1].start.y())
+            let are_joined = arcs.windows(2).all(|adjacent_arcs| {
+                let first_end = adjacent_arcs[0].end();
+                (first_end.x(), first_end.y()) == (adjacent_arcs[1].start.x(), adjacent_arcs[1].start.y())
             });
             assert!(are_joined && (arcs[0].start.x(), arcs[0].start.y()) == (2.05, 2.6));
         }
@@ -122,7 +125,7 @@ fn the_arcs_of_an_attempt_end_at_its_pose() {
 #[test]
 fn the_commanded_arc_and_the_test_of_its_start_follow_the_settings() {
     let command = VelocityCmd { v: -0.5, omega: 0.8, dt: 1.5 };
-    let mut simulation = simulation(Settings { command, ..Settings::default() });
+    let mut simulation = new_simulation(Settings { command, ..Settings::default() });
     let arc = simulation.commanded_arc();
     assert_eq!((arc.start.x(), arc.start.y(), arc.length), (2.05, 2.6, -0.75));
     assert!((arc.turn - 1.2).abs() < 1e-15);
@@ -155,7 +158,7 @@ fn the_product_of_samples_and_parts_is_limited() {
 fn the_simulation_stops_after_a_bounded_number_of_draws() {
     let settings =
         Settings { start: [2.1, 2.1, 0.0], sampler: Sampler::SubStepped(4), ..Settings::default() };
-    let mut simulation = simulation(settings);
+    let mut simulation = new_simulation(settings);
     assert!(!simulation.stats().gave_up);
     simulation.set_plan(too_small_room());
     assert!(simulation.stats().gave_up);
@@ -186,7 +189,7 @@ fn the_simulation_stops_after_a_bounded_number_of_draws() {
 #[test]
 fn a_trial_reports_its_cost_and_changes_nothing() {
     let settings = Settings::default();
-    let simulation = simulation(settings);
+    let simulation = new_simulation(settings);
     let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise: NoiseKind::Normal };
     let [x, y, theta] = settings.start;
     let start_pose = SE2::new(x, y, theta);
@@ -210,18 +213,17 @@ fn a_trial_reports_its_cost_and_changes_nothing() {
     assert_eq!(results_as_text(&simulation), results_before);
 }
 
-// ------------------------------------------------------------------------------------------------ Wilson's interval
-
 /// The expected intervals are from Newcombe, "Two-sided confidence intervals for the single proportion", Statistics in
 /// Medicine 17 (1998), table I, method 3.
 #[test]
 fn the_interval_is_the_wilson_interval() {
-    for (through_wall, accepted, low, high) in
+    for (through_wall, accepted, expected_low, expected_high) in
         [(81, 263, 0.2553, 0.3662), (15, 148, 0.0624, 0.1605), (0, 20, 0.0, 0.1611), (1, 29, 0.0061, 0.1718)]
     {
         let through_wall_interval = wilson_interval(through_wall, accepted);
         assert!(
-            (through_wall_interval[0] - low).abs() < 5e-5 && (through_wall_interval[1] - high).abs() < 5e-5,
+            (through_wall_interval[0] - expected_low).abs() < 5e-5
+                && (through_wall_interval[1] - expected_high).abs() < 5e-5,
             "{through_wall_interval:?}"
         );
         let [rest_low, rest_high] = wilson_interval(accepted - through_wall, accepted);

@@ -1,6 +1,6 @@
 //! Coverage of the reported standard errors and intervals over thousands of seeds.
 
-use crate::common::text::Text;
+use crate::common::text::PlainText;
 use crate::common::{MAX_STANDARD_ERRORS, settings_of_preset};
 use motion::geom::se2::SE2;
 use motion::map::{FloorPlan, MapConditioned, Sampler};
@@ -20,38 +20,39 @@ const ROBOT_COUNT: usize = 5000;
 
 /// Returns for each of several intervals the fraction of repetitions in which it contains the exact value.
 fn coverage_fractions<const N: usize>(
-    repetitions: u64,
+    seed_count: u64,
     mut is_covered_by_interval: impl FnMut(u64) -> [bool; N],
 ) -> [f64; N] {
     let mut covered_counts = [0; N];
-    for seed in 0..repetitions {
-        for (count, is_covered) in covered_counts.iter_mut().zip(is_covered_by_interval(seed)) {
-            *count += u32::from(is_covered);
+    for seed in 0..seed_count {
+        for (covered_count, is_covered) in covered_counts.iter_mut().zip(is_covered_by_interval(seed)) {
+            *covered_count += u32::from(is_covered);
         }
     }
-    covered_counts.map(|count| f64::from(count) / repetitions as f64)
+    covered_counts.map(|covered_count| f64::from(covered_count) / seed_count as f64)
 }
 
-fn assert_covered(case: &str, fraction: f64, repetitions: u64) {
-    let tolerance = MAX_STANDARD_ERRORS * (0.95 * 0.05 / repetitions as f64).sqrt();
+fn assert_covered(case: &str, fraction: f64, seed_count: u64) {
+    let tolerance = MAX_STANDARD_ERRORS * (0.95 * 0.05 / seed_count as f64).sqrt();
     assert!((fraction - 0.95).abs() <= tolerance, "{case}: {:.2} % hold the exact value", 100.0 * fraction);
 }
 
 /// Returns the fractions of clouds whose skew, pose gain and floor gain differ by at most 1.96 standard errors from the exact value.
-fn fractions_within_standard_errors(settings: Settings, repetitions: u64) -> [f64; 3] {
+fn fractions_within_standard_errors(settings: Settings, seed_count: u64) -> [f64; 3] {
     let mut simulation = BananaMachine::new(settings).expect("valid settings");
     let (exact_skew, exact_gain) =
         (simulation.exact_moments().cross_track_skew, simulation.exact_gain().value);
-    coverage_fractions(repetitions, |seed| {
+    coverage_fractions(seed_count, |seed| {
         simulation.configure(Settings { seed, ..settings }).expect("valid settings");
         let stats = simulation.stats();
-        let (gains, standard_errors) = (stats.likelihood_gain, stats.likelihood_gain_error);
-        let is_within_standard_errors =
-            |value: f64, standard_error: f64, exact: f64| (value - exact).abs() <= 1.959_964 * standard_error;
+        let (likelihood_gains, standard_errors) = (stats.likelihood_gain, stats.likelihood_gain_error);
+        let is_within_standard_errors = |estimate: f64, standard_error: f64, exact_value: f64| {
+            (estimate - exact_value).abs() <= 1.959_964 * standard_error
+        };
         [
             is_within_standard_errors(stats.cross_track_skew, stats.cross_track_skew_error, exact_skew),
-            is_within_standard_errors(gains.pose, standard_errors.pose, exact_gain.pose),
-            is_within_standard_errors(gains.floor, standard_errors.floor, exact_gain.floor),
+            is_within_standard_errors(likelihood_gains.pose, standard_errors.pose, exact_gain.pose),
+            is_within_standard_errors(likelihood_gains.floor, standard_errors.floor, exact_gain.floor),
         ]
     })
 }
@@ -74,10 +75,10 @@ fn standard_errors_cover_95_percent() {
         ("banana", (settings_of_preset("banana"), LARGE_CLOUD_REPETITION_COUNT)),
     ] {
         let covered_fractions = fractions_within_standard_errors(settings, repetitions);
-        for (statistic, fraction) in
+        for (statistic_name, fraction) in
             ["skew", "gain of poses", "gain on the floor"].into_iter().zip(covered_fractions)
         {
-            assert_covered(&format!("{statistic}, {cloud_name}"), fraction, repetitions);
+            assert_covered(&format!("{statistic_name}, {cloud_name}"), fraction, repetitions);
         }
     }
 }
@@ -85,7 +86,7 @@ fn standard_errors_cover_95_percent() {
 #[test]
 #[ignore = "nightly: thousands of clouds"]
 fn intervals_of_small_clouds_contain_the_exact_skew_as_often_as_printed() {
-    let document_text = Text::of_document(include_str!("../../../doc/statistics.md"));
+    let document_text = PlainText::of_document(include_str!("../../../doc/statistics.md"));
     let [small_cloud_percentage, small_cloud_size, larger_cloud_percentage, larger_cloud_size] =
         document_text.sentence_numbers(
             "1.96 errors hold the exact one in # of 100 clouds of #, in # of #, and in 95 of 5000 and more",
@@ -113,11 +114,11 @@ fn fraction_through_walls(settings: &squeeze::Settings) -> f64 {
     let (mut free_end_weight, mut blocked_path_weight) = (0.0, 0.0);
     for v in (0..NODE_COUNT).map(unit_noise_at) {
         for omega in (0..NODE_COUNT).map(unit_noise_at) {
-            let weight = libm::exp(-0.5 * (v * v + omega * omega));
+            let noise_weight = libm::exp(-0.5 * (v * v + omega * omega));
             let tested_draw = collision_tester.test_draw([v, omega, 0.0]);
             if tested_draw.end_verdict.free {
-                free_end_weight += weight;
-                blocked_path_weight += if tested_draw.path_verdict.free { 0.0 } else { weight };
+                free_end_weight += noise_weight;
+                blocked_path_weight += if tested_draw.path_verdict.free { 0.0 } else { noise_weight };
             }
         }
     }
@@ -127,15 +128,15 @@ fn fraction_through_walls(settings: &squeeze::Settings) -> f64 {
 #[test]
 #[ignore = "nightly: thousands of clouds"]
 fn the_interval_of_the_fraction_through_walls_covers_95_percent() {
-    for &(name, squeeze::Settings { start, .. }) in squeeze::Settings::PRESETS {
+    for &(preset, squeeze::Settings { start, .. }) in squeeze::Settings::PRESETS {
         let settings = squeeze::Settings { start, ..squeeze::Settings::default() };
         let exact_fraction = fraction_through_walls(&settings);
         let mut simulation = MapSqueeze::new(settings).expect("valid settings");
-        let [covered_fraction] = coverage_fractions(REPETITION_COUNT, |seed| {
+        let [fraction] = coverage_fractions(REPETITION_COUNT, |seed| {
             simulation.configure(squeeze::Settings { seed, ..settings }).expect("valid settings");
             let [low, high] = simulation.stats().through_wall_interval;
             [low <= exact_fraction && exact_fraction <= high]
         });
-        assert_covered(&format!("{name}, exactly {exact_fraction}"), covered_fraction, REPETITION_COUNT);
+        assert_covered(&format!("{preset}, exactly {exact_fraction}"), fraction, REPETITION_COUNT);
     }
 }

@@ -30,41 +30,39 @@ fn poses(simulation: &BananaMachine) -> Vec<SE2> {
 /// Returns the gain of log-likelihood of a Gaussian in exponential coordinates over one in (x, y, θ), with its standard error, and the same
 /// for positions (x, y).
 fn gains_with_errors(stats: &Stats) -> [[f64; 2]; 2] {
-    let (gain, error) = (stats.likelihood_gain, stats.likelihood_gain_error);
-    [[gain.pose, error.pose], [gain.floor, error.floor]]
+    let (likelihood_gain, gain_error) = (stats.likelihood_gain, stats.likelihood_gain_error);
+    [[likelihood_gain.pose, gain_error.pose], [likelihood_gain.floor, gain_error.floor]]
 }
 
-fn assert_close(name: &str, computed: f64, expected: f64, tolerance: f64) {
+fn assert_close(case: &str, computed: f64, expected: f64, tolerance: f64) {
     let are_equal = computed == expected || computed.is_nan() && expected.is_nan();
-    assert!(are_equal || (computed - expected).abs() <= tolerance, "{name}: {computed} is not {expected}");
+    assert!(are_equal || (computed - expected).abs() <= tolerance, "{case}: {computed} is not {expected}");
 }
-
-// --------------------------------------------------------------------------------------------- the definition
 
 /// Returns the log-density of each point under the Gaussian with the moments of all points, by inverse and determinant.
-fn log_densities(points: &[DVector<f64>]) -> Vec<f64> {
-    let (n, dimension) = (points.len() as f64, points[0].len());
-    let mean_vector = points.iter().sum::<DVector<f64>>() / n;
+fn log_densities(point_vectors: &[DVector<f64>]) -> Vec<f64> {
+    let (n, dimension) = (point_vectors.len() as f64, point_vectors[0].len());
+    let mean_vector = point_vectors.iter().sum::<DVector<f64>>() / n;
     let outer_product = |p: &DVector<f64>| (p - &mean_vector) * (p - &mean_vector).transpose();
-    let cov = points.iter().map(outer_product).sum::<DMatrix<f64>>() / (n - 1.0);
+    let cov = point_vectors.iter().map(outer_product).sum::<DMatrix<f64>>() / (n - 1.0);
     let (inverse_cov, normalization) =
         (cov.clone().try_inverse().unwrap(), (TAU.powi(dimension as i32) * cov.determinant()).sqrt());
     let log_density_at = |p: &DVector<f64>| {
         -0.5 * (p - &mean_vector).dot(&(&inverse_cov * (p - &mean_vector))) - normalization.ln()
     };
-    points.iter().map(log_density_at).collect()
+    point_vectors.iter().map(log_density_at).collect()
 }
 
 /// Returns the Jacobian determinant of a map, by differences of fourth order. Its absolute error is about 1e-13.
-fn jacobian_determinant(map: impl Fn(&DVector<f64>) -> DVector<f64>, at: &DVector<f64>) -> f64 {
+fn jacobian_determinant(mapping: impl Fn(&DVector<f64>) -> DVector<f64>, point: &DVector<f64>) -> f64 {
     const STEP: f64 = 1e-3;
-    let jacobian_columns: Vec<DVector<f64>> = (0..at.len())
+    let jacobian_columns: Vec<DVector<f64>> = (0..point.len())
         .map(|i| {
-            let central_difference = |steps: f64| {
-                let mut shifted_points = [at.clone(), at.clone()];
-                shifted_points[0][i] += steps * STEP;
-                shifted_points[1][i] -= steps * STEP;
-                (map(&shifted_points[0]) - map(&shifted_points[1])) / (2.0 * steps * STEP)
+            let central_difference = |step_factor: f64| {
+                let mut shifted_points = [point.clone(), point.clone()];
+                shifted_points[0][i] += step_factor * STEP;
+                shifted_points[1][i] -= step_factor * STEP;
+                (mapping(&shifted_points[0]) - mapping(&shifted_points[1])) / (2.0 * step_factor * STEP)
             };
             (4.0 * central_difference(1.0) - central_difference(2.0)) / 3.0
         })
@@ -74,31 +72,29 @@ fn jacobian_determinant(map: impl Fn(&DVector<f64>) -> DVector<f64>, at: &DVecto
 
 /// Returns two gains in log-density for each robot. The gain of its pose compares a Gaussian in exponential coordinates with one in x, y, θ.
 /// The gain of its position compares a Gaussian in arc coordinates with one in x, y.
-fn robot_gains(cloud: &[SE2], turn: f64) -> [Vec<f64>; 2] {
+fn robot_gains(cloud: &[SE2], commanded_turn: f64) -> [Vec<f64>; 2] {
     let mean_heading = CartesianMoments::from_poses(cloud).mean.z;
-    let to_vectors = |coordinates: &dyn Fn(&SE2) -> Vec<f64>| -> Vec<DVector<f64>> {
-        cloud.iter().map(|pose| DVector::from_vec(coordinates(pose))).collect()
+    let to_vectors = |coordinates_of_pose: &dyn Fn(&SE2) -> Vec<f64>| -> Vec<DVector<f64>> {
+        cloud.iter().map(|pose| DVector::from_vec(coordinates_of_pose(pose))).collect()
     };
     let pose_vectors = to_vectors(&|p| vec![p.x(), p.y(), wrap_angle(p.theta() - mean_heading)]);
     let position_vectors = to_vectors(&|p| vec![p.x(), p.y()]);
-    let twist_vectors = to_vectors(&|p| p.log_near(turn).as_slice().to_vec());
+    let twist_vectors = to_vectors(&|p| p.log_near(commanded_turn).as_slice().to_vec());
     let arc_vectors =
-        to_vectors(&|p| <[f64; 2]>::from(arc_with_turn_near(&SE2::identity(), p, turn)).to_vec());
-    let pose_of_twist = |xi: &DVector<f64>| {
-        let pose = SE2::exp(&Vector3::new(xi[0], xi[1], xi[2]));
-        DVector::from_vec(vec![pose.x(), pose.y(), xi[2]])
+        to_vectors(&|p| <[f64; 2]>::from(arc_with_turn_near(&SE2::identity(), p, commanded_turn)).to_vec());
+    let pose_of_twist = |twist_vector: &DVector<f64>| {
+        let pose = SE2::exp(&Vector3::new(twist_vector[0], twist_vector[1], twist_vector[2]));
+        DVector::from_vec(vec![pose.x(), pose.y(), twist_vector[2]])
     };
-    let position_of_arc = |arc: &DVector<f64>| {
-        let (x, y) = arc_end(arc[0], arc[1]);
+    let position_of_arc = |arc_vector: &DVector<f64>| {
+        let (x, y) = arc_end(arc_vector[0], arc_vector[1]);
         DVector::from_vec(vec![x, y])
     };
     let log_density_gains =
         |cartesian: &[DVector<f64>], curved: &[DVector<f64>], map: &dyn Fn(&DVector<f64>) -> DVector<f64>| {
-            let (cartesian, log) = (log_densities(cartesian), log_densities(curved));
-            let points_and_densities = curved.iter().zip(cartesian.iter().zip(&log));
-            points_and_densities
-                .map(|(at, (cartesian, log))| log - jacobian_determinant(map, at).abs().ln() - cartesian)
-                .collect()
+            let log_densities = log_densities(cartesian).into_iter().zip(log_densities(curved));
+            let log_volume_factors = curved.iter().map(|point| jacobian_determinant(map, point).abs().ln());
+            log_volume_factors.zip(log_densities).map(|(factor, (p, q))| q - factor - p).collect()
         };
     [
         log_density_gains(&pose_vectors, &twist_vectors, &pose_of_twist),
@@ -110,42 +106,40 @@ fn robot_gains(cloud: &[SE2], turn: f64) -> [Vec<f64>; 2] {
 /// clouds.
 #[test]
 fn the_gain_equals_its_definition_over_all_poses() {
-    check_varied_clouds([1.0, 2.2, 1.2], &[1, 3, 4, 257, 2048, 5_003], |simulation, case_name| {
+    check_varied_clouds([1.0, 2.2, 1.2], &[1, 3, 4, 257, 2048, 5_003], |simulation, case| {
         let Settings { samples, command, .. } = *simulation.settings();
         let computed_gains = gains_with_errors(simulation.stats());
         if samples > 4 {
             let expected_gains = robot_gains(&poses(simulation), command.omega * command.dt);
-            for ([value, error], robot_gains) in computed_gains.into_iter().zip(expected_gains) {
-                assert_close(case_name, value, mean(&robot_gains), 1e-9);
+            for ([computed_gain, error], robot_gains) in computed_gains.into_iter().zip(expected_gains) {
+                assert_close(case, computed_gain, mean(&robot_gains), 1e-9);
                 if samples <= 2048 {
                     let expected_error = (variance(&robot_gains) / samples as f64).sqrt();
-                    assert_close(case_name, error, expected_error, 1e-8 * expected_error);
+                    assert_close(case, error, expected_error, 1e-8 * expected_error);
                 }
             }
         }
-        assert_eq!(computed_gains[0][0].is_nan(), samples < 4, "{case_name}");
-        assert_eq!(computed_gains[1][0].is_nan(), samples < 3, "{case_name}");
+        assert_eq!(computed_gains[0][0].is_nan(), samples < 4, "{case}");
+        assert_eq!(computed_gains[1][0].is_nan(), samples < 3, "{case}");
     });
 }
-
-// ---------------------------------------------------------------------------------------------- exact values
 
 /// The tolerances are the errors of the references. The references integrate each noise up to 6 or 6.6 standard deviations, in steps across
 /// the jump between two branches. Where an outline crosses itself, a chord may belong to either loop.
 #[test]
 fn exact_gains_match_the_references() {
-    for row in ReferenceTable::parse(include_str!("../../reference/likelihood_gain.csv")).rows() {
-        let velocity_alphas = row.cell_numbers(["a1", "a2", "a3", "a4", "a5", "a6"]);
-        let [v, omega, dt] = row.cell_numbers(["v", "omega", "dt"]);
+    for csv_row in ReferenceTable::parse(include_str!("../../reference/likelihood_gain.csv")).rows() {
+        let velocity_alphas = csv_row.cell_numbers(["a1", "a2", "a3", "a4", "a5", "a6"]);
+        let [v, omega, dt] = csv_row.cell_numbers(["v", "omega", "dt"]);
         let command = VelocityCmd { v, omega, dt };
-        let settings =
-            Settings { command, velocity_alphas, noise: row.noise_kind(), samples: 1, ..Settings::default() };
+        let noise = csv_row.noise_kind();
+        let settings = Settings { command, velocity_alphas, noise, samples: 1, ..Settings::default() };
         let exact_column = BananaMachine::new(settings).expect("a valid setting").table().exact;
-        let case_name = format!("{command:?} {velocity_alphas:?}");
-        assert_close(&case_name, exact_column.likelihood_gain.pose, row.cell_number("pose"), 1e-6);
-        assert_close(&case_name, exact_column.likelihood_gain.floor, row.cell_number("floor"), 1e-6);
-        assert_close(&case_name, exact_column.area_ratio, row.cell_number("area_ratio"), 1e-4);
-        let model = VelocityModel { alphas: VelocityAlphas(velocity_alphas), noise: row.noise_kind() };
+        let case = format!("{command:?} {velocity_alphas:?}");
+        assert_close(&case, exact_column.likelihood_gain.pose, csv_row.cell_number("pose"), 1e-6);
+        assert_close(&case, exact_column.likelihood_gain.floor, csv_row.cell_number("floor"), 1e-6);
+        assert_close(&case, exact_column.area_ratio, csv_row.cell_number("area_ratio"), 1e-4);
+        let model = VelocityModel { alphas: VelocityAlphas(velocity_alphas), noise };
         assert_eq!(ExactGain::of_velocity(&model, &command).value.floor, exact_column.likelihood_gain.floor);
     }
 }
@@ -159,7 +153,7 @@ fn the_gain_on_the_floor_does_not_depend_on_the_last_turn() {
             [simulation.stats().likelihood_gain.floor, simulation.exact_gain().value.floor]
         };
         let gains_without_turn = floor_gains(0.0);
-        assert!(gains_without_turn.iter().all(|gain| gain.is_finite()), "{command:?}");
+        assert!(gains_without_turn.iter().all(|floor_gain| floor_gain.is_finite()), "{command:?}");
         for last_turn_alpha in [1e-9, 0.01, 0.3] {
             for (gain, gain_without_turn) in floor_gains(last_turn_alpha).into_iter().zip(gains_without_turn)
             {
@@ -181,8 +175,6 @@ fn the_gain_on_the_floor_does_not_depend_on_the_last_turn() {
     );
 }
 
-// --------------------------------------------------------------------------------------------------- the areas
-
 /// The expected areas are those of the drawn outlines, by the shoelace formula.
 #[test]
 fn the_area_ratio_is_that_of_the_drawn_outlines() {
@@ -202,8 +194,8 @@ fn the_area_ratio_is_that_of_the_drawn_outlines() {
     }
 }
 
-/// The reported error is compared with the standard deviation of the ratio over independent clouds. It is 0.89 to 0.99 times as large (20,000
-/// clouds of 1000 robots), because it is computed from the outline in arc coordinates instead of ξ.
+/// The reported error is compared with the standard deviation of the ratio over independent clouds. The reported error is 0.89 to 0.99
+/// times as large (20,000 clouds of 1000 robots), because it is computed from the outline in arc coordinates instead of ξ.
 #[test]
 fn the_error_of_the_area_ratio_matches_its_deviation_over_clouds() {
     const CLOUD_COUNT: usize = 300;
@@ -223,8 +215,6 @@ fn the_error_of_the_area_ratio_matches_its_deviation_over_clouds() {
         assert_close(name, mean_error / ratio_std, 0.94, 0.05 + 4.0 / (2.0 * CLOUD_COUNT as f64).sqrt());
     }
 }
-
-// ---------------------------------------------------------------------------------------- undefined and infinite
 
 /// Without the last turn γ̂ the poses lie on a curved surface, which is a plane in exponential coordinates.
 #[test]
@@ -262,7 +252,7 @@ fn the_gain_is_infinite_if_only_exponential_coordinates_have_no_volume() {
     assert_eq!(fan_simulation.table().exact.likelihood_gain, *gain);
 }
 
-/// For robots on a line through the start the gain is undefined, whatever their headings are.
+/// The gain of robots on a line through the start is undefined, whatever their headings are.
 #[test]
 fn robots_on_a_line_have_no_gain() {
     for (command, alphas) in [

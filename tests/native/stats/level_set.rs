@@ -8,14 +8,14 @@ use motion::{MotionModel, NoiseKind, VelocityAlphas, VelocityModel};
 
 #[test]
 fn the_mean_of_the_corners_decides_how_a_saddle_is_connected() {
-    for (level, are_low_corners_cut_off) in [(0.4, true), (0.6, false)] {
-        let contour_lines = trace_level_set(&[1.0, 0.0, 0.0, 1.0], 2, level);
+    for (contour_level, are_low_corners_cut_off) in [(0.4, true), (0.6, false)] {
+        let contour_lines = trace_level_set(&[1.0, 0.0, 0.0, 1.0], 2, contour_level);
         assert_eq!(contour_lines.len(), 2);
         // Two lines cut off either both low corners or both high corners.
         let is_cut_off = |corner: [f64; 2]| {
-            contour_lines
-                .iter()
-                .any(|line| line.iter().all(|[x, y]| (x - corner[0]).abs() + (y - corner[1]).abs() < 1.0))
+            contour_lines.iter().any(|contour_line| {
+                contour_line.iter().all(|[x, y]| (x - corner[0]).abs() + (y - corner[1]).abs() < 1.0)
+            })
         };
         for (corners, are_cut_off) in [
             ([[1.0, 0.0], [0.0, 1.0]], are_low_corners_cut_off),
@@ -26,8 +26,8 @@ fn the_mean_of_the_corners_decides_how_a_saddle_is_connected() {
     }
 }
 
-/// In a field of noise, each edge between a value above the level and a value below it is crossed once. Lines are closed or end at the rim,
-/// and successive points are at most a cell apart.
+/// The tested field is random noise. Each edge between a value above the level and a value below it is crossed once. Lines are closed or
+/// end at the rim, and successive points are at most a cell apart.
 #[test]
 fn contours_of_noise_contain_every_crossing() {
     let mut rng = seeded_rng(21);
@@ -56,8 +56,8 @@ fn contours_of_noise_contain_every_crossing() {
 
 #[test]
 fn small_or_flat_fields_have_no_lines() {
-    for (field, columns) in [(vec![], 0), (vec![1.0], 1), (vec![1.0, 0.0], 2), (vec![1.0; 12], 4)] {
-        assert!(trace_level_set(&field, columns, 0.5).is_empty());
+    for (field_values, columns) in [(vec![], 0), (vec![1.0], 1), (vec![1.0, 0.0], 2), (vec![1.0; 12], 4)] {
+        assert!(trace_level_set(&field_values, columns, 0.5).is_empty());
     }
 }
 
@@ -76,37 +76,37 @@ fn contours_lie_at_the_levels_of_the_models() {
     assert!(columns * rows == shades.len() && (5_000..=10_000).contains(&shades.len()));
     let model = VelocityModel { alphas: VelocityAlphas(settings.alphas), noise: NoiseKind::Normal };
     let origin = SE2::identity();
-    let density_at_point = |[x, y]: [f64; 2], kind: SurfaceKind| {
+    let density_at_point = |[x, y]: [f64; 2], surface_kind: SurfaceKind| {
         let next_pose = SE2::new(x, y, settings.next[2]);
-        match kind {
+        match surface_kind {
             SurfaceKind::Prob => model.prob(&next_pose, &settings.command, &origin),
             _ => model.pose_density(&next_pose, &settings.command, &origin).expect("noise of full rank"),
         }
     };
     let cell_centre = |i: usize| {
-        let [column, row] = [i % columns, i / columns].map(|index| index as f64 + 0.5);
+        let [column, row] = [i % columns, i / columns].map(|cell_index| cell_index as f64 + 0.5);
         [-0.5 + 2.5 * column / columns as f64, 1.5 - 2.5 * row / rows as f64]
     };
-    for (lines, kind) in [(&prob, SurfaceKind::Prob), (&density, SurfaceKind::Density)] {
+    for (contour_lines, surface_kind) in [(&prob, SurfaceKind::Prob), (&density, SurfaceKind::Density)] {
         let max_density =
-            (0..shades.len()).map(|i| density_at_point(cell_centre(i), kind)).fold(0.0, f64::max);
-        assert!(lines.len() >= CONTOUR_LEVELS.len());
-        for point in lines.iter().flatten().filter(|[x, y]| x.hypot(*y) > 0.7) {
-            let relative_density = density_at_point(*point, kind) / max_density;
+            (0..shades.len()).map(|i| density_at_point(cell_centre(i), surface_kind)).fold(0.0, f64::max);
+        assert!(contour_lines.len() >= CONTOUR_LEVELS.len());
+        for contour_point in contour_lines.iter().flatten().filter(|[x, y]| x.hypot(*y) > 0.7) {
+            let relative_density = density_at_point(*contour_point, surface_kind) / max_density;
             let nearest_level = CONTOUR_LEVELS.into_iter().min_by(|a, b| {
                 (relative_density / a).ln().abs().total_cmp(&(relative_density / b).ln().abs())
             });
             assert!(
                 (relative_density / nearest_level.expect("a level") - 1.0).abs() < 0.078,
-                "{point:?} {relative_density}"
+                "{contour_point:?} {relative_density}"
             );
         }
     }
     let max_density =
         (0..shades.len()).map(|i| density_at_point(cell_centre(i), SurfaceKind::Density)).fold(0.0, f64::max);
-    for (i, shade) in shades.iter().enumerate() {
+    for (i, cell_shade) in shades.iter().enumerate() {
         let expected_shade = 255.0 * density_at_point(cell_centre(i), SurfaceKind::Density) / max_density;
-        assert!((f64::from(*shade) - expected_shade).abs() <= 0.5 + 1e-9);
+        assert!((f64::from(*cell_shade) - expected_shade).abs() <= 0.5 + 1e-9);
     }
 }
 

@@ -28,8 +28,8 @@ fn the_exponential_contour_covers_two_deviations() {
     let model = VelocityModel { alphas, noise: NoiseKind::Normal };
     let mut rng = seeded_rng(134);
     let poses: Vec<SE2> = (0..200_000).map(|_| model.sample(&COMMAND, &start_pose, &mut rng)).collect();
-    let fraction_inside = |moments: &ExponentialMoments| {
-        let contour = ExponentialContour::new(moments, &start_pose);
+    let fraction_inside = |cloud_moments: &ExponentialMoments| {
+        let contour = ExponentialContour::new(cloud_moments, &start_pose);
         poses.iter().filter(|pose| contour.contains(pose)).count() as f64 / 200_000.0
     };
     let standard_error = (TWO_SIGMA_FRACTION * (1.0 - TWO_SIGMA_FRACTION) / 200_000.0).sqrt();
@@ -56,9 +56,9 @@ fn the_exponential_contour_covers_two_deviations() {
         let inversion = motion::invert_arc(&start_pose, &SE2::new(x, y, 0.0), 1.0);
         let squared_sigmas = ((inversion.v_hat - 1.0).powi(2) + (inversion.omega_hat - 0.5).powi(2)) / 0.025;
         assert!((squared_sigmas - 4.0).abs() < 1e-9, "{squared_sigmas}");
-        for (scale, is_inside) in [(0.99, true), (1.01, false)] {
-            let v = 1.0 + scale * (inversion.v_hat - 1.0);
-            let omega = 0.5 + scale * (inversion.omega_hat - 0.5);
+        for (scale_from_centre, is_inside) in [(0.99, true), (1.01, false)] {
+            let v = 1.0 + scale_from_centre * (inversion.v_hat - 1.0);
+            let omega = 0.5 + scale_from_centre * (inversion.omega_hat - 0.5);
             assert_eq!(contour.contains(&start_pose.boxplus(Vector3::new(v, 0.0, omega))), is_inside);
         }
     }
@@ -97,15 +97,15 @@ fn the_outline_is_nearly_the_shadow_of_the_ellipsoid() {
 
 #[test]
 fn predicted_skews_match_the_references() {
-    for row in ReferenceTable::parse(include_str!("../../reference/pushed_skew.csv")).rows() {
-        let mean = Vector3::from(row.cell_numbers(["a", "b", "w"]));
-        let [aa, ab, aw, bb, bw, ww] = row.cell_numbers(["caa", "cab", "caw", "cbb", "cbw", "cww"]);
+    for csv_row in ReferenceTable::parse(include_str!("../../reference/pushed_skew.csv")).rows() {
+        let mean = Vector3::from(csv_row.cell_numbers(["a", "b", "w"]));
+        let [aa, ab, aw, bb, bw, ww] = csv_row.cell_numbers(["caa", "cab", "caw", "cbb", "cbw", "cww"]);
         let cov = Matrix3::new(aa, ab, aw, ab, bb, bw, aw, bw, ww);
         let skew = predicted_cross_track_skew(&mean, &cov);
         assert!(
-            (skew - row.cell_number("skew")).abs() < 1e-12,
+            (skew - csv_row.cell_number("skew")).abs() < 1e-12,
             "{mean} {cov}: {skew}, not {}",
-            row.cell_number("skew")
+            csv_row.cell_number("skew")
         );
     }
 }
@@ -115,12 +115,12 @@ fn assert_moments_of_row(exact_moments: &ExactMoments, row: &crate::common::Refe
     let named_means = [("mx", mean.x), ("my", mean.y)];
     let named_covariances =
         [("sxx", 0, 0), ("sxy", 0, 1), ("syy", 1, 1), ("sxt", 0, 2), ("syt", 1, 2), ("stt", 2, 2)]
-            .map(|(name, i, j)| (name, cov[(i, j)]));
-    for (name, value) in named_means.into_iter().chain(named_covariances) {
+            .map(|(column_name, i, j)| (column_name, cov[(i, j)]));
+    for (column_name, computed_value) in named_means.into_iter().chain(named_covariances) {
         assert!(
-            (value - row.cell_number(name)).abs() < 1e-14,
-            "{name}: {value}, not {}",
-            row.cell_number(name)
+            (computed_value - row.cell_number(column_name)).abs() < 1e-14,
+            "{column_name}: {computed_value}, not {}",
+            row.cell_number(column_name)
         );
     }
     assert!((exact_moments.cov - exact_moments.cov.transpose()).amax() < 1e-15);
@@ -164,10 +164,10 @@ fn degenerate_clouds_give_nan() {
     };
     for cloud in [vec![], create_poses_on_line(2.0), create_poses_on_line(-0.3)] {
         let cross_track = CrossTrack::from_poses(&cloud);
-        for value in
+        for statistic in
             [cross_track.skew, cross_track.skew_error, cross_track.rho_heading, cross_track_skew(&cloud)]
         {
-            assert!(value.is_nan(), "{cross_track:?}");
+            assert!(statistic.is_nan(), "{cross_track:?}");
         }
         let cartesian_moments = CartesianMoments::from_poses(&cloud);
         let exponential_moments = ExponentialMoments::from_poses(&cloud, &SE2::identity());
@@ -184,9 +184,9 @@ fn degenerate_clouds_give_nan() {
     assert!((cross_track_skew(&three_poses) - 0.5f64.sqrt()).abs() < 1e-12, "residuals −1, −1 and 2");
     assert!(predicted_cross_track_skew(&Vector3::zeros(), &Matrix3::zeros()).is_nan());
     // With a turn of π, the lateral coordinate moves the end along the heading, so that the cloud has no width across it.
-    for turn in [PI, -PI] {
+    for commanded_turn in [PI, -PI] {
         let lateral_cov = Matrix3::from_diagonal(&Vector3::y());
-        assert!(predicted_cross_track_skew(&Vector3::new(0.0, 0.0, turn), &lateral_cov).is_nan());
+        assert!(predicted_cross_track_skew(&Vector3::new(0.0, 0.0, commanded_turn), &lateral_cov).is_nan());
     }
     let along_only_model =
         VelocityModel { alphas: VelocityAlphas([0.1, 0.0, 0.0, 0.0, 0.0, 0.0]), noise: NoiseKind::Normal };
@@ -232,8 +232,8 @@ fn a_width_of_the_size_of_position_rounding_counts_as_zero() {
         let poses: Vec<SE2> = (0..100).map(|_| SE2::new(x + draw_offset(), y + draw_offset(), 0.3)).collect();
         cross_track_skew(&poses)
     };
-    for centre in [[1e3, 0.0], [-1e3, 0.0], [0.0, 1e3], [1e3, -1e3]] {
-        assert!(skew_around(centre).is_nan(), "{centre:?}");
+    for cloud_centre in [[1e3, 0.0], [-1e3, 0.0], [0.0, 1e3], [1e3, -1e3]] {
+        assert!(skew_around(cloud_centre).is_nan(), "{cloud_centre:?}");
     }
     assert!(skew_around([0.0, 0.0]).is_finite() && skew_around([1.0, -1.0]).is_finite());
 }

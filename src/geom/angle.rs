@@ -4,17 +4,17 @@ use std::f64::consts::{PI, TAU};
 
 /// Returns the representative of `angle` in (−π, π], radians.
 ///
-/// Exact for |angle| ≤ π; beyond that the remainder is taken against the double nearest to 2π, so that the result
-/// is off by about 1.2e-16 · |angle|. NaN and infinities give NaN.
+/// The result is exact for |angle| ≤ π. For larger angles the remainder is taken against the double nearest to 2π, so that the result is
+/// off by about 1.2e-16 · |angle|. NaN and infinities give NaN.
 #[inline(always)]
 pub fn wrap_angle(angle: f64) -> f64 {
-    // Most angles are in range and need no remainder, which is slow.
+    // Most angles are in range. The remainder is slow and is not needed for them.
     if -PI < angle && angle <= PI { angle } else { wrap_far_angle(angle) }
 }
 
 #[inline(never)]
 fn wrap_far_angle(angle: f64) -> f64 {
-    // The remainder is in [−π, π].
+    // `libm::remainder` returns a value in [−π, π]. The value −π becomes π.
     let remainder = libm::remainder(angle, TAU);
     if remainder == -PI { PI } else { remainder }
 }

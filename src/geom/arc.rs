@@ -12,8 +12,8 @@ use std::f64::consts::{PI, TAU};
 use std::ops::{Add, Mul};
 use wide::f64x4;
 
-/// Returns the end (x, y) of an arc of signed length `length` (m) that turns by `turn` (rad), in the frame of its
-/// start: x forward, y left. (s·sin φ/φ, s·(1 − cos φ)/φ), with (1 − cos φ)/φ = sin(φ/2)·sinc(φ/2).
+/// Returns the end (x, y) of an arc of signed length `length` (m) that turns by `turn` (rad), in the frame of its start: x forward, y left.
+/// The end is (s·sin φ/φ, s·(1 − cos φ)/φ), with (1 − cos φ)/φ = sin(φ/2)·sinc(φ/2).
 pub fn arc_end(length: f64, turn: f64) -> (f64, f64) {
     let (forward, left) = chord_factors(turn);
     (length * forward, length * left)
@@ -22,7 +22,7 @@ pub fn arc_end(length: f64, turn: f64) -> (f64, f64) {
 /// Controls that a pair of poses implies: an arc at (v̂, ω̂), then a final rotation at the rate γ̂.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ArcInversion {
-    /// Translational velocity along the arc, m/s; negative where the robot reversed.
+    /// Translational velocity along the arc, m/s, which is negative in reverse.
     pub v_hat: f64,
     /// Rotational velocity along the arc, rad/s, with |ω̂·Δt| ≤ π.
     pub omega_hat: f64,
@@ -31,8 +31,8 @@ pub struct ArcInversion {
 }
 
 impl ArcInversion {
-    /// Returns the signed radius v̂/ω̂ of the arc (m), with the centre to the left of the heading where it is positive;
-    /// infinite where the arc is straight.
+    /// Returns the signed radius v̂/ω̂ of the arc (m). It is positive if the centre is to the left of the heading, and infinite if the arc
+    /// is straight.
     pub fn radius(&self) -> f64 {
         if self.omega_hat == 0.0 { f64::INFINITY } else { self.v_hat / self.omega_hat }
     }
@@ -102,7 +102,7 @@ pub fn arc_with_turn_near(x: &SE2, x_next: &SE2, near_turn: f64) -> (f64, f64) {
 pub struct Arc {
     /// Pose at the start.
     pub start: SE2,
-    /// Length, m; negative in reverse.
+    /// Length, m, which is negative in reverse.
     pub length: f64,
     /// Turn, rad, counter-clockwise.
     pub turn: f64,
@@ -116,14 +116,16 @@ impl Arc {
         SE2::new(x, y, heading)
     }
 
-    /// Returns the end points of chords of about one degree, for at most two revolutions. The chords of an arc of 1 m and
-    /// 1 rad deviate from it by up to 0.05 mm.
+    /// Returns the end points of chords of about one degree, for at most two revolutions. An arc of 1 m and 1 rad deviates from its chords
+    /// by up to 0.05 mm.
     pub fn points(&self) -> Vec<[f64; 2]> {
         let chord_count = (self.turn.abs() / 0.02).clamp(1.0, 640.0).ceil();
         (0..=chord_count as u32)
             .map(|i| {
-                let fraction = f64::from(i) / chord_count;
-                let end = Self { length: self.length * fraction, turn: self.turn * fraction, ..*self }.end();
+                let arc_fraction = f64::from(i) / chord_count;
+                let end =
+                    Self { length: self.length * arc_fraction, turn: self.turn * arc_fraction, ..*self }
+                        .end();
                 [end.x(), end.y()]
             })
             .collect()
@@ -165,7 +167,7 @@ pub(crate) struct DrivenArc {
     pub end: [f64; 2],
     /// Heading at the end in (−π, π], rad.
     pub heading: f64,
-    /// sinc(φ/2): length of the chord divided by that of the arc.
+    /// sinc(φ/2), which is the length of the chord divided by the length of the arc.
     half_sinc: f64,
 }
 
@@ -191,7 +193,7 @@ impl PreparedPose {
         self.driven_arc(length, turn, half_sinc, self.transform_point([forward, left]))
     }
 
-    /// Drives four arcs at once. The ends differ from those of [`PreparedPose::drive`] by less than 2e-15 · length.
+    /// Returns four arcs that are driven at once. The ends differ from those of [`PreparedPose::drive`] by less than 2e-15 · length.
     #[inline(always)]
     pub fn drive_four(
         &self,
@@ -199,7 +201,7 @@ impl PreparedPose {
         length: f64x4,
         turn: f64x4,
     ) -> impl Fn(usize) -> DrivenArc {
-        // The end is on the bearing φ/2, at the length of the chord.
+        // The end of the arc is on the bearing φ/2, at the length of the chord.
         let SinCos { sinc, sin, cos } = trigonometry.sin_cos(turn * 0.5);
         let distance = length * sinc;
         let (forward, left) = (distance * cos, distance * sin);
@@ -217,8 +219,7 @@ impl PreparedPose {
 }
 
 impl DrivenArc {
-    /// Returns the arc as one or two pieces of up to half a turn. Anything after a full turn is omitted, because it repeats the
-    /// circle.
+    /// Returns the arc as one or two pieces of up to half a turn. The part after a full turn is omitted, because it repeats the circle.
     pub fn arc_pieces(&self) -> impl Iterator<Item = ArcPiece> {
         let Arc { start, length, turn } = self.arc;
         let start_point = [start.x(), start.y()];
@@ -228,20 +229,20 @@ impl DrivenArc {
         }
         let half_fraction = 0.5 * (TAU / turn.abs()).min(1.0);
         let (length, turn) = (half_fraction * length, half_fraction * turn);
-        let DrivenArc { end: middle, half_sinc, .. } = PreparedPose::new(start).drive(length, turn);
+        let DrivenArc { end: middle_position, half_sinc, .. } = PreparedPose::new(start).drive(length, turn);
         let end_point = if half_fraction < 0.5 { start_point } else { self.end };
-        [(start_point, middle), (middle, end_point)]
+        [(start_point, middle_position), (middle_position, end_point)]
             .map(|(start, end)| Some(ArcPiece::new(start, end, length.abs(), turn, half_sinc)))
             .into_iter()
             .flatten()
     }
 
-    /// Returns a box that holds the arc: minimum x, minimum y, maximum x, maximum y.
+    /// Returns the bounding box of the arc: minimum x, minimum y, maximum x, maximum y.
     pub fn bounding_box(&self) -> [f64; 4] {
         let ([x0, y0], [x1, y1]) = ([self.arc.start.x(), self.arc.start.y()], self.end);
         if self.arc.turn.abs() > PI {
-            let diameter = 2.0 * (self.arc.length / self.arc.turn).abs();
-            return [x0 - diameter, y0 - diameter, x0 + diameter, y0 + diameter];
+            let circle_diameter = 2.0 * (self.arc.length / self.arc.turn).abs();
+            return [x0 - circle_diameter, y0 - circle_diameter, x0 + circle_diameter, y0 + circle_diameter];
         }
         // The arc lies in the rectangle between its chord and its middle. The middle lies tan(φ/4)/2 chord lengths to the right
         // of the chord, at most φ/2π chord lengths.
@@ -260,7 +261,7 @@ impl DrivenArc {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ArcPiece {
     middle: [f64; 2],
-    /// Direction of travel in the middle.
+    /// Direction of travel in the middle of the piece.
     tangent: [f64; 2],
     curvature: f64,
     /// Half the length of the piece, m.
@@ -270,7 +271,7 @@ pub(crate) struct ArcPiece {
 }
 
 impl ArcPiece {
-    /// Creates the piece between two points, with a positive `length` (m) and a turn of `turn` (rad); `half_sinc` is sinc(φ/2).
+    /// Creates the piece between two points. `length` (m) is positive, `turn` is in rad, and `half_sinc` is sinc(φ/2).
     fn new(start: [f64; 2], end: [f64; 2], length: f64, turn: f64, half_sinc: f64) -> Self {
         let (per_metre, curvature) =
             if length > MIN_LENGTH { (1.0 / (length * half_sinc), turn / length) } else { (0.0, 0.0) };
@@ -283,10 +284,10 @@ impl ArcPiece {
             half_length,
             max_error: 0.0,
         };
-        let [_, rise]: [f64; 2] = uncorrected_piece.local_point(half_length);
+        let [_, end_rise]: [f64; 2] = uncorrected_piece.local_point(half_length);
         let middle = [
-            uncorrected_piece.middle[0] + rise * tangent[1],
-            uncorrected_piece.middle[1] - rise * tangent[0],
+            uncorrected_piece.middle[0] + end_rise * tangent[1],
+            uncorrected_piece.middle[1] - end_rise * tangent[0],
         ];
         let half_turn_squared = 0.25 * turn * turn;
         Self {
@@ -296,7 +297,7 @@ impl ArcPiece {
         }
     }
 
-    /// Returns the coordinates ahead and to the left of the middle, for one length or four.
+    /// Returns the coordinates of a point, ahead and to the left of the middle, for one length or four.
     #[inline(always)]
     fn local_point<T>(&self, s: T) -> [T; 2]
     where
@@ -310,7 +311,7 @@ impl ArcPiece {
         ]
     }
 
-    /// Returns the points `s` metres after the middle: their x and y.
+    /// Returns x and y of the points `s` metres after the middle of the piece.
     #[inline(always)]
     pub fn points_at(&self, s: f64x4) -> [f64x4; 2] {
         let [ahead, left] = self.local_point(s);
@@ -319,8 +320,8 @@ impl ArcPiece {
     }
 }
 
-/// Turn (rad) below which an arc counts as straight: it deviates from the line by less than rounding. A much larger
-/// limit would cause visible errors, a much smaller one underflow of the curvature.
+/// Turn (rad) below which an arc counts as straight. Such an arc deviates from a line by less than rounding. A much larger limit would
+/// cause visible errors. A much smaller limit would let the curvature underflow.
 const MIN_TURN: f64 = 1e-30;
 
 /// Length (m) below which arcs count as points. Products of the curvature of a shorter arc and areas of some km² might exceed the
@@ -345,7 +346,8 @@ impl LocalArc {
         [dx * self.forward[0] + dy * self.forward[1], dx * self.left[0] + dy * self.left[1]]
     }
 
-    /// Returns κ|p|²/2 − y: 0 on the circle (or line), positive outside (or to the right).
+    /// Returns κ|p|²/2 − y of a point p. The value is 0 on the circle (or line), and positive outside the circle (or to the right of the
+    /// line).
     pub fn circle_equation_value(&self, [x, y]: [f64; 2]) -> f64 {
         0.5 * self.curvature * (x * x + y * y) - y
     }

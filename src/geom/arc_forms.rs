@@ -21,8 +21,8 @@ const POINTS_PER_DECADE: i32 = 8;
 const HEADING_COUNT: u32 = 24;
 
 js_structs! {
-    /// Errors (m) of three forms for the end of a motion at 1 m/s for 0.1 s, by turn rate. Each is the root mean square over all
-    /// headings.
+    /// Errors (m) of three forms for the end of a motion at 1 m/s for 0.1 s, by turn rate. Each error is the root mean
+    /// square over all headings.
     #[derive(Clone, Debug, PartialEq)]
     pub struct FormErrors {
         /// Turn rates, rad/s.
@@ -46,7 +46,7 @@ pub fn form_errors() -> FormErrors {
     let omega: Vec<f64> =
         (first..=last).map(|i| libm::exp10(f64::from(i) / f64::from(POINTS_PER_DECADE))).collect();
     let rms_errors: Vec<[f64; 3]> = omega.iter().map(|omega| rms_errors_at(*omega)).collect();
-    let errors_of_form = |form: usize| rms_errors.iter().map(|error| error[form]).collect();
+    let errors_of_form = |form: usize| rms_errors.iter().map(|form_errors| form_errors[form]).collect();
     FormErrors {
         arc: errors_of_form(0),
         straight: errors_of_form(1),
@@ -65,28 +65,28 @@ fn rms_errors_at(omega: f64) -> [f64; 3] {
         let true_end = exact_end(heading, omega);
         let form_ends =
             [arc_form_end(heading, omega), straight_form_end(heading), chord_form_end(heading, omega)];
-        for (square, end) in squared_errors.iter_mut().zip(form_ends) {
-            for (coordinate, exact_coordinate) in end.into_iter().zip(true_end) {
+        for (squared_error, form_end) in squared_errors.iter_mut().zip(form_ends) {
+            for (coordinate, exact_coordinate) in form_end.into_iter().zip(true_end) {
                 let coordinate_error = (DoubleDouble::from(coordinate) - exact_coordinate).to_f64();
-                *square += coordinate_error * coordinate_error;
+                *squared_error += coordinate_error * coordinate_error;
             }
         }
     }
-    squared_errors.map(|square| (square / f64::from(HEADING_COUNT)).sqrt())
+    squared_errors.map(|squared_error| (squared_error / f64::from(HEADING_COUNT)).sqrt())
 }
 
 fn arc_form_end(theta: f64, omega: f64) -> [f64; 2] {
-    let radius = SPEED / omega;
+    let arc_radius = SPEED / omega;
     let end_heading = theta + omega * DURATION;
     [
-        radius * libm::sin(end_heading) - radius * libm::sin(theta),
-        radius * libm::cos(theta) - radius * libm::cos(end_heading),
+        arc_radius * libm::sin(end_heading) - arc_radius * libm::sin(theta),
+        arc_radius * libm::cos(theta) - arc_radius * libm::cos(end_heading),
     ]
 }
 
 fn straight_form_end(theta: f64) -> [f64; 2] {
-    let length = SPEED * DURATION;
-    [length * libm::cos(theta), length * libm::sin(theta)]
+    let driven_length = SPEED * DURATION;
+    [driven_length * libm::cos(theta), driven_length * libm::sin(theta)]
 }
 
 fn chord_form_end(theta: f64, omega: f64) -> [f64; 2] {
@@ -114,8 +114,8 @@ pub struct DoubleDouble {
     pub low: f64,
 }
 
-/// 2²⁷ + 1 splits a double into halves of 26 bits, whose products are exact.
-const SPLITTER: f64 = 134_217_729.0;
+/// The factor 2²⁷ + 1 splits a double into halves of 26 bits, whose products are exact.
+const SPLIT_FACTOR: f64 = 134_217_729.0;
 
 /// Number of terms of the series of sine and cosine for angles up to π/8. The first omitted term is below 2⁻¹¹⁰ of the sum.
 const SERIES_TERM_COUNT: i32 = 12;
@@ -179,13 +179,13 @@ impl DoubleDouble {
     /// Returns a · b without rounding error, as long as nothing under- or overflows.
     pub fn product(a: f64, b: f64) -> Self {
         let split_in_halves = |x: f64| {
-            let scaled_x = SPLITTER * x;
+            let scaled_x = SPLIT_FACTOR * x;
             let high = scaled_x - (scaled_x - x);
             [high, x - high]
         };
         let high = a * b;
-        let ([a1, a2], [b1, b2]) = (split_in_halves(a), split_in_halves(b));
-        Self { high, low: ((a1 * b1 - high) + a1 * b2 + a2 * b1) + a2 * b2 }
+        let ([a_high, a_low], [b_high, b_low]) = (split_in_halves(a), split_in_halves(b));
+        Self { high, low: ((a_high * b_high - high) + a_high * b_low + a_low * b_high) + a_low * b_low }
     }
 
     /// Returns the nearest double.
@@ -202,36 +202,36 @@ impl DoubleDouble {
 
     /// Returns the sine and cosine of an angle within a full circle, with an error below 1e-30.
     ///
-    /// It evaluates Taylor's series for a sixteenth of the angle, and then doubles the angle four times: sin 2a = 2 sin a cos a
+    /// The function evaluates Taylor's series for a sixteenth of the angle, and then doubles the angle four times: sin 2a = 2 sin a cos a
     /// and 1 − cos 2a = 2 sin² a. Computing 1 − cos a instead of cos a loses no digits.
     pub fn sin_cos(self) -> (Self, Self) {
         let angle_divisor = f64::from(1 << HALVING_COUNT);
         let a = Self { high: self.high / angle_divisor, low: self.low / angle_divisor };
         let angle_squared = a * a;
-        // Sine a − a³/3! + …, and versine 1 − cos a = ½a² − a⁴/4! + …
-        let mut sine = Self::from(1.0);
-        let mut versine = Self::from(1.0);
+        // The series are a − a³/3! + … for the sine, and ½a² − a⁴/4! + … for the versine 1 − cos a.
+        let mut sine_sum = Self::from(1.0);
+        let mut versine_sum = Self::from(1.0);
         for k in (1..SERIES_TERM_COUNT).rev() {
             let n = f64::from(2 * k);
-            sine = Self::from(1.0) - (angle_squared * sine).divided_by(n * (n + 1.0));
-            versine = Self::from(1.0) - (angle_squared * versine).divided_by((n + 1.0) * (n + 2.0));
+            sine_sum = Self::from(1.0) - (angle_squared * sine_sum).divided_by(n * (n + 1.0));
+            versine_sum = Self::from(1.0) - (angle_squared * versine_sum).divided_by((n + 1.0) * (n + 2.0));
         }
-        let mut sine = a * sine;
-        let mut versine = (angle_squared * versine).divided_by(2.0);
+        let mut sine_sum = a * sine_sum;
+        let mut versine_sum = (angle_squared * versine_sum).divided_by(2.0);
         for _ in 0..HALVING_COUNT {
-            let cosine = Self::from(1.0) - versine;
-            (sine, versine) = (times_two(sine * cosine), times_two(sine * sine));
+            let cosine = Self::from(1.0) - versine_sum;
+            (sine_sum, versine_sum) = (times_two(sine_sum * cosine), times_two(sine_sum * sine_sum));
         }
-        (sine, Self::from(1.0) - versine)
+        (sine_sum, Self::from(1.0) - versine_sum)
     }
 
-    /// Returns sin(a)/a of an angle as [`DoubleDouble::sin_cos`] takes it; 1 at 0.
+    /// Returns sin(a)/a of an angle within a full circle, and 1 at 0.
     pub fn sinc(self) -> Self {
         if self.high == 0.0 {
             return Self::from(1.0);
         }
         let (sine, _) = self.sin_cos();
-        // A quotient in doubles, corrected by its remainder.
+        // The quotient is computed in doubles, and corrected by its remainder.
         let quotient = sine.high / self.high;
         let remainder = sine - self * Self::from(quotient);
         quick_two_sum(quotient, remainder.high / self.high)

@@ -10,14 +10,14 @@ use wide::{bytemuck, f64x2, f64x4, u64x4};
 /// Number of lanes of a SIMD vector.
 pub const LANE_COUNT: usize = 4;
 
-/// Maximum absolute error of sine, cosine and sinc: about 2.5 units in the last place of 1. The error of the
-/// polynomials is at most 1.9e-16; the rest is rounding.
+/// Maximum absolute error of sine, cosine and sinc: about 2.5 units in the last place of 1. The polynomials contribute at most 1.9e-16, and
+/// rounding the rest.
 pub const MAX_SIN_COS_ERROR: f64 = 6e-16;
 
-/// sin x/x, sin x and cos x of four angles.
+/// Values of sin x/x, sin x and cos x for four angles.
 #[derive(Clone, Copy)]
 pub struct SinCos {
-    /// sin x/x; 1 at 0.
+    /// sin x/x, which is 1 at 0.
     pub sinc: f64x4,
     /// sin x.
     pub sin: f64x4,
@@ -25,8 +25,8 @@ pub struct SinCos {
     pub cos: f64x4,
 }
 
-/// Polynomials with their coefficients in memory. A WebAssembly engine loads such a coefficient with one instruction; a
-/// constant in the code would take three.
+/// Polynomials of sine and cosine, whose coefficients are in memory. A WebAssembly engine loads a coefficient from memory with one
+/// instruction. A constant in the code takes three.
 #[derive(Clone, Copy, Debug)]
 pub struct Trigonometry {
     sinc: [f64; 8],
@@ -43,7 +43,7 @@ impl Trigonometry {
     /// Returns the sines and cosines of angles up to a quarter turn (rad).
     #[inline(always)]
     pub fn sin_cos_small_angle(&self, x: f64x4) -> SinCos {
-        let (sinc, cos) = self.sinc_cos(x * x);
+        let (sinc, cos) = self.sinc_and_cos(x * x);
         SinCos { sinc, sin: x * sinc, cos }
     }
 
@@ -58,13 +58,13 @@ impl Trigonometry {
     #[inline(never)]
     pub fn sin_cos_any_angle(&self, x: f64x4) -> SinCos {
         if is_any_lane_beyond(x, MAX_REDUCED_ANGLE) {
-            let map_lanes = |function: fn(f64) -> f64| f64x4::from(x.to_array().map(function));
+            let map_lanes = |lane_function: fn(f64) -> f64| f64x4::from(x.to_array().map(lane_function));
             let [sinc, sin, cos] = [super::sinc::sinc, libm::sin, libm::cos].map(map_lanes);
             return SinCos { sinc, sin, cos };
         }
         let half_circles = half_circle_count(x);
         let reduced_sin_cos = self.sin_cos_small_angle(subtract_half_circles(x, half_circles));
-        // Difference from the nearest even number: ±1 if the number of half circles is odd.
+        // The parity is the difference from the nearest even number. It is ±1 if the number of half circles is odd.
         let parity = half_circles - (half_circles + 2.0 * ROUND_TO_INTEGER - 2.0 * ROUND_TO_INTEGER);
         let parity_sign = f64x4::splat(1.0) - 2.0 * parity.abs();
         let (sin, cos) = (reduced_sin_cos.sin * parity_sign, reduced_sin_cos.cos * parity_sign);
@@ -72,25 +72,26 @@ impl Trigonometry {
         SinCos { sinc, sin, cos }
     }
 
-    /// Returns half headings h (rad) minus whole half circles, so that each is within a quarter circle of `near` (rad), with their sines
+    /// Returns half headings h (rad) minus whole half circles, so that each is within a quarter circle of `branch_centre` (rad), with their sines
     /// and cosines. The signs of sine and cosine are reversed if an odd number of half circles was subtracted. Half headings within a
-    /// quarter turn of 0 and of `near` get the bits of [`Trigonometry::sin_cos_small_angle`].
+    /// quarter turn of 0 and of `branch_centre` get the bits of [`Trigonometry::sin_cos_small_angle`].
     #[inline(never)]
-    pub fn sin_cos_on_branch(&self, half_heading: f64x4, near: f64) -> (f64x4, SinCos) {
+    pub fn sin_cos_on_branch(&self, half_heading: f64x4, branch_centre: f64) -> (f64x4, SinCos) {
         let mut half_heading_on_branch =
-            subtract_half_circles(half_heading, half_circle_count(half_heading - near));
-        if is_any_lane_beyond(half_heading - near, MAX_REDUCED_ANGLE) {
-            let wrap_near = |half_heading: f64| near + 0.5 * wrap_angle(2.0 * (half_heading - near));
+            subtract_half_circles(half_heading, half_circle_count(half_heading - branch_centre));
+        if is_any_lane_beyond(half_heading - branch_centre, MAX_REDUCED_ANGLE) {
+            let wrap_near =
+                |half_heading: f64| branch_centre + 0.5 * wrap_angle(2.0 * (half_heading - branch_centre));
             half_heading_on_branch = half_heading.to_array().map(wrap_near).into();
         }
         (half_heading_on_branch, self.sin_cos_any_angle(half_heading_on_branch))
     }
 
-    /// Returns (sin x/x, cos x) from z = x², for |x| up to a quarter turn. Exact at 0.
+    /// Returns (sin x/x, cos x) from z = x², for |x| up to a quarter turn. The result is exact at 0.
     ///
     /// Estrin's scheme has as many operations as Horner's. Its chain of dependent operations is half as long.
     #[inline(always)]
-    fn sinc_cos(&self, z: f64x4) -> (f64x4, f64x4) {
+    fn sinc_and_cos(&self, z: f64x4) -> (f64x4, f64x4) {
         let z2 = z * z;
         let z4 = z2 * z2;
         let [a, b, c, d, e, f, g, h] = self.sinc;
@@ -107,23 +108,23 @@ fn is_any_lane_beyond(x: f64x4, limit: f64) -> bool {
 }
 
 #[inline(always)]
-pub(crate) fn is_any_lane_set(mask: f64x4) -> bool {
-    let [low, high] = split_lanes(mask);
-    (low | high).any()
+pub(crate) fn is_any_lane_set(lane_mask: f64x4) -> bool {
+    let [low_lanes, high_lanes] = split_lanes(lane_mask);
+    (low_lanes | high_lanes).any()
 }
 
 #[inline(always)]
-pub(crate) fn split_lanes(lanes: f64x4) -> [f64x2; 2] {
-    bytemuck::cast(lanes)
+pub(crate) fn split_lanes(four_lanes: f64x4) -> [f64x2; 2] {
+    bytemuck::cast(four_lanes)
 }
 
 pub(crate) fn from_lanes(value_of_lane: impl FnMut(usize) -> f64) -> f64x4 {
     f64x4::new(std::array::from_fn(value_of_lane))
 }
 
-/// Returns the mask of the first `count` lanes, whose bits are all set.
-pub(crate) fn first_lanes_mask(count: usize) -> f64x4 {
-    from_lanes(|lane| if lane < count { f64::from_bits(u64::MAX) } else { 0.0 })
+/// Returns the mask of the first `lane_count` lanes, whose bits are all set.
+pub(crate) fn first_lanes_mask(lane_count: usize) -> f64x4 {
+    from_lanes(|lane| if lane < lane_count { f64::from_bits(u64::MAX) } else { 0.0 })
 }
 
 /// Returns ln of positive normal numbers, by the same operations as `libm::log`. FreeBSD's e_log.c explains the algorithm.
@@ -131,9 +132,9 @@ pub(crate) fn first_lanes_mask(count: usize) -> f64x4 {
 pub(crate) fn log(x: f64x4) -> f64x4 {
     /// Upper 32 bits of √2/2, the smallest reduced mantissa.
     const HALF_SQRT_2: u64 = 0x3fe6_a09e << 32;
-    const ONE: u64 = 0x3ff0_0000 << 32;
+    const BITS_OF_ONE: u64 = 0x3ff0_0000 << 32;
     const TWO_52: f64 = 4_503_599_627_370_496.0;
-    let shifted_bits = x.to_bits() + u64x4::splat(ONE - HALF_SQRT_2);
+    let shifted_bits = x.to_bits() + u64x4::splat(BITS_OF_ONE - HALF_SQRT_2);
     let biased_exponent = f64x4::from_bits((shifted_bits >> 52) | u64x4::splat(TWO_52.to_bits()));
     let exponent = biased_exponent - (TWO_52 + 1023.0);
     let f = f64x4::from_bits((shifted_bits & u64x4::splat((1 << 52) - 1)) + u64x4::splat(HALF_SQRT_2)) - 1.0;
@@ -150,7 +151,7 @@ pub(crate) fn log(x: f64x4) -> f64x4 {
         + exponent * LN_2_PARTS[0]
 }
 
-/// ln 2 in two parts: the second has the digits that the first lacks.
+/// ln 2 as the sum of two parts. The second part has the digits that the first part lacks.
 #[expect(clippy::excessive_precision, reason = "the digits as published")]
 const LN_2_PARTS: [f64; 2] = [6.931_471_803_691_238_164_90e-1, 1.908_214_929_270_587_700_02e-10];
 /// Coefficients of the polynomial in s² of [`log`].
@@ -165,7 +166,7 @@ const LOG_COEFFICIENTS: [f64; 7] = [
     1.479_819_860_511_658_591e-1,
 ];
 
-/// Maximum angle (rad) that is reduced with [`PI_PARTS`], a π of 119 bits. Its first two parts have 33 bits, so that their products
+/// Maximum angle (rad) that is reduced with [`PI_PARTS`], a π of 119 bits. The first two parts of π have 33 bits, so that their products
 /// with integers of up to 20 bits are exact. `libm` computes larger angles, which no robot turns by.
 const MAX_REDUCED_ANGLE: f64 = 3e6;
 const PI_PARTS: [f64; 3] = [3.141_592_653_468_251_2, 1.215_420_101_260_793_2e-10, 4.044_532_497_591_901e-21];
@@ -176,18 +177,18 @@ pub(crate) const ROUND_TO_INTEGER: f64 = 6_755_399_441_055_744.0;
 /// Returns the number of half circles that are subtracted from x so that the rest is within a quarter circle of 0.
 #[inline(always)]
 fn half_circle_count(x: f64x4) -> f64x4 {
-    // Within a quarter circle the number is 0. At its ends the rounded quotient may be 1.
+    // Within a quarter circle the number is 0. At the ends of that range the rounded quotient may be 1.
     let is_small = x.abs().simd_le(f64x4::splat(FRAC_PI_2));
     is_small.bitselect(f64x4::splat(0.0), x * FRAC_1_PI + ROUND_TO_INTEGER - ROUND_TO_INTEGER)
 }
 
 #[inline(always)]
 fn subtract_half_circles(x: f64x4, half_circles: f64x4) -> f64x4 {
-    PI_PARTS.iter().fold(x, |remainder, part| remainder - half_circles * *part)
+    PI_PARTS.iter().fold(x, |angle_so_far, pi_part| angle_so_far - half_circles * *pi_part)
 }
 
-/// Coefficients of sin √z/√z, from the lowest power up. Those after the 1 fit (sin √z/√z − 1)/z on [0, π²/4] by Remez's exchange,
-/// error 1.2e-16.
+/// Coefficients of sin √z/√z, from the lowest power up. The coefficients after the 1 fit (sin √z/√z − 1)/z on [0, π²/4] by Remez's
+/// exchange, with an error of 1.2e-16.
 const SINC_COEFFICIENTS: [f64; 8] = [
     1.0,
     -0.166_666_666_666_662_6,
@@ -198,7 +199,8 @@ const SINC_COEFFICIENTS: [f64; 8] = [
     1.604_841_188_107_557e-10,
     -7.377_031_323_962_015e-13,
 ];
-/// Coefficients of cos √z, from the lowest power up. Those after the 1 fit (cos √z − 1)/z over the same interval, error 4e-18.
+/// Coefficients of cos √z, from the lowest power up. The coefficients after the 1 fit (cos √z − 1)/z on [0, π²/4] by Remez's exchange, with
+/// an error of 4e-18.
 const COS_COEFFICIENTS: [f64; 9] = [
     1.0,
     -0.499_999_999_999_999_83,

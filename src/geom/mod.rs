@@ -1,4 +1,4 @@
-//! Plane geometry: angles, poses and their group, circular arcs. No robotics and no randomness.
+//! Plane geometry: angles, poses and their group, circular arcs. This module knows nothing about robots or random numbers.
 
 pub mod angle;
 pub mod arc;

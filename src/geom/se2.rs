@@ -1,8 +1,7 @@
 //! Poses of the plane and their group, SE(2).
 //!
-//! Equation numbers are those of Solà, Deray and Atchuthan, "A micro Lie theory for state estimation in robotics",
-//! arXiv:1812.01537. Twists and tangent vectors have the order (v_x, v_y, ω); perturbations act on the right, in the
-//! body frame: x ⊞ τ = x · exp(τ).
+//! Equation numbers are those of Solà, Deray and Atchuthan, "A micro Lie theory for state estimation in robotics", arXiv:1812.01537. Twists
+//! and tangent vectors have the order (v_x, v_y, ω). Perturbations act on the right, in the body frame: x ⊞ τ = x · exp(τ).
 
 use nalgebra::{Matrix3, Vector3};
 use serde::{Deserialize, Serialize};
@@ -35,7 +34,7 @@ impl SE2 {
         Self { x, y, theta: wrap_angle(theta) }
     }
 
-    /// Returns the identity: the pose of a frame in itself.
+    /// Returns the identity, which is the pose of a frame in itself.
     pub const fn identity() -> Self {
         Self { x: 0.0, y: 0.0, theta: 0.0 }
     }
@@ -73,35 +72,39 @@ impl SE2 {
         self.log_with_turn(self.theta)
     }
 
-    /// Returns the logarithm whose ω is within π of `turn`, rad: the approximate turn of a body that may have turned by
-    /// more than half a circle. For `turn` between −π and π it mostly equals [`SE2::log`]. Near a turn of whole circles
-    /// it grows without bound, unless the body is back at its start.
+    /// Returns the logarithm whose ω is within π of `turn` (rad). `turn` is the approximate turn of a body that may have turned by more
+    /// than half a circle. For `turn` between −π and π the result mostly equals [`SE2::log`]. Near a turn of whole circles the logarithm
+    /// grows without bound, unless the body is back at its start.
     pub fn log_near(&self, turn: f64) -> Vector3<f64> {
         self.log_with_turn(turn + wrap_angle(self.theta - turn))
     }
 
     fn log_with_turn(&self, turn: f64) -> Vector3<f64> {
-        let (half_turn, diagonal) = (0.5 * turn, half_cotangent(turn));
-        Vector3::new(diagonal * self.x + half_turn * self.y, diagonal * self.y - half_turn * self.x, turn)
+        let (half_turn, half_turn_cotangent) = (0.5 * turn, half_cotangent(turn));
+        Vector3::new(
+            half_turn_cotangent * self.x + half_turn * self.y,
+            half_turn_cotangent * self.y - half_turn * self.x,
+            turn,
+        )
     }
 
-    /// Returns x ⊞ τ = x · exp(τ): this pose moved by a twist in its own body frame (eq. 25).
+    /// Returns x ⊞ τ = x · exp(τ), which is this pose moved by a twist in its own body frame (eq. 25).
     pub fn boxplus(&self, twist: Vector3<f64>) -> Self {
         *self * Self::exp(&twist)
     }
 
-    /// Returns x ⊟ y = log(y⁻¹ · x): the twist in the body frame of `other` that takes `other` to this pose (eq. 26).
+    /// Returns x ⊟ y = log(y⁻¹ · x), the twist in the body frame of `other` that takes `other` to this pose (eq. 26).
     pub fn boxminus(&self, other: &Self) -> Vector3<f64> {
         other.between(self).log()
     }
 
-    /// Returns the inverse: the pose of the reference frame in the body frame.
+    /// Returns the inverse, which is the pose of the reference frame in the body frame.
     pub fn inverse(&self) -> Self {
         let (sin, cos) = libm::sincos(self.theta);
         Self::new(-cos * self.x - sin * self.y, sin * self.x - cos * self.y, -self.theta)
     }
 
-    /// Returns x⁻¹ · y, the pose of `other` in the frame of this one.
+    /// Returns x⁻¹ · y, which is the pose of `other` in the frame of this pose.
     pub(crate) fn between(&self, other: &Self) -> Self {
         let (sin, cos) = libm::sincos(self.theta);
         let (x, y) = (-cos * self.x - sin * self.y, sin * self.x - cos * self.y);
@@ -112,7 +115,7 @@ impl SE2 {
         )
     }
 
-    /// Returns the adjoint Ad (eq. 159), 3 × 3, with x · exp(τ) = exp(Ad τ) · x. It converts a twist from the body frame to the
+    /// Returns the adjoint Ad (eq. 159), 3 × 3, with x · exp(τ) = exp(Ad τ) · x. The adjoint converts a twist from the body frame to the
     /// reference frame.
     pub fn adjoint(&self) -> Matrix3<f64> {
         let (sin, cos) = libm::sincos(self.theta);
@@ -142,7 +145,7 @@ impl SE2 {
 impl Mul for SE2 {
     type Output = Self;
 
-    /// Returns the composition (eq. 154): `other`, which is in the frame of `self`, in the reference frame of `self`.
+    /// Returns the composition (eq. 154). `other` is in the frame of `self`, and the result is in the reference frame of `self`.
     fn mul(self, other: Self) -> Self {
         let (sin, cos) = libm::sincos(self.theta);
         Self::new(
@@ -166,8 +169,8 @@ impl From<[f64; 3]> for SE2 {
     }
 }
 
-/// Returns h·cot h with h = ω/2. Near 0 it is a series, because the three roundings of the closed form would be the largest
-/// error of the logarithm.
+/// Returns h·cot h with h = ω/2. Near 0 a series is used, because the three roundings of the closed form would be the largest error of the
+/// logarithm.
 fn half_cotangent(turn: f64) -> f64 {
     if turn.abs() < MAX_SERIES_ANGLE {
         return 1.0 - turn * cotangent_defect(turn);
@@ -182,9 +185,9 @@ fn squared_half_sinc(turn: f64) -> f64 {
     half_sinc * half_sinc
 }
 
-/// Minimum |ω| of the closed forms. Below it two quotients would cancel, and are computed by series. Above it the closed forms
-/// lose up to four bits of small quotients, so that sums with them are exact to rounding. A smaller bound would lose more bits; a
-/// larger one would need more terms.
+/// Minimum |ω| of the closed forms. Below this angle two quotients would cancel, and are computed by series. Above this angle the closed
+/// forms lose up to four bits of small quotients, so that sums with them are exact to rounding. A smaller bound would lose more bits, and a
+/// larger bound would need more terms.
 const MAX_SERIES_ANGLE: f64 = 1.0;
 
 /// Returns (ω − sin ω)/ω² = ω/3! − ω³/5! + ω⁵/7! − …
@@ -193,14 +196,14 @@ fn sine_defect(turn: f64) -> f64 {
         return (turn - libm::sin(turn)) / (turn * turn);
     }
     let turn_squared = turn * turn;
-    // Horner's scheme in −ω²: each term is the one before it, divided by (2k)(2k + 1). At |ω| = 1 the first omitted term is 1/21! ≈
-    // 2e-20.
-    let mut sum = 1.0;
+    // The series is evaluated by Horner's scheme in −ω². Each term is the previous term divided by (2k)(2k + 1). At |ω| = 1 the first
+    // omitted term is 1/21! ≈ 2e-20.
+    let mut series_sum = 1.0;
     for k in (2..=9).rev() {
         let k = f64::from(2 * k);
-        sum = 1.0 - turn_squared / (k * (k + 1.0)) * sum;
+        series_sum = 1.0 - turn_squared / (k * (k + 1.0)) * series_sum;
     }
-    turn / 6.0 * sum
+    turn / 6.0 * series_sum
 }
 
 /// Returns (1 − h·cot h)/ω with h = ω/2, which is ω/12 + ω³/720 + ω⁵/30240 + …
@@ -208,8 +211,8 @@ fn cotangent_defect(turn: f64) -> f64 {
     if turn.abs() >= MAX_SERIES_ANGLE {
         return (1.0 - half_cotangent(turn)) / turn;
     }
-    /// Coefficients |B₂ₖ|/(2k)! for k = 1, 2, …, with Bernoulli numbers B. Each is 1/(2π)² of the one before; the first omitted one is
-    /// 1e-18.
+    /// Coefficients |B₂ₖ|/(2k)! for k = 1, 2, …, with Bernoulli numbers B. Each coefficient is about 1/(2π)² of the previous one. The first
+    /// omitted coefficient is 1e-18.
     const COEFFICIENTS: [f64; 10] = [
         1.0 / 12.0,
         1.0 / 720.0,

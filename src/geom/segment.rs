@@ -21,11 +21,11 @@ impl Segment {
 
     /// Returns the squared distance to a point. Distances below 10⁻¹⁶² m underflow to 0.
     pub(crate) fn squared_distance_to_point(&self, point: [f64; 2]) -> f64 {
-        let offset = self.offset_of_point(point);
-        dot(offset, offset)
+        let nearest_offset = self.offset_of_point(point);
+        dot(nearest_offset, nearest_offset)
     }
 
-    /// Returns the vector from the nearest point of the segment to a point.
+    /// Returns the vector from the nearest point of the segment to `point`.
     fn offset_of_point(&self, point: [f64; 2]) -> [f64; 2] {
         let direction = [self.to[0] - self.from[0], self.to[1] - self.from[1]];
         let offset = [point[0] - self.from[0], point[1] - self.from[1]];
@@ -38,11 +38,11 @@ impl Segment {
         [offset[0] - t * direction[0], offset[1] - t * direction[1]]
     }
 
-    /// Returns the distance (m) between the nearest points of the segment and of an arc; 0 where they cross.
+    /// Returns the distance (m) between the nearest points of the segment and of an arc, which is 0 if they cross.
     ///
-    /// The nearest points are a crossing, an end of one and the nearest point of the other, or two inner points. At inner points the
-    /// segment is parallel to the arc and outside its circle. There are no other minima, because inside the circle the distance to it
-    /// is concave along a line.
+    /// The nearest points are a crossing, an end and the nearest point of the other line, or two inner points. At inner points the segment
+    /// is parallel to the arc and outside its circle. There are no other minima, because inside the circle the distance to it is concave
+    /// along a line.
     pub fn distance_to_arc(&self, arc: &Arc) -> f64 {
         self.distance_to_local_arc(&arc.local_arc())
     }
@@ -56,8 +56,8 @@ impl Segment {
     /// Returns the maximum distance (m) of an arc to the right of the segment's line. The ends of the arc must not be to the right.
     pub(crate) fn max_distance_on_right(&self, arc: &Arc) -> f64 {
         let direction = [self.to[0] - self.from[0], self.to[1] - self.from[1]];
-        let length = libm::hypot(direction[0], direction[1]);
-        // The arc is furthest from the line where it is parallel to it, in either direction.
+        let direction_length = libm::hypot(direction[0], direction[1]);
+        // The arc is furthest from the line at the points where arc and line are parallel.
         let bearing = libm::atan2(direction[1], direction[0]) - arc.start.theta();
         let parallel_turn = libm::remainder(bearing * arc.turn.signum(), PI);
         let first_parallel_turn = if parallel_turn < 0.0 { parallel_turn + PI } else { parallel_turn };
@@ -67,7 +67,8 @@ impl Segment {
             .filter(|fraction| *fraction < 1.0)
             .map(|fraction| Arc { length: fraction * arc.length, turn: fraction * arc.turn, ..*arc }.end())
             .map(|pose| {
-                ((pose.x() - self.from[0]) * direction[1] - (pose.y() - self.from[1]) * direction[0]) / length
+                ((pose.x() - self.from[0]) * direction[1] - (pose.y() - self.from[1]) * direction[0])
+                    / direction_length
             })
             .fold(0.0, f64::max)
     }
@@ -80,11 +81,11 @@ impl Segment {
     fn crosses_arc(&self, arc: &LocalArc) -> bool {
         let Self { from, to } = *self;
         let direction = [to[0] - from[0], to[1] - from[1]];
-        // Points of the segment on the circle: the circle's equation is quadratic along it.
+        // The points of the segment on the circle solve an equation that is quadratic along the segment.
         let a = 0.5 * arc.curvature * dot(direction, direction);
         let b = arc.curvature * dot(from, direction) - direction[1];
         let c = arc.circle_equation_value(from);
-        // b² − 4ac, rearranged against cancellation if the wall is much longer than the radius.
+        // The discriminant b² − 4ac is rearranged to avoid cancellation if the wall is much longer than the radius.
         let line_offset = arc.curvature * (from[0] * direction[1] - from[1] * direction[0]);
         let discriminant = direction[1] * direction[1] - line_offset * (line_offset + 2.0 * direction[0]);
         if discriminant < 0.0 {
@@ -110,11 +111,11 @@ impl Segment {
         ]
         .into_iter()
         .fold(f64::INFINITY, f64::min);
-        // The foot of the perpendicular from the circle's centre. A straight path has no centre, and needs no foot.
+        // The foot is that of the perpendicular from the circle's centre. A straight path has no centre, and needs no foot.
         if arc.curvature > 0.0 && squared_length > 0.0 {
             let t = (direction[1] / arc.curvature - dot(from, direction)) / squared_length;
             if (0.0..=1.0).contains(&t) {
-                // A foot inside the circle is no minimum, except that of a tangent, which rounding may put there.
+                // A foot inside the circle is no minimum. The exception is the foot of a tangent, which rounding may move into the circle.
                 min_distance = min_distance
                     .min(arc.distance_to_point([from[0] + t * direction[0], from[1] + t * direction[1]]));
             }

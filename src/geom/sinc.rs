@@ -1,12 +1,12 @@
 //! Quotients sin t/t and (1 − cos t)/t of arcs, without cancellation near 0.
 
-/// Returns sinc(t) = sin(t)/t, with sinc(0) = 1. Correct to about 1.5 units in the last place for every t.
+/// Returns sinc(t) = sin(t)/t, with sinc(0) = 1. The result is correct to about 1.5 units in the last place for every t.
 pub fn sinc(t: f64) -> f64 {
-    // For the smallest t the quotient is exactly 1, so that only t = 0 is special.
+    // For the smallest t the quotient is exactly 1. Only t = 0 is a special case.
     if t == 0.0 { 1.0 } else { libm::sin(t) / t }
 }
 
-/// Returns the end of an arc of length 1 that turns by φ: (sin φ/φ, (1 − cos φ)/φ), without cancellation.
+/// Returns the end (sin φ/φ, (1 − cos φ)/φ) of an arc of length 1 that turns by φ, without cancellation.
 pub(crate) fn chord_factors(turn: f64) -> (f64, f64) {
     let half_turn = 0.5 * turn;
     let sin = libm::sin(half_turn);

@@ -14,53 +14,58 @@ use super::se2::SE2;
 use nalgebra::{Matrix2, Matrix2x3, Vector2, Vector3};
 use std::f64::consts::PI;
 
-/// Returns the point to which a morph from 0 to 1 takes a twist (m, m, rad).
-pub fn unbend(twist: &Vector3<f64>, morph: f64) -> [f64; 2] {
-    let bend_factor = 1.0 - morph;
+/// Returns the point to which a morph fraction from 0 to 1 takes a twist (m, m, rad).
+pub fn unbend(twist: &Vector3<f64>, morph_fraction: f64) -> [f64; 2] {
+    let bend_factor = 1.0 - morph_fraction;
     let pose = SE2::exp(&Vector3::new(twist.x, bend_factor * twist.y, bend_factor * twist.z));
-    [pose.x(), pose.y() + morph * twist.z]
+    [pose.x(), pose.y() + morph_fraction * twist.z]
 }
 
 /// Returns the 2 × 3 Jacobian of [`unbend`] with respect to the twist.
-pub fn unbend_jacobian(twist: &Vector3<f64>, morph: f64) -> Matrix2x3<f64> {
-    let bend_factor = 1.0 - morph;
+pub fn unbend_jacobian(twist: &Vector3<f64>, morph_fraction: f64) -> Matrix2x3<f64> {
+    let bend_factor = 1.0 - morph_fraction;
     let bent_twist = Vector3::new(twist.x, bend_factor * twist.y, bend_factor * twist.z);
     // The Jacobian of the position of exp(ξ) with respect to ξ has the upper rows of R(ω)·J_r(ξ).
-    let rotation = SE2::new(0.0, 0.0, bent_twist.z).adjoint();
-    let mut jacobian = (rotation * SE2::right_jacobian(&bent_twist)).fixed_view::<2, 3>(0, 0).into_owned();
-    jacobian.column_mut(1).scale_mut(bend_factor);
-    jacobian.column_mut(2).scale_mut(bend_factor);
-    jacobian[(1, 2)] += morph;
-    jacobian
+    let rotation_adjoint = SE2::new(0.0, 0.0, bent_twist.z).adjoint();
+    let mut morph_jacobian =
+        (rotation_adjoint * SE2::right_jacobian(&bent_twist)).fixed_view::<2, 3>(0, 0).into_owned();
+    morph_jacobian.column_mut(1).scale_mut(bend_factor);
+    morph_jacobian.column_mut(2).scale_mut(bend_factor);
+    morph_jacobian[(1, 2)] += morph_fraction;
+    morph_jacobian
 }
 
-/// Returns the points to which a morph takes a line of positions. Each position counts as the end of the arc whose turn is nearest
-/// to `turn` (rad).
+/// Returns the points to which a morph fraction takes a line of positions. Each position counts as the end of the arc whose turn is nearest
+/// to `expected_turn` (rad).
 ///
 /// The result is empty if the arcs change between forward and reverse along the line, as on a line around the start.
-pub fn unbend_line(points: &[[f64; 2]], turn: f64, morph: f64) -> Vec<[f64; 2]> {
-    let arc = |[x, y]: &[f64; 2]| arc_with_turn_near(&SE2::identity(), &SE2::new(*x, *y, 0.0), turn);
-    let arcs: Vec<_> = points.iter().map(arc).collect();
-    if arcs.windows(2).any(|pair| (pair[1].1 - pair[0].1).abs() > PI) {
+pub fn unbend_line(points: &[[f64; 2]], expected_turn: f64, morph_fraction: f64) -> Vec<[f64; 2]> {
+    let arc_to_position =
+        |[x, y]: &[f64; 2]| arc_with_turn_near(&SE2::identity(), &SE2::new(*x, *y, 0.0), expected_turn);
+    let arcs_to_points: Vec<_> = points.iter().map(arc_to_position).collect();
+    if arcs_to_points.windows(2).any(|adjacent_arcs| (adjacent_arcs[1].1 - adjacent_arcs[0].1).abs() > PI) {
         return Vec::new();
     }
-    arcs.into_iter().map(|(length, turn)| unbend(&Vector3::new(length, 0.0, turn), morph)).collect()
+    arcs_to_points
+        .into_iter()
+        .map(|(arc_length, arc_turn)| unbend(&Vector3::new(arc_length, 0.0, arc_turn), morph_fraction))
+        .collect()
 }
 
-/// Maximum number of Newton steps. From one frame of a drag to the next three suffice.
+/// Maximum number of Newton steps. Three steps are enough from one frame of a drag to the next.
 const MAX_NEWTON_STEPS: usize = 20;
 
-/// Returns the length and turn of the arc that a morph takes to a point, by Newton's method from an initial guess. None if the method
-/// does not converge, as on a fold.
-pub fn find_arc(target: [f64; 2], initial_guess: [f64; 2], morph: f64) -> Option<[f64; 2]> {
+/// Returns the length and turn of the arc that a morph fraction takes to `target_point`, by Newton's method from an initial guess. Returns
+/// None if the method does not converge, as on a fold.
+pub fn find_arc(target_point: [f64; 2], initial_guess: [f64; 2], morph_fraction: f64) -> Option<[f64; 2]> {
     let mut arc = Vector2::from(initial_guess);
     for _ in 0..MAX_NEWTON_STEPS {
         let twist = Vector3::new(arc.x, 0.0, arc.y);
-        let residual = Vector2::from(target) - Vector2::from(unbend(&twist, morph));
+        let residual = Vector2::from(target_point) - Vector2::from(unbend(&twist, morph_fraction));
         if residual.amax() < 1e-12 * (1.0 + arc.amax()) {
             return Some(arc.into());
         }
-        let jacobian = unbend_jacobian(&twist, morph);
+        let jacobian = unbend_jacobian(&twist, morph_fraction);
         arc += Matrix2::from_columns(&[jacobian.column(0), jacobian.column(2)]).try_inverse()? * residual;
     }
     None

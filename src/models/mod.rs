@@ -15,7 +15,7 @@ use crate::geom::se2::SE2;
 use nalgebra::Matrix3;
 use rand::Rng;
 
-/// Probabilistic motion model. All poses are in the same frame. A model whose control is a command can predict; one with an
+/// Probabilistic motion model. All poses are in the same frame. A model whose control is a command can predict; a model whose control is an
 /// odometry reading is used after the motion.
 ///
 /// Arguments are not checked: a negative α, or a command whose `dt` is not positive, gives meaningless results, NaN for most.
@@ -36,10 +36,10 @@ pub trait MotionModel {
         None
     }
 
-    /// Returns a draw of x_t (Tables 5.3 and 5.6).
+    /// Returns a random draw of the next pose x_t (Tables 5.3 and 5.6).
     fn sample<R: Rng + ?Sized>(&self, u: &Self::Control, x: &SE2, rng: &mut R) -> SE2;
 
-    /// Returns R_u, the covariance in exponential coordinates, if the noise is additive in them; otherwise None.
+    /// Returns R_u, the covariance in exponential coordinates, if the noise is additive in these coordinates. Otherwise returns None.
     fn tangent_cov(&self, _u: &Self::Control) -> Option<Matrix3<f64>> {
         None
     }

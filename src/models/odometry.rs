@@ -15,12 +15,12 @@ pub struct OdomDelta {
     pub rot1: f64,
     /// Translation, m.
     pub trans: f64,
-    /// Second rotation, from that direction to the new heading, rad.
+    /// Second rotation, from the direction of the displacement to the new heading, rad.
     pub rot2: f64,
 }
 
-/// Displacement (m) below which a reading counts as a turn on the spot, because its direction is only rounding. No encoder resolves
-/// a nanometre. With a larger bound slow motion would count as a turn.
+/// Displacement (m) below which a reading counts as a turn on the spot. The direction of such a displacement is only rounding, because no
+/// encoder resolves a nanometre. A larger bound would turn slow motion into turns.
 const MIN_TRANSLATION: f64 = 1e-9;
 
 impl OdomDelta {
@@ -37,7 +37,7 @@ impl OdomDelta {
         Self { rot1, trans, rot2: wrap_angle(turn - rot1) }
     }
 
-    /// Returns the pose reached from `x` by exactly this motion.
+    /// Returns the pose that is reached from `x` by exactly this motion.
     pub fn apply(&self, x: &SE2) -> SE2 {
         let (sin, cos) = libm::sincos(self.rot1);
         *x * SE2::new(self.trans * cos, self.trans * sin, self.rot1 + self.rot2)
@@ -68,13 +68,13 @@ pub struct OdometryModel {
     pub noise: NoiseKind,
 }
 
-/// Odometry model whose rotation, translation and rotation have independent noises, under any rule for their variances.
+/// Odometry model with independent noises of first rotation, translation and second rotation. Any rule may give their variances.
 pub trait RotTransRot {
     /// Returns the distribution of the noise.
     fn noise(&self) -> NoiseKind;
 
-    /// Returns the variances of the three legs of `delta` (rad², m², rad²).
-    fn variances(&self, delta: &OdomDelta) -> [Variance; 3];
+    /// Returns the variances of the three legs of `reading` (rad², m², rad²).
+    fn variances(&self, reading: &OdomDelta) -> [Variance; 3];
 
     /// Returns the legs driven when their noises take the values `unit_noise` times their standard deviations. As in
     /// Table 5.6, noise is subtracted.
@@ -87,8 +87,8 @@ pub trait RotTransRot {
         }
     }
 
-    /// Returns the covariance of (x, y, θ) that an EKF carries: the three legs linearized at the reading, 3 × 3, in the
-    /// frame of `x` (m², m·rad, rad²).
+    /// Returns the covariance of (x, y, θ) that an EKF carries, from the three legs linearized at the reading. The covariance is 3 × 3, in
+    /// the frame of `x` (m², m·rad, rad²).
     fn cartesian_cov(&self, u: &OdomDelta, x: &SE2) -> Matrix3<f64> {
         let (sin, cos) = libm::sincos(x.theta() + u.rot1);
         let rot1_derivative = Vector3::new(-u.trans * sin, u.trans * cos, 1.0);
@@ -99,22 +99,22 @@ pub trait RotTransRot {
 }
 
 impl<M: RotTransRot> MotionModel for M {
-    /// Odometry reading of [`OdomDelta::from_poses`], from two poses of the odometry frame, not of the map frame.
+    /// Odometry reading of [`OdomDelta::from_poses`], from two poses of the odometry frame.
     type Control = OdomDelta;
 
-    /// Returns the score of Table 5.5. As there, the variances are those of the hypothetical legs, not of the reading.
+    /// Returns the score of Table 5.5. As in the table, the variances are those of the hypothetical legs, not of the reading.
     fn prob(&self, x_next: &SE2, u: &OdomDelta, x: &SE2) -> f64 {
-        let (noise, hypothesis) = (self.noise(), OdomDelta::from_poses(x, x_next));
-        let [rot1_variance, trans_variance, rot2_variance] = self.variances(&hypothesis);
+        let (noise, hypothetical_legs) = (self.noise(), OdomDelta::from_poses(x, x_next));
+        let [rot1_variance, trans_variance, rot2_variance] = self.variances(&hypothetical_legs);
         product_or_zero([
-            noise.prob(wrap_angle(u.rot1 - hypothesis.rot1), rot1_variance),
-            noise.prob(u.trans - hypothesis.trans, trans_variance),
-            noise.prob(wrap_angle(u.rot2 - hypothesis.rot2), rot2_variance),
+            noise.prob(wrap_angle(u.rot1 - hypothetical_legs.rot1), rot1_variance),
+            noise.prob(u.trans - hypothetical_legs.trans, trans_variance),
+            noise.prob(wrap_angle(u.rot2 - hypothetical_legs.rot2), rot2_variance),
         ])
     }
 
-    /// The map from legs to poses has the determinant δ̂_trans. Two combinations of legs lead to a pose: driving forward, and
-    /// driving in reverse after noise has made the translation negative.
+    /// The map from legs to poses has the determinant δ̂_trans. Two combinations of legs lead to a pose. One drives forward. The other
+    /// drives in reverse, because noise has made the translation negative.
     fn pose_density(&self, x_next: &SE2, u: &OdomDelta, x: &SE2) -> Option<f64> {
         let (noise, variances) = (self.noise(), self.variances(u));
         if variances.iter().any(|variance| variance.0 == 0.0) {
@@ -146,16 +146,16 @@ impl<M: RotTransRot> MotionModel for M {
 /// Function from a rotation to the angle that enters the noise variances, rad.
 pub(super) type EffectiveAngle = fn(f64) -> f64;
 
-/// Returns the variances of the three legs of `delta` (rad², m², rad²).
+/// Returns the variances of the three legs of `reading` (rad², m², rad²).
 pub(super) fn leg_variances(
     alphas: OdomAlphas,
-    delta: &OdomDelta,
+    reading: &OdomDelta,
     effective_angle: EffectiveAngle,
 ) -> [Variance; 3] {
     let [a1, a2, a3, a4] = alphas.0;
     let [rot1_sq, rot2_sq] =
-        [delta.rot1, delta.rot2].map(|rotation| effective_angle(rotation) * effective_angle(rotation));
-    let trans_sq = delta.trans * delta.trans;
+        [reading.rot1, reading.rot2].map(|rotation| effective_angle(rotation) * effective_angle(rotation));
+    let trans_sq = reading.trans * reading.trans;
     [
         Variance(a1 * rot1_sq + a2 * trans_sq),
         Variance(a3 * trans_sq + a4 * (rot1_sq + rot2_sq)),
@@ -168,12 +168,12 @@ impl RotTransRot for OdometryModel {
         self.noise
     }
 
-    fn variances(&self, delta: &OdomDelta) -> [Variance; 3] {
-        leg_variances(self.alphas, delta, f64::abs)
+    fn variances(&self, reading: &OdomDelta) -> [Variance; 3] {
+        leg_variances(self.alphas, reading, f64::abs)
     }
 }
 
-/// Returns min(|δ|, |π − |δ||) of a rotation δ: the absolute turn of a robot that may drive in reverse instead.
+/// Returns min(|δ|, |π − |δ||) of a rotation δ. This is the smallest turn of a robot that may drive in reverse instead.
 pub(super) fn turn_allowing_reverse(rotation: f64) -> f64 {
     let turn = rotation.abs();
     turn.min((PI - turn).abs())
@@ -185,9 +185,9 @@ pub(super) fn turn_allowing_reverse(rotation: f64) -> f64 {
 /// turns that it never made. Deployed localizers also use the smaller angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ConfiguredOdometry {
-    /// Model of the tables.
+    /// Model of Tables 5.5 and 5.6.
     pub model: OdometryModel,
-    /// True for the smaller angles.
+    /// True if a rotation δ counts as min(|δ|, |π − |δ||).
     pub reverse_aware: bool,
 }
 
@@ -196,9 +196,9 @@ impl RotTransRot for ConfiguredOdometry {
         self.model.noise
     }
 
-    fn variances(&self, delta: &OdomDelta) -> [Variance; 3] {
+    fn variances(&self, reading: &OdomDelta) -> [Variance; 3] {
         let effective_angle: EffectiveAngle =
             if self.reverse_aware { turn_allowing_reverse } else { f64::abs };
-        leg_variances(self.model.alphas, delta, effective_angle)
+        leg_variances(self.model.alphas, reading, effective_angle)
     }
 }

@@ -1,10 +1,10 @@
-//! Rules by which localizers add noise to an odometry reading: Table 5.6, and those of deployed software.
+//! Rules by which localizers add noise to an odometry reading: Table 5.6, and the rules of deployed software.
 
 use super::odometry::{EffectiveAngle, OdomAlphas, OdomDelta, leg_variances, turn_allowing_reverse};
 use crate::geom::se2::{SE2, wrap_angle};
 use crate::noise::{NoiseKind, Variance};
 
-/// Rule that relates the α's to the variances. Each takes the four α's of the table, the omnidirectional one a fifth.
+/// Rule that relates the α's to the variances of the noise. Each rule uses α₁ to α₄. The omnidirectional rule also uses α₅.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OdometryRule {
     /// Table 5.6 as it is printed.
@@ -24,14 +24,14 @@ pub enum OdometryRule {
     Omni,
 }
 
-/// Distance (m) below which deployed localizers treat a reading as a turn on the spot. The direction of so short a motion is only
-/// jitter of the encoders. A larger bound would lose the bearing of a slow robot's forward motion.
+/// Distance (m) below which deployed localizers treat a reading as a turn on the spot. The direction of so short a motion is only jitter of
+/// the encoders. With a larger bound, slow forward motion would lose its bearing.
 pub const MAX_SPIN_DISTANCE: f64 = 0.01;
 
-/// Noise parameters α₁…α₅, each 0 or more. Only [`OdometryRule::Omni`] uses the fifth.
+/// Noise parameters α₁…α₅, each 0 or more. Only [`OdometryRule::Omni`] uses α₅.
 pub type RuleAlphas = [f64; 5];
 
-/// Variances of the noises of a reading: of its three legs, and across the second.
+/// Variances of the noises of the three legs of a reading, and of the displacement across its drive.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LegVariances {
     /// Variance of the first rotation, rad².
@@ -40,7 +40,7 @@ pub struct LegVariances {
     pub trans: Variance,
     /// Variance of the second rotation, rad².
     pub rot2: Variance,
-    /// Variance across the drive, m²; 0 if the robot cannot slide.
+    /// Variance across the drive, m², which is 0 if the robot cannot slide.
     pub strafe: Variance,
 }
 
@@ -48,8 +48,8 @@ impl OdometryRule {
     /// All rules.
     pub const ALL: [Self; 4] = [Self::Table, Self::Nav2, Self::Beluga, Self::Omni];
 
-    /// Returns the legs that the rule makes of a reading: the same motion to within [`MAX_SPIN_DISTANCE`], with the whole turn
-    /// in the second rotation where the rule calls it a spin.
+    /// Returns the legs into which the rule decomposes a reading. The legs are the same motion to within [`MAX_SPIN_DISTANCE`]. If the rule
+    /// calls the reading a spin, the second rotation is the whole turn.
     pub fn legs(self, reading: &OdomDelta) -> OdomDelta {
         let is_spin = match self {
             Self::Table | Self::Omni => false,
@@ -94,18 +94,18 @@ impl OdometryRule {
     }
 }
 
-/// Motion that a robot executed instead of a reading: three legs, and a displacement across the second.
+/// Motion that a robot executed instead of a reading: three legs, and a displacement across the drive.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExecutedLegs {
-    /// Rotation, translation and rotation.
+    /// Rotation, translation and rotation of the executed motion.
     pub legs: OdomDelta,
     /// Displacement to the left of the drive, m.
     pub strafe: f64,
 }
 
 impl ExecutedLegs {
-    /// Returns the poses of a robot that starts from `x`: at the start, after the first turn, at the end of the drive, and after
-    /// the second turn. All are in the frame in which `x` is given.
+    /// Returns the poses of a robot that starts from `x`: at the start, after the first turn, at the end of the drive, and after the second
+    /// turn. All poses are in the frame of `x`.
     pub fn poses(&self, x: &SE2) -> [SE2; 4] {
         let OdomDelta { rot1, trans, rot2 } = self.legs;
         let pose_after_rot1 = *x * SE2::new(0.0, 0.0, rot1);
@@ -115,31 +115,35 @@ impl ExecutedLegs {
 }
 
 impl LegVariances {
-    /// Returns the executed legs when the noises are these multiples of their standard deviations. `across` is the noise of the
-    /// first rotation or of sliding, because no rule has both. `along` is that of the drive, `turn` that of the second rotation.
+    /// Returns the executed legs when the noises are these multiples of their standard deviations. `across_noise` is the noise of the
+    /// first rotation or of sliding, because no rule has both. `along_noise` is that of the drive, `turn_noise` that of the second rotation.
     /// As in Table 5.6, noise is subtracted.
-    pub fn executed_motion(&self, legs: &OdomDelta, [across, along, turn]: [f64; 3]) -> ExecutedLegs {
+    pub fn executed_motion(
+        &self,
+        legs: &OdomDelta,
+        [across_noise, along_noise, turn_noise]: [f64; 3],
+    ) -> ExecutedLegs {
         ExecutedLegs {
             legs: OdomDelta {
-                rot1: legs.rot1 - self.rot1.0.sqrt() * across,
-                trans: legs.trans - self.trans.0.sqrt() * along,
-                rot2: legs.rot2 - self.rot2.0.sqrt() * turn,
+                rot1: legs.rot1 - self.rot1.0.sqrt() * across_noise,
+                trans: legs.trans - self.trans.0.sqrt() * along_noise,
+                rot2: legs.rot2 - self.rot2.0.sqrt() * turn_noise,
             },
-            strafe: -self.strafe.0.sqrt() * across,
+            strafe: -self.strafe.0.sqrt() * across_noise,
         }
     }
 
-    /// Returns the variance (m²) of the end position across the measured bearing, after a drive of `trans` metres, in
-    /// closed form: (t² + σ²_trans)·E[sin² ε_rot1] + σ²_strafe. Its mean is 0.
+    /// Returns the variance (m²) of the end position across the measured bearing, after a drive of `trans` metres. The closed form is (t² +
+    /// σ²_trans)·E[sin² ε_rot1] + σ²_strafe. The mean of the end position across the bearing is 0.
     pub fn cross_track_variance(&self, trans: f64, noise: NoiseKind) -> f64 {
         (trans * trans + self.trans.0) * noise.mean_squared_sine(self.rot1) + self.strafe.0
     }
 
-    /// Returns the variance (rad²) of the turn made, unwrapped, for a `correlation` of the noises of the two rotations:
-    /// σ₁² + σ₂² + 2ρσ₁σ₂.
+    /// Returns the variance (rad²) of the unwrapped turn, for a `correlation` of the noises of the two rotations: σ₁² + σ₂² + 2ρσ₁σ₂.
     pub fn heading_variance(&self, correlation: f64) -> f64 {
         let [rot1_std, rot2_std] = [self.rot1, self.rot2].map(|variance| variance.0.sqrt());
-        // A sum of squares is never negative. The three terms might add up to slightly less than 0 for equal variances and ρ = −1.
+        // The variance is computed as a sum of squares, which is never negative. The three terms might add up to slightly less than 0 for
+        // equal variances and ρ = −1.
         let correlated_std = rot1_std + correlation * rot2_std;
         correlated_std * correlated_std + (1.0 - correlation * correlation) * rot2_std * rot2_std
     }

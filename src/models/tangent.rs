@@ -35,7 +35,7 @@ pub struct TangentNoiseModel {
     pub r: Matrix3<f64>,
     /// Variance (rad²) of the turn after the arc.
     last_turn_variance: f64,
-    /// L with L·Lᵀ = R.
+    /// Lower triangular L with L·Lᵀ = R.
     cov_root: Matrix3<f64>,
 }
 
@@ -44,9 +44,9 @@ pub struct TangentNoiseModel {
 pub enum Compounding {
     /// The chapter's recursion A·Σ·Aᵀ + R, A = Ad(exp(τ)⁻¹). It approximates exp(τ + w) by exp(τ)·exp(w).
     Chapter,
-    /// A·Σ·Aᵀ + J_r(τ)·R·J_r(τ)ᵀ: right to first order in w.
+    /// Recursion A·Σ·Aᵀ + J_r(τ)·R·J_r(τ)ᵀ, which is right to first order in w.
     FirstOrder,
-    /// [`Compounding::FirstOrder`] and the fourth-order terms of Barfoot and Furgale (2014), eq. 55.
+    /// Recursion of [`Compounding::FirstOrder`] with the fourth-order terms of Barfoot and Furgale (2014), eq. 55.
     FourthOrder,
 }
 
@@ -64,13 +64,13 @@ pub enum TangentNoiseError {
     NotPositiveSemidefinite,
 }
 
-/// Tolerance for symmetry and positive semidefiniteness of R, relative to its largest entry. A smaller one would refuse
-/// computed covariances because of rounding; a larger one would accept mistakes.
+/// Tolerance for symmetry and positive semidefiniteness of R, relative to its largest entry. A smaller tolerance would refuse computed
+/// covariances because of rounding. A larger tolerance would accept mistakes.
 const RELATIVE_TOLERANCE: f64 = 1e-12;
 
-/// Variance (m² and rad²) that [`TangentNoiseModel::log_prob`] adds to the diagonal of R, so that a singular R has a
-/// density: a lateral standard deviation of a micrometre. A larger one would change measurable densities; with a smaller
-/// one, rounding errors of a residual would give density 0.
+/// Variance (m² and rad²) that [`TangentNoiseModel::log_prob`] adds to the diagonal of R, so that a singular R has a density. It is a
+/// lateral standard deviation of a micrometre. A larger variance would change measurable densities. With a smaller variance, rounding
+/// errors of a residual would give density 0.
 const PADDING_VARIANCE: f64 = 1e-12;
 
 impl TangentNoiseModel {
@@ -88,7 +88,8 @@ impl TangentNoiseModel {
     /// # Errors
     /// [`TangentNoiseError`] where α's or command make a variance negative or not finite.
     pub fn from_velocity(model: &VelocityModel, u: &VelocityCmd) -> Result<Self, TangentNoiseError> {
-        let [length_var, turn_var, last_turn_var] = model.variances(u).map(|Variance(b2)| u.dt * u.dt * b2);
+        let [length_var, turn_var, last_turn_var] =
+            model.variances(u).map(|Variance(variance)| u.dt * u.dt * variance);
         Self::with_last_turn(Matrix3::from_diagonal(&Vector3::new(length_var, 0.0, turn_var)), last_turn_var)
     }
 
@@ -107,7 +108,7 @@ impl TangentNoiseModel {
         Vector3::new(u.v * u.dt, 0.0, u.omega * u.dt)
     }
 
-    /// Returns a draw of x_t.
+    /// Returns a random draw of the next pose x_t.
     pub fn sample<R: Rng + ?Sized>(&self, u: &VelocityCmd, x: &SE2, rng: &mut R) -> SE2 {
         let w = self.cov_root * Vector3::from_fn(|_, _| NoiseKind::Normal.sample(Variance(1.0), rng));
         let last_turn = NoiseKind::Normal.sample(Variance(self.last_turn_variance), rng);
@@ -126,81 +127,95 @@ impl TangentNoiseModel {
             return log_gaussian_density(&(x_next.boxminus(x) - Self::twist(u)), &padded_cov);
         }
         let inversion = invert_arc(x, x_next, u.dt);
-        let (length, turn) = (inversion.v_hat * u.dt, inversion.omega_hat * u.dt);
-        let residual = Vector3::new(length - u.v * u.dt, turn - u.omega * u.dt, inversion.gamma_hat * u.dt);
-        let variances = Vector3::new(
+        let (arc_length, arc_turn) = (inversion.v_hat * u.dt, inversion.omega_hat * u.dt);
+        let residual =
+            Vector3::new(arc_length - u.v * u.dt, arc_turn - u.omega * u.dt, inversion.gamma_hat * u.dt);
+        let noise_variances = Vector3::new(
             self.r[(0, 0)] + PADDING_VARIANCE,
             self.r[(2, 2)] + PADDING_VARIANCE,
             self.last_turn_variance,
         );
         let twist_sinc = sinc(0.5 * x.between(x_next).theta());
-        let arc_sinc = sinc(0.5 * turn);
-        log_gaussian_density(&residual, &Matrix3::from_diagonal(&variances))
-            + libm::log(2.0 * twist_sinc * twist_sinc / (length.abs() * arc_sinc * arc_sinc))
+        let arc_sinc = sinc(0.5 * arc_turn);
+        log_gaussian_density(&residual, &Matrix3::from_diagonal(&noise_variances))
+            + libm::log(2.0 * twist_sinc * twist_sinc / (arc_length.abs() * arc_sinc * arc_sinc))
     }
 
-    /// Returns Σ_k from Σ_{k−1} by the chapter's recursion: `propagate` with [`Compounding::Chapter`].
+    /// Returns Σ_k from Σ_{k−1} by the chapter's recursion, which is `propagate` with [`Compounding::Chapter`].
     pub fn compound(&self, sigma: &Matrix3<f64>, tau: &Vector3<f64>) -> Matrix3<f64> {
         self.propagate(sigma, tau, Compounding::Chapter)
     }
 
-    /// Returns the covariance of x_k ⊟ x̄_k after a step by the twist `tau`, from the covariance `sigma` of x_{k−1} ⊟ x̄_{k−1}.
-    /// Both are 3 × 3 in the body frame of their pose. The turn after the arc only adds to the heading, without J_r, because it
+    /// Returns the covariance of x_k ⊟ x̄_k after a step by the twist `tau`, from the covariance `sigma` of x_{k−1} ⊟ x̄_{k−1}. Both
+    /// covariances are 3 × 3, in the body frame of their pose. The turn after the arc only adds to the heading, without J_r, because it
     /// happens at the end of the arc.
-    pub fn propagate(&self, sigma: &Matrix3<f64>, tau: &Vector3<f64>, order: Compounding) -> Matrix3<f64> {
+    pub fn propagate(
+        &self,
+        sigma: &Matrix3<f64>,
+        tau: &Vector3<f64>,
+        recursion: Compounding,
+    ) -> Matrix3<f64> {
         let inverse_adjoint = SE2::exp(tau).inverse().adjoint();
         let transported_cov = inverse_adjoint * sigma * inverse_adjoint.transpose();
         let last_turn_cov = Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, self.last_turn_variance));
-        if order == Compounding::Chapter {
+        if recursion == Compounding::Chapter {
             return transported_cov + self.r + last_turn_cov;
         }
         let jacobian = SE2::right_jacobian(tau);
         let step_cov = jacobian * self.r * jacobian.transpose() + last_turn_cov;
         let first_order_cov = transported_cov + step_cov;
-        match order {
+        match recursion {
             Compounding::FourthOrder => first_order_cov + fourth_order_terms(&transported_cov, &step_cov),
             _ => first_order_cov,
         }
     }
 }
 
-/// Returns the fourth-order part of the covariance of log(exp(a)·exp(b)) for independent a and b with covariances `a` and `b`.
-/// It is (𝒜_a·b + b·𝒜_aᵀ + 𝒜_b·a + a·𝒜_bᵀ)/12 + ℬ/4, with 𝒜_a = E[ad(a)²] and ℬ = E[ad(a)·b·ad(a)ᵀ].
+/// Returns the fourth-order part of the covariance of log(exp(a)·exp(b)) for independent a and b with covariances `a` and `b`. The part is
+/// (𝒜_a·b + b·𝒜_aᵀ + 𝒜_b·a + a·𝒜_bᵀ)/12 + ℬ/4, with 𝒜_a = E[ad(a)²] and ℬ = E[ad(a)·b·ad(a)ᵀ].
 fn fourth_order_terms(a: &Matrix3<f64>, b: &Matrix3<f64>) -> Matrix3<f64> {
-    let mean_square = |cov| expectation(cov, |left, right| left * right);
+    let mean_square = |factor_cov| {
+        expected_adjoint_product(factor_cov, |left_adjoint, right_adjoint| left_adjoint * right_adjoint)
+    };
     let one_sided_terms = mean_square(a) * b + mean_square(b) * a;
-    let two_sided_term = expectation(a, |left, right| left * b * right.transpose());
+    let two_sided_term = expected_adjoint_product(a, |left_adjoint, right_adjoint| {
+        left_adjoint * b * right_adjoint.transpose()
+    });
     (one_sided_terms + one_sided_terms.transpose()) / 12.0 + two_sided_term / 4.0
 }
 
-/// Returns E[f(ad(ξ), ad(ξ))] for a bilinear f and ξ of covariance `cov`: ad is linear, so it is a sum over the basis
+/// Returns E[f(ad(ξ), ad(ξ))] for a bilinear f and ξ of covariance `cov`. ad is linear, so that the expectation is a sum over the basis
 /// twists.
-fn expectation(cov: &Matrix3<f64>, f: impl Fn(&Matrix3<f64>, &Matrix3<f64>) -> Matrix3<f64>) -> Matrix3<f64> {
-    let basis_adjoints = [Vector3::x(), Vector3::y(), Vector3::z()].map(|basis| small_adjoint(&basis));
-    let mut sum = Matrix3::zeros();
-    for (i, left) in basis_adjoints.iter().enumerate() {
-        for (j, right) in basis_adjoints.iter().enumerate() {
-            sum += f(left, right) * cov[(i, j)];
+fn expected_adjoint_product(
+    cov: &Matrix3<f64>,
+    bilinear_function: impl Fn(&Matrix3<f64>, &Matrix3<f64>) -> Matrix3<f64>,
+) -> Matrix3<f64> {
+    let basis_adjoints =
+        [Vector3::x(), Vector3::y(), Vector3::z()].map(|basis_twist| small_adjoint(&basis_twist));
+    let mut expectation_sum = Matrix3::zeros();
+    for (i, left_adjoint) in basis_adjoints.iter().enumerate() {
+        for (j, right_adjoint) in basis_adjoints.iter().enumerate() {
+            expectation_sum += bilinear_function(left_adjoint, right_adjoint) * cov[(i, j)];
         }
     }
-    sum
+    expectation_sum
 }
 
-/// Returns ad(ξ), 3 × 3: ad(ξ)·ζ = [ξ, ζ].
+/// Returns the 3 × 3 matrix ad(ξ) with ad(ξ)·ζ = [ξ, ζ].
 fn small_adjoint(twist: &Vector3<f64>) -> Matrix3<f64> {
     Matrix3::new(0.0, -twist.z, twist.y, twist.z, 0.0, -twist.x, 0.0, 0.0, 0.0)
 }
 
-/// Returns log N(residual; 0, cov) for a positive definite `cov`; −∞ if `cov` is not positive definite after rounding.
+/// Returns log N(residual; 0, cov) for a positive definite `cov`. The result is −∞ if `cov` is not positive definite after rounding.
 fn log_gaussian_density(residual: &Vector3<f64>, cov: &Matrix3<f64>) -> f64 {
-    let Some(root) = cov.cholesky().map(|cholesky| cholesky.unpack()) else { return f64::NEG_INFINITY };
-    let log_det: f64 = (0..3).map(|i| 2.0 * libm::log(root[(i, i)])).sum();
+    let Some(cov_root) = cov.cholesky().map(|cholesky| cholesky.unpack()) else { return f64::NEG_INFINITY };
+    let log_det: f64 = (0..3).map(|i| 2.0 * libm::log(cov_root[(i, i)])).sum();
     // The squared norm of the whitened residual avoids a division by a variance, which may underflow.
-    let Some(whitened) = root.solve_lower_triangular(residual) else { return f64::NEG_INFINITY };
-    -0.5 * (whitened.norm_squared() + log_det + 3.0 * libm::log(2.0 * PI))
+    let Some(whitened_residual) = cov_root.solve_lower_triangular(residual) else { return f64::NEG_INFINITY };
+    -0.5 * (whitened_residual.norm_squared() + log_det + 3.0 * libm::log(2.0 * PI))
 }
 
-/// Returns a lower triangular L with L·Lᵀ = cov. Columns of directions without variance are 0.
+/// Returns a lower triangular L with L·Lᵀ = cov. The columns of directions without variance are 0.
 pub(crate) fn covariance_root(cov: &Matrix3<f64>) -> Result<Matrix3<f64>, TangentNoiseError> {
     if cov.iter().any(|entry| !entry.is_finite()) {
         return Err(TangentNoiseError::NotFinite);
@@ -213,17 +228,17 @@ pub(crate) fn covariance_root(cov: &Matrix3<f64>) -> Result<Matrix3<f64>, Tangen
         let remaining_covariance =
             |row: usize| cov[(row, j)] - (0..j).map(|k| cov_root[(row, k)] * cov_root[(j, k)]).sum::<f64>();
         let remaining_column = [remaining_covariance(0), remaining_covariance(1), remaining_covariance(2)];
-        let (pivot, rounding) = (remaining_column[j], RELATIVE_TOLERANCE * cov[(j, j)].abs());
-        if pivot > rounding {
+        let (pivot, rounding_variance) = (remaining_column[j], RELATIVE_TOLERANCE * cov[(j, j)].abs());
+        if pivot > rounding_variance {
             for row in j..3 {
                 cov_root[(row, j)] = remaining_column[row] / pivot.sqrt();
             }
             continue;
         }
-        // A coordinate with no variance left can have no covariance left: |c_ij| ≤ √(c_ii · c_jj).
+        // A coordinate without remaining variance must have no remaining covariance, because |c_ij| ≤ √(c_ii · c_jj).
         let has_no_covariance =
-            |row: usize| remaining_column[row].abs() <= (rounding * cov[(row, row)].abs()).sqrt();
-        if pivot < -rounding || !(j + 1..3).all(has_no_covariance) {
+            |row: usize| remaining_column[row].abs() <= (rounding_variance * cov[(row, row)].abs()).sqrt();
+        if pivot < -rounding_variance || !(j + 1..3).all(has_no_covariance) {
             return Err(TangentNoiseError::NotPositiveSemidefinite);
         }
     }

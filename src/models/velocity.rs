@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 /// Velocity command: `v` (m/s) and `omega` (rad/s, counter-clockwise) held for `dt` (s, positive).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VelocityCmd {
-    /// Speed, m/s; negative in reverse.
+    /// Speed, m/s, which is negative in reverse.
     pub v: f64,
     /// Turn rate, rad/s, counter-clockwise.
     pub omega: f64,
@@ -45,8 +45,8 @@ pub struct VelocityModel {
     pub noise: NoiseKind,
 }
 
-/// Maximum number of full turns in each direction over which [`VelocityModel::pose_density`] sums. Noise that turns the robot
-/// more than 64 times in a step makes its heading uniform.
+/// Maximum number of full turns in each direction that [`VelocityModel::pose_density`] adds up. Noise that turns the robot more than 64
+/// times in a step makes its heading uniform.
 const MAX_WINDINGS: f64 = 64.0;
 
 impl VelocityModel {
@@ -72,34 +72,35 @@ impl VelocityModel {
         self.variances(u).map(|variance| variance.0.sqrt())
     }
 
-    /// Returns the number of full turns in each direction over which [`VelocityModel::pose_density`] sums, in addition to the turn
-    /// nearest to the commanded one.
+    /// Returns the number of full turns in each direction that [`VelocityModel::pose_density`] adds up. The turn nearest to the commanded
+    /// turn is counted in addition.
     pub(crate) fn max_windings(&self, u: &VelocityCmd) -> i32 {
         let [_, omega_std, _] = self.noise_stds(u);
         (9.0 * omega_std * u.dt / TAU).ceil().min(MAX_WINDINGS) as i32
     }
 
-    /// Returns the pose reached from `x` with these unit noises: Table 5.3 after its three draws.
+    /// Returns the pose reached from `x` with these unit noises. This is Table 5.3 after its three draws.
     pub fn apply_noise(&self, u: &VelocityCmd, x: &SE2, unit_noise: [f64; 3]) -> SE2 {
         let ArcInversion { v_hat, omega_hat, gamma_hat } = self.executed_motion(u, unit_noise);
         let (forward, left) = arc_end(v_hat * u.dt, omega_hat * u.dt);
         *x * SE2::new(forward, left, (omega_hat + gamma_hat) * u.dt)
     }
 
-    /// Returns the 3 × 3 covariance of (x, y, θ) that an EKF carries. The arc is linearized in (v̂, ω̂, γ̂) at the command. The
-    /// covariance is in the frame of `x` (m², m·rad, rad²). It does not depend on the shape of the noise.
+    /// Returns the 3 × 3 covariance of (x, y, θ) that an EKF carries. The arc is linearized in (v̂, ω̂, γ̂) at the command. The covariance
+    /// is in the frame of `x` (m², m·rad, rad²). The covariance does not depend on the shape of the noise.
     ///
-    /// It is R·(J_r R_u J_rᵀ + diag(0, 0, Δt²·Var γ̂))·Rᵀ with R_u = Δt²·diag(Var v̂, 0, Var ω̂). J_r is the right Jacobian of SE(2)
-    /// at the commanded twist. R is the rotation to the final heading.
+    /// The formula is R·(J_r R_u J_rᵀ + diag(0, 0, Δt²·Var γ̂))·Rᵀ with R_u = Δt²·diag(Var v̂, 0, Var ω̂). J_r is the right Jacobian of
+    /// SE(2) at the commanded twist. R is the rotation to the final heading.
     pub fn cartesian_cov(&self, u: &VelocityCmd, x: &SE2) -> Matrix3<f64> {
-        let [length_var, turn_var, last_turn_var] = self.variances(u).map(|Variance(b2)| u.dt * u.dt * b2);
+        let [length_var, turn_var, last_turn_var] =
+            self.variances(u).map(|Variance(variance)| u.dt * u.dt * variance);
         let twist = TangentNoiseModel::twist(u);
-        let jacobian = SE2::right_jacobian(&twist);
+        let right_jacobian = SE2::right_jacobian(&twist);
         let noise_cov = Matrix3::from_diagonal(&Vector3::new(length_var, 0.0, turn_var));
-        let arc_cov = jacobian * noise_cov * jacobian.transpose();
+        let arc_cov = right_jacobian * noise_cov * right_jacobian.transpose();
         let body_cov = arc_cov + Matrix3::from_diagonal(&Vector3::new(0.0, 0.0, last_turn_var));
-        let rotation = SE2::new(0.0, 0.0, x.theta() + twist.z).adjoint();
-        rotation * body_cov * rotation.transpose()
+        let rotation_adjoint = SE2::new(0.0, 0.0, x.theta() + twist.z).adjoint();
+        rotation_adjoint * body_cov * rotation_adjoint.transpose()
     }
 }
 
@@ -116,7 +117,7 @@ impl MotionModel for VelocityModel {
         ])
     }
 
-    /// Returns the density over dx dy dθ; None if a variance is 0.
+    /// Returns the density over dx dy dθ, or None if a variance is 0.
     ///
     /// The map (v̂, ω̂, γ̂) → (x, y, θ) has the determinant d · sinc(φ/2) · Δt³/2. Here d is the distance between the positions, and φ the
     /// turn of the arc. The circle through both positions can be driven by φ + 2πk for every integer k.
@@ -134,24 +135,25 @@ impl MotionModel for VelocityModel {
         if squared_distance_dt == 0.0 {
             return Some(if self.noise.prob(u.v, v_variance) > 0.0 { f64::INFINITY } else { 0.0 });
         }
-        // All turns that lead to the pose are on one circle, so that the length is proportional to the turn. A line has no windings.
-        let density_of_turn = |windings: f64| {
-            let (v_hat, turn) = if windings == 0.0 {
+        // All arcs that lead to the pose are on one circle, so that their lengths are proportional to their turns. On a straight line there
+        // is no full turn.
+        let density_of_turn = |full_turns: f64| {
+            let (v_hat, arc_turn) = if full_turns == 0.0 {
                 (inversion.v_hat, shortest_turn)
             } else if inversion.omega_hat == 0.0 {
                 return 0.0;
             } else {
-                let turn = shortest_turn + TAU * windings;
-                (inversion.v_hat * (turn / shortest_turn), turn)
+                let arc_turn = shortest_turn + TAU * full_turns;
+                (inversion.v_hat * (arc_turn / shortest_turn), arc_turn)
             };
             // With |sinc(φ/2)| = d/|v̂Δt| the determinant is d²Δt/(2|v̂|) times the Δt of γ̂.
             product_or_zero([
                 2.0 * v_hat.abs() / squared_distance_dt,
                 self.noise.prob(v_hat - u.v, v_variance),
-                self.noise.prob(turn / u.dt - u.omega, omega_variance),
+                self.noise.prob(arc_turn / u.dt - u.omega, omega_variance),
             ])
         };
-        // Nine standard deviations reach every turn whose Gaussian density is above the rounding of the sum.
+        // A range of nine standard deviations contains every turn whose Gaussian density is above the rounding of the sum.
         let nearest_winding = ((u.omega * u.dt - shortest_turn) / TAU).round();
         let max_windings = self.max_windings(u);
         let arc_density: f64 =

@@ -9,7 +9,7 @@ use wide::{bytemuck, f64x4};
 /// Distance from the probability ½ at which the tails begin.
 const CENTRE_HALF_WIDTH: f64 = 0.425;
 
-/// Returns Φ⁻¹(½ + q) by AS 241's PPND16: a rational function of degree 7 over 7 in each of three ranges.
+/// Returns Φ⁻¹(½ + q) by PPND16 of AS 241. It is a rational function of degree 7 over 7 in each of three ranges.
 #[inline(never)]
 pub(super) fn normal_quantile(q: f64) -> f64 {
     if q.abs() <= CENTRE_HALF_WIDTH {
@@ -34,35 +34,35 @@ pub(super) fn replace_by_normal_quantiles(numbers: &mut [f64x4]) {
     numbers.chunks_mut(CHUNK_VECTORS).for_each(replace_chunk_by_quantiles);
 }
 
-/// Replaces the numbers of a chunk by their quantiles. One number in seven is in a tail, and every second vector has one. Gathering
-/// these numbers into full vectors saves most of their cost, and unpredictable branches.
+/// Replaces the numbers of a chunk by their quantiles. One number in seven is in a tail, and every second vector has one. Gathering these
+/// numbers into full vectors saves most of their cost, and avoids unpredictable branches.
 fn replace_chunk_by_quantiles(numbers: &mut [f64x4]) {
     let mut tail_numbers = [0.0; LANE_COUNT * CHUNK_VECTORS + LANE_COUNT];
     let mut tail_indices = [0u16; LANE_COUNT * CHUNK_VECTORS + LANE_COUNT];
     let mut tail_count = 0;
-    for (group, q) in numbers.iter_mut().enumerate() {
+    for (vector_index, q) in numbers.iter_mut().enumerate() {
         let tail_mask = q.abs().simd_gt(f64x4::splat(CENTRE_HALF_WIDTH)).to_bitmask();
-        for (lane, tail) in q.to_array().into_iter().enumerate() {
-            // The next number overwrites this one unless it is in a tail.
-            tail_numbers[tail_count] = tail;
-            tail_indices[tail_count] = (LANE_COUNT * group + lane) as u16;
+        for (lane, number) in q.to_array().into_iter().enumerate() {
+            // The next number overwrites this number unless this number is in a tail.
+            tail_numbers[tail_count] = number;
+            tail_indices[tail_count] = (LANE_COUNT * vector_index + lane) as u16;
             tail_count += (tail_mask >> lane & 1) as usize;
         }
         let r = f64x4::splat(0.180_625) - *q * *q;
         *q *= rational_function(r, &CENTRE_NUMERATOR, &CENTRE_DENOMINATOR);
     }
     let chunk_numbers: &mut [f64] = bytemuck::cast_slice_mut(numbers);
-    for (numbers, indices) in
+    for (tail_vector, vector_indices) in
         tail_numbers[..tail_count].chunks(LANE_COUNT).zip(tail_indices[..tail_count].chunks(LANE_COUNT))
     {
-        let tail_quantiles = tail_quantile_lanes(from_lanes(|lane| *numbers.get(lane).unwrap_or(&0.45)));
-        for (index, quantile) in indices.iter().zip(tail_quantiles.to_array()) {
-            chunk_numbers[usize::from(*index)] = quantile;
+        let tail_quantiles = tail_quantile_lanes(from_lanes(|lane| *tail_vector.get(lane).unwrap_or(&0.45)));
+        for (number_index, quantile) in vector_indices.iter().zip(tail_quantiles.to_array()) {
+            chunk_numbers[usize::from(*number_index)] = quantile;
         }
     }
 }
 
-/// Returns [`normal_quantile`] of four numbers, each in one of the tails.
+/// Returns [`normal_quantile`] of four numbers that are in the tails.
 #[inline(always)]
 fn tail_quantile_lanes(q: f64x4) -> f64x4 {
     let r = (-log(f64x4::splat(0.5) - q.abs())).sqrt();
@@ -86,7 +86,7 @@ where
     T: Copy + From<f64> + Mul<Output = T> + Add<f64, Output = T>,
 {
     let highest_coefficient = T::from(coefficients[7]);
-    coefficients[..7].iter().rev().fold(highest_coefficient, |sum, c| sum * r + *c)
+    coefficients[..7].iter().rev().fold(highest_coefficient, |sum_so_far, c| sum_so_far * r + *c)
 }
 
 const CENTRE_NUMERATOR: [f64; 8] = [

@@ -11,7 +11,7 @@
  */
 
 /** Names of the sums of the first pass, in order: x, y, length, lateral, turn, sine and cosine of the turn, and products. */
-const SUM_NAMES = ['x', 'y', 'l', 'm', 't', 's', 'c', 'xx', 'xy', 'yy', 'xt', 'yt', 'tt', 'll', 'lm', 'mm', 'lt', 'mt'];
+const MEAN_KEYS = ['x', 'y', 'l', 'm', 't', 's', 'c', 'xx', 'xy', 'yy', 'xt', 'yt', 'tt', 'll', 'lm', 'mm', 'lt', 'mt'];
 
 export class Baseline {
   /** @param {number[]} alphas @param {Float64Array} unitNoise three standard normal numbers for each sample */
@@ -29,45 +29,45 @@ export class Baseline {
    * Computes statistics and the density picture for one event of the slider.
    *
    * @param {Command} command
-   * @param {Picture} view
-   * @param {Uint8Array} ramp
+   * @param {Picture} pictureView
+   * @param {Uint8Array} colourRamp
    */
-  refresh({ v, omega, dt }, view, ramp) {
+  refresh({ v, omega, dt }, pictureView, colourRamp) {
     const n = this.samples;
     const [a1, a2, a3, a4, a5, a6] = this.alphas;
-    const [vv, ww] = [v * v, omega * omega];
-    const stdDevs = [a1 * vv + a2 * ww, a3 * vv + a4 * ww, a5 * vv + a6 * ww].map(Math.sqrt);
+    const [vSquared, omegaSquared] = [v * v, omega * omega];
+    const noiseStds = [a1 * vSquared + a2 * omegaSquared, a3 * vSquared + a4 * omegaSquared, a5 * vSquared + a6 * omegaSquared].map(Math.sqrt);
     const halfTurn = 0.5 * omega * dt;
     const chordLength = halfTurn === 0 ? v * dt : (v * dt * Math.sin(halfTurn)) / halfTurn;
     const noiseFree = { x: chordLength * Math.cos(halfTurn), y: chordLength * Math.sin(halfTurn), l: v * dt, t: 2 * halfTurn };
-    const sums = driveCloud(this.unitNoise, this.cloud, [v, omega, dt], stdDevs, noiseFree);
-    const means = Object.fromEntries(SUM_NAMES.map((name, i) => [name, sums[i] / n]));
+    const sums = driveCloud(this.unitNoise, this.cloud, [v, omega, dt], noiseStds, noiseFree);
+    const means = Object.fromEntries(MEAN_KEYS.map((meanKey, i) => [meanKey, sums[i] / n]));
     const covarianceOf = (/** @type {string} */ a, /** @type {string} */ b) => (n / (n - 1)) * ((means[a + b] ?? means[b + a]) - means[a] * means[b]);
-    const covarianceMatrixOf = (/** @type {string[]} */ names) => names.map((a) => names.map((b) => covarianceOf(a, b)));
+    const covarianceMatrixOf = (/** @type {string[]} */ meanKeys) => meanKeys.map((a) => meanKeys.map((b) => covarianceOf(a, b)));
     const heading = noiseFree.t + Math.atan2(means.s, means.c);
     const cartesian = { mean: [noiseFree.x + means.x, noiseFree.y + means.y, heading], cov: covarianceMatrixOf(['x', 'y', 't']) };
     const exponential = { mean: [noiseFree.l + means.l, means.m, noiseFree.t + means.t], cov: covarianceMatrixOf(['l', 'm', 't']) };
 
-    const { columns, rows } = view;
-    if (this.counts.length !== columns * rows) {
-      this.counts = new Uint32Array(columns * rows);
-      this.pixels = new Uint32Array(columns * rows);
+    const { columns: columnCount, rows: rowCount } = pictureView;
+    if (this.counts.length !== columnCount * rowCount) {
+      this.counts = new Uint32Array(columnCount * rowCount);
+      this.pixels = new Uint32Array(columnCount * rowCount);
     }
     this.counts.fill(0);
-    const whiteningFactorsOf = (/** @type {number[][]} */ cov, /** @type {number} */ j) => {
-      const l00 = Math.sqrt(cov[0][0]);
-      const l10 = cov[0][j] / l00;
-      const l11 = Math.sqrt(cov[j][j] - l10 * l10);
-      // Two standard deviations get length 1.
+    const whiteningFactorsOf = (/** @type {number[][]} */ covMatrix, /** @type {number} */ secondIndex) => {
+      const l00 = Math.sqrt(covMatrix[0][0]);
+      const l10 = covMatrix[0][secondIndex] / l00;
+      const l11 = Math.sqrt(covMatrix[secondIndex][secondIndex] - l10 * l10);
+      // The factors scale two standard deviations to length 1.
       return [0.5 / l00, (-0.5 * l10) / (l00 * l11), 0.5 / l11];
     };
-    const centre = [means.x, means.y, means.l, means.t];
-    const normalization = [...centre, ...whiteningFactorsOf(cartesian.cov, 1), ...whiteningFactorsOf(exponential.cov, 2), Math.sin(heading), Math.cos(heading)];
-    const [pixelsPerMetreX, pixelsPerMetreY] = [columns / (view.xMax - view.xMin), rows / (view.yMax - view.yMin)];
+    const cloudCentre = [means.x, means.y, means.l, means.t];
+    const normalization = [...cloudCentre, ...whiteningFactorsOf(cartesian.cov, 1), ...whiteningFactorsOf(exponential.cov, 2), Math.sin(heading), Math.cos(heading)];
+    const [pixelsPerMetreX, pixelsPerMetreY] = [columnCount / (pictureView.xMax - pictureView.xMin), rowCount / (pictureView.yMax - pictureView.yMin)];
     const [inEllipse, inExponential, sumOfSquares, sumOfCubes, maxCount] = countCells(
-      this.cloud, this.counts, normalization, [(noiseFree.x - view.xMin) * pixelsPerMetreX, pixelsPerMetreX, (view.yMax - noiseFree.y) * pixelsPerMetreY, pixelsPerMetreY, columns, rows],
+      this.cloud, this.counts, normalization, [(noiseFree.x - pictureView.xMin) * pixelsPerMetreX, pixelsPerMetreX, (pictureView.yMax - noiseFree.y) * pixelsPerMetreY, pixelsPerMetreY, columnCount, rowCount],
     );
-    this.#paint(ramp, maxCount);
+    this.#paint(colourRamp, maxCount);
     return {
       stats: {
         n,
@@ -80,70 +80,70 @@ export class Baseline {
     };
   }
 
-  /** Paints the pixels by a table of the colours of all counts. @param {Uint8Array} ramp @param {number} maxCount */
-  #paint(ramp, maxCount) {
+  /** Paints the pixels by a table of the colours of all counts. @param {Uint8Array} colourRamp @param {number} maxCount */
+  #paint(colourRamp, maxCount) {
     const { counts, pixels } = this;
-    const colours = new Uint32Array(ramp.buffer, ramp.byteOffset, 256);
-    const shadeOfCount = new Uint32Array(maxCount + 1);
-    for (let count = 1; count <= maxCount; count++) shadeOfCount[count] = colours[Math.round(255 * Math.sqrt(count / maxCount))];
-    for (let i = 0; i < counts.length; i++) pixels[i] = shadeOfCount[counts[i]];
+    const colours = new Uint32Array(colourRamp.buffer, colourRamp.byteOffset, 256);
+    const colourOfCount = new Uint32Array(maxCount + 1);
+    for (let count = 1; count <= maxCount; count++) colourOfCount[count] = colours[Math.round(255 * Math.sqrt(count / maxCount))];
+    for (let i = 0; i < counts.length; i++) pixels[i] = colourOfCount[counts[i]];
   }
 }
 
 /**
  * Moves every sample and adds up its moments. This is the first pass.
  *
- * @param {Float64Array} noise
+ * @param {Float64Array} unitNoise
  * @param {Float64Array} cloud is filled
  * @param {number[]} command v, ω, Δt
- * @param {number[]} deviations standard deviations of v̂, ω̂, γ̂
- * @param {{ x: number, y: number, l: number, t: number }} origin noise-free motion
+ * @param {number[]} noiseStds standard deviations of v̂, ω̂, γ̂
+ * @param {{ x: number, y: number, l: number, t: number }} noiseFree noise-free motion
  * @returns {number[]} sums in the order of SUM_NAMES
  */
-function driveCloud(noise, cloud, command, deviations, origin) {
-  const [[v, omega, dt], [sdV, sdOmega, sdGamma], { x: x0, y: y0, l: l0, t: t0 }] = [command, deviations, origin];
-  let x1 = 0, y1 = 0, l1 = 0, m1 = 0, t1 = 0, s1 = 0, c1 = 0;
-  let xx = 0, xy = 0, yy = 0, xt = 0, yt = 0, tt = 0;
-  let ll = 0, lm = 0, mm = 0, lt = 0, mt = 0;
-  for (let i = 0, j = 0; i < noise.length; i += 3, j += 4) {
-    const drivenLength = (v + sdV * noise[i]) * dt;
-    const halfTurn = 0.5 * (omega + sdOmega * noise[i + 1]) * dt;
+function driveCloud(unitNoise, cloud, command, noiseStds, noiseFree) {
+  const [[v, omega, dt], [vStd, omegaStd, gammaStd], { x: noiseFreeX, y: noiseFreeY, l: noiseFreeLength, t: noiseFreeTurn }] = [command, noiseStds, noiseFree];
+  let sumX = 0, sumY = 0, sumLength = 0, sumLateral = 0, sumTurn = 0, sumSin = 0, sumCos = 0;
+  let sumXX = 0, sumXY = 0, sumYY = 0, sumXTurn = 0, sumYTurn = 0, sumTurnTurn = 0;
+  let sumLengthLength = 0, sumLengthLateral = 0, sumLateralLateral = 0, sumLengthTurn = 0, sumLateralTurn = 0;
+  for (let i = 0, j = 0; i < unitNoise.length; i += 3, j += 4) {
+    const drivenLength = (v + vStd * unitNoise[i]) * dt;
+    const halfTurn = 0.5 * (omega + omegaStd * unitNoise[i + 1]) * dt;
     const chordLength = halfTurn === 0 ? drivenLength : (drivenLength * Math.sin(halfTurn)) / halfTurn;
     const x = chordLength * Math.cos(halfTurn);
     const y = chordLength * Math.sin(halfTurn);
-    let t = 2 * halfTurn + sdGamma * noise[i + 2] * dt - t0;
-    if (t > Math.PI || t < -Math.PI) t -= 2 * Math.PI * Math.round(t / (2 * Math.PI));
-    // l and m are exponential coordinates: the length along the arc and the lateral offset.
-    const halfAngle = 0.5 * (t0 + t);
-    const stretch = halfAngle === 0 ? 1 : halfAngle / Math.tan(halfAngle);
-    const l = stretch * x + halfAngle * y - l0;
-    const m = stretch * y - halfAngle * x;
-    const dx = x - x0;
-    const dy = y - y0;
-    x1 += dx;
-    y1 += dy;
-    l1 += l;
-    m1 += m;
-    t1 += t;
-    s1 += Math.sin(t);
-    c1 += Math.cos(t);
-    xx += dx * dx;
-    xy += dx * dy;
-    yy += dy * dy;
-    xt += dx * t;
-    yt += dy * t;
-    tt += t * t;
-    ll += l * l;
-    lm += l * m;
-    mm += m * m;
-    lt += l * t;
-    mt += m * t;
+    let turnOffset = 2 * halfTurn + gammaStd * unitNoise[i + 2] * dt - noiseFreeTurn;
+    if (turnOffset > Math.PI || turnOffset < -Math.PI) turnOffset -= 2 * Math.PI * Math.round(turnOffset / (2 * Math.PI));
+    // l and m are exponential coordinates. l is the length along the arc, and m is the lateral offset.
+    const halfAngle = 0.5 * (noiseFreeTurn + turnOffset);
+    const lengthPerChord = halfAngle === 0 ? 1 : halfAngle / Math.tan(halfAngle);
+    const lengthOffset = lengthPerChord * x + halfAngle * y - noiseFreeLength;
+    const lateralOffset = lengthPerChord * y - halfAngle * x;
+    const dx = x - noiseFreeX;
+    const dy = y - noiseFreeY;
+    sumX += dx;
+    sumY += dy;
+    sumLength += lengthOffset;
+    sumLateral += lateralOffset;
+    sumTurn += turnOffset;
+    sumSin += Math.sin(turnOffset);
+    sumCos += Math.cos(turnOffset);
+    sumXX += dx * dx;
+    sumXY += dx * dy;
+    sumYY += dy * dy;
+    sumXTurn += dx * turnOffset;
+    sumYTurn += dy * turnOffset;
+    sumTurnTurn += turnOffset * turnOffset;
+    sumLengthLength += lengthOffset * lengthOffset;
+    sumLengthLateral += lengthOffset * lateralOffset;
+    sumLateralLateral += lateralOffset * lateralOffset;
+    sumLengthTurn += lengthOffset * turnOffset;
+    sumLateralTurn += lateralOffset * turnOffset;
     cloud[j] = dx;
     cloud[j + 1] = dy;
-    cloud[j + 2] = l;
-    cloud[j + 3] = t;
+    cloud[j + 2] = lengthOffset;
+    cloud[j + 3] = turnOffset;
   }
-  return [x1, y1, l1, m1, t1, s1, c1, xx, xy, yy, xt, yt, tt, ll, lm, mm, lt, mt];
+  return [sumX, sumY, sumLength, sumLateral, sumTurn, sumSin, sumCos, sumXX, sumXY, sumYY, sumXTurn, sumYTurn, sumTurnTurn, sumLengthLength, sumLengthLateral, sumLateralLateral, sumLengthTurn, sumLateralTurn];
 }
 
 /**
@@ -153,33 +153,33 @@ function driveCloud(noise, cloud, command, deviations, origin) {
  * @param {Float64Array} cloud
  * @param {Uint32Array} counts are added to
  * @param {number[]} normalization centre, whitening of both ellipses, sine and cosine of the mean heading
- * @param {number[]} view offset and pixels a metre of both axes, columns and rows
+ * @param {number[]} pixelTransform offset and pixels a metre of both axes, columns and rows
  * @returns {number[]} samples inside each contour, sums of squares and cubes, largest count
  */
-function countCells(cloud, counts, normalization, view) {
-  const [cx, cy, cl, ct, e00, e10, e11, f00, f10, f11, sin, cos] = normalization;
-  const [leftOffset, pixelsPerMetreX, topOffset, pixelsPerMetreY, columns, rows] = view;
+function countCells(cloud, counts, normalization, pixelTransform) {
+  const [meanX, meanY, meanLength, meanTurn, ellipse00, ellipse10, ellipse11, exponential00, exponential10, exponential11, sin, cos] = normalization;
+  const [xOriginPixels, pixelsPerMetreX, yOriginPixels, pixelsPerMetreY, columnCount, rowCount] = pixelTransform;
   let inEllipse = 0, inExponential = 0, sumOfSquares = 0, sumOfCubes = 0, maxCount = 0;
   for (let j = 0; j < cloud.length; j += 4) {
     const x = cloud[j];
     const y = cloud[j + 1];
-    const dx = x - cx;
-    const dy = y - cy;
-    const a = e00 * dx;
-    const b = e10 * dx + e11 * dy;
-    // A sum of 0 and 1 is faster than a branch that cannot be predicted.
+    const dx = x - meanX;
+    const dy = y - meanY;
+    const a = ellipse00 * dx;
+    const b = ellipse10 * dx + ellipse11 * dy;
+    // Adding 0 or 1 is faster than a branch that cannot be predicted.
     inEllipse += +(a * a + b * b <= 1);
-    const dl = cloud[j + 2] - cl;
-    const e = f00 * dl;
-    const f = f10 * dl + f11 * (cloud[j + 3] - ct);
+    const dLength = cloud[j + 2] - meanLength;
+    const e = exponential00 * dLength;
+    const f = exponential10 * dLength + exponential11 * (cloud[j + 3] - meanTurn);
     inExponential += +(e * e + f * f <= 1);
     const z = cos * dy - sin * dx;
     sumOfSquares += z * z;
     sumOfCubes += z * z * z;
-    const column = leftOffset + x * pixelsPerMetreX;
-    const row = topOffset - y * pixelsPerMetreY;
-    if (column >= 0 && row >= 0 && column < columns && row < rows) {
-      const count = ++counts[(row | 0) * columns + (column | 0)];
+    const column = xOriginPixels + x * pixelsPerMetreX;
+    const row = yOriginPixels - y * pixelsPerMetreY;
+    if (column >= 0 && row >= 0 && column < columnCount && row < rowCount) {
+      const count = ++counts[(row | 0) * columnCount + (column | 0)];
       if (count > maxCount) maxCount = count;
     }
   }

@@ -7,25 +7,25 @@
 import { Baseline } from './baseline.js';
 import { ALPHAS, COLOUR_RAMP, PICTURE_VIEW, commandAt, readDensityPixels, readStatsAndContours } from './scene.js';
 
-/** Maximum difference (m, rad or a fraction) between both implementations, which add numbers in different orders. */
+/** Maximum difference (m, rad or a fraction) between the baseline and the core, which add numbers in different orders. */
 const MAX_DIFFERENCE = 1e-9;
 
-/** Returns the names and values of the statistics in which the core and the baseline differ. @param {import('../www/types.d.ts').Motion} motion @param {number} samples */
-export function differencesFromCore(motion, samples) {
-  const simulation = new motion.BananaMachine({ alphas: ALPHAS, samples, seed: 11, command: commandAt(0) });
+/** Returns the names and values of the statistics in which the core and the baseline differ. @param {import('../www/types.d.ts').Motion} core @param {number} sampleCount */
+export function differencesFromCore(core, sampleCount) {
+  const simulation = new core.BananaMachine({ alphas: ALPHAS, samples: sampleCount, seed: 11, command: commandAt(0) });
   const baseline = new Baseline(ALPHAS, unitNoiseOf(simulation));
   /** @type {string[]} */
   const differenceTexts = [];
-  for (const event of [0, 30]) {
-    const { stats } = readStatsAndContours(simulation, event);
-    const baselineResult = baseline.refresh(commandAt(event), PICTURE_VIEW, COLOUR_RAMP);
-    for (const [name, value] of numbersWithPaths(baselineResult.stats)) {
-      const coreValue = name.split('.').reduce((part, key) => part[key], /** @type {any} */ (stats));
-      // The negation also reports NaN.
-      if (!(Math.abs(value - coreValue) <= MAX_DIFFERENCE)) differenceTexts.push(`${name}: ${value}, core ${coreValue}`);
+  for (const eventNumber of [0, 30]) {
+    const { stats } = readStatsAndContours(simulation, eventNumber);
+    const baselineResult = baseline.refresh(commandAt(eventNumber), PICTURE_VIEW, COLOUR_RAMP);
+    for (const [statisticPath, baselineValue] of numbersWithPaths(baselineResult.stats)) {
+      const coreValue = statisticPath.split('.').reduce((statsPart, statsKey) => statsPart[statsKey], /** @type {any} */ (stats));
+      // The negated comparison also reports NaN.
+      if (!(Math.abs(baselineValue - coreValue) <= MAX_DIFFERENCE)) differenceTexts.push(`${statisticPath}: ${baselineValue}, core ${coreValue}`);
     }
-    const pixels = readDensityPixels(simulation);
-    const differingPixelCount = baselineResult.pixels.filter((value, i) => value !== pixels[i]).length;
+    const corePixels = readDensityPixels(simulation);
+    const differingPixelCount = baselineResult.pixels.filter((baselinePixel, i) => baselinePixel !== corePixels[i]).length;
     if (differingPixelCount > 0) differenceTexts.push(`pixels: ${differingPixelCount} differ`);
   }
   simulation.free();
@@ -37,13 +37,13 @@ export function differencesFromCore(motion, samples) {
  *
  * @param {import('../www/types.d.ts').BananaMachine} simulation
  */
-export function unitNoiseOf({ config: { command: { v, omega }, alphas: [a1, a2, a3, a4, a5, a6] }, executed }) {
+export function unitNoiseOf({ config: { command: { v, omega }, alphas: [a1, a2, a3, a4, a5, a6] }, executed: executedMotions }) {
   const stdDevs = [[a1, a2], [a3, a4], [a5, a6]].map(([byV, byOmega]) => Math.sqrt(byV * v * v + byOmega * omega * omega));
-  return executed.map((value, i) => (value - [v, omega, 0][i % 3]) / stdDevs[i % 3]);
+  return executedMotions.map((value, i) => (value - [v, omega, 0][i % 3]) / stdDevs[i % 3]);
 }
 
-/** Returns every number of an object with its path. @param {object | number} value @param {string[]} path @returns {[string, number][]} */
-function numbersWithPaths(value, ...path) {
-  if (typeof value === 'number') return [[path.join('.'), value]];
-  return Object.entries(value).flatMap(([key, member]) => numbersWithPaths(member, ...path, key));
+/** Returns every number of an object with its path. @param {object | number} objectOrNumber @param {string[]} parentKeys @returns {[string, number][]} */
+function numbersWithPaths(objectOrNumber, ...parentKeys) {
+  if (typeof objectOrNumber === 'number') return [[parentKeys.join('.'), objectOrNumber]];
+  return Object.entries(objectOrNumber).flatMap(([key, memberValue]) => numbersWithPaths(memberValue, ...parentKeys, key));
 }

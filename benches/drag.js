@@ -1,7 +1,7 @@
 /**
- * Durations of the steps of a drag, at the initial sample counts and with a processor four times slower. The first is that of the frame that
- * paints the picture (JavaScript, WebAssembly, style, layout and paint). The others are the time until the text is updated, and the time
- * between frames.
+ * Durations of the steps of a drag, at the initial sample counts and with a processor four times slower. The first duration is that of the
+ * frame that paints the picture: JavaScript, WebAssembly, style, layout and paint. The second is the time until the text is updated. The
+ * third is the time between frames.
  *
  * @module
  */
@@ -21,26 +21,26 @@ const DRAGGED_SELECTOR = '.slider input[type=range], .handle:not(.jamb, .side)';
  * @property {number[]} steady from one frame to the next, if every frame has a step
  *
  * @param {import('@playwright/test').Browser} browser
- * @param {string} address of page.html
- * @param {number} steps of each drag
+ * @param {string} pageUrl of page.html
+ * @param {number} stepCount of each drag
  * @returns {Promise<Drag[]>}
  */
-export async function timeDrags(browser, address, steps) {
+export async function timeDrags(browser, pageUrl, stepCount) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, reducedMotion: 'reduce' });
   const page = await context.newPage();
-  await page.goto(address);
+  await page.goto(pageUrl);
   await page.evaluate(() => document.body.append(document.createElement('map-squeeze')));
   const cdpSession = await context.newCDPSession(page);
   /** @type {Drag[]} */
   const dragTimings = [];
-  for (const widget of ['banana-machine', 'map-squeeze']) {
-    await page.locator(widget).scrollIntoViewIfNeeded();
-    await page.waitForFunction((tag) => document.querySelector(tag)?.shadowRoot?.querySelector('.slider'), widget);
-    await page.locator(widget).evaluate((element) => element.scrollIntoView({ block: 'start' }));
-    const draggedCount = await page.locator(widget).locator(DRAGGED_SELECTOR).count();
+  for (const widgetTag of ['banana-machine', 'map-squeeze']) {
+    await page.locator(widgetTag).scrollIntoViewIfNeeded();
+    await page.waitForFunction((widgetTag) => document.querySelector(widgetTag)?.shadowRoot?.querySelector('.slider'), widgetTag);
+    await page.locator(widgetTag).evaluate((widgetElement) => widgetElement.scrollIntoView({ block: 'start' }));
+    const draggedCount = await page.locator(widgetTag).locator(DRAGGED_SELECTOR).count();
     await cdpSession.send('Emulation.setCPUThrottlingRate', { rate: CPU_SLOWDOWN });
     for (let i = 0; i < draggedCount; i++) {
-      dragTimings.push({ widget, ...(await page.evaluate(timeDrag, { widget, selector: DRAGGED_SELECTOR, i, steps })) });
+      dragTimings.push({ widget: widgetTag, ...(await page.evaluate(timeDrag, { widget: widgetTag, selector: DRAGGED_SELECTOR, i, steps: stepCount })) });
     }
     await cdpSession.send('Emulation.setCPUThrottlingRate', { rate: 1 });
   }
@@ -51,21 +51,21 @@ export async function timeDrags(browser, address, steps) {
 /** Measures the times of one drag. Runs in the page. @param {{ widget: string, selector: string, i: number, steps: number }} options */
 async function timeDrag({ widget, selector, i, steps }) {
   const MAX_FRAMES = 30;
-  const figure = /** @type {any} */ (document.querySelector(widget));
-  const shadowRoot = /** @type {ShadowRoot} */ (figure.shadowRoot);
+  const figureElement = /** @type {any} */ (document.querySelector(widget));
+  const shadowRoot = /** @type {ShadowRoot} */ (figureElement.shadowRoot);
   const draggedElement = /** @type {HTMLInputElement} */ (shadowRoot.querySelectorAll(selector)[i]);
   const isSlider = draggedElement.localName === 'input';
   // The text update of the previous drag may still set the slider.
-  await figure.settled;
+  await figureElement.settled;
   const openingValue = draggedElement.value;
-  // Every picture begins by clearing the canvas.
+  // A figure clears the canvas before it paints a picture.
   let pictureCount = 0;
   const { clearRect } = CanvasRenderingContext2D.prototype;
-  CanvasRenderingContext2D.prototype.clearRect = function (...box) {
+  CanvasRenderingContext2D.prototype.clearRect = function (...rectangle) {
     pictureCount++;
-    clearRect.apply(this, box);
+    clearRect.apply(this, rectangle);
   };
-  /** Returns the time at which the page has finished the current frame, when it reads the first message after it. @returns {Promise<number>} */
+  /** Returns the time at which the page has finished the current frame. At that time it reads the first message after the frame. @returns {Promise<number>} */
   const waitForFrameEnd = () =>
     new Promise((resolve) => {
       const { port1, port2 } = new MessageChannel();
@@ -82,24 +82,24 @@ async function timeDrag({ widget, selector, i, steps }) {
       const attributeFilter = ['aria-label', 'aria-valuetext'];
       textObserver.observe(shadowRoot, { subtree: true, characterData: true, childList: true, attributes: true, attributeFilter });
     });
-  const sendStep = (/** @type {number} */ step) => {
+  const sendStep = (/** @type {number} */ stepNumber) => {
     if (isSlider) {
-      if (step % 2) draggedElement.stepUp();
+      if (stepNumber % 2) draggedElement.stepUp();
       else draggedElement.stepDown();
       draggedElement.dispatchEvent(new InputEvent('input', { bubbles: true, composed: true }));
     } else {
       // Arrow keys move a handle by steps, with the same effects as a pointer.
-      draggedElement.dispatchEvent(new KeyboardEvent('keydown', { key: step % 2 ? 'ArrowLeft' : 'ArrowRight', bubbles: true, composed: true }));
+      draggedElement.dispatchEvent(new KeyboardEvent('keydown', { key: stepNumber % 2 ? 'ArrowLeft' : 'ArrowRight', bubbles: true, composed: true }));
     }
   };
   /** @type {{ picture: number[], text: number[], steady: number[] }} */
-  const durations = { picture: [], text: [], steady: [] };
+  const durationsByKind = { picture: [], text: [], steady: [] };
   // During the first six steps, which are not counted, the browser compiles the code.
-  for (let step = -6; step < steps; step++) {
+  for (let stepNumber = -6; stepNumber < steps; stepNumber++) {
     await new Promise(requestAnimationFrame);
-    const [configBefore, picturesBefore] = [JSON.stringify(figure.simulation.config), pictureCount];
+    const [configBefore, picturesBefore] = [JSON.stringify(figureElement.simulation.config), pictureCount];
     let frameStart = 0;
-    // The frame is requested before the step, so that this callback runs before that of the figure.
+    // The frame is requested before the step, so that this callback runs before the callback of the figure.
     const picturePromise = new Promise((resolve) =>
       requestAnimationFrame(() => {
         frameStart = performance.now();
@@ -107,31 +107,31 @@ async function timeDrag({ widget, selector, i, steps }) {
       }),
     );
     const textPromise = waitForTextChange();
-    sendStep(step);
+    sendStep(stepNumber);
     let pictureTime = /** @type {number} */ (await picturePromise);
     // On a busy machine the picture may come a frame late.
-    for (let frameNumber = 1; pictureCount === picturesBefore || JSON.stringify(figure.simulation.config) === configBefore; frameNumber++) {
+    for (let frameNumber = 1; pictureCount === picturesBefore || JSON.stringify(figureElement.simulation.config) === configBefore; frameNumber++) {
       if (frameNumber === MAX_FRAMES) throw new Error(`A step of ${draggedElement.id || draggedElement.className} has no picture after ${MAX_FRAMES} frames.`);
       await new Promise(requestAnimationFrame);
       pictureTime = await waitForFrameEnd();
     }
     const textTime = await textPromise;
-    if (step < 0) continue;
-    durations.picture.push(pictureTime - frameStart);
-    durations.text.push(Math.max(0, textTime - pictureTime));
+    if (stepNumber < 0) continue;
+    durationsByKind.picture.push(pictureTime - frameStart);
+    durationsByKind.text.push(Math.max(0, textTime - pictureTime));
   }
   let previousFrameTime = 0;
   for (let step = 0; step <= steps; step++) {
     const now = /** @type {number} */ (await new Promise(requestAnimationFrame));
-    if (step > 0) durations.steady.push(now - previousFrameTime);
+    if (step > 0) durationsByKind.steady.push(now - previousFrameTime);
     previousFrameTime = now;
     sendStep(step);
   }
   CanvasRenderingContext2D.prototype.clearRect = clearRect;
   if (isSlider) {
     draggedElement.value = openingValue;
-    for (const name of ['input', 'change']) draggedElement.dispatchEvent(new Event(name, { bubbles: true, composed: true }));
+    for (const eventName of ['input', 'change']) draggedElement.dispatchEvent(new Event(eventName, { bubbles: true, composed: true }));
     await new Promise(requestAnimationFrame);
   }
-  return { control: draggedElement.id || (draggedElement.getAttribute('aria-label') ?? ''), ...durations };
+  return { control: draggedElement.id || (draggedElement.getAttribute('aria-label') ?? ''), ...durationsByKind };
 }

@@ -23,11 +23,11 @@ import { CPU_SLOWDOWN } from './drag.js';
 const FRAME_MS = 16.7;
 
 /** Returns the report as Markdown. @param {Results} results */
-export function formatReport({ ranOn, quick, node, chromium, start, drags }) {
-  const slowestDrag = drags.reduce((slowestSoFar, drag) => (computeQuantile(drag.picture) > computeQuantile(slowestSoFar.picture) ? drag : slowestSoFar));
-  const valuesByRuntime = (/** @type {(timings: Timings) => number[]} */ valuesOf) => ({ Node: valuesOf(node), Chromium: valuesOf(chromium) });
-  const refreshOfSize = (/** @type {number} */ samples) => (/** @type {Timings} */ { refresh }) => refresh.find((row) => row.samples === samples) ?? refresh[0];
-  const speedRatios = (/** @type {Timings['refresh'][number]} */ { core, baseline }) => baseline.map((value, turn) => value / core[turn]);
+export function formatReport({ ranOn, quick: isQuickRun, node: nodeTimings, chromium: chromiumTimings, start: startTimings, drags: dragTimings }) {
+  const slowestDrag = dragTimings.reduce((slowestSoFar, dragTiming) => (computeQuantile(dragTiming.picture) > computeQuantile(slowestSoFar.picture) ? dragTiming : slowestSoFar));
+  const valuesByRuntime = (/** @type {(timings: Timings) => number[]} */ valuesOf) => ({ Node: valuesOf(nodeTimings), Chromium: valuesOf(chromiumTimings) });
+  const refreshOfSize = (/** @type {number} */ sampleCount) => (/** @type {Timings} */ { refresh: refreshTimings }) => refreshTimings.find((refreshRow) => refreshRow.samples === sampleCount) ?? refreshTimings[0];
+  const speedRatios = (/** @type {Timings['refresh'][number]} */ { core: coreTimes, baseline: baselineTimes }) => baselineTimes.map((baselineTime, turnIndex) => baselineTime / coreTimes[turnIndex]);
   const [findLargestRefresh, findMiddleRefresh] = [1e6, 1e5].map(refreshOfSize);
   /** @type {[string, '≤' | '≥', number, string, Record<string, number[]>][]} */
   const speedTargets = [
@@ -35,45 +35,45 @@ export function formatReport({ ranOn, quick, node, chromium, start, drags }) {
     ['Refresh of 100 000 poses', '≤', 2, 'ms', valuesByRuntime((timings) => findMiddleRefresh(timings).core)],
     ['JavaScript takes longer, at 1 000 000 poses', '≥', 3, '×', valuesByRuntime((timings) => speedRatios(findLargestRefresh(timings)))],
     ['Calibration of the example log', '≤', 1000, 'ms', valuesByRuntime(({ calibration }) => calibration)],
-    ['From script start to first cloud', '≤', 100, 'ms', { Chromium: Object.values(start).at(-1) ?? [] }],
+    ['From script start to first cloud', '≤', 100, 'ms', { Chromium: Object.values(startTimings).at(-1) ?? [] }],
     [`Step of the slowest drag (${slowestDrag.control}), processor ${CPU_SLOWDOWN} times slower`, '≤', FRAME_MS, 'ms', { Chromium: slowestDrag.picture }],
   ];
-  const targetRows = speedTargets.map(([targetName, comparison, limit, unit, { Node = [], Chromium = [] }]) => {
-    const isReachedByRuntime = [Node, Chromium].filter(({ length }) => length > 0).map((values) => (comparison === '≤' ? computeQuantile(values) <= limit : computeQuantile(values) >= limit));
+  const targetRows = speedTargets.map(([targetName, comparisonSign, targetLimit, targetUnit, { Node = [], Chromium = [] }]) => {
+    const isReachedByRuntime = [Node, Chromium].filter(({ length }) => length > 0).map((measuredValues) => (comparisonSign === '≤' ? computeQuantile(measuredValues) <= targetLimit : computeQuantile(measuredValues) >= targetLimit));
     const targetVerdict = isReachedByRuntime.every(Boolean) ? 'yes' : !isReachedByRuntime.some(Boolean) ? 'no' : `in ${isReachedByRuntime[0] ? 'Node' : 'Chromium'} alone`;
-    return { '': targetName, target: `${comparison} ${limit} ${unit}`, Node: cellTextOf(Node, unit), Chromium: cellTextOf(Chromium, unit), reached: targetVerdict };
+    return { '': targetName, target: `${comparisonSign} ${targetLimit} ${targetUnit}`, Node: cellTextOf(Node, targetUnit), Chromium: cellTextOf(Chromium, targetUnit), reached: targetVerdict };
   });
-  const refreshRows = Object.entries({ Node: node, Chromium: chromium }).flatMap(([where, { refresh }]) => refresh.map((row) => (
-    { where, samples: formatDigits(row.samples), 'refresh, ms': cellTextOf(row.core), 'JavaScript, ms': cellTextOf(row.baseline), ratio: cellTextOf(speedRatios(row)) }
+  const refreshRows = Object.entries({ Node: nodeTimings, Chromium: chromiumTimings }).flatMap(([runtimeName, { refresh: refreshTimings }]) => refreshTimings.map((refreshRow) => (
+    { where: runtimeName, samples: formatDigits(refreshRow.samples), 'refresh, ms': cellTextOf(refreshRow.core), 'JavaScript, ms': cellTextOf(refreshRow.baseline), ratio: cellTextOf(speedRatios(refreshRow)) }
   )));
   return [
-    `${Object.entries(ranOn).map(([name, value]) => `${name} ${value}`).join('; ')}. Medians, with quartiles in brackets.${quick ? ' A quick run: too few turns to be quoted.' : ''}`,
+    `${Object.entries(ranOn).map(([machinePart, partVersion]) => `${machinePart} ${partVersion}`).join('; ')}. Medians, with quartiles in brackets.${isQuickRun ? ' A quick run: too few turns to be quoted.' : ''}`,
     markdownTable(targetRows),
     `One event of the slider:\n\n${markdownTable(refreshRows)}`,
-    `First cloud, from the start of the script:\n\n${markdownTable(Object.entries(start).map(([until, times]) => ({ until, ms: cellTextOf(times) })))}`,
-    `Step of a drag, processor ${CPU_SLOWDOWN} times slower, opening sizes:\n\n${markdownTable(drags.map(({ widget, control, picture, text, steady }) => (
+    `First cloud, from the start of the script:\n\n${markdownTable(Object.entries(startTimings).map(([stageName, stageTimes]) => ({ until: stageName, ms: cellTextOf(stageTimes) })))}`,
+    `Step of a drag, processor ${CPU_SLOWDOWN} times slower, opening sizes:\n\n${markdownTable(dragTimings.map(({ widget, control, picture, text, steady }) => (
       { widget, dragged: control, 'frame with the picture, ms': cellTextOf(picture), 'text after it, ms': cellTextOf(text), 'between frames, a step in each, ms': cellTextOf(steady) }
     )))}`,
   ].join('\n\n');
 }
 
-/** Returns a quantile, by default the median. @param {number[]} values @param {number} [share] */
-function computeQuantile(values, share = 0.5) {
-  return quantileSorted(values.toSorted((a, b) => a - b), share) ?? NaN;
+/** Returns a quantile of the values, by default the median. @param {number[]} values @param {number} [quantileLevel] */
+function computeQuantile(values, quantileLevel = 0.5) {
+  return quantileSorted(values.toSorted((a, b) => a - b), quantileLevel) ?? NaN;
 }
 
 /** Returns the median and the quartiles as text. @param {number[]} values @param {string} [unit] */
 function cellTextOf(values, unit = '') {
-  const [lowerQuartile, median, upperQuartile] = [0.25, 0.5, 0.75].map((share) => formatDigits(computeQuantile(values, share)));
+  const [lowerQuartile, median, upperQuartile] = [0.25, 0.5, 0.75].map((quantileLevel) => formatDigits(computeQuantile(values, quantileLevel)));
   return values.length > 0 ? `${`${median} ${unit}`.trim()} [${lowerQuartile} to ${upperQuartile}]` : '';
 }
 
-/** Rounds to three significant digits. @param {number} value */
+/** Rounds a number to three significant digits. @param {number} value */
 const formatDigits = (value) => value.toLocaleString('en', { maximumSignificantDigits: 3 }).replaceAll(',', '\u202f');
 
-/** Returns a table with a column for each key. @param {Record<string, string>[]} rows */
-function markdownTable(rows) {
-  const columnNames = Object.keys(rows[0]);
-  const tableRows = [columnNames, columnNames.map(() => '---'), ...rows.map(Object.values)];
-  return tableRows.map((cells) => `| ${cells.join(' | ')} |`).join('\n');
+/** Returns a Markdown table with a column for each key of the rows. @param {Record<string, string>[]} rowObjects */
+function markdownTable(rowObjects) {
+  const columnNames = Object.keys(rowObjects[0]);
+  const tableRows = [columnNames, columnNames.map(() => '---'), ...rowObjects.map(Object.values)];
+  return tableRows.map((rowCells) => `| ${rowCells.join(' | ')} |`).join('\n');
 }

@@ -1,5 +1,5 @@
 /**
- * Model, slider and picture of a refresh. They are the same for the core and the baseline.
+ * Model, slider and picture of the measured refreshes. The core and the baseline share them.
  *
  * @module
  */
@@ -7,7 +7,7 @@
 /** @typedef {import('../www/types.d.ts').BananaMachine} BananaMachine */
 /** @typedef {import('../www/types.d.ts').Command} Command */
 
-/** α's of the preset Gentle arc, in which none of the six is 0. */
+/** α's of the preset Gentle arc, in which all six are above 0. */
 export const ALPHAS = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01];
 
 /** View with 400 pixels per metre around the whole cloud. */
@@ -23,9 +23,9 @@ export const COLOUR_RAMP = Uint8Array.from({ length: 1024 }, (_, i) => {
   return Math.round(i % 4 === 3 ? 255 * (0.15 + 0.85 * shadeShare) : sparseColour[i % 4] + inkShare * (denseColour[i % 4] - sparseColour[i % 4]));
 });
 
-/** Returns the command at an event. The slider moves up and down and never stays. @param {number} event @returns {Command} */
-export function commandAt(event) {
-  return { v: 1, omega: 0.5 + 0.001 * Math.abs(50 - (event % 100)), dt: 1 };
+/** Returns the command at an event of the slider. The slider moves up and down and never rests. @param {number} eventNumber @returns {Command} */
+export function commandAt(eventNumber) {
+  return { v: 1, omega: 0.5 + 0.001 * Math.abs(50 - (eventNumber % 100)), dt: 1 };
 }
 
 /**
@@ -39,12 +39,7 @@ export function readDensityPixels(simulation, { xMin, yMin, xMax, yMax, columns,
   return simulation.picture('plane', xMin, yMin, xMax, yMax, columns, rows, COLOUR_RAMP);
 }
 
-/**
- * Returns everything that a page needs after an event, except for the picture.
- *
- * @param {BananaMachine} simulation
- * @param {number} event
- */
+/** Returns everything that a page needs after an event, except for the pixels of the picture. @param {BananaMachine} simulation @param {number} event */
 export function readStatsAndContours(simulation, event) {
   simulation.configure({ command: commandAt(event) });
   return { stats: simulation.stats, contours: simulation.contours };

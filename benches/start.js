@@ -12,27 +12,27 @@ const STAGE_OF_MARK = /** @type {const} */ ({
 });
 
 /**
- * Loads the page several times, and measures its stages.
+ * Loads the page several times, and measures the stages of its start.
  *
  * @param {import('@playwright/test').Browser} browser
- * @param {string} address of page.html
- * @param {number} loads
+ * @param {string} pageUrl of page.html
+ * @param {number} loadCount
  * @returns {Promise<Record<string, number[]>>} ms from the start of the script to the end of each stage, load by load
  */
-export async function timeStarts(browser, address, loads) {
+export async function timeStarts(browser, pageUrl, loadCount) {
   /** @type {Record<string, number[]>} */
   const stageTimes = Object.fromEntries(Object.values(STAGE_OF_MARK).map((stage) => [stage, []]));
-  for (let loadNumber = 0; loadNumber < loads; loadNumber++) {
+  for (let loadNumber = 0; loadNumber < loadCount; loadNumber++) {
     // Each load has a new process with its own caches.
     const context = await browser.newContext({ viewport: { width: 1280, height: 900 } });
     const page = await context.newPage();
     await page.addInitScript(markStages);
-    // Without this, an animated introduction of single robots would delay the cloud.
+    // Reduced motion is set, because an animated introduction of single robots would delay the cloud.
     await page.addInitScript(() => sessionStorage.setItem('motion-widgets.introduced', 'yes'));
-    await page.goto(address);
+    await page.goto(pageUrl);
     await page.waitForFunction(() => performance.getEntriesByName('shown').length > 0);
-    for (const [mark, stage] of Object.entries(STAGE_OF_MARK)) {
-      stageTimes[stage].push(await page.evaluate((name) => performance.measure('', 'begin', name).duration, mark));
+    for (const [markName, stage] of Object.entries(STAGE_OF_MARK)) {
+      stageTimes[stage].push(await page.evaluate((markName) => performance.measure('', 'begin', markName).duration, markName));
     }
     await context.close();
   }
@@ -44,17 +44,17 @@ function markStages() {
   // The cloud is drawn once an image of its density or this number of dots is drawn.
   const DOTS_OF_CLOUD = 100;
   let dotCount = 0;
-  const { prototype } = CanvasRenderingContext2D;
+  const { prototype: contextPrototype } = CanvasRenderingContext2D;
   for (const methodName of /** @type {const} */ (['drawImage', 'putImageData', 'arc'])) {
-    const originalMethod = /** @type {(...values: any[]) => void} */ (prototype[methodName]);
-    /** @this {CanvasRenderingContext2D} @param {any[]} values */
-    prototype[methodName] = function (...values) {
-      originalMethod.apply(this, values);
+    const originalMethod = /** @type {(...values: any[]) => void} */ (contextPrototype[methodName]);
+    /** @this {CanvasRenderingContext2D} @param {any[]} drawArguments */
+    contextPrototype[methodName] = function (...drawArguments) {
+      originalMethod.apply(this, drawArguments);
       const canvasRoot = this.canvas.getRootNode();
       if (!(canvasRoot instanceof ShadowRoot) || canvasRoot.host.localName !== 'banana-machine') return;
       if ((methodName === 'arc' && ++dotCount < DOTS_OF_CLOUD) || performance.getEntriesByName('drawn').length > 0) return;
       performance.mark('drawn');
-      // The message is read once the current frame has been handed to the screen.
+      // The message is read after the current frame was handed to the screen.
       const { port1, port2 } = new MessageChannel();
       port1.onmessage = () => performance.mark('shown');
       port2.postMessage(undefined);

@@ -18,38 +18,38 @@ import { raceContenders } from './timing.js';
  */
 
 /**
- * Measures the core, and the baseline where there is one.
+ * Measures the core, and the baseline for tasks that the baseline implements.
  *
- * @param {Motion} motion
+ * @param {Motion} core
  * @param {object} options
  * @param {boolean} options.quick
  * @param {{ odometry: string, reference: string }} options.log CSV
  * @returns {Promise<Timings>}
  */
-export async function measureCore(motion, { quick, log }) {
-  const differingStatistics = differencesFromCore(motion, 4000);
+export async function measureCore(core, { quick: isQuickRun, log: logCsv }) {
+  const differingStatistics = differencesFromCore(core, 4000);
   if (differingStatistics.length > 0) throw new Error(`The baseline does not compute what the core does:\n${differingStatistics.join('\n')}`);
-  const secondsPerRace = quick ? 0.2 : 2;
+  const secondsPerRace = isQuickRun ? 0.2 : 2;
   const refreshTimings = [];
-  for (const samples of [1e4, 1e5, 1e6]) {
-    const simulation = new motion.BananaMachine({ alphas: ALPHAS, samples, seed: 1, command: commandAt(0) });
+  for (const sampleCount of [1e4, 1e5, 1e6]) {
+    const simulation = new core.BananaMachine({ alphas: ALPHAS, samples: sampleCount, seed: 1, command: commandAt(0) });
     const baselineSimulation = new Baseline(ALPHAS, unitNoiseOf(simulation));
-    const refreshCore = (/** @type {number} */ event) => {
-      readStatsAndContours(simulation, event);
+    const refreshCore = (/** @type {number} */ eventNumber) => {
+      readStatsAndContours(simulation, eventNumber);
       readDensityPixels(simulation);
     };
-    const refreshBaseline = (/** @type {number} */ event) => void baselineSimulation.refresh(commandAt(event), PICTURE_VIEW, COLOUR_RAMP);
-    refreshTimings.push({ samples, ...(await raceContenders({ core: refreshCore, baseline: refreshBaseline }, secondsPerRace)) });
+    const refreshBaseline = (/** @type {number} */ eventNumber) => void baselineSimulation.refresh(commandAt(eventNumber), PICTURE_VIEW, COLOUR_RAMP);
+    refreshTimings.push({ samples: sampleCount, ...(await raceContenders({ core: refreshCore, baseline: refreshBaseline }, secondsPerRace)) });
     simulation.free();
   }
-  const [odometry, reference] = [log.odometry, log.reference].map(parseCSVColumns);
-  const { calibration } = await raceContenders({ calibration: () => void motion.calibrate({ odometry, reference }) }, secondsPerRace);
+  const [odometry, reference] = [logCsv.odometry, logCsv.reference].map(parseCSVColumns);
+  const { calibration } = await raceContenders({ calibration: () => void core.calibrate({ odometry, reference }) }, secondsPerRace);
   return { refresh: refreshTimings, calibration };
 }
 
-/** Parses a log. @param {string} csv */
+/** Parses a log in CSV format into columns. @param {string} csv */
 function parseCSVColumns(csv) {
-  const csvRows = csv.trim().split('\n').slice(1).map((line) => line.split(',').map(Number));
-  const [t, x, y, theta] = [0, 1, 2, 3].map((i) => Float64Array.from(csvRows, (row) => row[i]));
+  const csvRows = csv.trim().split('\n').slice(1).map((csvLine) => csvLine.split(',').map(Number));
+  const [t, x, y, theta] = [0, 1, 2, 3].map((i) => Float64Array.from(csvRows, (csvRow) => csvRow[i]));
   return { t, x, y, theta };
 }

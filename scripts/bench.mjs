@@ -12,31 +12,31 @@ import { startServer } from './serve.mjs';
 import { ensureNativeRust } from './toolchain.mjs';
 import { formatReport } from '../benches/report.js';
 
-/** Headers that isolate the page. Its clock then has steps of 5 µs instead of 100 µs. */
+/** Headers that isolate the page. The clock of an isolated page has steps of 5 µs instead of 100 µs. */
 const ISOLATION_HEADERS = { 'cross-origin-opener-policy': 'same-origin', 'cross-origin-embedder-policy': 'require-corp' };
 
 /** @typedef {{ quick: boolean, log: { odometry: string, reference: string } }} Options */
 
-/** Measures everything, and prints the report. @param {boolean} quick */
-async function runBench(quick) {
-  // The full build, as it is published: the local build is not optimized.
+/** Measures the core and the page, and prints the report. @param {boolean} isQuickRun */
+async function runBench(isQuickRun) {
+  // The full build is measured, because it is published. The local build is not optimized.
   await build();
-  const [odometry, reference] = [EXAMPLE_LOGS.odometry, EXAMPLE_LOGS.reference].map((path) => readFileSync(join(ROOT, path), 'utf8'));
-  const benchOptions = { quick, log: { odometry, reference } };
+  const [odometry, reference] = [EXAMPLE_LOGS.odometry, EXAMPLE_LOGS.reference].map((logPath) => readFileSync(join(ROOT, logPath), 'utf8'));
+  const benchOptions = { quick: isQuickRun, log: { odometry, reference } };
   printStep('Node');
-  // These modules need dist/, which exists only after the build.
+  // These modules import dist/, which exists only after the build.
   const { measureCore } = await import('../benches/suite.js');
   const { load } = await import('../dist/core.js');
   const nodeTimings = await measureCore(/** @type {import('../www/types.d.ts').Motion} */ (await load()), benchOptions);
   const browser = await ensureBrowser();
   printStep('Chromium');
-  const results = { ranOn: await describeMachine(browser.version), quick, node: nodeTimings, ...(await measureInChromium(browser.chrome, benchOptions)) };
-  writeFileSync(join(ROOT, 'build/bench.json'), `${JSON.stringify(results, null, 2)}\n`);
-  console.log(`\n${formatReport(results)}\n\nbuild/bench.json has all measurements.`);
+  const benchResults = { ranOn: await describeMachine(browser.version), quick: isQuickRun, node: nodeTimings, ...(await measureInChromium(browser.chrome, benchOptions)) };
+  writeFileSync(join(ROOT, 'build/bench.json'), `${JSON.stringify(benchResults, null, 2)}\n`);
+  console.log(`\n${formatReport(benchResults)}\n\nbuild/bench.json has all measurements.`);
 }
 
-/** Describes the machine and the versions. @param {string} chromium */
-async function describeMachine(chromium) {
+/** Describes the machine and the versions of the programs. @param {string} chromiumVersion */
+async function describeMachine(chromiumVersion) {
   const commitRun = await run('git', ['describe', '--always', '--dirty'], { quiet: true });
   const { description } = await ensureNativeRust();
   return {
@@ -44,19 +44,19 @@ async function describeMachine(chromium) {
     commit: commitRun.ok ? commitRun.stdout.trim() : 'unknown',
     processor: `${cpus()[0].model}, ${cpus().length} cores`,
     Node: process.versions.node,
-    Chromium: chromium,
+    Chromium: chromiumVersion,
     Rust: description,
   };
 }
 
 /**
- * Measures in Chromium.
+ * Measures the core and the page in Chromium.
  *
  * @param {string} executablePath
- * @param {Options} options
+ * @param {Options} benchOptions
  * @returns {Promise<Pick<import('../benches/report.js').Results, 'chromium' | 'start' | 'drags'>>}
  */
-async function measureInChromium(executablePath, options) {
+async function measureInChromium(executablePath, benchOptions) {
   const { chromium: chromiumLauncher } = await import('@playwright/test');
   const { timeDrags } = await import('../benches/drag.js');
   const { timeStarts } = await import('../benches/start.js');
@@ -65,19 +65,19 @@ async function measureInChromium(executablePath, options) {
   const figuresAddress = `${address}benches/page.html`;
   try {
     printStep('First cloud');
-    const startDurations = await timeStarts(browser, figuresAddress, options.quick ? 5 : 11);
+    const startDurations = await timeStarts(browser, figuresAddress, benchOptions.quick ? 5 : 11);
     printStep('Drags');
-    const dragTimes = await timeDrags(browser, figuresAddress, options.quick ? 10 : 40);
+    const dragTimes = await timeDrags(browser, figuresAddress, benchOptions.quick ? 10 : 40);
     printStep('Refresh and calibration');
-    // This page has no figures.
+    // The page "empty" has no figures.
     const page = await browser.newPage();
     await page.route(`${address}empty`, (route) => route.fulfill({ headers: ISOLATION_HEADERS, contentType: 'text/html', body: '' }));
     await page.goto(`${address}empty`);
     if (!(await page.evaluate('crossOriginIsolated'))) throw new Error('The page is not isolated, and its clock too coarse.');
-    const chromiumTimings = await page.evaluate(async ({ modules: [core, suite], given }) => {
-      const [{ load }, { measureCore }] = await Promise.all([import(core), import(suite)]);
+    const chromiumTimings = await page.evaluate(async ({ modules: [coreModule, suiteModule], given }) => {
+      const [{ load }, { measureCore }] = await Promise.all([import(coreModule), import(suiteModule)]);
       return measureCore(await load(), given);
-    }, { modules: [`${address}dist/core.js`, `${address}benches/suite.js`], given: options });
+    }, { modules: [`${address}dist/core.js`, `${address}benches/suite.js`], given: benchOptions });
     return { chromium: chromiumTimings, start: startDurations, drags: dragTimes };
   } finally {
     await browser.close();
@@ -87,7 +87,7 @@ async function measureInChromium(executablePath, options) {
 
 await runAsScript(import.meta.url, async () => {
   const commandOptions = process.argv.slice(2);
-  const unknownOption = commandOptions.find((option) => option !== '--quick');
+  const unknownOption = commandOptions.find((commandOption) => commandOption !== '--quick');
   if (unknownOption !== undefined) throw new UserError(`"${unknownOption}" is not an option; \`npm run bench\` takes only --quick.`);
   await runBench(commandOptions.includes('--quick'));
 });

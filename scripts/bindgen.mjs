@@ -1,5 +1,5 @@
-// Programs of the crate scripts/bind, which use wasm-bindgen: one generates the glue of the core, one runs its tests in a browser. They are
-// not optimized: that compiles five times as fast, and the glue still takes only 0.3 s.
+// Programs of the crate scripts/bind, which use wasm-bindgen. One generates the glue of the core, and one runs its tests in a browser. The
+// programs are not optimized, so that they compile five times as fast. Generating the glue still takes only 0.3 s.
 
 import { createHash } from 'node:crypto';
 import { readFileSync } from 'node:fs';
@@ -14,33 +14,33 @@ export const ensureBindProgram = runOnce(() => compileProgram('bind', []));
 
 /** Returns the path of the program that runs WebAssembly tests in a browser. The first call builds it. */
 export const ensureTestRunner = runOnce(async () => {
-  // Most of its crates are compiled for the other program already.
+  // Most crates of the test runner are compiled for the glue generator already.
   await ensureBindProgram();
   return compileProgram('test-runner', ['--features', 'test-runner']);
 });
 
-/** Compiles a program once, and returns its path. @param {string} name @param {string[]} features */
-async function compileProgram(name, features) {
+/** Compiles a program once, and returns its path. @param {string} programName @param {string[]} cargoFeatures */
+async function compileProgram(programName, cargoFeatures) {
   const bindgenVersion = requireSameVersion();
   const sourceHash = createHash('sha256');
-  for (const path of filesOf(BINDGEN_CRATE)) sourceHash.update(readFileSync(join(ROOT, path)));
+  for (const sourcePath of filesOf(BINDGEN_CRATE)) sourceHash.update(readFileSync(join(ROOT, sourcePath)));
   const installDirectory = join(CACHE_DIRECTORY, `wasm-bindgen-${bindgenVersion}-${sourceHash.digest('hex').slice(0, 12)}`);
-  const programPath = join(installDirectory, 'bin', name);
+  const programPath = join(installDirectory, 'bin', programName);
   if (isProgram(programPath)) return programPath;
   const { bin, env } = await ensureNativeRust();
-  printStep(`Building ${name} of wasm-bindgen ${bindgenVersion}, once`);
-  const cargoArguments = ['install', '--quiet', '--debug', '--path', BINDGEN_CRATE, '--bin', name, ...features, '--root', installDirectory, '--no-track', '--force'];
-  // Cargo locks its directory while it builds, so this build has its own.
+  printStep(`Building ${programName} of wasm-bindgen ${bindgenVersion}, once`);
+  const cargoArguments = ['install', '--quiet', '--debug', '--path', BINDGEN_CRATE, '--bin', programName, ...cargoFeatures, '--root', installDirectory, '--no-track', '--force'];
+  // Cargo locks its directory while it builds. This build therefore has its own directory.
   const cargoOptions = { env: { ...env, CARGO_TARGET_DIR: join(ROOT, 'target/bind') }, seconds: 1200 };
   const lockedInstall = await run(join(bin, 'cargo'), [...cargoArguments, '--locked'], { ...cargoOptions, quiet: true });
-  // A crate of the lock file may be missing in a mirror.
+  // A mirror of the registry may lack a crate of the lock file.
   if (lockedInstall.ok || (await run(join(bin, 'cargo'), cargoArguments, cargoOptions)).ok) return programPath;
   throw new UserError(
     `wasm-bindgen ${bindgenVersion} could not be built: check that this machine reaches the registry of Rust packages and start again.`,
   );
 }
 
-/** Returns the version of wasm-bindgen. The core and the programs need exactly the same version. @returns {string} */
+/** Returns the version of wasm-bindgen. The core and the programs must use exactly the same version. @returns {string} */
 function requireSameVersion() {
   const bindgenVersion = readManifestValue('Cargo.lock', /^name = "wasm-bindgen"\nversion = "(.+)"$/m);
   const binderVersion = readManifestValue(`${BINDGEN_CRATE}/Cargo.lock`, /^name = "wasm-bindgen-cli-support"\nversion = "(.+)"$/m);

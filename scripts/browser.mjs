@@ -1,13 +1,13 @@
-// Finds Chromium and a chromedriver of the same version on this machine, or installs them, for the tests.
+// Finds Chromium and a chromedriver of the same version on this machine for the tests, or installs them.
 
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { ROOT, UserError, findProgram, mustRun, printStep, run } from './process.mjs';
 import { CACHE_DIRECTORY, aptInstall } from './toolchain.mjs';
 
-/** Programs of the full Chromium, which alone has a back-forward cache. */
+/** Names of the full Chromium, which alone has a back-forward cache. */
 export const FULL_CHROME_NAMES = ['chromium', 'google-chrome', 'google-chrome-stable', 'chrome', 'chromium-browser'];
-/** Programs of Chromium. The headless one is preferred: it takes a third less processor time. */
+/** Names of Chromium's programs. The headless program is preferred, because it takes a third less processor time. */
 const CHROME_NAMES = ['chromium-headless-shell', ...FULL_CHROME_NAMES];
 const MACOS_CHROME_DIRECTORY = '/Applications/Google Chrome.app/Contents/MacOS';
 const MISSING_BROWSER_MESSAGE =
@@ -23,15 +23,13 @@ export const CHROME_ARGUMENTS = [
   '--disable-background-networking',
   '--disable-component-update',
   '--disable-sync',
-  // Without it, headless Chromium crashes on an out-of-bounds access in WebAssembly, which should be a catchable error.
+  // Without this argument, headless Chromium crashes on an out-of-bounds access in WebAssembly, which should be a catchable error.
   '--enable-crash-reporter',
 ];
 
 /** @typedef {{ chrome: string, driver: string, version: string }} Browser */
 
-/**
- * Installs a font as wide as Arial, which the pages are laid out for. With DejaVu as the only font all text is a tenth wider.
- */
+/** Installs a font as wide as Arial, for which the pages are laid out. With DejaVu as the only font all text is a tenth wider. */
 async function ensureFonts() {
   if (findProgram('fc-match') === undefined || findProgram('apt-get') === undefined) return;
   const { stdout } = await run('fc-match', ['--format', '%{family}', 'Arial'], { quiet: true, seconds: 30 });
@@ -51,38 +49,38 @@ async function ensureChrome() {
   const existingBrowser = await checkPair(CHROME ?? findChrome(), CHROMEDRIVER ?? findProgram('chromedriver'));
   if (existingBrowser !== undefined) return existingBrowser;
   if (CHROME !== undefined || CHROMEDRIVER !== undefined) throw new UserError(MISSING_BROWSER_MESSAGE);
-  // Packages of these names on Ubuntu only point to a snap, which cannot be driven from here.
+  // On Ubuntu, packages of these names only point to a snap. A snap cannot be driven from here.
   const isDebian = existsSync('/etc/os-release') && /^ID=debian$/m.test(readFileSync('/etc/os-release', 'utf8'));
   const installedBrowser = isDebian ? await installDebianBrowser() : await installChromeForTesting();
   if (installedBrowser === undefined) throw new UserError(MISSING_BROWSER_MESSAGE);
   return installedBrowser;
 }
 
-/** Returns the first Chrome that is found. @param {string[]} [names] of programs, the preferred one first */
-export function findChrome(names = CHROME_NAMES) {
+/** Returns the path of the first Chrome that is found. @param {string[]} [programNames] of programs, the preferred one first */
+export function findChrome(programNames = CHROME_NAMES) {
   return (
-    names.map((name) => findProgram(name)).find((path) => path !== undefined) ??
+    programNames.map((programName) => findProgram(programName)).find((programPath) => programPath !== undefined) ??
     findProgram('Google Chrome', [MACOS_CHROME_DIRECTORY])
   );
 }
 
 /**
- * Returns a browser and its driver with the version of the browser.
+ * Returns a browser and its driver of the same version.
  *
- * @param {string | undefined} chrome
- * @param {string | undefined} driver
+ * @param {string | undefined} chromePath
+ * @param {string | undefined} driverPath
  * @returns {Promise<Browser | undefined>} undefined unless both run and are of one major version
  */
-async function checkPair(chrome, driver) {
-  if (chrome === undefined || driver === undefined) return undefined;
-  const [version, driverVersion] = await Promise.all([readVersion(chrome), readVersion(driver)]);
-  if (version === undefined || version.split('.')[0] !== driverVersion?.split('.')[0]) return undefined;
-  return { chrome, driver, version };
+async function checkPair(chromePath, driverPath) {
+  if (chromePath === undefined || driverPath === undefined) return undefined;
+  const [chromeVersion, driverVersion] = await Promise.all([readVersion(chromePath), readVersion(driverPath)]);
+  if (chromeVersion === undefined || chromeVersion.split('.')[0] !== driverVersion?.split('.')[0]) return undefined;
+  return { chrome: chromePath, driver: driverPath, version: chromeVersion };
 }
 
-/** Returns the version that a program prints; undefined if it does not run. @param {string} program */
-async function readVersion(program) {
-  const { stdout } = await run(program, ['--version'], { quiet: true, seconds: 30 });
+/** Returns the version that a program prints, or undefined if the program does not run. @param {string} programPath */
+async function readVersion(programPath) {
+  const { stdout } = await run(programPath, ['--version'], { quiet: true, seconds: 30 });
   return stdout.match(/\d+(\.\d+){3}/)?.[0];
 }
 
@@ -91,7 +89,7 @@ async function installDebianBrowser() {
   return checkPair(findChrome(), findProgram('chromedriver'));
 }
 
-/** Returns Google's Chrome for Testing, which has a matching chromedriver. Both are downloaded once. */
+/** Returns Google's Chrome for Testing, which has a matching chromedriver. The browser and the driver are downloaded once. */
 async function installChromeForTesting() {
   const browsersDirectory = join(CACHE_DIRECTORY, 'browsers');
   const pathsFile = join(browsersDirectory, 'paths.json');
@@ -109,14 +107,14 @@ async function installChromeForTesting() {
   return checkPair(chrome, driver);
 }
 
-/** Downloads a program, and returns its path. @param {string} directory @param {string} programAndVersion @returns {Promise<string | undefined>} */
-async function downloadProgram(directory, programAndVersion) {
+/** Downloads a program, and returns its path. @param {string} installDirectory @param {string} programAndVersion @returns {Promise<string | undefined>} */
+async function downloadProgram(installDirectory, programAndVersion) {
   const installArguments = ['exec', '--yes', '--', '@puppeteer/browsers@2.13.2', 'install', programAndVersion];
-  const { ok, stdout } = await run('npm', [...installArguments, '--path', directory, '--format', '{{path}}'], { seconds: 900 });
+  const { ok, stdout } = await run('npm', [...installArguments, '--path', installDirectory, '--format', '{{path}}'], { seconds: 900 });
   return ok ? stdout.trim().split('\n').pop() : undefined;
 }
 
-/** Installs the system libraries that Chrome is linked with. A downloaded Chrome does not include them. */
+/** Installs the system libraries with which Chrome is linked. A downloaded Chrome does not include them. */
 async function installLibraries() {
   await mustRun(
     'Libraries that Chrome needs are missing: run `npx playwright install-deps chromium` and start again.',

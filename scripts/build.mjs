@@ -1,4 +1,5 @@
-// `npm run build`: compiles src/ to build/ (WebAssembly and its glue), then bundles www/ to dist/. Skips what is up to date.
+// `npm run build`: compiles src/ to build/ (WebAssembly and its glue), then bundles www/ to dist/. Files that are up to date are not built
+// again.
 
 import { createHash } from 'node:crypto';
 import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
@@ -10,23 +11,23 @@ import { listCrates } from './licences.mjs';
 import { ROOT, filesOf, mustRun, printStep, run, runAsScript, settleAll } from './process.mjs';
 import { ensureNativeRust, ensurePackages, ensureRustForWasm } from './toolchain.mjs';
 
-const absolutePath = (/** @type {string} */ path) => join(ROOT, path);
+const absolutePath = (/** @type {string} */ repositoryPath) => join(ROOT, repositoryPath);
 
-const PAGE_SCRIPTS = ['bundle', 'declarations', 'manifest', 'names', 'python', 'react', 'tables', 'types', 'typescript'].map((name) => `scripts/${name}.mjs`);
+const PAGE_SCRIPTS = ['bundle', 'declarations', 'manifest', 'names', 'python', 'react', 'tables', 'types', 'typescript'].map((scriptName) => `scripts/${scriptName}.mjs`);
 
 /** Type declarations of the module by which scripts/bundle.mjs replaces `motion.wasm`. */
 const BUNDLED_CORE_TYPES = `type Bytes = Uint8Array<ArrayBuffer>;
 type BundledCore = { glue(): Promise<typeof import('./motion.js')>; source(): Bytes | URL | Promise<Bytes> | undefined };
 declare const cores: { motion: BundledCore; [tag: string]: BundledCore | undefined };
 export default cores;
-/** Starts the worker that reads logs; returns undefined if the bundle does not know its script. */
+/** Starts the worker that reads logs. Returns undefined if the bundle does not know the worker's script. */
 export function startWorker(): Worker | undefined;
 `;
 
 /** Files on which the compiled cores depend. */
 const CORE_SOURCES = [
   'src', '.cargo', 'Cargo.toml', 'Cargo.lock', 'scripts/package.json',
-  ...['build', 'bindgen', 'licences'].map((name) => `scripts/${name}.mjs`), 'scripts/bind', 'scripts/declarations.rs',
+  ...['build', 'bindgen', 'licences'].map((scriptName) => `scripts/${scriptName}.mjs`), 'scripts/bind', 'scripts/declarations.rs',
 ];
 
 /**
@@ -41,12 +42,12 @@ export async function build({ local = false } = {}) {
   const coreProducts = ['build/motion.js', 'build/motion.wasm', 'build/core.d.ts', 'build/crates.json', 'build/settings.js'];
   const isPublishedCurrent = isCurrent('build/core.sha256', coreHash, coreProducts);
   const compiledHash = local && !isPublishedCurrent ? `${coreHash} local` : coreHash;
-  // Packages are installed first: without a network that fails at once, and compiling takes minutes.
+  // Packages are installed before anything is compiled. Without a network the installation fails at once, whereas compiling takes minutes.
   await ensurePackages();
   await buildIfStale('build/core.sha256', compiledHash, coreProducts, () => buildCores(['motion'], local));
-  // It imports packages, and build/settings.js: a static import would fail in a bare clone.
+  // The script imports packages and build/settings.js. A static import would fail in a bare clone.
   const { WIDGET_TAGS, bundle } = await import('./bundle.mjs');
-  const figureProducts = WIDGET_TAGS.flatMap((tag) => [`build/${tag}.js`, `build/${tag}.wasm`]);
+  const figureProducts = WIDGET_TAGS.flatMap((widgetTag) => [`build/${widgetTag}.js`, `build/${widgetTag}.wasm`]);
   if (!local) await buildIfStale('build/figures.sha256', coreHash, figureProducts, () => buildCores(WIDGET_TAGS, false));
   const tagsWithCore = compiledHash === coreHash && isCurrent('build/figures.sha256', coreHash, figureProducts) ? WIDGET_TAGS : [];
   const pagesHash = hashOfFiles(['www', 'package.json', 'package-lock.json', ...PAGE_SCRIPTS], compiledHash + tagsWithCore);
@@ -54,30 +55,33 @@ export async function build({ local = false } = {}) {
   await buildIfStale('build/example-log.sha256', hashOfFiles(['scripts/example-log.mjs'], coreHash), Object.values(EXAMPLE_LOGS), writeExampleLog);
 }
 
-/** Returns a hash of names and contents. @param {string[]} paths of files and directories @param {string} [seed] */
-function hashOfFiles(paths, seed = '') {
-  const hash = createHash('sha256').update(seed);
-  for (const path of paths.flatMap(filesOf)) hash.update(`\0${path}\0`).update(readFileSync(absolutePath(path)));
-  return hash.digest('hex');
+/** Returns a hash of the names and contents of files. @param {string[]} hashedPaths of files and directories @param {string} [hashSeed] */
+function hashOfFiles(hashedPaths, hashSeed = '') {
+  const fileHash = createHash('sha256').update(hashSeed);
+  for (const hashedPath of hashedPaths.flatMap(filesOf)) fileHash.update(`\0${hashedPath}\0`).update(readFileSync(absolutePath(hashedPath)));
+  return fileHash.digest('hex');
 }
 
 /**
- * Builds products unless they are up to date.
+ * Builds products if they are out of date.
  *
- * @param {string} stamp path of the file with the hash of the sources of the last build
+ * @param {string} stampName path of the file with the hash of the sources of the last build
  * @param {string} sourceHash
- * @param {string[]} products paths
+ * @param {string[]} productPaths paths
  * @param {() => Promise<void>} buildProducts
  */
-async function buildIfStale(stamp, sourceHash, products, buildProducts) {
-  if (isCurrent(stamp, sourceHash, products)) return;
+async function buildIfStale(stampName, sourceHash, productPaths, buildProducts) {
+  if (isCurrent(stampName, sourceHash, productPaths)) return;
   mkdirSync(absolutePath('build'), { recursive: true });
-  rmSync(absolutePath(stamp), { force: true });
+  rmSync(absolutePath(stampName), { force: true });
   await buildProducts();
-  writeFileSync(absolutePath(stamp), sourceHash);
+  writeFileSync(absolutePath(stampName), sourceHash);
 }
 
-/** Returns true if products were built from sources with this hash. @param {string} stamp @param {string} sourceHash @param {string[]} products */
+/**
+ * Returns true if the products were built from sources with this hash.
+ * @param {string} stamp @param {string} sourceHash @param {string[]} products
+ */
 function isCurrent(stamp, sourceHash, products) {
   return [stamp, ...products].every((path) => existsSync(absolutePath(path))) && readFileSync(absolutePath(stamp), 'utf8') === sourceHash;
 }
@@ -89,13 +93,13 @@ function isCurrent(stamp, sourceHash, products) {
  * @param {boolean} local
  */
 async function buildCores(coreNames, local) {
-  // Waits for Rust first: an error of other work would end the process before the message about missing Rust.
+  // The build waits for Rust first. Otherwise an error of other work would end the process before the message about missing Rust.
   const rustTools = await ensureRustForWasm();
   const [binderPromise, packagesPromise] = [ensureBindProgram(), ensurePackages(local ? undefined : 'scripts')];
   printStep(`Compiling the core to WebAssembly (${rustTools.description}): ${coreNames.join(', ')}`);
   const finishPromises = [];
   for (const coreName of coreNames) {
-    // Cargo writes all cores to one path: each is bound before the next is compiled. Optimization runs meanwhile.
+    // Cargo writes all cores to the same path. Each core is bound before the next is compiled, and is optimized meanwhile.
     const [modulePath, binderPath] = await settleAll([compileCore(rustTools, coreName, local), binderPromise, packagesPromise]);
     await mustRun('wasm-bindgen failed: see above.', binderPath, [modulePath, absolutePath(`build/bound/${coreName}`)]);
     finishPromises.push(finishCore(coreName, local));
@@ -110,24 +114,24 @@ async function buildCores(coreNames, local) {
 /**
  * Compiles a core.
  *
- * @param {Awaited<ReturnType<typeof ensureRustForWasm>>} rust
+ * @param {Awaited<ReturnType<typeof ensureRustForWasm>>} rustTools
  * @param {string} name as in `buildCores`
  * @param {boolean} local
  * @returns {Promise<string>} the path of the module as rustc leaves it
  */
-async function compileCore(rust, name, local) {
-  const cargoPath = join(rust.bin, 'cargo');
-  // `cargo build` also makes a Rust library, and then cannot optimize across crates. `cargo rustc` makes the module only.
-  // Panic locations contain paths. In a published module the paths of this machine are removed.
+async function compileCore(rustTools, name, local) {
+  const cargoPath = join(rustTools.bin, 'cargo');
+  // `cargo build` also makes a Rust library, and then cannot optimize across crates. `cargo rustc` makes only the module. Panic locations
+  // contain paths. In a published module the paths of this machine are removed.
   const registrySources = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'registry/src');
-  const { stdout: sysroot } = await run(join(rust.bin, 'rustc'), ['--print', 'sysroot'], { env: rust.env, quiet: true });
+  const { stdout: sysroot } = await run(join(rustTools.bin, 'rustc'), ['--print', 'sysroot'], { env: rustTools.env, quiet: true });
   const remapFlags = [registrySources, join(sysroot.trim(), 'lib/rustlib/src/rust')].map((path) => `"--remap-path-prefix=${path}="`);
   const remapOption = `target.wasm32-unknown-unknown.rustflags=[${remapFlags}]`;
   const cargoProfile = local ? 'web' : 'release';
   const cargoOptions = ['--quiet', '--locked', '--profile', cargoProfile, '--lib', '--crate-type', 'cdylib', ...(local ? [] : ['--config', remapOption])];
   const widgetOptions = name === 'motion' ? [] : ['--', '--cfg', 'widget', '--cfg', `widget="${name}"`];
-  await mustRun('The core does not compile: see the errors above.', cargoPath, ['rustc', ...cargoOptions, ...rust.target, ...widgetOptions], { env: rust.env });
-  const outputOfCargo = async (/** @type {string[]} */ ...cargoArguments) => (await run(cargoPath, [...cargoArguments, '--locked'], { env: rust.env, quiet: true })).stdout;
+  await mustRun('The core does not compile: see the errors above.', cargoPath, ['rustc', ...cargoOptions, ...rustTools.target, ...widgetOptions], { env: rustTools.env });
+  const outputOfCargo = async (/** @type {string[]} */ ...cargoArguments) => (await run(cargoPath, [...cargoArguments, '--locked'], { env: rustTools.env, quiet: true })).stdout;
   const cargoMetadata = JSON.parse(await outputOfCargo('metadata', '--format-version', '1'));
   if (name === 'motion') {
     const crateTree = await outputOfCargo('tree', '--target', 'wasm32-unknown-unknown', '--edges', 'normal,no-proc-macro', '--prefix', 'none');
@@ -136,16 +140,19 @@ async function compileCore(rust, name, local) {
   return join(cargoMetadata.target_directory, `wasm32-unknown-unknown/${cargoProfile}/motion.wasm`);
 }
 
-/** Writes build/settings.js: constants of the core that pages need before they load it, and scripts that generate types and tables. */
+/**
+ * Writes build/settings.js. It has constants of the core for pages that have not loaded the core, and for scripts that generate types and
+ * tables.
+ */
 async function writeSettings() {
   const { bin, env } = await ensureNativeRust();
   const cargoArguments = ['run', '--quiet', '--locked', '--example', 'declarations'];
   const { stdout } = await mustRun('The settings could not be listed: see above.', join(bin, 'cargo'), cargoArguments, { env, quiet: true });
   const [widgets, limits] = JSON.parse(stdout);
   const byTag = (/** @type {'declarations' | 'presets'} */ key) => Object.fromEntries(widgets.map((/** @type {any} */ widget) => [widget.tag, widget[key]]));
-  const constants = { settings: byTag('declarations'), presets: byTag('presets'), ...limits };
+  const settingsConstants = { settings: byTag('declarations'), presets: byTag('presets'), ...limits };
   const typeLines = "/** @typedef {import('../www/types.d.ts').Declaration} Declaration */\n\n/** @type {Record<string, Declaration[]>} */\n";
-  const constantLines = Object.entries(constants).map(([name, value]) => `export const ${name} = ${JSON.stringify(value, null, 1)};\n`);
+  const constantLines = Object.entries(settingsConstants).map(([constantName, constantValue]) => `export const ${constantName} = ${JSON.stringify(constantValue, null, 1)};\n`);
   writeFileSync(absolutePath('build/settings.js'), typeLines + constantLines.join('\n'));
 }
 
@@ -156,7 +163,7 @@ async function finishCore(name, local) {
   await writeGlue(name, local ? readBoundNames(name) : await shortenNames(name));
 }
 
-/** Makes a module smaller, in place. @param {string} path */
+/** Makes a module smaller, and overwrites its file. @param {string} path */
 async function shrinkModule(path) {
   await silencePanics(path);
   await optimizeModule(path);
@@ -168,7 +175,7 @@ async function shrinkModule(path) {
  * @param {string} path of the module, with the names of its functions
  */
 async function silencePanics(path) {
-  // The name is a variable, because the package is installed for full builds only: the type checker would look for a constant name.
+  // The package name is a variable, because the package is installed for full builds only. The type checker would look for a constant name.
   const packageName = 'binaryen';
   const { default: binaryen } = await import(packageName);
   const binaryenModule = binaryen.readBinary(readFileSync(absolutePath(path)));
@@ -187,15 +194,15 @@ async function silencePanics(path) {
   binaryenModule.dispose();
 }
 
-/** Passes of the optimizer: the usual ones, and then a second merge of variables with equal values. */
+/** Passes of the optimizer. The usual passes are followed by a second merge of variables with equal values. */
 const OPTIMIZER_PASSES = ['-O3', '--converge', '--rse', '--vacuum', '--coalesce-locals', '--reorder-locals'];
 
-/** Optimizes a module in place, and returns what the optimizer prints. @param {string} path @param {string[]} passes */
-async function optimizeModule(path, passes = OPTIMIZER_PASSES) {
-  // Features that rustc enables for this target by default, and SIMD from .cargo/config.toml.
+/** Optimizes a module in its file, and returns the output of the optimizer. @param {string} path @param {string[]} optimizerPasses */
+async function optimizeModule(path, optimizerPasses = OPTIMIZER_PASSES) {
+  // Features that rustc enables by default for WebAssembly, and SIMD from .cargo/config.toml.
   const wasmFeatures = ['bulk-memory', 'multivalue', 'mutable-globals', 'nontrapping-float-to-int', 'reference-types', 'sign-ext', 'simd'];
   const { stdout } = await mustRun('wasm-opt failed: see above.', process.execPath, [
-    absolutePath('node_modules/binaryen/bin/wasm-opt'), ...passes, ...wasmFeatures.map((name) => `--enable-${name}`), absolutePath(path),
+    absolutePath('node_modules/binaryen/bin/wasm-opt'), ...optimizerPasses, ...wasmFeatures.map((name) => `--enable-${name}`), absolutePath(path),
     '-o', absolutePath(path)], { quiet: true });
   return stdout;
 }
@@ -212,39 +219,39 @@ async function optimizeModule(path, passes = OPTIMIZER_PASSES) {
 function readBoundNames(name) {
   const wasmModule = new WebAssembly.Module(readFileSync(absolutePath(`build/${name}.wasm`)));
   return {
-    imports: WebAssembly.Module.imports(wasmModule).map((entry) => [entry.module, entry.name, entry.name]),
-    exports: WebAssembly.Module.exports(wasmModule).map((entry) => [entry.name, entry.name]),
+    imports: WebAssembly.Module.imports(wasmModule).map((importEntry) => [importEntry.module, importEntry.name, importEntry.name]),
+    exports: WebAssembly.Module.exports(wasmModule).map((exportEntry) => [exportEntry.name, exportEntry.name]),
   };
 }
 
-/** Shortens the names in the module, which saves some 2 kB on the wire. @param {string} name of the core @returns {Promise<Names>} */
+/** Shortens the names in the module, which saves some 2 kB of transfer. @param {string} name of the core @returns {Promise<Names>} */
 async function shortenNames(name) {
   const { imports, exports } = JSON.parse(await optimizeModule(`build/${name}.wasm`, ['--minify-imports-and-exports-and-modules']));
-  return { exports, imports: imports.map((/** @type {string[]} */ [, importName, short]) => ['a', importName, short]) };
+  return { exports, imports: imports.map((/** @type {string[]} */ [, importName, shortName]) => ['a', importName, shortName]) };
 }
 
 /**
- * Converts wasm-bindgen's glue to a module that exports a function, which creates a further instance of the core. The original glue has
- * exactly one instance. Exports that nobody imports are left out.
+ * Converts wasm-bindgen's glue to a module that exports a function, which creates a new instance of the core. The original glue has exactly
+ * one instance. Exports that nobody imports are left out.
  *
  * @param {string} name of the core
  * @param {Names} glueNames by which the module and its glue call each other
  */
 async function writeGlue(name, glueNames) {
   const glueChanges = /** @type {[RegExp, string][]} */ ([
-    // Errors of wasm-bindgen itself end a core as a trap does; plain errors come from callbacks of the page.
+    // Errors of wasm-bindgen itself end a core like a trap. Errors of other classes come from callbacks of the page.
     [/throw new Error\((?=getStringFromWasm)/g, 'throw new WebAssembly.RuntimeError('],
-    // These lines are removed, because www/core.ts does the same for all classes.
+    // The lines for freeing objects are removed, because www/core.ts frees the objects of all classes.
     [/^if \(Symbol\.dispose\) .*$/gm, ''],
     [/new FinalizationRegistry\(/g, '/* @__PURE__ */ $&'],
-    // wasm-bindgen adds the members of a namespace one by one. Bundlers take that for side effects, and keep unused namespaces.
+    // wasm-bindgen adds the members of a namespace one by one. Bundlers take that for side effects, and therefore keep unused namespaces.
     [/^export const (\w+) = \{\};\n((?:\1\.\w+ = \w+;\n)+)/gm, 'export const $1 = /* @__PURE__ */ (($1) => {\n$2return $1;\n})({});\n'],
   ]);
   const bindgenGlue = readFileSync(absolutePath(`build/bound/${name}/motion_bg.js`), 'utf8');
   // The core of a widget has no namespaces.
-  const missingChange = name === 'motion' && glueChanges.find(([pattern]) => !bindgenGlue.match(pattern));
+  const missingChange = name === 'motion' && glueChanges.find(([gluePattern]) => !bindgenGlue.match(gluePattern));
   if (missingChange) throw new Error(`wasm-bindgen's glue has no ${missingChange[0]}, which scripts/build.mjs replaces.`);
-  const changedGlue = glueChanges.reduce((text, [pattern, replacement]) => text.replace(pattern, replacement), bindgenGlue);
+  const changedGlue = glueChanges.reduce((glueText, [gluePattern, glueReplacement]) => glueText.replace(gluePattern, glueReplacement), bindgenGlue);
   const exportNames = [...bindgenGlue.matchAll(/^export (?:class|function|const|let) (?!__)(\w+)/gm)].map(([, exportName]) => exportName);
   const { build: bundleScript } = await import('esbuild');
   const gluePlugin = { name: 'glue', setup: (/** @type {import('esbuild').PluginBuild} */ { onLoad }) => onLoad({ filter: /motion_bg\.js$/ }, () => ({ contents: changedGlue })) };
@@ -258,11 +265,11 @@ async function writeGlue(name, glueNames) {
   });
   const shortNameOf = new Map(glueNames.exports);
   const shortExportOf = (/** @type {string} */ exportName) => shortNameOf.get(exportName) ?? (() => { throw new Error(`The core of ${name} does not export ${exportName}.`); })();
-  const glueBody = outputFiles[0].text.replace(/^export \{[^}]*\};\s*$/m, '').replaceAll(/\bwasm\.(\w+)/g, (_, key) => `wasm.${shortExportOf(key)}`);
+  const glueBody = outputFiles[0].text.replace(/^export \{[^}]*\};\s*$/m, '').replaceAll(/\bwasm\.(\w+)/g, (_, exportName) => `wasm.${shortExportOf(exportName)}`);
   const moduleLines = [
     'export default async (module) => {',
     glueBody,
-    `const { exports } = await WebAssembly.instantiate(module, { '${glueNames.imports[0][0]}': { ${glueNames.imports.map(([, importName, key]) => `${key}: ${importName}`)} } });`,
+    `const { exports } = await WebAssembly.instantiate(module, { '${glueNames.imports[0][0]}': { ${glueNames.imports.map(([, importName, exportName]) => `${exportName}: ${importName}`)} } });`,
     '__wbg_set_wasm(exports);',
     `exports.${shortExportOf('__wbindgen_start')}();`,
     `return { ${exportNames} };`,

@@ -15,7 +15,7 @@ import { withTables } from './tables.mjs';
 import { writeTypes } from './types.mjs';
 import { importTypeScript } from './typescript.mjs';
 
-const absolutePath = (/** @type {string} */ path) => join(ROOT, path);
+const absolutePath = (/** @type {string} */ repositoryPath) => join(ROOT, repositoryPath);
 
 /** Files of www/ that are copied to dist/. */
 const COPIED_FILES_RE = /\.(html|css)$/;
@@ -23,16 +23,16 @@ const COPIED_FILES_RE = /\.(html|css)$/;
 /** Tags of the elements. */
 export const WIDGET_TAGS = Object.keys(declared.settings);
 
-/** Name by which a bundle imports the bytes of the whole core, as a function that returns them. */
+/** Name under which a bundle imports the bytes of the whole core, as a function that returns the bytes. */
 const BYTES_MODULE_NAME = 'motion.bytes';
 
 /**
- * Placeholder for the name of the chunk that contains `MODULE_SOURCES.external`. It has the same length, so that source maps stay valid. Within
- * dist/ the chunk's address ends with that name; in the output of a bundler it does not.
+ * Placeholder for the name of the chunk that contains `MODULE_SOURCES.external`. The placeholder has the same length as the name, so that
+ * source maps stay valid. Within dist/ the chunk's address ends with that name. In the output of a bundler it does not.
  */
 const CHUNK_PLACEHOLDER = 'chunk-________.js';
 
-/** Figures whose logs a worker reads. */
+/** Tags of the figures whose logs a worker reads. */
 const LOG_FIGURE_TAGS = ['alpha-calibrator'];
 
 /** Path of the worker's script in dist/. */
@@ -42,34 +42,34 @@ const LOG_WORKER_PATH = 'chunks/log-worker.js';
 const CHUNK_PATHS = { core: './chunks/', external: './' };
 
 /**
- * Returns the source of the function `startWorker`. Within dist/ it finds the worker's script by a relative path. A page of another origin
- * starts the worker by a script of its own that imports the worker's script.
+ * Returns the source of the function `startWorker`. Within dist/ `startWorker` finds the worker's script by a relative path. A page of
+ * another origin starts the worker by a script of its own that imports the worker's script.
  *
- * @param {string} place path of dist/, relative to the bundle
- * @param {string} [fallback] statement for a bundle that is part of another bundle
+ * @param {string} workerPlace path of dist/, relative to the bundle
+ * @param {string} [fallbackSource] statement for a bundle that is part of another bundle
  */
-const startWorkerSource = (place, fallback = '') =>
+const startWorkerSource = (workerPlace, fallbackSource = '') =>
   'export function startWorker() {' +
   '  const here = import.meta.url;' +
   `  if (here?.includes('${CHUNK_PLACEHOLDER}')) {` +
-  `    const url = new URL('${place}${LOG_WORKER_PATH}', here);` +
+  `    const url = new URL('${workerPlace}${LOG_WORKER_PATH}', here);` +
   '    const script = () => URL.createObjectURL(new Blob([`import ${JSON.stringify(url)}`], { type: "text/javascript" }));' +
   '    return new Worker(url.origin === location.origin ? url : script(), { type: "module" });' +
   '  }' +
-  `  ${fallback} ` +
+  `  ${fallbackSource} ` +
   '}';
 
 /** Sources of the modules by which each kind of bundle replaces its import of the WebAssembly module. They export the cores with their glue. */
 const MODULE_SOURCES = {
   /**
-   * The bytes as text with a character for each byte: its code, modulo 256, is the byte. Brotli and gzip compress this text
+   * Text of the bytes with a character for each byte. The character's code, modulo 256, is the byte. Brotli and gzip compress this text
    * almost as well as the module itself (7 % more bytes are transferred). Base64, or a module that is compressed already, would be larger.
    *
    * @param {Uint8Array} bytes
-   * @param {RegExp} shifted characters to whose code 256 is added
+   * @param {RegExp} shiftedCharacters characters to whose code 256 is added
    */
-  bytes: (bytes, shifted) => {
-    const byteText = Buffer.from(bytes).toString('latin1').replaceAll(shifted, (character) => String.fromCharCode(character.charCodeAt(0) + 256));
+  bytes: (bytes, shiftedCharacters) => {
+    const byteText = Buffer.from(bytes).toString('latin1').replaceAll(shiftedCharacters, (character) => String.fromCharCode(character.charCodeAt(0) + 256));
     return (
       `const text = ${JSON.stringify(byteText)};` +
       // `Uint8Array.from` would take ten times as long, because it uses the string's iterator.
@@ -78,29 +78,29 @@ const MODULE_SOURCES = {
     );
   },
   /**
-   * Glue of the worker, without WebAssembly modules: the page sends it a compiled module.
+   * Glue of the worker, without WebAssembly modules. The page sends a compiled module to the worker.
    *
-   * @param {string[]} tags of the figures with logs that have a module of their own
+   * @param {string[]} widgetTags of the figures with logs that have a module of their own
    */
-  worker: (tags) => {
-    const glueLines = ['motion', ...tags].map((tag, i) => [`import * as glue${i} from './${tag}.js';`, `'${tag}': { glue: async () => glue${i} }`]);
-    return `${glueLines.map(([imported]) => imported).join('')} export default { ${glueLines.map(([, entry]) => entry).join(', ')} }; export function startWorker() {}`;
+  worker: (widgetTags) => {
+    const glueLines = ['motion', ...widgetTags].map((widgetTag, i) => [`import * as glue${i} from './${widgetTag}.js';`, `'${widgetTag}': { glue: async () => glue${i} }`]);
+    return `${glueLines.map(([importLine]) => importLine).join('')} export default { ${glueLines.map(([, exportEntry]) => exportEntry).join(', ')} }; export function startWorker() {}`;
   },
-  /** The core alone: its bytes are in a separate script, which external.js shares. */
+  /** The core without figures. Its bytes are in a separate script, which external.js shares. */
   core: () => `import * as motion from './motion.js'; export default { motion: { glue: async () => motion, source: async () => (await import('${BYTES_MODULE_NAME}')).default() } }; export function startWorker() {}`,
-  /** The core with its bytes in the bundle. @param {boolean} isClassic */
+  /** The core together with its bytes. @param {boolean} isClassic */
   inlined: (isClassic) => `import source from '${BYTES_MODULE_NAME}'; import * as motion from './motion.js'; export default { motion: { glue: async () => motion, source } };${isClassic ? 'export function startWorker() {}' : startWorkerSource('./')}`,
   /**
    * Bundlers such as Vite and webpack copy the file of `new URL(…, import.meta.url)`, and replace its address. Bundlers such as
    * esbuild and Rollup change nothing, so that the address in the bundled script is wrong. A classic script has no
    * `import.meta.url`. For these cases `embedded` loads a script with the bytes. external.js and the widgets share this chunk.
    *
-   * @param {string[]} tags of the figures that have a separate module
+   * @param {string[]} widgetTags of the figures that have a separate module
    */
-  external: (tags) => {
-    const modulePaths = [['motion', '../motion.wasm'], ...tags.map((tag) => [tag, `./${basename(moduleFileOf(tag).path)}`])];
-    const coreEntries = modulePaths.map(([name, path]) => (
-      `'${name}': { glue: () => import('./${name}.js'), source: () => bundledSource('${path}', () => new URL('${path}', import.meta.url)) }`
+  external: (widgetTags) => {
+    const modulePaths = [['motion', '../motion.wasm'], ...widgetTags.map((widgetTag) => [widgetTag, `./${basename(moduleFileOf(widgetTag).path)}`])];
+    const coreEntries = modulePaths.map(([coreName, modulePath]) => (
+      `'${coreName}': { glue: () => import('./${coreName}.js'), source: () => bundledSource('${modulePath}', () => new URL('${modulePath}', import.meta.url)) }`
     ));
     return (
       'const here = import.meta.url;' +
@@ -115,53 +115,53 @@ const MODULE_SOURCES = {
   },
 };
 
-/** Returns the module that a widget needs, without the simulations of others. @param {string} tag */
+/** Returns the module that a widget needs, without the simulations of other widgets. @param {string} tag */
 const moduleFileOf = (tag) => hashedFileOf(tag, '.wasm', readFileSync(absolutePath(`build/${tag}.wasm`)));
 
 /**
  * Returns a file of dist/chunks/ with a hash of its contents in the name.
  *
- * @param {string} name
- * @param {string} extension
- * @param {string | Uint8Array} contents
+ * @param {string} baseName
+ * @param {string} fileExtension
+ * @param {string | Uint8Array} fileContents
  */
-function hashedFileOf(name, extension, contents) {
-  const contentHash = createHash('sha256').update(contents).digest('hex').slice(0, 8);
-  return { path: `dist/chunks/${name}-${contentHash}${extension}`, contents };
+function hashedFileOf(baseName, fileExtension, fileContents) {
+  const contentHash = createHash('sha256').update(fileContents).digest('hex').slice(0, 8);
+  return { path: `dist/chunks/${baseName}-${contentHash}${fileExtension}`, contents: fileContents };
 }
 
-/** Characters of an inlined module to which 256 is added, because other bundlers or minifiers might damage them. */
+/** Characters of an inlined module to which 256 is added, because bundlers or minifiers of a page might damage these characters. */
 const SHIFTED_CHARACTERS = {
   /** Characters that some minifiers escape with a backslash. */
   utf8: /[^ -~\x80-\xff]|["$'\\`]/g,
-  /** Digits, which could become part of an octal escape after a zero. Shifting all other characters too would double the size. */
+  /** Digits, because a digit after a zero could become part of an octal escape. Shifting all other characters too would double the size. */
   ascii: /(?<=\0)\d/g,
 };
 
-/** Replacements of www/address.ts for bundles that are not the script named by the page. */
+/** Replacements of www/address.ts in bundles that are not the script named by the page. */
 const ADDRESS_MODULES = {
   /** Address of a classic script, which is known only while the script is evaluated. */
   classic: "export const address = globalThis.document?.currentScript?.src ?? ''; export const isClassic = true;",
-  /** Address of the script that a chunk belongs to. */
+  /** Address of the script to which a chunk belongs. */
   chunk: "export const address = (import.meta.url ?? '').replace(/chunks\\/[^/]*$/, 'external.js'); export const isClassic = false;",
 };
 
 /** Declarations of the exports of the scripts with elements. */
 const ELEMENT_DECLARATIONS = `export * from './core.js';
-/** Sets the words of the elements (those of messages/en.ts, or some of them) in a language (a BCP 47 tag). */
+/** Sets messages of the elements in a language (a BCP 47 tag). The messages are those of messages/en.ts, or some of them. */
 export declare function setMessages(lang: string, messages: object): void;
-/** Returns true for the tag of a figure. Compilers of templates ask which tags are custom elements. */
+/** Returns true for the tag of a figure. Compilers of templates ask this function for custom elements. */
 export declare function isFigureTag(tag: string): boolean;
 `;
 
 /**
- * Bundles everything.
+ * Writes all bundles to dist/.
  *
  * @param {object} [options]
  * @param {string[]} [options.tags] the figures that have a module of their own; the others share the whole core
  * @param {(path: string, script: string) => string} [options.transformScript] returns the script that replaces a script of www/
  */
-export async function bundle({ tags = WIDGET_TAGS, transformScript = (_, script) => script } = {}) {
+export async function bundle({ tags = WIDGET_TAGS, transformScript = (_, scriptSource) => scriptSource } = {}) {
   printStep('Bundling the pages');
   await writeTypes();
   await writeComponents();
@@ -172,24 +172,24 @@ export async function bundle({ tags = WIDGET_TAGS, transformScript = (_, script)
    * Bundles scripts of www/ for dist/.
    *
    * @param {Record<string, string>} entryPoints paths from www/, by the name of the script in dist/
-   * @param {keyof typeof CHUNK_PATHS | 'inlined' | 'worker'} form
-   * @param {import('esbuild').BuildOptions} options
+   * @param {keyof typeof CHUNK_PATHS | 'inlined' | 'worker'} bundleForm
+   * @param {import('esbuild').BuildOptions} buildOptions
    */
-  const bundleScripts = (entryPoints, form, options) =>
+  const bundleScripts = (entryPoints, bundleForm, buildOptions) =>
     build({
-      entryPoints: Object.entries(entryPoints).map(([out, path]) => ({ in: join('www', path), out })),
+      entryPoints: Object.entries(entryPoints).map(([outputName, path]) => ({ in: join('www', path), out: outputName })),
       absWorkingDir: ROOT,
       outdir: absolutePath('dist'),
       bundle: true,
       minify: true,
-      // Only a local build, in which no figure has a module of its own, has source maps.
+      // Only a local build has source maps. In such a build no figure has a module of its own.
       sourcemap: tags.length === 0,
       format: 'esm',
       target: 'es2022',
       charset: 'utf8',
       inject: [absolutePath('www/without-dom.ts')],
-      // Modules are always strict; a classic script needs the directive.
-      tsconfigRaw: { compilerOptions: { alwaysStrict: options.format === 'iife' } },
+      // Modules are always strict. A classic script needs the directive "use strict".
+      tsconfigRaw: { compilerOptions: { alwaysStrict: buildOptions.format === 'iife' } },
       plugins: [
         {
           name: 'wasm',
@@ -198,20 +198,20 @@ export async function bundle({ tags = WIDGET_TAGS, transformScript = (_, script)
               core: MODULE_SOURCES.core,
               external: () => MODULE_SOURCES.external(tags),
               worker: () => MODULE_SOURCES.worker(tags.filter((tag) => LOG_FIGURE_TAGS.includes(tag))),
-              inlined: () => MODULE_SOURCES.inlined(options.format === 'iife'),
+              inlined: () => MODULE_SOURCES.inlined(buildOptions.format === 'iife'),
             };
-            onLoad({ filter: /\.wasm$/ }, () => ({ contents: moduleSources[form](), loader: 'js' }));
-            if (options.platform === 'node') onResolve({ filter: /^\.\/core\.ts$/ }, () => ({ path: './core.js', external: true }));
-            const chunkDirectory = form === 'core' || form === 'external' ? CHUNK_PATHS[form] : undefined;
+            onLoad({ filter: /\.wasm$/ }, () => ({ contents: moduleSources[bundleForm](), loader: 'js' }));
+            if (buildOptions.platform === 'node') onResolve({ filter: /^\.\/core\.ts$/ }, () => ({ path: './core.js', external: true }));
+            const chunkDirectory = bundleForm === 'core' || bundleForm === 'external' ? CHUNK_PATHS[bundleForm] : undefined;
             onResolve({ filter: new RegExp(`^${BYTES_MODULE_NAME}$`) }, ({ path }) => (
               chunkDirectory ? { path: `${chunkDirectory}${basename(bytesScript.path)}`, external: true } : { path, namespace: 'core' }
             ));
-            onLoad({ filter: /./, namespace: 'core' }, () => ({ contents: MODULE_SOURCES.bytes(moduleBytes, SHIFTED_CHARACTERS[options.charset === 'ascii' ? 'ascii' : 'utf8']) }));
+            onLoad({ filter: /./, namespace: 'core' }, () => ({ contents: MODULE_SOURCES.bytes(moduleBytes, SHIFTED_CHARACTERS[buildOptions.charset === 'ascii' ? 'ascii' : 'utf8']) }));
             // A page without workers runs the worker's script itself.
-            if (form === 'external') onResolve({ filter: /\/logs\/session\.ts$/ }, () => ({ path: `./${basename(LOG_WORKER_PATH)}`, external: true }));
+            if (bundleForm === 'external') onResolve({ filter: /\/logs\/session\.ts$/ }, () => ({ path: `./${basename(LOG_WORKER_PATH)}`, external: true }));
             onLoad({ filter: /[/\\]build[/\\]settings\.js$/ }, () => ({ contents: minimalDeclarations(), loader: 'js' }));
             onLoad({ filter: /[/\\]www[/\\]address\.ts$/ }, ({ path }) => ({
-              contents: options.format === 'iife' ? ADDRESS_MODULES.classic : options.splitting ? ADDRESS_MODULES.chunk : readFileSync(path, 'utf8'),
+              contents: buildOptions.format === 'iife' ? ADDRESS_MODULES.classic : buildOptions.splitting ? ADDRESS_MODULES.chunk : readFileSync(path, 'utf8'),
               loader: 'js',
             }));
             onLoad({ filter: /[/\\](?:js-yaml|d3-array)\.mjs$/ }, ({ path }) => ({
@@ -229,25 +229,25 @@ export async function bundle({ tags = WIDGET_TAGS, transformScript = (_, script)
           },
         },
       ],
-      ...options,
+      ...buildOptions,
       metafile: true,
       write: false,
     });
-  const bundles = await Promise.all([
+  const bundleResults = await Promise.all([
     bundleScripts({ core: 'core.ts' }, 'core', { inject: [] }),
     bundleScripts({ 'motion-widgets': 'motion-widgets.ts' }, 'inlined', {}),
-    // Jupyter sends this module as text, without a source map next to it.
+    // Jupyter sends the anywidget module as text, without a source map next to it.
     bundleScripts({ anywidget: 'anywidget.ts' }, 'inlined', { sourcemap: false }),
     bundleScripts({ external: 'external.ts' }, 'external', { splitting: true, chunkNames: 'chunks/[name]-[hash]' }),
     bundleScripts({ [LOG_WORKER_PATH.replace('.js', '')]: 'log-worker.ts' }, 'worker', { inject: [] }),
     bundleScripts({ 'motion-widgets.iife': 'motion-widgets.ts' }, 'inlined', { format: 'iife', charset: 'ascii', sourcemap: false }),
     bundleScripts({ react: '../build/react.js' }, 'inlined', { external: ['react', 'motion-widgets'], inject: [] }),
     bundleScripts({ de: 'de.ts', page: 'page.ts', 'server-component': 'server-component.ts' }, 'inlined', { inject: [] }),
-    // The command line loads the core from the file in the same directory.
+    // The script of the command line loads the core from the file in its directory.
     bundleScripts({ cli: 'cli.ts' }, 'inlined', { platform: 'node', sourcemap: false, inject: [] }),
     bundleScripts({ embed: 'embed.ts' }, 'inlined', { format: 'iife', sourcemap: false, inject: [] }),
   ]).catch(() => []);
-  if (!bundles.length || bundles.some(({ warnings }) => warnings.length)) {
+  if (!bundleResults.length || bundleResults.some(({ warnings }) => warnings.length)) {
     throw new UserError('The pages do not bundle: see the messages above.');
   }
 
@@ -256,7 +256,7 @@ export async function bundle({ tags = WIDGET_TAGS, transformScript = (_, script)
     mkdirSync(dirname(path), { recursive: true });
     writeFileSync(path, contents);
   };
-  for (const { path, contents, text } of bundles.flatMap(({ outputFiles }) => outputFiles)) {
+  for (const { path, contents, text } of bundleResults.flatMap(({ outputFiles }) => outputFiles)) {
     const outputContents = text.includes(CHUNK_PLACEHOLDER) ? text.replaceAll(CHUNK_PLACEHOLDER, basename(path, '.map')) : contents;
     writeOutput(path, path.endsWith('.map') ? withoutModule(text) : path.endsWith('.iife.js') ? withNonAsciiEscaped(text) : outputContents);
   }
@@ -268,9 +268,9 @@ export async function bundle({ tags = WIDGET_TAGS, transformScript = (_, script)
     writeOutput(absolutePath(join('dist', relative('www', path))), path.endsWith('.html') ? withTables(text, elementDeclarations, widgetDescriptions) : text);
   }
   const { preUpgradeCss } = await importTypeScript('www/ui/reserved-height.ts');
-  // Without scripts no height is reserved.
+  // If scripts are disabled, no height is reserved.
   const reservedHeightCss = `@media (scripting:enabled){\n${preUpgradeCss()}\n}`;
-  // Slides have a large font, which is too large for figures. `:where` has no specificity: any rule of a page takes precedence.
+  // Slides have a large font, which is too large for figures. `:where` has no specificity, so that any rule of a page takes precedence.
   const slideCss = `:where(.reveal) :where(${WIDGET_TAGS}){font-size:.28em;text-align:start}`;
   appendFileSync(absolutePath('dist/motion-widgets.css'), `\n:where(${WIDGET_TAGS}){margin-block:1em}\n${slideCss}\n${reservedHeightCss}\n`);
   writeOutput(absolutePath('dist/motion.wasm'), moduleBytes);
@@ -283,10 +283,10 @@ export async function bundle({ tags = WIDGET_TAGS, transformScript = (_, script)
   writeOutput(absolutePath('dist/classroom.html'), inlinedPage('index.html'));
   writeOutput(absolutePath('dist/custom-elements.json'), `${JSON.stringify(elementManifest, null, 1)}\n`);
   // Sizes of the bundles, which tests/package/sizes.nightly.test.js reads.
-  const bundleOutputs = Object.assign({}, ...bundles.map(({ metafile }) => metafile.outputs));
+  const bundleOutputs = Object.assign({}, ...bundleResults.map(({ metafile }) => metafile.outputs));
   writeOutput(absolutePath('build/outputs.json'), JSON.stringify(bundleOutputs));
-  const crates = JSON.parse(readFileSync(absolutePath('build/crates.json'), 'utf8'));
-  writeOutput(absolutePath('dist/LICENSE-third-party.txt'), readLicenceTexts([...listBundledPackages(bundleOutputs), ...crates]));
+  const linkedCrates = JSON.parse(readFileSync(absolutePath('build/crates.json'), 'utf8'));
+  writeOutput(absolutePath('dist/LICENSE-third-party.txt'), readLicenceTexts([...listBundledPackages(bundleOutputs), ...linkedCrates]));
   await writePython();
 }
 
@@ -296,41 +296,41 @@ const EXPRESSIONS_RE = new RegExp(EXPRESSION_SOURCE, 'g');
 const STYLES_RE = new RegExp(String.raw`(?<=\b(?:css|unsafeCSS\()\x60)(?:[^\x60$]|${EXPRESSION_SOURCE})*(?=\x60)`, 'g');
 
 /**
- * Minifies the styles in a script. Bundlers do not, because they are template strings. For the minifier, an expression at the beginning of a
- * line is an at-rule, because it stands for rules or declarations; any other one is a name.
+ * Minifies the styles in a script. Bundlers do not minify them, because the styles are template strings. An expression at the beginning of
+ * a line stands for rules or declarations, and is given to the minifier as an at-rule. Any other expression is given as a name.
  *
  * @param {string} script
- * @param {typeof import('esbuild').transformSync} transform
+ * @param {typeof import('esbuild').transformSync} minifyStyle
  */
-function withMinifiedStyles(script, transform) {
-  return script.replace(STYLES_RE, (style) => {
+function withMinifiedStyles(script, minifyStyle) {
+  return script.replace(STYLES_RE, (styleText) => {
     /** @type {string[]} */
     const templateExpressions = [];
-    const plainStyle = style.replace(EXPRESSIONS_RE, (expression, at) => {
-      const placeholder = `expression${templateExpressions.push(expression)}`;
-      return /(^|\n) *$/.test(style.slice(0, at)) ? `@${placeholder};` : placeholder;
+    const plainStyle = styleText.replace(EXPRESSIONS_RE, (templateExpression, expressionPosition) => {
+      const expressionPlaceholder = `expression${templateExpressions.push(templateExpression)}`;
+      return /(^|\n) *$/.test(styleText.slice(0, expressionPosition)) ? `@${expressionPlaceholder};` : expressionPlaceholder;
     });
-    const { code: minifiedStyle, warnings } = transform(plainStyle, { loader: 'css', minify: true });
+    const { code: minifiedStyle, warnings } = minifyStyle(plainStyle, { loader: 'css', minify: true });
     if (warnings.length > 0) throw new UserError(`Style that cannot be read: ${warnings[0].text} in ${plainStyle}`);
-    return minifiedStyle.trim().replace(/@expression(\d+);|expression(\d+)/g, (_, statement, value) => templateExpressions[Number(statement ?? value) - 1]);
+    return minifiedStyle.trim().replace(/@expression(\d+);|expression(\d+)/g, (_, statementNumber, valueNumber) => templateExpressions[Number(statementNumber ?? valueNumber) - 1]);
   });
 }
 
-/** Removes the indentation of lines in HTML templates: browsers show a line break with and without spaces alike. */
+/** Removes the indentation of lines in HTML templates. Browsers show a line break with or without spaces in the same way. */
 const withoutIndentation = (/** @type {string} */ script) => script.replaceAll(/^ +(?=[<$@.?])/gm, '');
 
 /**
- * Escapes non-ASCII characters in a script: a classic script is read in the encoding of its page. The bundler does not escape them in
- * tagged templates and regular expressions.
+ * Escapes non-ASCII characters in a script, because a classic script is read in the encoding of its page. The bundler leaves such
+ * characters in tagged templates and regular expressions.
  *
  * @param {string} script
  */
 function withNonAsciiEscaped(script) {
-  return script.replaceAll(/[^\0-\x7f]/g, (unit) => `\\u${unit.charCodeAt(0).toString(16).padStart(4, '0')}`);
+  return script.replaceAll(/[^\0-\x7f]/g, (codeUnit) => `\\u${codeUnit.charCodeAt(0).toString(16).padStart(4, '0')}`);
 }
 
 /**
- * Returns the loaders of the widgets for external.js, and the keys of the messages that they need.
+ * Returns the loaders of the widgets for external.js, and the keys of the messages that the widgets need.
  *
  * @returns {Promise<string>} a module
  */
@@ -344,27 +344,30 @@ async function widgetLoaders() {
   );
 }
 
-/** Returns the declarations of settings without what no page uses: their documentation, and defaults that those of their group contain. */
+/**
+ * Returns the declarations of settings without parts that no page uses. These are documentation, and defaults that the defaults of a group
+ * contain.
+ */
 function minimalDeclarations() {
-  const toJson = (/** @type {unknown} */ value) => JSON.stringify(value, function (key, member) {
-    return ['sentence', 'nullable'].includes(key) || (key === 'default' && 'in' in this) ? undefined : member;
+  const toJson = (/** @type {unknown} */ declarationValue) => JSON.stringify(declarationValue, function (memberKey, memberValue) {
+    return ['sentence', 'nullable'].includes(memberKey) || (memberKey === 'default' && 'in' in this) ? undefined : memberValue;
   });
   return Object.entries(declared).map(([name, value]) => `export const ${name} = ${toJson(value)};\n`).join('');
 }
 
 /**
  * Marks the constants of a library as pure, so that the bundler drops unused ones, such as those for writing YAML. The bundler cannot know
- * that computing them has no side effects.
+ * that computing the constants has no side effects.
  *
- * @param {string} library with each constant at the start of a line
+ * @param {string} librarySource with each constant at the start of a line
  */
-function withPureConstants(library) {
-  return library
+function withPureConstants(librarySource) {
+  return librarySource
     .replaceAll(/^((?:var|const) \w+ = )((?:new |`|\w+[.(]).*);$/gm, '$1/* @__PURE__ */ (() => $2)();')
     .replaceAll(/^(var \w+ = )(?=\w+\(|new \w)/gm, '$1/* @__PURE__ */ ');
 }
 
-/** Passages of libraries that are replaced, by the names of the libraries' files. */
+/** Passages of libraries that are replaced, by the file name of the library. */
 const REPLACED_PASSAGES = {
   // The library contains the module as text. Strict content security policies forbid the fetch that reads it.
   'zstddec-stream.mjs': [
@@ -378,7 +381,7 @@ const REPLACED_PASSAGES = {
       's.createPolicy("lit-html",{createHTML:t=>t})',
       '((...names)=>{for(const name of names)try{return s.createPolicy(name,{createHTML:t=>t})}catch{}})("motion-widgets","lit-html")',
     ],
-    // Page translators replace text nodes. Therefore no part may end at a text node of its template, and a missing text node is created
+    // Page translators replace text nodes. Therefore no part of a template may end at a text node, and a missing text node is created
     // again.
     ['r=`<${n}>`', 'r=`<${n}><!---->`'],
     ['a(this._$AH)?', 'a(this._$AH)&&3===this._$AA.nextSibling?.nodeType?'],
@@ -387,31 +390,27 @@ const REPLACED_PASSAGES = {
 
 /** Returns a library with its `REPLACED_PASSAGES` replaced. @param {string} library @param {keyof typeof REPLACED_PASSAGES} name of its file */
 function withReplacedPassages(library, name) {
-  return REPLACED_PASSAGES[name].reduce((text, [original, replacement]) => {
-    if (text.split(original).length !== 2) throw new Error(`${name} does not have ${original} once, but scripts/bundle.mjs replaces it.`);
-    return text.replace(original, () => replacement);
+  return REPLACED_PASSAGES[name].reduce((text, [originalPassage, replacementPassage]) => {
+    if (text.split(originalPassage).length !== 2) throw new Error(`${name} does not have ${originalPassage} once, but scripts/bundle.mjs replaces it.`);
+    return text.replace(originalPassage, () => replacementPassage);
   }, library);
 }
 
-/**
- * Adapts import paths in types to the published directory, which has all of them side by side.
- *
- * @param {string} types
- */
-function withLocalImports(types) {
-  return types.replaceAll(/'\.\.\/build\/(\w+)\.d\.ts'/g, "'./$1.js'").replaceAll("'../www/types.d.ts'", "'./core.js'");
+/** Adapts import paths in types to the published directory, in which all types are side by side. @param {string} typesSource */
+function withLocalImports(typesSource) {
+  return typesSource.replaceAll(/'\.\.\/build\/(\w+)\.d\.ts'/g, "'./$1.js'").replaceAll("'../www/types.d.ts'", "'./core.js'");
 }
 
-/** Removes the text of the inlined module from a source map: a quarter of a million characters. @param {string} text */
+/** Removes the text of the inlined module, a quarter of a million characters, from a source map. @param {string} text */
 function withoutModule(text) {
   const sourceMap = JSON.parse(text);
-  const keepContent = (/** @type {string} */ content, /** @type {number} */ i) => (sourceMap.sources[i].endsWith(BYTES_MODULE_NAME) ? '' : content);
+  const keepContent = (/** @type {string} */ sourceContent, /** @type {number} */ i) => (sourceMap.sources[i].endsWith(BYTES_MODULE_NAME) ? '' : sourceContent);
   return JSON.stringify({ ...sourceMap, sourcesContent: sourceMap.sourcesContent.map(keepContent) });
 }
 
 /**
- * Inlines styles and scripts into a page of dist/. In a page that is opened from a disk, browsers refuse external scripts of type "module",
- * but not inline ones.
+ * Inlines styles and scripts into a page of dist/. Browsers refuse external scripts of type "module" in a page that is opened from a disk.
+ * They accept inline ones.
  *
  * @param {string} name
  */
@@ -424,7 +423,7 @@ function inlinedPage(name) {
   if (externalLink) throw new UserError(`${name}: ${externalLink[0]} cannot be put into one file; expected is "./" and a file of www/.`);
   const inlineScript = (/** @type {string} */ path) =>
     `<script type="module">${readDistFile(path).replaceAll(/<(?=\/script|!--)/gi, '\\x3C')}</script>`;
-  // Links to other pages are replaced by their text, because a copied file does not have these pages next to it.
+  // Links to other pages are replaced by their text, because a copied file does not have the other pages next to it.
   return pageHtml
     .replaceAll(/<a href="\.\/[^"]*">([^<]*)<\/a>/g, '$1')
     .replace(styleLink, (_, path) => `<style>\n${readDistFile(path)}</style>`)

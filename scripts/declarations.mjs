@@ -1,5 +1,5 @@
-// Descriptions of the widgets for the scripts that generate types, tables and the manifest: from the settings of the core,
-// from each widget's settings.ts, and from the comments of the elements' classes.
+// Descriptions of the widgets for the scripts that generate types, tables and the manifest. They come from the settings of the core, from
+// each widget's settings.ts, and from the comments of the elements' classes.
 
 import { isDeepStrictEqual } from 'node:util';
 import { presets, settings } from '../build/settings.js';
@@ -35,7 +35,10 @@ import { importTypeScript } from './typescript.mjs';
  * @property {Field[]} state fields of the state that only this widget has
  */
 
-/** TypeScript types by type of setting. Words (enumerations) and groups (several numbers) have generated types. @type {Record<string, string>} */
+/**
+ * TypeScript types by type of setting. The types of words (enumerations) and of groups (several numbers) are generated.
+ * @type {Record<string, string>}
+ */
 const TYPE_NAMES = { number: 'number', whole: 'number', boolean: 'boolean', numbers: 'number[]' };
 
 /** Properties and state of every element with a cloud. @type {Documentation} */
@@ -50,11 +53,11 @@ const CLOUD_DOCUMENTATION = {
   },
 };
 
-/** Returns the name of the class or type for a tag or key. @param {string} name */
-export const toPascalCase = (name) => checkScriptName(name.replaceAll(/(?:^|-)(.)/g, (_, letter) => letter.toUpperCase()));
+/** Returns the name of the class or type for a tag or key. @param {string} tagOrKey */
+export const toPascalCase = (tagOrKey) => checkScriptName(tagOrKey.replaceAll(/(?:^|-)(.)/g, (_, letter) => letter.toUpperCase()));
 
-/** Returns the TypeScript type of some words. @param {readonly string[]} words */
-export const unionTypeOf = (words) => words.map((word) => `'${word}'`).join(' | ');
+/** Returns the TypeScript type of some words. @param {readonly string[]} allowedWords */
+export const unionTypeOf = (allowedWords) => allowedWords.map((allowedWord) => `'${allowedWord}'`).join(' | ');
 
 /** Returns the TypeScript type of a setting. @param {Declaration} declaration */
 export function typeTextOf({ key, type, words, nullable }) {
@@ -63,17 +66,17 @@ export function typeTextOf({ key, type, words, nullable }) {
 }
 
 /**
- * Returns the description of a setting: its meaning, its allowed values and its default.
+ * Returns the description of a setting, with its meaning, its allowed values and its default.
  *
- * @param {Declaration} declaration
- * @param {string} [opening] the default as text
+ * @param {Declaration} settingDeclaration
+ * @param {string} [openingValue] the default as text
  */
-export function descriptionOf(declaration, opening) {
-  const { sentence, type } = declaration;
-  const range = rangeTextOf(declaration);
+export function descriptionOf(settingDeclaration, openingValue) {
+  const { sentence, type } = settingDeclaration;
+  const rangeText = rangeTextOf(settingDeclaration);
   const numberKind = { whole: 'a whole number', numbers: 'each' }[/** @type {string} */ (type)] ?? '';
-  const allowedText = range && `${numberKind} from ${range}`.trim();
-  const rangeAndOpeningText = [allowedText, opening && `opens with ${opening}`].filter(Boolean).join('; ');
+  const allowedText = rangeText && `${numberKind} from ${rangeText}`.trim();
+  const rangeAndOpeningText = [allowedText, openingValue && `opens with ${openingValue}`].filter(Boolean).join('; ');
   return rangeAndOpeningText ? `${sentence} ${rangeAndOpeningText[0].toUpperCase()}${rangeAndOpeningText.slice(1)}.` : sentence;
 }
 
@@ -82,18 +85,18 @@ function rangeTextOf({ min, max, unit }) {
   return min === undefined || max === undefined ? undefined : `${numberTextOf(min)} to ${numberTextOf(max)}${unit ? ` ${unit}` : ''}`;
 }
 
-/** Returns a limit or default as text. @param {number} value */
-function numberTextOf(value) {
-  if (value === Number.MAX_SAFE_INTEGER) return '2⁵³ − 1';
+/** Returns a limit or default as text. @param {number} limitValue */
+function numberTextOf(limitValue) {
+  if (limitValue === Number.MAX_SAFE_INTEGER) return '2⁵³ − 1';
   const numberFormat = new Intl.NumberFormat('en', { maximumSignificantDigits: 7, useGrouping: 'min2' });
-  return numberFormat.format(value).replaceAll(',', '\u202f').replace('-', '−');
+  return numberFormat.format(limitValue).replaceAll(',', '\u202f').replace('-', '−');
 }
 
 /** Returns the comments of the elements' classes by the names of the classes. */
 export const readClassComments = runOnce(async () => {
   // @ts-expect-error It comes without types.
   const { cli } = await import('@custom-elements-manifest/analyzer/cli.js');
-  // With `noWrite` the analyzer returns the manifest, and writes no file but package.json, which gets the path of the manifest in dist/.
+  // With `noWrite` the analyzer returns the manifest. It writes only package.json, into which it puts the path of the manifest in dist/.
   const analyzerArguments = ['analyze', '--litelement', '--quiet', '--outdir', 'dist', '--globs', 'www/figure/figure.ts', 'www/widgets/*/*.ts'];
   const { schemaVersion, modules } = await cli({ argv: analyzerArguments, cwd: ROOT, noWrite: true });
   /** @type {any[]} */
@@ -101,46 +104,46 @@ export const readClassComments = runOnce(async () => {
   return { schemaVersion, classes: new Map(classDeclarations.map((declaration) => [declaration.name, declaration])) };
 });
 
-/** Returns a description without the line ends of its comment. @param {string} text */
-export const joinLines = (text) => text.replaceAll('\n', ' ');
+/** Returns a description without the line breaks of its comment. @param {string} commentText */
+export const joinLines = (commentText) => commentText.replaceAll('\n', ' ');
 
 /** Returns the descriptions of all widgets. @returns {Promise<Widget[]>} */
 export function describeWidgets() {
   return Promise.all(Object.keys(settings).map(describeWidget));
 }
 
-/** Returns the description of a widget. @param {string} tag @returns {Promise<Widget>} */
-async function describeWidget(tag) {
+/** Returns the description of a widget. @param {string} widgetTag @returns {Promise<Widget>} */
+async function describeWidget(widgetTag) {
   const { COMMON_ATTRS } = await importTypeScript('www/figure/definition.ts');
-  const { definition: { attributes, declarations, elementFields }, documentation } = await importTypeScript(`www/widgets/${tag}/settings.ts`);
+  const { definition: { attributes, declarations, elementFields }, documentation } = await importTypeScript(`www/widgets/${widgetTag}/settings.ts`);
   /** @type {Documentation[]} */
-  const documentations = [...('marked' in elementFields ? [CLOUD_DOCUMENTATION] : []), ...(documentation ? [documentation] : [])];
+  const memberDocumentations = [...('marked' in elementFields ? [CLOUD_DOCUMENTATION] : []), ...(documentation ? [documentation] : [])];
   const { classes } = await readClassComments();
-  const elementClass = classes.get(`${toPascalCase(tag)}Element`);
+  const elementClass = classes.get(`${toPascalCase(widgetTag)}Element`);
   /** @type {Record<string, string>} */
   const attributeSentences = Object.fromEntries(elementClass.attributes.map((/** @type {any} */ { name, description }) => [name, description]));
-  const documentedProperties = Object.assign({}, ...documentations.map(({ properties }) => properties));
-  const documentedState = Object.assign({}, ...documentations.map(({ state }) => state));
+  const documentedProperties = Object.assign({}, ...memberDocumentations.map(({ properties }) => properties));
+  const documentedState = Object.assign({}, ...memberDocumentations.map(({ state }) => state));
   const settingOf = (/** @type {string} */ name) => declarations.find((/** @type {Declaration} */ { key }) => key === name);
 
   /** Returns the description of an attribute. @returns {Attribute} */
-  const describeAttribute = (/** @type {[string, any]} */ [name, entry]) => {
-    const declaration = settingOf(name);
+  const describeAttribute = (/** @type {[string, any]} */ [attributeName, attributeDefinition]) => {
+    const declaration = settingOf(attributeName);
     if (declaration) {
       const defaultValue = declaration.default;
       const openingText = defaultValue === null ? undefined : String(defaultValue);
       const shownDefault = typeof defaultValue === 'number' ? numberTextOf(defaultValue) : openingText;
       const withoutRange = descriptionOf({ ...declaration, min: undefined }, shownDefault);
-      return { name, type: typeTextOf(declaration), description: descriptionOf(declaration, shownDefault), opening: openingText, allowed: rangeTextOf(declaration), withoutRange };
+      return { name: attributeName, type: typeTextOf(declaration), description: descriptionOf(declaration, shownDefault), opening: openingText, allowed: rangeTextOf(declaration), withoutRange };
     }
-    const { words, coveredAttributes, property } = entry;
-    const elementField = elementFields[name];
-    const nullable = coveredAttributes || entry.nullable;
-    const openingText = elementField?.default ?? (coveredAttributes ? openingPresetOf(tag) : nullable ? undefined : words?.[0]);
+    const { words, coveredAttributes, property } = attributeDefinition;
+    const elementField = elementFields[attributeName];
+    const nullable = coveredAttributes || attributeDefinition.nullable;
+    const openingText = elementField?.default ?? (coveredAttributes ? openingPresetOf(widgetTag) : nullable ? undefined : words?.[0]);
     const type = elementField?.type === 'number' ? 'number' : words === undefined ? 'boolean' : elementField?.type === 'words' ? `(${unionTypeOf(words)})[]` : unionTypeOf(words);
     const typeText = Array.isArray(openingText) ? openingText.join(' ') : openingText;
-    const description = descriptionOf({ ...entry, ...elementField, sentence: attributeSentences[name] }, typeText);
-    return { name, property, type: nullable ? `${type} | null` : type, description, opening: typeText, allowed: elementField && rangeTextOf(elementField), withoutRange: description };
+    const description = descriptionOf({ ...attributeDefinition, ...elementField, sentence: attributeSentences[attributeName] }, typeText);
+    return { name: attributeName, property, type: nullable ? `${type} | null` : type, description, opening: typeText, allowed: elementField && rangeTextOf(elementField), withoutRange: description };
   };
   const toItem = (/** @type {[string, any]} */ [name, { sentence, ...rest }]) => ({ name, description: sentence, ...rest });
 
@@ -153,12 +156,12 @@ async function describeWidget(tag) {
     .map((/** @type {any} */ { name, description, readonly, type }) => ({ name, description: joinLines(description), readonly, type: type.text }));
   const properties = [...groupFields, ...Object.entries(documentedProperties).map(toItem), ...classFields];
   const documentedElementFields = Object.keys(elementFields).map((name) => {
-    const { type, description } = /** @type {Field} */ ([...attributeList, ...properties].find((item) => item.name === name) ?? {});
+    const { type, description } = /** @type {Field} */ ([...attributeList, ...properties].find((describedField) => describedField.name === name) ?? {});
     return { name, type, description };
   });
-  const stateFields = new Map([...topLevelSettings.map(fieldOf), ...documentedElementFields, ...Object.entries(documentedState).map(toItem)].map((item) => [item.name, item]));
-  for (const { name, type } of stateFields.values()) if (!type) throw new Error(`${tag}: nothing says what ${name} is in its state.`);
-  return { tag, className: toPascalCase(tag), attributes: attributeList, properties, state: [...stateFields.values()] };
+  const stateFields = new Map([...topLevelSettings.map(fieldOf), ...documentedElementFields, ...Object.entries(documentedState).map(toItem)].map((stateField) => [stateField.name, stateField]));
+  for (const { name, type } of stateFields.values()) if (!type) throw new Error(`${widgetTag}: nothing says what ${name} is in its state.`);
+  return { tag: widgetTag, className: toPascalCase(widgetTag), attributes: attributeList, properties, state: [...stateFields.values()] };
 }
 
 /** Returns the description of a setting as a field. @param {Declaration} declaration */
@@ -166,7 +169,7 @@ function fieldOf(declaration) {
   return { name: declaration.key, type: typeTextOf(declaration), description: descriptionOf(declaration) };
 }
 
-/** Returns the preset that the widget opens with, if there is one. @param {string} tag */
+/** Returns the preset with which the widget opens, if there is one. @param {string} tag */
 function openingPresetOf(tag) {
   const defaultOf = (/** @type {string} */ name) => settings[tag].find(({ key }) => key === name)?.default;
   const presetsOfTag = presets[/** @type {keyof typeof presets} */ (tag)];

@@ -1,4 +1,4 @@
-// Logs of examples/calibration: a drive that is simulated with known α's. `scripts/build.mjs` writes them.
+// Logs of examples/calibration, a drive that is simulated with known α's. `scripts/build.mjs` writes the logs.
 
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -24,8 +24,8 @@ const [START_TIME, DURATION, TIME_STEP, ROW_INTERVAL] = [10, 225, 0.005, 0.05];
 const STEPS_PER_ROW = Math.round(ROW_INTERVAL / TIME_STEP);
 
 /**
- * Time in s by which the reference begins earlier and ends later than the odometry. Apart from the offset of the clocks, the rows of
- * both have the same times, because interpolation would cause errors of a few per cent: a turn takes only five rows.
+ * Time in s by which the reference begins earlier and ends later than the odometry. Apart from the offset of the clocks, the two logs have
+ * rows at the same times. Interpolation would cause errors of a few per cent, because a turn takes only five rows.
  */
 const EXTRA_REFERENCE_TIME = 1;
 
@@ -38,12 +38,12 @@ const MAX_ACCELERATIONS = { v: 0.8, omega: 2 };
 /** Speed of straight drives, m/s, and rate of turns on the spot, rad/s. */
 const DRIVE_SPEEDS = { v: 0.8, turn: 0.9 };
 
-/** Command and its duration in seconds. @typedef {{ seconds: number, v: number, omega: number }} Command */
+/** Command with its duration in seconds. @typedef {{ seconds: number, v: number, omega: number }} Command */
 
 /** Generates commands without end: straight drives, arcs, turns on the spot and pauses. @returns {Generator<Command>} */
 function* generateCommands() {
-  // Low-discrepancy sequence by the golden ratio: numbers between two limits that never repeat.
-  const spreadEvenly = (/** @type {number} */ i, /** @type {number} */ from, /** @type {number} */ to) => from + (to - from) * ((i * 0.6180339887) % 1);
+  // Returns numbers of a low-discrepancy sequence by the golden ratio. They are between two limits and never repeat.
+  const spreadEvenly = (/** @type {number} */ i, /** @type {number} */ lowerLimit, /** @type {number} */ upperLimit) => lowerLimit + (upperLimit - lowerLimit) * ((i * 0.6180339887) % 1);
   for (let i = 1; ; i++) {
     const turnSign = i % 3 === 0 ? -1 : 1;
     yield { seconds: spreadEvenly(i, 1.5, 4), v: DRIVE_SPEEDS.v, omega: 0 };
@@ -55,39 +55,39 @@ function* generateCommands() {
   }
 }
 
-/** Returns the poses of the odometry, one for each row. @param {Motion} motion @returns {Pose[]} */
-function simulateOdometry(motion) {
-  const limitChange = (/** @type {number} */ value, /** @type {number} */ goal, /** @type {number} */ maxChange) => value + Math.max(-maxChange, Math.min(maxChange, goal - value));
-  let pose = { x: 0, y: 0, theta: 0 };
-  const poses = [pose];
+/** Returns the poses of the odometry, one for each row. @param {Motion} core @returns {Pose[]} */
+function simulateOdometry(core) {
+  const limitChange = (/** @type {number} */ currentValue, /** @type {number} */ goalValue, /** @type {number} */ maxChange) => currentValue + Math.max(-maxChange, Math.min(maxChange, goalValue - currentValue));
+  let odometryPose = { x: 0, y: 0, theta: 0 };
+  const odometryPoses = [odometryPose];
   let [v, omega, stepCount] = [0, 0, 0];
   for (const command of generateCommands()) {
     for (let stepsLeft = Math.round(command.seconds / TIME_STEP); stepsLeft > 0; stepsLeft--) {
-      if (stepCount >= DURATION / TIME_STEP) return poses;
+      if (stepCount >= DURATION / TIME_STEP) return odometryPoses;
       v = limitChange(v, command.v, MAX_ACCELERATIONS.v * TIME_STEP);
       omega = limitChange(omega, command.omega, MAX_ACCELERATIONS.omega * TIME_STEP);
-      if (v !== 0 || omega !== 0) pose = motion.se2.boxplus(pose, [v * TIME_STEP, 0, omega * TIME_STEP]);
+      if (v !== 0 || omega !== 0) odometryPose = core.se2.boxplus(odometryPose, [v * TIME_STEP, 0, omega * TIME_STEP]);
       stepCount += 1;
-      if (stepCount % STEPS_PER_ROW === 0) poses.push(pose);
+      if (stepCount % STEPS_PER_ROW === 0) odometryPoses.push(odometryPose);
     }
   }
-  return poses;
+  return odometryPoses;
 }
 
-/** Returns a pose with the digits of a log. @param {Pose} pose @returns {[number, number, number]} */
+/** Returns a pose rounded to the digits of a log. @param {Pose} pose @returns {[number, number, number]} */
 const roundPose = ({ x, y, theta }) => [Number(x.toFixed(4)), Number(y.toFixed(4)), Number(theta.toFixed(5))];
 
 /**
- * Returns the rows at which AMCL would update. Each is the first one whose distance or turn from the previous update exceeds a limit.
+ * Returns the rows at which AMCL would update. Each is the first row whose distance or turn from the previous update exceeds a limit.
  *
- * @param {[number, number, number][]} rows
+ * @param {[number, number, number][]} poseRows
  */
-function findLegEnds(rows) {
+function findLegEnds(poseRows) {
   const legEnds = [0];
-  for (const [i, [x, y, theta]] of rows.entries()) {
-    const [x0, y0, theta0] = rows[legEnds[legEnds.length - 1]];
-    const turn = Math.atan2(Math.sin(theta - theta0), Math.cos(theta - theta0));
-    if (Math.abs(x - x0) > LEG_LIMIT.distance || Math.abs(y - y0) > LEG_LIMIT.distance || Math.abs(turn) > LEG_LIMIT.angle) legEnds.push(i);
+  for (const [i, [x, y, theta]] of poseRows.entries()) {
+    const [legStartX, legStartY, legStartTheta] = poseRows[legEnds[legEnds.length - 1]];
+    const turn = Math.atan2(Math.sin(theta - legStartTheta), Math.cos(theta - legStartTheta));
+    if (Math.abs(x - legStartX) > LEG_LIMIT.distance || Math.abs(y - legStartY) > LEG_LIMIT.distance || Math.abs(turn) > LEG_LIMIT.angle) legEnds.push(i);
   }
   return legEnds;
 }
@@ -111,15 +111,15 @@ function simulateTruth(motion, measuredPoses, seed) {
   for (const [legIndex, legEndRow] of legEnds.entries()) {
     if (legIndex === 0) continue;
     const legStartRow = legEnds[legIndex - 1];
-    const [legStart, legGoal] = [legStartRow, legEndRow].map((row) => scalePose(poseFromArray(roundedPoses[row])));
+    const [legStart, legGoal] = [legStartRow, legEndRow].map((rowIndex) => scalePose(poseFromArray(roundedPoses[rowIndex])));
     const trueStart = truePoses[legStartRow];
     const [x, y, theta] = odometryModel.sample(motion.decompose(legStart, legGoal), trueStart, 1, seed + legIndex);
-    const motionFromStart = (/** @type {Pose} */ pose) => se2.compose(se2.inverse(legStart), pose);
+    const motionFromStart = (/** @type {Pose} */ measuredPose) => se2.compose(se2.inverse(legStart), measuredPose);
     const legError = se2.boxminus(se2.compose(se2.inverse(trueStart), { x, y, theta }), motionFromStart(legGoal));
     for (let i = legStartRow + 1; i <= legEndRow; i++) {
       const legShare = (i - legStartRow) / (legEndRow - legStartRow);
       const smoothShare = legShare * legShare * (3 - 2 * legShare);
-      truePoses.push(se2.boxplus(se2.compose(trueStart, motionFromStart(scalePose(measuredPoses[i]))), legError.map((component) => smoothShare * component)));
+      truePoses.push(se2.boxplus(se2.compose(trueStart, motionFromStart(scalePose(measuredPoses[i]))), legError.map((errorComponent) => smoothShare * errorComponent)));
     }
   }
   odometryModel.free();
@@ -132,7 +132,7 @@ export function createExampleLog(motion, seed = NOISE_SEED) {
   const truePoses = simulateTruth(motion, measuredPoses, seed);
   const extraRowCount = Math.round(EXTRA_REFERENCE_TIME / ROW_INTERVAL);
   const csvLineOf = (/** @type {number} */ t, /** @type {Pose} */ pose) => `${[t.toFixed(3), ...roundPose(pose)].join(',')}\n`;
-  const csvTableOf = (/** @type {string[]} */ lines) => `t,x,y,yaw\n${lines.join('')}`;
+  const csvTableOf = (/** @type {string[]} */ csvLines) => `t,x,y,yaw\n${csvLines.join('')}`;
   const [odometryLines, referenceLines] = [/** @type {string[]} */ ([]), /** @type {string[]} */ ([])];
   const mountPose = { x: 0, y: 0, theta: TRUE_MODEL.mountYaw };
   const lastRow = truePoses.length - 1;
@@ -144,8 +144,8 @@ export function createExampleLog(motion, seed = NOISE_SEED) {
   return { odometry: csvTableOf(odometryLines), reference: csvTableOf(referenceLines) };
 }
 
-/** Writes both logs. dist/core.js must be built. */
+/** Writes the two logs. dist/core.js must be built. */
 export async function writeExampleLog() {
   const { load } = await import('../dist/core.js');
-  for (const [name, text] of Object.entries(createExampleLog(await load()))) writeFileSync(join(ROOT, EXAMPLE_LOGS[name]), text);
+  for (const [logName, csvText] of Object.entries(createExampleLog(await load()))) writeFileSync(join(ROOT, EXAMPLE_LOGS[logName]), csvText);
 }

@@ -1,6 +1,5 @@
-// `npm run test:fuzz -- RUNS SEED TARGETS`: runs targets of fuzz/src (default: all) with cargo-fuzz, RUNS inputs each.
-// Each run starts from the packed inputs in fuzz/corpus. `npm run test:fuzz -- keep TARGETS` adds inputs of build/fuzz to them
-// that reach new code.
+// `npm run test:fuzz -- RUNS SEED TARGETS` runs targets of fuzz/src (default: all) with cargo-fuzz, RUNS inputs each. Each run starts from
+// the packed inputs in fuzz/corpus. `npm run test:fuzz -- keep TARGETS` adds inputs of build/fuzz that reach new code to the packed inputs.
 
 import { mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { availableParallelism } from 'node:os';
@@ -8,35 +7,35 @@ import { join } from 'node:path';
 import { ROOT, UserError, mustRun, printStep, run, runAsScript } from './process.mjs';
 import { ensureNativeRust } from './toolchain.mjs';
 
-const FUZZ_TARGETS = readdirSync(join(ROOT, 'fuzz/corpus')).map((file) => file.replace(/\.txt$/, ''));
+const FUZZ_TARGETS = readdirSync(join(ROOT, 'fuzz/corpus')).map((corpusFile) => corpusFile.replace(/\.txt$/, ''));
 
-/** Limits of one input: seconds, allocated megabytes, and bytes. The program itself takes 30 MB. */
+/** Limits of one input: seconds, allocated megabytes, and bytes. The target program itself takes 30 MB. */
 const INPUT_LIMITS = ['-timeout=1', '-malloc_limit_mb=256', '-rss_limit_mb=286', '-max_len=256'];
 
 /** Options of the build. Safe Rust needs no sanitizer, and tracing of comparisons would halve the speed. */
 const BUILD_OPTIONS = ['--sanitizer', 'none', '--no-trace-compares'];
 
-/** Returns the path of the packed inputs of a target: hexadecimal, one input a line. @param {string} target */
-const packedPathOf = (target) => join(ROOT, 'fuzz/corpus', `${target}.txt`);
+/** Returns the path of the packed inputs of a target. The file has one hexadecimal input a line. @param {string} targetName */
+const packedPathOf = (targetName) => join(ROOT, 'fuzz/corpus', `${targetName}.txt`);
 
-/** Returns the folder of unpacked inputs of a target. @param {string} target @param {'known' | 'found' | 'merged'} kind */
-const inputFolderOf = (target, kind) => join(ROOT, 'build/fuzz', target, kind);
+/** Returns the folder of unpacked inputs of a target. @param {string} targetName @param {'known' | 'found' | 'merged'} folderKind */
+const inputFolderOf = (targetName, folderKind) => join(ROOT, 'build/fuzz', targetName, folderKind);
 
-/** Writes the packed inputs of a target as files for libFuzzer. @param {string} target */
-function unpackInputs(target) {
-  const knownFolder = inputFolderOf(target, 'known');
+/** Writes the packed inputs of a target as files for libFuzzer. @param {string} targetName */
+function unpackInputs(targetName) {
+  const knownFolder = inputFolderOf(targetName, 'known');
   rmSync(knownFolder, { recursive: true, force: true });
   mkdirSync(knownFolder, { recursive: true });
-  mkdirSync(inputFolderOf(target, 'found'), { recursive: true });
-  const inputLines = readFileSync(packedPathOf(target), 'latin1').split('\n').slice(0, -1);
-  inputLines.forEach((line, i) => writeFileSync(join(knownFolder, String(i)), Buffer.from(line, 'hex')));
+  mkdirSync(inputFolderOf(targetName, 'found'), { recursive: true });
+  const inputLines = readFileSync(packedPathOf(targetName), 'latin1').split('\n').slice(0, -1);
+  inputLines.forEach((hexLine, i) => writeFileSync(join(knownFolder, String(i)), Buffer.from(hexLine, 'hex')));
 }
 
-/** Runs a target with cargo-fuzz. @param {string} target @param {string[]} folders of inputs @param {string[]} options of libFuzzer */
-async function runCargoFuzz(target, folders, options) {
+/** Runs a target with cargo-fuzz. @param {string} targetName @param {string[]} inputFolders of inputs @param {string[]} fuzzerOptions of libFuzzer */
+async function runCargoFuzz(targetName, inputFolders, fuzzerOptions) {
   const { bin, env } = await ensureNativeRust();
-  const cargoArguments = ['+nightly', 'fuzz', 'run', ...BUILD_OPTIONS, 'target', ...folders, '--', ...options];
-  return run(join(bin, 'cargo'), cargoArguments, { env: { ...env, FUZZ_TARGET: target }, quiet: true });
+  const cargoArguments = ['+nightly', 'fuzz', 'run', ...BUILD_OPTIONS, 'target', ...inputFolders, '--', ...fuzzerOptions];
+  return run(join(bin, 'cargo'), cargoArguments, { env: { ...env, FUZZ_TARGET: targetName }, quiet: true });
 }
 
 /** Compiles the targets. */
@@ -49,14 +48,17 @@ async function compileTargets() {
   await mustRun('The targets do not compile: see above.', cargoPath, ['+nightly', 'fuzz', 'build', ...BUILD_OPTIONS], { env });
 }
 
-/** Runs a target on new inputs, and returns false if one failed. @param {string} target @param {string} runs @param {string} seed @returns {Promise<boolean>} */
-async function fuzzTarget(target, runs, seed) {
-  unpackInputs(target);
-  const fuzzOptions = [`-runs=${runs}`, `-seed=${seed}`, ...INPUT_LIMITS];
-  const { ok, output } = await runCargoFuzz(target, [inputFolderOf(target, 'found'), inputFolderOf(target, 'known')], fuzzOptions);
+/**
+ * Runs a target on new inputs, and returns false if an input failed.
+ * @param {string} targetName @param {string} runCount @param {string} seed @returns {Promise<boolean>}
+ */
+async function fuzzTarget(targetName, runCount, seed) {
+  unpackInputs(targetName);
+  const fuzzOptions = [`-runs=${runCount}`, `-seed=${seed}`, ...INPUT_LIMITS];
+  const { ok, output } = await runCargoFuzz(targetName, [inputFolderOf(targetName, 'found'), inputFolderOf(targetName, 'known')], fuzzOptions);
   if (!ok) console.error(output.split('\n').slice(-60).join('\n'));
   const edgeCount = [...output.matchAll(/ cov: (\d+)/g)].pop()?.[1];
-  console.log(`${ok ? 'ok    ' : 'FAILED'} ${target.padEnd(12)} edges ${edgeCount}, ${output.match(/^Done .*$/m)?.[0]}`);
+  console.log(`${ok ? 'ok    ' : 'FAILED'} ${targetName.padEnd(12)} edges ${edgeCount}, ${output.match(/^Done .*$/m)?.[0]}`);
   return ok;
 }
 
@@ -66,25 +68,25 @@ async function keepInputs(target) {
   const mergedFolder = inputFolderOf(target, 'merged');
   rmSync(mergedFolder, { recursive: true, force: true });
   mkdirSync(mergedFolder);
-  // Hit counts of edges would keep five times as many inputs.
+  // Hit counts of edges would make the corpus five times as large.
   const mergeOptions = ['-set_cover_merge=1', '-use_counters=0', ...INPUT_LIMITS];
   const { ok, output } = await runCargoFuzz(target, [mergedFolder, inputFolderOf(target, 'known'), inputFolderOf(target, 'found')], mergeOptions);
   if (!ok) throw new UserError(output);
-  const inputLines = readdirSync(mergedFolder).map((name) => readFileSync(join(mergedFolder, name)).toString('hex'));
-  writeFileSync(packedPathOf(target), inputLines.sort().map((line) => `${line}\n`).join(''));
+  const inputLines = readdirSync(mergedFolder).map((inputName) => readFileSync(join(mergedFolder, inputName)).toString('hex'));
+  writeFileSync(packedPathOf(target), inputLines.sort().map((hexLine) => `${hexLine}\n`).join(''));
   console.log(`${target}: ${inputLines.length} inputs`);
   return true;
 }
 
 await runAsScript(import.meta.url, async () => {
-  const args = process.argv.slice(2);
-  const isKeepMode = args[0] === 'keep';
-  const [runs, seed] = isKeepMode ? [] : [args[0] ?? '1000000', args[1] ?? '1'];
-  const namedTargets = args.slice(isKeepMode ? 1 : 2);
+  const commandArguments = process.argv.slice(2);
+  const isKeepMode = commandArguments[0] === 'keep';
+  const [runs, seed] = isKeepMode ? [] : [commandArguments[0] ?? '1000000', commandArguments[1] ?? '1'];
+  const namedTargets = commandArguments.slice(isKeepMode ? 1 : 2);
   for (const [parameterName, parameterText] of Object.entries({ RUNS: runs, SEED: seed })) {
     if (parameterText !== undefined && !/^[1-9]\d*$/.test(parameterText)) throw new UserError(`${parameterName} must be a whole number from 1 (got "${parameterText}").`);
   }
-  const unknownTarget = namedTargets.find((name) => !FUZZ_TARGETS.includes(name));
+  const unknownTarget = namedTargets.find((targetName) => !FUZZ_TARGETS.includes(targetName));
   if (unknownTarget !== undefined) throw new UserError(`"${unknownTarget}" is not a target; targets are ${FUZZ_TARGETS.join(', ')}.`);
   const waitingTargets = namedTargets.length > 0 ? namedTargets : [...FUZZ_TARGETS];
   printStep(`${isKeepMode ? 'keep' : `${runs} inputs each, seed ${seed}`}: ${waitingTargets.join(', ')}`);

@@ -1,4 +1,4 @@
-// Licences of the packages and crates whose code is in the bundles: whoever distributes the bundles has to include them.
+// Licences of the packages and crates whose code is in the bundles. Anyone who distributes the bundles has to include them.
 
 import { readFileSync, readdirSync } from 'node:fs';
 import { dirname, join } from 'node:path';
@@ -6,18 +6,18 @@ import { ROOT } from './process.mjs';
 
 /** @typedef {{ name: string, version: string, licence: string, directory: string }} Package */
 
-/** Licence of the standard library, which is no package. A toolchain may be installed without its documents. */
+/** Licence of the standard library, which is not a package. A toolchain may be installed without its documents. */
 const STANDARD_LIBRARY_NOTICE = 'The standard library of Rust (MIT OR Apache-2.0), copyright The Rust Project contributors: see rust-lang.org.';
 
 /**
  * Returns the crates that are compiled into the module.
  *
- * @param {string} tree output of `cargo tree`, with a name and a version in each line
+ * @param {string} crateTree output of `cargo tree`, with a name and a version in each line
  * @param {{ packages: any[] }} metadata output of `cargo metadata`, with all crates that any target or feature would need
  * @returns {Package[]}
  */
-export function listCrates(tree, { packages }) {
-  const crateLines = new Set(tree.match(/^\S+ v\S+/gm));
+export function listCrates(crateTree, { packages }) {
+  const crateLines = new Set(crateTree.match(/^\S+ v\S+/gm));
   return packages
     .filter(({ name, version, source }) => source !== null && crateLines.has(`${name} v${version}`))
     .map(({ name, version, license, manifest_path: manifest }) => ({ name, version, licence: license, directory: dirname(manifest) }));
@@ -26,12 +26,12 @@ export function listCrates(tree, { packages }) {
 /**
  * Returns the npm packages with code in a bundle.
  *
- * @param {Record<string, import('esbuild').Metafile['outputs'][string]>} outputs
+ * @param {Record<string, import('esbuild').Metafile['outputs'][string]>} bundleOutputs
  * @returns {Package[]}
  */
-export function listBundledPackages(outputs) {
-  const bundledFiles = Object.values(outputs).flatMap(({ inputs }) => Object.keys(inputs).filter((path) => inputs[path].bytesInOutput > 0));
-  const packageDirectories = bundledFiles.flatMap((path) => path.match(/^.*node_modules\/(?:@[^/]+\/)?[^/]+/) ?? []);
+export function listBundledPackages(bundleOutputs) {
+  const bundledFiles = Object.values(bundleOutputs).flatMap(({ inputs }) => Object.keys(inputs).filter((inputPath) => inputs[inputPath].bytesInOutput > 0));
+  const packageDirectories = bundledFiles.flatMap((bundledFile) => bundledFile.match(/^.*node_modules\/(?:@[^/]+\/)?[^/]+/) ?? []);
   return [...new Set(packageDirectories)].map((path) => {
     const directory = join(ROOT, path);
     const { name, version, license } = JSON.parse(readFileSync(join(directory, 'package.json'), 'utf8'));
@@ -39,19 +39,19 @@ export function listBundledPackages(outputs) {
   });
 }
 
-/** Returns each licence text once, below the packages that have it. @param {Package[]} packages */
+/** Returns each licence text once, below the names of the packages that have this licence. @param {Package[]} packages */
 export function readLicenceTexts(packages) {
   /** @type {Map<string, string[]>} */
   const packagesByText = new Map();
   for (const { name, version, licence, directory } of packages) {
-    const licenceFiles = readdirSync(directory).filter((file) => /^(licen[cs]e|copying)/i.test(file));
-    // MIT is the shortest licence of several to choose from.
-    const licenceFile = licenceFiles.find((file) => /mit/i.test(file)) ?? licenceFiles[0];
+    const licenceFiles = readdirSync(directory).filter((fileName) => /^(licen[cs]e|copying)/i.test(fileName));
+    // MIT is chosen from several licences, because it is the shortest.
+    const licenceFile = licenceFiles.find((licenceName) => /mit/i.test(licenceName)) ?? licenceFiles[0];
     if (licenceFile === undefined) throw new Error(`${name} ${version} (${licence}) comes without the text of its licence.`);
     const licenceText = readFileSync(join(directory, licenceFile), 'utf8').replaceAll('\r', '').trim();
     packagesByText.set(licenceText, [...(packagesByText.get(licenceText) ?? []), `${name} ${version} (${licence})`]);
   }
-  const licenceSections = [...packagesByText].map(([text, names]) => [names.sort().join('\n'), text]);
-  const sectionTexts = licenceSections.sort(([a], [b]) => (a < b ? -1 : 1)).map((parts) => parts.join('\n\n'));
+  const licenceSections = [...packagesByText].map(([licenceText, packageNames]) => [packageNames.sort().join('\n'), licenceText]);
+  const sectionTexts = licenceSections.sort(([a], [b]) => (a < b ? -1 : 1)).map((namesAndText) => namesAndText.join('\n\n'));
   return `${['The bundles of motion-widgets carry parts of these works.', STANDARD_LIBRARY_NOTICE, ...sectionTexts].join(`\n\n${'-'.repeat(72)}\n\n`)}\n`;
 }

@@ -20,16 +20,19 @@ import { readClassComments, joinLines, describeWidgets } from './declarations.mj
  * @property {Item[]} cssProperties
  */
 
-/** Returns the manifest. @returns {Promise<{ schemaVersion: string, modules: { kind: string, path: string, declarations: Element[], exports: object[] }[] }>} */
+/**
+ * Returns the custom elements manifest.
+ * @returns {Promise<{ schemaVersion: string, modules: { kind: string, path: string, declarations: Element[], exports: object[] }[] }>}
+ */
 export async function createManifest() {
   const { schemaVersion, classes } = await readClassComments();
-  const declarations = (await describeWidgets()).map((widget) => {
-    const className = `${widget.className}Element`;
-    return elementOf(widget, className, classes.get(className));
+  const elementDeclarations = (await describeWidgets()).map((widgetDescription) => {
+    const className = `${widgetDescription.className}Element`;
+    return elementOf(widgetDescription, className, classes.get(className));
   });
   const modulePath = 'dist/external.js';
-  const exports = declarations.map(({ name, tagName }) => ({ kind: 'custom-element-definition', name: tagName, declaration: { name, module: modulePath } }));
-  return { schemaVersion, modules: [{ kind: 'javascript-module', path: modulePath, declarations, exports }] };
+  const manifestExports = elementDeclarations.map(({ name, tagName }) => ({ kind: 'custom-element-definition', name: tagName, declaration: { name, module: modulePath } }));
+  return { schemaVersion, modules: [{ kind: 'javascript-module', path: modulePath, declarations: elementDeclarations, exports: manifestExports }] };
 }
 
 /**
@@ -40,15 +43,15 @@ export async function createManifest() {
  * @param {any} analyzedClass comments of the class, as the analyzer reads them
  */
 function elementOf({ tag, className, attributes, properties }, name, analyzedClass) {
-  /** Replaces the general names of types in the common class by those of this class. @param {string} type */
-  const withClassNames = (type) => ({ text: type.replace(/\bSimulation\b/, className).replace(/\bValues\b/, `${className}State`) });
+  /** Replaces the general type names of the common class by those of the element's class. @param {string} typeText */
+  const withClassNames = (typeText) => ({ text: typeText.replace(/\bSimulation\b/, className).replace(/\bValues\b/, `${className}State`) });
   const itemOf = (/** @type {any} */ { name, type, description }) => ({ name, ...(type && { type: withClassNames(type.text) }), description: description && joinLines(description) });
-  const documentedItems = (/** @type {any[]} */ items) => items.filter(({ description }) => description).map(itemOf);
-  const memberOf = (/** @type {any} */ { kind, parameters, return: result, readonly, ...rest }) => ({
+  const documentedItems = (/** @type {any[]} */ memberItems) => memberItems.filter(({ description }) => description).map(itemOf);
+  const memberOf = (/** @type {any} */ { kind, parameters, return: returnType, readonly, ...rest }) => ({
     kind,
     ...itemOf(rest),
     ...(parameters && { parameters: parameters.map(itemOf) }),
-    ...(kind === 'method' && result && { return: { type: withClassNames(result.type.text) } }),
+    ...(kind === 'method' && returnType && { return: { type: withClassNames(returnType.type.text) } }),
     ...(readonly && { readonly }),
   });
   return {

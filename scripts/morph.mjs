@@ -9,11 +9,11 @@ import { ROOT, findProgram, mustRun, runAsScript } from './process.mjs';
 import { startServer } from './serve.mjs';
 import { aptInstall } from './toolchain.mjs';
 
-/** Width of the figure, at which it shows one picture, and size of its letters. */
+/** Width of the figure, at which it shows a single picture, and the size of its font. */
 const FIGURE_WIDTH_PX = 690;
 const FONT_SIZE_PX = 24;
 
-/** Number of pictures of the morph, duration of each, and duration of the first and last. */
+/** Number of frames of the animation, the duration of a frame, and the duration of the first and last frame. */
 const FRAME_COUNT = 24;
 const FRAME_DURATIONS_MS = { each: 100, end: 1600 };
 
@@ -30,16 +30,16 @@ await runAsScript(import.meta.url, async () => {
     const page = await browser.newPage({ viewport: { width: FIGURE_WIDTH_PX, height: 1350 } });
     await page.goto(`${address}embed.html?widget=banana-machine`);
     await page.addStyleTag({ content: `body { margin: 0; font-size: ${FONT_SIZE_PX}px }` });
-    const figure = page.locator('banana-machine');
-    await figure.locator('.folds').waitFor();
+    const bananaMachine = page.locator('banana-machine');
+    await bananaMachine.locator('.folds').waitFor();
     await page.waitForFunction(() => !(/** @type {any} */ (document.querySelector('banana-machine')).playing));
     await page.waitForTimeout(1500);
-    const { y, height } = (await figure.locator('.morphing').boundingBox()) ?? { y: 0, height: 0 };
+    const { y, height } = (await bananaMachine.locator('.morphing').boundingBox()) ?? { y: 0, height: 0 };
     const clipBox = { x: 0, y: 0, width: FIGURE_WIDTH_PX, height: y + height };
     const frameArguments = [];
     for (let i = 0; i <= FRAME_COUNT; i++) {
       const morphShare = (1 - Math.cos((Math.PI * i) / FRAME_COUNT)) / 2;
-      await figure.evaluate((element, morph) => element.setAttribute('morph', String(morph)), morphShare);
+      await bananaMachine.evaluate((element, morphAttribute) => element.setAttribute('morph', String(morphAttribute)), morphShare);
       await page.waitForTimeout(100);
       const framePath = join(frameDirectory, `${i}.png`);
       await page.screenshot({ path: framePath, clip: clipBox });

@@ -11,49 +11,49 @@ export const ROOT = fileURLToPath(new URL('..', import.meta.url));
 /** Error about something that the user has to provide or correct. Its message is printed without a stack trace. */
 export class UserError extends Error {}
 
-/** Collected output of each work that runs in parallel with other work. @type {AsyncLocalStorage<string[]>} */
+/** Collected output of work that runs in parallel with other work. @type {AsyncLocalStorage<string[]>} */
 const collectedOutputStore = new AsyncLocalStorage();
 
-/** Prints text, or adds it to the collected output. @param {string} text @param {NodeJS.WriteStream} [stream] */
-function print(text, stream = process.stdout) {
+/** Prints text, or adds the text to the collected output. @param {string} printedText @param {NodeJS.WriteStream} [outputStream] */
+function print(printedText, outputStream = process.stdout) {
   const outputTexts = collectedOutputStore.getStore();
-  if (outputTexts === undefined) stream.write(text);
-  else outputTexts.push(text);
+  if (outputTexts === undefined) outputStream.write(printedText);
+  else outputTexts.push(printedText);
 }
 
 /**
  * Collects the output of work that runs in parallel with other work, and prints it at the end.
  *
  * @template T
- * @param {() => Promise<T>} work
+ * @param {() => Promise<T>} collectedWork
  * @returns {Promise<T>} result of the work
  */
-export async function withCollectedOutput(work) {
+export async function withCollectedOutput(collectedWork) {
   /** @type {string[]} */
   const outputTexts = [];
   try {
-    return await collectedOutputStore.run(outputTexts, work);
+    return await collectedOutputStore.run(outputTexts, collectedWork);
   } finally {
     print(outputTexts.join(''));
   }
 }
 
-/** Prints the name of the step that begins. @param {string} text */
-export function printStep(text) {
-  print(`\n▸ ${text}\n`);
+/** Prints the name of the step that begins. @param {string} stepText */
+export function printStep(stepText) {
+  print(`\n▸ ${stepText}\n`);
 }
 
 /**
- * Returns a function that does some work at its first call, and returns the same result at every call.
+ * Returns a function that does its work at the first call only, and returns the same result at every call.
  *
  * @template T
- * @param {() => Promise<T>} work
+ * @param {() => Promise<T>} singleWork
  * @returns {() => Promise<T>}
  */
-export function runOnce(work) {
+export function runOnce(singleWork) {
   /** @type {Promise<T> | undefined} */
   let resultPromise;
-  return () => (resultPromise ??= work());
+  return () => (resultPromise ??= singleWork());
 }
 
 /** Returns a function that runs tasks one after the other. @returns {<T>(work: () => Promise<T>) => Promise<T>} */
@@ -68,7 +68,7 @@ export function taskQueue() {
 }
 
 /**
- * Waits until all promises are settled. Work that continued after a failure would write files that the next run reads.
+ * Waits until all promises are settled. If work continued after a failure, it would write files that the next run reads.
  *
  * @template {Promise<unknown>[] | []} T
  * @param {T} promises
@@ -82,32 +82,32 @@ export async function settleAll(promises) {
 /**
  * Runs a script's main function if node was started with that script. An error prints one sentence, and sets exit code 1.
  *
- * @param {string} url import.meta.url of the script
- * @param {() => Promise<unknown>} main
+ * @param {string} scriptUrl import.meta.url of the script
+ * @param {() => Promise<unknown>} mainFunction
  */
-export async function runAsScript(url, main) {
-  if (process.argv[1] === undefined || realpathSync(process.argv[1]) !== fileURLToPath(url)) return;
+export async function runAsScript(scriptUrl, mainFunction) {
+  if (process.argv[1] === undefined || realpathSync(process.argv[1]) !== fileURLToPath(scriptUrl)) return;
   try {
-    const [major, minor] = process.versions.node.split('.').map(Number);
-    if (major < 20 || (major === 20 && minor < 19)) {
+    const [nodeMajor, nodeMinor] = process.versions.node.split('.').map(Number);
+    if (nodeMajor < 20 || (nodeMajor === 20 && nodeMinor < 19)) {
       throw new UserError(`Node 20.19 or newer is needed and this is ${process.versions.node}: install it from nodejs.org.`);
     }
-    await main();
+    await mainFunction();
   } catch (error) {
     console.error(`\n${error instanceof UserError ? error.message : (error instanceof Error && error.stack) || error}`);
     process.exitCode = 1;
   }
 }
 
-/** Process groups that are ended when this process is interrupted. @type {Set<number>} */
+/** Process groups that end when this process is interrupted. @type {Set<number>} */
 const processGroups = new Set();
 
-/** Ends a process group. @param {number} group */
-export function endGroup(group) {
+/** Ends a process group. @param {number} processGroupId */
+export function endGroup(processGroupId) {
   try {
-    process.kill(-group, 'SIGKILL');
+    process.kill(-processGroupId, 'SIGKILL');
   } catch {
-    // The group has ended by itself.
+    // The process group has already ended.
   }
 }
 
@@ -117,16 +117,16 @@ function endAfterSignal() {
   process.exit(130);
 }
 
-/** Arranges that a process group is ended when this process is. @param {number} group */
-export function endGroupWithProcess(group) {
-  processGroups.add(group);
+/** Arranges that a process group ends when this process ends. @param {number} processGroupId */
+export function endGroupWithProcess(processGroupId) {
+  processGroups.add(processGroupId);
   for (const signal of ['SIGINT', 'SIGTERM']) process.off(signal, endAfterSignal).on(signal, endAfterSignal);
 }
 
-/** Removes an ended process group from those that are ended with this process. @param {number} group */
+/** Removes an ended process group from `processGroups`. @param {number} group */
 export function forgetGroup(group) {
   processGroups.delete(group);
-  // Signals have their usual meaning while no program runs.
+  // While no program runs, signals have their usual meaning.
   if (processGroups.size === 0) for (const signal of ['SIGINT', 'SIGTERM']) process.off(signal, endAfterSignal);
 }
 
@@ -142,29 +142,29 @@ const MAX_SILENCE_MS = 30_000;
  */
 
 /**
- * Runs a program, showing its output as it comes, and its name while it is silent.
+ * Runs a program. Shows its output as it comes, and its name while it prints nothing.
  *
  * @param {string} command
- * @param {string[]} args
+ * @param {string[]} commandArguments
  * @param {RunOptions} [options]
  * @returns {Promise<{ ok: boolean, timedOut: boolean, stdout: string, output: string }>} `output` is stdout and
  *   stderr in order of arrival; a program that cannot be started is not ok
  */
-export function run(command, args, { env = {}, cwd = ROOT, seconds, quiet = false } = {}) {
+export function run(command, commandArguments, { env = {}, cwd = ROOT, seconds, quiet = false } = {}) {
   return new Promise((resolve) => {
-    // A program with a time limit leads its own process group, so that its children can be ended with it.
-    const childProcess = spawn(command, args, {
+    // A program with a time limit leads its own process group, so that its children end with it.
+    const childProcess = spawn(command, commandArguments, {
       cwd,
       env: { ...process.env, ...env },
       stdio: ['ignore', 'pipe', 'pipe'],
       detached: seconds !== undefined,
     });
-    let stdout = '';
+    let stdoutText = '';
     let combinedOutput = '';
     let timedOut = false;
     const startTime = Date.now();
     const silenceTimer = collectedOutputStore.getStore() ? undefined : setInterval(() => {
-      print(`  ${basename(command)} ${basename(args[0] ?? '')} has been running for ${Math.round((Date.now() - startTime) / 1000)} s\n`);
+      print(`  ${basename(command)} ${basename(commandArguments[0] ?? '')} has been running for ${Math.round((Date.now() - startTime) / 1000)} s\n`);
     }, MAX_SILENCE_MS);
     const processGroupId = seconds === undefined ? undefined : childProcess.pid;
     /** @type {NodeJS.Timeout | undefined} */
@@ -177,7 +177,7 @@ export function run(command, args, { env = {}, cwd = ROOT, seconds, quiet = fals
       }, seconds * 1000);
     }
     childProcess.stdout.setEncoding('utf8').on('data', (text) => {
-      stdout += text;
+      stdoutText += text;
       combinedOutput += text;
       silenceTimer?.refresh();
       if (!quiet) print(text);
@@ -187,30 +187,30 @@ export function run(command, args, { env = {}, cwd = ROOT, seconds, quiet = fals
       silenceTimer?.refresh();
       if (!quiet) print(text, process.stderr);
     });
-    const settleRun = (/** @type {boolean} */ ok) => {
+    const settleRun = (/** @type {boolean} */ hasSucceeded) => {
       clearTimeout(limitTimer);
       clearInterval(silenceTimer);
       if (processGroupId !== undefined) forgetGroup(processGroupId);
-      resolve({ ok, timedOut, stdout, output: combinedOutput });
+      resolve({ ok: hasSucceeded, timedOut, stdout: stdoutText, output: combinedOutput });
     };
     childProcess.on('error', () => settleRun(false));
-    childProcess.on('close', (code) => settleRun(code === 0));
+    childProcess.on('close', (exitCode) => settleRun(exitCode === 0));
   });
 }
 
 /**
- * Runs a program that has to succeed.
+ * Runs a program that must succeed.
  *
- * @param {string} message message of the `UserError` that is thrown if the program fails
+ * @param {string} failureMessage message of the `UserError` that is thrown if the program fails
  * @param {string} command
- * @param {string[]} args
- * @param {RunOptions} [options]
+ * @param {string[]} commandArguments
+ * @param {RunOptions} [runOptions]
  */
-export async function mustRun(message, command, args, options) {
-  const runResult = await run(command, args, options);
+export async function mustRun(failureMessage, command, commandArguments, runOptions) {
+  const runResult = await run(command, commandArguments, runOptions);
   if (!runResult.ok) {
-    if (options?.quiet) print(runResult.output, process.stderr);
-    throw new UserError(message);
+    if (runOptions?.quiet) print(runResult.output, process.stderr);
+    throw new UserError(failureMessage);
   }
   return runResult;
 }
@@ -218,31 +218,31 @@ export async function mustRun(message, command, args, options) {
 /**
  * Returns the full path of a program.
  *
- * @param {string} name
+ * @param {string} programName
  * @param {string[]} [moreDirectories] directories that are searched after those of PATH
  * @returns {string | undefined} undefined if it is not found
  */
-export function findProgram(name, moreDirectories = []) {
+export function findProgram(programName, moreDirectories = []) {
   return [...(process.env.PATH ?? '').split(delimiter), ...moreDirectories]
-    .map((directory) => join(directory, name))
+    .map((searchDirectory) => join(searchDirectory, programName))
     .find(isProgram);
 }
 
-/** Returns true if a file can be executed. @param {string} path */
-export function isProgram(path) {
+/** Returns true if a file can be executed. @param {string} filePath */
+export function isProgram(filePath) {
   try {
-    accessSync(path, constants.X_OK);
-    return statSync(path).isFile();
+    accessSync(filePath, constants.X_OK);
+    return statSync(filePath).isFile();
   } catch {
     return false;
   }
 }
 
-/** Returns the files in a directory, sorted, or a file. @param {string} path from the root */
-export function filesOf(path) {
-  if (statSync(join(ROOT, path)).isFile()) return [path];
-  return readdirSync(join(ROOT, path), { withFileTypes: true, recursive: true })
-    .filter((entry) => entry.isFile())
-    .map((entry) => relative(ROOT, join(entry.parentPath, entry.name)))
+/** Returns the sorted files in a directory. For a file, returns the file itself. @param {string} fileOrDirectory from the root */
+export function filesOf(fileOrDirectory) {
+  if (statSync(join(ROOT, fileOrDirectory)).isFile()) return [fileOrDirectory];
+  return readdirSync(join(ROOT, fileOrDirectory), { withFileTypes: true, recursive: true })
+    .filter((directoryEntry) => directoryEntry.isFile())
+    .map((directoryEntry) => relative(ROOT, join(directoryEntry.parentPath, directoryEntry.name)))
     .sort();
 }

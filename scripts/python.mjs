@@ -1,5 +1,5 @@
-// Generates sources of the Python package in python/src/motion_widgets: the script, and a class for each element, with a trait for each
-// setting.
+// Generates sources of the Python package in python/src/motion_widgets: the script, and a class for each element. The class has a trait for
+// each setting.
 
 import { copyFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -19,26 +19,29 @@ const PYTHON_DIRECTORY = join(ROOT, 'python');
 /** Traits of traitlets for settings without a range. */
 const TRAITS_WITHOUT_RANGE = { Bool: 't.Bool(None, allow_none=True)', Dict: 't.Dict(default_value=None, allow_none=True)', Unicode: 't.Unicode(None, allow_none=True)' };
 
-/** Writes the module of the elements, and copies the script and the licences into the package: pip reads only its directory. */
+/**
+ * Writes the Python module of the elements. Copies the script and the licences into the package, because pip reads only the directory of
+ * the package.
+ */
 export async function writePython() {
   const sourceDirectory = join(PYTHON_DIRECTORY, 'src/motion_widgets');
   writeFileSync(join(sourceDirectory, '_elements.py'), await createElementsSource());
   copyFileSync(join(ROOT, 'dist/anywidget.js'), join(sourceDirectory, 'anywidget.js'));
-  for (const license of readdirSync(ROOT).filter((name) => name.startsWith('LICENSE'))) {
-    copyFileSync(join(ROOT, license), join(PYTHON_DIRECTORY, license));
+  for (const licenceName of readdirSync(ROOT).filter((fileName) => fileName.startsWith('LICENSE'))) {
+    copyFileSync(join(ROOT, licenceName), join(PYTHON_DIRECTORY, licenceName));
   }
   copyFileSync(join(ROOT, 'dist/LICENSE-third-party.txt'), join(PYTHON_DIRECTORY, 'LICENSE-third-party.txt'));
 }
 
-/** Returns the source of the module of the elements. @returns {Promise<string>} */
+/** Returns the source of the Python module of the elements. @returns {Promise<string>} */
 export async function createElementsSource() {
   const { GLOBAL_ATTRIBUTES } = await importTypeScript('www/named.ts');
   const { classes } = await readClassComments();
   const widgetClasses = (await describeWidgets()).map(({ tag, className, attributes, properties }) => {
     const documentedFields = [...attributes.map(({ property, name, ...rest }) => ({ ...rest, name: property ?? name })), ...properties];
-    const traits = documentedFields.filter(({ readonly }) => !readonly).map((field) => ({ ...field, trait: traitCallOf(field, tag) }));
+    const traitFields = documentedFields.filter(({ readonly }) => !readonly).map((settingField) => ({ ...settingField, trait: traitCallOf(settingField, tag) }));
     const globalTraits = GLOBAL_ATTRIBUTES.map((/** @type {string} */ name) => ({ name, trait: TRAITS_WITHOUT_RANGE.Unicode, description: `As the attribute \`${name}\` of HTML.` }));
-    return { className, tag, sentence: joinLines(classes.get(`${className}Element`).description), traits: [...traits, ...globalTraits] };
+    return { className, tag, sentence: joinLines(classes.get(`${className}Element`).description), traits: [...traitFields, ...globalTraits] };
   });
   const sourceLines = [
     '# Generated from the declarations by `npm run build`: not to be edited.',
@@ -50,12 +53,12 @@ export async function createElementsSource() {
     'from ._figure import Figure',
     'from ._traits import Group, Number, Sequence, Whole, Word',
     '',
-    `__all__ = [${widgetClasses.map(({ className }) => quote(className)).join(', ')}]`,
+    `__all__ = [${widgetClasses.map(({ className }) => quotePython(className)).join(', ')}]`,
   ];
   for (const { className, tag, sentence, traits } of widgetClasses) {
     sourceLines.push('', '', '@t.signature_has_traits', `class ${className}(Figure):`, `    """${sentence}`, '');
     for (const { name, description, trait } of traits) sourceLines.push(`    ${pythonNameOf(name)}:`, `        ${withPythonNames(description)}${wordSentenceOf(trait)}`);
-    sourceLines.push('    """', '', `    widget = t.Unicode(${quote(tag)}, read_only=True).tag(sync=True)`);
+    sourceLines.push('    """', '', `    widget = t.Unicode(${quotePython(tag)}, read_only=True).tag(sync=True)`);
     for (const { name, trait } of traits) sourceLines.push(`    ${pythonNameOf(name)} = ${trait}`);
   }
   return `${sourceLines.join('\n')}\n`;
@@ -63,10 +66,10 @@ export async function createElementsSource() {
 
 /** Returns the call that creates a trait. @param {Field & { allowed?: string }} field @param {string} tag */
 function traitCallOf({ name, type, allowed }, tag) {
-  const declaration = settings[tag].find(({ key }) => key === name);
-  if (declaration) return traitCallOfSetting(declaration, tag);
+  const settingDeclaration = settings[tag].find(({ key }) => key === name);
+  if (settingDeclaration) return traitCallOfSetting(settingDeclaration, tag);
   if (type === 'number' && allowed) return `Number(${allowed.replace(' to ', ', ')})`;
-  const allowedWords = [...type.matchAll(/'([^']+)'/g)].map(([, word]) => quote(word)).join(', ');
+  const allowedWords = [...type.matchAll(/'([^']+)'/g)].map(([, allowedWord]) => quotePython(allowedWord)).join(', ');
   if (type.includes('[]')) return `Sequence(Word(${allowedWords}))`;
   if (allowedWords) return `Word(${allowedWords})`;
   const optionalTrait = { boolean: TRAITS_WITHOUT_RANGE.Bool, number: 'Whole(0)' }[type.replace(' | null', '')];
@@ -81,27 +84,27 @@ function traitCallOfSetting({ key, type, words: allowedWords = [], fields = [], 
     case 'whole': return `Whole(${rangeText})`;
     case 'numbers': return `Sequence(Number(${rangeText}))`;
     case 'boolean': return TRAITS_WITHOUT_RANGE.Bool;
-    case 'word': return `Word(${allowedWords.map(quote).join(', ')})`;
+    case 'word': return `Word(${allowedWords.map(quotePython).join(', ')})`;
     case 'group': {
-      const nameOf = (/** @type {Declaration} */ member) => member.field ?? member.key;
+      const nameOf = (/** @type {Declaration} */ groupMember) => groupMember.field ?? groupMember.key;
       const fieldsOfGroup = settings[tag].filter((member) => member.in === key && fields.includes(nameOf(member)));
       return `Group(${fieldsOfGroup.map((member) => `${nameOf(member)}=${traitCallOfSetting(member, tag)}`).join(', ')})`;
     }
   }
 }
 
-/** Returns the words that a trait takes, as a sentence. @param {string} trait */
+/** Returns the words that a trait accepts, as a sentence. @param {string} trait */
 function wordSentenceOf(trait) {
   const [, isList, allowedWords] = trait.match(/^(Sequence\()?Word\(([^)]+)\)/) ?? [];
   return allowedWords ? ` ${isList ? 'Some' : 'One'} of ${allowedWords}.` : '';
 }
 
-/** Constants of JavaScript that have other names in Python. @type {Record<string, string>} */
+/** Constants of JavaScript, with their names in Python. @type {Record<string, string>} */
 const PYTHON_CONSTANTS = { null: 'None', true: 'True', false: 'False' };
 
 /** Replaces names of properties and constants by their Python names. @param {string} description with properties in backticks */
 const withPythonNames = (description) =>
-  description.replaceAll(/`([a-z]+[A-Z]\w*)`/g, (_, name) => `\`${pythonNameOf(name)}\``).replaceAll(/\b(null|true|false)\b/g, (word) => PYTHON_CONSTANTS[word]);
+  description.replaceAll(/`([a-z]+[A-Z]\w*)`/g, (_, name) => `\`${pythonNameOf(name)}\``).replaceAll(/\b(null|true|false)\b/g, (constantName) => PYTHON_CONSTANTS[constantName]);
 
-/** Returns a string literal. @param {string} value */
-const quote = (value) => JSON.stringify(value);
+/** Returns a Python string literal. @param {string} stringValue */
+const quotePython = (stringValue) => JSON.stringify(stringValue);

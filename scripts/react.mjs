@@ -1,5 +1,5 @@
 // Generates React components for the elements, and their tags in JSX, from the declarations: build/react.js and build/react.d.ts. Common
-// code is in www/react.ts; common types are written here.
+// code is in www/react.ts. Common types are in this script.
 
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -10,7 +10,7 @@ import { ROOT } from './process.mjs';
 
 const GENERATED_HEADER = '// Generated from the declarations: not to be edited.\n';
 
-/** Writes both files. */
+/** Writes build/react.js and build/react.d.ts. */
 export async function writeComponents() {
   const widgetDescriptions = await describeWidgets();
   writeFileSync(join(ROOT, 'build/react.js'), `'use client';\n${GENERATED_HEADER}\nimport { component } from '../www/react.ts';\n\n${widgetDescriptions.map(componentSourceOf).join('')}`);
@@ -21,7 +21,7 @@ export async function writeComponents() {
 function componentSourceOf({ tag, className, attributes, properties }) {
   const propNames = {
     attributes: Object.fromEntries(attributes.map(({ name, property = name }) => [property, name])),
-    // A boolean attribute without a default is true if it is present. The others are written as true or false.
+    // A boolean attribute without a default is true if it is present. Other boolean attributes are written as true or false.
     flags: attributes.filter(({ type, opening }) => type === 'boolean' && opening === undefined).map(({ name }) => name),
     properties: properties.filter(({ readonly }) => !readonly).map(({ name }) => name),
   };

@@ -1,4 +1,5 @@
-// `npm start`: builds stale files and serves dist/ on this machine only. PORT selects a port; the default is the first free one from 4173.
+// `npm start`: builds stale files and serves dist/ on this machine only. PORT selects a port. The default is the first free port from 4173
+// on.
 
 import { createServer } from 'node:http';
 import { join } from 'node:path';
@@ -8,18 +9,18 @@ import { ROOT, UserError, runAsScript } from './process.mjs';
 /**
  * Serves the files of a directory on localhost.
  *
- * @param {string} directory
+ * @param {string} servedDirectory
  * @param {object} [options]
  * @param {number} [options.port] default: the first free port from 4173 on
  * @param {string} [options.base] path under which the directory is served, with a slash at both ends
  * @param {Record<string, string>} [options.headers] headers of every response
  * @returns {Promise<{ address: string, close: () => void }>}
  */
-export async function startServer(directory, { port, base: basePath = '/', headers = {} } = {}) {
-  // A static import would fail in a bare clone, in which sirv is not installed yet.
+export async function startServer(servedDirectory, { port, base: basePath = '/', headers = {} } = {}) {
+  // A static import of sirv would fail in a bare clone, in which sirv is not installed yet.
   const { default: sirv } = await import('sirv');
-  const serveFile = sirv(directory, { dev: true, etag: true, setHeaders: (response) => response.setHeaders(new Map(Object.entries(headers))) });
-  const server = createServer((request, response) => {
+  const serveFile = sirv(servedDirectory, { dev: true, etag: true, setHeaders: (response) => response.setHeaders(new Map(Object.entries(headers))) });
+  const httpServer = createServer((request, response) => {
     const sendNotFound = () => void response.writeHead(404, { 'content-type': 'text/plain; charset=utf-8' }).end('There is no such page.');
     if (!request.url?.startsWith(basePath)) return sendNotFound();
     request.url = request.url.slice(basePath.length - 1);
@@ -27,28 +28,28 @@ export async function startServer(directory, { port, base: basePath = '/', heade
   });
   let portToTry = port ?? 4173;
   return new Promise((resolve, reject) => {
-    server.on('error', (/** @type {NodeJS.ErrnoException} */ error) => {
+    httpServer.on('error', (/** @type {NodeJS.ErrnoException} */ error) => {
       if (error.code !== 'EADDRINUSE' && error.code !== 'EACCES') {
         reject(error);
       } else if (port === undefined) {
-        server.listen(++portToTry, 'localhost');
+        httpServer.listen(++portToTry, 'localhost');
       } else {
         reject(new UserError(`Port ${port} is not free: set PORT to another one, or leave it unset.`));
       }
     });
-    server.on('listening', () => {
-      const serverAddress = server.address();
+    httpServer.on('listening', () => {
+      const serverAddress = httpServer.address();
       if (serverAddress === null || typeof serverAddress === 'string') return;
-      resolve({ address: `http://localhost:${serverAddress.port}${basePath}`, close: () => server.close().closeAllConnections() });
+      resolve({ address: `http://localhost:${serverAddress.port}${basePath}`, close: () => httpServer.close().closeAllConnections() });
     });
-    server.listen(portToTry, 'localhost');
+    httpServer.listen(portToTry, 'localhost');
   });
 }
 
-/** Returns the port in the environment variable PORT; undefined if it is not set. @returns {number | undefined} */
+/** Returns the port in the environment variable PORT, or undefined if the variable is not set. @returns {number | undefined} */
 function readRequestedPort() {
-  const [argument] = process.argv.slice(2);
-  if (argument !== undefined) throw new UserError(`npm start has no options (got "${argument}"): PORT selects a port, as in PORT=9000 npm start.`);
+  const [directoryArgument] = process.argv.slice(2);
+  if (directoryArgument !== undefined) throw new UserError(`npm start has no options (got "${directoryArgument}"): PORT selects a port, as in PORT=9000 npm start.`);
   const portText = process.env.PORT;
   if (portText === undefined || portText === '') return undefined;
   if (!/^\d+$/.test(portText) || Number(portText) > 65535) {

@@ -1,5 +1,5 @@
-// `npm run build:site`: gallery, reference, documents and rustdoc as static files, in build/site/. Examples in HTML are live below
-// their text.
+// `npm run build:site` writes gallery, reference, documents and rustdoc to build/site/, as static files. Examples in HTML are shown live
+// below their text.
 
 import { cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { join, posix } from 'node:path';
@@ -12,7 +12,7 @@ const SITE_DIRECTORY = join(ROOT, 'build/site');
 const { homepage } = JSON.parse(readFileSync(join(ROOT, 'package.json'), 'utf8'));
 const SOURCES_URL = homepage.replace('#readme', '/blob/main/');
 
-/** Texts of the links at the top of every page, by their addresses from the root of the site. */
+/** Texts of the links at the top of every page. Their keys are addresses relative to the root of the site. */
 const TOP_LINKS = {
   'index.html': 'Figures',
   'start.html': 'Start',
@@ -25,50 +25,50 @@ const TOP_LINKS = {
 };
 
 /** Returns the address of the page of a document. */
-const pagePathOf = (/** @type {string} */ path) => path.replace(/^README\.md$/, 'start.md').replace(/\bREADME\.md$/, 'index.md').replace(/md$/, 'html');
+const pagePathOf = (/** @type {string} */ documentPath) => documentPath.replace(/^README\.md$/, 'start.md').replace(/\bREADME\.md$/, 'index.md').replace(/md$/, 'html');
 
 /** Returns a relative link from one page to another. */
-const relativeLinkTo = (/** @type {string} */ page, /** @type {string} */ target) => '../'.repeat(page.split('/').length - 1) + target;
+const relativeLinkTo = (/** @type {string} */ pagePath, /** @type {string} */ targetPath) => '../'.repeat(pagePath.split('/').length - 1) + targetPath;
 
-/** Returns the anchor of a heading, as GitHub makes it. */
-const anchorOf = (/** @type {string} */ heading) => heading.toLowerCase().replace(/[^\p{L}\p{N} _-]/gu, '').replaceAll(' ', '-');
+/** Returns the anchor of a heading, in the form that GitHub gives it. */
+const anchorOf = (/** @type {string} */ headingText) => headingText.toLowerCase().replace(/[^\p{L}\p{N} _-]/gu, '').replaceAll(' ', '-');
 
-/** Returns the links at the top of a page. @param {string} page */
-const navigationHtmlOf = (page) => {
-  const linkHtmls = Object.entries(TOP_LINKS).map(([to, name]) => `<a href="${relativeLinkTo(page, to)}"${to === page ? ' aria-current="page"' : ''}>${name}</a>`);
+/** Returns the links at the top of a page. @param {string} pagePath */
+const navigationHtmlOf = (pagePath) => {
+  const linkHtmls = Object.entries(TOP_LINKS).map(([linkPath, linkText]) => `<a href="${relativeLinkTo(pagePath, linkPath)}"${linkPath === pagePath ? ' aria-current="page"' : ''}>${linkText}</a>`);
   return `<nav class="site" aria-label="Site">${linkHtmls.join('\n')}\n<a href="${homepage}">Source</a></nav>`;
 };
 
-/** Returns the address that inline code in a document links to: a page of the site, or for a tag a page with this figure only. */
-function linkAddressOf(/** @type {string} */ code, /** @type {string[]} */ figureTags) {
-  if (code in TOP_LINKS) return code;
-  const [, widget, attributeText] = code.match(/^<([a-z-]+)((?: [a-z-]+(?:="[^"]*")?)+)>$/) ?? [];
-  if (!figureTags.includes(widget)) return undefined;
-  const attributes = [...attributeText.matchAll(/([a-z-]+)(?:="([^"]*)")?/g)].map(([, name, value = '']) => [name, value]);
-  return `embed.html?${new URLSearchParams([['widget', widget], ...attributes])}`;
+/** Returns the address to which inline code of a document links. It is a page of the site, or for a tag a page with only this figure. */
+function linkAddressOf(/** @type {string} */ codeText, /** @type {string[]} */ figureTags) {
+  if (codeText in TOP_LINKS) return codeText;
+  const [, widgetTag, attributeText] = codeText.match(/^<([a-z-]+)((?: [a-z-]+(?:="[^"]*")?)+)>$/) ?? [];
+  if (!figureTags.includes(widgetTag)) return undefined;
+  const attributePairs = [...attributeText.matchAll(/([a-z-]+)(?:="([^"]*)")?/g)].map(([, attributeName, attributeText = '']) => [attributeName, attributeText]);
+  return `embed.html?${new URLSearchParams([['widget', widgetTag], ...attributePairs])}`;
 }
 
 /**
  * Returns the page of a document.
  *
  * @param {typeof import('marked')} marked
- * @param {string} document
- * @param {string[]} documents
+ * @param {string} documentPath
+ * @param {string[]} documentPaths
  * @param {string[]} figureTags
  */
-function renderPage({ Marked }, document, documents, figureTags) {
+function renderPage({ Marked }, documentPath, documentPaths, figureTags) {
   const figurePattern = new RegExp(`<(${figureTags.join('|')})[^>]*>.*?</\\1>`, 'gs');
-  const pagePath = pagePathOf(document);
-  const siteLinkOf = (/** @type {string} */ href) => {
-    if (/^(https?:|#)/.test(href)) return href;
-    const [path, anchor] = href.split('#');
-    const targetFile = posix.join(posix.dirname(document), path);
-    return (documents.includes(targetFile) ? relativeLinkTo(pagePath, pagePathOf(targetFile)) : SOURCES_URL + targetFile) + (anchor ? `#${anchor}` : '');
+  const pagePath = pagePathOf(documentPath);
+  const siteLinkOf = (/** @type {string} */ documentLink) => {
+    if (/^(https?:|#)/.test(documentLink)) return documentLink;
+    const [linkedPath, linkAnchor] = documentLink.split('#');
+    const targetFile = posix.join(posix.dirname(documentPath), linkedPath);
+    return (documentPaths.includes(targetFile) ? relativeLinkTo(pagePath, pagePathOf(targetFile)) : SOURCES_URL + targetFile) + (linkAnchor ? `#${linkAnchor}` : '');
   };
   const shownFigures = new Set();
-  const markdown = readFileSync(join(ROOT, document), 'utf8');
+  const markdownText = readFileSync(join(ROOT, documentPath), 'utf8');
   const documentHtml = new Marked({
-    walkTokens: (token) => void (token.type === 'link' && (token.href = siteLinkOf(token.href))),
+    walkTokens: (markdownToken) => void (markdownToken.type === 'link' && (markdownToken.href = siteLinkOf(markdownToken.href))),
     renderer: {
       heading({ tokens, depth }) {
         const headingHtml = this.parser.parseInline(tokens);
@@ -76,23 +76,23 @@ function renderPage({ Marked }, document, documents, figureTags) {
       },
       image: ({ href, text }) => `<img src="${escapeHtml(href)}" alt="${escapeHtml(text)}">`,
       codespan({ text }) {
-        const address = linkAddressOf(text, figureTags);
+        const siteAddress = linkAddressOf(text, figureTags);
         const codeHtml = `<code>${escapeHtml(text)}</code>`;
-        return address ? `<a href="${relativeLinkTo(pagePath, escapeHtml(address))}">${codeHtml}</a>` : codeHtml;
+        return siteAddress ? `<a href="${relativeLinkTo(pagePath, escapeHtml(siteAddress))}">${codeHtml}</a>` : codeHtml;
       },
       code({ text, lang }) {
-        const liveFigures = lang === 'html' ? (text.match(figurePattern) ?? []).filter((figure) => !figure.includes('[') && !shownFigures.has(figure)) : [];
-        for (const figure of liveFigures) shownFigures.add(figure);
+        const liveFigures = lang === 'html' ? (text.match(figurePattern) ?? []).filter((figureHtml) => !figureHtml.includes('[') && !shownFigures.has(figureHtml)) : [];
+        for (const figureHtml of liveFigures) shownFigures.add(figureHtml);
         return `<pre><code>${escapeHtml(text)}</code></pre>\n${liveFigures.join('\n')}\n`;
       },
     },
-  }).parse(markdown, { async: false });
+  }).parse(markdownText, { async: false });
   return `<!doctype html>
 <html lang="en">
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
-<title>${escapeHtml(markdown.match(/^# (.*)$/m)?.[1])}</title>
+<title>${escapeHtml(markdownText.match(/^# (.*)$/m)?.[1])}</title>
 <link rel="icon" href="data:,">
 <link rel="stylesheet" href="${relativeLinkTo(pagePath, '')}page.css">
 <link rel="stylesheet" href="${relativeLinkTo(pagePath, '')}motion-widgets.css">
@@ -108,7 +108,7 @@ ${documentHtml.replaceAll('<table>', '<table class="api">')}</main>
 `;
 }
 
-/** Throws if a page links to a missing file or heading. */
+/** Throws an error if a page links to a missing file or heading. */
 function checkLinks() {
   const siteFiles = new Set(filesOf('build/site'));
   const pagePaths = [...siteFiles].filter((path) => /^build\/site\/(?!rust|classroom).*html$/.test(path));
@@ -124,7 +124,7 @@ function checkLinks() {
 
 await runAsScript(import.meta.url, async () => {
   await build();
-  // The tags come from settings that the build writes.
+  // The tags come from settings that exist only after the build.
   const { WIDGET_TAGS } = await import('./bundle.mjs');
   await ensurePackages('scripts');
   const rustTools = await ensureNativeRust();

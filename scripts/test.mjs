@@ -1,7 +1,8 @@
-// `npm test` runs the checks of every change. `npm run test:all` also runs the nightly ones, which take longer. `npm test -- PART` runs one
-// part, and passes the remaining arguments to its program. All parts run, even if one fails.
+// `npm test` runs the checks of every change. `npm run test:all` also runs the nightly checks, which take longer. `npm test -- PART` runs
+// one part, and passes the remaining arguments to its program. All parts run, even if one fails.
 //
-// Nightly tests have `#[ignore = "nightly: …"]` in Rust, and `@nightly` in their title in JavaScript. `*.nightly.test.js` has only nightly tests.
+// Nightly tests have `#[ignore = "nightly: …"]` in Rust, and `@nightly` in their title in JavaScript. `*.nightly.test.js` has only nightly
+// tests.
 
 import { existsSync, mkdirSync, rmSync, writeFileSync } from 'node:fs';
 import { availableParallelism } from 'node:os';
@@ -25,15 +26,18 @@ import { ensureLints, ensurePackages, ensureNativeRust, ensureRustForWasm } from
 /** True if the nightly tests run as well. */
 const IS_NIGHTLY = process.argv.includes('--all');
 
-/** Time limit of a part, s, so that a hanging test does not stop the run. */
+/** Time limit of a part in s, so that a hanging test does not stop the run. */
 const TIME_LIMIT_SECONDS = IS_NIGHTLY ? 3600 : 1200;
 
-const absolutePath = (/** @type {string} */ path) => join(ROOT, path);
+const absolutePath = (/** @type {string} */ repositoryPath) => join(ROOT, repositoryPath);
 /** @type {('tests' | 'tests/package' | 'tests/engines')[]} workspaces of package.json that the tests need */
 const TEST_WORKSPACES = IS_NIGHTLY ? ['tests', 'tests/package', 'tests/engines'] : ['tests'];
 
-/** Builds dist/ and installs the packages of the tests. Daily tests use the common core in all figures; nightly ones also the core of each figure. */
-const ensureBuilt = runOnce(() => settleAll([build({ local: !IS_NIGHTLY }), ...TEST_WORKSPACES.map((name) => ensurePackages(name))]));
+/**
+ * Builds dist/ and installs the packages of the tests. Daily tests use the common core in all figures. Nightly tests also use the core of
+ * each figure.
+ */
+const ensureBuilt = runOnce(() => settleAll([build({ local: !IS_NIGHTLY }), ...TEST_WORKSPACES.map((workspaceName) => ensurePackages(workspaceName))]));
 
 /** Versions of the tools that the parts of this test run have used so far. */
 const toolVersions = new Set([`Node ${process.versions.node}`]);
@@ -60,19 +64,19 @@ const ensureTestBrowser = runOnce(async () => {
  * Returns a job that runs a program.
  *
  * @param {string[]} command
- * @param {Record<string, string>} [env]
+ * @param {Record<string, string>} [programEnvironment]
  * @returns {Job}
  */
-const createProgramJob = ([name, ...args], env) => () => run(name, args, { env, seconds: TIME_LIMIT_SECONDS });
+const createProgramJob = ([programName, ...programArguments], programEnvironment) => () => run(programName, programArguments, { env: programEnvironment, seconds: TIME_LIMIT_SECONDS });
 
 /**
  * Returns a job that runs a script of a package.
  *
- * @param {string} path of a script in node_modules
- * @param {string[]} args
+ * @param {string} scriptPath of a script in node_modules
+ * @param {string[]} scriptArguments
  * @param {Record<string, string>} [env]
  */
-const createNpmJob = (path, args, env) => createProgramJob([process.execPath, absolutePath(join('node_modules', path)), ...args], env);
+const createNpmJob = (scriptPath, scriptArguments, env) => createProgramJob([process.execPath, absolutePath(join('node_modules', scriptPath)), ...scriptArguments], env);
 
 /** Returns a job that runs a script of this repository. @param {string} path */
 const createScriptJob = (path) => createProgramJob([process.execPath, absolutePath(path)]);
@@ -81,21 +85,21 @@ const createScriptJob = (path) => createProgramJob([process.execPath, absolutePa
  * Returns a job that runs cargo.
  *
  * @param {import('./toolchain.mjs').Rust} rust
- * @param {string[]} args
- * @param {Record<string, string>} [env]
+ * @param {string[]} cargoArguments
+ * @param {Record<string, string>} [moreEnvironment]
  */
-const createCargoJob = ({ bin, env: environment }, args, env) => createProgramJob([join(bin, 'cargo'), ...args], { ...environment, ...env });
+const createCargoJob = ({ bin, env: rustEnvironment }, cargoArguments, moreEnvironment) => createProgramJob([join(bin, 'cargo'), ...cargoArguments], { ...rustEnvironment, ...moreEnvironment });
 
 /**
  * Returns a job that runs rustfmt or clippy.
  *
- * @param {import('./toolchain.mjs').Rust} rust
- * @param {'fmt' | 'clippy'} name
- * @param {string[]} args
+ * @param {import('./toolchain.mjs').Rust} rustTools
+ * @param {'fmt' | 'clippy'} lintName
+ * @param {string[]} lintArguments
  */
-async function createLintJob(rust, name, args) {
-  await ensureLints(rust);
-  return createProgramJob([join(rust.bin, `cargo-${name}`), name, ...args], rust.env);
+async function createLintJob(rustTools, lintName, lintArguments) {
+  await ensureLints(rustTools);
+  return createProgramJob([join(rustTools.bin, `cargo-${lintName}`), lintName, ...lintArguments], rustTools.env);
 }
 
 const LINT_RULES = ['--', '-D', 'warnings'];
@@ -124,7 +128,7 @@ const TEST_PARTS = {
   tsc: {
     async prepare(programArgs) {
       await ensureBuilt();
-      // Only the nightly tier has installed the packages that tests of engines and of tests/package import, and checks the types of these tests.
+      // Only the nightly tier checks the types of tests/engines and tests/package, because only this tier has installed their packages.
       return createNpmJob('typescript/bin/tsc', ['-p', IS_NIGHTLY ? 'tests/types.json' : '.', ...programArgs]);
     },
   },
@@ -134,7 +138,7 @@ const TEST_PARTS = {
   'clippy-wasm': {
     async prepare(programArgs) {
       const rustTools = await ensureWasmRust();
-      // Uses the profile of the tests, in which the macros are compiled already.
+      // Clippy uses the profile of the tests, in which the macros are compiled already.
       const cargoTestOptions = ['--locked', '--profile', 'web', '--lib', '--test', 'web', ...rustTools.target];
       return createLintJob(rustTools, 'clippy', [...cargoTestOptions, ...programArgs, ...LINT_RULES]);
     },
@@ -182,14 +186,14 @@ const TEST_PARTS = {
     },
     counts: COUNT_PATTERNS.playwright,
   },
-  // Nightly: Firefox and WebKit, and projects that embed the package.
+  // The nightly tests run in Firefox and WebKit, and embed the package in projects.
   engines: { prepare: async () => createScriptJob('tests/engines/run.mjs') },
   embeddings: { prepare: async () => createScriptJob('tests/embeddings/run.mjs') },
 };
 
 /**
- * Lanes of parts that run side by side, so that no core is idle while a linker, a download, a frame or a test waits. Parts of one
- * lane run one after the other. Cargo waits by itself for a directory that another part writes.
+ * Lanes of parts. Lanes run side by side, so that no processor core is idle while a linker, a download, a frame or a test waits. Parts of a
+ * lane run one after the other. If another part writes a directory, Cargo waits for it.
  */
 const PART_LANES = [
   ['build', 'browser', ...(IS_NIGHTLY ? ['engines', 'embeddings'] : [])],
@@ -198,11 +202,7 @@ const PART_LANES = [
   ['oxlint', 'tsc', 'node', 'package'],
 ];
 
-/**
- * Runs one part or all, and returns true if they pass.
- *
- * @param {string[]} args of the command line
- */
+/** Runs a single part or all parts, and returns true if they pass. @param {string[]} args of the command line */
 async function runParts(args) {
   const [partName, ...moreArguments] = args.filter((argument) => argument !== '--all');
   if (partName !== undefined && !Object.hasOwn(TEST_PARTS, partName)) {
@@ -210,18 +210,18 @@ async function runParts(args) {
   }
   rmSync(absolutePath('test-results'), { recursive: true, force: true });
   mkdirSync(absolutePath('test-results'));
-  if (partName !== undefined) return summarize([await runPart(partName, moreArguments)]);
+  if (partName !== undefined) return printSummary([await runPart(partName, moreArguments)]);
 
-  // Installation starts now, because some lanes need the tools late. A part that needs a missing one reports it.
+  // Installation starts before any part runs, because some lanes need the tools late. A part that needs a missing tool reports it.
   for (const ensureTool of [ensureTestBrowser, ensureTestRunner]) ensureTool().catch(() => {});
   /** @type {Outcome[]} */
   const partOutcomes = [];
   await Promise.all(
-    PART_LANES.map(async (names) => {
-      for (const name of names) partOutcomes.push(await withCollectedOutput(() => runPart(name, [])));
+    PART_LANES.map(async (partNames) => {
+      for (const partName of partNames) partOutcomes.push(await withCollectedOutput(() => runPart(partName, [])));
     }),
   );
-  return summarize(partOutcomes);
+  return printSummary(partOutcomes);
 }
 
 /**
@@ -236,15 +236,15 @@ async function runPart(name, programArgs) {
   let startTime = Date.now();
   const elapsedSeconds = () => (Date.now() - startTime) / 1000;
   try {
-    const job = await prepare(programArgs);
+    const partJob = await prepare(programArgs);
     printStep(name);
     startTime = Date.now();
-    const { ok, output, timedOut } = await job();
-    const sumMatches = (/** @type {RegExp} */ number) => [...output.matchAll(number)].reduce((sum, [, count]) => sum + Number(count), 0);
-    const tally = counts && { passed: sumMatches(counts.passed), failed: sumMatches(counts.failed), skipped: sumMatches(counts.skipped) };
-    const ranNoTest = tally !== undefined && tally.passed + tally.failed === 0;
-    const note = timedOut ? `ended after ${TIME_LIMIT_SECONDS} s` : ranNoTest ? 'no test ran' : undefined;
-    return { name, ok: ok && !ranNoTest && !tally?.failed, seconds: elapsedSeconds(), output, tally, note };
+    const { ok, output, timedOut } = await partJob();
+    const sumMatches = (/** @type {RegExp} */ numberPattern) => [...output.matchAll(numberPattern)].reduce((sumSoFar, [, matchedCount]) => sumSoFar + Number(matchedCount), 0);
+    const testTally = counts && { passed: sumMatches(counts.passed), failed: sumMatches(counts.failed), skipped: sumMatches(counts.skipped) };
+    const ranNoTest = testTally !== undefined && testTally.passed + testTally.failed === 0;
+    const outcomeNote = timedOut ? `ended after ${TIME_LIMIT_SECONDS} s` : ranNoTest ? 'no test ran' : undefined;
+    return { name, ok: ok && !ranNoTest && !testTally?.failed, seconds: elapsedSeconds(), output, tally: testTally, note: outcomeNote };
   } catch (error) {
     printStep(`${name}: ${error instanceof UserError ? error.message : (error instanceof Error && error.stack) || error}`);
     return { name, ok: false, seconds: elapsedSeconds(), note: 'not run: see above' };
@@ -254,41 +254,41 @@ async function runPart(name, programArgs) {
 /**
  * Returns the environment in which `cargo test` runs its WebAssembly tests in the browser.
  *
- * @param {string} runner of wasm-bindgen
+ * @param {string} runnerPath of wasm-bindgen
  * @param {import('./browser.mjs').Browser} browser
  */
-function browserEnvironment(runner, { chrome, driver }) {
+function browserEnvironment(runnerPath, { chrome, driver }) {
   const capabilitiesFile = absolutePath('test-results/webdriver.json');
   const chromeSettings = { binary: chrome, args: ['--headless', ...CHROME_ARGUMENTS] };
   writeFileSync(capabilitiesFile, JSON.stringify({ 'goog:chromeOptions': chromeSettings }));
   return {
-    CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUNNER: runner,
+    CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUNNER: runnerPath,
     CHROMEDRIVER: driver,
     WASM_BINDGEN_TEST_WEBDRIVER_JSON: capabilitiesFile,
-    // Seconds for all tests of a file; the runner's own 20 are short on a busy machine.
+    // Time limit in seconds for all tests of a file. The runner's own limit of 20 s is too short on a busy machine.
     WASM_BINDGEN_TEST_TIMEOUT: '180',
   };
 }
 
 /**
- * Returns the command that runs the tests of a directory, or the named files of it.
+ * Returns the command that runs the tests of a directory, or only named files of the directory.
  *
- * @param {string} directory
+ * @param {string} testDirectory
  * @param {string[]} programArgs files or options
  */
-function nodeTestCommandFor(directory, programArgs) {
-  const testFiles = filesOf(directory).filter((path) => /\.test\.[jt]s$/.test(path) && (IS_NIGHTLY || !path.endsWith('.nightly.test.js')));
+function nodeTestCommandFor(testDirectory, programArgs) {
+  const testFiles = filesOf(testDirectory).filter((path) => /\.test\.[jt]s$/.test(path) && (IS_NIGHTLY || !path.endsWith('.nightly.test.js')));
   const namedFiles = testFiles.filter((path) => programArgs.some((argument) => !argument.startsWith('-') && path.includes(argument)));
   const unknownName = programArgs.find((argument, i) => !argument.startsWith('-') && !programArgs[i - 1]?.startsWith('-') && !testFiles.some((path) => path.includes(argument)));
-  if (unknownName !== undefined) throw new UserError(`"${unknownName}" is in no name of a test file; ${directory} has ${testFiles.map((path) => path.slice(directory.length + 1)).join(', ')}.`);
+  if (unknownName !== undefined) throw new UserError(`"${unknownName}" is in no name of a test file; ${testDirectory} has ${testFiles.map((path) => path.slice(testDirectory.length + 1)).join(', ')}.`);
   const nodeOptions = programArgs.filter((argument) => !namedFiles.some((path) => path.includes(argument)));
-  // Node runs every test of a parent that matches, and the parent of all is called "<root>".
+  // Node runs every test whose parent matches, and the parent of all tests is called "<root>".
   const tierOptions = IS_NIGHTLY ? [] : ['--test-name-pattern', '/^(?!<root>|.*@nightly)/'];
-  // With its default number of processes a core stays idle.
+  // With the default number of processes a processor core stays idle.
   return [process.execPath, '--import', 'tsx', '--test', '--test-reporter', 'tap', '--test-concurrency', `${availableParallelism()}`, ...tierOptions, ...nodeOptions, ...(namedFiles.length > 0 ? namedFiles : testFiles)];
 }
 
-/** Number of last lines of a failed program's output that are shown again below the summary, because its errors are there. */
+/** Number of last lines of a failed program's output that are shown again below the summary, because they contain the errors. */
 const SHOWN_ERROR_LINES = 60;
 
 /**
@@ -296,7 +296,7 @@ const SHOWN_ERROR_LINES = 60;
  *
  * @param {Outcome[]} partOutcomes
  */
-function summarize(partOutcomes) {
+function printSummary(partOutcomes) {
   printStep('Summary');
   console.log(`${[...toolVersions].join('; ')}\n`);
   let passedCount = 0;
@@ -307,7 +307,7 @@ function summarize(partOutcomes) {
     if (note !== undefined) countTexts.push(note);
     console.log(`${ok ? 'ok    ' : 'FAILED'} ${name.padEnd(12)} ${seconds.toFixed(0).padStart(4)} s  ${countTexts.join(', ')}`);
     passedCount += tally?.passed ?? 0;
-    // A part that fails without a failed test counts as one failed test.
+    // A part that fails without a failed test is counted as one failed test.
     failedCount += ok ? 0 : Math.max(1, tally?.failed ?? 0);
   }
   for (const { name, ok, output } of partOutcomes) {

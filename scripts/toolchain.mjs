@@ -1,5 +1,5 @@
-// Finds or installs the tools of the build and the tests: npm packages, Rust, its WebAssembly target and lints. Several may be installed at
-// the same time. This script imports only Node built-ins, because it runs in a bare clone.
+// Finds or installs the tools of the build and the tests: npm packages, Rust, its WebAssembly target and lints. Several tools may be
+// installed at the same time. This script imports only Node built-ins, because it runs in a bare clone.
 
 import { createHash } from 'node:crypto';
 import { existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
@@ -11,7 +11,7 @@ const WASM_TARGET = 'wasm32-unknown-unknown';
 const RUSTUP_BIN = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'bin');
 const DEBIAN_BIN = '/usr/bin';
 
-/** Directory of tools that are built or downloaded once for all clones of this user. */
+/** Directory of tools that are built or downloaded once, and that all clones of this user share. */
 export const CACHE_DIRECTORY = join(
   process.env.XDG_CACHE_HOME ||
     join(homedir(), process.platform === 'darwin' ? 'Library/Caches' : '.cache'),
@@ -19,13 +19,13 @@ export const CACHE_DIRECTORY = join(
 );
 
 /**
- * Workspaces of package.json, whose packages are installed when a script needs them. For a local server, those of the root are
+ * Workspaces of package.json, whose packages are installed when a script needs them. For a local server, the packages of the root are
  * enough.
  *
  * @typedef {'scripts' | 'tests' | 'tests/package' | 'tests/engines'} Workspace
  */
 
-/** Installations by npm, one at a time, as all go into one directory. */
+/** Installations by npm run one at a time, because all of them write to one directory. */
 const npmQueue = taskQueue();
 
 /** @type {Map<string, Promise<void>>} */
@@ -34,42 +34,42 @@ const installationByWorkspace = new Map();
 /**
  * Installs the npm packages of the root, and those of a workspace, unless the versions of package-lock.json are already installed.
  *
- * @param {Workspace} [workspace]
+ * @param {Workspace} [workspaceName]
  */
-export async function ensurePackages(workspace) {
-  if (workspace) await ensurePackages();
-  const workspaceKey = workspace ?? 'root';
+export async function ensurePackages(workspaceName) {
+  if (workspaceName) await ensurePackages();
+  const workspaceKey = workspaceName ?? 'root';
   if (!installationByWorkspace.has(workspaceKey)) installationByWorkspace.set(workspaceKey, npmQueue(() => installPackages(workspaceKey)));
   return installationByWorkspace.get(workspaceKey);
 }
 
-/** Installs the packages of a workspace. @param {string} key a workspace, or "root" */
-async function installPackages(key) {
+/** Installs the packages of a workspace. @param {string} workspaceKey a workspace, or "root" */
+async function installPackages(workspaceKey) {
   const lockHash = createHash('sha256').update(readFileSync(join(ROOT, 'package-lock.json'))).digest('hex');
-  const workspaceName = `motion-widgets-${key.replace('/', '-')}`;
+  const workspaceName = `motion-widgets-${workspaceKey.replace('/', '-')}`;
   const stampFile = join(ROOT, `node_modules/.installed-${workspaceName}`);
   if (existsSync(stampFile) && readFileSync(stampFile, 'utf8') === lockHash) return;
-  printStep(`Installing npm packages${key === 'root' ? '' : ` of ${key}`}`);
-  // No package's install script is needed. `npm ci` would remove those of the other workspaces.
+  printStep(`Installing npm packages${workspaceKey === 'root' ? '' : ` of ${workspaceKey}`}`);
+  // No package needs its install script. `npm ci` would remove the packages of the other workspaces.
   await mustRun(
     'The npm packages could not be installed: check that this machine reaches its npm registry and start again.',
     'npm',
-    ['install', '--no-save', '--ignore-scripts', '--no-audit', '--no-fund', key === 'root' ? '--workspaces=false' : `--workspace=${workspaceName}`],
+    ['install', '--no-save', '--ignore-scripts', '--no-audit', '--no-fund', workspaceKey === 'root' ? '--workspaces=false' : `--workspace=${workspaceName}`],
     { seconds: 600 },
   );
   writeFileSync(stampFile, lockHash);
 }
 
-/** Queues of apt and of rustup, so that neither runs twice at the same time. */
+/** Queues of apt and of rustup. They ensure that neither program runs twice at the same time. */
 const [aptQueue, rustupQueue] = [taskQueue(), taskQueue()];
 
 /**
- * Installs packages by apt, if that is possible without a password.
+ * Installs packages by apt, if apt needs no password.
  *
- * @param {string[]} packages
- * @param {string} sentence thrown as `UserError` otherwise
+ * @param {string[]} debianPackages
+ * @param {string} purposeSentence thrown as `UserError` otherwise
  */
-export const aptInstall = (packages, sentence) => aptQueue(() => aptInstallNow(packages, sentence));
+export const aptInstall = (debianPackages, purposeSentence) => aptQueue(() => aptInstallNow(debianPackages, purposeSentence));
 
 /** Installs Debian packages. @param {string[]} packages @param {string} sentence of the error */
 async function aptInstallNow(packages, sentence) {
@@ -79,12 +79,12 @@ async function aptInstallNow(packages, sentence) {
   printStep(`Installing ${packages.join(' ')} by apt`);
   const [command, ...firstArguments] = [...rootCommand, 'env', 'DEBIAN_FRONTEND=noninteractive', 'apt-get'];
   await run(command, [...firstArguments, 'update', '-qq'], { seconds: 300 });
-  // Apt must not remove an installed package, above all no other Rust.
+  // Apt must not remove an installed package, and in particular no other Rust.
   const aptOptions = ['-y', '-qq', '--no-remove', '--no-install-recommends', '-o', 'DPkg::Lock::Timeout=300'];
   await mustRun(sentence, command, [...firstArguments, 'install', ...aptOptions, ...packages], { seconds: 900 });
 }
 
-/** Ensures that Python and its pip are installed, which build the Python package. */
+/** Ensures that Python and pip, which build the Python package, are installed. */
 export async function ensurePip() {
   if ((await run('python3', ['-m', 'pip', '--version'], { quiet: true })).ok) return;
   await aptInstall(['python3', 'python3-pip'], 'Python 3 or its pip is missing: install them as python.org says and start again.');
@@ -100,21 +100,21 @@ export async function ensurePip() {
 
 /** Finds or installs Rust for this machine: by rustup, or from Debian if rustup's server cannot be reached. */
 export const ensureNativeRust = runOnce(/** @returns {Promise<Rust>} */ async () => {
-  let cargo = findProgram('cargo', [RUSTUP_BIN]);
-  if (cargo === undefined) {
+  let cargoPath = findProgram('cargo', [RUSTUP_BIN]);
+  if (cargoPath === undefined) {
     if (!(await installRustup())) {
       await aptInstall(['rustc-web', 'cargo-web'], 'Rust is missing: install it as rustup.rs says and start again.');
     }
-    cargo = findProgram('cargo', [RUSTUP_BIN]) ?? join(DEBIAN_BIN, 'cargo');
+    cargoPath = findProgram('cargo', [RUSTUP_BIN]) ?? join(DEBIAN_BIN, 'cargo');
   }
   if (findProgram('cc') === undefined) {
     const installHint = process.platform === 'darwin' ? 'run `xcode-select --install`' : 'install gcc';
     await aptInstall(['gcc', 'libc6-dev'], `A C compiler, which Rust links with, is missing: ${installHint} and start again.`);
   }
-  const bin = dirname(cargo);
-  const env = bin === DEBIAN_BIN ? createDebianEnvironment() : createEnvironment(bin);
-  const rustcVersion = await requireRustVersion(bin, env, 'run `rustup update stable`');
-  return { bin, env, target: [], description: rustcVersion };
+  const bin = dirname(cargoPath);
+  const rustEnvironment = bin === DEBIAN_BIN ? createDebianEnvironment() : createEnvironment(bin);
+  const rustcVersion = await requireRustVersion(bin, rustEnvironment, 'run `rustup update stable`');
+  return { bin, env: rustEnvironment, target: [], description: rustcVersion };
 });
 
 /** Installs Rust by rustup, and returns true if that succeeded. @returns {Promise<boolean>} */
@@ -141,11 +141,11 @@ export const ensureRustForWasm = runOnce(/** @returns {Promise<Rust>} */ async (
   const missingMessage =
     `Rust's ${WASM_TARGET} target is missing: run \`rustup target add ${WASM_TARGET}\`, ` +
     'or on Debian `sudo apt-get install rustc-web cargo-web rust-web-src lld`, and start again.';
-  const requiredFiles = ['rustc', 'cargo', 'wasm-ld'].map((name) => join(DEBIAN_BIN, name));
+  const requiredFiles = ['rustc', 'cargo', 'wasm-ld'].map((programName) => join(DEBIAN_BIN, programName));
   if (![...requiredFiles, '/usr/lib/rustlib/src/rust/library/Cargo.lock'].every(existsSync)) {
     await aptInstall(['rustc-web', 'cargo-web', 'rust-web-src', 'lld'], missingMessage);
   }
-  // Tests abort on panic like the published module, and so share its compiled library.
+  // Tests abort on panic, as the published module does, and therefore share its compiled library.
   const env = { ...createDebianEnvironment(), CARGO_UNSTABLE_PANIC_ABORT_TESTS: 'true' };
   const rustcVersion = await requireRustVersion(DEBIAN_BIN, env, 'run `sudo apt-get update && sudo apt-get install rustc-web`');
   return {
@@ -166,8 +166,8 @@ async function hasTarget({ bin, env }) {
   if (existsSync(join(sysrootRun.stdout.trim(), 'lib/rustlib', WASM_TARGET))) return true;
   const rustupPath = findProgram('rustup', [bin]);
   if (rustupPath === undefined) return false;
-  // Behind some firewalls rustup never returns. A probe, once a day, finds that out; it waits longer if Debian's packages cannot replace
-  // it.
+  // Behind some firewalls rustup never returns. A daily probe detects such a firewall. It waits longer if Debian's packages cannot replace
+  // rustup.
   const unreachableMark = join(CACHE_DIRECTORY, 'rustup-unreachable');
   const canFallBack = findProgram('apt-get') !== undefined;
   const dayInMs = 24 * 3600 * 1000;
@@ -186,13 +186,13 @@ async function hasTarget({ bin, env }) {
 
 /**
  * Returns true if rustup's server does not answer a small request within 15 s. Even a satellite link with three lost packets answers within
- * 10 s; a slower one could not transfer the 20 MB of the target.
+ * 10 s; a slower link could not transfer the 20 MB of the target.
  *
  * @returns {Promise<boolean>} false without curl to ask by
  */
 async function isServerSilent() {
   const rustupServer = process.env.RUSTUP_DIST_SERVER ?? 'https://static.rust-lang.org';
-  // Any answer shows that the server is reachable, also one with an unknown certificate.
+  // Any answer shows that the server is reachable, even an answer with an unknown certificate.
   const curlArguments = ['--silent', '--head', '--insecure', '--output', '/dev/null', `${rustupServer}/dist/channel-rust-stable.toml.sha256`];
   return (await run('curl', curlArguments, { seconds: 15, quiet: true })).timedOut;
 }
@@ -221,16 +221,16 @@ function createEnvironment(bin) {
  *
  * @param {string} bin
  * @param {Record<string, string>} env
- * @param {string} remedy
+ * @param {string} remedySentence
  * @returns {Promise<string>}
  */
-async function requireRustVersion(bin, env, remedy) {
+async function requireRustVersion(bin, env, remedySentence) {
   const requiredVersion = readManifestValue('Cargo.toml', /^rust-version = "(.+)"$/m);
   const { stdout } = await run(join(bin, 'rustc'), ['--version'], { env, quiet: true });
-  const [, major, minor] = stdout.match(/^rustc (\d+)\.(\d+)/) ?? ['', '0', '0'];
+  const [, rustMajor, rustMinor] = stdout.match(/^rustc (\d+)\.(\d+)/) ?? ['', '0', '0'];
   const [minMajor, minMinor] = requiredVersion.split('.').map(Number);
-  if (Number(major) < minMajor || (Number(major) === minMajor && Number(minor) < minMinor)) {
-    throw new UserError(`Rust ${requiredVersion} or newer is needed and ${join(bin, 'rustc')} is not: ${remedy} and start again.`);
+  if (Number(rustMajor) < minMajor || (Number(rustMajor) === minMajor && Number(rustMinor) < minMinor)) {
+    throw new UserError(`Rust ${requiredVersion} or newer is needed and ${join(bin, 'rustc')} is not: ${remedySentence} and start again.`);
   }
   return stdout.split(' ').slice(0, 2).join(' ');
 }
@@ -238,7 +238,7 @@ async function requireRustVersion(bin, env, remedy) {
 /** Ensures that rustfmt and clippy are installed for a cargo. @param {Rust} rust */
 export async function ensureLints({ bin, env }) {
   const hasLints = async () => {
-    const versionRuns = ['cargo-fmt', 'cargo-clippy'].map((name) => run(join(bin, name), ['--version'], { env, quiet: true }));
+    const versionRuns = ['cargo-fmt', 'cargo-clippy'].map((lintName) => run(join(bin, lintName), ['--version'], { env, quiet: true }));
     return (await Promise.all(versionRuns)).every(({ ok }) => ok);
   };
   if (await hasLints()) return;
@@ -253,10 +253,10 @@ export async function ensureLints({ bin, env }) {
   if (!(await hasLints())) throw new UserError(missingMessage);
 }
 
-/** Returns the part of a file that the group of a pattern matches. @param {string} file @param {RegExp} pattern */
-export function readManifestValue(file, pattern) {
-  const patternMatch = readFileSync(join(ROOT, file), 'utf8').match(pattern);
-  if (patternMatch === null) throw new Error(`${file} has nothing like ${pattern}`);
+/** Returns the part of a file that the first group of a pattern matches. @param {string} filePath @param {RegExp} groupPattern */
+export function readManifestValue(filePath, groupPattern) {
+  const patternMatch = readFileSync(join(ROOT, filePath), 'utf8').match(groupPattern);
+  if (patternMatch === null) throw new Error(`${filePath} has nothing like ${groupPattern}`);
   return patternMatch[1];
 }
 

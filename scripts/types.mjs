@@ -1,5 +1,6 @@
-// Generates TypeScript types from the declarations: build/simulations.d.ts of the core, build/elements.d.ts of the elements, and the tags in
-// templates of Solid and Svelte. www/types.d.ts exports the first two, and contains the types that are written by hand.
+// Generates TypeScript types from the declarations: build/simulations.d.ts for the core, build/elements.d.ts for the elements, and the tags
+// in templates of Solid and Svelte. www/types.d.ts exports the types of the core and the elements, and contains the types that are written
+// by hand.
 
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -15,7 +16,10 @@ const GENERATED_HEADER = '// Generated from the declarations: not to be edited.\
 /** Declaration of `Symbol.dispose`, which may be missing in the `lib` setting of a project. */
 const DISPOSABLE_LIBRARY = '/// <reference lib="esnext.disposable" />\n';
 
-/** Frameworks with typed templates: module and interface that are extended by the tags, type of the attributes of any element, prefix of properties. */
+/**
+ * Frameworks with typed templates. Each has the module and the interface that the tags extend, the type of the attributes of any element,
+ * and the prefix of properties.
+ */
 const TEMPLATE_FRAMEWORKS = {
   solid: { module: 'solid-js', namespace: 'namespace JSX { interface IntrinsicElements extends Tags {} }', any: "import('solid-js').JSX.HTMLAttributes", prefix: 'prop:' },
   svelte: { module: 'svelte/elements', namespace: 'interface SvelteHTMLElements extends Tags {}', any: "import('svelte/elements').HTMLAttributes", prefix: '' },
@@ -27,9 +31,9 @@ export async function writeTypes() {
   const coreTypes = readFileSync(join(ROOT, 'build/core.d.ts'), 'utf8');
   writeFileSync(join(ROOT, 'build/simulations.d.ts'), [DISPOSABLE_LIBRARY, GENERATED_HEADER, ...groupInterfaces(), ...Object.keys(settings).map(settingsInterfaceOf), coreTypes].join('\n'));
   writeFileSync(join(ROOT, 'build/elements.d.ts'), [GENERATED_HEADER, importLineOf(widgetDescriptions), await figureTypes(widgetDescriptions), ...(await Promise.all(widgetDescriptions.map(elementTypesOf))), tagTypesOf(widgetDescriptions)].join('\n'));
-  for (const [name, { module, namespace, any, prefix }] of Object.entries(TEMPLATE_FRAMEWORKS)) {
+  for (const [frameworkName, { module, namespace, any, prefix }] of Object.entries(TEMPLATE_FRAMEWORKS)) {
     writeFileSync(
-      join(ROOT, `build/${name}.d.ts`),
+      join(ROOT, `build/${frameworkName}.d.ts`),
       `${GENERATED_HEADER}
 import type { FigureTags } from '../build/elements.d.ts';
 
@@ -43,28 +47,28 @@ declare module '${module}' {
   }
 }
 
-/** Returns the interfaces of groups. A group of one name has to be equal in all widgets. */
+/** Returns the interfaces of groups of settings. A group must be the same in all widgets that have it. */
 function groupInterfaces() {
   /** @type {Map<string, string>} */
   const interfaceByGroup = new Map();
-  for (const [tag, declaredSettings] of Object.entries(settings)) {
+  for (const [widgetTag, declaredSettings] of Object.entries(settings)) {
     for (const { key, type } of declaredSettings) {
       if (type !== 'group') continue;
-      const partFields = declaredSettings.filter((part) => part.in === key).map((part) => fieldOf({ ...part, key: part.field ?? part.key }));
+      const partFields = declaredSettings.filter((groupPart) => groupPart.in === key).map((groupPart) => fieldOf({ ...groupPart, key: groupPart.field ?? groupPart.key }));
       const interfaceText = asInterface(toPascalCase(key), partFields);
-      if ((interfaceByGroup.get(key) ?? interfaceText) !== interfaceText) throw new Error(`${tag}: ${key} is not the group that it is in another widget; call it otherwise.`);
+      if ((interfaceByGroup.get(key) ?? interfaceText) !== interfaceText) throw new Error(`${widgetTag}: ${key} is not the group that it is in another widget; call it otherwise.`);
       interfaceByGroup.set(key, interfaceText);
     }
   }
   return interfaceByGroup.values();
 }
 
-/** Returns the interface of a widget's settings. @param {string} tag */
-function settingsInterfaceOf(tag) {
-  return asInterface(`${toPascalCase(tag)}Settings`, settings[tag].filter((declaration) => !declaration.in && !declaration.of).map(fieldOf));
+/** Returns the interface of a widget's settings. @param {string} widgetTag */
+function settingsInterfaceOf(widgetTag) {
+  return asInterface(`${toPascalCase(widgetTag)}Settings`, settings[widgetTag].filter((settingDeclaration) => !settingDeclaration.in && !settingDeclaration.of).map(fieldOf));
 }
 
-/** Returns a setting as a field. @param {import('../build/settings.js').Declaration} declaration */
+/** Returns a setting as a field of an interface. @param {import('../build/settings.js').Declaration} declaration */
 function fieldOf(declaration) {
   return { name: declaration.field ?? declaration.key, type: typeTextOf(declaration), description: descriptionOf(declaration) };
 }
@@ -77,9 +81,9 @@ async function figureTypes([{ attributes }]) {
   const publicMembers = classes.get('FigureElement').members.filter((/** @type {any} */ { privacy }) => privacy === 'public');
   /** Replaces the type of any widget by a type parameter. @param {{ type: { text: string } }} [typedItem] */
   const typeTextIn = (typedItem) => (typedItem?.type.text ?? 'void').replace(/\bSimulation\['stats'\]/, 'Stats').replace(/\bValues\b/, 'State');
-  const memberFields = publicMembers.map(({ kind, name, description, parameters = [], type, return: result, readonly }) => {
-    const parameterTexts = parameters.map((/** @type {any} */ parameter) => `${parameter.name}: ${typeTextIn(parameter)}`);
-    return { name: kind === 'method' ? `${name}(${parameterTexts.join(', ')})` : name, type: typeTextIn(kind === 'method' ? result : { type }), description: joinLines(description), readonly };
+  const memberFields = publicMembers.map(({ kind, name, description, parameters = [], type, return: returnType, readonly }) => {
+    const parameterTexts = parameters.map((/** @type {any} */ methodParameter) => `${methodParameter.name}: ${typeTextIn(methodParameter)}`);
+    return { name: kind === 'method' ? `${name}(${parameterTexts.join(', ')})` : name, type: typeTextIn(kind === 'method' ? returnType : { type }), description: joinLines(description), readonly };
   });
   const commonFields = attributes.filter(({ name }) => name in COMMON_ATTRS).map(({ property, ...rest }) => ({ ...rest, name: property ?? rest.name }));
   const eventFields = classes.get('FigureElement').events.map((/** @type {any} */ { name, type, description }) => {
@@ -93,13 +97,16 @@ async function figureTypes([{ attributes }]) {
   );
 }
 
-/** Methods that add and remove listeners: for the events of a figure, and for those of every element. @type {Field[]} */
-const LISTENER_FIELDS = ['add', 'remove'].flatMap((verb) => {
-  const optionsParameter = `options?: boolean | ${verb === 'add' ? 'AddEventListenerOptions' : 'EventListenerOptions'}`;
-  const listenerOverload = (/** @type {string} */ events) =>
-    `${verb}EventListener<Type extends keyof ${events}>(type: Type, listener: (this: FigureElement<State, Stats>, event: ${events}[Type]) => unknown, ${optionsParameter})`;
-  const overloads = [listenerOverload('FigureEvents<Stats>'), listenerOverload('HTMLElementEventMap'), `${verb}EventListener(type: string, listener: EventListenerOrEventListenerObject, ${optionsParameter})`];
-  return overloads.map((name) => ({ name, type: 'void', description: '' }));
+/**
+ * Methods that add and remove listeners. They have an overload for the events of a figure, and one for the events of every element.
+ * @type {Field[]}
+ */
+const LISTENER_FIELDS = ['add', 'remove'].flatMap((listenerVerb) => {
+  const optionsParameter = `options?: boolean | ${listenerVerb === 'add' ? 'AddEventListenerOptions' : 'EventListenerOptions'}`;
+  const listenerOverload = (/** @type {string} */ eventsType) =>
+    `${listenerVerb}EventListener<Type extends keyof ${eventsType}>(type: Type, listener: (this: FigureElement<State, Stats>, event: ${eventsType}[Type]) => unknown, ${optionsParameter})`;
+  const overloadLines = [listenerOverload('FigureEvents<Stats>'), listenerOverload('HTMLElementEventMap'), `${listenerVerb}EventListener(type: string, listener: EventListenerOrEventListenerObject, ${optionsParameter})`];
+  return overloadLines.map((name) => ({ name, type: 'void', description: '' }));
 });
 
 /** Returns the types of an element and of its state. @param {import('./declarations.mjs').Widget} widget */
@@ -107,8 +114,8 @@ async function elementTypesOf({ tag, className, attributes, properties, state })
   const { COMMON_ATTRS } = await importTypeScript('www/figure/definition.ts');
   const baseType = `FigureElement<${className}State, ${className}['stats']>`;
   const widgetField = { name: 'widget', type: `'${tag}'`, description: '' };
-  // Members of every figure are in FigureElement.
-  const ownFields = attributes.filter(({ name }) => !(name in COMMON_ATTRS)).map((attribute) => ({ ...attribute, isText: true }));
+  // The members that every figure has are in FigureElement.
+  const ownFields = attributes.filter(({ name }) => !(name in COMMON_ATTRS)).map((attributeDescription) => ({ ...attributeDescription, isText: true }));
   return (
     `${asInterface(`${className}State`, [widgetField, ...state], 'FigureState')}\n` +
     `/** \`<${tag}>\`. Its attributes have the properties' names. */\n` +
@@ -145,12 +152,12 @@ ${mapLines.join('')}  }
 `;
 }
 
-/** Returns an interface of TypeScript. @param {string} name @param {Field[]} fields @param {string} [base] */
-function asInterface(name, fields, base) {
-  const memberLines = fields.map(({ name: key, type, description, readonly, isText }) => {
+/** Returns an interface of TypeScript. @param {string} interfaceName @param {Field[]} interfaceFields @param {string} [baseInterface] */
+function asInterface(interfaceName, interfaceFields, baseInterface) {
+  const memberLines = interfaceFields.map(({ name: key, type, description, readonly, isText }) => {
     const commentText = description && `  /** ${description} */\n`;
     if (isText) return `${commentText}  get ${key}(): ${type};\n  set ${key}(value: ${type.replace(' | null', '')} | string | null | undefined);\n`;
     return `${commentText}  ${readonly ? 'readonly ' : ''}${key}: ${type};\n`;
   });
-  return `export interface ${name}${base ? ` extends ${base}` : ''} {\n${memberLines.join('')}}\n`;
+  return `export interface ${interfaceName}${baseInterface ? ` extends ${baseInterface}` : ''} {\n${memberLines.join('')}}\n`;
 }

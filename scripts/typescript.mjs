@@ -1,4 +1,4 @@
-// Imports modules of www/ into scripts: Node itself does not run TypeScript.
+// Imports modules of www/ into scripts. Node itself does not run TypeScript.
 
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
@@ -7,5 +7,5 @@ import { ROOT } from './process.mjs';
 
 register();
 
-/** Imports a module. @param {string} path from the root @returns {Promise<any>} */
-export const importTypeScript = (path) => import(pathToFileURL(join(ROOT, path)).href);
+/** Imports a TypeScript module of www/. @param {string} repositoryPath from the root @returns {Promise<any>} */
+export const importTypeScript = (repositoryPath) => import(pathToFileURL(join(ROOT, repositoryPath)).href);

@@ -27,9 +27,10 @@ class Figure(anywidget.AnyWidget):
     ).tag(sync=True)
     error = t.Unicode("", read_only=True, help="Message if the figure refused the last change; else empty.").tag(sync=True)
 
-    # Number of changes by Python so far.
+    # Number of changes by Python since the figure was created.
     _asked = t.Int(0).tag(sync=True)
-    # Latest report of the figure: the settings that it shows, and the number of changes by Python that it had received by then.
+    # Latest report of the figure. It contains the settings that the figure shows, and the number of changes by Python that the figure has
+    # received.
     _shown = t.Dict({"heard": 0, "settings": {}}).tag(sync=True)
 
     def __init_subclass__(cls) -> None:

@@ -7,12 +7,12 @@ use wasm_bindgen_cli_support::Bindgen;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args_os().skip(1).map(PathBuf::from);
-    let (Some(module), Some(directory), None) = (arguments.next(), arguments.next(), arguments.next()) else {
+    let (Some(module_path), Some(output_directory), None) = (arguments.next(), arguments.next(), arguments.next()) else {
         return Err("usage: bind MODULE DIRECTORY".into());
     };
-    let mut bindgen = Bindgen::new();
-    bindgen.input_path(&module).out_name("motion").typescript(true);
-    bindgen.omit_default_module_path(true).remove_producers_section(true);
-    bindgen.bundler(true)?.generate(&directory)?;
+    let mut glue_generator = Bindgen::new();
+    glue_generator.input_path(&module_path).out_name("motion").typescript(true);
+    glue_generator.omit_default_module_path(true).remove_producers_section(true);
+    glue_generator.bundler(true)?.generate(&output_directory)?;
     Ok(())
 }

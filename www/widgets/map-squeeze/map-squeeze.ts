@@ -344,7 +344,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
       settings: { map: this.map?.name ?? null, ...config },
       columns: {
         'x_m y_m theta_rad': poses,
-        'end_free path_free accepted': [...verdicts].flatMap((verdict) => Object.values(bits).map((bit) => Math.sign(verdict & bit))),
+        'end_free path_free accepted': [...verdicts].flatMap((verdict) => [bits.endFree, bits.pathFree, bits.accepted].map((bit) => Math.sign(verdict & bit))),
       },
       linkNote: this.link.lacksMap ? words.squeeze.mapNotInLink : '',
       codeNote: this.map ? words.squeeze.mapNotInCode : '',

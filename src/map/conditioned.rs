@@ -1,6 +1,6 @@
 //! Motion conditioned on a map by rejection sampling (Table 5.7), with three acceptance tests.
 
-use super::floor_plan::{FloorPlan, Verdict};
+use super::floor_plan::{CollisionVerdict, FloorPlan};
 use crate::geom::arc::{Arc, DrivenArc, PreparedPose};
 use crate::geom::lanes::Trigonometry;
 use crate::geom::se2::SE2;
@@ -11,27 +11,27 @@ use std::ops::{Add, Mul, Range};
 use thiserror::Error;
 use wide::f64x4;
 
-/// Sampler, by its condition for accepting a draw.
+/// Condition under which a drawn motion is accepted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sampler {
     /// The last pose of the draw is free, as in Table 5.7. The path may lead through a wall.
     Endpoint,
     /// The whole arc driven is free.
     WholeArc,
-    /// The command is split into this many shorter ones (1 or more), and each is drawn until its last pose is free.
-    /// Each part has its own noise, so that the total spread shrinks with the root of the number of parts.
+    /// The command is split into this many parts (1 or more). Each part is drawn until its end pose is free. Each part has its own noise,
+    /// so that the total spread shrinks with the root of the number of parts.
     SubStepped(u32),
 }
 
 impl Sampler {
     /// Returns the number of parts of a motion.
     pub fn part_count(self) -> u32 {
-        if let Self::SubStepped(parts) = self { parts } else { 1 }
+        if let Self::SubStepped(part_count) = self { part_count } else { 1 }
     }
 
     /// Returns this sampler with another number of parts, if it splits motions.
-    pub fn with_part_count(self, parts: u32) -> Self {
-        if let Self::SubStepped(_) = self { Self::SubStepped(parts) } else { self }
+    pub fn with_part_count(self, part_count: u32) -> Self {
+        if let Self::SubStepped(_) = self { Self::SubStepped(part_count) } else { self }
     }
 }
 
@@ -63,17 +63,17 @@ pub struct MapConditioned<'a> {
     pub sampler: Sampler,
 }
 
-/// Draw of the model without a map, and the result of both collision tests.
+/// Motion drawn from the model without a map, and its collision tests.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Draw {
+pub struct TestedDraw {
     /// End pose.
     pub pose: SE2,
     /// Arc driven with (v̂, ω̂); `pose` is its end turned by γ̂Δt.
     pub arc: Arc,
-    /// Result for the end pose.
-    pub end_verdict: Verdict,
-    /// Result for the whole arc.
-    pub path_verdict: Verdict,
+    /// Collision test of the end pose.
+    pub end_verdict: CollisionVerdict,
+    /// Collision test of the whole arc.
+    pub path_verdict: CollisionVerdict,
 }
 
 /// Accepted motion and its cost.
@@ -95,7 +95,7 @@ pub struct AcceptedMotion {
 pub struct Cost {
     /// Draws of the model, accepted or not.
     pub draws: usize,
-    /// Number of wall distances computed for the tests, see [`Verdict`].
+    /// Number of wall distances computed for the tests, see [`CollisionVerdict`].
     pub wall_tests: usize,
 }
 
@@ -126,26 +126,26 @@ pub struct CollisionTester<'a> {
 }
 
 impl CollisionTester<'_> {
-    /// Returns the draw for three random numbers of variance 1, with the results of both collision tests.
-    pub fn test_draw(&self, unit_noise: [f64; 3]) -> Draw {
+    /// Returns the motion for three random numbers of variance 1, with the collision tests of its end pose and of its path.
+    pub fn test_draw(&self, unit_noise: [f64; 3]) -> TestedDraw {
         self.test_motion(self.command.drive_with_noise(&self.start, unit_noise))
     }
 
-    /// Tests some lanes of four samples, and calls `visit` with each result. The poses may differ by rounding from those of
+    /// Tests the motions in `lanes` of four samples, and calls `visit` with each result. The poses may differ by rounding from those of
     /// [`CollisionTester::test_draw`].
-    pub fn test_lanes(&self, unit_noise: &[f64x4; 3], lanes: Range<usize>, visit: impl FnMut(Draw)) {
-        let motion = self.command.drive_four_with_noise(&self.start, &self.trigonometry, unit_noise);
-        lanes.map(|lane| self.test_motion(motion(lane))).for_each(visit);
+    pub fn test_lanes(&self, unit_noise: &[f64x4; 3], lanes: Range<usize>, visit: impl FnMut(TestedDraw)) {
+        let motion_of_lane = self.command.drive_four_with_noise(&self.start, &self.trigonometry, unit_noise);
+        lanes.map(|lane| self.test_motion(motion_of_lane(lane))).for_each(visit);
     }
 
-    fn test_motion(&self, (pose, driven): (SE2, DrivenArc)) -> Draw {
+    fn test_motion(&self, (pose, driven): (SE2, DrivenArc)) -> TestedDraw {
         let MapConditioned { plan, clearance, .. } = *self.conditioned_model;
         let end_verdict = plan.test_point(driven.end, clearance);
         let path_verdict = plan.test_arc_after_end(&driven, end_verdict, clearance);
-        Draw { pose, arc: driven.arc, end_verdict, path_verdict }
+        TestedDraw { pose, arc: driven.arc, end_verdict, path_verdict }
     }
 
-    /// Returns the arc that is driven under these unit noises.
+    /// Returns the arc that is driven with the noise `unit_noise`.
     pub fn arc(&self, unit_noise: [f64; 3]) -> Arc {
         let [length, turn, _] = self.command.executed_motion(unit_noise);
         Arc { start: self.start.pose, length, turn }
@@ -160,7 +160,7 @@ struct NoisyCommand {
 }
 
 impl NoisyCommand {
-    /// Returns the end pose under these unit noises, and the arc that is driven.
+    /// Returns the end pose and the driven arc with the noise `unit_noise`.
     fn drive_with_noise(&self, start: &PreparedPose, unit_noise: [f64; 3]) -> (SE2, DrivenArc) {
         let [length, turn, last_turn] = self.executed_motion(unit_noise);
         with_last_turn(start.drive(length, turn), last_turn)
@@ -189,7 +189,7 @@ impl NoisyCommand {
     }
 }
 
-/// Returns the pose where an arc ends, turned on the spot by `last` (rad).
+/// Returns the end pose of an arc, turned on the spot by `last_turn` (rad).
 fn with_last_turn(driven: DrivenArc, last_turn: f64) -> (SE2, DrivenArc) {
     let [x, y] = driven.end;
     (SE2::new(x, y, driven.heading + last_turn), driven)
@@ -220,10 +220,10 @@ impl MapConditioned<'_> {
         mut visit_arc: impl FnMut(&Arc),
     ) -> Result<AcceptedMotion, NoAcceptedSample> {
         let (mut end_free, mut path_free, mut cost) = (true, true, Cost::default());
-        let pose = self.drive_parts(u, x, rng, conditioned, &mut cost, &mut |driven, end| {
+        let pose = self.drive_parts(u, x, rng, conditioned, &mut cost, &mut |driven, end_verdict| {
             visit_arc(&driven.arc);
-            end_free = end.free;
-            path_free = path_free && self.plan.test_arc_after_end(driven, end, self.clearance).free;
+            end_free = end_verdict.free;
+            path_free = path_free && self.plan.test_arc_after_end(driven, end_verdict, self.clearance).free;
         })?;
         Ok(AcceptedMotion { pose, end_free, path_free, cost })
     }
@@ -251,7 +251,7 @@ impl MapConditioned<'_> {
         std::array::from_fn(|_| self.model.noise.quantile(draw_centred_uniform(rng)))
     }
 
-    /// Draws each part of a motion until it is accepted. Calls `along` with its arc and the verdict on its end, and returns the last
+    /// Draws each part of a motion until it is accepted. Calls `visit_part` with the arc and the end verdict of each part. Returns the last
     /// end pose.
     fn drive_parts<R: Rng + ?Sized>(
         &self,
@@ -260,14 +260,14 @@ impl MapConditioned<'_> {
         rng: &mut R,
         conditioned: bool,
         cost: &mut Cost,
-        visit_part: &mut dyn FnMut(&DrivenArc, Verdict),
+        visit_part: &mut dyn FnMut(&DrivenArc, CollisionVerdict),
     ) -> Result<SE2, NoAcceptedSample> {
         let part_count = self.sampler.part_count().max(1);
         let command = self.noisy_command(&VelocityCmd { dt: u.dt / f64::from(part_count), ..*u });
         (0..part_count).try_fold(*x, |pose, _| {
-            let (pose, arc, end) =
+            let (pose, arc, end_verdict) =
                 self.draw_until_accepted(&command, &PreparedPose::new(pose), rng, conditioned, cost)?;
-            visit_part(&arc, end);
+            visit_part(&arc, end_verdict);
             Ok(pose)
         })
     }
@@ -279,7 +279,7 @@ impl MapConditioned<'_> {
         rng: &mut R,
         conditioned: bool,
         cost: &mut Cost,
-    ) -> Result<(SE2, DrivenArc, Verdict), NoAcceptedSample> {
+    ) -> Result<(SE2, DrivenArc, CollisionVerdict), NoAcceptedSample> {
         for _ in 0..MAX_DRAWS {
             let (end_pose, driven_arc) = command.drive_with_noise(start, self.draw_unit_noise(rng));
             let end_verdict = self.plan.test_point(driven_arc.end, self.clearance);
@@ -307,7 +307,7 @@ impl MapConditioned<'_> {
     }
 
     /// Returns the result of the test that decides on a draw.
-    pub fn deciding_verdict(&self, draw: &Draw) -> Verdict {
+    pub fn deciding_verdict(&self, draw: &TestedDraw) -> CollisionVerdict {
         if self.sampler == Sampler::WholeArc { draw.path_verdict } else { draw.end_verdict }
     }
 }

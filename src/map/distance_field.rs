@@ -17,17 +17,17 @@ pub(super) struct DistanceField {
     /// Index of the last column and of the last row.
     last_cell: [f64; 2],
     /// Half the diagonal of a cell, m: the resolution of the field.
-    pub radius: f64,
+    pub cell_radius: f64,
     /// Uncertainty of the distance from the middle of a cell, m.
-    uncertainty: f64,
+    cell_uncertainty: f64,
     /// Lower bounds row by row from the bottom, m. Negative if a wall passes through the cell or its neighbour, −∞ if the
     /// cell is inside an occupied one, [`NOT_COMPUTED`] if unknown.
     lower_bounds: Vec<f32>,
 }
 
-/// Number of cells for each wall, and minimum and maximum number for a map. Fewer cells decide fewer tests; more cells take longer
-/// to fill. The apartment's cells have sides of 4 cm and take a millisecond; 2²⁰ cells take 4 MB. Fuzzing fills millions of
-/// fields, and therefore uses few cells. The results of collision tests are the same.
+/// Number of cells for each wall, and minimum and maximum number of cells of a map. Fewer cells decide fewer tests; more cells take longer
+/// to fill. The apartment's cells have sides of 4 cm and take a millisecond; 2²⁰ cells take 4 MB. Fuzzing fills millions of fields, and
+/// therefore uses few cells. The results of collision tests are the same.
 const CELLS_PER_WALL: f64 = MIN_CELLS;
 const MIN_CELLS: f64 = if cfg!(fuzzing) { 64.0 } else { 4096.0 };
 const MAX_CELLS: f64 = 1_048_576.0;
@@ -69,15 +69,15 @@ impl DistanceField {
     }
 
     #[inline(always)]
-    fn lower_bound_of_cell(&self, index: usize) -> f64 {
-        f64::from(self.lower_bounds.get(index).copied().unwrap_or(NOT_COMPUTED))
+    fn lower_bound_of_cell(&self, cell_index: usize) -> f64 {
+        f64::from(self.lower_bounds.get(cell_index).copied().unwrap_or(NOT_COMPUTED))
     }
 
     /// Returns [`DistanceField::lower_bound`] of four points. `points` are their x and y.
     #[inline(always)]
     pub fn lower_bounds(&self, points: &[f64x4; 2]) -> f64x4 {
         let zero = f64x4::splat(0.0);
-        // The bounds of both cells are correct on their border, so that rounding may select either.
+        // A point on the border of two cells may be rounded into either cell, because the lower bound of each cell includes its border.
         let [column, row] = [0, 1].map(|axis| {
             let cell_coordinate = (points[axis] - self.min_corner[axis]) * self.cells_per_metre - 0.5;
             cell_coordinate.fast_max(zero).fast_min(f64x4::splat(self.last_cell[axis])) + ROUND_TO_INTEGER
@@ -92,9 +92,9 @@ impl DistanceField {
     pub fn upper_bound(&self, lower_bound: f64) -> f64 {
         // With the distance d from the middle of the cell to the nearest wall, `lower_bound` is d − radius. The upper bound is
         // d + radius. In an undivided block d is only known up to a factor of (1 + 1/8)/(1 − 1/8).
-        let cell_radius = 1.001 * self.radius;
+        let cell_radius = 1.001 * self.cell_radius;
         let upper_bound = (UNDIVIDED_DISTANCE_RATIO + 1.0) / (UNDIVIDED_DISTANCE_RATIO - 1.0)
-            * (lower_bound + cell_radius + self.uncertainty)
+            * (lower_bound + cell_radius + self.cell_uncertainty)
             + cell_radius;
         if lower_bound == f64::from(NOT_COMPUTED) { f64::INFINITY } else { upper_bound }
     }
@@ -108,11 +108,11 @@ struct FieldBuilder {
     /// Bound on the rounding error of any coordinate on the map, m.
     rounding_slack: f64,
     /// Stack of candidates for the nearest wall, for the blocks that are still to be filled.
-    candidates: Vec<Candidate>,
+    candidates: Vec<WallSet>,
     blocks: Vec<Block>,
-    /// Candidates of the current block: not yet measured, and measured.
-    unmeasured: Vec<Candidate>,
-    measured: Vec<(f64, Candidate)>,
+    /// Candidates of the current block that are not yet measured, and measured candidates with their distances.
+    unmeasured: Vec<WallSet>,
+    measured: Vec<(f64, WallSet)>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -123,9 +123,9 @@ struct Block {
     candidate_range: [usize; 2],
 }
 
-/// Wall, or all walls of a node of the tree.
+/// Single wall, or all walls of a node of the tree.
 #[derive(Clone, Copy, Debug)]
-enum Candidate {
+enum WallSet {
     Wall(u32),
     Node(u32),
 }
@@ -137,12 +137,13 @@ impl FieldBuilder {
         let cell_count = (CELLS_PER_WALL * tree.walls.len() as f64).clamp(MIN_CELLS, MAX_CELLS);
         // A narrow map could otherwise get more than `cell_count` cells in a single row.
         let cell_side = (width * height / cell_count).sqrt().max(width.max(height) / cell_count);
-        let [columns, rows] = [width, height].map(|length| (length / cell_side).ceil() as usize + 1);
+        let [columns, rows] =
+            [width, height].map(|side_length| (side_length / cell_side).ceil() as usize + 1);
         let radius = FRAC_1_SQRT_2 * cell_side;
         let root_candidates = if tree.is_leaf(1) {
-            tree.distinct_walls(1).map(|wall| Candidate::Wall(wall as u32)).collect()
+            tree.distinct_walls(1).map(|wall| WallSet::Wall(wall as u32)).collect()
         } else {
-            vec![Candidate::Node(1)]
+            vec![WallSet::Node(1)]
         };
         let whole_block_size = columns.max(rows).next_power_of_two();
         let whole_block =
@@ -153,8 +154,8 @@ impl FieldBuilder {
                 cells_per_metre: 1.0 / cell_side,
                 columns,
                 last_cell: [columns, rows].map(|count| count as f64 - 1.0),
-                radius,
-                uncertainty: if tree.is_leaf(1) { 0.0 } else { RELATIVE_BLOCK_UNCERTAINTY * radius },
+                cell_radius: radius,
+                cell_uncertainty: if tree.is_leaf(1) { 0.0 } else { RELATIVE_BLOCK_UNCERTAINTY * radius },
                 lower_bounds: vec![NOT_COMPUTED; columns * rows],
             },
             rows,
@@ -175,18 +176,18 @@ impl FieldBuilder {
         }
         let [right, top] = [(left + size).min(self.field.columns), (bottom + size).min(self.rows)];
         let block_centre = self.block_centre(block.first_cell, size);
-        let block_radius = size as f64 * self.field.radius;
-        let uncertainty = size as f64 * self.field.uncertainty;
-        // Keeps the candidates of the block around this one; those after them belong to blocks that are done.
+        let block_radius = size as f64 * self.field.cell_radius;
+        let block_uncertainty = size as f64 * self.field.cell_uncertainty;
+        // Removes the candidates of finished blocks, which follow those of the enclosing block.
         self.candidates.truncate(candidate_range[1]);
         let Some([min_distance, max_distance]) =
-            self.measure_candidates(tree, block_centre, block, uncertainty)
+            self.measure_candidates(tree, block_centre, block, block_uncertainty)
         else {
             return;
         };
         if size > 1
             && min_distance
-                <= UNDIVIDED_DISTANCE_RATIO * block_radius + uncertainty / RELATIVE_BLOCK_UNCERTAINTY
+                <= UNDIVIDED_DISTANCE_RATIO * block_radius + block_uncertainty / RELATIVE_BLOCK_UNCERTAINTY
         {
             let max_lower_bound = max_distance + 2.0 * block_radius + self.rounding_slack;
             self.candidates.extend(
@@ -206,13 +207,13 @@ impl FieldBuilder {
             }
             return;
         }
-        // If `min_distance > radius`, no wall passes through the block, so that it is inside or outside of all outlines as a whole.
+        // If `min_distance > cell_radius`, no wall passes through the block, so that it is inside or outside of all outlines as a whole.
         let is_in_blocked_cell = min_distance > block_radius
             && occupied_grid.is_some_and(|occupied_grid| occupied_grid.is_blocked_at(block_centre));
         for row in bottom..top {
             for column in left..right {
                 let [x, y] = self.block_centre([column, row], 1);
-                let max_offset = self.field.radius
+                let max_offset = self.field.cell_radius
                     + ((x - block_centre[0]) * (x - block_centre[0])
                         + (y - block_centre[1]) * (y - block_centre[1]))
                         .sqrt();
@@ -227,23 +228,23 @@ impl FieldBuilder {
         }
     }
 
-    /// Returns bounds on the distance from the middle of a block to the nearest wall, at most `uncertainty` apart (m); None if
-    /// too many walls are near. Afterwards `measured` has all walls, or nodes, that may be nearest to a point of the block.
+    /// Returns a lower and an upper bound on the distance from the middle of a block to the nearest wall, at most `cell_uncertainty` apart
+    /// (m); None if too many walls are near. Afterwards `measured` has all walls, or nodes, that may be nearest to a point of the block.
     fn measure_candidates(
         &mut self,
         tree: &WallTree,
-        point: [f64; 2],
+        centre: [f64; 2],
         block: Block,
         uncertainty: f64,
     ) -> Option<[f64; 2]> {
         let Self { candidates, unmeasured, measured, .. } = self;
-        let Block { size, candidate_range: [from, to], .. } = block;
-        // Take the wall that is nearest to some point of the block. Its distance from the middle exceeds that of the wall nearest
-        // to the middle by at most one diameter of the block.
-        let max_excess = 2.0 * size as f64 * self.field.radius + self.rounding_slack;
+        let Block { size, candidate_range: [first_candidate, end_candidate], .. } = block;
+        // A wall may be nearest to a point of the block only if its distance from the middle exceeds the smallest distance by at most one
+        // diameter of the block.
+        let max_excess = 2.0 * size as f64 * self.field.cell_radius + self.rounding_slack;
         measured.clear();
         unmeasured.clear();
-        unmeasured.extend_from_slice(&candidates[from..to]);
+        unmeasured.extend_from_slice(&candidates[first_candidate..end_candidate]);
         let mut least_upper_bound = f64::INFINITY;
         let mut measured_count = 0;
         while let Some(candidate) = unmeasured.pop() {
@@ -251,34 +252,34 @@ impl FieldBuilder {
             if measured_count > MAX_WALLS_PER_BLOCK + MAX_WALLS_PER_CELL * size * size {
                 return None;
             }
-            let distance_to_wall = |wall: usize| tree.walls[wall].squared_distance_to_point(point).sqrt();
+            let distance_to_wall = |wall: usize| tree.walls[wall].squared_distance_to_point(centre).sqrt();
             let lower_bound = match candidate {
-                Candidate::Wall(wall) => distance_to_wall(wall as usize),
-                Candidate::Node(node) => tree.nodes[node as usize].lower_bound(point),
+                WallSet::Wall(wall) => distance_to_wall(wall as usize),
+                WallSet::Node(node) => tree.nodes[node as usize].lower_bound(centre),
             };
             if lower_bound > least_upper_bound + max_excess {
                 continue;
             }
             if lower_bound < least_upper_bound {
                 least_upper_bound = least_upper_bound.min(match candidate {
-                    Candidate::Wall(_) => lower_bound,
-                    Candidate::Node(node) => distance_to_wall(tree.distinct_walls(node as usize).start),
+                    WallSet::Wall(_) => lower_bound,
+                    WallSet::Node(node) => distance_to_wall(tree.distinct_walls(node as usize).start),
                 });
             }
             if size == 1 && least_upper_bound <= uncertainty {
                 return Some([0.0, least_upper_bound]);
             }
             match candidate {
-                Candidate::Node(node)
+                WallSet::Node(node)
                     if lower_bound < least_upper_bound - uncertainty
-                        || tree.nodes[node as usize].thickness > 0.5 * max_excess =>
+                        || tree.nodes[node as usize].capsule_radius > 0.5 * max_excess =>
                 {
                     if tree.is_leaf(node as usize) {
                         unmeasured.extend(
-                            tree.distinct_walls(node as usize).map(|wall| Candidate::Wall(wall as u32)),
+                            tree.distinct_walls(node as usize).map(|wall| WallSet::Wall(wall as u32)),
                         );
                     } else {
-                        unmeasured.extend([2 * node, 2 * node + 1].map(Candidate::Node));
+                        unmeasured.extend([2 * node, 2 * node + 1].map(WallSet::Node));
                     }
                 }
                 _ => measured.push((lower_bound, candidate)),
@@ -297,7 +298,7 @@ impl FieldBuilder {
     }
 }
 
-/// Returns a bound on the rounding error of these coordinates, m.
+/// Returns an upper bound on the rounding error of `coordinates`, m.
 #[inline(never)]
 pub(super) fn rounding_bound(coordinates: &[f64]) -> f64 {
     1e-12 * coordinates.iter().fold(0.0, |largest: f64, coordinate| largest.max(coordinate.abs()))

@@ -54,7 +54,7 @@ pub enum FloorPlanError {
 }
 
 impl FloorPlanError {
-    /// Returns the message, with numbers as `number` prints them.
+    /// Returns the error message. `format_number` formats its numbers.
     pub fn message(&self, format_number: impl Fn(f64) -> String) -> String {
         let join_numbers =
             |numbers: &[f64]| numbers.iter().map(|x| format_number(*x)).collect::<Vec<_>>().join(", ");
@@ -87,17 +87,16 @@ impl FloorPlanError {
     }
 }
 
-/// Result of a collision test, and the number of wall distances computed for it. Most tests are decided by the distance
-/// field alone. A wall that is close to several pieces of a motion counts for each.
+/// Result of a collision test. The distance field alone decides most tests.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Verdict {
+pub struct CollisionVerdict {
     /// True if the pose or the motion is free of collisions.
     pub free: bool,
-    /// Number of wall distances that were computed.
+    /// Number of wall distances that were computed. A wall near several pieces of a motion counts for each piece.
     pub wall_tests: usize,
 }
 
-impl Verdict {
+impl CollisionVerdict {
     const FREE: Self = Self { free: true, wall_tests: 0 };
     const BLOCKED: Self = Self { free: false, wall_tests: 0 };
 }
@@ -142,9 +141,9 @@ impl FloorPlan {
         if !bounds.iter().all(|bound| COORDINATE_RANGE.contains(bound))
             || !side_lengths.iter().all(|side| SIDE_RANGE.contains(side))
         {
-            let error =
+            let bounds_error =
                 if occupied_grid.is_some() { FloorPlanError::BadGrid } else { FloorPlanError::BadBounds };
-            return Err(error(bounds));
+            return Err(bounds_error(bounds));
         }
         if walls.len() > Self::MAX_WALLS {
             return Err(FloorPlanError::TooManyWalls(walls.len()));
@@ -185,17 +184,17 @@ impl FloorPlan {
     }
 
     /// Tests whether a disc of radius `clearance` (m) around a point touches no wall and its centre is inside the bounds.
-    pub fn test_point(&self, point: [f64; 2], clearance: f64) -> Verdict {
+    pub fn test_point(&self, point: [f64; 2], clearance: f64) -> CollisionVerdict {
         if !self.contains(point) {
-            return Verdict::BLOCKED;
+            return CollisionVerdict::BLOCKED;
         }
         let distance_field = self.distance_field();
         let nearest_lower_bound = distance_field.lower_bound(point);
         if nearest_lower_bound > clearance {
-            return Verdict::FREE;
+            return CollisionVerdict::FREE;
         }
         if distance_field.upper_bound(nearest_lower_bound) <= clearance || self.is_in_blocked_cell(point) {
-            return Verdict::BLOCKED;
+            return CollisionVerdict::BLOCKED;
         }
         let mut wall_tests = 0;
         let is_free = self.are_near_walls_clear(
@@ -205,33 +204,38 @@ impl FloorPlan {
             |node| node.is_farther_than(point, clearance),
             |wall| wall.distance_to_point(point) > clearance,
         );
-        Verdict { free: is_free, wall_tests }
+        CollisionVerdict { free: is_free, wall_tests }
     }
 
     /// Tests whether a disc of radius `clearance` (m) whose centre drives along `arc` touches no wall and stays inside the
     /// bounds.
-    pub fn test_arc(&self, arc: &Arc, clearance: f64) -> Verdict {
+    pub fn test_arc(&self, arc: &Arc, clearance: f64) -> CollisionVerdict {
         let driven_arc = PreparedPose::new(arc.start).drive(arc.length, arc.turn);
         self.test_arc_after_end(&driven_arc, self.test_point(driven_arc.end, clearance), clearance)
     }
 
-    /// Tests an arc as [`FloorPlan::test_arc`] does, after its end was tested. The result includes the cost of that test.
-    pub(super) fn test_arc_after_end(&self, driven: &DrivenArc, end: Verdict, clearance: f64) -> Verdict {
-        let start_point = [driven.arc.start.x(), driven.arc.start.y()];
-        if !end.free || self.leaves_bounds(driven) || self.is_in_blocked_cell(start_point) {
-            return Verdict { free: false, ..end };
+    /// Tests an arc as [`FloorPlan::test_arc`] does, after its end was tested. The result includes the cost of the test of the end.
+    pub(super) fn test_arc_after_end(
+        &self,
+        driven_arc: &DrivenArc,
+        end_verdict: CollisionVerdict,
+        clearance: f64,
+    ) -> CollisionVerdict {
+        let start_point = [driven_arc.arc.start.x(), driven_arc.arc.start.y()];
+        if !end_verdict.free || self.leaves_bounds(driven_arc) || self.is_in_blocked_cell(start_point) {
+            return CollisionVerdict { free: false, ..end_verdict };
         }
         let mut sweep = ArcSweep {
             plan: self,
             distance_field: self.distance_field(),
-            arc: &driven.arc,
+            arc: &driven_arc.arc,
             clearance,
             local_arc: OnceCell::new(),
-            wall_tests: end.wall_tests,
+            wall_tests: end_verdict.wall_tests,
         };
         let is_free =
-            driven.arc_pieces().all(|piece| sweep.is_free(&piece, -piece.half_length, piece.half_length));
-        Verdict { free: is_free, wall_tests: sweep.wall_tests }
+            driven_arc.arc_pieces().all(|piece| sweep.is_free(&piece, -piece.half_length, piece.half_length));
+        CollisionVerdict { free: is_free, wall_tests: sweep.wall_tests }
     }
 
     fn collision_index(&self) -> &CollisionIndex {
@@ -268,40 +272,40 @@ impl FloorPlan {
         self.occupied_grid.as_ref().is_some_and(|occupied_grid| occupied_grid.is_blocked_at(point))
     }
 
-    fn leaves_bounds(&self, driven: &DrivenArc) -> bool {
-        let (arc, [left, bottom, right, top]) = (&driven.arc, driven.bounding_box());
+    fn leaves_bounds(&self, driven_arc: &DrivenArc) -> bool {
+        let (arc, [left, bottom, right, top]) = (&driven_arc.arc, driven_arc.bounding_box());
         let mut box_corners = [[left, bottom], [right, bottom], [right, top], [left, top]].into_iter();
         if box_corners.all(|corner| self.contains(corner)) {
             return false;
         }
-        if !self.contains([arc.start.x(), arc.start.y()]) || !self.contains(driven.end) {
+        if !self.contains([arc.start.x(), arc.start.y()]) || !self.contains(driven_arc.end) {
             return true;
         }
-        // Both ends are inside. An arc that only touches an edge counts as inside, up to rounding.
+        // The start and the end of the arc are inside. An arc that only touches an edge counts as inside, up to rounding.
         let corners = self.corners();
         let rounding_slack = rounding_bound(corners.as_flattened());
         (0..4).any(|i| {
-            let edge = Segment { from: corners[i], to: corners[(i + 1) % 4] };
-            edge.max_distance_on_right(arc) > rounding_slack
+            let map_edge = Segment { from: corners[i], to: corners[(i + 1) % 4] };
+            map_edge.max_distance_on_right(arc) > rounding_slack
         })
     }
 
-    /// Tests whether `free` holds for every wall whose bounding box is within `reach` (m) of the point in both coordinates.
-    /// Nodes of the tree for which `is_node_clear` holds are skipped.
+    /// Tests whether `is_wall_clear` holds for every wall whose bounding box is within `max_distance` (m) of the point in x and in y. Nodes
+    /// of the tree for which `is_node_clear` holds are skipped.
     fn are_near_walls_clear(
         &self,
         [x, y]: [f64; 2],
-        reach: f64,
+        max_distance: f64,
         wall_tests: &mut usize,
         is_node_clear: impl FnMut(&Node) -> bool,
         mut is_wall_clear: impl FnMut(&Segment) -> bool,
     ) -> bool {
         self.collision_index().tree.all(is_node_clear, |wall| {
             let Segment { from, to } = wall;
-            let is_near = from[0].min(to[0]) <= x + reach
-                && from[0].max(to[0]) >= x - reach
-                && from[1].min(to[1]) <= y + reach
-                && from[1].max(to[1]) >= y - reach;
+            let is_near = from[0].min(to[0]) <= x + max_distance
+                && from[0].max(to[0]) >= x - max_distance
+                && from[1].min(to[1]) <= y + max_distance
+                && from[1].max(to[1]) >= y - max_distance;
             !is_near || {
                 *wall_tests += 1;
                 is_wall_clear(wall)
@@ -322,12 +326,14 @@ struct ArcSweep<'a> {
 }
 
 impl ArcSweep<'_> {
-    /// Tests whether an arc piece is free between `start` and `end` metres after its middle. Tests four parts of it at once.
-    fn is_free(&mut self, piece: &ArcPiece, start: f64, end: f64) -> bool {
+    /// Tests whether an arc piece is free between `start_offset` and `end_offset` metres after its middle. Tests four parts of the interval
+    /// at once.
+    fn is_free(&mut self, piece: &ArcPiece, start_offset: f64, end_offset: f64) -> bool {
         let distance_field = self.distance_field;
-        let half_part_length = (end - start) / (2 * LANE_COUNT) as f64;
+        let half_part_length = (end_offset - start_offset) / (2 * LANE_COUNT) as f64;
         let needed_distance = self.clearance + piece.max_error + half_part_length;
-        let part_middles = piece.points_at(f64x4::new([1.0, 3.0, 5.0, 7.0]) * half_part_length + start);
+        let part_middles =
+            piece.points_at(f64x4::new([1.0, 3.0, 5.0, 7.0]) * half_part_length + start_offset);
         let lower_bounds = distance_field.lower_bounds(&part_middles);
         if !is_any_lane_set(lower_bounds.simd_le(f64x4::splat(needed_distance))) {
             return true;
@@ -338,12 +344,12 @@ impl ArcSweep<'_> {
             return false;
         }
         // A part no longer than the diagonal of a cell is not divided, because the field is too coarse. Walls near it are measured.
-        let is_divisible = half_part_length > distance_field.radius;
+        let is_divisible = half_part_length > distance_field.cell_radius;
         let [x, y] = part_middles.map(|lanes| lanes.to_array());
         (0..LANE_COUNT).all(|i| {
             distance_bounds[i] > needed_distance
                 || if is_divisible {
-                    let part_start = start + (2 * i) as f64 * half_part_length;
+                    let part_start = start_offset + (2 * i) as f64 * half_part_length;
                     self.is_free(piece, part_start, part_start + 2.0 * half_part_length)
                 } else {
                     self.are_walls_clear([x[i], y[i]], half_part_length + piece.max_error, piece.max_error)
@@ -353,22 +359,22 @@ impl ArcSweep<'_> {
 
     /// Tests whether all walls near a part of the arc keep the clearance. For most walls the distance to the middle of the part is
     /// enough to decide.
-    fn are_walls_clear(&mut self, middle: [f64; 2], reach: f64, error: f64) -> bool {
+    fn are_walls_clear(&mut self, part_middle: [f64; 2], part_radius: f64, max_error: f64) -> bool {
         let (arc, clearance) = (self.arc, self.clearance);
         let prepared_arc = || self.local_arc.get_or_init(|| arc.local_arc());
-        let (clear_distance, blocked_distance) = (reach + clearance, (clearance - error).max(0.0));
+        let (clear_distance, blocked_distance) = (part_radius + clearance, (clearance - max_error).max(0.0));
         self.plan.are_near_walls_clear(
-            middle,
+            part_middle,
             clear_distance,
             &mut self.wall_tests,
             |node| {
-                node.is_farther_than(middle, clear_distance)
+                node.is_farther_than(part_middle, clear_distance)
                     // This test saves time only if the node is thinner than the part is long.
-                    || node.thickness < reach
-                        && node.hull_axis.distance_to_local_arc(prepared_arc()) - node.thickness > clearance
+                    || node.capsule_radius < part_radius
+                        && node.capsule_axis.distance_to_local_arc(prepared_arc()) - node.capsule_radius > clearance
             },
             |wall| {
-                let squared_distance = wall.squared_distance_to_point(middle);
+                let squared_distance = wall.squared_distance_to_point(part_middle);
                 let is_clear = squared_distance > clear_distance * clear_distance;
                 if is_clear || squared_distance < blocked_distance * blocked_distance {
                     return is_clear;

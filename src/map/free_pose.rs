@@ -1,7 +1,7 @@
 //! Free start pose for a robot that enters a map.
 
 use super::floor_plan::FloorPlan;
-use super::occupancy::{Image, Interpretation, OccupancyGrid};
+use super::occupancy::{Image, OccupancyGrid, PixelInterpretation};
 use crate::geom::se2::SE2;
 use std::borrow::Cow;
 use std::f64::consts::TAU;
@@ -9,21 +9,21 @@ use std::f64::consts::TAU;
 /// Number of headings that are tried: one every five degrees.
 const HEADING_COUNT: u32 = 72;
 
-/// Number of squares along the longer side of a plan without a grid.
-const SQUARES_ALONG_SIDE: f64 = 256.0;
+/// Number of cells along the longer side of a plan without a grid.
+const CELLS_ALONG_LONGER_SIDE: f64 = 256.0;
 
 impl FloorPlan {
     /// Returns a free pose for a disc of radius `clearance` (m): the centre of the largest square that is known to be free, with the
-    /// heading of the longest free path. If the disc does not fit there, takes the first square where it fits; None if it fits nowhere.
+    /// heading of the longest free path. If the disc does not fit there, the first cell where it fits is taken; None if it fits nowhere.
     pub fn find_free_pose(&self, clearance: f64) -> Option<SE2> {
         let raster = self.grid().map_or_else(|| Cow::Owned(self.rasterize()), Cow::Borrowed);
         let disc_fits = |point: &[f64; 2]| self.test_point(*point, clearance).free;
         let [columns, rows] = raster.size();
         let middle_coordinates =
             (0..rows).flat_map(|row| (0..columns).map(move |column| [column as f64 + 0.5, row as f64 + 0.5]));
-        let mut middle_points = middle_coordinates.map(|middle| raster.world_point(middle));
-        let largest_square = middle_of_largest_free_square(&raster).map(|middle| raster.world_point(middle));
-        let [x, y] = largest_square.filter(disc_fits).or_else(|| middle_points.find(disc_fits))?;
+        let mut cell_middles = middle_coordinates.map(|middle| raster.world_point(middle));
+        let square_middle = middle_of_largest_free_square(&raster).map(|middle| raster.world_point(middle));
+        let [x, y] = square_middle.filter(disc_fits).or_else(|| cell_middles.find(disc_fits))?;
         Some(SE2::new(x, y, heading_of_longest_path(&raster, [x, y], disc_fits)))
     }
 
@@ -31,43 +31,43 @@ impl FloorPlan {
     fn rasterize(&self) -> OccupancyGrid {
         let [left, bottom, right, top] = self.bounds();
         let (width, height) = (right - left, top - bottom);
-        let cell_side = (width.max(height) / SQUARES_ALONG_SIDE).min(width).min(height);
-        let [columns, rows] = [width, height].map(|length| (length / cell_side) as usize);
+        let cell_side = (width.max(height) / CELLS_ALONG_LONGER_SIDE).min(width).min(height);
+        let [columns, rows] = [width, height].map(|side_length| (side_length / cell_side) as usize);
         let is_free = |i: usize| {
             let [column, row] = [i % columns, rows - 1 - i / columns].map(|index| index as f64 + 0.5);
-            let square_middle = [left + column * cell_side, bottom + row * cell_side];
-            self.distance_field().lower_bound(square_middle) > 0.75 * cell_side
+            let cell_middle = [left + column * cell_side, bottom + row * cell_side];
+            self.distance_field().lower_bound(cell_middle) > 0.75 * cell_side
         };
         let pixels = (0..columns * rows).map(|i| f32::from(u8::from(is_free(i)))).collect();
         let image = Image { width: columns, height: rows, pixels };
-        OccupancyGrid::new(&image, &Interpretation::default(), cell_side, SE2::new(left, bottom, 0.0))
+        OccupancyGrid::new(&image, &PixelInterpretation::default(), cell_side, SE2::new(left, bottom, 0.0))
     }
 }
 
-/// Returns the middle of the largest square that consists of free squares, in squares from the lower left corner; None if none is
-/// free. Of equally large ones it takes the first, row by row, by their upper right corners.
+/// Returns the middle of the largest square of free cells, in cells from the lower left corner; None if no cell is free. Of equally large
+/// squares, the square with the first upper right corner row by row is taken.
 fn middle_of_largest_free_square(grid: &OccupancyGrid) -> Option<[f64; 2]> {
-    let ([columns, rows], mut largest_side, mut largest_square_middle) = (grid.size(), 0, None);
+    let ([columns, rows], mut largest_side, mut square_middle) = (grid.size(), 0, None);
     // Side of the largest free square that ends at each column of the previous row.
     let mut square_sides = vec![0u32; columns];
     for row in 0..rows {
-        let [mut left, mut lower_left] = [0, 0];
-        for (column, side) in square_sides.iter_mut().enumerate() {
-            let side_below = *side;
+        let [mut side_at_left, mut side_at_lower_left] = [0, 0];
+        for (column, square_side) in square_sides.iter_mut().enumerate() {
+            let side_below = *square_side;
             let is_free = grid.is_known_free(column, row);
-            *side = if is_free { 1 + side_below.min(left).min(lower_left) } else { 0 };
-            (left, lower_left) = (*side, side_below);
-            if *side > largest_side {
-                largest_side = *side;
+            *square_side = if is_free { 1 + side_below.min(side_at_left).min(side_at_lower_left) } else { 0 };
+            (side_at_left, side_at_lower_left) = (*square_side, side_below);
+            if *square_side > largest_side {
+                largest_side = *square_side;
                 let half_side = 0.5 * f64::from(largest_side);
-                largest_square_middle = Some([column, row].map(|index| index as f64 + 1.0 - half_side));
+                square_middle = Some([column, row].map(|index| index as f64 + 1.0 - half_side));
             }
         }
     }
-    largest_square_middle
+    square_middle
 }
 
-/// Returns the heading along which the path over free squares is longest.
+/// Returns the heading along which the path over free cells is longest.
 fn heading_of_longest_path(
     grid: &OccupancyGrid,
     [x, y]: [f64; 2],
@@ -77,18 +77,18 @@ fn heading_of_longest_path(
         let [column, row] = grid.cell_coordinates(*point);
         column >= 0.0 && row >= 0.0 && grid.is_known_free(column as usize, row as usize)
     };
-    let (mut max_steps, mut heading) = (0, 0.0);
+    let (mut max_steps, mut best_heading) = (0, 0.0);
     for i in 0..HEADING_COUNT {
         let tried_heading = TAU * f64::from(i) / f64::from(HEADING_COUNT);
         let (sin, cos) = libm::sincos(tried_heading);
         let free_steps = (1..)
             .map(|steps| 0.5 * grid.resolution() * f64::from(steps))
-            .map(|length| [x + length * cos, y + length * sin])
+            .map(|distance| [x + distance * cos, y + distance * sin])
             .take_while(|point| is_free(point) && disc_fits(point))
             .count();
         if free_steps > max_steps {
-            (max_steps, heading) = (free_steps, tried_heading);
+            (max_steps, best_heading) = (free_steps, tried_heading);
         }
     }
-    heading
+    best_heading
 }

@@ -1,9 +1,9 @@
 //! Image files of maps: PGM, and PNG where the core has its decoder.
 
-use super::occupancy::{Interpretation, OccupancyGrid};
+use super::occupancy::{OccupancyGrid, PixelInterpretation};
 use super::pgm::{PgmError, read_pgm};
 #[cfg(not(widget))]
-use super::png::{PngError, SIGNATURE, read_png};
+use super::png::{PNG_SIGNATURE, PngError, read_png};
 use crate::geom::se2::SE2;
 use thiserror::Error;
 
@@ -24,16 +24,16 @@ pub enum ImageError {
 /// # Errors
 /// [`ImageError`] for a file that is neither, or damaged.
 pub fn read_grid(
-    file: &[u8],
-    interpretation: &Interpretation,
+    file_bytes: &[u8],
+    interpretation: &PixelInterpretation,
     resolution: f64,
     origin: SE2,
 ) -> Result<OccupancyGrid, ImageError> {
     #[cfg(not(widget))]
-    if file.starts_with(&SIGNATURE) {
-        let image = read_png(file)?;
+    if file_bytes.starts_with(&PNG_SIGNATURE) {
+        let image = read_png(file_bytes)?;
         return Ok(OccupancyGrid::new(&image, interpretation, resolution, origin));
     }
-    let image = read_pgm(file)?;
+    let image = read_pgm(file_bytes)?;
     Ok(OccupancyGrid::new(&image, interpretation, resolution, origin))
 }

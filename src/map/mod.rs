@@ -13,12 +13,12 @@ mod png;
 mod wall_tree;
 
 pub use conditioned::{
-    AcceptedMotion, CollisionTester, Cost, Draw, MAX_DRAWS, MapConditioned, NoAcceptedSample, Sampler,
+    AcceptedMotion, CollisionTester, Cost, MAX_DRAWS, MapConditioned, NoAcceptedSample, Sampler, TestedDraw,
 };
-pub use floor_plan::{FloorPlan, FloorPlanError, Verdict};
+pub use floor_plan::{CollisionVerdict, FloorPlan, FloorPlanError};
 pub use image_file::{ImageError, read_grid};
 pub use occupancy::{
-    Cell, Image, Interpretation, MapMode, OccupancyGrid, Pixel, RESOLUTION_RANGE, UnknownCells,
+    Cell, Image, MapMode, OccupancyGrid, Pixel, PixelInterpretation, RESOLUTION_RANGE, UnknownCells,
 };
 pub use pgm::{MAX_BYTES, MAX_PIXELS, PgmError, read_pgm};
 #[cfg(not(widget))]

@@ -1,4 +1,4 @@
-//! Occupancy grids as ROS `map_server` stores them.
+//! Occupancy grids in the format of the ROS `map_server`.
 
 use crate::geom::arc::PreparedPose;
 use crate::geom::se2::SE2;
@@ -7,20 +7,20 @@ use std::ops::RangeInclusive;
 
 /// Conversion of pixels to cells, as in the YAML file of `map_server`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Interpretation {
+pub struct PixelInterpretation {
     /// Meaning of the pixels.
     pub mode: MapMode,
     /// True if dark pixels are free instead of occupied.
     pub negate: bool,
     /// Occupancy, from 0 (white) to 1 (black), above which a cell is occupied.
     pub occupied_thresh: f64,
-    /// Occupancy below which a cell is free in mode trinary. Between both thresholds it is unknown.
+    /// Occupancy below which a cell is free in mode trinary. Between the thresholds a cell is unknown.
     pub free_thresh: f64,
 }
 
 /// Defaults of keys that the YAML file does not have. Unknown cells are saved as the grey 205 of 255, whose occupancy of 0.1961
 /// is just above `free_thresh`.
-impl Default for Interpretation {
+impl Default for PixelInterpretation {
     fn default() -> Self {
         Self { mode: MapMode::Trinary, negate: false, occupied_thresh: 0.65, free_thresh: 0.196 }
     }
@@ -29,10 +29,10 @@ impl Default for Interpretation {
 /// Meaning of the pixels of a map, as in the YAML file of `map_server`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MapMode {
-    /// Dark pixels are occupied, light ones free, and those between the thresholds unknown.
+    /// Dark pixels are occupied, light pixels are free, and pixels between the thresholds are unknown.
     Trinary,
-    /// Transparent pixels are unknown, dark ones occupied, and all others free. In `map_server`, pixels
-    /// between the thresholds have intermediate values.
+    /// Transparent pixels are unknown, dark pixels are occupied, and all other pixels are free. In `map_server`, pixels between the
+    /// thresholds have intermediate values.
     Scale,
     /// Pixel values are occupancies from 0 to 100. A value of 100 is occupied, and larger values are unknown.
     Raw,
@@ -56,7 +56,7 @@ pub enum UnknownCells {
     /// Unknown cells are free, as in particle filters.
     #[default]
     Free,
-    /// Unknown cells are obstacles like occupied ones.
+    /// Unknown cells are obstacles like occupied cells.
     Blocked,
 }
 
@@ -67,7 +67,7 @@ pub struct Image<P = Pixel> {
     pub width: usize,
     /// Number of rows.
     pub height: usize,
-    /// Pixels, width · height of them.
+    /// Pixels, in number width · height.
     pub pixels: Vec<P>,
 }
 
@@ -75,39 +75,39 @@ pub struct Image<P = Pixel> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pixel {
     /// Mean of the colours.
-    pub shade: f32,
+    pub brightness: f32,
     /// Opacity from 0 (transparent) to 1.
     pub opacity: f32,
 }
 
-/// Shade of an opaque pixel.
+/// Conversion of the brightness of an opaque pixel.
 impl From<f32> for Pixel {
-    fn from(shade: f32) -> Self {
-        Self { shade, opacity: 1.0 }
+    fn from(brightness: f32) -> Self {
+        Self { brightness, opacity: 1.0 }
     }
 }
 
-/// Red, green, blue and opacity, from 0 to 255.
+/// Conversion of red, green, blue and opacity from 0 to 255.
 impl From<[u8; 4]> for Pixel {
     fn from(colours: [u8; 4]) -> Self {
         let [red, green, blue, opacity] = colours.map(f32::from);
-        Self { shade: (red + green + blue) / 765.0, opacity: opacity / 255.0 }
+        Self { brightness: (red + green + blue) / 765.0, opacity: opacity / 255.0 }
     }
 }
 
-impl Interpretation {
+impl PixelInterpretation {
     /// Returns the state of the cell that a pixel shows.
     pub fn classify_pixel(&self, pixel: Pixel) -> Cell {
-        let Pixel { shade, opacity } = pixel;
-        let occupancy = if self.negate { shade } else { 1.0 - shade };
-        // Thresholds are rounded to f32, as the shade is, so that a pixel at a threshold is not beyond it.
+        let Pixel { brightness, opacity } = pixel;
+        let occupancy = if self.negate { brightness } else { 1.0 - brightness };
+        // Thresholds are rounded to f32, as the brightness is, so that a pixel at a threshold is not beyond it.
         let (occupied_threshold, free_threshold) = (self.occupied_thresh as f32, self.free_thresh as f32);
         // The grey value is computed only if needed, because rounding is slow on processors without an instruction for it.
-        let grey_value = || (shade * 255.0).round();
+        let grey_value = || (brightness * 255.0).round();
         match self.mode {
             MapMode::Scale if opacity < 1.0 => Cell::Unknown,
             MapMode::Trinary | MapMode::Scale if occupancy > occupied_threshold => Cell::Occupied,
-            // For a shade exactly at the threshold, rounding may make the occupancy (1 − shade) slightly less than the threshold.
+            // Rounding may make the occupancy of a pixel at the threshold slightly less than the threshold.
             MapMode::Trinary if occupancy > free_threshold - f32::EPSILON => Cell::Unknown,
             MapMode::Raw if grey_value() == 100.0 => Cell::Occupied,
             MapMode::Raw if grey_value() > 100.0 => Cell::Unknown,
@@ -116,10 +116,10 @@ impl Interpretation {
     }
 }
 
-/// Sides of a cell, m: from a millimetre to a hundred metres.
+/// Range of the side of a cell, m.
 pub const RESOLUTION_RANGE: RangeInclusive<f64> = 1e-3..=100.0;
 
-/// Grid of square cells. Occupied ones are obstacles, and unknown ones depend on a setting.
+/// Grid of square cells. Occupied cells are obstacles. Unknown cells are obstacles or free, see [`UnknownCells`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct OccupancyGrid {
     width: usize,
@@ -129,7 +129,7 @@ pub struct OccupancyGrid {
     /// Frame of the grid: at the lower left corner of the lower left cell, with its axes along rows and columns.
     origin: SE2,
     /// Transform from the plane to the frame of the origin.
-    to_local: PreparedPose,
+    plane_to_grid: PreparedPose,
     /// Cells row by row from the bottom.
     cells: Vec<Cell>,
     unknown: UnknownCells,
@@ -142,7 +142,7 @@ impl OccupancyGrid {
     /// As in `map_server`, opacity counts as a fourth colour in mode trinary if the image has transparency.
     pub fn new<P: Copy + Into<Pixel>>(
         image: &Image<P>,
-        interpretation: &Interpretation,
+        interpretation: &PixelInterpretation,
         resolution: f64,
         origin: SE2,
     ) -> Self {
@@ -152,14 +152,14 @@ impl OccupancyGrid {
         let to_cell = |pixel: &P| {
             let mut pixel: Pixel = (*pixel).into();
             if opacity_is_colour {
-                pixel.shade = (3.0 * pixel.shade + pixel.opacity) / 4.0;
+                pixel.brightness = (3.0 * pixel.brightness + pixel.opacity) / 4.0;
             }
             interpretation.classify_pixel(pixel)
         };
         // The first row of an image is its highest, the first of a grid its lowest.
         let cells = pixels.chunks(width.max(1)).rev().flatten().map(to_cell).collect();
-        let (to_local, unknown) = (PreparedPose::new(origin.inverse()), UnknownCells::default());
-        Self { width, height, resolution, origin, to_local, cells, unknown }
+        let (plane_to_grid, unknown) = (PreparedPose::new(origin.inverse()), UnknownCells::default());
+        Self { width, height, resolution, origin, plane_to_grid, cells, unknown }
     }
 
     /// Returns the grid with another treatment of unknown cells.
@@ -191,12 +191,12 @@ impl OccupancyGrid {
     /// Returns true if a point of the plane lies in a cell that is an obstacle.
     pub fn is_blocked_at(&self, point: [f64; 2]) -> bool {
         let [column, row] = self.cell_coordinates(point).map(f64::floor);
-        column >= 0.0 && row >= 0.0 && self.is_blocked(self.row(row as usize), column as usize)
+        column >= 0.0 && row >= 0.0 && self.is_blocked(self.row_cells(row as usize), column as usize)
     }
 
     /// Returns true if a cell is known to be free; cells off the grid are not.
     pub(super) fn is_known_free(&self, column: usize, row: usize) -> bool {
-        self.row(row).get(column) == Some(&Cell::Free)
+        self.row_cells(row).get(column) == Some(&Cell::Free)
     }
 
     /// Returns true if a point of the plane lies on the grid, its edge included.
@@ -215,7 +215,7 @@ impl OccupancyGrid {
         self.world_point([column as f64, row as f64])
     }
 
-    /// Returns the point of the plane at these coordinates, counted in cells from the origin.
+    /// Returns the point of the plane at grid coordinates, in cells from the origin.
     pub(super) fn world_point(&self, [column, row]: [f64; 2]) -> [f64; 2] {
         let (x, y) = (column * self.resolution, row * self.resolution);
         let point = self.origin * SE2::new(x, y, 0.0);
@@ -224,7 +224,7 @@ impl OccupancyGrid {
 
     /// Returns the coordinates of a point of the plane, in cells from the origin.
     pub(super) fn cell_coordinates(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        self.to_local.transform_point([x, y]).map(|coordinate| coordinate / self.resolution)
+        self.plane_to_grid.transform_point([x, y]).map(|coordinate| coordinate / self.resolution)
     }
 
     /// Returns true if a cell of a row is an obstacle; cells off the grid are not.
@@ -236,8 +236,8 @@ impl OccupancyGrid {
         }
     }
 
-    /// Returns the cells of a row, counted from the bottom; none of a row off the grid.
-    fn row(&self, row: usize) -> &[Cell] {
+    /// Returns the cells of a row, counted from the bottom; empty for a row off the grid.
+    fn row_cells(&self, row: usize) -> &[Cell] {
         let first_cell = row.saturating_mul(self.width).min(self.cells.len());
         &self.cells[first_cell..(first_cell + self.width).min(self.cells.len())]
     }
@@ -246,16 +246,16 @@ impl OccupancyGrid {
     /// outlines is the distance to the cells. Lines along rows come first, then lines along columns.
     ///
     /// # Errors
-    /// A lower bound of their number, where there are more than `max_count`.
-    pub fn outlines(&self, max_count: usize) -> Result<Vec<Segment>, usize> {
+    /// A lower bound of the number of outlines, if there are more than `max_outlines`.
+    pub fn outlines(&self, max_outlines: usize) -> Result<Vec<Segment>, usize> {
         let [columns, rows] = self.size();
         let (mut walls, mut vertical_walls) = (Vec::new(), Vec::new());
         // An outline separates blocked cells from all others. `outline_starts` has, for each grid line between columns, the
         // row at which the current outline began.
         let mut outline_starts = vec![None; columns + 1];
         for row in 0..=rows {
-            let cells = self.row(row);
-            let cells_below = row.checked_sub(1).map_or(&[][..], |below| self.row(below));
+            let cells = self.row_cells(row);
+            let cells_below = row.checked_sub(1).map_or(&[][..], |row_below| self.row_cells(row_below));
             if cells == cells_below {
                 continue;
             }
@@ -268,14 +268,15 @@ impl OccupancyGrid {
                 {
                     walls.push(self.wall_between([from, row], [column, row]));
                 }
-                if let Some(start) = update_outline(outline_start, was_left_different != is_cell_blocked, row)
+                if let Some(first_row) =
+                    update_outline(outline_start, was_left_different != is_cell_blocked, row)
                 {
-                    vertical_walls.push([column, start, row]);
+                    vertical_walls.push([column, first_row, row]);
                 }
                 was_left_different = is_cell_blocked;
             }
-            if walls.len() + vertical_walls.len() > max_count {
-                return Err(max_count + 1);
+            if walls.len() + vertical_walls.len() > max_outlines {
+                return Err(max_outlines + 1);
             }
         }
         vertical_walls.sort_unstable();
@@ -292,8 +293,8 @@ impl OccupancyGrid {
     }
 }
 
-/// Begins or ends an outline at `position` on a grid line, and returns the start of one that ends. `is_outline` is true if an
-/// outline leads on from `position`; its start is kept in `start`.
+/// Begins or ends an outline at `position` on a grid line, and returns the start of one that ends. `is_outline` is true if an outline leads
+/// on from `position`; `start` keeps its first position.
 fn update_outline(start: &mut Option<usize>, is_outline: bool, position: usize) -> Option<usize> {
     match *start {
         None if is_outline => *start = Some(position),

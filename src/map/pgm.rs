@@ -11,9 +11,9 @@ pub struct PgmError {
     pub field: &'static str,
     /// Line of the header (from 1) in which the field should have been.
     pub line: usize,
-    /// Text found instead, as the message quotes it.
+    /// Invalid text, in the quotation marks of the message.
     pub value: String,
-    /// Values that are allowed, as the message lists them.
+    /// Allowed values, as text of the message.
     pub allowed: String,
 }
 
@@ -26,7 +26,7 @@ pub const MAX_BYTES: usize = 6 * MAX_PIXELS + 4096;
 /// Maximum number of characters that an error quotes.
 const MAX_QUOTED_CHARACTERS: usize = 20;
 
-/// Reads the shades of a PGM image, binary (P5) or plain (P2), of 8 or 16 bits. The maximum value of the header is white.
+/// Reads the brightness values of a PGM image, binary (P5) or plain (P2), of 8 or 16 bits. The maximum value of the header is white.
 ///
 /// # Errors
 /// [`PgmError`] with the line of the header, or the line where plain pixels end.
@@ -41,9 +41,9 @@ pub fn read_pgm(bytes: &[u8]) -> Result<Image<f32>, PgmError> {
     let height = reader.read_number("the height", 1, MAX_PIXELS / width)?;
     let max_value = reader.read_number("the maximum value", 1, 65_535)?;
     let pixel_count = width * height;
-    let shade_of = |value: usize| value.min(max_value) as f32 / max_value as f32;
+    let brightness_of = |pixel_value: usize| pixel_value.min(max_value) as f32 / max_value as f32;
     if is_plain {
-        let pixels = (0..pixel_count).map(|_| reader.read_number("a pixel", 0, max_value).map(shade_of));
+        let pixels = (0..pixel_count).map(|_| reader.read_number("a pixel", 0, max_value).map(brightness_of));
         return Ok(Image { width, height, pixels: pixels.collect::<Result<_, _>>()? });
     }
     let bytes_per_pixel = if max_value < 256 { 1 } else { 2 };
@@ -57,13 +57,13 @@ pub fn read_pgm(bytes: &[u8]) -> Result<Image<f32>, PgmError> {
         let (field, value) = ("the length of the raster in bytes", available_raster.len().to_string());
         return Err(PgmError { field, line: reader.line, value, allowed: allowed_text });
     };
-    // The higher byte of two comes first.
-    let value_of = |pixel: &[u8]| pixel.iter().fold(0, |value, byte| 256 * value + usize::from(*byte));
-    let pixels = raster.chunks(bytes_per_pixel).map(|pixel| shade_of(value_of(pixel))).collect();
+    // A pixel of 16 bits has its higher byte first.
+    let decode_pixel = |pixel: &[u8]| pixel.iter().fold(0, |value, byte| 256 * value + usize::from(*byte));
+    let pixels = raster.chunks(bytes_per_pixel).map(|pixel| brightness_of(decode_pixel(pixel))).collect();
     Ok(Image { width, height, pixels })
 }
 
-/// Reader of the words of a header, and of plain pixels.
+/// Reader of the tokens of a header, and of plain pixels.
 struct TokenReader<'a> {
     bytes: &'a [u8],
     position: usize,
@@ -103,7 +103,7 @@ impl<'a> TokenReader<'a> {
     }
 
     fn create_error(&self, field: &'static str, token: &[u8], allowed: String) -> PgmError {
-        // Other bytes may be pixels of another image format. A message cannot show them.
+        // Bytes that are not printable ASCII may be pixels of another image format. A message cannot show them.
         let printable_char = |byte: &u8| {
             if byte.is_ascii_graphic() { char::from(*byte) } else { char::REPLACEMENT_CHARACTER }
         };

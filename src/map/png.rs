@@ -7,16 +7,18 @@ use std::io::Cursor;
 use thiserror::Error;
 
 /// First bytes of every PNG image.
-pub const SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
+pub const PNG_SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 
 /// Reason why bytes are not a PNG image.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum PngError {
-    /// The bytes end, or differ from what the standard allows, before byte `at` of `length`.
-    #[error("the PNG image is damaged or cut short before byte {at} of {length}; allowed is a complete one")]
+    /// The bytes end, or differ from what the standard allows, before byte `damage_offset` of `length`.
+    #[error(
+        "the PNG image is damaged or cut short before byte {damage_offset} of {length}; allowed is a complete one"
+    )]
     Damaged {
         /// Number of bytes read before the damage was noticed.
-        at: u64,
+        damage_offset: u64,
         /// Number of bytes of the file.
         length: usize,
     },
@@ -30,7 +32,7 @@ pub enum PngError {
     },
 }
 
-/// Decodes a PNG image of any kind into red, green, blue and opacity; samples of 16 bits become the nearest of 8.
+/// Decodes a PNG image of any kind into red, green, blue and opacity; samples of 16 bits are rounded to 8 bits.
 ///
 /// # Errors
 /// [`PngError`] for an image that is cut short, damaged or too large.
@@ -47,25 +49,26 @@ pub fn read_png(bytes: &[u8]) -> Result<Image<[u8; 4]>, PngError> {
 }
 
 fn damage_error(cursor: &Cursor<&[u8]>) -> PngError {
-    PngError::Damaged { at: cursor.position(), length: cursor.get_ref().len() }
+    PngError::Damaged { damage_offset: cursor.position(), length: cursor.get_ref().len() }
 }
 
 fn decode_pixels(cursor: &mut Cursor<&[u8]>) -> Result<Vec<[u8; 4]>, DecodingError> {
-    // The largest image has eight bytes a pixel.
+    // Pixels take up to eight bytes.
     let mut decoder = Decoder::new_with_limits(cursor, Limits { bytes: 8 * MAX_PIXELS });
     decoder.set_transformations(Transformations::EXPAND);
     decoder.set_ignore_text_chunk(true);
     decoder.set_ignore_iccp_chunk(true);
     let mut reader = decoder.read_info()?;
-    let (kind, depth) = reader.output_color_type();
+    let (color_type, bit_depth) = reader.output_color_type();
     let mut samples = vec![0; reader.output_buffer_size().unwrap_or_default()];
     reader.next_frame(&mut samples)?;
     reader.finish()?;
-    if depth == BitDepth::Sixteen {
-        samples = samples.as_chunks().0.iter().map(|pair| round_to_byte(u16::from_be_bytes(*pair))).collect();
+    if bit_depth == BitDepth::Sixteen {
+        samples =
+            samples.as_chunks().0.iter().map(|bytes| round_to_byte(u16::from_be_bytes(*bytes))).collect();
     }
     let with_full_opacity = |[red, green, blue]: [u8; 3]| [red, green, blue, u8::MAX];
-    Ok(match kind {
+    Ok(match color_type {
         ColorType::Grayscale => samples.iter().map(|grey| with_full_opacity([*grey; 3])).collect(),
         ColorType::GrayscaleAlpha => {
             samples.as_chunks().0.iter().map(|&[grey, opacity]| [grey, grey, grey, opacity]).collect()

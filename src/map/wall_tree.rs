@@ -3,14 +3,13 @@
 use crate::geom::segment::Segment;
 use std::ops::Range;
 
-/// Tree of walls by position and direction. Each node has a capsule that contains its walls: all points within its thickness of a
-/// line segment. Thus long walls side by side need as few comparisons as short walls in one place. The distance to a node of equal
-/// walls is computed once.
+/// Tree of walls by position and direction. Each node has a capsule that contains its walls: all points within a radius of an axis. Long
+/// walls side by side thus need as few comparisons as short walls in one place. The distance to a node of equal walls is computed once.
 ///
 /// It is a full binary tree without pointers: the children of node i are 2i and 2i + 1, the root is 1.
 #[derive(Clone, Debug)]
 pub(super) struct WallTree {
-    /// Walls in an order in which those of each node are contiguous.
+    /// Walls, ordered so that the walls of each node are contiguous.
     pub walls: Vec<Segment>,
     pub nodes: Vec<Node>,
     /// Number of times that the walls are halved.
@@ -23,19 +22,19 @@ pub(super) struct WallTree {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     /// Axis of the capsule.
-    pub hull_axis: Segment,
+    pub capsule_axis: Segment,
     /// Maximum distance of a wall of the node from the axis of the capsule, m.
-    pub thickness: f64,
-    /// True if all walls of the node are equal, so that one represents them.
+    pub capsule_radius: f64,
+    /// True if all walls of the node are equal, so that the first wall represents all.
     has_equal_walls: bool,
 }
 
-/// Maximum number of walls of a leaf, and of a tree that is a single leaf. Smaller leaves would need more nodes; larger ones more
+/// Maximum number of walls of a leaf, and of a tree that is a single leaf. Smaller leaves would need more nodes, and larger leaves more
 /// comparisons of walls.
 const MAX_LEAF_WALLS: usize = 16;
 const MAX_SINGLE_LEAF_WALLS: usize = 32;
 
-const ORIGIN: Segment = Segment { from: [0.0; 2], to: [0.0; 2] };
+const ZERO_SEGMENT: Segment = Segment { from: [0.0; 2], to: [0.0; 2] };
 
 impl WallTree {
     /// Creates the tree of the walls, all of which are inside `bounds`.
@@ -48,7 +47,14 @@ impl WallTree {
         let mut tree = Self {
             walls: walls.to_vec(),
             // Node 0 is unused. The root is always visited.
-            nodes: vec![Node { hull_axis: ORIGIN, thickness: f64::INFINITY, has_equal_walls: false }; 2],
+            nodes: vec![
+                Node {
+                    capsule_axis: ZERO_SEGMENT,
+                    capsule_radius: f64::INFINITY,
+                    has_equal_walls: false
+                };
+                2
+            ],
             depth: leaf_count.ilog2(),
             rounding_slack: 1e-9 * bounds.iter().fold(0.0, |largest: f64, bound| largest.max(bound.abs())),
         };
@@ -60,8 +66,7 @@ impl WallTree {
         tree
     }
 
-    /// Sorts the walls of a node into two halves, one for each child. The sort key is the coordinate of [`sort_keys`] that varies
-    /// most: x or y of the midpoint, or x or y of the direction.
+    /// Sorts the walls of a node into two halves, one for each child. The sort key is the entry of [`sort_keys`] that varies most.
     fn divide_in_half(&mut self, node_index: usize) {
         let (wall_range, middle) = (self.wall_range(node_index), self.wall_range(2 * node_index).end);
         let node_walls = &mut self.walls[wall_range.clone()];
@@ -72,11 +77,9 @@ impl WallTree {
             }
         }
         let key_range_widths = key_ranges.map(|[min, max]| max - min);
-        let widest_key_index =
-            (1..4).fold(
-                0,
-                |widest, axis| if key_range_widths[axis] > key_range_widths[widest] { axis } else { widest },
-            );
+        let widest_key_index = (1..4).fold(0, |widest, key_index| {
+            if key_range_widths[key_index] > key_range_widths[widest] { key_index } else { widest }
+        });
         select_smallest(node_walls, middle - wall_range.start, widest_key_index);
     }
 
@@ -100,7 +103,7 @@ impl WallTree {
                 (*front, *left) = (front.max(along), left.max(across));
             }
         }
-        let mut narrowest_capsule = (f64::INFINITY, ORIGIN);
+        let mut narrowest_capsule = (f64::INFINITY, ZERO_SEGMENT);
         for ([x, y], [back, right, front, left]) in candidate_axes.into_iter().zip(extents) {
             let (axis_offset, width) = (0.5 * (right + left), left - right);
             // The ends of a capsule are round, so that its axis is shorter than the walls at both ends.
@@ -112,14 +115,14 @@ impl WallTree {
                 narrowest_capsule = (width, axis);
             }
         }
-        let hull_axis = narrowest_capsule.1;
+        let capsule_axis = narrowest_capsule.1;
         // No point of a wall is further from the capsule's axis than the further end of the wall.
         let wall_ends = walls.iter().flat_map(|wall| [wall.from, wall.to]);
         let max_distance =
-            wall_ends.map(|end| hull_axis.squared_distance_to_point(end)).fold(0.0, f64::max).sqrt();
+            wall_ends.map(|end| capsule_axis.squared_distance_to_point(end)).fold(0.0, f64::max).sqrt();
         Node {
-            hull_axis,
-            thickness: max_distance + self.rounding_slack,
+            capsule_axis,
+            capsule_radius: max_distance + self.rounding_slack,
             has_equal_walls: walls.iter().all(|wall| *wall == walls[0]),
         }
     }
@@ -127,11 +130,11 @@ impl WallTree {
     fn wall_range(&self, node_index: usize) -> Range<usize> {
         let depth = node_index.ilog2();
         let (wall_count, index_in_level) = (self.walls.len() as u64, (node_index - (1 << depth)) as u64);
-        let end_index = |key: u64| ((wall_count * key) >> depth) as usize;
+        let end_index = |index: u64| ((wall_count * index) >> depth) as usize;
         end_index(index_in_level)..end_index(index_in_level + 1)
     }
 
-    /// Returns the indices of the walls of a node: one if all of them are equal.
+    /// Returns the indices of the walls of a node; a single index if all walls are equal.
     pub fn distinct_walls(&self, node_index: usize) -> Range<usize> {
         let wall_range = self.wall_range(node_index);
         if self.nodes[node_index].has_equal_walls {
@@ -145,26 +148,26 @@ impl WallTree {
         node_index >> self.depth > 0 || self.nodes[node_index].has_equal_walls
     }
 
-    /// Returns true if `wall_test` holds for all walls. Walls of nodes for which `is_far` holds are skipped.
+    /// Returns true if `is_wall_clear` holds for all walls. Nodes for which `is_node_clear` holds are skipped.
     #[inline(always)]
     pub fn all(
         &self,
-        mut is_far: impl FnMut(&Node) -> bool,
-        mut wall_test: impl FnMut(&Segment) -> bool,
+        mut is_node_clear: impl FnMut(&Node) -> bool,
+        mut is_wall_clear: impl FnMut(&Segment) -> bool,
     ) -> bool {
         let mut node_index = 1;
         loop {
-            if node_index == 1 || !is_far(&self.nodes[node_index]) {
+            if node_index == 1 || !is_node_clear(&self.nodes[node_index]) {
                 if !self.is_leaf(node_index) {
                     node_index *= 2;
                     continue;
                 }
-                if !self.walls[self.distinct_walls(node_index)].iter().all(&mut wall_test) {
+                if !self.walls[self.distinct_walls(node_index)].iter().all(&mut is_wall_clear) {
                     return false;
                 }
             }
-            // Goes to the next node outside this subtree: its right sibling, or that of the nearest ancestor that has one. After the
-            // last node this is the root.
+            // Goes to the next node outside this subtree: the right sibling of this node, or of its nearest ancestor with a right sibling.
+            // After the last node this is the root.
             node_index += 1;
             node_index >>= node_index.trailing_zeros();
             if node_index == 1 {
@@ -175,22 +178,22 @@ impl WallTree {
 }
 
 impl Node {
-    /// Returns true only if no wall of the node comes within `reach` (m) of a point: if its hull, a capsule, does not.
+    /// Returns true only if no wall of the node comes within `distance` (m) of a point, because its capsule does not.
     #[inline(always)]
-    pub fn is_farther_than(&self, point: [f64; 2], reach: f64) -> bool {
-        let axis_reach = reach + self.thickness;
-        self.hull_axis.squared_distance_to_point(point) > axis_reach * axis_reach
+    pub fn is_farther_than(&self, point: [f64; 2], distance: f64) -> bool {
+        let axis_distance = distance + self.capsule_radius;
+        self.capsule_axis.squared_distance_to_point(point) > axis_distance * axis_distance
     }
 
     /// Returns a lower bound (m) on the distance from a point to the walls of the node.
     #[inline(always)]
     pub fn lower_bound(&self, point: [f64; 2]) -> f64 {
-        (self.hull_axis.squared_distance_to_point(point).sqrt() - self.thickness).max(0.0)
+        (self.capsule_axis.squared_distance_to_point(point).sqrt() - self.capsule_radius).max(0.0)
     }
 }
 
-/// Moves the `count` walls with the smallest coordinates to the front, by Hoare's selection. The number of rounds is limited. Walls
-/// that would need more rounds are divided differently, and the tree is still correct.
+/// Moves the `count` walls with the smallest sort keys to the front, by Hoare's selection. The number of rounds is limited. Walls that
+/// would need more rounds are divided differently, and the tree is still correct.
 fn select_smallest(walls: &mut [Segment], count: usize, key_index: usize) {
     let (mut low, mut high) = (0, walls.len());
     for _ in 0..MAX_SELECTION_ROUNDS {
@@ -215,7 +218,7 @@ fn select_smallest(walls: &mut [Segment], count: usize, key_index: usize) {
                 break;
             }
         }
-        // Walls before `right` have coordinates up to that of the pivot, and those from `left` on at least that.
+        // Walls before `right` have keys up to the pivot key. Walls from `left` on have keys of at least the pivot key.
         if count < right {
             high = right;
         } else if count > left {
@@ -228,8 +231,8 @@ fn select_smallest(walls: &mut [Segment], count: usize, key_index: usize) {
 
 const MAX_SELECTION_ROUNDS: usize = 64;
 
-/// Returns the coordinates by which walls are divided: twice the midpoint, and the vector from the left end to the right one. They
-/// do not depend on the order of the ends.
+/// Returns the keys by which walls are divided: twice the midpoint, and the vector from the left end to the right end. The keys do not
+/// depend on the order of the ends.
 fn sort_keys(wall: &Segment) -> [f64; 4] {
     let Segment { from: [x0, y0], to: [x1, y1] } = *wall;
     let (x, y) = (x1 - x0, y1 - y0);

@@ -46,8 +46,8 @@ settings! {
 }
 
 impl Rules for Settings {
-    /// An arc to the left, its mirror images to the right and in reverse, and a straight drive. The pose after the command is off the
-    /// commanded arc, so that no residual is 0.
+    /// An arc to the left, its mirror images to the right and in reverse, and a straight drive. The final pose is off the commanded arc, so
+    /// that no residual is 0.
     const PRESETS: &'static [(&'static str, Self)] = &[
         ("left", Self::DEFAULT),
         ("right", preset([1.0, -0.5], [1.1, -0.5, -1.1])),
@@ -116,7 +116,7 @@ js_structs! {
         pub residual: f64,
         /// Standard deviation σ of the noise.
         pub deviation: f64,
-        /// Residual divided by σ. Without noise it is 0 if the residual is 0 up to rounding, and infinite otherwise.
+        /// Residual divided by σ. If σ is 0, it is 0 for a residual of 0 up to rounding, and infinite otherwise.
         pub deviations: f64,
         /// `prob` of the residual.
         pub value: f64,
@@ -156,7 +156,7 @@ js_structs! {
     pub struct Table as "AnatomyTable" {
         /// μ, x* (m), y* (m), r* (m), Δθ (rad), v̂ (m/s), ω̂ (rad/s), γ̂ (rad/s) and p.
         pub lines: [f64; 9],
-        /// Midpoint of both positions, m. The centre is the midpoint plus μ times `normal`.
+        /// Midpoint of the start and final positions, m. The centre is the midpoint plus μ times `normal`.
         pub middle: [f64; 2],
         /// Displacement rotated by a quarter turn to the left, m: (y − y′, x′ − x).
         pub normal: [f64; 2],
@@ -195,14 +195,14 @@ js_structs! {
     }
 }
 
-/// Simulation of the widget. Every result is computed from the settings when it is read.
+/// Simulation of the Arc Anatomy widget. Every method computes its result from the settings.
 #[derive(Clone, Debug)]
 pub struct ArcAnatomy {
     settings: Settings,
 }
 
 impl ArcAnatomy {
-    /// Creates a simulation with these settings.
+    /// Creates a simulation with `settings`.
     ///
     /// # Errors
     /// [`SettingsError`] for the first setting out of range.
@@ -216,8 +216,7 @@ impl ArcAnatomy {
         &self.settings
     }
 
-    /// Changes the settings.
-    /// Errors are those of [`ArcAnatomy::new`], and change nothing.
+    /// Changes the settings. Errors are those of [`ArcAnatomy::new`], and leave the settings unchanged.
     pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
         *self = Self::new(settings)?;
         Ok(())
@@ -231,13 +230,13 @@ impl ArcAnatomy {
         let factors = self.noise_residuals(&estimates).map(|residual| Factor::of(*noise, residual));
         let abs_deviation = |i: &usize| factors[*i].deviations.abs();
         let weakest = (0..3).rev().max_by(|a, b| abs_deviation(a).total_cmp(&abs_deviation(b))).unwrap_or(0);
-        let arc = |v: f64, omega: f64| {
+        let arc_of_speeds = |v: f64, omega: f64| {
             ArcWithCircle::of(&Arc { start, length: v * command.dt, turn: omega * command.dt })
         };
         Stats {
-            commanded: arc(command.v, command.omega),
-            inverted: arc(inverted.v_hat, inverted.omega_hat),
-            driven: arc(estimates.v_hat, estimates.omega_hat),
+            commanded: arc_of_speeds(command.v, command.omega),
+            inverted: arc_of_speeds(inverted.v_hat, inverted.omega_hat),
+            driven: arc_of_speeds(estimates.v_hat, estimates.omega_hat),
             last_turn: estimates.gamma_hat * command.dt,
             factors,
             weakest,
@@ -266,15 +265,15 @@ impl ArcAnatomy {
         ArcInversion { v_hat: v_hat.abs().copysign(omega_hat), ..inversion }
     }
 
-    /// Returns the estimate, the residual and the variance of each of the three noises.
+    /// Returns the estimate, the residual and the variance for v, ω and γ.
     fn noise_residuals(&self, estimates: &ArcInversion) -> [(f64, f64, Variance); 3] {
         let ArcInversion { v_hat, omega_hat, gamma_hat } = *estimates;
         let command = &self.settings.command;
-        let [v, omega, gamma] = self.settings.model().variances(command);
+        let [v_variance, omega_variance, gamma_variance] = self.settings.model().variances(command);
         [
-            (v_hat, command.v - v_hat, v),
-            (omega_hat, command.omega - omega_hat, omega),
-            (gamma_hat, gamma_hat, gamma),
+            (v_hat, command.v - v_hat, v_variance),
+            (omega_hat, command.omega - omega_hat, omega_variance),
+            (gamma_hat, gamma_hat, gamma_variance),
         ]
     }
 
@@ -307,7 +306,8 @@ impl ArcAnatomy {
         let (start, next) = (self.settings.start(), self.settings.next());
         let Stats { commanded, inverted, driven, .. } = self.stats();
         let xi = next.boxminus(&start);
-        let pose_on_twist_path = |i: usize, count: usize| start.boxplus(xi * (i as f64 / count as f64));
+        let pose_on_twist_path =
+            |i: usize, segment_count: usize| start.boxplus(xi * (i as f64 / segment_count as f64));
         let position_of = |pose: SE2| [pose.x(), pose.y()];
         let lateral_velocity_segment = |i: usize| {
             let pose = pose_on_twist_path(i, TWIST_PATH_TICKS);
@@ -338,9 +338,9 @@ impl ArcAnatomy {
         ]
     }
 
-    /// Returns the heat map over the rectangle from `min` to `max` (m, `min` below `max` in both coordinates); None if no heat
-    /// map is selected.
-    pub fn surface(&self, min: [f64; 2], max: [f64; 2]) -> Option<Surface> {
+    /// Returns the heat map over the rectangle from `min_corner` to `max_corner` (m, `min_corner` below `max_corner` in x and in y); None
+    /// if no heat map is selected.
+    pub fn surface(&self, min_corner: [f64; 2], max_corner: [f64; 2]) -> Option<Surface> {
         let Settings { command, map, next: [.., theta], .. } = self.settings;
         if map == SurfaceKind::Nothing {
             return None;
@@ -349,21 +349,21 @@ impl ArcAnatomy {
         let winding_count = f64::from(2 * model.max_windings(&command) + 1);
         let max_cells =
             MAX_EXPONENTIALS / (3.0 + 2.0 * winding_count + MAX_LAST_TURNS.min(winding_count + 2.0));
-        let [width, height] = [max[0] - min[0], max[1] - min[1]];
+        let [width, height] = [max_corner[0] - min_corner[0], max_corner[1] - min_corner[1]];
         let columns = (max_cells * width / height).sqrt().max(1.0).min(max_cells).floor();
         let rows = (max_cells / columns).max(1.0).floor();
         let cell_size = [width / columns, height / rows];
         let (columns, rows) = (columns as usize, rows as usize);
         let cell_centre = |[column, row]: [f64; 2]| {
-            [min[0] + (column + 0.5) * cell_size[0], max[1] - (row + 0.5) * cell_size[1]]
+            [min_corner[0] + (column + 0.5) * cell_size[0], max_corner[1] - (row + 0.5) * cell_size[1]]
         };
-        let evaluate_cells = |function: &dyn Fn([f64; 3]) -> f64| -> Vec<f64> {
-            let cell_value = |i: usize| {
+        let evaluate_cells = |score_at: &dyn Fn([f64; 3]) -> f64| -> Vec<f64> {
+            let cell_score = |i: usize| {
                 let [x, y] = cell_centre([(i % columns) as f64, (i / columns) as f64]);
                 // The density is infinite at the start pose.
-                function([x, y, theta]).min(f64::MAX)
+                score_at([x, y, theta]).min(f64::MAX)
             };
-            (0..columns * rows).map(cell_value).collect()
+            (0..columns * rows).map(cell_score).collect()
         };
         let prob_values =
             evaluate_cells(&|next| Self { settings: Settings { next, ..self.settings } }.prob());
@@ -372,8 +372,8 @@ impl ArcAnatomy {
         let shown_values = if map == SurfaceKind::Prob { &prob_values } else { &density_values };
         let maximum_of = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
         let shown_maximum = maximum_of(shown_values);
-        let shade_of = |value: &f64| {
-            if shown_maximum > 0.0 { (255.0 * (value / shown_maximum)).round() as u8 } else { 0 }
+        let shade_of = |cell_value: &f64| {
+            if shown_maximum > 0.0 { (255.0 * (cell_value / shown_maximum)).round() as u8 } else { 0 }
         };
         let contours_of = |values: &[f64]| {
             let max_value = maximum_of(values);

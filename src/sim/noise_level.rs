@@ -1,11 +1,11 @@
 //! Noise level: one number that sets several noise parameters.
 
-/// Returns the α's of a noise level n. Those of γ̂ are n/4, and all others n.
+/// Returns the α's of a noise level n: n for v̂ and ω̂, and n/4 for γ̂.
 pub const fn alphas_of_noise_level(n: f64) -> [f64; 6] {
     [n, n, n, n, 0.25 * n, 0.25 * n]
 }
 
-/// Access to α's as one noise level. α's have a level n only if they are equal to [`alphas_of_noise_level`] of n.
+/// Access to α's as one noise level. α's have a level n only if they equal `alphas_of_noise_level(n)`.
 pub struct NoiseLevel<'a>(pub &'a mut [f64]);
 
 impl NoiseLevel<'_> {

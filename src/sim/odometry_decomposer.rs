@@ -15,7 +15,7 @@ impl Keywords for OdometryRule {
         &[("thrun", Self::Table), ("nav2", Self::Nav2), ("beluga", Self::Beluga), ("omni", Self::Omni)];
 }
 
-/// Maximum number of outcomes. All of them move within a frame, and more dots would not be distinguishable.
+/// Maximum number of outcomes. This many outcomes move within a frame. More dots would not be distinguishable.
 pub const MAX_SAMPLES: u64 = 5000;
 
 settings! {
@@ -48,8 +48,7 @@ settings! {
 }
 
 impl Rules for Settings {
-    /// Readings with one, two or all three legs, and readings on which the rules disagree: a drive in reverse, and jitter of half a
-    /// centimetre.
+    /// Readings with one, two or three legs; a drive in reverse and jitter of half a centimetre, on which the rules disagree.
     const PRESETS: &'static [(&'static str, Self)] = &[
         ("all", drive_to([1.2, 1.0, 1.2])),
         // 0.6435 rad is the direction of (4, 3).
@@ -88,12 +87,12 @@ js_structs! {
         pub heading: f64,
     }
 
-    /// The odometry in the world, where its frame has drifted.
+    /// Odometry in the world, after the drift of the odometry frame.
     #[derive(Clone, Debug, PartialEq)]
     pub struct DriftedOdometry as "Drifted" {
-        /// Poses x, y (m), θ (rad) of the frame, and of the two odometry poses in the world, one after the other.
+        /// Poses x, y (m), θ (rad) in the world: the odometry frame, the start pose and the end pose.
         pub poses: Vec<[f64; 3]> as "Float64Array",
-        /// Legs that are computed from these poses.
+        /// Legs of the motion from the start pose to the end pose.
         pub legs: OdomDelta,
     }
 
@@ -189,9 +188,9 @@ impl OdometryDecomposer {
         let rho = self.settings.correlation;
         let (legs, variances) = (self.legs(), self.variances());
         (0..count).map(move |index| {
-            let [across, along, independent] = self.draws.noise_of_sample(index);
-            let turn_noise = rho * across + (1.0 - rho * rho).sqrt() * independent;
-            variances.executed_motion(&legs, [across, along, turn_noise])
+            let [rot1_noise, trans_noise, independent_noise] = self.draws.noise_of_sample(index);
+            let rot2_noise = rho * rot1_noise + (1.0 - rho * rho).sqrt() * independent_noise;
+            variances.executed_motion(&legs, [rot1_noise, trans_noise, rot2_noise])
         })
     }
 
@@ -206,7 +205,7 @@ impl OdometryDecomposer {
         ExecutedLegs { legs: self.legs(), strafe: 0.0 }.poses(&self.start_pose())
     }
 
-    /// Returns the leg_poses of the first outcomes shown, as [`OdometryDecomposer::leg_poses`].
+    /// Returns the poses of [`OdometryDecomposer::leg_poses`] for each of the first `count` outcomes shown.
     pub fn sample_leg_poses(&self, count: usize) -> Vec<[SE2; 4]> {
         let start_pose = self.start_pose();
         self.executed_motions(count.min(self.shown_count))
@@ -244,7 +243,7 @@ impl OdometryDecomposer {
         })
     }
 
-    /// Returns the spreads of the end position and of the turn: those of the outcomes shown, and the exact ones.
+    /// Returns the measured and exact spreads of the end position and of the turn.
     pub fn stats(&self) -> Stats {
         let Settings { noise, correlation, .. } = self.settings;
         let (legs, variances) = (self.legs(), self.variances());
@@ -270,14 +269,14 @@ impl OdometryDecomposer {
         }
     }
 
-    /// Returns `count` points for lengths of the drive from 0 to `max_length` (m), with both rotations as measured. Each has the length,
-    /// the standard deviation of the end position across the bearing, the contribution of the first rotation alone to it, and the
+    /// Returns `point_count` points for lengths of the drive from 0 to `max_length` (m), with the measured rotations. Each point has the
+    /// length, the standard deviation of the end position across the bearing, the part of it that is due to the first rotation, and the
     /// standard deviation of the length, all in m.
-    pub fn deviation_curve(&self, max_length: f64, count: usize) -> Vec<[f64; 4]> {
+    pub fn deviation_curve(&self, max_length: f64, point_count: usize) -> Vec<[f64; 4]> {
         let Settings { rule, alphas, noise, .. } = self.settings;
         let reading = self.reading();
-        let length_step = max_length / count.saturating_sub(1).max(1) as f64;
-        (0..count)
+        let length_step = max_length / point_count.saturating_sub(1).max(1) as f64;
+        (0..point_count)
             .map(|i| {
                 let drive_length = length_step * i as f64;
                 let variances = rule.variances(&OdomDelta { trans: drive_length, ..reading }, &alphas);
@@ -287,12 +286,13 @@ impl OdometryDecomposer {
             .collect()
     }
 
-    /// Returns the odometry poses in the world. Their frame has moved by exp(t·d) in the drift time t.
+    /// Returns the odometry poses in the world. The odometry frame has moved by exp(t·d) in the drift time t.
     pub fn drifted_odometry(&self) -> DriftedOdometry {
         let drifted_frame = SE2::exp(&(Vector3::from(DRIFT_TWIST) * self.settings.drift));
-        let (from, to) = (drifted_frame * self.start_pose(), drifted_frame * SE2::from(self.settings.to));
-        let legs = self.settings.rule.legs(&OdomDelta::from_poses(&from, &to));
-        DriftedOdometry { poses: [drifted_frame, from, to].map(Into::into).to_vec(), legs }
+        let (drifted_start, drifted_end) =
+            (drifted_frame * self.start_pose(), drifted_frame * SE2::from(self.settings.to));
+        let legs = self.settings.rule.legs(&OdomDelta::from_poses(&drifted_start, &drifted_end));
+        DriftedOdometry { poses: [drifted_frame, drifted_start, drifted_end].map(Into::into).to_vec(), legs }
     }
 
     /// Returns the outcome shown that ends nearest to a point (m), within `radius`.
@@ -303,12 +303,12 @@ impl OdometryDecomposer {
 
 /// Returns the root mean square of values with mean 0, and its standard error by the delta method: √((m₄ −
 /// m₂²)/n)/(2√m₂).
-fn rms_with_error(values: impl Iterator<Item = f64>, count: usize) -> [f64; 2] {
+fn rms_with_error(offsets: impl Iterator<Item = f64>, count: usize) -> [f64; 2] {
     if count == 0 {
         return [f64::NAN; 2];
     }
     let (mut m2, mut m4) = (0.0, 0.0);
-    for square in values.map(|value| value * value) {
+    for square in offsets.map(|offset| offset * offset) {
         m2 += square / count as f64;
         m4 += square * square / count as f64;
     }

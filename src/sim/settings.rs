@@ -42,8 +42,8 @@ impl SettingsError {
         Self { field: "samples".to_owned(), value: samples as f64, allowed: AllowedValues::FitsInMemory }
     }
 
-    /// Returns the message, with numbers as `format_number` prints them. In WebAssembly JavaScript prints them, because Rust's code
-    /// for printing floats would take an eighth of the module.
+    /// Returns the message. `format_number` formats its numbers. In WebAssembly JavaScript formats numbers, because Rust's code for
+    /// printing floats would take an eighth of the module.
     pub fn message(&self, format_number: impl Fn(f64) -> String) -> String {
         let allowed_text = match &self.allowed {
             AllowedValues::Keyword { given, allowed } => {
@@ -61,12 +61,12 @@ impl SettingsError {
     }
 }
 
-fn format_number(value: f64) -> String {
-    if value.is_infinite() {
-        return if value > 0.0 { "Infinity" } else { "-Infinity" }.to_owned();
+fn format_number(number: f64) -> String {
+    if number.is_infinite() {
+        return if number > 0.0 { "Infinity" } else { "-Infinity" }.to_owned();
     }
-    let is_plain = value.abs() >= 1e-6 && value.abs() < 1e21;
-    if is_plain || value == 0.0 || value.is_nan() { format!("{value}") } else { format!("{value:e}") }
+    let is_plain = number.abs() >= 1e-6 && number.abs() < 1e21;
+    if is_plain || number == 0.0 || number.is_nan() { format!("{number}") } else { format!("{number:e}") }
 }
 
 pub(crate) fn check_real(
@@ -80,7 +80,7 @@ pub(crate) fn check_real(
     Err(SettingsError { field: field.to_owned(), value, allowed: AllowedValues::Real(allowed.clone()) })
 }
 
-/// Returns a double as an integer, if it is an integer in a range. The ends of the range must be exact as doubles.
+/// Converts a double to an integer in the `allowed` range. The ends of the range must be exact as doubles.
 pub(crate) fn check_integer(
     field: &str,
     value: f64,
@@ -93,12 +93,12 @@ pub(crate) fn check_integer(
     Err(SettingsError { field: field.to_owned(), value, allowed: AllowedValues::Integer(allowed.clone()) })
 }
 
-/// Range of positions (m), angles (rad) and speeds (m/s, rad/s). It is far larger than any robot needs, and small enough that
-/// products of its squares are finite.
+/// Range of positions (m), angles (rad) and speeds (m/s, rad/s). The range is far larger than any robot needs. Products of squares of its
+/// numbers are finite.
 pub const QUANTITY_RANGE: RangeInclusive<f64> = -1e6..=1e6;
 /// Range of the noise parameters α, chosen as [`QUANTITY_RANGE`].
 pub const ALPHA_RANGE: RangeInclusive<f64> = 0.0..=1e6;
-/// Range of durations. With shorter ones v̂ = length/Δt would lose the digits that distinguish samples.
+/// Range of durations. With shorter durations v̂ = length/Δt would lose the digits that distinguish samples.
 pub const DURATION_RANGE: RangeInclusive<f64> = 1e-6..=1e6;
 /// Largest integer up to which JavaScript's numbers are exact.
 pub const MAX_SEED: u64 = (1 << 53) - 1;
@@ -110,7 +110,7 @@ pub struct Declaration {
     pub key: &'static str,
     /// Key of the setting that this setting sets in another form: `alphas` for a noise level.
     pub of: Option<&'static str>,
-    // Modules for pages omit the documentation, because no page shows it, and it would make them larger.
+    // WebAssembly modules omit the descriptions, which no page shows.
     /// Description of the setting.
     #[cfg(not(target_arch = "wasm32"))]
     pub sentence: &'static str,
@@ -122,7 +122,7 @@ pub struct Declaration {
     pub each: &'static str,
 }
 
-/// Reference to the value of a setting, with its allowed values.
+/// Reference to the value of a setting, with the range of its numbers.
 pub enum Setting<'a> {
     /// Number.
     Number(&'a mut f64, RangeInclusive<f64>),
@@ -188,7 +188,7 @@ impl Serialize for Setting<'_> {
     }
 }
 
-/// Serializes settings as an object, without those that are alternative forms of others.
+/// Serializes settings as an object, without settings that are alternative forms of others.
 pub(crate) fn serialize_settings<S: DeclaredSettings, Z: Serializer>(
     mut settings: S,
     serializer: Z,
@@ -363,13 +363,13 @@ pub trait DeclaredSettings: Copy + Default + Serialize {
         &mut self,
         mut visit: impl FnMut(&'static Declaration, Setting) -> Result<(), E>,
     ) -> Result<(), E> {
-        let mut result = Ok(());
+        let mut visit_result = Ok(());
         self.visit_settings(&mut |declaration, setting| {
-            if result.is_ok() {
-                result = visit(declaration, setting);
+            if visit_result.is_ok() {
+                visit_result = visit(declaration, setting);
             }
         });
-        result
+        visit_result
     }
 }
 
@@ -378,7 +378,7 @@ pub trait Rules: DeclaredSettings + 'static {
     /// Presets, each with its name in attributes and states.
     const PRESETS: &'static [(&'static str, Self)] = &[];
 
-    /// Adjusts other settings to those with the changed keys.
+    /// Adjusts settings to the settings with the changed keys.
     fn adjust(&mut self, _previous: &Self, _changed_keys: &[&str]) {}
 
     /// Checks combinations of settings, each of which is in its range.

@@ -1,4 +1,4 @@
-//! 2σ contours of two Gaussians: one in the plane, and one in exponential coordinates, mapped to the plane by exp.
+//! 2σ contours of Gaussians in the plane and in exponential coordinates, which exp maps to the plane.
 
 use super::cross_track::MIN_RELATIVE_STD;
 use super::moments::{CartesianMoments, ExponentialMoments};
@@ -13,8 +13,8 @@ use wide::f64x4;
 /// Mahalanobis distance of the contours. A Gaussian in the plane has 1 − exp(−2²/2) = 86.5 % of its mass inside.
 const CONTOUR_SIGMAS: f64 = 2.0;
 
-/// Value of 1 − ρ², with the correlation ρ, up to which an ellipse counts as a line, because it may only be rounding. A larger bound
-/// would take narrow ellipses for lines. A smaller one would divide by rounding errors.
+/// Maximum 1 − ρ², with the correlation ρ, of an ellipse that counts as a line, because its width may be a rounding error. With a larger
+/// bound narrow ellipses would count as lines. With a smaller bound divisors could be rounding errors.
 const MIN_UNCORRELATED_FRACTION: f64 = 1e-12;
 
 /// The 2σ ellipse of a Gaussian in two coordinates.
@@ -69,13 +69,13 @@ impl Ellipse {
     /// Returns the closed outline as `segment_count` chords: `segment_count` + 1 points, the last equal to the first.
     pub fn boundary(&self, segment_count: usize) -> Vec<[f64; 2]> {
         unit_circle_points(segment_count)
-            .map(|direction| (self.centre + self.cov_root * direction * CONTOUR_SIGMAS).into())
+            .map(|circle_point| (self.centre + self.cov_root * circle_point * CONTOUR_SIGMAS).into())
             .collect()
     }
 
     /// Returns the Mahalanobis distance of a point from the centre, in standard deviations.
-    pub fn mahalanobis_distance(&self, [first, second]: [f64; 2]) -> f64 {
-        (self.whitening_matrix * (Vector2::new(first, second) - self.centre)).norm()
+    pub fn mahalanobis_distance(&self, [x, y]: [f64; 2]) -> f64 {
+        (self.whitening_matrix * (Vector2::new(x, y) - self.centre)).norm()
     }
 
     /// Returns the point at a fraction of the line from the centre (0) to a point (1).
@@ -85,28 +85,28 @@ impl Ellipse {
 
     /// Returns true if a point lies inside.
     pub fn contains(&self, point: [f64; 2]) -> bool {
-        let [first, second] = point.map(f64x4::splat);
-        self.contains_four(first, second).any()
+        let [x, y] = point.map(f64x4::splat);
+        self.contains_four(x, y).any()
     }
 
     /// Returns [`Ellipse::contains`] for four points, as masks.
     #[inline(always)]
-    pub(super) fn contains_four(&self, first: f64x4, second: f64x4) -> f64x4 {
+    pub(super) fn contains_four(&self, x: f64x4, y: f64x4) -> f64x4 {
         if !self.has_area() {
             return f64x4::splat(0.0);
         }
-        let (first, second) = (first - self.centre.x, second - self.centre.y);
-        let z = first * self.whitening_matrix[(0, 0)];
-        let w = first * self.whitening_matrix[(1, 0)] + second * self.whitening_matrix[(1, 1)];
+        let (x, y) = (x - self.centre.x, y - self.centre.y);
+        let z = x * self.whitening_matrix[(0, 0)];
+        let w = x * self.whitening_matrix[(1, 0)] + y * self.whitening_matrix[(1, 1)];
         (z * z + w * w).simd_le(f64x4::splat(CONTOUR_SIGMAS * CONTOUR_SIGMAS))
     }
 }
 
 /// The 2σ contour of a Gaussian N(m, Σ) in exponential coordinates.
 ///
-/// Poses are counted inside the 2σ ellipse of the coordinates (along, heading). The outline in the plane approximates the
-/// boundary of the image of the 2σ ellipsoid under exp. It is the image of a great circle of the ellipsoid. Without γ̂ the
-/// ellipsoid is flat, and that circle is its edge.
+/// Poses are counted inside the 2σ ellipse of the coordinates (along, heading). The outline in the plane approximates the boundary of the
+/// image of the 2σ ellipsoid under exp. The outline is the image of a great circle of the ellipsoid. Without γ̂ the ellipsoid is flat, and
+/// the circle is its edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExponentialContour {
     start: SE2,
@@ -118,8 +118,8 @@ pub struct ExponentialContour {
 }
 
 impl ExponentialContour {
-    /// Creates the contour of `moments`, which are of exponential coordinates about `start`. Its points are in the frame in which
-    /// `start` is given.
+    /// Creates the contour for `moments` of exponential coordinates about `start`. The points of the outline are in the frame of `start`
+    /// itself.
     pub fn new(moments: &ExponentialMoments, start: &SE2) -> Self {
         let ExponentialMoments { mean, cov } = *moments;
         let along_heading = Matrix2::new(cov[(0, 0)], cov[(0, 2)], cov[(2, 0)], cov[(2, 2)]);
@@ -137,28 +137,28 @@ impl ExponentialContour {
         self.outline(segment_count).map(|(_, point)| point).collect()
     }
 
-    /// Returns the closed outline at a morph, in the frame of the start. At 0 it is [`ExponentialContour::boundary`], and at 1 the
-    /// boundary of `ellipse`.
+    /// Returns the closed outline at a morph, in the frame of the start. At morph 0 the outline is [`ExponentialContour::boundary`], and at
+    /// morph 1 the boundary of `ellipse`.
     pub fn morphed_boundary(&self, segment_count: usize, morph: f64) -> Vec<[f64; 2]> {
         self.silhouette_twists(segment_count, morph).map(|twist| unbend(&twist, morph)).collect()
     }
 
-    /// Returns the area of an `ellipse` in the plane divided by that of this outline, both drawn as `segment_count` chords. NaN if
-    /// the ellipse, or the contour in (along, heading), has no area.
+    /// Returns the area of `ellipse` in the plane divided by the area of this outline. Each boundary consists of `segment_count` chords.
+    /// NaN if the ellipse, or the contour in (along, heading), has no area.
     ///
-    /// Motions in reverse make the outline cross itself. Its area is then the sum of both loops.
+    /// Motions in reverse make the outline cross itself. The area is then the sum of the areas of the loops.
     #[inline(never)]
     pub fn area_ratio(&self, ellipse: &Ellipse, segment_count: usize) -> f64 {
         if !ellipse.has_area() || !self.ellipse.has_area() {
             return f64::NAN;
         }
-        // The sum of twice the areas of the triangles from the start to each chord. Motions in reverse have the other sign.
+        // Sums twice the signed areas of the triangles from the start to each chord. The sign is reversed for motions in reverse.
         let (mut doubled_area, mut previous_point) = (0.0, [0.0; 2]);
         for (i, (along, [x, y])) in self.outline(segment_count).enumerate() {
             let [x, y] = [x - self.start.x(), y - self.start.y()];
             if i > 0 {
-                let doubled_triangle = previous_point[0] * y - previous_point[1] * x;
-                doubled_area += if along < 0.0 { -doubled_triangle } else { doubled_triangle };
+                let doubled_triangle_area = previous_point[0] * y - previous_point[1] * x;
+                doubled_area += if along < 0.0 { -doubled_triangle_area } else { doubled_triangle_area };
             }
             previous_point = [x, y];
         }
@@ -185,8 +185,8 @@ impl ExponentialContour {
         // of the ellipsoid on the plane.
         let mut null_direction_scatter = Matrix3::zeros();
         for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
-            for end in [axis, -axis] {
-                let jacobian = unbend_jacobian(&twist_at(&end), morph) * self.cov_root;
+            for axis_end in [axis, -axis] {
+                let jacobian = unbend_jacobian(&twist_at(&axis_end), morph) * self.cov_root;
                 let null_direction = jacobian.row(0).transpose().cross(&jacobian.row(1).transpose());
                 null_direction_scatter += null_direction * null_direction.transpose();
             }

@@ -10,8 +10,8 @@ use std::ops::Mul;
 /// heading h: d = −(x − x̄)·sin h + (y − ȳ)·cos h. All values are NaN if the residuals are all equal, or for fewer than three
 /// poses. The skew of small samples is biased towards 0: of ten poses by about half.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CrossTrack {
-    /// Skewness m₃/m₂^1.5, with central moments over n. It is 0 for every Gaussian in (x, y).
+pub struct CrossTrackStats {
+    /// Skewness m₃/m₂^1.5, with central moments over n; 0 for every Gaussian in (x, y).
     pub skew: f64,
     /// Standard error of `skew` by the delta method, from the moments of the sample up to the sixth. It includes the
     /// uncertainty of the mean heading.
@@ -20,18 +20,18 @@ pub struct CrossTrack {
     pub rho_heading: f64,
 }
 
-/// Standard deviation, relative to the extent and distance of the cloud, below which it counts as 0. Rounding is about 1e-16
-/// per step. A larger bound would take narrow clouds for lines.
+/// Standard deviation, relative to the extent and distance of the cloud, below which it counts as 0. Rounding is about 1e-16 per step. With
+/// a larger bound narrow clouds would count as lines.
 pub(super) const MIN_RELATIVE_STD: f64 = 1e-12;
 
 /// Variance (m²) below which a standard deviation also counts as 0. The sixth power of 10⁻⁵⁰ m nearly underflows, so that the
 /// standard error would be 0.
 const MIN_VARIANCE: f64 = 1e-100;
 
-impl CrossTrack {
+impl CrossTrackStats {
     const UNDEFINED: Self = Self { skew: f64::NAN, skew_error: f64::NAN, rho_heading: f64::NAN };
 
-    /// Returns the statistics of `poses`. The origin of their frame must be near them or among them.
+    /// Returns the statistics of `poses`. The origin must be near the poses.
     pub fn from_poses(poses: &[SE2]) -> Self {
         let CartesianMoments { mean, .. } = CartesianMoments::from_poses(poses);
         let (sin, cos) = libm::sincos(mean.z);
@@ -39,21 +39,21 @@ impl CrossTrack {
         for pose in poses {
             let (dx, dy, t) = (pose.x() - mean.x, pose.y() - mean.y, wrap_angle(pose.theta() - mean.z));
             let (s, c) = libm::sincos(t);
-            let [products @ .., squared_distance, resultant] = &mut term_sums;
+            let [products @ .., squared_distance, resultant_length] = &mut term_sums;
             let terms = track_products(dx * cos + dy * sin, dy * cos - dx * sin, s, t);
             products.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
             *squared_distance += dx * dx + dy * dy;
-            *resultant += c;
+            *resultant_length += c;
         }
-        let [products @ .., squared_spread, resultant] = term_sums.map(|sum| sum / poses.len() as f64);
+        let [products @ .., squared_spread, resultant_length] = term_sums.map(|sum| sum / poses.len() as f64);
         let squared_extent = squared_spread + mean.xy().norm_squared();
-        Self::from_moments(poses.len(), &TrackMoments { products, squared_extent, resultant })
+        Self::from_moments(poses.len(), &TrackMoments { products, squared_extent, resultant_length })
     }
 
-    pub(super) fn from_moments(count: usize, moments: &TrackMoments) -> Self {
-        let TrackMoments { products, squared_extent, resultant } = *moments;
+    pub(super) fn from_moments(pose_count: usize, moments: &TrackMoments) -> Self {
+        let TrackMoments { products, squared_extent, resultant_length } = *moments;
         let [ad, ad2, m2, m3, d4, d5, d6, ss, sd, sd2, sd3, t, tt, td] = products;
-        if count < 3 || m2 <= (MIN_RELATIVE_STD * MIN_RELATIVE_STD * squared_extent).max(MIN_VARIANCE) {
+        if pose_count < 3 || m2 <= (MIN_RELATIVE_STD * MIN_RELATIVE_STD * squared_extent).max(MIN_VARIANCE) {
             return Self::UNDEFINED;
         }
         // Means of dᵏ for k = 0 … 6, and of sin(t)·dᵏ for k = 0 … 3. The means of d and of sin(t) are 0.
@@ -61,9 +61,9 @@ impl CrossTrack {
         let sd = m2.sqrt();
         let skew = m3 / (m2 * sd);
         // Rotating the axis by dh changes d by −along·dh. The influence of a pose on the mean heading is sin(turn)/resultant.
-        let heading_influence = 3.0 * (skew * ad / m2 - ad2 / (m2 * sd)) / resultant;
-        // The influence of a pose on the skew is z³ − skew − 3z − 1.5·skew·(z² − 1) + heading_influence·sin(turn), with z = d/sd. It
-        // is a polynomial in d, so that its mean square is a sum of moments.
+        let heading_influence = 3.0 * (skew * ad / m2 - ad2 / (m2 * sd)) / resultant_length;
+        // The influence of a pose on the skew is z³ − skew − 3z − 1.5·skew·(z² − 1) + heading_influence·sin(turn), with z = d/sd. The
+        // influence is a polynomial in d, so that its mean square is a sum of moments.
         let influence_polynomial = [0.5 * skew, -3.0 / sd, -1.5 * skew / m2, 1.0 / (m2 * sd)];
         let mut mean_squared_influence = heading_influence * heading_influence * ss;
         for (i, a) in influence_polynomial.iter().enumerate() {
@@ -78,7 +78,7 @@ impl CrossTrack {
         } else {
             f64::NAN
         };
-        Self { skew, skew_error: (mean_squared_influence.max(0.0) / count as f64).sqrt(), rho_heading }
+        Self { skew, skew_error: (mean_squared_influence.max(0.0) / pose_count as f64).sqrt(), rho_heading }
     }
 }
 
@@ -90,7 +90,7 @@ pub(super) struct TrackMoments {
     /// Mean of the squared distance from the origin.
     pub squared_extent: f64,
     /// Mean of cos t.
-    pub resultant: f64,
+    pub resultant_length: f64,
 }
 
 /// Returns the products ad, ad², d², …, d⁶, s², sd, sd², sd³, t, t² and td, with s = sin t.
@@ -101,7 +101,7 @@ pub(super) fn track_products<T: Copy + Mul<Output = T>>(a: T, d: T, s: T, t: T) 
     [a * d, a * d2, d2, d3, d2 * d2, d2 * d3, d3 * d3, s * s, s * d, s * d2, s * d3, t, t * t, t * d]
 }
 
-/// Returns [`CrossTrack::skew`] of `poses`.
+/// Returns [`CrossTrackStats::skew`] of `poses`.
 pub fn cross_track_skew(poses: &[SE2]) -> f64 {
-    CrossTrack::from_poses(poses).skew
+    CrossTrackStats::from_poses(poses).skew
 }

@@ -21,19 +21,19 @@ pub struct ExactMoments {
     pub cross_track_skew: f64,
 }
 
-/// Motion of length 1 under one noise that turns the robot: a node of the quadrature. A motion of length L ends at L·`end`.
+/// Motion of length 1 for one value of the noise that turns the robot: a node of the quadrature. A motion of length L ends at L·`unit_end`.
 struct UnitMotion {
     weight: f64,
-    end: [f64; 2],
+    unit_end: [f64; 2],
     /// Turn at this noise minus the mean turn, rad.
     excess_turn: f64,
 }
 
-/// Weighted sums over motions of `end`, called u, and of `excess_turn`. The weights may sum to less than 1.
+/// Weighted sums over motions of `unit_end`, called u, and of `excess_turn`. The weights may sum to less than 1.
 #[derive(Default)]
 pub(super) struct UnitMotionMoments {
-    /// First value of u. Sums contain differences from it, so that few digits are lost if u varies little.
-    reference: Option<[f64; 2]>,
+    /// First value of u. Sums contain differences from this value, so that few digits are lost if u varies little.
+    first_end: Option<[f64; 2]>,
     pub weight_sum: f64,
     weighted_sum: Vector3<f64>,
     square_sum: Matrix3<f64>,
@@ -41,26 +41,26 @@ pub(super) struct UnitMotionMoments {
 
 impl UnitMotionMoments {
     #[inline(never)]
-    pub fn add(&mut self, weight: f64, end: [f64; 2], excess_turn: f64) {
-        let [x, y] = *self.reference.get_or_insert(end);
-        let offset = Vector3::new(end[0] - x, end[1] - y, excess_turn);
+    pub fn add(&mut self, weight: f64, unit_end: [f64; 2], excess_turn: f64) {
+        let [x, y] = *self.first_end.get_or_insert(unit_end);
+        let offset = Vector3::new(unit_end[0] - x, unit_end[1] - y, excess_turn);
         self.weight_sum += weight;
         self.weighted_sum += offset * weight;
         // Multiplying by the weight last makes the matrix symmetric to the last bit.
         self.square_sum += offset * offset.transpose() * weight;
     }
 
-    /// Returns the mean and covariance of L·u and the turn, with L independent of them. L has this mean and standard deviation.
+    /// Returns the mean and covariance of L·u and the turn, for an independent L with the given mean and standard deviation.
     #[inline(never)]
-    pub fn mean_and_cov(&self, [length, length_std]: [f64; 2]) -> (Vector3<f64>, Matrix3<f64>) {
+    pub fn mean_and_cov(&self, [mean_length, length_std]: [f64; 2]) -> (Vector3<f64>, Matrix3<f64>) {
         let mean = self.weighted_sum / self.weight_sum;
         let mut unit_end_cov = self.square_sum / self.weight_sum - mean * mean.transpose();
         for i in 0..3 {
             unit_end_cov[(i, i)] = non_negative(unit_end_cov[(i, i)]);
         }
-        let [x, y] = self.reference.unwrap_or_default();
+        let [x, y] = self.first_end.unwrap_or_default();
         let mean_unit_end = [mean.x + x, mean.y + y, 0.0];
-        let length_factors = [length, length, 1.0];
+        let length_factors = [mean_length, mean_length, 1.0];
         let cov = Matrix3::from_fn(|i, j| {
             // The spread of the length moves the position along u.
             let second_moment =
@@ -68,7 +68,7 @@ impl UnitMotionMoments {
             unit_end_cov[(i, j)] * length_factors[i] * length_factors[j]
                 + second_moment * length_std * length_std
         });
-        (Vector3::new(length * mean_unit_end[0], length * mean_unit_end[1], mean.z), cov)
+        (Vector3::new(mean_length * mean_unit_end[0], mean_length * mean_unit_end[1], mean.z), cov)
     }
 }
 
@@ -79,8 +79,8 @@ impl ExactMoments {
         let [v_variance, omega_variance, gamma_variance] = model.variances(u).map(|variance| variance.0);
         let motions = nodes(model.noise).iter().map(|node| {
             let excess_turn = omega_variance.sqrt() * u.dt * node.value;
-            let end = chord_factors(u.omega * u.dt + excess_turn).into();
-            UnitMotion { weight: node.weight, end, excess_turn }
+            let unit_end = chord_factors(u.omega * u.dt + excess_turn).into();
+            UnitMotion { weight: node.weight, unit_end, excess_turn }
         });
         let (motions, dt2) = (motions.collect::<Vec<_>>(), u.dt * u.dt);
         Self::combine_motions(&motions, u.v * u.dt, dt2 * v_variance, u.omega * u.dt, dt2 * gamma_variance)
@@ -93,7 +93,7 @@ impl ExactMoments {
         let motions = nodes(model.noise()).iter().map(|node| {
             let excess_turn = rot1_variance.sqrt() * node.value;
             let (sin, cos) = libm::sincos(u.rot1 + excess_turn);
-            UnitMotion { weight: node.weight, end: [cos, sin], excess_turn }
+            UnitMotion { weight: node.weight, unit_end: [cos, sin], excess_turn }
         });
         Self::combine_motions(
             &motions.collect::<Vec<_>>(),
@@ -104,40 +104,40 @@ impl ExactMoments {
         )
     }
 
-    /// Combines the motions with the mean and variance of the length, and with the mean `turn` (rad). `last_turn_variance` is added
+    /// Combines the motions with the mean and variance of the length, and with the mean `mean_turn` (rad). `last_turn_variance` is added
     /// to the heading variance.
     #[inline(never)]
     fn combine_motions(
         motions: &[UnitMotion],
-        length: f64,
+        mean_length: f64,
         length_variance: f64,
-        turn: f64,
+        mean_turn: f64,
         last_turn_variance: f64,
     ) -> Self {
         let mut moments = UnitMotionMoments::default();
-        motions.iter().for_each(|motion| moments.add(motion.weight, motion.end, motion.excess_turn));
-        let (mean, mut cov) = moments.mean_and_cov([length, length_variance.sqrt()]);
+        motions.iter().for_each(|motion| moments.add(motion.weight, motion.unit_end, motion.excess_turn));
+        let (mean, mut cov) = moments.mean_and_cov([mean_length, length_variance.sqrt()]);
         cov[(2, 2)] += last_turn_variance;
-        let (sin, cos) = libm::sincos(turn);
-        let lateral_components = motions.iter().map(|UnitMotion { weight, end, .. }| {
-            let lateral_direction = end[1] * cos - end[0] * sin;
+        let (sin, cos) = libm::sincos(mean_turn);
+        let lateral_components = motions.iter().map(|UnitMotion { weight, unit_end: end, .. }| {
+            let lateral_unit_end = end[1] * cos - end[0] * sin;
             let (mean, variance) =
-                (length * lateral_direction, length_variance * lateral_direction * lateral_direction);
-            Component { weight: *weight, mean, variance }
+                (mean_length * lateral_unit_end, length_variance * lateral_unit_end * lateral_unit_end);
+            MixtureComponent { weight: *weight, mean, variance }
         });
         Self {
-            mean: Vector3::new(mean.x, mean.y, wrap_angle(turn)),
+            mean: Vector3::new(mean.x, mean.y, wrap_angle(mean_turn)),
             cov,
-            cross_track_skew: mixture_skew(lateral_components, length * length + length_variance),
+            cross_track_skew: mixture_skew(lateral_components, mean_length * mean_length + length_variance),
         }
     }
 }
 
-/// Returns the cross-track skew of exp(ξ) for ξ ~ N(`mean`, `cov`), with ξ in the order along, lateral, heading (m, m, rad).
-/// NaN if there is no spread across the track.
+/// Returns the cross-track skew of exp(ξ) for ξ ~ N(`mean`, `cov`), with ξ in the order along, lateral, heading (m, m, rad). NaN if there
+/// is no spread across the track.
 ///
-/// The quadrature is over the heading. Given the heading, the position is linear in the other two coordinates. `cov` is a
-/// positive semidefinite 3 × 3 matrix.
+/// The quadrature is over the heading. Given the heading, the position is linear in along and lateral. `cov` is a positive semidefinite 3 ×
+/// 3 matrix.
 pub fn predicted_cross_track_skew(mean: &Vector3<f64>, cov: &Matrix3<f64>) -> f64 {
     let heading_variance = cov[(2, 2)];
     let regression_coefficients = if heading_variance > 0.0 {
@@ -153,7 +153,7 @@ pub fn predicted_cross_track_skew(mean: &Vector3<f64>, cov: &Matrix3<f64>) -> f6
         let (a, b) = chord_factors(mean.z + excess_turn);
         // The lateral component of V(ω)·ξ, as a row over (along, lateral).
         let lateral_row = nalgebra::RowVector2::new(b * cos - a * sin, a * cos + b * sin);
-        Component {
+        MixtureComponent {
             weight: node.weight,
             mean: (lateral_row * (mean.xy() + regression_coefficients * excess_turn)).x,
             variance: (lateral_row * residual_cov * lateral_row.transpose()).x.max(0.0),
@@ -163,7 +163,7 @@ pub fn predicted_cross_track_skew(mean: &Vector3<f64>, cov: &Matrix3<f64>) -> f6
 }
 
 /// Part of a mixture of symmetric distributions.
-struct Component {
+struct MixtureComponent {
     weight: f64,
     mean: f64,
     variance: f64,
@@ -171,13 +171,13 @@ struct Component {
 
 /// Returns the third standardized moment of the mixture; NaN if its spread is only rounding relative to
 /// `squared_extent`.
-fn mixture_skew(components: impl Iterator<Item = Component> + Clone, squared_extent: f64) -> f64 {
+fn mixture_skew(components: impl Iterator<Item = MixtureComponent> + Clone, squared_extent: f64) -> f64 {
     let mixture_mean: f64 = components.clone().map(|component| component.weight * component.mean).sum();
     let (mut m2, mut m3) = (0.0, 0.0);
-    for Component { weight, mean, variance } in components {
-        let component_offset = mean - mixture_mean;
-        m2 += weight * (component_offset * component_offset + variance);
-        m3 += weight * component_offset * (component_offset * component_offset + 3.0 * variance);
+    for MixtureComponent { weight, mean, variance } in components {
+        let mean_offset = mean - mixture_mean;
+        m2 += weight * (mean_offset * mean_offset + variance);
+        m3 += weight * mean_offset * (mean_offset * mean_offset + 3.0 * variance);
     }
     if m2 > MIN_RELATIVE_STD * MIN_RELATIVE_STD * squared_extent { m3 / (m2 * m2.sqrt()) } else { f64::NAN }
 }

@@ -28,8 +28,8 @@ pub struct ExactGain {
     pub exponential: ExponentialMoments,
 }
 
-/// Limit of the integral over a normal turn, in standard deviations. The largest of ten million samples is at 5.3. A
-/// smaller limit would change the fourth digit. A larger one would reach a full circle for commands whose clouds do not.
+/// Limit of the integral over a normal turn, in standard deviations. The largest of ten million samples is at 5.3. A smaller limit would
+/// change the fourth digit. A larger limit would reach a full circle for commands whose clouds do not.
 const MAX_SIGMAS: f64 = 6.0;
 
 /// Breaks of a function that is smooth everywhere, see [`piecewise_nodes`].
@@ -38,7 +38,7 @@ const NO_BREAKS: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 /// Motion of either model: a length in the direction of a bearing, and a turn.
 struct PolarMotion {
     noise: NoiseKind,
-    /// True if the length is that of an arc, whose chord at the bearing φ/2 is shorter by the factor sinc(φ/2).
+    /// True if `length` is an arc length. The chord of an arc at the bearing φ/2 is shorter by the factor sinc(φ/2).
     is_arc: bool,
     /// Mean and standard deviation, m.
     length: [f64; 2],
@@ -65,16 +65,16 @@ impl ExactGain {
 
     /// Returns the gain of the odometry model. The reading `u` comes from a command that turns by `turn` (rad).
     pub fn of_odometry(model: &impl RotTransRot, u: &OdomDelta, turn: f64) -> Self {
-        let [rot1, trans, rot2] = model.variances(u).map(|variance| variance.0.sqrt());
+        let [rot1_std, trans_std, rot2_std] = model.variances(u).map(|variance| variance.0.sqrt());
         // The length in a reading is never negative. After a drive in reverse, its first rotation therefore differs by half a circle.
         let half_circles = ((u.rot1 - 0.5 * turn) / PI).round();
         let drive_sign = if libm::remainder(half_circles, 2.0) == 0.0 { 1.0 } else { -1.0 };
         let motion = PolarMotion {
             noise: model.noise(),
             is_arc: false,
-            length: [drive_sign * u.trans, trans],
-            bearing: [u.rot1 - half_circles * PI, rot1],
-            turn: [turn + wrap_angle(u.rot1 + u.rot2 - turn), rot1, rot2],
+            length: [drive_sign * u.trans, trans_std],
+            bearing: [u.rot1 - half_circles * PI, rot1_std],
+            turn: [turn + wrap_angle(u.rot1 + u.rot2 - turn), rot1_std, rot2_std],
         };
         motion.gain(&ExactMoments::of_odometry(model, u))
     }
@@ -88,7 +88,8 @@ impl PolarMotion {
         let mean_log_jacobians = [twist_log_jacobian, mean_log_length + arc_log_jacobian - LN_2];
         let gaussians = ChartGaussians::new((cartesian.mean, cartesian.cov), twist, arc, mean_log_jacobians);
         let [turn, bearing_turn_std, last_turn_std] = self.turn;
-        let one_if_defined = |turn: f64, reach: f64| if turn.abs() + reach < TAU { 1.0 } else { f64::NAN };
+        let one_if_defined =
+            |turn: f64, max_excess_turn: f64| if turn.abs() + max_excess_turn < TAU { 1.0 } else { f64::NAN };
         let pose_factor = one_if_defined(turn, self.integration_limit(bearing_turn_std, last_turn_std));
         let floor_factor = one_if_defined(2.0 * bearing, self.integration_limit(2.0 * bearing_std, 0.0));
         let gain = gaussians.gain;
@@ -105,7 +106,7 @@ impl PolarMotion {
         piecewise_nodes(self.noise, self.integration_limit(1.0, 0.0), breaks)
     }
 
-    /// Returns the integration limit of the sum of two noises with these standard deviations.
+    /// Returns the integration limit of the sum of two noises with the given standard deviations.
     fn integration_limit(&self, first_std: f64, second_std: f64) -> f64 {
         match self.noise {
             NoiseKind::Normal => MAX_SIGMAS * libm::hypot(first_std, second_std),

@@ -1,5 +1,5 @@
-//! Gain in log-likelihood of a Gaussian in exponential or arc coordinates over one in (x, y, θ). It also
-//! detects banana-shaped clouds that bend symmetrically to both sides, which have no skew.
+//! Gain in log-likelihood of a Gaussian in exponential or arc coordinates over a Gaussian in (x, y, θ). The gain also detects banana-shaped
+//! clouds without skew, which bend symmetrically to the left and right.
 
 use super::cross_track::MIN_RELATIVE_STD;
 use super::moments::non_negative;
@@ -8,21 +8,19 @@ use crate::models::covariance_root;
 use nalgebra::{Matrix3, Vector3};
 use wide::f64x4;
 
-/// Mean log-likelihood of a cloud under one Gaussian minus that under another, in nats per robot. Both Gaussians have the
-/// cloud's own moments in their coordinates. Both are densities over the same measure, so that neither units nor the frame
-/// matter.
+/// Mean log-likelihood of a cloud under one Gaussian minus that under another, in nats per robot. Each Gaussian has the cloud's moments in
+/// its coordinates. The densities are over the same measure, so that neither units nor the frame matter.
 ///
-/// A gain is NaN if there are too few poses. It is also NaN if they fill no volume in (x, y, θ), or no area in (x, y). It is
-/// infinite if they fill a volume (an area) there, but none in exponential (arc) coordinates. The Gaussian is then infinitely narrow.
+/// A gain is NaN if there are too few poses. It is also NaN if they fill no volume in (x, y, θ), or no area in (x, y). It is infinite if
+/// they fill a volume (an area) there, but none in exponential (arc) coordinates. The Gaussian is then infinitely narrow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify))]
 pub struct LikelihoodGain {
-    /// Gain of a Gaussian in exponential coordinates ξ over one in (x, y, θ): ½(ln det Σ_xyθ − ln det Σ_ξ) − mean of
-    /// ln sinc²(ξ_ω/2). Both are densities over dx dy dθ = sinc²(ξ_ω/2) dξ.
+    /// Gain of a Gaussian in exponential coordinates ξ over a Gaussian in (x, y, θ): ½(ln det Σ_xyθ − ln det Σ_ξ) − mean of ln
+    /// sinc²(ξ_ω/2). The densities are over dx dy dθ = sinc²(ξ_ω/2) dξ.
     pub pose: f64,
-    /// Gain of a Gaussian in arc coordinates over one in (x, y): ½(ln det Σ_xy − ln det Σ_sφ) − mean of
-    /// ln(|s|·sinc²(φ/2)/2). Arc coordinates are the length s and the turn φ of the arc to the end position. Both are
-    /// densities over dx dy = |s|·sinc²(φ/2)/2 ds dφ.
+    /// Gain of a Gaussian in arc coordinates over a Gaussian in (x, y): ½(ln det Σ_xy − ln det Σ_sφ) − mean of ln(|s|·sinc²(φ/2)/2). Arc
+    /// coordinates are the length s and the turn φ of the arc to the end position. The densities are over dx dy = |s|·sinc²(φ/2)/2 ds dφ.
     pub floor: f64,
 }
 
@@ -81,7 +79,7 @@ impl ChartGaussians {
     }
 }
 
-/// Sums over a sample for the standard errors of the likelihood gain and of the area ratio: differences of the log-densities of both
+/// Sums over a sample for the standard errors of the likelihood gain and of the area ratio: differences of log-densities under two
 /// Gaussians, and areas.
 #[derive(Clone, Debug)]
 pub(super) struct LogDensityDifferences {
@@ -105,7 +103,7 @@ impl LogDensityDifferences {
         }
     }
 
-    /// Adds four robots with these weights; 0 for a lane without a robot.
+    /// Adds four robots with their weights; 0 for a lane without a robot.
     #[inline(never)]
     pub fn add(&mut self, robots: &FourRobots, weights: f64x4) {
         let ChartGaussians { cartesian, twist, arc, gain, mean_jacobian } = &self.gaussians;
@@ -113,7 +111,7 @@ impl LogDensityDifferences {
         let cartesian_distances = cartesian.squared_distances(&robots.cartesian);
         let twist_distance = twist.squared_distances(&robots.twist)[2];
         let arc_distance = arc.squared_distances(&robots.arc)[1];
-        let cartesian_log_volumes = [2, 1].map(|last| cartesian.log_volumes[last]);
+        let cartesian_log_volumes = [2, 1].map(|last_coordinate| cartesian.log_volumes[last_coordinate]);
         let (curved_log_volumes, gains) =
             ([twist.log_volumes[2], arc.log_volumes[1]], [gain.pose, gain.floor]);
         let squared_distance_differences =
@@ -131,7 +129,7 @@ impl LogDensityDifferences {
         self.weight_sums += weights;
     }
 
-    /// Returns the gain of a cloud of `count` poses, of which the added ones are a weighted sample.
+    /// Returns the gain of a cloud of `count` poses. The added poses are a weighted sample of the cloud.
     pub fn measured_gain(&self, count: usize) -> MeasuredGain {
         let degrees_of_freedom = self.weight_sums.reduce_add() - 1.0;
         let [pose, floor] = self.squared_deviations.map(|squared_deviations| {
@@ -140,13 +138,13 @@ impl LogDensityDifferences {
         MeasuredGain { value: self.gaussians.gain, error: LikelihoodGain { pose, floor } }
     }
 
-    /// Returns the standard error of ln(A/B) by the delta method. A is the area of the 2σ ellipse in (x, y); B is the area of the
-    /// image on the floor of the 2σ ellipse in arc coordinates.
+    /// Returns the standard error of ln(A/B) by the delta method. A is the area of the 2σ ellipse in (x, y); B is the area of the image on
+    /// the floor of the 2σ ellipse in arc coordinates.
     ///
     /// The areas are 4π√(det Σ_xy) and 4π√(det Σ_sφ) times the mean Jacobian over the ellipse. Uniform points of a 2σ ellipse have the
-    /// Gaussian's own covariance, so that to third order this mean is that of the robots. The influence of a robot is then ½(z² − w²)
-    /// − J/mean J, up to a constant. Here z and w are its two Mahalanobis distances. The outline in ξ has the same error to first
-    /// order. With the presets it is 0 to 14 % smaller than the spread of the ratio.
+    /// Gaussian's own covariance, so that to third order this mean is the mean over the robots. The influence of a robot is then ½(z² − w²)
+    /// − J/mean J, up to a constant. Here z and w are its two Mahalanobis distances. The outline in ξ has the same error to first order.
+    /// With the presets it is 0 to 14 % smaller than the spread of the ratio.
     pub fn log_area_error(&self, count: usize) -> f64 {
         let total_weight = self.weight_sums.reduce_add();
         let [u, uu, hu, hh] = self.area_sums.map(|sum| sum.reduce_add() / total_weight);
@@ -167,19 +165,19 @@ struct Gaussian {
 }
 
 impl Gaussian {
-    /// Creates the Gaussian. The first `length_count` coordinates are in metres, the others in rad.
+    /// Creates the Gaussian. The first `length_count` coordinates are in metres, the remaining coordinates in rad.
     #[inline(never)]
     fn new((mean, cov): &MeanAndCov, length_count: usize) -> Self {
         let squared_extent: f64 = (0..length_count).map(|i| mean[i] * mean[i] + cov[(i, i)]).sum();
         let mut cov_root = covariance_root(cov).unwrap_or_else(|_| Matrix3::zeros());
-        let mut sum = 0.0;
+        let mut log_volume = 0.0;
         let log_volumes = std::array::from_fn(|j| {
             let pivot_std = cov_root[(j, j)];
             let is_flat =
                 pivot_std <= MIN_RELATIVE_STD * if j < length_count { squared_extent.sqrt() } else { 1.0 };
-            sum += if is_flat { f64::NEG_INFINITY } else { libm::log(pivot_std) };
+            log_volume += if is_flat { f64::NEG_INFINITY } else { libm::log(pivot_std) };
             cov_root[(j, j)] = if is_flat { 0.0 } else { 1.0 / pivot_std };
-            sum
+            log_volume
         });
         Self { mean: *mean, cov_root, log_volumes }
     }
@@ -188,12 +186,12 @@ impl Gaussian {
     #[inline(never)]
     fn squared_distances(&self, points: &[f64x4; 3]) -> [f64x4; 3] {
         let mut centred_points: [f64x4; 3] = std::array::from_fn(|j| points[j] - self.mean[j]);
-        let mut sum = f64x4::splat(0.0);
+        let mut squared_distance = f64x4::splat(0.0);
         std::array::from_fn(|j| {
             let whitened_offset = centred_points[j] * self.cov_root[(j, j)];
             (j + 1..3).for_each(|row| centred_points[row] -= whitened_offset * self.cov_root[(row, j)]);
-            sum += whitened_offset * whitened_offset;
-            sum
+            squared_distance += whitened_offset * whitened_offset;
+            squared_distance
         })
     }
 }

@@ -6,13 +6,13 @@ const NO_EDGE: usize = usize::MAX;
 /// Returns the lines on which a field has the value `level`, by marching squares. Between neighbouring points the field is
 /// interpolated linearly. The mean of the four corners decides how a saddle is connected.
 ///
-/// `values` are finite, at the points of a grid, row by row with `columns` in each row. Points of lines are (column, row) in steps of
+/// `field_values` are finite, at the points of a grid, row by row with `columns` in each row. Points of lines are (column, row) in steps of
 /// the grid, from its first point. A line ends where it began, or at the border of the grid.
-pub fn trace_level_set(values: &[f64], columns: usize, level: f64) -> Vec<Vec<[f64; 2]>> {
-    let row_count = values.len() / columns.max(1);
+pub fn trace_level_set(field_values: &[f64], columns: usize, level: f64) -> Vec<Vec<[f64; 2]>> {
+    let row_count = field_values.len() / columns.max(1);
     // The previous and the next edge of a line, for each edge of the grid that it crosses. Edge 2i leads from point i to the next
     // point in its row; edge 2i + 1 leads to the point in the next row.
-    let mut edge_links = vec![[NO_EDGE; 2]; 2 * values.len()];
+    let mut edge_links = vec![[NO_EDGE; 2]; 2 * field_values.len()];
     let mut link_edges = |edge_a: usize, edge_b: usize| {
         for (edge, linked_edge) in [(edge_a, edge_b), (edge_b, edge_a)] {
             let first_free_slot = usize::from(edge_links[edge][0] != NO_EDGE);
@@ -23,7 +23,8 @@ pub fn trace_level_set(values: &[f64], columns: usize, level: f64) -> Vec<Vec<[f
         for column in 1..columns {
             let i = (row - 1) * columns + column - 1;
             // Edges around the cell: corner k lies between the edges k − 1 and k.
-            let corner_values = [i, i + 1, i + columns + 1, i + columns].map(|point| values[point]);
+            let corner_values =
+                [i, i + 1, i + columns + 1, i + columns].map(|point_index| field_values[point_index]);
             let cell_edges = [2 * i, 2 * i + 3, 2 * (i + columns), 2 * i + 1];
             let is_above = corner_values.map(|value| value > level);
             let is_crossed = |k: &usize| is_above[*k] != is_above[(k + 1) % 4];
@@ -42,7 +43,8 @@ pub fn trace_level_set(values: &[f64], columns: usize, level: f64) -> Vec<Vec<[f
     }
     let crossing_point = |edge: usize| {
         let (i, is_vertical) = (edge / 2, edge % 2 == 1);
-        let (start_value, end_value) = (values[i], values[if is_vertical { i + columns } else { i + 1 }]);
+        let (start_value, end_value) =
+            (field_values[i], field_values[if is_vertical { i + columns } else { i + 1 }]);
         let fraction = ((level - start_value) / (end_value - start_value)).clamp(0.0, 1.0);
         let (column, row) = ((i % columns) as f64, (i / columns) as f64);
         if is_vertical { [column, row + fraction] } else { [column + fraction, row] }

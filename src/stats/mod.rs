@@ -12,7 +12,7 @@ pub(crate) mod sums;
 pub(crate) mod two_pass;
 
 pub use contour::{Ellipse, ExponentialContour};
-pub use cross_track::{CrossTrack, cross_track_skew};
+pub use cross_track::{CrossTrackStats, cross_track_skew};
 pub use exact::{ExactMoments, predicted_cross_track_skew};
 pub use exact_gain::ExactGain;
 pub use gain::{LikelihoodGain, MeasuredGain};

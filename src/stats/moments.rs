@@ -51,22 +51,22 @@ impl ExponentialMoments {
         let start_inverse = start.inverse();
         let twists = poses.iter().map(|pose| (start_inverse * *pose).log_near(mean_turn));
         let first_twist = twists.clone().next().unwrap_or_else(Vector3::zeros);
-        let (offset, cov) = mean_and_cov(twists.map(|twist| twist - first_twist), poses.len());
-        Self { mean: first_twist + offset, cov }
+        let (mean_offset, cov) = mean_and_cov(twists.map(|twist| twist - first_twist), poses.len());
+        Self { mean: first_twist + mean_offset, cov }
     }
 }
 
 /// Returns the circular mean of the headings, atan2(Σ sin θ, Σ cos θ); NaN without poses.
 fn mean_heading(poses: &[SE2]) -> f64 {
     let Some(first) = poses.first() else { return f64::NAN };
-    let (mut sin, mut cos) = (0.0, 0.0);
+    let (mut sin_sum, mut cos_sum) = (0.0, 0.0);
     for pose in poses {
         // Angles are relative to the first heading, so that the sines of equal headings sum to exactly 0.
         let (s, c) = libm::sincos(pose.theta() - first.theta());
-        sin += s;
-        cos += c;
+        sin_sum += s;
+        cos_sum += c;
     }
-    wrap_angle(first.theta() + libm::atan2(sin, cos))
+    wrap_angle(first.theta() + libm::atan2(sin_sum, cos_sum))
 }
 
 /// Replaces a negative variance by 0: rounding can make a difference negative. NaN stays NaN.

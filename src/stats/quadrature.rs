@@ -4,7 +4,7 @@ use crate::noise::NoiseKind;
 use std::f64::consts::{PI, TAU};
 use std::sync::OnceLock;
 
-/// Node of a rule: a value of a noise of variance 1, and its weight. The weights of a rule sum to 1.
+/// Node of a quadrature rule: a value of a noise of variance 1, and its weight. The weights of a rule sum to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node {
     /// Value of the noise.
@@ -42,7 +42,7 @@ fn normal_nodes() -> Vec<Node> {
         .collect()
 }
 
-/// Returns the Gauss–Legendre rule on both halves of the triangular density, which is linear on each.
+/// Returns the Gauss–Legendre rule on each half of the triangular density, where the density is linear.
 fn triangular_nodes() -> Vec<Node> {
     /// Number of points on each half of the support. The rule is exact for polynomials of degree 63, which is accurate enough up to
     /// the frequency k ≈ 25: k·√6 ≈ 60.
@@ -58,17 +58,17 @@ fn triangular_nodes() -> Vec<Node> {
         .collect()
 }
 
-/// Returns a rule from −`end` to `end` for a function with two `breaks`, one on each side of 0, which is smooth between
-/// them. It uses Gauss–Legendre between the breaks. Moments of normal noise up to six standard deviations are off by 1e-10.
+/// Returns a rule from −`limit` to `limit` for a function that is smooth except at the two `breaks`, of which one is negative and one is
+/// positive. Gauss–Legendre is used between breaks. Moments of normal noise up to six standard deviations are off by 1e-10.
 #[inline(never)]
-pub(super) fn piecewise_nodes(noise: NoiseKind, end: f64, breaks: [f64; 2]) -> Vec<Node> {
-    /// Number of nodes between breaks. Two noises are combined, so that the cost grows with its square. Fewer nodes would
+pub(super) fn piecewise_nodes(noise: NoiseKind, limit: f64, breaks: [f64; 2]) -> Vec<Node> {
+    /// Number of nodes between breaks. Two noises are combined, so that the cost grows with the square of this number. Fewer nodes would
     /// make displayed digits wrong.
     const NODES_PER_PIECE: usize = 16;
     let unit_nodes = legendre_nodes(NODES_PER_PIECE);
-    let (mut nodes, mut piece_start) = (Vec::with_capacity(4 * NODES_PER_PIECE), -end);
+    let (mut nodes, mut piece_start) = (Vec::with_capacity(4 * NODES_PER_PIECE), -limit);
     // The triangular density has another break at 0.
-    for piece_end in [breaks[0].max(-end).min(0.0), 0.0, breaks[1].max(0.0).min(end), end] {
+    for piece_end in [breaks[0].max(-limit).min(0.0), 0.0, breaks[1].max(0.0).min(limit), limit] {
         if piece_end > piece_start {
             let half_width = 0.5 * (piece_end - piece_start);
             nodes.extend(unit_nodes.iter().map(|node| {

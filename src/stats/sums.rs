@@ -3,16 +3,16 @@
 use crate::geom::lanes::split_lanes;
 use wide::{f64x2, f64x4};
 
-/// Sums of `N` quantities.
+/// Compensated sums of `N` quantities.
 #[derive(Clone, Debug)]
-pub struct Sums<const N: usize> {
+pub struct CompensatedSums<const N: usize> {
     /// Sums of the current block, to which [`add_to_block`] adds.
     pub block: [f64x2; N],
     total: [f64x2; N],
     compensation: [f64x2; N],
 }
 
-impl<const N: usize> Sums<N> {
+impl<const N: usize> CompensatedSums<N> {
     pub fn new() -> Self {
         let zero_sums = [f64x2::splat(0.0); N];
         Self { block: zero_sums, total: zero_sums, compensation: zero_sums }
@@ -54,7 +54,7 @@ pub fn add_to_block<const N: usize>(block: &mut [f64x2; N], terms: [f64x4; N]) {
 }
 
 /// Sums of two quantities, and of their squares and product: a, b, a², a·b, b².
-pub type PairSums = Sums<5>;
+pub type PairSums = CompensatedSums<5>;
 
 impl PairSums {
     pub fn add(&mut self, [a, b]: [f64x4; 2], mask: f64x4) {

@@ -5,10 +5,10 @@
 //! relative error for ten million poses is about 1e-13.
 
 use super::contour::{Ellipse, ExponentialContour};
-use super::cross_track::{CrossTrack, TrackMoments, track_products};
+use super::cross_track::{CrossTrackStats, TrackMoments, track_products};
 use super::gain::{ChartGaussians, FourRobots, LogDensityDifferences, MeanAndCov, MeasuredGain};
 use super::moments::{CartesianMoments, ExponentialMoments, non_negative};
-use super::sums::{PairSums, Sums, add_to_block};
+use super::sums::{CompensatedSums, PairSums, add_to_block};
 use crate::geom::angle::wrap_angle;
 use crate::geom::lanes::{LANE_COUNT, is_any_lane_set, split_lanes};
 use crate::geom::se2::SE2;
@@ -16,8 +16,8 @@ use nalgebra::{Matrix2, Matrix3, Vector3};
 use std::f64::consts::{LN_2, PI, TAU};
 use wide::{f64x2, f64x4};
 
-/// Four poses: positions, logarithms, and the sine and cosine of half the heading. The signs of both may be reversed, which
-/// is the same heading.
+/// Four poses: positions, logarithms, and the sine and cosine of half the heading. Sine and cosine with both signs reversed describe the
+/// same heading.
 #[derive(Clone, Copy)]
 pub struct FourPoses {
     pub x: f64x4,
@@ -32,8 +32,8 @@ pub struct FourPoses {
     pub sinc: f64x4,
 }
 
-/// Arcs that end at the positions of four poses: signed length (m), half the turn φ (rad), and sinc(φ/2). Each is the arc whose turn
-/// is nearest to that of the command.
+/// Arcs that end at the positions of four poses: signed length (m), half the turn φ (rad), and sinc(φ/2). Of the arcs to a position, the
+/// arc with the turn nearest to the commanded turn is used.
 #[derive(Clone, Copy)]
 pub struct FourArcs {
     pub length: f64x4,
@@ -41,8 +41,8 @@ pub struct FourArcs {
     pub sinc: f64x4,
 }
 
-/// Point whose coordinates are subtracted in all sums: x, y, along, lateral, half heading; length and half turn of the arc.
-pub type ReferenceCoordinates = [f64; 7];
+/// Reference point, whose coordinates are subtracted in all sums: x, y, along, lateral, half heading; length and half turn of the arc.
+pub type ReferencePoint = [f64; 7];
 
 /// Factors that scale two terms of the Jacobians to about 1, so that a product of many does not underflow. One term is
 /// sinc(ξ_ω/2), with the turn ξ_ω of a twist. The other is |s|·sinc²(φ/2), with the length s and the turn φ of an arc.
@@ -51,35 +51,34 @@ pub type JacobianScale = [f64; 2];
 /// First pass: accumulates means, covariances and the mean logarithms of the Jacobians.
 #[derive(Clone, Debug)]
 pub struct FirstPass {
-    reference: ReferenceCoordinates,
-    pub scale: JacobianScale,
-    sums: Sums<16>,
-    /// Corrections for irregular arcs, which are not the driven ones (see `Drive::end_points`). Each adds the values
-    /// of its arc, and subtracts those of the driven arc, which are in the sums of the unit noise.
+    reference_point: ReferencePoint,
+    pub jacobian_scale: JacobianScale,
+    sums: CompensatedSums<16>,
+    /// Corrections for irregular arcs, which differ from the driven arcs (see `Drive::end_points`). Each correction adds the values of the
+    /// irregular arc, and subtracts those of the driven arc, which the sums of the unit noise contain.
     irregular_arcs: PairSums,
-    /// Products of the scaled factors sinc(ξ_ω/2) and |s|·sinc²(φ/2) over a block, and sums of the logarithms of these
-    /// products. One logarithm for each block takes hardly any time. On average the factors are above e⁻¹, and the
-    /// product of a block is above 1e-111.
+    /// Products of the scaled factors sinc(ξ_ω/2) and |s|·sinc²(φ/2) over a block, and sums of the logarithms of these products. Logarithms
+    /// of products of a whole block take hardly any time. The factors average above e⁻¹, so that a product is above 1e-111.
     jacobian_products: [f64x2; 2],
-    logs: [f64; 2],
+    log_jacobian_sums: [f64; 2],
 }
 
 impl FirstPass {
-    pub fn new(reference: ReferenceCoordinates, scale: JacobianScale) -> Self {
+    pub fn new(reference_point: ReferencePoint, jacobian_scale: JacobianScale) -> Self {
         Self {
-            reference,
-            scale,
-            sums: Sums::new(),
+            reference_point,
+            jacobian_scale,
+            sums: CompensatedSums::new(),
             irregular_arcs: PairSums::new(),
             jacobian_products: [f64x2::splat(1.0); 2],
-            logs: [0.0; 2],
+            log_jacobian_sums: [0.0; 2],
         }
     }
 
     /// Adds the poses whose lanes of `mask` have all bits set.
     #[inline(always)]
     pub fn add(&mut self, poses: &FourPoses, mask: f64x4) {
-        let [x, y, along, lateral, half_heading, ..] = self.reference;
+        let [x, y, along, lateral, half_heading, ..] = self.reference_point;
         let (sin, cos) = (poses.half_sin & mask, poses.half_cos);
         let [x, y] = [(poses.x - x) & mask, (poses.y - y) & mask];
         let [a, l] = [(poses.along - along) & mask, (poses.lateral - lateral) & mask];
@@ -96,10 +95,11 @@ impl FirstPass {
             let [low, high] = split_lanes(lanes);
             low * high
         };
-        let (twist, arc) = (lane_product(poses.sinc), lane_product(arcs.sinc));
-        let [twist_scale, arc_scale] = self.scale;
-        self.jacobian_products[0] *= twist * (twist_scale * twist_scale);
-        self.jacobian_products[1] *= lane_product(arcs.length) * (arc * arc) * (arc_scale * arc_scale);
+        let (twist_sincs, arc_sincs) = (lane_product(poses.sinc), lane_product(arcs.sinc));
+        let [twist_scale, arc_scale] = self.jacobian_scale;
+        self.jacobian_products[0] *= twist_sincs * (twist_scale * twist_scale);
+        self.jacobian_products[1] *=
+            lane_product(arcs.length) * (arc_sincs * arc_sincs) * (arc_scale * arc_scale);
     }
 
     /// Multiplies the products by the Jacobians of the poses whose lanes of `mask` have all bits set.
@@ -113,11 +113,10 @@ impl FirstPass {
         );
     }
 
-    /// Corrects the sums for irregular arcs: adds their values, and subtracts those of the driven ones, `regular_arcs`, which are in the sums
-    /// of the unit noise.
+    /// Adds the values of irregular arcs, and subtracts those of the driven `regular_arcs`, which the sums of the unit noise contain.
     #[inline(never)]
     pub fn add_irregular_arcs(&mut self, arcs: &FourArcs, regular_arcs: [f64x4; 2], mask: f64x4) {
-        let [.., length, half_turn] = self.reference;
+        let [.., length, half_turn] = self.reference_point;
         self.irregular_arcs.add([arcs.length - length, arcs.half_turn - half_turn], mask);
         self.irregular_arcs.subtract(regular_arcs, mask);
     }
@@ -125,26 +124,26 @@ impl FirstPass {
     pub fn flush_block(&mut self) {
         self.sums.flush_block();
         self.irregular_arcs.flush_block();
-        for (product, log) in self.jacobian_products.iter_mut().zip(&mut self.logs) {
+        for (product, log_sum) in self.jacobian_products.iter_mut().zip(&mut self.log_jacobian_sums) {
             let [a, b] = product.to_array();
-            *log += libm::log((a * b).abs());
+            *log_sum += libm::log((a * b).abs());
             *product = f64x2::splat(1.0);
         }
     }
 
-    /// Returns the moments of `count` poses. Their Cartesian covariance is that of the position only. `regular_sums` are the sums
-    /// over the driven arcs, in the order of [`PairSums`], which the irregular arcs correct.
+    /// Returns the moments of `count` poses. The Cartesian covariance contains only the position. `regular_sums` are the sums over the
+    /// driven arcs, in the order of [`PairSums`], which the irregular arcs correct.
     pub fn moments(&self, count: usize, regular_sums: [f64; 5]) -> FirstPassMoments {
         let n = count as f64;
         let [x, y, a, l, h, xx, xy, yy, aa, al, ll, ah, lh, hh, sin_cos, sin_sin] = self.sums.totals();
         let irregular_sums = self.irregular_arcs.totals();
         let [s, t, ss, st, tt] = std::array::from_fn(|i| regular_sums[i] + irregular_sums[i]);
         // A covariance is the mean of the products minus the product of the means.
-        let cov = |product: f64, first: f64, second: f64| {
-            if count > 1 { (product - first * (second / n)) / (n - 1.0) } else { f64::NAN }
+        let cov = |product_sum: f64, first_sum: f64, second_sum: f64| {
+            if count > 1 { (product_sum - first_sum * (second_sum / n)) / (n - 1.0) } else { f64::NAN }
         };
-        let variance = |square: f64, sum: f64| non_negative(cov(square, sum, sum));
-        let [x0, y0, along, lateral, half_heading, length, half_turn] = self.reference;
+        let variance = |square_sum: f64, sum: f64| non_negative(cov(square_sum, sum, sum));
+        let [x0, y0, along, lateral, half_heading, length, half_turn] = self.reference_point;
         // sin θ and cos θ of the double angle, turned so that the reference's heading is 0.
         let (sin, cos) = libm::sincos(2.0 * half_heading);
         let (sum_sin, sum_cos) = (2.0 * sin_cos, n - 2.0 * sin_sin);
@@ -158,12 +157,13 @@ impl FirstPass {
         let [ss, st, tt] = [variance(ss, s), 2.0 * cov(st, s, t), 4.0 * variance(tt, t)];
         // All four lanes are scaled, including those without a pose.
         let scaled_lane_count = count.next_multiple_of(LANE_COUNT) as f64;
-        let [twist, arc] = [0, 1].map(|i| (self.logs[i] - scaled_lane_count * libm::log(self.scale[i])) / n);
+        let [mean_log_twist, mean_log_arc] = [0, 1]
+            .map(|i| (self.log_jacobian_sums[i] - scaled_lane_count * libm::log(self.jacobian_scale[i])) / n);
         FirstPassMoments {
             position: [x0 + x / n, y0 + y / n],
             position_cov,
             mean_turn,
-            resultant: libm::hypot(rotated_sums.0, rotated_sums.1) / n,
+            resultant_length: libm::hypot(rotated_sums.0, rotated_sums.1) / n,
             exponential: ExponentialMoments {
                 mean: Vector3::new(along + a / n, lateral + l / n, 2.0 * (half_heading + h / n)),
                 cov: Matrix3::new(aa, al, ah, al, ll, lh, ah, lh, hh),
@@ -172,20 +172,21 @@ impl FirstPass {
                 Vector3::new(length + s / n, 2.0 * (half_turn + t / n), 0.0),
                 Matrix3::new(ss, st, 0.0, st, tt, 0.0, 0.0, 0.0, 0.0),
             ),
-            log_jacobians: [2.0 * twist, arc - LN_2],
+            log_jacobians: [2.0 * mean_log_twist, mean_log_arc - LN_2],
         }
     }
 
     /// Returns the means as a better reference if cancellation lost more than two digits of the sums. That happens if the
     /// mean of a small cloud is many of its standard deviations away from the reference.
-    pub fn better_reference(&self, count: usize) -> Option<ReferenceCoordinates> {
+    pub fn better_reference_point(&self, count: usize) -> Option<ReferencePoint> {
         let n = count as f64;
         let sums = self.sums.totals();
         let means = [0, 1, 2, 3, 4].map(|i| sums[i] / n);
         let mean_squares = [5, 7, 8, 10, 13].map(|i| sums[i] / n);
         let has_lost_digits =
             (0..5).any(|i| means[i] * means[i] > 0.99 * mean_squares[i] && mean_squares[i] > 0.0);
-        has_lost_digits.then(|| std::array::from_fn(|i| self.reference[i] + means.get(i).unwrap_or(&0.0)))
+        has_lost_digits
+            .then(|| std::array::from_fn(|i| self.reference_point[i] + means.get(i).unwrap_or(&0.0)))
     }
 }
 
@@ -197,7 +198,7 @@ pub struct FirstPassMoments {
     /// The circular mean of the headings, not wrapped.
     mean_turn: f64,
     /// Length of the mean of the unit vectors in the directions of the headings.
-    resultant: f64,
+    resultant_length: f64,
     pub exponential: ExponentialMoments,
     arc: MeanAndCov,
     /// Mean logarithms of the Jacobians of [`FourRobots`].
@@ -211,20 +212,21 @@ pub struct SecondPass {
     heading_sin_cos: (f64, f64),
     ellipse: Ellipse,
     twist_ellipse: Ellipse,
-    sums: Sums<17>,
+    sums: CompensatedSums<17>,
 }
 
-/// Statistics of a cloud from both passes.
+/// Statistics of a cloud, computed in two passes.
 #[derive(Clone, Copy, Debug)]
 pub struct CloudStats {
     pub cartesian: CartesianMoments,
     pub exponential: ExponentialMoments,
-    pub cross_track: CrossTrack,
-    /// Fractions inside the two 2σ contours; NaN for a contour without area.
+    pub cross_track: CrossTrackStats,
+    /// Fractions of the poses inside the 2σ ellipse in (x, y) and inside the 2σ contour in exponential coordinates; NaN for a contour
+    /// without area.
     pub inside_ellipse: f64,
     pub inside_exponential: f64,
     pub gain: MeasuredGain,
-    /// Standard error of the logarithm of the ratio of the two areas.
+    /// Standard error of the log of the ratio of the area of the ellipse to the area of the exponential contour.
     pub log_area_error: f64,
 }
 
@@ -237,7 +239,7 @@ impl SecondPass {
             heading_sin_cos: libm::sincos(first_pass.mean_turn),
             ellipse: Ellipse::new(first_pass.position.into(), Matrix2::new(xx, xy, xy, yy)),
             twist_ellipse: ExponentialContour::new(&first_pass.exponential, start).ellipse,
-            sums: Sums::new(),
+            sums: CompensatedSums::new(),
         }
     }
 
@@ -246,7 +248,7 @@ impl SecondPass {
     pub fn add(&mut self, poses: &FourPoses, mask: f64x4) {
         let ([mean_x, mean_y], (sin, cos)) = (self.first_pass.position, self.heading_sin_cos);
         let (x, y) = (poses.x - mean_x, poses.y - mean_y);
-        // The names a, d, s and t are those of `TrackMoments`.
+        // The symbols a, d, s and t are defined at `TrackMoments`.
         let d = (y * cos - x * sin) & mask;
         let a = (x * cos + y * sin) & mask;
         let t = wrap_turns(poses.half_heading * 2.0 - self.first_pass.mean_turn) & mask;
@@ -276,7 +278,7 @@ impl SecondPass {
     ) -> CloudStats {
         let n = count as f64;
         let means = self.sums.totals().map(|sum| sum / n);
-        let [products @ .., ta, inside, inside_contour] = means;
+        let [products @ .., ta, inside_ellipse, inside_contour] = means;
         let [.., t, tt, td] = products;
         let FirstPassMoments { position: [x, y], position_cov: [xx, xy, yy], .. } = self.first_pass;
         let (sin, cos) = self.heading_sin_cos;
@@ -287,7 +289,7 @@ impl SecondPass {
         let track_moments = TrackMoments {
             products,
             squared_extent: x * x + y * y + if count > 1 { (xx + yy) / bessel_factor } else { 0.0 },
-            resultant: self.first_pass.resultant,
+            resultant_length: self.first_pass.resultant_length,
         };
         let FirstPassMoments { exponential, arc, log_jacobians, .. } = self.first_pass;
         let gaussians = ChartGaussians::new(
@@ -309,15 +311,15 @@ impl SecondPass {
             density_differences.add(&robots, weights);
         }
         let fraction_or_nan =
-            |ellipse: &Ellipse, inside: f64| if ellipse.has_area() { inside } else { f64::NAN };
+            |ellipse: &Ellipse, fraction: f64| if ellipse.has_area() { fraction } else { f64::NAN };
         CloudStats {
             cartesian: CartesianMoments {
                 mean: Vector3::new(x, y, wrap_angle(self.first_pass.mean_turn)),
                 cov,
             },
             exponential: self.first_pass.exponential,
-            cross_track: CrossTrack::from_moments(count, &track_moments),
-            inside_ellipse: fraction_or_nan(&self.ellipse, inside),
+            cross_track: CrossTrackStats::from_moments(count, &track_moments),
+            inside_ellipse: fraction_or_nan(&self.ellipse, inside_ellipse),
             inside_exponential: fraction_or_nan(&self.twist_ellipse, inside_contour),
             gain: density_differences.measured_gain(count),
             log_area_error: density_differences.log_area_error(count),
@@ -328,9 +330,9 @@ impl SecondPass {
 /// Wraps differences of angles to [−π, π]. The differences must be within [−3π, 3π].
 #[inline(always)]
 fn wrap_turns(turn: f64x4) -> f64x4 {
-    let is_far = turn.abs().simd_gt(f64x4::splat(PI));
-    if is_any_lane_set(is_far) {
-        is_far.bitselect(turn - f64x4::splat(TAU).copysign(turn), turn)
+    let needs_wrapping = turn.abs().simd_gt(f64x4::splat(PI));
+    if is_any_lane_set(needs_wrapping) {
+        needs_wrapping.bitselect(turn - f64x4::splat(TAU).copysign(turn), turn)
     } else {
         turn
     }

@@ -16,21 +16,21 @@ simulation_class! {
 }
 
 getters! {
-    JsAlphaCalibrator, "AlphaCalibrator", |it| {
+    JsAlphaCalibrator, "AlphaCalibrator", |simulation| {
         /// Settings of the fit. They differ from `config` until a fit with the settings in `config` has come.
-        fitted_config as fittedConfig: "AlphaCalibratorSettings" = to_plain_js(it.fitted_settings());
+        fitted_config as fittedConfig: "AlphaCalibratorSettings" = to_plain_js(simulation.fitted_settings());
         /// True while the settings need another fit, which only the simulation with the log can make.
-        is_pending as isPending: "boolean" = it.is_pending();
+        is_pending as isPending: "boolean" = simulation.is_pending();
         /// Revision of the fit. It changes with each new fit.
-        fit_revision as fits: "number" = it.fit_revision();
+        fit_revision as fits: "number" = simulation.fit_revision();
         /// The true values of the simulated log; null for any other log.
-        truth: "CalibrationTruth | null" = to_plain_js(&it.truth());
+        truth: "CalibrationTruth | null" = to_plain_js(&simulation.truth());
         /// Result of the calibration, without its legs. All α’s are null if the log has too few legs.
-        stats: "Omit<Calibration, 'legs'>" = calibration_to_js(it.calibration());
+        stats: "Omit<Calibration, 'legs'>" = calibration_to_js(simulation.calibration());
         /// Copies of the legs, in the form that `calibrate` returns.
-        legs: "CalibrationLegs" = legs_to_js(it.calibration());
+        legs: "CalibrationLegs" = legs_to_js(simulation.calibration());
         /// Number of legs.
-        count: "number" = it.legs().len();
+        count: "number" = simulation.legs().len();
     }
 }
 

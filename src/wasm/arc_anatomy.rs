@@ -15,10 +15,10 @@ simulation_class! {
 }
 
 getters! {
-    JsArcAnatomy, "ArcAnatomy", |it| {
-        stats: "AnatomyStats" = to_plain_js(&it.stats());
-        table: "AnatomyTable" = to_plain_js(&it.table());
-        paths: "AnatomyPaths" = to_plain_js(&it.paths());
+    JsArcAnatomy, "ArcAnatomy", |simulation| {
+        stats: "AnatomyStats" = to_plain_js(&simulation.stats());
+        table: "AnatomyTable" = to_plain_js(&simulation.table());
+        paths: "AnatomyPaths" = to_plain_js(&simulation.paths());
     }
 }
 

@@ -35,29 +35,29 @@ cloud_simulation_class! {
 }
 
 getters! {
-    JsBananaMachine, "BananaMachine", |it| {
+    JsBananaMachine, "BananaMachine", |simulation| {
         /// The noise parameters of each model. A model that is not selected keeps its own.
         alphas_of_models as alphasOfModels: "{ velocity: number[]; odometry: number[] }" = js_object(&[
-            ("velocity", js_array(&it.settings().velocity_alphas)),
-            ("odometry", js_array(&it.settings().odometry_alphas)),
+            ("velocity", js_array(&simulation.settings().velocity_alphas)),
+            ("odometry", js_array(&simulation.settings().odometry_alphas)),
         ]);
         /// True if the robots turn by less than a full circle, so that exponential coordinates are defined. Otherwise statistics and
         /// contours in them are undefined.
-        is_chart_defined as chartHolds: "boolean" = it.is_chart_defined();
+        is_chart_defined as chartHolds: "boolean" = simulation.is_chart_defined();
         /// x, y (m), θ (rad) of each sample shown; a copy.
-        poses: "Float64Array" = triple_array(it.poses());
+        poses: "Float64Array" = triple_array(simulation.poses());
         /// Exponential coordinates ξ of each sample shown: three numbers, along and lateral (m) and heading (rad). A copy.
-        twists: "Float64Array" = triple_array(it.twists());
+        twists: "Float64Array" = triple_array(simulation.twists());
         /// Motion executed by each of the samples that are shown: v̂ (m/s), ω̂, γ̂ (rad/s); under the odometry model the legs δ̂_rot1
         /// (rad), δ̂_trans (m), δ̂_rot2 (rad). A copy.
-        executed_motions as executed: "Float64Array" = triple_array(it.executed_motions());
+        executed_motions as executed: "Float64Array" = triple_array(simulation.executed_motions());
         /// Noise-free odometry reading of the command.
-        reading: "OdomDelta" = to_plain_js(&it.reading());
-        stats: "Stats" = to_plain_js(it.stats());
-        table: "Table" = to_plain_js(&it.table());
-        contours: "Contours" = to_plain_js(&it.contours());
+        reading: "OdomDelta" = to_plain_js(&simulation.reading());
+        stats: "Stats" = to_plain_js(simulation.stats());
+        table: "Table" = to_plain_js(&simulation.table());
+        contours: "Contours" = to_plain_js(&simulation.contours());
         /// Up to two positions inside the 2σ ellipse where no robot stops, as x, y pairs in m; empty if the outlines nearly coincide.
-        gaps: "Float64Array" = flat_float_array(&it.gaps());
+        gaps: "Float64Array" = flat_float_array(&simulation.gaps());
     }
 }
 

@@ -73,9 +73,9 @@ pub fn js_calibrate(
     let drives: Vec<Drive> =
         logs.iter().map(|Log { odometry, reference }| Drive { odometry, reference }).collect();
     let calibration = calibrate(&drives, &options).map_err(|error| RangeError::new(&error.to_string()))?;
-    let result = calibration_to_js(&calibration);
-    Reflect::set(&result, &"legs".into(), &legs_to_js(&calibration))?;
-    Ok(result)
+    let calibration_object = calibration_to_js(&calibration);
+    Reflect::set(&calibration_object, &"legs".into(), &legs_to_js(&calibration))?;
+    Ok(calibration_object)
 }
 
 fn read_model(fields: &Fields) -> Result<Model, JsValue> {

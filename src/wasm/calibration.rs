@@ -21,7 +21,7 @@ export interface Calibration extends CalibrationStats {
 }
 "#;
 
-/// Name of each systematic error, and its members of [`SystematicError::ALL`].
+/// Keys of the systematic errors, each with its variants of [`SystematicError`].
 pub const SYSTEMATIC_ERROR_KEYS: [(&str, &[SystematicError]); 5] = [
     ("clockOffset", &[SystematicError::ClockOffset]),
     ("mountYaw", &[SystematicError::MountYaw]),
@@ -90,7 +90,7 @@ pub struct CalibrationStats<'a> {
     recommended: Option<&'a Recommendation>,
 }
 
-/// Makes an object of a calibration, without its legs.
+/// Converts a calibration without its legs to a JavaScript object.
 pub fn calibration_to_js(calibration: &Calibration) -> JsValue {
     let [position_std, yaw_std] = calibration.reference_noise;
     to_plain_js(&CalibrationStats {
@@ -118,7 +118,7 @@ fn systematic_errors(calibration: &Calibration) -> SystematicErrors {
         corrected: is_corrected[error as usize],
     };
     let lever_arm = [SystematicError::LeverArmAhead, SystematicError::LeverArmLeft];
-    let has_any = |mask: &[bool; ERROR_COUNT]| lever_arm.iter().any(|error| mask[*error as usize]);
+    let has_any = |flags: &[bool; ERROR_COUNT]| lever_arm.iter().any(|error| flags[*error as usize]);
     SystematicErrors {
         clock_offset: scalar_value(SystematicError::ClockOffset),
         mount_yaw: scalar_value(SystematicError::MountYaw),
@@ -159,23 +159,23 @@ js_structs! {
     }
 }
 
-/// Makes an object of the legs of a calibration.
+/// Converts the legs of a calibration to a JavaScript object.
 pub fn legs_to_js(calibration: &Calibration) -> JsValue {
     let Calibration { legs, observations, leg_fits, corrected, .. } = calibration;
-    let mut columns = CalibrationLegs { count: legs.len(), ..Default::default() };
+    let mut leg_columns = CalibrationLegs { count: legs.len(), ..Default::default() };
     let base = corrected.base();
     for ((leg, observation), fit) in legs.iter().zip(observations).zip(leg_fits) {
-        columns.times.extend_from_slice(&leg.times);
-        for end in [0, 1] {
-            columns.odometry.extend(<[f64; 3]>::from(leg.odometry[end]));
-            columns.reference.extend(<[f64; 3]>::from(leg.reference[end] * base));
+        leg_columns.times.extend_from_slice(&leg.times);
+        for end_index in [0, 1] {
+            leg_columns.odometry.extend(<[f64; 3]>::from(leg.odometry[end_index]));
+            leg_columns.reference.extend(<[f64; 3]>::from(leg.reference[end_index] * base));
         }
-        columns.readings.extend_from_slice(&observation.reading);
-        columns.residuals.extend_from_slice(&observation.residuals);
-        columns.standardized.extend_from_slice(&fit.standardized);
-        columns.stds.extend_from_slice(&fit.stds);
-        columns.squared.push(fit.squared);
-        columns.outliers.push(f64::from(u8::from(fit.is_outlier)));
+        leg_columns.readings.extend_from_slice(&observation.reading);
+        leg_columns.residuals.extend_from_slice(&observation.residuals);
+        leg_columns.standardized.extend_from_slice(&fit.standardized);
+        leg_columns.stds.extend_from_slice(&fit.stds);
+        leg_columns.squared.push(fit.squared);
+        leg_columns.outliers.push(f64::from(u8::from(fit.is_outlier)));
     }
-    to_plain_js(&columns)
+    to_plain_js(&leg_columns)
 }

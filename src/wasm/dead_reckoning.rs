@@ -19,40 +19,40 @@ cloud_simulation_class! {
 }
 
 getters! {
-    JsDeadReckoning, "DeadReckoning", |it| {
+    JsDeadReckoning, "DeadReckoning", |simulation| {
         /// Level h of the heading noise; null where α₃ to α₆ are not those of a level.
-        heading_noise as headingNoise: "number | null" = number_or_null(it.settings().heading_noise());
-        stats: "ReckoningStats" = to_plain_js(&it.stats());
+        heading_noise as headingNoise: "number | null" = number_or_null(simulation.settings().heading_noise());
+        stats: "ReckoningStats" = to_plain_js(&simulation.stats());
         /// Predicted divided by measured variance of along, lateral and heading after each step, three numbers a step; NaN if
         /// undefined.
         ratios: "ByRecursion<Float64Array>" =
-            js_by_recursion(|order| triple_array(it.comparison(order).ratios.iter().copied()));
+            js_by_recursion(|recursion| triple_array(simulation.comparison(recursion).ratios.iter().copied()));
         /// Predicted variances of along, lateral (m²) and heading (rad²) after each step, three numbers a step; NaN if
         /// undefined.
-        predicted: "ByRecursion<Float64Array>" = js_by_recursion(|order| {
+        predicted: "ByRecursion<Float64Array>" = js_by_recursion(|recursion| {
             let to_variances = |cov: &Matrix3<f64>| cov.diagonal();
-            let covariances = it.predicted_covariances(order).iter();
+            let covariances = simulation.predicted_covariances(recursion).iter();
             triple_array(covariances.map(|cov| cov.as_ref().map_or(Vector3::repeat(f64::NAN), to_variances)))
         });
         /// Measured variances, in the form of `predicted`.
-        measured: "Float64Array" = triple_array(it.measured_moments().iter().map(|moments| moments.cov.diagonal()));
+        measured: "Float64Array" = triple_array(simulation.measured_moments().iter().map(|moments| moments.cov.diagonal()));
         /// Standard errors of the measured variances, relative to them.
         relative_errors as relativeErrors: "Float64Array" =
-            triple_array(it.measured_moments().iter().map(|moments| moments.relative_error));
+            triple_array(simulation.measured_moments().iter().map(|moments| moments.relative_error));
         /// Path driven without noise, as x, y pairs (m) from the start.
-        commanded: "Float64Array" = flat_float_array(&it.commanded_path());
+        commanded: "Float64Array" = flat_float_array(&simulation.commanded_path());
         /// Variances of a straight drive as functions of its duration, at this speed and noise. Each drive is one command.
-        straight_growth as straightGrowth: "StraightGrowth" = to_plain_js(&it.straight_growth());
+        straight_growth as straightGrowth: "StraightGrowth" = to_plain_js(&simulation.straight_growth());
         /// x, y (m), θ (rad) of the commanded pose after each step.
-        nominal: "Float64Array" = triple_array(it.nominal_poses().iter().copied());
+        nominal: "Float64Array" = triple_array(simulation.nominal_poses().iter().copied());
         /// x, y (m), θ (rad) of the first robots after the selected step, 600 at most; a copy.
-        poses: "Float64Array" = flat_float_array(it.poses(it.settings().step));
+        poses: "Float64Array" = flat_float_array(simulation.poses(simulation.settings().step));
         /// Exponential coordinates (along and lateral in m, heading in rad) of the robots of `poses`, relative to the commanded pose; a copy.
-        twists: "Float64Array" = triple_array(it.twists());
+        twists: "Float64Array" = triple_array(simulation.twists());
         /// Outlines of the selected step, by the selected recursion.
-        outlines: "StepOutlines" = to_plain_js(&it.outlines(it.settings().step));
+        outlines: "StepOutlines" = to_plain_js(&simulation.outlines(simulation.settings().step));
         /// Robots and outlines after each quarter of the path, except at the selected step.
-        milestones: "Milestone[]" = to_plain_js(&it.milestones());
+        milestones: "Milestone[]" = to_plain_js(&simulation.milestones());
     }
 }
 
@@ -79,8 +79,8 @@ impl JsDeadReckoning {
     }
 }
 
-fn js_by_recursion(of: impl Fn(Compounding) -> Float64Array) -> JsValue {
+fn js_by_recursion(value_of: impl Fn(Compounding) -> Float64Array) -> JsValue {
     let recursion_entries: Vec<_> =
-        Compounding::KEYWORDS.iter().map(|(word, order)| (*word, of(*order).into())).collect();
+        Compounding::KEYWORDS.iter().map(|(name, recursion)| (*name, value_of(*recursion).into())).collect();
     js_object(&recursion_entries)
 }

@@ -1,5 +1,4 @@
-//! Reading JavaScript values, each checked once. Every error is a TypeError or RangeError that names the field, the
-//! value and the allowed values.
+//! Readers of JavaScript values. Every error is a TypeError or RangeError that names the field, the value and the allowed values.
 
 use crate::sim::settings::{
     Group, Keyword, Keywords, Rules, Setting, SettingsError, check_group, check_integer, check_real,
@@ -55,7 +54,7 @@ impl<'a> Fields<'a> {
         format!("{}{key}", self.prefix)
     }
 
-    /// Returns the value of a field; undefined where it is missing.
+    /// Returns the value of a field; undefined if the field is missing.
     pub fn value(&self, key: &str) -> Result<JsValue, JsValue> {
         Reflect::get(self.object, &key.into())
     }
@@ -101,21 +100,22 @@ pub fn read_keyword<T: Keywords>(field: &str, value: &JsValue) -> Result<T, JsVa
     Ok(parsed_value)
 }
 
-fn set_keyword(field: &str, value: &JsValue, word: &mut dyn Keyword) -> Result<(), JsValue> {
-    let allowed = |word: &dyn Keyword| word.all().into_iter().map(quote).collect::<Vec<_>>().join(" or ");
-    let keyword = value.as_string().ok_or_else(|| type_error(field, value, &allowed(word)))?;
-    if word.set(&keyword) {
+fn set_keyword(field: &str, value: &JsValue, setting: &mut dyn Keyword) -> Result<(), JsValue> {
+    let allowed =
+        |setting: &dyn Keyword| setting.all().into_iter().map(quote).collect::<Vec<_>>().join(" or ");
+    let keyword = value.as_string().ok_or_else(|| type_error(field, value, &allowed(setting)))?;
+    if setting.set(&keyword) {
         return Ok(());
     }
-    Err(RangeError::new(&format!("{field} is {}; allowed is {}", describe_value(value), allowed(word)))
+    Err(RangeError::new(&format!("{field} is {}; allowed is {}", describe_value(value), allowed(setting)))
         .into())
 }
 
 /// Reads an array (or typed array) of exactly N numbers without checking ranges.
 pub fn read_array<const N: usize>(field: &str, value: &JsValue) -> Result<[f64; N], JsValue> {
-    let mut result = [0.0; N];
-    fill_array(field, value, &mut result)?;
-    Ok(result)
+    let mut numbers = [0.0; N];
+    fill_array(field, value, &mut numbers)?;
+    Ok(numbers)
 }
 
 pub fn read_array_in_range<const N: usize>(
@@ -170,9 +170,9 @@ pub fn read_initial_settings<S: Rules>(options: &JsValue) -> Result<S, JsValue> 
 }
 
 /// Returns the current settings with the values in `options`. Ranges of doubles are checked later, by the simulation.
-pub fn read_settings<S: Rules>(current: &S, options: &JsValue) -> Result<S, JsValue> {
+pub fn read_settings<S: Rules>(current_settings: &S, options: &JsValue) -> Result<S, JsValue> {
     let fields = Fields::new("options", "", options, S::KEYS)?;
-    let (mut settings, mut given_keys) = (*current, Vec::new());
+    let (mut settings, mut given_keys) = (*current_settings, Vec::new());
     settings.try_visit_settings(|declaration, setting| {
         let key = declaration.key;
         let value = fields.value(key)?;
@@ -186,7 +186,7 @@ pub fn read_settings<S: Rules>(current: &S, options: &JsValue) -> Result<S, JsVa
         given_keys.push(key);
         read_setting(key, &value, setting)
     })?;
-    settings.adjust(current, &given_keys);
+    settings.adjust(current_settings, &given_keys);
     Ok(settings)
 }
 
@@ -203,7 +203,7 @@ fn read_setting(field: &str, value: &JsValue, setting: Setting) -> Result<(), Js
         Setting::Boolean(slot) => *slot = read_boolean(field, value)?,
         Setting::Keyword(slot) => set_keyword(field, value, slot)?,
         Setting::Numbers(slots, _) => fill_array(field, value, slots)?,
-        // Checked before the level is converted to its numbers, because a later error would name one of these.
+        // The level is checked before it is converted to α's, because a later error would name an α.
         Setting::Level(mut slot, allowed) => {
             slot.set(check_range(field, read_number(field, value)?, &allowed)?)
         }
@@ -266,14 +266,14 @@ fn describe_value(value: &JsValue) -> String {
     if let Some(number) = value.as_f64() {
         return number_text(number);
     }
-    if let Some(truth) = value.as_bool() {
-        return truth.to_string();
+    if let Some(boolean) = value.as_bool() {
+        return boolean.to_string();
     }
     if value.is_null() || value.is_undefined() {
         return if value.is_null() { "null" } else { "undefined" }.to_owned();
     }
     match value.js_typeof().as_string() {
-        Some(kind) if kind != "object" => format!("a {kind}"),
+        Some(type_name) if type_name != "object" => format!("a {type_name}"),
         _ => "an object".to_owned(),
     }
 }

@@ -43,7 +43,7 @@ const TIME_RANGE: RangeInclusive<f64> = -1e12..=1e12;
 /// Range of coordinates (m) and other values. It includes the coordinates of any national map grid.
 const COORDINATE_RANGE: RangeInclusive<f64> = -1e9..=1e9;
 
-/// Reads the odometry and the reference of one drive, or arrays of them for several drives.
+/// Reads odometry and reference of one drive, or arrays with the logs of several drives.
 pub fn read_logs(odometry: &JsValue, reference: &JsValue) -> Result<Vec<Log>, JsValue> {
     let odometry = read_drives("odometry", odometry, read_odometry)?;
     let reference = read_drives("reference", reference, read_poses)?;
@@ -60,16 +60,16 @@ pub fn read_logs(odometry: &JsValue, reference: &JsValue) -> Result<Vec<Log>, Js
 fn read_drives(
     field: &str,
     value: &JsValue,
-    read: fn(&str, &JsValue) -> Result<Trajectory, JsValue>,
+    read_drive: fn(&str, &JsValue) -> Result<Trajectory, JsValue>,
 ) -> Result<Vec<Trajectory>, JsValue> {
     if !js_sys::Array::is_array(value) {
-        return Ok(vec![read(field, value)?]);
+        return Ok(vec![read_drive(field, value)?]);
     }
     let drive_count = array_length(field, value, "an array of drives")?;
     if drive_count == 0 {
         return Err(RangeError::new(&format!("{field} is empty; allowed is one drive at least")).into());
     }
-    (0..drive_count).map(|i| read(&format!("{field}[{i}]"), &array_item(value, i)?)).collect()
+    (0..drive_count).map(|i| read_drive(&format!("{field}[{i}]"), &array_item(value, i)?)).collect()
 }
 
 fn read_odometry(field: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
@@ -87,16 +87,16 @@ fn read_odometry(field: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
 }
 
 fn read_poses(field: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
-    let prefix = format!("{field}.");
-    let fields = &Fields::new(field, &prefix, value, &["t", "x", "y", "theta", "breaks"])?;
+    let path_prefix = format!("{field}.");
+    let fields = &Fields::new(field, &path_prefix, value, &["t", "x", "y", "theta", "breaks"])?;
     let columns = read_columns(fields, ["t", "x", "y", "theta"])?;
     let [t, x, y, theta] = &columns;
     let poses = x.iter().zip(y).zip(theta).map(|((x, y), theta)| SE2::new(*x, *y, *theta));
     checked_trajectory(fields, Trajectory::new(t.iter().copied().zip(poses)))
 }
 
-/// Returns a trajectory with the breaks that the caller states. Errors are formatted here by JavaScript, because Rust's number
-/// formatting would be 5 % of a module.
+/// Adds the breaks of `fields` to a trajectory. JavaScript formats the numbers of errors, because Rust's number formatting would be 5 % of
+/// a module.
 fn checked_trajectory(
     fields: &Fields,
     trajectory: Result<Trajectory, TrajectoryError>,
@@ -137,7 +137,7 @@ fn checked_trajectory(
     Ok(trajectory)
 }
 
-/// Reads arrays of numbers of the same length as the first one, the times.
+/// Reads arrays of numbers that have the same length as the first array, the times.
 fn read_columns<const N: usize>(fields: &Fields, keys: [&str; N]) -> Result<[Vec<f64>; N], JsValue> {
     let mut columns = [const { Vec::new() }; N];
     for (i, key) in keys.into_iter().enumerate() {
@@ -171,8 +171,8 @@ fn read_numbers_of_column(path: &str, value: &JsValue, row_count: usize) -> Resu
         return Ok(doubles.to_vec());
     }
     let read_numbers = (0..row_count).map(|row| {
-        let item = array_item(value, row)?;
-        item.as_f64().map_or_else(|| read_number(&format!("{path}[{row}]"), &item), Ok)
+        let js_number = array_item(value, row)?;
+        js_number.as_f64().map_or_else(|| read_number(&format!("{path}[{row}]"), &js_number), Ok)
     });
     read_numbers.collect()
 }

@@ -1,4 +1,4 @@
-//! Plans and grids from JavaScript.
+//! Readers of floor plans and occupancy grids from JavaScript.
 
 use super::fields::{
     Fields, array_item, array_length, check_range, number_text, read_array, read_array_in_range,
@@ -7,7 +7,7 @@ use super::fields::{
 use crate::geom::se2::SE2;
 use crate::geom::segment::Segment;
 use crate::map::{
-    FloorPlan, FloorPlanError, Image, Interpretation, MAX_BYTES, MAX_PIXELS, MapMode, OccupancyGrid,
+    FloorPlan, FloorPlanError, Image, MAX_BYTES, MAX_PIXELS, MapMode, OccupancyGrid, PixelInterpretation,
     RESOLUTION_RANGE, read_grid,
 };
 use crate::sim::settings::{Keywords, QUANTITY_RANGE};
@@ -65,26 +65,26 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
     let read_threshold = |key: &str| {
         fields.read_optional(key, |field, value| check_range(field, read_number(field, value)?, &(0.0..=1.0)))
     };
-    let defaults = Interpretation::default();
+    let defaults = PixelInterpretation::default();
     let occupied_thresh = read_threshold("occupied_thresh")?.unwrap_or(defaults.occupied_thresh);
     let free_thresh = read_threshold("free_thresh")?;
-    if let Some(free) = free_thresh.filter(|free| *free > occupied_thresh) {
-        let [free_text, limit_text] = [free, occupied_thresh].map(number_text);
+    if let Some(free_threshold) = free_thresh.filter(|free_threshold| *free_threshold > occupied_thresh) {
+        let [free_text, limit_text] = [free_threshold, occupied_thresh].map(number_text);
         let message = format!("free_thresh is {free_text}; allowed is at most occupied_thresh, {limit_text}");
         return Err(RangeError::new(&message).into());
     }
     let mode = fields.read_optional("mode", read_keyword)?.unwrap_or(defaults.mode);
     let free_thresh = free_thresh.unwrap_or(defaults.free_thresh.min(occupied_thresh));
     let negate = negate.unwrap_or(defaults.negate);
-    let interpretation = Interpretation { mode, negate, occupied_thresh, free_thresh };
+    let interpretation = PixelInterpretation { mode, negate, occupied_thresh, free_thresh };
     let origin = SE2::from(origin);
     if let Some(file) = image.dyn_ref::<Uint8Array>() {
         read_integer("image.length", f64::from(file.length()), 0..=MAX_BYTES as u64)?;
         return read_grid(&file.to_vec(), &interpretation, resolution, origin)
             .map_err(|error| RangeError::new(&error.to_string()).into());
     }
-    let (width, height, data) = read_pixels(image)?;
-    let pixels = data.as_chunks::<4>().0.to_vec();
+    let (width, height, pixel_bytes) = read_pixels(image)?;
+    let pixels = pixel_bytes.as_chunks::<4>().0.to_vec();
     Ok(OccupancyGrid::new(&Image { width, height, pixels }, &interpretation, resolution, origin))
 }
 
@@ -99,9 +99,9 @@ fn read_pixels(image: &JsValue) -> Result<(usize, usize, Vec<u8>), JsValue> {
     let Some(data) = data.dyn_ref::<Uint8ClampedArray>() else {
         return Err(type_error("image.data", &data, "a Uint8ClampedArray of red, green, blue, opacity"));
     };
-    let (length, expected_length) = (data.length() as usize, 4 * width * height);
-    if length != expected_length {
-        let message = format!("image.data has length {length}; allowed is {expected_length}");
+    let (byte_count, expected_byte_count) = (data.length() as usize, 4 * width * height);
+    if byte_count != expected_byte_count {
+        let message = format!("image.data has length {byte_count}; allowed is {expected_byte_count}");
         return Err(RangeError::new(&message).into());
     }
     Ok((width, height, data.to_vec()))

@@ -229,7 +229,7 @@ pub fn propagate(options: &JsPropagation) -> Result<Array, JsValue> {
     let mut sigma = fields.read_optional("sigma", read_covariance)?.unwrap_or_default();
     let command = read_command(&fields.value("command")?)?;
     let model = VelocityModel { alphas: VelocityAlphas(read_alphas(&fields)?), noise: NoiseKind::Normal };
-    let order = fields.read_optional("compounding", read_keyword)?.unwrap_or(Compounding::Chapter);
+    let recursion = fields.read_optional("compounding", read_keyword)?.unwrap_or(Compounding::Chapter);
     let steps = fields
         .read_optional("steps", |field, value| {
             read_integer(field, read_number(field, value)?, 1..=MAX_STEPS)
@@ -240,9 +240,9 @@ pub fn propagate(options: &JsPropagation) -> Result<Array, JsValue> {
         .map_err(|error| RangeError::new(&error.to_string()))?;
     let twist = TangentNoiseModel::twist(&command);
     for step in 0..steps {
-        sigma = noise_model.propagate(&sigma, &twist, order);
-        // The other two recursions add covariances. Only the fourth order can give a matrix that is not one.
-        if order == Compounding::FourthOrder && covariance_root(&sigma).is_err() {
+        sigma = noise_model.propagate(&sigma, &twist, recursion);
+        // The first-order and chapter recursions add covariances. Only the fourth order can give an indefinite matrix.
+        if recursion == Compounding::FourthOrder && covariance_root(&sigma).is_err() {
             let message = format!(
                 "steps is {steps}; allowed are at most {step} here: the next leaves no covariance, for the noise is too large"
             );
@@ -326,10 +326,10 @@ fn read_twist(field: &str, value: &JsValue) -> Result<Vector3<f64>, JsValue> {
 
 fn read_covariance(field: &str, value: &JsValue) -> Result<Matrix3<f64>, JsValue> {
     let allowed_text = "three rows of three numbers, symmetric, of no negative variance";
-    let count = array_length(field, value, allowed_text)?;
-    if count != 3 {
+    let row_count = array_length(field, value, allowed_text)?;
+    if row_count != 3 {
         return Err(
-            RangeError::new(&format!("{field} has length {count}; allowed are {allowed_text}")).into()
+            RangeError::new(&format!("{field} has length {row_count}; allowed are {allowed_text}")).into()
         );
     }
     let mut matrix = Matrix3::zeros();

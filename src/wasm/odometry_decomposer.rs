@@ -16,21 +16,21 @@ cloud_simulation_class! {
 }
 
 getters! {
-    JsOdometryDecomposer, "OdometryDecomposer", |it| {
+    JsOdometryDecomposer, "OdometryDecomposer", |simulation| {
         /// x, y (m), θ (rad) of each outcome shown, in the odometry frame; a copy.
-        poses: "Float64Array" = triple_array(it.poses().iter().copied());
+        poses: "Float64Array" = triple_array(simulation.poses().iter().copied());
         /// Noise-free reading as four poses x, y, θ: at the start, after the first rotation, after the drive, after the
         /// second rotation.
-        leg_poses as linkage: "Float64Array" = triple_array(it.leg_poses());
+        leg_poses as linkage: "Float64Array" = triple_array(simulation.leg_poses());
         /// Leg poses of the first outcomes shown, one after the other in the form of `linkage`.
         sample_leg_poses as ghosts: "Float64Array" =
-            triple_array(it.sample_leg_poses(MAX_SHOWN_LINKAGES).into_iter().flatten());
+            triple_array(simulation.sample_leg_poses(MAX_SHOWN_LINKAGES).into_iter().flatten());
         /// Pose of the robot at the selected phase.
-        robot: "Start" = pose_to_js(it.robot_pose());
+        robot: "Start" = pose_to_js(simulation.robot_pose());
         /// Legs and noises of the reading by each rule.
-        rules: "RuleNoise[]" = to_plain_js(&it.rule_noises());
-        stats: "DecomposerStats" = to_plain_js(&it.stats());
-        drifted: "Drifted" = to_plain_js(&it.drifted_odometry());
+        rules: "RuleNoise[]" = to_plain_js(&simulation.rule_noises());
+        stats: "DecomposerStats" = to_plain_js(&simulation.stats());
+        drifted: "Drifted" = to_plain_js(&simulation.drifted_odometry());
     }
 }
 

@@ -1,8 +1,8 @@
-//! Pictures of densities for JavaScript: reading of their arguments, and their pixels as a view of the core's memory.
+//! Density pictures for JavaScript: readers of arguments, and views of pixels in the core's memory.
 
 use super::fields::{check_range, read_integer};
 use crate::sim::picture::{RAMP_STEP_COUNT, Ramp};
-use crate::sim::views::{EXTENT_RANGE, Grid, MAX_CELLS, MAX_CELLS_PER_SIDE};
+use crate::sim::views::{EXTENT_RANGE, MAX_CELLS, MAX_CELLS_PER_SIDE, ViewGrid};
 use js_sys::{RangeError, Uint8ClampedArray, WebAssembly};
 use std::ops::RangeInclusive;
 use wasm_bindgen::prelude::*;
@@ -11,14 +11,14 @@ use wasm_bindgen::prelude::*;
 pub const RADIUS_RANGE: RangeInclusive<f64> = 0.0..=f64::INFINITY;
 
 pub fn pixel_view(pixels: &[[u8; 4]]) -> Uint8ClampedArray {
-    let (start, length) = (pixels.as_ptr() as u32, pixels.as_flattened().len() as u32);
+    let (first_byte, byte_count) = (pixels.as_ptr() as u32, pixels.as_flattened().len() as u32);
     let create_view = || {
         let memory: WebAssembly::Memory = wasm_bindgen::memory().unchecked_into();
-        Uint8ClampedArray::new_with_byte_offset_and_length(&memory.buffer(), start, length)
+        Uint8ClampedArray::new_with_byte_offset_and_length(&memory.buffer(), first_byte, byte_count)
     };
     let first_view = create_view();
-    // Creating the view may have grown the memory, which detaches all views of it. That happens at most once.
-    if first_view.length() == length { first_view } else { create_view() }
+    // Creating the view may have grown the memory, which detaches existing views. The second view does not grow it.
+    if first_view.length() == byte_count { first_view } else { create_view() }
 }
 
 /// Returns the index that `find` returns for the point (x, y) (m) and the radius; −1 for none.
@@ -31,19 +31,20 @@ pub fn nearest_index(
     Ok(find([x, y], check_range("radius", radius, &RADIUS_RANGE)?).map_or(-1, |index| index as i32))
 }
 
-/// Reads minimum x, minimum y, maximum x, maximum y as two corners.
+/// Checks the bounds of a rectangle, and returns its minimum and maximum corner.
 pub fn read_bounds([x_min, y_min, x_max, y_max]: [f64; 4]) -> Result<[[f64; 2]; 2], JsValue> {
     let min = [check_range("xMin", x_min, &EXTENT_RANGE)?, check_range("yMin", y_min, &EXTENT_RANGE)?];
-    let end = *EXTENT_RANGE.end();
-    let max = [check_range("xMax", x_max, &(min[0]..=end))?, check_range("yMax", y_max, &(min[1]..=end))?];
+    let limit = *EXTENT_RANGE.end();
+    let max =
+        [check_range("xMax", x_max, &(min[0]..=limit))?, check_range("yMax", y_max, &(min[1]..=limit))?];
     Ok([min, max])
 }
 
-pub fn read_grid(bounds: [f64; 4], columns: f64, rows: f64) -> Result<Grid, JsValue> {
+pub fn read_grid(bounds: [f64; 4], columns: f64, rows: f64) -> Result<ViewGrid, JsValue> {
     let [min, max] = read_bounds(bounds)?;
     let columns = read_integer("columns", columns, 1..=MAX_CELLS_PER_SIDE)?;
     let rows = read_integer("rows", rows, 1..=MAX_CELLS_PER_SIDE.min(MAX_CELLS / columns))?;
-    Ok(Grid { min, max, columns: columns as usize, rows: rows as usize })
+    Ok(ViewGrid { min, max, columns: columns as usize, rows: rows as usize })
 }
 
 /// Reads consecutive colour ramps from their bytes.

@@ -44,8 +44,8 @@ macro_rules! simulation_class {
     };
 }
 
-/// Declares the JavaScript class of a simulation with a cloud of at most `$max_samples` samples. It has the methods of
-/// [`simulation_class`] and those of the cloud.
+/// Declares the JavaScript class of a simulation with a cloud of at most `$max_samples` samples. The class has the methods of
+/// [`simulation_class`] and the methods for a cloud.
 macro_rules! cloud_simulation_class {
     (
         $(#[$doc:meta])+

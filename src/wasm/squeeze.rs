@@ -46,39 +46,39 @@ cloud_simulation_class! {
 }
 
 getters! {
-    JsMapSqueeze, "MapSqueeze", |it| {
+    JsMapSqueeze, "MapSqueeze", |simulation| {
         /// Level n of the noise parameters; null if they are not in the ratios of a level.
-        noise: "number | null" = number_or_null(it.settings().noise());
+        noise: "number | null" = number_or_null(simulation.settings().noise());
         plan: "Plan" = {
             let wall_coordinates = |Segment { from, to }: &Segment| [from[0], from[1], to[0], to[1]];
-            let walls = it.plan().walls().iter().map(wall_coordinates).collect();
-            to_plain_js(&Plan { bounds: it.plan().bounds(), walls })
+            let walls = simulation.plan().walls().iter().map(wall_coordinates).collect();
+            to_plain_js(&Plan { bounds: simulation.plan().bounds(), walls })
         };
         /// Cells of the map; null for a plan of walls.
-        grid: "Grid | null" = to_plain_js(&it.plan().grid().map(|grid| {
+        grid: "Grid | null" = to_plain_js(&simulation.plan().grid().map(|grid| {
             let ([columns, rows], origin) = (grid.size(), grid.origin().into());
-            let cell_flags = |kind| grid.cells().map(|cell| u8::from(cell == kind)).collect();
+            let cell_flags = |state| grid.cells().map(|cell| u8::from(cell == state)).collect();
             let [occupied, unknown] = [Cell::Occupied, Cell::Unknown].map(cell_flags);
             Grid { columns, rows, resolution: grid.resolution(), origin, occupied, unknown }
         }));
         /// Free start pose: in the middle of the largest square that is known to be free, heading where the path is free
         /// for longest. If the robot does not fit there, another pose where it fits; null if there is none.
-        find_free_pose as openPlace: "Start | null" = it.find_free_pose().map_or(JsValue::NULL, pose_to_js);
+        find_free_pose as openPlace: "Start | null" = simulation.find_free_pose().map_or(JsValue::NULL, pose_to_js);
         /// True if the robot collides with nothing at its start pose.
-        is_start_free as startFree: "boolean" = it.is_start_free();
+        is_start_free as startFree: "boolean" = simulation.is_start_free();
         /// Noise-free path of the command, as x, y pairs.
-        commanded: "Float64Array" = flat_float_array(&it.commanded_arc().points());
+        commanded: "Float64Array" = flat_float_array(&simulation.commanded_arc().points());
         /// x, y (m), θ (rad) of each attempt shown; a copy.
-        poses: "Float64Array" = triple_array(it.attempts().iter().map(|attempt| attempt.pose));
+        poses: "Float64Array" = triple_array(simulation.attempts().iter().map(|attempt| attempt.pose));
         /// Result of each attempt as one byte: 1 for a free end, plus 2 for a free path, plus 4 if it is accepted.
         verdicts: "Uint8Array" =
-            it.attempts().iter().map(Attempt::verdict_bits).collect::<Vec<_>>().to_js();
-        stats: "SqueezeStats" = to_plain_js(&it.stats());
+            simulation.attempts().iter().map(Attempt::verdict_bits).collect::<Vec<_>>().to_js();
+        stats: "SqueezeStats" = to_plain_js(&simulation.stats());
         /// Paths of the first attempts that are accepted through a wall, each as x, y pairs.
         wall_paths as paths: "Float64Array[]" = {
-            let attempts = it.attempts().iter().enumerate();
+            let attempts = simulation.attempts().iter().enumerate();
             let through_wall = attempts.filter(|(_, attempt)| attempt.is_through_wall()).take(MAX_SHOWN_PATHS);
-            through_wall.map(|(index, _)| path_of(it, index)).collect::<Array>()
+            through_wall.map(|(index, _)| path_of(simulation, index)).collect::<Array>()
         };
     }
 }

@@ -10,11 +10,11 @@ use wasm_bindgen::prelude::*;
 /// Converts a value to a plain JavaScript value, in which None is null.
 pub fn to_plain_js<T: Serialize>(value: &T) -> JsValue {
     let serializer = serde_wasm_bindgen::Serializer::new().serialize_missing_as_null(true);
-    // It succeeds: only maps with keys that are not texts would fail, and results contain none.
+    // Serialization fails only for maps whose keys are not strings, which results do not contain.
     value.serialize(&serializer).unwrap_or(JsValue::NULL)
 }
 
-/// Conversion to a JavaScript value of another kind than serde makes, such as a Float64Array.
+/// Conversion to a JavaScript value that serde does not create, such as a Float64Array.
 pub trait ToJs {
     fn to_js(&self) -> JsValue;
 }
@@ -44,7 +44,7 @@ to_js! {
     Vec<Vec<[f64; 2]>>: |lines| lines.iter().map(Vec::to_js).collect::<Array>();
     Vec<u8>: |bytes| Uint8Array::from(&bytes[..]);
     Vector3<f64>: |vector| js_array(vector.as_slice());
-    // Arrays of the columns. Those of a symmetric matrix, such as a covariance, are equal to its rows.
+    // Array of the columns, which are also the rows, because all matrices in results are symmetric.
     Matrix3<f64>: |matrix| matrix.as_slice().chunks(3).map(js_array).collect::<Array>();
 }
 
@@ -66,12 +66,12 @@ pub fn js_array(numbers: &[f64]) -> JsValue {
     numbers.iter().copied().map(JsValue::from).collect::<Array>().into()
 }
 
-/// Makes a Float64Array of numbers, those of each point or pose one after the other.
+/// Returns a Float64Array of the numbers of all points or poses in order.
 pub fn flat_float_array<const N: usize>(numbers: &[[f64; N]]) -> Float64Array {
     Float64Array::from(numbers.as_flattened())
 }
 
-/// Makes a Float64Array of poses or vectors, the three numbers of each one after the other.
+/// Returns a Float64Array of the three numbers of each pose or vector in order.
 pub fn triple_array<T: Into<[f64; 3]>>(triples: impl IntoIterator<Item = T>) -> Float64Array {
     flat_float_array(&triples.into_iter().map(Into::into).collect::<Vec<[f64; 3]>>())
 }

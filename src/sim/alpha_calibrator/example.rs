@@ -17,24 +17,24 @@ use std::f64::consts::TAU;
 /// True α's of the simulation, with the rule of Table 5.6.
 pub const TRUE_ALPHAS: [f64; 4] = [0.05, 0.008, 0.004, 0.003];
 
-/// Length of the legs to which these α's apply, m: the default of `update_min_d` in Nav2's AMCL.
+/// Length of the legs to which the true α's apply, m: the default of `update_min_d` in Nav2's AMCL.
 const LEG_DISTANCE: f64 = 0.25;
-/// Turn of these legs, rad: the default of `update_min_a` in Nav2's AMCL.
+/// Turn of the legs to which the true α's apply, rad: the default of `update_min_a` in Nav2's AMCL.
 pub const LEG_ANGLE: f64 = 0.2;
 
-/// Time by the reference's clock minus time by the odometry's, s.
+/// Offset of the reference's clock from the odometry's clock, s.
 pub const CLOCK_OFFSET: f64 = 0.15;
 /// True yaw of the reference's sensor on the robot, rad.
 pub const MOUNT_YAW: f64 = 0.07;
 /// True position of the reference's sensor on the robot, m ahead and to the left.
 pub const LEVER_ARM: [f64; 2] = [0.12, 0.0];
-/// True distances over those of the odometry.
+/// Ratio of true distances to odometry distances.
 pub const DISTANCE_SCALE: f64 = 1.02;
-/// True turns over those of the odometry.
+/// Ratio of true turns to odometry turns.
 pub const TURN_SCALE: f64 = 0.97;
 
-/// Jumps of the reference: size (m), number of rows of a jump, and probability that one begins at a row. On average they make
-/// one leg in 70 an outlier.
+/// Jumps of the reference: size (m), number of rows of a jump, and probability that one begins at a row. On average one leg in 70 becomes
+/// an outlier.
 const JUMP_SIZE: f64 = 0.5;
 const ROWS_PER_JUMP: usize = 25;
 const JUMP_PROBABILITY: f64 = 4e-4;
@@ -43,9 +43,9 @@ const JUMP_PROBABILITY: f64 = 4e-4;
 const ROW_INTERVAL: f64 = 0.02;
 const ROW_COUNT: usize = 9000;
 
-/// Speed, m/s, and turn rate, rad/s.
-const SPEED: f64 = 0.6;
-const TURN_RATE: f64 = 0.8;
+/// Maximum speed, m/s, and maximum turn rate, rad/s.
+const MAX_SPEED: f64 = 0.6;
+const MAX_TURN_RATE: f64 = 0.8;
 
 /// Time between two turns on the spot, s.
 const TURN_INTERVAL: f64 = 20.0;
@@ -73,7 +73,7 @@ impl Controller {
             self.remaining_turn = rng.random_range(1.2..3.0) * if rng.random_bool(0.5) { 1.0 } else { -1.0 };
         }
         if self.remaining_turn != 0.0 {
-            let turn = self.remaining_turn.clamp(-TURN_RATE * ROW_INTERVAL, TURN_RATE * ROW_INTERVAL);
+            let turn = self.remaining_turn.clamp(-MAX_TURN_RATE * ROW_INTERVAL, MAX_TURN_RATE * ROW_INTERVAL);
             self.remaining_turn -= turn;
             return [0.0, turn / ROW_INTERVAL];
         }
@@ -85,8 +85,8 @@ impl Controller {
         }
         let bearing = libm::atan2(target[1] - pose.y(), target[0] - pose.x());
         let heading_error = wrap_angle(bearing - pose.theta());
-        let v = SPEED * libm::cos(heading_error).max(0.0);
-        [v, (2.0 * heading_error).clamp(-TURN_RATE, TURN_RATE)]
+        let v = MAX_SPEED * libm::cos(heading_error).max(0.0);
+        [v, (2.0 * heading_error).clamp(-MAX_TURN_RATE, MAX_TURN_RATE)]
     }
 }
 
@@ -96,11 +96,11 @@ struct CurrentLeg {
     odometry_start: SE2,
     /// True pose at the start of the leg.
     true_start: SE2,
-    /// Times, and noise-free motions since the start of the leg.
+    /// Row times, and noise-free motions from the start of the leg to each row.
     motions: Vec<(f64, SE2)>,
 }
 
-/// Returns the simulated log of a seed.
+/// Simulates odometry and reference for a seed.
 pub fn simulate_log(seed: u64) -> Log {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     let [x, y] = target_position(0.0);
@@ -115,10 +115,10 @@ pub fn simulate_log(seed: u64) -> Log {
     };
     for row in 1..ROW_COUNT {
         let time = ROW_INTERVAL * row as f64;
-        let (_, motion) = current_leg.motions[current_leg.motions.len() - 1];
+        let (_, leg_motion) = current_leg.motions[current_leg.motions.len() - 1];
         // The robot steers by its odometry. Steering by the true pose would correct the errors, and correlate them with the turns.
         let [v, omega] = controller.next_speeds(time, &(start_pose * odometry_poses[row - 1].1), &mut rng);
-        let next_motion = motion * SE2::exp(&Vector3::new(v * ROW_INTERVAL, 0.0, omega * ROW_INTERVAL));
+        let next_motion = leg_motion * SE2::exp(&Vector3::new(v * ROW_INTERVAL, 0.0, omega * ROW_INTERVAL));
         let odometry_twist =
             Vector3::new(v * ROW_INTERVAL / DISTANCE_SCALE, 0.0, omega * ROW_INTERVAL / TURN_SCALE);
         let odometry_pose = odometry_poses[row - 1].1 * SE2::exp(&odometry_twist);
@@ -131,21 +131,25 @@ pub fn simulate_log(seed: u64) -> Log {
             || has_moved_far(current_leg.odometry_start.y(), odometry_pose.y())
             || has_turned
         {
-            let end = finish_leg(&current_leg, &mut true_poses, &mut rng);
+            let leg_end = finish_leg(&current_leg, &mut true_poses, &mut rng);
             current_leg = CurrentLeg {
                 odometry_start: odometry_pose,
-                true_start: end,
+                true_start: leg_end,
                 motions: vec![(time, SE2::identity())],
             };
         }
     }
     // Rows after the last complete leg have no noise.
     true_poses.extend(
-        current_leg.motions.iter().skip(1).map(|(time, motion)| (*time, current_leg.true_start * *motion)),
+        current_leg
+            .motions
+            .iter()
+            .skip(1)
+            .map(|(time, leg_motion)| (*time, current_leg.true_start * *leg_motion)),
     );
-    let create_trajectory = |samples| {
+    let create_trajectory = |timed_poses| {
         // The times increase, so that the trajectory is valid.
-        let Ok(trajectory) = Trajectory::new(samples) else { unreachable!() };
+        let Ok(trajectory) = Trajectory::new(timed_poses) else { unreachable!() };
         trajectory
     };
     Log {
@@ -156,7 +160,7 @@ pub fn simulate_log(seed: u64) -> Log {
 
 /// Appends the true poses of a finished leg, and returns its true end. Each row adds an independent part of the noise. If the
 /// noise of a leg were spread evenly over its rows, legs with other boundaries would have too little noise.
-fn finish_leg(leg: &CurrentLeg, truth: &mut Vec<(f64, SE2)>, rng: &mut Xoshiro256PlusPlus) -> SE2 {
+fn finish_leg(leg: &CurrentLeg, true_poses: &mut Vec<(f64, SE2)>, rng: &mut Xoshiro256PlusPlus) -> SE2 {
     let [a1, a2, a3, a4] = TRUE_ALPHAS;
     let row_motions = &leg.motions[1..];
     let (_, leg_motion) = leg.motions[row_motions.len()];
@@ -164,20 +168,20 @@ fn finish_leg(leg: &CurrentLeg, truth: &mut Vec<(f64, SE2)>, rng: &mut Xoshiro25
     let leg_variances = OdometryRule::Table.variances(&leg_reading, &[a1, a2, a3, a4, 0.0]);
     let variance_per_row = Variance(1.0 / row_motions.len() as f64);
     let mut unit_noise = [0.0; 3];
-    let mut end = leg_motion;
+    let mut leg_end = leg_motion;
     for (time, motion) in row_motions {
         unit_noise.iter_mut().for_each(|noise| *noise += NoiseKind::Normal.sample(variance_per_row, rng));
-        [.., end] = leg_variances.executed_motion(&leg_reading, unit_noise).poses(&SE2::identity());
-        truth.push((*time, leg.true_start * motion.boxplus(end.boxminus(&leg_motion))));
+        [.., leg_end] = leg_variances.executed_motion(&leg_reading, unit_noise).poses(&SE2::identity());
+        true_poses.push((*time, leg.true_start * motion.boxplus(leg_end.boxminus(&leg_motion))));
     }
-    leg.true_start * end
+    leg.true_start * leg_end
 }
 
-/// Returns the true trajectory as the reference measures it.
-fn simulate_reference(truth: &[(f64, SE2)], rng: &mut Xoshiro256PlusPlus) -> Vec<(f64, SE2)> {
+/// Returns the measurements of the true trajectory by the reference.
+fn simulate_reference(true_poses: &[(f64, SE2)], rng: &mut Xoshiro256PlusPlus) -> Vec<(f64, SE2)> {
     let mut jump_offset = SE2::identity();
     let mut remaining_rows = 0;
-    truth
+    true_poses
         .iter()
         .map(|(time, pose)| {
             if remaining_rows > 0 {

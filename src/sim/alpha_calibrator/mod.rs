@@ -66,7 +66,7 @@ js_structs! {
 #[derive(Clone, Debug)]
 pub struct AlphaCalibrator {
     settings: Settings,
-    source: Source,
+    log_source: LogSource,
     fit: Fit,
     /// Revision of the fit. It increases with each change of the log or the settings that needs a new fit.
     fit_revision: u32,
@@ -74,7 +74,7 @@ pub struct AlphaCalibrator {
 
 /// Source of a log.
 #[derive(Clone, Debug)]
-enum Source {
+enum LogSource {
     /// Simulated with the seed of the settings.
     Simulated,
     /// Logs that the user has loaded, one for each drive.
@@ -83,7 +83,7 @@ enum Source {
     Restored,
 }
 
-/// Calibration, and its settings.
+/// Calibration, computed on first use, and its settings.
 #[derive(Clone, Debug)]
 struct Fit {
     settings: Settings,
@@ -96,25 +96,25 @@ impl AlphaCalibrator {
     /// # Errors
     /// [`SettingsError`] for the first setting out of range.
     pub fn new(settings: Settings) -> Result<Self, SettingsError> {
-        Self::from_source(settings, Source::Simulated, OnceCell::new())
+        Self::from_source(settings, LogSource::Simulated, OnceCell::new())
     }
 
-    /// Creates a simulation with a fit that another simulation has saved. It has no log. Settings that need another fit are therefore
-    /// [pending](AlphaCalibrator::is_pending).
+    /// Creates a simulation with a fit that another simulation has saved. The simulation has no log, so that settings that need another fit
+    /// are [pending](AlphaCalibrator::is_pending).
     ///
     /// # Errors
     /// [`SettingsError`] for the first setting out of range.
     pub fn restore(settings: Settings, calibration: Calibration) -> Result<Self, SettingsError> {
-        Self::from_source(settings, Source::Restored, OnceCell::from(calibration))
+        Self::from_source(settings, LogSource::Restored, OnceCell::from(calibration))
     }
 
     fn from_source(
         settings: Settings,
-        source: Source,
+        log_source: LogSource,
         calibration: OnceCell<Calibration>,
     ) -> Result<Self, SettingsError> {
         settings.check()?;
-        Ok(Self { settings, source, fit: Fit { settings, calibration }, fit_revision: 1 })
+        Ok(Self { settings, log_source, fit: Fit { settings, calibration }, fit_revision: 1 })
     }
 
     /// Returns the settings.
@@ -122,7 +122,7 @@ impl AlphaCalibrator {
         &self.settings
     }
 
-    /// Returns the settings of the fit. They differ from [`AlphaCalibrator::settings`] while those are pending.
+    /// Returns the settings of the fit. They differ from [`AlphaCalibrator::settings`] while the current settings are pending.
     pub fn fitted_settings(&self) -> &Settings {
         &self.fit.settings
     }
@@ -136,7 +136,8 @@ impl AlphaCalibrator {
     /// Errors are those of [`AlphaCalibrator::new`], and change nothing.
     pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
         settings.check()?;
-        let is_same_log = !matches!(self.source, Source::Simulated) || self.settings.seed == settings.seed;
+        let is_same_log =
+            !matches!(self.log_source, LogSource::Simulated) || self.settings.seed == settings.seed;
         self.settings = settings;
         self.fit.settings.copy_prediction_settings(&settings);
         if !is_same_log || self.is_pending() {
@@ -147,12 +148,12 @@ impl AlphaCalibrator {
 
     /// Replaces the log, which has an entry for each drive.
     pub fn set_log(&mut self, logs: Vec<Log>) {
-        self.source = Source::Loaded(logs);
+        self.log_source = LogSource::Loaded(logs);
         self.invalidate_fit();
     }
 
     fn invalidate_fit(&mut self) {
-        if !matches!(self.source, Source::Restored) {
+        if !matches!(self.log_source, LogSource::Restored) {
             self.fit = Fit { settings: self.settings, calibration: OnceCell::new() };
             self.fit_revision += 1;
         }
@@ -163,15 +164,15 @@ impl AlphaCalibrator {
         self.fit_revision
     }
 
-    /// Returns the fit. It is empty if the log has too few legs.
+    /// Returns the calibration, which is empty if the log has too few legs.
     pub fn calibration(&self) -> &Calibration {
         self.fit.calibration.get_or_init(|| {
             let Settings { seed, .. } = self.fit.settings;
             let options = self.fit.settings.options();
-            let logs = match &self.source {
-                Source::Simulated => &[example::simulate_log(seed)],
-                Source::Loaded(logs) => &logs[..],
-                Source::Restored => &[],
+            let logs = match &self.log_source {
+                LogSource::Simulated => &[example::simulate_log(seed)],
+                LogSource::Loaded(logs) => &logs[..],
+                LogSource::Restored => &[],
             };
             let drives: Vec<Drive> =
                 logs.iter().map(|Log { odometry, reference }| Drive { odometry, reference }).collect();
@@ -181,7 +182,7 @@ impl AlphaCalibrator {
 
     /// Returns the true values, if the log is simulated. The α's belong to the leg length and rule of the simulation.
     pub fn truth(&self) -> Option<Truth> {
-        matches!(self.source, Source::Simulated).then_some(Truth {
+        matches!(self.log_source, LogSource::Simulated).then_some(Truth {
             alphas: example::TRUE_ALPHAS,
             clock_offset: example::CLOCK_OFFSET,
             mount_yaw: example::MOUNT_YAW,
@@ -221,7 +222,7 @@ impl AlphaCalibrator {
         Some(LegView { outcomes, outline, read: odometry_end.into(), ended: reference_end.into() })
     }
 
-    /// Returns the end pose that the model predicts for a reading, with this unit noise.
+    /// Returns the end pose that the model predicts for a reading, with the noise `unit_noise`.
     fn outcome_pose(&self, reading: &[f64; 3], unit_noise: [f64; 3]) -> SE2 {
         let (settings, calibration) = (&self.fit.settings, self.calibration());
         // An α that the log does not identify adds nothing.
@@ -236,14 +237,14 @@ impl AlphaCalibrator {
             let command = VelocityCmd { v: first, omega: second, dt: third };
             return fitted_model.apply_noise(&command, &SE2::identity(), unit_noise);
         }
-        let legs = OdomDelta { rot1: first, trans: second, rot2: third };
+        let reading = OdomDelta { rot1: first, trans: second, rot2: third };
         let alphas: RuleAlphas = std::array::from_fn(inflated_alpha);
-        let [.., end] = settings
+        let [.., end_pose] = settings
             .rule
-            .variances(&legs, &alphas)
-            .executed_motion(&legs, unit_noise)
+            .variances(&reading, &alphas)
+            .executed_motion(&reading, unit_noise)
             .poses(&SE2::identity());
-        end
+        end_pose
     }
 
     /// Returns the leg whose path is nearest to a point (m), within `radius`.
@@ -266,7 +267,7 @@ impl AlphaCalibrator {
 pub enum Regressor {
     /// Squared distance, or squared speed.
     Distance,
-    /// Squared rotation, or squared turn rate; the sum for both rotations if both add noise.
+    /// Squared rotation or squared turn rate; the sum over the rotations if several add noise.
     Turn,
 }
 
@@ -294,9 +295,9 @@ js_structs! {
         /// Standard errors of `y`: from the scatter of the squares, or from the model, whichever is larger. In a bin with
         /// one dominating leg the scatter is too small.
         pub error: Vec<f64>,
-        /// Slope: the α. It and its interval are null (None) where the log does not identify the α.
+        /// Slope: the α; null (None) if the log does not identify the α.
         pub slope: Option<f64>,
-        /// 95 % interval of the slope.
+        /// 95 % interval of the slope; null (None) if the log does not identify the α.
         pub interval: Option<[f64; 2]>,
     }
 }
@@ -327,8 +328,8 @@ fn create_panel(
         .iter()
         .zip(leg_fits)
         .filter(|(observation, fit)| !observation.residuals[component].is_nan() && !fit.is_outlier)
-        // Legs that seem to move sideways are left out. Their readings have turns that the robot did not make, far beyond all
-        // others. A check counts these legs.
+        // Legs with sideways motion are omitted, because their readings have large rotations that the robot did not make. A diagnostic
+        // check counts them.
         .filter(|(observation, _)| !observation.moves_sideways(model))
         .map(|(observation, fit)| {
             let coefficient = observation.coefficients[component][position_in_component];

@@ -12,7 +12,7 @@ pub enum Model {
     Odometry,
     /// Odometry model with five α's of a robot that can drive sideways: [`OdometryRule::Omni`].
     Omnidirectional,
-    /// Velocity model with six α's, whose logs contain commands instead of odometry.
+    /// Velocity model with six α's. Its logs contain commands instead of odometry.
     Velocity,
 }
 
@@ -68,13 +68,13 @@ settings! {
 }
 
 impl Settings {
-    /// Copies the settings of the predicted cloud from others: inflation, distribution and seed. The fit does not depend on them.
+    /// Copies the settings on which the fit does not depend: inflation, noise distribution and seed of the predicted cloud.
     pub(super) fn copy_prediction_settings(&mut self, other: &Self) {
         let Self { inflation, noise, seed, .. } = *other;
         *self = Self { inflation, noise, seed, ..*self };
     }
 
-    /// Returns true if other settings have the same fit to a log, because they differ only in the predicted cloud.
+    /// Returns true if `other` settings give the same fit, because they differ only in the predicted cloud.
     pub(super) fn has_same_fit(&self, other: &Self) -> bool {
         let mut with_other_prediction = *self;
         with_other_prediction.copy_prediction_settings(other);

@@ -9,7 +9,7 @@ pub use stats::{Contours, Coverage, Sample, Stats, Table, TableColumn};
 
 use super::cloud::drive::Drive;
 use super::cloud::picture::{self, Ramp};
-use super::cloud::views::{Grid, View, nearest_index};
+use super::cloud::views::{View, ViewGrid, nearest_index};
 use super::cloud::{Cloud, START_POSE};
 use super::cloud_simulation::cloud_simulation;
 use super::settings::{Rules, SettingsError};
@@ -30,7 +30,7 @@ use std::f64::consts::TAU;
 use wide::f64x4;
 
 impl Settings {
-    /// Returns the current model with its input for a command: the command itself, or the noise-free odometry reading of it.
+    /// Returns the current model with its input: the command, or the noise-free odometry reading of the command.
     fn model_with_input(&self, command: VelocityCmd) -> ModelWithInput {
         match self.model {
             ModelKind::Velocity => {
@@ -73,7 +73,7 @@ impl ModelWithInput {
         }
     }
 
-    /// Returns v̂, ω̂ and γ̂, or the three legs of the odometry model.
+    /// Returns v̂, ω̂ and γ̂ of the velocity model, or rot1, trans and rot2 of the odometry model.
     fn executed_motion(&self, unit_noise: [f64; 3]) -> [f64; 3] {
         match self {
             Self::Velocity(model, command) => {
@@ -102,23 +102,23 @@ impl ModelWithInput {
     }
 }
 
-/// Returns the command whose arc ends at (x, y), with the duration of `near`. Of all arcs that lead there, it is the one
-/// whose turn is nearest to that of `near`.
-pub fn command_reaching(x: f64, y: f64, near: &VelocityCmd) -> VelocityCmd {
-    let dt = near.dt;
-    let (length, turn) = arc_with_turn_near(&START_POSE, &SE2::new(x, y, 0.0), near.omega * dt);
+/// Returns the command whose arc ends at (x, y), with the duration of `near_command`. Of all such arcs, the arc with the turn nearest to
+/// the turn of `near_command` is taken.
+pub fn command_reaching(x: f64, y: f64, near_command: &VelocityCmd) -> VelocityCmd {
+    let dt = near_command.dt;
+    let (length, turn) = arc_with_turn_near(&START_POSE, &SE2::new(x, y, 0.0), near_command.omega * dt);
     VelocityCmd { v: length / dt, omega: turn / dt, dt }
 }
 
-/// Returns the command whose end is drawn at (x, y), with the duration of `near`. `morph` is from 0 (the floor, where the result
-/// is [`command_reaching`]) to 1 (exponential coordinates). The search starts at `near`, and returns it if there is no solution.
-pub fn command_drawn_at([x, y]: [f64; 2], near: &VelocityCmd, morph: f64) -> VelocityCmd {
-    let VelocityCmd { v, omega, dt } = *near;
+/// Returns the command whose end is drawn at (x, y), with the duration of `near_command`. `morph` is from 0 (the floor, where the result is
+/// [`command_reaching`]) to 1 (exponential coordinates). The search starts at `near_command`, which is returned if there is no solution.
+pub fn command_drawn_at([x, y]: [f64; 2], near_command: &VelocityCmd, morph: f64) -> VelocityCmd {
+    let VelocityCmd { v, omega, dt } = *near_command;
     if morph == 0.0 {
-        return command_reaching(x, y, near);
+        return command_reaching(x, y, near_command);
     }
     let found_arc = find_arc([x, y], [v * dt, omega * dt], morph);
-    found_arc.map_or(*near, |[length, turn]| VelocityCmd { v: length / dt, omega: turn / dt, dt })
+    found_arc.map_or(*near_command, |[length, turn]| VelocityCmd { v: length / dt, omega: turn / dt, dt })
 }
 
 fn command_end(command: &VelocityCmd) -> SE2 {
@@ -132,8 +132,8 @@ const MIN_CIRCLE_SIGMAS: f64 = 4.0;
 /// Maximum number of points of a skew curve. Each takes about ten microseconds.
 pub const MAX_CURVE_POINTS: u64 = 10_000;
 
-/// Standard deviation (m) of the noise that [`BananaMachine::additive_moments`] adds to x and y. It is √(½ tr Σ) on the arc of the
-/// preset "gentle", rounded. It is not correct for other distances.
+/// Standard deviation (m) of the noise that [`BananaMachine::additive_moments`] adds to x and y. It is √(½ tr Σ) on the arc of the preset
+/// "gentle", rounded. For other distances the standard deviation would differ.
 pub const ADDITIVE_DEVIATION: f64 = 0.2;
 
 /// Number of samples of the first block, which takes a few milliseconds.
@@ -164,8 +164,8 @@ impl BananaMachine {
         Ok(Self { settings, cloud, stats, picture: Vec::new() })
     }
 
-    /// Changes the settings and shows the first block of `target_count` samples. [`BananaMachine::add_samples`] shows the others.
-    /// Errors are those of [`BananaMachine::new`], and change nothing.
+    /// Changes the settings and shows the first block of `target_count` samples. [`BananaMachine::add_samples`] shows the remaining
+    /// samples. Errors are those of [`BananaMachine::new`], and change nothing.
     pub fn configure_first(&mut self, settings: Settings, target_count: usize) -> Result<(), SettingsError> {
         settings.check()?;
         self.cloud.reserve(settings.samples).map_err(|_| SettingsError::out_of_memory(settings.samples))?;
@@ -218,29 +218,29 @@ impl BananaMachine {
         &self.stats
     }
 
-    /// Returns true if the robots turn by less than a full circle, so that exponential coordinates are defined. Otherwise
-    /// statistics and contours in them are undefined.
+    /// Returns true if the robots turn by less than a full circle, so that exponential coordinates are defined. Otherwise their statistics
+    /// and contours are undefined.
     pub fn is_chart_defined(&self) -> bool {
         self.defined_charts().pose
     }
 
     fn defined_charts(&self) -> DefinedCharts {
         let VelocityCmd { omega, dt, .. } = self.settings.command;
-        let is_defined = |deviation: f64| (omega * dt).abs() + MIN_CIRCLE_SIGMAS * deviation < TAU;
+        let is_defined = |std: f64| (omega * dt).abs() + MIN_CIRCLE_SIGMAS * std < TAU;
         DefinedCharts {
             pose: is_defined(self.cloud.drive.turn_deviation()),
             arc: is_defined(self.cloud.drive.arc_deviation()),
         }
     }
 
-    /// Returns the model's mean τ and covariance R_u in exponential coordinates. The variance of the final turn is added
-    /// to that of the heading. None for the odometry model, whose noise is not additive there.
+    /// Returns the model's mean τ and covariance R_u in exponential coordinates. The heading variance includes the variance of the final
+    /// turn. None for the odometry model, whose noise is not additive in these coordinates.
     pub fn tangent_moments(&self) -> Option<ExponentialMoments> {
         match self.settings.model_with_input(self.settings.command) {
             ModelWithInput::Velocity(model, command) => {
-                let [.., last] = model.variances(&command);
+                let [.., gamma_variance] = model.variances(&command);
                 let mut cov = model.tangent_cov(&command)?;
-                cov[(2, 2)] += command.dt * command.dt * last.0;
+                cov[(2, 2)] += command.dt * command.dt * gamma_variance.0;
                 Some(ExponentialMoments { mean: TangentNoiseModel::twist(&command), cov })
             }
             ModelWithInput::Odometry(..) => None,
@@ -249,9 +249,9 @@ impl BananaMachine {
 
     /// Returns the mean and covariance that an EKF predicts by linearization: the noise-free end, and J·Σ·Jᵀ.
     pub fn linearized_moments(&self) -> CartesianMoments {
-        let end = command_end(&self.settings.command);
+        let end_pose = command_end(&self.settings.command);
         CartesianMoments {
-            mean: Vector3::new(end.x(), end.y(), end.theta()),
+            mean: Vector3::new(end_pose.x(), end_pose.y(), end_pose.theta()),
             cov: self.settings.model_with_input(self.settings.command).linearized_cov(),
         }
     }
@@ -309,13 +309,13 @@ impl BananaMachine {
         TableColumn { mean, cov, cross_track_skew, likelihood_gain: gain.value, area_ratio }
     }
 
-    /// Returns the exact cross-track skew at `point_count` evenly spaced turn rates from `first` to `last` (rad/s), with all other
+    /// Returns the exact cross-track skew at `point_count` evenly spaced turn rates from `first_omega` to `last_omega` (rad/s), with all other
     /// settings unchanged.
-    pub fn skew_curve(&self, first: f64, last: f64, point_count: usize) -> Vec<f64> {
-        let omega_step = (last - first) / (point_count.max(2) - 1) as f64;
+    pub fn skew_curve(&self, first_omega: f64, last_omega: f64, point_count: usize) -> Vec<f64> {
+        let omega_step = (last_omega - first_omega) / (point_count.max(2) - 1) as f64;
         (0..point_count)
             .map(|i| {
-                let omega = first + omega_step * i as f64;
+                let omega = first_omega + omega_step * i as f64;
                 self.settings
                     .model_with_input(VelocityCmd { omega, ..self.settings.command })
                     .exact_moments()
@@ -379,12 +379,12 @@ impl BananaMachine {
     }
 
     /// Counts the shown samples in each cell of a grid over a view: see [`picture::count_samples_in_cells`].
-    pub fn density(&self, view: View, grid: &Grid) -> Vec<u32> {
+    pub fn density(&self, view: View, grid: &ViewGrid) -> Vec<u32> {
         picture::count_samples_in_cells(&self.cloud, view, grid)
     }
 
     /// Paints the density of the shown samples: see [`picture::paint_cell_counts`].
-    pub fn paint(&mut self, view: View, grid: &Grid, ramp: &Ramp) -> &[[u8; 4]] {
+    pub fn paint(&mut self, view: View, grid: &ViewGrid, ramp: &Ramp) -> &[[u8; 4]] {
         self.picture = picture::paint_cell_counts(&self.density(view, grid), ramp);
         &self.picture
     }

@@ -65,7 +65,7 @@ settings! {
 }
 
 impl Settings {
-    /// Returns the α's of the present model as set, whether isolated or not.
+    /// Returns all α's of the present model, regardless of `isolate`.
     pub fn alphas(&self) -> &[f64] {
         match self.model {
             ModelKind::Velocity => &self.velocity_alphas,
@@ -84,11 +84,11 @@ impl Settings {
         self.alphas().len() as u64
     }
 
-    /// Returns the α's in effect: all of them, or 0 for all but the isolated one.
+    /// Returns the α's in effect: all α's, or the isolated α with all others 0.
     pub(super) fn effective_alphas<const N: usize>(&self, alphas: [f64; N]) -> [f64; N] {
-        std::array::from_fn(
-            |i| if self.isolate.is_none_or(|number| number == i + 1) { alphas[i] } else { 0.0 },
-        )
+        std::array::from_fn(|i| {
+            if self.isolate.is_none_or(|isolated_number| isolated_number == i + 1) { alphas[i] } else { 0.0 }
+        })
     }
 }
 

@@ -1,4 +1,4 @@
-//! Statistics of a cloud of the Banana Machine, as the widget shows them.
+//! Statistics that the Banana Machine shows of its cloud.
 
 use super::{BananaMachine, OUTLINE_SEGMENTS};
 use crate::geom::arc::arc_with_turn_near;
@@ -63,7 +63,7 @@ pub struct DefinedCharts {
 }
 
 impl Stats {
-    /// Returns the statistics of a cloud of `n` samples. Those in coordinates that are undefined for the cloud are NaN.
+    /// Returns the statistics of a cloud of `n` samples. Statistics in coordinates that are undefined for the cloud are NaN.
     pub fn of(n: usize, cloud: &CloudStats, defined: DefinedCharts) -> Self {
         let CloudStats { cartesian, cross_track, gain, .. } = *cloud;
         let one_if_defined = |is_defined: bool| if is_defined { 1.0 } else { f64::NAN };
@@ -179,8 +179,8 @@ const MIN_GAP_DISTANCE: f64 = 3.7;
 const GAP_FRACTION: f64 = 0.95;
 
 impl BananaMachine {
-    /// Returns up to two points (x, y) in m that are inside the 2σ ellipse, and where no robot stops. One is nearer than the mean and
-    /// the other beyond it. Each is the point of its side with the largest distance in exponential coordinates.
+    /// Returns up to two points (x, y) in m inside the 2σ ellipse where no robot stops: the point nearer to the start than the mean, and
+    /// the point beyond the mean, with the largest Mahalanobis distance in exponential coordinates.
     pub fn gaps(&self) -> Vec<[f64; 2]> {
         let Self { stats, .. } = self;
         if stats.area_ratio.is_nan() || stats.area_ratio < MIN_AREA_RATIO {
@@ -200,9 +200,9 @@ impl BananaMachine {
             .filter(|(_, distance, _)| *distance > MIN_GAP_DISTANCE)
             .collect();
         let furthest_candidate = |is_near_side: bool| {
-            let side_candidates =
+            let candidates_of_side =
                 gap_candidates.iter().filter(|(_, _, is_before)| *is_before == is_near_side);
-            side_candidates.max_by(|(_, a, _), (_, b, _)| a.total_cmp(b))
+            candidates_of_side.max_by(|(_, a, _), (_, b, _)| a.total_cmp(b))
         };
         let mut gaps: Vec<_> = [true, false].into_iter().filter_map(furthest_candidate).collect();
         gaps.sort_by(|(_, a, _), (_, b, _)| b.total_cmp(a));

@@ -9,17 +9,17 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use std::collections::TryReserveError;
 use wide::f64x4;
 
-/// Thresholds of the squared distance above which a group of four robots is far or farthest; other groups are near. The squared
-/// distance of a robot is the sum of its squared unit noises. That of a group is the largest of its robots.
+/// Thresholds of the squared distance above which a group of four robots is far or farthest; other groups are near. The squared distance of
+/// a robot is the sum of its squared unit noises. The squared distance of a group is the largest of its four robots.
 ///
-/// Standard errors are expensive, and therefore computed from a weighted subsample of the groups. A few distant robots may contribute
-/// most of a variance, so that distant groups are sampled more densely. With Gaussian noise 1.8 % of the groups are far and
-/// 0.07 % farthest. With triangular noise none is farthest.
+/// Standard errors are expensive, and therefore computed from a weighted subsample of the groups. A few distant robots may contribute most
+/// of a variance, so that distant groups are sampled more densely. With Gaussian noise 1.8 % of the groups are far and 0.07 % farthest.
+/// With triangular noise none is farthest.
 const FAR_SQUARED_DISTANCE: f64 = 13.0;
 const FARTHEST_SQUARED_DISTANCE: f64 = 20.0;
 
-/// Number of leading groups of the cloud from which near, far and farthest groups enter the subsample: the first 2048 robots, the first
-/// 65 536, and all. With fewer the first digit of standard errors would be wrong; more would take time.
+/// Number of leading groups of the cloud from which near, far and farthest groups enter the subsample: the first 2048 robots, the first 65
+/// 536, and all. With fewer groups the first digit of standard errors would be wrong; more groups would take time.
 const SUBSAMPLE_GROUP_LIMITS: [usize; 3] = [512, 16_384, usize::MAX];
 
 #[inline(never)]
@@ -32,9 +32,9 @@ fn subsample_group_limit([a, b, c]: &[f64x4; 3]) -> usize {
     SUBSAMPLE_GROUP_LIMITS[distance_class]
 }
 
-/// Random numbers of all samples: three of variance 1 for each, in sample order. They depend only on the seed and the kind of
-/// noise. Therefore a slider moves the same robots, and a larger cloud begins with the robots of a smaller one. Both kinds of
-/// noise are made from the same uniform numbers.
+/// Random numbers of all samples: three of variance 1 for each, in sample order. They depend only on the seed and the kind of noise.
+/// Therefore a slider moves the same robots, and a larger cloud begins with the robots of a smaller cloud. Normal and triangular noise are
+/// quantiles of the same uniform numbers.
 #[derive(Clone, Debug)]
 pub struct Draws {
     seed: u64,
@@ -46,8 +46,8 @@ pub struct Draws {
     /// Sums over the first `summed_group_count` groups, in complete blocks. They stay valid while a slider moves the robots.
     sums: PairSums,
     summed_group_count: usize,
-    /// Indices of the groups whose noise is farthest from 0 among the first `summed_group_count`, in ascending order. Those
-    /// below `SUBSAMPLE_GROUP_LIMITS[1]` enter the subsample with the far groups, and are not listed.
+    /// Indices of the groups whose noise is farthest from 0 among the first `summed_group_count`, in ascending order. Groups below
+    /// `SUBSAMPLE_GROUP_LIMITS[1]` are not listed, because they enter the subsample with the far groups.
     farthest_groups: Vec<usize>,
 }
 
@@ -105,44 +105,46 @@ impl Draws {
         }
     }
 
-    /// Returns the sums of the first two noises, of their squares and of their product over `count` drawn samples.
+    /// Returns the sums of the first two noises, of their squares and of their product over `sample_count` drawn samples.
     #[inline(never)]
-    pub fn pair_sums(&mut self, count: usize) -> [f64; 5] {
-        let group_count = count / LANE_COUNT;
+    pub fn pair_sums(&mut self, sample_count: usize) -> [f64; 5] {
+        let group_count = sample_count / LANE_COUNT;
         if self.summed_group_count > group_count {
             (self.sums, self.summed_group_count) = (PairSums::new(), 0);
             self.farthest_groups.clear();
         }
         self.sum_blocks_to(group_count);
         let mut total_sums = self.sums.clone();
-        for (group, noise) in
-            self.unit_noise[..count.div_ceil(LANE_COUNT)].iter().enumerate().skip(self.summed_group_count)
+        for (group, noise) in self.unit_noise[..sample_count.div_ceil(LANE_COUNT)]
+            .iter()
+            .enumerate()
+            .skip(self.summed_group_count)
         {
-            total_sums.add([noise[0], noise[1]], first_lanes_mask(count - LANE_COUNT * group));
+            total_sums.add([noise[0], noise[1]], first_lanes_mask(sample_count - LANE_COUNT * group));
         }
         total_sums.flush_block();
         total_sums.totals()
     }
 
-    /// Returns the weighted subsample of the first `count` robots, in groups of four: unit noise, and the number of robots
-    /// that each robot represents. Lanes beyond `count` have the weight 0. A cloud of up to 2048 robots is sampled completely.
-    pub fn weighted_subsample(&self, count: usize) -> impl Iterator<Item = (&[f64x4; 3], f64x4)> {
-        let group_count = count.div_ceil(LANE_COUNT);
+    /// Returns the weighted subsample of the first `sample_count` robots, in groups of four: unit noise, and the number of robots
+    /// that each robot represents. Lanes beyond `sample_count` have the weight 0. A cloud of up to 2048 robots is sampled completely.
+    pub fn weighted_subsample(&self, sample_count: usize) -> impl Iterator<Item = (&[f64x4; 3], f64x4)> {
+        let group_count = sample_count.div_ceil(LANE_COUNT);
         let later_groups = self
             .farthest_groups
             .iter()
             .copied()
             .chain(self.summed_group_count.max(SUBSAMPLE_GROUP_LIMITS[1])..group_count);
         (0..group_count.min(SUBSAMPLE_GROUP_LIMITS[1])).chain(later_groups).filter_map(move |group| {
-            let group_noise = &self.unit_noise[group];
-            let group_limit = subsample_group_limit(group_noise);
+            let noise = &self.unit_noise[group];
+            let group_limit = subsample_group_limit(noise);
             let weight = f64x4::splat((group_count as f64 / group_limit as f64).max(1.0));
             (group < group_limit)
-                .then(|| (group_noise, weight & first_lanes_mask(count - LANE_COUNT * group)))
+                .then(|| (noise, weight & first_lanes_mask(sample_count - LANE_COUNT * group)))
         })
     }
 
-    pub fn noise_of_sample(&self, index: usize) -> [f64; 3] {
-        self.unit_noise[index / LANE_COUNT].map(|lanes| lanes.to_array()[index % LANE_COUNT])
+    pub fn noise_of_sample(&self, sample_index: usize) -> [f64; 3] {
+        self.unit_noise[sample_index / LANE_COUNT].map(|lanes| lanes.to_array()[sample_index % LANE_COUNT])
     }
 }

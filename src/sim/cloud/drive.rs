@@ -1,8 +1,8 @@
-//! Common form of both models for a start at the origin: a distance in a direction, and a final heading.
+//! Common form of the velocity and odometry models for a start at the origin: a distance in a direction, and a final heading.
 
 use crate::geom::lanes::{SinCos, Trigonometry, is_any_lane_set};
 use crate::models::{OdomDelta, RotTransRot, VelocityCmd, VelocityModel};
-use crate::stats::two_pass::{FourArcs, FourPoses, JacobianScale, ReferenceCoordinates};
+use crate::stats::two_pass::{FourArcs, FourPoses, JacobianScale, ReferencePoint};
 use std::f64::consts::FRAC_PI_2;
 use wide::f64x4;
 
@@ -16,7 +16,7 @@ type AffineInNoise = [f64; 2];
 /// headings are affine functions of the noises.
 #[derive(Clone, Copy, Debug)]
 pub struct Drive {
-    /// True if the length is that of an arc, whose chord is shorter.
+    /// True if `length` is an arc length; false if it is a chord length.
     is_arc: bool,
     /// Length of the motion, m.
     length: AffineInNoise,
@@ -43,31 +43,32 @@ pub struct Motions {
 
 impl Drive {
     pub fn of_velocity(model: &VelocityModel, u: &VelocityCmd) -> Self {
-        let [v, omega, gamma] = model.variances(u).map(|variance| variance.0.sqrt() * u.dt);
+        let [length_std, turn_std, last_turn_std] =
+            model.variances(u).map(|variance| variance.0.sqrt() * u.dt);
         let half_commanded_turn = 0.5 * (u.omega * u.dt);
         Self {
             is_arc: true,
-            length: [u.v * u.dt, v],
-            bearing: [half_commanded_turn, 0.5 * omega],
+            length: [u.v * u.dt, length_std],
+            bearing: [half_commanded_turn, 0.5 * turn_std],
             bearing_weight: 1.0,
-            half_heading_offset: [0.0, 0.5 * gamma],
+            half_heading_offset: [0.0, 0.5 * last_turn_std],
             half_commanded_turn,
             short_formula_interval: short_formula_interval(half_commanded_turn),
             trigonometry: Trigonometry::default(),
         }
     }
 
-    /// Creates the drive of a reading; `turn` (rad) is that of the command from which the reading was made.
-    pub fn of_odometry(model: &impl RotTransRot, u: &OdomDelta, turn: f64) -> Self {
-        let [rot1, trans, rot2] = model.variances(u).map(|variance| variance.0.sqrt());
+    /// Creates the drive of an odometry reading. `commanded_turn` (rad) is the turn of the command that caused the reading.
+    pub fn of_odometry(model: &impl RotTransRot, u: &OdomDelta, commanded_turn: f64) -> Self {
+        let [rot1_std, trans_std, rot2_std] = model.variances(u).map(|variance| variance.0.sqrt());
         Self {
             is_arc: false,
-            length: [u.trans, -trans],
-            bearing: [u.rot1, -rot1],
+            length: [u.trans, -trans_std],
+            bearing: [u.rot1, -rot1_std],
             bearing_weight: 0.5,
-            half_heading_offset: [0.5 * u.rot2, -0.5 * rot2],
-            half_commanded_turn: 0.5 * turn,
-            short_formula_interval: short_formula_interval(0.5 * turn),
+            half_heading_offset: [0.5 * u.rot2, -0.5 * rot2_std],
+            half_commanded_turn: 0.5 * commanded_turn,
+            short_formula_interval: short_formula_interval(0.5 * commanded_turn),
             trigonometry: Trigonometry::default(),
         }
     }
@@ -79,20 +80,21 @@ impl Drive {
 
     #[inline(always)]
     pub fn motions(&self, unit_noise: &[f64x4; 3]) -> Motions {
-        let [first, second, third] = *unit_noise;
-        let (length, bearing) = if self.is_arc { (first, second) } else { (second, first) };
+        let [first_noise, second_noise, third_noise] = *unit_noise;
+        let (length, bearing) =
+            if self.is_arc { (first_noise, second_noise) } else { (second_noise, first_noise) };
         let bearing = bearing * self.bearing[1] + self.bearing[0];
         Motions {
             length: length * self.length[1] + self.length[0],
             bearing,
             half_heading: bearing * self.bearing_weight
-                + (third * self.half_heading_offset[1] + self.half_heading_offset[0]),
+                + (third_noise * self.half_heading_offset[1] + self.half_heading_offset[0]),
         }
     }
 
-    /// Returns the ends (x, y) of four motions, the arcs that lead there, and true if the arcs are
-    /// regular. The length and half turn of a regular arc differ from the noise-free ones by [`Drive::regular_arc_deviations`]; only then is it the
-    /// arc that the robot drove.
+    /// Returns the ends (x, y) of four motions, the arcs that lead there, and true if the arcs are regular. The length and half turn of a
+    /// regular arc differ from the noise-free ones by [`Drive::regular_arc_deviations`]; only a regular arc is the arc that the robot
+    /// drove.
     #[inline(always)]
     pub fn end_points(&self, motions: &Motions) -> ([f64x4; 2], FourArcs, bool) {
         let Motions { length, bearing, .. } = *motions;
@@ -118,11 +120,11 @@ impl Drive {
     /// Returns the deviations that noise adds to the length and half turn of regular arcs (see [`Drive::end_points`]).
     #[inline(always)]
     pub fn regular_arc_deviations(&self, unit_noise: &[f64x4; 3]) -> [f64x4; 2] {
-        let noise_scale = if self.is_arc { [self.length[1], self.bearing[1]] } else { [0.0; 2] };
-        [unit_noise[0] * noise_scale[0], unit_noise[1] * noise_scale[1]]
+        let noise_stds = if self.is_arc { [self.length[1], self.bearing[1]] } else { [0.0; 2] };
+        [unit_noise[0] * noise_stds[0], unit_noise[1] * noise_stds[1]]
     }
 
-    /// Returns the sums of [`Drive::regular_arc_deviations`] from those of the unit noise.
+    /// Converts sums of the unit noise into sums of [`Drive::regular_arc_deviations`].
     pub fn sums_of_regular_arc_deviations(&self, [a, b, aa, ab, bb]: [f64; 5]) -> [f64; 5] {
         if !self.is_arc {
             return [0.0; 5];
@@ -131,7 +133,7 @@ impl Drive {
         [a * s, b * t, aa * (s * s), ab * (s * t), bb * (t * t)]
     }
 
-    /// Returns the arcs that lead to the points (x, y), which lie in the directions of these bearings.
+    /// Returns the arcs from the origin to the points (x, y), whose directions are `bearing`.
     #[inline(never)]
     fn arcs_to_points(&self, bearing: f64x4, [x, y]: [f64x4; 2]) -> FourArcs {
         let (half_turn, SinCos { sinc, sin, cos }) =
@@ -139,22 +141,22 @@ impl Drive {
         FourArcs { length: (x * cos + y * sin) / sinc, half_turn, sinc }
     }
 
-    /// Returns the poses of four motions that ended at `ends`, with their logarithms on the branch of the commanded
+    /// Returns the poses of four motions that ended at `end_points`, with their logarithms on the branch of the commanded
     /// turn.
     #[inline(always)]
-    pub fn poses(&self, motions: &Motions, ends: &[f64x4; 2]) -> FourPoses {
+    pub fn poses(&self, motions: &Motions, end_points: &[f64x4; 2]) -> FourPoses {
         let turn = if self.is_outside_short_formulas(motions) {
             self.trigonometry.sin_cos_on_branch(motions.half_heading, self.half_commanded_turn)
         } else {
             (motions.half_heading, self.trigonometry.sin_cos_small_angle(motions.half_heading))
         };
-        with_logarithms(*ends, turn)
+        with_logarithms(*end_points, turn)
     }
 
     /// Returns the points to which a morph takes the ends of four motions: see [`crate::geom::unbend`].
     #[inline(always)]
-    pub fn morphed_points(&self, motions: &Motions, ends: &[f64x4; 2], morph: f64) -> [f64x4; 2] {
-        let FourPoses { along, lateral, half_heading, .. } = self.poses(motions, ends);
+    pub fn morphed_points(&self, motions: &Motions, end_points: &[f64x4; 2], morph: f64) -> [f64x4; 2] {
+        let FourPoses { along, lateral, half_heading, .. } = self.poses(motions, end_points);
         let remaining_bend = 1.0 - morph;
         let SinCos { sinc, sin, cos } = self.trigonometry.sin_cos(half_heading * remaining_bend);
         let (along, lateral) = (along * sinc, lateral * sinc * remaining_bend);
@@ -169,19 +171,19 @@ impl Drive {
         is_any_lane_set(is_beyond(motions.bearing) | is_beyond(motions.half_heading))
     }
 
-    /// Returns the poses of four robots and the arcs to them, by formulas for any angle. The loops over all robots of a
-    /// cloud inline the shorter formulas for angles up to a quarter turn instead.
+    /// Returns the poses of four robots and the arcs to them, by formulas for any angle. Loops over all robots of a cloud use shorter
+    /// formulas for angles up to a quarter turn instead.
     #[inline(never)]
     pub fn coordinates_of_four(&self, unit_noise: &[f64x4; 3]) -> (FourPoses, FourArcs) {
         let motions = self.motions(unit_noise);
         let bearing_sin_cos = self.trigonometry.sin_cos_any_angle(motions.bearing);
-        let ends = self.end_points_on_bearing(&motions, &bearing_sin_cos);
+        let end_points = self.end_points_on_bearing(&motions, &bearing_sin_cos);
         let turn = self.trigonometry.sin_cos_on_branch(motions.half_heading, self.half_commanded_turn);
-        (with_logarithms(ends, turn), self.arcs_to_points(motions.bearing, ends))
+        (with_logarithms(end_points, turn), self.arcs_to_points(motions.bearing, end_points))
     }
 
     /// Returns the coordinates of the noise-free end, which are subtracted in all sums, and the scales of the Jacobians.
-    pub fn nominal_coordinates(&self) -> (ReferenceCoordinates, JacobianScale) {
+    pub fn nominal_coordinates(&self) -> (ReferencePoint, JacobianScale) {
         let (poses, arcs) = self.coordinates_of_four(&[f64x4::splat(0.0); 3]);
         let mut reference_coordinates =
             [poses.x, poses.y, poses.along, poses.lateral, poses.half_heading, arcs.length, arcs.half_turn]
@@ -190,10 +192,10 @@ impl Drive {
             // The commanded length and half turn are exact. Inverting the end pose would change their last bits.
             [reference_coordinates[5], reference_coordinates[6]] = [self.length[0], self.bearing[0]];
         }
-        let [chart, arc_sinc] = [poses.sinc, arcs.sinc].map(|lanes| lanes.to_array()[0].abs());
+        let [half_heading_sinc, arc_sinc] = [poses.sinc, arcs.sinc].map(|lanes| lanes.to_array()[0].abs());
         // The scale includes the noise of the length, because the command may be 0.
         let length = libm::hypot(self.length[0], self.length[1]);
-        (reference_coordinates, [1.0 / chart, 1.0 / (length * arc_sinc * arc_sinc)])
+        (reference_coordinates, [1.0 / half_heading_sinc, 1.0 / (length * arc_sinc * arc_sinc)])
     }
 
     /// Returns the standard deviation (rad) of the turn of the arc that ends at the robot's position.

@@ -20,8 +20,8 @@ use wide::f64x4;
 /// Start pose of every robot: the origin, heading along x.
 pub const START_POSE: SE2 = SE2::identity();
 
-/// Number of groups of four (256 poses) that are summed without compensation for rounding. With fewer, compensation would take
-/// noticeable time; with more, the rounding error would grow in proportion.
+/// Number of groups of four (256 poses) that are summed without compensation for rounding. With fewer groups, compensation would take
+/// noticeable time; with more groups, the rounding error would grow in proportion.
 const GROUPS_PER_BLOCK: usize = 64;
 
 /// Cloud as a structure of arrays in groups of four samples. A sample takes 24 bytes of noise and 16 of position. Headings
@@ -39,9 +39,9 @@ impl Cloud {
         Self { draws: Draws::new(seed, noise), drive, positions: Vec::new(), shown_count: 0 }
     }
 
-    pub fn reserve(&mut self, count: usize) -> Result<(), TryReserveError> {
-        self.draws.reserve(count)?;
-        let group_count = count.div_ceil(LANE_COUNT);
+    pub fn reserve(&mut self, sample_count: usize) -> Result<(), TryReserveError> {
+        self.draws.reserve(sample_count)?;
+        let group_count = sample_count.div_ceil(LANE_COUNT);
         self.positions.try_reserve_exact(group_count.saturating_sub(self.positions.len()))
     }
 
@@ -55,16 +55,17 @@ impl Cloud {
     ) -> CloudStats {
         self.draws.reset_if_changed(seed, noise);
         (self.drive, self.shown_count) = (drive, shown_count);
-        // The sums are of differences from the expected mean. They are computed again if the mean of the cloud is far from that.
-        let (reference, scale) = drive.nominal_coordinates();
-        let mut first_pass = self.run_first_pass(FirstPass::new(reference, scale));
-        if let Some(better) = first_pass.better_reference(shown_count) {
-            first_pass = self.run_first_pass(FirstPass::new(better, first_pass.scale));
+        // The sums contain differences from the expected mean. They are computed again if the mean of the cloud is far from the expected
+        // mean.
+        let (reference_point, jacobian_scale) = drive.nominal_coordinates();
+        let mut first_pass = self.run_first_pass(FirstPass::new(reference_point, jacobian_scale));
+        if let Some(better_point) = first_pass.better_reference_point(shown_count) {
+            first_pass = self.run_first_pass(FirstPass::new(better_point, first_pass.jacobian_scale));
         }
         let regular_sums = drive.sums_of_regular_arc_deviations(self.draws.pair_sums(shown_count));
         let mut second_pass = SecondPass::new(first_pass.moments(shown_count, regular_sums), &START_POSE);
-        for parts in sample_blocks(shown_count) {
-            for (groups, mask) in parts {
+        for block in sample_blocks(shown_count) {
+            for (groups, mask) in block {
                 let noise = &self.draws.unit_noise[groups.clone()];
                 add_to_second_pass(&drive, noise, &self.positions[groups], mask, &mut second_pass);
             }
@@ -78,31 +79,31 @@ impl Cloud {
     }
 
     /// Draws and drives all samples, and adds them to the sums of the first pass.
-    fn run_first_pass(&mut self, mut sums: FirstPass) -> FirstPass {
+    fn run_first_pass(&mut self, mut first_pass: FirstPass) -> FirstPass {
         let Self { draws, drive, positions, shown_count } = self;
-        for parts in sample_blocks(*shown_count) {
-            let end = parts[1].0.end;
-            draws.extend_to(end * LANE_COUNT);
-            draws.sum_blocks_to((*shown_count / LANE_COUNT).min(end));
-            if positions.len() < end {
-                positions.resize(end, [f64x4::splat(0.0); 2]);
+        for block in sample_blocks(*shown_count) {
+            let end_group = block[1].0.end;
+            draws.extend_to(end_group * LANE_COUNT);
+            draws.sum_blocks_to((*shown_count / LANE_COUNT).min(end_group));
+            if positions.len() < end_group {
+                positions.resize(end_group, [f64x4::splat(0.0); 2]);
             }
-            for (groups, mask) in parts {
+            for (groups, mask) in block {
                 let noise = &draws.unit_noise[groups.clone()];
-                add_to_first_pass(drive, noise, &mut positions[groups], mask, &mut sums);
+                add_to_first_pass(drive, noise, &mut positions[groups], mask, &mut first_pass);
             }
-            sums.flush_block();
+            first_pass.flush_block();
         }
-        sums
+        first_pass
     }
 
-    pub fn unit_noise(&self, index: usize) -> [f64; 3] {
-        self.draws.noise_of_sample(index)
+    pub fn unit_noise(&self, sample_index: usize) -> [f64; 3] {
+        self.draws.noise_of_sample(sample_index)
     }
 
     #[inline(always)]
-    pub fn pose(&self, index: usize) -> SE2 {
-        let [group, lane] = [index / LANE_COUNT, index % LANE_COUNT];
+    pub fn pose(&self, sample_index: usize) -> SE2 {
+        let [group, lane] = [sample_index / LANE_COUNT, sample_index % LANE_COUNT];
         let [x, y] = self.positions[group].map(|lanes| lanes.to_array()[lane]);
         let half_heading = self.drive.motions(&self.draws.unit_noise[group]).half_heading;
         SE2::new(x, y, 2.0 * half_heading.to_array()[lane])
@@ -131,15 +132,15 @@ impl Cloud {
     }
 }
 
-/// Returns blocks of the groups of four of `count` samples, at least one block. A block has a range of complete groups, and a
-/// range of incomplete ones. Each range has the mask of its samples.
-fn sample_blocks(count: usize) -> impl Iterator<Item = [(Range<usize>, f64x4); 2]> {
-    let group_count = count.div_ceil(LANE_COUNT);
-    let lane_mask = first_lanes_mask(count % LANE_COUNT);
+/// Divides `sample_count` samples into blocks of groups of four, at least one block. A block has a range of complete groups, and a range of
+/// incomplete groups. Each range has the lane mask of its samples.
+fn sample_blocks(sample_count: usize) -> impl Iterator<Item = [(Range<usize>, f64x4); 2]> {
+    let group_count = sample_count.div_ceil(LANE_COUNT);
+    let lane_mask = first_lanes_mask(sample_count % LANE_COUNT);
     (0..group_count.div_ceil(GROUPS_PER_BLOCK).max(1)).map(move |i| {
-        let (start, end) = (GROUPS_PER_BLOCK * i, group_count.min(GROUPS_PER_BLOCK * (i + 1)));
-        let full_groups = start.max(end.min(count / LANE_COUNT));
-        [(start..full_groups, first_lanes_mask(LANE_COUNT)), (full_groups..end, lane_mask)]
+        let (first_group, end_group) = (GROUPS_PER_BLOCK * i, group_count.min(GROUPS_PER_BLOCK * (i + 1)));
+        let full_groups = first_group.max(end_group.min(sample_count / LANE_COUNT));
+        [(first_group..full_groups, first_lanes_mask(LANE_COUNT)), (full_groups..end_group, lane_mask)]
     })
 }
 
@@ -150,7 +151,7 @@ fn add_to_first_pass(
     noise: &[[f64x4; 3]],
     ends: &mut [[f64x4; 2]],
     mask: f64x4,
-    sums: &mut FirstPass,
+    first_pass: &mut FirstPass,
 ) {
     let is_full_group = mask.all();
     for (noise, ends) in noise.iter().zip(ends) {
@@ -158,14 +159,14 @@ fn add_to_first_pass(
         let (arcs, is_regular);
         (*ends, arcs, is_regular) = drive.end_points(&motions);
         let poses = drive.poses(&motions, ends);
-        sums.add(&poses, mask);
+        first_pass.add(&poses, mask);
         if is_full_group {
-            sums.multiply_jacobians(&poses, &arcs);
+            first_pass.multiply_jacobians(&poses, &arcs);
         } else {
-            sums.multiply_masked_jacobians(&poses, &arcs, mask);
+            first_pass.multiply_masked_jacobians(&poses, &arcs, mask);
         }
         if !is_regular {
-            sums.add_irregular_arcs(&arcs, drive.regular_arc_deviations(noise), mask);
+            first_pass.add_irregular_arcs(&arcs, drive.regular_arc_deviations(noise), mask);
         }
     }
 }
@@ -177,9 +178,9 @@ fn add_to_second_pass(
     noise: &[[f64x4; 3]],
     ends: &[[f64x4; 2]],
     mask: f64x4,
-    sums: &mut SecondPass,
+    second_pass: &mut SecondPass,
 ) {
     for (noise, ends) in noise.iter().zip(ends) {
-        sums.add(&drive.poses(&drive.motions(noise), ends), mask);
+        second_pass.add(&drive.poses(&drive.motions(noise), ends), mask);
     }
 }

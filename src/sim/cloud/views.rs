@@ -10,12 +10,12 @@ pub enum View {
     Plane,
     /// Exponential coordinates (along, heading), m and rad.
     Twist,
-    /// Points between both, for a morph from 0 (plane) to 1 (twist): see [`crate::geom::unbend`].
+    /// Points between plane and twist, for a morph from 0 (plane) to 1 (twist): see [`crate::geom::unbend`].
     Morph(f64),
 }
 
 impl View {
-    /// Returns the view at a morph. At 0 and 1 it is exactly the plane and the twists.
+    /// Returns the view at a morph. Morphs 0 and 1 are exactly the plane and the twists.
     pub fn from_morph(morph: f64) -> Self {
         match morph {
             0.0 => Self::Plane,
@@ -35,16 +35,16 @@ pub const MORPH_RANGE: RangeInclusive<f64> = 0.0..=1.0;
 /// Range of the coordinates of a view. It includes every position that the largest settings reach.
 pub const EXTENT_RANGE: RangeInclusive<f64> = -1e18..=1e18;
 
-/// Largest number of cells of a [`Grid`], beyond any screen. They take 64 MB.
+/// Largest number of cells of a [`ViewGrid`], beyond any screen. They take 64 MB.
 pub const MAX_CELLS: u64 = 1 << 24;
 
-/// Maximum number of rows or columns of a [`Grid`], more than a browser's canvas may have on some devices. Margins of
+/// Maximum number of rows or columns of a [`ViewGrid`], more than a browser's canvas may have on some devices. Margins of
 /// one cell around a longer grid would take more memory than the grid.
 pub const MAX_CELLS_PER_SIDE: u64 = 1 << 14;
 
 /// Rectangle of a view, divided into cells of equal size.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Grid {
+pub struct ViewGrid {
     /// Smallest coordinates, finite.
     pub min: [f64; 2],
     /// Largest coordinates, finite and above the smallest.
@@ -55,8 +55,8 @@ pub struct Grid {
     pub rows: usize,
 }
 
-impl Grid {
-    /// Returns the number of columns for each unit of the first coordinate, and of rows for each of the second.
+impl ViewGrid {
+    /// Returns the number of columns per unit of the first coordinate, and of rows per unit of the second coordinate.
     pub(in crate::sim) fn cells_per_unit(&self) -> [f64; 2] {
         let Self { min, max, columns, rows } = *self;
         [columns as f64 / (max[0] - min[0]), rows as f64 / (max[1] - min[1])]
@@ -70,8 +70,7 @@ impl Grid {
     }
 }
 
-/// Returns the index of the point nearest to `target`, inside the ellipse with these radii around it. Distances are in units of the
-/// radii.
+/// Returns the index of the point nearest to `target`, inside the ellipse with `radii` around it. Distances are in units of the radii.
 pub fn nearest_index(
     points: impl IntoIterator<Item = [f64; 2]>,
     target: [f64; 2],

@@ -1,4 +1,4 @@
-//! Dead Reckoning: growth of the uncertainty while a command is driven repeatedly, and predictions of it by recursions.
+//! Dead Reckoning: growth of the uncertainty while a command is driven repeatedly, and predictions of the uncertainty by recursions.
 
 mod rollouts;
 mod settings;
@@ -19,7 +19,7 @@ use crate::stats::{Ellipse, ExactMoments, ExponentialContour, ExponentialMoments
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 use rollouts::{ROLLOUTS_PER_BLOCK, Rollouts};
 
-/// Number of chords of an outline. With fewer, corners would be visible; more would be shorter than a pixel.
+/// Number of chords of an outline. Fewer chords would have visible corners; more chords would be shorter than a pixel.
 const OUTLINE_SEGMENTS: usize = 96;
 
 /// Maximum number of chords of the commanded arc in a step.
@@ -40,7 +40,7 @@ pub struct DeadReckoning {
     /// Predicted covariances after each step, by each of [`RECURSIONS`]; None where undefined.
     predicted_covariances: [Vec<Option<Matrix3<f64>>>; 3],
     measured_moments: Vec<MeasuredMoments>,
-    comparisons: [Comparison; 3],
+    comparisons: [RecursionComparison; 3],
 }
 
 /// Statistics of the robots driven, and comparison with the recursions. They are NaN if undefined.
@@ -54,7 +54,7 @@ pub struct Stats {
     pub measured: ExponentialMoments,
     /// Predicted covariance after the selected step; null (None) if the recursion has none.
     #[cfg_attr(target_arch = "wasm32", tsify(type = "ByRecursion<number[][] | null>"))]
-    pub predicted: ByRecursion<Option<Covariance>>,
+    pub predicted: ByRecursion<Option<CovarianceRows>>,
     /// Steps at which a prediction is off, for the components along, lateral and heading.
     pub misses: ByRecursion<[Misses; 3]>,
 }
@@ -72,7 +72,7 @@ pub struct ByRecursion<T> {
 }
 
 /// Rows of a symmetric matrix.
-pub type Covariance = [[f64; 3]; 3];
+pub type CovarianceRows = [[f64; 3]; 3];
 
 js_structs! {
     /// 2σ outlines after a step as x, y pairs, the first point repeated at the end; empty if the recursion has no covariance there.
@@ -107,15 +107,14 @@ impl DeadReckoning {
             value: f64::from(settings.steps),
             allowed: AllowedValues::FitsInMemory,
         })?;
-        let predicted_covariances = RECURSIONS.map(|order| propagate_covariances(&settings, order));
+        let predicted_covariances = RECURSIONS.map(|recursion| propagate_covariances(&settings, recursion));
         let measured_moments = rollouts.measured_moments(0);
         let comparisons = compare_recursions(&settings, &predicted_covariances, &measured_moments);
         Ok(Self { settings, rollouts, shown_count: 0, predicted_covariances, measured_moments, comparisons })
     }
 
-    /// Changes the settings and drives the first block of `target_count` robots. [`DeadReckoning::add_samples`] drives the others.
-    /// Robots stay if the change does not affect them.
-    /// Errors are those of [`DeadReckoning::new`], and change nothing.
+    /// Changes the settings and drives the first block of `target_count` robots. [`DeadReckoning::add_samples`] drives the remaining
+    /// robots. Robots are kept if the change does not affect them. Errors are those of [`DeadReckoning::new`], and change nothing.
     pub fn configure_first(&mut self, settings: Settings, target_count: usize) -> Result<(), SettingsError> {
         settings.check()?;
         if self.settings.has_same_rollouts(&settings) {
@@ -147,8 +146,8 @@ impl DeadReckoning {
         self.block_size_for_steps(STEPS_PER_BLOCK)
     }
 
-    fn block_size_for_steps(&self, steps: usize) -> usize {
-        (steps / self.settings.steps as usize).next_multiple_of(ROLLOUTS_PER_BLOCK)
+    fn block_size_for_steps(&self, step_budget: usize) -> usize {
+        (step_budget / self.settings.steps as usize).next_multiple_of(ROLLOUTS_PER_BLOCK)
     }
 
     /// Returns the number of robots driven.
@@ -161,14 +160,14 @@ impl DeadReckoning {
         &self.measured_moments
     }
 
-    /// Returns the covariance that a recursion predicts after each step; None from the step on at which it is undefined.
-    pub fn predicted_covariances(&self, order: Compounding) -> &[Option<Matrix3<f64>>] {
-        &self.predicted_covariances[order as usize]
+    /// Returns the covariance that a recursion predicts after each step; None from the first step at which the covariance is undefined.
+    pub fn predicted_covariances(&self, recursion: Compounding) -> &[Option<Matrix3<f64>>] {
+        &self.predicted_covariances[recursion as usize]
     }
 
     /// Returns the comparison of a recursion with the robots.
-    pub fn comparison(&self, order: Compounding) -> &Comparison {
-        &self.comparisons[order as usize]
+    pub fn comparison(&self, recursion: Compounding) -> &RecursionComparison {
+        &self.comparisons[recursion as usize]
     }
 
     /// Returns the commanded pose after each step.
@@ -192,8 +191,8 @@ impl DeadReckoning {
     }
 
     /// Returns x, y (m) and θ (rad) of one robot after each step; None if the index is too large.
-    pub fn rollout(&self, index: usize) -> Option<Vec<[f64; 3]>> {
-        (index < self.shown_count).then(|| self.rollouts.rollout(index))
+    pub fn rollout(&self, robot_index: usize) -> Option<Vec<[f64; 3]>> {
+        (robot_index < self.shown_count).then(|| self.rollouts.rollout(robot_index))
     }
 
     /// Returns the robot in the picture that is nearest to a point (m) after the selected step, within `radius`.
@@ -209,10 +208,10 @@ impl DeadReckoning {
         Stats {
             n: self.shown_count(),
             measured: ExponentialMoments { mean, cov },
-            predicted: evaluate_recursions(|order| {
-                self.predicted_covariances(order)[step_index].map(Into::into)
+            predicted: evaluate_recursions(|recursion| {
+                self.predicted_covariances(recursion)[step_index].map(Into::into)
             }),
-            misses: evaluate_recursions(|order| self.comparison(order).misses),
+            misses: evaluate_recursions(|recursion| self.comparison(recursion).misses),
         }
     }
 
@@ -222,8 +221,9 @@ impl DeadReckoning {
         let Settings { command: VelocityCmd { v, .. }, alphas, .. } = self.settings;
         let [alpha1, _, alpha3, ..] = alphas;
         let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal };
-        let [first, last] = LOG10_DURATIONS_IN_TENTHS;
-        let durations: Vec<f64> = (first..=last).map(|i| libm::pow(10.0, f64::from(i) / 10.0)).collect();
+        let [first_tenth, last_tenth] = LOG10_DURATIONS_IN_TENTHS;
+        let durations: Vec<f64> =
+            (first_tenth..=last_tenth).map(|i| libm::pow(10.0, f64::from(i) / 10.0)).collect();
         let exact_variances = durations.iter().map(|dt| {
             let cov = ExactMoments::of_velocity(&model, &VelocityCmd { v, omega: 0.0, dt: *dt }).cov;
             (cov[(0, 0)], cov[(1, 1)])
@@ -275,21 +275,21 @@ impl DeadReckoning {
         quarter_ends.into_iter().filter_map(milestone_after).collect()
     }
 
-    fn outlines_at_index(&self, index: usize, compounding: Compounding) -> Outlines {
-        let pose = self.nominal_poses()[index];
-        let MeasuredMoments { mean, cov, .. } = &self.measured_moments()[index];
+    fn outlines_at_index(&self, step_index: usize, compounding: Compounding) -> Outlines {
+        let nominal_pose = self.nominal_poses()[step_index];
+        let MeasuredMoments { mean, cov, .. } = &self.measured_moments()[step_index];
         let measured = if self.shown_count() < 2 { vec![] } else { xi_ellipse_outline(mean, cov) };
-        let Some(cov) = self.predicted_covariances(compounding)[index] else {
+        let Some(cov) = self.predicted_covariances(compounding)[step_index] else {
             return Outlines { ellipse: vec![], exponential: vec![], predicted: vec![], measured };
         };
         let xi_moments = ExponentialMoments { mean: Vector3::zeros(), cov };
-        let (sin, cos) = libm::sincos(pose.theta());
+        let (sin, cos) = libm::sincos(nominal_pose.theta());
         let heading_rotation = Matrix2::new(cos, -sin, sin, cos);
         let position_cov = heading_rotation * cov.fixed_view::<2, 2>(0, 0) * heading_rotation.transpose();
-        let ellipse = Ellipse::new(Vector2::new(pose.x(), pose.y()), position_cov);
+        let ellipse = Ellipse::new(Vector2::new(nominal_pose.x(), nominal_pose.y()), position_cov);
         Outlines {
             ellipse: ellipse.boundary(OUTLINE_SEGMENTS),
-            exponential: ExponentialContour::new(&xi_moments, &pose).boundary(OUTLINE_SEGMENTS),
+            exponential: ExponentialContour::new(&xi_moments, &nominal_pose).boundary(OUTLINE_SEGMENTS),
             predicted: xi_ellipse_outline(&Vector3::zeros(), &cov),
             measured,
         }
@@ -300,12 +300,12 @@ fn compare_recursions(
     settings: &Settings,
     predicted: &[Vec<Option<Matrix3<f64>>>; 3],
     measured: &[MeasuredMoments],
-) -> [Comparison; 3] {
-    predicted.each_ref().map(|covs| Comparison::new(settings, covs, measured))
+) -> [RecursionComparison; 3] {
+    predicted.each_ref().map(|covs| RecursionComparison::new(settings, covs, measured))
 }
 
-fn evaluate_recursions<T>(of: impl Fn(Compounding) -> T) -> ByRecursion<T> {
-    let [chapter, first_order, fourth_order] = RECURSIONS.map(of);
+fn evaluate_recursions<T>(value_of: impl Fn(Compounding) -> T) -> ByRecursion<T> {
+    let [chapter, first_order, fourth_order] = RECURSIONS.map(value_of);
     ByRecursion { chapter, first_order, fourth_order }
 }
 
@@ -320,16 +320,16 @@ pub const RECURSIONS: [Compounding; 3] =
 /// Relative error of a variance above which a step counts as a miss.
 pub const MISS_TOLERANCE: f64 = 0.05;
 
-/// Maximum relative standard error at which rollouts can establish a miss, a quarter of the tolerance. Of dozens of ratios
-/// some are off by three standard errors by chance, but hardly any by four.
+/// Maximum relative standard error at which rollouts can establish a miss, a quarter of the tolerance. Of dozens of ratios, some deviate by
+/// three standard errors by chance, but hardly any by four.
 const MAX_STANDARD_ERROR: f64 = MISS_TOLERANCE / 4.0;
 
-/// Standard deviation below which a spread is only rounding. It is relative to the path, or in radians.
+/// Standard deviation, relative to the length of the path or in radians, below which a spread counts as rounding error.
 const NEGLIGIBLE_STD: f64 = 1e-12;
 
 /// Comparison of a recursion with the robots.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Comparison {
+pub struct RecursionComparison {
     /// Predicted divided by measured variance of along, lateral and heading after each step; NaN if one of them is undefined.
     pub ratios: Vec<Vector3<f64>>,
     /// Steps at which the prediction is off, for along, lateral and heading.
@@ -353,30 +353,30 @@ js_structs! {
     }
 }
 
-impl Comparison {
-    /// Compares predicted covariances after each step with those measured. `None` stands for a step at which
-    /// the recursion has no covariance, because its matrix is indefinite.
-    fn new(settings: &Settings, covs: &[Option<Matrix3<f64>>], measured: &[MeasuredMoments]) -> Self {
+impl RecursionComparison {
+    /// Compares the predicted with the measured covariances after each step. `None` stands for a step at which the recursion has no
+    /// covariance, because its matrix is indefinite.
+    fn new(settings: &Settings, predicted: &[Option<Matrix3<f64>>], measured: &[MeasuredMoments]) -> Self {
         let u = &settings.command;
         let negligible_length = NEGLIGIBLE_STD * (u.v * u.dt).abs() * f64::from(settings.steps);
         let negligible_stds = [negligible_length, negligible_length, NEGLIGIBLE_STD];
-        let ratio_of = |cov: Option<Matrix3<f64>>, measured: &MeasuredMoments| {
+        let ratios_of = |cov: Option<Matrix3<f64>>, measured: &MeasuredMoments| {
             Vector3::from_fn(|i, _| {
-                let variance = measured.cov[(i, i)];
-                let has_spread = variance > negligible_stds[i] * negligible_stds[i];
-                cov.filter(|_| has_spread).map_or(f64::NAN, |cov| cov[(i, i)] / variance)
+                let measured_variance = measured.cov[(i, i)];
+                let has_spread = measured_variance > negligible_stds[i] * negligible_stds[i];
+                cov.filter(|_| has_spread).map_or(f64::NAN, |cov| cov[(i, i)] / measured_variance)
             })
         };
         let ratios: Vec<_> =
-            covs.iter().zip(measured).map(|(cov, measured)| ratio_of(*cov, measured)).collect();
-        let misses = std::array::from_fn(|axis| misses_of(&ratios, measured, axis));
+            predicted.iter().zip(measured).map(|(cov, measured)| ratios_of(*cov, measured)).collect();
+        let misses = std::array::from_fn(|axis| find_misses(&ratios, measured, axis));
         Self { ratios, misses }
     }
 }
 
-/// Returns the covariance of ξ after each step from a known start, by a recursion; the first is that of step 1. It is None
-/// from the step on at which the fourth-order terms make the matrix indefinite.
-fn propagate_covariances(settings: &Settings, order: Compounding) -> Vec<Option<Matrix3<f64>>> {
+/// Returns the covariance of ξ after each step from a known start, by a recursion, beginning with step 1. The covariance is None from the
+/// step at which the fourth-order terms make it indefinite.
+fn propagate_covariances(settings: &Settings, recursion: Compounding) -> Vec<Option<Matrix3<f64>>> {
     let twist = TangentNoiseModel::twist(&settings.command);
     // All allowed settings have finite variances of 0 or more.
     let tangent_noise = TangentNoiseModel::from_velocity(&settings.model(), &settings.command).ok();
@@ -385,14 +385,14 @@ fn propagate_covariances(settings: &Settings, order: Compounding) -> Vec<Option<
         .map(|_| {
             covariance = covariance
                 .zip(tangent_noise)
-                .map(|(sigma, noise)| noise.propagate(&sigma, &twist, order))
-                .filter(|next| covariance_root(next).is_ok());
+                .map(|(sigma, noise)| noise.propagate(&sigma, &twist, recursion))
+                .filter(|next_sigma| covariance_root(next_sigma).is_ok());
             covariance
         })
         .collect()
 }
 
-fn misses_of(ratios: &[Vector3<f64>], measured: &[MeasuredMoments], axis: usize) -> Misses {
+fn find_misses(ratios: &[Vector3<f64>], measured: &[MeasuredMoments], axis: usize) -> Misses {
     let defined_ratios =
         || ratios.iter().map(|ratio| ratio[axis]).zip(measured).filter(|(ratio, _)| !ratio.is_nan());
     let is_decidable = defined_ratios().next().is_some()
@@ -430,7 +430,7 @@ js_structs! {
         pub along_first_order: Vec<f64> as "Float64Array",
         /// Variances across the track to first order in the noise, m²: ¼α₃v⁴Δt⁴.
         pub across_first_order: Vec<f64> as "Float64Array",
-        /// Duration (s) at which both first-order variances are equal: (2/|v|)·√(α₁/α₃). Null (None) if they never are.
+        /// Duration (s) at which both first-order variances are equal: (2/|v|)·√(α₁/α₃). Null (None) if the variances are never equal.
         pub crossing: Option<f64>,
     }
 }

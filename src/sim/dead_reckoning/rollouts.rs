@@ -7,15 +7,15 @@ use crate::models::TangentNoiseModel;
 use crate::noise::{NoiseKind, draw_four_uniform_triples};
 use crate::sim::cloud::drive::MAX_SHORT_FORMULA_ANGLE;
 use crate::stats::non_negative;
-use crate::stats::sums::{Sums, add_to_block};
+use crate::stats::sums::{CompensatedSums, add_to_block};
 use nalgebra::{Matrix3, Vector3};
 use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use std::collections::TryReserveError;
 use wide::f64x4;
 
-/// Number of groups of four that are driven through all steps together: 256 rollouts, whose draws and poses take 8 kB.
-/// With fewer, compensated sums would take noticeable time. More would not fit into the first-level cache.
+/// Number of groups of four that are driven through all steps together: 256 rollouts, whose draws and poses take 8 kB. With fewer groups,
+/// compensated sums would take noticeable time. More groups would not fit into the first-level cache.
 const GROUPS_PER_BLOCK: usize = 64;
 pub const ROLLOUTS_PER_BLOCK: usize = GROUPS_PER_BLOCK * LANE_COUNT;
 
@@ -60,7 +60,7 @@ pub struct MeasuredMoments {
     pub relative_error: Vector3<f64>,
 }
 
-/// Maximum number of robots in the picture: more dots would not be distinguishable. The poses of each take 24 bytes a step.
+/// Maximum number of robots in the picture, beyond which dots are not distinguishable. A pose takes 24 bytes.
 pub const MAX_SHOWN_ROBOTS: usize = 600;
 
 /// Rollouts that have been driven so far.
@@ -68,13 +68,13 @@ pub const MAX_SHOWN_ROBOTS: usize = 600;
 pub struct Rollouts {
     step: StepInErrorFrame,
     seed: u64,
-    /// Random generator of the next block. Each block has its own stream of numbers, from which a longer path takes more. The first
-    /// steps of a robot therefore depend on the seed alone.
+    /// Random generator of the next block. Each block has its own stream of numbers, so that a longer path takes more numbers of the same
+    /// stream. The first steps of a robot therefore depend on the seed alone.
     block_rng: Xoshiro256PlusPlus,
     /// Number of robots driven in complete blocks.
     driven_count: usize,
     /// Sums over the robots of complete blocks, after each step.
-    sums: Vec<Sums<SUMMED_TERM_COUNT>>,
+    sums: Vec<CompensatedSums<SUMMED_TERM_COUNT>>,
     /// Commanded pose after each step.
     pub nominal_poses: Vec<SE2>,
     /// Poses x, y (m) and θ (rad) of the first robots, step after step.
@@ -145,7 +145,7 @@ impl Rollouts {
             seed: settings.seed,
             block_rng: Xoshiro256PlusPlus::seed_from_u64(settings.seed),
             driven_count: 0,
-            sums: vec![Sums::new(); step_count],
+            sums: vec![CompensatedSums::new(); step_count],
             nominal_poses: (1..=step_count).map(|k| SE2::exp(&(twist * k as f64))).collect(),
             poses,
         })
@@ -169,12 +169,12 @@ impl Rollouts {
     fn reset(&mut self) {
         self.block_rng = Xoshiro256PlusPlus::seed_from_u64(self.seed);
         self.driven_count = 0;
-        self.sums.fill(Sums::new());
+        self.sums.fill(CompensatedSums::new());
     }
 
-    /// Returns the moments of `target_count` robots after each step. It drives those of the last, incomplete block.
+    /// Returns the moments of `target_count` robots after each step. Robots of the last, incomplete block are driven again.
     pub fn measured_moments(&mut self, target_count: usize) -> Vec<MeasuredMoments> {
-        let moments_of = |sums: &[Sums<SUMMED_TERM_COUNT>]| {
+        let moments_of = |sums: &[CompensatedSums<SUMMED_TERM_COUNT>]| {
             sums.iter().map(|sums| moments_from_sums(&sums.totals(), target_count as f64)).collect()
         };
         if target_count == self.driven_count {
@@ -186,13 +186,13 @@ impl Rollouts {
     }
 
     #[inline(never)]
-    fn drive_next_block(&mut self, count: usize, sums: &mut [Sums<SUMMED_TERM_COUNT>]) {
-        let Self { step, block_rng, driven_count, nominal_poses: nominal, poses, .. } = self;
+    fn drive_next_block(&mut self, robot_count: usize, sums: &mut [CompensatedSums<SUMMED_TERM_COUNT>]) {
+        let Self { step, block_rng, driven_count, nominal_poses, poses, .. } = self;
         let mut block = RobotBlock::new(block_rng.clone());
-        for (k, (sums, nominal)) in sums.iter_mut().zip(nominal).enumerate() {
+        for (k, (sums, nominal_poses)) in sums.iter_mut().zip(nominal_poses).enumerate() {
             block.drive_one_step(step);
             for (i, xi) in block.noise_or_xi.iter().enumerate() {
-                let remaining_lanes = count.saturating_sub(LANE_COUNT * i);
+                let remaining_lanes = robot_count.saturating_sub(LANE_COUNT * i);
                 if remaining_lanes >= LANE_COUNT {
                     add_to_sums(sums, *xi);
                 } else {
@@ -204,25 +204,25 @@ impl Rollouts {
             let robot_poses =
                 poses[k * MAX_SHOWN_ROBOTS..][..MAX_SHOWN_ROBOTS].iter_mut().skip(*driven_count);
             for (i, pose) in robot_poses.take(ROLLOUTS_PER_BLOCK).enumerate() {
-                *pose = block.groups[i / LANE_COUNT].pose(i % LANE_COUNT, nominal);
+                *pose = block.groups[i / LANE_COUNT].pose(i % LANE_COUNT, nominal_poses);
             }
         }
     }
 
-    /// Returns x, y (m) and θ (rad) of the first `count` robots, [`MAX_SHOWN_ROBOTS`] at most, after step `k`, counted from 1.
-    pub fn poses(&self, k: usize, count: usize) -> &[[f64; 3]] {
-        &self.poses[(k - 1) * MAX_SHOWN_ROBOTS..][..count.min(MAX_SHOWN_ROBOTS)]
+    /// Returns x, y (m) and θ (rad) of the first `robot_count` robots, [`MAX_SHOWN_ROBOTS`] at most, after step `step_number`, counted from 1.
+    pub fn poses(&self, step_number: usize, robot_count: usize) -> &[[f64; 3]] {
+        &self.poses[(step_number - 1) * MAX_SHOWN_ROBOTS..][..robot_count.min(MAX_SHOWN_ROBOTS)]
     }
 
     /// Returns x, y (m) and θ (rad) of one robot after each step.
-    pub fn rollout(&self, index: usize) -> Vec<[f64; 3]> {
+    pub fn rollout(&self, robot_index: usize) -> Vec<[f64; 3]> {
         let mut skipped_rng = Xoshiro256PlusPlus::seed_from_u64(self.seed);
-        (0..index / ROLLOUTS_PER_BLOCK).for_each(|_| skipped_rng.jump());
-        let (group, lane) = (index % ROLLOUTS_PER_BLOCK / LANE_COUNT, index % LANE_COUNT);
+        (0..robot_index / ROLLOUTS_PER_BLOCK).for_each(|_| skipped_rng.jump());
+        let (group, lane) = (robot_index % ROLLOUTS_PER_BLOCK / LANE_COUNT, robot_index % LANE_COUNT);
         let mut block = RobotBlock::new(skipped_rng);
-        let pose_after = |nominal| {
+        let pose_after = |nominal_pose| {
             block.drive_one_step(&self.step);
-            block.groups[group].pose(lane, nominal)
+            block.groups[group].pose(lane, nominal_pose)
         };
         self.nominal_poses.iter().map(pose_after).collect()
     }
@@ -230,10 +230,10 @@ impl Rollouts {
 
 impl ErrorPoses {
     /// Returns x, y (m) and θ (rad) of the robot in a lane.
-    fn pose(&self, lane: usize, nominal: &SE2) -> [f64; 3] {
+    fn pose(&self, lane: usize, nominal_pose: &SE2) -> [f64; 3] {
         let [x, y, half_heading] =
             [self.x, self.y, self.half_heading].map(|lane_values| lane_values.to_array()[lane]);
-        (*nominal * SE2::new(x, y, 2.0 * half_heading)).into()
+        (*nominal_pose * SE2::new(x, y, 2.0 * half_heading)).into()
     }
 }
 
@@ -256,16 +256,16 @@ impl RobotBlock {
     #[inline(never)]
     fn drive_one_step(&mut self, step: &StepInErrorFrame) {
         let Self { rng, groups, noise_or_xi } = self;
-        noise_or_xi.iter_mut().for_each(|draw| *draw = draw_four_uniform_triples(rng));
+        noise_or_xi.iter_mut().for_each(|noise| *noise = draw_four_uniform_triples(rng));
         NoiseKind::Normal.replace_by_quantiles(noise_or_xi.as_flattened_mut());
-        for (robots, draw) in groups.iter_mut().zip(noise_or_xi) {
-            *draw = step.drive_one_step(robots, draw);
+        for (robots, noise) in groups.iter_mut().zip(noise_or_xi) {
+            *noise = step.drive_one_step(robots, noise);
         }
     }
 }
 
 #[inline(always)]
-fn add_to_sums(sums: &mut Sums<SUMMED_TERM_COUNT>, [a, l, h]: [f64x4; 3]) {
+fn add_to_sums(sums: &mut CompensatedSums<SUMMED_TERM_COUNT>, [a, l, h]: [f64x4; 3]) {
     let [aa, ll, hh] = [a * a, l * l, h * h];
     let power_products =
         [a, l, h, aa, ll, hh, a * aa, l * ll, h * hh, aa * aa, ll * ll, hh * hh, a * l, a * h, l * h];
@@ -283,9 +283,9 @@ fn moments_from_sums(sums: &[f64; SUMMED_TERM_COUNT], n: f64) -> MeasuredMoments
         covariance[(i, i)] = non_negative(covariance[(i, i)]);
     }
     let relative_error = Vector3::from_fn(|i, _| {
-        let [m, square, cube, fourth] = [0, 3, 6, 9].map(|power| sums[power + i] / n);
+        let [m, mean_square, mean_cube, mean_fourth] = [0, 3, 6, 9].map(|power| sums[power + i] / n);
         let m2 = covariance[(i, i)];
-        let m4 = fourth - 4.0 * m * cube + 6.0 * m * m * square - 3.0 * m * m * m * m;
+        let m4 = mean_fourth - 4.0 * m * mean_cube + 6.0 * m * m * mean_square - 3.0 * m * m * m * m;
         let kurtosis = if m2 > 0.0 { m4 / (m2 * m2) } else { f64::NAN };
         let kurtosis_error = non_negative(kurtosis - 1.0) / n;
         // The kurtosis of a few robots is unreliable; for two robots it is always 1. The standard error is then at least that of a

@@ -28,8 +28,8 @@ pub const MAX_SAMPLES: usize = 1_000_000;
 /// Maximum number of steps, ten times that of the chapter. Longer paths would show nothing new.
 pub const MAX_STEPS: u64 = 200;
 
-/// Seed with typical rollouts. Among the seeds 0 to 99 with the first miss at the exact step, it has the ratios nearest to the
-/// exact ones.
+/// Seed with typical rollouts. Of the seeds 0 to 99 with the first miss at the exact step, this seed has the ratios nearest to the exact
+/// ratios.
 const INITIAL_SEED: u64 = 29;
 
 settings! {
@@ -81,8 +81,8 @@ impl Settings {
         }
     }
 
-    /// Returns true if rollouts under both settings are equal to the last bit. The number of robots, the
-    /// selected step and the recursion do not matter.
+    /// Returns true if rollouts under `other` settings are equal to the last bit. The number of robots, the selected step and the recursion
+    /// do not matter.
     pub(super) fn has_same_rollouts(&self, other: &Self) -> bool {
         let Self { step, compounding, samples, .. } = *other;
         // −0 equals 0, but leads to other signs of zeros in the results.
@@ -95,8 +95,8 @@ impl Settings {
 }
 
 impl Rules for Settings {
-    /// The first is the chapter's path of twenty steps, and the second doubles the standard deviation of its heading (exercise 7). The
-    /// third divides the path into two hundred steps, in each of which J_r is nearly 1. The fourth leads straight ahead.
+    /// The chapter's path of twenty steps; the path with twice the standard deviation of the heading (exercise 7); the path in two hundred
+    /// steps, each with J_r nearly 1; a straight path.
     const PRESETS: &'static [(&'static str, Self)] = &[
         ("chapter", Self::DEFAULT),
         ("doubled", path([1.0, 0.5, 0.2], 20, 0.08)),
@@ -104,7 +104,7 @@ impl Rules for Settings {
         ("straight", path([1.0, 0.0, 0.2], 20, 0.02)),
     ];
 
-    /// Selects the last step if the path has become shorter than the selected one.
+    /// Selects the last step if the path does not contain the selected step.
     fn adjust(&mut self, _: &Self, changed_keys: &[&str]) {
         if !changed_keys.contains(&"step") {
             self.step = self.step.min(self.steps);
@@ -117,12 +117,12 @@ impl Rules for Settings {
 }
 
 const fn path([v, omega, dt]: [f64; 3], steps: u32, heading_noise: f64) -> Settings {
-    let [h, last_turn] = [heading_noise, heading_noise / 4.0];
+    let [h, last_turn_alpha] = [heading_noise, heading_noise / 4.0];
     Settings {
         command: VelocityCmd { v, omega, dt },
         steps,
         step: steps,
-        alphas: [0.02, 0.02, h, h, last_turn, last_turn],
+        alphas: [0.02, 0.02, h, h, last_turn_alpha, last_turn_alpha],
         ..Settings::DEFAULT
     }
 }

@@ -7,7 +7,7 @@ pub use settings::*;
 
 use super::cloud::draws::Draws;
 use super::cloud::picture::{Ramp, ramp_step};
-use super::cloud::views::{Grid, nearest_index};
+use super::cloud::views::{ViewGrid, nearest_index};
 use super::cloud_simulation::cloud_simulation;
 use super::settings::{AllowedValues, Rules, SettingsError};
 use crate::geom::arc::Arc;
@@ -51,8 +51,8 @@ struct Tally {
     gave_up: bool,
 }
 
-/// Average number of draws for a part of a motion at which the simulation gives up: an acceptance of 5 %. With a smaller
-/// limit it would stop where a filter still works; with a larger one a page would wait for seconds.
+/// Average number of draws for a part of a motion at which the simulation gives up: an acceptance of 5 %. With a smaller limit the
+/// simulation would stop where a filter still works; with a larger limit a page would wait for seconds.
 const MAX_MEAN_DRAWS_PER_PART: usize = 20;
 
 /// Number of parts of motions that a block of attempts tests against the map. A block takes some milliseconds.
@@ -86,8 +86,8 @@ impl MapSqueeze {
         &self.plan
     }
 
-    /// Replaces the map, and keeps the start pose and the draws. The number of attempts stays, or becomes the full
-    /// number if the simulation had given up.
+    /// Replaces the map, and keeps the start pose and the draws. As many attempts are made as before, or all if the simulation had given
+    /// up.
     pub fn set_plan(&mut self, plan: FloorPlan) {
         self.plan = plan;
         let attempt_count = if self.tally.gave_up { self.settings.samples } else { self.shown_count() };
@@ -95,18 +95,19 @@ impl MapSqueeze {
         self.add_samples(attempt_count);
     }
 
-    /// Replaces the map by a grid, as [`MapSqueeze::set_plan`] replaces it by a plan. The settings define how unknown cells count.
-    /// Errors are those of [`FloorPlan::from_grid`], and change nothing.
+    /// Replaces the map by a grid, as [`MapSqueeze::set_plan`] replaces it by a plan. The setting `unknown` defines whether unknown cells
+    /// are obstacles. Errors are those of [`FloorPlan::from_grid`], and change nothing.
     pub fn set_grid(&mut self, grid: OccupancyGrid) -> Result<(), FloorPlanError> {
         self.set_plan(FloorPlan::from_grid(grid.with_unknown(self.settings.unknown))?);
         Ok(())
     }
 
-    /// Changes the settings and makes the first block of attempts. [`MapSqueeze::add_samples`] makes the others, up to `target_count` in all.
+    /// Changes the settings and makes the first block of attempts. [`MapSqueeze::add_samples`] makes the remaining attempts up to
+    /// `target_count`.
     ///
     /// # Errors
-    /// [`SettingsError`] as in [`MapSqueeze::new`], or if the map has too many walls when unknown cells count as `settings.unknown`
-    /// says. Errors change nothing.
+    /// [`SettingsError`] as in [`MapSqueeze::new`], or if the map has too many walls under the new setting `unknown`. Errors change
+    /// nothing.
     pub fn configure_first(&mut self, settings: Settings, target_count: usize) -> Result<(), SettingsError> {
         settings.check()?;
         let outdated_grid = self.plan.grid().filter(|_| settings.unknown != self.settings.unknown);
@@ -143,7 +144,7 @@ impl MapSqueeze {
         let part_count = self.settings.part_count() as usize;
         let Self { plan, settings, draws, attempts, tally, .. } = self;
         let model = conditioned_model(settings, plan, settings.sampler);
-        let driver = Driver::new(&model, settings, draws);
+        let driver = AttemptDriver::new(&model, settings, draws);
         while attempts.len() < target_count && !tally.gave_up {
             driver.make_next_attempts(attempts.len()..target_count, |attempt, cost| {
                 tally.cost.add(cost);
@@ -174,7 +175,7 @@ impl MapSqueeze {
     pub fn stats(&self) -> Stats {
         let Tally { cost, accepted, through_wall, gave_up } = self.tally;
         // NaN for 0/0, and infinity for another number over 0.
-        let ratio = |count: usize, total: usize| count as f64 / total as f64;
+        let ratio = |numerator: usize, denominator: usize| numerator as f64 / denominator as f64;
         Stats {
             attempts: self.attempts.len(),
             drawn: cost.draws,
@@ -193,36 +194,36 @@ impl MapSqueeze {
     /// Paints a density map of the ends of the attempts shown, one pixel for each cell of the grid. The most frequent kind of
     /// attempt in a cell selects the ramp. The colour is ramp[255·√(count/max_count)], where `count` is the number of attempts in
     /// the cell and `max_count` the largest count of all cells. Empty cells are transparent.
-    pub fn paint(&mut self, grid: &Grid, ramps: &[Ramp; OUTCOME_KIND_COUNT]) -> &[[u8; 4]] {
+    pub fn paint(&mut self, grid: &ViewGrid, ramps: &[Ramp; OUTCOME_KIND_COUNT]) -> &[[u8; 4]] {
         self.picture = paint_attempts(&self.attempts, grid, ramps);
         &self.picture
     }
 
-    /// Returns the attempt that ends nearest to a point (m) and within `radius` of it.
+    /// Returns the attempt that ends nearest to the point `target` (m), within `radius` (m).
     pub fn nearest(&self, target: [f64; 2], radius: f64) -> Option<usize> {
         let positions = self.attempts.iter().map(|attempt| [attempt.pose.x(), attempt.pose.y()]);
         nearest_index(positions, target, [radius, radius])
     }
 
     /// Returns the arcs driven in an attempt that is shown.
-    pub fn arcs(&self, index: usize) -> Vec<Arc> {
-        if index >= self.attempts.len() {
+    pub fn arcs(&self, attempt_index: usize) -> Vec<Arc> {
+        if attempt_index >= self.attempts.len() {
             return Vec::new();
         }
         let model = conditioned_model(&self.settings, &self.plan, self.settings.sampler);
-        Driver::new(&model, &self.settings, &self.draws).arcs(index)
+        AttemptDriver::new(&model, &self.settings, &self.draws).arcs(attempt_index)
     }
 
-    /// Draws `count` accepted samples with a sampler and returns their cost. The caller measures the time.
+    /// Draws `sample_count` accepted samples with a sampler and returns their cost. The caller measures the time.
     ///
     /// # Errors
     /// [`NoAcceptedSample`] if one of the samples is not accepted, or if the simulation would give up because of the number of draws.
-    pub fn sampling_trial(&self, sampler: Sampler, count: usize) -> Result<Cost, NoAcceptedSample> {
+    pub fn sampling_trial(&self, sampler: Sampler, sample_count: usize) -> Result<Cost, NoAcceptedSample> {
         let model = conditioned_model(&self.settings, &self.plan, sampler);
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(self.settings.seed);
         let mut total_cost = Cost::default();
-        let part_count = sampler.part_count() as usize * count;
-        for _ in 0..count {
+        let part_count = sampler.part_count() as usize * sample_count;
+        for _ in 0..sample_count {
             let cost = model.sampling_cost(&self.settings.command, &self.settings.start(), &mut rng)?;
             total_cost.add(cost);
             if total_cost.draws > max_draws(part_count) {
@@ -251,8 +252,8 @@ impl MapSqueeze {
 }
 
 /// Returns the maximum number of draws for this many parts of motions, after which the simulation gives up.
-pub fn max_draws(parts: usize) -> usize {
-    MAX_DRAWS + MAX_MEAN_DRAWS_PER_PART * parts
+pub fn max_draws(part_count: usize) -> usize {
+    MAX_DRAWS + MAX_MEAN_DRAWS_PER_PART * part_count
 }
 
 fn conditioned_model<'a>(settings: &Settings, plan: &'a FloorPlan, sampler: Sampler) -> MapConditioned<'a> {
@@ -267,7 +268,7 @@ js_structs! {
     pub struct Stats as "SqueezeStats" {
         /// Number of attempts.
         pub attempts: usize,
-        /// Draws of the model; for the sub-stepped sampler, of its shorter motions.
+        /// Draws of the model; for the sub-stepped sampler, draws of parts of motions.
         pub drawn: usize,
         /// Number of accepted attempts.
         pub accepted: usize,
@@ -288,17 +289,17 @@ js_structs! {
     }
 }
 
-/// Returns the 95 % interval of the fraction of which `count` in `total` were observed (Wilson, 1927), which is also valid at 0 and 1.
-pub fn wilson_interval(count: usize, total: usize) -> [f64; 2] {
-    let n = total as f64;
-    let p = count as f64 / n;
+/// Returns the 95 % interval of the fraction of which `successes` in `trials` were observed (Wilson, 1927), which is also valid at 0 and 1.
+pub fn wilson_interval(successes: usize, trials: usize) -> [f64; 2] {
+    let n = trials as f64;
+    let p = successes as f64 / n;
     // 97.5 % quantile of the normal distribution. `quantile` takes the probability above the median.
     let z = NoiseKind::Normal.quantile(0.475);
-    let (middle, scale) = (p + z * z / (2.0 * n), 1.0 + z * z / n);
+    let (numerator, denominator) = (p + z * z / (2.0 * n), 1.0 + z * z / n);
     let half_width = z * (p * (1.0 - p) / n + z * z / (4.0 * n * n)).sqrt();
     // The interval of a fraction of 0 begins at exactly 0, and that of a fraction of 1 ends at exactly 1, despite rounding.
-    let lower = if count == 0 { 0.0 } else { (middle - half_width) / scale };
-    let upper = if count == total { 1.0 } else { (middle + half_width) / scale };
+    let lower = if successes == 0 { 0.0 } else { (numerator - half_width) / denominator };
+    let upper = if successes == trials { 1.0 } else { (numerator + half_width) / denominator };
     if n > 0.0 { [lower, upper] } else { [0.0, 1.0] }
 }
 
@@ -345,14 +346,14 @@ impl Attempt {
 }
 
 /// Driver that makes attempts, each from its own noise.
-struct Driver<'a> {
+struct AttemptDriver<'a> {
     model: &'a MapConditioned<'a>,
     collision_tester: CollisionTester<'a>,
     settings: &'a Settings,
     draws: &'a Draws,
 }
 
-impl<'a> Driver<'a> {
+impl<'a> AttemptDriver<'a> {
     fn new(model: &'a MapConditioned, settings: &'a Settings, draws: &'a Draws) -> Self {
         Self {
             model,
@@ -386,48 +387,48 @@ impl<'a> Driver<'a> {
     }
 
     /// Returns the arcs that are driven in an attempt.
-    fn arcs(&self, index: usize) -> Vec<Arc> {
+    fn arcs(&self, attempt_index: usize) -> Vec<Arc> {
         let mut arcs = Vec::new();
         match self.settings.sampler {
-            Sampler::SubStepped(_) => _ = self.drive_parts(index, &mut |arc| arcs.push(*arc)),
-            _ => arcs.push(self.collision_tester.arc(self.draws.noise_of_sample(index))),
+            Sampler::SubStepped(_) => _ = self.drive_parts(attempt_index, &mut |arc| arcs.push(*arc)),
+            _ => arcs.push(self.collision_tester.arc(self.draws.noise_of_sample(attempt_index))),
         }
         arcs
     }
 
-    fn drive_parts(&self, index: usize, visit_arc: &mut dyn FnMut(&Arc)) -> (Attempt, Cost) {
+    fn drive_parts(&self, attempt_index: usize, visit_arc: &mut dyn FnMut(&Arc)) -> (Attempt, Cost) {
         let Settings { command, conditioned, seed, .. } = *self.settings;
-        let start = self.settings.start();
-        // The walls determine how many random numbers an attempt uses. Each attempt has its own stream, so that the
-        // others do not change.
-        let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed ^ (index as u64).rotate_left(32));
-        match self.model.sample_with_arcs(&command, &start, &mut rng, conditioned, visit_arc) {
+        let start_pose = self.settings.start();
+        // The walls determine how many random numbers an attempt uses. Each attempt has its own stream, so that a wall changes only
+        // attempts near the wall.
+        let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed ^ (attempt_index as u64).rotate_left(32));
+        match self.model.sample_with_arcs(&command, &start_pose, &mut rng, conditioned, visit_arc) {
             Ok(AcceptedMotion { pose, end_free, path_free, cost }) => {
                 (Attempt { pose, accepted: true, end_free, path_free }, cost)
             }
             Err(NoAcceptedSample(cost)) => {
-                (Attempt { pose: start, accepted: false, end_free: false, path_free: false }, cost)
+                (Attempt { pose: start_pose, accepted: false, end_free: false, path_free: false }, cost)
             }
         }
     }
 }
 
 /// Paints the ends of attempts, row by row from the top. If several kinds are equally frequent in a cell, the last one is drawn.
-fn paint_attempts(attempts: &[Attempt], grid: &Grid, ramps: &[Ramp; OUTCOME_KIND_COUNT]) -> Vec<[u8; 4]> {
-    let (Grid { min, max, .. }, per_metre) = (*grid, grid.cells_per_unit());
+fn paint_attempts(attempts: &[Attempt], grid: &ViewGrid, ramps: &[Ramp; OUTCOME_KIND_COUNT]) -> Vec<[u8; 4]> {
+    let (ViewGrid { min, max, .. }, cells_per_metre) = (*grid, grid.cells_per_unit());
     let mut cell_counts = vec![[0u32; OUTCOME_KIND_COUNT]; grid.columns * grid.rows];
     for attempt in attempts {
-        let column = ((attempt.pose.x() - min[0]) * per_metre[0]).floor();
-        let row = ((max[1] - attempt.pose.y()) * per_metre[1]).floor();
-        if let Some(cell) = grid.cell_index(column, row) {
-            cell_counts[cell][attempt.outcome_kind()] += 1;
+        let column = ((attempt.pose.x() - min[0]) * cells_per_metre[0]).floor();
+        let row = ((max[1] - attempt.pose.y()) * cells_per_metre[1]).floor();
+        if let Some(cell_index) = grid.cell_index(column, row) {
+            cell_counts[cell_index][attempt.outcome_kind()] += 1;
         }
     }
-    let total_count = |counts: &[u32; OUTCOME_KIND_COUNT]| counts.iter().sum::<u32>();
+    let total_count = |kind_counts: &[u32; OUTCOME_KIND_COUNT]| kind_counts.iter().sum::<u32>();
     let highest_count = cell_counts.iter().map(total_count).max().unwrap_or(0);
-    let cell_colour = |counts: &[u32; OUTCOME_KIND_COUNT]| {
-        let attempt_count = total_count(counts);
-        let most_frequent_kind = (0..OUTCOME_KIND_COUNT).max_by_key(|kind| counts[*kind]).unwrap_or(0);
+    let cell_colour = |kind_counts: &[u32; OUTCOME_KIND_COUNT]| {
+        let attempt_count = total_count(kind_counts);
+        let most_frequent_kind = (0..OUTCOME_KIND_COUNT).max_by_key(|kind| kind_counts[*kind]).unwrap_or(0);
         if attempt_count == 0 {
             [0; 4]
         } else {

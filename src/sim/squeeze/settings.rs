@@ -21,7 +21,7 @@ impl Keywords for UnknownCells {
 }
 
 /// Start pose x, y (m) and θ (rad) in front of a doorway of the apartment.
-const DOORWAY: [f64; 3] = [2.05, 2.6, FRAC_PI_2];
+const DOORWAY_START: [f64; 3] = [2.05, 2.6, FRAC_PI_2];
 
 /// Maximum number of attempts, which take 56 MB, and some seconds in a difficult map.
 pub const MAX_SAMPLES: usize = 1_000_000;
@@ -33,7 +33,7 @@ settings! {
     /// Settings of the user, except for the map.
     pub struct Settings {
         /// Start pose of the robot.
-        start: [f64; 3] = DOORWAY, each "at which the robot starts";
+        start: [f64; 3] = DOORWAY_START, each "at which the robot starts";
         /// Command of all attempts.
         command: VelocityCmd = VelocityCmd { v: 1.0, omega: 0.0, dt: 2.0 };
         /// Noise parameters, the six of the velocity model.

@@ -5,7 +5,7 @@ use super::settings::{are_settings_allowed, change_settings};
 use super::{assertions, banana};
 use motion::geom::se2::SE2;
 use motion::sim::arc_anatomy::{ArcAnatomy, ArcWithCircle, SurfaceKind, Paths, Settings, Stats, Surface, Table};
-use motion::sim::views::Grid;
+use motion::sim::views::ViewGrid;
 
 /// Maximum number of calls in a run.
 const MAX_CALLS: usize = 4;
@@ -132,7 +132,7 @@ fn position_at(simulation: &ArcAnatomy, time_fraction: f64) -> [f64; 2] {
 
 /// Asserts that the contours of the heat map are inside its rectangle.
 fn assert_surface(simulation: &ArcAnatomy, input: &mut InputReader) {
-    let Grid { min, max, .. } = banana::read_grid(input);
+    let ViewGrid { min, max, .. } = banana::read_grid(input);
     let surface = simulation.surface(min, max);
     assert_eq!(surface.is_none(), simulation.settings().map == SurfaceKind::Nothing);
     let Some(Surface { columns, rows, shades, prob, density }) = surface else { return };

@@ -10,7 +10,7 @@ use motion::sim::banana::{
 };
 use motion::sim::picture::RAMP_STEP_COUNT;
 use motion::sim::settings::QUANTITY_RANGE;
-use motion::sim::views::{EXTENT_RANGE, Grid};
+use motion::sim::views::{EXTENT_RANGE, ViewGrid};
 
 /// Maximum numbers of samples and of calls in a run. The limits are large enough to reach every branch, and small enough to allow many
 /// runs.
@@ -240,11 +240,11 @@ fn point_distance(a: [f64; 2], b: [f64; 2]) -> f64 {
 }
 
 /// Returns a rectangle of a view with few cells.
-pub fn read_grid(input: &mut InputReader) -> Grid {
+pub fn read_grid(input: &mut InputReader) -> ViewGrid {
     let grid_min = [0; 2].map(|_| input.draw_number_within(EXTENT_RANGE));
     let grid_max = grid_min.map(|min_coordinate| input.draw_number_within(min_coordinate..=*EXTENT_RANGE.end()));
     let [column_count, row_count] = [0; 2].map(|_| 1 + input.next_below(40));
-    Grid { min: grid_min, max: grid_max, columns: column_count, rows: row_count }
+    ViewGrid { min: grid_min, max: grid_max, columns: column_count, rows: row_count }
 }
 
 fn assert_picture(simulation: &mut BananaMachine, input: &mut InputReader) {

@@ -5,7 +5,7 @@ use super::plan;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
 use motion::map::{
-    Cell, FloorPlan, FloorPlanError, Image, Interpretation, MapMode, OccupancyGrid, Pixel, RESOLUTION_RANGE, UnknownCells,
+    Cell, FloorPlan, FloorPlanError, Image, PixelClassifier, MapMode, OccupancyGrid, Pixel, RESOLUTION_RANGE, UnknownCells,
 };
 use motion::sim::settings::QUANTITY_RANGE;
 
@@ -105,12 +105,12 @@ pub fn read_random_grid(input: &mut InputReader) -> Option<(OccupancyGrid, Unkno
     let map_mode = input.choose_one(&[MapMode::Trinary, MapMode::Scale, MapMode::Raw]);
     let is_negated = input.next_bool();
     let [a, b] = [0; 2].map(|_| f64::from(input.next_byte()) / 255.0);
-    let interpretation = Interpretation { mode: map_mode, negate: is_negated, occupied_thresh: a.max(b), free_thresh: a.min(b) };
+    let interpretation = PixelClassifier { mode: map_mode, negate: is_negated, occupied_thresh: a.max(b), free_thresh: a.min(b) };
     let unknown_cells = input.choose_one(&[UnknownCells::Free, UnknownCells::Blocked]);
     let is_opaque = input.next_bool();
     let pixels: Vec<Pixel> = (0..width * height)
         .map(|_| Pixel {
-            shade: f32::from(input.next_byte()) / 255.0,
+            brightness: f32::from(input.next_byte()) / 255.0,
             opacity: if is_opaque { 1.0 } else { f32::from(input.next_byte()) / 255.0 },
         })
         .collect();
@@ -123,9 +123,9 @@ pub fn read_random_grid(input: &mut InputReader) -> Option<(OccupancyGrid, Unkno
 
 /// Checks the cell of a pixel against the documentation of `map_server`. If the pixel is within rounding of a threshold, both states are
 /// right.
-fn assert_cell_of_pixel(interpretation: &Interpretation, pixel: Pixel) {
-    let Interpretation { mode, negate, occupied_thresh, free_thresh } = *interpretation;
-    let pixel_shade = f64::from(pixel.shade);
+fn assert_cell_of_pixel(interpretation: &PixelClassifier, pixel: Pixel) {
+    let PixelClassifier { mode, negate, occupied_thresh, free_thresh } = *interpretation;
+    let pixel_shade = f64::from(pixel.brightness);
     let occupancy = if negate { pixel_shade } else { 1.0 - pixel_shade };
     let grey_value = (255.0 * pixel_shade).round();
     let is_near = |threshold: f64| (occupancy - threshold).abs() < 2.0 * f64::from(f32::EPSILON);

@@ -1,7 +1,7 @@
 //! Map images in PGM files.
 
 use motion::geom::se2::SE2;
-use motion::map::{FloorPlan, Image, Interpretation, MAX_PIXELS, OccupancyGrid, read_grid, read_pgm};
+use motion::map::{FloorPlan, Image, PixelClassifier, MAX_PIXELS, OccupancyGrid, read_grid, read_pgm};
 use std::fmt::Write;
 
 pub fn run(pgm_bytes: &[u8]) {
@@ -13,9 +13,9 @@ pub fn run(pgm_bytes: &[u8]) {
             assert!(pixels.iter().all(|shade| (0.0..=1.0).contains(shade)));
             if pixels.len() <= 64 {
                 assert_survives_writing(&image);
-                let grid = OccupancyGrid::new(&image, &Interpretation::default(), 1.0, SE2::identity());
+                let grid = OccupancyGrid::new(&image, &PixelClassifier::default(), 1.0, SE2::identity());
                 assert_eq!(
-                    read_grid(pgm_bytes, &Interpretation::default(), 1.0, SE2::identity()).as_ref(),
+                    read_grid(pgm_bytes, &PixelClassifier::default(), 1.0, SE2::identity()).as_ref(),
                     Ok(&grid)
                 );
                 assert!(FloorPlan::from_grid(grid).is_ok());

@@ -100,7 +100,6 @@ pub struct Cost {
 }
 
 impl Cost {
-    /// Adds another cost.
     pub(crate) fn add(&mut self, other: Self) {
         self.draws += other.draws;
         self.wall_tests += other.wall_tests;

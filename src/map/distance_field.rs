@@ -10,7 +10,6 @@ use wide::f64x4;
 /// need only this bound, so that they take the same time for any number of walls.
 #[derive(Clone, Debug)]
 pub(super) struct DistanceField {
-    /// Minimum x and y.
     min_corner: [f64; 2],
     cells_per_metre: f64,
     columns: usize,

@@ -25,7 +25,6 @@ pub struct FloorPlan {
     collision_index: OnceLock<CollisionIndex>,
 }
 
-/// Search tree and distance field for collision tests.
 #[derive(Clone, Debug)]
 struct CollisionIndex {
     tree: WallTree,

@@ -1,7 +1,7 @@
 //! Free start pose for a robot that enters a map.
 
 use super::floor_plan::FloorPlan;
-use super::occupancy::{Image, OccupancyGrid, PixelInterpretation};
+use super::occupancy::{Image, OccupancyGrid, PixelClassifier};
 use crate::geom::se2::SE2;
 use std::borrow::Cow;
 use std::f64::consts::TAU;
@@ -40,7 +40,7 @@ impl FloorPlan {
         };
         let pixels = (0..columns * rows).map(|i| f32::from(u8::from(is_free(i)))).collect();
         let image = Image { width: columns, height: rows, pixels };
-        OccupancyGrid::new(&image, &PixelInterpretation::default(), cell_side, SE2::new(left, bottom, 0.0))
+        OccupancyGrid::new(&image, &PixelClassifier::default(), cell_side, SE2::new(left, bottom, 0.0))
     }
 }
 

@@ -1,6 +1,6 @@
 //! Image files of maps: PGM, and PNG where the core has its decoder.
 
-use super::occupancy::{OccupancyGrid, PixelInterpretation};
+use super::occupancy::{OccupancyGrid, PixelClassifier};
 use super::pgm::{PgmError, read_pgm};
 #[cfg(not(widget))]
 use super::png::{PNG_SIGNATURE, PngError, read_png};
@@ -25,15 +25,15 @@ pub enum ImageError {
 /// [`ImageError`] for a file that is neither, or damaged.
 pub fn read_grid(
     file_bytes: &[u8],
-    interpretation: &PixelInterpretation,
+    classifier: &PixelClassifier,
     resolution: f64,
     origin: SE2,
 ) -> Result<OccupancyGrid, ImageError> {
     #[cfg(not(widget))]
     if file_bytes.starts_with(&PNG_SIGNATURE) {
         let image = read_png(file_bytes)?;
-        return Ok(OccupancyGrid::new(&image, interpretation, resolution, origin));
+        return Ok(OccupancyGrid::new(&image, classifier, resolution, origin));
     }
     let image = read_pgm(file_bytes)?;
-    Ok(OccupancyGrid::new(&image, interpretation, resolution, origin))
+    Ok(OccupancyGrid::new(&image, classifier, resolution, origin))
 }

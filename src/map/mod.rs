@@ -18,7 +18,7 @@ pub use conditioned::{
 pub use floor_plan::{CollisionVerdict, FloorPlan, FloorPlanError};
 pub use image_file::{ImageError, read_grid};
 pub use occupancy::{
-    Cell, Image, MapMode, OccupancyGrid, Pixel, PixelInterpretation, RESOLUTION_RANGE, UnknownCells,
+    Cell, Image, MapMode, OccupancyGrid, Pixel, PixelClassifier, RESOLUTION_RANGE, UnknownCells,
 };
 pub use pgm::{MAX_BYTES, MAX_PIXELS, PgmError, read_pgm};
 #[cfg(not(widget))]

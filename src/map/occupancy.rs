@@ -5,9 +5,9 @@ use crate::geom::se2::SE2;
 use crate::geom::segment::Segment;
 use std::ops::RangeInclusive;
 
-/// Conversion of pixels to cells, as in the YAML file of `map_server`.
+/// Classifier of pixels as cells, with the fields of the YAML file of `map_server`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PixelInterpretation {
+pub struct PixelClassifier {
     /// Meaning of the pixels.
     pub mode: MapMode,
     /// True if dark pixels are free instead of occupied.
@@ -20,7 +20,7 @@ pub struct PixelInterpretation {
 
 /// Defaults of keys that the YAML file does not have. Unknown cells are saved as the grey 205 of 255, whose occupancy of 0.1961
 /// is just above `free_thresh`.
-impl Default for PixelInterpretation {
+impl Default for PixelClassifier {
     fn default() -> Self {
         Self { mode: MapMode::Trinary, negate: false, occupied_thresh: 0.65, free_thresh: 0.196 }
     }
@@ -95,7 +95,7 @@ impl From<[u8; 4]> for Pixel {
     }
 }
 
-impl PixelInterpretation {
+impl PixelClassifier {
     /// Returns the state of the cell that a pixel shows.
     pub fn classify_pixel(&self, pixel: Pixel) -> Cell {
         let Pixel { brightness, opacity } = pixel;
@@ -142,19 +142,19 @@ impl OccupancyGrid {
     /// As in `map_server`, opacity counts as a fourth colour in mode trinary if the image has transparency.
     pub fn new<P: Copy + Into<Pixel>>(
         image: &Image<P>,
-        interpretation: &PixelInterpretation,
+        classifier: &PixelClassifier,
         resolution: f64,
         origin: SE2,
     ) -> Self {
         let Image { width, height, ref pixels } = *image;
         let has_transparency = pixels.iter().any(|pixel| (*pixel).into().opacity < 1.0);
-        let opacity_is_colour = has_transparency && interpretation.mode == MapMode::Trinary;
+        let opacity_is_colour = has_transparency && classifier.mode == MapMode::Trinary;
         let to_cell = |pixel: &P| {
             let mut pixel: Pixel = (*pixel).into();
             if opacity_is_colour {
                 pixel.brightness = (3.0 * pixel.brightness + pixel.opacity) / 4.0;
             }
-            interpretation.classify_pixel(pixel)
+            classifier.classify_pixel(pixel)
         };
         // The first row of an image is its highest, the first of a grid its lowest.
         let cells = pixels.chunks(width.max(1)).rev().flatten().map(to_cell).collect();

@@ -12,13 +12,13 @@ pub const PNG_SIGNATURE: [u8; 8] = *b"\x89PNG\r\n\x1a\n";
 /// Reason why bytes are not a PNG image.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub enum PngError {
-    /// The bytes end, or differ from what the standard allows, before byte `damage_offset` of `length`.
+    /// The bytes end, or differ from what the standard allows, before byte `offset` of `length`.
     #[error(
-        "the PNG image is damaged or cut short before byte {damage_offset} of {length}; allowed is a complete one"
+        "the PNG image is damaged or cut short before byte {offset} of {length}; allowed is a complete one"
     )]
     Damaged {
         /// Number of bytes read before the damage was noticed.
-        damage_offset: u64,
+        offset: u64,
         /// Number of bytes of the file.
         length: usize,
     },
@@ -49,7 +49,7 @@ pub fn read_png(bytes: &[u8]) -> Result<Image<[u8; 4]>, PngError> {
 }
 
 fn damage_error(cursor: &Cursor<&[u8]>) -> PngError {
-    PngError::Damaged { damage_offset: cursor.position(), length: cursor.get_ref().len() }
+    PngError::Damaged { offset: cursor.position(), length: cursor.get_ref().len() }
 }
 
 fn decode_pixels(cursor: &mut Cursor<&[u8]>) -> Result<Vec<[u8; 4]>, DecodingError> {

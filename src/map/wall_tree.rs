@@ -21,7 +21,6 @@ pub(super) struct WallTree {
 /// Node of the tree: the capsule of the walls of its subtree.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
-    /// Axis of the capsule.
     pub capsule_axis: Segment,
     /// Maximum distance of a wall of the node from the axis of the capsule, m.
     pub capsule_radius: f64,

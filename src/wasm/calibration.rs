@@ -90,7 +90,6 @@ pub struct CalibrationStats<'a> {
     recommended: Option<&'a Recommendation>,
 }
 
-/// Converts a calibration without its legs to a JavaScript object.
 pub fn calibration_to_js(calibration: &Calibration) -> JsValue {
     let [position_std, yaw_std] = calibration.reference_noise;
     to_plain_js(&CalibrationStats {
@@ -159,7 +158,6 @@ js_structs! {
     }
 }
 
-/// Converts the legs of a calibration to a JavaScript object.
 pub fn legs_to_js(calibration: &Calibration) -> JsValue {
     let Calibration { legs, observations, leg_fits, corrected, .. } = calibration;
     let mut leg_columns = CalibrationLegs { count: legs.len(), ..Default::default() };

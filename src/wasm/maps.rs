@@ -7,7 +7,7 @@ use super::fields::{
 use crate::geom::se2::SE2;
 use crate::geom::segment::Segment;
 use crate::map::{
-    FloorPlan, FloorPlanError, Image, MAX_BYTES, MAX_PIXELS, MapMode, OccupancyGrid, PixelInterpretation,
+    FloorPlan, FloorPlanError, Image, MAX_BYTES, MAX_PIXELS, MapMode, OccupancyGrid, PixelClassifier,
     RESOLUTION_RANGE, read_grid,
 };
 use crate::sim::settings::{Keywords, QUANTITY_RANGE};
@@ -65,7 +65,7 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
     let read_threshold = |key: &str| {
         fields.read_optional(key, |field, value| check_range(field, read_number(field, value)?, &(0.0..=1.0)))
     };
-    let defaults = PixelInterpretation::default();
+    let defaults = PixelClassifier::default();
     let occupied_thresh = read_threshold("occupied_thresh")?.unwrap_or(defaults.occupied_thresh);
     let free_thresh = read_threshold("free_thresh")?;
     if let Some(free_threshold) = free_thresh.filter(|free_threshold| *free_threshold > occupied_thresh) {
@@ -76,16 +76,16 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
     let mode = fields.read_optional("mode", read_keyword)?.unwrap_or(defaults.mode);
     let free_thresh = free_thresh.unwrap_or(defaults.free_thresh.min(occupied_thresh));
     let negate = negate.unwrap_or(defaults.negate);
-    let interpretation = PixelInterpretation { mode, negate, occupied_thresh, free_thresh };
+    let classifier = PixelClassifier { mode, negate, occupied_thresh, free_thresh };
     let origin = SE2::from(origin);
     if let Some(file) = image.dyn_ref::<Uint8Array>() {
         read_integer("image.length", f64::from(file.length()), 0..=MAX_BYTES as u64)?;
-        return read_grid(&file.to_vec(), &interpretation, resolution, origin)
+        return read_grid(&file.to_vec(), &classifier, resolution, origin)
             .map_err(|error| RangeError::new(&error.to_string()).into());
     }
     let (width, height, pixel_bytes) = read_pixels(image)?;
     let pixels = pixel_bytes.as_chunks::<4>().0.to_vec();
-    Ok(OccupancyGrid::new(&Image { width, height, pixels }, &interpretation, resolution, origin))
+    Ok(OccupancyGrid::new(&Image { width, height, pixels }, &classifier, resolution, origin))
 }
 
 /// Reads width, height, and red, green, blue and opacity of each pixel of an ImageData. An object with the same properties will

@@ -56,7 +56,6 @@ fn target_position(phase: f64) -> [f64; 2] {
     [1.35 * radius * libm::cos(phase), radius * libm::sin(phase)]
 }
 
-/// Controller of the simulated robot.
 struct Controller {
     /// Phase of the target, rad: see [`target_position`].
     phase: f64,
@@ -90,11 +89,8 @@ impl Controller {
     }
 }
 
-/// Leg that is being simulated.
 struct CurrentLeg {
-    /// Pose by the odometry at the start of the leg.
     odometry_start: SE2,
-    /// True pose at the start of the leg.
     true_start: SE2,
     /// Row times, and noise-free motions from the start of the leg to each row.
     motions: Vec<(f64, SE2)>,

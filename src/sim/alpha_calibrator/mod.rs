@@ -72,7 +72,6 @@ pub struct AlphaCalibrator {
     fit_revision: u32,
 }
 
-/// Source of a log.
 #[derive(Clone, Debug)]
 enum LogSource {
     /// Simulated with the seed of the settings.

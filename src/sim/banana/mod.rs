@@ -50,7 +50,6 @@ impl Settings {
     }
 }
 
-/// Motion model with its input.
 enum ModelWithInput {
     Velocity(VelocityModel, VelocityCmd),
     Odometry(ConfiguredOdometry, OdomDelta),

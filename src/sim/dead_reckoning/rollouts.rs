@@ -240,7 +240,6 @@ impl ErrorPoses {
 /// Robots that are driven through all steps together.
 struct RobotBlock {
     rng: Xoshiro256PlusPlus,
-    /// Error poses of the robots.
     groups: [ErrorPoses; GROUPS_PER_BLOCK],
     /// Draws of a step, replaced by the resulting ξ.
     noise_or_xi: [[f64x4; 3]; GROUPS_PER_BLOCK],

@@ -34,7 +34,6 @@ pub struct MapSqueeze {
     plan: FloorPlan,
     settings: Settings,
     draws: Draws,
-    /// Attempts that are shown.
     attempts: Vec<Attempt>,
     tally: Tally,
     /// Latest picture. The page reads it in place.
@@ -386,7 +385,6 @@ impl<'a> AttemptDriver<'a> {
         });
     }
 
-    /// Returns the arcs that are driven in an attempt.
     fn arcs(&self, attempt_index: usize) -> Vec<Arc> {
         let mut arcs = Vec::new();
         match self.settings.sampler {

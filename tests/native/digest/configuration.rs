@@ -2,7 +2,7 @@
 
 use motion::sim::picture::{RAMP_STEP_COUNT, Ramp};
 use motion::sim::settings::{Rules, Setting};
-use motion::sim::views::Grid;
+use motion::sim::views::ViewGrid;
 use serde_json::Value;
 
 const CONFIGURATIONS_JSON: &str = include_str!("../../digest/configurations.json");
@@ -56,14 +56,14 @@ impl Configuration<'_> {
         settings
     }
 
-    pub fn grid(&self) -> Grid {
+    pub fn grid(&self) -> ViewGrid {
         let bounds = self
             .settings_json
             .get("bounds")
             .unwrap_or(&self.configurations_json["widgets"][self.widget]["bounds"]);
         let [x_min, y_min, x_max, y_max] = numbers_of(bounds);
         let picture_size = |key| self.configurations_json["picture"][key].as_u64().expect("a size") as usize;
-        Grid {
+        ViewGrid {
             min: [x_min, y_min],
             max: [x_max, y_max],
             columns: picture_size("columns"),

@@ -5,7 +5,7 @@ use super::encoding::HashedPart;
 use motion::calibrate::{Estimate, Recommendation, SystematicError};
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
-use motion::map::{Cell, FloorPlan, Interpretation, MapMode, OccupancyGrid, read_pgm};
+use motion::map::{Cell, FloorPlan, MapMode, OccupancyGrid, PixelClassifier, read_pgm};
 use motion::sim::View;
 use motion::sim::alpha_calibrator::AlphaCalibrator;
 use motion::sim::banana::{BananaMachine, TableColumn};
@@ -244,7 +244,7 @@ fn read_grid(map_json: &Value, images_json: &Value) -> OccupancyGrid {
         image_lines.iter().map(|image_line| format!("{}\n", image_line.as_str().expect("a line"))).collect();
     let description = &map_json["description"];
     let [x, y, yaw] = numbers_of(&description["origin"]);
-    let interpretation = Interpretation {
+    let interpretation = PixelClassifier {
         mode: match description["mode"].as_str() {
             None | Some("trinary") => MapMode::Trinary,
             Some("scale") => MapMode::Scale,

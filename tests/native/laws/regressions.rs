@@ -4,7 +4,7 @@ use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::map::FloorPlan;
 use motion::sim::banana::{BananaMachine, Settings};
-use motion::stats::CrossTrack;
+use motion::stats::CrossTrackStats;
 use motion::{MotionModel, NoiseKind, TangentNoiseModel, VelocityAlphas, VelocityCmd, VelocityModel};
 use std::f64::consts::PI;
 
@@ -13,7 +13,7 @@ use std::f64::consts::PI;
 fn a_cloud_whose_sixth_powers_underflow_has_no_skew() {
     for (unit, is_finite) in [(1.0, true), (1e-48, true), (1e-52, false), (1e-60, false), (1e-110, false)] {
         let tiny_cloud = [0.0, 1.0, 3.0, 7.0].map(|y| SE2::new(unit, unit * y, 0.0));
-        let cross_track = CrossTrack::from_poses(&tiny_cloud);
+        let cross_track = CrossTrackStats::from_poses(&tiny_cloud);
         let skew_and_error = [cross_track.skew, cross_track.skew_error];
         assert!(skew_and_error.iter().all(|value| value.is_finite() == is_finite), "{unit}: {cross_track:?}");
     }

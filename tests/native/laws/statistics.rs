@@ -4,7 +4,7 @@ use super::doubles::{any_double, proptest_config};
 use motion::TangentNoiseModel;
 use motion::geom::se2::SE2;
 use motion::models::TangentNoiseError;
-use motion::stats::{CartesianMoments, CrossTrack, Ellipse, ExponentialMoments};
+use motion::stats::{CartesianMoments, CrossTrackStats, Ellipse, ExponentialMoments};
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 use proptest::collection::vec;
 use proptest::prelude::*;
@@ -67,7 +67,7 @@ proptest! {
         let (length_unit, mirror_sign) = (2f64.powi(exponent_of_two), if is_mirrored { -1.0 } else { 1.0 });
         let scaled_cloud: Vec<SE2> =
             cloud.iter().map(|pose| SE2::new(length_unit * pose.x(), mirror_sign * length_unit * pose.y(), mirror_sign * pose.theta())).collect();
-        let (a, b) = (CrossTrack::from_poses(&cloud), CrossTrack::from_poses(&scaled_cloud));
+        let (a, b) = (CrossTrackStats::from_poses(&cloud), CrossTrackStats::from_poses(&scaled_cloud));
         for (a, b) in [(a.skew, mirror_sign * b.skew), (a.skew_error, b.skew_error), (a.rho_heading, b.rho_heading)] {
             prop_assert!(is_close(a, b, 0.0), "{} {}", a, b);
         }

@@ -5,13 +5,13 @@ use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
 use motion::map::{
-    Cell, FloorPlan, FloorPlanError, Image, Interpretation, OccupancyGrid, Pixel, UnknownCells,
+    Cell, FloorPlan, FloorPlanError, Image, OccupancyGrid, Pixel, PixelClassifier, UnknownCells,
 };
 use rand::Rng;
 use std::f64::consts::{FRAC_PI_2, PI};
 
-const BLACK_PIXEL: Pixel = Pixel { shade: 0.0, opacity: 1.0 };
-const WHITE_PIXEL: Pixel = Pixel { shade: 1.0, opacity: 1.0 };
+const BLACK_PIXEL: Pixel = Pixel { brightness: 0.0, opacity: 1.0 };
+const WHITE_PIXEL: Pixel = Pixel { brightness: 1.0, opacity: 1.0 };
 
 /// Description of a grid by its cells.
 struct GridCells {
@@ -39,7 +39,7 @@ impl GridCells {
             self.occupied.iter().map(|occupied| if *occupied { BLACK_PIXEL } else { WHITE_PIXEL }).collect();
         let image = Image { width: self.width, height: self.height, pixels };
         let [x, y, yaw] = self.origin;
-        OccupancyGrid::new(&image, &Interpretation::default(), self.resolution, SE2::new(x, y, yaw))
+        OccupancyGrid::new(&image, &PixelClassifier::default(), self.resolution, SE2::new(x, y, yaw))
     }
 
     /// Returns the map position (m) of a point whose coordinates are given in cells, along the axes of the grid.
@@ -188,7 +188,7 @@ fn grid_from_drawing(drawn_rows: &[&str], unknown_cells: UnknownCells) -> Occupa
     };
     let pixels = drawn_rows.iter().flat_map(|row| row.chars()).map(cell_shade).collect();
     let image = Image::<f32> { width: drawn_rows[0].len(), height: drawn_rows.len(), pixels };
-    OccupancyGrid::new(&image, &Interpretation::default(), 0.1, SE2::identity()).with_unknown(unknown_cells)
+    OccupancyGrid::new(&image, &PixelClassifier::default(), 0.1, SE2::identity()).with_unknown(unknown_cells)
 }
 
 /// The pose is in the middle of the largest square of free cells. Its heading is that of the longest free straight path. Unknown

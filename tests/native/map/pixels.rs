@@ -1,20 +1,20 @@
 //! Conversion of pixels to cells as in `map_server`, and valid and malformed PGM files.
 
 use motion::geom::se2::SE2;
-use motion::map::{Cell, Image, Interpretation, MAX_PIXELS, MapMode, OccupancyGrid, Pixel, read_pgm};
+use motion::map::{Cell, Image, MAX_PIXELS, MapMode, OccupancyGrid, Pixel, PixelClassifier, read_pgm};
 
 /// As in `map_server`, a cell is occupied if its occupancy is above the threshold, but not if it equals the threshold.
 #[test]
 fn pixels_are_read_as_map_server_reads_them() {
-    let trinary_mode = Interpretation::default();
-    let grey_pixel = |grey_value: u8| Pixel { shade: f32::from(grey_value) / 255.0, opacity: 1.0 };
+    let trinary_mode = PixelClassifier::default();
+    let grey_pixel = |grey_value: u8| Pixel { brightness: f32::from(grey_value) / 255.0, opacity: 1.0 };
     let transparent_pixel = |grey_value: u8| Pixel { opacity: 0.0, ..grey_pixel(grey_value) };
-    let scale_mode = Interpretation { mode: MapMode::Scale, ..trinary_mode };
-    let raw_mode = Interpretation { mode: MapMode::Raw, ..trinary_mode };
-    let with_occupied_threshold = |occupied_thresh| Interpretation { occupied_thresh, ..trinary_mode };
+    let scale_mode = PixelClassifier { mode: MapMode::Scale, ..trinary_mode };
+    let raw_mode = PixelClassifier { mode: MapMode::Raw, ..trinary_mode };
+    let with_occupied_threshold = |occupied_thresh| PixelClassifier { occupied_thresh, ..trinary_mode };
     let negate_with_threshold =
-        |occupied_thresh| Interpretation { negate: true, ..with_occupied_threshold(occupied_thresh) };
-    let with_free_threshold = |free_thresh| Interpretation { free_thresh, ..trinary_mode };
+        |occupied_thresh| PixelClassifier { negate: true, ..with_occupied_threshold(occupied_thresh) };
+    let with_free_threshold = |free_thresh| PixelClassifier { free_thresh, ..trinary_mode };
     let interpretation_cases = [
         ("black", trinary_mode, grey_pixel(0), Cell::Occupied),
         ("white", trinary_mode, grey_pixel(255), Cell::Free),
@@ -49,8 +49,13 @@ fn pixels_are_read_as_map_server_reads_them() {
         ("raw, 101 is unknown", raw_mode, grey_pixel(101), Cell::Unknown),
         ("raw, 0 is free", raw_mode, grey_pixel(0), Cell::Free),
         ("raw, 255 is unknown", raw_mode, grey_pixel(255), Cell::Unknown),
-        ("raw does not negate", Interpretation { negate: true, ..raw_mode }, grey_pixel(100), Cell::Occupied),
-        ("raw does not negate", Interpretation { negate: true, ..raw_mode }, grey_pixel(155), Cell::Unknown),
+        (
+            "raw does not negate",
+            PixelClassifier { negate: true, ..raw_mode },
+            grey_pixel(100),
+            Cell::Occupied,
+        ),
+        ("raw does not negate", PixelClassifier { negate: true, ..raw_mode }, grey_pixel(155), Cell::Unknown),
     ];
     for (case_name, interpretation, grey_pixel, expected_cell) in interpretation_cases {
         assert_eq!(
@@ -141,9 +146,9 @@ fn errors_of_malformed_pgm_files_name_line_field_and_value() {
 fn transparency_counts_as_a_colour_in_trinary() {
     let are_cells_occupied = |shades_and_opacities: &[(f32, f32)]| -> Vec<bool> {
         let pixels: Vec<Pixel> =
-            shades_and_opacities.iter().map(|&(shade, opacity)| Pixel { shade, opacity }).collect();
+            shades_and_opacities.iter().map(|&(brightness, opacity)| Pixel { brightness, opacity }).collect();
         let image = Image { width: shades_and_opacities.len(), height: 1, pixels };
-        let grid = OccupancyGrid::new(&image, &Interpretation::default(), 0.05, SE2::identity());
+        let grid = OccupancyGrid::new(&image, &PixelClassifier::default(), 0.05, SE2::identity());
         grid.cells().map(|cell| cell == Cell::Occupied).collect()
     };
     // Opaque black then has the shade (0 + 0 + 0 + 1)/4 = 0.25, dark grey of 60/255 has 0.43, and transparent white 0.75.

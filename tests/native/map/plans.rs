@@ -4,7 +4,7 @@ use crate::common::{draw_signed_log_uniform, draw_uniform, seeded_rng};
 use motion::geom::arc::Arc;
 use motion::geom::se2::SE2;
 use motion::geom::segment::Segment;
-use motion::map::{FloorPlan, FloorPlanError, Image, Interpretation, OccupancyGrid, Pixel};
+use motion::map::{FloorPlan, FloorPlanError, Image, OccupancyGrid, Pixel, PixelClassifier};
 use rand::Rng;
 use std::f64::consts::{PI, TAU};
 
@@ -80,10 +80,10 @@ fn collision_results_equal_those_of_a_loop_over_all_walls() {
             .map(|(larger, smaller)| new_wall(smaller, larger, larger, smaller))
             .collect()
     };
-    let binary_pixel = |is_dark: bool| Pixel { shade: if is_dark { 0.0 } else { 1.0 }, opacity: 1.0 };
+    let binary_pixel = |is_dark: bool| Pixel { brightness: if is_dark { 0.0 } else { 1.0 }, opacity: 1.0 };
     let pixels: Vec<_> = (0..1600).map(|_| binary_pixel(rng.next_u32().is_multiple_of(40))).collect();
     let image = Image { width: 40, height: 40, pixels };
-    let grid = OccupancyGrid::new(&image, &Interpretation::default(), 0.25, SE2::new(3.0, -2.0, 0.4));
+    let grid = OccupancyGrid::new(&image, &PixelClassifier::default(), 0.25, SE2::new(3.0, -2.0, 0.4));
     let new_room_plan = |walls| FloorPlan::new(walls, ROOM_BOUNDS).expect("a valid plan");
     let long_walls = random_walls(12, 10.0, ROOM_BOUNDS, &mut rng);
     let tested_plans = [

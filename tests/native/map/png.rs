@@ -2,7 +2,7 @@
 
 use crate::common::seeded_rng;
 use motion::geom::se2::SE2;
-use motion::map::{ImageError, Interpretation, MAX_PIXELS, PngError, read_grid, read_png};
+use motion::map::{ImageError, MAX_PIXELS, PixelClassifier, PngError, read_grid, read_png};
 use png::{BitDepth, ColorType, Encoder, Filter};
 use rand::Rng;
 
@@ -123,12 +123,14 @@ fn an_image_that_is_cut_short_is_refused() {
     assert!(read_png(&file_bytes).is_ok());
     for cut_length in 0..file_bytes.len() {
         match read_png(&file_bytes[..cut_length]) {
-            Err(PngError::Damaged { at, length: n }) => assert!(n == cut_length && at <= cut_length as u64),
+            Err(PngError::Damaged { offset, length }) => {
+                assert!(length == cut_length && offset <= cut_length as u64)
+            }
             other_result => panic!("{cut_length} bytes: {other_result:?}"),
         }
     }
-    let png_error =
-        read_grid(&file_bytes[..60], &Interpretation::default(), 0.05, SE2::identity()).expect_err("it ends");
+    let png_error = read_grid(&file_bytes[..60], &PixelClassifier::default(), 0.05, SE2::identity())
+        .expect_err("it ends");
     assert!(matches!(png_error, ImageError::Png(_)));
     let message = png_error.to_string();
     assert!(

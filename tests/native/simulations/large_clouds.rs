@@ -5,7 +5,7 @@ use crate::simulations::banana::{check_varied_clouds, simulation};
 use motion::VelocityCmd;
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::sim::banana::{BananaMachine, MAX_SAMPLES, Settings, Stats};
-use motion::stats::{CartesianMoments, CrossTrack, Ellipse};
+use motion::stats::{CartesianMoments, CrossTrackStats, Ellipse};
 use nalgebra::Vector3;
 
 /// Sum in twice the precision, which also sums the rounding errors (Knuth's two-sum). Its relative error is 1e-30.
@@ -150,7 +150,7 @@ fn small_and_unusual_clouds_agree_with_exact_sums() {
     check_varied_clouds([1.0, 3.0, 1.9], &[3, 257, 5003], |simulation, _| {
         assert_exact_stats(simulation);
         let poses: Vec<SE2> = simulation.poses().collect();
-        let CrossTrack { skew, skew_error, rho_heading } = CrossTrack::from_poses(&poses);
+        let CrossTrackStats { skew, skew_error, rho_heading } = CrossTrackStats::from_poses(&poses);
         let moments = CartesianMoments::from_poses(&poses);
         assert_exact_moments(&poses, &moments, [skew, skew_error, rho_heading]);
     });

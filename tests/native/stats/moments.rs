@@ -4,7 +4,7 @@ use crate::common::{MAX_STANDARD_ERRORS, ReferenceTable, draw_uniform, seeded_rn
 use motion::geom::se2::{SE2, wrap_angle};
 use motion::sim::banana::{BananaMachine, Settings};
 use motion::stats::{
-    CartesianMoments, CrossTrack, Ellipse, ExactMoments, ExponentialContour, ExponentialMoments,
+    CartesianMoments, CrossTrackStats, Ellipse, ExactMoments, ExponentialContour, ExponentialMoments,
     cross_track_skew, predicted_cross_track_skew,
 };
 use motion::{
@@ -163,7 +163,7 @@ fn degenerate_clouds_give_nan() {
             .collect::<Vec<_>>()
     };
     for cloud in [vec![], create_poses_on_line(2.0), create_poses_on_line(-0.3)] {
-        let cross_track = CrossTrack::from_poses(&cloud);
+        let cross_track = CrossTrackStats::from_poses(&cloud);
         for statistic in
             [cross_track.skew, cross_track.skew_error, cross_track.rho_heading, cross_track_skew(&cloud)]
         {
@@ -211,7 +211,7 @@ fn a_width_of_the_size_of_rounding_counts_as_zero() {
         let settings = Settings { command, velocity_alphas, samples: 1000, ..Settings::default() };
         let simulation = BananaMachine::new(settings).expect("a valid setting");
         let poses: Vec<SE2> = simulation.poses().collect();
-        [simulation.stats().cross_track_skew, CrossTrack::from_poses(&poses).skew]
+        [simulation.stats().cross_track_skew, CrossTrackStats::from_poses(&poses).skew]
     };
     // The bearing is half the turn. The width of the cloud is therefore 5e-14 of its length.
     assert!(reported_and_plain_skew(1e-13).into_iter().all(f64::is_nan));

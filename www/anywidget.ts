@@ -104,15 +104,15 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
   el.append(element);
 
   return () => {
-    for (const stop of stopListening) withoutKernel(stop);
+    for (const stopListeningToTrait of stopListening) withoutKernel(stopListeningToTrait);
     element.remove();
   };
 }
 
 /** Does work that needs a kernel, and ignores errors. Models without a kernel, as in MyST, throw. */
-function withoutKernel(work: () => void) {
+function withoutKernel(callKernel: () => void) {
   try {
-    work();
+    callKernel();
   } catch {
     // The figure works without a kernel.
   }

@@ -9,18 +9,18 @@ import type { Motion } from './types.d.ts';
 export { startWorker } from '../build/motion.wasm';
 
 /** Module as bytes, as an address, or compiled. */
-export type Source = BufferSource | URL | string | WebAssembly.Module;
+export type ModuleSource = BufferSource | URL | string | WebAssembly.Module;
 
 /** Source that the first caller passed to `load` or `instantiate`. */
-let requestedSource: Source | undefined;
+let requestedSource: ModuleSource | undefined;
 /** Functions of a bundle that load a module, and the JavaScript that wasm-bindgen made for it (its glue). */
 type BundledCore = typeof bundledCores.motion;
 
 /** Modules that are compiled or compiling, by their sources. The source of a bundled core is the core itself. */
-const modules: Map<Source | BundledCore, Promise<WebAssembly.Module>> = new Map();
+const modulesBySource: Map<ModuleSource | BundledCore, Promise<WebAssembly.Module>> = new Map();
 /** Tags of the widgets that external.js has found in the page. */
 export const foundTags: Set<string> = new Set();
-let loadingCore: Promise<Motion> | undefined;
+let corePromise: Promise<Motion> | undefined;
 
 /**
  * Returns the core, ready to use. Later calls get the same core, and a call after a failed one tries again.
@@ -29,26 +29,26 @@ let loadingCore: Promise<Motion> | undefined;
  * `motion.wasm` next to it, or if the file cannot be fetched, the copy embedded in a script. The first caller with a source determines the
  * source for the page. A script may import the elements before it calls `load(source)`, but must not wait in between.
  */
-export function load(source?: Source): Promise<Motion> {
+export function load(source?: ModuleSource): Promise<Motion> {
   requestedSource ??= source;
-  loadingCore ??= instantiate().catch((error) => {
-    loadingCore = undefined;
+  corePromise ??= instantiate().catch((error) => {
+    corePromise = undefined;
     throw error;
   });
-  return loadingCore;
+  return corePromise;
 }
 
 /**
  * Returns another core from the same compiled module, with its own memory. A trap in it does not affect other cores. Its memory is freed
  * with the last reference to it.
  */
-export function instantiate(source?: Source): Promise<Motion> {
+export function instantiate(source?: ModuleSource): Promise<Motion> {
   requestedSource ??= source;
   return instantiateFor('motion');
 }
 
 /** Returns a core: that of all widgets for "motion", or the smaller one of a widget for its tag, which external.js uses on a page with one kind of widget. */
-export async function instantiateFor(name: string): Promise<Motion> {
+export async function instantiateFor(widgetTag: string): Promise<Motion> {
   if (typeof WebAssembly === 'undefined') {
     throw new Error('WebAssembly is not available here, and motion-widgets needs it.');
   }
@@ -56,7 +56,7 @@ export async function instantiateFor(name: string): Promise<Motion> {
   try {
     // Waits, because the script that imports the elements can call `load(source)` only after they are defined.
     await null;
-    const [module, { default: createCore }] = await moduleAndGlue(name);
+    const [module, { default: createCore }] = await loadModuleAndGlue(widgetTag);
     motion = await createCore(module);
   } catch (error) {
     if (!isWasmForbidden()) throw error;
@@ -65,7 +65,7 @@ export async function instantiateFor(name: string): Promise<Motion> {
       { cause: error },
     );
   }
-  for (const [name, { prototype }] of Object.entries<any>(motion)) if (prototype?.free) makeDisposable(name, prototype);
+  for (const [className, { prototype }] of Object.entries<any>(motion)) if (prototype?.free) makeDisposable(className, prototype);
   return motion;
 }
 
@@ -76,10 +76,10 @@ export interface SharedCore {
 }
 
 /** Returns the module and glue of a widget's core for another thread. */
-export async function sharedCore(name: string): Promise<SharedCore> {
-  const [module] = await moduleAndGlue(name);
-  const core = bundledCoreOf(name);
-  return { module, glue: Object.keys(bundledCores).find((key) => bundledCores[key] === core) ?? 'motion' };
+export async function moduleForWorker(widgetTag: string): Promise<SharedCore> {
+  const [module] = await loadModuleAndGlue(widgetTag);
+  const bundledCore = bundledCoreOf(widgetTag);
+  return { module, glue: Object.keys(bundledCores).find((key) => bundledCores[key] === bundledCore) ?? 'motion' };
 }
 
 /** Returns a core from a module that another thread has compiled. */
@@ -94,43 +94,43 @@ export function abandonSimulation(simulation: { free(): void }) {
 }
 
 /** True after a module could not be fetched. */
-let isUnreachable = false;
+let isModuleUnreachable = false;
 
 /** Returns the compiled module and the glue for a widget, or the embedded ones if the module cannot be fetched. */
-async function moduleAndGlue(name: string): Promise<[WebAssembly.Module, Awaited<ReturnType<BundledCore['glue']>>]> {
+async function loadModuleAndGlue(widgetTag: string): Promise<[WebAssembly.Module, Awaited<ReturnType<BundledCore['glue']>>]> {
   const sourceAtStart = requestedSource;
-  const core = bundledCoreOf(name);
+  const bundledCore = bundledCoreOf(widgetTag);
   try {
-    return await Promise.all([compiledModule(core), core.glue()]);
+    return await Promise.all([compileOnce(bundledCore), bundledCore.glue()]);
   } catch (error) {
-    if (sourceAtStart !== undefined || !bundledCores.embedded || core === bundledCores.embedded || isWasmForbidden()) throw error;
-    isUnreachable = true;
-    const embeddedModule = await moduleAndGlue(name).catch(() => {
-      isUnreachable = false;
+    if (sourceAtStart !== undefined || !bundledCores.embedded || bundledCore === bundledCores.embedded || isWasmForbidden()) throw error;
+    isModuleUnreachable = true;
+    const embeddedModuleAndGlue = await loadModuleAndGlue(widgetTag).catch(() => {
+      isModuleUnreachable = false;
       throw error;
     });
     console.warn(`motion-widgets: the module embedded in a script is used. ${(error as Error).message}`);
-    return embeddedModule;
+    return embeddedModuleAndGlue;
   }
 }
 
 /** Returns the bundled core of a widget. Pages with several kinds of widgets use the common core, which is smaller than several cores. */
-function bundledCoreOf(name: string) {
-  const ownCore = bundledCores[name];
-  const core = ownCore && requestedSource === undefined && (modules.has(ownCore) || foundTags.size < 2) ? ownCore : bundledCores.motion;
-  return bundledCores.embedded && requestedSource === undefined && (isUnreachable || !core.source()) ? bundledCores.embedded : core;
+function bundledCoreOf(widgetTag: string) {
+  const ownCore = bundledCores[widgetTag];
+  const bundledCore = ownCore && requestedSource === undefined && (modulesBySource.has(ownCore) || foundTags.size < 2) ? ownCore : bundledCores.motion;
+  return bundledCores.embedded && requestedSource === undefined && (isModuleUnreachable || !bundledCore.source()) ? bundledCores.embedded : bundledCore;
 }
 
-function compiledModule(core: BundledCore): Promise<WebAssembly.Module> {
-  const key = requestedSource ?? core;
-  let module = modules.get(key);
+function compileOnce(bundledCore: BundledCore): Promise<WebAssembly.Module> {
+  const key = requestedSource ?? bundledCore;
+  let module = modulesBySource.get(key);
   if (!module) {
-    module = compile(requestedSource ?? core.source()).catch((error) => {
+    module = compileSource(requestedSource ?? bundledCore.source()).catch((error) => {
       requestedSource = undefined;
-      modules.delete(key);
+      modulesBySource.delete(key);
       throw error;
     });
-    modules.set(key, module);
+    modulesBySource.set(key, module);
   }
   return module;
 }
@@ -138,7 +138,7 @@ function compiledModule(core: BundledCore): Promise<WebAssembly.Module> {
 /** Starts to compile the module of a bundle that contains it, while this thread still evaluates scripts. */
 export function precompile() {
   // A bundle with an embedded core has the other cores in files.
-  if (!bundledCores.embedded && requestedSource === undefined) compiledModule(bundledCores.motion).catch(() => {});
+  if (!bundledCores.embedded && requestedSource === undefined) compileOnce(bundledCores.motion).catch(() => {});
 }
 
 /** Advice for the author of a site without the module. */
@@ -148,9 +148,9 @@ const MISSING_MODULE_ADVICE =
 /** Maximum number of characters of an address in a message. A data URL may have millions. */
 const MAX_ADDRESS_LENGTH = 200;
 
-async function compile(sourceOrPromise: Source | Promise<BufferSource> | undefined) {
+async function compileSource(sourceOrPromise: ModuleSource | Promise<BufferSource> | undefined) {
   // Bytes are not awaited, so that their compilation starts in this task.
-  const source = (sourceOrPromise instanceof Promise ? await sourceOrPromise : sourceOrPromise) as Source;
+  const source = (sourceOrPromise instanceof Promise ? await sourceOrPromise : sourceOrPromise) as ModuleSource;
   if (source instanceof WebAssembly.Module) return source;
   if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return WebAssembly.compile(source);
   if (source instanceof URL || typeof source === 'string') {
@@ -203,14 +203,14 @@ function readNodeFile(source: URL | string): Promise<BufferSource> | undefined {
  * Makes a class of the generated glue disposable. `free()` and `[Symbol.dispose]()` can be called several times, also in engines without
  * that symbol. Any other call after them throws a TypeError.
  */
-function makeDisposable(name: string, prototype: any) {
+function makeDisposable(className: string, prototype: any) {
   if (!Symbol.dispose) Object.defineProperty(Symbol, 'dispose', { value: Symbol('Symbol.dispose') });
   const { free } = prototype;
   prototype.free = prototype[Symbol.dispose] = function () {
     if (!Object.getOwnPropertyDescriptor(this, '__wbg_ptr')?.value) return;
     free.call(this);
     const throwFreed = () => {
-      throw new TypeError(`this ${name} was freed; create a new one.`);
+      throw new TypeError(`this ${className} was freed; create a new one.`);
     };
     Object.defineProperty(this, '__wbg_ptr', { get: throwFreed });
   };

@@ -7,13 +7,13 @@ import { messageKeys, widgets } from '../build/widgets.js';
 import { foundTags } from './core.ts';
 import { preUpgradeCss } from './ui/reserved-height.ts';
 import { en } from './messages/en.ts';
-import { addEnglish } from './messages/registry.ts';
+import { addEnglishMessages } from './messages/registry.ts';
 
 export { load } from './core.ts';
 export { setMessages } from './messages/registry.ts';
 
 // A page may set the words of a widget before its script is loaded.
-addEnglish({ ...en, ...Object.fromEntries(messageKeys.map((key) => [key, {}])) });
+addEnglishMessages({ ...en, ...Object.fromEntries(messageKeys.map((key) => [key, {}])) });
 
 /** Returns true for the tag of a figure. Compilers of templates ask which tags are custom elements. */
 export const isFigureTag = (tag: string) => tag in widgets;
@@ -37,9 +37,9 @@ function defineWidgetsIn(root: ParentNode) {
   }
 }
 
-const observer: MutationObserver | undefined = globalThis.MutationObserver && new MutationObserver((changes) => {
-  for (const { addedNodes } of changes) for (const node of addedNodes) if (node instanceof Element) defineWidgetsIn(node);
-  if (undefinedTags.size === 0) observer?.disconnect();
+const elementObserver: MutationObserver | undefined = globalThis.MutationObserver && new MutationObserver((mutations) => {
+  for (const { addedNodes } of mutations) for (const node of addedNodes) if (node instanceof Element) defineWidgetsIn(node);
+  if (undefinedTags.size === 0) elementObserver?.disconnect();
 });
 
 const watchedRoots: WeakSet<Node> = new WeakSet();
@@ -47,12 +47,12 @@ const watchedRoots: WeakSet<Node> = new WeakSet();
 function watchRoot(root: Document | ShadowRoot) {
   if (undefinedTags.size === 0 || watchedRoots.has(root)) return;
   watchedRoots.add(root);
-  observer?.observe(root, { childList: true, subtree: true });
+  elementObserver?.observe(root, { childList: true, subtree: true });
   defineWidgetsIn(root);
 }
 
 // Without a DOM, as in Node, there are no tags.
-if (observer) {
+if (elementObserver) {
   // Space is reserved, so that nothing moves when the elements are defined.
   const reservedHeights = new CSSStyleSheet();
   reservedHeights.replaceSync(preUpgradeCss());

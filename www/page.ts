@@ -25,9 +25,9 @@ export async function enterState(figure: Figure, values: Record<string, unknown>
   if (!openingStates.has(figure)) await new Promise((resolve) => figure.addEventListener('load', resolve, { once: true }));
   const openingState = openingStates.get(figure) ?? {};
   // Shows the whole cloud at once, because the item with the pressed button refers to it.
-  const completeCloud = 'shown' in openingState ? { shown: openingState.samples, playing: false } : {};
+  const completeCloudFields = 'shown' in openingState ? { shown: openingState.samples, playing: false } : {};
   const { widget, version } = openingState;
-  figure.setState({ ...openingState, ...completeCloud });
+  figure.setState({ ...openingState, ...completeCloudFields });
   for (const [key, value] of Object.entries(values)) {
     if (key in figure) figure[key] = value;
     else figure.setState({ widget, version, [key]: value });

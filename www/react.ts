@@ -28,19 +28,19 @@ const useLayout = isOnServer ? useEffect : useLayoutEffect;
  * a list in JSX is another object each time, and would undo changes of the user. React itself only writes attributes on a server. On the
  * page its choice of attributes or properties would depend on its version, and on the time at which the element is defined.
  */
-class Figure {
+class PropWriter {
   element: any;
-  names: PropNames;
+  propNames: PropNames;
   /** Props of the previous rendering. */
   props: Props | undefined;
 
   constructor(names: PropNames) {
-    this.names = names;
+    this.propNames = names;
   }
 
   /** Returns the text of a prop's attribute, or null. */
-  text(name: string, { [name]: value = null }: Props) {
-    if (value === null || (value === false && this.names.flags.includes(name))) return null;
+  attributeTextOf(name: string, { [name]: value = null }: Props) {
+    if (value === null || (value === false && this.propNames.flags.includes(name))) return null;
     return Array.isArray(value) ? value.join(' ') : value === true ? '' : String(value);
   }
 
@@ -53,15 +53,15 @@ class Figure {
       element.dispatchEvent(new Event('load'));
       element.dispatchEvent(new CustomEvent('stats', { detail: element.stats }));
     }
-    for (const [name, attribute] of Object.entries(this.names.attributes)) {
-      const text = this.text(name, props);
+    for (const [name, attribute] of Object.entries(this.propNames.attributes)) {
+      const text = this.attributeTextOf(name, props);
       // Attributes sent by the server are kept at first: the user may have changed the figure since.
-      if (previousProps ? text === this.text(name, previousProps) : text === null || element.hasAttribute(attribute)) continue;
+      if (previousProps ? text === this.attributeTextOf(name, previousProps) : text === null || element.hasAttribute(attribute)) continue;
       if (text === null) element.removeAttribute(attribute);
       else element.setAttribute(attribute, text);
     }
     const isChanged = (name: string) => previousProps?.[name] !== props[name] && JSON.stringify(previousProps?.[name]) !== JSON.stringify(props[name]);
-    for (const name of this.names.properties.filter(isChanged)) element[name] = props[name];
+    for (const name of this.propNames.properties.filter(isChanged)) element[name] = props[name];
   }
 
   handleEvent(event: Event) {
@@ -76,15 +76,15 @@ class Figure {
 export function component(displayName: string, tag: string, names: PropNames) {
   const ownProps = new Set([...Object.keys(names.attributes), ...names.properties, ...Object.values(HANDLER_PROPS)]);
   const render = (props: Props, ref: import('react').ForwardedRef<unknown>) => {
-    const element = useRef(null);
-    const [figure] = useState(() => new Figure(names));
-    useImperativeHandle(ref, () => element.current, []);
-    useLayout(() => figure.update(element.current, props));
-    useLayout(() => () => figure.removeListeners(), [figure]);
+    const elementRef = useRef(null);
+    const [propWriter] = useState(() => new PropWriter(names));
+    useImperativeHandle(ref, () => elementRef.current, []);
+    useLayout(() => propWriter.update(elementRef.current, props));
+    useLayout(() => () => propWriter.removeListeners(), [propWriter]);
     // React 18 does not know className of elements that HTML does not know.
     const { className, ...otherProps } = Object.fromEntries(Object.entries(props).filter(([name]) => !ownProps.has(name)));
-    const attributeTexts = isOnServer ? Object.entries(names.attributes).map(([name, attribute]) => [attribute, figure.text(name, props)]) : [];
-    return createElement(tag, { ...otherProps, ...Object.fromEntries(attributeTexts), class: className, ref: element, suppressHydrationWarning: true });
+    const attributeTexts = isOnServer ? Object.entries(names.attributes).map(([name, attribute]) => [attribute, propWriter.attributeTextOf(name, props)]) : [];
+    return createElement(tag, { ...otherProps, ...Object.fromEntries(attributeTexts), class: className, ref: elementRef, suppressHydrationWarning: true });
   };
   return Object.assign(forwardRef(render), { displayName });
 }

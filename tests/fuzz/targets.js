@@ -10,7 +10,7 @@ import { deflateRawSync, gunzipSync } from 'node:zlib';
 import { load } from '../../dist/core.js';
 import { toPascalCase } from '../../scripts/declarations.mjs';
 import { selectAttributes, propertiesOf } from '../../www/figure/definition.ts';
-import { packJson, unpack } from '../../www/data/packing.ts';
+import { packJson, unpackJson } from '../../www/data/packing.ts';
 import { settings } from '../../build/settings.js';
 import { LogError } from '../../www/logs/log.ts';
 import { openRecordings } from '../../www/logs/open.ts';
@@ -192,7 +192,7 @@ export const fuzzTargets = {
     async run(bytes) {
       const packedText = bytes.length % 2 ? deflateRawSync(bytes, FASTEST_DEFLATE).toString('base64url') : bytes.toString('latin1');
       try {
-        await unpack(packedText);
+        await unpackJson(packedText);
         return true;
       } catch (error) {
         assert.ok(error instanceof RangeError);
@@ -229,7 +229,7 @@ export const fuzzTargets = {
       const inputAttribute = Object.hasOwn(attributes, attributeName) ? attributes[attributeName] : Object.values(attributes)[bytes.length % 9];
       // Millions of samples would take too much memory.
       if (/^(samples|steps)$/.test(attributeName) && Number(valueParts.join('=')) > 1e5) return false;
-      if (!isAccepted(() => simulation.configure(inputAttribute.change(inputAttribute.converter.parse(valueParts.join('=')), simulation.config)))) return false;
+      if (!isAccepted(() => simulation.configure(inputAttribute.changesFor(inputAttribute.converter.parse(valueParts.join('=')), simulation.config)))) return false;
       assert.equal(typeof inputAttribute.converter.print(inputAttribute.get(simulation.config)), 'string');
       simulation.configure(opening);
       return true;

@@ -17,7 +17,7 @@ test('a view that was fitted to a tiny canvas zooms in on a larger one, and keep
   const view = new View();
   const fitTo = (/** @type {number} */ halfSize) => {
     view.fit({ xMin: -halfSize, xMax: halfSize, yMin: -halfSize, yMax: halfSize });
-    view.ease(0, true);
+    view.moveTowardsTarget(0, true);
     return view.extent.xMax - view.extent.xMin;
   };
   view.resize(100, 60);

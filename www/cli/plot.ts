@@ -3,7 +3,7 @@
 import type { Drive } from '../logs/pairs.ts';
 import { alignedPath, pathOf, poseAt, type Pose } from '../logs/path.ts';
 import { drawAxes, lineLegendEntry } from '../scene/axes.ts';
-import { drawDisc, strokePath, type Brush } from '../scene/canvas.ts';
+import { drawDisc, strokePath, type DrawContext } from '../scene/canvas.ts';
 import { SvgContext, escapeXml } from '../scene/svg.ts';
 import { View, extentOf } from '../scene/view.ts';
 
@@ -41,10 +41,10 @@ function drivePanel({ odometry, reference }: Drive, { legs, systematicErrors }: 
   view.resize(WIDTH, HEIGHT);
   view.fit(extentOf([...referencePath.poses, ...odometryPath.poses].flatMap(([x, y]) => [x, y]), 0.1));
   const context = new SvgContext(id);
-  const brush = { context, view, palette: PALETTE, font: '13px sans-serif' } as unknown as Brush;
+  const drawContext = { context, view, palette: PALETTE, font: '13px sans-serif' } as unknown as DrawContext;
   const shownLines = [LINES.reference, LINES.odometry, ...(outlierLegs.length ? [LINES.outlier] : [])];
-  drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, shownLines.map(({ label, ...style }) => lineLegendEntry(brush, label, style)));
-  const strokePoses = (poses: Pose[], breaks: Set<number>, style: (typeof shownLines)[number]) => strokePath(brush.context, style, () => poses.forEach(([x, y], i) => {
+  drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, shownLines.map(({ label, ...style }) => lineLegendEntry(drawContext, label, style)));
+  const strokePoses = (poses: Pose[], breaks: Set<number>, style: (typeof shownLines)[number]) => strokePath(drawContext.context, style, () => poses.forEach(([x, y], i) => {
     if (i === 0 || breaks.has(i)) context.moveTo(...view.toPixel(x, y));
     else context.lineTo(...view.toPixel(x, y));
   }));
@@ -53,7 +53,7 @@ function drivePanel({ odometry, reference }: Drive, { legs, systematicErrors }: 
   for (const { times } of outlierLegs) strokePoses(times.map(referencePoseAt), new Set(), LINES.outlier);
   for (const { times: [, endOfLeg] } of legsOfDrive) {
     const [x, y] = referencePoseAt(endOfLeg);
-    drawDisc(brush.context, view.toPixel(x, y), 2, PALETTE.ink);
+    drawDisc(drawContext.context, view.toPixel(x, y), 2, PALETTE.ink);
   }
   const title = escapeXml(`${odometry.name} and ${reference.name}: ${legsOfDrive.length} legs, ${outlierLegs.length} ${outlierLegs.length === 1 ? 'outlier' : 'outliers'}`);
   return `<title>${title}</title>\n<text x="2" y="22" style="font:16px sans-serif" fill="${PALETTE.ink}">${title}</text>\n${context.markup}`;

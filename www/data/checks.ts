@@ -19,7 +19,7 @@ function describeValue(value: unknown) {
 /** Returns the first 40 characters of a text, without splitting a surrogate pair. */
 const shorten = (text: string) => text.replace(/^(.{40}).+$/su, '$1…');
 
-export function checkedObject(field: string, value: unknown, keys: readonly string[]) {
+export function checkObject(field: string, value: unknown, keys: readonly string[]) {
   if (typeof value !== 'object' || value === null || Array.isArray(value)) {
     throw refusalError(field, value, `an object with keys from ${keys.join(', ')}`, TypeError);
   }
@@ -30,14 +30,14 @@ export function checkedObject(field: string, value: unknown, keys: readonly stri
   return value as Record<string, unknown>;
 }
 
-export function checkedWord<Word extends string>(field: string, value: unknown, allowed: readonly Word[]) {
+export function checkWord<Word extends string>(field: string, value: unknown, allowed: readonly Word[]) {
   const matchingWord = allowed.find((word) => word === value);
   if (matchingWord !== undefined) return matchingWord;
   const ErrorClass = typeof value === 'string' ? RangeError : TypeError;
   throw refusalError(field, value, allowed.map((word) => JSON.stringify(word)).join(' or '), ErrorClass);
 }
 
-export function checkedNumber(field: string, value: unknown, min: number, max: number, isWhole = false) {
+export function checkNumber(field: string, value: unknown, min: number, max: number, isWhole = false) {
   const allowed = `${isWhole ? 'a whole number from ' : ''}${min} to ${max}`;
   if (typeof value !== 'number') throw refusalError(field, value, allowed, TypeError);
   if (!(value >= min && value <= max) || (isWhole && !Number.isInteger(value))) throw refusalError(field, value, allowed);
@@ -45,9 +45,9 @@ export function checkedNumber(field: string, value: unknown, min: number, max: n
 }
 
 /** Returns the allowed names that the array contains, in the order of `allowed`. */
-function checkedSubset(field: string, value: unknown, allowed: readonly string[]): string[] {
+function checkSubset(field: string, value: unknown, allowed: readonly string[]): string[] {
   if (!Array.isArray(value)) throw refusalError(field, value, `an array of ${allowed.join(', ')}`, TypeError);
-  const checkedNames = value.map((name, i) => checkedWord(`${field}[${i}]`, name, allowed));
+  const checkedNames = value.map((name, i) => checkWord(`${field}[${i}]`, name, allowed));
   return allowed.filter((name) => checkedNames.includes(name));
 }
 
@@ -61,11 +61,11 @@ export interface FieldRange {
 }
 
 /** Returns a value after a check; throws a TypeError or RangeError if it is out of range. */
-export function checkedValue(field: string, value: unknown, { type, words = [], min = -Infinity, max = Infinity, nullable }: FieldRange): unknown {
+export function checkValue(field: string, value: unknown, { type, words = [], min = -Infinity, max = Infinity, nullable }: FieldRange): unknown {
   if (type === undefined || (nullable && value === null)) return value;
-  if (type === 'words') return checkedSubset(field, value, words);
-  if (type === 'word') return checkedWord(field, value, words);
-  if (type !== 'boolean') return checkedNumber(field, value, min, max, type === 'whole');
+  if (type === 'words') return checkSubset(field, value, words);
+  if (type === 'word') return checkWord(field, value, words);
+  if (type !== 'boolean') return checkNumber(field, value, min, max, type === 'whole');
   if (typeof value !== 'boolean') throw refusalError(field, value, 'true or false', TypeError);
   return value;
 }

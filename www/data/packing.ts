@@ -13,7 +13,7 @@ export async function packJson(data: object): Promise<string> {
 }
 
 /** Returns the data of a packed text; throws a RangeError for any other text. */
-export async function unpack(text: string): Promise<unknown> {
+export async function unpackJson(text: string): Promise<unknown> {
   try {
     const bytes = fromBase64(text.replaceAll('-', '+').replaceAll('_', '/'));
     let byteCount = 0;

@@ -1,13 +1,13 @@
 /** Definition of a widget: its settings with their sliders, its properties and attributes, and the state of its element. */
 
 import { presets, settings, type Declaration } from '../../build/settings.js';
-import { checkedNumber, checkedWord, includesFields, type FieldRange } from '../data/checks.ts';
+import { checkNumber, checkWord, includesFields, type FieldRange } from '../data/checks.ts';
 import type { LineStyle } from '../scene/draw.ts';
 import type { SliderSpec } from './controls.ts';
-import type { Values } from './settings.ts';
+import type { StateValues } from './settings.ts';
 
 /** Conversion of a value from and to the text of an attribute. */
-interface Converter {
+interface AttributeConverter {
   /** Converts a text to a value. Returns an invalid text unchanged, which the check of the value then refuses. */
   parse: (text: string) => unknown;
   /** Converts a value to a text; null removes the attribute. */
@@ -16,12 +16,12 @@ interface Converter {
 
 interface Property {
   /** Conversion of a property that is also an attribute. */
-  converter?: Converter;
-  get: (config: Values) => unknown;
+  converter?: AttributeConverter;
+  get: (config: StateValues) => unknown;
   /** Returns the changed part of the configuration for a new value. */
-  change: (value: any, config: Values) => Values;
+  changesFor: (value: any, config: StateValues) => StateValues;
   /** Name of a setting in the core, if different. */
-  path?: string;
+  corePath?: string;
   /** Names of the attributes that this one determines, as a preset does. They are written only while this attribute has no value. */
   coveredAttributes?: string[];
   /** Allowed words, if the declarations do not list them. */
@@ -31,26 +31,26 @@ interface Property {
 /** Properties by name, in the order in which they are applied. */
 type Properties = Record<string, Property>;
 
-type Attribute = Property & { converter: Converter };
+type Attribute = Property & { converter: AttributeConverter };
 
-const NUMBER_CONVERTER: Converter = {
+const NUMBER_CONVERTER: AttributeConverter = {
   parse: (text) => (text.trim() === '' || Number.isNaN(Number(text)) ? text : Number(text)),
   print: (value) => (value === null ? null : String(value)),
 };
 
-const WORD_CONVERTER: Converter = { parse: (text) => text, print: (value) => value };
+const WORD_CONVERTER: AttributeConverter = { parse: (text) => text, print: (value) => value };
 
 /** Boolean attribute. Without a value it is true, as in HTML. The value "false" makes it false. Other values are refused. */
-const BOOLEAN_CONVERTER: Converter = {
+const BOOLEAN_CONVERTER: AttributeConverter = {
   parse: (text) => text !== 'false' && (text === '' || text === 'true' || text),
   print: String,
 };
 
 /** Conversion of a list of words, which are separated by spaces in the text. */
-export const WORD_LIST_CONVERTER: Converter = { parse: (text) => text.split(/\s/).filter(Boolean), print: (value) => value.join(' ') };
+export const WORD_LIST_CONVERTER: AttributeConverter = { parse: (text) => text.split(/\s/).filter(Boolean), print: (value) => value.join(' ') };
 
 /** Conversions of the types that fit into an attribute. Objects and arrays have none. */
-const CONVERTERS: Record<string, Converter> = { number: NUMBER_CONVERTER, whole: NUMBER_CONVERTER, word: WORD_CONVERTER, words: WORD_LIST_CONVERTER, boolean: BOOLEAN_CONVERTER };
+const CONVERTERS: Record<string, AttributeConverter> = { number: NUMBER_CONVERTER, whole: NUMBER_CONVERTER, word: WORD_CONVERTER, words: WORD_LIST_CONVERTER, boolean: BOOLEAN_CONVERTER };
 
 export const THEMES = ['auto', 'light', 'dark'] as const;
 
@@ -64,22 +64,22 @@ export const COMMON_ATTRS: Record<string, { words?: readonly string[], nullable?
   'heading-level': { words: HEADING_LEVELS, nullable: true, property: 'headingLevel' },
 };
 
-export const propertiesOf = (declarations: Declaration[]): Properties => Object.fromEntries(declarations.map((setting) => [setting.key, propertyOf(setting)]));
+export const propertiesOf = (declarations: Declaration[]): Properties => Object.fromEntries(declarations.map((declaration) => [declaration.key, propertyOf(declaration)]));
 
 export const selectAttributes = (properties: Properties) =>
   Object.fromEntries(Object.entries(properties).filter(([, { converter }]) => converter)) as Record<string, Attribute>;
 
-const fieldProperty = (key: string, converter?: Converter): Property => ({ converter, get: (config) => config[key], change: (value) => ({ [key]: value }) });
+const createFieldProperty = (key: string, converter?: AttributeConverter): Property => ({ converter, get: (config) => config[key], changesFor: (value) => ({ [key]: value }) });
 
 function propertyOf({ key, in: group, field = key, index, of, weights = [], type, min = -Infinity, max = Infinity }: Declaration): Property {
-  const plainProperty = fieldProperty(key, CONVERTERS[type]);
+  const plainProperty = createFieldProperty(key, CONVERTERS[type]);
   // The property is a factor: the last numbers of the array `of` are the `weights` times that factor.
   if (of) {
     return {
       ...plainProperty,
       get: (config) => commonFactorOf(config[of], weights),
-      change: (level, { [of]: numbers }) => {
-        const scaledNumbers = weights.map((weight) => weight * checkedNumber(key, level, min, max));
+      changesFor: (factor, { [of]: numbers }) => {
+        const scaledNumbers = weights.map((weight) => weight * checkNumber(key, factor, min, max));
         return { [of]: [...numbers.slice(0, -weights.length), ...scaledNumbers] };
       },
     };
@@ -88,9 +88,9 @@ function propertyOf({ key, in: group, field = key, index, of, weights = [], type
   const memberKey = index ?? field;
   return {
     ...plainProperty,
-    path: index !== undefined ? `${group}[${index}]` : field === key ? undefined : `${group}.${field}`,
+    corePath: index !== undefined ? `${group}[${index}]` : field === key ? undefined : `${group}.${field}`,
     get: (config) => config[group][memberKey] ?? null,
-    change: (value, { [group]: groupValue }) => ({ [group]: Object.assign(index === undefined ? { ...groupValue } : [...groupValue], { [memberKey]: value }) }),
+    changesFor: (value, { [group]: groupValue }) => ({ [group]: Object.assign(index === undefined ? { ...groupValue } : [...groupValue], { [memberKey]: value }) }),
   };
 }
 
@@ -101,24 +101,24 @@ function commonFactorOf(numbers: number[], weights: number[]): number | null {
   return lastNumbers.every((number, i) => number === commonFactor * weights[i]) ? commonFactor : null;
 }
 
-const KEPT_BY_PRESETS = ['samples', 'seed'];
+const KEYS_KEPT_BY_PRESETS = ['samples', 'seed'];
 
 /** Returns the configuration that a figure opens with: the defaults of its settings. */
-export function defaultConfig(declarations: Declaration[]): Values {
-  return Object.fromEntries(declarations.filter((setting) => !setting.in && !setting.of).map((setting) => [setting.key, setting.default]));
+export function defaultConfig(declarations: Declaration[]): StateValues {
+  return Object.fromEntries(declarations.filter((declaration) => !declaration.in && !declaration.of).map((declaration) => [declaration.key, declaration.default]));
 }
 
 /** Returns the attribute of a figure's presets. A preset sets all settings except samples and seed. */
-export function presetPropertyOf(presets: readonly { name: string, settings: Values }[], declarations: Declaration[]): Attribute {
+export function presetAttributeOf(presets: readonly { name: string, settings: StateValues }[], declarations: Declaration[]): Attribute {
   const presetNames = presets.map(({ name }) => name);
-  const isSet = (key: string) => !KEPT_BY_PRESETS.includes(key);
-  const presetSettings = presets.map(({ settings }) => Object.fromEntries(Object.entries(settings).filter(([key]) => isSet(key))));
+  const isSetByPresets = (key: string) => !KEYS_KEPT_BY_PRESETS.includes(key);
+  const presetSettings = presets.map(({ settings }) => Object.fromEntries(Object.entries(settings).filter(([key]) => isSetByPresets(key))));
   return {
     converter: WORD_CONVERTER,
-    coveredAttributes: Object.keys(selectAttributes(propertiesOf(declarations))).filter(isSet),
+    coveredAttributes: Object.keys(selectAttributes(propertiesOf(declarations))).filter(isSetByPresets),
     words: presetNames,
     get: (config) => presetNames[presetSettings.findIndex((settings) => includesFields(config, settings))] ?? null,
-    change: (name) => presetSettings[presetNames.indexOf(checkedWord('preset', name, presetNames))],
+    changesFor: (name) => presetSettings[presetNames.indexOf(checkWord('preset', name, presetNames))],
   };
 }
 
@@ -130,10 +130,10 @@ interface ElementField extends FieldRange {
   /** Interface to the page, besides the state. */
   access?: 'attribute' | 'property';
   /** Returns the maximum in a state, if it depends on other fields. */
-  maxIn?: (state: Values) => number;
+  maxInState?: (state: StateValues) => number;
 }
 
-export interface Definition {
+export interface WidgetDefinition {
   tag: string;
   messageKey: string;
   declarations: Declaration[];
@@ -141,45 +141,45 @@ export interface Definition {
   attributes: Record<string, Attribute>;
   /** Fields of the state that the element keeps, because the simulation does not have them. */
   elementFields: Record<string, ElementField>;
-  elementDefaults: Values;
+  elementDefaults: StateValues;
   sliderSpecs: Record<string, SliderSpec>;
-  dependentDefaults?: (config: Values) => Values;
+  dependentDefaults?: (config: StateValues) => StateValues;
 }
 
-interface DefinitionOptions extends Pick<Definition, 'messageKey' | 'sliderSpecs' | 'dependentDefaults'> {
+interface DefinitionOptions extends Pick<WidgetDefinition, 'messageKey' | 'sliderSpecs' | 'dependentDefaults'> {
   /** Styles of the lines and marks in the pictures. The keys are the words of the attribute `overlays`. */
-  lines: Record<string, LineStyle>;
-  opening?: readonly string[];
+  overlayStyles: Record<string, LineStyle>;
+  openingOverlays?: readonly string[];
   /** Attribute of the presets, if it depends on more than the settings. */
-  preset?: Attribute;
+  presetAttribute?: Attribute;
   /** State fields of the widget, in addition to those of overlays and cloud. */
   elementFields?: Record<string, ElementField>;
 }
 
-const cloudFields: Record<string, ElementField> = {
+const CLOUD_FIELDS: Record<string, ElementField> = {
   /** True while the cloud grows. */
   playing: { type: 'boolean', default: false },
   /** Number of samples to show; Infinity for all, also if their number changes. */
-  shown: { type: 'whole', default: Infinity, min: 0, maxIn: ({ samples }) => samples },
+  shown: { type: 'whole', default: Infinity, min: 0, maxInState: ({ samples }) => samples },
   /** Index of the selected sample. */
-  marked: { type: 'whole', default: null, nullable: true, min: 0, maxIn: ({ playing, samples, shown }) => (playing ? samples : shown) - 1, access: 'property' },
+  marked: { type: 'whole', default: null, nullable: true, min: 0, maxInState: ({ playing, samples, shown }) => (playing ? samples : shown) - 1, access: 'property' },
 };
 
-export function definitionOf(tag: string, { lines, opening = Object.keys(lines), preset, elementFields: widgetFields, ...otherOptions }: DefinitionOptions): Definition {
+export function createDefinition(tag: string, { overlayStyles, openingOverlays = Object.keys(overlayStyles), presetAttribute, elementFields: widgetFields, ...otherOptions }: DefinitionOptions): WidgetDefinition {
   const declarations = settings[tag];
   const widgetPresets = presets[tag as keyof typeof presets];
-  const overlays = Object.keys(lines);
+  const overlays = Object.keys(overlayStyles);
   const elementFields: Record<string, ElementField> = {
-    ...(declarations.some(({ key }) => key === 'samples') && cloudFields),
+    ...(declarations.some(({ key }) => key === 'samples') && CLOUD_FIELDS),
     ...widgetFields,
-    overlays: { type: 'words', words: overlays, default: opening, access: 'attribute' },
+    overlays: { type: 'words', words: overlays, default: openingOverlays, access: 'attribute' },
   };
   const properties: Properties = {
-    ...(widgetPresets.length > 0 && { preset: preset ?? presetPropertyOf(widgetPresets, declarations) }),
+    ...(widgetPresets.length > 0 && { preset: presetAttribute ?? presetAttributeOf(widgetPresets, declarations) }),
     ...propertiesOf(declarations),
   };
   for (const [key, { type = '', words, access }] of Object.entries(elementFields)) {
-    if (access) properties[key] = { ...fieldProperty(key, access === 'attribute' ? CONVERTERS[type] : undefined), words };
+    if (access) properties[key] = { ...createFieldProperty(key, access === 'attribute' ? CONVERTERS[type] : undefined), words };
   }
   const elementDefaults = Object.fromEntries(Object.entries(elementFields).map(([key, field]) => [key, field.default]));
   return { ...otherOptions, tag, declarations, properties, attributes: selectAttributes(properties), elementFields, elementDefaults };

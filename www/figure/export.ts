@@ -4,8 +4,8 @@ import { html } from 'lit';
 import { address, isClassic } from '../address.ts';
 import { words } from '../messages/registry.ts';
 import { SvgContext, escapeXml, formatLength } from '../scene/svg.ts';
-import { button, group } from '../ui/controls.ts';
-import { nameOf } from './surface.ts';
+import { buttonHtml, fieldsetHtml } from '../ui/controls.ts';
+import { accessibleNameOf } from './surface.ts';
 import type { Figure } from './figure.ts';
 
 export interface ExportData {
@@ -20,30 +20,30 @@ export interface ExportData {
 }
 
 /** Pixels of a PNG image per CSS pixel, fine enough for print. */
-const PNG_RATIO = 2;
+const PNG_PIXEL_RATIO = 2;
 
 /** Size in CSS pixels of a figure without layout, such as in a hidden tab panel. */
-const DEFAULT_SIZE = { width: 720, height: 432 };
+const FALLBACK_SIZE = { width: 720, height: 432 };
 
 /** Draws the picture in its size and font on the page, with `ratio` pixels per CSS pixel. Returns the size in pixels and the view. */
-function drawScene({ scene, pictures: [picture], canvases, colours }: Figure, ratio: number, contextOf: (size: { width: number, height: number }) => unknown) {
+function drawForExport({ scene, pictures: [picture], canvases, colours }: Figure, ratio: number, contextOf: (size: { width: number, height: number }) => unknown) {
   const pageCanvas = canvases.canvasOf(picture);
-  const { width: clientWidth, height } = pageCanvas.clientWidth > 0 ? pageCanvas.getBoundingClientRect() : DEFAULT_SIZE;
-  const canvasSize = { width: Math.round(ratio * clientWidth), height: Math.round(ratio * height) };
-  const surface = { ...canvasSize, clientWidth, fontStyle: getComputedStyle(pageCanvas), context: contextOf(canvasSize) as CanvasRenderingContext2D };
-  picture.draw(surface, scene, colours.palette, { still: true, atOnce: true, exported: true });
-  return { view: picture.view, ...canvasSize };
+  const { width: clientWidth, height } = pageCanvas.clientWidth > 0 ? pageCanvas.getBoundingClientRect() : FALLBACK_SIZE;
+  const exportSize = { width: Math.round(ratio * clientWidth), height: Math.round(ratio * height) };
+  const surface = { ...exportSize, clientWidth, fontStyle: getComputedStyle(pageCanvas), context: contextOf(exportSize) as CanvasRenderingContext2D };
+  picture.draw(surface, scene, colours.palette, { keepsScale: true, isImmediate: true, isExported: true });
+  return { view: picture.view, ...exportSize };
 }
 
-export async function pngOf(element: Figure): Promise<Blob> {
-  const image = new OffscreenCanvas(1, 1);
-  const context = image.getContext('2d') as OffscreenCanvasRenderingContext2D;
-  drawScene(element, PNG_RATIO, (size) => Object.assign(image, size) && context);
+export async function pngOf(figure: Figure): Promise<Blob> {
+  const exportCanvas = new OffscreenCanvas(1, 1);
+  const context = exportCanvas.getContext('2d') as OffscreenCanvasRenderingContext2D;
+  drawForExport(figure, PNG_PIXEL_RATIO, (size) => Object.assign(exportCanvas, size) && context);
   context.resetTransform();
   context.globalCompositeOperation = 'destination-over';
-  context.fillStyle = element.colours.palette.paper;
-  context.fillRect(0, 0, image.width, image.height);
-  return image.convertToBlob();
+  context.fillStyle = figure.colours.palette.paper;
+  context.fillRect(0, 0, exportCanvas.width, exportCanvas.height);
+  return exportCanvas.convertToBlob();
 }
 
 /** Returns a hash that makes ids unique on a page, and equal for equal figures. */
@@ -53,53 +53,53 @@ function hashOf(text: string) {
   return hashValue.toString(36);
 }
 
-const settingsText = ({ localName }: Figure, settings: object) => JSON.stringify({ element: localName, ...settings });
+const settingsJson = ({ localName }: Figure, settings: object) => JSON.stringify({ element: localName, ...settings });
 
-export function svgOf(element: Figure) {
-  const { settings, description } = element.exportData;
-  const baseName = `figure-${hashOf(settingsText(element, settings))}`;
-  const svg = new SvgContext(baseName);
-  const { view, width, height } = drawScene(element, 1, () => svg);
-  return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${formatLength(view.width)} ${formatLength(view.height)}" direction="ltr" role="img" aria-labelledby="${baseName}-title ${baseName}-text">
-<title id="${baseName}-title">${escapeXml(nameOf(element))}</title>
-<desc id="${baseName}-text">${escapeXml(description)}</desc>
-<rect width="100%" height="100%" fill="${element.colours.palette.paper}"/>
+export function svgOf(figure: Figure) {
+  const { settings, description } = figure.exportData;
+  const idPrefix = `figure-${hashOf(settingsJson(figure, settings))}`;
+  const svg = new SvgContext(idPrefix);
+  const { view, width, height } = drawForExport(figure, 1, () => svg);
+  return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${formatLength(view.width)} ${formatLength(view.height)}" direction="ltr" role="img" aria-labelledby="${idPrefix}-title ${idPrefix}-text">
+<title id="${idPrefix}-title">${escapeXml(accessibleNameOf(figure))}</title>
+<desc id="${idPrefix}-text">${escapeXml(description)}</desc>
+<rect width="100%" height="100%" fill="${figure.colours.palette.paper}"/>
 ${svg.markup}
 </svg>
 `;
 }
 
 /** Returns CSV: a comment with settings and seed, a header, and a line for each sample with all digits. */
-export function csvOf(element: Figure) {
-  const { settings, columns } = element.exportData;
+export function csvOf(figure: Figure) {
+  const { settings, columns } = figure.exportData;
   const columnGroups = Object.entries(columns).map(([names, numbers]) => ({ names: names.split(' '), numbers }));
-  const rowAt = (i: number) => columnGroups.flatMap(({ names, numbers }) => names.map((_, column) => numbers[names.length * i + column]));
+  const rowAt = (i: number) => columnGroups.flatMap(({ names, numbers }) => names.map((_, columnIndex) => numbers[names.length * i + columnIndex]));
   const rows = Array.from({ length: columnGroups[0].numbers.length / columnGroups[0].names.length }, (_, i) => rowAt(i));
-  const csvLines = [`# ${settingsText(element, settings)}`, columnGroups.flatMap(({ names }) => names), ...rows];
+  const csvLines = [`# ${settingsJson(figure, settings)}`, columnGroups.flatMap(({ names }) => names), ...rows];
   return `${csvLines.join('\n')}\n`;
 }
 
-export function downloadFile(name: string, blob: Blob) {
-  const downloadLink = Object.assign(document.createElement('a'), { href: URL.createObjectURL(blob), download: name });
+export function downloadFile(fileName: string, blob: Blob) {
+  const downloadLink = Object.assign(document.createElement('a'), { href: URL.createObjectURL(blob), download: fileName });
   downloadLink.click();
   // The address is released after a minute, when the download has started.
   setTimeout(() => URL.revokeObjectURL(downloadLink.href), 60_000);
 }
 
-/** Returns the buttons that save the figure. `fileNameMark` is part of the file names, so that files of different states differ in name. */
-export function exportButtons(element: Figure, fileNameMark: string | number, csvTitle: string = words.exports.csvTitle) {
+/** Returns the buttons that save the figure. `fileNameSuffix` is part of the file names, so that files of different states differ in name. */
+export function exportButtonsHtml(figure: Figure, fileNameSuffix: string | number, csvTitle: string = words.exports.csvTitle) {
   const exportWords = words.exports;
-  const baseName = `${element.localName}-${fileNameMark}`;
-  const saveText = (ending: string, type: string, content: string) => downloadFile(`${baseName}.${ending}`, new Blob([content], { type }));
-  return group(exportWords.label, html`<div class="buttons">
-    ${button(exportWords.png, () => element.toPNG().then((blob) => downloadFile(`${baseName}.png`, blob), (error) => element.runtime.report(error)), { title: exportWords.pngTitle })}
-    ${button(exportWords.svg, () => saveText('svg', 'image/svg+xml', element.toSVG()), { title: exportWords.svgTitle })}
-    ${button(exportWords.csv, () => saveText('csv', 'text/csv', element.toCSV()), { title: csvTitle })}
+  const baseName = `${figure.localName}-${fileNameSuffix}`;
+  const saveText = (extension: string, mimeType: string, content: string) => downloadFile(`${baseName}.${extension}`, new Blob([content], { type: mimeType }));
+  return fieldsetHtml(exportWords.label, html`<div class="buttons">
+    ${buttonHtml(exportWords.png, () => figure.toPNG().then((blob) => downloadFile(`${baseName}.png`, blob), (error) => figure.runtime.reportError(error)), { title: exportWords.pngTitle })}
+    ${buttonHtml(exportWords.svg, () => saveText('svg', 'image/svg+xml', figure.toSVG()), { title: exportWords.svgTitle })}
+    ${buttonHtml(exportWords.csv, () => saveText('csv', 'text/csv', figure.toCSV()), { title: csvTitle })}
   </div>`, 'exports', 'exports');
 }
 
 /** Returns a button that copies a text. A notice says so, with a note such as on the parts of the state that the text lacks. */
-export function copyButton(figure: Figure, label: string, textOf: () => string | Promise<string>, options: { title?: string, disabled?: boolean }, noteOf: () => string | undefined = () => '') {
+export function copyButtonHtml(figure: Figure, label: string, textOf: () => string | Promise<string>, buttonOptions: { title?: string, disabled?: boolean }, noteOf: () => string | undefined = () => '') {
   const copyText = async () => {
     const text = await textOf();
     // Frames without permission may not use the clipboard. Pages without HTTPS do not have it.
@@ -109,29 +109,29 @@ export function copyButton(figure: Figure, label: string, textOf: () => string |
       ? `${words.copies.done} ${note}`
       : html`${words.copies.byHand} ${note} <textarea readonly rows="3" aria-label=${words.copies.byHand} .value=${text}></textarea>`));
   };
-  return button(label, copyText, options);
+  return buttonHtml(label, copyText, buttonOptions);
 }
 
-export const linkButton = (figure: Figure) =>
-  copyButton(figure, words.copies.link, () => figure.shareLink(), { title: words.copies.linkTitle }, () => figure.exportData.linkNote);
+export const linkButtonHtml = (figure: Figure) =>
+  copyButtonHtml(figure, words.copies.link, () => figure.shareLink(), { title: words.copies.linkTitle }, () => figure.exportData.linkNote);
 
-export function embeddingControls(figure: Figure) {
+export function embeddingControlsHtml(figure: Figure) {
   const { label, code, codeTitle } = words.copies;
-  const codeButton = copyButton(figure, code, () => figure.embedCode(), { title: codeTitle }, () => figure.exportData.codeNote);
-  return group(label, html`<div class="buttons">${codeButton}</div>`, 'copies', 'copies');
+  const codeButtonHtml = copyButtonHtml(figure, code, () => figure.embedCode(), { title: codeTitle }, () => figure.exportData.codeNote);
+  return fieldsetHtml(label, html`<div class="buttons">${codeButtonHtml}</div>`, 'copies', 'copies');
 }
 
 /** Address of the published script, used if the address of this script is unknown. */
-const PUBLISHED_SCRIPT = 'https://cdn.jsdelivr.net/npm/motion-widgets@0.1/dist/external.js';
+const PUBLISHED_SCRIPT_URL = 'https://cdn.jsdelivr.net/npm/motion-widgets@0.1/dist/external.js';
 
 /** Returns HTML for any page: the script, and the tag with the attributes that differ from the defaults. */
-export function embeddingHtml(figure: Figure) {
+export function embedCodeOf(figure: Figure) {
   const pageAttributes = ['theme', 'lang', 'dir'].map((name) => [name, figure.getAttribute(name) ?? ''] as [string, string]);
   const stateAttributes = figure.simulation ? figure.reflection.neededAttributes() : [];
   // Addresses of local files and inline scripts do not work on other pages.
   const isWebAddress = /^https?:/.test(address);
-  const scriptType = (isWebAddress && isClassic ? ['defer', ''] : ['type', 'module']) as [string, string];
-  const scriptTag = tagHtml('script', [scriptType, ['src', isWebAddress ? address : PUBLISHED_SCRIPT]]);
+  const typeAttribute = (isWebAddress && isClassic ? ['defer', ''] : ['type', 'module']) as [string, string];
+  const scriptTag = tagHtml('script', [typeAttribute, ['src', isWebAddress ? address : PUBLISHED_SCRIPT_URL]]);
   return `${scriptTag}\n${tagHtml(figure.localName, [...pageAttributes.filter(([, text]) => text !== ''), ...stateAttributes])}\n`;
 }
 

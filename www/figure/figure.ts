@@ -2,49 +2,49 @@
 
 import { LitElement, type CSSResultGroup } from 'lit';
 import { en } from '../messages/en.ts';
-import { addEnglish, useLanguageOf, words } from '../messages/registry.ts';
+import { addEnglishMessages, useLanguageOf, words } from '../messages/registry.ts';
 import { Canvases } from '../scene/canvases.ts';
 import { layoutStyles } from '../ui/layout.ts';
 import { plotStyles } from '../ui/plot.ts';
 import { presentationStyles } from '../ui/presentation.ts';
-import { reservedHeight } from '../ui/reserved-height.ts';
-import { theme } from '../ui/theme.ts';
-import { checkedWord } from '../data/checks.ts';
+import { reservedHeightCss } from '../ui/reserved-height.ts';
+import { themeStyles } from '../ui/theme.ts';
+import { checkWord } from '../data/checks.ts';
 import { Colours } from './colours.ts';
 import { COMMON_ATTRS, type HEADING_LEVELS, type THEMES } from './definition.ts';
-import { csvOf, embeddingHtml, pngOf, svgOf } from './export.ts';
+import { csvOf, embedCodeOf, pngOf, svgOf } from './export.ts';
 import { Gesture } from './gesture.ts';
-import { Link } from './link.ts';
+import { StateLink } from './link.ts';
 import { Announcer, Notice } from './notice.ts';
 import { Presentation } from './presentation.ts';
 import { Reflection } from './reflection.ts';
 import { Renderer } from './renderer.ts';
 import { Runtime } from './runtime.ts';
-import { STATE_VERSION, Settings, type Values } from './settings.ts';
-import { Focus, TextHeights, figureHtml } from './surface.ts';
+import { STATE_VERSION, Settings, type StateValues } from './settings.ts';
+import { FocusKeeper, TextHeights, figureHtml } from './surface.ts';
 import type { Picture } from '../scene/picture.ts';
 import type { FigureState, Motion } from '../types.d.ts';
 
 export type Figure = FigureElement<any, any>;
 
-addEnglish(en);
+addEnglishMessages(en);
 
 /** Samples of a figure, which are added over several frames: see widgets/shared/cloud.ts. */
 export interface SampleCloud {
   /** True if all requested samples are shown. */
   readonly isSettled: boolean;
   /** Starts the growth, or shows a state. */
-  introduce(state?: Values): void;
+  introduce(state?: StateValues): void;
   /** Changes settings of a simulation, and shows the first of `shown` samples, by default of those requested. Returns all settings. */
-  configure(simulation: any, settings: Values, shown?: number): Values;
+  configure(simulation: any, settings: StateValues, shown?: number): StateValues;
   /** Adds samples in a frame with a picture. */
   advance(): void;
   /** Adds samples in a frame without one; returns true if all are shown. */
   refine(): boolean;
   /** Adds all samples. */
   finish(): void;
-  snapshot(): Values;
-  withDerivedFields(currentState: Values, changes: Values): Values;
+  snapshot(): StateValues;
+  withDerivedFields(currentState: StateValues, changes: StateValues): StateValues;
   selectAtPointer(picture: Picture<any>, event: PointerEvent): void;
   /** Clears the selection if the selected sample is not shown and will not be. */
   unmark(): void;
@@ -96,14 +96,14 @@ export interface SampleCloud {
  * @cssprop --motion-sticky-bottom - Height of text below the figure beside which the picture still sticks. The text needs a `position` to
  *   be above the figure.
  */
-export abstract class FigureElement<Simulation extends { free(): void, stats: object, config: Values, configure(settings: Values): Values }, ViewModel extends { config: Values, stats: object }> extends LitElement {
-  static definition: import('./definition.ts').Definition;
+export abstract class FigureElement<Simulation extends { free(): void, stats: object, config: StateValues, configure(settings: StateValues): StateValues }, ViewModel extends { config: StateValues, stats: object }> extends LitElement {
+  static definition: import('./definition.ts').WidgetDefinition;
 
   /** Puts the styles of all figures before those of the widget. */
   static finalizeStyles(widgetStyles: CSSResultGroup = []) {
     // Lit also calls this method on the base class, which has no definition.
-    const reservedStyles = this.definition ? reservedHeight(this.definition.tag) : [];
-    return super.finalizeStyles([theme, presentationStyles, reservedStyles, ...layoutStyles, plotStyles, widgetStyles]);
+    const reservedStyles = this.definition ? reservedHeightCss(this.definition.tag) : [];
+    return super.finalizeStyles([themeStyles, presentationStyles, reservedStyles, ...layoutStyles, plotStyles, widgetStyles]);
   }
 
   /** Colours: light, dark, or auto for those of the surroundings. */
@@ -115,7 +115,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   /** Heading level of the title; null if it is no heading. */
   declare headingLevel: (typeof HEADING_LEVELS)[number] | null;
   /** Aborted when the element is removed. Its signal removes the listeners that controllers have on other objects. */
-  connection = new AbortController();
+  lifetime = new AbortController();
   runtime = new Runtime(this);
   canvases = new Canvases(() => this.renderer.drawResized());
   renderer = new Renderer(this);
@@ -123,11 +123,11 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   gesture = new Gesture(this);
   settings = new Settings(this);
   reflection = new Reflection(this);
-  link = new Link(this);
+  stateLink = new StateLink(this);
   announcer = new Announcer();
   notice = new Notice(this);
-  focusing = new Focus(this);
-  presenting = new Presentation(this);
+  focusKeeper = new FocusKeeper(this);
+  presentationMode = new Presentation(this);
   textHeights = new TextHeights(this);
   /** Cloud of a figure with samples. */
   cloud: SampleCloud | undefined;
@@ -152,14 +152,14 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   abstract createSimulation(motion: Motion): Simulation;
 
   /** Brings a new simulation into a state, to which it may add missing fields; throws a TypeError or RangeError. */
-  enterState(simulation: Simulation, state: Values) {
-    const settings = this.settings.pick(state);
+  enterState(simulation: Simulation, state: StateValues) {
+    const settings = this.settings.pickSettings(state);
     if (this.cloud) this.cloud.configure(simulation, settings, state.shown);
     else simulation.configure(settings);
   }
 
   /** Returns the view model of the simulation. It is called once for each change. */
-  abstract read(simulation: Simulation): ViewModel;
+  abstract readViewModel(simulation: Simulation): ViewModel;
 
   /** Scene of the pictures: the view model, and other values that they draw. */
   get scene(): any {
@@ -167,7 +167,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   }
 
   /** Returns the HTML of the figure. */
-  abstract content(viewModel: ViewModel): unknown;
+  abstract renderContent(viewModel: ViewModel): unknown;
 
   /** Content for export, after all pending changes. */
   abstract get exportData(): import('./export.ts').ExportData;
@@ -176,17 +176,17 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   abstract announcement(viewModel: ViewModel): string;
 
   /** Runs after the simulation was replaced. */
-  simulationChanged() {}
+  onSimulationReplaced() {}
 
   /** Moves the handles to their places in the pictures. */
   placeHandles(_scene: any) {}
 
-  snapshot(): Values {
-    return { widget: this.localName, version: STATE_VERSION, ...this.settings.elementState, ...this.settings.pick(this.settings.current), ...this.cloud?.snapshot() };
+  snapshot(): StateValues {
+    return { widget: this.localName, version: STATE_VERSION, ...this.settings.elementState, ...this.settings.pickSettings(this.settings.current), ...this.cloud?.snapshot() };
   }
 
   /** Returns a partial state with values that follow from it for missing fields. */
-  withDerivedFields(currentState: Values, changes: Values): Values {
+  withDerivedFields(currentState: StateValues, changes: StateValues): StateValues {
     return { ...this.cloud?.withDerivedFields(currentState, changes), ...changes };
   }
 
@@ -198,14 +198,14 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
     return this.runtime.motion as Motion;
   }
 
-  refresh() {
+  updateViewModel() {
     const { simulation } = this;
     // The simulation is missing after a trap.
     if (!simulation) return;
     useLanguageOf(this);
     this.cloud?.unmark();
-    this.viewModel = this.read(simulation);
-    this.settings.isStale = false;
+    this.viewModel = this.readViewModel(simulation);
+    this.settings.isViewModelStale = false;
     this.announceOutcome();
     this.dispatchEvent(new CustomEvent('stats', { detail: this.viewModel.stats, bubbles: true, composed: true }));
   }
@@ -220,14 +220,14 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
     if (!this.simulation) throw new Error('There is no figure yet: it is there from the load event on.');
     useLanguageOf(this);
     this.settings.applyPending();
-    if (this.settings.isStale) this.refresh();
+    if (this.settings.isViewModelStale) this.updateViewModel();
     return this.viewModel;
   }
 
   /** Returns the answer of the simulation to a question, after all pending changes; null without a simulation. */
-  querySimulation<Answer>(question: (simulation: Simulation) => Answer): Answer | null {
+  querySimulation<Answer>(query: (simulation: Simulation) => Answer): Answer | null {
     this.settings.applyPending();
-    return this.simulation ? question(this.simulation) : null;
+    return this.simulation ? query(this.simulation) : null;
   }
 
   // Public properties and methods.
@@ -258,15 +258,15 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
     return false;
   }
 
-  get isAwaited() {
+  get isSettledAwaited() {
     return this.#settledResolvers.length > 0;
   }
 
   /** Resolves `settled` if the figure is settled or cannot run. */
-  resolveSettled() {
-    if (!this.isAwaited) return;
+  resolveIfSettled() {
+    if (!this.isSettledAwaited) return;
     const { simulation, cloud, settings, runtime, renderer } = this;
-    const isSettled = simulation ? !this.isBusy && !settings.isWaiting && !renderer.isBehind && (cloud?.isSettled ?? true) : runtime.failure !== undefined;
+    const isSettled = simulation ? !this.isBusy && !settings.hasPendingChanges && !renderer.hasPendingFrames && (cloud?.isSettled ?? true) : runtime.failureMessage !== undefined;
     if (isSettled) for (const resolve of this.#settledResolvers.splice(0)) resolve();
   }
 
@@ -287,7 +287,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
    * Returns the whole state as plain data for `setState` and JSON. Returns null until the element first comes near the viewport.
    * @public
    */
-  getState(): Values | null {
+  getState(): StateValues | null {
     this.settings.applyPending();
     return this.simulation || this.viewModel ? structuredClone(this.snapshot()) : null;
   }
@@ -298,8 +298,8 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
    * many sides is reported by an `error` event.
    * @public
    */
-  setState(state: Partial<Values> & FigureState) {
-    this.reflection.whenReady(() => this.settings.applyState(state));
+  setState(state: Partial<StateValues> & FigureState) {
+    this.reflection.applyWhenReady(() => this.settings.applyState(state));
   }
 
   /**
@@ -331,7 +331,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
    * @public
    */
   async shareLink(): Promise<string> {
-    return this.link.address();
+    return this.stateLink.addressWithState();
   }
 
   /**
@@ -339,16 +339,16 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
    * @public
    */
   embedCode(): string {
-    return embeddingHtml(this);
+    return embedCodeOf(this);
   }
 
   connectedCallback() {
-    this.connection = new AbortController();
+    this.lifetime = new AbortController();
     super.connectedCallback();
   }
 
   disconnectedCallback() {
-    this.connection.abort();
+    this.lifetime.abort();
     super.disconnectedCallback();
   }
 
@@ -363,8 +363,8 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
     this.reflection.attributeChanged(name, text);
     if (!(name in COMMON_ATTRS)) return;
     this.requestUpdate();
-    this.presenting.matchAttribute();
-    this.colours.update();
+    this.presentationMode.syncWithAttribute();
+    this.colours.applyAndDraw();
   }
 
   /** Renders the first time a task later. If the core is ready by then, no placeholder is rendered before the content. */
@@ -379,18 +379,18 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
     return super.scheduleUpdate();
   }
 
-  update(changed: Parameters<LitElement['update']>[0]) {
-    const renderContent = () => {
-      super.update(changed);
+  update(changedProperties: Parameters<LitElement['update']>[0]) {
+    const updateContent = () => {
+      super.update(changedProperties);
       return this;
     };
     try {
       // After a trap the previous content stays. After a failure the message is rendered.
-      if (!this.runtime.attemptOrFail(renderContent)) renderContent();
+      if (!this.runtime.attemptOrFail(updateContent)) updateContent();
     } catch {
       // No template can be rendered on this page, so that further updates are useless.
       this.shouldUpdate = () => false;
-      this.renderRoot.textContent = words.failure(this.runtime.failure ?? '');
+      this.renderRoot.textContent = words.failure(this.runtime.failureMessage ?? '');
     }
   }
 
@@ -400,17 +400,17 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
 }
 
 // The attributes of every figure hold the values of these properties.
-for (const [name, { property = name, words: allowed, nullable }] of Object.entries(COMMON_ATTRS)) {
+for (const [name, { property = name, words: allowedWords, nullable }] of Object.entries(COMMON_ATTRS)) {
   Object.defineProperty(FigureElement.prototype, property, {
     configurable: true,
     get(this: Figure) {
-      if (!allowed) return this.hasAttribute(name);
-      return allowed.find((word) => word === this.getAttribute(name)) ?? (nullable ? null : allowed[0]);
+      if (!allowedWords) return this.hasAttribute(name);
+      return allowedWords.find((word) => word === this.getAttribute(name)) ?? (nullable ? null : allowedWords[0]);
     },
     set(this: Figure, value) {
-      if (!allowed) this.toggleAttribute(name, value || value === '');
+      if (!allowedWords) this.toggleAttribute(name, value || value === '');
       else if (value === null || value === undefined) this.removeAttribute(name);
-      else this.runtime.attemptOrReport(() => this.setAttribute(name, checkedWord(property, String(value), allowed)));
+      else this.runtime.attemptOrReport(() => this.setAttribute(name, checkWord(property, String(value), allowedWords)));
     },
   });
 }

@@ -1,32 +1,32 @@
 /** Events for changes by the user: an `input` event for each step and a `change` event at the end, for any number of settings. */
 
 import { FigureController } from './controller.ts';
-import type { Values } from './settings.ts';
+import type { StateValues } from './settings.ts';
 
 export class Gesture extends FigureController {
   /** True between an `input` event and its `change`. */
   #isOpen = false;
-  #pressListeners: AbortController | undefined;
+  #pressListenerAbort: AbortController | undefined;
   /** View model of the simulation (see FigureElement.viewModel) before the present or latest gesture. */
   previousViewModel: any;
 
   /** True while a pointer is down on the figure. Pictures with handles keep their scale meanwhile. */
   get isPressed() {
-    return this.#pressListeners !== undefined;
+    return this.#pressListenerAbort !== undefined;
   }
 
-  press({ button }: PointerEvent) {
+  onPointerDown({ button }: PointerEvent) {
     if (button !== 0) return;
     this.#endPress();
-    this.#pressListeners = new AbortController();
-    const { signal } = this.#pressListeners;
+    this.#pressListenerAbort = new AbortController();
+    const { signal } = this.#pressListenerAbort;
     // If the pointer is released over a list or dialog of the browser, the next event is a `pointermove`.
-    for (const type of ['pointerup', 'pointercancel', 'pointermove'] as const) addEventListener(type, ({ buttons }) => buttons === 0 && this.#endPress(), { capture: true, signal });
+    for (const eventType of ['pointerup', 'pointercancel', 'pointermove'] as const) addEventListener(eventType, ({ buttons }) => buttons === 0 && this.#endPress(), { capture: true, signal });
   }
 
   #endPress() {
-    this.#pressListeners?.abort();
-    this.#pressListeners = undefined;
+    this.#pressListenerAbort?.abort();
+    this.#pressListenerAbort = undefined;
     this.host.renderer.requestFrame();
   }
 
@@ -36,7 +36,7 @@ export class Gesture extends FigureController {
   }
 
   /** Records a step of a change that may continue. */
-  step() {
+  recordStep() {
     if (!this.#isOpen) this.previousViewModel = this.host.viewModel;
     this.#isOpen = true;
     this.host.notice.dismiss();
@@ -49,7 +49,7 @@ export class Gesture extends FigureController {
     host.settings.applyPending();
     host.announcer.announceNext();
     this.#endGesture();
-    if (host.settings.isStale) host.renderer.requestFrame();
+    if (host.settings.isViewModelStale) host.renderer.requestFrame();
     else if (host.simulation) {
       host.announceOutcome();
       host.requestUpdate();
@@ -57,19 +57,19 @@ export class Gesture extends FigureController {
   }
 
   /** Records a change that was made in one step. */
-  complete() {
-    this.step();
+  commitOneStep() {
+    this.recordStep();
     this.commit();
   }
 
   /** Changes settings as a complete gesture, such as a click. */
-  decide(change: Values | ((requested: Values) => Values)) {
+  requestAndCommit(change: StateValues | ((requested: StateValues) => StateValues)) {
     this.host.settings.request(change);
     this.commit();
   }
 
   /** Changes a field of the element's state as a complete gesture. No outcome is announced. */
-  choose(name: string, value: unknown) {
+  setElementField(name: string, value: unknown) {
     this.host.settings.request({ [name]: value });
     this.#endGesture();
   }
@@ -79,10 +79,10 @@ export class Gesture extends FigureController {
     this.#isOpen = false;
     this.host.reflection.updateAttributes();
     this.#dispatch('change');
-    void this.host.link.write();
+    void this.host.stateLink.writeToAddress();
   }
 
-  #dispatch(name: string) {
-    this.host.dispatchEvent(new Event(name, { bubbles: true, composed: true }));
+  #dispatch(eventType: string) {
+    this.host.dispatchEvent(new Event(eventType, { bubbles: true, composed: true }));
   }
 }

@@ -3,14 +3,14 @@
  * `#banana-machine.1=…&map-squeeze:my-id=…`. A figure opens its part and keeps it up to date; with `share`, it adds one.
  */
 
-import { packJson, unpack } from '../data/packing.ts';
+import { packJson, unpackJson } from '../data/packing.ts';
 import { words } from '../messages/registry.ts';
 import { FigureController } from './controller.ts';
 
 /** Maximum length of a packed state. Firefox opens addresses of up to 1 MiB, other browsers up to 2 MiB and more. */
-const MAX_LENGTH = 1_000_000;
+const MAX_PACKED_LENGTH = 1_000_000;
 
-export class Link extends FigureController {
+export class StateLink extends FigureController {
   /** True if the latest address lacks the user's map, because it would be too long with it. */
   lacksMap = false;
   /** Token of the latest write of the address. Results of earlier ones are dropped. */
@@ -20,10 +20,10 @@ export class Link extends FigureController {
     addEventListener('hashchange', () => {
       if (this.#isOwnPart(fragmentParts()[0])) this.#scrollHere();
       void this.applyAddress();
-    }, { signal: this.host.connection.signal });
-    linkedPart ??= isFollowedLink() ? fragmentParts()[0] : '';
-    if (!this.#isOwnPart(linkedPart)) return;
-    linkedPart = '';
+    }, { signal: this.host.lifetime.signal });
+    pendingLinkPart ??= wasOpenedByLink() ? fragmentParts()[0] : '';
+    if (!this.#isOwnPart(pendingLinkPart)) return;
+    pendingLinkPart = '';
     this.#scrollHere();
   }
 
@@ -43,20 +43,20 @@ export class Link extends FigureController {
     const part = fragmentParts().find((fragmentPart) => this.#isOwnPart(fragmentPart));
     if (part === undefined) return;
     try {
-      const state = await unpack(part.slice(part.indexOf('=') + 1));
+      const state = await unpackJson(part.slice(part.indexOf('=') + 1));
       host.runtime.attemptOrReport(() => host.setState(state as any));
     } catch (error) {
-      host.runtime.report(error);
+      host.runtime.reportError(error);
       host.notice.show(() => words.unreadableLink);
     }
   }
 
   /** Writes the state into the address, if `share` is set or the address has the figure's state. It neither scrolls nor adds to the history. */
-  async write() {
+  async writeToAddress() {
     if (!this.host.share && !fragmentParts().some((part) => this.#isOwnPart(part))) return;
-    const token = (this.#latestWrite = {});
-    const packedState = await this.#pack();
-    if (token !== this.#latestWrite || !this.host.isConnected) return;
+    const writeToken = (this.#latestWrite = {});
+    const packedState = await this.#packState();
+    if (writeToken !== this.#latestWrite || !this.host.isConnected) return;
     const address = addressWith(partKeyOf(this.host), packedState);
     if (address === location.href) return;
     try {
@@ -67,14 +67,14 @@ export class Link extends FigureController {
   }
 
   /** Returns the address of this page with the state. The figure's part comes first, because a link scrolls to the figure of its first part. */
-  async address(): Promise<string> {
-    return addressWith(partKeyOf(this.host), await this.#pack(), true);
+  async addressWithState(): Promise<string> {
+    return addressWith(partKeyOf(this.host), await this.#packState(), true);
   }
 
-  async #pack() {
+  async #packState() {
     const state = this.host.getState() ?? {};
     const packedState = await packJson(state);
-    this.lacksMap = packedState.length > MAX_LENGTH;
+    this.lacksMap = packedState.length > MAX_PACKED_LENGTH;
     // The start pose belongs to the map.
     return this.lacksMap ? packJson({ ...state, map: undefined, start: undefined }) : packedState;
   }
@@ -84,14 +84,14 @@ export class Link extends FigureController {
 function partKeyOf(element: Element): string {
   const { localName, id } = element;
   const rootNode = element.getRootNode() as any;
-  const name = (rootNode.host ? `${partKeyOf(rootNode.host)}/` : '') + encodeURIComponent(localName);
-  if (id) return `${name}:${encodeURIComponent(id)}`;
-  return `${name}.${[...rootNode.querySelectorAll(CSS.escape(localName))].indexOf(element) + 1}`;
+  const key = (rootNode.host ? `${partKeyOf(rootNode.host)}/` : '') + encodeURIComponent(localName);
+  if (id) return `${key}:${encodeURIComponent(id)}`;
+  return `${key}.${[...rootNode.querySelectorAll(CSS.escape(localName))].indexOf(element) + 1}`;
 }
 
 /** Returns the page's address with a figure's part added or replaced, or moved to the beginning if `isFirst`. */
-function addressWith(key: string, text: string, isFirst: boolean = false): string {
-  const part = `${key}=${text}`;
+function addressWith(key: string, packedState: string, isFirst: boolean = false): string {
+  const part = `${key}=${packedState}`;
   const allParts = fragmentParts();
   const partIndex = allParts.findIndex((fragmentPart) => fragmentPart.startsWith(`${key}=`));
   const otherParts = allParts.filter((_, i) => i !== partIndex);
@@ -103,10 +103,10 @@ function addressWith(key: string, text: string, isFirst: boolean = false): strin
 const fragmentParts = () => location.hash.slice(1).split('&').filter((part) => part !== '');
 
 /** First part of the fragment of a followed link, until the page has scrolled to its figure; then an empty text. */
-let linkedPart: string | undefined;
+let pendingLinkPart: string | undefined;
 
 /** Returns true if the page was opened by a link: on a reload the browser restores the scroll position. */
-function isFollowedLink() {
+function wasOpenedByLink() {
   const [navigation] = performance.getEntriesByType('navigation') as PerformanceNavigationTiming[];
   return navigation?.type === 'navigate';
 }

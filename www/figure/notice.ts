@@ -2,74 +2,74 @@
 
 import { html, nothing } from 'lit';
 import { words } from '../messages/registry.ts';
-import { button } from '../ui/controls.ts';
+import { buttonHtml } from '../ui/controls.ts';
 import { FigureController } from './controller.ts';
 
 /** Notice beside a control, or with a button over the lower edge of the figure or the window. It moves no content. */
 export class Notice extends FigureController {
-  #shown: { content: () => unknown, control?: string, stop?: () => void } | undefined;
+  #currentNotice: { content: () => unknown, control?: string, stop?: () => void } | undefined;
 
   /** Shows HTML beside the control of a name, or until the user closes it, or about work that the button stops. */
   show(content: () => unknown, { control, stop }: { control?: string, stop?: () => void } = {}) {
-    this.#shown = { content, control, stop };
+    this.#currentNotice = { content, control, stop };
     this.host.requestUpdate();
   }
 
   /** Hides a sentence, as at the next change by the user. A notice about work stays. */
   dismiss() {
-    if (this.#shown && !this.#shown.stop) this.hide();
+    if (this.#currentNotice && !this.#currentNotice.stop) this.hide();
   }
 
   hide() {
-    this.#shown = undefined;
+    this.#currentNotice = undefined;
     this.host.requestUpdate();
   }
 
   /** Returns the notice beside a control, such as why a typed text was refused; undefined if there is none. */
-  beside(control: string) {
-    return this.#shown?.control === control ? (this.#shown.content() as string) : undefined;
+  textBeside(control: string) {
+    return this.#currentNotice?.control === control ? (this.#currentNotice.content() as string) : undefined;
   }
 
-  #press = () => {
-    this.#shown?.stop?.();
+  #stopOrHide = () => {
+    this.#currentNotice?.stop?.();
     this.hide();
   };
 
   /** Presses the button by the key Escape. */
-  onKey(event: KeyboardEvent) {
-    if (!this.#shown || this.#shown.control || event.key !== 'Escape' || event.defaultPrevented) return;
+  stopOnEscape(event: KeyboardEvent) {
+    if (!this.#currentNotice || this.#currentNotice.control || event.key !== 'Escape' || event.defaultPrevented) return;
     event.preventDefault();
-    this.#press();
+    this.#stopOrHide();
   }
 
   render() {
-    if (!this.#shown || this.#shown.control) return nothing;
-    const { content, stop } = this.#shown;
+    if (!this.#currentNotice || this.#currentNotice.control) return nothing;
+    const { content, stop } = this.#currentNotice;
     return html`<div class="notice"><div part="notice">
-      <div role="alert">${content()}</div> ${stop ? button(words.progress.stop, this.#press, { title: words.progress.stopTitle }) : button(words.close, this.#press)}
+      <div role="alert">${content()}</div> ${stop ? buttonHtml(words.progress.stop, this.#stopOrHide, { title: words.progress.stopTitle }) : buttonHtml(words.close, this.#stopOrHide)}
     </div></div>`;
   }
 }
 
 /** Announcements for screen readers after completed changes. */
 export class Announcer {
-  #isDue = false;
+  #isAnnouncementDue = false;
   #announcedText = '';
   /** Latest announced outcome. */
   #latestOutcome: string | undefined;
 
   /** Requests an announcement of the next outcome. */
   announceNext() {
-    this.#isDue = true;
+    this.#isAnnouncementDue = true;
   }
 
   /** Announces an outcome if one was requested. `sentence` is only called if needed. */
-  setOutcome(sentence: () => string) {
-    if (!this.#isDue && !this.#latestOutcome) return;
-    const text = sentence();
+  setOutcome(getOutcome: () => string) {
+    if (!this.#isAnnouncementDue && !this.#latestOutcome) return;
+    const text = getOutcome();
     // Changes by the page are not announced. They clear an announced outcome that is no longer true.
-    this.#announcedText = this.#latestOutcome = this.#isDue || text === this.#latestOutcome ? text : '';
-    this.#isDue = false;
+    this.#announcedText = this.#latestOutcome = this.#isAnnouncementDue || text === this.#latestOutcome ? text : '';
+    this.#isAnnouncementDue = false;
   }
 
   announce(text: string) {

@@ -1,19 +1,19 @@
 /** Synchronization of attributes and properties with the settings: values of the page are applied, and changed settings are written as attributes. */
 
-import { includesFields, withFieldRenamed, checkedWord } from '../data/checks.ts';
+import { includesFields, withFieldRenamed, checkWord } from '../data/checks.ts';
 import { FigureController } from './controller.ts';
 import { COMMON_ATTRS, defaultConfig } from './definition.ts';
 import type { Figure } from './figure.ts';
-import type { Values } from './settings.ts';
+import type { StateValues } from './settings.ts';
 
 export class Reflection extends FigureController {
   #attributes = this.host.definition.attributes;
   #properties = this.host.definition.properties;
   /** Order in which pending properties are applied. Properties that others depend on come first, and a log, which takes long, last. */
-  #order = ['preset', 'map', ...Object.keys(this.#properties), 'log'];
+  #applicationOrder = ['preset', 'map', ...Object.keys(this.#properties), 'log'];
   /** Assignments before there was a simulation. The key is the name of a property, or a new object for each state. */
   #earlyAssignments: Map<unknown, { value?: unknown, apply: () => void }> = new Map();
-  #isWriting = false;
+  #isWritingAttributes = false;
   #previousTexts: Map<string, string> | undefined;
 
   /** Applies properties that were set before the element was upgraded, or that a server wrote as text. */
@@ -43,13 +43,13 @@ export class Reflection extends FigureController {
   applyEarlyAssignments() {
     let stateOffset = 0;
     const assignments = [...this.#earlyAssignments].map(([name, { apply }]) =>
-      ({ apply, order: typeof name === 'string' ? stateOffset + this.#order.indexOf(name) : (stateOffset += this.#order.length) }));
+      ({ apply, order: typeof name === 'string' ? stateOffset + this.#applicationOrder.indexOf(name) : (stateOffset += this.#applicationOrder.length) }));
     this.#earlyAssignments.clear();
     for (const { apply } of assignments.sort((a, b) => a.order - b.order)) this.host.runtime.attemptOrReport(apply);
   }
 
   /** Applies a state, now or as soon as there is a simulation. */
-  whenReady(applyState: () => void) {
+  applyWhenReady(applyState: () => void) {
     if (this.host.simulation) this.host.runtime.attempt(applyState);
     else this.#earlyAssignments.set({}, { apply: applyState });
   }
@@ -84,12 +84,12 @@ export class Reflection extends FigureController {
   /** Sets a property of the definition, as `setProperty` does. An error names the property as the caller did. */
   set(name: string, value: unknown) {
     const { settings } = this.host;
-    const { change, path } = this.#properties[name];
+    const { changesFor, corePath } = this.#properties[name];
     this.setProperty(name, value, (newValue) => {
       try {
-        settings.assign(change(newValue, settings.requested));
+        settings.assign(changesFor(newValue, settings.requested));
       } catch (error) {
-        throw withFieldRenamed(error, name, path);
+        throw withFieldRenamed(error, name, corePath);
       }
     });
   }
@@ -97,13 +97,13 @@ export class Reflection extends FigureController {
   /** Applies an attribute's new text. The name is in lower case. */
   attributeChanged(attribute: string, text: string | null) {
     const { words } = COMMON_ATTRS[attribute] ?? {};
-    if (words && text !== null) this.host.runtime.attemptOrReport(() => checkedWord(attribute, text, words));
+    if (words && text !== null) this.host.runtime.attemptOrReport(() => checkWord(attribute, text, words));
     const name = Object.keys(this.#attributes).find((key) => key.toLowerCase() === attribute);
-    if (name !== undefined && !this.#isWriting) Reflect.set(this.host, name, text);
+    if (name !== undefined && !this.#isWritingAttributes) Reflect.set(this.host, name, text);
   }
 
   /** Default configuration. Some defaults depend on the present settings. */
-  get #defaultConfig(): Values {
+  get #defaultConfig(): StateValues {
     const { definition, settings } = this.host;
     return { ...defaultConfig(definition.declarations), ...definition.elementDefaults, ...definition.dependentDefaults?.(settings.requested) };
   }
@@ -113,19 +113,19 @@ export class Reflection extends FigureController {
     const { simulation, viewModel, settings } = this.host;
     // At first the attributes of the page still wait in `#earlyAssignments`.
     if (!simulation || !viewModel) return;
-    const texts = this.#textsOf(settings.requested);
-    const previousTexts = this.#previousTexts ?? texts;
+    const attributeTexts = this.#attributeTextsOf(settings.requested);
+    const previousTexts = this.#previousTexts ?? attributeTexts;
     const neededTexts = this.neededAttributes((name, text) => text !== previousTexts.get(name));
-    this.#previousTexts = texts;
-    this.#isWriting = true;
+    this.#previousTexts = attributeTexts;
+    this.#isWritingAttributes = true;
     for (const [name, { converter: { parse, print } }] of Object.entries(this.#attributes)) {
       const currentText = this.host.getAttribute(name);
-      const text = (currentText === null ? neededTexts : texts).get(name);
+      const text = (currentText === null ? neededTexts : attributeTexts).get(name);
       if (text === undefined) this.host.removeAttribute(name);
       // An attribute stays as the page wrote it if it has the same value.
       else if (currentText === null || print(parse(currentText)) !== text) this.host.setAttribute(name, text);
     }
-    this.#isWriting = false;
+    this.#isWritingAttributes = false;
   }
 
   /**
@@ -133,12 +133,12 @@ export class Reflection extends FigureController {
    * attribute determines, such as a preset, unless `isWanted` accepts them.
    */
   neededAttributes(isWanted = (_name: string, _text: string) => false): Map<string, string> {
-    const texts = this.#textsOf(this.host.settings.requested);
-    const defaultTexts = this.#textsOf(this.#defaultConfig);
+    const attributeTexts = this.#attributeTextsOf(this.host.settings.requested);
+    const defaultTexts = this.#attributeTextsOf(this.#defaultConfig);
     const coveredNames: Set<string> = new Set();
     const neededTexts = new Map<string, string>();
     for (const [name, { coveredAttributes = [] }] of Object.entries(this.#attributes)) {
-      const text = texts.get(name);
+      const text = attributeTexts.get(name);
       if (text === undefined) continue;
       if (text !== defaultTexts.get(name) && (!coveredNames.has(name) || isWanted(name, text))) neededTexts.set(name, text);
       for (const coveredName of coveredAttributes) coveredNames.add(coveredName);
@@ -146,14 +146,14 @@ export class Reflection extends FigureController {
     return neededTexts;
   }
 
-  #textsOf(config: Values): Map<string, string> {
-    const entries = Object.entries(this.#attributes).map(([name, { converter, get }]) => [name, converter.print(get(config) ?? null)] as const);
-    return new Map(entries.filter((entry): entry is [string, string] => entry[1] !== null));
+  #attributeTextsOf(config: StateValues): Map<string, string> {
+    const textEntries = Object.entries(this.#attributes).map(([name, { converter, get }]) => [name, converter.print(get(config) ?? null)] as const);
+    return new Map(textEntries.filter((entry): entry is [string, string] => entry[1] !== null));
   }
 }
 
 /** Defines a widget's element with its properties, and further ones. If the page loads the script twice, the second call does nothing. */
-export function define(Widget: typeof import('./figure.ts').FigureElement<any, any> & CustomElementConstructor, furtherProperties: PropertyDescriptorMap = {}) {
+export function defineElement(Widget: typeof import('./figure.ts').FigureElement<any, any> & CustomElementConstructor, furtherProperties: PropertyDescriptorMap = {}) {
   const { prototype, definition: { tag, properties } } = Widget;
   if (customElements.get(tag)) return;
   for (const name of Object.keys(properties)) {

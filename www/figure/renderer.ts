@@ -9,13 +9,13 @@ import { FigureController } from './controller.ts';
 type AnyPicture = import('../scene/picture.ts').Picture<any>;
 
 /** Drawing time, ms, up to which the text is rendered in the same frame. After a longer one it is rendered in the next frame. */
-const MAX_SAME_FRAME_MS = 5;
+const MAX_DRAW_MS_WITH_TEXT = 5;
 
 /**
  * Drawing time in a frame, ms, after which further pictures wait for the next frame. With the processor four times slower, a drag of the
  * Banana Machine then takes 19 ms a frame instead of 28, and the first picture comes 10 ms earlier.
  */
-const MAX_PICTURES_MS = 8;
+const MAX_DRAW_MS_PER_FRAME = 8;
 
 const MAX_TEXT_DELAY_MS = 100;
 
@@ -40,24 +40,24 @@ export class Renderer extends FigureController {
   }, { rootMargin: NEAR_MARGIN_CSS });
   #hasRenderedText = false;
   /** Pictures to draw, the one that has waited longest first. */
-  #undrawn: Set<AnyPicture> = new Set();
+  #undrawnPictures: Set<AnyPicture> = new Set();
   /** Time of the first picture that is newer than the text; undefined if the text is up to date. */
   #textPendingSince: number | undefined;
   #frameRequest: number | undefined;
   /** Time of the request or, during an animation, of the previous frame. */
-  #previousTime = 0;
+  #previousFrameMs = 0;
   isPrinting = false;
 
   hostConnected() {
-    const { signal } = this.host.connection;
+    const { signal } = this.host.lifetime;
     this.host.canvases.followPixelRatio(signal);
-    addEventListener('beforeprint', () => this.#print(true), { signal });
-    addEventListener('afterprint', () => this.#print(false), { signal });
+    addEventListener('beforeprint', () => this.#setPrinting(true), { signal });
+    addEventListener('afterprint', () => this.#setPrinting(false), { signal });
     // Some browsers do not fire `beforeprint` and `afterprint`, and others fire them too late.
     const printQuery = matchMedia('print');
-    printQuery.addEventListener('change', () => this.#print(printQuery.matches), { signal });
+    printQuery.addEventListener('change', () => this.#setPrinting(printQuery.matches), { signal });
     // An element that is removed during print gets no event at its end.
-    if (this.isPrinting !== printQuery.matches) this.#print(printQuery.matches);
+    if (this.isPrinting !== printQuery.matches) this.#setPrinting(printQuery.matches);
     onLanguage(this.host, () => this.#languageChanged(), signal);
     this.#nearObserver.observe(this.host);
     // The script that defines the element may still call `load(source)`.
@@ -103,7 +103,7 @@ export class Renderer extends FigureController {
   }
 
   #languageChanged() {
-    this.host.settings.isStale = true;
+    this.host.settings.isViewModelStale = true;
     this.host.requestUpdate();
     this.requestFrame();
   }
@@ -111,12 +111,12 @@ export class Renderer extends FigureController {
   hostUpdated() {
     const { host } = this;
     this.#observeVisibility();
-    host.resolveSettled();
-    if (!host.canvases.elements) host.colours.update();
+    host.resolveIfSettled();
+    if (!host.canvases.elements) host.colours.applyAndDraw();
     if (!host.simulation || host.canvases.elements) return;
-    host.canvases.find(host.renderRoot);
+    host.canvases.findAndObserve(host.renderRoot);
     this.requestFrame();
-    if (this.isPrinting) this.#print(true);
+    if (this.isPrinting) this.#setPrinting(true);
   }
 
   #setVisible(isVisible: boolean) {
@@ -124,31 +124,31 @@ export class Renderer extends FigureController {
     const hasAppeared = isVisible && !this.isVisible;
     this.isVisible = isVisible;
     // No events report changes of colours while the figure is out of the viewport.
-    if (hasAppeared) this.host.colours.update();
-    else if (!isVisible && this.host.isAwaited) this.requestFrame();
+    if (hasAppeared) this.host.colours.applyAndDraw();
+    else if (!isVisible && this.host.isSettledAwaited) this.requestFrame();
   }
 
   /** Allows the views to zoom in and recenter, for a scene that the user or the page has chosen: see `View.release`. */
-  releaseViews(minFill?: number) {
-    for (const { view } of this.host.pictures) view.release(minFill);
+  letViewsZoomIn(minFill?: number) {
+    for (const { view } of this.host.pictures) view.allowZoomIn(minFill);
   }
 
   /** Requests a frame, in which a visible figure draws all pictures. */
   requestFrame() {
-    this.#addPictures();
-    this.#schedule();
+    this.#markAllUndrawn();
+    this.#scheduleFrame();
   }
 
-  #schedule() {
+  #scheduleFrame() {
     if (!this.host.simulation || this.#frameRequest !== undefined) return;
-    this.#previousTime = performance.now();
+    this.#previousFrameMs = performance.now();
     this.#frameRequest = requestAnimationFrame((nowMs) => {
       this.#frameRequest = undefined;
-      const elapsedMs = clamp(nowMs - this.#previousTime, 0, MAX_TIME_STEP_MS);
+      const elapsedMs = clamp(nowMs - this.#previousFrameMs, 0, MAX_TIME_STEP_MS);
       if (!this.isVisible) this.#updateUnseen();
-      else if (this.#undrawn.size > 0) this.#drawNow(elapsedMs);
+      else if (this.#undrawnPictures.size > 0) this.#attemptDraw(elapsedMs);
       else this.#renderText();
-      this.#previousTime = nowMs;
+      this.#previousFrameMs = nowMs;
     });
   }
 
@@ -160,16 +160,16 @@ export class Renderer extends FigureController {
       if (!simulation) return;
       settings.applyPending();
       // A script awaits all samples. Nobody sees the cloud grow.
-      if (host.isAwaited) cloud?.finish();
-      if (cloud && !cloud.refine()) this.#schedule();
-      else if (settings.isStale) host.refresh();
-      host.resolveSettled();
+      if (host.isSettledAwaited) cloud?.finish();
+      if (cloud && !cloud.refine()) this.#scheduleFrame();
+      else if (settings.isViewModelStale) host.updateViewModel();
+      host.resolveIfSettled();
     });
   }
 
   /** True if pictures or text have to follow in later frames. */
-  get isBehind() {
-    return (this.isVisible && this.#undrawn.size > 0) || this.#textPendingSince !== undefined;
+  get hasPendingFrames() {
+    return (this.isVisible && this.#undrawnPictures.size > 0) || this.#textPendingSince !== undefined;
   }
 
   /** True until a visible figure has drawn its first picture and rendered its text. */
@@ -178,12 +178,12 @@ export class Renderer extends FigureController {
   }
 
   /** Returns the content, or nothing in the first frame, so that the first picture is drawn earlier. */
-  afterFirstPicture(content: () => unknown) {
-    return this.isOpening ? nothing : content();
+  renderAfterFirstPicture(renderContent: () => unknown) {
+    return this.isOpening ? nothing : renderContent();
   }
 
   /** Draws. Text is not rendered in a callback of the size observer, because it could change sizes again. */
-  #drawNow(elapsedMs: number, isResizing = false) {
+  #attemptDraw(elapsedMs: number, isResizing = false) {
     // In a closed disclosure all sizes are 0.
     if (!this.host.simulation || !this.host.canvases.elements?.some(hasPixels)) return;
     this.host.runtime.attemptOrFail(() => {
@@ -201,32 +201,32 @@ export class Renderer extends FigureController {
     if (!host.simulation) return;
     host.cloud?.advance();
     const { scene } = host;
-    if (host.viewModel !== viewModel) this.#addPictures();
+    if (host.viewModel !== viewModel) this.#markAllUndrawn();
     const { isPressed, previousViewModel } = host.gesture;
-    const options = { elapsed: elapsedMs, atOnce: this.isPrinting || prefersReducedMotion(), previousViewModel, highlight: host.highlight, handles: this.isPrinting };
+    const drawOptions = { elapsedMs, isImmediate: this.isPrinting || prefersReducedMotion(), previousViewModel, highlight: host.highlight, drawsHandles: this.isPrinting };
     let isMoving = false;
-    for (const picture of this.#undrawn) {
-      this.#undrawn.delete(picture);
+    for (const picture of this.#undrawnPictures) {
+      this.#undrawnPictures.delete(picture);
       const canvas = host.canvases.canvasOf(picture);
       // A figure may have replaced its picture.
       if (!host.pictures.includes(picture) || !hasPixels(canvas)) continue;
       // A drag keeps the scale of pictures with handles, so that they stay under the pointer.
       const isStill = isPressed && canvas.parentElement!.querySelector('.handle') !== null;
-      isMoving = picture.draw(host.canvases.surfaceOf(canvas), scene, host.colours.palette, { ...options, still: isStill }) || isMoving;
-      if ((!isResizing || this.isOpening) && performance.now() - startTimeMs > MAX_PICTURES_MS) break;
+      isMoving = picture.draw(host.canvases.surfaceOf(canvas), scene, host.colours.palette, { ...drawOptions, keepsScale: isStill }) || isMoving;
+      if ((!isResizing || this.isOpening) && performance.now() - startTimeMs > MAX_DRAW_MS_PER_FRAME) break;
     }
     host.placeHandles(scene);
     const nowMs = performance.now();
     const pendingSinceMs = this.#textPendingSince;
     // The first picture is drawn without text.
-    if (this.isOpening ? pendingSinceMs : !isResizing && (nowMs - startTimeMs < MAX_SAME_FRAME_MS || nowMs - (pendingSinceMs ?? nowMs) > MAX_TEXT_DELAY_MS)) this.#renderText();
+    if (this.isOpening ? pendingSinceMs : !isResizing && (nowMs - startTimeMs < MAX_DRAW_MS_WITH_TEXT || nowMs - (pendingSinceMs ?? nowMs) > MAX_TEXT_DELAY_MS)) this.#renderText();
     else {
       this.#textPendingSince ??= startTimeMs;
-      this.#schedule();
+      this.#scheduleFrame();
     }
-    host.resolveSettled();
+    host.resolveIfSettled();
     const isPlaying = host.player?.advance(elapsedMs);
-    if (this.#undrawn.size > 0) this.#schedule();
+    if (this.#undrawnPictures.size > 0) this.#scheduleFrame();
     if (isPlaying || isMoving || host.cloud?.isSettled === false) this.requestFrame();
   }
 
@@ -238,20 +238,20 @@ export class Renderer extends FigureController {
     this.host.requestUpdate();
   }
 
-  #addPictures() {
-    for (const picture of this.host.pictures) this.#undrawn.add(picture);
+  #markAllUndrawn() {
+    for (const picture of this.host.pictures) this.#undrawnPictures.add(picture);
   }
 
   /** Draws at once, because resizing has cleared the canvases: a drawing in the next frame would flicker. */
   drawResized() {
-    this.host.canvases.update(this.isPrinting);
-    this.host.colours.resolve();
-    this.#addPictures();
-    this.#drawNow(0, true);
+    this.host.canvases.updateWidths(this.isPrinting);
+    this.host.colours.applyPageColours();
+    this.#markAllUndrawn();
+    this.#attemptDraw(0, true);
   }
 
   /** Draws for print, in light colours and with all samples, or for the screen again. A print starts a figure that is far from the viewport. */
-  async #print(isPrinting: boolean) {
+  async #setPrinting(isPrinting: boolean) {
     const { host } = this;
     this.isPrinting = isPrinting;
     // Browsers run microtasks before they print. The start needs no more than these if another figure has loaded the module.
@@ -262,7 +262,7 @@ export class Renderer extends FigureController {
     host.settings.applyPending();
     if (!host.simulation) return;
     if (this.isPrinting) host.cloud?.finish();
-    else host.canvases.measure();
+    else host.canvases.observeSizes();
     this.drawResized();
     this.#renderText();
   }

@@ -7,7 +7,7 @@ export class Runtime extends FigureController {
   motion: import('../types.d.ts').Motion | undefined;
   /** Simulation object of the core. */
   simulation: any;
-  failure: string | undefined;
+  failureMessage: string | undefined;
   #hasLoaded = false;
   #startPromise: Promise<void> | undefined;
   /** True from a trap until a picture was drawn. A trap in between ends the figure. */
@@ -19,15 +19,15 @@ export class Runtime extends FigureController {
 
   /** Starts the core, if it is not running. Resolves when it has started or failed. */
   start(): Promise<void> {
-    if (!this.simulation) this.#startPromise ??= this.#create();
+    if (!this.simulation) this.#startPromise ??= this.#createCore();
     return this.#startPromise ?? Promise.resolve();
   }
 
-  async #create() {
+  async #createCore() {
     try {
-      const { localName, link, settings, viewModel } = this.host;
+      const { localName, stateLink, settings, viewModel } = this.host;
       const shownState = viewModel && this.host.snapshot();
-      const [motion] = await Promise.all([instantiateFor(localName), shownState ?? link.applyAddress()]);
+      const [motion] = await Promise.all([instantiateFor(localName), shownState ?? stateLink.applyAddress()]);
       this.motion = motion;
       const simulation = this.host.createSimulation(motion);
       if (shownState) this.host.enterState(simulation, shownState);
@@ -40,7 +40,7 @@ export class Runtime extends FigureController {
       this.#startPromise = undefined;
     }
     // The core may have trapped again.
-    if (this.failure === undefined) void this.start();
+    if (this.failureMessage === undefined) void this.start();
   }
 
   async #showContent() {
@@ -55,11 +55,11 @@ export class Runtime extends FigureController {
   }
 
   /** Replaces the simulation. Pending changes are dropped. */
-  replace(simulation: any) {
+  replaceSimulation(simulation: any) {
     this.simulation.free();
     this.simulation = simulation;
     this.host.settings.reset();
-    this.host.simulationChanged();
+    this.host.onSimulationReplaced();
   }
 
   /** Runs work. After a trap, replaces the core and returns undefined. Other errors go to `handleError`, by default to the caller. */
@@ -76,21 +76,21 @@ export class Runtime extends FigureController {
   attemptOrFail = <Result>(work: () => Result) => this.attempt(work, (error) => this.fail(error));
 
   /** Runs work as `attempt` does; an error is reported. */
-  attemptOrReport = (work: () => void) => this.attempt(work, (error) => this.report(error));
+  attemptOrReport = (work: () => void) => this.attempt(work, (error) => this.reportError(error));
 
   /** Fires an `error` event, and warns on the console if no listener prevents that. */
-  report(error: unknown) {
-    const message = messageOf(error);
+  reportError(error: unknown) {
+    const message = errorMessageOf(error);
     const isUnhandled = this.host.dispatchEvent(new ErrorEvent('error', { error, message, cancelable: true }));
     if (isUnhandled) console.warn(message, this.host);
   }
 
   fail(error: unknown) {
-    this.#abandon();
+    this.#abandonCore();
     this.hasTrapped = false;
-    this.host.canvases.release();
-    this.failure = messageOf(error);
-    this.report(error);
+    this.host.canvases.stopObserving();
+    this.failureMessage = errorMessageOf(error);
+    this.reportError(error);
     this.host.requestUpdate();
   }
 
@@ -101,12 +101,12 @@ export class Runtime extends FigureController {
       return;
     }
     this.hasTrapped = true;
-    this.#abandon();
-    this.report(trap);
+    this.#abandonCore();
+    this.reportError(trap);
     void this.start();
   }
 
-  #abandon() {
+  #abandonCore() {
     if (this.simulation) abandonSimulation(this.simulation);
     this.host.settings.reset();
     this.simulation = this.motion = undefined;
@@ -116,9 +116,9 @@ export class Runtime extends FigureController {
 /** Returns true for a trap, and for the error of a simulation used after one: see writeGlue in scripts/build.mjs. */
 const isWasmTrap = (error: unknown) => typeof WebAssembly !== 'undefined' && error instanceof WebAssembly.RuntimeError;
 
-const CSP_ERROR = "This page's Content-Security-Policy forbids the figure's templates: its trusted-types directive lacks motion-widgets.";
+const TRUSTED_TYPES_ERROR = "This page's Content-Security-Policy forbids the figure's templates: its trusted-types directive lacks motion-widgets.";
 
-function messageOf(error: unknown) {
+function errorMessageOf(error: unknown) {
   const message = error instanceof Error ? error.message : String(error);
-  return message.includes('TrustedHTML') ? CSP_ERROR : message;
+  return message.includes('TrustedHTML') ? TRUSTED_TYPES_ERROR : message;
 }

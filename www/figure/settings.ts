@@ -1,68 +1,68 @@
 /** Settings of the simulation, and state of a figure as plain data: the settings, and fields that the element keeps because the simulation does not have them. */
 
-import { checkedObject, checkedValue, checkedWord, refusalError } from '../data/checks.ts';
+import { checkObject, checkValue, checkWord, refusalError } from '../data/checks.ts';
 import { FigureController } from './controller.ts';
 
 /** Settings or a state as plain data. */
-export type Values = Record<string, any>;
+export type StateValues = Record<string, any>;
 
 export const STATE_VERSION = 1;
 
 export class Settings extends FigureController {
   /** True if the simulation has changed since it was read. */
-  isStale: boolean | undefined;
-  #openingState: Values | undefined;
+  isViewModelStale: boolean | undefined;
+  #openingState: StateValues | undefined;
   #elementFields = this.host.definition.elementFields;
   /** Fields of the state that the element keeps, because the simulation does not have them. They are changed at once. */
-  elementState: Values = { ...this.host.definition.elementDefaults };
+  elementState: StateValues = { ...this.host.definition.elementDefaults };
   /** Cache of the simulation's settings in effect; undefined until the simulation is asked. */
-  #current: Values | undefined;
+  #currentSettings: StateValues | undefined;
   /** Changes of settings by the user that wait for the next frame. */
-  #pending: Values = {};
+  #pendingChanges: StateValues = {};
 
   /** Drops pending changes and stops the player, for another simulation. */
   reset() {
     this.host.player?.stop();
-    this.isStale = true;
-    this.#current = undefined;
-    this.#pending = {};
+    this.isViewModelStale = true;
+    this.#currentSettings = undefined;
+    this.#pendingChanges = {};
   }
 
   /** Returns the declared settings among other values. */
-  pick(values: Values) {
-    const keys = this.host.definition.declarations.filter((setting) => !setting.in && !setting.of).map(({ key }) => key);
+  pickSettings(values: StateValues) {
+    const keys = this.host.definition.declarations.filter((declaration) => !declaration.in && !declaration.of).map(({ key }) => key);
     return Object.fromEntries(keys.map((key) => [key, values[key]]));
   }
 
   /** Settings of the simulation that are in effect, or after a trap those that were shown. */
-  get current(): Values {
+  get current(): StateValues {
     const { simulation, viewModel } = this.host;
-    if (simulation) this.#current ??= simulation.config as Values;
-    return this.#current ?? viewModel.config;
+    if (simulation) this.#currentSettings ??= simulation.config as StateValues;
+    return this.#currentSettings ?? viewModel.config;
   }
 
   /** Settings with the changes that wait, and the state of the element. */
-  get requested(): Values {
-    return { ...this.current, ...this.#pending, ...this.elementState };
+  get requested(): StateValues {
+    return { ...this.current, ...this.#pendingChanges, ...this.elementState };
   }
 
   /** True if changes are pending, or not in the view model yet. */
-  get isWaiting() {
-    return this.isStale || Object.keys(this.#pending).length > 0;
+  get hasPendingChanges() {
+    return this.isViewModelStale || Object.keys(this.#pendingChanges).length > 0;
   }
 
   /** Changes values as the user asked: settings in the next frame, so that a drag configures the simulation once in each frame. */
-  request(change: Values | ((requested: Values) => Values)) {
+  request(change: StateValues | ((requested: StateValues) => StateValues)) {
     const { simulation, gesture, renderer } = this.host;
     if (!simulation) return;
     const values = typeof change === 'function' ? change(this.requested) : change;
-    for (const [key, value] of Object.entries(values)) (key in this.elementState ? this.elementState : this.#pending)[key] = value;
-    gesture.step();
+    for (const [key, value] of Object.entries(values)) (key in this.elementState ? this.elementState : this.#pendingChanges)[key] = value;
+    gesture.recordStep();
     renderer.requestFrame();
   }
 
   /** Changes values at once, as a change by the page. Throws a TypeError or RangeError, without a change, for invalid values. */
-  assign(values: Values) {
+  assign(values: StateValues) {
     const { host } = this;
     this.applyPending();
     const elementValues = this.#checkedElementValues('', values, () => host.snapshot());
@@ -70,40 +70,40 @@ export class Settings extends FigureController {
     if (settings.length > 0) this.#configure(Object.fromEntries(settings));
     Object.assign(this.elementState, elementValues);
     host.reflection.updateAttributes();
-    host.renderer.releaseViews();
+    host.renderer.letViewsZoomIn();
     host.renderer.requestFrame();
   }
 
   /** Applies pending changes. A refused one is reported and dropped. */
   applyPending() {
-    const pendingValues = this.#pending;
+    const pendingValues = this.#pendingChanges;
     if (Object.keys(pendingValues).length === 0) return;
-    this.#pending = {};
+    this.#pendingChanges = {};
     this.host.runtime.attemptOrReport(() => this.#configure(pendingValues));
   }
 
-  #configure(values: Values) {
+  #configure(values: StateValues) {
     const { simulation, cloud } = this.host;
     if (!simulation) return;
-    this.#current = Object.freeze(cloud ? cloud.configure(simulation, values) : simulation.configure(values));
-    this.isStale = true;
+    this.#currentSettings = Object.freeze(cloud ? cloud.configure(simulation, values) : simulation.configure(values));
+    this.isViewModelStale = true;
   }
 
   /** Returns the fields of the element among values for a state, after a check. `path` is put before their names in errors. */
-  #checkedElementValues(path: string, values: Values, readState: () => Values) {
+  #checkedElementValues(path: string, values: StateValues, getState: () => StateValues) {
     const fields = Object.entries(this.#elementFields).filter(([name]) => name in values);
-    return Object.fromEntries(fields.map(([name, { maxIn, max, ...range }]) =>
-      [name, checkedValue(path + name, values[name], { ...range, max: maxIn ? maxIn(readState()) : max })]));
+    return Object.fromEntries(fields.map(([name, { maxInState, max, ...range }]) =>
+      [name, checkValue(path + name, values[name], { ...range, max: maxInState ? maxInState(getState()) : max })]));
   }
 
   /** Applies assignments of the page to a new simulation, which has a state after a trap, and shows it. */
-  resume(state?: Values) {
+  resume(state?: StateValues) {
     const { host } = this;
     this.reset();
-    host.simulationChanged();
+    host.onSimulationReplaced();
     host.reflection.applyEarlyAssignments();
     // The simulation is missing after a trap. The settings are not stale if an assigned state was shown already.
-    if (host.simulation && this.isStale) this.#showState(state);
+    if (host.simulation && this.isViewModelStale) this.#showState(state);
   }
 
   /** Applies a state with its widget and version. Missing fields keep their values; an error changes nothing. */
@@ -111,43 +111,43 @@ export class Settings extends FigureController {
     const { host } = this;
     this.applyPending();
     const { widget, version } = Object(state);
-    checkedWord('state.widget', widget, [host.localName]);
+    checkWord('state.widget', widget, [host.localName]);
     if (version !== STATE_VERSION) throw refusalError('state.version', version, String(STATE_VERSION));
     const currentState = host.snapshot();
-    const changes = checkedObject('state', state, Object.keys(currentState));
-    const wholeState: Values = { ...currentState, ...host.withDerivedFields(currentState, changes) };
+    const changes = checkObject('state', state, Object.keys(currentState));
+    const wholeState: StateValues = { ...currentState, ...host.withDerivedFields(currentState, changes) };
     // Checks the settings first, because the number of samples limits other fields.
     const simulation = host.createSimulation(host.motion);
     host.enterState(simulation, wholeState);
     const changedValues = Object.fromEntries(Object.keys(changes).map((key) => [key, wholeState[key]]));
     Object.assign(wholeState, this.#checkedElementValues('state.', changedValues, () => wholeState));
     for (const name of Object.keys(this.elementState)) this.elementState[name] = wholeState[name];
-    host.runtime.replace(simulation);
-    host.renderer.releaseViews(1);
+    host.runtime.replaceSimulation(simulation);
+    host.renderer.letViewsZoomIn(1);
     this.#showState(wholeState);
   }
 
   choosePreset(preset: string) {
     const { host } = this;
     host.player?.stop();
-    host.renderer.releaseViews(1);
-    for (const [name, { isResetByPreset, default: opening }] of Object.entries(this.#elementFields)) if (isResetByPreset) this.elementState[name] = opening;
+    host.renderer.letViewsZoomIn(1);
+    for (const [name, { isResetByPreset, default: openingValue }] of Object.entries(this.#elementFields)) if (isResetByPreset) this.elementState[name] = openingValue;
     Object.assign(host, { preset });
-    host.gesture.complete();
+    host.gesture.commitOneStep();
   }
 
   /** Restores a state, by default the one that the figure opened with, as a change by the user. */
-  restoreAsUser(state: Values | undefined = this.#openingState) {
+  restoreAsUser(state: StateValues | undefined = this.#openingState) {
     this.applyState(state);
-    this.host.gesture.complete();
+    this.host.gesture.commitOneStep();
   }
 
   /** Shows a state of the simulation, by default the opening state. */
-  #showState(state?: Values) {
+  #showState(state?: StateValues) {
     const { host } = this;
     host.cloud?.introduce(state);
     this.#openingState ??= { ...host.snapshot(), ...(host.cloud && { shown: 0, playing: true }) };
-    host.refresh();
+    host.updateViewModel();
     host.reflection.updateAttributes();
     host.renderer.requestFrame();
   }

@@ -5,19 +5,19 @@ import { language, useLanguageOf, words } from '../messages/registry.ts';
 import { FigureController } from './controller.ts';
 import type { Figure } from './figure.ts';
 
-const RIGHT_TO_LEFT = /^(ar|ckb|dv|fa|he|ps|sd|ug|ur|yi)\b/i;
+const RIGHT_TO_LEFT_LANGUAGES = /^(ar|ckb|dv|fa|he|ps|sd|ug|ur|yi)\b/i;
 
 /** Returns the HTML of a figure, whose language and direction may differ from the page's. */
 export function figureHtml(figure: Figure) {
   useLanguageOf(figure);
-  const { gesture, notice, presenting, colours, presentation, headingLevel } = figure;
-  const updateColours = () => colours.update();
+  const { gesture, notice, presentationMode, colours, presentation, headingLevel } = figure;
+  const updateColours = () => colours.applyAndDraw();
   return html`
     <span class="scheme-probe" aria-hidden="true" @transitionend=${updateColours} @transitioncancel=${updateColours}></span>
-    <div class="surface ${presenting.hasControls ? 'with-controls' : ''}" @pointerdown=${(event: PointerEvent) => gesture.press(event)} @input=${stopPropagation} @change=${stopPropagation} @keydown=${(event: KeyboardEvent) => onKey(figure, event)}>
-      ${slotHtml(figure, 'title', presentation ? nameOf(figure) : '', headingLevel)}
-      <div class="spoken" lang=${language} dir=${RIGHT_TO_LEFT.test(language) ? 'rtl' : 'ltr'}>
-        ${contentHtml(figure)} ${notice.render()} ${presenting.render()}
+    <div class="surface ${presentationMode.showsControls ? 'with-controls' : ''}" @pointerdown=${(event: PointerEvent) => gesture.onPointerDown(event)} @input=${stopPropagation} @change=${stopPropagation} @keydown=${(event: KeyboardEvent) => stopUsedKey(figure, event)}>
+      ${slotHtml(figure, 'title', presentation ? accessibleNameOf(figure) : '', headingLevel)}
+      <div class="spoken" lang=${language} dir=${RIGHT_TO_LEFT_LANGUAGES.test(language) ? 'rtl' : 'ltr'}>
+        ${contentHtml(figure)} ${notice.render()} ${presentationMode.render()}
       </div>
       ${slotHtml(figure, 'caption')}
     </div>
@@ -25,50 +25,50 @@ export function figureHtml(figure: Figure) {
 }
 
 function contentHtml(figure: Figure) {
-  const { failure } = figure.runtime;
-  if (failure !== undefined) return html`<p class="failure" role="alert">${words.failure(failure)}</p>`;
+  const { failureMessage } = figure.runtime;
+  if (failureMessage !== undefined) return html`<p class="failure" role="alert">${words.failure(failureMessage)}</p>`;
   // After a trap the previous content stays.
   if (!figure.simulation) return figure.viewModel ? noChange : placeholderHtml(figure);
   const { announcer, dropHandlers, viewModel } = figure;
   return html`<section
       class="simulation"
-      aria-label=${nameOf(figure)}
+      aria-label=${accessibleNameOf(figure)}
       @dragover=${dropHandlers?.onDragOver}
       @dragleave=${dropHandlers?.onDragLeave}
       @drop=${dropHandlers?.onDrop}
     >
-      ${figure.content(viewModel)}
+      ${figure.renderContent(viewModel)}
     </section>
     ${announcer.render()}`;
 }
 
 function placeholderHtml(figure: Figure) {
   const moveFocus = ({ relatedTarget }: FocusEvent) => void moveFocusInto(figure, relatedTarget);
-  return html`<div class="reserved" tabindex="0" role="group" aria-label=${nameOf(figure)} @focus=${moveFocus}></div>`;
+  return html`<div class="reserved" tabindex="0" role="group" aria-label=${accessibleNameOf(figure)} @focus=${moveFocus}></div>`;
 }
 
 const slottedChildren = (figure: Figure, name: string) => [...figure.children].filter(({ slot }) => slot === name);
 
 /** Returns the name of a figure: the page's title, or the widget's own. */
-export function nameOf(figure: Figure) {
+export function accessibleNameOf(figure: Figure) {
   const title = slottedChildren(figure, 'title').map(({ textContent }) => textContent).join(' ').replace(/\s+/g, ' ').trim();
   return title || (words as any)[figure.definition.messageKey].title;
 }
 
 /** Returns a slot for content of the page, with a text that is shown if the slot is empty. It is a heading if it has a level. */
-function slotHtml(figure: Figure, name: string, fallback = '', level: string | null = null) {
+function slotHtml(figure: Figure, name: string, fallbackText = '', headingLevel: string | null = null) {
   return html`<div
     class="${name}-slot"
-    role=${level ? 'heading' : nothing}
-    aria-level=${level ?? nothing}
-    ?hidden=${!fallback && slottedChildren(figure, name).length === 0}
+    role=${headingLevel ? 'heading' : nothing}
+    aria-level=${headingLevel ?? nothing}
+    ?hidden=${!fallbackText && slottedChildren(figure, name).length === 0}
   >
-    <slot name=${name} @slotchange=${() => figure.requestUpdate()}>${fallback || nothing}</slot>
+    <slot name=${name} @slotchange=${() => figure.requestUpdate()}>${fallbackText || nothing}</slot>
   </div>`;
 }
 
 /** Controls that use every key. */
-const TEXT_FIELDS = 'textarea, input:not([type=range], [type=radio], [type=checkbox])';
+const TEXT_FIELD_SELECTOR = 'textarea, input:not([type=range], [type=radio], [type=checkbox])';
 
 /** Keys that move sliders and radio buttons. */
 const MOVE_KEYS = /Arrow|Page|Home|End/;
@@ -77,26 +77,26 @@ const MOVE_KEYS = /Arrow|Page|Home|End/;
 const PRESS_KEYS = /^( |Enter)$/;
 
 /** Stops a key that the figure has used. A page with key shortcuts, such as a slide deck, does not see the control in the shadow root. */
-function onKey({ notice }: Figure, event: KeyboardEvent) {
-  notice.onKey(event);
+function stopUsedKey({ notice }: Figure, event: KeyboardEvent) {
+  notice.stopOnEscape(event);
   const { key, ctrlKey, altKey, metaKey, defaultPrevented } = event;
   const keyTarget = event.target as Element;
   const isPress = PRESS_KEYS.test(key) && keyTarget.matches('button, input, summary');
-  const isUsedByControl = keyTarget.matches(TEXT_FIELDS) ? key !== 'Escape' : isPress || (keyTarget.matches('input') && MOVE_KEYS.test(key));
+  const isUsedByControl = keyTarget.matches(TEXT_FIELD_SELECTOR) ? key !== 'Escape' : isPress || (keyTarget.matches('input') && MOVE_KEYS.test(key));
   if (defaultPrevented || (isUsedByControl && !ctrlKey && !altKey && !metaKey)) event.stopPropagation();
 }
 
 /** Stops the events of native controls, because the element fires its own. */
 const stopPropagation = (event: Event) => event.stopPropagation();
 
-const FOCUSABLE = ':is(button, input, select, textarea):enabled:not([tabindex]), summary, [tabindex="0"]';
+const FOCUSABLE_SELECTOR = ':is(button, input, select, textarea):enabled:not([tabindex]), summary, [tabindex="0"]';
 
-function focusableIn(root: ParentNode): HTMLElement[] {
-  return ([...root.querySelectorAll(FOCUSABLE)] as HTMLElement[]).filter((element) => element.checkVisibility());
+function focusableElementsIn(root: ParentNode): HTMLElement[] {
+  return ([...root.querySelectorAll(FOCUSABLE_SELECTOR)] as HTMLElement[]).filter((element) => element.checkVisibility());
 }
 
 /** Keyboard focus. It stays in the figure when the focused control is removed, disabled or hidden. */
-export class Focus extends FigureController {
+export class FocusKeeper extends FigureController {
   /** Focused control and its ancestors, the nearest first. */
   #focusPath: Element[] = [];
 
@@ -112,7 +112,7 @@ export class Focus extends FigureController {
     const [previousControl, ...ancestors] = this.#focusPath;
     if (!previousControl || (previousControl.isConnected && previousControl.checkVisibility() && !previousControl.matches(':disabled'))) return;
     for (const ancestor of ancestors) {
-      const [nextControl] = ancestor.isConnected ? focusableIn(ancestor) : [];
+      const [nextControl] = ancestor.isConnected ? focusableElementsIn(ancestor) : [];
       if (!nextControl) continue;
       nextControl.focus({ preventScroll: true });
       return;
@@ -121,20 +121,20 @@ export class Focus extends FigureController {
 }
 
 /** Moves the focus into the figure, to the end that is nearer to `origin`. */
-async function moveFocusInto(figure: Figure, origin: EventTarget | null) {
+async function moveFocusInto(figure: Figure, previousFocus: EventTarget | null) {
   await figure.runtime.start();
   // Waits for the controls, which are rendered after the first picture.
   while (figure.renderer.isOpening) await new Promise(requestAnimationFrame);
   await figure.updateComplete;
   // After the removal of the focused placeholder, the focus is on the body unless the user has moved it.
   if (!figure.simulation || document.activeElement !== document.body) return;
-  const focusableElements = focusableIn(figure.renderRoot);
+  const focusableElements = focusableElementsIn(figure.renderRoot);
   // With Shift+Tab the focus comes from an element below the figure.
-  const comesFromBelow = origin instanceof Node && figure.compareDocumentPosition(origin) & Node.DOCUMENT_POSITION_FOLLOWING;
+  const comesFromBelow = previousFocus instanceof Node && figure.compareDocumentPosition(previousFocus) & Node.DOCUMENT_POSITION_FOLLOWING;
   focusableElements.at(comesFromBelow ? -1 : 0)?.focus();
 }
 
-const CHANGING_TEXTS = ':is(p, dl, li, .result):not(.result > *, .slider *, details *, .about, .on-paper)';
+const CHANGING_TEXT_SELECTOR = ':is(p, dl, li, .result):not(.result > *, .slider *, details *, .about, .on-paper)';
 
 /**
  * Minimum heights of the texts above the controls, so that a control stays in its place while the user drags it. A text keeps its largest
@@ -147,7 +147,7 @@ export class TextHeights extends FigureController {
   #language = '';
 
   hostUpdated() {
-    for (const textElement of this.host.renderRoot.querySelectorAll<HTMLElement>(CHANGING_TEXTS)) {
+    for (const textElement of this.host.renderRoot.querySelectorAll<HTMLElement>(CHANGING_TEXT_SELECTOR)) {
       if (!this.#textElements.has(textElement)) this.#sizeObserver.observe(textElement);
       this.#textElements.add(textElement);
     }

@@ -31,7 +31,7 @@ const wordsByLanguage: Map<string, { words: Messages, language: string }> = new 
 sharedCatalogues.changes.addEventListener('change', () => wordsByLanguage.clear());
 
 /** Adds English words of the elements, which define the keys of all catalogues. A later call may fill a group that was empty at first. */
-export function addEnglish(messages: { [key: string]: Message }) {
+export function addEnglishMessages(messages: { [key: string]: Message }) {
   sharedCatalogues.english = mergeMessages(sharedCatalogues.english, messages);
   notifyListeners();
 }
@@ -50,8 +50,8 @@ export function setMessages(lang: string, messages: object) {
   const { english, catalogues } = sharedCatalogues;
   if (!isLanguageTag(lang)) throw new RangeError(`messages: lang is ${JSON.stringify(lang)}; allowed is a BCP 47 tag, as "de" or "pt-BR".`);
   checkMessages(english, messages, lang);
-  const key = lang.toLowerCase();
-  catalogues[key] = mergeMessages(catalogues[key] ?? {}, messages);
+  const catalogueKey = lang.toLowerCase();
+  catalogues[catalogueKey] = mergeMessages(catalogues[catalogueKey] ?? {}, messages);
   notifyListeners();
 }
 
@@ -108,11 +108,11 @@ function isLanguageTag(text: unknown) {
 
 /** Returns the nearest `lang` attribute of an element and its ancestors across shadow roots, in lower case, or an empty string. */
 function languageOf(element: Element): string {
-  for (let host = element as Element | undefined; host; ) {
-    const elementWithLang = host.closest('[lang]') as Element | null;
+  for (let currentElement = element as Element | undefined; currentElement; ) {
+    const elementWithLang = currentElement.closest('[lang]') as Element | null;
     if (elementWithLang) return elementWithLang.getAttribute('lang')?.toLowerCase() ?? '';
-    const rootNode = host.getRootNode();
-    host = rootNode instanceof ShadowRoot ? rootNode.host : undefined;
+    const rootNode = currentElement.getRootNode();
+    currentElement = rootNode instanceof ShadowRoot ? rootNode.host : undefined;
   }
   return '';
 }

@@ -23,8 +23,8 @@ const toPixel = ([x, y]: Point) => [START_PIXEL.x + PIXELS_PER_METRE * x, START_
 const pathDataOf = (points: Point[], closed: boolean = false) => (points.length ? `M${points.map(([x, y]) => `${x.toFixed(1)} ${y.toFixed(1)}`).join('L')}${closed ? 'Z' : ''}` : '');
 
 /** Returns points of the commanded arc, with an error of the turn rate in rad/s. */
-function commandedArc({ v, omega, dt }: { v: number, omega: number, dt: number }, rateError: number = 0) {
-  const turnRate = omega + rateError || 1e-9;
+function commandedArc({ v, omega, dt }: { v: number, omega: number, dt: number }, turnRateError: number = 0) {
+  const turnRate = omega + turnRateError || 1e-9;
   return Array.from({ length: 25 }, (_, i) => {
     const turnSoFar = (turnRate * dt * i) / 24;
     return [(v / turnRate) * Math.sin(turnSoFar), (v / turnRate) * (1 - Math.cos(turnSoFar))] as Point;
@@ -33,15 +33,15 @@ function commandedArc({ v, omega, dt }: { v: number, omega: number, dt: number }
 
 /** Outlines that can be chosen instead of drawn, by name. */
 const SHAPE_OUTLINES: Record<string, (command: { v: number, omega: number, dt: number }) => Point[]> = {
-  point: (command) => ringAround(toPixel(commandedArc(command)[24]), 7, 7),
+  point: (command) => ellipseAround(toPixel(commandedArc(command)[24]), 7, 7),
   band: (command) => {
-    const bandEdge = (factor: number) => Array.from({ length: 13 }, (_, i) => toPixel(commandedArc({ ...command, v: command.v * factor }, (i - 6) / 18)[24]));
+    const bandEdge = (speedFactor: number) => Array.from({ length: 13 }, (_, i) => toPixel(commandedArc({ ...command, v: command.v * speedFactor }, (i - 6) / 18)[24]));
     return [...bandEdge(1.04), ...bandEdge(0.96).reverse()];
   },
-  ellipse: (command) => ringAround(toPixel(commandedArc(command)[24]), 42, 26),
+  ellipse: (command) => ellipseAround(toPixel(commandedArc(command)[24]), 42, 26),
 };
 
-const ringAround = ([x, y]: Point, radiusX: number, radiusY: number) =>
+const ellipseAround = ([x, y]: Point, radiusX: number, radiusY: number) =>
   Array.from({ length: 37 }, (_, i) => [x + radiusX * Math.cos((i * Math.PI) / 18), y + radiusY * Math.sin((i * Math.PI) / 18)] as Point);
 
 /** Maximum size in pixels of a drawing that stands for a point. */
@@ -72,7 +72,7 @@ function outcomeText(poses: Float64Array, expectedShape: string, insideFraction:
 
 /** Prepares a form with a pad to draw on. `enterState` puts the figure into the state of the chosen radio button `case`. */
 export function prepareSketch(form: HTMLFormElement, enterState: (values: Record<string, unknown>) => Promise<void>, figure: Figure) {
-  const svgElement = (name: string) => form.querySelector(`svg .${name}`) as SVGElement;
+  const svgChild = (name: string) => form.querySelector(`svg .${name}`) as SVGElement;
   const drawingPad = form.querySelector('svg') as SVGSVGElement;
   const statusOutput = form.querySelector('[role=status]') as HTMLElement;
   const button = form.querySelector('button') as HTMLButtonElement;
@@ -83,14 +83,14 @@ export function prepareSketch(form: HTMLFormElement, enterState: (values: Record
   const currentCommand = () => ({ v: 1, omega: chosenCase().omega ?? 0, dt: 2 });
   const showDrawing = (points: Point[]) => {
     drawnPoints = points;
-    svgElement('drawn').setAttribute('d', pathDataOf(points, true));
+    svgChild('drawn').setAttribute('d', pathDataOf(points, true));
     button.disabled = points.length < 2;
   };
   const resetDrawing = () => {
     const arcPixels = commandedArc(currentCommand()).map(toPixel);
-    svgElement('command').setAttribute('d', pathDataOf(arcPixels));
-    for (const [name, coordinateIndex] of [['cx', 0], ['cy', 1]]) svgElement('end').setAttribute(String(name), String(arcPixels[24][Number(coordinateIndex)]));
-    for (const name of ['robots', 'headings']) svgElement(name).setAttribute('d', '');
+    svgChild('command').setAttribute('d', pathDataOf(arcPixels));
+    for (const [name, coordinateIndex] of [['cx', 0], ['cy', 1]]) svgChild('end').setAttribute(String(name), String(arcPixels[24][Number(coordinateIndex)]));
+    for (const name of ['robots', 'headings']) svgChild(name).setAttribute('d', '');
     statusOutput.textContent = '';
     const shapeInput = checkedInput('shape');
     if (shapeInput) shapeInput.checked = false;
@@ -124,9 +124,9 @@ export function prepareSketch(form: HTMLFormElement, enterState: (values: Record
       const [px, py] = toPixel([x, y]);
       return { dot: `M${px} ${py}h0`, tick: `M${px} ${py}l${TICK_LENGTH * Math.cos(theta)} ${-TICK_LENGTH * Math.sin(theta)}` };
     });
-    svgElement('robots').setAttribute('d', robotDots.map(({ dot }) => dot).join(''));
-    svgElement('headings').setAttribute('d', robotDots.map(({ tick }) => tick).join(''));
-    const drawnOutline = svgElement('drawn') as SVGPathElement;
+    svgChild('robots').setAttribute('d', robotDots.map(({ dot }) => dot).join(''));
+    svgChild('headings').setAttribute('d', robotDots.map(({ tick }) => tick).join(''));
+    const drawnOutline = svgChild('drawn') as SVGPathElement;
     const insideCount = robotPoses.filter(([x, y]) => drawnOutline.isPointInFill(new DOMPoint(...toPixel([x, y])))).length;
     form.classList.add('revealed');
     statusOutput.textContent = outcomeText(poses, checkedInput('shape')?.value ?? shapeOf(drawnPoints), insideCount / robotPoses.length);

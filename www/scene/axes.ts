@@ -1,8 +1,8 @@
 /** Axes of a picture with ticks, names and a legend, and clipping to the plot area. */
 
 import { ticks } from 'd3-array';
-import { formatPowerOfTen, tick } from '../ui/format.ts';
-import { paintWithOpacity, strokeLine, type Brush, type LineStroke } from './canvas.ts';
+import { formatPowerOfTen, formatTick } from '../ui/format.ts';
+import { paintWithOpacity, strokeLine, type DrawContext, type LineStroke } from './canvas.ts';
 
 /** Tick step below which the axis has a power of ten before its unit. Labels with more zeros would not fit next to the axis. */
 const MIN_PLAIN_STEP = 9e-4;
@@ -17,57 +17,57 @@ const LEGEND_LENGTHS_EM = { gap: 0.8, sample: 1.5, space: 0.35, line: 1.4 };
  * Draws axes with ticks at the left and the bottom, and a faint grid. Above are the name of the vertical axis and a legend. Names have units in
  * brackets. Entries of the legend are in the order of their importance: the last ones are omitted if there is no space.
  */
-export function drawAxes(brush: Brush, names: { x: string, y: string }, legendEntries: LegendEntry[] = [], gridOpacity: number = 0.5) {
-  const { context, view, palette, font } = brush;
-  const { left, right, top, bottom } = view.frame;
+export function drawAxes(drawContext: DrawContext, axisNames: { x: string, y: string }, legendEntries: LegendEntry[] = [], gridOpacity: number = 0.5) {
+  const { context, view, palette, font } = drawContext;
+  const { left, right, top, bottom } = view.plotArea;
   const { xMin, xMax, yMin, yMax } = view.extent;
-  const drawRule = (opacity: number, ...points: number[][]) => paintWithOpacity(context, opacity, () => strokeLine(context, points, { colour: palette.rule, width: 1 }));
+  const drawHairline = (opacity: number, ...points: number[][]) => paintWithOpacity(context, opacity, () => strokeLine(context, points, { colour: palette.rule, width: 1 }));
 
   const xTicks = ticksOfAxis(xMin, xMax, (right - left) / TICK_SPACING.x);
   Object.assign(context, { font, fillStyle: palette.muted, textAlign: 'center', textBaseline: 'top' });
   // The name of the axis takes the place of the last tick label.
-  const xAxisName = names.x.replace('(', `(${xTicks.unit}`);
+  const xAxisName = axisNames.x.replace('(', `(${xTicks.unitFactor}`);
   const maxLabelX = right - context.measureText(xAxisName).width - 10;
   for (const value of xTicks.values) {
     const x = Math.round(view.toPixelX(value)) + 0.5;
-    drawRule(gridOpacity, [x, top], [x, bottom]);
-    const tickLabel = xTicks.text(value);
+    drawHairline(gridOpacity, [x, top], [x, bottom]);
+    const tickLabel = xTicks.formatLabel(value);
     if (x + context.measureText(tickLabel).width / 2 < maxLabelX) context.fillText(tickLabel, x, bottom + 6);
   }
   const yTicks = ticksOfAxis(yMin, yMax, (bottom - top) / TICK_SPACING.y);
   Object.assign(context, { textAlign: 'right', textBaseline: 'middle' });
   for (const value of yTicks.values) {
     const y = Math.round(view.toPixelY(value)) + 0.5;
-    drawRule(gridOpacity, [left, y], [right, y]);
-    context.fillText(yTicks.text(value), left - 6, y);
+    drawHairline(gridOpacity, [left, y], [right, y]);
+    context.fillText(yTicks.formatLabel(value), left - 6, y);
   }
 
-  drawRule(1, [left, bottom + 0.5], [right, bottom + 0.5]);
-  drawRule(1, [left - 0.5, top], [left - 0.5, bottom]);
+  drawHairline(1, [left, bottom + 0.5], [right, bottom + 0.5]);
+  drawHairline(1, [left - 0.5, top], [left - 0.5, bottom]);
   Object.assign(context, { font: `italic ${font}`, textBaseline: 'top' });
   context.fillText(xAxisName, right, bottom + 6);
   context.textAlign = 'left';
-  drawLegend(brush, names.y.replace('(', `(${yTicks.unit}`), legendEntries);
+  drawLegend(drawContext, axisNames.y.replace('(', `(${yTicks.unitFactor}`), legendEntries);
 }
 
 export interface LegendEntry {
   name: string;
   /** Draws a line sample, from left to right in the middle of the text line; CSS pixels. */
-  draw: (x: number, y: number, width: number) => void;
+  drawSample: (x: number, y: number, width: number) => void;
 }
 
-export const lineLegendEntry = ({ context }: Brush, name: string, style: LineStroke): LegendEntry => ({ name, draw: (x, y, width) => strokeLine(context, [[x, y], [x + width, y]], style) });
+export const lineLegendEntry = ({ context }: DrawContext, name: string, style: LineStroke): LegendEntry => ({ name, drawSample: (x, y, width) => strokeLine(context, [[x, y], [x + width, y]], style) });
 
-function drawLegend({ context, view, palette, font }: Brush, axisName: string, entries: LegendEntry[]) {
+function drawLegend({ context, view, palette, font }: DrawContext, axisName: string, entries: LegendEntry[]) {
   const fontSize = parseFloat(font);
-  const [width, lineHeight] = [LEGEND_LENGTHS_EM.sample * fontSize, LEGEND_LENGTHS_EM.line * fontSize];
-  let y = view.frame.top - 22;
+  const [sampleWidth, lineHeight] = [LEGEND_LENGTHS_EM.sample * fontSize, LEGEND_LENGTHS_EM.line * fontSize];
+  let y = view.plotArea.top - 22;
   const [nameEndX, lastRow] = [2 + context.measureText(axisName).width, Math.floor(y / lineHeight)];
   context.font = font;
   let [x, row] = [nameEndX, 0];
   const placedEntries = [];
   for (const entry of entries) {
-    const entryWidth = (LEGEND_LENGTHS_EM.gap + LEGEND_LENGTHS_EM.space) * fontSize + width + context.measureText(entry.name).width;
+    const entryWidth = (LEGEND_LENGTHS_EM.gap + LEGEND_LENGTHS_EM.space) * fontSize + sampleWidth + context.measureText(entry.name).width;
     // The first entry of a line has no gap before it.
     if (x + entryWidth > view.width && row < lastRow) [x, row] = [2 - LEGEND_LENGTHS_EM.gap * fontSize, row + 1];
     if (x + entryWidth > view.width) break;
@@ -79,16 +79,16 @@ function drawLegend({ context, view, palette, font }: Brush, axisName: string, e
   context.font = `italic ${font}`;
   context.fillText(axisName, 2, y);
   context.font = font;
-  for (const { name, draw, sampleX, row } of placedEntries) {
+  for (const { name, drawSample, sampleX, row } of placedEntries) {
     context.fillStyle = palette.ink;
-    context.fillText(name, sampleX + width + LEGEND_LENGTHS_EM.space * fontSize, y + row * lineHeight);
-    draw(sampleX, y + row * lineHeight + fontSize / 2, width);
+    context.fillText(name, sampleX + sampleWidth + LEGEND_LENGTHS_EM.space * fontSize, y + row * lineHeight);
+    drawSample(sampleX, y + row * lineHeight + fontSize / 2, sampleWidth);
   }
 }
 
 /** Returns about `count` ticks, at least two if possible, with the power of ten for the unit, and a function for the labels. */
-function ticksOfAxis(min: number, max: number, count: number) {
-  const tickCount = Math.max(2, Math.floor(count));
+function ticksOfAxis(min: number, max: number, wantedCount: number) {
+  const tickCount = Math.max(2, Math.floor(wantedCount));
   const firstTicks = ticks(min, max, tickCount);
   const tickValues = firstTicks.length > 1 ? firstTicks : ticks(min, max, 2 * tickCount);
   const tickStep = tickValues.length > 1 ? tickValues[1] - tickValues[0] : 1;
@@ -96,14 +96,14 @@ function ticksOfAxis(min: number, max: number, count: number) {
   return {
     values: tickValues,
     /** Factor before the unit of the axis. */
-    unit: exponent < 0 ? `${formatPowerOfTen(exponent)} ` : '',
-    text: (value: number) => tick(value / 10 ** exponent, tickStep / 10 ** exponent),
+    unitFactor: exponent < 0 ? `${formatPowerOfTen(exponent)} ` : '',
+    formatLabel: (value: number) => formatTick(value / 10 ** exponent, tickStep / 10 ** exponent),
   };
 }
 
 /** Clips what `paint` draws to the plot area. */
-export function clipToPlot({ context, view }: Brush, paint: () => void) {
-  const { left, right, top, bottom } = view.frame;
+export function clipToPlot({ context, view }: DrawContext, paint: () => void) {
+  const { left, right, top, bottom } = view.plotArea;
   context.save();
   context.beginPath();
   context.rect(left, top, right - left, bottom - top);

@@ -1,26 +1,26 @@
 /** Caches: of one result, and of drawings on hidden canvases, which are thousands of lines or images that cover the plot area. */
 
-import { addLine, hiddenContext, strokePath, type Brush, type LineStroke } from './canvas.ts';
+import { addLine, hiddenContext, strokePath, type DrawContext, type LineStroke } from './canvas.ts';
 
 /** Cache of one result, valid while its dependencies are the same. */
 export class Memo<Result> {
   #lastKey: unknown[] = [];
   #lastResult: Result | undefined;
 
-  /** Returns the cached result, or computes it again. @param key values on which the result depends, compared by identity */
-  get(key: unknown[], compute: () => Result): Result {
-    if (key.length !== this.#lastKey.length || key.some((part, i) => part !== this.#lastKey[i])) {
+  /** Returns the cached result, or computes it again. @param dependencies values on which the result depends, compared by identity */
+  get(dependencies: unknown[], compute: () => Result): Result {
+    if (dependencies.length !== this.#lastKey.length || dependencies.some((dependency, i) => dependency !== this.#lastKey[i])) {
       this.#lastResult = compute();
-      this.#lastKey = key;
+      this.#lastKey = dependencies;
     }
     return this.#lastResult as Result;
   }
 }
 
-export type Painter = Pick<Brush, 'view' | 'palette' | 'ratio' | 'highlight'> & { context: CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D };
+export type LayerDrawContext = Pick<DrawContext, 'view' | 'palette' | 'pixelRatio' | 'highlight'> & { context: CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D };
 
 /** Drawing of thousands of lines that change only with the view, the colours, or the data. */
-export class Layer {
+export class CachedLayer {
   #canvas = new OffscreenCanvas(1, 1);
   #drawingMemo: Memo<void> = new Memo();
 
@@ -29,15 +29,15 @@ export class Layer {
    *
    * @param cacheKey values, besides the view and the colours, on which the drawing depends. When one changes, `paint` is called again
    */
-  draw({ context, view, palette, ratio, highlight }: Brush, cacheKey: unknown[], paint: (painter: Painter) => void) {
-    const { extent, frame, width, height } = view;
-    this.#drawingMemo.get([...cacheKey, JSON.stringify([extent, frame, width, height, palette, ratio])], () => {
+  draw({ context, view, palette, pixelRatio, highlight }: DrawContext, cacheKey: unknown[], paint: (drawContext: LayerDrawContext) => void) {
+    const { extent, plotArea, width, height } = view;
+    this.#drawingMemo.get([...cacheKey, JSON.stringify([extent, plotArea, width, height, palette, pixelRatio])], () => {
       // Setting the size clears the canvas.
-      this.#canvas.width = Math.round(width * ratio);
-      this.#canvas.height = Math.round(height * ratio);
+      this.#canvas.width = Math.round(width * pixelRatio);
+      this.#canvas.height = Math.round(height * pixelRatio);
       const layerContext = hiddenContext(this.#canvas);
-      layerContext.scale(ratio, ratio);
-      paint({ context: layerContext, view, palette, ratio, highlight });
+      layerContext.scale(pixelRatio, pixelRatio);
+      paint({ context: layerContext, view, palette, pixelRatio, highlight });
     });
     context.drawImage(this.#canvas, 0, 0, width, height);
   }
@@ -47,14 +47,14 @@ export class Layer {
 export const LINES_PER_STROKE = 500;
 
 /** Strokes lines through points in pixels, `linesPerStroke` at a time. */
-export function strokeInBatches(context: Painter['context'], lines: number[][][], style: LineStroke, linesPerStroke = LINES_PER_STROKE) {
+export function strokeInBatches(context: LayerDrawContext['context'], lines: number[][][], style: LineStroke, linesPerStroke = LINES_PER_STROKE) {
   for (let i = 0; i < lines.length; i += linesPerStroke) {
     strokePath(context, style, () => lines.slice(i, i + linesPerStroke).forEach((points) => addLine(context, points)));
   }
 }
 
 /** Image of pixels that covers the plot area. */
-export class Pixels {
+export class CachedImage {
   #canvas = new OffscreenCanvas(1, 1);
   #pixelsMemo: Memo<void> = new Memo();
 
@@ -62,16 +62,16 @@ export class Pixels {
    * Draws the image.
    *
    * @param cacheKey values on which the pixels depend; they are cached until one changes
-   * @param pixelsOf returns the pixels, whose first row is at the top
+   * @param computePixels returns the pixels, whose first row is at the top
    */
-  draw({ context, view }: Brush, cacheKey: unknown[], pixelsOf: () => { pixels: Uint8ClampedArray<ArrayBuffer>, columns: number }) {
+  draw({ context, view }: DrawContext, cacheKey: unknown[], computePixels: () => { pixels: Uint8ClampedArray<ArrayBuffer>, columns: number }) {
     this.#pixelsMemo.get(cacheKey, () => {
-      const { pixels, columns } = pixelsOf();
+      const { pixels, columns } = computePixels();
       const rows = pixels.length / (4 * columns);
       Object.assign(this.#canvas, { width: columns, height: rows });
       hiddenContext(this.#canvas).putImageData(new ImageData(pixels, columns, rows), 0, 0);
     });
-    const { left, right, top, bottom } = view.frame;
+    const { left, right, top, bottom } = view.plotArea;
     context.drawImage(this.#canvas, left, top, right - left, bottom - top);
   }
 
@@ -80,12 +80,12 @@ export class Pixels {
    *
    * @param cellSide side in CSS pixels
    * @param cacheKey values, besides the view, on which the pixels depend
-   * @param pixelsOf returns the simulation's picture of a part of the plane
+   * @param computePixels returns the simulation's picture of a part of the plane
    */
-  drawDensity(brush: Brush, cellSide: number, cacheKey: unknown[], pixelsOf: (...view: [xMin: number, yMin: number, xMax: number, yMax: number, columns: number, rows: number]) => Uint8ClampedArray<ArrayBuffer>) {
-    const { left, right, top, bottom } = brush.view.frame;
-    const { xMin, yMin, xMax, yMax } = brush.view.extent;
+  drawDensity(drawContext: DrawContext, cellSide: number, cacheKey: unknown[], computePixels: (...view: [xMin: number, yMin: number, xMax: number, yMax: number, columns: number, rows: number]) => Uint8ClampedArray<ArrayBuffer>) {
+    const { left, right, top, bottom } = drawContext.view.plotArea;
+    const { xMin, yMin, xMax, yMax } = drawContext.view.extent;
     const [columns, rows] = [right - left, bottom - top].map((length) => Math.max(1, Math.round(length / cellSide)));
-    this.draw(brush, [...cacheKey, xMin, yMin, xMax, yMax, columns, rows], () => ({ pixels: pixelsOf(xMin, yMin, xMax, yMax, columns, rows), columns }));
+    this.draw(drawContext, [...cacheKey, xMin, yMin, xMax, yMax, columns, rows], () => ({ pixels: computePixels(xMin, yMin, xMax, yMax, columns, rows), columns }));
   }
 }

@@ -10,26 +10,26 @@ export interface Surface {
 }
 
 /** Box of a text in a picture: its middle, and half of its sides, pixels. */
-export type Box = { x: number, y: number, halfWidth: number, halfHeight: number };
+export type TextBox = { x: number, y: number, halfWidth: number, halfHeight: number };
 
 /**
  * Context, view and colours that a picture is drawn with. A pixel of the view is a CSS pixel if the font size is 13 px, and scales with the
  * font size.
  */
-export interface Brush {
+export interface DrawContext {
   context: CanvasRenderingContext2D;
   view: import('./view.ts').View;
   palette: import('../ui/theme.ts').Palette;
   /** Device pixels per pixel of the view. */
-  ratio: number;
+  pixelRatio: number;
   /** Font of the canvas's style. */
   font: string;
   /** Boxes of the texts drawn so far. Further texts avoid them. */
-  placedBoxes: Box[];
+  placedBoxes: TextBox[];
   /** True if the picture is drawn for a file. Such a picture contains its own legend. */
-  exported?: boolean;
+  isExported?: boolean;
   /** True if handles are drawn: on the screen they are elements over the picture. */
-  handles?: boolean;
+  drawsHandles?: boolean;
   /** Name of the highlighted line. It is drawn thicker, and all others faint. */
   highlight?: string | null;
   /** View model of the simulation before the current gesture. Its outlines stay visible for comparison if the gesture zooms the view out. */
@@ -37,13 +37,13 @@ export interface Brush {
 }
 
 /** Font size of a picture in pixels of its view. The text of the figure has 16, as in the style of canvases in ui/layout.ts. */
-const FONT_SIZE = 13;
+const FONT_SIZE_PX = 13;
 
 /** Returns a length in pixels of a view as CSS em of the figure. */
-export const emText = (pixels: number) => `${pixels / 16}em`;
+export const formatEm = (pixels: number) => `${pixels / 16}em`;
 
 /** Converts a point of the window to pixels of the view that an element shows. The page may have scaled the element. */
-export function pointInView(element: Element, view: import('./view.ts').View, { clientX, clientY }: { clientX: number, clientY: number }): [x: number, y: number] {
+export function toViewPixels(element: Element, view: import('./view.ts').View, { clientX, clientY }: { clientX: number, clientY: number }): [x: number, y: number] {
   const { left, top, width } = element.getBoundingClientRect();
   const elementScale = width / view.width;
   return [(clientX - left) / elementScale, (clientY - top) / elementScale];
@@ -55,20 +55,20 @@ export function hiddenContext(canvas: OffscreenCanvas) {
 }
 
 /** Clears a canvas, sets the view to its size, and returns the context with which a picture is drawn. */
-export function brushOn({ width, height, clientWidth, fontStyle: { fontFamily, fontSize }, context }: Surface, view: import('./view.ts').View, palette: import('../ui/theme.ts').Palette) {
-  const ratio = ((width / Math.max(1, clientWidth)) * parseFloat(fontSize)) / FONT_SIZE;
-  view.resize(width / ratio, height / ratio);
-  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+export function createDrawContext({ width, height, clientWidth, fontStyle: { fontFamily, fontSize }, context }: Surface, view: import('./view.ts').View, palette: import('../ui/theme.ts').Palette) {
+  const pixelRatio = ((width / Math.max(1, clientWidth)) * parseFloat(fontSize)) / FONT_SIZE_PX;
+  view.resize(width / pixelRatio, height / pixelRatio);
+  context.setTransform(pixelRatio, 0, 0, pixelRatio, 0, 0);
   context.clearRect(0, 0, view.width, view.height);
   // In right-to-left languages numbers and units stay in the order of the text.
   context.direction = 'ltr';
-  return { context, view, palette, ratio, font: `${FONT_SIZE}px ${fontFamily}`, placedBoxes: [] as Box[] };
+  return { context, view, palette, pixelRatio, font: `${FONT_SIZE_PX}px ${fontFamily}`, placedBoxes: [] as TextBox[] };
 }
 
-type Context = CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D;
+type AnyContext2D = CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D;
 
 /** Calls `paint` with an opacity for what it draws. */
-export function paintWithOpacity(context: Context, opacity: number, paint: () => void) {
+export function paintWithOpacity(context: AnyContext2D, opacity: number, paint: () => void) {
   const { globalAlpha } = context;
   context.globalAlpha = opacity * globalAlpha;
   paint();
@@ -78,30 +78,30 @@ export function paintWithOpacity(context: Context, opacity: number, paint: () =>
 /** Style of a line; dashes in pixels. */
 export interface LineStroke { colour: string, width: number, dash?: number[], cap?: CanvasLineCap }
 
-export function strokePath(context: Context, { colour, width, dash = [], cap = 'butt' }: LineStroke, path: () => void) {
+export function strokePath(context: AnyContext2D, { colour, width, dash = [], cap = 'butt' }: LineStroke, addPath: () => void) {
   context.strokeStyle = colour;
   context.lineWidth = width;
   context.lineCap = cap;
   context.setLineDash(dash);
   context.beginPath();
-  path();
+  addPath();
   context.stroke();
   context.setLineDash([]);
 }
 
-export function fillPath(context: Context, colour: string, path: () => void) {
+export function fillPath(context: AnyContext2D, colour: string, addPath: () => void) {
   context.fillStyle = colour;
   context.beginPath();
-  path();
+  addPath();
   context.fill();
 }
 
-export const addLine = (context: Context, points: number[][]) => points.forEach(([x, y], i) => (i ? context.lineTo(x, y) : context.moveTo(x, y)));
+export const addLine = (context: AnyContext2D, points: number[][]) => points.forEach(([x, y], i) => (i ? context.lineTo(x, y) : context.moveTo(x, y)));
 
-export const strokeLine = (context: Context, points: number[][], style: LineStroke) => strokePath(context, style, () => addLine(context, points));
+export const strokeLine = (context: AnyContext2D, points: number[][], style: LineStroke) => strokePath(context, style, () => addLine(context, points));
 
-export function drawDisc(context: Context, [x, y]: number[], radius: number, fill?: string, edge?: LineStroke) {
+export function drawDisc(context: AnyContext2D, [x, y]: number[], radius: number, fillColour?: string, edgeStroke?: LineStroke) {
   const addCircle = () => context.arc(x, y, radius, 0, 2 * Math.PI);
-  if (fill) fillPath(context, fill, addCircle);
-  if (edge) strokePath(context, edge, addCircle);
+  if (fillColour) fillPath(context, fillColour, addCircle);
+  if (edgeStroke) strokePath(context, edgeStroke, addCircle);
 }

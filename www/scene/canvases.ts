@@ -13,7 +13,7 @@ export class Canvases {
   /** Canvases that are observed; undefined until they are rendered. */
   elements: HTMLCanvasElement[] | undefined;
   /** Cached widths in CSS pixels. Reading them in a frame would cause a reflow. */
-  #widths: WeakMap<HTMLCanvasElement, number> = new WeakMap();
+  #cssWidths: WeakMap<HTMLCanvasElement, number> = new WeakMap();
   #observer = new ResizeObserver((entries) => this.#resize(entries));
 
   /** Creates the canvases of a figure. `drawResized` draws them again after a change of their size, which clears them. */
@@ -21,13 +21,13 @@ export class Canvases {
     this.#drawResized = drawResized;
   }
 
-  find(root: ParentNode) {
+  findAndObserve(root: ParentNode) {
     this.elements = [...root.querySelectorAll('canvas')];
-    this.measure();
+    this.observeSizes();
   }
 
   /** Stops observing the canvases, which are no longer rendered. */
-  release() {
+  stopObserving() {
     this.#observer.disconnect();
     this.elements = undefined;
   }
@@ -35,14 +35,14 @@ export class Canvases {
   /** Measures the canvases again after a change of the pixel ratio. WebKit's observer does not report device pixels. */
   followPixelRatio(signal: AbortSignal) {
     const onRatioChange = () => {
-      this.measure();
+      this.observeSizes();
       this.followPixelRatio(signal);
     };
     matchMedia(`(resolution:${devicePixelRatio}dppx)`).addEventListener('change', onRatioChange, { once: true, signal });
   }
 
   /** Observes the sizes of the canvases. The observer also reports the present sizes. */
-  measure() {
+  observeSizes() {
     this.#observer.disconnect();
     for (const canvas of this.elements ?? []) {
       try {
@@ -58,20 +58,20 @@ export class Canvases {
     for (const { target, contentRect, devicePixelContentBoxSize } of entries) {
       const canvas = target as HTMLCanvasElement;
       const { inlineSize: width, blockSize: height } = devicePixelContentBoxSize?.[0] ?? { inlineSize: 0, blockSize: 0 };
-      const [nearWidth, nearHeight] = [devicePixelRatio * contentRect.width, devicePixelRatio * contentRect.height];
+      const [estimatedWidth, estimatedHeight] = [devicePixelRatio * contentRect.width, devicePixelRatio * contentRect.height];
       // Chromium gives CSS pixels for device pixels when developer tools imitate the screen of a phone.
-      const isExact = Math.max(Math.abs(width - nearWidth), Math.abs(height - nearHeight)) < 1;
-      [canvas.width, canvas.height] = (isExact ? [width, height] : [nearWidth, nearHeight]).map(Math.round);
+      const isExact = Math.max(Math.abs(width - estimatedWidth), Math.abs(height - estimatedHeight)) < 1;
+      [canvas.width, canvas.height] = (isExact ? [width, height] : [estimatedWidth, estimatedHeight]).map(Math.round);
     }
     this.#drawResized();
   }
 
   /** Caches the widths in the layout, and sets the sizes in pixels for print. They determine the layout then, and are not observed. */
-  update(isPrinting: boolean) {
+  updateWidths(isPrinting: boolean) {
     if (isPrinting) this.#observer.disconnect();
     for (const canvas of this.elements ?? []) {
       const { clientWidth, clientHeight } = canvas;
-      this.#widths.set(canvas, clientWidth);
+      this.#cssWidths.set(canvas, clientWidth);
       if (isPrinting) Object.assign(canvas, { width: PRINT_RATIO * clientWidth, height: PRINT_RATIO * clientHeight });
     }
   }
@@ -82,7 +82,7 @@ export class Canvases {
 
   surfaceOf(canvas: HTMLCanvasElement): Surface {
     const { width, height } = canvas;
-    const clientWidth = this.#widths.get(canvas) ?? canvas.clientWidth;
+    const clientWidth = this.#cssWidths.get(canvas) ?? canvas.clientWidth;
     return { width, height, clientWidth, fontStyle: getComputedStyle(canvas), context: canvas.getContext('2d') as CanvasRenderingContext2D };
   }
 }

@@ -5,7 +5,7 @@ import { html, nothing, svg } from 'lit';
 import { limits } from '../../build/settings.js';
 import { colourChannels } from '../ui/theme.ts';
 import { lineLegendEntry, type LegendEntry } from './axes.ts';
-import { addLine, drawDisc, paintWithOpacity, strokeLine, strokePath, type Brush, type LineStroke } from './canvas.ts';
+import { addLine, drawDisc, paintWithOpacity, strokeLine, strokePath, type DrawContext, type LineStroke } from './canvas.ts';
 import { strokeInBatches } from './cache.ts';
 import type { Callout } from './labels.ts';
 import type { Palette } from '../ui/theme.ts';
@@ -20,24 +20,24 @@ const TICKS_PER_STROKE = 25;
  * Draws samples (triples of x, y and heading) as translucent dots, so that dense regions are darker. `tickScale` is the relative length of the
  * heading ticks.
  */
-export function drawDots(brush: Brush, triples: Float64Array, tickScale: number = 0) {
-  const { context, view, palette } = brush;
-  const dots = Array.from({ length: triples.length / 3 }, (_, i) => view.toPixel(triples[3 * i], triples[3 * i + 1]));
-  const isSparse = dots.length < 400;
+export function drawDots(drawContext: DrawContext, poses: Float64Array, tickScale: number = 0) {
+  const { context, view, palette } = drawContext;
+  const dotPixels = Array.from({ length: poses.length / 3 }, (_, i) => view.toPixel(poses[3 * i], poses[3 * i + 1]));
+  const isSparse = dotPixels.length < 400;
   // Dots are smaller in a small picture, where the robots have less space.
   const dotScale = Math.min(1, Math.max(0.7, view.width / 720));
   const radius = dotScale * (isSparse ? 2.4 : 1.8);
   if (tickScale > 0) {
     const tickLength = tickScale * dotScale * (isSparse ? 13 : 9);
-    const ticks = dots.map((_, i) => view.ray({ x: triples[3 * i], y: triples[3 * i + 1], theta: triples[3 * i + 2] }, tickLength));
-    paintWithOpacity(context, isSparse ? 0.6 : 0.32, () => strokeInBatches(context, ticks, { colour: palette.cloud, width: 1 }, TICKS_PER_STROKE));
+    const headingTicks = dotPixels.map((_, i) => view.headingLine({ x: poses[3 * i], y: poses[3 * i + 1], theta: poses[3 * i + 2] }, tickLength));
+    paintWithOpacity(context, isSparse ? 0.6 : 0.32, () => strokeInBatches(context, headingTicks, { colour: palette.cloud, width: 1 }, TICKS_PER_STROKE));
   }
   // Squares with the area of the discs are drawn six times as fast. If they are many and small, they look like discs.
   const sideLength = Math.sqrt(Math.PI) * radius;
   context.fillStyle = palette.cloud;
   paintWithOpacity(context, isSparse ? 0.9 : 0.5, () => {
-    for (const [x, y] of dots) {
-      if (isSparse || brush.exported) drawDisc(context, [x, y], radius, palette.cloud);
+    for (const [x, y] of dotPixels) {
+      if (isSparse || drawContext.isExported) drawDisc(context, [x, y], radius, palette.cloud);
       else context.fillRect(x - sideLength / 2, y - sideLength / 2, sideLength, sideLength);
     }
   });
@@ -72,7 +72,7 @@ export interface LineStyle {
   /** CSS pixels. */
   width?: number;
   /** Default: line. */
-  mark?: 'line' | 'dot' | 'ring' | 'area' | 'cross' | 'box';
+  shape?: 'line' | 'dot' | 'ring' | 'area' | 'cross' | 'box';
 }
 
 const HIGHLIGHT_WIDTH = 1.9;
@@ -80,7 +80,7 @@ const HIGHLIGHT_WIDTH = 1.9;
 const DIMMED_OPACITY = 0.3;
 
 /** Returns the line styles by name, in the colours of their roles. The highlighted line is thicker, and all others are faint. */
-export function lineStyles<Name extends string>({ palette, highlight }: Pick<Brush, 'palette' | 'highlight'>, lines: Record<Name, LineStyle>) {
+export function lineStyles<Name extends string>({ palette, highlight }: Pick<DrawContext, 'palette' | 'highlight'>, lines: Record<Name, LineStyle>) {
   const hasHighlight = Object.keys(lines).some((name) => name === highlight);
   const styleEntries = Object.entries(lines as Record<string, LineStyle>).map(([name, { role, width = 2.25, dash = [] }]) => {
     const colour = hasHighlight && name !== highlight ? `rgb(${colourChannels(palette[role]).join(' ')} / ${DIMMED_OPACITY})` : palette[role];
@@ -90,9 +90,9 @@ export function lineStyles<Name extends string>({ palette, highlight }: Pick<Bru
 }
 
 /** Returns the legend of an exported picture: the named lines with their words. On the page there is a legend beside the picture. */
-export function lineLegendEntries<Name extends string>(brush: Brush, lines: Record<Name, LineStyle>, names: Name[], labels: Record<Name, string>): LegendEntry[] {
-  const stylesByName = lineStyles(brush, lines);
-  return brush.exported ? names.map((name) => lineLegendEntry(brush, labels[name].replaceAll('*', ''), stylesByName[name])) : [];
+export function lineLegendEntries<Name extends string>(drawContext: DrawContext, lines: Record<Name, LineStyle>, names: Name[], labels: Record<Name, string>): LegendEntry[] {
+  const stylesByName = lineStyles(drawContext, lines);
+  return drawContext.isExported ? names.map((name) => lineLegendEntry(drawContext, labels[name].replaceAll('*', ''), stylesByName[name])) : [];
 }
 
 /** Returns true if an outline has a length. If all robots are at one point, its length is only rounding. */
@@ -102,42 +102,42 @@ export const hasLength = (points: Float64Array) => points.some((value, i) => Mat
  * Draws polylines with halos in the background colour, so that they are visible on top of the cloud. The last line is on top. All halos are
  * below all lines, so that two lines that nearly coincide are both visible.
  */
-export function drawOutlines(brush: Brush, outlines: Outline[]) {
-  const { context, palette } = brush;
+export function drawOutlines(drawContext: DrawContext, outlines: Outline[]) {
+  const { context, palette } = drawContext;
   const visibleOutlines = outlines.filter(({ points }) => hasLength(points));
   context.lineJoin = 'round';
-  paintWithOpacity(context, 0.7, () => strokeLines(brush, visibleOutlines.map(({ points, width }) => ({ points, colour: palette.paper, width: width + 2.5 }))));
-  strokeLines(brush, visibleOutlines);
+  paintWithOpacity(context, 0.7, () => strokeLines(drawContext, visibleOutlines.map(({ points, width }) => ({ points, colour: palette.paper, width: width + 2.5 }))));
+  strokeLines(drawContext, visibleOutlines);
 }
 
-export function strokeLines({ context, view }: Brush, lines: Outline[]) {
+export function strokeLines({ context, view }: DrawContext, lines: Outline[]) {
   for (const { points, ...style } of lines) strokeLine(context, view.toPixels(points), style);
 }
 
-const EARLIER_OPACITY = 0.35;
+const EARLIER_OUTLINE_OPACITY = 0.35;
 
 /**
  * Draws earlier outlines. Returns a callout that names them, or none if they are out of the view. It points to the visible point that is
  * furthest from the present outlines.
  */
-export function drawEarlierOutlines(brush: Brush, outlines: Outline[], currentPoints: ArrayLike<number>[], text: string): Callout[] {
-  const { context, view, palette } = brush;
+export function drawEarlierOutlines(drawContext: DrawContext, outlines: Outline[], currentPoints: ArrayLike<number>[], calloutText: string): Callout[] {
+  const { context, view, palette } = drawContext;
   const visibleOutlines = outlines.filter(({ points }) => hasLength(points));
-  paintWithOpacity(context, EARLIER_OPACITY, () => strokeLines(brush, visibleOutlines));
+  paintWithOpacity(context, EARLIER_OUTLINE_OPACITY, () => strokeLines(drawContext, visibleOutlines));
   const { xMin, xMax, yMin, yMax } = view.extent;
   const visiblePoints = visibleOutlines.flatMap(({ points }) => Array.from({ length: points.length / 2 }, (_, i): [number, number] => [points[2 * i], points[2 * i + 1]]))
     .filter(([x, y]) => x > xMin && x < xMax && y > yMin && y < yMax);
   const calloutPoint = greatest(visiblePoints, ([x, y]) => Math.min(...currentPoints.map((point) => Math.hypot(view.scaleX * (x - point[0]), view.scaleY * (y - point[1])))));
-  return calloutPoint ? [{ text, at: calloutPoint, colour: palette.muted }] : [];
+  return calloutPoint ? [{ text: calloutText, point: calloutPoint, colour: palette.muted }] : [];
 }
 
-export function drawOutline(brush: Brush, points: Float64Array, style: LineStroke) {
-  drawOutlines(brush, [{ points, ...style }]);
+export function drawOutline(drawContext: DrawContext, points: Float64Array, style: LineStroke) {
+  drawOutlines(drawContext, [{ points, ...style }]);
 }
 
 /** Returns the symbol of a legend item: a line, dot, ring or area in its style. */
-export function swatchHtml({ role, dash, width = 2.25, mark = 'line' }: LineStyle) {
-  const markShapes = {
+export function swatchHtml({ role, dash, width = 2.25, shape = 'line' }: LineStyle) {
+  const shapes = {
     line: svg`<line x1="1" x2="29" y1="6" y2="6" stroke-width=${width} stroke-dasharray=${dash?.join(' ') ?? nothing} />`,
     dot: svg`<circle fill="var(--role)" cx="15" cy="6" r="3" />`,
     ring: svg`<circle cx="15" cy="6" r="4" stroke-width=${width} />`,
@@ -145,34 +145,34 @@ export function swatchHtml({ role, dash, width = 2.25, mark = 'line' }: LineStyl
     box: svg`<rect x="9" y="2" width="12" height="8" rx="2" stroke-width=${width} />`,
     cross: svg`<path d="M11 2l8 8m0 -8l-8 8" stroke-width=${width} />`,
   };
-  return html`<svg class="swatch" viewBox="0 0 30 12" aria-hidden="true" data-role=${role}>${markShapes[mark]}</svg>`;
+  return html`<svg class="swatch" viewBox="0 0 30 12" aria-hidden="true" data-role=${role}>${shapes[shape]}</svg>`;
 }
 
 /** Draws a robot seen from above: a disc with a line to the front. */
-export function drawRobot(brush: Brush, { x, y, heading, colour }: { x: number, y: number, heading: number, colour: string }) {
-  const { context, view, palette } = brush;
+export function drawRobot(drawContext: DrawContext, { x, y, heading, colour }: { x: number, y: number, heading: number, colour: string }) {
+  const { context, view, palette } = drawContext;
   drawDisc(context, view.toPixel(x, y), 8, palette.paper, { colour, width: 2 });
-  strokeLine(context, view.ray({ x, y, theta: heading }, 14), { colour, width: 2 });
+  strokeLine(context, view.headingLine({ x, y, theta: heading }, 14), { colour, width: 2 });
 }
 
 /** Adds the arc of a turn (rad) from a heading, about a point and with a radius in pixels, to the path. On the screen y points down. */
-export const addTurn = (context: CanvasRenderingContext2D, [x, y]: number[], radius: number, heading: number, turn: number) =>
+export const addTurnArc = (context: CanvasRenderingContext2D, [x, y]: number[], radius: number, heading: number, turn: number) =>
   context.arc(x, y, radius, -heading, -heading - turn, turn > 0);
 
 /** Draws a handle in files and on paper, where it is no element. Lengths are in pixels. */
-export function drawHandle({ context, palette, handles }: Brush, { x, y, radius, colour }: { x: number, y: number, radius: number, colour: string }) {
-  if (handles) drawDisc(context, [x, y], radius, palette.paper, { colour, width: 3 });
+export function drawHandle({ context, palette, drawsHandles }: DrawContext, { x, y, radius, colour }: { x: number, y: number, radius: number, colour: string }) {
+  if (drawsHandles) drawDisc(context, [x, y], radius, palette.paper, { colour, width: 3 });
 }
 
 /** Draws a mark, a ring with cross hairs, by default in the colour of the selected sample. */
-export function drawMark(brush: Brush, { x, y, heading }: { x: number, y: number, heading: number | null }, colour: string = brush.palette.accent) {
-  const { context, view, palette } = brush;
+export function drawCrosshair(drawContext: DrawContext, { x, y, heading }: { x: number, y: number, heading: number | null }, colour: string = drawContext.palette.accent) {
+  const { context, view, palette } = drawContext;
   const [px, py] = view.toPixel(x, y);
   for (const style of [{ colour: palette.paper, width: 5 }, { colour, width: 2 }]) {
     strokePath(context, style, () => {
       context.arc(px, py, 7, 0, 2 * Math.PI);
       for (const [dx, dy] of [[1, 0], [0, 1], [-1, 0], [0, -1]]) addLine(context, [[px + 7 * dx, py + 7 * dy], [px + 12 * dx, py + 12 * dy]]);
-      if (heading !== null) addLine(context, view.ray({ x, y, theta: heading }, 24));
+      if (heading !== null) addLine(context, view.headingLine({ x, y, theta: heading }, 24));
     });
   }
 }

@@ -1,7 +1,7 @@
 /** Handle in a picture that the user drags with a pointer or moves with keys. */
 
 import { html, nothing } from 'lit';
-import { emText, pointInView } from './canvas.ts';
+import { formatEm, toViewPixels } from './canvas.ts';
 
 /** Callbacks of a handle; lengths in metres. */
 interface HandleCallbacks {
@@ -10,19 +10,19 @@ interface HandleCallbacks {
   graspedPointAt?: (pointer: number[]) => number[] | undefined;
   drag: (x: number, y: number) => void;
   /** Handles a key; returns true if it moved the target. */
-  key: (event: KeyboardEvent) => boolean;
+  handleKey: (event: KeyboardEvent) => boolean;
   commit: () => void;
 }
 
 interface HandleLabels {
   name: string;
-  keys: string;
+  keysHint: string;
   title: string;
-  range: number[];
-  now: number;
-  text: string;
+  valueRange: number[];
+  value: number;
+  valueText: string;
   /** Text on the limit that the handle has reached, if any. */
-  stop?: string | false;
+  limitText?: string | false;
   /** Hint for a user who has not used the handle yet, shown while the handle pulses once. */
   hint?: string | false;
 }
@@ -39,20 +39,20 @@ const KEY_STEPS: Record<string, [number, number]> = {
   End: [Infinity, 0],
 };
 
-const SHIFT_STEPS = 5;
+const SHIFT_STEP_FACTOR = 5;
 
 /** Returns the steps along x and y by which a key moves something; undefined for other keys and for key shortcuts of the browser. */
 export function stepsOfKey({ key, shiftKey, ctrlKey, metaKey, altKey }: KeyboardEvent): [number, number] | undefined {
   const steps = ctrlKey || metaKey || altKey ? undefined : KEY_STEPS[key];
   if (!steps || !shiftKey || !key.startsWith('Arrow')) return steps;
-  return [SHIFT_STEPS * steps[0], SHIFT_STEPS * steps[1]];
+  return [SHIFT_STEP_FACTOR * steps[0], SHIFT_STEP_FACTOR * steps[1]];
 }
 
 /** Steps of rotation by key, positive to the left. The first two are for keyboards on which brackets need a modifier. */
-const KEY_TURNS: Record<string, number> = { ',': 1, '.': -1, '[': 1, ']': -1 };
+const KEY_TURN_STEPS: Record<string, number> = { ',': 1, '.': -1, '[': 1, ']': -1 };
 
 /** Returns the steps by which a key turns something, positive to the left; undefined for other keys. */
-export const turnsOfKey = ({ key, metaKey }: KeyboardEvent): number | undefined => (metaKey ? undefined : KEY_TURNS[key]);
+export const turnStepsOfKey = ({ key, metaKey }: KeyboardEvent): number | undefined => (metaKey ? undefined : KEY_TURN_STEPS[key]);
 
 export class Handle {
   #classNames;
@@ -75,7 +75,7 @@ export class Handle {
     return this.#heldPointer?.element.hasPointerCapture(this.#heldPointer.id) ?? false;
   }
 
-  handleHtml({ name, keys, title, range, now, text, stop, hint }: HandleLabels) {
+  handleHtml({ name, keysHint, title, valueRange, value, valueText, limitText, hint }: HandleLabels) {
     // The text about the limit is on the side that faces the middle of the picture.
     const limitTextSide = 2 * this.#middlePixels[0] > this.#callbacks.view().width ? 'right' : '';
     return html`<div
@@ -83,18 +83,18 @@ export class Handle {
       role="slider"
       tabindex="0"
       aria-label=${name}
-      aria-description=${keys}
-      aria-valuemin=${range[0]}
-      aria-valuemax=${range[1]}
-      aria-valuenow=${now}
-      aria-valuetext=${stop ? `${text}. ${stop}` : text}
-      data-stop=${stop || nothing}
+      aria-description=${keysHint}
+      aria-valuemin=${valueRange[0]}
+      aria-valuemax=${valueRange[1]}
+      aria-valuenow=${value}
+      aria-valuetext=${limitText ? `${valueText}. ${limitText}` : valueText}
+      data-stop=${limitText || nothing}
       data-hint=${hint || nothing}
       title=${title}
-      @pointerdown=${this.#takePointer}
-      @pointermove=${this.#drag}
-      @pointerup=${this.#release}
-      @pointercancel=${this.#release}
+      @pointerdown=${this.#onPointerDown}
+      @pointermove=${this.#onPointerMove}
+      @pointerup=${this.#onPointerUp}
+      @pointercancel=${this.#onPointerUp}
       @keydown=${this.#onKey}
     ></div>`;
   }
@@ -104,39 +104,39 @@ export class Handle {
     const handle = root.querySelector(`.handle.${this.#classNames.replace(' ', '.')}`) as HTMLElement | null;
     if (!handle) return;
     this.#middlePixels = [x, y];
-    if (size !== undefined) handle.style.width = handle.style.height = emText(size);
-    handle.style.translate = `${emText(x)} ${emText(y)}`;
+    if (size !== undefined) handle.style.width = handle.style.height = formatEm(size);
+    handle.style.translate = `${formatEm(x)} ${formatEm(y)}`;
   }
 
   #pointerInWorld(event: PointerEvent) {
     const view = this.#callbacks.view();
-    return view.toWorld(...pointInView((event.currentTarget as Element).parentElement as Element, view, event));
+    return view.toWorld(...toViewPixels((event.currentTarget as Element).parentElement as Element, view, event));
   }
 
-  #takePointer = (event: PointerEvent) => {
+  #onPointerDown = (event: PointerEvent) => {
     if (event.button !== 0) return;
     const handle = event.currentTarget as Element;
     handle.setPointerCapture(event.pointerId);
     this.#heldPointer = { id: event.pointerId, element: handle };
-    const pointer = this.#pointerInWorld(event);
-    const graspedPoint = this.#callbacks.graspedPointAt?.(pointer) ?? this.#callbacks.view().toWorld(...this.#middlePixels);
-    this.#gripOffset = [graspedPoint[0] - pointer[0], graspedPoint[1] - pointer[1]];
+    const pointerInWorld = this.#pointerInWorld(event);
+    const graspedPoint = this.#callbacks.graspedPointAt?.(pointerInWorld) ?? this.#callbacks.view().toWorld(...this.#middlePixels);
+    this.#gripOffset = [graspedPoint[0] - pointerInWorld[0], graspedPoint[1] - pointerInWorld[1]];
   };
 
-  #drag = (event: PointerEvent) => {
+  #onPointerMove = (event: PointerEvent) => {
     if (!this.isHeld) return;
     const [x, y] = this.#pointerInWorld(event);
     this.#callbacks.drag(x + this.#gripOffset[0], y + this.#gripOffset[1]);
   };
 
-  #release = () => {
+  #onPointerUp = () => {
     if (!this.#heldPointer) return;
     this.#heldPointer = undefined;
     this.#callbacks.commit();
   };
 
   #onKey = (event: KeyboardEvent) => {
-    if (!this.#callbacks.key(event)) return;
+    if (!this.#callbacks.handleKey(event)) return;
     event.preventDefault();
     this.#callbacks.commit();
   };

@@ -2,14 +2,14 @@
 
 import { least, pairs } from 'd3-array';
 import { clamp } from '../ui/format.ts';
-import { drawDisc, paintWithOpacity, strokeLine, type Box, type Brush } from './canvas.ts';
+import { drawDisc, paintWithOpacity, strokeLine, type TextBox, type DrawContext } from './canvas.ts';
 
 /** Font size of a subscript relative to the text, and its offset below the baseline, pixels. */
 const SUBSCRIPT_SIZE = 0.78;
 const SUBSCRIPT_DROP = 3;
 
 /** Half the height of a label's background, pixels, and its opacity. */
-const BACKGROUND = { halfHeight: 9, opacity: 0.9 };
+const LABEL_BACKGROUND = { halfHeight: 9, opacity: 0.9 };
 
 /** Candidate positions of a label: offsets in heights of its background. */
 const LABEL_SHIFTS = [0, 1, -1, 2, -2, 3, -3];
@@ -19,11 +19,11 @@ const ROW_HEIGHT = 17;
 const LABEL_GAP = 12;
 
 /** Height that two rows of labels need above a picture, in addition to the name of its axis, pixels. */
-export const LABELS_ABOVE = 24 + ROW_HEIGHT;
+export const LABELS_ABOVE_HEIGHT = 24 + ROW_HEIGHT;
 
 interface LabelText {
   symbol?: string;
-  sub?: string;
+  subscript?: string;
   text?: string;
 }
 
@@ -31,73 +31,73 @@ interface LabelText {
  * Draws a label with a background at a point in pixels, inside the axes. If another text is there, the label moves up or down. `towards` is
  * the direction in which there is space, from −1 (left) to 1 (right).
  */
-export function drawLabel(brush: Brush, { x, y, towards, colour, ...text }: LabelText & { x: number, y: number, towards: number, colour: string }) {
-  const { context, view, palette, placedBoxes } = brush;
-  const parts = measureParts(brush, text);
+export function drawLabel(drawContext: DrawContext, { x, y, freeSide, colour, ...text }: LabelText & { x: number, y: number, freeSide: number, colour: string }) {
+  const { context, view, palette, placedBoxes } = drawContext;
+  const parts = measureParts(drawContext, text);
   if (parts.length === 0) return;
   const width = widthOf(parts);
-  const { left, right, top, bottom } = view.frame;
-  const labelLeft = clamp(x - (0.5 - 0.5 * towards) * width, left + 3, Math.max(left + 3, right - width - 3));
-  const [halfWidth, halfHeight] = [width / 2 + 2, BACKGROUND.halfHeight];
+  const { left, right, top, bottom } = view.plotArea;
+  const labelLeft = clamp(x - (0.5 - 0.5 * freeSide) * width, left + 3, Math.max(left + 3, right - width - 3));
+  const [halfWidth, halfHeight] = [width / 2 + 2, LABEL_BACKGROUND.halfHeight];
   const candidateYs = LABEL_SHIFTS.map((shift) => clamp(y + 2 * halfHeight * shift, top + 10, bottom - 10));
   const isFreeAt = (candidateY: number) => placedBoxes.every((placedBox) => Math.abs(placedBox.x - labelLeft - width / 2) >= placedBox.halfWidth + halfWidth || Math.abs(placedBox.y - candidateY) >= placedBox.halfHeight + halfHeight);
   const labelY = candidateYs.find(isFreeAt) ?? candidateYs[0];
   placedBoxes.push({ x: labelLeft + width / 2, y: labelY, halfWidth, halfHeight });
   context.fillStyle = palette.paper;
-  paintWithOpacity(context, BACKGROUND.opacity, () => context.fillRect(labelLeft - 2, labelY - halfHeight, 2 * halfWidth, 2 * halfHeight));
-  writeParts(brush, parts, labelLeft, labelY, colour);
+  paintWithOpacity(context, LABEL_BACKGROUND.opacity, () => context.fillRect(labelLeft - 2, labelY - halfHeight, 2 * halfWidth, 2 * halfHeight));
+  writeParts(drawContext, parts, labelLeft, labelY, colour);
 }
 
 /**
  * Draws labels above a picture, each with a leader to its anchor in pixels. They alternate between two rows, so that leaders of the upper row
- * pass between labels of the lower row. The view needs {@link LABELS_ABOVE} pixels at its top.
+ * pass between labels of the lower row. The view needs {@link LABELS_ABOVE_HEIGHT} pixels at its top.
  */
-export function drawLabelsAbove(brush: Brush, labels: (LabelText & { x: number, y: number, colour: string })[]) {
-  const { context, view, palette } = brush;
-  const { left, right, top } = view.frame;
+export function drawLabelsAbove(drawContext: DrawContext, labels: (LabelText & { x: number, y: number, colour: string })[]) {
+  const { context, view, palette } = drawContext;
+  const { left, right, top } = view.plotArea;
   const placedLabels = labels
-    .map((label) => ({ ...label, parts: measureParts(brush, label) }))
+    .map((label) => ({ ...label, parts: measureParts(drawContext, label) }))
     .map((label) => ({ ...label, width: widthOf(label.parts) }))
     .sort((a, b) => a.x - b.x)
-    .map((label, i) => ({ ...label, row: i % 2, from: label.x - label.width / 2 }));
+    .map((label, i) => ({ ...label, row: i % 2, labelLeft: label.x - label.width / 2 }));
   for (const row of [0, 1]) {
     const rowLabels = placedLabels.filter((label) => label.row === row);
     // Each label is moved to the right of the previous one. Then the last labels are moved to the left, into the picture.
     let limitX = left;
     for (const label of rowLabels) {
-      label.from = Math.max(label.from, limitX);
-      limitX = label.from + label.width + LABEL_GAP;
+      label.labelLeft = Math.max(label.labelLeft, limitX);
+      limitX = label.labelLeft + label.width + LABEL_GAP;
     }
     limitX = right;
     for (const label of rowLabels.toReversed()) {
-      label.from = Math.min(label.from, limitX - label.width);
-      limitX = label.from - LABEL_GAP;
+      label.labelLeft = Math.min(label.labelLeft, limitX - label.width);
+      limitX = label.labelLeft - LABEL_GAP;
     }
   }
   placedLabels.forEach((label, i) => {
-    const { from, width, row, x, y, colour, parts } = label;
-    const rowY = top - BACKGROUND.halfHeight - ROW_HEIGHT * row;
+    const { labelLeft, width, row, x, y, colour, parts } = label;
+    const rowY = top - LABEL_BACKGROUND.halfHeight - ROW_HEIGHT * row;
     const [previousLabel, nextLabel] = [placedLabels[i - 1], placedLabels[i + 1]];
-    const minLeaderX = row === 0 ? from : previousLabel.from + previousLabel.width + LABEL_GAP / 2;
-    const maxLeaderX = row === 0 ? from + width : (nextLabel?.from ?? right) - LABEL_GAP / 2;
+    const minLeaderX = row === 0 ? labelLeft : previousLabel.labelLeft + previousLabel.width + LABEL_GAP / 2;
+    const maxLeaderX = row === 0 ? labelLeft + width : (nextLabel?.labelLeft ?? right) - LABEL_GAP / 2;
     const leaderX = clamp(x, minLeaderX, Math.max(minLeaderX, maxLeaderX));
-    const leaderStart = [clamp(leaderX, from, from + width), rowY + BACKGROUND.halfHeight];
+    const leaderStart = [clamp(leaderX, labelLeft, labelLeft + width), rowY + LABEL_BACKGROUND.halfHeight];
     drawLeader(context, [leaderStart, [leaderX, top - (row === 0 ? 0 : ROW_HEIGHT)], [leaderX, top], [x, y]], palette.muted);
-    writeParts(brush, parts, from, rowY, colour);
+    writeParts(drawContext, parts, labelLeft, rowY, colour);
   });
 }
 
 /** Draws a leader: a thin line through points in pixels, from a text to a point, with a dot at the point. */
-export function drawLeader(context: CanvasRenderingContext2D, line: number[][], colour: string) {
-  strokeLine(context, line, { colour, width: 1 });
-  drawDisc(context, line[line.length - 1], 2.5, colour);
+export function drawLeader(context: CanvasRenderingContext2D, leaderPoints: number[][], colour: string) {
+  strokeLine(context, leaderPoints, { colour, width: 1 });
+  drawDisc(context, leaderPoints[leaderPoints.length - 1], 2.5, colour);
 }
 
-function measureParts({ context, font }: Brush, { symbol = '', sub = '', text = '' }: LabelText) {
+function measureParts({ context, font }: DrawContext, { symbol = '', subscript = '', text = '' }: LabelText) {
   const subscriptFont = font.replace(/[\d.]+px/, (size) => `${SUBSCRIPT_SIZE * parseFloat(size)}px`);
   const textParts = [
     { text: symbol, style: `italic ${font}`, drop: 0 },
-    { text: sub, style: subscriptFont, drop: SUBSCRIPT_DROP },
+    { text: subscript, style: subscriptFont, drop: SUBSCRIPT_DROP },
     { text: symbol && text ? ` ${text}` : text, style: font, drop: 0 },
   ].filter((part) => part.text);
   return textParts.map((part) => {
@@ -109,7 +109,7 @@ function measureParts({ context, font }: Brush, { symbol = '', sub = '', text = 
 const widthOf = (parts: { width: number }[]) => parts.reduce((sum, { width }) => sum + width, 0);
 
 /** Writes the parts from left to right, with a halo in the background colour. x is the left end and y the middle of the line, in pixels. */
-function writeParts({ context, palette }: Brush, parts: ReturnType<typeof measureParts>, x: number, y: number, colour: string) {
+function writeParts({ context, palette }: DrawContext, parts: ReturnType<typeof measureParts>, x: number, y: number, colour: string) {
   context.save();
   Object.assign(context, { textAlign: 'left', textBaseline: 'middle', lineJoin: 'round', lineWidth: 4, strokeStyle: palette.paper, fillStyle: colour });
   let partLeft = x;
@@ -135,16 +135,16 @@ const CANDIDATE_ANGLES = Array.from({ length: 24 }, (_, i) => (Math.PI * (i - 12
 const LEADER_LENGTHS = [MIN_LEADER, 2 * MIN_LEADER, 3 * MIN_LEADER];
 
 /** Costs of a leader: for each radian from its preferred direction, and for each pixel of its length. An overlapping pixel costs 1. */
-const TURN_COST = 1;
-const LENGTH_COST = 0.1;
+const COST_PER_RADIAN = 1;
+const COST_PER_PIXEL = 0.1;
 
 /** Candidate positions of a sentence around its point. */
-const CANDIDATES = LEADER_LENGTHS.flatMap((length) => CANDIDATE_ANGLES.map((turn) => ({ turn, length, cost: TURN_COST * Math.abs(turn) + LENGTH_COST * length })));
+const CANDIDATE_POSITIONS = LEADER_LENGTHS.flatMap((length) => CANDIDATE_ANGLES.map((turn) => ({ turn, length, cost: COST_PER_RADIAN * Math.abs(turn) + COST_PER_PIXEL * length })));
 
 /** Sentence with line breaks, the point that it is about (in the view's world), and its colour (default: that of text). */
 export interface Callout {
   text: string;
-  at: [number, number];
+  point: [number, number];
   colour?: string;
 }
 
@@ -152,19 +152,19 @@ export interface Callout {
  * Draws sentences about points on the outline of a shape with the centre `shapeCentre`. A sentence is outside of the shape, where it covers the
  * lines (x, y pairs) and other texts least. The cost of a position is continuous in all points, so that a sentence seldom jumps.
  */
-export function drawCallouts({ context, view, palette, font, placedBoxes }: Brush, callouts: Callout[], { shapeCentre, lines }: { shapeCentre: [number, number], lines: Float64Array[] }) {
+export function drawCallouts({ context, view, palette, font, placedBoxes }: DrawContext, callouts: Callout[], { shapeCentre, lines }: { shapeCentre: [number, number], lines: Float64Array[] }) {
   context.font = font;
-  const [fromX, fromY] = view.toPixel(...shapeCentre);
+  const [centreX, centreY] = view.toPixel(...shapeCentre);
   const linePoints = lines.flatMap((line) => pairs(view.toPixels(line)).flatMap(([start, end]) => pointsBetween(start, end)));
-  const avoidedPoints: number[][] = [...callouts.map(({ at }) => view.toPixel(...at)), ...linePoints];
-  const { left, right, top, bottom } = view.frame;
-  for (const { text, at, colour = palette.ink } of callouts) {
+  const avoidedPoints: number[][] = [...callouts.map(({ point }) => view.toPixel(...point)), ...linePoints];
+  const { left, right, top, bottom } = view.plotArea;
+  for (const { text, point, colour = palette.ink } of callouts) {
     const textLines = text.split('\n');
     const halfWidth = Math.max(...textLines.map((textLine) => context.measureText(textLine).width)) / 2 + TEXT_MARGIN;
     const halfHeight = (LINE_HEIGHT * textLines.length) / 2 + TEXT_MARGIN;
-    const [x, y] = view.toPixel(...at);
-    const outwardAngle = Math.atan2(y - fromY, x - fromX);
-    const candidateBoxes = CANDIDATES.map(({ turn, length, cost }) => {
+    const [x, y] = view.toPixel(...point);
+    const outwardAngle = Math.atan2(y - centreY, x - centreX);
+    const candidateBoxes = CANDIDATE_POSITIONS.map(({ turn, length, cost }) => {
       const [idealX, idealY] = [x + (length + halfWidth) * Math.cos(outwardAngle + turn), y + (length + halfHeight) * Math.sin(outwardAngle + turn)];
       const box = {
         x: clamp(idealX, left + halfWidth, Math.max(left + halfWidth, right - halfWidth)),
@@ -187,20 +187,20 @@ export function drawCallouts({ context, view, palette, font, placedBoxes }: Brus
 }
 
 /** Maximum number of points between two others, because a line that leaves the picture may have any length. */
-const MAX_POINTS = 200;
+const MAX_LINE_POINTS = 200;
 
 /** Returns points on the line between two points, beginning with the first one, that a sentence must not cover; pixels. */
 function pointsBetween([x, y]: number[], [toX, toY]: number[]) {
-  const pointCount = Math.min(MAX_POINTS, Math.ceil(Math.hypot(toX - x, toY - y) / (2 * MIN_DISTANCE)) || 1);
+  const pointCount = Math.min(MAX_LINE_POINTS, Math.ceil(Math.hypot(toX - x, toY - y) / (2 * MIN_DISTANCE)) || 1);
   return Array.from({ length: pointCount }, (_, i) => [x + (i / pointCount) * (toX - x), y + (i / pointCount) * (toY - y)]);
 }
 
 /** Returns the maximum depth by which points and other boxes reach into a box, pixels. The depth of boxes counts twice. */
-function maxOverlapOf({ x, y, halfWidth, halfHeight }: Box, points: number[][], otherBoxes: Box[]) {
-  const depthOf = (toX: number, toY: number, otherHalfWidth = 0, otherHalfHeight = 0) =>
+function maxOverlapOf({ x, y, halfWidth, halfHeight }: TextBox, points: number[][], otherBoxes: TextBox[]) {
+  const overlapDepthOf = (toX: number, toY: number, otherHalfWidth = 0, otherHalfHeight = 0) =>
     Math.min(halfWidth + otherHalfWidth + MIN_DISTANCE - Math.abs(toX - x), halfHeight + otherHalfHeight + MIN_DISTANCE - Math.abs(toY - y));
   let maxDepth = 0;
-  for (const [toX, toY] of points) maxDepth = Math.max(maxDepth, depthOf(toX, toY));
-  for (const otherBox of otherBoxes) maxDepth = Math.max(maxDepth, 2 * depthOf(otherBox.x, otherBox.y, otherBox.halfWidth, otherBox.halfHeight));
+  for (const [toX, toY] of points) maxDepth = Math.max(maxDepth, overlapDepthOf(toX, toY));
+  for (const otherBox of otherBoxes) maxDepth = Math.max(maxDepth, 2 * overlapDepthOf(otherBox.x, otherBox.y, otherBox.halfWidth, otherBox.halfHeight));
   return maxDepth;
 }

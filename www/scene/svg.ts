@@ -1,10 +1,10 @@
 /** Canvas context that writes SVG. It has only the methods that scene/draw.ts and the pictures use. */
 
 /** Characters that XML cannot have. */
-const INVALID_XML = /[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\u{10000}-\u{10ffff}]/gu;
+const INVALID_XML_CHARACTERS = /[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\u{10000}-\u{10ffff}]/gu;
 
 export const escapeXml = (text: string) =>
-  text.replace(INVALID_XML, '\ufffd').replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;').replaceAll('"', '&quot;');
+  text.replace(INVALID_XML_CHARACTERS, '\ufffd').replaceAll('&', '&amp;').replaceAll('<', '&lt;').replaceAll('>', '&gt;').replaceAll('"', '&quot;');
 
 /** Prints a length in CSS pixels to a hundredth, which is finer than the resolution of printers. */
 export const formatLength = (length: number) => String(Math.round(100 * length) / 100);
@@ -87,9 +87,9 @@ export class SvgContext {
     this.#path += 'Z';
   }
 
-  fillRect: CanvasRect['fillRect'] = (...box) => {
+  fillRect: CanvasRect['fillRect'] = (...rectangle) => {
     this.#path = '';
-    this.rect(...box);
+    this.rect(...rectangle);
     this.fill();
   };
 

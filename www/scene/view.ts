@@ -24,7 +24,7 @@ const NICE_SIZES = [1, 1.12, 1.25, 1.4, 1.6, 1.8, 2, 2.25, 2.5, 2.8, 3.2, 3.6, 4
 export class View {
   /** Extent that is shown now. An animation moves it to `#target`. */
   extent: Extent = { xMin: -1, yMin: -1, xMax: 1, yMax: 1 };
-  #target: Extent | undefined;
+  #targetExtent: Extent | undefined;
   /** Part of the world that the view has to show, also after a change of the canvas size. */
   #requiredExtent: Extent | undefined;
   /** Minimum fraction of the view that its content fills after the next fit. With 0 the view only zooms out. */
@@ -36,19 +36,19 @@ export class View {
   /** True if a metre is as long in y as in x. */
   #hasEqualScales;
   /** True if the extent is exactly the needed part of the world, without a margin. After a change of size the view is then fitted anew. */
-  #isSnug;
+  #hasNoMargin;
   /** Canvas size at the last fit, CSS pixels. */
   #fittedSize = { width: 1, height: 1 };
   /** Canvas size, CSS pixels. */
   width = 1;
   height = 1;
   /** Part of the canvas inside the axes, CSS pixels. */
-  frame = { left: 0, top: 0, right: 1, bottom: 1 };
+  plotArea = { left: 0, top: 0, right: 1, bottom: 1 };
   #margins;
 
-  constructor({ equal = true, snug = false, left = 42, right = 8, top = 24, bottom = 30 }: { equal?: boolean, snug?: boolean, left?: number, right?: number, top?: number, bottom?: number } = {}) {
-    this.#hasEqualScales = equal;
-    this.#isSnug = snug;
+  constructor({ hasEqualScales = true, hasNoMargin = false, left = 42, right = 8, top = 24, bottom = 30 }: { hasEqualScales?: boolean, hasNoMargin?: boolean, left?: number, right?: number, top?: number, bottom?: number } = {}) {
+    this.#hasEqualScales = hasEqualScales;
+    this.#hasNoMargin = hasNoMargin;
     this.#margins = { left, right, top, bottom };
   }
 
@@ -57,55 +57,55 @@ export class View {
     this.width = width;
     this.height = height;
     const { left, right, top, bottom } = this.#margins;
-    this.frame = { left, top, right: Math.max(left + 1, width - right), bottom: Math.max(top + 1, height - bottom) };
-    if (this.#requiredExtent) this.extent = this.#target = this.#coveringExtent(this.#requiredExtent);
+    this.plotArea = { left, top, right: Math.max(left + 1, width - right), bottom: Math.max(top + 1, height - bottom) };
+    if (this.#requiredExtent) this.extent = this.#targetExtent = this.#coveringExtent(this.#requiredExtent);
     // Marks of a size in pixels need more metres on a smaller canvas, such as that of an unfinished layout.
-    this.release();
+    this.allowZoomIn();
   }
 
   get hasTarget() {
-    return this.#target !== undefined;
+    return this.#targetExtent !== undefined;
   }
 
   /** Lets the next fit zoom in and recenter if the content fills less than `minFill` of the view. With 1 it always does. */
-  release(minFill = MIN_FILL) {
+  allowZoomIn(minFill = MIN_FILL) {
     this.#minFill = Math.max(this.#minFill, minFill);
   }
 
   /** Resets the view, so that the next fit takes effect without an animation. */
-  reset() {
-    this.#target = this.#requiredExtent = undefined;
+  clearTarget() {
+    this.#targetExtent = this.#requiredExtent = undefined;
   }
 
   /** Pixels per unit of x. With equal scales it is also that of y. */
   get scaleX() {
-    return (this.frame.right - this.frame.left) / (this.extent.xMax - this.extent.xMin);
+    return (this.plotArea.right - this.plotArea.left) / (this.extent.xMax - this.extent.xMin);
   }
 
   get scaleY() {
-    return (this.frame.bottom - this.frame.top) / (this.extent.yMax - this.extent.yMin);
+    return (this.plotArea.bottom - this.plotArea.top) / (this.extent.yMax - this.extent.yMin);
   }
 
   /** Returns the scale (pixels per metre) at which a part of the world fits into the view. */
-  scaleFor({ xMin, yMin, xMax, yMax }: Extent) {
-    const { left, right, top, bottom } = this.frame;
+  fittingScale({ xMin, yMin, xMax, yMax }: Extent) {
+    const { left, right, top, bottom } = this.plotArea;
     return Math.min((right - left) / (xMax - xMin), (bottom - top) / (yMax - yMin));
   }
 
   toPixelX(x: number) {
-    return this.frame.left + (x - this.extent.xMin) * this.scaleX;
+    return this.plotArea.left + (x - this.extent.xMin) * this.scaleX;
   }
 
   toPixelY(y: number) {
-    return this.frame.bottom - (y - this.extent.yMin) * this.scaleY;
+    return this.plotArea.bottom - (y - this.extent.yMin) * this.scaleY;
   }
 
   toWorld(x: number, y: number): [x: number, y: number] {
-    return [this.extent.xMin + (x - this.frame.left) / this.scaleX, this.extent.yMin + (this.frame.bottom - y) / this.scaleY];
+    return [this.extent.xMin + (x - this.plotArea.left) / this.scaleX, this.extent.yMin + (this.plotArea.bottom - y) / this.scaleY];
   }
 
   /** Returns a step of one pixel in the direction of a heading (rad), for equal scales of x and y. */
-  direction(heading: number): { x: number, y: number } {
+  pixelDirection(heading: number): { x: number, y: number } {
     return { x: Math.cos(heading), y: -Math.sin(heading) };
   }
 
@@ -119,34 +119,34 @@ export class View {
   }
 
   /** Returns both ends, in pixels, of a line from a pose in its heading, with a length in pixels. */
-  ray({ x, y, theta }: { x: number, y: number, theta: number }, length: number): [from: [x: number, y: number], to: [x: number, y: number]] {
+  headingLine({ x, y, theta }: { x: number, y: number, theta: number }, length: number): [from: [x: number, y: number], to: [x: number, y: number]] {
     const [startX, startY] = this.toPixel(x, y);
-    const headingStep = this.direction(theta);
+    const headingStep = this.pixelDirection(theta);
     return [[startX, startY], [startX + length * headingStep.x, startY + length * headingStep.y]];
   }
 
   /** Sets the target of the view, which stays if it contains `neededExtent`. Otherwise the view zooms out. A released view may also zoom in. */
   fit(neededExtent: Extent) {
     const { width, height } = this;
-    const isResized = this.#isSnug && (width !== this.#fittedSize.width || height !== this.#fittedSize.height);
-    const [keptTarget, minFill] = [isResized ? undefined : this.#target, this.#minFill];
+    const isResized = this.#hasNoMargin && (width !== this.#fittedSize.width || height !== this.#fittedSize.height);
+    const [keptTarget, minFill] = [isResized ? undefined : this.#targetExtent, this.#minFill];
     this.#fittedSize = { width, height };
     this.#minFill = 0;
     if (keptTarget && isInside(neededExtent, keptTarget) && this.#fillOf(keptTarget, neededExtent) >= minFill) return;
     this.hasZoomedOut = keptTarget !== undefined && minFill === 0;
     const { xMin, xMax, yMin, yMax } = neededExtent;
-    const paddedExtent = this.#isSnug ? neededExtent : widenedExtent(neededExtent, RELATIVE_MARGIN * (xMax - xMin), RELATIVE_MARGIN * (yMax - yMin));
+    const paddedExtent = this.#hasNoMargin ? neededExtent : widenExtent(neededExtent, RELATIVE_MARGIN * (xMax - xMin), RELATIVE_MARGIN * (yMax - yMin));
     this.#requiredExtent = keptTarget && this.hasZoomedOut ? extentAround([paddedExtent.xMin, paddedExtent.yMin, paddedExtent.xMax, paddedExtent.yMax], 2, keptTarget) : paddedExtent;
-    this.#target = this.#coveringExtent(this.#requiredExtent);
-    if (!keptTarget) this.extent = this.#target;
+    this.#targetExtent = this.#coveringExtent(this.#requiredExtent);
+    if (!keptTarget) this.extent = this.#targetExtent;
   }
 
   /** Moves the extent towards the target, `elapsedMs` after the last call, or at once. Returns true if it has not arrived. */
-  ease(elapsedMs: number, isImmediate: boolean): boolean {
-    const target = this.#target;
+  moveTowardsTarget(elapsedMs: number, isImmediate: boolean): boolean {
+    const target = this.#targetExtent;
     if (!target || target === this.extent) return false;
     const progress = isImmediate ? 1 : 1 - Math.exp(-elapsedMs / EASING_MS);
-    const nextExtent = extentBetween(this.extent, target, progress);
+    const nextExtent = interpolateExtent(this.extent, target, progress);
     const remainingDistance = (minKey: keyof Extent, maxKey: keyof Extent) => Math.abs(nextExtent[minKey] - target[minKey]) + Math.abs(nextExtent[maxKey] - target[maxKey]);
     const hasArrived = remainingDistance('xMin', 'xMax') * this.scaleX + remainingDistance('yMin', 'yMax') * this.scaleY < 0.5;
     this.extent = hasArrived || isImmediate ? target : nextExtent;
@@ -160,8 +160,8 @@ export class View {
 
   /** Returns an extent that contains `requiredExtent`, moved into the limits. Its size is rounded unless the view is snug. With equal scales it has the aspect ratio of the plot area. */
   #coveringExtent(requiredExtent: Extent) {
-    const { left, right, top, bottom } = this.frame;
-    const roundSize = this.#isSnug ? (size: number) => size : roundUpToNiceSize;
+    const { left, right, top, bottom } = this.plotArea;
+    const roundSize = this.#hasNoMargin ? (size: number) => size : roundUpToNiceSize;
     const aspectRatio = (bottom - top) / (right - left);
     const [requiredWidth, requiredHeight] = [requiredExtent.xMax - requiredExtent.xMin, requiredExtent.yMax - requiredExtent.yMin];
     const width = roundSize(this.#hasEqualScales ? Math.max(requiredWidth, requiredHeight / aspectRatio) : requiredWidth);
@@ -182,14 +182,14 @@ const isInside = (inner: Extent, outer: Extent) =>
   inner.xMin >= outer.xMin && inner.xMax <= outer.xMax && inner.yMin >= outer.yMin && inner.yMax <= outer.yMax;
 
 /** Returns an interpolation between two extents, from 0 to 1. */
-export function extentBetween(from: Extent, to: Extent, share: number): Extent {
-  const interpolate = (key: keyof Extent) => from[key] + share * (to[key] - from[key]);
+export function interpolateExtent(from: Extent, to: Extent, fraction: number): Extent {
+  const interpolate = (key: keyof Extent) => from[key] + fraction * (to[key] - from[key]);
   return { xMin: interpolate('xMin'), yMin: interpolate('yMin'), xMax: interpolate('xMax'), yMax: interpolate('yMax') };
 }
 
 /** Returns an extent with margins at the left and the right, and margins at the bottom and the top. */
-export const widenedExtent = ({ xMin, xMax, yMin, yMax }: Extent, x: number, y: number = x): Extent =>
-  ({ xMin: xMin - x, xMax: xMax + x, yMin: yMin - y, yMax: yMax + y });
+export const widenExtent = ({ xMin, xMax, yMin, yMax }: Extent, marginX: number, marginY: number = marginX): Extent =>
+  ({ xMin: xMin - marginX, xMax: xMax + marginX, yMin: yMin - marginY, yMax: yMax + marginY });
 
 /** Returns two opposite corners of a box around a point, as x, y pairs. */
 export const cornersAround = (x: number, y: number, halfWidth: number, halfHeight: number = halfWidth): number[] =>
@@ -217,5 +217,5 @@ export function extentAround(numbers: ArrayLike<number>, stride: number, initial
 export function extentOf(points: number[], minWidth: number, minHeight: number = minWidth) {
   const extent = extentAround(points, 2);
   const missingSizeOf = (min: number, max: number, minSize: number) => Math.max(0, minSize - (max - min));
-  return widenedExtent(extent, missingSizeOf(extent.xMin, extent.xMax, minWidth) / 2, missingSizeOf(extent.yMin, extent.yMax, minHeight) / 2);
+  return widenExtent(extent, missingSizeOf(extent.xMin, extent.xMax, minWidth) / 2, missingSizeOf(extent.yMin, extent.yMax, minHeight) / 2);
 }

@@ -2,13 +2,13 @@
 
 import { clamp } from '../ui/format.ts';
 import { colourChannels } from '../ui/theme.ts';
-import { addLine, paintWithOpacity, hiddenContext, strokePath, strokeLine, type Brush } from './canvas.ts';
-import { Layer, strokeInBatches, type Painter } from './cache.ts';
+import { addLine, paintWithOpacity, hiddenContext, strokePath, strokeLine, type DrawContext } from './canvas.ts';
+import { CachedLayer, strokeInBatches, type LayerDrawContext } from './cache.ts';
 import type { View } from './view.ts';
 import type { Grid, Plan } from '../types.d.ts';
 
 /** Cells of a grid. `unknown` is missing if no cell is unknown. */
-export type Cells = Omit<Grid, 'unknown'> & { unknown?: Uint8Array };
+export type CellGrid = Omit<Grid, 'unknown'> & { unknown?: Uint8Array };
 
 const WALL_WIDTH = 2.5;
 
@@ -18,31 +18,31 @@ const HATCHING = { spacing: 7, width: 1, opacity: 0.4 };
 export class WallLayer {
   #plan;
   #grid;
-  #layer = new Layer();
+  #layer = new CachedLayer();
 
   /** Creates the drawing of a plan. If the map is a grid, its cells are drawn instead of the walls. */
-  constructor(plan: Plan, grid: Cells | null) {
+  constructor(plan: Plan, grid: CellGrid | null) {
     this.#plan = plan;
     this.#grid = grid;
   }
 
   /** Draws the walls or cells; unknown cells are hatched if they are shown. */
-  draw(brush: Brush, showsUnknown: boolean) {
-    if (!this.#grid && 'vector' in brush.context) this.#paint(brush, showsUnknown);
-    else this.#layer.draw(brush, [showsUnknown], (painter) => this.#paint(painter, showsUnknown));
+  draw(drawContext: DrawContext, showsUnknown: boolean) {
+    if (!this.#grid && 'vector' in drawContext.context) this.#paint(drawContext, showsUnknown);
+    else this.#layer.draw(drawContext, [showsUnknown], (drawContext) => this.#paint(drawContext, showsUnknown));
   }
 
-  #paint(painter: Painter, showsUnknown: boolean) {
-    const { context, view, palette } = painter;
+  #paint(drawContext: LayerDrawContext, showsUnknown: boolean) {
+    const { context, view, palette } = drawContext;
     const grid = this.#grid;
     if (showsUnknown && grid?.unknown) {
       // The unknown cells are filled, and the fill is then replaced by hatching.
-      fillCells(painter, grid, grid.unknown, palette.muted);
+      fillCells(drawContext, grid, grid.unknown, palette.muted);
       context.globalCompositeOperation = 'source-in';
       hatchView(context, view, palette.muted);
       context.globalCompositeOperation = 'source-over';
     }
-    if (grid) fillCells(painter, grid, grid.occupied, palette.truth);
+    if (grid) fillCells(drawContext, grid, grid.occupied, palette.truth);
     const { bounds: [xMin, yMin, xMax, yMax] } = this.#plan;
     strokeLine(context, [[xMin, yMin], [xMax, yMin], [xMax, yMax], [xMin, yMax], [xMin, yMin]].map(([x, y]) => view.toPixel(x, y)), { colour: palette.rule, width: 1 });
     if (grid) return;
@@ -52,25 +52,25 @@ export class WallLayer {
   }
 }
 
-function hatchView(context: Painter['context'], { width, height }: View, colour: string) {
+function hatchView(context: LayerDrawContext['context'], { width, height }: View, colour: string) {
   paintWithOpacity(context, HATCHING.opacity, () => strokePath(context, { colour, width: HATCHING.width }, () => {
     for (let x = -height; x < width; x += HATCHING.spacing) addLine(context, [[x, height], [x + height, 0]]);
   }));
 }
 
 /** Returns the visible cells as first column and row, and the column and row after the last. They are multiples of `side`, or ends of the grid. */
-function visibleCellRange({ extent: { xMin, xMax, yMin, yMax } }: View, { columns, rows, resolution, origin: [x, y, yaw] }: Cells, side: number): number[] {
+function visibleCellRange({ extent: { xMin, xMax, yMin, yMax } }: View, { columns, rows, resolution, origin: [x, y, yaw] }: CellGrid, cellsPerSquare: number): number[] {
   const [xStep, yStep] = [Math.cos(yaw) / resolution, Math.sin(yaw) / resolution];
   const viewCorners = [xMin - x, xMax - x].flatMap((dx) => [yMin - y, yMax - y].map((dy) => [dx * xStep + dy * yStep, dy * xStep - dx * yStep]));
   const cellRanges = [columns, rows].map((count, i) => {
     const cornerCells = viewCorners.map((corner) => clamp(corner[i], 0, count));
-    return [Math.floor(Math.min(...cornerCells) / side) * side, Math.min(count, Math.ceil(Math.max(...cornerCells) / side) * side)];
+    return [Math.floor(Math.min(...cornerCells) / cellsPerSquare) * cellsPerSquare, Math.min(count, Math.ceil(Math.max(...cornerCells) / cellsPerSquare) * cellsPerSquare)];
   });
   return [0, 1].flatMap((end) => cellRanges.map((range) => range[end]));
 }
 
 /** Returns the position of the corner of a cell, m. */
-export function cellCorner({ resolution, origin: [x, y, yaw] }: Cells, column: number, row: number): [x: number, y: number] {
+export function cellCorner({ resolution, origin: [x, y, yaw] }: CellGrid, column: number, row: number): [x: number, y: number] {
   const [xStep, yStep] = [resolution * Math.cos(yaw), resolution * Math.sin(yaw)];
   return [x + column * xStep - row * yStep, y + column * yStep + row * xStep];
 }
@@ -79,8 +79,8 @@ export function cellCorner({ resolution, origin: [x, y, yaw] }: Cells, column: n
  * Fills the cells whose value is 1. If cells are smaller than a pixel, squares of several cells are drawn. A square is filled if one of its
  * cells is filled, so that thin walls stay visible.
  */
-function fillCells({ context, view, ratio }: Painter, grid: Cells, cells: Uint8Array, colour: string) {
-  const cellsPerSquare = Math.max(1, Math.floor(1 / (grid.resolution * view.scaleX * ratio)));
+function fillCells({ context, view, pixelRatio }: LayerDrawContext, grid: CellGrid, cells: Uint8Array, colour: string) {
+  const cellsPerSquare = Math.max(1, Math.floor(1 / (grid.resolution * view.scaleX * pixelRatio)));
   const [left, bottom, right, top] = visibleCellRange(view, grid, cellsPerSquare);
   const [width, height] = [Math.ceil((right - left) / cellsPerSquare), Math.ceil((top - bottom) / cellsPerSquare)];
   if (width < 1 || height < 1) return;
@@ -98,9 +98,9 @@ function fillCells({ context, view, ratio }: Painter, grid: Cells, cells: Uint8A
   hiddenContext(canvas).putImageData(squaresImage, 0, 0);
   const cornerPixel = (column: number, row: number) => view.toPixel(...cellCorner(grid, column, row));
   // The first row of the image is the lowest one, as in the grid.
-  const [[fromX, fromY], [rightX, rightY], [aboveX, aboveY]] = [cornerPixel(left, bottom), cornerPixel(left + cellsPerSquare, bottom), cornerPixel(left, bottom + cellsPerSquare)];
+  const [[originX, originY], [rightX, rightY], [aboveX, aboveY]] = [cornerPixel(left, bottom), cornerPixel(left + cellsPerSquare, bottom), cornerPixel(left, bottom + cellsPerSquare)];
   context.save();
-  context.transform(rightX - fromX, rightY - fromY, aboveX - fromX, aboveY - fromY, fromX, fromY);
+  context.transform(rightX - originX, rightY - originY, aboveX - originX, aboveY - originY, originX, originY);
   // Large cells have sharp edges.
   context.imageSmoothingEnabled = cellsPerSquare > 1;
   context.drawImage(canvas, 0, 0);

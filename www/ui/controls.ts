@@ -195,54 +195,54 @@ const FORMULA_REGEXP = new RegExp(`((?:${FORMULA_PIECE_PATTERN})+)`);
 /** Returns a message with its formulas as HTML. The text \\* is an asterisk. */
 export function formatMarkup(message: string) {
   // Every second part is a formula.
-  return message.split(FORMULA_REGEXP).map((part, i) => (i % 2 ? untranslated(part.match(FORMULA_PIECE)?.map(formulaPiece)) : part));
+  return message.split(FORMULA_REGEXP).map((part, i) => (i % 2 ? untranslatedHtml(part.match(FORMULA_PIECE)?.map(formulaPieceHtml)) : part));
 }
 
-function formulaPiece(piece: string) {
+function formulaPieceHtml(piece: string) {
   if (piece[0] === '*') return html`<i>${piece.slice(1, -1).replaceAll('\\*', '*')}</i>`;
   return html`<sub>${piece[0] === '_' ? piece.slice(2, -1) : piece.charCodeAt(0) - 0x2080}</sub>`;
 }
 
 /** Returns a value or formula with its own writing direction, which page translators leave unchanged. */
-export const untranslated = (content: unknown) => html`<bdi translate="no" class="notranslate">${content}</bdi>`;
+export const untranslatedHtml = (content: unknown) => html`<bdi translate="no" class="notranslate">${content}</bdi>`;
 
-export function group(heading: unknown, controls: unknown, name?: string, part?: string) {
-  return html`<fieldset class=${name ?? nothing} part=${part ?? nothing}>
+export function fieldsetHtml(heading: unknown, controls: unknown, className?: string, part?: string) {
+  return html`<fieldset class=${className ?? nothing} part=${part ?? nothing}>
     <legend>${heading}</legend>
     ${controls}
   </fieldset>`;
 }
 
 /** Returns one of a group of radio buttons, with a name for screen readers if it has no label. */
-export function radioButton({ group, label, name, checked, choose }: { group: string, label?: unknown, name?: string, checked: boolean, choose: () => void }) {
+export function radioButtonHtml({ group, label, name, checked, onChoose }: { group: string, label?: unknown, name?: string, checked: boolean, onChoose: () => void }) {
   return html`<label class="choice">
-    <input type="radio" name=${group} aria-label=${name ?? nothing} .checked=${live(checked)} @change=${choose} />
+    <input type="radio" name=${group} aria-label=${name ?? nothing} .checked=${live(checked)} @change=${onChoose} />
     ${label ? html`<span>${label}</span>` : nothing}
   </label>`;
 }
 
-export function toggle({ label, checked, change }: { label: unknown, checked: boolean, change: (checked: boolean) => void }) {
+export function checkboxHtml({ label, checked, onChange }: { label: unknown, checked: boolean, onChange: (checked: boolean) => void }) {
   return html`<label class="toggle">
     <input
       type="checkbox"
       .checked=${live(checked)}
-      @change=${(event: Event) => change(inputOf(event).checked)}
+      @change=${(event: Event) => onChange(inputOf(event).checked)}
     />
     ${label}
   </label>`;
 }
 
 /** Returns a button with the class `name`. It is wide enough for its other label, so that nothing moves when the label changes. */
-export function button(label: unknown, press: () => void, { pressed, disabled = false, title, name, otherLabel }: { pressed?: boolean, disabled?: boolean, title?: string, name?: string, otherLabel?: string } = {}) {
+export function buttonHtml(label: unknown, onPress: () => void, { pressed, disabled = false, title, className, otherLabel }: { pressed?: boolean, disabled?: boolean, title?: string, className?: string, otherLabel?: string } = {}) {
   return html`<button
     type="button"
-    class=${name ?? nothing}
+    class=${className ?? nothing}
     data-longest=${otherLabel ?? nothing}
     part="button"
     ?disabled=${disabled}
     title=${title ?? nothing}
     aria-pressed=${pressed ?? nothing}
-    @click=${press}
+    @click=${onPress}
   >
     ${label}
   </button>`;
@@ -251,13 +251,13 @@ export function button(label: unknown, press: () => void, { pressed, disabled = 
 export const inputOf = (event: Event) => event.target as HTMLInputElement;
 
 /** Returns radio buttons in a row under one name, in the order of the labels. */
-export function radioGroup<Name extends string>(label: string, group: string, labels: Record<Name, string>, checkedName: Name, choose: (name: Name) => void) {
+export function radioGroupHtml<Name extends string>(label: string, group: string, labels: Record<Name, string>, checkedName: Name, onChoose: (name: Name) => void) {
   const choiceNames = Object.keys(labels) as Name[];
   return html`<div class="choices" role="radiogroup" aria-label=${label}>
     <span aria-hidden="true">${label}</span>
     <div class="options">
       ${choiceNames.map((name) =>
-        radioButton({ group, label: labels[name], checked: name === checkedName, choose: () => choose(name) }),
+        radioButtonHtml({ group, label: labels[name], checked: name === checkedName, onChoose: () => onChoose(name) }),
       )}
     </div>
   </div>`;

@@ -16,7 +16,7 @@ function decimalSeparator(): string {
 }
 
 /** Prints a number with decimals: "−0.301"; "0.000" rather than "−0.000"; "∞"; "—" for NaN. */
-export function fixed(value: number, decimals: number): string {
+export function formatFixed(value: number, decimals: number): string {
   if (Number.isNaN(value)) return NO_VALUE;
   // `toFixed` rounds the exact binary number. `Intl` rounds its shortest decimal form, and may round a false tie up.
   const digits = Math.abs(value).toFixed(decimals);
@@ -25,15 +25,15 @@ export function fixed(value: number, decimals: number): string {
 }
 
 /** Maximum number of decimals that an editable value may have in addition to the usual ones. */
-const MAX_MORE_DECIMALS = 2;
+const MAX_EXTRA_DECIMALS = 2;
 
 /**
  * Prints a value as it was typed: with up to two more decimals than usual, if they print it exactly. With 3 decimals 0.0525 is "0.0525",
  * but 0.05210987 is "0.052".
  */
 export function formatEditable(value: number, decimals: number): string {
-  const decimalsTyped = String(value).split('.')[1]?.length ?? 0;
-  return fixed(value, decimalsTyped > decimals && decimalsTyped <= decimals + MAX_MORE_DECIMALS ? decimalsTyped : decimals);
+  const typedDecimals = String(value).split('.')[1]?.length ?? 0;
+  return formatFixed(value, typedDecimals > decimals && typedDecimals <= decimals + MAX_EXTRA_DECIMALS ? typedDecimals : decimals);
 }
 
 /**
@@ -52,24 +52,24 @@ export function parseNumber(text: string, unit: string = '', isWhole: boolean = 
 
 /** Prints a limit: "1 000 000"; "1·10⁻⁶". */
 export function formatLimit(value: number): string {
-  return Number.isInteger(value) ? integer(value) : formatSignificant(value, 1);
+  return Number.isInteger(value) ? formatInteger(value) : formatSignificant(value, 1);
 }
 
 /** Magnitude below which a number counts as a rounded 0. */
 const MAX_ROUNDED_ZERO = 1e-13;
 
 /** Maximum number of decimals of a standard error. With ten million robots the standard error is 0.0008. */
-const MAX_DECIMALS = 5;
+const MAX_ERROR_DECIMALS = 5;
 
 const SUPERSCRIPTS = '⁰¹²³⁴⁵⁶⁷⁸⁹';
 
 /** Prints a number with significant digits: "0.0070020"; below 0.0001 and from 100,000 on "1.2500·10⁻⁵". */
 export function formatSignificant(value: number, digits: number): string {
   if (Math.abs(value) < MAX_ROUNDED_ZERO) return '0';
-  if (!Number.isFinite(value)) return fixed(value, 0);
+  if (!Number.isFinite(value)) return formatFixed(value, 0);
   const [mantissa, exponent] = value.toExponential(digits - 1).split('e').map(Number);
-  if (exponent < -4 || exponent >= 5) return `${fixed(mantissa, digits - 1)}·${formatPowerOfTen(exponent)}`;
-  return fixed(Number(value.toPrecision(digits)), Math.max(0, digits - 1 - exponent));
+  if (exponent < -4 || exponent >= 5) return `${formatFixed(mantissa, digits - 1)}·${formatPowerOfTen(exponent)}`;
+  return formatFixed(Number(value.toPrecision(digits)), Math.max(0, digits - 1 - exponent));
 }
 
 /** Prints a power of ten: "10⁻⁵". */
@@ -81,27 +81,27 @@ export function formatPowerOfTen(exponent: number): string {
 export function formatRounded(value: number, digits: number): string {
   const roundedValue = Number(value.toPrecision(digits));
   const decimals = digits - 1 - Math.floor(Math.log10(roundedValue));
-  return decimals > 0 ? fixed(roundedValue, decimals) : integer(roundedValue);
+  return decimals > 0 ? formatFixed(roundedValue, decimals) : formatInteger(roundedValue);
 }
 
 /** Prints a count: "100 000". */
-export const integer = (count: number): string => fixed(count, 0).replace(/\B(?=(\d{3})+$)/g, THIN_SPACE);
+export const formatInteger = (count: number): string => formatFixed(count, 0).replace(/\B(?=(\d{3})+$)/g, THIN_SPACE);
 
 /** Prints a share from 0 to 1 in percent: "86.5 %". */
-export function percent(share: number): string {
-  return Number.isNaN(share) ? NO_VALUE : `${fixed(100 * share, 1)}${THIN_SPACE}%`;
+export function formatPercent(fraction: number): string {
+  return Number.isNaN(fraction) ? NO_VALUE : `${formatFixed(100 * fraction, 1)}${THIN_SPACE}%`;
 }
 
 /** Prints a value with its standard error: "−0.412 ± 0.031"; "∞" and "—" have none. A small error has as many decimals as show its first digit. */
 export function formatWithError(value: number, error: number, decimals: number): string {
-  if (!Number.isFinite(value)) return fixed(value, 0);
-  const neededDecimals = error > 0 ? Math.max(decimals, Math.min(MAX_DECIMALS, -Math.floor(Math.log10(error)))) : decimals;
-  return `${fixed(value, neededDecimals)} ± ${fixed(error, neededDecimals)}`;
+  if (!Number.isFinite(value)) return formatFixed(value, 0);
+  const neededDecimals = error > 0 ? Math.max(decimals, Math.min(MAX_ERROR_DECIMALS, -Math.floor(Math.log10(error)))) : decimals;
+  return `${formatFixed(value, neededDecimals)} ± ${formatFixed(error, neededDecimals)}`;
 }
 
 /** Prints the label of an axis tick, with as many decimals as the step between ticks needs. */
-export function tick(value: number, step: number) {
-  return fixed(value, Math.max(0, -Math.floor(Math.log10(step) + 1e-9)));
+export function formatTick(value: number, step: number) {
+  return formatFixed(value, Math.max(0, -Math.floor(Math.log10(step) + 1e-9)));
 }
 
 /** Returns the nearest value from `min` to `max`. */

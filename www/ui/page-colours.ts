@@ -18,7 +18,7 @@ const MUTED_SHARES = [75, 80, 85, 90, 95];
 const MIN_CONTRAST = 4.55;
 
 /** Returns a node's element and its ancestors across shadow roots, the nearest first. */
-export function ancestors(node: Node): Element[] {
+export function elementAndAncestors(node: Node): Element[] {
   const elements = [];
   let ancestor: any = node;
   for (; ancestor; ancestor = ancestor.assignedSlot ?? ancestor.parentNode ?? ancestor.host) if (ancestor.nodeType === 1) elements.push(ancestor);
@@ -27,24 +27,24 @@ export function ancestors(node: Node): Element[] {
 
 /** Reads the colours around a figure. The scheme is dark if the background is darker than legible text, or than medium grey if the text is not legible. */
 export function readPageColours(probe: Element): PageColours {
-  const { color, borderTopColor: canvas, colorScheme } = getComputedStyle(probe);
+  const { color, borderTopColor: canvasColour, colorScheme } = getComputedStyle(probe);
   const textColour = colourChannels(color);
   const isDarkByDefault = colorScheme === 'normal' && lightness(textColour) > 0.5;
-  const ancestorBackgrounds = ancestors(probe).map((ancestor) => getComputedStyle(ancestor).backgroundColor);
-  const backgroundColour = colourChannels(...[...ancestorBackgrounds, isDarkByDefault ? DARK_BACKGROUND : canvas].reverse());
+  const ancestorBackgrounds = elementAndAncestors(probe).map((ancestor) => getComputedStyle(ancestor).backgroundColor);
+  const backgroundColour = colourChannels(...[...ancestorBackgrounds, isDarkByDefault ? DARK_BACKGROUND : canvasColour].reverse());
   const backgroundLightness = lightness(backgroundColour);
-  const isLegible = contrast(textColour, backgroundColour) >= MIN_CONTRAST;
+  const isLegible = contrastRatio(textColour, backgroundColour) >= MIN_CONTRAST;
   const scheme = backgroundLightness < (isLegible ? lightness(textColour) : 0.5) ? 'dark' : 'light';
   // The darkening grows with the darkness of the background. Nearly white backgrounds need none.
   const shade = scheme === 'light' && backgroundLightness < 0.97 ? `${100 * (1 - backgroundLightness ** 2.2)}%` : '';
   const mutedColour = (share: number) => backgroundColour.map((channel, i) => channel + (share / 100) * (textColour[i] - channel));
-  const mutedStrength = isLegible ? `${MUTED_SHARES.find((share) => contrast(mutedColour(share), backgroundColour) >= MIN_CONTRAST) ?? 100}%` : '';
+  const mutedStrength = isLegible ? `${MUTED_SHARES.find((share) => contrastRatio(mutedColour(share), backgroundColour) >= MIN_CONTRAST) ?? 100}%` : '';
   return { ground: `rgb(${backgroundColour})`, text: isLegible ? color : '', shade, strength: mutedStrength, scheme };
 }
 
-function contrast(first: number[], second: number[]) {
+function contrastRatio(firstColour: number[], secondColour: number[]) {
   const linearChannel = (channel: number) => (channel > 10 ? ((channel / 255 + 0.055) / 1.055) ** 2.4 : channel / 3294.6);
-  const [low, high] = [first, second].map((colour) => lightness(colour.map((channel) => 255 * linearChannel(channel)))).sort((a, b) => a - b);
+  const [low, high] = [firstColour, secondColour].map((colour) => lightness(colour.map((channel) => 255 * linearChannel(channel)))).sort((a, b) => a - b);
   return (high + 0.05) / (low + 0.05);
 }
 

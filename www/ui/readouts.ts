@@ -1,7 +1,7 @@
 /** Numbers as text: a list of readouts, and tables. */
 
 import { css, html, nothing } from 'lit';
-import { formatMarkup, untranslated } from './controls.ts';
+import { formatMarkup, untranslatedHtml } from './controls.ts';
 
 export const readoutStyles = css`
   /* Readouts side by side, each with its name above its number. */
@@ -125,19 +125,19 @@ export const readoutStyles = css`
 `;
 
 /** Returns a list of readouts. Each may have a detail below it, and an earlier value beside it. One may be the headline of the figure. */
-export function readoutList(rows: [name: string, value: string, detail?: string, earlier?: string][], headline?: number) {
+export function readoutsHtml(rows: [name: string, value: string, detail?: string, earlier?: string][], headlineIndex?: number) {
   return html`<dl class="readouts" part="readouts">
     ${rows.map(
-      ([name, value, detail, earlier], i) => html`<div class=${i === headline ? 'headline' : nothing}>
+      ([name, value, detail, earlier], i) => html`<div class=${i === headlineIndex ? 'headline' : nothing}>
         <dt>${formatMarkup(name)}</dt>
-        <dd>${untranslated(value)}${earlier ? html` <span class="earlier">${untranslated(earlier)}</span>` : nothing}</dd>
+        <dd>${untranslatedHtml(value)}${earlier ? html` <span class="earlier">${untranslatedHtml(earlier)}</span>` : nothing}</dd>
         ${detail ? html`<dd class="detail">${formatMarkup(detail)}</dd>` : nothing}
       </div>`,
     )}
   </dl>`;
 }
 
-interface FigureTable {
+interface TableContent {
   caption?: unknown;
   /** Headings of the columns. The first column has the names of the rows. */
   columns: unknown[];
@@ -145,11 +145,11 @@ interface FigureTable {
   rows: unknown[][];
 }
 
-export function figureTable({ caption, columns, rows }: FigureTable) {
-  const rowCells = ([firstCell, ...otherCells]: unknown[]) =>
+export function tableHtml({ caption, columns, rows }: TableContent) {
+  const rowCellsHtml = ([firstCell, ...otherCells]: unknown[]) =>
     otherCells.length === 0
-      ? html`<td colspan=${columns.length - 1}>${untranslated(firstCell)}</td>`
-      : [firstCell, ...otherCells].map((cell) => html`<td>${untranslated(cell)}</td>`);
+      ? html`<td colspan=${columns.length - 1}>${untranslatedHtml(firstCell)}</td>`
+      : [firstCell, ...otherCells].map((cell) => html`<td>${untranslatedHtml(cell)}</td>`);
   return html`<table part="table">
     ${caption ? html`<caption>${caption}</caption>` : nothing}
     <thead>
@@ -161,7 +161,7 @@ export function figureTable({ caption, columns, rows }: FigureTable) {
       ${rows.map(
         ([name, ...row]) => html`<tr>
           <th scope="row">${name}</th>
-          ${rowCells(row)}
+          ${rowCellsHtml(row)}
         </tr>`,
       )}
     </tbody>

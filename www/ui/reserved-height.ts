@@ -1,10 +1,10 @@
 /** Heights reserved for figures, so that the text below does not move when they load. */
 
 import { unsafeCSS } from 'lit';
-import { preferredWidth } from './theme.ts';
+import { preferredWidthCss } from './theme.ts';
 
 /** Bounds of the width classes, em, where the layout changes. */
-const CLASS_WIDTHS_EM = [20, 30, 38, 46, 56, 80];
+const WIDTH_CLASS_BOUNDS_EM = [20, 30, 38, 46, 56, 80];
 
 /** Heights in em by tag and width class, at the lower and the upper bound of the class. Measured in a window 900 px high, with a small margin. */
 const HEIGHTS_EM: Record<string, ([number, number] | string)[]> = {
@@ -19,9 +19,9 @@ const HEIGHTS_EM: Record<string, ([number, number] | string)[]> = {
 /** Returns the height for any width as a CSS maximum over the classes. Outside of its class, a term is hugely negative. */
 function heightCss(tag: string, unit: '%' | 'cqi') {
   const heightTerms = HEIGHTS_EM[tag].map((height, i, { length }) => {
-    const [fromEm, toEm] = [CLASS_WIDTHS_EM[i], CLASS_WIDTHS_EM[i + 1]];
-    const width = `min(100${unit},${toEm}em)`;
-    const interpolatedHeight = (from: number, to: number) => `${from}em + ${((to - from) / (toEm - fromEm)).toFixed(3)}*(${width} - ${fromEm}em)`;
+    const [fromEm, toEm] = [WIDTH_CLASS_BOUNDS_EM[i], WIDTH_CLASS_BOUNDS_EM[i + 1]];
+    const clampedWidth = `min(100${unit},${toEm}em)`;
+    const interpolatedHeight = (from: number, to: number) => `${from}em + ${((to - from) / (toEm - fromEm)).toFixed(3)}*(${clampedWidth} - ${fromEm}em)`;
     const penaltyBelow = i > 0 ? ` - 1e6*max(0em,${fromEm}em - 100${unit})` : '';
     const penaltyAbove = i === length - 1 ? '' : ` - 1e6*max(0em,100${unit} - ${toEm - 0.001}em)`;
     return `${typeof height === 'string' ? height : interpolatedHeight(...height)}${penaltyBelow}${penaltyAbove}`;
@@ -29,21 +29,21 @@ function heightCss(tag: string, unit: '%' | 'cqi') {
   return `max(${heightTerms})`;
 }
 
-export const reservedHeight = (tag: string) =>
+export const reservedHeightCss = (tag: string) =>
   unsafeCSS(`.reserved,.simulation{--height:${heightCss(tag, 'cqi')};min-height:var(--height)}.simulation{min-height:calc(var(--height) + var(--motion-sticky-bottom,0px))}`);
 
 /** Returns the style sheet that reserves heights until the elements are defined. */
 export function preUpgradeCss() {
   const tags = Object.keys(HEIGHTS_EM);
-  const undefinedElements = (selectors: string | string[]) => `:is(${selectors}):not(:defined)`;
+  const undefinedSelector = (selectors: string | string[]) => `:is(${selectors}):not(:defined)`;
   return [
-    `${undefinedElements(tags)}{display:flow-root;position:relative;min-width:0;max-width:100%}`,
-    `${undefinedElements(tags)}::before{${preferredWidth}}`,
-    `${undefinedElements(tags)}>:not([slot]){position:absolute;top:0;margin:0}`,
+    `${undefinedSelector(tags)}{display:flow-root;position:relative;min-width:0;max-width:100%}`,
+    `${undefinedSelector(tags)}::before{${preferredWidthCss}}`,
+    `${undefinedSelector(tags)}>:not([slot]){position:absolute;top:0;margin:0}`,
     // The slots have the same styles as in the figure.
-    `:where(${undefinedElements(tags)}>[slot=title]){display:block;font-size:1.1em;line-height:1.4}`,
-    `:where(${undefinedElements(tags)}:has(>[slot=title]))::before{margin-bottom:.297em}`,
-    `:where(${undefinedElements(tags)}>[slot=caption]){font-size:.95em;line-height:1.4}`,
-    ...tags.map((tag) => `${undefinedElements(tag)}::before{padding-top:${heightCss(tag, '%')}}`),
+    `:where(${undefinedSelector(tags)}>[slot=title]){display:block;font-size:1.1em;line-height:1.4}`,
+    `:where(${undefinedSelector(tags)}:has(>[slot=title]))::before{margin-bottom:.297em}`,
+    `:where(${undefinedSelector(tags)}>[slot=caption]){font-size:.95em;line-height:1.4}`,
+    ...tags.map((tag) => `${undefinedSelector(tag)}::before{padding-top:${heightCss(tag, '%')}}`),
   ].join('\n');
 }

@@ -173,26 +173,26 @@ const NUMBER_START = /^[\d.,+\-\u2212]$/;
  * Returns a slider row. The printed value is also a text field, in which a value beyond the slider may be typed. Tab skips the field. Enter
  * or a digit on the slider moves the focus into the field; Enter and Escape move it back.
  */
-export function sliderRow(row: SliderRow) {
-  const printedValue = row.show(row.value);
-  const longestText = [row.show(row.min), row.show(row.max)].reduce((longer, candidate) => (candidate.length > longer.length ? candidate : longer), printedValue);
+export function sliderRowHtml(row: SliderRow) {
+  const printedValue = row.formatValue(row.value);
+  const longestText = [row.formatValue(row.min), row.formatValue(row.max)].reduce((longer, candidate) => (candidate.length > longer.length ? candidate : longer), printedValue);
   return html`
     <div class="slider ${row.hasNoEffect ? 'off' : ''} ${row.refusal ? 'refused' : ''}" part="slider" data-role=${row.role}>
       <span>
         ${row.pickControl ?? nothing}
         <label for=${row.id} id="${row.id}-name">${row.symbol ? html`<bdi class="symbol notranslate" translate="no">${row.symbol}</bdi>` : nothing}${row.name}</label>
       </span>
-      ${track({ ...row, ...stopPositions(row), name: undefined, text: printedValue, describedBy: `${row.id}-effect`, keydown: focusField })}
+      ${sliderTrackHtml({ ...row, ...rangeOfStops(row), name: undefined, text: printedValue, describedBy: `${row.id}-effect`, keydown: focusField })}
       <form method="dialog" class="value notranslate" translate="no" dir="ltr" data-longest=${longestText}>
         <span class="printed">${printedValue}</span>
-        ${valueField(row, printedValue)}
+        ${valueFieldHtml(row, printedValue)}
       </form>
       <p class="effect muted small" id="${row.id}-effect" role=${row.refusal ? 'alert' : nothing}>${row.refusal || row.effect}</p>
     </div>
   `;
 }
 
-interface Range {
+interface SliderRange {
   /** Id that is unique in the widget. */
   id: string;
   value: number;
@@ -200,17 +200,17 @@ interface Range {
   max: number;
   step: number;
   /** Called while the thumb moves. */
-  input: (value: number) => void;
+  onInput: (value: number) => void;
   /** Called when the thumb comes to rest. */
-  commit: () => void;
+  onCommit: () => void;
 }
 
-export interface SliderRow extends Range {
+export interface SliderRow extends SliderRange {
   symbol?: unknown;
   name: unknown;
   /** Values of the slider, if they are not in equal steps. */
   stops?: readonly number[];
-  show: (value: number) => string;
+  formatValue: (value: number) => string;
   /** Effect of the parameter on the picture, in words. */
   effect: unknown;
   role: 'prior' | 'prediction' | 'truth';
@@ -219,9 +219,9 @@ export interface SliderRow extends Range {
   /** Control in front of the label. */
   pickControl?: unknown;
   /** Keyboard of a phone for typing the value. */
-  keys: 'decimal' | 'numeric' | 'text';
+  inputMode: 'decimal' | 'numeric' | 'text';
   /** Applies a typed text. Returns the text to display, or undefined if it is refused. */
-  type: (text: string) => string | undefined;
+  applyTypedText: (text: string) => string | undefined;
   /** Sentence about a refused text. */
   refusal?: string;
   /** Clears the sentence about a refused text. */
@@ -229,13 +229,13 @@ export interface SliderRow extends Range {
 }
 
 /** Returns the range of a slider over stops, whose positions are the indices of the stops. A value beyond the last stop has the position after it. */
-function stopPositions({ stops, value, input }: SliderRow): Partial<Range> {
+function rangeOfStops({ stops, value, onInput }: SliderRow): Partial<SliderRange> {
   if (!stops) return {};
   const stopIndex = stops.findIndex((stop) => stop >= value);
-  return { min: 0, max: stops.length - 1, step: 1, value: stopIndex < 0 ? stops.length : stopIndex, input: (index) => input(stops[index]) };
+  return { min: 0, max: stops.length - 1, step: 1, value: stopIndex < 0 ? stops.length : stopIndex, onInput: (index) => onInput(stops[index]) };
 }
 
-interface Track extends Range {
+interface Track extends SliderRange {
   /** Accessible name, for a slider without a label that screen readers can read. */
   name?: string;
   text: string;
@@ -244,10 +244,10 @@ interface Track extends Range {
 }
 
 /** Returns the track of a slider. A finger that moves up or down over it scrolls the page. */
-export function track({ id, name, min, max, step, value, text, describedBy, keydown, input, commit }: Track) {
+export function sliderTrackHtml({ id, name, min, max, step, value, text, describedBy, keydown, onInput, onCommit }: Track) {
   // A browser changes a slider as soon as it is touched. The change counts only once the touch turns out to be a tap or a sideways move.
   const setValue = (event: Event) => {
-    if (!undecidedTouch) input(inputOf(event).valueAsNumber);
+    if (!undecidedTouch) onInput(inputOf(event).valueAsNumber);
   };
   const moveTouch = (event: PointerEvent) => {
     const horizontalMove = Math.abs(event.clientX - (undecidedTouch?.clientX ?? NaN));
@@ -276,16 +276,16 @@ export function track({ id, name, min, max, step, value, text, describedBy, keyd
     @pointerup=${endPointer}
     @pointercancel=${endPointer}
     @input=${setValue}
-    @change=${commit}
+    @change=${onCommit}
   />`;
 }
 
 /** Returns the field of a value. Its default is the printed value, which a browser shows unless the user has typed another text. */
-function valueField({ id, keys, type, clearRefusal }: Pick<SliderRow, 'id' | 'keys' | 'type' | 'clearRefusal'>, printedValue: string) {
+function valueFieldHtml({ id, inputMode, applyTypedText, clearRefusal }: Pick<SliderRow, 'id' | 'inputMode' | 'applyTypedText' | 'clearRefusal'>, printedValue: string) {
   /** Applies the typed text; returns true if it became the value. */
   const applyText = (input: HTMLInputElement): boolean => {
     if (input.value === input.defaultValue) return true;
-    const appliedText = type(input.value);
+    const appliedText = applyTypedText(input.value);
     input.defaultValue = appliedText ?? input.defaultValue;
     input.form?.reset();
     return appliedText !== undefined;
@@ -303,7 +303,7 @@ function valueField({ id, keys, type, clearRefusal }: Pick<SliderRow, 'id' | 'ke
     class="typed"
     type="text"
     tabindex="-1"
-    inputmode=${keys}
+    inputmode=${inputMode}
     enterkeyhint="done"
     autocomplete="off"
     spellcheck="false"

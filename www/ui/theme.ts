@@ -17,13 +17,13 @@ const ROLES = ['paper', 'ink', 'muted', 'rule', 'prior', 'prediction', 'cloud', 
  * Styles of a pseudo-element that gives a figure the width of a book's column in a box that fits its contents. The element has two dots
  * with a wide space between them, at which the line breaks in a narrower box.
  */
-export const preferredWidth =
+export const preferredWidthCss =
   "content:'. .';display:block;height:0;overflow:hidden;visibility:hidden;white-space:normal;word-spacing:44em";
 
 /** Resolved CSS colours by role. */
 export type Palette = Record<(typeof ROLES)[number], string>;
 
-export const theme = css`
+export const themeStyles = css`
   :host {
     display: block;
     min-width: 0;
@@ -36,7 +36,7 @@ export const theme = css`
   }
 
   :host::before {
-    ${unsafeCSS(preferredWidth)}
+    ${unsafeCSS(preferredWidthCss)}
   }
 
   /*
@@ -207,13 +207,13 @@ export function resolvePalette(surface: HTMLElement) {
     return colourProbe;
   });
   surface.append(...colourProbes);
-  const colours = colourProbes.map((swatch, i) => {
-    const { color } = getComputedStyle(swatch);
+  const paletteEntries = colourProbes.map((colourProbe, i) => {
+    const { color } = getComputedStyle(colourProbe);
     // Mixed colours are serialized in notations that few programs read.
     return [ROLES[i], /^rgb/.test(color) ? color : `rgb(${colourChannels(color)})`];
   });
   for (const colourProbe of colourProbes) colourProbe.remove();
-  return Object.fromEntries(colours) as Palette;
+  return Object.fromEntries(paletteEntries) as Palette;
 }
 
 let pixelContext: OffscreenCanvasRenderingContext2D | undefined;
@@ -221,8 +221,8 @@ let pixelContext: OffscreenCanvasRenderingContext2D | undefined;
 /** Returns red, green and blue from 0 to 255 of colours in any CSS notation, each painted over the previous ones. */
 export function colourChannels(...colours: string[]): [number, number, number] {
   // Browsers serialize most colours in this notation.
-  const plainColour = colours.at(-1)?.match(/^rgb\((\d+), (\d+), (\d+)\)$/);
-  if (plainColour) return [Number(plainColour[1]), Number(plainColour[2]), Number(plainColour[3])];
+  const rgbMatch = colours.at(-1)?.match(/^rgb\((\d+), (\d+), (\d+)\)$/);
+  if (rgbMatch) return [Number(rgbMatch[1]), Number(rgbMatch[2]), Number(rgbMatch[3])];
   const context = (pixelContext ??= (
     new OffscreenCanvas(1, 1).getContext('2d', { willReadFrequently: true }) as OffscreenCanvasRenderingContext2D
   ));

@@ -1,16 +1,16 @@
 /** <alpha-calibrator>: α's fitted to a log, with confidence intervals and goodness of fit. */
 
 import { html, css } from 'lit';
-import { checkedObject } from '../../data/checks.ts';
-import { pictureCanvas, disclosures, titledPicture, settingRadios, editableSlider, settingSlider, legend } from '../../figure/controls.ts';
+import { checkObject } from '../../data/checks.ts';
+import { pictureCanvasHtml, disclosuresHtml, titledPictureHtml, settingRadiosHtml, editableSliderHtml, settingSliderHtml, legendHtml } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
-import { define } from '../../figure/reflection.ts';
+import { defineElement } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
-import { pointInView } from '../../scene/canvas.ts';
+import { toViewPixels } from '../../scene/canvas.ts';
 import { Memo } from '../../scene/cache.ts';
-import { group, button, radioGroup } from '../../ui/controls.ts';
-import { integer, NO_VALUE, fixed, formatEditable } from '../../ui/format.ts';
-import { readoutList } from '../../ui/readouts.ts';
+import { fieldsetHtml, buttonHtml, radioGroupHtml } from '../../ui/controls.ts';
+import { formatInteger, NO_VALUE, formatFixed, formatEditable } from '../../ui/format.ts';
+import { readoutsHtml } from '../../ui/readouts.ts';
 import { startOverButton } from '../shared/controls.ts';
 import { LogOpener, LogService, dropZone, isAbortError, logSection } from './open.ts';
 import { LegPicture, PathPicture } from './pictures.ts';
@@ -36,29 +36,29 @@ function legControls(figure: AlphaCalibratorElement) {
   const texts = words.calibrator.leg;
   // The button selects the leg after the selected one in the list of worst legs, or the first of the list.
   const nextLeg = worst[(worst.indexOf(figure.settings.elementState.leg) + 1) % Math.max(1, worst.length)];
-  return html`${editableSlider(figure, texts.name, { min: 1, max: legs.count, type: 'whole' }, {
+  return html`${editableSliderHtml(figure, texts.name, { min: 1, max: legs.count, type: 'whole' }, {
       id: 'leg',
       name: texts.name,
       value: chosen + 1,
       min: 1,
       max: Math.max(2, legs.count),
       step: 1,
-      show: integer,
+      formatValue: formatInteger,
       effect: undefined,
       role: 'truth',
       hasNoEffect: legs.count < 2,
-      input: (number) => figure.settings.request({ leg: number - 1 }),
-      commit: () => figure.gesture.commit(),
+      onInput: (number) => figure.settings.request({ leg: number - 1 }),
+      onCommit: () => figure.gesture.commit(),
     })}
-    ${button(texts.worst, () => figure.gesture.decide({ leg: nextLeg }), { disabled: nextLeg === undefined })}`;
+    ${buttonHtml(texts.worst, () => figure.gesture.requestAndCommit({ leg: nextLeg }), { disabled: nextLeg === undefined })}`;
 }
 
 function legReadouts({ viewModel: { legs }, chosen, predicted: leg }: AlphaCalibratorElement) {
   const texts = words.calibrator.leg;
   const off = leg ? Math.hypot(leg.ended[0] - leg.read[0], leg.ended[1] - leg.read[1]) : NaN;
-  return readoutList([
-    [texts.off, `${fixed(off, 3)} m`],
-    [texts.squared(String(observedCount(legs.residuals, chosen))), fixed(leg ? legs.squared[chosen] : NaN, 1)],
+  return readoutsHtml([
+    [texts.off, `${formatFixed(off, 3)} m`],
+    [texts.squared(String(observedCount(legs.residuals, chosen))), formatFixed(leg ? legs.squared[chosen] : NaN, 1)],
     [words.calibrator.overlays.outlier, leg ? texts.isOutlier[legs.outliers[chosen] > 0 ? 'yes' : 'no'] : NO_VALUE],
   ]);
 }
@@ -66,9 +66,9 @@ function legReadouts({ viewModel: { legs }, chosen, predicted: leg }: AlphaCalib
 function modelControls(figure: AlphaCalibratorElement) {
   const { fit, settings: { model }, kinds, outliers } = words.calibrator;
   const formatDuration = (seconds: number) => (seconds > 0 ? `${formatEditable(seconds, 2)} s` : NO_VALUE);
-  const chooseModel = (kind: import('./settings.ts').ModelRule) => figure.gesture.decide(settingsFor(kind));
-  return group(fit, html`${radioGroup(model.name, 'kind', kinds, modelRuleOf(figure.settings.requested as any), chooseModel)}
-    ${settingRadios(figure, 'outliers', outliers)} ${settingSlider(figure, 'duration', { show: formatDuration })}`, 'fit');
+  const chooseModel = (kind: import('./settings.ts').ModelRule) => figure.gesture.requestAndCommit(settingsFor(kind));
+  return fieldsetHtml(fit, html`${radioGroupHtml(model.name, 'kind', kinds, modelRuleOf(figure.settings.requested as any), chooseModel)}
+    ${settingRadiosHtml(figure, 'outliers', outliers)} ${settingSliderHtml(figure, 'duration', { formatValue: formatDuration })}`, 'fit');
 }
 
 const styles = css`
@@ -265,7 +265,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
 
   createSimulation = ({ AlphaCalibrator }: Motion, given = this.#givenLog) => (given ? AlphaCalibrator.restored(given.config, given.fit) : new AlphaCalibrator());
 
-  read(simulation: Simulation) {
+  readViewModel(simulation: Simulation) {
     const viewModel = viewModelOf(simulation, this.log, this.viewModel);
     if (viewModel.isPending) this.#refit();
     return viewModel;
@@ -278,7 +278,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   connectedCallback() {
     super.connectedCallback();
     // A figure that is in no page fits nothing: its settings may wait for a fit.
-    this.settings.isStale = true;
+    this.settings.isViewModelStale = true;
   }
 
   disconnectedCallback() {
@@ -312,9 +312,9 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   #chooseLegAt = (event: MouseEvent) => {
     const { simulation } = this;
     if (!simulation || !(event.target instanceof HTMLCanvasElement)) return;
-    const [x, y] = pointInView(event.target, this.#pathPicture.view, event);
-    const leg = this.#pathPicture.nearest(simulation, x, y);
-    if (leg >= 0) this.gesture.decide({ leg });
+    const [x, y] = toViewPixels(event.target, this.#pathPicture.view, event);
+    const leg = this.#pathPicture.nearestSample(simulation, x, y);
+    if (leg >= 0) this.gesture.requestAndCommit({ leg });
   };
 
   /**
@@ -328,7 +328,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
 
   set log(log) {
     this.reflection.setProperty('log', log, (newLog) => {
-      if (newLog !== null) checkedObject('log', newLog, ['name', 'odometry', 'reference']);
+      if (newLog !== null) checkObject('log', newLog, ['name', 'odometry', 'reference']);
       this.service.stop();
       const acceptLog = () => {
         this.#pageLog = newLog;
@@ -344,7 +344,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   };
 
   #report = (error: unknown) => {
-    if (!isAbortError(error)) this.runtime.report(error);
+    if (!isAbortError(error)) this.runtime.reportError(error);
   };
 
   /**
@@ -352,7 +352,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
    * notes on the new log that make its α's doubtful.
    */
   async open(log: CalibrationLog | null, warnings: Warning[], check?: (simulation: Simulation) => void) {
-    const config = this.settings.pick(this.settings.current) as Simulation['config'];
+    const config = this.settings.pickSettings(this.settings.current) as Simulation['config'];
     const openedLog = log && { log, warnings, config, fit: await this.service.calibrate(config, log) };
     this.runtime.attempt(() => {
       if (!this.simulation) return;
@@ -362,10 +362,10 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
       check?.(simulation);
       if (log !== this.log) {
         this.settings.elementState.leg = null;
-        for (const { view } of this.pictures) view.reset();
+        for (const { view } of this.pictures) view.clearTarget();
       }
       this.#givenLog = openedLog;
-      this.runtime.replace(simulation);
+      this.runtime.replaceSimulation(simulation);
       this.renderer.requestFrame();
     });
   }
@@ -434,20 +434,20 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
     return captionOf({ viewModel, warnings: this.warnings, logName: this.logName });
   }
 
-  content(viewModel: ViewModel) {
+  renderContent(viewModel: ViewModel) {
     const texts = words.calibrator;
     const { chosen } = this;
     const hasDuration = this.settings.requested.duration > 0;
     return html`
       ${dropZone(this, this.#opener)}
       <div class="views">
-        <p part="caption" class="caption verdict">${this.renderer.afterFirstPicture(() => verdictHtml(this))}</p>
-        ${titledPicture(texts.path, html`<div class="stage" part="picture" @click=${this.#chooseLegAt}>${pictureCanvas(this, this.#pathPicture, pathText(viewModel, chosen))}</div>`)}
+        <p part="caption" class="caption verdict">${this.renderer.renderAfterFirstPicture(() => verdictHtml(this))}</p>
+        ${titledPictureHtml(texts.path, html`<div class="stage" part="picture" @click=${this.#chooseLegAt}>${pictureCanvasHtml(this, this.#pathPicture, pathText(viewModel, chosen))}</div>`)}
         <div class="one">
-          ${titledPicture(texts.oneLeg(integer(chosen + 1)), html`<div class="stage">${pictureCanvas(this, this.#legPicture, legText(this.predicted, chosen))}</div>`)}
-          ${this.renderer.afterFirstPicture(() => html`<div class="looked with-button">${legControls(this)}</div>`)}
+          ${titledPictureHtml(texts.oneLeg(formatInteger(chosen + 1)), html`<div class="stage">${pictureCanvasHtml(this, this.#legPicture, legText(this.predicted, chosen))}</div>`)}
+          ${this.renderer.renderAfterFirstPicture(() => html`<div class="looked with-button">${legControls(this)}</div>`)}
         </div>
-        ${this.renderer.afterFirstPicture(() => html`
+        ${this.renderer.renderAfterFirstPicture(() => html`
         <div class="fitted" part="readouts">
           <div class="buttons result">
             <p class="panel-title">${texts.alphas.title(texts.kinds[modelRuleOf(viewModel.fitted)])}</p>
@@ -458,20 +458,20 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
           <p class="reason muted small">${recommendationReason(viewModel)}</p>
         </div>`)}
       </div>
-      ${this.renderer.afterFirstPicture(() => html`
-      ${legend(this, LINE_STYLES)}
+      ${this.renderer.renderAfterFirstPicture(() => html`
+      ${legendHtml(this, LINE_STYLES)}
       <div part="controls">
-        ${group(texts.leg.group, html`<div class="controls">${['distance', 'angle'].map((key) => settingSlider(this, key, { hasNoEffect: hasDuration }))}</div>`)}
+        ${fieldsetHtml(texts.leg.group, html`<div class="controls">${['distance', 'angle'].map((key) => settingSliderHtml(this, key, { hasNoEffect: hasDuration }))}</div>`)}
       </div>
-      ${disclosures(this, {
-        controls: () => html`${modelControls(this)}
-          ${group(texts.systematic.title, systematicTable(this))}
-          ${group(texts.own.title, logSection(this))}
-          ${group(texts.prediction, html`${settingRadios(this, 'noise', words.noises)} ${settingSlider(this, 'inflation')}`, 'fit')}`,
-        numbers: () => html`${group(texts.oneLeg(integer(chosen + 1)), legReadouts(this))}
+      ${disclosuresHtml(this, {
+        renderControls: () => html`${modelControls(this)}
+          ${fieldsetHtml(texts.systematic.title, systematicTable(this))}
+          ${fieldsetHtml(texts.own.title, logSection(this))}
+          ${fieldsetHtml(texts.prediction, html`${settingRadiosHtml(this, 'noise', words.noises)} ${settingSliderHtml(this, 'inflation')}`, 'fit')}`,
+        renderNumbers: () => html`${fieldsetHtml(texts.oneLeg(formatInteger(chosen + 1)), legReadouts(this))}
           ${diagnosticsHtml(this)}
-          ${group(texts.panels.title, regressionPanels(this))}
-          ${group(texts.nav2.title, nav2ExportControls(this, this.#opener.otherResultsNote))}`,
+          ${fieldsetHtml(texts.panels.title, regressionPanels(this))}
+          ${fieldsetHtml(texts.nav2.title, nav2ExportControls(this, this.#opener.otherResultsNote))}`,
         csvTitle: texts.csvTitle,
       })}
       ${this.#opener.logModule?.logSummaryHtml(this.#opener)}`)}
@@ -479,4 +479,4 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   }
 }
 
-define(AlphaCalibratorElement);
+defineElement(AlphaCalibratorElement);

@@ -7,8 +7,8 @@ import { findCandidates, planDrives, readableSeries, type LogPlan } from '../../
 import { ROLES, UNITS, framesText, summaryLines, type LogChoice, type Question, type Recording, type Role } from '../../logs/log.ts';
 import { alignedPath, pathOf, svgPathData, type Path } from '../../logs/path.ts';
 import { language } from '../../messages/registry.ts';
-import { radioGroup } from '../../ui/controls.ts';
-import { fixed } from '../../ui/format.ts';
+import { radioGroupHtml } from '../../ui/controls.ts';
+import { formatFixed } from '../../ui/format.ts';
 import type { AlphaCalibratorElement } from './alpha-calibrator.ts';
 import type { Drive } from '../../logs/pairs.ts';
 import type { OpenQuestion, ChosenFiles, LogOpener, LogWords } from './open.ts';
@@ -109,7 +109,7 @@ function questionHtml(opener: LogOpener, { answers }: ChosenFiles, asked: OpenQu
   if (what !== 'timeUnit' && what !== 'lengthUnit' && what !== 'angleUnit') return nothing;
   const labels: Record<string, string> = Object.fromEntries((choices.length ? choices : UNITS[what]).map((unit) => [unit, texts.units[unit as keyof typeof texts.units]]));
   return html`<div id=${questionId(asked)}>
-    ${radioGroup(texts[what](file), questionId(asked), labels, answers[file]?.[what] ?? '', (unit) => opener.answer(asked, { [what]: unit }))}
+    ${radioGroupHtml(texts[what](file), questionId(asked), labels, answers[file]?.[what] ?? '', (unit) => opener.answer(asked, { [what]: unit }))}
   </div>`;
 }
 
@@ -199,7 +199,7 @@ function pathsPicture({ odometry, reference }: Drive, { found }: LogWords) {
   const [width, height] = axisRanges.map(([low, high]) => high - low);
   const pixelsPerMetre = Math.min((WIDTH - 2 * MARGIN) / Math.max(width, 0.1), (HEIGHT - 2 * MARGIN) / Math.max(height, 0.1));
   const pathData = (path: Path) => svgPathData(path, ([x, y]) => [MARGIN + (x - axisRanges[0][0]) * pixelsPerMetre, HEIGHT - MARGIN - (y - axisRanges[1][0]) * pixelsPerMetre]);
-  const captionText = found.paths(fixed(width, 1), fixed(height, 1));
+  const captionText = found.paths(formatFixed(width, 1), formatFixed(height, 1));
   return html`<figure class="paths small">
     <svg viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" aria-label=${captionText}>
       <g fill="none" stroke-width="1.25" stroke-linejoin="round">

@@ -1,12 +1,12 @@
 /** Opener of the user's logs, from chosen or dropped files. */
 
 import { html, nothing } from 'lit';
-import { settingSlider } from '../../figure/controls.ts';
+import { settingSliderHtml } from '../../figure/controls.ts';
 import { language, words } from '../../messages/registry.ts';
-import { button } from '../../ui/controls.ts';
+import { buttonHtml } from '../../ui/controls.ts';
 import { formatEditable } from '../../ui/format.ts';
 import { FileOpener } from '../shared/files.ts';
-import { instantiateShared, sharedCore, startWorker } from '../../core.ts';
+import { instantiateShared, moduleForWorker, startWorker } from '../../core.ts';
 import type { LogPlan, UserChoices } from '../../logs/drives.ts';
 import type { Drive } from '../../logs/pairs.ts';
 import type { LogFailure, LogSession } from '../../logs/session.ts';
@@ -89,7 +89,7 @@ export class LogOpener extends FileOpener<Figure> {
     this.restore();
     if (log === this.host.log) return;
     await this.host.open(log, []);
-    this.host.gesture.complete();
+    this.host.gesture.commitOneStep();
   }
 
   /** Returns to the files of the results on screen. */
@@ -119,7 +119,7 @@ export class LogOpener extends FileOpener<Figure> {
   /** Shows that no log is being read, and lets the figure apply the changes that waited for the end of reading. */
   #setIdle() {
     this.readFraction = undefined;
-    this.host.settings.isStale = true;
+    this.host.settings.isViewModelStale = true;
     this.host.renderer.requestFrame();
     this.host.requestUpdate();
   }
@@ -190,7 +190,7 @@ export class LogOpener extends FileOpener<Figure> {
     chosen.log = log;
     this.#resultFiles = chosen;
     this.#loneLogFiles = undefined;
-    this.host.gesture.complete();
+    this.host.gesture.commitOneStep();
   }
 
   explain(refusal: Refusal) {
@@ -237,17 +237,17 @@ export function dropZone(figure: Figure, opener: LogOpener) {
     </p>
     ${logModule?.logChoosers(opener)}
     ${readFraction !== undefined
-      ? html`<p><progress aria-label=${words.progress.label} .value=${readFraction}></progress> ${button(words.progress.stop, () => opener.stop())}</p>`
-      : figure.log ? html`<p><span class="present">${texts.present(figure.logName)}</span> ${button(texts.leave, () => opener.close())}</p>` : nothing}
+      ? html`<p><progress aria-label=${words.progress.label} .value=${readFraction}></progress> ${buttonHtml(words.progress.stop, () => opener.stop())}</p>`
+      : figure.log ? html`<p><span class="present">${texts.present(figure.logName)}</span> ${buttonHtml(texts.leave, () => opener.close())}</p>` : nothing}
     ${opener.refusalNoteHtml}
-    ${opener.otherResultsNote ? html`<p class="muted other-results">${opener.otherResultsNote} ${button(texts.keep, () => opener.restore())}</p>` : nothing}
+    ${opener.otherResultsNote ? html`<p class="muted other-results">${opener.otherResultsNote} ${buttonHtml(texts.keep, () => opener.restore())}</p>` : nothing}
   </div>`;
 }
 
 /** Returns the controls of the noise of the reference. A sentence says what the simulated log is. */
 export function logSection(figure: Figure) {
   const stdSlider = (key: string, unit: string) =>
-    settingSlider(figure, key, { show: (std: number) => (std > 0 ? `${formatEditable(std, 3)} ${unit}` : words.calibrator.estimated) });
+    settingSliderHtml(figure, key, { formatValue: (std: number) => (std > 0 ? `${formatEditable(std, 3)} ${unit}` : words.calibrator.estimated) });
   return html`${figure.log ? nothing : html`<p>${words.calibrator.own.simulated}</p>`}
     <div class="controls">${stdSlider('positionStd', 'm')} ${stdSlider('yawStd', 'rad')}</div>`;
 }
@@ -325,7 +325,7 @@ export class LogService {
 /** Starts a session in a worker; in the page's thread if the browser has no workers, or the page's policy or origin forbids them. */
 async function connect(): Promise<Connection> {
   // The library is loaded with the first log.
-  const [core, { proxy, wrap }] = await Promise.all([sharedCore('alpha-calibrator'), import('comlink')]);
+  const [core, { proxy, wrap }] = await Promise.all([moduleForWorker('alpha-calibrator'), import('comlink')]);
   let worker: Worker | undefined;
   const end = () => worker?.terminate();
   try {

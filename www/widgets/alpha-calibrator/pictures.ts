@@ -3,9 +3,9 @@
 import { range } from 'd3-array';
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
-import { LINES_PER_STROKE, Layer, Memo, strokeInBatches, type Painter } from '../../scene/cache.ts';
+import { LINES_PER_STROKE, CachedLayer, Memo, strokeInBatches, type LayerDrawContext } from '../../scene/cache.ts';
 import { strokePath } from '../../scene/canvas.ts';
-import { drawDots, drawMark, drawOutline, drawOutlines, drawRobot, lineLegendEntries, lineStyles } from '../../scene/draw.ts';
+import { drawDots, drawCrosshair, drawOutline, drawOutlines, drawRobot, lineLegendEntries, lineStyles } from '../../scene/draw.ts';
 import { Picture, SamplesPicture } from '../../scene/picture.ts';
 import { View, extentAround, extentOf } from '../../scene/view.ts';
 import { LEG_CLASSES, LINE_STYLES, type LineName, type ViewModel } from './settings.ts';
@@ -41,7 +41,7 @@ export class PathPicture extends SamplesPicture<Scene> {
   name = 'plane';
   view: View = new View();
   /** Cached path. There may be a hundred thousand legs, which change only with the log, the view or the colours. */
-  #layer = new Layer();
+  #layer = new CachedLayer();
   #odometryPath: Memo<Float64Array> = new Memo();
 
   /** Returns the ends of the legs by odometry (x, y pairs). The path starts at the first pose of the reference, and drifts away from it. */
@@ -60,33 +60,33 @@ export class PathPicture extends SamplesPicture<Scene> {
     });
   }
 
-  fit({ legs, overlays }: Scene) {
-    this.view.release();
+  fitView({ legs, overlays }: Scene) {
+    this.view.allowZoomIn();
     this.view.fit(extentOf(legs.count > 0 ? viewCornersOf(legs.reference, overlays.includes('odometry') ? this.#odometryPathOf(legs) : []) : [0, 0], 1));
     // The view is not animated, because an animation would draw all legs in each frame.
-    this.view.ease(0, true);
+    this.view.moveTowardsTarget(0, true);
   }
 
-  paint: Picture<Scene>['paint'] = (brush, { legs, classes, chosen, overlays }) => {
-    const { palette } = brush;
+  paint: Picture<Scene>['paint'] = (drawContext, { legs, classes, chosen, overlays }) => {
+    const { palette } = drawContext;
     const legendNames = ([...LEG_CLASSES.toReversed(), 'odometry'] as const).filter((name) => overlays.includes(name));
-    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, lineLegendEntries(brush, LINE_STYLES, legendNames, words.calibrator.overlays));
-    clipToPlot(brush, () => {
-      const paintLegs = (painter: Painter) => drawPath(painter, legs, this.#odometryPathOf(legs), classes, overlays);
-      if ('vector' in brush.context || legs.count <= MAX_WIDE_LEGS) paintLegs(brush);
-      else this.#layer.draw(brush, [legs, overlays, brush.highlight], paintLegs);
+    drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, lineLegendEntries(drawContext, LINE_STYLES, legendNames, words.calibrator.overlays));
+    clipToPlot(drawContext, () => {
+      const paintLegs = (painter: LayerDrawContext) => drawPath(painter, legs, this.#odometryPathOf(legs), classes, overlays);
+      if ('vector' in drawContext.context || legs.count <= MAX_WIDE_LEGS) paintLegs(drawContext);
+      else this.#layer.draw(drawContext, [legs, overlays, drawContext.highlight], paintLegs);
       if (chosen < 0) return;
       const [fromX, fromY, , x, y, heading] = legs.reference.subarray(6 * chosen);
-      drawOutline(brush, Float64Array.of(fromX, fromY, x, y), { colour: palette.ink, width: 3.25, dash: [] });
-      drawMark(brush, { x, y, heading }, palette.ink);
+      drawOutline(drawContext, Float64Array.of(fromX, fromY, x, y), { colour: palette.ink, width: 3.25, dash: [] });
+      drawCrosshair(drawContext, { x, y, heading }, palette.ink);
     });
   };
 }
 
-function drawPath(brush: Painter, legs: CalibrationLegs, odometry: Float64Array, classes: Uint8Array, overlays: LineName[]) {
-  const { context, view } = brush;
+function drawPath(drawContext: LayerDrawContext, legs: CalibrationLegs, odometry: Float64Array, classes: Uint8Array, overlays: LineName[]) {
+  const { context, view } = drawContext;
   const { count, reference, outliers } = legs;
-  const styles = lineStyles(brush, LINE_STYLES);
+  const styles = lineStyles(drawContext, LINE_STYLES);
   if (overlays.includes('odometry')) {
     const points = view.toPixels(odometry);
     const pieces = range(0, points.length, LINES_PER_STROKE).map((start) => points.slice(start, start + LINES_PER_STROKE + 1));
@@ -117,33 +117,33 @@ export class LegPicture extends Picture<Scene> {
   name = 'leg';
   view: View = new View({ left: 50 });
 
-  fit({ leg }: Scene) {
+  fitView({ leg }: Scene) {
     if (!leg) return;
     const { outline, read, ended } = leg;
-    this.view.release();
+    this.view.allowZoomIn();
     const markMargin = MARK_MARGIN * Math.hypot(ended[0], ended[1]);
     const markCorners = [read, ended].flatMap(([x, y]) => [x - markMargin, y - markMargin, x + markMargin, y + markMargin]);
     this.view.fit(extentOf([0, 0, ...outline, ...markCorners], 0.05));
   }
 
-  paint: Picture<Scene>['paint'] = (brush, { leg, overlays }) => {
-    const { palette } = brush;
-    drawAxes(brush, { x: words.calibrator.axisAhead, y: words.calibrator.axisLeft }, []);
+  paint: Picture<Scene>['paint'] = (drawContext, { leg, overlays }) => {
+    const { palette } = drawContext;
+    drawAxes(drawContext, { x: words.calibrator.axisAhead, y: words.calibrator.axisLeft }, []);
     if (!leg) return;
     const { outcomes, outline, read, ended } = leg;
     const showsLine = (name: LineName) => overlays.includes(name);
-    const styles = lineStyles(brush, LINE_STYLES);
+    const styles = lineStyles(drawContext, LINE_STYLES);
     const styledLine = (name: LineName, points: Float64Array) => (showsLine(name) ? [{ points, ...styles[name] }] : []);
-    clipToPlot(brush, () => {
-      if (showsLine('predicted')) drawDots(brush, outcomes);
-      drawOutlines(brush, [
+    clipToPlot(drawContext, () => {
+      if (showsLine('predicted')) drawDots(drawContext, outcomes);
+      drawOutlines(drawContext, [
         ...styledLine('predicted', outline),
         ...styledLine('odometry', Float64Array.of(0, 0, read[0], read[1])),
         ...styledLine('reference', Float64Array.of(0, 0, ended[0], ended[1])),
       ]);
-      drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
-      if (showsLine('odometry')) drawMark(brush, { x: read[0], y: read[1], heading: read[2] }, palette.prior);
-      if (showsLine('reference')) drawMark(brush, { x: ended[0], y: ended[1], heading: ended[2] }, palette.ink);
+      drawRobot(drawContext, { x: 0, y: 0, heading: 0, colour: palette.truth });
+      if (showsLine('odometry')) drawCrosshair(drawContext, { x: read[0], y: read[1], heading: read[2] }, palette.prior);
+      if (showsLine('reference')) drawCrosshair(drawContext, { x: ended[0], y: ended[1], heading: ended[2] }, palette.ink);
     });
   };
 }

@@ -1,12 +1,12 @@
 /** Readouts of the Alpha Calibrator in words and tables: verdict, α's, systematic errors, diagnostics of the fit, and lines for Nav2. */
 
 import { html } from 'lit';
-import { copyButton, downloadFile } from '../../figure/export.ts';
-import { addEnglish, words } from '../../messages/registry.ts';
-import { button, group, radioGroup, formatMarkup, toggle } from '../../ui/controls.ts';
-import { NO_VALUE, integer, fixed, percent, formatPowerOfTen, formatRounded, formatSignificant } from '../../ui/format.ts';
-import { plot, type Curve, type Plot } from '../../ui/plot.ts';
-import { figureTable, readoutList } from '../../ui/readouts.ts';
+import { copyButtonHtml, downloadFile } from '../../figure/export.ts';
+import { addEnglishMessages, words } from '../../messages/registry.ts';
+import { buttonHtml, fieldsetHtml, radioGroupHtml, formatMarkup, checkboxHtml } from '../../ui/controls.ts';
+import { NO_VALUE, formatInteger, formatFixed, formatPercent, formatPowerOfTen, formatRounded, formatSignificant } from '../../ui/format.ts';
+import { plotHtml, type Curve, type PlotOptions } from '../../ui/plot.ts';
+import { tableHtml, readoutsHtml } from '../../ui/readouts.ts';
 import { subscriptOf } from '../shared/sliders.ts';
 import { en } from './en.ts';
 import { NAV2_RULES, SYSTEMATIC_ERRORS, adviceOf, checkMessage, componentsOf, formatAlphaOrBound, formatEstimate, formatNumber, isZero, judgementOf, localInterval, localized, nav2Lines, } from './result.ts';
@@ -15,7 +15,7 @@ import type { CalibrationCheck, CalibrationPanel, Estimate, LegView } from '../.
 import type { Warning } from '../../logs/log.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
-addEnglish({ calibrator: en });
+addEnglishMessages({ calibrator: en });
 
 /** Pattern of the names of checks whose value is a fraction. */
 const FRACTION_CHECKS = /-(lost|few|rare|covered)$/;
@@ -25,8 +25,8 @@ export const judge = ({ stats, legs: { count }, fitted }: Pick<ViewModel, 'stats
 
 /** Prints the value of a check, or a limit of it. */
 export function checkText(name: CalibrationCheck['name'], value: number) {
-  if (!Number.isFinite(value)) return Number.isNaN(value) ? percent(value) : '∞';
-  return name === 'enough-legs' ? integer(value) : FRACTION_CHECKS.test(name) ? percent(value) : formatSignificant(value, 3);
+  if (!Number.isFinite(value)) return Number.isNaN(value) ? formatPercent(value) : '∞';
+  return name === 'enough-legs' ? formatInteger(value) : FRACTION_CHECKS.test(name) ? formatPercent(value) : formatSignificant(value, 3);
 }
 
 export const rangeText = (low: string, high: string) => `${low} – ${high}`;
@@ -42,9 +42,9 @@ export function recommendationReason({ stats: { recommended, diagnostics: { chec
   const texts = words.calibrator.recommended;
   if (!recommended) return texts.none;
   const [{ count, coverage, nees }] = windows;
-  if (!checks.some(({ name }) => name === 'window-1m-covered')) return texts.few(integer(count));
+  if (!checks.some(({ name }) => name === 'window-1m-covered')) return texts.few(formatInteger(count));
   const { inflation } = recommended;
-  return inflation === 1 ? texts.covered(percent(coverage), integer(count)) : texts.inflated(fixed(inflation, 2), percent(coverage), integer(count), fixed(nees, 2));
+  return inflation === 1 ? texts.covered(formatPercent(coverage), formatInteger(count)) : texts.inflated(formatFixed(inflation, 2), formatPercent(coverage), formatInteger(count), formatFixed(nees, 2));
 }
 
 export const noiseNames = (model: ViewModel['config']['model']) => words.alphas[model === 'velocity' ? 'velocity' : 'odometry'].map(([name]) => name);
@@ -53,7 +53,7 @@ export const noiseNames = (model: ViewModel['config']['model']) => words.alphas[
 export function legsText({ legs }: ViewModel, log: string) {
   if (legs.count === 0) return '';
   const outlierCount = legs.outliers.reduce((sum, is) => sum + is, 0);
-  return words.calibrator.present(log, integer(legs.count), outlierCount > 0 ? integer(outlierCount) : '');
+  return words.calibrator.present(log, formatInteger(legs.count), outlierCount > 0 ? formatInteger(outlierCount) : '');
 }
 
 export function captionOf({ viewModel, warnings, logName }: Pick<Figure, 'viewModel' | 'warnings' | 'logName'>) {
@@ -64,13 +64,13 @@ export function captionOf({ viewModel, warnings, logName }: Pick<Figure, 'viewMo
 export function pathText({ legs, classes }: ViewModel, chosen: number) {
   if (chosen < 0) return words.calibrator.none;
   const unlikelyCount = classes.reduce((sum, legClass) => sum + Number(legClass > 1), 0);
-  return words.calibrator.way(integer(legs.count), integer(unlikelyCount), integer(chosen + 1));
+  return words.calibrator.way(formatInteger(legs.count), formatInteger(unlikelyCount), formatInteger(chosen + 1));
 }
 
 export function legText(leg: LegView | null, chosen: number) {
   if (!leg) return words.calibrator.none;
   const [readX, readY, endX, endY] = [leg.read[0], leg.read[1], leg.ended[0], leg.ended[1]];
-  return words.calibrator.legText(integer(chosen + 1), fixed(readX, 3), fixed(readY, 3), fixed(endX, 3), fixed(endY, 3));
+  return words.calibrator.legText(formatInteger(chosen + 1), formatFixed(readX, 3), formatFixed(readY, 3), formatFixed(endX, 3), formatFixed(endY, 3));
 }
 
 /** Icons and colours of the ratings. */
@@ -90,7 +90,7 @@ export function alphaTable(viewModel: ViewModel) {
   const texts = words.calibrator.alphas;
   const shownTruth = isTruthComparable(viewModel) ? truth?.alphas : undefined;
   const nameHtml = (name: string, i: number) => html`${formatMarkup(`*α*${subscriptOf(i)}`)} <span class="muted">${name}</span>`;
-  return html`<div class="alphas">${figureTable({
+  return html`<div class="alphas">${tableHtml({
     columns: [texts.noise, texts.value, texts.recommended, ...(shownTruth ? [words.calibrator.systematic.truth] : [])],
     rows: noiseNames(model).slice(0, alphas.length).map((name, i) => (alphas[i] === null
       ? [nameHtml(name, i), missingAlphaText(viewModel, i)]
@@ -133,7 +133,7 @@ export function systematicTable(figure: Figure) {
   const { requested } = figure.settings;
   const rows = SYSTEMATIC_ERRORS.map((key) => {
     const components = componentsOf(errors[key]);
-    const correctCheckbox = toggle({ label: texts.names[key], checked: requested[key], change: (on) => figure.gesture.decide({ [key]: on }) });
+    const correctCheckbox = checkboxHtml({ label: texts.names[key], checked: requested[key], onChange: (on) => figure.gesture.requestAndCommit({ [key]: on }) });
     if (components.some(({ value }) => value === null)) return [correctCheckbox, texts.unknown];
     return [
       correctCheckbox,
@@ -144,22 +144,22 @@ export function systematicTable(figure: Figure) {
     ];
   });
   const columns = [texts.what, texts.value, words.calibrator.alphas.interval, texts.treatment, ...(truth ? [texts.truth] : [])];
-  return html`<div class="systematic">${figureTable({ columns, rows })}</div>`;
+  return html`<div class="systematic">${tableHtml({ columns, rows })}</div>`;
 }
 
 const stackTexts = (texts: string[]) => texts.map((text) => html`<div>${text}</div>`);
 
 export function diagnosticsHtml(figure: Figure) {
   const { checks, windows, noise, lost } = words.calibrator;
-  return html`${group(checks.title, checksTable(figure))}
-    ${group(windows.title, windowsTable(figure))}
-    ${group(noise.title, noiseTable(figure))}
-    ${group(lost.title, lostLegsReadouts(figure))}`;
+  return html`${fieldsetHtml(checks.title, checksTable(figure))}
+    ${fieldsetHtml(windows.title, windowsTable(figure))}
+    ${fieldsetHtml(noise.title, noiseTable(figure))}
+    ${fieldsetHtml(lost.title, lostLegsReadouts(figure))}`;
 }
 
 function checksTable({ viewModel: { stats: { diagnostics: { checks } } } }: Figure) {
   const texts = words.calibrator.checks;
-  return figureTable({
+  return tableHtml({
     columns: [texts.check, texts.value, texts.expected, texts.result],
     rows: checks.map((check) => [
       html`${texts.names[check.name]}<div class="muted">${checkMessage(check, words.calibrator)}</div>`,
@@ -172,17 +172,17 @@ function checksTable({ viewModel: { stats: { diagnostics: { checks } } } }: Figu
 
 function windowsTable({ viewModel: { stats: { diagnostics: { windows } } } }: Figure) {
   const texts = words.calibrator.windows;
-  return figureTable({
+  return tableHtml({
     caption: texts.caption,
     columns: [texts.length, texts.count, texts.coverage, texts.nees],
-    rows: windows.map(({ length, count, coverage, nees }) => [`${fixed(length, 1)} m`, integer(count), percent(coverage), fixed(nees, 2)]),
+    rows: windows.map(({ length, count, coverage, nees }) => [`${formatFixed(length, 1)} m`, formatInteger(count), formatPercent(coverage), formatFixed(nees, 2)]),
   });
 }
 
 function noiseTable({ viewModel: { stats: { referenceNoise: { positionStd, yawStd }, persistence: { correlation, length } } } }: Figure) {
   const { noise: texts, systematic, settings, alphas: { interval: intervalName } } = words.calibrator;
   const noiseRow = (name: string, { value, interval }: Estimate) => [name, localized(formatEstimate(value, interval)), localInterval(interval)];
-  return figureTable({
+  return tableHtml({
     columns: [texts.what, systematic.value, intervalName],
     rows: [
       noiseRow(`${settings.positionStd.name} (m)`, positionStd),
@@ -195,7 +195,7 @@ function noiseTable({ viewModel: { stats: { referenceNoise: { positionStd, yawSt
 
 function lostLegsReadouts({ viewModel: { stats: { lost } } }: Figure) {
   const causes = ['withoutReference', 'acrossBreaks', 'acrossPauses', 'standing'] as const;
-  return readoutList(causes.map((cause) => [words.calibrator.lost[cause], integer(lost[cause])]));
+  return readoutsHtml(causes.map((cause) => [words.calibrator.lost[cause], formatInteger(lost[cause])]));
 }
 
 /** Minimum squared distance or rotation at the end of an axis: (1 mm)², or (1 mrad)². */
@@ -207,11 +207,11 @@ export function regressionPanels(figure: Figure) {
   const texts = words.calibrator.panels;
   const axisNames = model === 'velocity' ? { turn: texts.turnRate, distance: texts.speed } : { turn: texts.turn, distance: texts.distance };
   if (viewModel.legs.count === 0) return html`<p>${words.calibrator.none}</p>`;
-  const chooseRegressor = (name: Regressor) => gesture.choose('regressor', name);
-  return html`${radioGroup(texts.against, 'regressor', texts.regressors, regressor, chooseRegressor)}
+  const chooseRegressor = (name: Regressor) => gesture.setElementField('regressor', name);
+  return html`${radioGroupHtml(texts.against, 'regressor', texts.regressors, regressor, chooseRegressor)}
     <figure><div class="panels">
       ${figure.panels.map((panel, i) => html`<figure>
-        ${plot(panelPlot(panel, texts.kinds[NOISE_COMPONENTS[model][i]], axisNames[regressor as Regressor]))}
+        ${plotHtml(panelPlot(panel, texts.kinds[NOISE_COMPONENTS[model][i]], axisNames[regressor as Regressor]))}
         ${identifiabilityNote(panel, viewModel)}
       </figure>`)}
     </div>
@@ -219,7 +219,7 @@ export function regressionPanels(figure: Figure) {
 }
 
 /** Returns the plot of a panel. `kind` is the name of its noise component, and `axis` that of its regressor. */
-function panelPlot({ alpha, x, y, error, slope, interval }: CalibrationPanel, kind: string, axis: string): Plot {
+function panelPlot({ alpha, x, y, error, slope, interval }: CalibrationPanel, kind: string, axis: string): PlotOptions {
   const texts = words.calibrator.panels;
   const maxRegressor = Math.max(0, ...x);
   // A log without rotation or without translation has an empty axis.
@@ -235,7 +235,7 @@ function panelPlot({ alpha, x, y, error, slope, interval }: CalibrationPanel, ki
   const slopeMiddle = (low + high) / 2;
   const slopeLines: Curve[] = slope === null ? [] : [
     { name: texts.slope(subscript), role: 'prediction', x: [0, axisEnd], y: [0, scale(slope * axisEnd)] },
-    { name: words.calibrator.alphas.interval, role: 'cloud', area: true, x: [0, axisEnd], y: [0, scale(slopeMiddle * axisEnd)], error: [0, scale(((high - low) / 2) * axisEnd)] },
+    { name: words.calibrator.alphas.interval, role: 'cloud', isBandOnly: true, x: [0, axisEnd], y: [0, scale(slopeMiddle * axisEnd)], error: [0, scale(((high - low) / 2) * axisEnd)] },
   ];
   return {
     label: texts.label(kind, String(alpha + 1), slope === null ? NO_VALUE : localized(formatAlphaOrBound(slope, interval))),
@@ -280,9 +280,9 @@ function jsonOf({ viewModel: { fitted, stats, legs, truth }, logName }: Figure) 
  */
 export function nav2Button(figure: Figure, obstacle: string) {
   const texts = words.calibrator.nav2;
-  if (!NAV2_RULES.includes(modelRuleOf(figure.viewModel.fitted))) return button(texts.fit, () => figure.gesture.decide(settingsFor('nav2')), { disabled: obstacle !== '', title: obstacle || texts.fitTitle });
+  if (!NAV2_RULES.includes(modelRuleOf(figure.viewModel.fitted))) return buttonHtml(texts.fit, () => figure.gesture.requestAndCommit(settingsFor('nav2')), { disabled: obstacle !== '', title: obstacle || texts.fitTitle });
   const yaml = yamlOf(figure);
-  return copyButton(figure, texts.copy, () => yaml, { disabled: !yaml || obstacle !== '', title: obstacle || (yaml ? texts.label : texts.none) });
+  return copyButtonHtml(figure, texts.copy, () => yaml, { disabled: !yaml || obstacle !== '', title: obstacle || (yaml ? texts.label : texts.none) });
 }
 
 /** Returns the lines, and the button that saves all results. `obstacle` is the reason why it is disabled, or empty. */
@@ -292,6 +292,6 @@ export function nav2ExportControls(figure: Figure, obstacle: string) {
   const fileName = `${figure.localName}-${figure.viewModel.config.seed}.json`;
   return html`${yaml ? html`<textarea class="yaml" readonly rows=${yaml.split('\n').length} aria-label=${texts.label} .value=${yaml}></textarea>` : html`<p>${texts.none}</p>`}
     <div class="buttons">
-      ${button(texts.json, () => downloadFile(fileName, new Blob([jsonOf(figure)], { type: 'application/json' })), { disabled: obstacle !== '', title: obstacle || undefined })}
+      ${buttonHtml(texts.json, () => downloadFile(fileName, new Blob([jsonOf(figure)], { type: 'application/json' })), { disabled: obstacle !== '', title: obstacle || undefined })}
     </div>`;
 }

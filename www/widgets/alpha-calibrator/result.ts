@@ -1,6 +1,6 @@
 /** Result of a fit as text, which the page and the command line share: numbers, the verdict, and lines for nav2_params.yaml. */
 
-import { MINUS, NO_VALUE, fixed, formatPowerOfTen, integer } from '../../ui/format.ts';
+import { MINUS, NO_VALUE, formatFixed, formatPowerOfTen, formatInteger } from '../../ui/format.ts';
 import { subscriptOf } from '../shared/sliders.ts';
 import type { CalibrationCheck, CalibrationStats, Interval as CertainInterval } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
@@ -74,7 +74,7 @@ export const isZero = (alpha: number | null, interval: Interval | undefined) => 
 
 /** Converts a number as printed in files (-1.5e-7) to the signs of the language and a power of ten. */
 export const localized = (number: string) =>
-  number.replace(/^-/, MINUS).replace('.', fixed(0.5, 1)[1]).replace(/e(-?\d+)$/, (_, exponent) => `·${formatPowerOfTen(Number(exponent))}`);
+  number.replace(/^-/, MINUS).replace('.', formatFixed(0.5, 1)[1]).replace(/e(-?\d+)$/, (_, exponent) => `·${formatPowerOfTen(Number(exponent))}`);
 
 /** Prints an interval in the current language; a dash if an end is not finite. */
 export const localInterval = (interval: Interval | undefined) =>
@@ -206,7 +206,7 @@ export function judgementOf({ stats, count, model, corrections, warnings }: Fit,
   const rating = verdict === 'consistent' && warnings.length + doubts.length > 0 ? 'questionable' : verdict;
   const usage = rating === 'unusable' || warnings.length > 0 ? [] : [rating === 'consistent' ? texts.use : texts.useAnyway, ...correctionAdvice(stats, texts.nav2, localized)];
   const clockOffset = systematicErrors.clockOffset.value ?? 0;
-  const clockNote = Math.abs(clockOffset) > MENTIONED_CLOCK_OFFSET ? [texts.clock(integer(Math.round(Math.abs(clockOffset))), clockOffset > 0)] : [];
+  const clockNote = Math.abs(clockOffset) > MENTIONED_CLOCK_OFFSET ? [texts.clock(formatInteger(Math.round(Math.abs(clockOffset))), clockOffset > 0)] : [];
   const advice = [...otherFindings, ...(failedCheck ? [checkMessage(failedCheck, texts)] : []), ...clockNote, ...usage];
   return { rating, badge: texts.badges[rating], finding, advice };
 }

@@ -1,6 +1,6 @@
 /** Settings of the Alpha Calibrator: attributes, shared state and sliders; and the view model. */
 
-import { definitionOf } from '../../figure/definition.ts';
+import { createDefinition } from '../../figure/definition.ts';
 import type { AlphaCalibrator as Simulation, AlphaCalibratorSettings, CalibrationLegs, CalibrationLog } from '../../types.d.ts';
 
 /** Styles of the lines and marks in the pictures: first the classes of legs, the most usual first, then all others. */
@@ -9,7 +9,7 @@ export const LINE_STYLES = {
   plausible: { role: 'muted', width: 2, dash: [] },
   unlikely: { role: 'prediction', width: 3.25, dash: [] },
   implausible: { role: 'accent', width: 4.5, dash: [] },
-  outlier: { role: 'ink', width: 1.25, mark: 'ring' },
+  outlier: { role: 'ink', width: 1.25, shape: 'ring' },
   odometry: { role: 'prior', width: 1.25, dash: [2.5, 3.5] },
   predicted: { role: 'prediction', width: 2, dash: [7, 4] },
   reference: { role: 'ink', width: 2.25, dash: [] },
@@ -55,9 +55,9 @@ export const NOISE_COMPONENTS = {
   velocity: ['v', 'omega', 'gamma'],
 } as const;
 
-export const definition = definitionOf('alpha-calibrator', {
+export const definition = createDefinition('alpha-calibrator', {
   messageKey: 'calibrator',
-  lines: LINE_STYLES,
+  overlayStyles: LINE_STYLES,
   sliderSpecs: {
     distance: { symbol: '*d*', role: 'prior', min: 0.05, max: 1, step: 0.01, decimals: 2 },
     angle: { symbol: '*φ*', role: 'prior', min: 0.05, max: 1, step: 0.01, decimals: 2 },

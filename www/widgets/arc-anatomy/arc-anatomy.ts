@@ -1,14 +1,14 @@
 /** <arc-anatomy>: the arc between two poses, and how likely it is after a command. */
 
 import { html, nothing, css } from 'lit';
-import { pictureCanvas, disclosures, titledPicture, settingCheckbox, settingRadios, settingSliders, legend } from '../../figure/controls.ts';
+import { pictureCanvasHtml, disclosuresHtml, titledPictureHtml, settingCheckboxHtml, settingRadiosHtml, settingSlidersHtml, legendHtml } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
-import { define } from '../../figure/reflection.ts';
+import { defineElement } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
 import { swatchHtml } from '../../scene/draw.ts';
-import { button, group, formatMarkup } from '../../ui/controls.ts';
-import { fixed } from '../../ui/format.ts';
-import { track } from '../../ui/slider.ts';
+import { buttonHtml, fieldsetHtml, formatMarkup } from '../../ui/controls.ts';
+import { formatFixed } from '../../ui/format.ts';
+import { sliderTrackHtml } from '../../ui/slider.ts';
 import { Player, presetButtons } from '../shared/controls.ts';
 import { PoseHandles } from '../shared/robot.ts';
 import { ArcPicture, ROBOT_RADIUS } from './picture.ts';
@@ -21,17 +21,17 @@ function likelihoodControls(figure: ArcAnatomyElement) {
   const { likelihood, maps, printed } = words.anatomy;
   const { map } = figure.settings.requested;
   const contourEntry = (name: 'prob' | 'density') => html`<span>${swatchHtml(CONTOUR_STYLES[name])} ${maps[name]}</span>`;
-  return group(likelihood, html`${settingCheckbox(figure, 'printed', formatMarkup(printed))} ${settingRadios(figure, 'map', maps)}
+  return fieldsetHtml(likelihood, html`${settingCheckboxHtml(figure, 'printed', formatMarkup(printed))} ${settingRadiosHtml(figure, 'map', maps)}
     ${map === 'none' ? nothing : html`<p class="legend">${contourEntry('prob')} ${contourEntry('density')}</p>`}`);
 }
 
 function lineStepper(figure: ArcAnatomyElement) {
   const texts = words.anatomy.table;
   const { line } = figure.settings.elementState;
-  const chooseLine = (to: number) => () => figure.gesture.choose('line', to);
+  const chooseLine = (to: number) => () => figure.gesture.setElementField('line', to);
   return html`<div class="stepper" role="group" aria-label=${texts.label}>
-    ${button(html`<span aria-hidden="true">‹</span>`, chooseLine(line - 1), { disabled: line === 0, title: texts.back })}
-    ${button(html`<span aria-hidden="true">›</span>`, chooseLine(line + 1), { disabled: line === TABLE_LINES, title: texts.on })}
+    ${buttonHtml(html`<span aria-hidden="true">‹</span>`, chooseLine(line - 1), { disabled: line === 0, title: texts.back })}
+    ${buttonHtml(html`<span aria-hidden="true">›</span>`, chooseLine(line + 1), { disabled: line === TABLE_LINES, title: texts.on })}
     <p role="status">${line === 0 ? texts.begin : formatMarkup(lineText(figure.viewModel, line))}</p>
   </div>`;
 }
@@ -39,12 +39,12 @@ function lineStepper(figure: ArcAnatomyElement) {
 function timeControl({ player, gesture, viewModel, settings }: ArcAnatomyElement) {
   const { underway } = settings.elementState;
   const { dt } = viewModel.config.command;
-  const timeText = words.anatomy.timeOf(fixed((underway / UNDERWAY_AT_END) * dt, 2), fixed(dt, 2));
-  return group(words.anatomy.time, html`<div class="underway">
+  const timeText = words.anatomy.timeOf(formatFixed((underway / UNDERWAY_AT_END) * dt, 2), formatFixed(dt, 2));
+  return fieldsetHtml(words.anatomy.time, html`<div class="underway">
     ${player.button('underway', words.play)}
     <div class="slider" part="slider" data-role="truth">
       <label for="underway"><bdi class="symbol notranslate" translate="no"><i>t</i></bdi>${words.anatomy.underway}</label>
-      ${track({ id: 'underway', min: 0, max: UNDERWAY_AT_END, step: 1, value: underway, text: timeText, input: (at) => player.setByUser('underway', at), commit: () => gesture.commit() })}
+      ${sliderTrackHtml({ id: 'underway', min: 0, max: UNDERWAY_AT_END, step: 1, value: underway, text: timeText, onInput: (at) => player.setByUser('underway', at), onCommit: () => gesture.commit() })}
       <output class="value" for="underway">${timeText}</output>
     </div>
   </div>`);
@@ -176,7 +176,7 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
 
   createSimulation = ({ ArcAnatomy }: Motion) => new ArcAnatomy();
 
-  read = (simulation: Simulation): ViewModel => simulation.read();
+  readViewModel = (simulation: Simulation): ViewModel => simulation.read();
 
   get scene() {
     const { overlays, line, underway } = this.settings.elementState;
@@ -203,30 +203,30 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
     for (const handles of this.#handles) handles.place(config, ROBOT_RADIUS);
   }
 
-  content(viewModel: ViewModel) {
+  renderContent(viewModel: ViewModel) {
     const texts = words.anatomy;
     return html`
       <div class="views">
-        ${titledPicture(texts.floor, html`<div class="stage" part="picture">
-          ${pictureCanvas(this, this.#picture, pictureText(viewModel))} ${this.#handles.map((handle) => handle.render())}
+        ${titledPictureHtml(texts.floor, html`<div class="stage" part="picture">
+          ${pictureCanvasHtml(this, this.#picture, pictureText(viewModel))} ${this.#handles.map((handle) => handle.render())}
         </div>`)}
-        ${this.renderer.afterFirstPicture(() => html`
+        ${this.renderer.renderAfterFirstPicture(() => html`
         <div class="aside">${headlineHtml(viewModel)} ${factorBarsHtml(viewModel, this.settings.elementState.line)}</div>`)}
       </div>
-      ${this.renderer.afterFirstPicture(() => html`
-      ${legend(this, LINE_STYLES)}
+      ${this.renderer.renderAfterFirstPicture(() => html`
+      ${legendHtml(this, LINE_STYLES)}
       <p class="verdict caption" part="caption">${captionOf(viewModel)}</p>
       ${presetButtons(this)}
-      <div class="controls" part="controls">${group(words.command, settingSliders(this, COMMAND_SLIDERS))} ${timeControl(this)}</div>
-      ${disclosures(this, {
-        controls: () => html`<div class="controls">${likelihoodControls(this)}
-          ${group(words.noise, html`${settingRadios(this, 'noise', words.noises)} ${settingSliders(this, ALPHA_SLIDERS)}`, 'alphas')}</div>`,
-        numbers: () => html`${lineStepper(this)} ${tableLinesHtml(viewModel, this.settings.elementState.line)} ${likelihoodReadouts(viewModel)} ${formsPlot(this.motion)}`,
-        fileNameMark: 'figure',
+      <div class="controls" part="controls">${fieldsetHtml(words.command, settingSlidersHtml(this, COMMAND_SLIDERS))} ${timeControl(this)}</div>
+      ${disclosuresHtml(this, {
+        renderControls: () => html`<div class="controls">${likelihoodControls(this)}
+          ${fieldsetHtml(words.noise, html`${settingRadiosHtml(this, 'noise', words.noises)} ${settingSlidersHtml(this, ALPHA_SLIDERS)}`, 'alphas')}</div>`,
+        renderNumbers: () => html`${lineStepper(this)} ${tableLinesHtml(viewModel, this.settings.elementState.line)} ${likelihoodReadouts(viewModel)} ${formsPlot(this.motion)}`,
+        fileNameSuffix: 'figure',
         csvTitle: texts.csvTitle,
       })}`)}
     `;
   }
 }
 
-define(ArcAnatomyElement);
+defineElement(ArcAnatomyElement);

@@ -2,13 +2,13 @@
 
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
-import { addLine, drawDisc, fillPath, paintWithOpacity, strokePath, strokeLine, type Brush, type LineStroke } from '../../scene/canvas.ts';
-import { addTurn, drawOutlines, drawRobot, lineLegendEntries, lineStyles, strokeLines, densityRamp } from '../../scene/draw.ts';
+import { addLine, drawDisc, fillPath, paintWithOpacity, strokePath, strokeLine, type DrawContext, type LineStroke } from '../../scene/canvas.ts';
+import { addTurnArc, drawOutlines, drawRobot, lineLegendEntries, lineStyles, strokeLines, densityRamp } from '../../scene/draw.ts';
 import { drawLabel } from '../../scene/labels.ts';
-import { Memo, Pixels } from '../../scene/cache.ts';
+import { Memo, CachedImage } from '../../scene/cache.ts';
 import { Picture } from '../../scene/picture.ts';
-import { View, extentAround, widenedExtent } from '../../scene/view.ts';
-import { clamp, fixed } from '../../ui/format.ts';
+import { View, extentAround, widenExtent } from '../../scene/view.ts';
+import { clamp, formatFixed } from '../../ui/format.ts';
 import { drawDraggableRobot, drawRobotOutline } from '../shared/robot.ts';
 import { CONTOUR_STYLES, LINE_STYLES, type LineName, type ViewModel } from './settings.ts';
 import type { ArcAnatomy, ArcWithCircle, Pose, AnatomySurface } from '../../types.d.ts';
@@ -51,74 +51,74 @@ const CONSTRUCTIONS_BY_LINE: Record<number, string[]> = {
 export class ArcPicture extends Picture<Scene> {
   name = 'plane';
   view: View = new View();
-  #pixels = new Pixels();
+  #pixels = new CachedImage();
   #surfaceMemo: Memo<AnatomySurface | null> = new Memo();
 
-  fit({ config: { start, next }, stats: { commanded, inverted, lastTurn }, paths, overlays }: Scene) {
+  fitView({ config: { start, next }, stats: { commanded, inverted, lastTurn }, paths, overlays }: Scene) {
     const points = [start.x, start.y, next.x, next.y, ...paths.commanded, ...paths.inverted, ...paths.driven];
     const { xMin, yMin, xMax, yMax } = extentAround(points, 2);
     const maxRadius = Math.max(MAX_RADIUS.metres, MAX_RADIUS.pathLengths * Math.hypot(xMax - xMin, yMax - yMin));
     for (const { center, radius } of [commanded, inverted]) if (center && Math.abs(radius) < maxRadius) points.push(...center);
-    const extentWithMargin = widenedExtent(extentAround(points, 2), MARGIN_METRES);
+    const extentWithMargin = widenExtent(extentAround(points, 2), MARGIN_METRES);
     // The view's own margin makes up for the scale that the wedge itself reduces.
-    const wedgeRadius = WEDGE_RADIUS / this.view.scaleFor(extentWithMargin);
+    const wedgeRadius = WEDGE_RADIUS / this.view.fittingScale(extentWithMargin);
     const wedgeHeadings = overlays.includes('wedge') ? [next.theta, next.theta - lastTurn] : [];
     this.view.fit(extentAround(wedgeHeadings.flatMap((theta) => [next.x + wedgeRadius * Math.cos(theta), next.y + wedgeRadius * Math.sin(theta)]), 2, extentWithMargin));
   }
 
-  paint: Picture<Scene>['paint'] = (brush, scene) => {
+  paint: Picture<Scene>['paint'] = (drawContext, scene) => {
     const { config: { start, next, printed }, stats, paths, overlays } = scene;
-    const { palette } = brush;
+    const { palette } = drawContext;
     const showsLine = (name: LineName) => overlays.includes(name);
-    const styles = lineStyles(brush, LINE_STYLES);
-    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, legendEntriesOf(brush, scene));
-    clipToPlot(brush, () => {
-      this.#drawSurface(brush, scene);
+    const styles = lineStyles(drawContext, LINE_STYLES);
+    drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, legendEntriesOf(drawContext, scene));
+    clipToPlot(drawContext, () => {
+      this.#drawSurface(drawContext, scene);
       const { commanded, inverted, driven, lastTurn } = stats;
       if (showsLine('commanded')) {
-        drawArcConstruction(brush, start, commanded, { ...styles.commanded, side: -1, angle: `ωΔt = ${fixed(commanded.turn, 2)}`, radius: '' });
+        drawArcConstruction(drawContext, start, commanded, { ...styles.commanded, side: -1, angle: `ωΔt = ${formatFixed(commanded.turn, 2)}`, radius: '' });
       }
       if (showsLine('inverted')) {
-        drawArcConstruction(brush, start, inverted, {
+        drawArcConstruction(drawContext, start, inverted, {
           ...styles.inverted,
           side: 1,
-          angle: `ω̂Δt = ${fixed(inverted.turn, 2)}`,
+          angle: `ω̂Δt = ${formatFixed(inverted.turn, 2)}`,
           // The radius is positive if the centre is to the left. As printed, it has no sign.
-          radius: `r* = ${inverted.radius > 0 && !printed ? '+' : ''}${fixed(printed ? Math.abs(inverted.radius) : inverted.radius, 2)} m`,
+          radius: `r* = ${inverted.radius > 0 && !printed ? '+' : ''}${formatFixed(printed ? Math.abs(inverted.radius) : inverted.radius, 2)} m`,
         });
       }
-      if (showsLine('chord')) strokeLines(brush, [{ points: Float64Array.of(start.x, start.y, next.x, next.y), ...styles.chord }]);
-      if (showsLine('wedge')) drawWedge(brush, next, lastTurn, styles.wedge.colour);
+      if (showsLine('chord')) strokeLines(drawContext, [{ points: Float64Array.of(start.x, start.y, next.x, next.y), ...styles.chord }]);
+      if (showsLine('wedge')) drawWedge(drawContext, next, lastTurn, styles.wedge.colour);
       // Displacements by the lateral velocity of the constant twist, as short lines across its path.
-      if (showsLine('twist')) strokePath(brush.context, { colour: styles.twist.colour, width: 1.25 }, () => {
-        for (let i = 0; i < paths.ticks.length; i += 4) addLine(brush.context, brush.view.toPixels(paths.ticks.subarray(i, i + 4)));
+      if (showsLine('twist')) strokePath(drawContext.context, { colour: styles.twist.colour, width: 1.25 }, () => {
+        for (let i = 0; i < paths.ticks.length; i += 4) addLine(drawContext.context, drawContext.view.toPixels(paths.ticks.subarray(i, i + 4)));
       });
       const drivenPaths = { commanded: paths.commanded, twist: paths.lie, inverted: paths.driven };
-      drawOutlines(brush, (['commanded', 'twist', 'inverted'] as const).filter(showsLine).map((name) => ({ points: drivenPaths[name], ...styles[name] })));
+      drawOutlines(drawContext, (['commanded', 'twist', 'inverted'] as const).filter(showsLine).map((name) => ({ points: drivenPaths[name], ...styles[name] })));
       if (showsLine('inverted') && driven.arcLength !== inverted.arcLength) {
-        drawOutlines(brush, [{ points: paths.inverted, colour: styles.inverted.colour, width: 1, dash: [2, 3] }]);
+        drawOutlines(drawContext, [{ points: paths.inverted, colour: styles.inverted.colour, width: 1, dash: [2, 3] }]);
       }
-      drawTableLineConstruction(brush, scene);
+      drawTableLineConstruction(drawContext, scene);
       if (showsLine('commanded')) {
         const [endX, endY, endTheta] = commanded.end;
-        drawRobotOutline(brush, endX, endY, ROBOT_RADIUS, styles.commanded.colour);
-        strokeLine(brush.context, brush.view.ray({ x: endX, y: endY, theta: endTheta }, HEADING_LENGTH), { colour: styles.commanded.colour, width: 1.5 });
+        drawRobotOutline(drawContext, endX, endY, ROBOT_RADIUS, styles.commanded.colour);
+        strokeLine(drawContext.context, drawContext.view.headingLine({ x: endX, y: endY, theta: endTheta }, HEADING_LENGTH), { colour: styles.commanded.colour, width: 1.5 });
       }
-      drawMovingRobots(brush, scene);
-      drawDraggableRobot(brush, start, ROBOT_RADIUS, palette.truth);
-      drawDraggableRobot(brush, next, ROBOT_RADIUS, palette.prediction);
-      if (showsLine('wedge')) drawWedgeLabel(brush, next, lastTurn, styles.wedge.colour);
+      drawMovingRobots(drawContext, scene);
+      drawDraggableRobot(drawContext, start, ROBOT_RADIUS, palette.truth);
+      drawDraggableRobot(drawContext, next, ROBOT_RADIUS, palette.prediction);
+      if (showsLine('wedge')) drawWedgeLabel(drawContext, next, lastTurn, styles.wedge.colour);
     });
   };
 
   /** Draws the heat map of the likelihood with its contours, if there is one. */
-  #drawSurface(brush: Brush, { simulation, config }: Scene) {
-    const { context, palette, view } = brush;
+  #drawSurface(drawContext: DrawContext, { simulation, config }: Scene) {
+    const { context, palette, view } = drawContext;
     const { xMin, yMin, xMax, yMax } = view.extent;
     // The configuration is a new object after every change.
     const surface = this.#surfaceMemo.get([config, xMin, yMin, xMax, yMax], () => simulation.surface(xMin, yMin, xMax, yMax));
     if (!surface) return;
-    this.#pixels.draw(brush, [surface, palette], () => {
+    this.#pixels.draw(drawContext, [surface, palette], () => {
       const rampColours = new Uint32Array(densityRamp(palette).buffer);
       // The lowest shade is transparent.
       rampColours[0] = 0;
@@ -132,11 +132,11 @@ export class ArcPicture extends Picture<Scene> {
 }
 
 /** Returns the legend of an exported picture. The last turn is not in it, because it has a label in the picture. */
-function legendEntriesOf(brush: Brush, { overlays, config: { map } }: Scene) {
+function legendEntriesOf(drawContext: DrawContext, { overlays, config: { map } }: Scene) {
   const drawnNames = (['inverted', 'commanded', 'chord', 'twist'] as LineName[]).filter((name) => overlays.includes(name));
   return [
-    ...lineLegendEntries(brush, LINE_STYLES, drawnNames, words.anatomy.overlays),
-    ...lineLegendEntries(brush, CONTOUR_STYLES, map === 'none' ? [] : ['prob', 'density'], words.anatomy.maps),
+    ...lineLegendEntries(drawContext, LINE_STYLES, drawnNames, words.anatomy.overlays),
+    ...lineLegendEntries(drawContext, CONTOUR_STYLES, map === 'none' ? [] : ['prob', 'density'], words.anatomy.maps),
   ];
 }
 
@@ -144,14 +144,14 @@ function legendEntriesOf(brush: Brush, { overlays, config: { map } }: Scene) {
  * Draws the centre of an arc, both radii and the turn between them. `side` (±1) is the direction in which the first radius is shifted, so
  * that another radius on the same line stays visible.
  */
-function drawArcConstruction(brush: Brush, start: Pose, { center, end, turn, arcLength }: ArcWithCircle, { colour, dash, side, angle, radius: signed }: { colour: string, dash: number[], side: number, angle: string, radius: string }) {
+function drawArcConstruction(drawContext: DrawContext, start: Pose, { center, end, turn, arcLength }: ArcWithCircle, { colour, dash, side, angle, radius: signed }: { colour: string, dash: number[], side: number, angle: string, radius: string }) {
   if (!center) return;
-  const { context, view } = brush;
+  const { context, view } = drawContext;
   const [x, y] = view.toPixel(center[0], center[1]);
   const [fromX, fromY] = view.toPixel(start.x, start.y);
-  const ahead = view.direction(start.theta);
+  const ahead = view.pixelDirection(start.theta);
   const [offX, offY] = [1.5 * side * ahead.x, 1.5 * side * ahead.y];
-  const visibleFractionOfRadius = visibleFraction(view.frame, [fromX, fromY], [x, y]);
+  const visibleFractionOfRadius = visibleFraction(view.plotArea, [fromX, fromY], [x, y]);
   strokePath(context, { colour, width: 1.25, dash }, () => {
     addLine(context, [[fromX + offX, fromY + offY], [x + offX, y + offY]]);
     addLine(context, [[x, y], view.toPixel(end[0], end[1])]);
@@ -167,57 +167,57 @@ function drawArcConstruction(brush: Brush, start: Pose, { center, end, turn, arc
   const drawArcLabel = (text: string, share: number) => {
     const labelPoint = [fromX + share * (x - fromX) + 10 * labelSide * ahead.x, fromY + share * (y - fromY) + 10 * labelSide * ahead.y];
     const towards = labelSide * ahead.x;
-    drawLabel(brush, { x: labelPoint[0], y: labelPoint[1], towards: Math.abs(towards) < 0.3 ? 0 : Math.sign(towards), text, colour });
+    drawLabel(drawContext, { x: labelPoint[0], y: labelPoint[1], freeSide: Math.abs(towards) < 0.3 ? 0 : Math.sign(towards), text, colour });
   };
   drawArcLabel(signed, visibleFractionOfRadius / 2);
   drawArcLabel(angle, visibleFractionOfRadius);
 }
 
 /** Returns the visible fraction of the line from a visible point to another point. */
-function visibleFraction({ left, right, top, bottom }: import('../../scene/view.ts').View['frame'], [fromX, fromY]: [x: number, y: number], [x, y]: [x: number, y: number]) {
+function visibleFraction({ left, right, top, bottom }: import('../../scene/view.ts').View['plotArea'], [fromX, fromY]: [x: number, y: number], [x, y]: [x: number, y: number]) {
   const fractionAlong = (start: number, end: number, min: number, max: number) =>
     end >= min && end <= max ? 1 : (clamp(end, min, max) - start) / (end - start);
   return Math.min(fractionAlong(fromX, x, left, right), fractionAlong(fromY, y, top, bottom));
 }
 
 /** Draws a wedge for the last turn (rad), by which the final heading differs from the heading at the end of the arc. */
-function drawWedge({ context, view }: Brush, next: Pose, turn: number, colour: string) {
+function drawWedge({ context, view }: DrawContext, next: Pose, turn: number, colour: string) {
   const [x, y] = view.toPixel(next.x, next.y);
   paintWithOpacity(context, 0.32, () => fillPath(context, colour, () => {
     context.moveTo(x, y);
-    addTurn(context, [x, y], WEDGE_RADIUS, next.theta - turn, turn);
+    addTurnArc(context, [x, y], WEDGE_RADIUS, next.theta - turn, turn);
   }));
   // Edge of the wedge along the heading at the end of the arc.
-  strokeLine(context, view.ray({ ...next, theta: next.theta - turn }, WEDGE_RADIUS), { colour, width: 1.25 });
+  strokeLine(context, view.headingLine({ ...next, theta: next.theta - turn }, WEDGE_RADIUS), { colour, width: 1.25 });
 }
 
 /** Draws the label of the wedge where it does not cover the wedge. */
-function drawWedgeLabel(brush: Brush, next: Pose, turn: number, colour: string) {
-  const [x, y] = brush.view.toPixel(next.x, next.y);
-  const ahead = brush.view.direction(next.theta - turn / 2);
-  drawLabel(brush, { x: x + (WEDGE_RADIUS + 8) * ahead.x, y: y + (WEDGE_RADIUS + 20) * ahead.y, towards: ahead.x, text: `γ̂Δt = ${fixed(turn, 2)}`, colour });
+function drawWedgeLabel(drawContext: DrawContext, next: Pose, turn: number, colour: string) {
+  const [x, y] = drawContext.view.toPixel(next.x, next.y);
+  const ahead = drawContext.view.pixelDirection(next.theta - turn / 2);
+  drawLabel(drawContext, { x: x + (WEDGE_RADIUS + 8) * ahead.x, y: y + (WEDGE_RADIUS + 20) * ahead.y, freeSide: ahead.x, text: `γ̂Δt = ${formatFixed(turn, 2)}`, colour });
 }
 
 /** Draws the robot at one time on each path that is shown. */
-function drawMovingRobots(brush: Brush, { underway, overlays }: Scene) {
+function drawMovingRobots(drawContext: DrawContext, { underway, overlays }: Scene) {
   if (!underway) return;
   for (const [i, name] of (['commanded', 'inverted', 'twist'] as const).entries()) {
     if (!overlays.includes(name)) continue;
     const [x, y, theta] = underway.subarray(3 * i);
-    drawRobot(brush, { x, y, heading: theta, colour: brush.palette[LINE_STYLES[name].role] });
+    drawRobot(drawContext, { x, y, heading: theta, colour: drawContext.palette[LINE_STYLES[name].role] });
   }
 }
 
 /** Draws the construction of the highlighted line of Table 5.1. */
-function drawTableLineConstruction(brush: Brush, { config: { start, next }, stats: { inverted, lastTurn }, table: { middle }, paths, line: number }: Scene) {
+function drawTableLineConstruction(drawContext: DrawContext, { config: { start, next }, stats: { inverted, lastTurn }, table: { middle }, paths, line: number }: Scene) {
   const highlightedConstructions = CONSTRUCTIONS_BY_LINE[number] ?? [];
-  const { context, view, palette: { accent } } = brush;
+  const { context, view, palette: { accent } } = drawContext;
   const toPixel = ([x, y]: number[]) => view.toPixel(x, y);
   const drawAccentLine = (width: number, ...points: number[][]) => strokeLine(context, points, { colour: accent, width });
   const startPixel = toPixel([start.x, start.y]);
   const endPixel = toPixel([next.x, next.y]);
-  if (highlightedConstructions.includes('arc')) drawOutlines(brush, [{ points: paths.driven, colour: accent, width: 5, dash: [] }]);
-  if (highlightedConstructions.includes('wedge')) drawWedge(brush, next, lastTurn, accent);
+  if (highlightedConstructions.includes('arc')) drawOutlines(drawContext, [{ points: paths.driven, colour: accent, width: 5, dash: [] }]);
+  if (highlightedConstructions.includes('wedge')) drawWedge(drawContext, next, lastTurn, accent);
   if (!inverted.center) return;
   const centrePixel = toPixel(inverted.center);
   if (highlightedConstructions.includes('bisector')) {
@@ -231,7 +231,7 @@ function drawTableLineConstruction(brush: Brush, { config: { start, next }, stat
 }
 
 /** Strokes an arc about a centre that marks a turn in radians from the direction of a point; both in pixels. */
-function strokeAngle(context: Brush['context'], [x, y]: number[], [fromX, fromY]: number[], turn: number, style: LineStroke) {
+function strokeAngle(context: DrawContext['context'], [x, y]: number[], [fromX, fromY]: number[], turn: number, style: LineStroke) {
   const radius = Math.min(MAX_ANGLE_MARK_RADIUS, 0.4 * Math.hypot(fromX - x, fromY - y));
-  strokePath(context, style, () => addTurn(context, [x, y], radius, Math.atan2(y - fromY, fromX - x), turn));
+  strokePath(context, style, () => addTurnArc(context, [x, y], radius, Math.atan2(y - fromY, fromX - x), turn));
 }

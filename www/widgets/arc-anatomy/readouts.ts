@@ -1,30 +1,30 @@
 /** Readouts of Arc Anatomy, sentences and text equivalents: the likelihood, its factors as bars, Table 5.1, and errors of three forms of the arc. */
 
 import { html, nothing, svg } from 'lit';
-import { addEnglish, words } from '../../messages/registry.ts';
+import { addEnglishMessages, words } from '../../messages/registry.ts';
 import { formatMarkup } from '../../ui/controls.ts';
-import { clamp, fixed, percent, formatPowerOfTen, formatSignificant } from '../../ui/format.ts';
-import { plot } from '../../ui/plot.ts';
-import { readoutList } from '../../ui/readouts.ts';
+import { clamp, formatFixed, formatPercent, formatPowerOfTen, formatSignificant } from '../../ui/format.ts';
+import { plotHtml } from '../../ui/plot.ts';
+import { readoutsHtml } from '../../ui/readouts.ts';
 import { commandText } from '../shared/sliders.ts';
 import { en } from './en.ts';
 import { TABLE_LINES, type ViewModel } from './settings.ts';
 import type { FormErrors, Motion, Pose } from '../../types.d.ts';
 
-addEnglish({ anatomy: en });
+addEnglishMessages({ anatomy: en });
 
 /** Limit below which numbers are printed as powers of ten: p is a product of three densities, and spans many decades. */
 const MIN_PLAIN_NUMBER = 0.0005;
 
 function scientificText(value: number) {
   const [mantissa, exponent] = value.toExponential(1).split('e').map(Number);
-  return `${fixed(mantissa, 1)}·${formatPowerOfTen(exponent)}`;
+  return `${formatFixed(mantissa, 1)}·${formatPowerOfTen(exponent)}`;
 }
 
 /** Returns true if a number is printed as a power of ten. */
 const isTiny = (value: number) => value > 0 && value < MIN_PLAIN_NUMBER;
 
-const shareText = (share: number) => (isTiny(share) ? scientificText(share) : percent(share));
+const shareText = (share: number) => (isTiny(share) ? scientificText(share) : formatPercent(share));
 
 const densityText = (density: number) => (isTiny(density) ? scientificText(density) : formatSignificant(density, 3));
 
@@ -33,20 +33,20 @@ export function captionOf({ config, stats: { factors, weakest, share, driven, in
   const texts = words.anatomy.verdict;
   const { deviations, share: keptShare, deviation } = factors[weakest];
   const estimateName = `${words.anatomy.bars.names[weakest]} ${['v̂', 'ω̂', 'γ̂'][weakest]}`;
-  if (config.printed && driven.arcLength !== inverted.arcLength) return texts.printed(fixed(factors[0].estimate, 2), shareText(share));
+  if (config.printed && driven.arcLength !== inverted.arcLength) return texts.printed(formatFixed(factors[0].estimate, 2), shareText(share));
   if (share === 1) return texts.peak;
   if (deviation === 0) return texts.noiseless(estimateName);
-  return texts.off(estimateName, fixed(Math.abs(deviations), 1), shareText(keptShare), shareText(share));
+  return texts.off(estimateName, formatFixed(Math.abs(deviations), 1), shareText(keptShare), shareText(share));
 }
 
-const poseText = ({ x, y, theta }: Pose) => words.anatomy.pose(fixed(x, 2), fixed(y, 2), fixed(theta, 2));
+const poseText = ({ x, y, theta }: Pose) => words.anatomy.pose(formatFixed(x, 2), formatFixed(y, 2), formatFixed(theta, 2));
 
 export function pictureText(viewModel: ViewModel) {
   const { config, stats: { inverted } } = viewModel;
   const texts = words.anatomy.picture;
   return [
     texts.poses(poseText(config.start), commandText(config.command), poseText(config.next)),
-    inverted.center === null ? texts.straight : texts.arc(fixed(inverted.radius, 2), inverted.radius > 0),
+    inverted.center === null ? texts.straight : texts.arc(formatFixed(inverted.radius, 2), inverted.radius > 0),
     captionOf(viewModel),
   ].join(' ');
 }
@@ -81,10 +81,10 @@ export function factorBarsHtml({ stats: { factors, weakest, share } }: ViewModel
       const { symbol, error, sign, unit } = FACTOR_NOTATION[i];
       const deviations = sign * factor.deviations;
       return html`<li class=${i === weakest && share < 1 ? 'weakest' : nothing}>
-        <span class="estimate">${formatMarkup(symbol)} ${texts.names[i]} = ${fixed(factor.estimate, 2)} ${unit}</span>
+        <span class="estimate">${formatMarkup(symbol)} ${texts.names[i]} = ${formatFixed(factor.estimate, 2)} ${unit}</span>
         ${barHtml(deviations)}
         <span class="keeps muted small">${texts.factor(shareText(factor.share))}</span>
-        <span class="off small">${formatMarkup(error)}/<i>σ</i> = ${fixed(deviations, 1)}</span>
+        <span class="off small">${formatMarkup(error)}/<i>σ</i> = ${formatFixed(deviations, 1)}</span>
       </li>`;
     })}
   </ul>`;
@@ -106,10 +106,10 @@ function barHtml(deviations: number) {
 export function likelihoodReadouts({ stats: { prob, density, xi } }: ViewModel) {
   const texts = words.anatomy.likelihoods;
   const [along, lateral, heading] = xi;
-  return readoutList([
+  return readoutsHtml([
     [texts.prob, densityText(prob)],
     [texts.density, density === null ? texts.none : densityText(density)],
-    [texts.xi, `(${fixed(along, 2)}, ${fixed(lateral, 2)}, ${fixed(heading, 2)})`],
+    [texts.xi, `(${formatFixed(along, 2)}, ${formatFixed(lateral, 2)}, ${formatFixed(heading, 2)})`],
   ]);
 }
 
@@ -132,7 +132,7 @@ const LINE_UNITS = ['', ' m', ' m', ' m', ' rad', ' m/s', ' rad/s', ' rad/s', ''
 export function lineText({ table: { lines }, config: { printed } }: ViewModel, line: number) {
   const lineValue = lines[line - 1];
   const lineFormula = printed ? TABLE_FORMULAS[line - 1].replace('±', '') : TABLE_FORMULAS[line - 1];
-  const valueText = line === TABLE_LINES ? densityText(lineValue) : fixed(lineValue, 3);
+  const valueText = line === TABLE_LINES ? densityText(lineValue) : formatFixed(lineValue, 3);
   return `${line}. ${lineFormula} = ${valueText}${LINE_UNITS[line - 1]}`;
 }
 
@@ -154,10 +154,10 @@ export function formsPlot({ ArcAnatomy }: Motion) {
   const texts = words.anatomy.forms;
   const { omega, arc, straight, chord, estimatedCrossover, threshold } = (cachedFormErrors ??= ArcAnatomy.formErrors());
   return html`<figure class="forms">
-    ${plot({
+    ${plotHtml({
       label: texts.text,
-      x: { name: '|ω̂| (rad/s)', from: omega[0], to: omega[omega.length - 1], logarithmic: true },
-      y: { name: texts.error, ...ERROR_RANGE, logarithmic: true },
+      x: { name: '|ω̂| (rad/s)', from: omega[0], to: omega[omega.length - 1], isLogarithmic: true },
+      y: { name: texts.error, ...ERROR_RANGE, isLogarithmic: true },
       curves: [
         { name: texts.arc, role: 'prediction', x: omega, y: arc },
         { name: texts.straight, role: 'prior', dash: '2.5 3.5', x: omega, y: straight },

@@ -1,6 +1,6 @@
 /** Arc Anatomy's settings: their attributes, their part of the state, and their sliders; line styles, and the view model. */
 
-import { definitionOf } from '../../figure/definition.ts';
+import { createDefinition } from '../../figure/definition.ts';
 import { COMMAND_DASH, alphaSliders, commandSliders } from '../shared/sliders.ts';
 import type { ArcAnatomy } from '../../types.d.ts';
 
@@ -17,7 +17,7 @@ export const UNDERWAY_AT_END = 100;
 export const LINE_STYLES = {
   commanded: { role: 'prior', width: 2.5, dash: COMMAND_DASH },
   inverted: { role: 'prediction', width: 2.75, dash: [] },
-  wedge: { role: 'accent', mark: 'area' },
+  wedge: { role: 'accent', shape: 'area' },
   chord: { role: 'ink', width: 1, dash: [2, 3] },
   twist: { role: 'posterior', width: 2, dash: [7, 3] },
 } satisfies Record<string, import('../../scene/draw.ts').LineStyle>;
@@ -41,10 +41,10 @@ export const COMMAND_SLIDERS = commandSliders(4);
 
 export const ALPHA_SLIDERS = alphaSliders(6);
 
-export const definition = definitionOf('arc-anatomy', {
+export const definition = createDefinition('arc-anatomy', {
   messageKey: 'anatomy',
-  lines: LINE_STYLES,
-  opening: ['commanded', 'inverted', 'wedge', 'chord'],
+  overlayStyles: LINE_STYLES,
+  openingOverlays: ['commanded', 'inverted', 'wedge', 'chord'],
   sliderSpecs: { ...COMMAND_SLIDERS, ...ALPHA_SLIDERS },
   elementFields: {
     line: { type: 'whole', default: 0, min: 0, max: TABLE_LINES, isResetByPreset: true },

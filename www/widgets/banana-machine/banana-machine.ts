@@ -1,18 +1,18 @@
 /** <banana-machine>: one command, thousands of outcomes, and the coordinates in which they are nearly a Gaussian. */
 
 import { html, nothing, css } from 'lit';
-import { checkedObject } from '../../data/checks.ts';
-import { pictureCanvas, disclosures, titledPicture, settingCheckbox, settingRadios, settingSlider, settingSliders, legend } from '../../figure/controls.ts';
+import { checkObject } from '../../data/checks.ts';
+import { pictureCanvasHtml, disclosuresHtml, titledPictureHtml, settingCheckboxHtml, settingRadiosHtml, settingSliderHtml, settingSlidersHtml, legendHtml } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
-import { define } from '../../figure/reflection.ts';
+import { defineElement } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
 import { hasLength } from '../../scene/draw.ts';
 import { Handle, stepsOfKey } from '../../scene/handle.ts';
 import { Memo } from '../../scene/cache.ts';
 import { openingAlphas } from '../../../build/settings.js';
-import { button, formatMarkup, radioButton, group, toggle } from '../../ui/controls.ts';
-import { clamp, fixed, formatEditable } from '../../ui/format.ts';
-import { plot } from '../../ui/plot.ts';
+import { buttonHtml, formatMarkup, radioButtonHtml, fieldsetHtml, checkboxHtml } from '../../ui/controls.ts';
+import { clamp, formatFixed, formatEditable } from '../../ui/format.ts';
+import { plotHtml } from '../../ui/plot.ts';
 import { cloudProperties, samplesSlider } from '../shared/cloud.ts';
 import { Player, presetButtons } from '../shared/controls.ts';
 import { subscriptOf } from '../shared/sliders.ts';
@@ -21,7 +21,7 @@ import { MORPH_MS, morphControl, outlinesAt, morphedPoint } from './morph.ts';
 import { PlanePicture, TwistPicture } from './pictures.ts';
 import { markedRobotField, otherReadouts, mainReadouts, twistTable, workedExampleTable, calloutsOf, captionOf, floorTitle, planeText, twistCaption, twistText } from './readouts.ts';
 import { sliderSpecs, LINE_STYLES, OVERLAY_NAMES, definition, COMMAND_SLIDERS, SAMPLE_COUNTS, viewModelOf, viewModelOfSettings, type ViewModel } from './settings.ts';
-import type { Values } from '../../figure/settings.ts';
+import type { StateValues } from '../../figure/settings.ts';
 import type { BananaMachine as Simulation, BananaMachineSettings as Settings, Inspection, Motion } from '../../types.d.ts';
 
 /** Displacement of the end of the arc per press of an arrow key, metres. */
@@ -44,12 +44,12 @@ function modelControls(figure: BananaMachineElement) {
   const texts = words.banana;
   // The choice counts from 1. It may be larger than the number of α's, because it was made under the other model.
   const isolatedAlpha = Math.min(figure.settings.elementState.isolateChoice, alphas.length);
-  return group(texts.modelGroup, html`${settingRadios(figure, 'model', texts.models)} ${settingRadios(figure, 'noise', words.noises)}
-    ${model === 'odometry' ? settingCheckbox(figure, 'reverseAware', texts.reverseAware) : nothing}
-    ${toggle({
+  return fieldsetHtml(texts.modelGroup, html`${settingRadiosHtml(figure, 'model', texts.models)} ${settingRadiosHtml(figure, 'noise', words.noises)}
+    ${model === 'odometry' ? settingCheckboxHtml(figure, 'reverseAware', texts.reverseAware) : nothing}
+    ${checkboxHtml({
       label: texts.isolate,
       checked: isolate !== null,
-      change: (on) => figure.gesture.decide({ isolate: on ? isolatedAlpha : null }),
+      onChange: (on) => figure.gesture.requestAndCommit({ isolate: on ? isolatedAlpha : null }),
     })}`);
 }
 
@@ -63,21 +63,21 @@ const VISIBLE_ALPHAS: Record<string, number[]> = { velocity: [0, 2], odometry: [
 function alphaGroup(figure: BananaMachineElement, isVisible: boolean) {
   const { model, alphas } = figure.viewModel.config;
   const indices = [...alphas.keys()].filter((index) => VISIBLE_ALPHAS[model].includes(index) === isVisible);
-  return group(words.noise, indices.map((index) => alphaSlider(figure, index + 1, words.alphas[model as 'velocity' | 'odometry'][index])), isVisible ? 'pair' : 'alphas');
+  return fieldsetHtml(words.noise, indices.map((index) => alphaSlider(figure, index + 1, words.alphas[model as 'velocity' | 'odometry'][index])), isVisible ? 'pair' : 'alphas');
 }
 
 /** Returns the slider of an α, counted from 1. */
 function alphaSlider(figure: BananaMachineElement, alphaNumber: number, [name, effect]: string[]) {
   const { isolate } = figure.viewModel.config;
   const hasNoEffect = isolate !== null && isolate !== alphaNumber;
-  const chooseAlpha = () => figure.gesture.decide({ isolate: alphaNumber, isolateChoice: alphaNumber });
-  return settingSlider(figure, `alpha${alphaNumber}`, {
+  const chooseAlpha = () => figure.gesture.requestAndCommit({ isolate: alphaNumber, isolateChoice: alphaNumber });
+  return settingSliderHtml(figure, `alpha${alphaNumber}`, {
     name,
     effect: formatMarkup(effect),
     hasNoEffect,
-    pickControl: isolate === null ? undefined : radioButton({ group: 'isolate', name: words.banana.only(`α${subscriptOf(alphaNumber - 1)}`), checked: !hasNoEffect, choose: chooseAlpha }),
-    show: (value) => (hasNoEffect ? words.banana.off(formatEditable(value, 3)) : formatEditable(value, 3)),
-    input: (value) => {
+    pickControl: isolate === null ? undefined : radioButtonHtml({ group: 'isolate', name: words.banana.only(`α${subscriptOf(alphaNumber - 1)}`), checked: !hasNoEffect, onChoose: chooseAlpha }),
+    formatValue: (value) => (hasNoEffect ? words.banana.off(formatEditable(value, 3)) : formatEditable(value, 3)),
+    onInput: (value) => {
       if (hasNoEffect) chooseAlpha();
       figure.settings.request(({ alphas }) => ({ alphas: alphas.with(alphaNumber - 1, value) }));
     },
@@ -184,7 +184,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
   #handle = new Handle('end', {
     view: () => this.#planePicture.view,
     drag: (x, y) => this.#moveArcEnd(x, y),
-    key: (event) => {
+    handleKey: (event) => {
       const keySteps = stepsOfKey(event);
       if (!keySteps || !this.simulation) return false;
       const [x, y] = this.visibleArcEnd;
@@ -203,7 +203,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
   // The simulation starts empty: the cloud grows visibly, and the first frame need not wait for samples.
   createSimulation = ({ BananaMachine }: Motion) => BananaMachine.empty();
 
-  enterState(simulation: Simulation, state: Values) {
+  enterState(simulation: Simulation, state: StateValues) {
     const { model, alphas, pinned } = state;
     // Each model keeps its own α's.
     const otherModel = model === 'velocity' ? 'odometry' : 'velocity';
@@ -213,7 +213,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     super.enterState(simulation, { ...state, alphas: alphas[model] });
   }
 
-  read = viewModelOf;
+  readViewModel = viewModelOf;
 
   get scene() {
     const viewModel = this.currentViewModel;
@@ -253,7 +253,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
   /** Pins the current settings for comparison, or unpins them. The pinned outlines and numbers are those of the complete cloud. */
   #togglePin() {
     const { config } = this.currentViewModel;
-    this.gesture.choose('pinned', this.settings.elementState.pinned ? null : { ...config, samples: Math.max(1, this.cloud.selectableCount) });
+    this.gesture.setElementField('pinned', this.settings.elementState.pinned ? null : { ...config, samples: Math.max(1, this.cloud.selectableCount) });
   }
 
   get exportData() {
@@ -269,11 +269,11 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
   announcement = captionOf;
 
   snapshot() {
-    return { ...super.snapshot(), alphas: ((this.settings.isStale && this.simulation) || this.viewModel).alphasOfModels };
+    return { ...super.snapshot(), alphas: ((this.settings.isViewModelStale && this.simulation) || this.viewModel).alphasOfModels };
   }
 
-  withDerivedFields(currentState: Values, changes: Values) {
-    const alphas = checkedObject('state.alphas', changes.alphas ?? {}, Object.keys(openingAlphas));
+  withDerivedFields(currentState: StateValues, changes: StateValues) {
+    const alphas = checkObject('state.alphas', changes.alphas ?? {}, Object.keys(openingAlphas));
     return { ...super.withDerivedFields(currentState, changes), alphas: { ...currentState.alphas, ...alphas } };
   }
 
@@ -333,12 +333,12 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     const isAtLimit = [v - sliderSpecs.v.min, sliderSpecs.v.max - v, omega - min, max - omega].some((margin) => margin <= 0);
     return this.#handle.handleHtml({
       name: texts.handle,
-      keys: texts.handleKeys,
+      keysHint: texts.handleKeys,
       title: words.pose.moveTitle,
-      range: [min, max],
-      now: omega,
-      text: `v = ${fixed(v, 2)} m/s, ω = ${fixed(omega, 2)} rad/s`,
-      stop: isAtLimit && texts.slidersEnd,
+      valueRange: [min, max],
+      value: omega,
+      valueText: `v = ${formatFixed(v, 2)} m/s, ω = ${formatFixed(omega, 2)} rad/s`,
+      limitText: isAtLimit && texts.slidersEnd,
       hint: this.cloud.isAsking && texts.handleHint,
     });
   }
@@ -354,30 +354,30 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     return planeText(this.viewModel, drawnOutlineNames.map((name) => words.banana.overlays[name]), this.settings.elementState.morph);
   }
 
-  content(viewModel: ViewModel) {
+  renderContent(viewModel: ViewModel) {
     const { config, note } = viewModel;
     const texts = words.banana;
     return html`
       <div class="views">
-        ${titledPicture(this.#title, html`<div class="stage" part="picture">
-          ${pictureCanvas(this, this.#planePicture, this.#description)} ${this.#handleHtml(config.command)}
+        ${titledPictureHtml(this.#title, html`<div class="stage" part="picture">
+          ${pictureCanvasHtml(this, this.#planePicture, this.#description)} ${this.#handleHtml(config.command)}
         </div>`)}
-        ${titledPicture(texts.twist, html`<div class="stage">${pictureCanvas(this, this.#twistPicture, twistText(viewModel))}</div>`, 'twist')}
+        ${titledPictureHtml(texts.twist, html`<div class="stage">${pictureCanvasHtml(this, this.#twistPicture, twistText(viewModel))}</div>`, 'twist')}
       </div>
-      ${this.renderer.afterFirstPicture(() => html`
+      ${this.renderer.renderAfterFirstPicture(() => html`
       <div class="morphing">
         ${morphControl(this)}
-        ${button(this.#pinnedViewModel ? texts.unpin : texts.pin, () => this.#togglePin(), { title: texts.pinTitle, otherLabel: this.#pinnedViewModel ? texts.pin : texts.unpin })}
+        ${buttonHtml(this.#pinnedViewModel ? texts.unpin : texts.pin, () => this.#togglePin(), { title: texts.pinTitle, otherLabel: this.#pinnedViewModel ? texts.pin : texts.unpin })}
       </div>
-      ${legend(this, LINE_STYLES)}
+      ${legendHtml(this, LINE_STYLES)}
       <p part="caption" class="caption ${note && 'note'}">${captionOf(viewModel)}</p>
       ${mainReadouts(viewModel, this.#pinnedViewModel)} ${presetButtons(this)}
       <div class="controls" part="controls">
-        ${group(words.command, settingSliders(this, COMMAND_SLIDERS))} ${alphaGroup(this, true)} ${group(words.samples, this.cloud.buttons(), 'cloud')}
+        ${fieldsetHtml(words.command, settingSlidersHtml(this, COMMAND_SLIDERS))} ${alphaGroup(this, true)} ${fieldsetHtml(words.samples, this.cloud.buttons(), 'cloud')}
       </div>
-      ${disclosures(this, {
-        controls: () => html`<div class="controls">${alphaGroup(this, false)} ${modelControls(this)} ${group(words.samples, samplesSlider(this, SAMPLE_COUNTS))}</div>`,
-        numbers: () => html`${markedRobotField(this, this.#inspection)} ${this.#figuresHtml(viewModel)}`,
+      ${disclosuresHtml(this, {
+        renderControls: () => html`<div class="controls">${alphaGroup(this, false)} ${modelControls(this)} ${fieldsetHtml(words.samples, samplesSlider(this, SAMPLE_COUNTS))}</div>`,
+        renderNumbers: () => html`${markedRobotField(this, this.#inspection)} ${this.#figuresHtml(viewModel)}`,
       })}`)}
     `;
   }
@@ -401,7 +401,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     const maxSkew = skews.reduce((largest, value) => Math.max(largest, Math.abs(value) || 0), 0);
     const chartHeight = CHART_HEIGHTS.find((height) => height >= maxSkew) ?? maxSkew;
     const omegaRange = [min, max];
-    return plot({
+    return plotHtml({
       label: texts.chart,
       x: { name: 'ω (rad/s)', from: min, to: max },
       y: { name: texts.readouts.skew, from: -chartHeight, to: chartHeight },
@@ -418,12 +418,12 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
         name: texts.chartMarker,
         step,
         value: omega,
-        text: texts.chartText(fixed(omega, 2), fixed(exactSkew, 3)),
-        input: (to) => this.settings.request(({ command }) => ({ command: { ...command, omega: to } })),
-        commit: () => this.gesture.commit(),
+        text: texts.chartText(formatFixed(omega, 2), formatFixed(exactSkew, 3)),
+        onInput: (to) => this.settings.request(({ command }) => ({ command: { ...command, omega: to } })),
+        onCommit: () => this.gesture.commit(),
       },
     });
   }
 }
 
-define(BananaMachineElement, cloudProperties);
+defineElement(BananaMachineElement, cloudProperties);

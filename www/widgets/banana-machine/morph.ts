@@ -3,10 +3,10 @@
 import { ticks } from 'd3-array';
 import { html } from 'lit';
 import { words } from '../../messages/registry.ts';
-import { addLine, paintWithOpacity, strokePath, type Brush } from '../../scene/canvas.ts';
-import { View, extentBetween, type Extent } from '../../scene/view.ts';
-import { percent } from '../../ui/format.ts';
-import { track } from '../../ui/slider.ts';
+import { addLine, paintWithOpacity, strokePath, type DrawContext } from '../../scene/canvas.ts';
+import { View, interpolateExtent, type Extent } from '../../scene/view.ts';
+import { formatPercent } from '../../ui/format.ts';
+import { sliderTrackHtml } from '../../ui/slider.ts';
 import type { Motion } from '../../types.d.ts';
 import type { ViewModel } from './settings.ts';
 
@@ -59,7 +59,7 @@ export class MorphView extends View {
 
   constructor(inset: { left: number, right: number }) {
     super(inset);
-    this.endViews = [new View(inset), new View({ ...inset, equal: false })];
+    this.endViews = [new View(inset), new View({ ...inset, hasEqualScales: false })];
   }
 
   resize(width: Parameters<View['resize']>[0], height: Parameters<View['resize']>[1]) {
@@ -67,12 +67,12 @@ export class MorphView extends View {
     for (const endView of this.endViews) endView.resize(width, height);
   }
 
-  release(minFill?: number) {
-    for (const endView of this.endViews) endView.release(minFill);
+  allowZoomIn(minFill?: number) {
+    for (const endView of this.endViews) endView.allowZoomIn(minFill);
   }
 
-  reset() {
-    for (const endView of this.endViews) endView.reset();
+  clearTarget() {
+    for (const endView of this.endViews) endView.clearTarget();
   }
 
   get hasTarget() {
@@ -87,9 +87,9 @@ export class MorphView extends View {
     this.hasZoomedOut ||= view.hasZoomedOut;
   }
 
-  ease(elapsed: Parameters<View['ease']>[0], atOnce: Parameters<View['ease']>[1]) {
-    const isMoving = this.endViews.map((endView) => endView.ease(elapsed, atOnce)).includes(true);
-    this.extent = extentBetween(this.endViews[0].extent, this.endViews[1].extent, this.morph);
+  moveTowardsTarget(elapsed: Parameters<View['moveTowardsTarget']>[0], atOnce: Parameters<View['moveTowardsTarget']>[1]) {
+    const isMoving = this.endViews.map((endView) => endView.moveTowardsTarget(elapsed, atOnce)).includes(true);
+    this.extent = interpolateExtent(this.endViews[0].extent, this.endViews[1].extent, this.morph);
     return isMoving;
   }
 }
@@ -99,9 +99,9 @@ export function morphControl({ player, gesture, settings }: import('./banana-mac
   const { morph } = settings.elementState;
   return html`<div class="morph" role="group" aria-label=${texts.name}>
     ${player.button('morph', texts.play)}
-    ${track({
-      id: 'morph', name: texts.name, min: 0, max: 1, step: MORPH_STEP, value: morph, text: texts.text(percent(morph)),
-      input: (to) => player.setByUser('morph', to), commit: () => gesture.commit(),
+    ${sliderTrackHtml({
+      id: 'morph', name: texts.name, min: 0, max: 1, step: MORPH_STEP, value: morph, text: texts.text(formatPercent(morph)),
+      onInput: (to) => player.setByUser('morph', to), onCommit: () => gesture.commit(),
     })}
     <span class="end floor muted small" aria-hidden="true">${texts.floor}</span>
     <span class="end twist muted small" aria-hidden="true">${texts.twist}</span>
@@ -113,7 +113,7 @@ const GRID_LINES = 7;
 const CHORDS_PER_LINE = 32;
 
 /** Draws the grid of exponential coordinates at a morph. The second parameter is the view at the end of the morph. */
-export function drawMorphGrid({ context, view, palette }: Brush, { extent: { xMin, xMax, yMin, yMax } }: View, morph: number) {
+export function drawMorphGrid({ context, view, palette }: DrawContext, { extent: { xMin, xMax, yMin, yMax } }: View, morph: number) {
   const drawGridLine = (pointAt: (share: number) => [along: number, heading: number]) => addLine(context, Array.from({ length: CHORDS_PER_LINE + 1 }, (_, i) => {
     const [along, heading] = pointAt(i / CHORDS_PER_LINE);
     return view.toPixel(...morphedPoint([along, 0, heading], morph));

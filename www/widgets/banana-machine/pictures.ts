@@ -4,15 +4,15 @@ import { quantile } from 'd3-array';
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { drawCallouts, drawLabel } from '../../scene/labels.ts';
-import { addTurn, densityRamp, drawDots, drawEarlierOutlines, drawHandle, drawMark, drawOutline, drawOutlines, drawRobot, hasLength, lineLegendEntries, lineStyles } from '../../scene/draw.ts';
-import { Memo, Pixels } from '../../scene/cache.ts';
+import { addTurnArc, densityRamp, drawDots, drawEarlierOutlines, drawHandle, drawCrosshair, drawOutline, drawOutlines, drawRobot, hasLength, lineLegendEntries, lineStyles } from '../../scene/draw.ts';
+import { Memo, CachedImage } from '../../scene/cache.ts';
 import { Picture } from '../../scene/picture.ts';
 import { cornersAround, extentOf } from '../../scene/view.ts';
-import { integer } from '../../ui/format.ts';
+import { formatInteger } from '../../ui/format.ts';
 import { drawMorphGrid, MorphView, morphedPoint, type Outlines } from './morph.ts';
 import { deviationOf, type ViewModel, LINE_STYLES, type LineName } from './settings.ts';
 import type { BananaMachine, Moments } from '../../types.d.ts';
-import { addLine, drawDisc, paintWithOpacity, strokeLine, strokePath, type Brush } from '../../scene/canvas.ts';
+import { addLine, drawDisc, paintWithOpacity, strokeLine, strokePath, type DrawContext } from '../../scene/canvas.ts';
 
 /** View model of both pictures. */
 export type Scene = import('./banana-machine.ts').BananaMachineElement['scene'];
@@ -44,11 +44,11 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
   view: MorphView = new MorphView({ left: 46, right: 10 });
   /** Outlines that may be drawn. */
   outlineNames: readonly LineName[] = PAINT_ORDER;
-  #density = new Pixels();
+  #density = new CachedImage();
   #dotPositions: Memo<Float64Array> = new Memo();
 
   /** Returns the robot nearest to a point in CSS pixels; −1 for none. */
-  nearest(simulation: BananaMachine, x: number, y: number) {
+  nearestSample(simulation: BananaMachine, x: number, y: number) {
     const { view } = this;
     return simulation.nearest(view.morph, ...view.toWorld(x, y), PICK_RADIUS / view.scaleX, PICK_RADIUS / view.scaleY);
   }
@@ -64,15 +64,15 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
     return this.#dotPositions.get([stats, morph], () => (morph === 0 ? simulation.firstPoses(MAX_DOTS) : morphedPoses(simulation.firstTwists(MAX_DOTS), morph)));
   }
 
-  paint: Picture<Scene>['paint'] = (brush, scene) => {
-    const { context, view, palette } = brush;
+  paint: Picture<Scene>['paint'] = (drawContext, scene) => {
+    const { context, view, palette } = drawContext;
     const { simulation, overlays, marked, pinned } = scene;
     const { morph, endViews: [floor, twist] } = this.view;
     const isPlane = this.name === 'plane';
     const outlines = this.outlinesOf(scene, scene);
-    const styles = lineStyles(brush, LINE_STYLES);
+    const styles = lineStyles(drawContext, LINE_STYLES);
     const isDrawn = (name: LineName) => this.outlineNames.includes(name) && overlays[name] && hasLength(outlines[name]);
-    const legendEntries = lineLegendEntries(brush, LINE_STYLES, LEGEND_ORDER.filter(isDrawn), words.banana.overlays);
+    const legendEntries = lineLegendEntries(drawContext, LINE_STYLES, LEGEND_ORDER.filter(isDrawn), words.banana.overlays);
     // One pair of axes fades out before the other fades in.
     const axesOfEndViews = [
       { view: floor, opacity: 1 - 2 * morph, names: { x: 'x (m)', y: 'y (m)' } },
@@ -81,41 +81,41 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
     for (const { view: axesView, opacity, names } of axesOfEndViews) {
       // While the grid of exponential coordinates is curved, `drawMorphGrid` draws it.
       const gridOpacity = axesView === twist && morph < 1 ? 0 : undefined;
-      if (opacity > 0) paintWithOpacity(context, Math.min(1, opacity), () => drawAxes({ ...brush, view: axesView }, names, legendEntries, gridOpacity));
+      if (opacity > 0) paintWithOpacity(context, Math.min(1, opacity), () => drawAxes({ ...drawContext, view: axesView }, names, legendEntries, gridOpacity));
     }
     const cloudMiddle = morphedPoint(twistMoments(scene)[0].mean, morph);
     const outlinesInStyle = (outlinePoints: Outlines) => this.outlineNames.filter(isDrawn).map((name) => ({ points: outlinePoints[name], ...styles[name] }));
     // The outlines of the pinned simulation, or of the one before the latest change, stay in the picture.
-    const earlierViewModel: ViewModel | undefined = pinned ?? brush.previousViewModel;
+    const earlierViewModel: ViewModel | undefined = pinned ?? drawContext.previousViewModel;
     const earlierOutlines = earlierViewModel ? outlinesInStyle(this.outlinesOf(earlierViewModel, scene)) : [];
     const callouts = isPlane ? [...scene.callouts] : [];
-    clipToPlot(brush, () => {
-      if (morph > 0 && morph < 1) drawMorphGrid(brush, twist, morph);
+    clipToPlot(drawContext, () => {
+      if (morph > 0 && morph < 1) drawMorphGrid(drawContext, twist, morph);
       if (scene.driving) {
-        if (isPlane) drawDrivingRobots(brush, simulation, scene.driving);
+        if (isPlane) drawDrivingRobots(drawContext, simulation, scene.driving);
         return;
       }
       const isSinglePoint = this.#isSinglePoint(scene);
-      if (!isSinglePoint) this.#paintCloud(brush, scene);
-      if (isPlane) drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
-      callouts.push(...drawEarlierOutlines(brush, earlierOutlines, isPlane ? [cloudMiddle, [0, 0]] : [cloudMiddle], pinned ? words.banana.pinned : words.before));
-      drawOutlines(brush, outlinesInStyle(outlines));
+      if (!isSinglePoint) this.#paintCloud(drawContext, scene);
+      if (isPlane) drawRobot(drawContext, { x: 0, y: 0, heading: 0, colour: palette.truth });
+      callouts.push(...drawEarlierOutlines(drawContext, earlierOutlines, isPlane ? [cloudMiddle, [0, 0]] : [cloudMiddle], pinned ? words.banana.pinned : words.before));
+      drawOutlines(drawContext, outlinesInStyle(outlines));
       const [endX, endY] = outlines.command.slice(-2);
       if (isPlane) {
-        if (overlays.command && scene.reading && morph === 0) drawOdometryReading(brush, scene.reading, scene.end);
-        if (isSinglePoint && scene.shown > 0) drawCoincidentRobots(brush, this.#dotPositionsOf(scene), scene.shown);
-        drawHandle(brush, { x: view.toPixelX(endX), y: view.toPixelY(endY), radius: HANDLE_RADIUS, colour: palette.prior });
+        if (overlays.command && scene.reading && morph === 0) drawOdometryReading(drawContext, scene.reading, scene.end);
+        if (isSinglePoint && scene.shown > 0) drawCoincidentRobots(drawContext, this.#dotPositionsOf(scene), scene.shown);
+        drawHandle(drawContext, { x: view.toPixelX(endX), y: view.toPixelY(endY), radius: HANDLE_RADIUS, colour: palette.prior });
       } else if (overlays.command) {
         drawDisc(context, view.toPixel(endX, endY), 5, palette.paper, { ...styles.command, dash: [] });
       }
       if (marked) {
-        if (morph === 0) drawOutline(brush, marked.path, { colour: palette.accent, width: 1.25, dash: [6, 2] });
+        if (morph === 0) drawOutline(drawContext, marked.path, { colour: palette.accent, width: 1.25, dash: [6, 2] });
         const [x, y] = morphedPoint(marked.twist, morph);
-        drawMark(brush, { x, y, heading: morph < 1 ? (1 - morph) * marked.pose[2] : null });
+        drawCrosshair(drawContext, { x, y, heading: morph < 1 ? (1 - morph) * marked.pose[2] : null });
       }
     });
     const calloutLines = isPlane ? [outlines.command, outlines.ellipse, outlines.exponential] : [outlines.exponential, Float64Array.of(...cloudMiddle)];
-    drawCallouts(brush, callouts, { shapeCentre: cloudMiddle, lines: [...calloutLines, ...earlierOutlines.map(({ points }) => points)] });
+    drawCallouts(drawContext, callouts, { shapeCentre: cloudMiddle, lines: [...calloutLines, ...earlierOutlines.map(({ points }) => points)] });
   };
 
   /** Returns true if the robots on the floor are drawn as one point. */
@@ -124,12 +124,12 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
   }
 
   /** Draws the robots as dots or, if there are many, as a density. */
-  #paintCloud(brush: Brush, scene: Scene) {
+  #paintCloud(drawContext: DrawContext, scene: Scene) {
     const { view: { morph, scaleX, scaleY } } = this;
     const { simulation, shown, stats, table: { exact: { cov } } } = scene;
     if (shown <= MAX_DOTS) {
       // Ticks for headings shrink during the morph: exponential coordinates show the turn as an axis.
-      drawDots(brush, this.#dotPositionsOf(scene), 1 - morph);
+      drawDots(drawContext, this.#dotPositionsOf(scene), 1 - morph);
       return;
     }
     // Products of the standard deviations along the axes of the cloud, at both ends of the morph.
@@ -139,7 +139,7 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
     const area = 4 * Math.PI * ((1 - morph) * floorProduct + morph * twistProduct) * scaleX * scaleY;
     // Many robots allow small cells, CSS pixels.
     const cellSize = Math.min(7, Math.max(2, Math.round(Math.sqrt((3 * area) / shown))));
-    this.#density.drawDensity(brush, cellSize, [stats, morph, brush.palette], (...part) => simulation.picture(morph, ...part, densityRamp(brush.palette)));
+    this.#density.drawDensity(drawContext, cellSize, [stats, morph, drawContext.palette], (...part) => simulation.picture(morph, ...part, densityRamp(drawContext.palette)));
   }
 }
 
@@ -197,8 +197,8 @@ export class TwistPicture extends MorphPicture {
   }
 }
 
-function drawDrivingRobots(brush: Brush, simulation: BananaMachine, { robots, share }: { robots: number, share: number }) {
-  const { palette } = brush;
+function drawDrivingRobots(drawContext: DrawContext, simulation: BananaMachine, { robots, share }: { robots: number, share: number }) {
+  const { palette } = drawContext;
   for (let i = 0; i < robots; i++) {
     const { path, pose } = simulation.inspect(i);
     // The first robot has arrived when the others start.
@@ -207,9 +207,9 @@ function drawDrivingRobots(brush: Brush, simulation: BananaMachine, { robots, sh
     const chord = Math.min(Math.floor(chordPosition), chordCount - 1);
     const [x, y, nextX, nextY] = path.subarray(2 * chord, 2 * chord + 4);
     const [endX, endY] = [x + (chordPosition - chord) * (nextX - x), y + (chordPosition - chord) * (nextY - y)];
-    drawOutline(brush, Float64Array.of(...path.subarray(0, 2 * chord + 2), endX, endY), { colour: palette.cloud, width: 1.5, dash: [] });
+    drawOutline(drawContext, Float64Array.of(...path.subarray(0, 2 * chord + 2), endX, endY), { colour: palette.cloud, width: 1.5, dash: [] });
     const heading = chordPosition === chordCount ? pose[2] : Math.atan2(nextY - y, nextX - x);
-    drawRobot(brush, { x: endX, y: endY, heading, colour: palette.cloud });
+    drawRobot(drawContext, { x: endX, y: endY, heading, colour: palette.cloud });
   }
 }
 
@@ -218,44 +218,44 @@ const TURN_RADIUS = 26;
 const TURN_LINE_LENGTH = 38;
 
 /** Draws the odometry reading of the command: rotation, drive, rotation. The drive ends at x, y in metres. */
-function drawOdometryReading(brush: Brush, { rot1, trans, rot2 }: import('../../types.d.ts').OdomDelta, [x, y]: [number, number]) {
-  const { context, view, palette } = brush;
+function drawOdometryReading(drawContext: DrawContext, { rot1, trans, rot2 }: import('../../types.d.ts').OdomDelta, [x, y]: [number, number]) {
+  const { context, view, palette } = drawContext;
   const [start, turned] = [{ x: 0, y: 0, theta: 0 }, { x, y, theta: rot1 }];
-  const [[fromX, fromY], startHeadingEnd] = view.ray(start, TURN_LINE_LENGTH);
-  const [[toX, toY], continuationEnd] = view.ray(turned, TURN_LINE_LENGTH);
+  const [[fromX, fromY], startHeadingEnd] = view.headingLine(start, TURN_LINE_LENGTH);
+  const [[toX, toY], continuationEnd] = view.headingLine(turned, TURN_LINE_LENGTH);
   const colour = palette.prior;
   const style = { colour, width: 1.5 };
   strokePath(context, style, () => {
     // The heading at the start, the drive, and its continuation, from which the second rotation starts.
     addLine(context, [startHeadingEnd, [fromX, fromY], [toX, toY], continuationEnd]);
-    addLine(context, view.ray({ x, y, theta: rot1 + rot2 }, TURN_LINE_LENGTH));
+    addLine(context, view.headingLine({ x, y, theta: rot1 + rot2 }, TURN_LINE_LENGTH));
   });
   const turns = [['rot1', start, rot1], ['rot2', turned, rot2]] as const;
-  for (const [, pose, turn] of turns) strokePath(context, style, () => addTurn(context, view.toPixel(pose.x, pose.y), TURN_RADIUS, pose.theta, turn));
+  for (const [, pose, turn] of turns) strokePath(context, style, () => addTurnArc(context, view.toPixel(pose.x, pose.y), TURN_RADIUS, pose.theta, turn));
   for (const [sub, pose, turn] of turns) {
     const middle = { ...pose, theta: pose.theta + turn / 2 };
-    const [labelX, labelY] = view.ray(middle, TURN_LINE_LENGTH + 6)[1];
-    drawLabel(brush, { x: labelX, y: labelY, towards: Math.cos(middle.theta) < 0 ? -1 : 1, symbol: 'δ', sub, colour });
+    const [labelX, labelY] = view.headingLine(middle, TURN_LINE_LENGTH + 6)[1];
+    drawLabel(drawContext, { x: labelX, y: labelY, freeSide: Math.cos(middle.theta) < 0 ? -1 : 1, symbol: 'δ', subscript: sub, colour });
   }
   if (trans > 0) {
-    const driveDirection = view.direction(rot1);
+    const driveDirection = view.pixelDirection(rot1);
     const [atX, atY] = [(fromX + toX) / 2 + 10 * driveDirection.y, (fromY + toY) / 2 - 10 * driveDirection.x + 6];
-    drawLabel(brush, { x: atX, y: atY, towards: 1, symbol: 'δ', sub: 'trans', colour });
+    drawLabel(drawContext, { x: atX, y: atY, freeSide: 1, symbol: 'δ', subscript: 'trans', colour });
   }
 }
 
 /** Draws robots at the same position as one marker, with a ray for the heading of each of the first robots. */
-function drawCoincidentRobots(brush: Brush, poses: Float64Array, shown: number) {
-  const { context, view, palette: { prediction: colour } } = brush;
+function drawCoincidentRobots(drawContext: DrawContext, poses: Float64Array, shown: number) {
+  const { context, view, palette: { prediction: colour } } = drawContext;
   const headings = [...poses.subarray(0, 3 * MAX_RAYS)].filter((_, i) => i % 3 === 2);
   const [x, y] = poses;
   paintWithOpacity(context, Math.min(1, 30 / headings.length), () => {
-    for (const theta of headings) strokeLine(context, view.ray({ x, y, theta }, 64), { colour, width: 1 });
+    for (const theta of headings) strokeLine(context, view.headingLine({ x, y, theta }, 64), { colour, width: 1 });
   });
   // The disc is larger than the handle, which is often at the same position.
   const [pixelX, pixelY] = view.toPixel(x, y);
   drawDisc(context, [pixelX, pixelY], 14, colour);
-  drawLabel(brush, { x: pixelX + 14, y: pixelY + 27, towards: 1, text: words.banana.robotsHere(integer(shown)), colour });
+  drawLabel(drawContext, { x: pixelX + 14, y: pixelY + 27, freeSide: 1, text: words.banana.robotsHere(formatInteger(shown)), colour });
 }
 
 /**

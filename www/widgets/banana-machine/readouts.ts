@@ -1,10 +1,10 @@
 /** The Banana Machine's readouts, sentences and text equivalents: the statistics of the cloud, the marked robot, and the tables of moments. */
 
 import { html } from 'lit';
-import { addEnglish, words } from '../../messages/registry.ts';
+import { addEnglishMessages, words } from '../../messages/registry.ts';
 import { formatMarkup } from '../../ui/controls.ts';
-import { integer, fixed, percent, formatWithError, NO_VALUE, formatSignificant } from '../../ui/format.ts';
-import { figureTable, readoutList } from '../../ui/readouts.ts';
+import { formatInteger, formatFixed, formatPercent, formatWithError, NO_VALUE, formatSignificant } from '../../ui/format.ts';
+import { tableHtml, readoutsHtml } from '../../ui/readouts.ts';
 import { sampleField } from '../shared/cloud.ts';
 import { commandText } from '../shared/sliders.ts';
 import { en } from './en.ts';
@@ -12,18 +12,18 @@ import { deviationOf, spreadKind, type ViewModel } from './settings.ts';
 import type { Callout } from '../../scene/labels.ts';
 import type { Inspection, Moments } from '../../types.d.ts';
 
-addEnglish({ banana: en });
+addEnglishMessages({ banana: en });
 
 /** Returns the text equivalent of the view of the floor, with the names of the outlines that are shown. */
 export function planeText(viewModel: ViewModel, overlays: string[], morph: number) {
   const { config, stats, table, note } = viewModel;
   const { plane, between, noRobots, mean, onePlace, spread, drawnOver } = words.banana;
   const commandPhrase = commandText(config.command);
-  const planeSentences = [morph === 0 ? plane(commandPhrase) : between(percent(morph), commandPhrase)];
+  const planeSentences = [morph === 0 ? plane(commandPhrase) : between(formatPercent(morph), commandPhrase)];
   if (stats.n === 0) planeSentences.push(noRobots);
   else {
     const { mean: centre, cov } = stats.cartesian;
-    planeSentences.push((spreadKind(table) === 'cloud' ? mean : onePlace)(integer(stats.n), fixed(centre[0], 2), fixed(centre[1], 2)));
+    planeSentences.push((spreadKind(table) === 'cloud' ? mean : onePlace)(formatInteger(stats.n), formatFixed(centre[0], 2), formatFixed(centre[1], 2)));
     if (note) planeSentences.push(note);
     else planeSentences.push(spread(deviationText(cov[0][0]), deviationText(cov[1][1])), bendText(viewModel));
   }
@@ -32,7 +32,7 @@ export function planeText(viewModel: ViewModel, overlays: string[], morph: numbe
 }
 
 function deviationText(variance: number) {
-  return fixed(deviationOf(variance), 2);
+  return formatFixed(deviationOf(variance), 2);
 }
 
 /** Absolute value of an exact skew below which it counts as 0. The rounding of the quadrature is about 1e-15. */
@@ -63,7 +63,7 @@ export function floorTitle({ stats, table: { exact } }: Pick<ViewModel, 'stats' 
 
 /** Returns the callouts of the floor, at points that only the ellipse covers. */
 export const calloutsOf = ({ gaps }: ViewModel): Callout[] =>
-  words.banana.callouts.slice(0, gaps.length / 2).map((text, i) => ({ text, at: [gaps[2 * i], gaps[2 * i + 1]] }));
+  words.banana.callouts.slice(0, gaps.length / 2).map((text, i) => ({ text, point: [gaps[2 * i], gaps[2 * i + 1]] }));
 
 /** Returns a sentence on the bend of the cloud. The exact skew determines its side, and the skew of the samples its significance. */
 function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, areaRatio, exponential: { mean, cov } }, exactSkew, table, gain }: ViewModel) {
@@ -71,14 +71,14 @@ function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, a
   const texts = words.banana.bend;
   // A line break must not separate a number from its error.
   const joinWithNonBreakingSpaces = (number: string) => number.replaceAll(' ', '\u00a0');
-  const [measuredSkew, exactText] = [joinWithNonBreakingSpaces(formatWithError(skew, error, 3)), fixed(exactSkew, 3)];
+  const [measuredSkew, exactText] = [joinWithNonBreakingSpaces(formatWithError(skew, error, 3)), formatFixed(exactSkew, 3)];
   // Robots end on both sides of the start.
-  if (deviationOf(cov[0][0]) > Math.abs(mean[0])) return texts.bowTie(fixed(mean[0], 2), deviationText(cov[0][0]), measuredSkew);
+  if (deviationOf(cov[0][0]) > Math.abs(mean[0])) return texts.bowTie(formatFixed(mean[0], 2), deviationText(cov[0][0]), measuredSkew);
   if (Math.abs(exactSkew) < VISIBLE_SKEW) {
     const skewSentence = Math.abs(exactSkew) < MIN_NONZERO_SKEW ? texts.neither(measuredSkew) : texts.hardly(measuredSkew, exactText);
     // There are no exact values if robots turn by more than π.
     const lesserOf = (sampled: number, exact: number) => (Number.isNaN(exact) ? sampled : Math.min(sampled, exact));
-    if (lesserOf(areaRatio, table.exact.areaRatio) > VISIBLE_AREA_RATIO) return `${texts.wide(fixed(areaRatio, 2))} ${skewSentence}`;
+    if (lesserOf(areaRatio, table.exact.areaRatio) > VISIBLE_AREA_RATIO) return `${texts.wide(formatFixed(areaRatio, 2))} ${skewSentence}`;
     const smallerGain = lesserOf(gain.value, gain.exact);
     return smallerGain > MIN_GAIN ? `${texts.gains(joinWithNonBreakingSpaces(formatWithError(gain.value, gain.error, 3)), smallerGain > VISIBLE_GAINS.pose)} ${skewSentence}` : skewSentence;
   }
@@ -104,10 +104,10 @@ export function twistText({ stats: { n, exponential, coverage } }: ViewModel) {
   const { mean, cov } = exponential;
   const { twist, twistAxes, robotsHere, twistMoments } = words.banana;
   const textStart = `${twist}, ${twistAxes}.`;
-  if (n < 2) return `${textStart} ${robotsHere(integer(n))}.`;
-  const [along, heading] = [fixed(mean[0], 2), fixed(mean[2], 2)];
+  if (n < 2) return `${textStart} ${robotsHere(formatInteger(n))}.`;
+  const [along, heading] = [formatFixed(mean[0], 2), formatFixed(mean[2], 2)];
   const [alongDeviation, headingDeviation] = [deviationText(cov[0][0]), deviationText(cov[2][2])];
-  const coverageText = Number.isNaN(coverage.exponential) ? '' : percent(coverage.exponential);
+  const coverageText = Number.isNaN(coverage.exponential) ? '' : formatPercent(coverage.exponential);
   return `${textStart} ${twistMoments(along, heading, alongDeviation, headingDeviation, coverageText)}`;
 }
 
@@ -124,18 +124,18 @@ export function mainReadouts(viewModel: ViewModel, pinned?: ViewModel) {
   const printedValues = printedStatistics(viewModel);
   const pinnedValues = pinned && printedStatistics(pinned).map((value) => `${words.banana.pinned}: ${value}`);
   const coverages = [coverage.ellipse, coverage.exponential];
-  return readoutList([
-    [texts.area, printedValues[0], coverages.every(Number.isNaN) ? NO_VALUE : texts.areaDetail(Number.isNaN(areaRatioError) ? '' : formatSignificant(areaRatioError, 1), percent(coverages[0]), percent(coverages[1])), pinnedValues?.[0]],
+  return readoutsHtml([
+    [texts.area, printedValues[0], coverages.every(Number.isNaN) ? NO_VALUE : texts.areaDetail(Number.isNaN(areaRatioError) ? '' : formatSignificant(areaRatioError, 1), formatPercent(coverages[0]), formatPercent(coverages[1])), pinnedValues?.[0]],
     // A gain on the floor and one of poses are not comparable.
     [gain.unbounded ? texts.gainOnFloor : texts.gain, printedValues[1], gainText(gain), pinned?.gain.unbounded === gain.unbounded ? pinnedValues?.[1] : undefined],
-    [texts.skew, printedValues[2], Number.isNaN(exactSkew) ? NO_VALUE : texts.exactly(fixed(exactSkew, 3)), pinnedValues?.[2]],
+    [texts.skew, printedValues[2], Number.isNaN(exactSkew) ? NO_VALUE : texts.exactly(formatFixed(exactSkew, 3)), pinnedValues?.[2]],
   ], 0);
 }
 
 /** Returns the area ratio, the gain and the skew as they are printed. */
 function printedStatistics({ stats, gain }: ViewModel) {
   return [
-    Number.isNaN(stats.areaRatio) ? NO_VALUE : `${fixed(stats.areaRatio, 2)} ×`,
+    Number.isNaN(stats.areaRatio) ? NO_VALUE : `${formatFixed(stats.areaRatio, 2)} ×`,
     formatWithError(gain.value, gain.error, 3),
     formatWithError(stats.crossTrackSkew, stats.crossTrackSkewError, 3),
   ];
@@ -148,25 +148,25 @@ function gainText({ unbounded, value, exact, wraps }: ViewModel['gain']) {
   if (value === Infinity) return onLine;
   if (unbounded) return withoutLimit;
   if (Number.isNaN(exact)) return nat;
-  return wraps ? unwrapped(fixed(exact, 3)) : `${exactly(fixed(exact, 3))}; ${nat}`;
+  return wraps ? unwrapped(formatFixed(exact, 3)) : `${exactly(formatFixed(exact, 3))}; ${nat}`;
 }
 
 export function otherReadouts({ config, stats, table }: ViewModel) {
   const texts = words.banana.readouts;
   const { nOfAll } = words.banana;
-  return readoutList([
-    [texts.robots, nOfAll(integer(stats.n), integer(config.samples))],
-    [texts.gaussian, fixed(stats.gaussianSkew, 3)],
-    [texts.rho, fixed(stats.rhoCrossHeading, 3)],
-    [texts.exactArea, fixed(table.exact.areaRatio, 3)],
-    [texts.nominal, percent(FRACTION_IN_ELLIPSE)],
+  return readoutsHtml([
+    [texts.robots, nOfAll(formatInteger(stats.n), formatInteger(config.samples))],
+    [texts.gaussian, formatFixed(stats.gaussianSkew, 3)],
+    [texts.rho, formatFixed(stats.rhoCrossHeading, 3)],
+    [texts.exactArea, formatFixed(table.exact.areaRatio, 3)],
+    [texts.nominal, formatPercent(FRACTION_IN_ELLIPSE)],
   ]);
 }
 
 /** Returns the field with the number of the marked robot, and the motion of that robot. */
 export function markedRobotField(figure: import('./banana-machine.ts').BananaMachineElement, inspection: Inspection | undefined): import('lit').TemplateResult {
   const { shown, reading } = figure.viewModel;
-  const quantityHtml = (symbol: string, value: number, unit: string) => html`<span>${formatMarkup(symbol)} = ${fixed(value, 3)} ${unit}</span>`;
+  const quantityHtml = (symbol: string, value: number, unit: string) => html`<span>${formatMarkup(symbol)} = ${formatFixed(value, 3)} ${unit}</span>`;
   if (!inspection) return sampleField(figure, 'robot', shown, undefined);
   const { legs, vHat, omegaHat, gammaHat } = inspection;
   // The noise of a leg is the reading minus the executed motion, as Table 5.6 subtracts it.
@@ -182,7 +182,7 @@ const MEASURED_DIGITS = 3;
 /** Returns a table of moments, with computed columns and then the measured one. */
 function momentsTable<Column>(caption: string, computed: Record<string, Column | null>, measured: Column, rows: [name: unknown, (column: Column) => number][]) {
   const { quantity, measured: measuredName } = words.banana.table;
-  return figureTable({
+  return tableHtml({
     caption,
     columns: [quantity, ...Object.keys(computed), measuredName],
     rows: rows.map(([name, valueOf]) => [

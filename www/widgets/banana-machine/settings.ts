@@ -1,7 +1,7 @@
 /** The Banana Machine's settings: their attributes, their part of the state, and their sliders; line styles, and the view model. */
 
 import { withFieldRenamed } from '../../data/checks.ts';
-import { definitionOf } from '../../figure/definition.ts';
+import { createDefinition } from '../../figure/definition.ts';
 import { words } from '../../messages/registry.ts';
 import { openingAlphas } from '../../../build/settings.js';
 import { COMMAND_DASH, alphaSliders, commandSliders } from '../shared/sliders.ts';
@@ -32,10 +32,10 @@ export const COMMAND_SLIDERS = commandSliders(3);
 
 export const sliderSpecs = { ...COMMAND_SLIDERS, ...alphaSliders(6) };
 
-export const definition = definitionOf('banana-machine', {
+export const definition = createDefinition('banana-machine', {
   messageKey: 'banana',
-  lines: LINE_STYLES,
-  opening: ['command', 'ellipse', 'exponential'],
+  overlayStyles: LINE_STYLES,
+  openingOverlays: ['command', 'ellipse', 'exponential'],
   sliderSpecs,
   elementFields: {
     isolateChoice: { type: 'whole', default: 4, min: 1, max: openingAlphas.velocity.length },

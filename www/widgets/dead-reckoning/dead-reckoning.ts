@@ -1,19 +1,19 @@
 /** <dead-reckoning>: one command driven step after step, and how well its growing uncertainty is predicted. */
 
 import { html, css } from 'lit';
-import { pictureCanvas, settingRadios, disclosures, titledPicture, settingSlider, settingSliders, legend } from '../../figure/controls.ts';
+import { pictureCanvasHtml, settingRadiosHtml, disclosuresHtml, titledPictureHtml, settingSliderHtml, settingSlidersHtml, legendHtml } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
-import { define } from '../../figure/reflection.ts';
+import { defineElement } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
 import { Memo } from '../../scene/cache.ts';
-import { group } from '../../ui/controls.ts';
-import { fixed } from '../../ui/format.ts';
+import { fieldsetHtml } from '../../ui/controls.ts';
+import { formatFixed } from '../../ui/format.ts';
 import { Cloud, cloudControls, cloudProperties } from '../shared/cloud.ts';
 import { presetButtons } from '../shared/controls.ts';
 import { PathPicture, StepPicture } from './pictures.ts';
 import { headlineHtml, markedRobotField, missTable, ratioPlot, straightGrowthPlot, captionOf, planeText, stepText } from './readouts.ts';
 import { CURVE_STYLES, OUTLINE_STYLES, RECURSIONS, definition, COMMAND_SLIDERS, NOISE_SLIDERS, SAMPLE_COUNTS, COMPONENTS, viewModelOf, type ViewModel } from './settings.ts';
-import type { Values } from '../../figure/settings.ts';
+import type { StateValues } from '../../figure/settings.ts';
 import type { DeadReckoning as Simulation, Motion } from '../../types.d.ts';
 
 /** Units of the components' variances. */
@@ -30,11 +30,11 @@ function settingsForSteps({ command, steps: previousSteps, step }: Record<string
 function moreControls(figure: DeadReckoningElement) {
   const { steps, step, command: { dt } } = figure.settings.requested;
   const { walked, per } = words.reckoning;
-  const drivenTimeText = walked(fixed(step * dt, 2), fixed(steps * dt, 2));
+  const drivenTimeText = walked(formatFixed(step * dt, 2), formatFixed(steps * dt, 2));
   return html`<div class="controls">
-    ${group(words.command, html`${settingSliders(figure, COMMAND_SLIDERS)}
-      ${settingSlider(figure, 'step', { max: Math.max(2, steps), maxEntered: steps, hasNoEffect: steps === 1, effect: drivenTimeText })}`)}
-    ${group(words.noise, html`${settingSliders(figure, NOISE_SLIDERS)} ${settingRadios(figure, 'per', per)}`)}
+    ${fieldsetHtml(words.command, html`${settingSlidersHtml(figure, COMMAND_SLIDERS)}
+      ${settingSliderHtml(figure, 'step', { max: Math.max(2, steps), maxTyped: steps, hasNoEffect: steps === 1, effect: drivenTimeText })}`)}
+    ${fieldsetHtml(words.noise, html`${settingSlidersHtml(figure, NOISE_SLIDERS)} ${settingRadiosHtml(figure, 'per', per)}`)}
     ${cloudControls(figure, SAMPLE_COUNTS)}
   </div>`;
 }
@@ -140,13 +140,13 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
   // The simulation starts without robots: the user sees them appear, and the first frame does not wait for them.
   createSimulation = ({ DeadReckoning }: Motion) => DeadReckoning.empty();
 
-  withDerivedFields(currentState: Values, changes: Values) {
+  withDerivedFields(currentState: StateValues, changes: StateValues) {
     // If the path gets shorter than the selected step, its last step is selected.
     const { steps = currentState.steps } = changes;
     return { step: Math.min(currentState.step, steps), ...super.withDerivedFields(currentState, changes) };
   }
 
-  read = viewModelOf;
+  readViewModel = viewModelOf;
 
   get scene() {
     return { ...this.currentViewModel, marked: this.#markedPoses, overlays: this.settings.elementState.overlays };
@@ -175,32 +175,32 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
     return isMarked && simulation ? this.#rolloutMemo.get([viewModel.stats, index], () => simulation.rollout(index)) : undefined;
   }
 
-  content(viewModel: ViewModel) {
+  renderContent(viewModel: ViewModel) {
     const { condition, config: { step } } = viewModel;
     const { overlays } = this.settings.elementState;
     const texts = words.reckoning;
     return html`
       <div class="views">
-        ${titledPicture(texts.chart, html`<div class="chart">${ratioPlot(this, viewModel)}</div> ${legend(this, CURVE_STYLES)}`, 'ratios')}
+        ${titledPictureHtml(texts.chart, html`<div class="chart">${ratioPlot(this, viewModel)}</div> ${legendHtml(this, CURVE_STYLES)}`, 'ratios')}
         <div class="summary">
           ${headlineHtml(viewModel, overlays)}
           <p part="caption" class="caption ${condition !== 'certain' && 'note'}">${captionOf(viewModel, overlays)}</p>
-          ${settingRadios(this, 'compounding', texts.recursions)}
+          ${settingRadiosHtml(this, 'compounding', texts.recursions)}
         </div>
-        ${titledPicture(texts.floor, html`<div class="stage" part="picture">${pictureCanvas(this, this.#floorPicture, planeText(viewModel))}</div>`, 'floor')}
-        ${titledPicture(texts.atStepTitle(step), html`<div class="stage">${pictureCanvas(this, this.#stepPicture, stepText(viewModel))}</div>`, 'step')}
+        ${titledPictureHtml(texts.floor, html`<div class="stage" part="picture">${pictureCanvasHtml(this, this.#floorPicture, planeText(viewModel))}</div>`, 'floor')}
+        ${titledPictureHtml(texts.atStepTitle(step), html`<div class="stage">${pictureCanvasHtml(this, this.#stepPicture, stepText(viewModel))}</div>`, 'step')}
       </div>
-      ${this.renderer.afterFirstPicture(() => html`
-      ${legend(this, OUTLINE_STYLES)} ${presetButtons(this)} 
+      ${this.renderer.renderAfterFirstPicture(() => html`
+      ${legendHtml(this, OUTLINE_STYLES)} ${presetButtons(this)} 
       <div class="controls" part="controls">
-        ${settingSlider(this, 'headingNoise')} ${settingSlider(this, 'steps', { input: (steps) => this.settings.request((requested) => settingsForSteps(requested, steps)) })}
+        ${settingSliderHtml(this, 'headingNoise')} ${settingSliderHtml(this, 'steps', { onInput: (steps) => this.settings.request((requested) => settingsForSteps(requested, steps)) })}
       </div>
-      ${disclosures(this, {
-        controls: () => moreControls(this),
-        numbers: () => html`${missTable(viewModel, overlays)} ${markedRobotField(this, this.#markedPoses)} ${straightGrowthPlot(this.#straightGrowthMemo.get([viewModel.stats], () => (this.simulation as Simulation).straightGrowth))}`,
+      ${disclosuresHtml(this, {
+        renderControls: () => moreControls(this),
+        renderNumbers: () => html`${missTable(viewModel, overlays)} ${markedRobotField(this, this.#markedPoses)} ${straightGrowthPlot(this.#straightGrowthMemo.get([viewModel.stats], () => (this.simulation as Simulation).straightGrowth))}`,
       })}`)}
     `;
   }
 }
 
-define(DeadReckoningElement, cloudProperties);
+defineElement(DeadReckoningElement, cloudProperties);

@@ -3,12 +3,12 @@
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { drawCallouts, type Callout } from '../../scene/labels.ts';
-import { drawDots, drawEarlierOutlines, drawMark, drawOutlines, drawRobot, lineLegendEntries, lineStyles, strokeLines } from '../../scene/draw.ts';
+import { drawDots, drawEarlierOutlines, drawCrosshair, drawOutlines, drawRobot, lineLegendEntries, lineStyles, strokeLines } from '../../scene/draw.ts';
 import { Picture, SamplesPicture } from '../../scene/picture.ts';
 import { View, cornersAround, extentAround, extentOf } from '../../scene/view.ts';
 import { formatSignificant } from '../../ui/format.ts';
 import { OUTLINE_STYLES } from './settings.ts';
-import { drawDisc, paintWithOpacity, type Brush } from '../../scene/canvas.ts';
+import { drawDisc, paintWithOpacity, type DrawContext } from '../../scene/canvas.ts';
 
 /** View model of both pictures, with the poses of the selected robot after each step. */
 export type Scene = import('./settings.ts').ViewModel & { marked: Float64Array | undefined, overlays: string[] };
@@ -31,7 +31,7 @@ export class PathPicture extends SamplesPicture<Scene> {
   name = 'plane';
   view: View = new View();
 
-  fit({ commanded, outlines, milestones, poses }: Scene) {
+  fitView({ commanded, outlines, milestones, poses }: Scene) {
     const outlineCoordinates = [outlines, ...milestones.map((milestone) => milestone.outlines)].flatMap(({ ellipse, exponential }) => [...ellipse, ...exponential]);
     const points = [...commanded, ...outlineCoordinates];
     // Without a prediction the view shows the robots.
@@ -39,36 +39,36 @@ export class PathPicture extends SamplesPicture<Scene> {
     this.view.fit(extentOf(points, 0.4));
   }
 
-  paint: Picture<Scene>['paint'] = (brush, { commanded, outlines, milestones, poses, pose, marked, overlays, config: { step } }) => {
-    const { palette } = brush;
-    const styles = lineStyles(brush, OUTLINE_STYLES);
+  paint: Picture<Scene>['paint'] = (drawContext, { commanded, outlines, milestones, poses, pose, marked, overlays, config: { step } }) => {
+    const { palette } = drawContext;
+    const styles = lineStyles(drawContext, OUTLINE_STYLES);
     const shownNamesOf = (names: (keyof typeof OUTLINE_STYLES)[]) => names.filter((name) => overlays.includes(name));
     const shownNames = shownNamesOf(['ellipse', 'exponential']) as ('ellipse' | 'exponential')[];
-    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, lineLegendEntries(brush, OUTLINE_STYLES, shownNamesOf(['ellipse', 'exponential', 'command']), words.reckoning.overlays));
+    drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, lineLegendEntries(drawContext, OUTLINE_STYLES, shownNamesOf(['ellipse', 'exponential', 'command']), words.reckoning.overlays));
     const linesOf = (stepOutlines: Scene['outlines']) => shownNames.map((name) => ({ points: stepOutlines[name], ...styles[name] }));
     const callouts: Callout[] = [];
-    clipToPlot(brush, () => {
-      for (const milestone of milestones) drawMilestone(brush, milestone.poses);
-      drawDots(brush, poses);
-      drawOutlines(brush, [
+    clipToPlot(drawContext, () => {
+      for (const milestone of milestones) drawMilestone(drawContext, milestone.poses);
+      drawDots(drawContext, poses);
+      drawOutlines(drawContext, [
         ...shownNamesOf(['command']).map((name) => ({ points: commanded, ...styles[name] })),
         ...shownNames.flatMap((name) => milestones.map(({ outlines: passed }) => ({ points: passed[name], ...styles[name], width: 1 }))),
       ]);
-      if (brush.previousViewModel) callouts.push(...drawEarlierOutlines(brush, linesOf(brush.previousViewModel.outlines), [pose, [0, 0]], words.before));
-      drawOutlines(brush, linesOf(outlines));
-      drawRobot(brush, { x: 0, y: 0, heading: 0, colour: palette.truth });
+      if (drawContext.previousViewModel) callouts.push(...drawEarlierOutlines(drawContext, linesOf(drawContext.previousViewModel.outlines), [pose, [0, 0]], words.before));
+      drawOutlines(drawContext, linesOf(outlines));
+      drawRobot(drawContext, { x: 0, y: 0, heading: 0, colour: palette.truth });
       // The mark of the commanded position is small, so that the cloud around it is visible.
-      drawDisc(brush.context, brush.view.toPixel(pose[0], pose[1]), END_MARK_RADIUS, palette.prior, { colour: palette.paper, width: 1.5 });
+      drawDisc(drawContext.context, drawContext.view.toPixel(pose[0], pose[1]), END_MARK_RADIUS, palette.prior, { colour: palette.paper, width: 1.5 });
       if (!marked) return;
-      strokeLines(brush, [{ points: Float64Array.from([0, 0, ...marked.filter((_, i) => i % 3 < 2)]), colour: palette.accent, width: 1.25, dash: [6, 2] }]);
+      strokeLines(drawContext, [{ points: Float64Array.from([0, 0, ...marked.filter((_, i) => i % 3 < 2)]), colour: palette.accent, width: 1.25, dash: [6, 2] }]);
       const [x, y, heading] = marked.subarray(3 * (step - 1));
-      drawMark(brush, { x, y, heading });
+      drawCrosshair(drawContext, { x, y, heading });
     });
-    drawCallouts(brush, callouts, { shapeCentre: [pose[0], pose[1]], lines: [commanded, outlines.ellipse, outlines.exponential] });
+    drawCallouts(drawContext, callouts, { shapeCentre: [pose[0], pose[1]], lines: [commanded, outlines.ellipse, outlines.exponential] });
   };
 }
 
-function drawMilestone({ context, view, palette }: Brush, poses: Float64Array) {
+function drawMilestone({ context, view, palette }: DrawContext, poses: Float64Array) {
   context.fillStyle = palette.cloud;
   const { radius, max, alpha } = MILESTONE_DOTS;
   paintWithOpacity(context, alpha, () => {
@@ -79,9 +79,9 @@ function drawMilestone({ context, view, palette }: Brush, poses: Float64Array) {
 /** Picture of ξ along and ξ lateral about the commanded pose. Each axis has its own scale, because the lateral spread is small at first. */
 export class StepPicture extends Picture<Scene> {
   name = 'twist';
-  view: View = new View({ equal: false, left: 52, right: 10 });
+  view: View = new View({ hasEqualScales: false, left: 52, right: 10 });
 
-  fit({ outlines: { predicted }, stats: { measured: { mean, cov } } }: Scene) {
+  fitView({ outlines: { predicted }, stats: { measured: { mean, cov } } }: Scene) {
     const points = [0, 0, ...predicted];
     const [along, lateral] = [0, 1].map((axis) => VIEWED_DEVIATIONS * Math.sqrt(cov[axis][axis]));
     if (along + lateral > 0) points.push(...cornersAround(mean[0], mean[1], along, lateral));
@@ -90,18 +90,18 @@ export class StepPicture extends Picture<Scene> {
     this.view.fit(extentOf(points, MIN_STEP_WIDTH, Math.max(MIN_STEP_WIDTH, MIN_STEP_ASPECT * (xMax - xMin))));
   }
 
-  paint: Picture<Scene>['paint'] = (brush, { outlines: { predicted, measured }, overlays, twists }) => {
-    const styles = lineStyles(brush, OUTLINE_STYLES);
+  paint: Picture<Scene>['paint'] = (drawContext, { outlines: { predicted, measured }, overlays, twists }) => {
+    const styles = lineStyles(drawContext, OUTLINE_STYLES);
     const shownNames = (['exponential', 'measured'] as ('exponential' | 'measured')[]).filter((name) => overlays.includes(name));
-    drawAxes(brush, axisNamesOf(this.view));
+    drawAxes(drawContext, axisNamesOf(this.view));
     const points = { exponential: predicted, measured };
     const callouts: Callout[] = [];
-    clipToPlot(brush, () => {
-      drawDots(brush, twists);
-      if (brush.previousViewModel && overlays.includes('exponential')) callouts.push(...drawEarlierOutlines(brush, [{ points: brush.previousViewModel.outlines.predicted, ...styles.exponential }], [[0, 0]], words.before));
-      drawOutlines(brush, shownNames.map((name) => ({ points: points[name], ...styles[name] })));
+    clipToPlot(drawContext, () => {
+      drawDots(drawContext, twists);
+      if (drawContext.previousViewModel && overlays.includes('exponential')) callouts.push(...drawEarlierOutlines(drawContext, [{ points: drawContext.previousViewModel.outlines.predicted, ...styles.exponential }], [[0, 0]], words.before));
+      drawOutlines(drawContext, shownNames.map((name) => ({ points: points[name], ...styles[name] })));
     });
-    drawCallouts(brush, callouts, { shapeCentre: [0, 0], lines: [predicted, measured] });
+    drawCallouts(drawContext, callouts, { shapeCentre: [0, 0], lines: [predicted, measured] });
   };
 }
 

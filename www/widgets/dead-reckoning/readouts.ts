@@ -2,25 +2,24 @@
 
 import { greatest, max } from 'd3-array';
 import { html, nothing } from 'lit';
-import {  } from '../../figure/controls.ts';
-import { addEnglish, words } from '../../messages/registry.ts';
+import { addEnglishMessages, words } from '../../messages/registry.ts';
 import { formatMarkup } from '../../ui/controls.ts';
-import { NO_VALUE, integer, fixed, formatWithError, formatSignificant } from '../../ui/format.ts';
-import { plot, type Role } from '../../ui/plot.ts';
-import { figureTable, readoutList } from '../../ui/readouts.ts';
+import { NO_VALUE, formatInteger, formatFixed, formatWithError, formatSignificant } from '../../ui/format.ts';
+import { plotHtml, type Role } from '../../ui/plot.ts';
+import { tableHtml, readoutsHtml } from '../../ui/readouts.ts';
 import { sampleField } from '../shared/cloud.ts';
 import { commandText } from '../shared/sliders.ts';
 import { en } from './en.ts';
 import { COMPONENTS, CURVE_STYLES, RECURSIONS, type ViewModel } from './settings.ts';
 import type { Misses } from '../../types.d.ts';
 
-addEnglish({ reckoning: en });
+addEnglishMessages({ reckoning: en });
 
 /** Steps at which the caption gives the ratio of the worst component. */
 const CAPTION_STEPS = [1, 2, 5];
 
 /** Prints a fraction in per cent, with a sign unless it rounds to 0. */
-function signedPercent(share: number, printedPercent: string = fixed(100 * share, 1)) {
+function signedPercent(share: number, printedPercent: string = formatFixed(100 * share, 1)) {
   if (Number.isNaN(share)) return NO_VALUE;
   return `${100 * share >= 0.05 ? '+' : ''}${printedPercent}\u202f%`;
 }
@@ -33,7 +32,7 @@ export function captionOf({ config: { compounding }, stats: { misses, n }, condi
   const texts = words.reckoning;
   if (condition !== 'certain') return texts.conditions[condition];
   const recursionMisses = misses[compounding];
-  if (recursionMisses.every(({ first }) => first === null)) return texts.right(integer(n));
+  if (recursionMisses.every(({ first }) => first === null)) return texts.right(formatInteger(n));
   // The component whose ratio is furthest from 1 at the end, and the one whose ratio is furthest from 1 at any step.
   const endAxis = worstAxisOf(overlays, (axis) => Math.abs(recursionMisses[axis].end));
   const worstAxis = worstAxisOf(overlays, (axis) => max(curves[axis].ratio, (ratio) => Math.abs(ratio - 1)) ?? NaN);
@@ -48,7 +47,7 @@ function worstAxisOf(overlays: string[], missOf: (axis: number) => number) {
 }
 
 const ratiosAtSteps = (ratios: number[]) =>
-  CAPTION_STEPS.filter((step) => step <= ratios.length).map((step) => `${fixed(ratios[step - 1], 2)} (${words.reckoning.atStepMark(step)})`).join(', ');
+  CAPTION_STEPS.filter((step) => step <= ratios.length).map((step) => `${formatFixed(ratios[step - 1], 2)} (${words.reckoning.atStepMark(step)})`).join(', ');
 
 /** Returns the components whose curves are shown, or all components if no curve is shown. */
 function shownComponentsOf(overlays: string[]): readonly (typeof COMPONENTS)[number][] {
@@ -68,12 +67,12 @@ function ratioText({ config: { step, compounding }, curves }: ViewModel, overlay
 export function planeText({ config, shown, pose }: ViewModel) {
   const { command, steps, step, compounding } = config;
   const texts = words.reckoning;
-  return texts.plane(commandText(command), String(steps), integer(shown), String(step), fixed(pose[0], 2), fixed(pose[1], 2), texts.recursions[compounding]);
+  return texts.plane(commandText(command), String(steps), formatInteger(shown), String(step), formatFixed(pose[0], 2), formatFixed(pose[1], 2), texts.recursions[compounding]);
 }
 
 export function stepText({ config: { step, compounding }, stats: { measured, predicted } }: ViewModel) {
   const texts = words.reckoning;
-  const planeDeviations = (cov: number[][] | null) => [0, 1].map((axis) => fixed(Math.sqrt(cov?.[axis][axis] ?? NaN), 4));
+  const planeDeviations = (cov: number[][] | null) => [0, 1].map((axis) => formatFixed(Math.sqrt(cov?.[axis][axis] ?? NaN), 4));
   return texts.stepText(String(step), planeDeviations(measured.cov), planeDeviations(predicted[compounding]));
 }
 
@@ -84,7 +83,7 @@ const CHART_HEIGHTS = [1.2, 1.6, 2, 3, 5, 10];
 const RATIO_TOLERANCE = 0.05;
 
 /** Returns the chart of predicted over measured variance, whose line at the selected step is a slider. */
-export function ratioPlot(figure: import('./dead-reckoning.ts').DeadReckoningElement, viewModel: ViewModel): ReturnType<typeof plot> {
+export function ratioPlot(figure: import('./dead-reckoning.ts').DeadReckoningElement, viewModel: ViewModel): ReturnType<typeof plotHtml> {
   const { config: { step, steps }, curves } = viewModel;
   const { overlays } = figure.settings.elementState;
   const texts = words.reckoning;
@@ -92,7 +91,7 @@ export function ratioPlot(figure: import('./dead-reckoning.ts').DeadReckoningEle
   const highestRatio = Math.max(...curves.flatMap(({ ratio }) => Array.from(ratio, (value) => value || 0)));
   const shownCurves = COMPONENTS.map((name, axis) => ({ ...curveStyle(name, figure.highlight), name, ...curves[axis] })).filter(({ name }) => overlays.includes(name));
   const toleranceBand = { name: texts.overlays.tolerance, ...curveStyle('tolerance', figure.highlight), x: [0, steps], y: [1, 1], error: [RATIO_TOLERANCE, RATIO_TOLERANCE], area: true };
-  return plot({
+  return plotHtml({
     label: ratioText(viewModel, overlays),
     x: { name: texts.stepAxis, from: 0, to: steps },
     y: { name: texts.ratioAxis, from: 0, to: CHART_HEIGHTS.find((height) => height >= highestRatio) ?? highestRatio },
@@ -108,8 +107,8 @@ export function ratioPlot(figure: import('./dead-reckoning.ts').DeadReckoningEle
       step: 1,
       value: step,
       text: texts.atStepMark(step),
-      input: (newStep) => figure.settings.request({ step: Math.max(1, newStep) }),
-      commit: () => figure.gesture.commit(),
+      onInput: (newStep) => figure.settings.request({ step: Math.max(1, newStep) }),
+      onCommit: () => figure.gesture.commit(),
     },
     legend: nothing,
   });
@@ -127,8 +126,8 @@ export function headlineHtml({ config: { step }, curves, shown }: ViewModel, ove
   const texts = words.reckoning;
   const axis = worstAxisOf(overlays, (i) => Math.abs(curves[i].ratio[step - 1] - 1));
   const error = curves[axis].error[step - 1];
-  const headlineDetail = texts.ofMeasured(Number.isNaN(error) ? '' : fixed(error, 2), step, integer(shown));
-  return readoutList([[texts.predicted(texts.of[COMPONENTS[axis]]), fixed(curves[axis].ratio[step - 1], 2), headlineDetail]], 0);
+  const headlineDetail = texts.ofMeasured(Number.isNaN(error) ? '' : formatFixed(error, 2), step, formatInteger(shown));
+  return readoutsHtml([[texts.predicted(texts.of[COMPONENTS[axis]]), formatFixed(curves[axis].ratio[step - 1], 2), headlineDetail]], 0);
 }
 
 /** Ranges of both logarithmic axes: fixed, so that a slider moves the curves and not the axes. */
@@ -141,10 +140,10 @@ export function straightGrowthPlot({ durations: x, along, across, alongFirstOrde
   const crossingText = crossing === null ? '' : formatSignificant(crossing, 3);
   return html`<figure>
     <p class="panel-title">${texts.title}</p>
-    ${plot({
+    ${plotHtml({
       label: texts.label(crossing === null ? texts.never : texts.crossing(crossingText)),
-      x: { name: 'Δt (s)', from: minDuration, to: maxDuration, logarithmic: true },
-      y: { name: texts.y, from: minVariance, to: maxVariance, logarithmic: true },
+      x: { name: 'Δt (s)', from: minDuration, to: maxDuration, isLogarithmic: true },
+      y: { name: texts.y, from: minVariance, to: maxVariance, isLogarithmic: true },
       curves: [
         { name: texts.along, role: 'ink', dash: '8 4', x, y: alongFirstOrder },
         { name: texts.across, role: 'prediction', x, y: acrossFirstOrder },
@@ -167,7 +166,7 @@ function missText({ decidable, first, last, end }: Misses) {
 /** Returns the table of the steps at which each recursion misses the measured variance, by component. */
 export function missTable({ stats: { misses } }: ViewModel, overlays: string[]) {
   const texts = words.reckoning;
-  return figureTable({
+  return tableHtml({
     caption: texts.misses.caption,
     columns: [texts.misses.component, ...RECURSIONS.map((recursion) => texts.recursions[recursion])],
     rows: shownComponentsOf(overlays).flatMap((component) => {
@@ -180,6 +179,6 @@ export function missTable({ stats: { misses } }: ViewModel, overlays: string[]) 
 /** Returns the field with the number of the marked robot, and the pose of that robot at the step. */
 export function markedRobotField(figure: import('./dead-reckoning.ts').DeadReckoningElement, marked: Float64Array | undefined): import('lit').TemplateResult {
   const { config: { step }, shown } = figure.viewModel;
-  const [x, y, theta] = Array.from(marked?.subarray(3 * (step - 1), 3 * step) ?? [], (value) => fixed(value, 3));
+  const [x, y, theta] = Array.from(marked?.subarray(3 * (step - 1), 3 * step) ?? [], (value) => formatFixed(value, 3));
   return sampleField(figure, 'robot', shown, marked && `x ${x} m, y ${y} m, θ ${theta} rad`);
 }

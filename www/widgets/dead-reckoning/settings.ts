@@ -1,6 +1,6 @@
 /** Dead Reckoning's settings: their attributes, their part of the state, and their sliders; line styles, and the view model. */
 
-import { defaultConfig, definitionOf } from '../../figure/definition.ts';
+import { defaultConfig, createDefinition } from '../../figure/definition.ts';
 import { settings } from '../../../build/settings.js';
 import { ALPHA_SLIDER, COMMAND_DASH, alphaSliders, commandSliders } from '../shared/sliders.ts';
 import type { DeadReckoning as Simulation, DeadReckoningSettings } from '../../types.d.ts';
@@ -15,7 +15,7 @@ export const CURVE_STYLES = {
   lateral: { role: 'prediction', width: 1.9 },
   along: { role: 'ink', width: 1.9, dash: [8, 4] },
   heading: { role: 'muted', width: 1.9, dash: [9, 3, 2, 3] },
-  tolerance: { role: 'truth', mark: 'area' },
+  tolerance: { role: 'truth', shape: 'area' },
 } satisfies Record<string, import('../../scene/draw.ts').LineStyle>;
 
 /** Styles of the outlines in the pictures, in the order in which they are painted. */
@@ -30,16 +30,16 @@ export const COMMAND_SLIDERS: Record<string, import('../../figure/controls.ts').
 
 export const NOISE_SLIDERS = alphaSliders(6);
 
-export const definition = definitionOf('dead-reckoning', {
+export const definition = createDefinition('dead-reckoning', {
   messageKey: 'reckoning',
-  lines: { ...CURVE_STYLES, ...OUTLINE_STYLES },
+  overlayStyles: { ...CURVE_STYLES, ...OUTLINE_STYLES },
   sliderSpecs: {
     ...COMMAND_SLIDERS,
     ...NOISE_SLIDERS,
     step: { symbol: '*k*', role: 'truth', min: 1, max: 200, step: 1, decimals: 0 },
     steps: { symbol: '*K*', role: 'prior', min: 1, max: 200, step: 1, decimals: 0 },
     // The slider shows α₃, even if the other three are not in the usual ratio to it.
-    headingNoise: { ...ALPHA_SLIDER, step: 0.005, value: ({ alphas }) => alphas[2] },
+    headingNoise: { ...ALPHA_SLIDER, step: 0.005, combinedValue: ({ alphas }) => alphas[2] },
   },
   dependentDefaults: ({ steps }) => ({ step: Math.min(defaultConfig(settingDeclarations).step, steps) }),
 });

@@ -2,13 +2,13 @@
 
 import { html, nothing, css } from 'lit';
 import { instantiate } from '../../core.ts';
-import { pictureCanvas, disclosures, titledPicture, settingCheckbox, settingRadios, settingSlider, settingSliders, legend } from '../../figure/controls.ts';
+import { pictureCanvasHtml, disclosuresHtml, titledPictureHtml, settingCheckboxHtml, settingRadiosHtml, settingSliderHtml, settingSlidersHtml, legendHtml } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
-import { define } from '../../figure/reflection.ts';
+import { defineElement } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
 import { Memo } from '../../scene/cache.ts';
 import { verdict as bits } from '../../../build/settings.js';
-import { button, group, radioGroup } from '../../ui/controls.ts';
+import { buttonHtml, fieldsetHtml, radioGroupHtml } from '../../ui/controls.ts';
 import { Cloud, cloudControls, cloudProperties, sampleField } from '../shared/cloud.ts';
 import { FileOpener } from '../shared/files.ts';
 import { PoseHandles } from '../shared/robot.ts';
@@ -19,8 +19,8 @@ import { FloorPicture } from './picture.ts';
 import { LINE_STYLES, OPENING_POSE, PRESET_SETTING, definition, COMMAND_SLIDERS, MAX_SAMPLES, SAMPLE_COUNTS, outcomeIndex, viewModelOf, type ViewModel } from './settings.ts';
 import { WallHandles } from './wall-handles.ts';
 import { wallContact } from './walls.ts';
-import type { Values } from '../../figure/settings.ts';
-import type { Cells } from '../../scene/walls.ts';
+import type { StateValues } from '../../figure/settings.ts';
+import type { CellGrid } from '../../scene/walls.ts';
 import type { MapData, MapSqueeze as Simulation, Motion, Pose } from '../../types.d.ts';
 import type { DecodePng, MapFileError, UserMap } from './maps/files.ts';
 
@@ -39,7 +39,7 @@ function startControls(figure: MapSqueezeElement) {
   const { own } = words.squeeze;
   if (!figure.map) return presetButtons(figure);
   return html`<div class="buttons presets">
-    ${button(own.leave, () => figure.openMap(null))} ${button(own.open, () => figure.moveToFreePose())} ${startOverButton(figure)}
+    ${buttonHtml(own.leave, () => figure.openMap(null))} ${buttonHtml(own.open, () => figure.moveToFreePose())} ${startOverButton(figure)}
   </div>`;
 }
 
@@ -48,20 +48,20 @@ function samplerControls(figure: MapSqueezeElement) {
   const { settings, samplers, samplerEffects } = words.squeeze;
   // With sub-steps each sample takes several draws.
   const maxSampleCountOf = (name: string) => (name === 'sub-stepped' ? Math.floor(MAX_SAMPLES / steps) : MAX_SAMPLES);
-  const chooseSampler = (name: string) => figure.gesture.decide({ sampler: name, ...(samples > maxSampleCountOf(name) && { samples: maxSampleCountOf(name) }) });
+  const chooseSampler = (name: string) => figure.gesture.requestAndCommit({ sampler: name, ...(samples > maxSampleCountOf(name) && { samples: maxSampleCountOf(name) }) });
   return html`<div class="judge">
-    ${radioGroup(settings.sampler.name, 'sampler', samplers, sampler, chooseSampler)}
+    ${radioGroupHtml(settings.sampler.name, 'sampler', samplers, sampler, chooseSampler)}
     <p class="effect muted small">${samplerEffects[conditioned ? sampler : 'off']}</p>
-    ${conditioned && sampler === 'sub-stepped' ? settingSlider(figure, 'steps') : nothing}
+    ${conditioned && sampler === 'sub-stepped' ? settingSliderHtml(figure, 'steps') : nothing}
   </div>`;
 }
 
 /** Returns the controls that are changed less often. One of them is for unknown cells, if the map has any. */
 function robotAndMapControls(figure: MapSqueezeElement, hasUnknown: boolean) {
   const { robotAndMap: heading, condition, settings, unknown, views } = words.squeeze;
-  return group(heading, html`${settingSlider(figure, 'clearance')} ${settingCheckbox(figure, 'conditioned', condition)}
-    ${hasUnknown ? settingRadios(figure, 'unknown', unknown) : nothing}
-    ${radioGroup(settings.view.name, 'view', views, figure.settings.elementState.view, (view) => figure.gesture.choose('view', view))}`);
+  return fieldsetHtml(heading, html`${settingSliderHtml(figure, 'clearance')} ${settingCheckboxHtml(figure, 'conditioned', condition)}
+    ${hasUnknown ? settingRadiosHtml(figure, 'unknown', unknown) : nothing}
+    ${radioGroupHtml(settings.view.name, 'view', views, figure.settings.elementState.view, (view) => figure.gesture.setElementField('view', view))}`);
 }
 
 /** Extensions of map files. */
@@ -109,7 +109,7 @@ class MapOpener extends FileOpener<MapSqueezeElement> {
 function userMapControls(figure: MapSqueezeElement, opener: MapOpener, mapText: string) {
   const texts = words.squeeze.own;
   const pasteMap = () => opener.paste((figure.renderRoot.querySelector('#map-text') as HTMLTextAreaElement).value);
-  return group(texts.legend, html`<div class="own-map figures">
+  return fieldsetHtml(texts.legend, html`<div class="own-map figures">
     <div>
       <p>${texts.text}</p>
       <p>${opener.button('map-files', texts.files, MAP_FILE_EXTENSIONS)}</p>
@@ -119,7 +119,7 @@ function userMapControls(figure: MapSqueezeElement, opener: MapOpener, mapText: 
     <div>
       <label for="map-text">${texts.plan}</label>
       <textarea id="map-text" rows="8" spellcheck="false" autocomplete="off" .defaultValue=${EXAMPLE_PLAN}></textarea>
-      ${button(texts.use, pasteMap)}
+      ${buttonHtml(texts.use, pasteMap)}
     </div>
   </div>`);
 }
@@ -286,15 +286,15 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   /** Setting `unknown` (treatment of unknown cells) with which the picture was made. */
   #pictureUnknown = '';
   /** Costs of the samplers, and the settings with which they were measured. */
-  #measurement: { config: Values, costs: ReturnType<typeof measureCosts> } | undefined;
+  #measurement: { config: StateValues, costs: ReturnType<typeof measureCosts> } | undefined;
   /** Path of the selected sample. */
   #pathMemo: Memo<Float64Array> = new Memo();
   /** Grid of a simulation's map. Copying it takes long. */
-  #gridMemo: Memo<Cells | null> = new Memo();
+  #gridMemo: Memo<CellGrid | null> = new Memo();
 
   createSimulation = ({ MapSqueeze }: Motion) => MapSqueeze.empty();
 
-  enterState(simulation: Simulation, state: Values) {
+  enterState(simulation: Simulation, state: StateValues) {
     super.enterState(simulation, { ...state, shown: state.map ? 0 : state.shown });
     if (!state.map) return;
     applyMap(simulation, state.map);
@@ -306,7 +306,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     return this.#gridMemo.get([simulation], () => gridOf(simulation));
   }
 
-  simulationChanged() {
+  onSimulationReplaced() {
     const { simulation } = this;
     if (!simulation) return;
     const grid = this.#gridOf(simulation);
@@ -316,9 +316,9 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     this.pictures = [this.picture];
   }
 
-  read(simulation: Simulation) {
+  readViewModel(simulation: Simulation) {
     const viewModel = viewModelOf(simulation);
-    if (viewModel.config.unknown !== this.#pictureUnknown && this.picture.hasUnknown) this.simulationChanged();
+    if (viewModel.config.unknown !== this.#pictureUnknown && this.picture.hasUnknown) this.onSimulationReplaced();
     return viewModel;
   }
 
@@ -346,7 +346,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
         'x_m y_m theta_rad': poses,
         'end_free path_free accepted': [...verdicts].flatMap((verdict) => [bits.endFree, bits.pathFree, bits.accepted].map((bit) => Math.sign(verdict & bit))),
       },
-      linkNote: this.link.lacksMap ? words.squeeze.mapNotInLink : '',
+      linkNote: this.stateLink.lacksMap ? words.squeeze.mapNotInLink : '',
       codeNote: this.map ? words.squeeze.mapNotInCode : '',
     };
   }
@@ -365,7 +365,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
 
   set preset(name) {
     this.reflection.setProperty('preset', name, (newName) => {
-      const presetSettings = PRESET_SETTING.change(newName, {});
+      const presetSettings = PRESET_SETTING.changesFor(newName, {});
       if (this.map) this.#enterMap(null);
       this.settings.assign(presetSettings);
     });
@@ -413,8 +413,8 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
 
   moveToFreePose() {
     if (!this.simulation) return;
-    this.renderer.releaseViews();
-    this.gesture.decide({ start: freePoseIn(this.simulation) });
+    this.renderer.letViewsZoomIn();
+    this.gesture.requestAndCommit({ start: freePoseIn(this.simulation) });
   }
 
   /** Puts the robot into a map of the user, or for null into the apartment, as the user asked. */
@@ -422,7 +422,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     if (!this.simulation) return;
     this.runtime.attempt(() => {
       this.#enterMap(map);
-      this.gesture.complete();
+      this.gesture.commitOneStep();
     });
   }
 
@@ -433,7 +433,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     const apply: UserMap['apply'] = (simulation) => simulation.setPlan({ bounds: [...bounds], walls });
     this.runtime.attemptOrReport(() => {
       this.#enterMap({ name, apply, start: this.settings.requested.start });
-      this.gesture.step();
+      this.gesture.recordStep();
     });
     this.renderer.requestFrame();
   }
@@ -447,14 +447,14 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     if (!motion) return;
     settings.applyPending();
     const simulation = motion.MapSqueeze.empty();
-    simulation.configureFirst(settings.pick(settings.requested), 0);
+    simulation.configureFirst(settings.pickSettings(settings.requested), 0);
     map?.apply(simulation);
     // In an occupancy grid the present pose is not kept, because it may be outside the mapped area.
     const needsFreePose = this.#gridOf(simulation) !== null || !simulation.startFree;
     const startPose = map ? map.start ?? (needsFreePose ? freePoseIn(simulation) : undefined) : OPENING_POSE;
     simulation.configureFirst(startPose ? { start: startPose } : {}, this.cloud.targetCount);
     this.settings.elementState.map = map && mapDataOf(simulation, map.name, this.#gridOf(simulation));
-    this.runtime.replace(simulation);
+    this.runtime.replaceSimulation(simulation);
     this.cloud.mark(-1);
   }
 
@@ -467,7 +467,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     return pictureText(this.viewModel, this.#mapText);
   }
 
-  content(viewModel: ViewModel) {
+  renderContent(viewModel: ViewModel) {
     const { posesByOutcome, stats, note, verdicts, config } = viewModel;
     const { isMarked, selectedIndex } = this.cloud;
     const { hasUnknown } = this.picture;
@@ -475,13 +475,13 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     const { unknown, ...markStyles } = LINE_STYLES;
     return html`
       <div class="views">
-        ${titledPicture(floor, html`<div class="stage" part="picture">
-            ${pictureCanvas(this, this.picture, this.#description)}
-            ${this.renderer.afterFirstPicture(() => this.#wallHandles.render())}
+        ${titledPictureHtml(floor, html`<div class="stage" part="picture">
+            ${pictureCanvasHtml(this, this.picture, this.#description)}
+            ${this.renderer.renderAfterFirstPicture(() => this.#wallHandles.render())}
             ${this.#handles.render()}
           </div>
-          ${this.renderer.afterFirstPicture(() => legend(this, hasUnknown ? { ...markStyles, unknown } : markStyles, this.#wallHandles.legend()))}`)}
-        ${this.renderer.afterFirstPicture(() => html`<div class="aside">
+          ${this.renderer.renderAfterFirstPicture(() => legendHtml(this, hasUnknown ? { ...markStyles, unknown } : markStyles, this.#wallHandles.legend()))}`)}
+        ${this.renderer.renderAfterFirstPicture(() => html`<div class="aside">
           <div class="result">
             <p class="headline">${headlineOf(stats)}</p>
             <p class="verdict caption ${note && 'note'}" part="caption">${captionOf(viewModel)}</p>
@@ -489,14 +489,14 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
           ${startControls(this)} ${samplerControls(this)} ${overviewMapHtml(this.picture, viewModel)}
         </div>`)}
       </div>
-      ${this.renderer.afterFirstPicture(() => html`
+      ${this.renderer.renderAfterFirstPicture(() => html`
       <div class="controls" part="controls">
-        ${group(words.command, settingSliders(this, COMMAND_SLIDERS))} ${group(words.noise, settingSlider(this, 'noise'), 'single')} ${cloudControls(this, SAMPLE_COUNTS)}
+        ${fieldsetHtml(words.command, settingSlidersHtml(this, COMMAND_SLIDERS))} ${fieldsetHtml(words.noise, settingSliderHtml(this, 'noise'), 'single')} ${cloudControls(this, SAMPLE_COUNTS)}
       </div>
       ${posesByOutcome ? nothing : html`<p class="about muted">${density}</p>`}
-      ${disclosures(this, {
-        controls: () => html`<div class="controls">${robotAndMapControls(this, hasUnknown)}</div> ${userMapControls(this, this.#opener, this.#mapText)}`,
-        numbers: () => html`${tallyReadouts(viewModel)} ${sampleField(this, 'sample', stats.attempts, isMarked && verdictText(verdicts[selectedIndex], config))} ${costTable(this)}`,
+      ${disclosuresHtml(this, {
+        renderControls: () => html`<div class="controls">${robotAndMapControls(this, hasUnknown)}</div> ${userMapControls(this, this.#opener, this.#mapText)}`,
+        renderNumbers: () => html`${tallyReadouts(viewModel)} ${sampleField(this, 'sample', stats.attempts, isMarked && verdictText(verdicts[selectedIndex], config))} ${costTable(this)}`,
       })}`)}
     `;
   }
@@ -507,4 +507,4 @@ function freePoseIn({ openPlace, config, plan: { bounds: [left, bottom, right, t
   return openPlace ?? { ...config.start, x: (left + right) / 2, y: (bottom + top) / 2 };
 }
 
-define(MapSqueezeElement, cloudProperties);
+defineElement(MapSqueezeElement, cloudProperties);

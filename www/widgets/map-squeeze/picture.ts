@@ -2,18 +2,18 @@
 
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
-import { densityRamp, drawMark, drawOutline, lineStyles } from '../../scene/draw.ts';
-import { Pixels, strokeInBatches } from '../../scene/cache.ts';
+import { densityRamp, drawCrosshair, drawOutline, lineStyles } from '../../scene/draw.ts';
+import { CachedImage, strokeInBatches } from '../../scene/cache.ts';
 import { drawLabel, drawLeader } from '../../scene/labels.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
-import { View, cornersAround, extentAround, widenedExtent } from '../../scene/view.ts';
-import { WallLayer, cellCorner, type Cells } from '../../scene/walls.ts';
+import { View, cornersAround, extentAround, widenExtent } from '../../scene/view.ts';
+import { WallLayer, cellCorner, type CellGrid } from '../../scene/walls.ts';
 import { limits } from '../../../build/settings.js';
 import { clamp } from '../../ui/format.ts';
 import { drawDraggableRobot, drawRobotOutline } from '../shared/robot.ts';
 import { LINE_STYLES, type ViewModel } from './settings.ts';
 import type { MapSqueeze, Plan } from '../../types.d.ts';
-import { addLine, drawDisc, fillPath, paintWithOpacity, strokePath, type Brush } from '../../scene/canvas.ts';
+import { addLine, drawDisc, fillPath, paintWithOpacity, strokePath, type DrawContext } from '../../scene/canvas.ts';
 
 export interface Scene extends ViewModel {
   simulation: MapSqueeze;
@@ -54,7 +54,7 @@ const TRANSPARENT_RAMP = new Uint8Array(4 * limits.ramp);
 
 export class FloorPicture extends SamplesPicture<Scene> {
   name = 'plane';
-  view: View = new View({ snug: true });
+  view: View = new View({ hasNoMargin: true });
   plan;
   /** True if the map has unknown cells. */
   hasUnknown;
@@ -65,11 +65,11 @@ export class FloorPicture extends SamplesPicture<Scene> {
   #wallLayer;
   /** Corners of the known part of the map, which may be much smaller than the map. */
   #knownCorners: ArrayLike<number>;
-  #densityImage = new Pixels();
+  #densityImage = new CachedImage();
   #wallPathData = '';
 
   /** Keeps the views of the previous picture if its map has the same bounds. */
-  constructor(plan: Plan, grid: Cells | null, previousPicture?: FloorPicture) {
+  constructor(plan: Plan, grid: CellGrid | null, previousPicture?: FloorPicture) {
     super();
     this.plan = plan;
     this.hasUnknown = grid?.unknown !== undefined;
@@ -99,10 +99,10 @@ export class FloorPicture extends SamplesPicture<Scene> {
   set isClose(isClose) {
     if (isClose === this.isClose) return;
     this.view = isClose ? this.#nearView : this.#wholeView;
-    this.view.reset();
+    this.view.clearTarget();
   }
 
-  fit({ commanded, config }: Scene) {
+  fitView({ commanded, config }: Scene) {
     const mappedExtent = this.knownExtentAround(config.start);
     if (!this.isClose) {
       this.#wholeView.fit(mappedExtent);
@@ -111,7 +111,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
     const driveLength = Math.abs(config.command.v * config.command.dt);
     const halfSize = Math.max(MIN_END_HALF_SIZE, END_HALF_SIZE_FACTOR * driveLength) + config.clearance;
     const [x, y] = commanded.slice(-2);
-    const neededExtent = extentAround(cornersAround(x, y, halfSize), 2, widenedExtent(extentAround(commanded, 2), PATH_MARGIN));
+    const neededExtent = extentAround(cornersAround(x, y, halfSize), 2, widenExtent(extentAround(commanded, 2), PATH_MARGIN));
     this.#nearView.limits = mappedExtent;
     this.#nearView.fit({
       xMin: Math.max(neededExtent.xMin, mappedExtent.xMin),
@@ -127,55 +127,55 @@ export class FloorPicture extends SamplesPicture<Scene> {
     const knownExtent = extentAround(this.#knownCorners, 2, { xMin: x, yMin: y, xMax: x, yMax: y });
     const isInside = knownExtent.xMin < x && x < knownExtent.xMax && knownExtent.yMin < y && y < knownExtent.yMax;
     const extent = isInside ? knownExtent : { xMin, yMin, xMax, yMax };
-    return widenedExtent(extent, MAP_MARGIN * Math.max(extent.xMax - extent.xMin, extent.yMax - extent.yMin));
+    return widenExtent(extent, MAP_MARGIN * Math.max(extent.xMax - extent.xMin, extent.yMax - extent.yMin));
   }
 
-  paint: SamplesPicture<Scene>['paint'] = (brush, scene) => {
+  paint: SamplesPicture<Scene>['paint'] = (drawContext, scene) => {
     const { posesByOutcome, paths, commanded, config, marked, overlays } = scene;
-    const { palette } = brush;
+    const { palette } = drawContext;
     const showsLine = (name: string) => overlays.includes(name);
-    const { accepted, through, rejected, commanded: commandStyle } = lineStyles(brush, LINE_STYLES);
-    drawAxes(brush, { x: 'x (m)', y: 'y (m)' }, brush.exported ? legendEntriesOf(brush, scene) : []);
-    clipToPlot(brush, () => {
+    const { accepted, through, rejected, commanded: commandStyle } = lineStyles(drawContext, LINE_STYLES);
+    drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, drawContext.isExported ? legendEntriesOf(drawContext, scene) : []);
+    clipToPlot(drawContext, () => {
       // The walls are drawn after the paths, so that a path through a wall does not hide the wall.
       if (posesByOutcome) {
-        if (showsLine('through')) drawPaths(brush, paths, through.colour);
-        if (showsLine('accepted')) drawSamples(brush, posesByOutcome.free, accepted.colour);
-        if (showsLine('through')) drawSamples(brush, posesByOutcome.through, through.colour);
-        this.#wallLayer.draw(brush, showsLine('unknown'));
-        if (showsLine('rejected')) drawCrosses(brush, posesByOutcome.rejected, rejected.colour);
+        if (showsLine('through')) drawPaths(drawContext, paths, through.colour);
+        if (showsLine('accepted')) drawSamples(drawContext, posesByOutcome.free, accepted.colour);
+        if (showsLine('through')) drawSamples(drawContext, posesByOutcome.through, through.colour);
+        this.#wallLayer.draw(drawContext, showsLine('unknown'));
+        if (showsLine('rejected')) drawCrosses(drawContext, posesByOutcome.rejected, rejected.colour);
       } else {
-        this.#drawDensity(brush, scene);
-        this.#wallLayer.draw(brush, showsLine('unknown'));
-        if (showsLine('through')) drawPaths(brush, paths.slice(0, MAX_PATHS_ON_DENSITY), through.colour);
+        this.#drawDensity(drawContext, scene);
+        this.#wallLayer.draw(drawContext, showsLine('unknown'));
+        if (showsLine('through')) drawPaths(drawContext, paths.slice(0, MAX_PATHS_ON_DENSITY), through.colour);
       }
       const { start, clearance } = config;
       if (showsLine('commanded')) {
-        drawOutline(brush, commanded, commandStyle);
+        drawOutline(drawContext, commanded, commandStyle);
         const [endX, endY] = commanded.slice(-2);
-        drawRobotOutline(brush, endX, endY, clearance, commandStyle.colour);
+        drawRobotOutline(drawContext, endX, endY, clearance, commandStyle.colour);
       }
-      drawDraggableRobot(brush, start, clearance, palette.prior);
+      drawDraggableRobot(drawContext, start, clearance, palette.prior);
       if (marked) {
         const { pose, path, contact } = marked;
-        drawOutline(brush, path, { colour: palette.ink, width: 1.5, dash: [2, 3] });
-        drawMark(brush, { x: pose[0], y: pose[1], heading: pose[2] }, palette.ink);
-        if (contact) drawWallContact(brush, contact);
+        drawOutline(drawContext, path, { colour: palette.ink, width: 1.5, dash: [2, 3] });
+        drawCrosshair(drawContext, { x: pose[0], y: pose[1], heading: pose[2] }, palette.ink);
+        if (contact) drawWallContact(drawContext, contact);
       }
     });
   };
 
-  #drawDensity(brush: Brush, { simulation, stats, overlays }: Scene) {
-    const { palette } = brush;
+  #drawDensity(drawContext: DrawContext, { simulation, stats, overlays }: Scene) {
+    const { palette } = drawContext;
     const outcomeColours = [['rejected', palette.truth], ['accepted', palette.cloud], ['through', palette.accent]] as const;
     const ramps = outcomeColours.flatMap(([name, cloud]) => [...(overlays.includes(name) ? densityRamp({ ...palette, cloud }) : TRANSPARENT_RAMP)]);
     const cellSize = clamp(DENSITY_CELL.max * Math.sqrt(DENSITY_CELL.samples / stats.attempts) / 2, DENSITY_CELL.min, DENSITY_CELL.max);
-    this.#densityImage.drawDensity(brush, cellSize, [stats, palette, overlays], (...part) => simulation.picture(...part, Uint8Array.from(ramps)));
+    this.#densityImage.drawDensity(drawContext, cellSize, [stats, palette, overlays], (...part) => simulation.picture(...part, Uint8Array.from(ramps)));
   }
 }
 
 /** Returns the outer corners of the first and the last known cell of each row of a grid, as x, y pairs. */
-function knownCorners(grid: Cells, unknown: Uint8Array) {
+function knownCorners(grid: CellGrid, unknown: Uint8Array) {
   const { columns } = grid;
   return Array.from({ length: unknown.length / columns }, (_, row) => {
     const rowCells = unknown.subarray(row * columns, (row + 1) * columns);
@@ -185,22 +185,22 @@ function knownCorners(grid: Cells, unknown: Uint8Array) {
 }
 
 /** Draws the contact of a path with a wall, a point in metres, with a leader to it. */
-function drawWallContact(brush: Brush, contact: number[]) {
-  const { context, view, palette } = brush;
+function drawWallContact(drawContext: DrawContext, contact: number[]) {
+  const { context, view, palette } = drawContext;
   const [x, y] = view.toPixel(contact[0], contact[1]);
-  const { left, right, top, bottom } = view.frame;
+  const { left, right, top, bottom } = view.plotArea;
   const [signX, signY] = [2 * x > left + right ? -1 : 1, 2 * y > top + bottom ? -1 : 1];
   const [endX, endY] = [x + signX * LEADER_OFFSET.x, y + signY * LEADER_OFFSET.y];
   drawLeader(context, [[endX, endY], [x, y]], palette.ink);
-  drawLabel(brush, { x: endX + 4 * signX, y: endY, towards: signX, text: words.squeeze.throughThisWall, colour: palette.ink });
+  drawLabel(drawContext, { x: endX + 4 * signX, y: endY, freeSide: signX, text: words.squeeze.throughThisWall, colour: palette.ink });
 }
 
 /** Returns the legend of an exported picture: the marks, or the colours of a density. */
-function legendEntriesOf({ context, palette }: Brush, { overlays, posesByOutcome }: Scene): import('../../scene/axes.ts').LegendEntry[] {
+function legendEntriesOf({ context, palette }: DrawContext, { overlays, posesByOutcome }: Scene): import('../../scene/axes.ts').LegendEntry[] {
   const shownNames = (['accepted', 'through', 'rejected'] as const).filter((name) => overlays.includes(name));
   return shownNames.map((name) => ({
     name: words.squeeze.overlays[name],
-    draw: (x, y, width) => {
+    drawSample: (x, y, width) => {
       const [middle, colour] = [x + width / 2, palette[LINE_STYLES[name].role]];
       if (!posesByOutcome) fillPath(context, colour, () => context.rect(middle - 5.5, y - 5.5, 11, 11));
       else if (name === 'rejected') strokePath(context, { colour, width: 1 }, () => addCross(context, middle, y));
@@ -210,23 +210,23 @@ function legendEntriesOf({ context, palette }: Brush, { overlays, posesByOutcome
 }
 
 /** Adds a cross at a point in CSS pixels to the path. */
-function addCross(context: Brush['context'], x: number, y: number) {
+function addCross(context: DrawContext['context'], x: number, y: number) {
   addLine(context, [[x - CROSS_HALF_SIZE, y - CROSS_HALF_SIZE], [x + CROSS_HALF_SIZE, y + CROSS_HALF_SIZE]]);
   addLine(context, [[x - CROSS_HALF_SIZE, y + CROSS_HALF_SIZE], [x + CROSS_HALF_SIZE, y - CROSS_HALF_SIZE]]);
 }
 
-function drawCrosses({ context, view }: Brush, triples: Float64Array, colour: string) {
+function drawCrosses({ context, view }: DrawContext, triples: Float64Array, colour: string) {
   paintWithOpacity(context, 0.5, () => strokePath(context, { colour, width: 1 }, () => {
     for (let i = 0; i < triples.length; i += 3) addCross(context, ...view.toPixel(triples[i], triples[i + 1]));
   }));
 }
 
-function drawPaths({ context, view }: Brush, paths: Float64Array[], colour: string) {
+function drawPaths({ context, view }: DrawContext, paths: Float64Array[], colour: string) {
   paintWithOpacity(context, 0.3, () => strokeInBatches(context, paths.map((points) => view.toPixels(points)), { colour, width: 1 }, PATHS_PER_STROKE));
 }
 
 /** Draws samples as dots that darken where they overlap. */
-function drawSamples({ context, view }: Brush, triples: Float64Array, colour: string) {
+function drawSamples({ context, view }: DrawContext, triples: Float64Array, colour: string) {
   const dotRadius = clamp(view.width / SAMPLE_DOT.per, SAMPLE_DOT.min, SAMPLE_DOT.max);
   paintWithOpacity(context, SAMPLE_DOT.alpha, () => {
     for (let i = 0; i < triples.length; i += 3) drawDisc(context, view.toPixel(triples[i], triples[i + 1]), dotRadius, colour);

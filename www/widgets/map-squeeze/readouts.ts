@@ -1,18 +1,18 @@
 /** Map Squeeze's readouts, sentences and text equivalents: outcomes of the samples, the measured cost of each sampler, and the map beside a close view. */
 
 import { html, nothing } from 'lit';
-import { addEnglish, words } from '../../messages/registry.ts';
+import { addEnglishMessages, words } from '../../messages/registry.ts';
 import { verdict as bits, limits } from '../../../build/settings.js';
-import { button } from '../../ui/controls.ts';
-import { integer, fixed, percent, formatRounded } from '../../ui/format.ts';
-import { figureTable, readoutList } from '../../ui/readouts.ts';
+import { buttonHtml } from '../../ui/controls.ts';
+import { formatInteger, formatFixed, formatPercent, formatRounded } from '../../ui/format.ts';
+import { tableHtml, readoutsHtml } from '../../ui/readouts.ts';
 import { commandText } from '../shared/sliders.ts';
 import { en } from './en.ts';
 import { throughWallText, SAMPLERS, type ViewModel } from './settings.ts';
 import type { MapSqueeze, Plan, SamplerName, MapSqueezeSettings as Settings, SqueezeStats as Stats } from '../../types.d.ts';
 import type { MapSqueezeElement as Figure } from './map-squeeze.ts';
 
-addEnglish({ squeeze: en });
+addEnglishMessages({ squeeze: en });
 
 /** Returns the text of a verdict, a sum of `bits`. */
 export function verdictText(verdict: number, config: Settings) {
@@ -31,7 +31,7 @@ export function headlineOf({ attempts, accepted, throughWall }: Pick<Stats, 'att
   const texts = words.squeeze.headline;
   if (attempts === 0) return texts.untried;
   if (accepted === 0) return texts.nothing;
-  return throughWall === 0 ? texts.none : texts.share(percent(throughWall / accepted));
+  return throughWall === 0 ? texts.none : texts.share(formatPercent(throughWall / accepted));
 }
 
 /** Returns the caption: the counts of the samples, or why the robot cannot move. */
@@ -41,30 +41,30 @@ export function captionOf({ config: { conditioned, sampler }, stats, note }: Vie
   // If the robot cannot move, the note contains the number of motions.
   if (note && (accepted === 0 || gaveUp)) return note;
   if (attempts === 0) return `${texts.headline.untried}.`;
-  const testedText = texts.tested[conditioned ? sampler : 'off'](integer(accepted), integer(attempts));
+  const testedText = texts.tested[conditioned ? sampler : 'off'](formatInteger(accepted), formatInteger(attempts));
   return `${testedText}; ${throughWallText(stats, conditioned && sampler === 'whole-arc')}. ${note}`.trim();
 }
 
 /** Returns the name of a map with its size. */
 export function mapText(name: string, { bounds, walls }: Plan) {
   const [left, bottom, right, top] = bounds;
-  return words.squeeze.mapText(name, fixed(right - left, 1), fixed(top - bottom, 1), integer(walls.length / 4));
+  return words.squeeze.mapText(name, formatFixed(right - left, 1), formatFixed(top - bottom, 1), formatInteger(walls.length / 4));
 }
 
 /** Returns the text equivalent of the picture, with the map as `mapText` has it. */
 export function pictureText(viewModel: ViewModel, map: string) {
   const { start: { x, y, theta }, command } = viewModel.config;
   const texts = words.squeeze;
-  return [texts.picture(map), texts.robotAt(fixed(x, 2), fixed(y, 2), fixed(theta, 2), commandText(command)), captionOf(viewModel)].join(' ');
+  return [texts.picture(map), texts.robotAt(formatFixed(x, 2), formatFixed(y, 2), formatFixed(theta, 2), commandText(command)), captionOf(viewModel)].join(' ');
 }
 
 export function tallyReadouts({ stats, paths: { length: paths } }: ViewModel) {
   const { tally: texts } = words.squeeze;
-  return readoutList([
-    [texts.drawn, integer(stats.drawn)],
-    [texts.paths, integer(paths)],
-    [texts.draws, fixed(stats.drawsPerAccepted, 2)],
-    [texts.tests, fixed(stats.wallTestsPerAccepted, 2)],
+  return readoutsHtml([
+    [texts.drawn, formatInteger(stats.drawn)],
+    [texts.paths, formatInteger(paths)],
+    [texts.draws, formatFixed(stats.drawsPerAccepted, 2)],
+    [texts.tests, formatFixed(stats.wallTestsPerAccepted, 2)],
   ]);
 }
 
@@ -105,11 +105,11 @@ export function costTable(figure: Figure) {
   const { costs, viewModel: { config } } = figure;
   const costRow = (sampler: SamplerName, cost: SampleCost) => [
     sampler === 'sub-stepped' ? `${samplers[sampler]} (${config.steps})` : samplers[sampler],
-    ...(typeof cost === 'string' ? [texts[cost]] : [fixed(cost.draws, 2), fixed(cost.wallTests, 2), formatRounded(cost.micros, 2), `${formatRounded(100 * cost.micros * 1e-6 * SAMPLES_PER_SECOND, 2)}\u202f%`]),
+    ...(typeof cost === 'string' ? [texts[cost]] : [formatFixed(cost.draws, 2), formatFixed(cost.wallTests, 2), formatRounded(cost.micros, 2), `${formatRounded(100 * cost.micros * 1e-6 * SAMPLES_PER_SECOND, 2)}\u202f%`]),
   ];
   return html`<div class="table">
-    ${button(texts.measure, () => figure.measureSamplerCosts())}
-    ${costs ? figureTable({ caption: texts.caption, columns: [texts.sampler, texts.draws, texts.tests, 'µs', texts.core], rows: SAMPLERS.map((sampler) => costRow(sampler, costs[sampler])) }) : nothing}
+    ${buttonHtml(texts.measure, () => figure.measureSamplerCosts())}
+    ${costs ? tableHtml({ caption: texts.caption, columns: [texts.sampler, texts.draws, texts.tests, 'µs', texts.core], rows: SAMPLERS.map((sampler) => costRow(sampler, costs[sampler])) }) : nothing}
   </div>`;
 }
 

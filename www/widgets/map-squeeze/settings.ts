@@ -1,27 +1,27 @@
 /** Map Squeeze's settings: their attributes, their part of the state, and their sliders; line styles, and the view model. */
 
-import { presetPropertyOf, definitionOf } from '../../figure/definition.ts';
+import { presetAttributeOf, createDefinition } from '../../figure/definition.ts';
 import { words } from '../../messages/registry.ts';
 import { presets, settings, verdict as bits } from '../../../build/settings.js';
-import { integer, fixed, percent } from '../../ui/format.ts';
+import { formatInteger, formatFixed, formatPercent } from '../../ui/format.ts';
 import { COMMAND_DASH, commandSliders } from '../shared/sliders.ts';
 import type { MapSqueeze, MapSqueezeSettings, SamplerName, SqueezeStats } from '../../types.d.ts';
 
 const settingDeclarations = settings['map-squeeze'];
 
 /** Presets: positions in the apartment, with settings that show their effect. */
-export const PRESET_SETTING = presetPropertyOf(presets['map-squeeze'], settingDeclarations);
+export const PRESET_SETTING = presetAttributeOf(presets['map-squeeze'], settingDeclarations);
 
 /** Pose of the robot where a map has been left. */
 export const OPENING_POSE = presets['map-squeeze'][0].settings.start;
 
 /** Marks and lines of the picture. */
 export const LINE_STYLES = {
-  accepted: { role: 'cloud', mark: 'dot' },
-  through: { role: 'accent', mark: 'dot' },
-  rejected: { role: 'muted', mark: 'cross', width: 1.5 },
+  accepted: { role: 'cloud', shape: 'dot' },
+  through: { role: 'accent', shape: 'dot' },
+  rejected: { role: 'muted', shape: 'cross', width: 1.5 },
   commanded: { role: 'prior', width: 2.5, dash: COMMAND_DASH },
-  unknown: { role: 'muted', mark: 'area' },
+  unknown: { role: 'muted', shape: 'area' },
 } satisfies Record<string, import('../../scene/draw.ts').LineStyle>;
 
 export const COMMAND_SLIDERS = commandSliders(4);
@@ -29,17 +29,17 @@ export const COMMAND_SLIDERS = commandSliders(4);
 /** Parts of the map that the picture shows. */
 const VIEWS = ['close', 'whole'];
 
-export const definition = definitionOf('map-squeeze', {
+export const definition = createDefinition('map-squeeze', {
   messageKey: 'squeeze',
-  lines: LINE_STYLES,
+  overlayStyles: LINE_STYLES,
   sliderSpecs: {
     ...COMMAND_SLIDERS,
-    noise: { role: 'prediction', min: 0, max: 0.4, step: 0.005, decimals: 3, value: ({ alphas }) => alphas[0] },
+    noise: { role: 'prediction', min: 0, max: 0.4, step: 0.005, decimals: 3, combinedValue: ({ alphas }) => alphas[0] },
     clearance: { symbol: '*r*', role: 'truth', min: 0, max: 0.4, step: 0.01, decimals: 2 },
     steps: { role: 'prediction', min: 1, max: 64, step: 1, decimals: 0 },
   },
   // Presets are places in the apartment.
-  preset: { ...PRESET_SETTING, get: (config) => (config.map ? null : PRESET_SETTING.get(config)) },
+  presetAttribute: { ...PRESET_SETTING, get: (config) => (config.map ? null : PRESET_SETTING.get(config)) },
   elementFields: {
     view: { type: 'word', words: VIEWS, default: VIEWS[0], access: 'attribute' },
     /** Map of the user; null for the apartment. A simulation has checked it. */
@@ -90,15 +90,15 @@ export function outcomeIndex(verdict: number) {
  * the sampler excludes such motions (`certain`), or if the simulation gave up, because giving up depends on chance.
  */
 export function throughWallText({ throughWall, throughWallRate, throughWallInterval: [low, high], gaveUp }: Pick<SqueezeStats, 'throughWall' | 'throughWallRate' | 'throughWallInterval' | 'gaveUp'>, isCertain: boolean) {
-  const intervalText = isCertain || gaveUp ? '' : `${fixed(100 * low, 1)}\u2060–\u2060${percent(high)}`;
-  return words.squeeze.throughOf(throughWall, integer(throughWall), percent(throughWallRate), intervalText);
+  const intervalText = isCertain || gaveUp ? '' : `${formatFixed(100 * low, 1)}\u2060–\u2060${formatPercent(high)}`;
+  return words.squeeze.throughOf(throughWall, formatInteger(throughWall), formatPercent(throughWallRate), intervalText);
 }
 
 /** Returns a sentence on a robot that cannot move; empty for an ordinary cloud. */
 function stuckRobotNote(config: MapSqueezeSettings, stats: SqueezeStats, startFree: boolean): string {
   const { wedged, nothing, noRoom } = words.squeeze;
   const { accepted, drawn } = stats;
-  if (stats.gaveUp) return wedged(integer(drawn), integer(accepted), integer(config.samples), throughWallText(stats, false));
-  if (drawn > 0 && accepted === 0) return nothing(integer(drawn));
+  if (stats.gaveUp) return wedged(formatInteger(drawn), formatInteger(accepted), formatInteger(config.samples), throughWallText(stats, false));
+  if (drawn > 0 && accepted === 0) return nothing(formatInteger(drawn));
   return startFree ? '' : noRoom;
 }

@@ -4,9 +4,9 @@ import { html, nothing } from 'lit';
 import { FigureController } from '../../figure/controller.ts';
 import { words } from '../../messages/registry.ts';
 import { swatchHtml } from '../../scene/draw.ts';
-import { Handle, stepsOfKey, turnsOfKey } from '../../scene/handle.ts';
+import { Handle, stepsOfKey, turnStepsOfKey } from '../../scene/handle.ts';
 import { Memo } from '../../scene/cache.ts';
-import { clamp, fixed } from '../../ui/format.ts';
+import { clamp, formatFixed } from '../../ui/format.ts';
 import { wallGrips, wallsAfterMove, type Grip } from './walls.ts';
 import type { View } from '../../scene/view.ts';
 
@@ -43,11 +43,11 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
       const position = x * grip.axis[0] + y * grip.axis[1];
       return this.#handleOf(grip).handleHtml({
         name: grip.part === 'side' ? texts.wall : texts.jamb,
-        keys: texts.keys,
+        keysHint: texts.keys,
         title: words.pose.moveTitle,
-        range: grip.range.map((limit) => position + limit),
-        now: position,
-        text: `x = ${fixed(x, 2)} m, y = ${fixed(y, 2)} m`,
+        valueRange: grip.range.map((limit) => position + limit),
+        value: position,
+        valueText: `x = ${formatFixed(x, 2)} m, y = ${formatFixed(y, 2)} m`,
       });
     });
   }
@@ -55,7 +55,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   /** Returns the entry of the handles in the legend. */
   legend() {
     if (this.#currentGrips.every((grip) => !grip)) return nothing;
-    return html`<span class="toggle grips">${swatchHtml({ role: 'truth', mark: 'box', width: 1.5 })}${words.squeeze.walls.legend}</span>`;
+    return html`<span class="toggle grips">${swatchHtml({ role: 'truth', shape: 'box', width: 1.5 })}${words.squeeze.walls.legend}</span>`;
   }
 
   /** Places new elements, which are rendered after the picture. */
@@ -69,7 +69,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
       const handleElement = root.querySelector(`.handle.${handleClassOf(grip)}`) as HTMLElement | null;
       const gripPoint = grip.part === 'side' ? this.#visibleMiddle(grip, view) : this.#gripPosition(grip, view);
       const gripPixel = gripPoint && [view.toPixelX(gripPoint[0]), view.toPixelY(gripPoint[1])];
-      const { left, right, top, bottom } = view.frame;
+      const { left, right, top, bottom } = view.plotArea;
       const isShown = gripPixel !== undefined && gripPixel[0] > left && gripPixel[0] < right && gripPixel[1] > top && gripPixel[1] < bottom;
       if (handleElement) {
         handleElement.style.visibility = isShown ? '' : 'hidden';
@@ -94,7 +94,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
       view: () => this.host.picture.view,
       graspedPointAt: () => callWithGrip((currentGrip) => this.#grippedPoint(currentGrip)),
       drag: (x, y) => callWithGrip((currentGrip) => this.#move(currentGrip, (point, axis) => (x - point[0]) * axis[0] + (y - point[1]) * axis[1])),
-      key: (event) => callWithGrip((currentGrip) => this.#onKey(event, currentGrip)) ?? false,
+      handleKey: (event) => callWithGrip((currentGrip) => this.#onKey(event, currentGrip)) ?? false,
       commit: () => this.host.gesture.commit(),
     });
     this.#handles.set(gripName, handle);
@@ -102,7 +102,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   }
 
   #onKey(event: KeyboardEvent, grip: Grip) {
-    const keyTurns = turnsOfKey(event);
+    const keyTurns = turnStepsOfKey(event);
     if (keyTurns) {
       event.preventDefault();
       this.#focusHandle(handleClassOf(grip), -keyTurns);

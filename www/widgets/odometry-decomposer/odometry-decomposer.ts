@@ -1,14 +1,14 @@
 /** <odometry-decomposer>: an odometry reading as rotate, drive, rotate, and the noise that localizers add to it. */
 
 import { html, css } from 'lit';
-import { pictureCanvas, disclosures, titledPicture, settingRadios, settingSlider, settingSliders, legend } from '../../figure/controls.ts';
+import { pictureCanvasHtml, disclosuresHtml, titledPictureHtml, settingRadiosHtml, settingSliderHtml, settingSlidersHtml, legendHtml } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
-import { define } from '../../figure/reflection.ts';
+import { defineElement } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
 import { Memo } from '../../scene/cache.ts';
-import { formatMarkup, radioButton, group } from '../../ui/controls.ts';
-import { fixed } from '../../ui/format.ts';
-import { figureTable } from '../../ui/readouts.ts';
+import { formatMarkup, radioButtonHtml, fieldsetHtml } from '../../ui/controls.ts';
+import { formatFixed } from '../../ui/format.ts';
+import { tableHtml } from '../../ui/readouts.ts';
 import { Cloud, cloudControls, cloudProperties } from '../shared/cloud.ts';
 import { Player, presetButtons } from '../shared/controls.ts';
 import { PoseHandles } from '../shared/robot.ts';
@@ -22,13 +22,13 @@ function noiseModelTable(figure: OdometryDecomposerElement) {
   const { rules: names, table: texts, settings } = words.decomposer;
   const { rules } = figure.viewModel;
   const currentRule = figure.settings.requested.rule;
-  const printedRows = rules.map(({ deviations, crossTrack, heading }) => [...deviations, crossTrack, heading].map((value) => fixed(value, 3)));
+  const printedRows = rules.map(({ deviations, crossTrack, heading }) => [...deviations, crossTrack, heading].map((value) => formatFixed(value, 3)));
   return html`<div class="rules" role="radiogroup" aria-label=${settings.rule.name}>
-    ${figureTable({
+    ${tableHtml({
       caption: formatMarkup(texts.caption),
       columns: [settings.rule.name, ...texts.columns.map(formatMarkup)],
       rows: rules.map(({ rule }, i) => [
-        radioButton({ group: 'rule', label: names[rule], checked: rule === currentRule, choose: () => figure.gesture.decide({ rule }) }),
+        radioButtonHtml({ group: 'rule', label: names[rule], checked: rule === currentRule, onChoose: () => figure.gesture.requestAndCommit({ rule }) }),
         ...printedRows[i].map((cell, column) => (cell === printedRows[0][column] ? cell : html`<strong>${cell}</strong>`)),
       ]),
     })}
@@ -41,13 +41,13 @@ function playableSlider(figure: OdometryDecomposerElement, key: 'phase' | 'drift
   const { plays, settings } = words.decomposer;
   return html`<fieldset class="playable with-button ${key}">
     <legend class="visually-hidden">${settings[key].name}</legend>
-    ${settingSlider(figure, key, { input: (value) => player.setByUser(key, value) })} ${player.button(key, plays[key])}
+    ${settingSliderHtml(figure, key, { onInput: (value) => player.setByUser(key, value) })} ${player.button(key, plays[key])}
   </fieldset>`;
 }
 
 function noiseControls(figure: OdometryDecomposerElement) {
   return html`<div class="controls">
-      ${group(words.noise, html`${settingSliders(figure, NOISE_SLIDERS)} ${settingRadios(figure, 'noise', words.noises)}`, 'alphas')}
+      ${fieldsetHtml(words.noise, html`${settingSlidersHtml(figure, NOISE_SLIDERS)} ${settingRadiosHtml(figure, 'noise', words.noises)}`, 'alphas')}
       ${cloudControls(figure, SAMPLE_COUNTS)}
     </div>
     <p>${formatMarkup(words.decomposer.hinges)}</p>`;
@@ -161,7 +161,7 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
   #spreadCurveOf = (maxLength: number, pointCount: number) =>
     this.#spreadCurveMemo.get([this.viewModel.stats, maxLength, pointCount], () => (this.simulation as Simulation).curve(maxLength, pointCount));
 
-  read = viewModelOf;
+  readViewModel = viewModelOf;
 
   get scene() {
     const viewModel = this.currentViewModel;
@@ -184,27 +184,27 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
     for (const handles of this.#handles) handles.place(config, ROBOT_RADIUS);
   }
 
-  content(viewModel: ViewModel) {
+  renderContent(viewModel: ViewModel) {
     const texts = words.decomposer;
     return html`
       <div class="views">
-        ${titledPicture(texts.legsTitle, html`<div class="stage" part="picture">
-          ${pictureCanvas(this, this.#legsPicture, legsPictureText(viewModel))} ${this.#handles.map((handle) => handle.render())}
+        ${titledPictureHtml(texts.legsTitle, html`<div class="stage" part="picture">
+          ${pictureCanvasHtml(this, this.#legsPicture, legsPictureText(viewModel))} ${this.#handles.map((handle) => handle.render())}
         </div>`, 'legs')}
-        ${titledPicture(texts.worldTitle, html`<div class="stage">${pictureCanvas(this, this.#worldPicture, worldText(viewModel))}</div>`)}
-        ${this.renderer.afterFirstPicture(() => html`
+        ${titledPictureHtml(texts.worldTitle, html`<div class="stage">${pictureCanvasHtml(this, this.#worldPicture, worldText(viewModel))}</div>`)}
+        ${this.renderer.renderAfterFirstPicture(() => html`
         <div class="summary">${headlineHtml(viewModel)} <p class="caption" part="caption">${captionOf(viewModel)}</p></div>
-        <p class="caption">${formatMarkup(texts.worldCaption(fixed(driftDistance(viewModel), 2)))}</p>`)}
+        <p class="caption">${formatMarkup(texts.worldCaption(formatFixed(driftDistance(viewModel), 2)))}</p>`)}
       </div>
-      ${this.renderer.afterFirstPicture(() => html`
-      ${legend(this, LINE_STYLES)} ${presetButtons(this)} ${noiseModelTable(this)}
+      ${this.renderer.renderAfterFirstPicture(() => html`
+      ${legendHtml(this, LINE_STYLES)} ${presetButtons(this)} ${noiseModelTable(this)}
       <div class="plays" part="controls">${playableSlider(this, 'phase')} ${playableSlider(this, 'drift')}</div>
-      ${disclosures(this, {
-        controls: () => noiseControls(this),
-        numbers: () => html`${outcomeReadouts(viewModel)} ${spreadPlot(this.#spreadCurveOf, viewModel)}`,
+      ${disclosuresHtml(this, {
+        renderControls: () => noiseControls(this),
+        renderNumbers: () => html`${outcomeReadouts(viewModel)} ${spreadPlot(this.#spreadCurveOf, viewModel)}`,
       })}`)}
     `;
   }
 }
 
-define(OdometryDecomposerElement, cloudProperties);
+defineElement(OdometryDecomposerElement, cloudProperties);

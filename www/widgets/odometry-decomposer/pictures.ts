@@ -3,12 +3,12 @@
 import { greatest } from 'd3-array';
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
-import { drawCallouts, type Callout, LABELS_ABOVE, drawLabel, drawLabelsAbove } from '../../scene/labels.ts';
-import { addLine, fillPath, paintWithOpacity, strokePath, drawDisc, strokeLine, type Brush, type LineStroke } from '../../scene/canvas.ts';
-import { addTurn, drawDots, drawMark, drawOutlines, hasLength, lineLegendEntries, lineStyles, strokeLines } from '../../scene/draw.ts';
+import { drawCallouts, type Callout, LABELS_ABOVE_HEIGHT, drawLabel, drawLabelsAbove } from '../../scene/labels.ts';
+import { addLine, fillPath, paintWithOpacity, strokePath, drawDisc, strokeLine, type DrawContext, type LineStroke } from '../../scene/canvas.ts';
+import { addTurnArc, drawDots, drawCrosshair, drawOutlines, hasLength, lineLegendEntries, lineStyles, strokeLines } from '../../scene/draw.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
 import { View, cornersAround, extentOf } from '../../scene/view.ts';
-import { fixed } from '../../ui/format.ts';
+import { formatFixed } from '../../ui/format.ts';
 import { drawDraggableRobot, drawRobotOutline, turnHandleDistance } from '../shared/robot.ts';
 import { poseAt, LINE_STYLES } from './settings.ts';
 import type { Pose, RuleNoise } from '../../types.d.ts';
@@ -33,25 +33,25 @@ function ellipsePoints({ x, y, theta }: Pose, along: number, across: number) {
 }
 
 /** Draws a turn in radians from a pose's heading, as an arc with an arrow, with a radius in pixels. */
-function drawTurn({ context, view }: Brush, startPose: Pose, turn: number, radius: number, colour: string) {
-  strokePath(context, { colour, width: 1.75 }, () => addTurn(context, view.toPixel(startPose.x, startPose.y), radius, startPose.theta, turn));
+function drawTurn({ context, view }: DrawContext, startPose: Pose, turn: number, radius: number, colour: string) {
+  strokePath(context, { colour, width: 1.75 }, () => addTurnArc(context, view.toPixel(startPose.x, startPose.y), radius, startPose.theta, turn));
   // The arrow head is smaller on a short arc.
   const headLength = Math.min(ARROW_HEAD_SIZE.length, radius * Math.abs(turn));
-  const tip = view.ray({ ...startPose, theta: startPose.theta + turn }, radius)[1];
+  const tip = view.headingLine({ ...startPose, theta: startPose.theta + turn }, radius)[1];
   const headBase = { ...startPose, theta: startPose.theta + turn - (Math.sign(turn) * headLength) / radius };
   const headScale = headLength / ARROW_HEAD_SIZE.length;
-  const headCorner = (side: number) => view.ray(headBase, radius + side * headScale * ARROW_HEAD_SIZE.half)[1];
+  const headCorner = (side: number) => view.headingLine(headBase, radius + side * headScale * ARROW_HEAD_SIZE.half)[1];
   fillPath(context, colour, () => addLine(context, [tip, headCorner(1), headCorner(-1)]));
 }
 
 /** Draws a standard deviation (rad) to either side of a heading, as a fan with a radius in pixels. */
-function drawFan({ context, view }: Brush, { x, y, theta }: Pose, deviation: number, radius: number, colour: string) {
+function drawFan({ context, view }: DrawContext, { x, y, theta }: Pose, deviation: number, radius: number, colour: string) {
   const halfAngle = Math.min(deviation, Math.PI);
   if (halfAngle === 0) return;
   const centre = view.toPixel(x, y);
   const addFan = () => {
     context.moveTo(...centre);
-    addTurn(context, centre, radius, theta + halfAngle, -2 * halfAngle);
+    addTurnArc(context, centre, radius, theta + halfAngle, -2 * halfAngle);
     context.closePath();
   };
   paintWithOpacity(context, 0.14, () => fillPath(context, colour, addFan));
@@ -59,13 +59,13 @@ function drawFan({ context, view }: Brush, { x, y, theta }: Pose, deviation: num
 }
 
 /** Draws a standard deviation (m) as a bar with ends, along the heading of a pose and to either side of its position. */
-function drawBar({ context, view }: Brush, pose: Pose, deviation: number, colour: string) {
+function drawBar({ context, view }: DrawContext, pose: Pose, deviation: number, colour: string) {
   if (deviation === 0) return;
-  const barDirection = view.direction(pose.theta);
+  const barDirection = view.pixelDirection(pose.theta);
   const halfLength = deviation * view.scaleX;
   strokePath(context, { colour, width: 1.75 }, () => {
     for (const endOffset of [-halfLength, halfLength]) {
-      const [barMiddle, [endX, endY]] = view.ray(pose, endOffset);
+      const [barMiddle, [endX, endY]] = view.headingLine(pose, endOffset);
       addLine(context, [barMiddle, [endX, endY]]);
       addLine(context, [[endX - ARROW_HEAD_SIZE.half * barDirection.y, endY + ARROW_HEAD_SIZE.half * barDirection.x], [endX + ARROW_HEAD_SIZE.half * barDirection.y, endY - ARROW_HEAD_SIZE.half * barDirection.x]]);
     }
@@ -121,13 +121,13 @@ function neededPoints({ linkage, legs, rules }: Scene): number[] {
   ];
 }
 
-function drawOutcomes(brush: Brush, { poses, overlays }: Scene) {
+function drawOutcomes(drawContext: DrawContext, { poses, overlays }: Scene) {
   if (!overlays.includes('outcomes')) return;
-  drawDots(brush, poses, poses.length <= 3 * MAX_TICKS ? 1 : 0);
+  drawDots(drawContext, poses, poses.length <= 3 * MAX_TICKS ? 1 : 0);
 }
 
 /** Returns the ellipses of the spread by the current noise model and, if it differs, by one to compare it with. Each has a callout. */
-function spreadEllipses({ palette }: Brush, { linkage, rules, config }: Scene) {
+function spreadEllipses({ palette }: DrawContext, { linkage, rules, config }: Scene) {
   const currentRule = rules.find(({ rule }) => rule === config.rule) as RuleNoise;
   const comparedRule = rules[config.rule === 'thrun' ? 1 : 0];
   const hasOtherDeviations = comparedRule.deviations.some((deviation, i) => Math.abs(deviation - currentRule.deviations[i]) > 1e-9);
@@ -136,13 +136,13 @@ function spreadEllipses({ palette }: Brush, { linkage, rules, config }: Scene) {
     const colour = rule === config.rule ? palette.prediction : palette.ink;
     // The callouts are at different sides: at the front of the ellipse of Table 5.6, and at the top of the other one, which is smaller.
     const at = rule === 'thrun' ? points[0] : greatest(points, ([, y]) => y) as [number, number];
-    const callout: Callout = { text: words.decomposer.spread(words.decomposer.rules[rule]), at, colour };
+    const callout: Callout = { text: words.decomposer.spread(words.decomposer.rules[rule]), point: at, colour };
     return { points: Float64Array.from(points.flat()), colour, width: 2, callout };
   }).filter(({ points }) => hasLength(points));
 }
 
-function drawMarked(brush: Brush, { marked }: Scene) {
-  if (marked) drawMark(brush, { x: marked[0], y: marked[1], heading: marked[2] });
+function drawMarked(drawContext: DrawContext, { marked }: Scene) {
+  if (marked) drawCrosshair(drawContext, { x: marked[0], y: marked[1], heading: marked[2] });
 }
 
 /** Pose from whose heading a turn starts, the turn (rad), and the radius of its arc, pixels. */
@@ -161,9 +161,9 @@ function turnArcPoints({ x, y, theta }: Pose, turn: number, radius: number) {
 /** Picture in the odometry frame: the legs as a linkage, and the effect of noise on it. */
 export class LegsPicture extends SamplesPicture<Scene> {
   name = 'plane';
-  view: View = new View({ top: LABELS_ABOVE, snug: true });
+  view: View = new View({ top: LABELS_ABOVE_HEIGHT, hasNoMargin: true });
 
-  fit(scene: Scene) {
+  fitView(scene: Scene) {
     const { view } = this;
     const { linkage, legs, overlays } = scene;
     const worldPoints = neededPoints(scene);
@@ -171,7 +171,7 @@ export class LegsPicture extends SamplesPicture<Scene> {
       view.fit(extentOf(worldPoints, 1.2));
       return;
     }
-    const { left, right, top, bottom } = view.frame;
+    const { left, right, top, bottom } = view.plotArea;
     const maxTurnRadius = MAX_ARC_SHARE * Math.min(right - left, bottom - top);
     const extentAtScale = (scale: number) => {
       const radii = turnRadii({ scaleX: scale });
@@ -179,56 +179,56 @@ export class LegsPicture extends SamplesPicture<Scene> {
       return extentOf([...worldPoints, ...arcCorners], 1.2);
     };
     // The arcs have a fixed size in pixels, and need more space in metres at a smaller scale.
-    let scale = view.scaleFor(extentOf(worldPoints, 1.2));
-    for (let i = 0; i < SCALE_STEPS; i++) scale = view.scaleFor(extentAtScale(scale));
+    let scale = view.fittingScale(extentOf(worldPoints, 1.2));
+    for (let i = 0; i < SCALE_STEPS; i++) scale = view.fittingScale(extentAtScale(scale));
     view.fit(extentAtScale(scale));
   }
 
-  paint: SamplesPicture<Scene>['paint'] = (brush, scene) => {
-    const { palette } = brush;
+  paint: SamplesPicture<Scene>['paint'] = (drawContext, scene) => {
+    const { palette } = drawContext;
     const { linkage, legs, deviations, config, overlays } = scene;
     const [startPose, turnedPose, drivenPose] = [0, 1, 2].map((index) => poseAt(linkage, index));
     const legendNames = (['legs', 'deviation', 'outcomes'] as const).filter((name) => overlays.includes(name));
-    drawAxes(brush, AXIS_NAMES, lineLegendEntries(brush, LINE_STYLES, legendNames, words.decomposer.overlays));
+    drawAxes(drawContext, AXIS_NAMES, lineLegendEntries(drawContext, LINE_STYLES, legendNames, words.decomposer.overlays));
     const [firstRadius, secondRadius] = turnRadii(this.view);
     const turns: Turn[] = [[startPose, legs.rot1, firstRadius], [drivenPose, legs.rot2, secondRadius]];
-    const styles = lineStyles(brush, LINE_STYLES);
+    const styles = lineStyles(drawContext, LINE_STYLES);
     const showsDeviation = overlays.includes('deviation');
     const { colour } = styles.deviation;
-    const ellipses = showsDeviation ? spreadEllipses(brush, scene) : [];
-    clipToPlot(brush, () => {
-      if (showsDeviation) drawFan(brush, turnedPose, deviations.rot1, Math.max(legs.trans * this.view.scaleX, secondRadius), colour);
-      if (overlays.includes('outcomes')) this.#paintGhosts(brush, scene);
-      drawOutcomes(brush, scene);
-      drawOutlines(brush, ellipses);
-      if (overlays.includes('legs')) drawSegment(brush, startPose, drivenPose, styles.legs);
-      drawDraggableRobot(brush, startPose, ROBOT_RADIUS, palette.prior);
-      drawDraggableRobot(brush, config.to, ROBOT_RADIUS, palette.prior);
+    const ellipses = showsDeviation ? spreadEllipses(drawContext, scene) : [];
+    clipToPlot(drawContext, () => {
+      if (showsDeviation) drawFan(drawContext, turnedPose, deviations.rot1, Math.max(legs.trans * this.view.scaleX, secondRadius), colour);
+      if (overlays.includes('outcomes')) this.#paintGhosts(drawContext, scene);
+      drawOutcomes(drawContext, scene);
+      drawOutlines(drawContext, ellipses);
+      if (overlays.includes('legs')) drawSegment(drawContext, startPose, drivenPose, styles.legs);
+      drawDraggableRobot(drawContext, startPose, ROBOT_RADIUS, palette.prior);
+      drawDraggableRobot(drawContext, config.to, ROBOT_RADIUS, palette.prior);
       if (showsDeviation) {
-        drawBar(brush, drivenPose, deviations.trans, colour);
-        drawBar(brush, { ...drivenPose, theta: drivenPose.theta + Math.PI / 2 }, deviations.strafe, colour);
-        drawFan(brush, { ...drivenPose, theta: drivenPose.theta + legs.rot2 }, deviations.rot2, secondRadius, colour);
+        drawBar(drawContext, drivenPose, deviations.trans, colour);
+        drawBar(drawContext, { ...drivenPose, theta: drivenPose.theta + Math.PI / 2 }, deviations.strafe, colour);
+        drawFan(drawContext, { ...drivenPose, theta: drivenPose.theta + legs.rot2 }, deviations.rot2, secondRadius, colour);
       }
-      if (config.phase < 3) this.#paintRobot(brush, scene.robot);
+      if (config.phase < 3) this.#paintRobot(drawContext, scene.robot);
       if (overlays.includes('legs')) {
-        for (const [turnPose, turn, turnRadius] of turns) if (Math.abs(turn) >= MIN_DRAWN_TURN) drawTurn(brush, turnPose, turn, turnRadius, styles.legs.colour);
+        for (const [turnPose, turn, turnRadius] of turns) if (Math.abs(turn) >= MIN_DRAWN_TURN) drawTurn(drawContext, turnPose, turn, turnRadius, styles.legs.colour);
       }
-      drawMarked(brush, scene);
+      drawMarked(drawContext, scene);
     });
     const turnArcs = turns.map(([turnPose, turn, turnRadius]) => Float64Array.from(turnArcPoints(turnPose, turn, turnRadius / this.view.scaleX)));
-    if (overlays.includes('legs')) drawLabelsAbove(brush, this.#labels(brush, scene, turns));
-    drawCallouts(brush, ellipses.map(({ callout }) => callout), { shapeCentre: [drivenPose.x, drivenPose.y], lines: [...ellipses.map(({ points }) => points), ...turnArcs] });
+    if (overlays.includes('legs')) drawLabelsAbove(drawContext, this.#labels(drawContext, scene, turns));
+    drawCallouts(drawContext, ellipses.map(({ callout }) => callout), { shapeCentre: [drivenPose.x, drivenPose.y], lines: [...ellipses.map(({ points }) => points), ...turnArcs] });
   };
 
   /** Returns labels with the value and standard deviation of each leg that is long enough to see. */
-  #labels({ view, palette: { prior: colour } }: Brush, { legs, deviations }: Scene, turns: Turn[]) {
+  #labels({ view, palette: { prior: colour } }: DrawContext, { legs, deviations }: Scene, turns: Turn[]) {
     const [startPose, drivenPose] = turns.map(([turnPose]) => turnPose);
     // The point of an arc that is nearest to the labels, and inside the axes.
     const leaderEnd = ([{ x, y, theta }, turn, radius]: Turn) => {
-      const leaderEndCandidates = LEADER_ENDS.map((share) => view.ray({ x, y, theta: theta + share * turn }, radius)[1])
+      const leaderEndCandidates = LEADER_ENDS.map((share) => view.headingLine({ x, y, theta: theta + share * turn }, radius)[1])
         .map(([placeX, placeY]) => ({ x: placeX, y: placeY }))
         .sort((one, other) => one.y - other.y);
-      return leaderEndCandidates.find((place) => place.y > view.frame.top) ?? leaderEndCandidates[leaderEndCandidates.length - 1];
+      return leaderEndCandidates.find((place) => place.y > view.plotArea.top) ?? leaderEndCandidates[leaderEndCandidates.length - 1];
     };
     const driveMiddle = { x: view.toPixelX((startPose.x + drivenPose.x) / 2), y: view.toPixelY((startPose.y + drivenPose.y) / 2) };
     const labels = [
@@ -237,32 +237,32 @@ export class LegsPicture extends SamplesPicture<Scene> {
       { sub: 'rot2', unit: 'rad', isShown: Math.abs(legs.rot2) >= MIN_DRAWN_TURN, anchor: leaderEnd(turns[1]) },
     ] as const;
     return labels.filter(({ isShown }) => isShown).map(({ sub, unit, anchor }) => {
-      const deviationText = deviations[sub] > 0 ? ` ± ${fixed(deviations[sub], 2)}` : '';
-      return { ...anchor, symbol: 'δ', sub, text: `${fixed(legs[sub], 2)}${deviationText} ${unit}`, colour };
+      const deviationText = deviations[sub] > 0 ? ` ± ${formatFixed(deviations[sub], 2)}` : '';
+      return { ...anchor, symbol: 'δ', sub, text: `${formatFixed(legs[sub], 2)}${deviationText} ${unit}`, colour };
     });
   }
 
-  #paintGhosts({ context, view, palette }: Brush, { ghosts }: Scene) {
+  #paintGhosts({ context, view, palette }: DrawContext, { ghosts }: Scene) {
     const ghostPixel = (index: number) => view.toPixel(ghosts[3 * index], ghosts[3 * index + 1]);
     paintWithOpacity(context, 0.5, () => strokePath(context, { colour: palette.cloud, width: 1 }, () => {
       for (let i = 0; i < ghosts.length / 3; i += 4) addLine(context, [0, 1, 2, 3].map((k) => ghostPixel(i + k)));
     }));
   }
 
-  #paintRobot({ context, view, palette }: Brush, pose: Pose) {
+  #paintRobot({ context, view, palette }: DrawContext, pose: Pose) {
     const radius = Math.max(7, 0.7 * ROBOT_RADIUS * view.scaleX);
     const robotEdge = { colour: palette.paper, width: 2 };
     drawDisc(context, view.toPixel(pose.x, pose.y), radius, palette.accent, robotEdge);
-    strokeLine(context, view.ray(pose, radius), robotEdge);
+    strokeLine(context, view.headingLine(pose, radius), robotEdge);
   }
 }
 
 /** Picture of the world, in which the odometry frame drifts. */
 export class WorldPicture extends SamplesPicture<Scene> {
   name = 'world';
-  view: View = new View({ top: LABELS_ABOVE, snug: true });
+  view: View = new View({ top: LABELS_ABOVE_HEIGHT, hasNoMargin: true });
 
-  fit(scene: Scene) {
+  fitView(scene: Scene) {
     const { poses } = scene.drifted;
     const robotCorners = [0, 1, 2].flatMap((index) => {
       const { x, y } = poseAt(poses, index);
@@ -271,41 +271,41 @@ export class WorldPicture extends SamplesPicture<Scene> {
     this.view.fit(extentOf([...neededPoints(scene), ...robotCorners], 1.2));
   }
 
-  paint: SamplesPicture<Scene>['paint'] = (brush, scene) => {
-    const { palette, context, view } = brush;
+  paint: SamplesPicture<Scene>['paint'] = (drawContext, scene) => {
+    const { palette, context, view } = drawContext;
     const { overlays } = scene;
     const [frame, odometryStart, odometryEnd] = [0, 1, 2].map((index) => poseAt(scene.drifted.poses, index));
     const [startPose, predictedPose] = [poseAt(scene.linkage, 0), poseAt(scene.linkage, 3)];
-    const styles = lineStyles(brush, LINE_STYLES);
-    drawAxes(brush, AXIS_NAMES);
-    clipToPlot(brush, () => {
+    const styles = lineStyles(drawContext, LINE_STYLES);
+    drawAxes(drawContext, AXIS_NAMES);
+    clipToPlot(drawContext, () => {
       if (overlays.includes('odometry')) {
         const axisLength = FRAME_AXIS_LENGTH * view.scaleX;
-        const [, yAxisEnd] = view.ray({ ...frame, theta: frame.theta + Math.PI / 2 }, axisLength);
-        strokeLine(context, [yAxisEnd, ...view.ray(frame, axisLength)], { colour: palette.prior, width: 1.25 });
-        drawSegment(brush, odometryStart, odometryEnd, styles.odometry);
+        const [, yAxisEnd] = view.headingLine({ ...frame, theta: frame.theta + Math.PI / 2 }, axisLength);
+        strokeLine(context, [yAxisEnd, ...view.headingLine(frame, axisLength)], { colour: palette.prior, width: 1.25 });
+        drawSegment(drawContext, odometryStart, odometryEnd, styles.odometry);
         for (const pose of [odometryStart, odometryEnd]) {
-          drawRobotOutline(brush, pose.x, pose.y, ROBOT_RADIUS, palette.prior);
-          strokeLine(context, view.ray(pose, ROBOT_RADIUS * view.scaleX + 8), { colour: palette.prior, width: 1.5 });
+          drawRobotOutline(drawContext, pose.x, pose.y, ROBOT_RADIUS, palette.prior);
+          strokeLine(context, view.headingLine(pose, ROBOT_RADIUS * view.scaleX + 8), { colour: palette.prior, width: 1.5 });
         }
       }
-      drawOutcomes(brush, scene);
-      if (overlays.includes('prediction')) drawSegment(brush, startPose, predictedPose, styles.prediction);
-      if (overlays.includes('difference')) drawSegment(brush, odometryEnd, predictedPose, styles.difference);
-      drawDraggableRobot(brush, startPose, ROBOT_RADIUS, palette.truth);
-      drawMarked(brush, scene);
+      drawOutcomes(drawContext, scene);
+      if (overlays.includes('prediction')) drawSegment(drawContext, startPose, predictedPose, styles.prediction);
+      if (overlays.includes('difference')) drawSegment(drawContext, odometryEnd, predictedPose, styles.difference);
+      drawDraggableRobot(drawContext, startPose, ROBOT_RADIUS, palette.truth);
+      drawMarked(drawContext, scene);
     });
-    const { left, bottom } = this.view.frame;
+    const { left, bottom } = this.view.plotArea;
     const { outcomesBy, rules } = words.decomposer;
-    if (overlays.includes('outcomes')) drawLabel(brush, { text: outcomesBy(rules[scene.config.rule]), x: left, y: bottom, towards: 1, colour: palette.prediction });
-    drawLabelsAbove(brush, [
-      ...(overlays.includes('prediction') ? this.#labels(brush, [startPose, predictedPose], 'x', [palette.ink, palette.prediction]) : []),
-      ...(overlays.includes('odometry') ? this.#labels(brush, [odometryStart, odometryEnd], 'x̄', [palette.prior, palette.prior]) : []),
+    if (overlays.includes('outcomes')) drawLabel(drawContext, { text: outcomesBy(rules[scene.config.rule]), x: left, y: bottom, freeSide: 1, colour: palette.prediction });
+    drawLabelsAbove(drawContext, [
+      ...(overlays.includes('prediction') ? this.#labels(drawContext, [startPose, predictedPose], 'x', [palette.ink, palette.prediction]) : []),
+      ...(overlays.includes('odometry') ? this.#labels(drawContext, [odometryStart, odometryEnd], 'x̄', [palette.prior, palette.prior]) : []),
     ]);
   };
 
   /** Returns the labels of the poses before and after the motion; only the second if both are at one place on the screen. */
-  #labels({ view }: Brush, poses: Pose[], symbol: string, colours: string[]) {
+  #labels({ view }: DrawContext, poses: Pose[], symbol: string, colours: string[]) {
     const [firstLabel, secondLabel] = poses.map((pose, i) => {
       const [x, y] = view.toPixel(pose.x, pose.y);
       return { x, y, symbol, sub: ['t−1', 't'][i], colour: colours[i] };
@@ -314,4 +314,4 @@ export class WorldPicture extends SamplesPicture<Scene> {
   }
 }
 
-const drawSegment = (brush: Brush, from: Pose, to: Pose, style: LineStroke) => strokeLines(brush, [{ points: Float64Array.of(from.x, from.y, to.x, to.y), ...style }]);
+const drawSegment = (drawContext: DrawContext, from: Pose, to: Pose, style: LineStroke) => strokeLines(drawContext, [{ points: Float64Array.of(from.x, from.y, to.x, to.y), ...style }]);

@@ -1,15 +1,15 @@
 /** The Odometry Decomposer's readouts, sentences and text equivalents: statistics of the outcomes, and standard deviations against the length of the drive. */
 
 import { html } from 'lit';
-import { addEnglish, words } from '../../messages/registry.ts';
+import { addEnglishMessages, words } from '../../messages/registry.ts';
 import { formatMarkup } from '../../ui/controls.ts';
-import { integer, fixed, NO_VALUE, formatRounded, formatWithError } from '../../ui/format.ts';
-import { plot } from '../../ui/plot.ts';
-import { readoutList } from '../../ui/readouts.ts';
+import { formatInteger, formatFixed, NO_VALUE, formatRounded, formatWithError } from '../../ui/format.ts';
+import { plotHtml } from '../../ui/plot.ts';
+import { readoutsHtml } from '../../ui/readouts.ts';
 import { en } from './en.ts';
 import { poseAt, type ViewModel } from './settings.ts';
 
-addEnglish({ decomposer: en });
+addEnglishMessages({ decomposer: en });
 
 /** Length of a reading, m, below which it is called jitter. */
 const MAX_JITTER = 0.01;
@@ -18,16 +18,16 @@ export function captionOf({ config: { rule, alphas }, rules, legs, deviations, s
   const texts = words.decomposer.caption;
   const [{ legs: { rot1, trans } }] = rules;
   const isReverseAware = rule === 'nav2' || rule === 'beluga';
-  const transMillimetres = fixed(1000 * trans, 1);
+  const transMillimetres = formatFixed(1000 * trans, 1);
   if (alphas.every((alpha) => alpha === 0)) return texts.still;
-  if (rule === 'omni') return texts.omni(fixed(deviations.strafe, 2));
-  if (trans > 0 && trans < MAX_JITTER) return isReverseAware ? texts.restSpin(transMillimetres) : texts.rest(transMillimetres, fixed(rot1, 2));
+  if (rule === 'omni') return texts.omni(formatFixed(deviations.strafe, 2));
+  if (trans > 0 && trans < MAX_JITTER) return isReverseAware ? texts.restSpin(transMillimetres) : texts.rest(transMillimetres, formatFixed(rot1, 2));
   if (trans === 0) {
     const remainingTurn = Math.PI - Math.abs(legs.rot2);
-    return isReverseAware && remainingTurn < Math.PI / 2 ? texts.spinEitherWay(fixed(remainingTurn, 2)) : texts.spin;
+    return isReverseAware && remainingTurn < Math.PI / 2 ? texts.spinEitherWay(formatFixed(remainingTurn, 2)) : texts.spin;
   }
   if (rule === 'thrun' && Math.abs(rot1) > Math.PI / 2 && Math.abs(legs.rot2) > Math.PI / 2) return texts.reverse;
-  return texts.lever(fixed(deviations.rot1, 2), fixed(trans, 2), fixed(stats.exactCrossTrack, 2));
+  return texts.lever(formatFixed(deviations.rot1, 2), formatFixed(trans, 2), formatFixed(stats.exactCrossTrack, 2));
 }
 
 /** Returns the distance between the odometry's own pose and the predicted pose, m. */
@@ -39,31 +39,31 @@ export function driftDistance({ drifted, linkage }: ViewModel) {
 export function legsPictureText(viewModel: ViewModel) {
   const { legs: { rot1, trans, rot2 }, config: { to }, stats } = viewModel;
   const texts = words.decomposer;
-  const outcomesText = stats.n === 0 ? texts.none : texts.outcomes(integer(stats.n), fixed(stats.crossTrack, 2), fixed(stats.heading, 2));
-  return `${texts.picture(fixed(rot1, 2), fixed(trans, 2), fixed(rot2, 2), fixed(to.x, 2), fixed(to.y, 2))} ${outcomesText} ${captionOf(viewModel)}`;
+  const outcomesText = stats.n === 0 ? texts.none : texts.outcomes(formatInteger(stats.n), formatFixed(stats.crossTrack, 2), formatFixed(stats.heading, 2));
+  return `${texts.picture(formatFixed(rot1, 2), formatFixed(trans, 2), formatFixed(rot2, 2), formatFixed(to.x, 2), formatFixed(to.y, 2))} ${outcomesText} ${captionOf(viewModel)}`;
 }
 
 export function worldText(viewModel: ViewModel) {
   const { x, y, theta } = poseAt(viewModel.drifted.poses, 0);
-  return words.decomposer.worldPicture(fixed(x, 2), fixed(y, 2), fixed(theta, 2), fixed(driftDistance(viewModel), 2));
+  return words.decomposer.worldPicture(formatFixed(x, 2), formatFixed(y, 2), formatFixed(theta, 2), formatFixed(driftDistance(viewModel), 2));
 }
 
-const formatMetres = (value: number) => `${fixed(value, 3)} m`;
+const formatMetres = (value: number) => `${formatFixed(value, 3)} m`;
 
 /** Returns the headline: the turn noise by Table 5.6 relative to that by Nav2. */
 export function headlineHtml({ rules: [thrun, nav2] }: ViewModel) {
   const texts = words.decomposer.headline;
   const headingNoiseRatio = thrun.heading / nav2.heading;
-  return readoutList([[texts.expects, Number.isFinite(headingNoiseRatio) ? `${formatRounded(headingNoiseRatio, 2)} ×` : NO_VALUE, texts.noise]], 0);
+  return readoutsHtml([[texts.expects, Number.isFinite(headingNoiseRatio) ? `${formatRounded(headingNoiseRatio, 2)} ×` : NO_VALUE, texts.noise]], 0);
 }
 
 /** Returns the readouts: the contribution of the first rotation, and the standard deviations of the outcomes. */
 export function outcomeReadouts({ stats }: ViewModel) {
   const texts = words.decomposer.readouts;
   const { crossTrack, crossTrackError, exactCrossTrack, heading, headingError, exactHeading, independentHeading } = stats;
-  const exactText = texts.exactly(fixed(exactHeading, 3));
-  const independentText = texts.independent(fixed(exactHeading, 3), fixed(independentHeading, 3));
-  return readoutList([
+  const exactText = texts.exactly(formatFixed(exactHeading, 3));
+  const independentText = texts.independent(formatFixed(exactHeading, 3), formatFixed(independentHeading, 3));
+  return readoutsHtml([
     [texts.lever, formatMetres(stats.lever)],
     [texts.crossTrack, `${formatWithError(crossTrack, crossTrackError, 3)} m`, texts.exactly(formatMetres(exactCrossTrack))],
     [texts.heading, `${formatWithError(heading, headingError, 3)} rad`, exactHeading === independentHeading ? exactText : independentText],
@@ -82,8 +82,8 @@ export function spreadPlot(curveOf: (longest: number, points: number) => Float64
   const maxDeviation = Math.max(0.1, ...crossTrack, ...along, stats.crossTrack + stats.crossTrackError || 0);
   return html`<figure>
     <p class="panel-title">${texts.title}</p>
-    ${plot({
-      label: texts.label(fixed(legs.trans, 2), fixed(stats.exactCrossTrack, 3)),
+    ${plotHtml({
+      label: texts.label(formatFixed(legs.trans, 2), formatFixed(stats.exactCrossTrack, 3)),
       x: { name: 'δ trans (m)', from: 0, to: maxLength },
       y: { name: 'σ (m)', from: 0, to: 1.08 * maxDeviation },
       curves: [

@@ -1,6 +1,6 @@
 /** The Odometry Decomposer's settings: their attributes, their part of the state, and their sliders; line styles, and the view model. */
 
-import { definitionOf } from '../../figure/definition.ts';
+import { createDefinition } from '../../figure/definition.ts';
 import { alphaSliders } from '../shared/sliders.ts';
 import type { OdometryDecomposer, RuleNoise } from '../../types.d.ts';
 
@@ -8,7 +8,7 @@ import type { OdometryDecomposer, RuleNoise } from '../../types.d.ts';
 export const LINE_STYLES = {
   legs: { role: 'prior', width: 3, dash: [] },
   deviation: { role: 'prediction', width: 1.25, dash: [5, 3] },
-  outcomes: { role: 'cloud', mark: 'dot' },
+  outcomes: { role: 'cloud', shape: 'dot' },
   prediction: { role: 'prediction', width: 2.5, dash: [] },
   odometry: { role: 'prior', width: 1.75, dash: [6, 4] },
   difference: { role: 'accent', width: 1.5, dash: [2, 4] },
@@ -26,7 +26,7 @@ export const sliderSpecs: Record<string, import('../../figure/controls.ts').Slid
   drift: { role: 'truth', min: 0, max: 120, step: 1, decimals: 0 },
 };
 
-export const definition = definitionOf('odometry-decomposer', { messageKey: 'decomposer', lines: LINE_STYLES, sliderSpecs });
+export const definition = createDefinition('odometry-decomposer', { messageKey: 'decomposer', overlayStyles: LINE_STYLES, sliderSpecs });
 
 export const SAMPLE_COUNTS = [10, 20, 50, 100, 200, 500, 1000, 2000, 5000];
 

@@ -3,14 +3,14 @@
 import { html, noChange, nothing } from 'lit';
 import { live } from 'lit/directives/live.js';
 import { FigureController } from '../../figure/controller.ts';
-import { declarationOf, parseEntered, settingSlider, type SliderSpec } from '../../figure/controls.ts';
+import { declarationOf, parseTypedNumber, settingSliderHtml, type SliderSpec } from '../../figure/controls.ts';
 import { prefersReducedMotion } from '../../figure/renderer.ts';
 import { words } from '../../messages/registry.ts';
-import { pointInView } from '../../scene/canvas.ts';
-import { button, group, inputOf } from '../../ui/controls.ts';
-import { integer } from '../../ui/format.ts';
+import { toViewPixels } from '../../scene/canvas.ts';
+import { buttonHtml, fieldsetHtml, inputOf } from '../../ui/controls.ts';
+import { formatInteger } from '../../ui/format.ts';
 import type { Figure, SampleCloud } from '../../figure/figure.ts';
-import type { Values } from '../../figure/settings.ts';
+import type { StateValues } from '../../figure/settings.ts';
 import type { Picture } from '../../scene/picture.ts';
 
 /** Sample counts of a simulation, or of a view model of it. */
@@ -23,7 +23,7 @@ interface SampleCount {
 interface GrowingSimulation extends SampleCount {
   config: { samples: number, seed: number };
   /** Changes settings and shows the first block of `goal` samples. Returns all settings. */
-  configureFirst: (settings: Values, goal: number) => Values;
+  configureFirst: (settings: StateValues, goal: number) => StateValues;
   /** Returns the number of samples shown. */
   addSamples: (count: number) => number;
 }
@@ -59,7 +59,7 @@ export class Cloud extends FigureController implements SampleCloud {
   /** Latest sample counts: those of the view model, or of the simulation if it has changed since. */
   get #latest(): SampleCount {
     const { settings, viewModel } = this.host;
-    return (settings.isStale && this.#simulation) || viewModel;
+    return (settings.isViewModelStale && this.#simulation) || viewModel;
   }
 
   /** True if all samples are requested, or the simulation has given up. */
@@ -86,7 +86,7 @@ export class Cloud extends FigureController implements SampleCloud {
   }
 
   /** Starts the growth, or shows a state. */
-  introduce(state?: Values) {
+  introduce(state?: StateValues) {
     if (!state) this.#state.playing = true;
     if (!state || this.isComplete) this.#state.shown = Infinity;
     if (!state && !prefersReducedMotion()) this.#restart();
@@ -94,14 +94,14 @@ export class Cloud extends FigureController implements SampleCloud {
   }
 
   /** Changes settings and shows one block of samples; later frames add the others. Returns all settings. */
-  configure(simulation: GrowingSimulation, settings: Values, shown = this.#state.shown): Values {
+  configure(simulation: GrowingSimulation, settings: StateValues, shown = this.#state.shown): StateValues {
     return simulation.configureFirst(settings, shown);
   }
 
   #restart() {
     this.#state.shown = 0;
     if (this.#latest.shown > 0) this.configure(this.#simulation, {});
-    this.host.settings.isStale = true;
+    this.host.settings.isViewModelStale = true;
   }
 
   /** Shows all requested samples at once. A growing cloud is complete then. */
@@ -129,17 +129,17 @@ export class Cloud extends FigureController implements SampleCloud {
       shown = this.#simulation.addSamples(Math.min(targetCount - shown, block));
       // The simulation has given up.
       if (shown === shownBefore) break;
-      this.host.settings.isStale = true;
+      this.host.settings.isViewModelStale = true;
     }
     return true;
   }
 
-  snapshot(): Values {
+  snapshot(): StateValues {
     return { shown: this.targetCount, marked: this.#isWanted ? this.selectedIndex : null };
   }
 
   /** Returns the number of samples that follows from a partial state. */
-  withDerivedFields(currentState: Values, { samples = currentState.samples }: Values): Values {
+  withDerivedFields(currentState: StateValues, { samples = currentState.samples }: StateValues): StateValues {
     return { shown: currentState.shown === currentState.samples ? samples : Math.min(currentState.shown, samples) };
   }
 
@@ -158,8 +158,8 @@ export class Cloud extends FigureController implements SampleCloud {
     const { simulation, gesture } = this.host;
     // A moving finger scrolls; a tap is a click.
     if (!simulation || gesture.isPressed || (event.pointerType === 'touch' && event.type !== 'click')) return;
-    const [x, y] = pointInView(event.currentTarget as Element, picture.view, event);
-    const index = picture.nearest(simulation, x, y);
+    const [x, y] = toViewPixels(event.currentTarget as Element, picture.view, event);
+    const index = picture.nearestSample(simulation, x, y);
     if (index >= 0 || event.type === 'click') this.mark(index);
   }
 
@@ -186,7 +186,7 @@ export class Cloud extends FigureController implements SampleCloud {
   /** Adds samples in a frame. The first frame after a change shows one block, so that drags are quick. */
   advance() {
     if (this.playing) this.grow();
-    else if (!this.host.settings.isStale) this.refine();
+    else if (!this.host.settings.isViewModelStale) this.refine();
   }
 
   grow() {
@@ -202,7 +202,7 @@ export class Cloud extends FigureController implements SampleCloud {
     if (!this.host.simulation) return;
     action();
     this.#state.playing = playing;
-    this.host.gesture.complete();
+    this.host.gesture.commitOneStep();
     this.host.renderer.requestFrame();
   }
 
@@ -213,10 +213,10 @@ export class Cloud extends FigureController implements SampleCloud {
     });
     const [label, otherLabel] = this.playing ? [words.pause, cloudWords.play] : [cloudWords.play, words.pause];
     return html`<div class="buttons">
-      ${button(label, playOrPause, { title: cloudWords.playTitle, otherLabel })}
-      ${button(words.step, () => this.#control(false, () => this.show(this.#latest.shown + this.#batchSize)), { title: cloudWords.step(integer(this.#batchSize)), disabled: this.isComplete })}
-      ${button(words.clear, () => this.#control(false, () => this.#restart()), { title: cloudWords.clear })}
-      ${seedField(this.host)} ${button(words.newSeed, () => this.host.gesture.decide(() => ({ seed: this.host.motion.randomSeed() })), { title: cloudWords.reseed })}
+      ${buttonHtml(label, playOrPause, { title: cloudWords.playTitle, otherLabel })}
+      ${buttonHtml(words.step, () => this.#control(false, () => this.show(this.#latest.shown + this.#batchSize)), { title: cloudWords.step(formatInteger(this.#batchSize)), disabled: this.isComplete })}
+      ${buttonHtml(words.clear, () => this.#control(false, () => this.#restart()), { title: cloudWords.clear })}
+      ${seedField(this.host)} ${buttonHtml(words.newSeed, () => this.host.gesture.requestAndCommit(() => ({ seed: this.host.motion.randomSeed() })), { title: cloudWords.reseed })}
     </div>`;
   }
 }
@@ -231,20 +231,20 @@ type CloudFigure = Figure & { cloud: Cloud };
 
 /** Returns the controls of growth, seed and size of the cloud; the slider offers `counts`. */
 export function cloudControls(figure: CloudFigure, counts: readonly number[]) {
-  return group(words.samples, html`${samplesSlider(figure, counts)} ${figure.cloud.buttons()}`, 'cloud');
+  return fieldsetHtml(words.samples, html`${samplesSlider(figure, counts)} ${figure.cloud.buttons()}`, 'cloud');
 }
 
 /** Returns the slider of the number of samples, which offers `counts`. */
 export function samplesSlider(figure: Figure, counts: readonly number[]) {
   const sliderSpec: SliderSpec = { symbol: '*N*', role: 'truth', min: counts[0], max: counts[counts.length - 1], step: 1, decimals: 0 };
-  return settingSlider(figure, 'samples', { stops: counts, show: integer }, sliderSpec);
+  return settingSliderHtml(figure, 'samples', { stops: counts, formatValue: formatInteger }, sliderSpec);
 }
 
 function seedField(figure: Figure) {
   const { settings, gesture, notice } = figure;
-  const seedRefusal = notice.beside('seed');
+  const seedRefusal = notice.textBeside('seed');
   const enterSeed = (event: Event) => {
-    const seed = parseEntered(figure, 'seed', words.seed, inputOf(event).value, declarationOf(figure, 'seed'));
+    const seed = parseTypedNumber(figure, 'seed', words.seed, inputOf(event).value, declarationOf(figure, 'seed'));
     if (seed !== undefined) settings.request({ seed });
   };
   return html`<label class="seed">
@@ -269,10 +269,10 @@ function seedField(figure: Figure) {
 export function sampleField(figure: CloudFigure, id: 'robot' | 'sample', shown: number, selected: unknown) {
   const { cloud, notice } = figure;
   const { [id]: label, markHint } = (words as any)[figure.definition.messageKey];
-  const refusalText = notice.beside('marked');
+  const refusalText = notice.textBeside('marked');
   const enterIndex = (event: Event) => {
     const typedIndex = inputOf(event).value;
-    const number = typedIndex === '' ? 0 : parseEntered(figure, 'marked', label, typedIndex, { min: 1, max: shown, type: 'whole' });
+    const number = typedIndex === '' ? 0 : parseTypedNumber(figure, 'marked', label, typedIndex, { min: 1, max: shown, type: 'whole' });
     if (number === undefined) return;
     notice.dismiss();
     cloud.mark(number - 1);
@@ -285,7 +285,7 @@ export function sampleField(figure: CloudFigure, id: 'robot' | 'sample', shown: 
         type="number"
         min="1"
         max=${Math.max(1, shown)}
-        placeholder=${shown === 0 ? '' : `1–${integer(shown)}`}
+        placeholder=${shown === 0 ? '' : `1–${formatInteger(shown)}`}
         ?disabled=${shown === 0}
         .value=${refusalText ? noChange : live(cloud.selectedIndex < 0 ? '' : String(cloud.selectedIndex + 1))}
         @input=${enterIndex}

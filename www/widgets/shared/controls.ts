@@ -4,7 +4,7 @@ import { html, nothing } from 'lit';
 import { FigureController } from '../../figure/controller.ts';
 import { prefersReducedMotion } from '../../figure/renderer.ts';
 import { words } from '../../messages/registry.ts';
-import { button } from '../../ui/controls.ts';
+import { buttonHtml } from '../../ui/controls.ts';
 
 /** Returns a button for each preset, of which the current one is pressed, and the button to start over. */
 export function presetButtons(figure: import('../../figure/figure.ts').Figure) {
@@ -13,13 +13,13 @@ export function presetButtons(figure: import('../../figure/figure.ts').Figure) {
   const currentPreset = definition.attributes.preset.get(settings.requested);
   return html`<div class="buttons presets" role="group" aria-label=${words.presets}>
     ${Object.entries(presets).map(([name, label]) =>
-      button(label, () => settings.choosePreset(name), { pressed: name === currentPreset, name: 'preset' }))}
+      buttonHtml(label, () => settings.choosePreset(name), { pressed: name === currentPreset, className: 'preset' }))}
     ${startOverButton(figure)}
   </div>`;
 }
 
 /** Returns the button that restores the state that the figure opened with. */
-export const startOverButton = ({ settings }: import('../../figure/figure.ts').Figure, restore = () => settings.restoreAsUser()) => button(words.startOver, restore, { title: words.startOverTitle, name: 'start-over' });
+export const startOverButton = ({ settings }: import('../../figure/figure.ts').Figure, restore = () => settings.restoreAsUser()) => buttonHtml(words.startOver, restore, { title: words.startOverTitle, className: 'start-over' });
 
 /** Player that animates a slider from its current value to its maximum. At the maximum it starts again from 0. */
 export class Player<Key extends string> extends FigureController {
@@ -74,6 +74,6 @@ export class Player<Key extends string> extends FigureController {
   /** Returns the button that plays and pauses, with a label for the animation. With reduced motion there is only the slider. */
   button(key: Key, label: string) {
     const [currentLabel, otherLabel] = this.#playedKey === key ? [words.pause, label] : [label, words.pause];
-    return prefersReducedMotion() ? nothing : button(currentLabel, () => this.#toggle(key), { otherLabel });
+    return prefersReducedMotion() ? nothing : buttonHtml(currentLabel, () => this.#toggle(key), { otherLabel });
   }
 }

@@ -2,10 +2,10 @@
 
 import { FigureController } from '../../figure/controller.ts';
 import { words } from '../../messages/registry.ts';
-import { drawDisc, strokeLine, type Brush } from '../../scene/canvas.ts';
+import { drawDisc, strokeLine, type DrawContext } from '../../scene/canvas.ts';
 import { drawHandle } from '../../scene/draw.ts';
-import { Handle, stepsOfKey, turnsOfKey } from '../../scene/handle.ts';
-import { clamp, fixed } from '../../ui/format.ts';
+import { Handle, stepsOfKey, turnStepsOfKey } from '../../scene/handle.ts';
+import { clamp, formatFixed } from '../../ui/format.ts';
 import type { View } from '../../scene/view.ts';
 import type { Pose } from '../../types.d.ts';
 
@@ -21,19 +21,19 @@ export function turnHandleDistance(view: Pick<View, 'scaleX'>, radius: number): 
 }
 
 /** Draws a robot that the user can drag and turn, with a radius in metres. Labels that are drawn later avoid it. */
-export function drawDraggableRobot(brush: Brush, pose: Pose, radius: number, colour: string) {
-  const { context, view, palette, placedBoxes: placed } = brush;
-  const [centre, turnHandle] = view.ray(pose, turnHandleDistance(view, radius));
+export function drawDraggableRobot(drawContext: DrawContext, pose: Pose, radius: number, colour: string) {
+  const { context, view, palette, placedBoxes: placed } = drawContext;
+  const [centre, turnHandle] = view.headingLine(pose, turnHandleDistance(view, radius));
   const edgeStyle = { colour, width: 2.25 };
   const robotRadius = radiusInPixels(view, radius);
   drawDisc(context, centre, robotRadius, palette.paper, edgeStyle);
   strokeLine(context, [centre, turnHandle], edgeStyle);
   for (const [[x, y], size] of [[centre, robotRadius], [turnHandle, TURN_HANDLE_RADIUS + 3]] as const) placed.push({ x, y, halfWidth: size, halfHeight: size });
-  drawHandle(brush, { x: turnHandle[0], y: turnHandle[1], radius: TURN_HANDLE_RADIUS, colour });
+  drawHandle(drawContext, { x: turnHandle[0], y: turnHandle[1], radius: TURN_HANDLE_RADIUS, colour });
 }
 
 /** Draws the dashed outline of a robot at the end of a command. Lengths are in metres. */
-export function drawRobotOutline({ context, view }: Brush, x: number, y: number, radius: number, colour: string) {
+export function drawRobotOutline({ context, view }: DrawContext, x: number, y: number, radius: number, colour: string) {
   drawDisc(context, view.toPixel(x, y), radiusInPixels(view, radius), undefined, { colour, width: 1.5, dash: [3, 3] });
 }
 
@@ -77,16 +77,16 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
       ...callbacks,
       graspedPointAt: () => [this.#pose.x, this.#pose.y],
       drag: (x, y) => this.#moveTo(x, y),
-      key: (event) => this.#moveBy(stepsOfKey(event)) || this.#turnBy(turnsOfKey(event)),
+      handleKey: (event) => this.#moveBy(stepsOfKey(event)) || this.#turnBy(turnStepsOfKey(event)),
     });
     this.#turnHandle = new Handle(`turn ${setting}`, {
       ...callbacks,
       graspedPointAt: (pointer) => pointer,
       drag: (x, y) => this.#turnTo(Math.atan2(y - this.#pose.y, x - this.#pose.x)),
-      key: (event) => {
+      handleKey: (event) => {
         const steps = stepsOfKey(event);
         // The left arrow turns counter-clockwise, as a driver would steer.
-        return this.#turnBy(turnsOfKey(event) ?? (steps && steps[1] - steps[0]));
+        return this.#turnBy(turnStepsOfKey(event) ?? (steps && steps[1] - steps[0]));
       },
     });
   }
@@ -103,20 +103,20 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
     return [
       this.#bodyHandle.handleHtml({
         name: bodyName,
-        keys,
+        keysHint: keys,
         title: moveTitle,
-        range: [left, right],
-        now: x,
-        text: `x = ${fixed(x, 2)} m, y = ${fixed(y, 2)} m`,
-        stop: (x <= left || x >= right || y <= bottom || y >= top) && ends,
+        valueRange: [left, right],
+        value: x,
+        valueText: `x = ${formatFixed(x, 2)} m, y = ${formatFixed(y, 2)} m`,
+        limitText: (x <= left || x >= right || y <= bottom || y >= top) && ends,
       }),
       this.#turnHandle.handleHtml({
         name: headingName,
-        keys: headingKeys,
+        keysHint: headingKeys,
         title: turnTitle,
-        range: [-Math.PI, Math.PI],
-        now: theta,
-        text: `${fixed(theta, 2)} rad`,
+        valueRange: [-Math.PI, Math.PI],
+        value: theta,
+        valueText: `${formatFixed(theta, 2)} rad`,
       }),
     ];
   }
@@ -125,7 +125,7 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
   place(config: Record<string, any>, radius: number) {
     const view = this.#view();
     const root = this.host.renderRoot;
-    const [[x, y], [turnX, turnY]] = view.ray(config[this.#setting], turnHandleDistance(view, radius));
+    const [[x, y], [turnX, turnY]] = view.headingLine(config[this.#setting], turnHandleDistance(view, radius));
     const clampToPicture = (coordinate: number, size: number) => clamp(coordinate, EDGE_MARGIN, size - EDGE_MARGIN);
     this.#bodyHandle.place(root, x, y, Math.max(MIN_BODY_HANDLE_SIZE, 2 * radius * view.scaleX));
     this.#turnHandle.place(root, clampToPicture(turnX, view.width), clampToPicture(turnY, view.height));

@@ -1,6 +1,6 @@
 /** Sliders of the velocity command and of the noise parameters (α's) of a motion model, and the command in words. */
 
-import { fixed } from '../../ui/format.ts';
+import { formatFixed } from '../../ui/format.ts';
 
 /** Dash of the commanded path, CSS pixels. */
 export const COMMAND_DASH = [2.5, 3.5];
@@ -15,7 +15,7 @@ export const commandSliders = (maxDuration: number) => ({
 });
 
 export function commandText({ v, omega, dt }: import('../../types.d.ts').Command) {
-  return `v = ${fixed(v, 2)} m/s, ω = ${fixed(omega, 2)} rad/s, Δt = ${fixed(dt, 2)} s`;
+  return `v = ${formatFixed(v, 2)} m/s, ω = ${formatFixed(omega, 2)} rad/s, Δt = ${formatFixed(dt, 2)} s`;
 }
 
 /** Returns the subscript of an α, counted from 0. */

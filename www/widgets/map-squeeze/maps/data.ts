@@ -1,9 +1,9 @@
 /** Maps as plain data, the form in which a state contains a map of the user. */
 
-import { checkedObject, refusalError, withFieldRenamed, checkedNumber } from '../../../data/checks.ts';
+import { checkObject, refusalError, withFieldRenamed, checkNumber } from '../../../data/checks.ts';
 import { fromBase64, toBase64 } from '../../../data/packing.ts';
 import { limits } from '../../../../build/settings.js';
-import type { Cells } from '../../../scene/walls.ts';
+import type { CellGrid } from '../../../scene/walls.ts';
 import type { MapData, MapSqueeze } from '../../../types.d.ts';
 
 const freeze = Object.freeze;
@@ -17,12 +17,12 @@ const GRID_ONLY_KEYS = GRID_KEYS.filter((key) => !PLAN_KEYS.includes(key));
 const [OCCUPIED_SHADE, UNKNOWN_SHADE] = [2, 1];
 
 /** Returns the grid of a simulation, if it has one. Copying a large grid takes long. */
-export function gridOf({ grid }: MapSqueeze): Cells | null {
+export function gridOf({ grid }: MapSqueeze): CellGrid | null {
   return grid && { ...grid, unknown: grid.unknown.includes(1) ? grid.unknown : undefined };
 }
 
 /** Returns the map of a simulation as a frozen object: a page must set a new object to change the map. */
-export function mapDataOf(simulation: MapSqueeze, name: string, grid: Cells | null): MapData {
+export function mapDataOf(simulation: MapSqueeze, name: string, grid: CellGrid | null): MapData {
   if (grid) {
     const { columns, rows, resolution, origin } = grid;
     const occupied = packBits(grid.occupied);
@@ -41,14 +41,14 @@ export function applyMap(simulation: MapSqueeze, data: unknown) {
     throw refusalError('map', data, `a plan, an object of ${PLAN_KEYS.join(', ')}, or a grid, one of ${GRID_KEYS.join(', ')}`, TypeError);
   }
   const isGrid = GRID_ONLY_KEYS.some((key) => key in data);
-  const map = checkedObject('map', data, isGrid ? GRID_KEYS : PLAN_KEYS);
+  const map = checkObject('map', data, isGrid ? GRID_KEYS : PLAN_KEYS);
   if (map.name !== undefined && typeof map.name !== 'string') throw refusalError('map.name', map.name, 'a text', TypeError);
   if (!isGrid) {
     withRenamedFields(PLAN_KEYS, () => simulation.setPlan({ bounds: map.bounds, walls: map.walls }));
     return;
   }
-  const columns = checkedNumber('map.columns', map.columns, 1, limits.cells, true);
-  const rows = checkedNumber('map.rows', map.rows, 1, Math.floor(limits.cells / columns), true);
+  const columns = checkNumber('map.columns', map.columns, 1, limits.cells, true);
+  const rows = checkNumber('map.rows', map.rows, 1, Math.floor(limits.cells / columns), true);
   const cellCount = columns * rows;
   const occupiedBits = decodeBits('map.occupied', map.occupied, cellCount);
   const unknownBits = map.unknown === undefined ? new Uint8Array(occupiedBits.length) : decodeBits('map.unknown', map.unknown, cellCount);

@@ -65,7 +65,7 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
       isWriting = true;
       for (const isNull of [false, true]) for (const [trait, value] of traitValues) if ((value === null) === isNull) setTrait(trait, value);
       isWriting = false;
-      // All values at one time, with the number of the last applied request, from which the kernel knows which requests are newer.
+      // `_shown` has all values at one time and the number of the last applied request, by which the kernel recognizes newer requests.
       setTrait('_shown', { heard: model.get('_asked'), settings: Object.fromEntries(traitValues.filter(([trait]) => model.get(trait) !== undefined)) });
       saveChanges();
     });

@@ -8,7 +8,7 @@ import type { Motion } from './types.d.ts';
 
 export { startWorker } from '../build/motion.wasm';
 
-/** Module as bytes, as an address, or compiled. */
+/** WebAssembly module as bytes, as an address, or compiled. */
 export type ModuleSource = BufferSource | URL | string | WebAssembly.Module;
 
 /** Source that the first caller passed to `load` or `instantiate`. */
@@ -16,7 +16,7 @@ let requestedSource: ModuleSource | undefined;
 /** Functions of a bundle that load a module, and the JavaScript that wasm-bindgen made for it (its glue). */
 type BundledCore = typeof bundledCores.motion;
 
-/** Modules that are compiled or compiling, by their sources. The source of a bundled core is the core itself. */
+/** Promises of compiled modules by source. For a bundled core, the key is the core itself. */
 const modulesBySource: Map<ModuleSource | BundledCore, Promise<WebAssembly.Module>> = new Map();
 /** Tags of the widgets that external.js has found in the page. */
 export const foundTags: Set<string> = new Set();
@@ -93,7 +93,7 @@ export function abandonSimulation(simulation: { free(): void }) {
   (simulation as unknown as { __destroy_into_raw(): number }).__destroy_into_raw();
 }
 
-/** True after a module could not be fetched. */
+/** True after a fetch of the module has failed; the embedded module is used then. */
 let isModuleUnreachable = false;
 
 /** Returns the compiled module and the glue for a widget, or the embedded ones if the module cannot be fetched. */
@@ -149,7 +149,7 @@ const MISSING_MODULE_ADVICE =
 const MAX_ADDRESS_LENGTH = 200;
 
 async function compileSource(sourceOrPromise: ModuleSource | Promise<BufferSource> | undefined) {
-  // Bytes are not awaited, so that their compilation starts in this task.
+  // Bytes are not awaited, so that the compilation starts before this task ends.
   const source = (sourceOrPromise instanceof Promise ? await sourceOrPromise : sourceOrPromise) as ModuleSource;
   if (source instanceof WebAssembly.Module) return source;
   if (source instanceof ArrayBuffer || ArrayBuffer.isView(source)) return WebAssembly.compile(source);

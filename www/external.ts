@@ -18,7 +18,7 @@ addEnglishMessages({ ...en, ...Object.fromEntries(messageKeys.map((key) => [key,
 /** Returns true for the tag of a figure. Compilers of templates ask which tags are custom elements. */
 export const isFigureTag = (tag: string) => tag in widgets;
 
-/** Tags that the page has not contained yet. */
+/** Tags of widgets whose scripts are not loaded yet. */
 const undefinedTags = new Set(Object.keys(widgets).filter((tag) => !customElements.get(tag)));
 
 /** Loads the widgets whose tags are in `root`. @param root a document, a shadow root, or an element with its descendants */
@@ -30,7 +30,7 @@ function defineWidgetsIn(root: ParentNode) {
       foundTags.add(localName);
       widgets[localName]();
     }
-    // The contents of a widget have no other widgets.
+    // Widgets contain no other widgets, so that their contents are not searched.
     else if (localName in widgets) continue;
     else if (element.shadowRoot) watchRoot(element.shadowRoot);
     else if (!element.matches(':defined')) customElements.whenDefined(localName).then(() => element.shadowRoot && watchRoot(element.shadowRoot));

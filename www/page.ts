@@ -24,7 +24,7 @@ export const figureOf = (element: Element): Figure => element.closest('article')
 export async function enterState(figure: Figure, values: Record<string, unknown>) {
   if (!openingStates.has(figure)) await new Promise((resolve) => figure.addEventListener('load', resolve, { once: true }));
   const openingState = openingStates.get(figure) ?? {};
-  // Shows the whole cloud at once, because the item with the pressed button refers to it.
+  // The text with the pressed button refers to the whole cloud, so that it is shown without growing.
   const completeCloudFields = 'shown' in openingState ? { shown: openingState.samples, playing: false } : {};
   const { widget, version } = openingState;
   figure.setState({ ...openingState, ...completeCloudFields });

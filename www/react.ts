@@ -15,7 +15,7 @@ export interface PropNames {
   properties: string[];
 }
 
-/** Props of events. */
+/** Props of event handlers by event type. */
 const HANDLER_PROPS = { load: 'onLoad', error: 'onError', input: 'onInput', change: 'onChange', stats: 'onStats' };
 const EVENT_TYPES = Object.keys(HANDLER_PROPS) as (keyof typeof HANDLER_PROPS)[];
 

@@ -10,7 +10,7 @@ export type Motion = typeof import('../build/simulations.d.ts');
 
 /** Returns the core, see core.ts. */
 export declare function load(source?: BufferSource | URL | string | WebAssembly.Module): Promise<Motion>;
-/** Returns the core, with its own memory in each call. */
+/** Returns a new core with its own memory. */
 export declare function instantiate(source?: BufferSource | URL | string | WebAssembly.Module): Promise<Motion>;
 
 /** Declaration of a setting, or of a number of a group or list. */

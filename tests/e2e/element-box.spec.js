@@ -5,7 +5,7 @@ import { NEW_PAGE_TAG, REDUCED_MOTION, readBox, waitForFrames, mountFigure, show
 
 test.use(REDUCED_MOTION);
 
-/** Preferred width of a figure in CSS pixels, equal to `preferredWidth`. */
+/** Preferred width of a figure in CSS pixels, equal to `preferredWidthCss`. */
 const PREFERRED_WIDTH = 44 * 16;
 
 /** HTML of containers in which the width of an element, the X, may depend on its contents. @type {Record<string, string>} */

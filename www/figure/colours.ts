@@ -8,25 +8,25 @@ export class Colours extends FigureController {
   #palette: Palette | undefined;
 
   hostConnected() {
-    // A background has its final colour at the end of its transition.
+    // A background of the page has its final colour only when its CSS transition ends.
     const onTransitionEnd = ({ target, propertyName }: TransitionEvent) => {
       if (propertyName === 'background-color' && elementAndAncestors(this.host).includes(target as Element)) this.applyAndDraw();
     };
     document.addEventListener('transitionend', onTransitionEnd, { signal: this.host.lifetime.signal });
   }
 
-  /** Colours of the roles, for canvases. */
+  /** Resolved CSS colours by role, for drawing on canvases. */
   get palette() {
     return (this.#palette ??= resolvePalette(this.#find('.surface')));
   }
 
-  /** Updates the colours from the page and the theme, and draws. */
+  /** Applies the colours of the page or theme to the figure, and redraws its pictures. */
   applyAndDraw() {
     this.applyPageColours();
     this.host.renderer.requestFrame();
   }
 
-  /** Uses the colours of the page, or the figure's own colours if its theme differs from the page's. In print the theme is light. */
+  /** Sets the figure's custom properties to the page's colours, or to its own if its theme differs from the page's. In print the theme is light. */
   applyPageColours() {
     const surfaceStyle = this.#find('.surface')?.style;
     if (!surfaceStyle) return;
@@ -38,7 +38,7 @@ export class Colours extends FigureController {
     const hasOwnColours = isPrinting || surfaceStyle.colorScheme !== scheme;
     for (const [name, colour] of Object.entries(pageColours)) surfaceStyle.setProperty(`--${name}`, hasOwnColours ? '' : colour);
     surfaceStyle.setProperty('--back', hasOwnColours ? 'var(--paper)' : '');
-    // Colours that the page sets for its background do not fit the figure's own.
+    // The page chooses muted text and rules for its own background. They would be illegible on the figure's.
     for (const role of ['muted', 'rule']) surfaceStyle.setProperty(`--mw-${role}`, hasOwnColours ? 'initial' : '');
     this.#palette = undefined;
   }

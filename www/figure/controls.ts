@@ -1,4 +1,4 @@
-/** Controls of settings, from their declarations, sliders and words; and the legend, which shows and hides lines. */
+/** HTML of the controls of settings, made from declarations, slider specifications and words, and of the legend, which shows and hides lines. */
 
 import { html, noChange, nothing } from 'lit';
 import { words } from '../messages/registry.ts';
@@ -10,7 +10,7 @@ import { embeddingControlsHtml, exportButtonsHtml, linkButtonHtml } from './expo
 import type { Declaration } from '../../build/settings.js';
 import type { Figure } from './figure.ts';
 
-/** Appearance of a numeric setting. */
+/** Specification of the slider of a numeric setting. */
 export interface SliderSpec {
   /** Mathematical symbol, in the markup of messages: see formatMarkup. */
   symbol?: string;
@@ -26,13 +26,13 @@ export interface SliderSpec {
   alpha?: [model: 'velocity' | 'odometry', index: number];
 }
 
-/** Range and type of the values that can be typed. */
+/** Range, type and unit of the numbers that can be typed. */
 type AllowedNumbers = Pick<Declaration, 'type' | 'unit'> & { min: number, max: number };
 
-/** Overrides of a slider row. `maxEntered` is a maximum of typed values, below that of the declaration. */
+/** Fields that replace those of a slider row. `maxTyped` is a maximum of typed values, below that of the declaration. */
 type RowOverrides = Partial<SliderRow> & { maxTyped?: number };
 
-/** Returns the slider of a setting; `overrides` replaces fields of its slider row. */
+/** Returns the slider of a setting. `overrides` replaces fields of its slider row. */
 export function settingSliderHtml(figure: Figure, key: string, overrides?: RowOverrides, sliderSpec = figure.definition.sliderSpecs[key]) {
   const { symbol, decimals, combinedValue, ...sliderFields } = sliderSpec;
   const { name, effect } = wordsFor(figure, key);
@@ -58,7 +58,7 @@ export function settingSliderHtml(figure: Figure, key: string, overrides?: RowOv
 export function editableSliderHtml(figure: Figure, symbol: string, { min, max: declaredMax, type, unit }: AllowedNumbers, row: Omit<SliderRow, 'inputMode' | 'applyTypedText' | 'refusal' | 'clearRefusal'> & { maxTyped?: number }) {
   const max = row.maxTyped ?? declaredMax;
   const isInteger = type === 'whole';
-  // At an end of the slider, a text says that values beyond it can be typed.
+  // With the thumb at an end of the slider, a text says that values beyond that end can be typed.
   const reachedEnd = row.value >= row.max && row.max < max ? row.max : row.value <= row.min && row.min > min ? row.min : undefined;
   return sliderRowHtml({
     ...row,
@@ -119,7 +119,7 @@ interface DisclosureOptions {
   csvTitle?: string;
 }
 
-/** Returns a disclosure. Its content is rendered only while it is open. */
+/** Returns a `details` element, whose content is rendered only while it is open. */
 function disclosureHtml(figure: Figure, name: string, id: string, renderContent: () => unknown) {
   const isOpen = figure.renderRoot.querySelector<HTMLDetailsElement>(`#${id}`)?.open;
   return html`<details part="fold" id=${id} @toggle=${() => figure.requestUpdate()}>
@@ -128,7 +128,7 @@ function disclosureHtml(figure: Figure, name: string, id: string, renderContent:
   </details>`;
 }
 
-/** Returns the two disclosures below a figure, the button that copies a link, and the button that starts the presentation. */
+/** Returns the disclosures of controls and of numbers below a figure, the button that copies a link, and the button that starts the presentation. */
 export function disclosuresHtml(figure: Figure, { renderControls, renderNumbers, fileNameSuffix = figure.viewModel.config.seed, csvTitle }: DisclosureOptions) {
   return html`<div class="folds">
     ${disclosureHtml(figure, words.moreControls, 'more', renderControls)}

@@ -20,9 +20,9 @@ interface Property {
   get: (config: StateValues) => unknown;
   /** Returns the changed part of the configuration for a new value. */
   changesFor: (value: any, config: StateValues) => StateValues;
-  /** Name of a setting in the core, if different. */
+  /** Name of the setting in errors of the core, if it differs from the property's name. */
   corePath?: string;
-  /** Names of the attributes that this one determines, as a preset does. They are written only while this attribute has no value. */
+  /** Names of the attributes that this attribute determines, as a preset does. They are written only while this attribute has no value. */
   coveredAttributes?: string[];
   /** Allowed words, if the declarations do not list them. */
   words?: readonly string[];
@@ -49,14 +49,14 @@ const BOOLEAN_CONVERTER: AttributeConverter = {
 /** Conversion of a list of words, which are separated by spaces in the text. */
 export const WORD_LIST_CONVERTER: AttributeConverter = { parse: (text) => text.split(/\s/).filter(Boolean), print: (value) => value.join(' ') };
 
-/** Conversions of the types that fit into an attribute. Objects and arrays have none. */
+/** Converters by type of setting. Objects and arrays have no attribute, and so no converter. */
 const CONVERTERS: Record<string, AttributeConverter> = { number: NUMBER_CONVERTER, whole: NUMBER_CONVERTER, word: WORD_CONVERTER, words: WORD_LIST_CONVERTER, boolean: BOOLEAN_CONVERTER };
 
 export const THEMES = ['auto', 'light', 'dark'] as const;
 
 export const HEADING_LEVELS = ['1', '2', '3', '4', '5', '6'] as const;
 
-/** Attributes of every figure. The default is the first word, or null if `nullable`. */
+/** Attributes of every figure. The default is the first of `words`, or null if `nullable`. An attribute without `words` is boolean. */
 export const COMMON_ATTRS: Record<string, { words?: readonly string[], nullable?: true, property?: string }> = {
   theme: { words: THEMES },
   share: {},
@@ -94,7 +94,7 @@ function propertyOf({ key, in: group, field = key, index, of, weights = [], type
   };
 }
 
-/** Returns the factor by which the last numbers are multiples of their weights; null if there is none. */
+/** Returns the factor f for which the last numbers are f times their weights; null if there is no such factor. */
 function commonFactorOf(numbers: number[], weights: number[]): number | null {
   const lastNumbers = numbers.slice(-weights.length);
   const commonFactor = lastNumbers[0] / weights[0];
@@ -127,7 +127,7 @@ interface ElementField extends FieldRange {
   default: unknown;
   /** True if a preset sets the field to its default. */
   isResetByPreset?: true;
-  /** Interface to the page, besides the state. */
+  /** Attribute or property by which a page sets the field. Without it, a page sets the field by `setState` only. */
   access?: 'attribute' | 'property';
   /** Returns the maximum in a state, if it depends on other fields. */
   maxInState?: (state: StateValues) => number;
@@ -150,7 +150,7 @@ interface DefinitionOptions extends Pick<WidgetDefinition, 'messageKey' | 'slide
   /** Styles of the lines and marks in the pictures. The keys are the words of the attribute `overlays`. */
   overlayStyles: Record<string, LineStyle>;
   openingOverlays?: readonly string[];
-  /** Attribute of the presets, if it depends on more than the settings. */
+  /** Attribute `preset`, if a preset also depends on fields of the element. */
   presetAttribute?: Attribute;
   /** State fields of the widget, in addition to those of overlays and cloud. */
   elementFields?: Record<string, ElementField>;

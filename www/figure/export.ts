@@ -14,7 +14,7 @@ export interface ExportData {
   settings: object;
   /** Numbers of the table, row after row, by the names of their columns in one text, such as 'x_m y_m theta_rad'. */
   columns: Record<string, ArrayLike<number>>;
-  /** Sentences about a copied link and about copied attributes, such as on state that they lack. */
+  /** Sentences that name the state that a copied link or copied HTML does not contain. */
   linkNote?: string;
   codeNote?: string;
 }
@@ -25,7 +25,7 @@ const PNG_PIXEL_RATIO = 2;
 /** Size in CSS pixels of a figure without layout, such as in a hidden tab panel. */
 const FALLBACK_SIZE = { width: 720, height: 432 };
 
-/** Draws the picture in its size and font on the page, with `ratio` pixels per CSS pixel. Returns the size in pixels and the view. */
+/** Draws the first picture for a file, in its size and font on the page. `ratio` is the number of pixels per CSS pixel. Returns the size in pixels and the view. */
 function drawForExport({ scene, pictures: [picture], canvases, colours }: Figure, ratio: number, contextOf: (size: { width: number, height: number }) => unknown) {
   const pageCanvas = canvases.canvasOf(picture);
   const { width: clientWidth, height } = pageCanvas.clientWidth > 0 ? pageCanvas.getBoundingClientRect() : FALLBACK_SIZE;
@@ -46,7 +46,7 @@ export async function pngOf(figure: Figure): Promise<Blob> {
   return exportCanvas.convertToBlob();
 }
 
-/** Returns a hash that makes ids unique on a page, and equal for equal figures. */
+/** Returns a hash for ids of SVG elements: different for different figures on a page, and equal for equal figures. */
 function hashOf(text: string) {
   let hashValue = 7;
   for (let i = 0; i < text.length; i++) hashValue = (Math.imul(hashValue, 31) + text.charCodeAt(i)) >>> 0;
@@ -98,7 +98,7 @@ export function exportButtonsHtml(figure: Figure, fileNameSuffix: string | numbe
   </div>`, 'exports', 'exports');
 }
 
-/** Returns a button that copies a text. A notice says so, with a note such as on the parts of the state that the text lacks. */
+/** Returns a button that copies a text. A notice then confirms the copy, with a note on state that the text does not contain. */
 export function copyButtonHtml(figure: Figure, label: string, textOf: () => string | Promise<string>, buttonOptions: { title?: string, disabled?: boolean }, noteOf: () => string | undefined = () => '') {
   const copyText = async () => {
     const text = await textOf();

@@ -31,23 +31,23 @@ addEnglishMessages(en);
 
 /** Samples of a figure, which are added over several frames: see widgets/shared/cloud.ts. */
 export interface SampleCloud {
-  /** True if all requested samples are shown. */
+  /** True if all requested samples are shown and the cloud does not grow. */
   readonly isSettled: boolean;
-  /** Starts the growth, or shows a state. */
-  introduce(state?: StateValues): void;
+  /** Starts the growth of the cloud, or shows the samples of a state. */
+  showOrGrow(state?: StateValues): void;
   /** Changes settings of a simulation, and shows the first of `shown` samples, by default of those requested. Returns all settings. */
   configure(simulation: any, settings: StateValues, shown?: number): StateValues;
-  /** Adds samples in a frame with a picture. */
-  advance(): void;
-  /** Adds samples in a frame without one; returns true if all are shown. */
-  refine(): boolean;
+  /** Adds samples in a frame that draws pictures. */
+  addSamplesWhileDrawing(): void;
+  /** Adds samples in a frame that draws nothing. Returns true if all requested samples are shown. */
+  addSamplesUnseen(): boolean;
   /** Adds all samples. */
-  finish(): void;
+  addAllSamples(): void;
   snapshot(): StateValues;
   withDerivedFields(currentState: StateValues, changes: StateValues): StateValues;
   selectAtPointer(picture: Picture<any>, event: PointerEvent): void;
   /** Clears the selection if the selected sample is not shown and will not be. */
-  unmark(): void;
+  clearStaleSelection(): void;
 }
 
 /**
@@ -114,7 +114,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   declare presentation: boolean;
   /** Heading level of the title; null if it is no heading. */
   declare headingLevel: (typeof HEADING_LEVELS)[number] | null;
-  /** Aborted when the element is removed. Its signal removes the listeners that controllers have on other objects. */
+  /** Controller aborted when the element is removed from the page. Its signal removes the listeners on other objects. */
   lifetime = new AbortController();
   runtime = new Runtime(this);
   canvases = new Canvases(() => this.renderer.drawResized());
@@ -151,14 +151,14 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   /** Creates a simulation with the opening settings. */
   abstract createSimulation(motion: Motion): Simulation;
 
-  /** Brings a new simulation into a state, to which it may add missing fields; throws a TypeError or RangeError. */
+  /** Configures a new simulation for a state, and may add missing fields to the state. Throws a TypeError or RangeError for an invalid state. */
   enterState(simulation: Simulation, state: StateValues) {
     const settings = this.settings.pickSettings(state);
     if (this.cloud) this.cloud.configure(simulation, settings, state.shown);
     else simulation.configure(settings);
   }
 
-  /** Returns the view model of the simulation. It is called once for each change. */
+  /** Returns the view model of the simulation. Called once for each change. */
   abstract readViewModel(simulation: Simulation): ViewModel;
 
   /** Scene of the pictures: the view model, and other values that they draw. */
@@ -169,7 +169,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   /** Returns the HTML of the figure. */
   abstract renderContent(viewModel: ViewModel): unknown;
 
-  /** Content for export, after all pending changes. */
+  /** Description, settings and columns for exported files, after all pending changes. */
   abstract get exportData(): import('./export.ts').ExportData;
 
   /** Returns the announcement for screen readers after a completed change. */
@@ -185,7 +185,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
     return { widget: this.localName, version: STATE_VERSION, ...this.settings.elementState, ...this.settings.pickSettings(this.settings.current), ...this.cloud?.snapshot() };
   }
 
-  /** Returns a partial state with values that follow from it for missing fields. */
+  /** Returns a partial state, completed by the fields whose values follow from it. */
   withDerivedFields(currentState: StateValues, changes: StateValues): StateValues {
     return { ...this.cloud?.withDerivedFields(currentState, changes), ...changes };
   }
@@ -203,7 +203,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
     // The simulation is missing after a trap.
     if (!simulation) return;
     useLanguageOf(this);
-    this.cloud?.unmark();
+    this.cloud?.clearStaleSelection();
     this.viewModel = this.readViewModel(simulation);
     this.settings.isViewModelStale = false;
     this.announceOutcome();

@@ -10,7 +10,7 @@ export class Gesture extends FigureController {
   /** View model of the simulation (see FigureElement.viewModel) before the present or latest gesture. */
   previousViewModel: any;
 
-  /** True while a pointer is down on the figure. Pictures with handles keep their scale meanwhile. */
+  /** True while a pointer is down on the figure. Pictures with handles keep their scale during this time. */
   get isPressed() {
     return this.#pressListenerAbort !== undefined;
   }

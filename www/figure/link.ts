@@ -11,9 +11,9 @@ import { FigureController } from './controller.ts';
 const MAX_PACKED_LENGTH = 1_000_000;
 
 export class StateLink extends FigureController {
-  /** True if the latest address lacks the user's map, because it would be too long with it. */
+  /** True if the latest address was written without the user's map, because a map would make it too long. */
   lacksMap = false;
-  /** Token of the latest write of the address. Results of earlier ones are dropped. */
+  /** Token of the latest write of the address. An earlier write that finishes later is dropped. */
   #latestWrite = {};
 
   hostConnected() {
@@ -51,7 +51,7 @@ export class StateLink extends FigureController {
     }
   }
 
-  /** Writes the state into the address, if `share` is set or the address has the figure's state. It neither scrolls nor adds to the history. */
+  /** Writes the state into the address, if `share` is set or the address has the figure's state. The page does not scroll, and its history gets no entry. */
   async writeToAddress() {
     if (!this.host.share && !fragmentParts().some((part) => this.#isOwnPart(part))) return;
     const writeToken = (this.#latestWrite = {});
@@ -102,7 +102,7 @@ function addressWith(key: string, packedState: string, isFirst: boolean = false)
 
 const fragmentParts = () => location.hash.slice(1).split('&').filter((part) => part !== '');
 
-/** First part of the fragment of a followed link, until the page has scrolled to its figure; then an empty text. */
+/** Fragment part of the figure to which a followed link still has to scroll. Empty after the scroll, and undefined until the first figure is connected. */
 let pendingLinkPart: string | undefined;
 
 /** Returns true if the page was opened by a link: on a reload the browser restores the scroll position. */

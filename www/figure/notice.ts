@@ -5,17 +5,17 @@ import { words } from '../messages/registry.ts';
 import { buttonHtml } from '../ui/controls.ts';
 import { FigureController } from './controller.ts';
 
-/** Notice beside a control, or with a button over the lower edge of the figure or the window. It moves no content. */
+/** Notice beside a control, or over the lower edge of the figure or window with a button that closes it. Its appearance moves no other content. */
 export class Notice extends FigureController {
   #currentNotice: { content: () => unknown, control?: string, stop?: () => void } | undefined;
 
-  /** Shows HTML beside the control of a name, or until the user closes it, or about work that the button stops. */
+  /** Shows a notice: beside the control named `control`, or otherwise with a button. The button calls `stop`, if given, and closes the notice. */
   show(content: () => unknown, { control, stop }: { control?: string, stop?: () => void } = {}) {
     this.#currentNotice = { content, control, stop };
     this.host.requestUpdate();
   }
 
-  /** Hides a sentence, as at the next change by the user. A notice about work stays. */
+  /** Hides the notice, unless it is about work that can be stopped. */
   dismiss() {
     if (this.#currentNotice && !this.#currentNotice.stop) this.hide();
   }
@@ -35,7 +35,7 @@ export class Notice extends FigureController {
     this.hide();
   };
 
-  /** Presses the button by the key Escape. */
+  /** Stops the work or closes the notice when the user presses Escape. */
   stopOnEscape(event: KeyboardEvent) {
     if (!this.#currentNotice || this.#currentNotice.control || event.key !== 'Escape' || event.defaultPrevented) return;
     event.preventDefault();
@@ -63,7 +63,7 @@ export class Announcer {
     this.#isAnnouncementDue = true;
   }
 
-  /** Announces an outcome if one was requested. `sentence` is only called if needed. */
+  /** Announces an outcome if an announcement was requested. `getOutcome` is called only then, or if an earlier outcome may have changed. */
   setOutcome(getOutcome: () => string) {
     if (!this.#isAnnouncementDue && !this.#latestOutcome) return;
     const text = getOutcome();

@@ -12,9 +12,9 @@ const RESTORE_KEY = '0';
 
 export class Presentation extends FigureController {
   showsControls = false;
-  /** State at the beginning; undefined if the figure opened in a presentation. */
+  /** State at the beginning of the presentation; undefined if the figure opened in a presentation. */
   #stateAtBegin: import('./settings.ts').StateValues | undefined;
-  /** Stops listening to keys; undefined while the figure is not presented. */
+  /** Controller that removes the key listener at the end of the presentation; undefined while the figure is not presented. */
   #keyListenerAbort: AbortController | undefined;
 
   hostConnected() {

@@ -9,9 +9,9 @@ import type { StateValues } from './settings.ts';
 export class Reflection extends FigureController {
   #attributes = this.host.definition.attributes;
   #properties = this.host.definition.properties;
-  /** Order in which pending properties are applied. Properties that others depend on come first, and a log, which takes long, last. */
+  /** Names of properties in the order in which early assignments are applied. Properties on which others depend come first. A log takes long and comes last. */
   #applicationOrder = ['preset', 'map', ...Object.keys(this.#properties), 'log'];
-  /** Assignments before there was a simulation. The key is the name of a property, or a new object for each state. */
+  /** Assignments made before the simulation exists. The key is the name of a property, or a new object for each assigned state. */
   #earlyAssignments: Map<unknown, { value?: unknown, apply: () => void }> = new Map();
   #isWritingAttributes = false;
   #previousTexts: Map<string, string> | undefined;
@@ -39,7 +39,7 @@ export class Reflection extends FigureController {
     }
   }
 
-  /** Applies the assignments before there was a simulation. States keep their order in time, with properties sorted by dependency between them. */
+  /** Applies the early assignments. Whole states keep their order in time. Properties assigned between two states are sorted by dependency. */
   applyEarlyAssignments() {
     let stateOffset = 0;
     const assignments = [...this.#earlyAssignments].map(([name, { apply }]) =>

@@ -8,7 +8,7 @@ import { FigureController } from './controller.ts';
 
 type AnyPicture = import('../scene/picture.ts').Picture<any>;
 
-/** Drawing time, ms, up to which the text is rendered in the same frame. After a longer one it is rendered in the next frame. */
+/** Maximum drawing time (ms) with which the text is rendered in the same frame. After a longer drawing, the text follows in the next frame. */
 const MAX_DRAW_MS_WITH_TEXT = 5;
 
 /**
@@ -41,10 +41,10 @@ export class Renderer extends FigureController {
   #hasRenderedText = false;
   /** Pictures to draw, the one that has waited longest first. */
   #undrawnPictures: Set<AnyPicture> = new Set();
-  /** Time of the first picture that is newer than the text; undefined if the text is up to date. */
+  /** Time (ms) of the first picture that is newer than the text; undefined if the text is up to date. */
   #textPendingSince: number | undefined;
   #frameRequest: number | undefined;
-  /** Time of the request or, during an animation, of the previous frame. */
+  /** Time (ms) of the previous frame, or of the request if no frame was drawn since. */
   #previousFrameMs = 0;
   isPrinting = false;
 
@@ -128,7 +128,7 @@ export class Renderer extends FigureController {
     else if (!isVisible && this.host.isSettledAwaited) this.requestFrame();
   }
 
-  /** Allows the views to zoom in and recenter, for a scene that the user or the page has chosen: see `View.release`. */
+  /** Allows the views of all pictures to zoom in and recenter, after the user or the page has chosen another scene. */
   letViewsZoomIn(minFill?: number) {
     for (const { view } of this.host.pictures) view.allowZoomIn(minFill);
   }
@@ -160,8 +160,8 @@ export class Renderer extends FigureController {
       if (!simulation) return;
       settings.applyPending();
       // A script awaits all samples. Nobody sees the cloud grow.
-      if (host.isSettledAwaited) cloud?.finish();
-      if (cloud && !cloud.refine()) this.#scheduleFrame();
+      if (host.isSettledAwaited) cloud?.addAllSamples();
+      if (cloud && !cloud.addSamplesUnseen()) this.#scheduleFrame();
       else if (settings.isViewModelStale) host.updateViewModel();
       host.resolveIfSettled();
     });
@@ -172,7 +172,7 @@ export class Renderer extends FigureController {
     return (this.isVisible && this.#undrawnPictures.size > 0) || this.#textPendingSince !== undefined;
   }
 
-  /** True until a visible figure has drawn its first picture and rendered its text. */
+  /** True for a visible figure until its first picture is drawn and its text is rendered. */
   get isOpening() {
     return this.host.simulation !== undefined && !this.#hasRenderedText && this.isVisible && !document.hidden;
   }
@@ -182,7 +182,7 @@ export class Renderer extends FigureController {
     return this.isOpening ? nothing : renderContent();
   }
 
-  /** Draws. Text is not rendered in a callback of the size observer, because it could change sizes again. */
+  /** Draws the pending pictures, if a canvas is visible. During a resize no text is rendered, because it could change sizes again. */
   #attemptDraw(elapsedMs: number, isResizing = false) {
     // In a closed disclosure all sizes are 0.
     if (!this.host.simulation || !this.host.canvases.elements?.some(hasPixels)) return;
@@ -199,7 +199,7 @@ export class Renderer extends FigureController {
     host.settings.applyPending();
     // The simulation is missing after a trap.
     if (!host.simulation) return;
-    host.cloud?.advance();
+    host.cloud?.addSamplesWhileDrawing();
     const { scene } = host;
     if (host.viewModel !== viewModel) this.#markAllUndrawn();
     const { isPressed, previousViewModel } = host.gesture;
@@ -261,7 +261,7 @@ export class Renderer extends FigureController {
     }
     host.settings.applyPending();
     if (!host.simulation) return;
-    if (this.isPrinting) host.cloud?.finish();
+    if (this.isPrinting) host.cloud?.addAllSamples();
     else host.canvases.observeSizes();
     this.drawResized();
     this.#renderText();

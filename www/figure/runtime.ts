@@ -1,4 +1,4 @@
-/** Core of a figure. After a trap, a new core gets the state that was shown. */
+/** Wasm core of a figure: start, error reports, and replacement after a trap. The new core gets the state that was shown. */
 
 import { abandonSimulation, instantiateFor, precompile } from '../core.ts';
 import { FigureController } from './controller.ts';
@@ -10,7 +10,7 @@ export class Runtime extends FigureController {
   failureMessage: string | undefined;
   #hasLoaded = false;
   #startPromise: Promise<void> | undefined;
-  /** True from a trap until a picture was drawn. A trap in between ends the figure. */
+  /** True from a trap until the next picture is drawn. A second trap in this time ends the figure. */
   hasTrapped = false;
 
   hostConnected() {
@@ -46,7 +46,7 @@ export class Runtime extends FigureController {
   async #showContent() {
     this.host.requestUpdate();
     await this.host.updateComplete;
-    // Rendering may have trapped.
+    // A trap during rendering removes the simulation.
     if (!this.simulation) return;
     this.host.renderer.requestFrame();
     if (this.#hasLoaded) return;

@@ -9,18 +9,18 @@ export type StateValues = Record<string, any>;
 export const STATE_VERSION = 1;
 
 export class Settings extends FigureController {
-  /** True if the simulation has changed since it was read. */
+  /** True if the simulation has changed since the view model was read. */
   isViewModelStale: boolean | undefined;
   #openingState: StateValues | undefined;
   #elementFields = this.host.definition.elementFields;
-  /** Fields of the state that the element keeps, because the simulation does not have them. They are changed at once. */
+  /** Values of the state fields that the simulation does not have. Changes take effect at once. */
   elementState: StateValues = { ...this.host.definition.elementDefaults };
-  /** Cache of the simulation's settings in effect; undefined until the simulation is asked. */
+  /** Cached settings that are in effect in the simulation; undefined until they are read. */
   #currentSettings: StateValues | undefined;
   /** Changes of settings by the user that wait for the next frame. */
   #pendingChanges: StateValues = {};
 
-  /** Drops pending changes and stops the player, for another simulation. */
+  /** Drops pending changes and stops the player, before the simulation is replaced. */
   reset() {
     this.host.player?.stop();
     this.isViewModelStale = true;
@@ -41,12 +41,12 @@ export class Settings extends FigureController {
     return this.#currentSettings ?? viewModel.config;
   }
 
-  /** Settings with the changes that wait, and the state of the element. */
+  /** Settings in effect with the pending changes, and the element's own state fields. */
   get requested(): StateValues {
     return { ...this.current, ...this.#pendingChanges, ...this.elementState };
   }
 
-  /** True if changes are pending, or not in the view model yet. */
+  /** True if changes are pending or the view model does not contain them yet. */
   get hasPendingChanges() {
     return this.isViewModelStale || Object.keys(this.#pendingChanges).length > 0;
   }
@@ -74,7 +74,7 @@ export class Settings extends FigureController {
     host.renderer.requestFrame();
   }
 
-  /** Applies pending changes. A refused one is reported and dropped. */
+  /** Applies pending changes. Changes that the simulation refuses are reported and dropped. */
   applyPending() {
     const pendingValues = this.#pendingChanges;
     if (Object.keys(pendingValues).length === 0) return;
@@ -89,14 +89,14 @@ export class Settings extends FigureController {
     this.isViewModelStale = true;
   }
 
-  /** Returns the fields of the element among values for a state, after a check. `path` is put before their names in errors. */
+  /** Checks the values of the element's own state fields, and returns them. Errors name a field with the prefix `path`. */
   #checkedElementValues(path: string, values: StateValues, getState: () => StateValues) {
     const fields = Object.entries(this.#elementFields).filter(([name]) => name in values);
     return Object.fromEntries(fields.map(([name, { maxInState, max, ...range }]) =>
       [name, checkValue(path + name, values[name], { ...range, max: maxInState ? maxInState(getState()) : max })]));
   }
 
-  /** Applies assignments of the page to a new simulation, which has a state after a trap, and shows it. */
+  /** Applies early assignments of the page to a new simulation, and shows it. `state` is the state restored after a trap, if any. */
   resume(state?: StateValues) {
     const { host } = this;
     this.reset();
@@ -145,7 +145,7 @@ export class Settings extends FigureController {
   /** Shows a state of the simulation, by default the opening state. */
   #showState(state?: StateValues) {
     const { host } = this;
-    host.cloud?.introduce(state);
+    host.cloud?.showOrGrow(state);
     this.#openingState ??= { ...host.snapshot(), ...(host.cloud && { shown: 0, playing: true }) };
     host.updateViewModel();
     host.reflection.updateAttributes();

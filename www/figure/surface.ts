@@ -1,4 +1,4 @@
-/** HTML of a figure: its content, or its placeholder, or the message of a failure; the keyboard focus and the heights of texts in it. */
+/** HTML of a figure: its content, its placeholder, or a failure message. Also keyboard focus, and reserved heights of changing texts. */
 
 import { html, noChange, nothing } from 'lit';
 import { language, useLanguageOf, words } from '../messages/registry.ts';
@@ -55,7 +55,7 @@ export function accessibleNameOf(figure: Figure) {
   return title || (words as any)[figure.definition.messageKey].title;
 }
 
-/** Returns a slot for content of the page, with a text that is shown if the slot is empty. It is a heading if it has a level. */
+/** Returns a slot for content of the page, with a text shown while the slot is empty. With a heading level, the slot is a heading. */
 function slotHtml(figure: Figure, name: string, fallbackText = '', headingLevel: string | null = null) {
   return html`<div
     class="${name}-slot"
@@ -67,7 +67,7 @@ function slotHtml(figure: Figure, name: string, fallbackText = '', headingLevel:
   </div>`;
 }
 
-/** Controls that use every key. */
+/** Selector of text fields, which use every key. */
 const TEXT_FIELD_SELECTOR = 'textarea, input:not([type=range], [type=radio], [type=checkbox])';
 
 /** Keys that move sliders and radio buttons. */
@@ -76,7 +76,7 @@ const MOVE_KEYS = /Arrow|Page|Home|End/;
 /** Keys that press a button, a checkbox or a summary. */
 const PRESS_KEYS = /^( |Enter)$/;
 
-/** Stops a key that the figure has used. A page with key shortcuts, such as a slide deck, does not see the control in the shadow root. */
+/** Stops the propagation of a key event that a control has used, so that the shortcuts of a page, such as a slide deck, do not use the key again. */
 function stopUsedKey({ notice }: Figure, event: KeyboardEvent) {
   notice.stopOnEscape(event);
   const { key, ctrlKey, altKey, metaKey, defaultPrevented } = event;

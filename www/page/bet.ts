@@ -1,4 +1,4 @@
-/** Bet on a number: the user predicts it, and the figure reveals it. */
+/** Bet form: the reader predicts a number by a slider, and the figure then reveals the number. */
 
 import type { Figure } from '../page.ts';
 
@@ -6,8 +6,8 @@ import type { Figure } from '../page.ts';
 const numberAtPath = (stats: Record<string, any>, path: string): number | null => path.split('.').reduce((part: any, key) => part?.[key], stats) ?? null;
 
 /**
- * Completes a form with one slider. `enterState` puts the figure into the state of `data-try`. `data-answer` is the path of the answer in `stats`,
- * and `data-hides` the overlay that shows it, which is hidden while the user bets.
+ * Completes a form that has one slider. `enterState` puts the figure into the state of `data-try`. `data-answer` is the path of the answer in
+ * `stats`. `data-hides` names the overlay that shows the answer; it is hidden until the reader submits the bet.
  */
 export function prepareBet(form: HTMLFormElement, enterState: (values: Record<string, unknown>) => Promise<void>, figure: Figure) {
   const { try: stateText = '{}', answer: answerPath = '', unit = '', hides: hiddenOverlay } = form.dataset;

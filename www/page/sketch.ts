@@ -10,7 +10,7 @@ export type Point = [x: number, y: number];
 const PIXELS_PER_METRE = 95;
 const START_PIXEL = { x: 30, y: 150 };
 
-/** Maximum number of robots drawn, and length of their heading lines in pixels. */
+/** Maximum number of robots drawn below a sketch, and length of a robot's heading line in pixels. */
 const MAX_DRAWN_ROBOTS = 150;
 const TICK_LENGTH = 9;
 
@@ -44,10 +44,10 @@ const SHAPE_OUTLINES: Record<string, (command: { v: number, omega: number, dt: n
 const ellipseAround = ([x, y]: Point, radiusX: number, radiusY: number) =>
   Array.from({ length: 37 }, (_, i) => [x + radiusX * Math.cos((i * Math.PI) / 18), y + radiusY * Math.sin((i * Math.PI) / 18)] as Point);
 
-/** Maximum size in pixels of a drawing that stands for a point. */
+/** Maximum width and height (pixels) of a drawing that counts as a point. */
 const MAX_POINT_EXTENT = 25;
 
-/** Returns the shape that a drawing stands for: a point, or any other. */
+/** Returns 'point' for a drawing no larger than a point, otherwise 'drawing'. */
 function shapeOf(points: Point[]): string {
   const isLargerThanPoint = [0, 1].some((axis) => {
     const [min, max] = extent(points, (point) => point[axis]) as [number, number];
@@ -57,8 +57,8 @@ function shapeOf(points: Point[]): string {
 }
 
 /**
- * Returns sentences on where the robots stop (`poses`: x, y, θ triples), and whether the expected shape is right. Of a drawing they say which
- * fraction of the robots is inside.
+ * Returns sentences on where the robots stop (`poses`: x, y, θ triples), and whether the expected shape is right. For a drawing, they say
+ * which fraction of the robots stops inside the outline.
  */
 function outcomeText(poses: Float64Array, expectedShape: string, insideFraction: number) {
   const deviationAlong = (axis: number) => deviation(poses.filter((_, i) => i % 3 === axis)) ?? 0;

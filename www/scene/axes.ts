@@ -7,10 +7,10 @@ import { paintWithOpacity, strokeLine, type DrawContext, type LineStroke } from 
 /** Tick step below which the axis has a power of ten before its unit. Labels with more zeros would not fit next to the axis. */
 const MIN_PLAIN_STEP = 9e-4;
 
-/** Minimum distances between two ticks, CSS pixels. */
+/** Minimum distance between two ticks of an axis, CSS pixels. */
 const TICK_SPACING = { x: 60, y: 48 };
 
-/** Lengths in a legend, relative to the font size: gap between entries, width of a line sample, space after it, and line height. */
+/** Lengths in a legend, relative to the font size: gap between entries, width of a line sample, space after the sample, and line height. */
 const LEGEND_LENGTHS_EM = { gap: 0.8, sample: 1.5, space: 0.35, line: 1.4 };
 
 /**
@@ -86,7 +86,7 @@ function drawLegend({ context, view, palette, font }: DrawContext, axisName: str
   }
 }
 
-/** Returns about `count` ticks, at least two if possible, with the power of ten for the unit, and a function for the labels. */
+/** Returns about `wantedCount` tick values, at least two if possible, with the power of ten before the unit, and a function that formats labels. */
 function ticksOfAxis(min: number, max: number, wantedCount: number) {
   const tickCount = Math.max(2, Math.floor(wantedCount));
   const firstTicks = ticks(min, max, tickCount);
@@ -95,7 +95,7 @@ function ticksOfAxis(min: number, max: number, wantedCount: number) {
   const exponent = tickStep < MIN_PLAIN_STEP ? Math.floor(Math.log10(tickStep) + 1e-9) : 0;
   return {
     values: tickValues,
-    /** Factor before the unit of the axis. */
+    /** Power of ten before the unit of the axis; empty for a factor of 1. */
     unitFactor: exponent < 0 ? `${formatPowerOfTen(exponent)} ` : '',
     formatLabel: (value: number) => formatTick(value / 10 ** exponent, tickStep / 10 ** exponent),
   };

@@ -1,4 +1,4 @@
-/** Caches: of one result, and of drawings on hidden canvases, which are thousands of lines or images that cover the plot area. */
+/** Caches of a single result, of drawings with thousands of lines, and of images that cover the plot area. Drawings are kept on hidden canvases. */
 
 import { addLine, hiddenContext, strokePath, type DrawContext, type LineStroke } from './canvas.ts';
 
@@ -7,7 +7,7 @@ export class Memo<Result> {
   #lastKey: unknown[] = [];
   #lastResult: Result | undefined;
 
-  /** Returns the cached result, or computes it again. @param dependencies values on which the result depends, compared by identity */
+  /** Returns the cached result, or computes a new one. @param dependencies values on which the result depends, compared by identity */
   get(dependencies: unknown[], compute: () => Result): Result {
     if (dependencies.length !== this.#lastKey.length || dependencies.some((dependency, i) => dependency !== this.#lastKey[i])) {
       this.#lastResult = compute();

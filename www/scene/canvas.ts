@@ -1,4 +1,4 @@
-/** Canvases, and the context that pictures are drawn with. */
+/** Context for drawing pictures, and basic shapes on a canvas. */
 
 /** Surface for drawing: a canvas or its substitute. */
 export interface Surface {
@@ -9,11 +9,11 @@ export interface Surface {
   context: CanvasRenderingContext2D;
 }
 
-/** Box of a text in a picture: its middle, and half of its sides, pixels. */
+/** Box of a text in a picture: middle, half width and half height, pixels. */
 export type TextBox = { x: number, y: number, halfWidth: number, halfHeight: number };
 
 /**
- * Context, view and colours that a picture is drawn with. A pixel of the view is a CSS pixel if the font size is 13 px, and scales with the
+ * Canvas context, view and colours for drawing a picture. A pixel of the view is a CSS pixel at a font size of 13 px, and scales with the
  * font size.
  */
 export interface DrawContext {
@@ -36,7 +36,7 @@ export interface DrawContext {
   previousViewModel?: any;
 }
 
-/** Font size of a picture in pixels of its view. The text of the figure has 16, as in the style of canvases in ui/layout.ts. */
+/** Font size of a picture in pixels of its view. 13 pixels of a view are 13/16 em of the figure: see the style of canvases in ui/layout.ts. */
 const FONT_SIZE_PX = 13;
 
 /** Returns a length in pixels of a view as CSS em of the figure. */
@@ -67,7 +67,7 @@ export function createDrawContext({ width, height, clientWidth, fontStyle: { fon
 
 type AnyContext2D = CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D;
 
-/** Calls `paint` with an opacity for what it draws. */
+/** Calls `paint` with the context's opacity multiplied by `opacity`. */
 export function paintWithOpacity(context: AnyContext2D, opacity: number, paint: () => void) {
   const { globalAlpha } = context;
   context.globalAlpha = opacity * globalAlpha;

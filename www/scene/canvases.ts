@@ -53,7 +53,7 @@ export class Canvases {
     }
   }
 
-  /** Sets the size of each canvas in device pixels. */
+  /** Sets the size of each observed canvas in device pixels, and draws. */
   #resize(entries: ResizeObserverEntry[]) {
     for (const { target, contentRect, devicePixelContentBoxSize } of entries) {
       const canvas = target as HTMLCanvasElement;
@@ -66,7 +66,7 @@ export class Canvases {
     this.#drawResized();
   }
 
-  /** Caches the widths in the layout, and sets the sizes in pixels for print. They determine the layout then, and are not observed. */
+  /** Caches the CSS widths of the canvases. For print, it also sets their sizes in pixels, which then determine the layout and are not observed. */
   updateWidths(isPrinting: boolean) {
     if (isPrinting) this.#observer.disconnect();
     for (const canvas of this.elements ?? []) {

@@ -60,18 +60,18 @@ export function densityRamp(palette: Palette): Uint8Array {
 }
 
 interface Outline extends LineStroke {
-  /** X, y pairs. */
+  /** Points as x, y pairs, in metres or in the units of the view. */
   points: Float64Array;
 }
 
 /** Style of a line or mark, in the picture and in the legend. */
 export interface LineStyle {
   role: keyof Palette;
-  /** Lengths, CSS pixels. */
+  /** Dash pattern, CSS pixels. */
   dash?: number[];
-  /** CSS pixels. */
+  /** Line width, CSS pixels. */
   width?: number;
-  /** Default: line. */
+  /** Symbol in the legend; default: line. */
   shape?: 'line' | 'dot' | 'ring' | 'area' | 'cross' | 'box';
 }
 
@@ -95,7 +95,7 @@ export function lineLegendEntries<Name extends string>(drawContext: DrawContext,
   return drawContext.isExported ? names.map((name) => lineLegendEntry(drawContext, labels[name].replaceAll('*', ''), stylesByName[name])) : [];
 }
 
-/** Returns true if an outline has a length. If all robots are at one point, its length is only rounding. */
+/** Returns true if an outline is longer than rounding errors. The outline of robots that all stop at one point has no length. */
 export const hasLength = (points: Float64Array) => points.some((value, i) => Math.abs(value - points[i % 2]) > 1e-9);
 
 /**
@@ -117,8 +117,8 @@ export function strokeLines({ context, view }: DrawContext, lines: Outline[]) {
 const EARLIER_OUTLINE_OPACITY = 0.35;
 
 /**
- * Draws earlier outlines. Returns a callout that names them, or none if they are out of the view. It points to the visible point that is
- * furthest from the present outlines.
+ * Draws the outlines from before a gesture. Returns a callout that names them, or none if they are out of the view. The callout points to
+ * the visible point that is furthest from the present outlines.
  */
 export function drawEarlierOutlines(drawContext: DrawContext, outlines: Outline[], currentPoints: ArrayLike<number>[], calloutText: string): Callout[] {
   const { context, view, palette } = drawContext;
@@ -159,12 +159,12 @@ export function drawRobot(drawContext: DrawContext, { x, y, heading, colour }: {
 export const addTurnArc = (context: CanvasRenderingContext2D, [x, y]: number[], radius: number, heading: number, turn: number) =>
   context.arc(x, y, radius, -heading, -heading - turn, turn > 0);
 
-/** Draws a handle in files and on paper, where it is no element. Lengths are in pixels. */
+/** Draws a handle as a disc in printed pictures and files, which contain no handle elements. Lengths are in pixels. */
 export function drawHandle({ context, palette, drawsHandles }: DrawContext, { x, y, radius, colour }: { x: number, y: number, radius: number, colour: string }) {
   if (drawsHandles) drawDisc(context, [x, y], radius, palette.paper, { colour, width: 3 });
 }
 
-/** Draws a mark, a ring with cross hairs, by default in the colour of the selected sample. */
+/** Draws a ring with cross hairs around a point, by default in the colour of the selected sample. */
 export function drawCrosshair(drawContext: DrawContext, { x, y, heading }: { x: number, y: number, heading: number | null }, colour: string = drawContext.palette.accent) {
   const { context, view, palette } = drawContext;
   const [px, py] = view.toPixel(x, y);

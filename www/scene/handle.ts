@@ -6,10 +6,10 @@ import { formatEm, toViewPixels } from './canvas.ts';
 /** Callbacks of a handle; lengths in metres. */
 interface HandleCallbacks {
   view: () => import('./view.ts').View;
-  /** Returns the point (x, y) that a pointer at `pointer` grasps; by default the middle of the handle. */
+  /** Returns the point (x, y) that a pointer at the point `pointer` grasps; by default the middle of the handle. */
   graspedPointAt?: (pointer: number[]) => number[] | undefined;
   drag: (x: number, y: number) => void;
-  /** Handles a key; returns true if it moved the target. */
+  /** Handles a key. Returns true if the key moved the handle's target. */
   handleKey: (event: KeyboardEvent) => boolean;
   commit: () => void;
 }
@@ -27,7 +27,7 @@ interface HandleLabels {
   hint?: string | false;
 }
 
-/** Steps along x and y (up) by key. Home and End go to the ends of the range along x. */
+/** Steps along x (right) and y (up) by key. Home and End go to the ends of the range along x. */
 const KEY_STEPS: Record<string, [number, number]> = {
   ArrowRight: [1, 0],
   ArrowLeft: [-1, 0],
@@ -57,14 +57,13 @@ export const turnStepsOfKey = ({ key, metaKey }: KeyboardEvent): number | undefi
 export class Handle {
   #classNames;
   #callbacks;
-  /** Pointer that drags the handle, and its element. */
+  /** Id of the pointer that drags the handle, and the dragged element. */
   #heldPointer: { id: number, element: Element } | undefined;
-  /** Vector (m) from the pointer to the target. It keeps a target that is grasped at its edge from jumping. */
+  /** Vector (m) from the pointer to the grasped point. With it, a target that is grasped at its edge does not jump. */
   #gripOffset = [0, 0];
-  /** Position of the middle in pixels of the view, before it is rounded on the screen. */
+  /** Middle of the handle in pixels of the view, not rounded to device pixels. */
   #middlePixels: [x: number, y: number] = [0, 0];
 
-  /** Creates the handle. `classNames` are the CSS classes of its element. */
   constructor(classNames: string, callbacks: HandleCallbacks) {
     this.#classNames = classNames;
     this.#callbacks = callbacks;

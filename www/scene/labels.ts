@@ -4,11 +4,11 @@ import { least, pairs } from 'd3-array';
 import { clamp } from '../ui/format.ts';
 import { drawDisc, paintWithOpacity, strokeLine, type TextBox, type DrawContext } from './canvas.ts';
 
-/** Font size of a subscript relative to the text, and its offset below the baseline, pixels. */
+/** Font size of a subscript relative to its text, and offset of the subscript below the baseline in pixels. */
 const SUBSCRIPT_SIZE = 0.78;
 const SUBSCRIPT_DROP = 3;
 
-/** Half the height of a label's background, pixels, and its opacity. */
+/** Half height (pixels) and opacity of a label's background. */
 const LABEL_BACKGROUND = { halfHeight: 9, opacity: 0.9 };
 
 /** Candidate positions of a label: offsets in heights of its background. */
@@ -134,14 +134,14 @@ const MIN_DISTANCE = 9;
 const CANDIDATE_ANGLES = Array.from({ length: 24 }, (_, i) => (Math.PI * (i - 12)) / 12);
 const LEADER_LENGTHS = [MIN_LEADER, 2 * MIN_LEADER, 3 * MIN_LEADER];
 
-/** Costs of a leader: for each radian from its preferred direction, and for each pixel of its length. An overlapping pixel costs 1. */
+/** Costs of a leader: for each radian from its preferred direction, and for each pixel of length. Each pixel by which a text overlaps others costs 1. */
 const COST_PER_RADIAN = 1;
 const COST_PER_PIXEL = 0.1;
 
-/** Candidate positions of a sentence around its point. */
+/** Candidate positions of a callout's sentence around its point, with their costs. */
 const CANDIDATE_POSITIONS = LEADER_LENGTHS.flatMap((length) => CANDIDATE_ANGLES.map((turn) => ({ turn, length, cost: COST_PER_RADIAN * Math.abs(turn) + COST_PER_PIXEL * length })));
 
-/** Sentence with line breaks, the point that it is about (in the view's world), and its colour (default: that of text). */
+/** Sentence with line breaks about a point of the view's world. The default colour is that of text. */
 export interface Callout {
   text: string;
   point: [number, number];

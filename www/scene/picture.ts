@@ -7,14 +7,14 @@ import type { Palette } from '../ui/theme.ts';
 
 interface DrawOptions extends Pick<DrawContext, 'isExported' | 'drawsHandles' | 'highlight' | 'previousViewModel'> {
   elapsedMs?: number;
-  /** True if the view must not zoom. */
+  /** True if the scale of the view must not change, as during a drag. */
   keepsScale?: boolean;
   /** True if the view changes without an animation. */
   isImmediate?: boolean;
 }
 
 export class Picture<Scene, Name extends string = string> {
-  /** `previousViewModel` of the latest drawing. Another one means that a new gesture began, which has not zoomed the view out yet. */
+  /** `previousViewModel` of the latest drawing. Another object means that a new gesture began, in which the view has not zoomed out yet. */
   #previousViewModel: any;
 
   declare name: Name;
@@ -46,7 +46,7 @@ export class Picture<Scene, Name extends string = string> {
   }
 }
 
-/** Maximum distance from the pointer to a sample that it selects, CSS pixels. */
+/** Maximum distance between the pointer and the sample that it selects, CSS pixels. */
 const SELECTION_RADIUS = 14;
 
 /** Picture of samples that the pointer can select, with the same scale on both axes. */

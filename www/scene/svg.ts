@@ -1,6 +1,6 @@
 /** Canvas context that writes SVG. It has only the methods that scene/draw.ts and the pictures use. */
 
-/** Characters that XML cannot have. */
+/** Characters that are not allowed in XML. */
 const INVALID_XML_CHARACTERS = /[^\t\n\r\u0020-\ud7ff\ue000-\ufffd\u{10000}-\u{10ffff}]/gu;
 
 export const escapeXml = (text: string) =>
@@ -32,7 +32,7 @@ export class SvgContext {
   #idPrefix;
   #measuringContext: OffscreenCanvasRenderingContext2D | undefined;
 
-  /** Creates the context with a prefix of ids, because several figures may be on one page. */
+  /** Creates the context. Ids of SVG elements begin with `idPrefix`, because several figures may be on one page. */
   constructor(idPrefix: string) {
     this.#idPrefix = idPrefix;
   }
@@ -41,7 +41,7 @@ export class SvgContext {
     return this.#elements.join('\n');
   }
 
-  // Transforms and clearing are not needed: the unit is the CSS pixel, and the drawing is empty at first.
+  // Transforms and clearing are not needed in SVG: the unit is the CSS pixel, and the drawing is empty at first.
   setTransform() {}
   clearRect() {}
 

@@ -22,7 +22,7 @@ const NICE_SIZES = [1, 1.12, 1.25, 1.4, 1.6, 1.8, 2, 2.25, 2.5, 2.8, 3.2, 3.6, 4
 
 /** Visible part of the world in a picture, with the transform to pixels. */
 export class View {
-  /** Extent that is shown now. An animation moves it to `#target`. */
+  /** Visible extent. An animation moves it to `#targetExtent`. */
   extent: Extent = { xMin: -1, yMin: -1, xMax: 1, yMax: 1 };
   #targetExtent: Extent | undefined;
   /** Part of the world that the view has to show, also after a change of the canvas size. */
@@ -31,11 +31,11 @@ export class View {
   #minFill = 0;
   /** True after the view has zoomed out. The picture resets it. */
   hasZoomedOut = false;
-  /** Limits of the extent. A larger extent is centred on them. */
+  /** Limits of the extent, such as the bounds of a map. An extent larger than the limits is centred on them. */
   limits: Extent | undefined;
-  /** True if a metre is as long in y as in x. */
+  /** True if one unit has the same length in pixels along x and y. */
   #hasEqualScales;
-  /** True if the extent is exactly the needed part of the world, without a margin. After a change of size the view is then fitted anew. */
+  /** True if the view shows exactly the needed extent, without a margin. Such a view is fitted again after a change of the canvas size. */
   #hasNoMargin;
   /** Canvas size at the last fit, CSS pixels. */
   #fittedSize = { width: 1, height: 1 };
@@ -77,7 +77,7 @@ export class View {
     this.#targetExtent = this.#requiredExtent = undefined;
   }
 
-  /** Pixels per unit of x. With equal scales it is also that of y. */
+  /** Pixels per unit of x. With equal scales, `scaleY` has the same value. */
   get scaleX() {
     return (this.plotArea.right - this.plotArea.left) / (this.extent.xMax - this.extent.xMin);
   }
@@ -141,7 +141,7 @@ export class View {
     if (!keptTarget) this.extent = this.#targetExtent;
   }
 
-  /** Moves the extent towards the target, `elapsedMs` after the last call, or at once. Returns true if it has not arrived. */
+  /** Moves the extent towards the target by the time `elapsedMs` since the last call, or completely. Returns true if it has not arrived. */
   moveTowardsTarget(elapsedMs: number, isImmediate: boolean): boolean {
     const target = this.#targetExtent;
     if (!target || target === this.extent) return false;
@@ -158,7 +158,7 @@ export class View {
     return Math[this.#hasEqualScales ? 'max' : 'min'](...filledFractions);
   }
 
-  /** Returns an extent that contains `requiredExtent`, moved into the limits. Its size is rounded unless the view is snug. With equal scales it has the aspect ratio of the plot area. */
+  /** Returns an extent that contains `requiredExtent`, moved into the limits. Its size is rounded if the view has a margin. With equal scales it has the aspect ratio of the plot area. */
   #coveringExtent(requiredExtent: Extent) {
     const { left, right, top, bottom } = this.plotArea;
     const roundSize = this.#hasNoMargin ? (size: number) => size : roundUpToNiceSize;
@@ -181,13 +181,13 @@ function clampedMiddle(middle: number, length: number, min: number, max: number)
 const isInside = (inner: Extent, outer: Extent) =>
   inner.xMin >= outer.xMin && inner.xMax <= outer.xMax && inner.yMin >= outer.yMin && inner.yMax <= outer.yMax;
 
-/** Returns an interpolation between two extents, from 0 to 1. */
+/** Returns the linear interpolation between two extents; `fraction` is 0 at `from` and 1 at `to`. */
 export function interpolateExtent(from: Extent, to: Extent, fraction: number): Extent {
   const interpolate = (key: keyof Extent) => from[key] + fraction * (to[key] - from[key]);
   return { xMin: interpolate('xMin'), yMin: interpolate('yMin'), xMax: interpolate('xMax'), yMax: interpolate('yMax') };
 }
 
-/** Returns an extent with margins at the left and the right, and margins at the bottom and the top. */
+/** Returns an extent widened by a margin on all sides; negative margins make it smaller. */
 export const widenExtent = ({ xMin, xMax, yMin, yMax }: Extent, marginX: number, marginY: number = marginX): Extent =>
   ({ xMin: xMin - marginX, xMax: xMax + marginX, yMin: yMin - marginY, yMax: yMax + marginY });
 

@@ -1,4 +1,4 @@
-/** Cached drawing of the walls of a map. There may be thousands of walls, and they change only with the map, the view or the colours. */
+/** Cached drawing of the walls or cells of a map. A map may have thousands of them, and they change only with the map, the view or the colours. */
 
 import { clamp } from '../ui/format.ts';
 import { colourChannels } from '../ui/theme.ts';
@@ -12,7 +12,7 @@ export type CellGrid = Omit<Grid, 'unknown'> & { unknown?: Uint8Array };
 
 const WALL_WIDTH = 2.5;
 
-/** Distance, width and opacity of the lines that hatch unknown cells; lengths in CSS pixels. */
+/** Spacing and width (CSS pixels) and opacity of the lines that hatch unknown cells. */
 const HATCHING = { spacing: 7, width: 1, opacity: 0.4 };
 
 export class WallLayer {
@@ -36,7 +36,7 @@ export class WallLayer {
     const { context, view, palette } = drawContext;
     const grid = this.#grid;
     if (showsUnknown && grid?.unknown) {
-      // The unknown cells are filled, and the fill is then replaced by hatching.
+      // Unknown cells are first filled. Compositing then replaces the filled pixels by hatching.
       fillCells(drawContext, grid, grid.unknown, palette.muted);
       context.globalCompositeOperation = 'source-in';
       hatchView(context, view, palette.muted);
@@ -58,7 +58,7 @@ function hatchView(context: LayerDrawContext['context'], { width, height }: View
   }));
 }
 
-/** Returns the visible cells as first column and row, and the column and row after the last. They are multiples of `side`, or ends of the grid. */
+/** Returns the range of visible cells: first column and row, and the column and row after the last. Each is a multiple of `cellsPerSquare`, or the end of the grid. */
 function visibleCellRange({ extent: { xMin, xMax, yMin, yMax } }: View, { columns, rows, resolution, origin: [x, y, yaw] }: CellGrid, cellsPerSquare: number): number[] {
   const [xStep, yStep] = [Math.cos(yaw) / resolution, Math.sin(yaw) / resolution];
   const viewCorners = [xMin - x, xMax - x].flatMap((dx) => [yMin - y, yMax - y].map((dy) => [dx * xStep + dy * yStep, dy * xStep - dx * yStep]));
@@ -69,7 +69,7 @@ function visibleCellRange({ extent: { xMin, xMax, yMin, yMax } }: View, { column
   return [0, 1].flatMap((end) => cellRanges.map((range) => range[end]));
 }
 
-/** Returns the position of the corner of a cell, m. */
+/** Returns the position (m) of the lower left corner of a cell in the grid's own axes. */
 export function cellCorner({ resolution, origin: [x, y, yaw] }: CellGrid, column: number, row: number): [x: number, y: number] {
   const [xStep, yStep] = [resolution * Math.cos(yaw), resolution * Math.sin(yaw)];
   return [x + column * xStep - row * yStep, y + column * yStep + row * xStep];

@@ -187,7 +187,7 @@ export const controlStyles = css`
   }
 `;
 
-/** Pieces of a formula in a message: italics and subscripts. */
+/** Pattern of a piece of a formula in a message: italics between asterisks, or a subscript. */
 const FORMULA_PIECE_PATTERN = String.raw`\*(?:\\\*|[^*])+\*|[₀-₉]|_\{[^}]+\}`;
 const FORMULA_PIECE = new RegExp(FORMULA_PIECE_PATTERN, 'g');
 const FORMULA_REGEXP = new RegExp(`((?:${FORMULA_PIECE_PATTERN})+)`);
@@ -213,7 +213,7 @@ export function fieldsetHtml(heading: unknown, controls: unknown, className?: st
   </fieldset>`;
 }
 
-/** Returns one of a group of radio buttons, with a name for screen readers if it has no label. */
+/** Returns a radio button of a group. `name` is its name for screen readers, if it has no label. */
 export function radioButtonHtml({ group, label, name, checked, onChoose }: { group: string, label?: unknown, name?: string, checked: boolean, onChoose: () => void }) {
   return html`<label class="choice">
     <input type="radio" name=${group} aria-label=${name ?? nothing} .checked=${live(checked)} @change=${onChoose} />
@@ -232,7 +232,7 @@ export function checkboxHtml({ label, checked, onChange }: { label: unknown, che
   </label>`;
 }
 
-/** Returns a button with the class `name`. It is wide enough for its other label, so that nothing moves when the label changes. */
+/** Returns a button. It is wide enough for `otherLabel`, so that no other control moves when the label changes. */
 export function buttonHtml(label: unknown, onPress: () => void, { pressed, disabled = false, title, className, otherLabel }: { pressed?: boolean, disabled?: boolean, title?: string, className?: string, otherLabel?: string } = {}) {
   return html`<button
     type="button"

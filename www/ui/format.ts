@@ -24,7 +24,7 @@ export function formatFixed(value: number, decimals: number): string {
   return sign + (Number.isFinite(value) ? digits.replace('.', decimalSeparator()) : '∞');
 }
 
-/** Maximum number of decimals that an editable value may have in addition to the usual ones. */
+/** Maximum number of decimals of an editable value beyond the usual number. */
 const MAX_EXTRA_DECIMALS = 2;
 
 /**
@@ -37,7 +37,7 @@ export function formatEditable(value: number, decimals: number): string {
 }
 
 /**
- * Parses a number in the present language, or with a decimal point: "−0,301", "1.5 m/s", "2 000", "2,000"; NaN where it is none. In English
+ * Parses a number in the present language, or with a decimal point: "−0,301", "1.5 m/s", "2 000", "2,000"; NaN for other texts. In English
  * a comma may separate groups of three; elsewhere a point may, if a whole number is meant.
  */
 export function parseNumber(text: string, unit: string = '', isWhole: boolean = false): number {
@@ -87,12 +87,12 @@ export function formatRounded(value: number, digits: number): string {
 /** Prints a count: "100 000". */
 export const formatInteger = (count: number): string => formatFixed(count, 0).replace(/\B(?=(\d{3})+$)/g, THIN_SPACE);
 
-/** Prints a share from 0 to 1 in percent: "86.5 %". */
+/** Prints a fraction from 0 to 1 in percent: "86.5 %". */
 export function formatPercent(fraction: number): string {
   return Number.isNaN(fraction) ? NO_VALUE : `${formatFixed(100 * fraction, 1)}${THIN_SPACE}%`;
 }
 
-/** Prints a value with its standard error: "−0.412 ± 0.031"; "∞" and "—" have none. A small error has as many decimals as show its first digit. */
+/** Prints a value with its standard error: "−0.412 ± 0.031". Infinity and NaN are printed without an error. Decimals are added until the error shows its first digit. */
 export function formatWithError(value: number, error: number, decimals: number): string {
   if (!Number.isFinite(value)) return formatFixed(value, 0);
   const neededDecimals = error > 0 ? Math.max(decimals, Math.min(MAX_ERROR_DECIMALS, -Math.floor(Math.log10(error)))) : decimals;

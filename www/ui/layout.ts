@@ -189,7 +189,7 @@ const figureLayout = css`
     width: 100%;
     aspect-ratio: 5 / 4;
     touch-action: pan-y pinch-zoom;
-    /* 13 px in text of 16 px: pictures scale with the font size of the page, see FONT_SIZE in scene/canvas.ts. */
+    /* 13 px in text of 16 px: pictures scale with the font size of the page, see FONT_SIZE_PX in scene/canvas.ts. */
     font-size: 0.8125em;
     cursor: crosshair;
   }

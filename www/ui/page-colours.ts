@@ -1,4 +1,4 @@
-/** Colours of the page around a figure, and the shade and strength of its own colours that fit them. */
+/** Colours of the page around a figure, and adjustments of the figure's palette to the page's background. */
 
 import { colourChannels } from './theme.ts';
 
@@ -35,7 +35,7 @@ export function readPageColours(probe: Element): PageColours {
   const backgroundLightness = lightness(backgroundColour);
   const isLegible = contrastRatio(textColour, backgroundColour) >= MIN_CONTRAST;
   const scheme = backgroundLightness < (isLegible ? lightness(textColour) : 0.5) ? 'dark' : 'light';
-  // The darkening grows with the darkness of the background. Nearly white backgrounds need none.
+  // Darker backgrounds need darker lines. Nearly white backgrounds need no darkening.
   const shade = scheme === 'light' && backgroundLightness < 0.97 ? `${100 * (1 - backgroundLightness ** 2.2)}%` : '';
   const mutedColour = (share: number) => backgroundColour.map((channel, i) => channel + (share / 100) * (textColour[i] - channel));
   const mutedStrength = isLegible ? `${MUTED_SHARES.find((share) => contrastRatio(mutedColour(share), backgroundColour) >= MIN_CONTRAST) ?? 100}%` : '';

@@ -98,12 +98,12 @@ export interface Curve {
   /** Dash pattern, which distinguishes the curve without colours. */
   dash?: string;
   x: ArrayLike<number>;
-  /** Values; NaN leaves a gap, and nothing is drawn outside the axes. */
+  /** Values along y. A NaN leaves a gap in the curve. */
   y: ArrayLike<number>;
   error?: ArrayLike<number>;
   /** True if only the band is drawn. */
   isBandOnly?: boolean;
-  /** True if it is highlighted, false if another curve is. */
+  /** True if this curve is highlighted, false if another curve is, undefined if none is. */
   isHighlighted?: boolean;
 }
 
@@ -128,7 +128,7 @@ export interface PlotOptions {
   curves: Curve[];
   points?: DataPoint[];
   marks?: VerticalMark[];
-  /** Slider over the whole x axis. */
+  /** Slider that covers the plot and sets a value on the x axis. */
   slider?: Omit<Parameters<typeof sliderTrackHtml>[0], 'min' | 'max'>;
   /** Legend that replaces the default one. */
   legend?: unknown;
@@ -205,7 +205,7 @@ function bandPathData({ x, y, error = [] }: Curve, toPixelX: (value: number) => 
   return definedIndices.length > 0 ? `M${[...bandEdge(1), ...bandEdge(-1).reverse()].join('L')}Z` : '';
 }
 
-/** Returns a mark. Its text is in a row of its own, so that neighbouring texts do not touch. */
+/** Returns the line and text of a vertical mark. Each mark's text is in its own row, so that neighbouring texts do not touch. */
 function markSvg({ text }: VerticalMark, row: number, markX: number) {
   // Text next to the line, on the side that has space.
   const [labelOffset, anchor] = 2 * markX > PLOT_LEFT + PLOT_RIGHT ? [-5, 'end'] : [5, 'start'];

@@ -211,7 +211,7 @@ export interface SliderRow extends SliderRange {
   /** Values of the slider, if they are not in equal steps. */
   stops?: readonly number[];
   formatValue: (value: number) => string;
-  /** Effect of the parameter on the picture, in words. */
+  /** Text on the effect of the setting on the picture. */
   effect: unknown;
   role: 'prior' | 'prediction' | 'truth';
   /** True if the value has no effect at present. */
@@ -224,7 +224,7 @@ export interface SliderRow extends SliderRange {
   applyTypedText: (text: string) => string | undefined;
   /** Sentence about a refused text. */
   refusal?: string;
-  /** Clears the sentence about a refused text. */
+  /** Hides the sentence about a refused text. */
   clearRefusal: () => void;
 }
 
@@ -245,7 +245,7 @@ interface Track extends SliderRange {
 
 /** Returns the track of a slider. A finger that moves up or down over it scrolls the page. */
 export function sliderTrackHtml({ id, name, min, max, step, value, text, describedBy, keydown, onInput, onCommit }: Track) {
-  // A browser changes a slider as soon as it is touched. The change counts only once the touch turns out to be a tap or a sideways move.
+  // A browser changes a slider as soon as it is touched. The change is applied only after the touch proves to be a tap or a sideways move.
   const setValue = (event: Event) => {
     if (!undecidedTouch) onInput(inputOf(event).valueAsNumber);
   };

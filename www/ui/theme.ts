@@ -197,7 +197,7 @@ export const themeStyles = css`
 
 /** Returns the palette of an element with its current style. */
 export function resolvePalette(surface: HTMLElement) {
-  // One probe for each role. All are created before the first is read, so that the browser computes styles once.
+  // All probes, one for each role, are created before the first is read, so that the browser computes styles only once.
   const colourProbes = ROLES.map((role) => {
     const colourProbe = document.createElement('span');
     colourProbe.hidden = true;

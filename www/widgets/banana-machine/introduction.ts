@@ -42,9 +42,9 @@ export class IntroducedCloud extends Cloud {
     return { robots: elapsedMs < DRIVE_DURATION_MS ? 1 : DRIVING_ROBOTS, share: Math.min(1, (elapsedMs % DRIVE_DURATION_MS) / DRIVE_DURATION_MS) };
   }
 
-  introduce(state: Parameters<Cloud['introduce']>[0]) {
+  showOrGrow(state: Parameters<Cloud['showOrGrow']>[0]) {
     this.#phase = 'none';
-    super.introduce(state);
+    super.showOrGrow(state);
     const { host } = this;
     const isConfigured = host.presentation || Object.keys(host.definition.attributes).some((name) => host.hasAttribute(name));
     if (state || !this.playing || isConfigured || host.settings.current.samples < DRIVING_ROBOTS || !isFirstInSession()) return;

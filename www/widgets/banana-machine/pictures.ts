@@ -161,7 +161,7 @@ export class PlanePicture extends MorphPicture {
     return super.draw(surface, scene, ...drawOptions);
   }
 
-  fit(scene: Scene) {
+  fitView(scene: Scene) {
     const { contours, table, end: [x, y], overlays, pinnedAt } = scene;
     const { mean, cov } = table.exact;
     const [xMargin, yMargin] = [VIEWED_DEVIATIONS * deviationOf(cov[0][0]), VIEWED_DEVIATIONS * deviationOf(cov[1][1])];
@@ -192,7 +192,7 @@ export class TwistPicture extends MorphPicture {
     return { ...contours, command: Float64Array.of(v * dt, omega * dt), exponential: contours.twistEllipse };
   }
 
-  fit(scene: Scene) {
+  fitView(scene: Scene) {
     this.view.fitEnd(extentOf([...neededTwistPoints(scene), ...(scene.pinned?.contours.twistEllipse ?? [])], 0.1), 1);
   }
 }

@@ -86,11 +86,11 @@ export class Cloud extends FigureController implements SampleCloud {
   }
 
   /** Starts the growth, or shows a state. */
-  introduce(state?: StateValues) {
+  showOrGrow(state?: StateValues) {
     if (!state) this.#state.playing = true;
     if (!state || this.isComplete) this.#state.shown = Infinity;
     if (!state && !prefersReducedMotion()) this.#restart();
-    if (this.playing && prefersReducedMotion()) this.finish();
+    if (this.playing && prefersReducedMotion()) this.addAllSamples();
   }
 
   /** Changes settings and shows one block of samples; later frames add the others. Returns all settings. */
@@ -105,19 +105,19 @@ export class Cloud extends FigureController implements SampleCloud {
   }
 
   /** Shows all requested samples at once. A growing cloud is complete then. */
-  finish() {
+  addAllSamples() {
     if (this.playing) this.#state.shown = Infinity;
     this.#state.playing = false;
-    this.refine(Infinity);
+    this.addSamplesUnseen(Infinity);
   }
 
   show(count: number) {
     this.#state.shown = Math.min(count, this.#samples);
-    this.refine(Infinity);
+    this.addSamplesUnseen(Infinity);
   }
 
   /** Adds samples for `limitMs` milliseconds; returns true if all are shown. */
-  refine(limitMs = ADDING_MS): boolean {
+  addSamplesUnseen(limitMs = ADDING_MS): boolean {
     const { targetCount } = this;
     const endTime = performance.now() + limitMs;
     const latest = this.#latest;
@@ -179,14 +179,14 @@ export class Cloud extends FigureController implements SampleCloud {
   }
 
   /** Clears the selection if the selected sample is not shown and will not be. */
-  unmark() {
+  clearStaleSelection() {
     if (!this.#isWanted) this.mark(-1);
   }
 
   /** Adds samples in a frame. The first frame after a change shows one block, so that drags are quick. */
-  advance() {
+  addSamplesWhileDrawing() {
     if (this.playing) this.grow();
-    else if (!this.host.settings.isViewModelStale) this.refine();
+    else if (!this.host.settings.isViewModelStale) this.addSamplesUnseen();
   }
 
   grow() {

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { en } from '../../www/widgets/alpha-calibrator/en.ts';
-import { formatAlphaOrBound, correctionAdvice, formatInterval as ends, formatEstimate, judgementOf, localized, nav2Lines, formatNumber } from '../../www/widgets/alpha-calibrator/result.ts';
+import { formatAlphaOrBound, correctionAdvice, formatInterval as ends, formatEstimate, judgementOf, localizeNumber, nav2Lines, formatNumber } from '../../www/widgets/alpha-calibrator/result.ts';
 import { viewCornersOf } from '../../www/widgets/alpha-calibrator/pictures.ts';
 import { SIMULATED_LEGS, legClassesOf, isTruthComparable } from '../../www/widgets/alpha-calibrator/settings.ts';
 import { settings } from '../../build/settings.js';
@@ -19,7 +19,7 @@ test('a leg has the class of its p-value, by as many noises as it shows', () => 
 });
 
 test('a number in the format of files is printed as on screen', () => {
-  assert.deepEqual(['-0.050', '1.0e-7', '≤ 2.3e-13'].map(localized), ['−0.050', '1.0·10⁻⁷', '≤ 2.3·10⁻¹³']);
+  assert.deepEqual(['-0.050', '1.0e-7', '≤ 2.3e-13'].map(localizeNumber), ['−0.050', '1.0·10⁻⁷', '≤ 2.3·10⁻¹³']);
 });
 
 test('numbers in files have the digits that the interval makes meaningful, and tiny ones an exponent', () => {

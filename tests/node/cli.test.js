@@ -16,7 +16,7 @@ import { run } from '../../www/cli/run.ts';
 import { warningsOf } from '../../www/logs/pairs.ts';
 import { en } from '../../www/widgets/alpha-calibrator/en.ts';
 import { useLanguageOf } from '../../www/messages/registry.ts';
-import { judge } from '../../www/widgets/alpha-calibrator/readouts.ts';
+import { judgeFit } from '../../www/widgets/alpha-calibrator/readouts.ts';
 import { odometryMessageOf, poseOf, recordingOf, stampOf, transformMessageOf, twistOf } from '../mcap.js';
 
 const CLI_PATH = fileURLToPath(new URL('../../dist/cli.js', import.meta.url));
@@ -376,7 +376,7 @@ test('the report, the lines for Nav2 and the figure’s verdict agree whether th
     const args = [...LOG_ARGS.slice(0, 3), writeInFolder(`${name}.csv`, readFileSync(examplePath('reference')))];
     const [{ out }, { out: jsonText }] = [await runCalibrate(args), await runCalibrate([...args, '--json'])];
     const { logs, ...stats } = JSON.parse(jsonText);
-    const { rating } = judge(/** @type {any} */ ({ stats, legs: stats.legs, fitted: stats.systematicErrors }), warningsOf(logs));
+    const { rating } = judgeFit(/** @type {any} */ ({ stats, legs: stats.legs, fitted: stats.systematicErrors }), warningsOf(logs));
     const areNoted = [out.includes(`\nCaution. ${en.nav2.localizer}\n`) && !out.includes(en.useAnyway), out.includes(`# ${en.nav2.localizer}`), rating === 'questionable'];
     assert.deepEqual(areNoted, [isLocalizer, isLocalizer, isLocalizer], name);
   }
@@ -405,7 +405,7 @@ test('the report says what failed, what is lost, and what to drive', async () =>
   const reportOfUnidentified = reportWith(unidentifiedAlphas);
   assert.match(reportOfUnidentified, /^\nCaution\. Not determined by this log: α₂, α₄; add ~50 straight legs and ~50 in-place rotations\.\nIf the log /);
   assert.match(reportOfUnidentified, /^alpha2 +not identifiable .* rotation and translation are collinear in this log$/m);
-  const { rating, finding } = judge(/** @type {any} */ ({ stats: { ...calibration, ...unidentifiedAlphas }, legs: calibration.legs, fitted: systematicErrors }), []);
+  const { rating, finding } = judgeFit(/** @type {any} */ ({ stats: { ...calibration, ...unidentifiedAlphas }, legs: calibration.legs, fitted: systematicErrors }), []);
   assert.deepEqual([rating, finding], ['questionable', 'Not determined by this log: α₂, α₄; add ~50 straight legs and ~50 in-place rotations.']);
   assert.match(reportWith({ ...unidentifiedAlphas, notIdentifiable: [null, 'insufficient-rotation', null, null] }, { model: 'velocity' }), /^Caution\. Not determined by this log: α₂; add ~50 legs in tight bends\.$/m);
   assert.match(reportWith({ alphas: [0, 0.1, 0.1, 0.1], intervals: [[0, 0.00123], [0.05, 0.2], null, null] }), /^alpha1 +≤ 0\.0012 +0\.0000 to 0\.0012 +≤ 0\.0015 /m);

@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { wallContact, wallGrips, wallsAfterMove } from '../../www/widgets/map-squeeze/walls.ts';
+import { findWallContact, gripsOf, wallsAfterMove } from '../../www/widgets/map-squeeze/walls.ts';
 
 /** Room of 6 m × 4 m with a wall at x = 3 that has a doorway, and a wall that ends at its lower part. */
 const ROOM_BOUNDS = Float64Array.of(0, 0, 6, 4);
@@ -12,10 +12,10 @@ const WALLS = Float64Array.of(...OUTER_WALLS, 3, 0, 3, 1.5, 3, 2.5, 3, 4, 0, 1, 
 const LOWER_WALL_INDEX = OUTER_WALLS.length;
 
 /** Returns the grip of a part of a wall. @param {string} gripPart @param {number} [wallIndex] index in WALLS */
-const gripOf = (gripPart, wallIndex = LOWER_WALL_INDEX) => wallGrips({ bounds: ROOM_BOUNDS, walls: WALLS }).find((grip) => grip?.part === gripPart && grip.wall === wallIndex);
+const gripOf = (gripPart, wallIndex = LOWER_WALL_INDEX) => gripsOf({ bounds: ROOM_BOUNDS, walls: WALLS }).find((grip) => grip?.part === gripPart && grip.wall === wallIndex);
 
 test('free ends and inner walls have grips, the shell and ends at other walls have none', () => {
-  const grips = wallGrips({ bounds: ROOM_BOUNDS, walls: WALLS });
+  const grips = gripsOf({ bounds: ROOM_BOUNDS, walls: WALLS });
   assert.equal(grips.length, (3 * WALLS.length) / 4);
   const gripNames = grips.filter((grip) => grip !== undefined).map(({ part, wall }) => `${part} ${(wall - LOWER_WALL_INDEX) / 4}`);
   assert.deepEqual(gripNames, ['to 0', 'side 0', 'from 1', 'side 1', 'side 2']);
@@ -38,7 +38,7 @@ test('a wall goes across, and the wall that ends at it follows', () => {
 });
 
 test('the contact is at the wall that the robot touches first, none on a path that keeps clear', () => {
-  const [x, y] = wallContact([1, 0.5, 5.9, 0.5], WALLS, 0.1) ?? [];
+  const [x, y] = findWallContact([1, 0.5, 5.9, 0.5], WALLS, 0.1) ?? [];
   assert.deepEqual([x, y], [3, 0.5]);
-  assert.equal(wallContact([1, 2, 5, 2], WALLS, 0.2), undefined);
+  assert.equal(findWallContact([1, 2, 5, 2], WALLS, 0.2), undefined);
 });

@@ -11,11 +11,11 @@ import { Memo } from '../../scene/cache.ts';
 import { fieldsetHtml, buttonHtml, radioGroupHtml } from '../../ui/controls.ts';
 import { formatInteger, NO_VALUE, formatFixed, formatEditable } from '../../ui/format.ts';
 import { readoutsHtml } from '../../ui/readouts.ts';
-import { startOverButton } from '../shared/controls.ts';
-import { LogOpener, LogService, dropZone, isAbortError, logSection } from './open.ts';
+import { startOverButtonHtml } from '../shared/controls.ts';
+import { LogOpener, LogService, dropZoneHtml, isAbortError, referenceControlsHtml } from './open.ts';
 import { LegPicture, PathPicture } from './pictures.ts';
-import { alphaTable, alphaTexts, captionOf, diagnosticsHtml, judge, legText, nav2Button, nav2ExportControls, pathText, recommendationReason, regressionPanels, systematicTable, verdictHtml } from './readouts.ts';
-import { NOISE_COMPONENTS, LINE_STYLES, definition, modelRuleOf, observedCount, settingsFor, viewModelOf, type ViewModel } from './settings.ts';
+import { alphaTableHtml, alphaTexts, captionOf, diagnosticsHtml, judgeFit, legText, nav2ButtonHtml, nav2ExportControlsHtml, pathText, recommendationReason, regressionPanelsHtml, systematicTableHtml, verdictHtml } from './readouts.ts';
+import { NOISE_COMPONENTS, LINE_STYLES, definition, modelRuleOf, observedCount, settingsOfModelRule, viewModelOf, type ViewModel } from './settings.ts';
 import type { AlphaCalibrator as Simulation, CalibrationLog, CalibrationPanel, LegView, Motion } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
 
@@ -31,7 +31,7 @@ interface OpenedLog {
 /** Time that a fit may take before a notice says so, ms. */
 const NOTICE_DELAY_MS = 200;
 
-function legControls(figure: AlphaCalibratorElement) {
+function legControlsHtml(figure: AlphaCalibratorElement) {
   const { viewModel: { legs, worst }, chosen } = figure;
   const texts = words.calibrator.leg;
   // The button selects the leg after the selected one in the list of worst legs, or the first of the list.
@@ -47,26 +47,26 @@ function legControls(figure: AlphaCalibratorElement) {
       effect: undefined,
       role: 'truth',
       hasNoEffect: legs.count < 2,
-      onInput: (number) => figure.settings.request({ leg: number - 1 }),
+      onInput: (legNumber) => figure.settings.request({ leg: legNumber - 1 }),
       onCommit: () => figure.gesture.commit(),
     })}
     ${buttonHtml(texts.worst, () => figure.gesture.requestAndCommit({ leg: nextLeg }), { disabled: nextLeg === undefined })}`;
 }
 
-function legReadouts({ viewModel: { legs }, chosen, predicted: leg }: AlphaCalibratorElement) {
+function legReadoutsHtml({ viewModel: { legs }, chosen, predicted: leg }: AlphaCalibratorElement) {
   const texts = words.calibrator.leg;
-  const off = leg ? Math.hypot(leg.ended[0] - leg.read[0], leg.ended[1] - leg.read[1]) : NaN;
+  const endError = leg ? Math.hypot(leg.ended[0] - leg.read[0], leg.ended[1] - leg.read[1]) : NaN;
   return readoutsHtml([
-    [texts.off, `${formatFixed(off, 3)} m`],
+    [texts.off, `${formatFixed(endError, 3)} m`],
     [texts.squared(String(observedCount(legs.residuals, chosen))), formatFixed(leg ? legs.squared[chosen] : NaN, 1)],
     [words.calibrator.overlays.outlier, leg ? texts.isOutlier[legs.outliers[chosen] > 0 ? 'yes' : 'no'] : NO_VALUE],
   ]);
 }
 
-function modelControls(figure: AlphaCalibratorElement) {
+function modelControlsHtml(figure: AlphaCalibratorElement) {
   const { fit, settings: { model }, kinds, outliers } = words.calibrator;
   const formatDuration = (seconds: number) => (seconds > 0 ? `${formatEditable(seconds, 2)} s` : NO_VALUE);
-  const chooseModel = (kind: import('./settings.ts').ModelRule) => figure.gesture.requestAndCommit(settingsFor(kind));
+  const chooseModel = (modelRule: import('./settings.ts').ModelRule) => figure.gesture.requestAndCommit(settingsOfModelRule(modelRule));
   return fieldsetHtml(fit, html`${radioGroupHtml(model.name, 'kind', kinds, modelRuleOf(figure.settings.requested as any), chooseModel)}
     ${settingRadiosHtml(figure, 'outliers', outliers)} ${settingSliderHtml(figure, 'duration', { formatValue: formatDuration })}`, 'fit');
 }
@@ -263,7 +263,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   /** Log of the page; null for the simulated log. */
   #pageLog: CalibrationLog | null = null;
 
-  createSimulation = ({ AlphaCalibrator }: Motion, given = this.#givenLog) => (given ? AlphaCalibrator.restored(given.config, given.fit) : new AlphaCalibrator());
+  createSimulation = ({ AlphaCalibrator }: Motion, givenLog = this.#givenLog) => (givenLog ? AlphaCalibrator.restored(givenLog.config, givenLog.fit) : new AlphaCalibrator());
 
   readViewModel(simulation: Simulation) {
     const viewModel = viewModelOf(simulation, this.log, this.viewModel);
@@ -334,16 +334,16 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
         this.#pageLog = newLog;
         this.reflection.updateAttributes();
       };
-      this.open(newLog, []).then(acceptLog, this.#report);
+      this.open(newLog, []).then(acceptLog, this.#reportError);
     });
   }
 
   #startOver = () => {
     this.settings.restoreAsUser();
-    this.#opener.close(this.#pageLog).catch(this.#report);
+    this.#opener.close(this.#pageLog).catch(this.#reportError);
   };
 
-  #report = (error: unknown) => {
+  #reportError = (error: unknown) => {
     if (!isAbortError(error)) this.runtime.reportError(error);
   };
 
@@ -378,14 +378,14 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
       this.announcer.announce(words.progress.stopped);
       this.#revertSettings();
     };
-    const timer = setTimeout(() => notice.show(() => html`<progress aria-label=${words.progress.label}></progress> ${words.progress.label}`, { stop }), NOTICE_DELAY_MS);
+    const noticeTimer = setTimeout(() => notice.show(() => html`<progress aria-label=${words.progress.label}></progress> ${words.progress.label}`, { stop }), NOTICE_DELAY_MS);
     try {
       await this.open(log, this.warnings);
     } catch (error) {
       if (!isAbortError(error)) this.#revertSettings();
-      this.#report(error);
+      this.#reportError(error);
     } finally {
-      clearTimeout(timer);
+      clearTimeout(noticeTimer);
       notice.hide();
     }
   }
@@ -439,22 +439,22 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
     const { chosen } = this;
     const hasDuration = this.settings.requested.duration > 0;
     return html`
-      ${dropZone(this, this.#opener)}
+      ${dropZoneHtml(this, this.#opener)}
       <div class="views">
         <p part="caption" class="caption verdict">${this.renderer.renderAfterFirstPicture(() => verdictHtml(this))}</p>
         ${titledPictureHtml(texts.path, html`<div class="stage" part="picture" @click=${this.#chooseLegAt}>${pictureCanvasHtml(this, this.#pathPicture, pathText(viewModel, chosen))}</div>`)}
         <div class="one">
           ${titledPictureHtml(texts.oneLeg(formatInteger(chosen + 1)), html`<div class="stage">${pictureCanvasHtml(this, this.#legPicture, legText(this.predicted, chosen))}</div>`)}
-          ${this.renderer.renderAfterFirstPicture(() => html`<div class="looked with-button">${legControls(this)}</div>`)}
+          ${this.renderer.renderAfterFirstPicture(() => html`<div class="looked with-button">${legControlsHtml(this)}</div>`)}
         </div>
         ${this.renderer.renderAfterFirstPicture(() => html`
         <div class="fitted" part="readouts">
           <div class="buttons result">
             <p class="panel-title">${texts.alphas.title(texts.kinds[modelRuleOf(viewModel.fitted)])}</p>
-            ${nav2Button(this, this.#opener.otherResultsNote)} ${startOverButton(this, this.#startOver)}
+            ${nav2ButtonHtml(this, this.#opener.otherResultsNote)} ${startOverButtonHtml(this, this.#startOver)}
           </div>
-          <p class="to-do">${this.#opener.otherResultsNote || judge(viewModel, this.warnings).advice.join(' ')}</p>
-          ${alphaTable(viewModel)}
+          <p class="to-do">${this.#opener.otherResultsNote || judgeFit(viewModel, this.warnings).advice.join(' ')}</p>
+          ${alphaTableHtml(viewModel)}
           <p class="reason muted small">${recommendationReason(viewModel)}</p>
         </div>`)}
       </div>
@@ -464,14 +464,14 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
         ${fieldsetHtml(texts.leg.group, html`<div class="controls">${['distance', 'angle'].map((key) => settingSliderHtml(this, key, { hasNoEffect: hasDuration }))}</div>`)}
       </div>
       ${disclosuresHtml(this, {
-        renderControls: () => html`${modelControls(this)}
-          ${fieldsetHtml(texts.systematic.title, systematicTable(this))}
-          ${fieldsetHtml(texts.own.title, logSection(this))}
+        renderControls: () => html`${modelControlsHtml(this)}
+          ${fieldsetHtml(texts.systematic.title, systematicTableHtml(this))}
+          ${fieldsetHtml(texts.own.title, referenceControlsHtml(this))}
           ${fieldsetHtml(texts.prediction, html`${settingRadiosHtml(this, 'noise', words.noises)} ${settingSliderHtml(this, 'inflation')}`, 'fit')}`,
-        renderNumbers: () => html`${fieldsetHtml(texts.oneLeg(formatInteger(chosen + 1)), legReadouts(this))}
+        renderNumbers: () => html`${fieldsetHtml(texts.oneLeg(formatInteger(chosen + 1)), legReadoutsHtml(this))}
           ${diagnosticsHtml(this)}
-          ${fieldsetHtml(texts.panels.title, regressionPanels(this))}
-          ${fieldsetHtml(texts.nav2.title, nav2ExportControls(this, this.#opener.otherResultsNote))}`,
+          ${fieldsetHtml(texts.panels.title, regressionPanelsHtml(this))}
+          ${fieldsetHtml(texts.nav2.title, nav2ExportControlsHtml(this, this.#opener.otherResultsNote))}`,
         csvTitle: texts.csvTitle,
       })}
       ${this.#opener.logModule?.logSummaryHtml(this.#opener)}`)}

@@ -29,7 +29,7 @@ const MAX_NAMED_FILES = 4;
 export const choiceLabel = ({ series, frames }: LogChoice) => (frames ? `${series}: ${framesText(frames)}` : series);
 
 /** Plans which logs are read, by the user's choices. */
-export function planOf({ recordings, userChoices, roles }: ChosenFiles, kind: 'commands' | undefined): LogPlan {
+export function planReading({ recordings, userChoices, roles }: ChosenFiles, kind: 'commands' | undefined): LogPlan {
   return planDrives(recordings, { ...userChoices, kind, roles: new Map([...roles].map(([index, role]) => [recordings[index], role])) });
 }
 
@@ -49,23 +49,23 @@ function labelledChoicesOf(recording: Recording, role?: Role): [label: string, L
 }
 
 /** Returns the form controls for the open choices about the present files. */
-export function logChoosers(opener: LogOpener) {
-  const { chosen, texts } = opener;
-  if (!chosen || !texts) return nothing;
-  const { recordings, skipped, questions, plan } = chosen;
+export function logChoosersHtml(opener: LogOpener) {
+  const { chosenFiles, texts } = opener;
+  if (!chosenFiles || !texts) return nothing;
+  const { recordings, skipped, questions, plan } = chosenFiles;
   const hasOneLog = (recording: Recording) => labelledChoicesOf(recording).length === 1;
   const roleChoosers = [
-    ...(recordings.every(hasOneLog) ? [] : ROLES.map((role) => seriesSelect(opener, chosen, role, texts))),
-    ...(recordings.length > 1 ? recordings.flatMap((recording, index) => (hasOneLog(recording) ? [roleSelect(opener, chosen, index, texts)] : [])) : []),
+    ...(recordings.every(hasOneLog) ? [] : ROLES.map((role) => seriesSelectHtml(opener, chosenFiles, role, texts))),
+    ...(recordings.length > 1 ? recordings.flatMap((recording, index) => (hasOneLog(recording) ? [roleSelectHtml(opener, chosenFiles, index, texts)] : [])) : []),
   ];
   return html`<div class="choosers">
     ${roleChoosers.length ? html`<div class="choices">${roleChoosers}</div>` : nothing}
-    ${questions.map((question) => questionHtml(opener, chosen, question, texts))}
+    ${questions.map((question) => questionHtml(opener, chosenFiles, question, texts))}
     ${[...skipped, ...(plan?.unused ?? [])].filter((failure) => failure !== opener.refusal).map((failure) => html`<p class="muted">${texts.choose.skipped(opener.explain(failure))}</p>`)}
   </div>`;
 }
 
-function selectField(id: string, label: string, value: string, options: [value: string, label: string][], choose: (value: string) => void, placeholder: string) {
+function selectHtml(id: string, label: string, value: string, options: [value: string, label: string][], choose: (value: string) => void, placeholder: string) {
   const allOptions = options.some(([optionValue]) => optionValue === value) ? options : [['', placeholder], ...options];
   return html`<label>
     ${label}
@@ -75,11 +75,11 @@ function selectField(id: string, label: string, value: string, options: [value: 
   </label>`;
 }
 
-function seriesSelect(opener: LogOpener, { recordings, userChoices, plan }: ChosenFiles, role: Role, { choose: texts }: LogWords) {
+function seriesSelectHtml(opener: LogOpener, { recordings, userChoices, plan }: ChosenFiles, role: Role, { choose: texts }: LogWords) {
   const choiceByLabel = new Map(recordings.flatMap((recording) => labelledChoicesOf(recording, role)));
   const [plannedLog] = plan ? [...plan.drives.map((drive) => drive[role]), ...plan.unpaired[role]] : [];
   const currentChoice = (userChoices[role] as LogChoice | undefined) ?? plannedLog?.choice ?? likeliestChoice(recordings[0], role, opener.kind);
-  return selectField(`log-${role}`, texts.roles[role], currentChoice ? choiceLabel(currentChoice) || (plannedLog?.recording ?? recordings[0]).name : '', [...choiceByLabel.keys()].map((label) => [label, label]), (label) => {
+  return selectHtml(`log-${role}`, texts.roles[role], currentChoice ? choiceLabel(currentChoice) || (plannedLog?.recording ?? recordings[0]).name : '', [...choiceByLabel.keys()].map((label) => [label, label]), (label) => {
     const choice = choiceByLabel.get(label);
     if (choice) opener.change({ userChoices: { ...userChoices, [role]: choice } });
   }, texts.open);
@@ -91,10 +91,10 @@ function likeliestChoice(recording: Recording, role: Role, kind: 'commands' | un
   return likeliestChoices?.length === 1 ? likeliestChoices[0] : undefined;
 }
 
-function roleSelect(opener: LogOpener, { recordings, roles, plan }: ChosenFiles, index: number, { choose: texts }: LogWords) {
+function roleSelectHtml(opener: LogOpener, { recordings, roles, plan }: ChosenFiles, index: number, { choose: texts }: LogWords) {
   const { name } = recordings[index];
   const currentRole = roles.get(index) ?? ROLES.find((role) => plan?.unpaired[role].some(({ recording }) => recording === recordings[index]));
-  return selectField(`log-role-${index}`, name, currentRole ?? '', ROLES.map((role) => [role, texts.roles[role]]), (value) => {
+  return selectHtml(`log-role-${index}`, name, currentRole ?? '', ROLES.map((role) => [role, texts.roles[role]]), (value) => {
     const role = value as Role;
     const changedRoles = new Map(roles).set(index, role);
     // If there are two files, the other file gets the other role.
@@ -105,7 +105,7 @@ function roleSelect(opener: LogOpener, { recordings, roles, plan }: ChosenFiles,
 
 function questionHtml(opener: LogOpener, { answers }: ChosenFiles, asked: OpenQuestion, { choose: texts }: LogWords) {
   const { file, ask: { what, choices } } = asked;
-  if (what === 'columns') return columnsForm(opener, asked, answers[file]?.columns, texts);
+  if (what === 'columns') return columnsFormHtml(opener, asked, answers[file]?.columns, texts);
   if (what !== 'timeUnit' && what !== 'lengthUnit' && what !== 'angleUnit') return nothing;
   const labels: Record<string, string> = Object.fromEntries((choices.length ? choices : UNITS[what]).map((unit) => [unit, texts.units[unit as keyof typeof texts.units]]));
   return html`<div id=${questionId(asked)}>
@@ -114,17 +114,17 @@ function questionHtml(opener: LogOpener, { answers }: ChosenFiles, asked: OpenQu
 }
 
 /** Returns a form with one `<select>` for each field, which assigns a column to it. */
-function columnsForm(opener: LogOpener, asked: OpenQuestion, answer: string[] | undefined, texts: LogWords['choose']) {
+function columnsFormHtml(opener: LogOpener, asked: OpenQuestion, answer: string[] | undefined, texts: LogWords['choose']) {
   const { file, ask: { choices: [defaultNames = ''], columns = [] } } = asked;
   const assignedFields = answer ?? defaultNames.split(',');
   const options = columns.map((cell, index): [string, string] => [String(index), texts.column(index + 1, cell.trim().slice(0, MAX_CELL_LENGTH))]);
-  const takeColumns = (event: Event) => {
+  const submitColumns = (event: Event) => {
     event.preventDefault();
     const fieldNames = columns.map(() => '-');
     for (const [field, index] of new FormData(event.target as HTMLFormElement)) if (index !== '') fieldNames[Number(index)] = String(field);
     opener.answer(asked, { columns: fieldNames });
   };
-  return html`<form id=${questionId(asked)} @submit=${takeColumns}>
+  return html`<form id=${questionId(asked)} @submit=${submitColumns}>
     <fieldset>
       <legend>${texts.columns(file)}</legend>
       <div class="choices">
@@ -155,53 +155,53 @@ export function focusChooser({ renderRoot }: AlphaCalibratorElement, asked: Open
 }
 
 /** Size of the picture, CSS pixels, and its margin for the width of lines. */
-const [WIDTH, HEIGHT, MARGIN] = [220, 150, 4];
+const [PICTURE_WIDTH, PICTURE_HEIGHT, PICTURE_MARGIN] = [220, 150, 4];
 
 /** Maximum number of points of a path. More than one per pixel would be invisible. */
-const MAX_POINTS = 1500;
+const MAX_PATH_POINTS = 1500;
 
 /** Returns the summary of the logs of each drive. It is shown while the logs are fitted, and below the result. */
-export function logSummaryHtml({ chosen, texts, host }: LogOpener) {
+export function logSummaryHtml({ chosenFiles, texts, host }: LogOpener) {
   // The page may have set another log in the meantime.
-  if (!chosen?.drives || !texts || (chosen.log && chosen.log !== host.log)) return nothing;
-  const { drives } = chosen;
+  if (!chosenFiles?.drives || !texts || (chosenFiles.log && chosenFiles.log !== host.log)) return nothing;
+  const { drives } = chosenFiles;
   return html`<details class="found" open>
     <summary>${texts.found.title}</summary>
     ${guard([drives, texts, language], () => drives.map((drive, i) => html`<div class="drive">
-      ${logTable(drive, drives.length > 1 ? texts.found.drive(i + 1) : '', texts)}
-      ${pathsPicture(drive, texts)}
+      ${logTableHtml(drive, drives.length > 1 ? texts.found.drive(i + 1) : '', texts)}
+      ${pathsPictureHtml(drive, texts)}
     </div>`))}
   </details>`;
 }
 
-function logTable({ odometry, reference }: Drive, caption: string, { choose, found }: LogWords) {
+function logTableHtml({ odometry, reference }: Drive, caption: string, { choose, found }: LogWords) {
   const logs = [odometry, reference];
-  const lines = logs.map((log) => summaryLines(log, found));
+  const tableRows = logs.map((log) => summaryLines(log, found));
   const tableCell = (texts: string[] = []) => html`<td>${texts.length ? texts.map((text, i) => html`${i ? html`<br />` : nothing}${text}`) : '—'}</td>`;
-  const labels = (Object.keys(found.labels) as (keyof typeof found.labels)[]).filter((label) => lines.some((line) => line[label]?.length));
+  const labels = (Object.keys(found.labels) as (keyof typeof found.labels)[]).filter((label) => tableRows.some((tableRow) => tableRow[label]?.length));
   return html`<table>
     ${caption ? html`<caption>${caption}</caption>` : nothing}
     <thead>
       <tr><td></td>${ROLES.map((role, i) => html`<th scope="col">${choose.roles[role]}: ${logs[i].name}</th>`)}</tr>
     </thead>
     <tbody>
-      ${labels.map((label) => html`<tr><th scope="row">${found.labels[label]}</th>${lines.map((line) => tableCell(line[label]))}</tr>`)}
+      ${labels.map((label) => html`<tr><th scope="row">${found.labels[label]}</th>${tableRows.map((line) => tableCell(line[label]))}</tr>`)}
     </tbody>
   </table>`;
 }
 
 /** Returns a picture of both paths, with the odometry aligned to the reference. */
-function pathsPicture({ odometry, reference }: Drive, { found }: LogWords) {
-  const [drivenPath, referencePath] = [odometry.data, reference.data].map((data) => pathOf(data, Math.ceil(data.t.length / MAX_POINTS)));
+function pathsPictureHtml({ odometry, reference }: Drive, { found }: LogWords) {
+  const [drivenPath, referencePath] = [odometry.data, reference.data].map((data) => pathOf(data, Math.ceil(data.t.length / MAX_PATH_POINTS)));
   const odometryPath = alignedPath(drivenPath, referencePath);
   const allPoses = [...odometryPath.poses, ...referencePath.poses];
   const axisRanges = ([0, 1] as const).map((axis) => [Math.min(...allPoses.map((pose) => pose[axis])), Math.max(...allPoses.map((pose) => pose[axis]))]);
   const [width, height] = axisRanges.map(([low, high]) => high - low);
-  const pixelsPerMetre = Math.min((WIDTH - 2 * MARGIN) / Math.max(width, 0.1), (HEIGHT - 2 * MARGIN) / Math.max(height, 0.1));
-  const pathData = (path: Path) => svgPathData(path, ([x, y]) => [MARGIN + (x - axisRanges[0][0]) * pixelsPerMetre, HEIGHT - MARGIN - (y - axisRanges[1][0]) * pixelsPerMetre]);
+  const pixelsPerMetre = Math.min((PICTURE_WIDTH - 2 * PICTURE_MARGIN) / Math.max(width, 0.1), (PICTURE_HEIGHT - 2 * PICTURE_MARGIN) / Math.max(height, 0.1));
+  const pathData = (path: Path) => svgPathData(path, ([x, y]) => [PICTURE_MARGIN + (x - axisRanges[0][0]) * pixelsPerMetre, PICTURE_HEIGHT - PICTURE_MARGIN - (y - axisRanges[1][0]) * pixelsPerMetre]);
   const captionText = found.paths(formatFixed(width, 1), formatFixed(height, 1));
   return html`<figure class="paths small">
-    <svg viewBox="0 0 ${WIDTH} ${HEIGHT}" role="img" aria-label=${captionText}>
+    <svg viewBox="0 0 ${PICTURE_WIDTH} ${PICTURE_HEIGHT}" role="img" aria-label=${captionText}>
       <g fill="none" stroke-width="1.25" stroke-linejoin="round">
         ${svg`<path stroke="var(--ink)" d=${pathData(referencePath)} /><path stroke="var(--prior)" stroke-dasharray="4 2" d=${pathData(odometryPath)} />`}
       </g>

@@ -49,7 +49,7 @@ const EXTENSIONS = ['.csv', '.txt', '.tum', '.log', '.mcap', '.bag', '.db3', '.z
 
 export class LogOpener extends FileOpener<Figure> {
   id = 'log';
-  chosen: ChosenFiles | undefined;
+  chosenFiles: ChosenFiles | undefined;
   /** Files of the latest results, unless the page or the user has closed their log. */
   #resultFiles: ChosenFiles | undefined;
   /** Files with only one log of a drive. The next file may contain the other log. */
@@ -73,18 +73,18 @@ export class LogOpener extends FileOpener<Figure> {
 
   /** Reads the files again if the model has changed and prefers another odometry in them. */
   hostUpdated() {
-    const { chosen } = this;
-    if (!chosen?.log || chosen.log !== this.host.log || this.readFraction !== undefined || this.#preferredKind === this.kind) return;
-    const previousPlanText = planText(chosen.plan);
+    const { chosenFiles } = this;
+    if (!chosenFiles?.log || chosenFiles.log !== this.host.log || this.readFraction !== undefined || this.#preferredKind === this.kind) return;
+    const previousPlanText = planKeyOf(chosenFiles.plan);
     this.#restart(async (logModule) => {
-      const plan = logModule.planOf(chosen, this.kind);
-      if (planText(plan) !== previousPlanText) await this.#read((this.chosen = { ...chosen }), plan, logModule);
+      const plan = logModule.planReading(chosenFiles, this.kind);
+      if (planKeyOf(plan) !== previousPlanText) await this.#readAndFit((this.chosenFiles = { ...chosenFiles }), plan, logModule);
     });
   }
 
   /** Forgets the chosen files, and shows a log of the page or, by default, the simulated one. */
   async close(log: CalibrationLog | null = null) {
-    this.#end();
+    this.#endReading();
     this.#resultFiles = undefined;
     this.restore();
     if (log === this.host.log) return;
@@ -94,7 +94,7 @@ export class LogOpener extends FileOpener<Figure> {
 
   /** Returns to the files of the results on screen. */
   restore() {
-    this.chosen = this.#resultFiles?.log === this.host.log ? this.#resultFiles : undefined;
+    this.chosenFiles = this.#resultFiles?.log === this.host.log ? this.#resultFiles : undefined;
     this.#loneLogFiles = this.refusal = undefined;
     this.host.requestUpdate();
   }
@@ -105,12 +105,12 @@ export class LogOpener extends FileOpener<Figure> {
   }
 
   stop() {
-    this.#end();
+    this.#endReading();
     this.restore();
     this.refusal = new DOMException('', 'AbortError');
   }
 
-  #end() {
+  #endReading() {
     this.cancel();
     this.host.service.stop();
     this.#setIdle();
@@ -131,28 +131,28 @@ export class LogOpener extends FileOpener<Figure> {
 
   /** Stores an answer to a question, and opens the files with it. */
   answer({ file }: OpenQuestion, answer: OpenOptions) {
-    const answers = this.chosen?.answers ?? {};
+    const answers = this.chosenFiles?.answers ?? {};
     this.change({ recordings: [], answers: { ...answers, [file]: { ...answers[file], ...answer } } });
   }
 
   change(change: Partial<ChosenFiles>) {
-    if (this.chosen) this.#open({ ...this.chosen, ...change });
+    if (this.chosenFiles) this.#open({ ...this.chosenFiles, ...change });
   }
 
   #open(chosen: ChosenFiles) {
-    this.chosen = { ...chosen, plan: undefined, drives: undefined, log: undefined };
-    const openedFiles = this.chosen;
+    this.chosenFiles = { ...chosen, plan: undefined, drives: undefined, log: undefined };
+    const openedFiles = this.chosenFiles;
     this.#restart(async (logModule) => {
       if (openedFiles.recordings.length === 0) Object.assign(openedFiles, await this.host.service.open(openedFiles.files, openedFiles.answers));
-      await this.#read(openedFiles, await this.#plan(openedFiles, logModule), logModule);
+      await this.#readAndFit(openedFiles, await this.#makePlan(openedFiles, logModule), logModule);
     });
   }
 
   /** Plans which series are read. A file with one log is paired with the previous file if that also has only one log. */
-  async #plan(chosen: ChosenFiles, logModule: LogModule): Promise<LogPlan> {
+  async #makePlan(chosen: ChosenFiles, logModule: LogModule): Promise<LogPlan> {
     try {
       if (chosen.recordings.length === 0) throw chosen.skipped[0];
-      return logModule.planOf(chosen, this.kind);
+      return logModule.planReading(chosen, this.kind);
     } catch (error) {
       // A skipped file may be the missing log, so its question comes first.
       const skipped = chosen.skipped.find(({ ask }) => ask);
@@ -164,11 +164,11 @@ export class LogOpener extends FileOpener<Figure> {
       const [files, questions] = [[...loneLogFiles.files, ...chosen.files], [...loneLogFiles.questions, ...chosen.questions]];
       Object.assign(chosen, { files, questions, answers: { ...loneLogFiles.answers, ...chosen.answers } });
       Object.assign(chosen, await this.host.service.open(files, chosen.answers));
-      return logModule.planOf(chosen, this.kind);
+      return logModule.planReading(chosen, this.kind);
     }
   }
 
-  async #read(chosen: ChosenFiles, plan: LogPlan, logModule: LogModule) {
+  async #readAndFit(chosen: ChosenFiles, plan: LogPlan, logModule: LogModule) {
     const { service } = this.host;
     chosen.plan = plan;
     if (service.openRecordings !== chosen.recordings) {
@@ -204,9 +204,9 @@ export class LogOpener extends FileOpener<Figure> {
   async refuse(error: Refusal) {
     if (isAbortError(error)) return;
     const { ask, place } = error;
-    const { chosen } = this;
-    const newQuestion = ask && chosen && { file: place?.file ?? '', ask };
-    if (newQuestion && !chosen.questions.some((question) => question.file === newQuestion.file && question.ask.what === ask.what)) chosen.questions.push(newQuestion);
+    const { chosenFiles } = this;
+    const newQuestion = ask && chosenFiles && { file: place?.file ?? '', ask };
+    if (newQuestion && !chosenFiles.questions.some((question) => question.file === newQuestion.file && question.ask.what === ask.what)) chosenFiles.questions.push(newQuestion);
     await super.refuse(error, () => newQuestion && this.logModule?.focusChooser(this.host, newQuestion));
   }
 
@@ -224,18 +224,18 @@ export class LogOpener extends FileOpener<Figure> {
 const isPossibleLog = ({ name, path }: File & { path?: string }) => path === undefined || name === 'metadata.yaml' || [...EXTENSIONS.slice(0, -1), '-wal'].some((extension) => name.endsWith(extension));
 
 /** Returns the choices of a plan as a text, to compare plans. */
-const planText = (plan: LogPlan | undefined) => JSON.stringify(plan && [plan.drives, plan.unpaired]);
+const planKeyOf = (plan: LogPlan | undefined) => JSON.stringify(plan && [plan.drives, plan.unpaired]);
 
 /** Returns the drop zone for logs. Below it are the choosers, the progress or name of the log, and the reason for a refusal. */
-export function dropZone(figure: Figure, opener: LogOpener) {
+export function dropZoneHtml(figure: Figure, opener: LogOpener) {
   const texts = words.calibrator.own;
   const { readFraction, logModule } = opener;
   return html`<div class="drop-zone" id=${opener.id} part="drop">
     <p title=${texts.dropTitle}>
       ${texts.drop}
-      ${opener.button('log-files', texts.files, EXTENSIONS)}
+      ${opener.fileButtonHtml('log-files', texts.files, EXTENSIONS)}
     </p>
-    ${logModule?.logChoosers(opener)}
+    ${logModule?.logChoosersHtml(opener)}
     ${readFraction !== undefined
       ? html`<p><progress aria-label=${words.progress.label} .value=${readFraction}></progress> ${buttonHtml(words.progress.stop, () => opener.stop())}</p>`
       : figure.log ? html`<p><span class="present">${texts.present(figure.logName)}</span> ${buttonHtml(texts.leave, () => opener.close())}</p>` : nothing}
@@ -245,15 +245,15 @@ export function dropZone(figure: Figure, opener: LogOpener) {
 }
 
 /** Returns the controls of the noise of the reference. A sentence says what the simulated log is. */
-export function logSection(figure: Figure) {
-  const stdSlider = (key: string, unit: string) =>
+export function referenceControlsHtml(figure: Figure) {
+  const stdSliderHtml = (key: string, unit: string) =>
     settingSliderHtml(figure, key, { formatValue: (std: number) => (std > 0 ? `${formatEditable(std, 3)} ${unit}` : words.calibrator.estimated) });
   return html`${figure.log ? nothing : html`<p>${words.calibrator.own.simulated}</p>`}
-    <div class="controls">${stdSlider('positionStd', 'm')} ${stdSlider('yawStd', 'rad')}</div>`;
+    <div class="controls">${stdSliderHtml('positionStd', 'm')} ${stdSliderHtml('yawStd', 'rad')}</div>`;
 }
 
 /** Session, the function that ends its worker, and the function by which a callback can be called from the worker. */
-interface Connection {
+interface WorkerConnection {
   session: Pick<LogSession, 'open' | 'read' | 'calibrate'>;
   end(): void;
   proxy: typeof import('comlink').proxy;
@@ -264,7 +264,7 @@ export const isAbortError = (error: unknown) => error instanceof DOMException &&
 
 /** Client of the worker. A request aborts the one in progress. */
 export class LogService {
-  #connection: Promise<Connection> | undefined;
+  #connection: Promise<WorkerConnection> | undefined;
   /** Aborts the request in progress; undefined if there is none. */
   #request: AbortController | undefined;
   /** Recordings that the worker holds; undefined if there are none. */
@@ -278,19 +278,19 @@ export class LogService {
   async open(files: Source[], answers: Record<string, OpenOptions>) {
     this.openRecordings = undefined;
     // A copied `File` has no path.
-    const opened = await this.#ask(({ session }) => session.open(files.map((file) => ({ file, path: file.path ?? '' })), answers));
+    const opened = await this.#sendRequest(({ session }) => session.open(files.map((file) => ({ file, path: file.path ?? '' })), answers));
     this.openRecordings = opened.recordings;
     return opened;
   }
 
   /** Reads the drives of a plan for the opened recordings. */
   read({ drives, unpaired }: LogPlan, onProgress: (share: number) => void) {
-    return this.#ask(({ session, proxy }, signal) => session.read({ drives, unpaired }, proxy((share) => void (signal.aborted || onProgress(share)))));
+    return this.#sendRequest(({ session, proxy }, signal) => session.read({ drives, unpaired }, proxy((share) => void (signal.aborted || onProgress(share)))));
   }
 
   /** Returns the fit to a log, for `AlphaCalibrator.restored`. */
   calibrate(config: AlphaCalibratorSettings, log: CalibrationLog) {
-    return this.#ask(({ session }) => session.calibrate(config, log));
+    return this.#sendRequest(({ session }) => session.calibrate(config, log));
   }
 
   /** Cancels the current request, which rejects. */
@@ -306,10 +306,10 @@ export class LogService {
     this.#request = undefined;
   }
 
-  async #ask<Result>(ask: (connection: Connection, signal: AbortSignal) => Promise<Result>): Promise<Result> {
+  async #sendRequest<Result>(ask: (connection: WorkerConnection, signal: AbortSignal) => Promise<Result>): Promise<Result> {
     this.stop();
     const request = (this.#request = new AbortController());
-    const connection = (this.#connection ??= connect());
+    const connection = (this.#connection ??= connectWorker());
     // After a failed start, the next request tries again.
     connection.catch(() => connection === this.#connection && (this.#connection = undefined));
     const { signal } = request;
@@ -323,7 +323,7 @@ export class LogService {
 }
 
 /** Starts a session in a worker; in the page's thread if the browser has no workers, or the page's policy or origin forbids them. */
-async function connect(): Promise<Connection> {
+async function connectWorker(): Promise<WorkerConnection> {
   // The library is loaded with the first log.
   const [core, { proxy, wrap }] = await Promise.all([moduleForWorker('alpha-calibrator'), import('comlink')]);
   let worker: Worker | undefined;

@@ -89,8 +89,8 @@ function drawPath(drawContext: LayerDrawContext, legs: CalibrationLegs, odometry
   const styles = lineStyles(drawContext, LINE_STYLES);
   if (overlays.includes('odometry')) {
     const points = view.toPixels(odometry);
-    const pieces = range(0, points.length, LINES_PER_STROKE).map((start) => points.slice(start, start + LINES_PER_STROKE + 1));
-    strokeInBatches(context, pieces, styles.odometry, 1);
+    const pathPieces = range(0, points.length, LINES_PER_STROKE).map((start) => points.slice(start, start + LINES_PER_STROKE + 1));
+    strokeInBatches(context, pathPieces, styles.odometry, 1);
   }
   for (const [index, name] of LEG_CLASSES.entries()) {
     if (!overlays.includes(name)) continue;

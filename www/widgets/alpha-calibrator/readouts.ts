@@ -9,8 +9,8 @@ import { plotHtml, type Curve, type PlotOptions } from '../../ui/plot.ts';
 import { tableHtml, readoutsHtml } from '../../ui/readouts.ts';
 import { subscriptOf } from '../shared/sliders.ts';
 import { en } from './en.ts';
-import { NAV2_RULES, SYSTEMATIC_ERRORS, adviceOf, checkMessage, componentsOf, formatAlphaOrBound, formatEstimate, formatNumber, isZero, judgementOf, localInterval, localized, nav2Lines, } from './result.ts';
-import { NOISE_COMPONENTS, isTruthComparable, modelRuleOf, settingsFor, type Regressor, type ViewModel } from './settings.ts';
+import { NAV2_RULES, SYSTEMATIC_ERRORS, adviceOf, checkMessage, componentsOf, formatAlphaOrBound, formatEstimate, formatNumber, printsAsZero, judgementOf, localizeInterval, localizeNumber, nav2Lines, } from './result.ts';
+import { NOISE_COMPONENTS, isTruthComparable, modelRuleOf, settingsOfModelRule, type Regressor, type ViewModel } from './settings.ts';
 import type { CalibrationCheck, CalibrationPanel, Estimate, LegView } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
@@ -20,21 +20,21 @@ addEnglishMessages({ calibrator: en });
 /** Pattern of the names of checks whose value is a fraction. */
 const FRACTION_CHECKS = /-(lost|few|rare|covered)$/;
 
-export const judge = ({ stats, legs: { count }, fitted }: Pick<ViewModel, 'stats' | 'legs' | 'fitted'>, warnings: Warning[]) =>
+export const judgeFit = ({ stats, legs: { count }, fitted }: Pick<ViewModel, 'stats' | 'legs' | 'fitted'>, warnings: Warning[]) =>
   judgementOf({ stats, count, model: fitted.model, corrections: fitted, warnings }, words.calibrator, words.moreControls);
 
 /** Prints the value of a check, or a limit of it. */
-export function checkText(name: CalibrationCheck['name'], value: number) {
+export function formatCheckValue(name: CalibrationCheck['name'], value: number) {
   if (!Number.isFinite(value)) return Number.isNaN(value) ? formatPercent(value) : '∞';
   return name === 'enough-legs' ? formatInteger(value) : FRACTION_CHECKS.test(name) ? formatPercent(value) : formatSignificant(value, 3);
 }
 
-export const rangeText = (low: string, high: string) => `${low} – ${high}`;
+export const formatPassRange = (low: string, high: string) => `${low} – ${high}`;
 
 /** Prints the range of values with which a check passes. */
 export function expectedRangeText({ name, expected: [low, high] }: CalibrationCheck) {
-  if (high === Infinity) return `≥ ${checkText(name, low)}`;
-  return low === 0 ? `≤ ${checkText(name, high)}` : rangeText(checkText(name, low), checkText(name, high));
+  if (high === Infinity) return `≥ ${formatCheckValue(name, low)}`;
+  return low === 0 ? `≤ ${formatCheckValue(name, high)}` : formatPassRange(formatCheckValue(name, low), formatCheckValue(name, high));
 }
 
 /** Returns the reason for the recommended α's. */
@@ -52,12 +52,12 @@ export const noiseNames = (model: ViewModel['config']['model']) => words.alphas[
 /** Returns the number of legs and outliers of the named log in a sentence; empty if there are no legs. */
 export function legsText({ legs }: ViewModel, log: string) {
   if (legs.count === 0) return '';
-  const outlierCount = legs.outliers.reduce((sum, is) => sum + is, 0);
+  const outlierCount = legs.outliers.reduce((sum, isOutlier) => sum + isOutlier, 0);
   return words.calibrator.present(log, formatInteger(legs.count), outlierCount > 0 ? formatInteger(outlierCount) : '');
 }
 
 export function captionOf({ viewModel, warnings, logName }: Pick<Figure, 'viewModel' | 'warnings' | 'logName'>) {
-  const { badge, finding, advice } = judge(viewModel, warnings);
+  const { badge, finding, advice } = judgeFit(viewModel, warnings);
   return [`${badge}.`, finding, legsText(viewModel, logName), ...advice].filter(Boolean).join(' ');
 }
 
@@ -78,14 +78,14 @@ const RATING_LOOKS = { consistent: ['✓', 'posterior'], questionable: ['!', 'pr
 
 /** Returns the badge that rates the α's, the finding, and the number of legs. On a wide page it has at most two lines. */
 export function verdictHtml({ viewModel, logName, warnings }: Figure) {
-  const { rating, badge, finding } = judge(viewModel, warnings);
+  const { rating, badge, finding } = judgeFit(viewModel, warnings);
   const [icon, role] = RATING_LOOKS[rating];
   return html`<span class="badge" data-role=${role}><span aria-hidden="true">${icon}</span> ${badge}</span>
     <strong>${finding}</strong> <span class="muted">${legsText(viewModel, logName)}</span>`;
 }
 
 /** Returns the table of the α's, with the true values where they are comparable. */
-export function alphaTable(viewModel: ViewModel) {
+export function alphaTableHtml(viewModel: ViewModel) {
   const { stats: { alphas, intervals }, truth, fitted: { model } } = viewModel;
   const texts = words.calibrator.alphas;
   const shownTruth = isTruthComparable(viewModel) ? truth?.alphas : undefined;
@@ -96,15 +96,15 @@ export function alphaTable(viewModel: ViewModel) {
       ? [nameHtml(name, i), missingAlphaText(viewModel, i)]
       : [
         nameHtml(name, i),
-        stackTexts([alphaText(viewModel, i), localInterval(intervals[i])]),
+        stackedTextsHtml([alphaText(viewModel, i), localizeInterval(intervals[i])]),
         html`<strong>${recommendedAlphaText(viewModel, i)}</strong>`,
-        ...(shownTruth ? [localized(formatNumber(shownTruth[i]))] : []),
+        ...(shownTruth ? [localizeNumber(formatNumber(shownTruth[i]))] : []),
       ])),
   })}</div>`;
 }
 
 /** Prints an α times a factor. */
-const alphaText = ({ stats: { alphas, intervals } }: ViewModel, index: number, factor?: number) => localized(formatAlphaOrBound(alphas[index], intervals[index], factor));
+const alphaText = ({ stats: { alphas, intervals } }: ViewModel, index: number, factor?: number) => localizeNumber(formatAlphaOrBound(alphas[index], intervals[index], factor));
 
 const recommendedAlphaText = (viewModel: ViewModel, index: number) =>
   (viewModel.stats.recommended ? alphaText(viewModel, index, viewModel.stats.recommended.inflation) : NO_VALUE);
@@ -122,55 +122,55 @@ function missingAlphaText({ stats: { notIdentifiable }, fitted: { model } }: Vie
 export function alphaTexts(viewModel: ViewModel) {
   const { stats: { alphas }, fitted } = viewModel;
   return alphas.map((alpha, i) => {
-    const alphaParts = alpha === null ? [missingAlphaText(viewModel, i)] : [alphaText(viewModel, i), localInterval(viewModel.stats.intervals[i]), `${words.calibrator.alphas.recommended} ${recommendedAlphaText(viewModel, i)}`];
+    const alphaParts = alpha === null ? [missingAlphaText(viewModel, i)] : [alphaText(viewModel, i), localizeInterval(viewModel.stats.intervals[i]), `${words.calibrator.alphas.recommended} ${recommendedAlphaText(viewModel, i)}`];
     return `α${subscriptOf(i)} ${noiseNames(fitted.model)[i]}: ${alphaParts.join(', ')}`;
   });
 }
 
-export function systematicTable(figure: Figure) {
+export function systematicTableHtml(figure: Figure) {
   const { stats: { systematicErrors: errors }, truth } = figure.viewModel;
   const texts = words.calibrator.systematic;
   const { requested } = figure.settings;
   const rows = SYSTEMATIC_ERRORS.map((key) => {
     const components = componentsOf(errors[key]);
-    const correctCheckbox = checkboxHtml({ label: texts.names[key], checked: requested[key], onChange: (on) => figure.gesture.requestAndCommit({ [key]: on }) });
+    const correctCheckbox = checkboxHtml({ label: texts.names[key], checked: requested[key], onChange: (isChecked) => figure.gesture.requestAndCommit({ [key]: isChecked }) });
     if (components.some(({ value }) => value === null)) return [correctCheckbox, texts.unknown];
     return [
       correctCheckbox,
-      stackTexts(components.map(({ value, interval }) => localized(formatEstimate(value, interval)))),
-      stackTexts(components.map(({ interval }) => localInterval(interval))),
+      stackedTextsHtml(components.map(({ value, interval }) => localizeNumber(formatEstimate(value, interval)))),
+      stackedTextsHtml(components.map(({ interval }) => localizeInterval(interval))),
       errors[key].corrected ? texts.corrected : errors[key].constant ? texts.notCorrected : texts.notConstant,
-      ...(truth ? [stackTexts([truth[key]].flat().map((component) => localized(formatNumber(component))))] : []),
+      ...(truth ? [stackedTextsHtml([truth[key]].flat().map((component) => localizeNumber(formatNumber(component))))] : []),
     ];
   });
   const columns = [texts.what, texts.value, words.calibrator.alphas.interval, texts.treatment, ...(truth ? [texts.truth] : [])];
   return html`<div class="systematic">${tableHtml({ columns, rows })}</div>`;
 }
 
-const stackTexts = (texts: string[]) => texts.map((text) => html`<div>${text}</div>`);
+const stackedTextsHtml = (texts: string[]) => texts.map((text) => html`<div>${text}</div>`);
 
 export function diagnosticsHtml(figure: Figure) {
   const { checks, windows, noise, lost } = words.calibrator;
-  return html`${fieldsetHtml(checks.title, checksTable(figure))}
-    ${fieldsetHtml(windows.title, windowsTable(figure))}
-    ${fieldsetHtml(noise.title, noiseTable(figure))}
-    ${fieldsetHtml(lost.title, lostLegsReadouts(figure))}`;
+  return html`${fieldsetHtml(checks.title, checksTableHtml(figure))}
+    ${fieldsetHtml(windows.title, windowsTableHtml(figure))}
+    ${fieldsetHtml(noise.title, noiseTableHtml(figure))}
+    ${fieldsetHtml(lost.title, lostLegsReadoutsHtml(figure))}`;
 }
 
-function checksTable({ viewModel: { stats: { diagnostics: { checks } } } }: Figure) {
+function checksTableHtml({ viewModel: { stats: { diagnostics: { checks } } } }: Figure) {
   const texts = words.calibrator.checks;
   return tableHtml({
     columns: [texts.check, texts.value, texts.expected, texts.result],
     rows: checks.map((check) => [
       html`${texts.names[check.name]}<div class="muted">${checkMessage(check, words.calibrator)}</div>`,
-      checkText(check.name, check.value),
+      formatCheckValue(check.name, check.value),
       expectedRangeText(check),
       check.passed ? `✓ ${texts.passed}` : html`<strong>✕ ${texts.failed}</strong>`,
     ]),
   });
 }
 
-function windowsTable({ viewModel: { stats: { diagnostics: { windows } } } }: Figure) {
+function windowsTableHtml({ viewModel: { stats: { diagnostics: { windows } } } }: Figure) {
   const texts = words.calibrator.windows;
   return tableHtml({
     caption: texts.caption,
@@ -179,9 +179,9 @@ function windowsTable({ viewModel: { stats: { diagnostics: { windows } } } }: Fi
   });
 }
 
-function noiseTable({ viewModel: { stats: { referenceNoise: { positionStd, yawStd }, persistence: { correlation, length } } } }: Figure) {
+function noiseTableHtml({ viewModel: { stats: { referenceNoise: { positionStd, yawStd }, persistence: { correlation, length } } } }: Figure) {
   const { noise: texts, systematic, settings, alphas: { interval: intervalName } } = words.calibrator;
-  const noiseRow = (name: string, { value, interval }: Estimate) => [name, localized(formatEstimate(value, interval)), localInterval(interval)];
+  const noiseRow = (name: string, { value, interval }: Estimate) => [name, localizeNumber(formatEstimate(value, interval)), localizeInterval(interval)];
   return tableHtml({
     columns: [texts.what, systematic.value, intervalName],
     rows: [
@@ -193,16 +193,16 @@ function noiseTable({ viewModel: { stats: { referenceNoise: { positionStd, yawSt
   });
 }
 
-function lostLegsReadouts({ viewModel: { stats: { lost } } }: Figure) {
+function lostLegsReadoutsHtml({ viewModel: { stats: { lost } } }: Figure) {
   const causes = ['withoutReference', 'acrossBreaks', 'acrossPauses', 'standing'] as const;
   return readoutsHtml(causes.map((cause) => [words.calibrator.lost[cause], formatInteger(lost[cause])]));
 }
 
 /** Minimum squared distance or rotation at the end of an axis: (1 mm)², or (1 mrad)². */
-const MIN_REGRESSOR = 1e-6;
+const MIN_AXIS_END = 1e-6;
 
 /** Returns a plot for each noise component: its squared residuals against the regressor. */
-export function regressionPanels(figure: Figure) {
+export function regressionPanelsHtml(figure: Figure) {
   const { viewModel, viewModel: { fitted: { model } }, settings: { elementState: { regressor } }, gesture } = figure;
   const texts = words.calibrator.panels;
   const axisNames = model === 'velocity' ? { turn: texts.turnRate, distance: texts.speed } : { turn: texts.turn, distance: texts.distance };
@@ -211,7 +211,7 @@ export function regressionPanels(figure: Figure) {
   return html`${radioGroupHtml(texts.against, 'regressor', texts.regressors, regressor, chooseRegressor)}
     <figure><div class="panels">
       ${figure.panels.map((panel, i) => html`<figure>
-        ${plotHtml(panelPlot(panel, texts.kinds[NOISE_COMPONENTS[model][i]], axisNames[regressor as Regressor]))}
+        ${plotHtml(panelPlotHtml(panel, texts.kinds[NOISE_COMPONENTS[model][i]], axisNames[regressor as Regressor]))}
         ${identifiabilityNote(panel, viewModel)}
       </figure>`)}
     </div>
@@ -219,30 +219,30 @@ export function regressionPanels(figure: Figure) {
 }
 
 /** Returns the plot of a panel. `kind` is the name of its noise component, and `axis` that of its regressor. */
-function panelPlot({ alpha, x, y, error, slope, interval }: CalibrationPanel, kind: string, axis: string): PlotOptions {
+function panelPlotHtml({ alpha, x, y, error, slope, interval }: CalibrationPanel, kind: string, axis: string): PlotOptions {
   const texts = words.calibrator.panels;
   const maxRegressor = Math.max(0, ...x);
   // A log without rotation or without translation has an empty axis.
-  const axisEnd = maxRegressor > MIN_REGRESSOR ? 1.06 * maxRegressor : 1;
+  const axisEnd = maxRegressor > MIN_AXIS_END ? 1.06 * maxRegressor : 1;
   // The axis has half as much space for error bars as for the bins and the line. A longer bar is cut, so that it does not compress all others.
   const [minSquare, maxSquare] = [Math.min(0, ...y), Math.max(x.length ? 1e-12 : 1, (slope ?? 0) * axisEnd, ...y)];
   const [axisBottom, axisTop] = [1.5 * minSquare, 1.5 * maxSquare];
   // Small numbers are scaled by a power of 1000, so that labels fit next to the axis.
   const exponent = Math.min(0, 3 * Math.floor(Math.log10(Math.max(axisTop, -axisBottom)) / 3));
-  const scale = (value: number) => value * 10 ** -exponent;
+  const scaleToAxis = (value: number) => value * 10 ** -exponent;
   const subscript = subscriptOf(alpha);
   const [low, high] = interval ?? [NaN, NaN];
   const slopeMiddle = (low + high) / 2;
   const slopeLines: Curve[] = slope === null ? [] : [
-    { name: texts.slope(subscript), role: 'prediction', x: [0, axisEnd], y: [0, scale(slope * axisEnd)] },
-    { name: words.calibrator.alphas.interval, role: 'cloud', isBandOnly: true, x: [0, axisEnd], y: [0, scale(slopeMiddle * axisEnd)], error: [0, scale(((high - low) / 2) * axisEnd)] },
+    { name: texts.slope(subscript), role: 'prediction', x: [0, axisEnd], y: [0, scaleToAxis(slope * axisEnd)] },
+    { name: words.calibrator.alphas.interval, role: 'cloud', isBandOnly: true, x: [0, axisEnd], y: [0, scaleToAxis(slopeMiddle * axisEnd)], error: [0, scaleToAxis(((high - low) / 2) * axisEnd)] },
   ];
   return {
-    label: texts.label(kind, String(alpha + 1), slope === null ? NO_VALUE : localized(formatAlphaOrBound(slope, interval))),
+    label: texts.label(kind, String(alpha + 1), slope === null ? NO_VALUE : localizeNumber(formatAlphaOrBound(slope, interval))),
     x: { name: axis, from: 0, to: axisEnd },
-    y: { name: `${kind}, ${texts.axis}${exponent < 0 ? ` (${formatPowerOfTen(exponent)})` : ''}`, from: scale(axisBottom), to: scale(axisTop) },
+    y: { name: `${kind}, ${texts.axis}${exponent < 0 ? ` (${formatPowerOfTen(exponent)})` : ''}`, from: scaleToAxis(axisBottom), to: scaleToAxis(axisTop) },
     curves: [...slopeLines, { name: texts.bins, role: 'ink', x: [], y: [] }],
-    points: x.map((value, i) => ({ role: 'ink' as const, x: value, y: scale(y[i]), error: scale(error[i]) })),
+    points: x.map((value, i) => ({ role: 'ink' as const, x: value, y: scaleToAxis(y[i]), error: scaleToAxis(error[i]) })),
   };
 }
 
@@ -255,7 +255,7 @@ function missingMotion(model: string, index: number): 'insufficient-rotation' | 
 /** Returns a note on an α that is not distinguishable from 0, with the drive that would identify it. */
 function identifiabilityNote({ alpha, slope, interval }: CalibrationPanel, { fitted: { model } }: ViewModel) {
   const { panels: texts, alphas: { lacking } } = words.calibrator;
-  if (!isZero(slope, interval)) return '';
+  if (!printsAsZero(slope, interval)) return '';
   return html`<p class="note">${formatMarkup(texts.zero(subscriptOf(alpha), adviceOf(lacking, model, missingMotion(model, alpha)).drive))}</p>`;
 }
 
@@ -278,15 +278,15 @@ function jsonOf({ viewModel: { fitted, stats, legs, truth }, logName }: Figure) 
  * Returns the button that copies the lines. For α's of another rule than Nav2's, it is a button that fits Nav2's rule. `obstacle` is the
  * reason why the button is disabled; empty if it is enabled.
  */
-export function nav2Button(figure: Figure, obstacle: string) {
+export function nav2ButtonHtml(figure: Figure, obstacle: string) {
   const texts = words.calibrator.nav2;
-  if (!NAV2_RULES.includes(modelRuleOf(figure.viewModel.fitted))) return buttonHtml(texts.fit, () => figure.gesture.requestAndCommit(settingsFor('nav2')), { disabled: obstacle !== '', title: obstacle || texts.fitTitle });
+  if (!NAV2_RULES.includes(modelRuleOf(figure.viewModel.fitted))) return buttonHtml(texts.fit, () => figure.gesture.requestAndCommit(settingsOfModelRule('nav2')), { disabled: obstacle !== '', title: obstacle || texts.fitTitle });
   const yaml = yamlOf(figure);
   return copyButtonHtml(figure, texts.copy, () => yaml, { disabled: !yaml || obstacle !== '', title: obstacle || (yaml ? texts.label : texts.none) });
 }
 
 /** Returns the lines, and the button that saves all results. `obstacle` is the reason why it is disabled, or empty. */
-export function nav2ExportControls(figure: Figure, obstacle: string) {
+export function nav2ExportControlsHtml(figure: Figure, obstacle: string) {
   const texts = words.calibrator.nav2;
   const yaml = yamlOf(figure);
   const fileName = `${figure.localName}-${figure.viewModel.config.seed}.json`;

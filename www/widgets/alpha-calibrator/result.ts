@@ -70,15 +70,15 @@ export function formatEstimate(value: number | null, interval: Interval | undefi
 export const formatInterval = (interval: Interval | undefined) => (interval?.every(Number.isFinite) ? interval.map((end) => formatEstimate(end, interval)).join(' to ') : '');
 
 /** Returns true if an α prints as 0 with the digits that its interval allows. A printed 0 would look like a result. */
-export const isZero = (alpha: number | null, interval: Interval | undefined) => alpha !== null && Number(formatEstimate(alpha, interval)) === 0;
+export const printsAsZero = (alpha: number | null, interval: Interval | undefined) => alpha !== null && Number(formatEstimate(alpha, interval)) === 0;
 
 /** Converts a number as printed in files (-1.5e-7) to the signs of the language and a power of ten. */
-export const localized = (number: string) =>
+export const localizeNumber = (number: string) =>
   number.replace(/^-/, MINUS).replace('.', formatFixed(0.5, 1)[1]).replace(/e(-?\d+)$/, (_, exponent) => `·${formatPowerOfTen(Number(exponent))}`);
 
 /** Prints an interval in the current language; a dash if an end is not finite. */
-export const localInterval = (interval: Interval | undefined) =>
-  (interval?.every(Number.isFinite) ? interval.map((end) => localized(formatEstimate(end, interval))).join(' – ') : NO_VALUE);
+export const localizeInterval = (interval: Interval | undefined) =>
+  (interval?.every(Number.isFinite) ? interval.map((end) => localizeNumber(formatEstimate(end, interval))).join(' – ') : NO_VALUE);
 
 export const formatPercent = (fraction: number | null) => (fraction !== null && Number.isFinite(fraction) ? `${formatNumber(100 * fraction)} %` : NO_NUMBER);
 
@@ -87,7 +87,7 @@ const formatUpperEnd = (interval: Interval | undefined) => formatNumber(interval
 const scaleInterval = (interval: Interval, factor: number): Interval => interval && [factor * interval[0], factor * interval[1]];
 
 /** Prints an α times a factor, or its upper bound if it is not significantly different from 0. */
-export const formatAlphaOrBound = (alpha: number | null, interval: Interval, factor = 1) => (isZero(alpha, interval) ? `≤ ${formatUpperEnd(scaleInterval(interval, factor))}` : formatEstimate(alpha && factor * alpha, scaleInterval(interval, factor)));
+export const formatAlphaOrBound = (alpha: number | null, interval: Interval, factor = 1) => (printsAsZero(alpha, interval) ? `≤ ${formatUpperEnd(scaleInterval(interval, factor))}` : formatEstimate(alpha && factor * alpha, scaleInterval(interval, factor)));
 
 /**
  * Returns the YAML lines with the recommended α's, and with the fitted α's in comments. Returns no lines if Nav2 has no such model, or if
@@ -111,7 +111,7 @@ export function nav2Lines({ calibration, count, model, rule, legs, log, warnings
   const alphaLines = alphas.map((alpha, i) => {
     const interval = intervals[i];
     if (alpha === null) return `# alpha${i + 1}: ${texts.notIdentifiable}`;
-    const [scaledInterval, isBound] = [scaleInterval(interval, inflation), isZero(alpha, interval)];
+    const [scaledInterval, isBound] = [scaleInterval(interval, inflation), printsAsZero(alpha, interval)];
     const formattedAlpha = isBound ? formatUpperEnd(scaledInterval) : formatEstimate(inflation * alpha, scaledInterval);
     // Without a line, Nav2 would use its default, which is far above such a bound.
     if (isBound && (scaledInterval?.[1] ?? Infinity) <= MAX_PLAUSIBLE_ALPHA) return `alpha${i + 1}: ${withDecimalPoint(formattedAlpha)}  # ${texts.zero(formatUpperEnd(interval))}`;
@@ -188,14 +188,14 @@ export interface Fit {
  * localizer as the reference, makes consistent α's questionable. After a warning nothing says to use the α's. `place` is where corrections
  * are chosen.
  */
-export function judgementOf({ stats, count, model, corrections, warnings }: Fit, texts: Texts, place: string) {
+export function judgementOf({ stats, count, model, corrections, warnings }: Fit, texts: Texts, correctionPlace: string) {
   const { systematicErrors, diagnostics: { verdict, checks } } = stats;
   const failedChecks = failedChecksOf(checks);
   const [failedCheck] = count > 0 ? failedChecks : [];
   const uncorrectedErrors = SYSTEMATIC_ERRORS.filter((name) => corrections[name] === false && isSignificant(name, systematicErrors[name]));
   const doubts = [
     ...missingAlphaTexts(stats, model, texts),
-    ...(uncorrectedErrors.length ? [texts.systematic.matters(systematicText(uncorrectedErrors, stats, texts), place)] : []),
+    ...(uncorrectedErrors.length ? [texts.systematic.matters(systematicText(uncorrectedErrors, stats, texts), correctionPlace)] : []),
   ];
   const warningTexts = warnings.map((name) => texts.nav2[name]);
   const defects = count === 0 ? [texts.none]
@@ -204,7 +204,7 @@ export function judgementOf({ stats, count, model, corrections, warnings }: Fit,
   const findings = verdict === 'unusable' ? [...defects, ...warningTexts] : [...warningTexts, ...defects];
   const [finding = texts.passed(String(checks.length)), ...otherFindings] = [...findings, ...doubts];
   const rating = verdict === 'consistent' && warnings.length + doubts.length > 0 ? 'questionable' : verdict;
-  const usage = rating === 'unusable' || warnings.length > 0 ? [] : [rating === 'consistent' ? texts.use : texts.useAnyway, ...correctionAdvice(stats, texts.nav2, localized)];
+  const usage = rating === 'unusable' || warnings.length > 0 ? [] : [rating === 'consistent' ? texts.use : texts.useAnyway, ...correctionAdvice(stats, texts.nav2, localizeNumber)];
   const clockOffset = systematicErrors.clockOffset.value ?? 0;
   const clockNote = Math.abs(clockOffset) > MENTIONED_CLOCK_OFFSET ? [texts.clock(formatInteger(Math.round(Math.abs(clockOffset))), clockOffset > 0)] : [];
   const advice = [...otherFindings, ...(failedCheck ? [checkMessage(failedCheck, texts)] : []), ...clockNote, ...usage];
@@ -241,7 +241,7 @@ function isSignificant(name: string, error: Parameters<typeof componentsOf>[0]) 
 /** Lists systematic errors with their values; empty if none is identifiable. */
 export function systematicText(names: readonly (typeof SYSTEMATIC_ERRORS)[number][], { systematicErrors }: CalibrationStats, { systematic }: Texts) {
   return names.flatMap((name) => {
-    const texts = componentsOf(systematicErrors[name]).flatMap(({ value, interval }) => (value === null ? [] : [`${localized(formatEstimate(value, interval))} (${localInterval(interval)})`]));
+    const texts = componentsOf(systematicErrors[name]).flatMap(({ value, interval }) => (value === null ? [] : [`${localizeNumber(formatEstimate(value, interval))} (${localizeInterval(interval)})`]));
     return texts.length ? [`${systematic.names[name]} ${texts.join(', ')}`] : [];
   }).join('; ');
 }

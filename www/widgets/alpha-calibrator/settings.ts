@@ -43,7 +43,7 @@ export type ModelRule = keyof typeof import('./en.ts').en.kinds;
 
 export const modelRuleOf = ({ model, rule }: AlphaCalibratorSettings): ModelRule => (model === 'velocity' ? 'velocity' : rule);
 
-export function settingsFor(kind: ModelRule) {
+export function settingsOfModelRule(kind: ModelRule) {
   if (kind === 'velocity') return { model: 'velocity', rule: 'thrun' };
   return { model: kind === 'omni' ? 'omnidirectional' : 'odometry', rule: kind };
 }
@@ -72,7 +72,7 @@ export const definition = createDefinition('alpha-calibrator', {
   },
 });
 
-export type ViewModel = ReturnType<typeof fitOf> & {
+export type ViewModel = ReturnType<typeof readFit> & {
   /** True values of the simulated log. */
   truth: Simulation['truth'];
   /** Log of the user or the page; null for the simulated one. */
@@ -89,13 +89,13 @@ export type ViewModel = ReturnType<typeof fitOf> & {
 export function viewModelOf(simulation: Simulation, log: CalibrationLog | null, previousViewModel: ViewModel | undefined): ViewModel {
   const { config, fittedConfig: fitted, fits, isPending } = simulation.read();
   const isSameSimulation = previousViewModel?.simulation === simulation;
-  const fit = isSameSimulation && previousViewModel.fits === fits ? previousViewModel : fitOf(simulation, fits, fitted);
+  const fit = isSameSimulation && previousViewModel.fits === fits ? previousViewModel : readFit(simulation, fits, fitted);
   const truth = isSameSimulation && previousViewModel.log === log ? previousViewModel.truth : simulation.truth;
   return { ...fit, truth, log, config, fitted, isPending };
 }
 
 /** Returns the fit of a simulation, and the legs to show. `fits` is the revision number of the fit. */
-function fitOf(simulation: Simulation, fits: number, { duration, distance }: Simulation['config']) {
+function readFit(simulation: Simulation, fits: number, { duration, distance }: Simulation['config']) {
   const { stats, legs } = simulation;
   return {
     simulation,

@@ -9,15 +9,15 @@ import { swatchHtml } from '../../scene/draw.ts';
 import { buttonHtml, fieldsetHtml, formatMarkup } from '../../ui/controls.ts';
 import { formatFixed } from '../../ui/format.ts';
 import { sliderTrackHtml } from '../../ui/slider.ts';
-import { Player, presetButtons } from '../shared/controls.ts';
+import { Player, presetButtonsHtml } from '../shared/controls.ts';
 import { PoseHandles } from '../shared/robot.ts';
 import { ArcPicture, ROBOT_RADIUS } from './picture.ts';
-import { formsPlot, factorBarsHtml, headlineHtml, likelihoodReadouts, tableLinesHtml, lineText, captionOf, pictureText } from './readouts.ts';
+import { formErrorsPlotHtml, factorBarsHtml, headlineHtml, likelihoodReadoutsHtml, tableLinesHtml, lineText, captionOf, pictureText } from './readouts.ts';
 import { LINE_STYLES, UNDERWAY_AT_END, definition, CONTOUR_STYLES, ALPHA_SLIDERS, COMMAND_SLIDERS, TABLE_LINES, type ViewModel } from './settings.ts';
 import type { ArcAnatomy as Simulation, Motion } from '../../types.d.ts';
 
 /** Returns the controls of the likelihood: the sign of the radius, and the heat map with the names of its contours. */
-function likelihoodControls(figure: ArcAnatomyElement) {
+function likelihoodControlsHtml(figure: ArcAnatomyElement) {
   const { likelihood, maps, printed } = words.anatomy;
   const { map } = figure.settings.requested;
   const contourEntry = (name: 'prob' | 'density') => html`<span>${swatchHtml(CONTOUR_STYLES[name])} ${maps[name]}</span>`;
@@ -25,10 +25,10 @@ function likelihoodControls(figure: ArcAnatomyElement) {
     ${map === 'none' ? nothing : html`<p class="legend">${contourEntry('prob')} ${contourEntry('density')}</p>`}`);
 }
 
-function lineStepper(figure: ArcAnatomyElement) {
+function lineStepperHtml(figure: ArcAnatomyElement) {
   const texts = words.anatomy.table;
   const { line } = figure.settings.elementState;
-  const chooseLine = (to: number) => () => figure.gesture.setElementField('line', to);
+  const chooseLine = (newLine: number) => () => figure.gesture.setElementField('line', newLine);
   return html`<div class="stepper" role="group" aria-label=${texts.label}>
     ${buttonHtml(html`<span aria-hidden="true">‹</span>`, chooseLine(line - 1), { disabled: line === 0, title: texts.back })}
     ${buttonHtml(html`<span aria-hidden="true">›</span>`, chooseLine(line + 1), { disabled: line === TABLE_LINES, title: texts.on })}
@@ -36,15 +36,15 @@ function lineStepper(figure: ArcAnatomyElement) {
   </div>`;
 }
 
-function timeControl({ player, gesture, viewModel, settings }: ArcAnatomyElement) {
+function timeControlHtml({ player, gesture, viewModel, settings }: ArcAnatomyElement) {
   const { underway } = settings.elementState;
   const { dt } = viewModel.config.command;
   const timeText = words.anatomy.timeOf(formatFixed((underway / UNDERWAY_AT_END) * dt, 2), formatFixed(dt, 2));
   return fieldsetHtml(words.anatomy.time, html`<div class="underway">
-    ${player.button('underway', words.play)}
+    ${player.buttonHtml('underway', words.play)}
     <div class="slider" part="slider" data-role="truth">
       <label for="underway"><bdi class="symbol notranslate" translate="no"><i>t</i></bdi>${words.anatomy.underway}</label>
-      ${sliderTrackHtml({ id: 'underway', min: 0, max: UNDERWAY_AT_END, step: 1, value: underway, text: timeText, onInput: (at) => player.setByUser('underway', at), onCommit: () => gesture.commit() })}
+      ${sliderTrackHtml({ id: 'underway', min: 0, max: UNDERWAY_AT_END, step: 1, value: underway, text: timeText, onInput: (newTime) => player.setByUser('underway', newTime), onCommit: () => gesture.commit() })}
       <output class="value" for="underway">${timeText}</output>
     </div>
   </div>`);
@@ -171,7 +171,7 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
   /** Handles of both poses. The handle of the final pose is on top if both poses are at the same place. */
   #handles: PoseHandles[] = ['start', 'next'].map((setting) => new PoseHandles(this, setting, () => this.#picture.view));
 
-  /** Animation of the arcs, which always takes the same time. The duration of the command is displayed next to it. */
+  /** Player that animates the arcs. The animation takes the same time for every command. */
   player: Player<'underway'> = new Player(this, { underway: { max: UNDERWAY_AT_END, durationMs: 2000 } });
 
   createSimulation = ({ ArcAnatomy }: Motion) => new ArcAnatomy();
@@ -216,12 +216,12 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
       ${this.renderer.renderAfterFirstPicture(() => html`
       ${legendHtml(this, LINE_STYLES)}
       <p class="verdict caption" part="caption">${captionOf(viewModel)}</p>
-      ${presetButtons(this)}
-      <div class="controls" part="controls">${fieldsetHtml(words.command, settingSlidersHtml(this, COMMAND_SLIDERS))} ${timeControl(this)}</div>
+      ${presetButtonsHtml(this)}
+      <div class="controls" part="controls">${fieldsetHtml(words.command, settingSlidersHtml(this, COMMAND_SLIDERS))} ${timeControlHtml(this)}</div>
       ${disclosuresHtml(this, {
-        renderControls: () => html`<div class="controls">${likelihoodControls(this)}
+        renderControls: () => html`<div class="controls">${likelihoodControlsHtml(this)}
           ${fieldsetHtml(words.noise, html`${settingRadiosHtml(this, 'noise', words.noises)} ${settingSlidersHtml(this, ALPHA_SLIDERS)}`, 'alphas')}</div>`,
-        renderNumbers: () => html`${lineStepper(this)} ${tableLinesHtml(viewModel, this.settings.elementState.line)} ${likelihoodReadouts(viewModel)} ${formsPlot(this.motion)}`,
+        renderNumbers: () => html`${lineStepperHtml(this)} ${tableLinesHtml(viewModel, this.settings.elementState.line)} ${likelihoodReadoutsHtml(viewModel)} ${formErrorsPlotHtml(this.motion)}`,
         fileNameSuffix: 'figure',
         csvTitle: texts.csvTitle,
       })}`)}

@@ -18,7 +18,7 @@ export type Scene = ViewModel & { simulation: ArcAnatomy, overlays: LineName[], 
 /** Radius of the robots, m. */
 export const ROBOT_RADIUS = 0.06;
 
-/** Maximum radius of an arc whose centre is in the picture: the larger of a multiple of the path length, and a length in metres. */
+/** Limits of an arc's radius, as a multiple of the path length and in metres. Up to the larger limit, the view includes the arc's centre. */
 const MAX_RADIUS = { pathLengths: 3, metres: 1.5 };
 
 /** Margin around the paths, m. */
@@ -51,7 +51,7 @@ const CONSTRUCTIONS_BY_LINE: Record<number, string[]> = {
 export class ArcPicture extends Picture<Scene> {
   name = 'plane';
   view: View = new View();
-  #pixels = new CachedImage();
+  #heatMapImage = new CachedImage();
   #surfaceMemo: Memo<AnatomySurface | null> = new Memo();
 
   fitView({ config: { start, next }, stats: { commanded, inverted, lastTurn }, paths, overlays }: Scene) {
@@ -73,7 +73,7 @@ export class ArcPicture extends Picture<Scene> {
     const styles = lineStyles(drawContext, LINE_STYLES);
     drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, legendEntriesOf(drawContext, scene));
     clipToPlot(drawContext, () => {
-      this.#drawSurface(drawContext, scene);
+      this.#drawHeatMap(drawContext, scene);
       const { commanded, inverted, driven, lastTurn } = stats;
       if (showsLine('commanded')) {
         drawArcConstruction(drawContext, start, commanded, { ...styles.commanded, side: -1, angle: `ωΔt = ${formatFixed(commanded.turn, 2)}`, radius: '' });
@@ -111,14 +111,14 @@ export class ArcPicture extends Picture<Scene> {
     });
   };
 
-  /** Draws the heat map of the likelihood with its contours, if there is one. */
-  #drawSurface(drawContext: DrawContext, { simulation, config }: Scene) {
+  /** Draws the chosen heat map of the likelihood with its contours, if any. */
+  #drawHeatMap(drawContext: DrawContext, { simulation, config }: Scene) {
     const { context, palette, view } = drawContext;
     const { xMin, yMin, xMax, yMax } = view.extent;
     // The configuration is a new object after every change.
     const surface = this.#surfaceMemo.get([config, xMin, yMin, xMax, yMax], () => simulation.surface(xMin, yMin, xMax, yMax));
     if (!surface) return;
-    this.#pixels.draw(drawContext, [surface, palette], () => {
+    this.#heatMapImage.draw(drawContext, [surface, palette], () => {
       const rampColours = new Uint32Array(densityRamp(palette).buffer);
       // The lowest shade is transparent.
       rampColours[0] = 0;
@@ -131,7 +131,7 @@ export class ArcPicture extends Picture<Scene> {
   }
 }
 
-/** Returns the legend of an exported picture. The last turn is not in it, because it has a label in the picture. */
+/** Returns the legend of an exported picture. The last turn has a label in the picture, and so no entry in the legend. */
 function legendEntriesOf(drawContext: DrawContext, { overlays, config: { map } }: Scene) {
   const drawnNames = (['inverted', 'commanded', 'chord', 'twist'] as LineName[]).filter((name) => overlays.includes(name));
   return [
@@ -151,7 +151,7 @@ function drawArcConstruction(drawContext: DrawContext, start: Pose, { center, en
   const [fromX, fromY] = view.toPixel(start.x, start.y);
   const ahead = view.pixelDirection(start.theta);
   const [offX, offY] = [1.5 * side * ahead.x, 1.5 * side * ahead.y];
-  const visibleFractionOfRadius = visibleFraction(view.plotArea, [fromX, fromY], [x, y]);
+  const visibleFractionOfRadius = visibleFractionOf(view.plotArea, [fromX, fromY], [x, y]);
   strokePath(context, { colour, width: 1.25, dash }, () => {
     addLine(context, [[fromX + offX, fromY + offY], [x + offX, y + offY]]);
     addLine(context, [[x, y], view.toPixel(end[0], end[1])]);
@@ -160,8 +160,8 @@ function drawArcConstruction(drawContext: DrawContext, start: Pose, { center, en
     addLine(context, [[x - CROSS_HALF_SIZE, y], [x + CROSS_HALF_SIZE, y]]);
     addLine(context, [[x, y - CROSS_HALF_SIZE], [x, y + CROSS_HALF_SIZE]]);
   });
-  strokeAngle(context, [x, y], [fromX, fromY], turn, { colour, width: 1.5 });
-  // The labels are behind the robot, away from the arc. If the centre is outside the picture, they are ahead of the robot, because the
+  strokeAngleArc(context, [x, y], [fromX, fromY], turn, { colour, width: 1.5 });
+  // Labels are behind the robot, away from the arc. If the arc's centre is outside the picture, labels are ahead of the robot, because the
   // picture may end behind it.
   const labelSide = Math.sign(arcLength) * (visibleFractionOfRadius === 1 ? -1 : 1);
   const drawArcLabel = (text: string, share: number) => {
@@ -174,7 +174,7 @@ function drawArcConstruction(drawContext: DrawContext, start: Pose, { center, en
 }
 
 /** Returns the visible fraction of the line from a visible point to another point. */
-function visibleFraction({ left, right, top, bottom }: import('../../scene/view.ts').View['plotArea'], [fromX, fromY]: [x: number, y: number], [x, y]: [x: number, y: number]) {
+function visibleFractionOf({ left, right, top, bottom }: import('../../scene/view.ts').View['plotArea'], [fromX, fromY]: [x: number, y: number], [x, y]: [x: number, y: number]) {
   const fractionAlong = (start: number, end: number, min: number, max: number) =>
     end >= min && end <= max ? 1 : (clamp(end, min, max) - start) / (end - start);
   return Math.min(fractionAlong(fromX, x, left, right), fractionAlong(fromY, y, top, bottom));
@@ -227,11 +227,11 @@ function drawTableLineConstruction(drawContext: DrawContext, { config: { start, 
   }
   if (highlightedConstructions.includes('radius')) drawAccentLine(3, startPixel, centrePixel, endPixel);
   if (highlightedConstructions.includes('centre')) drawDisc(context, centrePixel, 8, undefined, { colour: accent, width: 3 });
-  if (highlightedConstructions.includes('angle')) strokeAngle(context, centrePixel, startPixel, inverted.turn, { colour: accent, width: 4 });
+  if (highlightedConstructions.includes('angle')) strokeAngleArc(context, centrePixel, startPixel, inverted.turn, { colour: accent, width: 4 });
 }
 
 /** Strokes an arc about a centre that marks a turn in radians from the direction of a point; both in pixels. */
-function strokeAngle(context: DrawContext['context'], [x, y]: number[], [fromX, fromY]: number[], turn: number, style: LineStroke) {
+function strokeAngleArc(context: DrawContext['context'], [x, y]: number[], [fromX, fromY]: number[], turn: number, style: LineStroke) {
   const radius = Math.min(MAX_ANGLE_MARK_RADIUS, 0.4 * Math.hypot(fromX - x, fromY - y));
   strokePath(context, style, () => addTurnArc(context, [x, y], radius, Math.atan2(y - fromY, fromX - x), turn));
 }

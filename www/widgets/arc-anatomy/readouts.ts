@@ -6,7 +6,7 @@ import { formatMarkup } from '../../ui/controls.ts';
 import { clamp, formatFixed, formatPercent, formatPowerOfTen, formatSignificant } from '../../ui/format.ts';
 import { plotHtml } from '../../ui/plot.ts';
 import { readoutsHtml } from '../../ui/readouts.ts';
-import { commandText } from '../shared/sliders.ts';
+import { formatCommand } from '../shared/sliders.ts';
 import { en } from './en.ts';
 import { TABLE_LINES, type ViewModel } from './settings.ts';
 import type { FormErrors, Motion, Pose } from '../../types.d.ts';
@@ -16,27 +16,27 @@ addEnglishMessages({ anatomy: en });
 /** Limit below which numbers are printed as powers of ten: p is a product of three densities, and spans many decades. */
 const MIN_PLAIN_NUMBER = 0.0005;
 
-function scientificText(value: number) {
+function formatScientific(value: number) {
   const [mantissa, exponent] = value.toExponential(1).split('e').map(Number);
   return `${formatFixed(mantissa, 1)}·${formatPowerOfTen(exponent)}`;
 }
 
 /** Returns true if a number is printed as a power of ten. */
-const isTiny = (value: number) => value > 0 && value < MIN_PLAIN_NUMBER;
+const isPrintedAsPower = (value: number) => value > 0 && value < MIN_PLAIN_NUMBER;
 
-const shareText = (share: number) => (isTiny(share) ? scientificText(share) : formatPercent(share));
+const formatShare = (share: number) => (isPrintedAsPower(share) ? formatScientific(share) : formatPercent(share));
 
-const densityText = (density: number) => (isTiny(density) ? scientificText(density) : formatSignificant(density, 3));
+const formatDensity = (density: number) => (isPrintedAsPower(density) ? formatScientific(density) : formatSignificant(density, 3));
 
-/** Returns a sentence about the factor that makes p small. */
+/** Returns the caption: a sentence about the factor that makes the probability density p small. */
 export function captionOf({ config, stats: { factors, weakest, share, driven, inverted } }: ViewModel) {
   const texts = words.anatomy.verdict;
   const { deviations, share: keptShare, deviation } = factors[weakest];
   const estimateName = `${words.anatomy.bars.names[weakest]} ${['v̂', 'ω̂', 'γ̂'][weakest]}`;
-  if (config.printed && driven.arcLength !== inverted.arcLength) return texts.printed(formatFixed(factors[0].estimate, 2), shareText(share));
+  if (config.printed && driven.arcLength !== inverted.arcLength) return texts.printed(formatFixed(factors[0].estimate, 2), formatShare(share));
   if (share === 1) return texts.peak;
   if (deviation === 0) return texts.noiseless(estimateName);
-  return texts.off(estimateName, formatFixed(Math.abs(deviations), 1), shareText(keptShare), shareText(share));
+  return texts.off(estimateName, formatFixed(Math.abs(deviations), 1), formatShare(keptShare), formatShare(share));
 }
 
 const poseText = ({ x, y, theta }: Pose) => words.anatomy.pose(formatFixed(x, 2), formatFixed(y, 2), formatFixed(theta, 2));
@@ -45,7 +45,7 @@ export function pictureText(viewModel: ViewModel) {
   const { config, stats: { inverted } } = viewModel;
   const texts = words.anatomy.picture;
   return [
-    texts.poses(poseText(config.start), commandText(config.command), poseText(config.next)),
+    texts.poses(poseText(config.start), formatCommand(config.command), poseText(config.next)),
     inverted.center === null ? texts.straight : texts.arc(formatFixed(inverted.radius, 2), inverted.radius > 0),
     captionOf(viewModel),
   ].join(' ');
@@ -67,7 +67,7 @@ const FACTOR_NOTATION = [
 
 export function headlineHtml({ stats: { share } }: ViewModel) {
   const texts = words.anatomy.headline;
-  return html`<p class="headline" part="readouts"><strong>${shareText(share)}</strong> ${isTiny(share) ? texts.times : texts.share}</p>`;
+  return html`<p class="headline" part="readouts"><strong>${formatShare(share)}</strong> ${isPrintedAsPower(share) ? texts.times : texts.share}</p>`;
 }
 
 /**
@@ -83,7 +83,7 @@ export function factorBarsHtml({ stats: { factors, weakest, share } }: ViewModel
       return html`<li class=${i === weakest && share < 1 ? 'weakest' : nothing}>
         <span class="estimate">${formatMarkup(symbol)} ${texts.names[i]} = ${formatFixed(factor.estimate, 2)} ${unit}</span>
         ${barHtml(deviations)}
-        <span class="keeps muted small">${texts.factor(shareText(factor.share))}</span>
+        <span class="keeps muted small">${texts.factor(formatShare(factor.share))}</span>
         <span class="off small">${formatMarkup(error)}/<i>σ</i> = ${formatFixed(deviations, 1)}</span>
       </li>`;
     })}
@@ -103,12 +103,12 @@ function barHtml(deviations: number) {
   </svg>`;
 }
 
-export function likelihoodReadouts({ stats: { prob, density, xi } }: ViewModel) {
+export function likelihoodReadoutsHtml({ stats: { prob, density, xi } }: ViewModel) {
   const texts = words.anatomy.likelihoods;
   const [along, lateral, heading] = xi;
   return readoutsHtml([
-    [texts.prob, densityText(prob)],
-    [texts.density, density === null ? texts.none : densityText(density)],
+    [texts.prob, formatDensity(prob)],
+    [texts.density, density === null ? texts.none : formatDensity(density)],
     [texts.xi, `(${formatFixed(along, 2)}, ${formatFixed(lateral, 2)}, ${formatFixed(heading, 2)})`],
   ]);
 }
@@ -132,7 +132,7 @@ const LINE_UNITS = ['', ' m', ' m', ' m', ' rad', ' m/s', ' rad/s', ' rad/s', ''
 export function lineText({ table: { lines }, config: { printed } }: ViewModel, line: number) {
   const lineValue = lines[line - 1];
   const lineFormula = printed ? TABLE_FORMULAS[line - 1].replace('±', '') : TABLE_FORMULAS[line - 1];
-  const valueText = line === TABLE_LINES ? densityText(lineValue) : formatFixed(lineValue, 3);
+  const valueText = line === TABLE_LINES ? formatDensity(lineValue) : formatFixed(lineValue, 3);
   return `${line}. ${lineFormula} = ${valueText}${LINE_UNITS[line - 1]}`;
 }
 
@@ -144,13 +144,13 @@ export function tableLinesHtml(viewModel: ViewModel, highlightedLine: number) {
     <p class="muted">${formatMarkup(texts.sign)}</p>`;
 }
 
-/** Range of errors in the plot, m: from below the rounding of the distance to above the whole distance. */
+/** Range (m) of the error axis, from below the rounding error of the distance to above the whole distance. */
 const ERROR_RANGE = { from: 1e-18, to: 1 };
 
-/** Cache of the errors of the forms, which depend on no setting. */
+/** Cached errors of the three forms of the arc, which depend on no setting. */
 let cachedFormErrors: FormErrors | undefined;
 
-export function formsPlot({ ArcAnatomy }: Motion) {
+export function formErrorsPlotHtml({ ArcAnatomy }: Motion) {
   const texts = words.anatomy.forms;
   const { omega, arc, straight, chord, estimatedCrossover, threshold } = (cachedFormErrors ??= ArcAnatomy.formErrors());
   return html`<figure class="forms">

@@ -13,13 +13,13 @@ import { openingAlphas } from '../../../build/settings.js';
 import { buttonHtml, formatMarkup, radioButtonHtml, fieldsetHtml, checkboxHtml } from '../../ui/controls.ts';
 import { clamp, formatFixed, formatEditable } from '../../ui/format.ts';
 import { plotHtml } from '../../ui/plot.ts';
-import { cloudProperties, samplesSlider } from '../shared/cloud.ts';
-import { Player, presetButtons } from '../shared/controls.ts';
+import { cloudProperties, samplesSliderHtml } from '../shared/cloud.ts';
+import { Player, presetButtonsHtml } from '../shared/controls.ts';
 import { subscriptOf } from '../shared/sliders.ts';
 import { IntroducedCloud } from './introduction.ts';
-import { MORPH_MS, morphControl, outlinesAt, morphedPoint } from './morph.ts';
+import { MORPH_MS, morphControlHtml, outlinesAt, morphedPoint } from './morph.ts';
 import { PlanePicture, TwistPicture } from './pictures.ts';
-import { markedRobotField, otherReadouts, mainReadouts, twistTable, workedExampleTable, calloutsOf, captionOf, floorTitle, planeText, twistCaption, twistText } from './readouts.ts';
+import { markedRobotFieldHtml, otherReadoutsHtml, mainReadoutsHtml, twistTableHtml, workedExampleTableHtml, calloutsOf, captionOf, floorTitle, planeText, twistCaption, twistText } from './readouts.ts';
 import { sliderSpecs, LINE_STYLES, OVERLAY_NAMES, definition, COMMAND_SLIDERS, SAMPLE_COUNTS, viewModelOf, viewModelOfSettings, type ViewModel } from './settings.ts';
 import type { StateValues } from '../../figure/settings.ts';
 import type { BananaMachine as Simulation, BananaMachineSettings as Settings, Inspection, Motion } from '../../types.d.ts';
@@ -36,20 +36,20 @@ const EXECUTED_COLUMNS = {
 /** Number of points of the skew chart's curve. With fewer, the steep fall of the skew at ω = 0 would have visible corners. */
 const CURVE_POINTS = 241;
 
-/** Allowed heights of the skew chart, so that its axis does not change with every step of a drag. */
+/** Allowed maxima of the skew chart's vertical axis. With few of them, the axis seldom changes during a drag. */
 const CHART_HEIGHTS = [0.25, 0.5, 1, 2, 4, 8];
 
-function modelControls(figure: BananaMachineElement) {
+function modelControlsHtml(figure: BananaMachineElement) {
   const { model, alphas, isolate } = figure.viewModel.config;
   const texts = words.banana;
-  // The choice counts from 1. It may be larger than the number of α's, because it was made under the other model.
+  // `isolateChoice` counts from 1. It may exceed the number of α's, because it may have been made under the other model.
   const isolatedAlpha = Math.min(figure.settings.elementState.isolateChoice, alphas.length);
   return fieldsetHtml(texts.modelGroup, html`${settingRadiosHtml(figure, 'model', texts.models)} ${settingRadiosHtml(figure, 'noise', words.noises)}
     ${model === 'odometry' ? settingCheckboxHtml(figure, 'reverseAware', texts.reverseAware) : nothing}
     ${checkboxHtml({
       label: texts.isolate,
       checked: isolate !== null,
-      onChange: (on) => figure.gesture.requestAndCommit({ isolate: on ? isolatedAlpha : null }),
+      onChange: (isChecked) => figure.gesture.requestAndCommit({ isolate: isChecked ? isolatedAlpha : null }),
     })}`);
 }
 
@@ -59,15 +59,15 @@ function modelControls(figure: BananaMachineElement) {
  */
 const VISIBLE_ALPHAS: Record<string, number[]> = { velocity: [0, 2], odometry: [1, 2] };
 
-/** Returns a group with the sliders of the α's that are always visible, or of the others. */
-function alphaGroup(figure: BananaMachineElement, isVisible: boolean) {
+/** Returns a group with the sliders of the α's that are always visible, or of all other α's. */
+function alphaGroupHtml(figure: BananaMachineElement, isVisible: boolean) {
   const { model, alphas } = figure.viewModel.config;
   const indices = [...alphas.keys()].filter((index) => VISIBLE_ALPHAS[model].includes(index) === isVisible);
-  return fieldsetHtml(words.noise, indices.map((index) => alphaSlider(figure, index + 1, words.alphas[model as 'velocity' | 'odometry'][index])), isVisible ? 'pair' : 'alphas');
+  return fieldsetHtml(words.noise, indices.map((index) => alphaSliderHtml(figure, index + 1, words.alphas[model as 'velocity' | 'odometry'][index])), isVisible ? 'pair' : 'alphas');
 }
 
 /** Returns the slider of an α, counted from 1. */
-function alphaSlider(figure: BananaMachineElement, alphaNumber: number, [name, effect]: string[]) {
+function alphaSliderHtml(figure: BananaMachineElement, alphaNumber: number, [name, effect]: string[]) {
   const { isolate } = figure.viewModel.config;
   const hasNoEffect = isolate !== null && isolate !== alphaNumber;
   const chooseAlpha = () => figure.gesture.requestAndCommit({ isolate: alphaNumber, isolateChoice: alphaNumber });
@@ -180,8 +180,8 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
   #planePicture = new PlanePicture();
   #twistPicture = new TwistPicture();
   pictures = [this.#planePicture, this.#twistPicture];
-  /** Ring at the end of the commanded arc. */
-  #handle = new Handle('end', {
+  /** Handle at the end of the commanded arc, drawn as a ring. */
+  #arcEndHandle = new Handle('end', {
     view: () => this.#planePicture.view,
     drag: (x, y) => this.#moveArcEnd(x, y),
     handleKey: (event) => {
@@ -260,7 +260,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     const { config } = this.currentViewModel;
     const { poses, twists, executed } = this.simulation as Simulation;
     return {
-      description: this.#description,
+      description: this.#planeDescription,
       settings: config,
       columns: { 'x_m y_m theta_rad': poses, 'xi_along_m xi_lateral_m xi_heading_rad': twists, [EXECUTED_COLUMNS[config.model]]: executed },
     };
@@ -286,7 +286,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
   placeHandles() {
     const { view } = this.#planePicture;
     const [x, y] = this.visibleArcEnd;
-    this.#handle.place(this.renderRoot, view.toPixelX(x), view.toPixelY(y));
+    this.#arcEndHandle.place(this.renderRoot, view.toPixelX(x), view.toPixelY(y));
   }
 
   /**
@@ -308,10 +308,10 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     return this.querySimulation((simulation) => simulation.executed);
   }
 
-  /** Selected robot, if it is among those shown. */
+  /** Executed motion of the selected robot; undefined if no robot is selected or the robot is not shown. */
   get #inspection() {
-    const { simulation, viewModel, cloud: { isMarked, selectedIndex: index } } = this;
-    return isMarked && simulation ? this.#inspectionMemo.get([viewModel.stats, index], () => simulation.inspect(index)) : undefined;
+    const { simulation, viewModel, cloud: { isSelectionShown, selectedIndex: index } } = this;
+    return isSelectionShown && simulation ? this.#inspectionMemo.get([viewModel.stats, index], () => simulation.inspect(index)) : undefined;
   }
 
   /**
@@ -326,12 +326,12 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     });
   }
 
-  /** Renders the handle, with a hint to drag it if the introduction asks for that. */
+  /** Renders the handle of the arc's end, with a hint to drag it during the introduction. */
   #handleHtml({ v, omega }: Settings['command']) {
     const texts = words.banana;
     const { min, max } = sliderSpecs.omega;
     const isAtLimit = [v - sliderSpecs.v.min, sliderSpecs.v.max - v, omega - min, max - omega].some((margin) => margin <= 0);
-    return this.#handle.handleHtml({
+    return this.#arcEndHandle.handleHtml({
       name: texts.handle,
       keysHint: texts.handleKeys,
       title: words.pose.moveTitle,
@@ -343,12 +343,12 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     });
   }
 
-  get #title() {
+  get #planeTitle() {
     const { morph } = this.settings.elementState;
     return morph === 0 ? floorTitle(this.viewModel) : morph === 1 ? words.banana.morph.arrived : words.banana.morph.title;
   }
 
-  get #description() {
+  get #planeDescription() {
     const { overlays } = this.settings.elementState as { overlays: (typeof OVERLAY_NAMES)[number][] };
     const drawnOutlineNames = overlays.filter((name) => hasLength(this.viewModel.contours[name]));
     return planeText(this.viewModel, drawnOutlineNames.map((name) => words.banana.overlays[name]), this.settings.elementState.morph);
@@ -359,40 +359,40 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     const texts = words.banana;
     return html`
       <div class="views">
-        ${titledPictureHtml(this.#title, html`<div class="stage" part="picture">
-          ${pictureCanvasHtml(this, this.#planePicture, this.#description)} ${this.#handleHtml(config.command)}
+        ${titledPictureHtml(this.#planeTitle, html`<div class="stage" part="picture">
+          ${pictureCanvasHtml(this, this.#planePicture, this.#planeDescription)} ${this.#handleHtml(config.command)}
         </div>`)}
         ${titledPictureHtml(texts.twist, html`<div class="stage">${pictureCanvasHtml(this, this.#twistPicture, twistText(viewModel))}</div>`, 'twist')}
       </div>
       ${this.renderer.renderAfterFirstPicture(() => html`
       <div class="morphing">
-        ${morphControl(this)}
+        ${morphControlHtml(this)}
         ${buttonHtml(this.#pinnedViewModel ? texts.unpin : texts.pin, () => this.#togglePin(), { title: texts.pinTitle, otherLabel: this.#pinnedViewModel ? texts.pin : texts.unpin })}
       </div>
       ${legendHtml(this, LINE_STYLES)}
       <p part="caption" class="caption ${note && 'note'}">${captionOf(viewModel)}</p>
-      ${mainReadouts(viewModel, this.#pinnedViewModel)} ${presetButtons(this)}
+      ${mainReadoutsHtml(viewModel, this.#pinnedViewModel)} ${presetButtonsHtml(this)}
       <div class="controls" part="controls">
-        ${fieldsetHtml(words.command, settingSlidersHtml(this, COMMAND_SLIDERS))} ${alphaGroup(this, true)} ${fieldsetHtml(words.samples, this.cloud.buttons(), 'cloud')}
+        ${fieldsetHtml(words.command, settingSlidersHtml(this, COMMAND_SLIDERS))} ${alphaGroupHtml(this, true)} ${fieldsetHtml(words.samples, this.cloud.buttonsHtml(), 'cloud')}
       </div>
       ${disclosuresHtml(this, {
-        renderControls: () => html`<div class="controls">${alphaGroup(this, false)} ${modelControls(this)} ${fieldsetHtml(words.samples, samplesSlider(this, SAMPLE_COUNTS))}</div>`,
-        renderNumbers: () => html`${markedRobotField(this, this.#inspection)} ${this.#figuresHtml(viewModel)}`,
+        renderControls: () => html`<div class="controls">${alphaGroupHtml(this, false)} ${modelControlsHtml(this)} ${fieldsetHtml(words.samples, samplesSliderHtml(this, SAMPLE_COUNTS))}</div>`,
+        renderNumbers: () => html`${markedRobotFieldHtml(this, this.#inspection)} ${this.#numbersHtml(viewModel)}`,
       })}`)}
     `;
   }
 
-  #figuresHtml(viewModel: ViewModel) {
+  #numbersHtml(viewModel: ViewModel) {
     const texts = words.banana;
-    return html`${otherReadouts(viewModel)}<p>${formatMarkup(texts.gainIs)}</p>
+    return html`${otherReadoutsHtml(viewModel)}<p>${formatMarkup(texts.gainIs)}</p>
       <div class="figures" part="figures">
-        <figure>${this.#skewChart(viewModel)}<figcaption>${formatMarkup(texts.chartCaption)}</figcaption></figure>
-        <figure>${workedExampleTable(viewModel)}</figure>
-        <figure>${twistTable(viewModel)}<p>${twistCaption(viewModel)}</p></figure>
+        <figure>${this.#skewChartHtml(viewModel)}<figcaption>${formatMarkup(texts.chartCaption)}</figcaption></figure>
+        <figure>${workedExampleTableHtml(viewModel)}</figure>
+        <figure>${twistTableHtml(viewModel)}<p>${twistCaption(viewModel)}</p></figure>
       </div>`;
   }
 
-  #skewChart({ config, stats, exactSkew }: ViewModel) {
+  #skewChartHtml({ config, stats, exactSkew }: ViewModel) {
     const { model, noise, command: { v, omega, dt }, alphas, isolate } = config;
     const texts = words.banana;
     const { min, max, step } = sliderSpecs.omega;
@@ -419,7 +419,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
         step,
         value: omega,
         text: texts.chartText(formatFixed(omega, 2), formatFixed(exactSkew, 3)),
-        onInput: (to) => this.settings.request(({ command }) => ({ command: { ...command, omega: to } })),
+        onInput: (newOmega) => this.settings.request(({ command }) => ({ command: { ...command, omega: newOmega } })),
         onCommit: () => this.gesture.commit(),
       },
     });

@@ -2,7 +2,7 @@
 
 import { Cloud } from '../shared/cloud.ts';
 
-/** Duration of each of two drives, ms: of one robot, and then of all. Drives and growth of the cloud take less than four seconds. */
+/** Duration (ms) of the drive of the first robot, and then of the drive of all robots. Both drives and the growth of the cloud take less than four seconds. */
 const DRIVE_DURATION_MS = 650;
 
 /** Number of robots that drive. */
@@ -49,11 +49,11 @@ export class IntroducedCloud extends Cloud {
     const isConfigured = host.presentation || Object.keys(host.definition.attributes).some((name) => host.hasAttribute(name));
     if (state || !this.playing || isConfigured || host.settings.current.samples < DRIVING_ROBOTS || !isFirstInSession()) return;
     this.#phase = 'driving';
-    this.show(DRIVING_ROBOTS);
+    this.showSamples(DRIVING_ROBOTS);
     for (const event of ['pointerdown', 'keydown']) addEventListener(event, this.skip, { capture: true });
   }
 
-  /** Ends the introduction when it is over, or when the user does something else. */
+  /** Ends the introduction after its last phase, or when the user presses a pointer or key. */
   skip = () => {
     this.#phase = 'none';
     for (const event of ['pointerdown', 'keydown']) removeEventListener(event, this.skip, { capture: true });
@@ -64,13 +64,13 @@ export class IntroducedCloud extends Cloud {
     this.skip();
   }
 
-  grow() {
+  addGrowthStep() {
     if (this.#phase === 'driving') {
       // It starts when the figure is visible.
       this.#startTimeMs ??= performance.now();
       if (performance.now() - this.#startTimeMs < 2 * DRIVE_DURATION_MS) return;
       this.#phase = 'asking';
     }
-    super.grow();
+    super.addGrowthStep();
   }
 }

@@ -10,13 +10,13 @@ import { sliderTrackHtml } from '../../ui/slider.ts';
 import type { Motion } from '../../types.d.ts';
 import type { ViewModel } from './settings.ts';
 
-/** Lines on the floor, or their images under the morph. */
+/** Outlines on the floor by name, or their images under the morph. */
 export type Outlines = Omit<ViewModel['contours'], 'twistEllipse'>;
 
 /** Duration of the animated morph, ms. */
 export const MORPH_MS = 5000;
 
-/** Step of the slider. */
+/** Step of the morph slider. */
 const MORPH_STEP = 0.01;
 
 /**
@@ -31,7 +31,7 @@ export function morphedPoint({ 0: along, 1: lateral, 2: heading }: ArrayLike<num
   return [ahead * cos - sideways * sin, ahead * sin + sideways * cos + morph * heading];
 }
 
-/** Returns the outlines after a morph. The outlines on the floor are transformed point by point; the exponential one is computed anew. */
+/** Returns the outlines after a morph. Outlines on the floor are transformed point by point. The outline of the Gaussian in exponential coordinates is computed directly. */
 export function outlinesAt(motion: Motion, viewModel: ViewModel, morph: number): Outlines {
   const { config: { command: { v, omega, dt } }, contours, stats } = viewModel;
   if (morph === 0) return contours;
@@ -57,9 +57,9 @@ export class MorphView extends View {
   /** Views at both ends of the morph: of the floor, and of exponential coordinates. */
   endViews;
 
-  constructor(inset: { left: number, right: number }) {
-    super(inset);
-    this.endViews = [new View(inset), new View({ ...inset, hasEqualScales: false })];
+  constructor(margins: { left: number, right: number }) {
+    super(margins);
+    this.endViews = [new View(margins), new View({ ...margins, hasEqualScales: false })];
   }
 
   resize(width: Parameters<View['resize']>[0], height: Parameters<View['resize']>[1]) {
@@ -87,18 +87,18 @@ export class MorphView extends View {
     this.hasZoomedOut ||= view.hasZoomedOut;
   }
 
-  moveTowardsTarget(elapsed: Parameters<View['moveTowardsTarget']>[0], atOnce: Parameters<View['moveTowardsTarget']>[1]) {
-    const isMoving = this.endViews.map((endView) => endView.moveTowardsTarget(elapsed, atOnce)).includes(true);
+  moveTowardsTarget(elapsedMs: Parameters<View['moveTowardsTarget']>[0], isImmediate: Parameters<View['moveTowardsTarget']>[1]) {
+    const isMoving = this.endViews.map((endView) => endView.moveTowardsTarget(elapsedMs, isImmediate)).includes(true);
     this.extent = interpolateExtent(this.endViews[0].extent, this.endViews[1].extent, this.morph);
     return isMoving;
   }
 }
 
-export function morphControl({ player, gesture, settings }: import('./banana-machine.ts').BananaMachineElement) {
+export function morphControlHtml({ player, gesture, settings }: import('./banana-machine.ts').BananaMachineElement) {
   const texts = words.banana.morph;
   const { morph } = settings.elementState;
   return html`<div class="morph" role="group" aria-label=${texts.name}>
-    ${player.button('morph', texts.play)}
+    ${player.buttonHtml('morph', texts.play)}
     ${sliderTrackHtml({
       id: 'morph', name: texts.name, min: 0, max: 1, step: MORPH_STEP, value: morph, text: texts.text(formatPercent(morph)),
       onInput: (to) => player.setByUser('morph', to), onCommit: () => gesture.commit(),
@@ -108,19 +108,19 @@ export function morphControl({ player, gesture, settings }: import('./banana-mac
   </div>`;
 }
 
-/** Approximate number of grid lines in each direction, and number of chords of a line. */
-const GRID_LINES = 7;
+/** Approximate number of grid lines in each direction, and number of chords of a grid line. */
+const GRID_LINE_COUNT = 7;
 const CHORDS_PER_LINE = 32;
 
 /** Draws the grid of exponential coordinates at a morph. The second parameter is the view at the end of the morph. */
 export function drawMorphGrid({ context, view, palette }: DrawContext, { extent: { xMin, xMax, yMin, yMax } }: View, morph: number) {
-  const drawGridLine = (pointAt: (share: number) => [along: number, heading: number]) => addLine(context, Array.from({ length: CHORDS_PER_LINE + 1 }, (_, i) => {
+  const drawGridLine = (pointAt: (fraction: number) => [along: number, heading: number]) => addLine(context, Array.from({ length: CHORDS_PER_LINE + 1 }, (_, i) => {
     const [along, heading] = pointAt(i / CHORDS_PER_LINE);
     return view.toPixel(...morphedPoint([along, 0, heading], morph));
   }));
   // The grid becomes visible early in the morph, and ends as the straight grid of the axes.
   paintWithOpacity(context, 0.7 * Math.min(1, 5 * morph), () => strokePath(context, { colour: palette.rule, width: 1 }, () => {
-    for (const along of ticks(xMin, xMax, GRID_LINES)) drawGridLine((share) => [along, yMin + share * (yMax - yMin)]);
-    for (const heading of ticks(yMin, yMax, GRID_LINES)) drawGridLine((share) => [xMin + share * (xMax - xMin), heading]);
+    for (const along of ticks(xMin, xMax, GRID_LINE_COUNT)) drawGridLine((fraction) => [along, yMin + fraction * (yMax - yMin)]);
+    for (const heading of ticks(yMin, yMax, GRID_LINE_COUNT)) drawGridLine((fraction) => [xMin + fraction * (xMax - xMin), heading]);
   }));
 }

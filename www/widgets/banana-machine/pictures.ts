@@ -10,17 +10,17 @@ import { Picture } from '../../scene/picture.ts';
 import { cornersAround, extentOf } from '../../scene/view.ts';
 import { formatInteger } from '../../ui/format.ts';
 import { drawMorphGrid, MorphView, morphedPoint, type Outlines } from './morph.ts';
-import { deviationOf, type ViewModel, LINE_STYLES, type LineName } from './settings.ts';
+import { stdOfVariance, type ViewModel, LINE_STYLES, type LineName } from './settings.ts';
 import type { BananaMachine, Moments } from '../../types.d.ts';
 import { addLine, drawDisc, paintWithOpacity, strokeLine, strokePath, type DrawContext } from '../../scene/canvas.ts';
 
-/** View model of both pictures. */
+/** View model of the floor and twist pictures. */
 export type Scene = import('./banana-machine.ts').BananaMachineElement['scene'];
 
 /** Number of robots above which a cloud is drawn as a density: dots would be indistinguishable, and take longer than a frame. */
 const MAX_DOTS = 1000;
 
-/** Maximum number of rays in a fan of headings. More would look the same. */
+/** Maximum number of rays in a fan of headings. More rays would look the same. */
 const MAX_RAYS = 400;
 
 /** Standard deviation (pixels) below which a cloud is drawn as one point. */
@@ -33,16 +33,16 @@ const VIEWED_DEVIATIONS = 3.2;
 const HANDLE_RADIUS = 7.5;
 
 /** Maximum distance from the pointer to the robot that a click selects, CSS pixels. */
-const PICK_RADIUS = 14;
+const SELECTION_RADIUS = 14;
 
-/** Orders of the outlines: of painting and of the legend. */
+/** Order in which outlines are painted, and order in which the legend lists them. */
 const PAINT_ORDER = ['additive', 'linearized', 'ellipse', 'exponential', 'command'] as const satisfies LineName[];
 const LEGEND_ORDER = ['ellipse', 'exponential', 'linearized', 'additive', 'command'] as const satisfies LineName[];
 
 /** Picture of the robots at a morph, from the floor (0) to exponential coordinates (1). */
 class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
   view: MorphView = new MorphView({ left: 46, right: 10 });
-  /** Outlines that may be drawn. */
+  /** Names of the outlines that the picture may draw. */
   outlineNames: readonly LineName[] = PAINT_ORDER;
   #density = new CachedImage();
   #dotPositions: Memo<Float64Array> = new Memo();
@@ -50,7 +50,7 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
   /** Returns the robot nearest to a point in CSS pixels; −1 for none. */
   nearestSample(simulation: BananaMachine, x: number, y: number) {
     const { view } = this;
-    return simulation.nearest(view.morph, ...view.toWorld(x, y), PICK_RADIUS / view.scaleX, PICK_RADIUS / view.scaleY);
+    return simulation.nearest(view.morph, ...view.toWorld(x, y), SELECTION_RADIUS / view.scaleX, SELECTION_RADIUS / view.scaleY);
   }
 
   /** Returns the outlines of a view model at the morph of the picture. */
@@ -67,30 +67,30 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
   paint: Picture<Scene>['paint'] = (drawContext, scene) => {
     const { context, view, palette } = drawContext;
     const { simulation, overlays, marked, pinned } = scene;
-    const { morph, endViews: [floor, twist] } = this.view;
+    const { morph, endViews: [floorView, twistView] } = this.view;
     const isPlane = this.name === 'plane';
     const outlines = this.outlinesOf(scene, scene);
-    const styles = lineStyles(drawContext, LINE_STYLES);
+    const outlineStyles = lineStyles(drawContext, LINE_STYLES);
     const isDrawn = (name: LineName) => this.outlineNames.includes(name) && overlays[name] && hasLength(outlines[name]);
     const legendEntries = lineLegendEntries(drawContext, LINE_STYLES, LEGEND_ORDER.filter(isDrawn), words.banana.overlays);
     // One pair of axes fades out before the other fades in.
     const axesOfEndViews = [
-      { view: floor, opacity: 1 - 2 * morph, names: { x: 'x (m)', y: 'y (m)' } },
-      { view: twist, opacity: 2 * morph - 1, names: { x: words.banana.axisAlong, y: words.banana.axisHeading } },
+      { view: floorView, opacity: 1 - 2 * morph, names: { x: 'x (m)', y: 'y (m)' } },
+      { view: twistView, opacity: 2 * morph - 1, names: { x: words.banana.axisAlong, y: words.banana.axisHeading } },
     ];
     for (const { view: axesView, opacity, names } of axesOfEndViews) {
       // While the grid of exponential coordinates is curved, `drawMorphGrid` draws it.
-      const gridOpacity = axesView === twist && morph < 1 ? 0 : undefined;
+      const gridOpacity = axesView === twistView && morph < 1 ? 0 : undefined;
       if (opacity > 0) paintWithOpacity(context, Math.min(1, opacity), () => drawAxes({ ...drawContext, view: axesView }, names, legendEntries, gridOpacity));
     }
     const cloudMiddle = morphedPoint(twistMoments(scene)[0].mean, morph);
-    const outlinesInStyle = (outlinePoints: Outlines) => this.outlineNames.filter(isDrawn).map((name) => ({ points: outlinePoints[name], ...styles[name] }));
-    // The outlines of the pinned simulation, or of the one before the latest change, stay in the picture.
+    const outlinesInStyle = (outlinePoints: Outlines) => this.outlineNames.filter(isDrawn).map((name) => ({ points: outlinePoints[name], ...outlineStyles[name] }));
+    // Outlines of the pinned settings, or those before the current gesture, stay in the picture for comparison.
     const earlierViewModel: ViewModel | undefined = pinned ?? drawContext.previousViewModel;
     const earlierOutlines = earlierViewModel ? outlinesInStyle(this.outlinesOf(earlierViewModel, scene)) : [];
     const callouts = isPlane ? [...scene.callouts] : [];
     clipToPlot(drawContext, () => {
-      if (morph > 0 && morph < 1) drawMorphGrid(drawContext, twist, morph);
+      if (morph > 0 && morph < 1) drawMorphGrid(drawContext, twistView, morph);
       if (scene.driving) {
         if (isPlane) drawDrivingRobots(drawContext, simulation, scene.driving);
         return;
@@ -106,7 +106,7 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
         if (isSinglePoint && scene.shown > 0) drawCoincidentRobots(drawContext, this.#dotPositionsOf(scene), scene.shown);
         drawHandle(drawContext, { x: view.toPixelX(endX), y: view.toPixelY(endY), radius: HANDLE_RADIUS, colour: palette.prior });
       } else if (overlays.command) {
-        drawDisc(context, view.toPixel(endX, endY), 5, palette.paper, { ...styles.command, dash: [] });
+        drawDisc(context, view.toPixel(endX, endY), 5, palette.paper, { ...outlineStyles.command, dash: [] });
       }
       if (marked) {
         if (morph === 0) drawOutline(drawContext, marked.path, { colour: palette.accent, width: 1.25, dash: [6, 2] });
@@ -120,7 +120,7 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
 
   /** Returns true if the robots on the floor are drawn as one point. */
   #isSinglePoint({ table: { exact: { cov } } }: Scene) {
-    return this.view.morph === 0 && deviationOf(cov[0][0] + cov[1][1]) * this.view.scaleX < MIN_CLOUD_DEVIATION;
+    return this.view.morph === 0 && stdOfVariance(cov[0][0] + cov[1][1]) * this.view.scaleX < MIN_CLOUD_DEVIATION;
   }
 
   /** Draws the robots as dots or, if there are many, as a density. */
@@ -135,11 +135,11 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
     // Products of the standard deviations along the axes of the cloud, at both ends of the morph.
     const floorProduct = Math.sqrt(Math.max(0, cov[0][0] * cov[1][1] - cov[0][1] * cov[1][0]));
     const [{ cov: twistCov }] = twistMoments(scene);
-    const twistProduct = deviationOf(twistCov[0][0]) * deviationOf(twistCov[2][2]);
+    const twistProduct = stdOfVariance(twistCov[0][0]) * stdOfVariance(twistCov[2][2]);
     const area = 4 * Math.PI * ((1 - morph) * floorProduct + morph * twistProduct) * scaleX * scaleY;
-    // Many robots allow small cells, CSS pixels.
+    // A cloud of many robots allows small cells. Sizes are in CSS pixels.
     const cellSize = Math.min(7, Math.max(2, Math.round(Math.sqrt((3 * area) / shown))));
-    this.#density.drawDensity(drawContext, cellSize, [stats, morph, drawContext.palette], (...part) => simulation.picture(morph, ...part, densityRamp(drawContext.palette)));
+    this.#density.drawDensity(drawContext, cellSize, [stats, morph, drawContext.palette], (...viewPart) => simulation.picture(morph, ...viewPart, densityRamp(drawContext.palette)));
   }
 }
 
@@ -164,7 +164,7 @@ export class PlanePicture extends MorphPicture {
   fitView(scene: Scene) {
     const { contours, table, end: [x, y], overlays, pinnedAt } = scene;
     const { mean, cov } = table.exact;
-    const [xMargin, yMargin] = [VIEWED_DEVIATIONS * deviationOf(cov[0][0]), VIEWED_DEVIATIONS * deviationOf(cov[1][1])];
+    const [xMargin, yMargin] = [VIEWED_DEVIATIONS * stdOfVariance(cov[0][0]), VIEWED_DEVIATIONS * stdOfVariance(cov[1][1])];
     const points = [...cornersAround(mean[0], mean[1], xMargin, yMargin), ...contours.command, ...pinnedAt(0)];
     // The additive outline may be much larger than the cloud, and counts only if it is shown.
     if (overlays.additive) points.push(...contours.additive);
@@ -201,7 +201,7 @@ function drawDrivingRobots(drawContext: DrawContext, simulation: BananaMachine, 
   const { palette } = drawContext;
   for (let i = 0; i < robots; i++) {
     const { path, pose } = simulation.inspect(i);
-    // The first robot has arrived when the others start.
+    // The first robot has arrived when the other robots start.
     const chordCount = path.length / 2 - 1;
     const chordPosition = (i === 0 && robots > 1 ? 1 : share) * chordCount;
     const chord = Math.min(Math.floor(chordPosition), chordCount - 1);
@@ -232,15 +232,15 @@ function drawOdometryReading(drawContext: DrawContext, { rot1, trans, rot2 }: im
   });
   const turns = [['rot1', start, rot1], ['rot2', turned, rot2]] as const;
   for (const [, pose, turn] of turns) strokePath(context, style, () => addTurnArc(context, view.toPixel(pose.x, pose.y), TURN_RADIUS, pose.theta, turn));
-  for (const [sub, pose, turn] of turns) {
-    const middle = { ...pose, theta: pose.theta + turn / 2 };
-    const [labelX, labelY] = view.headingLine(middle, TURN_LINE_LENGTH + 6)[1];
-    drawLabel(drawContext, { x: labelX, y: labelY, freeSide: Math.cos(middle.theta) < 0 ? -1 : 1, symbol: 'δ', subscript: sub, colour });
+  for (const [legName, pose, turn] of turns) {
+    const middlePose = { ...pose, theta: pose.theta + turn / 2 };
+    const [labelX, labelY] = view.headingLine(middlePose, TURN_LINE_LENGTH + 6)[1];
+    drawLabel(drawContext, { x: labelX, y: labelY, freeSide: Math.cos(middlePose.theta) < 0 ? -1 : 1, symbol: 'δ', subscript: legName, colour });
   }
   if (trans > 0) {
     const driveDirection = view.pixelDirection(rot1);
-    const [atX, atY] = [(fromX + toX) / 2 + 10 * driveDirection.y, (fromY + toY) / 2 - 10 * driveDirection.x + 6];
-    drawLabel(drawContext, { x: atX, y: atY, freeSide: 1, symbol: 'δ', subscript: 'trans', colour });
+    const [transLabelX, transLabelY] = [(fromX + toX) / 2 + 10 * driveDirection.y, (fromY + toY) / 2 - 10 * driveDirection.x + 6];
+    drawLabel(drawContext, { x: transLabelX, y: transLabelY, freeSide: 1, symbol: 'δ', subscript: 'trans', colour });
   }
 }
 
@@ -285,7 +285,7 @@ function neededTwistPoints(scene: Scene) {
     for (const share of VIEW_QUANTILES) points.push(quantile(along, share)!, quantile(heading, share)!);
   }
   for (const { mean, cov } of twistMoments(scene)) {
-    points.push(...cornersAround(mean[0], mean[2], VIEWED_DEVIATIONS * deviationOf(cov[0][0]), VIEWED_DEVIATIONS * deviationOf(cov[2][2])));
+    points.push(...cornersAround(mean[0], mean[2], VIEWED_DEVIATIONS * stdOfVariance(cov[0][0]), VIEWED_DEVIATIONS * stdOfVariance(cov[2][2])));
   }
   return points;
 }

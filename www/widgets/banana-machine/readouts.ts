@@ -5,10 +5,10 @@ import { addEnglishMessages, words } from '../../messages/registry.ts';
 import { formatMarkup } from '../../ui/controls.ts';
 import { formatInteger, formatFixed, formatPercent, formatWithError, NO_VALUE, formatSignificant } from '../../ui/format.ts';
 import { tableHtml, readoutsHtml } from '../../ui/readouts.ts';
-import { sampleField } from '../shared/cloud.ts';
-import { commandText } from '../shared/sliders.ts';
+import { sampleFieldHtml } from '../shared/cloud.ts';
+import { formatCommand } from '../shared/sliders.ts';
 import { en } from './en.ts';
-import { deviationOf, spreadKind, type ViewModel } from './settings.ts';
+import { stdOfVariance, spreadKindOf, type ViewModel } from './settings.ts';
 import type { Callout } from '../../scene/labels.ts';
 import type { Inspection, Moments } from '../../types.d.ts';
 
@@ -18,21 +18,21 @@ addEnglishMessages({ banana: en });
 export function planeText(viewModel: ViewModel, overlays: string[], morph: number) {
   const { config, stats, table, note } = viewModel;
   const { plane, between, noRobots, mean, onePlace, spread, drawnOver } = words.banana;
-  const commandPhrase = commandText(config.command);
+  const commandPhrase = formatCommand(config.command);
   const planeSentences = [morph === 0 ? plane(commandPhrase) : between(formatPercent(morph), commandPhrase)];
   if (stats.n === 0) planeSentences.push(noRobots);
   else {
     const { mean: centre, cov } = stats.cartesian;
-    planeSentences.push((spreadKind(table) === 'cloud' ? mean : onePlace)(formatInteger(stats.n), formatFixed(centre[0], 2), formatFixed(centre[1], 2)));
+    planeSentences.push((spreadKindOf(table) === 'cloud' ? mean : onePlace)(formatInteger(stats.n), formatFixed(centre[0], 2), formatFixed(centre[1], 2)));
     if (note) planeSentences.push(note);
-    else planeSentences.push(spread(deviationText(cov[0][0]), deviationText(cov[1][1])), bendText(viewModel));
+    else planeSentences.push(spread(formatDeviation(cov[0][0]), formatDeviation(cov[1][1])), bendText(viewModel));
   }
   if (overlays.length) planeSentences.push(drawnOver(overlays.join(', ')));
   return planeSentences.filter(Boolean).join(' ');
 }
 
-function deviationText(variance: number) {
-  return formatFixed(deviationOf(variance), 2);
+function formatDeviation(variance: number) {
+  return formatFixed(stdOfVariance(variance), 2);
 }
 
 /** Absolute value of an exact skew below which it counts as 0. The rounding of the quadrature is about 1e-15. */
@@ -50,7 +50,7 @@ const VISIBLE_AREA_RATIO = 1.1;
 /** Gains (nats per robot) above which the cloud is visibly bent: a likelihood ratio of e for 20 positions, or for 10 poses. */
 const VISIBLE_GAINS = { floor: 0.05, pose: 0.1 };
 
-/** Returns the title of the view of the floor: how the ellipse fits, by exact values, or by the samples where there are no exact values. */
+/** Returns the title of the floor view, which says how well the ellipse fits. It uses exact values, or those of the samples if exact values are undefined. */
 export function floorTitle({ stats, table: { exact } }: Pick<ViewModel, 'stats' | 'table'>) {
   const { floor, ellipseIs } = words.banana;
   if (stats.n < 2 || Number.isNaN(stats.areaRatio)) return floor;
@@ -61,7 +61,7 @@ export function floorTitle({ stats, table: { exact } }: Pick<ViewModel, 'stats' 
   return `${floor}: ${ellipseIs[ellipseFit]}`;
 }
 
-/** Returns the callouts of the floor, at points that only the ellipse covers. */
+/** Returns the callouts of the floor picture, at points that the ellipse covers but the cloud does not. */
 export const calloutsOf = ({ gaps }: ViewModel): Callout[] =>
   words.banana.callouts.slice(0, gaps.length / 2).map((text, i) => ({ text, point: [gaps[2 * i], gaps[2 * i + 1]] }));
 
@@ -73,7 +73,7 @@ function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, a
   const joinWithNonBreakingSpaces = (number: string) => number.replaceAll(' ', '\u00a0');
   const [measuredSkew, exactText] = [joinWithNonBreakingSpaces(formatWithError(skew, error, 3)), formatFixed(exactSkew, 3)];
   // Robots end on both sides of the start.
-  if (deviationOf(cov[0][0]) > Math.abs(mean[0])) return texts.bowTie(formatFixed(mean[0], 2), deviationText(cov[0][0]), measuredSkew);
+  if (stdOfVariance(cov[0][0]) > Math.abs(mean[0])) return texts.bowTie(formatFixed(mean[0], 2), formatDeviation(cov[0][0]), measuredSkew);
   if (Math.abs(exactSkew) < VISIBLE_SKEW) {
     const skewSentence = Math.abs(exactSkew) < MIN_NONZERO_SKEW ? texts.neither(measuredSkew) : texts.hardly(measuredSkew, exactText);
     // There are no exact values if robots turn by more than π.
@@ -91,7 +91,7 @@ export function captionOf(viewModel: ViewModel) {
   return note || (stats.n === 0 ? words.banana.noRobots : bendText(viewModel) || words.banana.fewRobots);
 }
 
-/** Returns the caption of the view in exponential coordinates: how Gaussian they make the cloud, or another note about it. */
+/** Returns the caption of the view in exponential coordinates, which says whether the cloud is Gaussian in them. */
 export function twistCaption({ config: { model, noise, alphas, isolate }, note }: ViewModel) {
   const { twist, twistIs } = words.banana;
   if (note) return `${twist}.`;
@@ -106,7 +106,7 @@ export function twistText({ stats: { n, exponential, coverage } }: ViewModel) {
   const textStart = `${twist}, ${twistAxes}.`;
   if (n < 2) return `${textStart} ${robotsHere(formatInteger(n))}.`;
   const [along, heading] = [formatFixed(mean[0], 2), formatFixed(mean[2], 2)];
-  const [alongDeviation, headingDeviation] = [deviationText(cov[0][0]), deviationText(cov[2][2])];
+  const [alongDeviation, headingDeviation] = [formatDeviation(cov[0][0]), formatDeviation(cov[2][2])];
   const coverageText = Number.isNaN(coverage.exponential) ? '' : formatPercent(coverage.exponential);
   return `${textStart} ${twistMoments(along, heading, alongDeviation, headingDeviation, coverageText)}`;
 }
@@ -118,7 +118,7 @@ const FRACTION_IN_ELLIPSE = 1 - Math.exp(-2);
  * Returns the three main numbers: the area ratio of the ellipse, the gain of exponential coordinates, and the skew of the cloud. The
  * numbers of a pinned cloud are next to them.
  */
-export function mainReadouts(viewModel: ViewModel, pinned?: ViewModel) {
+export function mainReadoutsHtml(viewModel: ViewModel, pinned?: ViewModel) {
   const texts = words.banana.readouts;
   const { stats: { coverage, areaRatioError }, exactSkew, gain } = viewModel;
   const printedValues = printedStatistics(viewModel);
@@ -141,7 +141,7 @@ function printedStatistics({ stats, gain }: ViewModel) {
   ];
 }
 
-/** Returns the exact gain, or the reason why it has no limit. */
+/** Returns a text on the exact gain, or the reason why the gain is unbounded. */
 function gainText({ unbounded, value, exact, wraps }: ViewModel['gain']) {
   const { withoutLimit, onLine, exactly, unwrapped, nat } = words.banana.readouts;
   if (Number.isNaN(value)) return NO_VALUE;
@@ -151,7 +151,7 @@ function gainText({ unbounded, value, exact, wraps }: ViewModel['gain']) {
   return wraps ? unwrapped(formatFixed(exact, 3)) : `${exactly(formatFixed(exact, 3))}; ${nat}`;
 }
 
-export function otherReadouts({ config, stats, table }: ViewModel) {
+export function otherReadoutsHtml({ config, stats, table }: ViewModel) {
   const texts = words.banana.readouts;
   const { nOfAll } = words.banana;
   return readoutsHtml([
@@ -164,39 +164,39 @@ export function otherReadouts({ config, stats, table }: ViewModel) {
 }
 
 /** Returns the field with the number of the marked robot, and the motion of that robot. */
-export function markedRobotField(figure: import('./banana-machine.ts').BananaMachineElement, inspection: Inspection | undefined): import('lit').TemplateResult {
+export function markedRobotFieldHtml(figure: import('./banana-machine.ts').BananaMachineElement, inspection: Inspection | undefined): import('lit').TemplateResult {
   const { shown, reading } = figure.viewModel;
   const quantityHtml = (symbol: string, value: number, unit: string) => html`<span>${formatMarkup(symbol)} = ${formatFixed(value, 3)} ${unit}</span>`;
-  if (!inspection) return sampleField(figure, 'robot', shown, undefined);
+  if (!inspection) return sampleFieldHtml(figure, 'robot', shown, undefined);
   const { legs, vHat, omegaHat, gammaHat } = inspection;
   // The noise of a leg is the reading minus the executed motion, as Table 5.6 subtracts it.
-  return sampleField(figure, 'robot', shown, legs && reading
+  return sampleFieldHtml(figure, 'robot', shown, legs && reading
     ? ([['rot1', 'rad'], ['trans', 'm'], ['rot2', 'rad']] as const).map(([leg, unit]) => quantityHtml(`*ε*_{${leg}}`, reading[leg] - legs[leg], unit))
     : [quantityHtml('*v̂*', vHat, 'm/s'), quantityHtml('*ω̂*', omegaHat, 'rad/s'), quantityHtml('*γ̂*', gammaHat, 'rad/s')]);
 }
 
-/** Significant digits of computed numbers, as in the book, and of measured numbers. */
+/** Significant digits of computed moments, as in the book, and of moments measured from samples. */
 const COMPUTED_DIGITS = 5;
 const MEASURED_DIGITS = 3;
 
 /** Returns a table of moments, with computed columns and then the measured one. */
-function momentsTable<Column>(caption: string, computed: Record<string, Column | null>, measured: Column, rows: [name: unknown, (column: Column) => number][]) {
+function momentsTableHtml<Column>(caption: string, computedColumns: Record<string, Column | null>, measuredColumn: Column, rows: [name: unknown, (column: Column) => number][]) {
   const { quantity, measured: measuredName } = words.banana.table;
   return tableHtml({
     caption,
-    columns: [quantity, ...Object.keys(computed), measuredName],
+    columns: [quantity, ...Object.keys(computedColumns), measuredName],
     rows: rows.map(([name, valueOf]) => [
       name,
-      ...Object.values(computed).map((column) => (column === null ? NO_VALUE : formatSignificant(valueOf(column), COMPUTED_DIGITS))),
-      formatSignificant(valueOf(measured), MEASURED_DIGITS),
+      ...Object.values(computedColumns).map((column) => (column === null ? NO_VALUE : formatSignificant(valueOf(column), COMPUTED_DIGITS))),
+      formatSignificant(valueOf(measuredColumn), MEASURED_DIGITS),
     ]),
   });
 }
 
-export function workedExampleTable({ table: { linearized, exact, measured } }: ViewModel) {
+export function workedExampleTableHtml({ table: { linearized, exact, measured } }: ViewModel) {
   const texts = words.banana.table;
   const symbolOf = (letter: string, indices: string) => html`<i>${letter}</i><sub><i>${indices}</i></sub>`;
-  return momentsTable(texts.caption, { [texts.linearized]: linearized, [texts.exact]: exact }, measured, [
+  return momentsTableHtml(texts.caption, { [texts.linearized]: linearized, [texts.exact]: exact }, measured, [
     ...['x', 'y', 'θ'].map((axis, i): MomentsRow => [formatMarkup(texts.mean(`*${axis}*`)), ({ mean }) => mean[i]]),
     ...['xx', 'yy', 'xy', 'xθ', 'yθ', 'θθ'].map((pair): MomentsRow => [symbolOf('Σ', pair), ({ cov }) => cov['xyθ'.indexOf(pair[0])]['xyθ'.indexOf(pair[1])]]),
     [symbolOf('ρ', 'yθ'), ({ cov }) => cov[1][2] / Math.sqrt(cov[1][1] * cov[2][2])],
@@ -206,9 +206,9 @@ export function workedExampleTable({ table: { linearized, exact, measured } }: V
 
 type MomentsRow = [name: unknown, (column: Moments) => number];
 
-export function twistTable({ table: { tangent }, stats: { exponential } }: ViewModel) {
+export function twistTableHtml({ table: { tangent }, stats: { exponential } }: ViewModel) {
   const texts = words.banana.table;
-  return momentsTable<Moments>(texts.twistCaption, { [texts.command]: tangent }, exponential, texts.axes.flatMap((axis, i): MomentsRow[] => [
+  return momentsTableHtml<Moments>(texts.twistCaption, { [texts.command]: tangent }, exponential, texts.axes.flatMap((axis, i): MomentsRow[] => [
     [formatMarkup(texts.mean(axis)), ({ mean }) => mean[i]],
     [formatMarkup(texts.variance(axis)), ({ cov }) => cov[i][i]],
   ]));

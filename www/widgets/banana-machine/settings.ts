@@ -4,7 +4,7 @@ import { withFieldRenamed } from '../../data/checks.ts';
 import { createDefinition } from '../../figure/definition.ts';
 import { words } from '../../messages/registry.ts';
 import { openingAlphas } from '../../../build/settings.js';
-import { COMMAND_DASH, alphaSliders, commandSliders } from '../shared/sliders.ts';
+import { COMMAND_DASH, alphaSliderSpecs, commandSliderSpecs } from '../shared/sliders.ts';
 import type { BananaMachine as Simulation, BananaMachineSettings as Settings, Motion, Stats, Table } from '../../types.d.ts';
 
 /** Styles of the lines in the pictures. */
@@ -28,9 +28,9 @@ export const documentation = {
   },
 };
 
-export const COMMAND_SLIDERS = commandSliders(3);
+export const COMMAND_SLIDERS = commandSliderSpecs(3);
 
-export const sliderSpecs = { ...COMMAND_SLIDERS, ...alphaSliders(6) };
+export const sliderSpecs = { ...COMMAND_SLIDERS, ...alphaSliderSpecs(6) };
 
 export const definition = createDefinition('banana-machine', {
   messageKey: 'banana',
@@ -39,7 +39,7 @@ export const definition = createDefinition('banana-machine', {
   sliderSpecs,
   elementFields: {
     isolateChoice: { type: 'whole', default: 4, min: 1, max: openingAlphas.velocity.length },
-    /** Settings of the simulation whose outlines are pinned; null for none. `BananaMachineElement.createSimulation` checks them. */
+    /** Settings whose outlines are pinned; null for none. `BananaMachineElement.enterState` checks them. */
     pinned: { default: null },
     morph: { type: 'number', default: 0, min: 0, max: 1, isResetByPreset: true, access: 'attribute' },
   },
@@ -51,7 +51,7 @@ export const SAMPLE_COUNTS = [1, 2, 3, 4, 5].flatMap((decade) => [1, 2, 5].map((
 
 export type ViewModel = ReturnType<typeof viewModelOf>;
 
-/** Standard deviation (m or rad) up to which poses count as equal, because it may be rounding of the quadrature. */
+/** Standard deviation (m or rad) up to which poses count as equal, because the quadrature has rounding errors of this size. */
 const MIN_SPREAD = 1e-9;
 
 export function viewModelOf(simulation: Simulation) {
@@ -59,9 +59,9 @@ export function viewModelOf(simulation: Simulation) {
   const { config, stats, contours, table, chartHolds } = results;
   return {
     ...results,
-    note: cloudNote(config, table, stats, chartHolds),
+    note: unusualCloudNote(config, table, stats, chartHolds),
     exactSkew: table.exact.crossTrackSkew,
-    gain: gaussianGain(stats, table),
+    gain: gainOfExponential(stats, table),
     /** Command as an odometry reading; null under the velocity model. */
     reading: config.model === 'odometry' ? results.reading : null,
     /** End of the commanded arc, metres. */
@@ -86,30 +86,30 @@ export function viewModelOfSettings(motion: Motion, settings: Settings): ViewMod
  * Returns the gain of log-likelihood by the Gaussian in exponential coordinates over that in (x, y, θ). If its covariance is singular, that
  * gain is unbounded, and the gain of arc coordinates over (x, y) is returned.
  */
-function gaussianGain({ n, likelihoodGain, likelihoodGainError }: Stats, { exact }: Table) {
+function gainOfExponential({ n, likelihoodGain, likelihoodGainError }: Stats, { exact }: Table) {
   const isUnbounded = exact.likelihoodGain.pose === Infinity;
   const gainKind = isUnbounded ? 'floor' : 'pose';
   return { n, unbounded: isUnbounded, value: likelihoodGain[gainKind], error: likelihoodGainError[gainKind], exact: exact.likelihoodGain[gainKind], wraps: 4 * Math.sqrt(exact.cov[2][2]) > Math.PI };
 }
 
 /** Returns the standard deviation of a variance. Rounding may have made the variance slightly negative. */
-export function deviationOf(variance: number) {
+export function stdOfVariance(variance: number) {
   return Math.sqrt(Math.max(0, variance));
 }
 
 /** Returns the kind of spread according to the exact covariance: one pose, one position with many headings, or a cloud. */
-export function spreadKind({ exact: { cov } }: Table): 'point' | 'headings' | 'cloud' {
-  if (deviationOf(Math.max(cov[0][0], cov[1][1])) > MIN_SPREAD) return 'cloud';
-  return deviationOf(cov[2][2]) > MIN_SPREAD ? 'headings' : 'point';
+export function spreadKindOf({ exact: { cov } }: Table): 'point' | 'headings' | 'cloud' {
+  if (stdOfVariance(Math.max(cov[0][0], cov[1][1])) > MIN_SPREAD) return 'cloud';
+  return stdOfVariance(cov[2][2]) > MIN_SPREAD ? 'headings' : 'point';
 }
 
 /**
  * Returns a sentence about an unusual cloud, with the settings that cause it; empty for a usual cloud. `chartHolds` is false if robots turn
  * so far that exponential coordinates are undefined.
  */
-function cloudNote({ model, command, reverseAware }: Settings, table: Table, stats: Stats, chartHolds: boolean): string {
+function unusualCloudNote({ model, command, reverseAware }: Settings, table: Table, stats: Stats, chartHolds: boolean): string {
   const { notes } = words.banana;
-  const kindOfSpread = spreadKind(table);
+  const kindOfSpread = spreadKindOf(table);
   const { v, omega } = command;
   if (kindOfSpread === 'point') return v === 0 && omega === 0 ? notes.still : notes.silent;
   if (kindOfSpread === 'headings') return notes.headings;

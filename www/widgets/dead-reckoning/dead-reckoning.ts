@@ -8,10 +8,10 @@ import { words } from '../../messages/registry.ts';
 import { Memo } from '../../scene/cache.ts';
 import { fieldsetHtml } from '../../ui/controls.ts';
 import { formatFixed } from '../../ui/format.ts';
-import { Cloud, cloudControls, cloudProperties } from '../shared/cloud.ts';
-import { presetButtons } from '../shared/controls.ts';
+import { Cloud, cloudControlsHtml, cloudProperties } from '../shared/cloud.ts';
+import { presetButtonsHtml } from '../shared/controls.ts';
 import { PathPicture, StepPicture } from './pictures.ts';
-import { headlineHtml, markedRobotField, missTable, ratioPlot, straightGrowthPlot, captionOf, planeText, stepText } from './readouts.ts';
+import { headlineHtml, markedRobotFieldHtml, missTableHtml, ratioPlotHtml, straightGrowthPlotHtml, captionOf, planeText, stepText } from './readouts.ts';
 import { CURVE_STYLES, OUTLINE_STYLES, RECURSIONS, definition, COMMAND_SLIDERS, NOISE_SLIDERS, SAMPLE_COUNTS, COMPONENTS, viewModelOf, type ViewModel } from './settings.ts';
 import type { StateValues } from '../../figure/settings.ts';
 import type { DeadReckoning as Simulation, Motion } from '../../types.d.ts';
@@ -19,7 +19,7 @@ import type { DeadReckoning as Simulation, Motion } from '../../types.d.ts';
 /** Units of the components' variances. */
 const VARIANCE_UNITS = { along: 'm2', lateral: 'm2', heading: 'rad2' };
 
-/** Returns the names of the columns of a quantity in a table, one for each component. */
+/** Returns the column names of an exported quantity, one name for each component. */
 const columnNamesOf = (quantity: string) => COMPONENTS.map((name) => `${quantity}_${name}_${VARIANCE_UNITS[name]}`).join(' ');
 
 /** Returns the settings for the same path in another number of steps, with the selected step at the same point of the path. */
@@ -27,7 +27,7 @@ function settingsForSteps({ command, steps: previousSteps, step }: Record<string
   return { steps, step: Math.max(1, Math.round((step * steps) / previousSteps)), command: { ...command, dt: (command.dt * previousSteps) / steps } };
 }
 
-function moreControls(figure: DeadReckoningElement) {
+function moreControlsHtml(figure: DeadReckoningElement) {
   const { steps, step, command: { dt } } = figure.settings.requested;
   const { walked, per } = words.reckoning;
   const drivenTimeText = walked(formatFixed(step * dt, 2), formatFixed(steps * dt, 2));
@@ -35,7 +35,7 @@ function moreControls(figure: DeadReckoningElement) {
     ${fieldsetHtml(words.command, html`${settingSlidersHtml(figure, COMMAND_SLIDERS)}
       ${settingSliderHtml(figure, 'step', { max: Math.max(2, steps), maxTyped: steps, hasNoEffect: steps === 1, effect: drivenTimeText })}`)}
     ${fieldsetHtml(words.noise, html`${settingSlidersHtml(figure, NOISE_SLIDERS)} ${settingRadiosHtml(figure, 'per', per)}`)}
-    ${cloudControls(figure, SAMPLE_COUNTS)}
+    ${cloudControlsHtml(figure, SAMPLE_COUNTS)}
   </div>`;
 }
 
@@ -141,7 +141,7 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
   createSimulation = ({ DeadReckoning }: Motion) => DeadReckoning.empty();
 
   withDerivedFields(currentState: StateValues, changes: StateValues) {
-    // If the path gets shorter than the selected step, its last step is selected.
+    // If the path has fewer steps than the selected step's number, the last step is selected.
     const { steps = currentState.steps } = changes;
     return { step: Math.min(currentState.step, steps), ...super.withDerivedFields(currentState, changes) };
   }
@@ -171,8 +171,8 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
 
   /** Poses of the selected robot after each step, if that robot has been driven. */
   get #markedPoses() {
-    const { simulation, viewModel, cloud: { isMarked, selectedIndex: index } } = this;
-    return isMarked && simulation ? this.#rolloutMemo.get([viewModel.stats, index], () => simulation.rollout(index)) : undefined;
+    const { simulation, viewModel, cloud: { isSelectionShown, selectedIndex: index } } = this;
+    return isSelectionShown && simulation ? this.#rolloutMemo.get([viewModel.stats, index], () => simulation.rollout(index)) : undefined;
   }
 
   renderContent(viewModel: ViewModel) {
@@ -181,7 +181,7 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
     const texts = words.reckoning;
     return html`
       <div class="views">
-        ${titledPictureHtml(texts.chart, html`<div class="chart">${ratioPlot(this, viewModel)}</div> ${legendHtml(this, CURVE_STYLES)}`, 'ratios')}
+        ${titledPictureHtml(texts.chart, html`<div class="chart">${ratioPlotHtml(this, viewModel)}</div> ${legendHtml(this, CURVE_STYLES)}`, 'ratios')}
         <div class="summary">
           ${headlineHtml(viewModel, overlays)}
           <p part="caption" class="caption ${condition !== 'certain' && 'note'}">${captionOf(viewModel, overlays)}</p>
@@ -191,13 +191,13 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
         ${titledPictureHtml(texts.atStepTitle(step), html`<div class="stage">${pictureCanvasHtml(this, this.#stepPicture, stepText(viewModel))}</div>`, 'step')}
       </div>
       ${this.renderer.renderAfterFirstPicture(() => html`
-      ${legendHtml(this, OUTLINE_STYLES)} ${presetButtons(this)} 
+      ${legendHtml(this, OUTLINE_STYLES)} ${presetButtonsHtml(this)} 
       <div class="controls" part="controls">
         ${settingSliderHtml(this, 'headingNoise')} ${settingSliderHtml(this, 'steps', { onInput: (steps) => this.settings.request((requested) => settingsForSteps(requested, steps)) })}
       </div>
       ${disclosuresHtml(this, {
-        renderControls: () => moreControls(this),
-        renderNumbers: () => html`${missTable(viewModel, overlays)} ${markedRobotField(this, this.#markedPoses)} ${straightGrowthPlot(this.#straightGrowthMemo.get([viewModel.stats], () => (this.simulation as Simulation).straightGrowth))}`,
+        renderControls: () => moreControlsHtml(this),
+        renderNumbers: () => html`${missTableHtml(viewModel, overlays)} ${markedRobotFieldHtml(this, this.#markedPoses)} ${straightGrowthPlotHtml(this.#straightGrowthMemo.get([viewModel.stats], () => (this.simulation as Simulation).straightGrowth))}`,
       })}`)}
     `;
   }

@@ -10,10 +10,10 @@ import { formatSignificant } from '../../ui/format.ts';
 import { OUTLINE_STYLES } from './settings.ts';
 import { drawDisc, paintWithOpacity, type DrawContext } from '../../scene/canvas.ts';
 
-/** View model of both pictures, with the poses of the selected robot after each step. */
+/** View model of the path and step pictures, with the poses of the selected robot after each step. */
 export type Scene = import('./settings.ts').ViewModel & { marked: Float64Array | undefined, overlays: string[] };
 
-/** Number of standard deviations of a cloud that a view shows. */
+/** Number of standard deviations around a cloud's mean that a view shows. */
 const VIEWED_DEVIATIONS = 3.2;
 
 /** Dots of the clouds at milestones: maximum number, radius in CSS pixels, and opacity. */
@@ -52,7 +52,7 @@ export class PathPicture extends SamplesPicture<Scene> {
       drawDots(drawContext, poses);
       drawOutlines(drawContext, [
         ...shownNamesOf(['command']).map((name) => ({ points: commanded, ...styles[name] })),
-        ...shownNames.flatMap((name) => milestones.map(({ outlines: passed }) => ({ points: passed[name], ...styles[name], width: 1 }))),
+        ...shownNames.flatMap((name) => milestones.map(({ outlines: passedMilestone }) => ({ points: passedMilestone[name], ...styles[name], width: 1 }))),
       ]);
       if (drawContext.previousViewModel) callouts.push(...drawEarlierOutlines(drawContext, linesOf(drawContext.previousViewModel.outlines), [pose, [0, 0]], words.before));
       drawOutlines(drawContext, linesOf(outlines));

@@ -7,8 +7,8 @@ import { formatMarkup } from '../../ui/controls.ts';
 import { NO_VALUE, formatInteger, formatFixed, formatWithError, formatSignificant } from '../../ui/format.ts';
 import { plotHtml, type Role } from '../../ui/plot.ts';
 import { tableHtml, readoutsHtml } from '../../ui/readouts.ts';
-import { sampleField } from '../shared/cloud.ts';
-import { commandText } from '../shared/sliders.ts';
+import { sampleFieldHtml } from '../shared/cloud.ts';
+import { formatCommand } from '../shared/sliders.ts';
 import { en } from './en.ts';
 import { COMPONENTS, CURVE_STYLES, RECURSIONS, type ViewModel } from './settings.ts';
 import type { Misses } from '../../types.d.ts';
@@ -19,13 +19,13 @@ addEnglishMessages({ reckoning: en });
 const CAPTION_STEPS = [1, 2, 5];
 
 /** Prints a fraction in per cent, with a sign unless it rounds to 0. */
-function signedPercent(share: number, printedPercent: string = formatFixed(100 * share, 1)) {
+function formatSignedPercent(share: number, printedPercent: string = formatFixed(100 * share, 1)) {
   if (Number.isNaN(share)) return NO_VALUE;
   return `${100 * share >= 0.05 ? '+' : ''}${printedPercent}\u202f%`;
 }
 
 /** Returns the relative error of the predicted variance after the last step, as text. */
-const finalErrorText = ({ end, error }: { end: number, error: number }) => signedPercent(end, formatWithError(100 * end, 100 * error, 1));
+const finalErrorText = ({ end, error }: { end: number, error: number }) => formatSignedPercent(end, formatWithError(100 * end, 100 * error, 1));
 
 /** Returns a caption that says how well the recursion predicts the components that are shown. */
 export function captionOf({ config: { compounding }, stats: { misses, n }, condition, curves }: ViewModel, overlays: string[]) {
@@ -33,11 +33,11 @@ export function captionOf({ config: { compounding }, stats: { misses, n }, condi
   if (condition !== 'certain') return texts.conditions[condition];
   const recursionMisses = misses[compounding];
   if (recursionMisses.every(({ first }) => first === null)) return texts.right(formatInteger(n));
-  // The component whose ratio is furthest from 1 at the end, and the one whose ratio is furthest from 1 at any step.
+  // `endAxis` has the ratio furthest from 1 at the end, and `worstAxis` the ratio furthest from 1 at any step.
   const endAxis = worstAxisOf(overlays, (axis) => Math.abs(recursionMisses[axis].end));
   const worstAxis = worstAxisOf(overlays, (axis) => max(curves[axis].ratio, (ratio) => Math.abs(ratio - 1)) ?? NaN);
   const ratioList = ratiosAtSteps(Array.from(curves[worstAxis].ratio));
-  return texts.wrong(texts.of[COMPONENTS[worstAxis]], ratioList, signedPercent(recursionMisses[endAxis].end), texts.of[COMPONENTS[endAxis]]);
+  return texts.wrong(texts.of[COMPONENTS[worstAxis]], ratioList, formatSignedPercent(recursionMisses[endAxis].end), texts.of[COMPONENTS[endAxis]]);
 }
 
 /** Returns the index of the shown component whose miss (error of the prediction) is greatest; NaN is not a miss. */
@@ -67,7 +67,7 @@ function ratioText({ config: { step, compounding }, curves }: ViewModel, overlay
 export function planeText({ config, shown, pose }: ViewModel) {
   const { command, steps, step, compounding } = config;
   const texts = words.reckoning;
-  return texts.plane(commandText(command), String(steps), formatInteger(shown), String(step), formatFixed(pose[0], 2), formatFixed(pose[1], 2), texts.recursions[compounding]);
+  return texts.plane(formatCommand(command), String(steps), formatInteger(shown), String(step), formatFixed(pose[0], 2), formatFixed(pose[1], 2), texts.recursions[compounding]);
 }
 
 export function stepText({ config: { step, compounding }, stats: { measured, predicted } }: ViewModel) {
@@ -83,14 +83,14 @@ const CHART_HEIGHTS = [1.2, 1.6, 2, 3, 5, 10];
 const RATIO_TOLERANCE = 0.05;
 
 /** Returns the chart of predicted over measured variance, whose line at the selected step is a slider. */
-export function ratioPlot(figure: import('./dead-reckoning.ts').DeadReckoningElement, viewModel: ViewModel): ReturnType<typeof plotHtml> {
+export function ratioPlotHtml(figure: import('./dead-reckoning.ts').DeadReckoningElement, viewModel: ViewModel): ReturnType<typeof plotHtml> {
   const { config: { step, steps }, curves } = viewModel;
   const { overlays } = figure.settings.elementState;
   const texts = words.reckoning;
   const x = Array.from({ length: steps }, (_, i) => i + 1);
   const highestRatio = Math.max(...curves.flatMap(({ ratio }) => Array.from(ratio, (value) => value || 0)));
-  const shownCurves = COMPONENTS.map((name, axis) => ({ ...curveStyle(name, figure.highlight), name, ...curves[axis] })).filter(({ name }) => overlays.includes(name));
-  const toleranceBand = { name: texts.overlays.tolerance, ...curveStyle('tolerance', figure.highlight), x: [0, steps], y: [1, 1], error: [RATIO_TOLERANCE, RATIO_TOLERANCE], area: true };
+  const shownCurves = COMPONENTS.map((name, axis) => ({ ...curveStyleOf(name, figure.highlight), name, ...curves[axis] })).filter(({ name }) => overlays.includes(name));
+  const toleranceBand = { name: texts.overlays.tolerance, ...curveStyleOf('tolerance', figure.highlight), x: [0, steps], y: [1, 1], error: [RATIO_TOLERANCE, RATIO_TOLERANCE], area: true };
   return plotHtml({
     label: ratioText(viewModel, overlays),
     x: { name: texts.stepAxis, from: 0, to: steps },
@@ -115,7 +115,7 @@ export function ratioPlot(figure: import('./dead-reckoning.ts').DeadReckoningEle
 }
 
 /** Returns role, dash and highlight of a curve in the chart of ratios. */
-function curveStyle(name: keyof typeof CURVE_STYLES, highlight: string | null) {
+function curveStyleOf(name: keyof typeof CURVE_STYLES, highlight: string | null) {
   const { role, dash } = CURVE_STYLES[name] as import('../../scene/draw.ts').LineStyle & { role: Role };
   const isHighlighted = highlight !== null && highlight in CURVE_STYLES ? name === highlight : undefined;
   return { role, dash: dash?.join(' '), lit: isHighlighted };
@@ -133,7 +133,7 @@ export function headlineHtml({ config: { step }, curves, shown }: ViewModel, ove
 /** Ranges of both logarithmic axes: fixed, so that a slider moves the curves and not the axes. */
 const GROWTH_AXES = { durations: [0.1, 10], variances: [1e-6, 100] };
 
-export function straightGrowthPlot({ durations: x, along, across, alongFirstOrder, acrossFirstOrder, crossing }: import('../../types.d.ts').StraightGrowth) {
+export function straightGrowthPlotHtml({ durations: x, along, across, alongFirstOrder, acrossFirstOrder, crossing }: import('../../types.d.ts').StraightGrowth) {
   const texts = words.reckoning.straight;
   const [minDuration, maxDuration] = GROWTH_AXES.durations;
   const [minVariance, maxVariance] = GROWTH_AXES.variances;
@@ -157,28 +157,28 @@ export function straightGrowthPlot({ durations: x, along, across, alongFirstOrde
 }
 
 /** Returns the range of steps at which a recursion misses the measured variance, as text. */
-function missText({ decidable, first, last, end }: Misses) {
+function formatMissRange({ decidable, first, last, end }: Misses) {
   const { never, unknown, from: rangeText } = words.reckoning.misses;
   if (!decidable) return Number.isNaN(end) ? NO_VALUE : unknown;
   return first === null || last === null ? never : rangeText(first, last);
 }
 
 /** Returns the table of the steps at which each recursion misses the measured variance, by component. */
-export function missTable({ stats: { misses } }: ViewModel, overlays: string[]) {
+export function missTableHtml({ stats: { misses } }: ViewModel, overlays: string[]) {
   const texts = words.reckoning;
   return tableHtml({
     caption: texts.misses.caption,
     columns: [texts.misses.component, ...RECURSIONS.map((recursion) => texts.recursions[recursion])],
     rows: shownComponentsOf(overlays).flatMap((component) => {
       const missesOfRecursions = RECURSIONS.map((recursion) => misses[recursion][COMPONENTS.indexOf(component)]);
-      return [[texts.overlays[component], ...missesOfRecursions.map(missText)], [texts.misses.endOf(texts.overlays[component]), ...missesOfRecursions.map(finalErrorText)]];
+      return [[texts.overlays[component], ...missesOfRecursions.map(formatMissRange)], [texts.misses.endOf(texts.overlays[component]), ...missesOfRecursions.map(finalErrorText)]];
     }),
   });
 }
 
 /** Returns the field with the number of the marked robot, and the pose of that robot at the step. */
-export function markedRobotField(figure: import('./dead-reckoning.ts').DeadReckoningElement, marked: Float64Array | undefined): import('lit').TemplateResult {
+export function markedRobotFieldHtml(figure: import('./dead-reckoning.ts').DeadReckoningElement, marked: Float64Array | undefined): import('lit').TemplateResult {
   const { config: { step }, shown } = figure.viewModel;
   const [x, y, theta] = Array.from(marked?.subarray(3 * (step - 1), 3 * step) ?? [], (value) => formatFixed(value, 3));
-  return sampleField(figure, 'robot', shown, marked && `x ${x} m, y ${y} m, θ ${theta} rad`);
+  return sampleFieldHtml(figure, 'robot', shown, marked && `x ${x} m, y ${y} m, θ ${theta} rad`);
 }

@@ -2,7 +2,7 @@
 
 import { defaultConfig, createDefinition } from '../../figure/definition.ts';
 import { settings } from '../../../build/settings.js';
-import { ALPHA_SLIDER, COMMAND_DASH, alphaSliders, commandSliders } from '../shared/sliders.ts';
+import { ALPHA_SLIDER, COMMAND_DASH, alphaSliderSpecs, commandSliderSpecs } from '../shared/sliders.ts';
 import type { DeadReckoning as Simulation, DeadReckoningSettings } from '../../types.d.ts';
 
 const settingDeclarations = settings['dead-reckoning'];
@@ -26,9 +26,9 @@ export const OUTLINE_STYLES = {
   exponential: { role: 'posterior', width: 2.25, dash: [] },
 } satisfies Record<string, import('../../scene/draw.ts').LineStyle>;
 
-export const COMMAND_SLIDERS: Record<string, import('../../figure/controls.ts').SliderSpec> = commandSliders(1);
+export const COMMAND_SLIDERS: Record<string, import('../../figure/controls.ts').SliderSpec> = commandSliderSpecs(1);
 
-export const NOISE_SLIDERS = alphaSliders(6);
+export const NOISE_SLIDERS = alphaSliderSpecs(6);
 
 export const definition = createDefinition('dead-reckoning', {
   messageKey: 'reckoning',
@@ -44,7 +44,7 @@ export const definition = createDefinition('dead-reckoning', {
   dependentDefaults: ({ steps }) => ({ step: Math.min(defaultConfig(settingDeclarations).step, steps) }),
 });
 
-/** Sample counts that the slider offers. Larger clouds would lag behind it. */
+/** Sample counts that the slider offers. Larger clouds would lag behind the slider. */
 export const SAMPLE_COUNTS = [2, 3, 4].flatMap((decade) => [1, 2, 5].map((step) => step * 10 ** decade)).concat(100_000, 200_000);
 
 export type ViewModel = ReturnType<typeof viewModelOf>;
@@ -60,15 +60,15 @@ export function viewModelOf(simulation: Simulation) {
   return {
     ...results,
     /** Curve of each component by step, from 1. */
-    curves: COMPONENTS.map((_, axis) => axisCurve(ratiosOfRecursion, relativeErrors, axis)),
+    curves: COMPONENTS.map((_, axis) => curveOfAxis(ratiosOfRecursion, relativeErrors, axis)),
     /** Commanded pose after the step. */
     pose: nominal.subarray(3 * (step - 1), 3 * step),
-    condition: ratioCondition(config, stats, ratiosOfRecursion),
+    condition: ratioConditionOf(config, stats, ratiosOfRecursion),
   };
 }
 
 /** Returns the curve of a component. `ratios` has three numbers for each step. */
-function axisCurve(ratios: Float64Array, relativeErrors: Float64Array, axis: number) {
+function curveOfAxis(ratios: Float64Array, relativeErrors: Float64Array, axis: number) {
   const componentOf = (triples: Float64Array) => triples.filter((_, i) => i % 3 === axis);
   const axisRatios = componentOf(ratios);
   return { ratio: axisRatios, error: componentOf(relativeErrors).map((error, i) => error * axisRatios[i]) };
@@ -76,9 +76,9 @@ function axisCurve(ratios: Float64Array, relativeErrors: Float64Array, axis: num
 
 /**
  * Returns the reason why the ratios are undefined or uncertain: no robots, no spread, no covariance at the end, or too few robots.
- * Returns 'certain' if there is none.
+ * Returns 'certain' if no such reason applies.
  */
-function ratioCondition({ compounding }: DeadReckoningSettings, { n, predicted, measured, misses }: Simulation['stats'], ratios: Float64Array): 'none' | 'still' | 'lost' | 'few' | 'certain' {
+function ratioConditionOf({ compounding }: DeadReckoningSettings, { n, predicted, measured, misses }: Simulation['stats'], ratios: Float64Array): 'none' | 'still' | 'lost' | 'few' | 'certain' {
   if (n === 0) return 'none';
   // A single robot has no variance.
   if (n === 1) return 'few';

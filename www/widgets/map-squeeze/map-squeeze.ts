@@ -9,16 +9,16 @@ import { words } from '../../messages/registry.ts';
 import { Memo } from '../../scene/cache.ts';
 import { verdict as bits } from '../../../build/settings.js';
 import { buttonHtml, fieldsetHtml, radioGroupHtml } from '../../ui/controls.ts';
-import { Cloud, cloudControls, cloudProperties, sampleField } from '../shared/cloud.ts';
+import { Cloud, cloudControlsHtml, cloudProperties, sampleFieldHtml } from '../shared/cloud.ts';
 import { FileOpener } from '../shared/files.ts';
 import { PoseHandles } from '../shared/robot.ts';
-import { presetButtons, startOverButton } from '../shared/controls.ts';
-import { measureCosts, overviewMapHtml, costTable, tallyReadouts, captionOf, headlineOf, mapText, pictureText, verdictText } from './readouts.ts';
+import { presetButtonsHtml, startOverButtonHtml } from '../shared/controls.ts';
+import { measureCosts, overviewMapHtml, costTableHtml, tallyReadoutsHtml, captionOf, headlineOf, mapText, pictureText, verdictText } from './readouts.ts';
 import { applyMap, gridOf, mapDataOf } from './maps/data.ts';
 import { FloorPicture } from './picture.ts';
-import { LINE_STYLES, OPENING_POSE, PRESET_SETTING, definition, COMMAND_SLIDERS, MAX_SAMPLES, SAMPLE_COUNTS, outcomeIndex, viewModelOf, type ViewModel } from './settings.ts';
+import { LINE_STYLES, OPENING_POSE, PRESET_SETTING, definition, COMMAND_SLIDERS, MAX_SAMPLES, SAMPLE_COUNTS, outcomeIndexOf, viewModelOf, type ViewModel } from './settings.ts';
 import { WallHandles } from './wall-handles.ts';
-import { wallContact } from './walls.ts';
+import { findWallContact } from './walls.ts';
 import type { StateValues } from '../../figure/settings.ts';
 import type { CellGrid } from '../../scene/walls.ts';
 import type { MapData, MapSqueeze as Simulation, Motion, Pose } from '../../types.d.ts';
@@ -35,15 +35,15 @@ const EXAMPLE_PLAN = `{
 }`;
 
 /** Returns the buttons of start positions in the current map. The presets are only offered in the apartment. */
-function startControls(figure: MapSqueezeElement) {
+function startControlsHtml(figure: MapSqueezeElement) {
   const { own } = words.squeeze;
-  if (!figure.map) return presetButtons(figure);
+  if (!figure.map) return presetButtonsHtml(figure);
   return html`<div class="buttons presets">
-    ${buttonHtml(own.leave, () => figure.openMap(null))} ${buttonHtml(own.open, () => figure.moveToFreePose())} ${startOverButton(figure)}
+    ${buttonHtml(own.leave, () => figure.openMap(null))} ${buttonHtml(own.open, () => figure.moveToFreePose())} ${startOverButtonHtml(figure)}
   </div>`;
 }
 
-function samplerControls(figure: MapSqueezeElement) {
+function samplerControlsHtml(figure: MapSqueezeElement) {
   const { conditioned, sampler, samples, steps } = figure.viewModel.config;
   const { settings, samplers, samplerEffects } = words.squeeze;
   // With sub-steps each sample takes several draws.
@@ -57,7 +57,7 @@ function samplerControls(figure: MapSqueezeElement) {
 }
 
 /** Returns the controls that are changed less often. One of them is for unknown cells, if the map has any. */
-function robotAndMapControls(figure: MapSqueezeElement, hasUnknown: boolean) {
+function robotAndMapControlsHtml(figure: MapSqueezeElement, hasUnknown: boolean) {
   const { robotAndMap: heading, condition, settings, unknown, views } = words.squeeze;
   return fieldsetHtml(heading, html`${settingSliderHtml(figure, 'clearance')} ${settingCheckboxHtml(figure, 'conditioned', condition)}
     ${hasUnknown ? settingRadiosHtml(figure, 'unknown', unknown) : nothing}
@@ -84,15 +84,15 @@ class MapOpener extends FileOpener<MapSqueezeElement> {
       // Waits for two frames, because the message is on the screen only after the first one was drawn.
       for (let frame = 0; frame < 2; frame++) await new Promise(requestAnimationFrame);
     }
-    await this.#open(({ readMapFiles }) => readMapFiles(files, decodePng));
+    await this.#readAndEnter(({ readMapFiles }) => readMapFiles(files, decodePng));
     this.host.notice.dismiss();
   }
 
-  paste(text: string) {
-    this.#open(({ readPlan }) => readPlan(words.squeeze.pasted, text));
+  openPasted(text: string) {
+    this.#readAndEnter(({ readPlan }) => readPlan(words.squeeze.pasted, text));
   }
 
-  #open(readMap: (reader: typeof import('./maps/files.ts')) => UserMap | Promise<UserMap>) {
+  #readAndEnter(readMap: (reader: typeof import('./maps/files.ts')) => UserMap | Promise<UserMap>) {
     return this.runAttempt(async (isLatest) => {
       const map = await readMap(await import('./maps/files.ts'));
       if (isLatest()) this.host.openMap(map);
@@ -106,13 +106,13 @@ class MapOpener extends FileOpener<MapSqueezeElement> {
 }
 
 /** Returns the controls for a map of the user's own, with the name and size of the present map. */
-function userMapControls(figure: MapSqueezeElement, opener: MapOpener, mapText: string) {
+function userMapControlsHtml(figure: MapSqueezeElement, opener: MapOpener, mapText: string) {
   const texts = words.squeeze.own;
-  const pasteMap = () => opener.paste((figure.renderRoot.querySelector('#map-text') as HTMLTextAreaElement).value);
+  const pasteMap = () => opener.openPasted((figure.renderRoot.querySelector('#map-text') as HTMLTextAreaElement).value);
   return fieldsetHtml(texts.legend, html`<div class="own-map figures">
     <div>
       <p>${texts.text}</p>
-      <p>${opener.button('map-files', texts.files, MAP_FILE_EXTENSIONS)}</p>
+      <p>${opener.fileButtonHtml('map-files', texts.files, MAP_FILE_EXTENSIONS)}</p>
       ${opener.refusalNoteHtml}
       <p class="present muted">${mapText}.</p>
     </div>
@@ -324,17 +324,17 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
 
   get scene() {
     const viewModel = this.currentViewModel;
-    const { selectedIndex: index, isMarked } = this.cloud;
-    this.picture.isClose = this.settings.elementState.view === 'close';
-    return { ...viewModel, simulation: this.simulation, overlays: this.settings.elementState.overlays, marked: isMarked ? this.#markedSampleOf(index) : undefined };
+    const { selectedIndex: index, isSelectionShown } = this.cloud;
+    this.picture.isCloseView = this.settings.elementState.view === 'close';
+    return { ...viewModel, simulation: this.simulation, overlays: this.settings.elementState.overlays, marked: isSelectionShown ? this.#markedSampleOf(index) : undefined };
   }
 
   /** Returns the marked sample, with the point where an accepted one went through a wall. */
   #markedSampleOf(index: number) {
     const { poses, verdicts, config } = this.currentViewModel;
     const path = this.#pathMemo.get([poses, index], () => (this.simulation as Simulation).path(index));
-    const goesThroughWall = outcomeIndex(verdicts[index]) === 2;
-    return { pose: poses.subarray(3 * index), path, contact: goesThroughWall ? wallContact(path, this.picture.plan.walls, config.clearance) : undefined };
+    const goesThroughWall = outcomeIndexOf(verdicts[index]) === 2;
+    return { pose: poses.subarray(3 * index), path, contact: goesThroughWall ? findWallContact(path, this.picture.plan.walls, config.clearance) : undefined };
   }
 
   get exportData() {
@@ -455,7 +455,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     simulation.configureFirst(startPose ? { start: startPose } : {}, this.cloud.targetCount);
     this.settings.elementState.map = map && mapDataOf(simulation, map.name, this.#gridOf(simulation));
     this.runtime.replaceSimulation(simulation);
-    this.cloud.mark(-1);
+    this.cloud.select(-1);
   }
 
   get #mapText() {
@@ -469,7 +469,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
 
   renderContent(viewModel: ViewModel) {
     const { posesByOutcome, stats, note, verdicts, config } = viewModel;
-    const { isMarked, selectedIndex } = this.cloud;
+    const { isSelectionShown, selectedIndex } = this.cloud;
     const { hasUnknown } = this.picture;
     const { floor, density } = words.squeeze;
     const { unknown, ...markStyles } = LINE_STYLES;
@@ -480,23 +480,23 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
             ${this.renderer.renderAfterFirstPicture(() => this.#wallHandles.render())}
             ${this.#handles.render()}
           </div>
-          ${this.renderer.renderAfterFirstPicture(() => legendHtml(this, hasUnknown ? { ...markStyles, unknown } : markStyles, this.#wallHandles.legend()))}`)}
+          ${this.renderer.renderAfterFirstPicture(() => legendHtml(this, hasUnknown ? { ...markStyles, unknown } : markStyles, this.#wallHandles.legendEntryHtml()))}`)}
         ${this.renderer.renderAfterFirstPicture(() => html`<div class="aside">
           <div class="result">
             <p class="headline">${headlineOf(stats)}</p>
             <p class="verdict caption ${note && 'note'}" part="caption">${captionOf(viewModel)}</p>
           </div>
-          ${startControls(this)} ${samplerControls(this)} ${overviewMapHtml(this.picture, viewModel)}
+          ${startControlsHtml(this)} ${samplerControlsHtml(this)} ${overviewMapHtml(this.picture, viewModel)}
         </div>`)}
       </div>
       ${this.renderer.renderAfterFirstPicture(() => html`
       <div class="controls" part="controls">
-        ${fieldsetHtml(words.command, settingSlidersHtml(this, COMMAND_SLIDERS))} ${fieldsetHtml(words.noise, settingSliderHtml(this, 'noise'), 'single')} ${cloudControls(this, SAMPLE_COUNTS)}
+        ${fieldsetHtml(words.command, settingSlidersHtml(this, COMMAND_SLIDERS))} ${fieldsetHtml(words.noise, settingSliderHtml(this, 'noise'), 'single')} ${cloudControlsHtml(this, SAMPLE_COUNTS)}
       </div>
       ${posesByOutcome ? nothing : html`<p class="about muted">${density}</p>`}
       ${disclosuresHtml(this, {
-        renderControls: () => html`<div class="controls">${robotAndMapControls(this, hasUnknown)}</div> ${userMapControls(this, this.#opener, this.#mapText)}`,
-        renderNumbers: () => html`${tallyReadouts(viewModel)} ${sampleField(this, 'sample', stats.attempts, isMarked && verdictText(verdicts[selectedIndex], config))} ${costTable(this)}`,
+        renderControls: () => html`<div class="controls">${robotAndMapControlsHtml(this, hasUnknown)}</div> ${userMapControlsHtml(this, this.#opener, this.#mapText)}`,
+        renderNumbers: () => html`${tallyReadoutsHtml(viewModel)} ${sampleFieldHtml(this, 'sample', stats.attempts, isSelectionShown && verdictText(verdicts[selectedIndex], config))} ${costTableHtml(this)}`,
       })}`)}
     `;
   }

@@ -75,7 +75,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
     this.hasUnknown = grid?.unknown !== undefined;
     this.hasMovableWalls = grid === null;
     this.#wallLayer = new WallLayer(plan, grid);
-    this.#knownCorners = grid?.unknown ? knownCorners(grid, grid.unknown) : plan.walls;
+    this.#knownCorners = grid?.unknown ? knownCornersOf(grid, grid.unknown) : plan.walls;
     if (previousPicture?.plan.bounds.every((bound, i) => bound === plan.bounds[i])) {
       this.#nearView = previousPicture.#nearView;
       this.#wholeView = previousPicture.#wholeView;
@@ -92,19 +92,19 @@ export class FloorPicture extends SamplesPicture<Scene> {
   }
 
   /** True for a close view, which shows only the surroundings of the robot. */
-  get isClose() {
+  get isCloseView() {
     return this.view === this.#nearView;
   }
 
-  set isClose(isClose) {
-    if (isClose === this.isClose) return;
-    this.view = isClose ? this.#nearView : this.#wholeView;
+  set isCloseView(isCloseView) {
+    if (isCloseView === this.isCloseView) return;
+    this.view = isCloseView ? this.#nearView : this.#wholeView;
     this.view.clearTarget();
   }
 
   fitView({ commanded, config }: Scene) {
     const mappedExtent = this.knownExtentAround(config.start);
-    if (!this.isClose) {
+    if (!this.isCloseView) {
       this.#wholeView.fit(mappedExtent);
       return;
     }
@@ -168,14 +168,14 @@ export class FloorPicture extends SamplesPicture<Scene> {
   #drawDensity(drawContext: DrawContext, { simulation, stats, overlays }: Scene) {
     const { palette } = drawContext;
     const outcomeColours = [['rejected', palette.truth], ['accepted', palette.cloud], ['through', palette.accent]] as const;
-    const ramps = outcomeColours.flatMap(([name, cloud]) => [...(overlays.includes(name) ? densityRamp({ ...palette, cloud }) : TRANSPARENT_RAMP)]);
+    const outcomeRamps = outcomeColours.flatMap(([name, cloud]) => [...(overlays.includes(name) ? densityRamp({ ...palette, cloud }) : TRANSPARENT_RAMP)]);
     const cellSize = clamp(DENSITY_CELL.max * Math.sqrt(DENSITY_CELL.samples / stats.attempts) / 2, DENSITY_CELL.min, DENSITY_CELL.max);
-    this.#densityImage.drawDensity(drawContext, cellSize, [stats, palette, overlays], (...part) => simulation.picture(...part, Uint8Array.from(ramps)));
+    this.#densityImage.drawDensity(drawContext, cellSize, [stats, palette, overlays], (...viewPart) => simulation.picture(...viewPart, Uint8Array.from(outcomeRamps)));
   }
 }
 
 /** Returns the outer corners of the first and the last known cell of each row of a grid, as x, y pairs. */
-function knownCorners(grid: CellGrid, unknown: Uint8Array) {
+function knownCornersOf(grid: CellGrid, unknown: Uint8Array) {
   const { columns } = grid;
   return Array.from({ length: unknown.length / columns }, (_, row) => {
     const rowCells = unknown.subarray(row * columns, (row + 1) * columns);
@@ -201,10 +201,10 @@ function legendEntriesOf({ context, palette }: DrawContext, { overlays, posesByO
   return shownNames.map((name) => ({
     name: words.squeeze.overlays[name],
     drawSample: (x, y, width) => {
-      const [middle, colour] = [x + width / 2, palette[LINE_STYLES[name].role]];
-      if (!posesByOutcome) fillPath(context, colour, () => context.rect(middle - 5.5, y - 5.5, 11, 11));
-      else if (name === 'rejected') strokePath(context, { colour, width: 1 }, () => addCross(context, middle, y));
-      else drawDisc(context, [middle, y], SAMPLE_DOT.max, colour, { colour, width: 1 });
+      const [middleX, colour] = [x + width / 2, palette[LINE_STYLES[name].role]];
+      if (!posesByOutcome) fillPath(context, colour, () => context.rect(middleX - 5.5, y - 5.5, 11, 11));
+      else if (name === 'rejected') strokePath(context, { colour, width: 1 }, () => addCross(context, middleX, y));
+      else drawDisc(context, [middleX, y], SAMPLE_DOT.max, colour, { colour, width: 1 });
     },
   }));
 }
@@ -215,9 +215,9 @@ function addCross(context: DrawContext['context'], x: number, y: number) {
   addLine(context, [[x - CROSS_HALF_SIZE, y + CROSS_HALF_SIZE], [x + CROSS_HALF_SIZE, y - CROSS_HALF_SIZE]]);
 }
 
-function drawCrosses({ context, view }: DrawContext, triples: Float64Array, colour: string) {
+function drawCrosses({ context, view }: DrawContext, poses: Float64Array, colour: string) {
   paintWithOpacity(context, 0.5, () => strokePath(context, { colour, width: 1 }, () => {
-    for (let i = 0; i < triples.length; i += 3) addCross(context, ...view.toPixel(triples[i], triples[i + 1]));
+    for (let i = 0; i < poses.length; i += 3) addCross(context, ...view.toPixel(poses[i], poses[i + 1]));
   }));
 }
 
@@ -226,9 +226,9 @@ function drawPaths({ context, view }: DrawContext, paths: Float64Array[], colour
 }
 
 /** Draws samples as dots that darken where they overlap. */
-function drawSamples({ context, view }: DrawContext, triples: Float64Array, colour: string) {
+function drawSamples({ context, view }: DrawContext, poses: Float64Array, colour: string) {
   const dotRadius = clamp(view.width / SAMPLE_DOT.per, SAMPLE_DOT.min, SAMPLE_DOT.max);
   paintWithOpacity(context, SAMPLE_DOT.alpha, () => {
-    for (let i = 0; i < triples.length; i += 3) drawDisc(context, view.toPixel(triples[i], triples[i + 1]), dotRadius, colour);
+    for (let i = 0; i < poses.length; i += 3) drawDisc(context, view.toPixel(poses[i], poses[i + 1]), dotRadius, colour);
   });
 }

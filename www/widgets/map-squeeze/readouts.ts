@@ -6,7 +6,7 @@ import { verdict as bits, limits } from '../../../build/settings.js';
 import { buttonHtml } from '../../ui/controls.ts';
 import { formatInteger, formatFixed, formatPercent, formatRounded } from '../../ui/format.ts';
 import { tableHtml, readoutsHtml } from '../../ui/readouts.ts';
-import { commandText } from '../shared/sliders.ts';
+import { formatCommand } from '../shared/sliders.ts';
 import { en } from './en.ts';
 import { throughWallText, SAMPLERS, type ViewModel } from './settings.ts';
 import type { MapSqueeze, Plan, SamplerName, MapSqueezeSettings as Settings, SqueezeStats as Stats } from '../../types.d.ts';
@@ -55,10 +55,10 @@ export function mapText(name: string, { bounds, walls }: Plan) {
 export function pictureText(viewModel: ViewModel, map: string) {
   const { start: { x, y, theta }, command } = viewModel.config;
   const texts = words.squeeze;
-  return [texts.picture(map), texts.robotAt(formatFixed(x, 2), formatFixed(y, 2), formatFixed(theta, 2), commandText(command)), captionOf(viewModel)].join(' ');
+  return [texts.picture(map), texts.robotAt(formatFixed(x, 2), formatFixed(y, 2), formatFixed(theta, 2), formatCommand(command)), captionOf(viewModel)].join(' ');
 }
 
-export function tallyReadouts({ stats, paths: { length: paths } }: ViewModel) {
+export function tallyReadoutsHtml({ stats, paths: { length: paths } }: ViewModel) {
   const { tally: texts } = words.squeeze;
   return readoutsHtml([
     [texts.drawn, formatInteger(stats.drawn)],
@@ -100,7 +100,7 @@ function measureCost(simulation: MapSqueeze, sampler: SamplerName, subStepCount:
 }
 
 /** Returns the button that measures the cost of each sampler, and the table of the costs. */
-export function costTable(figure: Figure) {
+export function costTableHtml(figure: Figure) {
   const { samplers, costs: texts } = words.squeeze;
   const { costs, viewModel: { config } } = figure;
   const costRow = (sampler: SamplerName, cost: SampleCost) => [
@@ -122,7 +122,7 @@ export function overviewMapHtml(picture: import('./picture.ts').FloorPicture, { 
   const [width, height] = [xMax - xMin, yMax - yMin];
   const { extent } = picture.view;
   const shownSize = [extent.xMax - extent.xMin, extent.yMax - extent.yMin];
-  if (!picture.isClose || shownSize[0] * shownSize[1] > MAX_SHOWN_FRACTION * width * height) return nothing;
+  if (!picture.isCloseView || shownSize[0] * shownSize[1] > MAX_SHOWN_FRACTION * width * height) return nothing;
   return html`<svg class="overview" viewBox=${`${xMin} ${-yMax} ${width} ${height}`} aria-hidden="true">
     <g transform="scale(1 -1)" fill="none">
       <path vector-effect="non-scaling-stroke" stroke="var(--muted)" d=${picture.wallPathData} />

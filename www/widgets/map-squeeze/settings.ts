@@ -4,7 +4,7 @@ import { presetAttributeOf, createDefinition } from '../../figure/definition.ts'
 import { words } from '../../messages/registry.ts';
 import { presets, settings, verdict as bits } from '../../../build/settings.js';
 import { formatInteger, formatFixed, formatPercent } from '../../ui/format.ts';
-import { COMMAND_DASH, commandSliders } from '../shared/sliders.ts';
+import { COMMAND_DASH, commandSliderSpecs } from '../shared/sliders.ts';
 import type { MapSqueeze, MapSqueezeSettings, SamplerName, SqueezeStats } from '../../types.d.ts';
 
 const settingDeclarations = settings['map-squeeze'];
@@ -24,7 +24,7 @@ export const LINE_STYLES = {
   unknown: { role: 'muted', shape: 'area' },
 } satisfies Record<string, import('../../scene/draw.ts').LineStyle>;
 
-export const COMMAND_SLIDERS = commandSliders(4);
+export const COMMAND_SLIDERS = commandSliderSpecs(4);
 
 /** Parts of the map that the picture shows. */
 const VIEWS = ['close', 'whole'];
@@ -73,14 +73,14 @@ export function viewModelOf(simulation: MapSqueeze) {
 
 function groupByOutcome(poses: Float64Array, verdicts: Uint8Array) {
   const posesOfOutcome = (outcome: number) => {
-    const indices = [...verdicts.keys()].filter((i) => outcomeIndex(verdicts[i]) === outcome);
+    const indices = [...verdicts.keys()].filter((i) => outcomeIndexOf(verdicts[i]) === outcome);
     return Float64Array.from(indices.flatMap((i) => [poses[3 * i], poses[3 * i + 1], poses[3 * i + 2]]));
   };
   return { rejected: posesOfOutcome(0), free: posesOfOutcome(1), through: posesOfOutcome(2) };
 }
 
 /** Returns 0 for a rejected sample, 1 for an accepted one, and 2 for an accepted one whose path goes through a wall. */
-export function outcomeIndex(verdict: number) {
+export function outcomeIndexOf(verdict: number) {
   if ((verdict & bits.accepted) === 0) return 0;
   return (verdict & bits.pathFree) === 0 ? 2 : 1;
 }

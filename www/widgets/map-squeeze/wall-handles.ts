@@ -7,7 +7,7 @@ import { swatchHtml } from '../../scene/draw.ts';
 import { Handle, stepsOfKey, turnStepsOfKey } from '../../scene/handle.ts';
 import { Memo } from '../../scene/cache.ts';
 import { clamp, formatFixed } from '../../ui/format.ts';
-import { wallGrips, wallsAfterMove, type Grip } from './walls.ts';
+import { gripsOf, wallsAfterMove, type Grip } from './walls.ts';
 import type { View } from '../../scene/view.ts';
 
 /** Displacement of a wall per key press, metres. */
@@ -28,7 +28,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
 
   get #currentGrips() {
     const { plan, hasMovableWalls: movable } = this.host.picture;
-    return this.#gripsMemo.get([plan], () => (movable && plan.walls.length <= 4 * MAX_HANDLED_WALLS ? wallGrips(plan) : []));
+    return this.#gripsMemo.get([plan], () => (movable && plan.walls.length <= 4 * MAX_HANDLED_WALLS ? gripsOf(plan) : []));
   }
 
   get #walls() {
@@ -53,9 +53,9 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   }
 
   /** Returns the entry of the handles in the legend. */
-  legend() {
+  legendEntryHtml() {
     if (this.#currentGrips.every((grip) => !grip)) return nothing;
-    return html`<span class="toggle grips">${swatchHtml({ role: 'truth', shape: 'box', width: 1.5 })}${words.squeeze.walls.legend}</span>`;
+    return html`<span class="toggle grips">${swatchHtml({ role: 'truth', shape: 'box', width: 1.5 })}${words.squeeze.walls.legendEntryHtml}</span>`;
   }
 
   /** Places new elements, which are rendered after the picture. */
@@ -86,14 +86,14 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   #handleOf(grip: Grip) {
     const gripName = handleClassOf(grip);
     // The wall may be missing in a new plan, until its handle is removed.
-    const callWithGrip = <Result>(use: (currentGrip: Grip) => Result) => {
+    const callWithGrip = <Result>(useGrip: (currentGrip: Grip) => Result) => {
       const currentGrip = this.#currentGrips.find((candidate) => candidate && handleClassOf(candidate) === gripName);
-      return currentGrip && use(currentGrip);
+      return currentGrip && useGrip(currentGrip);
     };
     const handle = this.#handles.get(gripName) ?? new Handle(`${grip.part === 'side' ? 'side' : 'jamb'} ${gripName}`, {
       view: () => this.host.picture.view,
       graspedPointAt: () => callWithGrip((currentGrip) => this.#grippedPoint(currentGrip)),
-      drag: (x, y) => callWithGrip((currentGrip) => this.#move(currentGrip, (point, axis) => (x - point[0]) * axis[0] + (y - point[1]) * axis[1])),
+      drag: (x, y) => callWithGrip((currentGrip) => this.#moveGrip(currentGrip, (point, axis) => (x - point[0]) * axis[0] + (y - point[1]) * axis[1])),
       handleKey: (event) => callWithGrip((currentGrip) => this.#onKey(event, currentGrip)) ?? false,
       commit: () => this.host.gesture.commit(),
     });
@@ -112,7 +112,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     if (!keySteps) return false;
     const [dx, dy] = keySteps;
     // Arrow keys across the axis act like those along it, as for any slider.
-    return this.#move(grip, (_, [ux, uy]) => KEY_STEP * (dx * ux + dy * uy || (dx + dy) * (ux + uy)));
+    return this.#moveGrip(grip, (_, [ux, uy]) => KEY_STEP * (dx * ux + dy * uy || (dx + dy) * (ux + uy)));
   }
 
   /** Moves the focus to another handle. */
@@ -126,7 +126,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   }
 
   /** Moves a grip along its axis by the requested distance, within its range. Returns false if the distance is NaN. */
-  #move(grip: Grip, distanceOf: (point: number[], axis: number[]) => number) {
+  #moveGrip(grip: Grip, distanceOf: (point: number[], axis: number[]) => number) {
     this.#tabbableName = handleClassOf(grip);
     const moveDistance = clamp(distanceOf(this.#grippedPoint(grip), grip.axis), grip.range[0], grip.range[1]);
     if (moveDistance) this.host.moveWalls(wallsAfterMove(this.#walls, grip, moveDistance));

@@ -14,7 +14,7 @@ const MIN_TOUCH_RADIUS = 0.02;
 const POINTS_PER_RADIUS = 4;
 
 /** Returns the point of a wall that is nearest to another point, with the distance. `k` is the index of the wall's first number. */
-function nearestWallPoint(walls: ArrayLike<number>, k: number, x: number, y: number) {
+function nearestPointOfWall(walls: ArrayLike<number>, k: number, x: number, y: number) {
   const [x0, y0] = [walls[k], walls[k + 1]];
   const [dx, dy] = [walls[k + 2] - x0, walls[k + 3] - y0];
   const projection = ((x - x0) * dx + (y - y0) * dy) / (dx * dx + dy * dy || 1);
@@ -24,7 +24,7 @@ function nearestWallPoint(walls: ArrayLike<number>, k: number, x: number, y: num
 }
 
 /** Returns the first point of a wall that a robot with this radius touches on a path of x, y pairs; undefined for none. */
-export function wallContact(path: ArrayLike<number>, walls: Float64Array, radius: number) {
+export function findWallContact(path: ArrayLike<number>, walls: Float64Array, radius: number) {
   const touchRadius = Math.max(radius, MIN_TOUCH_RADIUS);
   const pathExtent = extentAround(path, 2);
   const nearWalls = [];
@@ -38,7 +38,7 @@ export function wallContact(path: ArrayLike<number>, walls: Float64Array, radius
     const pointCount = Math.ceil((POINTS_PER_RADIUS * Math.hypot(dx, dy)) / touchRadius) || 1;
     for (let pointIndex = 0; pointIndex <= pointCount; pointIndex++) {
       const [x, y] = [path[i] + (pointIndex / pointCount) * dx, path[i + 1] + (pointIndex / pointCount) * dy];
-      const [nearestPoint] = nearWalls.map((k) => nearestWallPoint(walls, k, x, y)).sort((one, other) => one.distance - other.distance);
+      const [nearestPoint] = nearWalls.map((k) => nearestPointOfWall(walls, k, x, y)).sort((one, other) => one.distance - other.distance);
       if (nearestPoint?.distance < touchRadius) return nearestPoint.point;
     }
   }
@@ -60,7 +60,7 @@ export interface Grip {
  * Returns three grips of each wall, in the order of the walls: two ends, which can be moved where they touch no other wall, and the side.
  * The outer walls of the map have none.
  */
-export function wallGrips({ bounds, walls }: Plan): (Grip | undefined)[] {
+export function gripsOf({ bounds, walls }: Plan): (Grip | undefined)[] {
   const grips = [];
   for (let wall = 0; wall < walls.length; wall += 4) {
     const [x0, y0, x1, y1] = walls.subarray(wall, wall + 4);
@@ -70,11 +70,11 @@ export function wallGrips({ bounds, walls }: Plan): (Grip | undefined)[] {
     const isOuterWall = [0, 1].some((i) => [bounds[i], bounds[i + 2]].some((bound) => walls[wall + i] === bound && walls[wall + i + 2] === bound));
     const endGrips: [part: 'from' | 'to', end: number[], axis: number[]][] = [['from', [x0, y0], wallDirection.map((component) => -component)], ['to', [x1, y1], wallDirection]];
     for (const [part, end, axis] of endGrips) {
-      const maxMove = Math.min(moveRange(bounds, [end], axis)[1], freeDistance(walls, wall, end, axis));
+      const maxMove = Math.min(moveRangeOf(bounds, [end], axis)[1], freeDistanceAlong(walls, wall, end, axis));
       const range = [Math.min(0, MIN_GAP - wallLength), Math.max(0, maxMove)];
       grips.push(isOuterWall || wallLength < MIN_GAP || !isUnattachedEnd(walls, wall, end) ? undefined : { wall, part, axis, range });
     }
-    const range = moveRange(bounds, [[x0, y0], [x1, y1]], wallNormal);
+    const range = moveRangeOf(bounds, [[x0, y0], [x1, y1]], wallNormal);
     grips.push(isOuterWall || wallLength < MIN_GAP ? undefined : { wall, part: 'side' as const, axis: wallNormal, range });
   }
   return grips;
@@ -82,12 +82,12 @@ export function wallGrips({ bounds, walls }: Plan): (Grip | undefined)[] {
 
 /** Returns true if an end of a wall touches no other wall. */
 function isUnattachedEnd(walls: Float64Array, wall: number, [x, y]: readonly number[]) {
-  for (let k = 0; k < walls.length; k += 4) if (k !== wall && nearestWallPoint(walls, k, x, y).distance < TOUCH_DISTANCE) return false;
+  for (let k = 0; k < walls.length; k += 4) if (k !== wall && nearestPointOfWall(walls, k, x, y).distance < TOUCH_DISTANCE) return false;
   return true;
 }
 
 /** Returns the range by which points may move along an axis within bounds. */
-function moveRange(bounds: ArrayLike<number>, points: readonly (readonly number[])[], axis: readonly number[]): [number, number] {
+function moveRangeOf(bounds: ArrayLike<number>, points: readonly (readonly number[])[], axis: readonly number[]): [number, number] {
   let [minMove, maxMove] = [-Infinity, Infinity];
   for (const point of points) {
     for (const i of [0, 1].filter((k) => Math.abs(axis[k]) > TOUCH_DISTANCE)) {
@@ -99,7 +99,7 @@ function moveRange(bounds: ArrayLike<number>, points: readonly (readonly number[
 }
 
 /** Returns the distance by which the end of a wall may move along an axis before it is near another wall. */
-function freeDistance(walls: Float64Array, wall: number, [x, y]: readonly number[], [ux, uy]: readonly number[]) {
+function freeDistanceAlong(walls: Float64Array, wall: number, [x, y]: readonly number[], [ux, uy]: readonly number[]) {
   let minFreeDistance = Infinity;
   for (let k = 0; k < walls.length; k += 4) {
     if (k === wall) continue;
@@ -124,7 +124,7 @@ export function wallsAfterMove(walls: Float64Array, { wall, part, axis: [ux, uy]
   for (let k = 0; k < walls.length && part === 'side'; k += 4) {
     const [dx, dy] = [walls[k + 2] - walls[k], walls[k + 3] - walls[k + 1]];
     if (k === wall || Math.abs(dx * uy - dy * ux) > TOUCH_DISTANCE) continue;
-    for (const end of [k, k + 2]) if (nearestWallPoint(walls, wall, walls[end], walls[end + 1]).distance < TOUCH_DISTANCE) moveEnd(end);
+    for (const end of [k, k + 2]) if (nearestPointOfWall(walls, wall, walls[end], walls[end + 1]).distance < TOUCH_DISTANCE) moveEnd(end);
   }
   return movedWalls;
 }

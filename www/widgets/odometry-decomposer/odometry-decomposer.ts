@@ -9,16 +9,16 @@ import { Memo } from '../../scene/cache.ts';
 import { formatMarkup, radioButtonHtml, fieldsetHtml } from '../../ui/controls.ts';
 import { formatFixed } from '../../ui/format.ts';
 import { tableHtml } from '../../ui/readouts.ts';
-import { Cloud, cloudControls, cloudProperties } from '../shared/cloud.ts';
-import { Player, presetButtons } from '../shared/controls.ts';
+import { Cloud, cloudControlsHtml, cloudProperties } from '../shared/cloud.ts';
+import { Player, presetButtonsHtml } from '../shared/controls.ts';
 import { PoseHandles } from '../shared/robot.ts';
 import { LegsPicture, ROBOT_RADIUS, WorldPicture } from './pictures.ts';
-import { headlineHtml, outcomeReadouts, spreadPlot, driftDistance, captionOf, legsPictureText, worldText } from './readouts.ts';
+import { headlineHtml, outcomeReadoutsHtml, spreadPlotHtml, driftDistanceOf, captionOf, legsPictureText, worldText } from './readouts.ts';
 import { LINE_STYLES, definition, sliderSpecs, NOISE_SLIDERS, SAMPLE_COUNTS, viewModelOf, type ViewModel } from './settings.ts';
 import type { Motion, OdometryDecomposer as Simulation } from '../../types.d.ts';
 
 /** Returns the table of standard deviations by noise model. Values that differ from Table 5.6 are bold. */
-function noiseModelTable(figure: OdometryDecomposerElement) {
+function noiseModelTableHtml(figure: OdometryDecomposerElement) {
   const { rules: names, table: texts, settings } = words.decomposer;
   const { rules } = figure.viewModel;
   const currentRule = figure.settings.requested.rule;
@@ -36,19 +36,19 @@ function noiseModelTable(figure: OdometryDecomposerElement) {
 }
 
 /** Returns a slider, with a play button unless the user prefers reduced motion. */
-function playableSlider(figure: OdometryDecomposerElement, key: 'phase' | 'drift') {
+function playableSliderHtml(figure: OdometryDecomposerElement, key: 'phase' | 'drift') {
   const { player } = figure;
   const { plays, settings } = words.decomposer;
   return html`<fieldset class="playable with-button ${key}">
     <legend class="visually-hidden">${settings[key].name}</legend>
-    ${settingSliderHtml(figure, key, { onInput: (value) => player.setByUser(key, value) })} ${player.button(key, plays[key])}
+    ${settingSliderHtml(figure, key, { onInput: (value) => player.setByUser(key, value) })} ${player.buttonHtml(key, plays[key])}
   </fieldset>`;
 }
 
-function noiseControls(figure: OdometryDecomposerElement) {
+function noiseControlsHtml(figure: OdometryDecomposerElement) {
   return html`<div class="controls">
       ${fieldsetHtml(words.noise, html`${settingSlidersHtml(figure, NOISE_SLIDERS)} ${settingRadiosHtml(figure, 'noise', words.noises)}`, 'alphas')}
-      ${cloudControls(figure, SAMPLE_COUNTS)}
+      ${cloudControlsHtml(figure, SAMPLE_COUNTS)}
     </div>
     <p>${formatMarkup(words.decomposer.hinges)}</p>`;
 }
@@ -165,8 +165,8 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
 
   get scene() {
     const viewModel = this.currentViewModel;
-    const { selectedIndex: index, isMarked } = this.cloud;
-    return { ...viewModel, overlays: this.settings.elementState.overlays, marked: isMarked ? viewModel.poses.subarray(3 * index) : undefined };
+    const { selectedIndex: index, isSelectionShown } = this.cloud;
+    return { ...viewModel, overlays: this.settings.elementState.overlays, marked: isSelectionShown ? viewModel.poses.subarray(3 * index) : undefined };
   }
 
   get exportData() {
@@ -194,14 +194,14 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
         ${titledPictureHtml(texts.worldTitle, html`<div class="stage">${pictureCanvasHtml(this, this.#worldPicture, worldText(viewModel))}</div>`)}
         ${this.renderer.renderAfterFirstPicture(() => html`
         <div class="summary">${headlineHtml(viewModel)} <p class="caption" part="caption">${captionOf(viewModel)}</p></div>
-        <p class="caption">${formatMarkup(texts.worldCaption(formatFixed(driftDistance(viewModel), 2)))}</p>`)}
+        <p class="caption">${formatMarkup(texts.worldCaption(formatFixed(driftDistanceOf(viewModel), 2)))}</p>`)}
       </div>
       ${this.renderer.renderAfterFirstPicture(() => html`
-      ${legendHtml(this, LINE_STYLES)} ${presetButtons(this)} ${noiseModelTable(this)}
-      <div class="plays" part="controls">${playableSlider(this, 'phase')} ${playableSlider(this, 'drift')}</div>
+      ${legendHtml(this, LINE_STYLES)} ${presetButtonsHtml(this)} ${noiseModelTableHtml(this)}
+      <div class="plays" part="controls">${playableSliderHtml(this, 'phase')} ${playableSliderHtml(this, 'drift')}</div>
       ${disclosuresHtml(this, {
-        renderControls: () => noiseControls(this),
-        renderNumbers: () => html`${outcomeReadouts(viewModel)} ${spreadPlot(this.#spreadCurveOf, viewModel)}`,
+        renderControls: () => noiseControlsHtml(this),
+        renderNumbers: () => html`${outcomeReadoutsHtml(viewModel)} ${spreadPlotHtml(this.#spreadCurveOf, viewModel)}`,
       })}`)}
     `;
   }

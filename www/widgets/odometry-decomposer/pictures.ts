@@ -23,7 +23,7 @@ const CHORD_ANGLE = 0.1;
 const ELLIPSE_POINTS = 64;
 
 /** Returns the points of an ellipse about a pose with semi-axes along and across its heading. Lengths are in metres. */
-function ellipsePoints({ x, y, theta }: Pose, along: number, across: number) {
+function ellipsePointsAround({ x, y, theta }: Pose, along: number, across: number) {
   const [cos, sin] = [Math.cos(theta), Math.sin(theta)];
   return Array.from({ length: ELLIPSE_POINTS + 1 }, (_, i): [number, number] => {
     const angle = (2 * Math.PI * i) / ELLIPSE_POINTS;
@@ -45,7 +45,7 @@ function drawTurn({ context, view }: DrawContext, startPose: Pose, turn: number,
 }
 
 /** Draws a standard deviation (rad) to either side of a heading, as a fan with a radius in pixels. */
-function drawFan({ context, view }: DrawContext, { x, y, theta }: Pose, deviation: number, radius: number, colour: string) {
+function drawDeviationFan({ context, view }: DrawContext, { x, y, theta }: Pose, deviation: number, radius: number, colour: string) {
   const halfAngle = Math.min(deviation, Math.PI);
   if (halfAngle === 0) return;
   const centre = view.toPixel(x, y);
@@ -59,7 +59,7 @@ function drawFan({ context, view }: DrawContext, { x, y, theta }: Pose, deviatio
 }
 
 /** Draws a standard deviation (m) as a bar with ends, along the heading of a pose and to either side of its position. */
-function drawBar({ context, view }: DrawContext, pose: Pose, deviation: number, colour: string) {
+function drawDeviationBar({ context, view }: DrawContext, pose: Pose, deviation: number, colour: string) {
   if (deviation === 0) return;
   const barDirection = view.pixelDirection(pose.theta);
   const halfLength = deviation * view.scaleX;
@@ -72,7 +72,7 @@ function drawBar({ context, view }: DrawContext, pose: Pose, deviation: number, 
   });
 }
 
-/** View model of both pictures, with the names of the lines that are shown. */
+/** View model of the legs and world pictures, with the names of the lines that are shown. */
 export type Scene = import('./settings.ts').ViewModel & { marked: Float64Array | undefined, overlays: string[] };
 
 /** Radius of the robot, m. */
@@ -81,7 +81,7 @@ export const ROBOT_RADIUS = 0.11;
 /** Margins around the robots (m), and around the outcomes (in standard deviations). */
 const MARGINS = { metres: 0.3, deviations: 2.4 };
 
-/** Maximum number of outcomes that are drawn with headings: more would be indistinguishable. */
+/** Maximum number of outcomes that are drawn with headings. Headings of more outcomes would be indistinguishable. */
 const MAX_TICKS = 1000;
 
 /** Gap between the handle that turns a robot and the arc of a turn around it, and between two arcs, CSS pixels. */
@@ -90,13 +90,13 @@ const ARC_GAPS = { handle: 14, arcs: 16 };
 /** Maximum margin around a turn, as a fraction of the frame's shorter side, so that half of the frame remains for the motion. */
 const MAX_ARC_SHARE = 0.25;
 
-/** Number of steps to the view's scale, each of which at least halves the distance to it. */
+/** Number of iterations for the scale of the view. Each iteration at least halves the error of the scale. */
 const SCALE_STEPS = 12;
 
-/** Length of a drive, CSS pixels, below which it has no label. */
+/** Minimum length (CSS pixels) of a drive with a label. */
 const MIN_LABELLED_DRIVE = 24;
 
-/** Turn, rad, below which it has no arc. */
+/** Minimum angle (rad) of a turn that is drawn as an arc. */
 const MIN_DRAWN_TURN = 0.005;
 
 /** Candidate ends of a leader on the arc of a turn, as fractions of the turn. */
@@ -108,7 +108,7 @@ const AXIS_NAMES = { x: 'x (m)', y: 'y (m)' };
 const FRAME_AXIS_LENGTH = 0.28;
 
 /** Returns points around the start and the outcomes, as x, y pairs, that a picture has to show. */
-function neededPoints({ linkage, legs, rules }: Scene): number[] {
+function neededPointsOf({ linkage, legs, rules }: Scene): number[] {
   const [{ x, y }, drivenPose] = [poseAt(linkage, 0), poseAt(linkage, 2)];
   // The scale is the same for all noise models, so that their spreads can be compared.
   const alongMargin = Math.min(MARGINS.deviations * Math.max(...rules.map(({ deviations }) => deviations[1])), legs.trans + 2);
@@ -126,17 +126,17 @@ function drawOutcomes(drawContext: DrawContext, { poses, overlays }: Scene) {
   drawDots(drawContext, poses, poses.length <= 3 * MAX_TICKS ? 1 : 0);
 }
 
-/** Returns the ellipses of the spread by the current noise model and, if it differs, by one to compare it with. Each has a callout. */
-function spreadEllipses({ palette }: DrawContext, { linkage, rules, config }: Scene) {
+/** Returns the 2σ ellipses of the current noise model and, if it differs, of a noise model for comparison. Each ellipse has a callout. */
+function spreadEllipsesOf({ palette }: DrawContext, { linkage, rules, config }: Scene) {
   const currentRule = rules.find(({ rule }) => rule === config.rule) as RuleNoise;
   const comparedRule = rules[config.rule === 'thrun' ? 1 : 0];
   const hasOtherDeviations = comparedRule.deviations.some((deviation, i) => Math.abs(deviation - currentRule.deviations[i]) > 1e-9);
   return [currentRule, ...(hasOtherDeviations ? [comparedRule] : [])].map(({ rule, deviations, crossTrack }) => {
-    const points = ellipsePoints(poseAt(linkage, 2), 2 * deviations[1], 2 * crossTrack);
+    const points = ellipsePointsAround(poseAt(linkage, 2), 2 * deviations[1], 2 * crossTrack);
     const colour = rule === config.rule ? palette.prediction : palette.ink;
     // The callouts are at different sides: at the front of the ellipse of Table 5.6, and at the top of the other one, which is smaller.
-    const at = rule === 'thrun' ? points[0] : greatest(points, ([, y]) => y) as [number, number];
-    const callout: Callout = { text: words.decomposer.spread(words.decomposer.rules[rule]), point: at, colour };
+    const calloutPoint = rule === 'thrun' ? points[0] : greatest(points, ([, y]) => y) as [number, number];
+    const callout: Callout = { text: words.decomposer.spread(words.decomposer.rules[rule]), point: calloutPoint, colour };
     return { points: Float64Array.from(points.flat()), colour, width: 2, callout };
   }).filter(({ points }) => hasLength(points));
 }
@@ -149,7 +149,7 @@ function drawMarked(drawContext: DrawContext, { marked }: Scene) {
 type Turn = [Pose, turn: number, radius: number];
 
 /** Returns the radii of the arcs of both turns, pixels. */
-const turnRadii = (view: Pick<View, 'scaleX'>) => [0, 1].map((arc) => turnHandleDistance(view, ROBOT_RADIUS) + ARC_GAPS.handle + arc * ARC_GAPS.arcs);
+const turnRadiiOf = (view: Pick<View, 'scaleX'>) => [0, 1].map((arc) => turnHandleDistance(view, ROBOT_RADIUS) + ARC_GAPS.handle + arc * ARC_GAPS.arcs);
 
 /** Returns points of an arc about a pose that starts at its heading, as x, y pairs. The turn is in radians, and the radius in metres. */
 function turnArcPoints({ x, y, theta }: Pose, turn: number, radius: number) {
@@ -166,7 +166,7 @@ export class LegsPicture extends SamplesPicture<Scene> {
   fitView(scene: Scene) {
     const { view } = this;
     const { linkage, legs, overlays } = scene;
-    const worldPoints = neededPoints(scene);
+    const worldPoints = neededPointsOf(scene);
     if (!overlays.includes('legs')) {
       view.fit(extentOf(worldPoints, 1.2));
       return;
@@ -174,7 +174,7 @@ export class LegsPicture extends SamplesPicture<Scene> {
     const { left, right, top, bottom } = view.plotArea;
     const maxTurnRadius = MAX_ARC_SHARE * Math.min(right - left, bottom - top);
     const extentAtScale = (scale: number) => {
-      const radii = turnRadii({ scaleX: scale });
+      const radii = turnRadiiOf({ scaleX: scale });
       const arcCorners = [legs.rot1, legs.rot2].flatMap((turn, i) => turnArcPoints(poseAt(linkage, 2 * i), turn, Math.min(radii[i], maxTurnRadius) / scale));
       return extentOf([...worldPoints, ...arcCorners], 1.2);
     };
@@ -190,14 +190,14 @@ export class LegsPicture extends SamplesPicture<Scene> {
     const [startPose, turnedPose, drivenPose] = [0, 1, 2].map((index) => poseAt(linkage, index));
     const legendNames = (['legs', 'deviation', 'outcomes'] as const).filter((name) => overlays.includes(name));
     drawAxes(drawContext, AXIS_NAMES, lineLegendEntries(drawContext, LINE_STYLES, legendNames, words.decomposer.overlays));
-    const [firstRadius, secondRadius] = turnRadii(this.view);
+    const [firstRadius, secondRadius] = turnRadiiOf(this.view);
     const turns: Turn[] = [[startPose, legs.rot1, firstRadius], [drivenPose, legs.rot2, secondRadius]];
     const styles = lineStyles(drawContext, LINE_STYLES);
     const showsDeviation = overlays.includes('deviation');
     const { colour } = styles.deviation;
-    const ellipses = showsDeviation ? spreadEllipses(drawContext, scene) : [];
+    const ellipses = showsDeviation ? spreadEllipsesOf(drawContext, scene) : [];
     clipToPlot(drawContext, () => {
-      if (showsDeviation) drawFan(drawContext, turnedPose, deviations.rot1, Math.max(legs.trans * this.view.scaleX, secondRadius), colour);
+      if (showsDeviation) drawDeviationFan(drawContext, turnedPose, deviations.rot1, Math.max(legs.trans * this.view.scaleX, secondRadius), colour);
       if (overlays.includes('outcomes')) this.#paintGhosts(drawContext, scene);
       drawOutcomes(drawContext, scene);
       drawOutlines(drawContext, ellipses);
@@ -205,9 +205,9 @@ export class LegsPicture extends SamplesPicture<Scene> {
       drawDraggableRobot(drawContext, startPose, ROBOT_RADIUS, palette.prior);
       drawDraggableRobot(drawContext, config.to, ROBOT_RADIUS, palette.prior);
       if (showsDeviation) {
-        drawBar(drawContext, drivenPose, deviations.trans, colour);
-        drawBar(drawContext, { ...drivenPose, theta: drivenPose.theta + Math.PI / 2 }, deviations.strafe, colour);
-        drawFan(drawContext, { ...drivenPose, theta: drivenPose.theta + legs.rot2 }, deviations.rot2, secondRadius, colour);
+        drawDeviationBar(drawContext, drivenPose, deviations.trans, colour);
+        drawDeviationBar(drawContext, { ...drivenPose, theta: drivenPose.theta + Math.PI / 2 }, deviations.strafe, colour);
+        drawDeviationFan(drawContext, { ...drivenPose, theta: drivenPose.theta + legs.rot2 }, deviations.rot2, secondRadius, colour);
       }
       if (config.phase < 3) this.#paintRobot(drawContext, scene.robot);
       if (overlays.includes('legs')) {
@@ -224,7 +224,7 @@ export class LegsPicture extends SamplesPicture<Scene> {
   #labels({ view, palette: { prior: colour } }: DrawContext, { legs, deviations }: Scene, turns: Turn[]) {
     const [startPose, drivenPose] = turns.map(([turnPose]) => turnPose);
     // The point of an arc that is nearest to the labels, and inside the axes.
-    const leaderEnd = ([{ x, y, theta }, turn, radius]: Turn) => {
+    const leaderEndOf = ([{ x, y, theta }, turn, radius]: Turn) => {
       const leaderEndCandidates = LEADER_ENDS.map((share) => view.headingLine({ x, y, theta: theta + share * turn }, radius)[1])
         .map(([placeX, placeY]) => ({ x: placeX, y: placeY }))
         .sort((one, other) => one.y - other.y);
@@ -232,9 +232,9 @@ export class LegsPicture extends SamplesPicture<Scene> {
     };
     const driveMiddle = { x: view.toPixelX((startPose.x + drivenPose.x) / 2), y: view.toPixelY((startPose.y + drivenPose.y) / 2) };
     const labels = [
-      { sub: 'rot1', unit: 'rad', isShown: Math.abs(legs.rot1) >= MIN_DRAWN_TURN, anchor: leaderEnd(turns[0]) },
+      { sub: 'rot1', unit: 'rad', isShown: Math.abs(legs.rot1) >= MIN_DRAWN_TURN, anchor: leaderEndOf(turns[0]) },
       { sub: 'trans', unit: 'm', isShown: legs.trans * view.scaleX >= MIN_LABELLED_DRIVE, anchor: driveMiddle },
-      { sub: 'rot2', unit: 'rad', isShown: Math.abs(legs.rot2) >= MIN_DRAWN_TURN, anchor: leaderEnd(turns[1]) },
+      { sub: 'rot2', unit: 'rad', isShown: Math.abs(legs.rot2) >= MIN_DRAWN_TURN, anchor: leaderEndOf(turns[1]) },
     ] as const;
     return labels.filter(({ isShown }) => isShown).map(({ sub, unit, anchor }) => {
       const deviationText = deviations[sub] > 0 ? ` ± ${formatFixed(deviations[sub], 2)}` : '';
@@ -268,7 +268,7 @@ export class WorldPicture extends SamplesPicture<Scene> {
       const { x, y } = poseAt(poses, index);
       return cornersAround(x, y, MARGINS.metres);
     });
-    this.view.fit(extentOf([...neededPoints(scene), ...robotCorners], 1.2));
+    this.view.fit(extentOf([...neededPointsOf(scene), ...robotCorners], 1.2));
   }
 
   paint: SamplesPicture<Scene>['paint'] = (drawContext, scene) => {

@@ -31,7 +31,7 @@ export function captionOf({ config: { rule, alphas }, rules, legs, deviations, s
 }
 
 /** Returns the distance between the odometry's own pose and the predicted pose, m. */
-export function driftDistance({ drifted, linkage }: ViewModel) {
+export function driftDistanceOf({ drifted, linkage }: ViewModel) {
   const [odometryPose, predictedPose] = [poseAt(drifted.poses, 2), poseAt(linkage, 3)];
   return Math.hypot(odometryPose.x - predictedPose.x, odometryPose.y - predictedPose.y);
 }
@@ -45,12 +45,12 @@ export function legsPictureText(viewModel: ViewModel) {
 
 export function worldText(viewModel: ViewModel) {
   const { x, y, theta } = poseAt(viewModel.drifted.poses, 0);
-  return words.decomposer.worldPicture(formatFixed(x, 2), formatFixed(y, 2), formatFixed(theta, 2), formatFixed(driftDistance(viewModel), 2));
+  return words.decomposer.worldPicture(formatFixed(x, 2), formatFixed(y, 2), formatFixed(theta, 2), formatFixed(driftDistanceOf(viewModel), 2));
 }
 
 const formatMetres = (value: number) => `${formatFixed(value, 3)} m`;
 
-/** Returns the headline: the turn noise by Table 5.6 relative to that by Nav2. */
+/** Returns the headline: the ratio of the turn noise of Table 5.6 to the turn noise of Nav2. */
 export function headlineHtml({ rules: [thrun, nav2] }: ViewModel) {
   const texts = words.decomposer.headline;
   const headingNoiseRatio = thrun.heading / nav2.heading;
@@ -58,7 +58,7 @@ export function headlineHtml({ rules: [thrun, nav2] }: ViewModel) {
 }
 
 /** Returns the readouts: the contribution of the first rotation, and the standard deviations of the outcomes. */
-export function outcomeReadouts({ stats }: ViewModel) {
+export function outcomeReadoutsHtml({ stats }: ViewModel) {
   const texts = words.decomposer.readouts;
   const { crossTrack, crossTrackError, exactCrossTrack, heading, headingError, exactHeading, independentHeading } = stats;
   const exactText = texts.exactly(formatFixed(exactHeading, 3));
@@ -73,7 +73,7 @@ export function outcomeReadouts({ stats }: ViewModel) {
 /** Number of points of the curves, about one for each pixel on a large screen. */
 const CURVE_POINTS = 121;
 
-export function spreadPlot(curveOf: (longest: number, points: number) => Float64Array, { legs, stats }: ViewModel) {
+export function spreadPlotHtml(curveOf: (longest: number, points: number) => Float64Array, { legs, stats }: ViewModel) {
   const texts = words.decomposer.plot;
   const maxLength = Math.max(1, 2 * legs.trans);
   const curveRows = curveOf(maxLength, CURVE_POINTS);

@@ -13,7 +13,7 @@ import type { Figure, SampleCloud } from '../../figure/figure.ts';
 import type { StateValues } from '../../figure/settings.ts';
 import type { Picture } from '../../scene/picture.ts';
 
-/** Sample counts of a simulation, or of a view model of it. */
+/** Sample counts of a simulation or of its view model. */
 interface SampleCount {
   shown: number;
   /** Number of samples that take a few milliseconds. */
@@ -30,13 +30,13 @@ interface GrowingSimulation extends SampleCount {
 
 const GROWTH_STEPS = 150;
 
-/** Time for adding samples in a frame, ms. A frame, with its pictures, then takes less than 50 ms. */
-const ADDING_MS = 12;
+/** Maximum time (ms) for adding samples in a frame. A frame with its pictures then takes less than 50 ms. */
+const MAX_ADDING_MS = 12;
 
 export class Cloud extends FigureController implements SampleCloud {
   #hasGivenUp;
 
-  /** `hasGivenUp` returns true for a view model or simulation that has stopped before it had all samples. */
+  /** Creates the cloud. `hasGivenUp` returns true for a simulation, or its view model, that stopped before it had all requested samples. */
   constructor(host: Figure, hasGivenUp: (latest: any) => boolean = () => false) {
     super(host);
     this.#hasGivenUp = hasGivenUp;
@@ -57,35 +57,35 @@ export class Cloud extends FigureController implements SampleCloud {
   }
 
   /** Latest sample counts: those of the view model, or of the simulation if it has changed since. */
-  get #latest(): SampleCount {
+  get #latestCounts(): SampleCount {
     const { settings, viewModel } = this.host;
     return (settings.isViewModelStale && this.#simulation) || viewModel;
   }
 
-  /** True if all samples are requested, or the simulation has given up. */
+  /** True if the target is the whole cloud, or the simulation has given up. */
   get isComplete() {
-    return this.#state.shown >= this.#samples || this.#hasGivenUp(this.#latest);
+    return this.#state.shown >= this.#requestedCount || this.#hasGivenUp(this.#latestCounts);
   }
 
-  get #samples(): number {
+  get #requestedCount(): number {
     return this.host.settings.current.samples;
   }
 
   get #batchSize() {
-    return Math.ceil(this.#samples / GROWTH_STEPS);
+    return Math.ceil(this.#requestedCount / GROWTH_STEPS);
   }
 
   /** Number of samples to show; all of them if the simulation has given up. */
   get targetCount() {
-    return this.isComplete ? this.#samples : this.#state.shown;
+    return this.isComplete ? this.#requestedCount : this.#state.shown;
   }
 
   /** True if the cloud is not playing, and has as many samples as requested or as the simulation can draw. */
   get isSettled(): boolean {
-    return !this.playing && (this.#latest.shown >= this.targetCount || this.#hasGivenUp(this.#latest));
+    return !this.playing && (this.#latestCounts.shown >= this.targetCount || this.#hasGivenUp(this.#latestCounts));
   }
 
-  /** Starts the growth, or shows a state. */
+  /** Starts the growth, or shows the samples of a state. With reduced motion all samples are shown at once. */
   showOrGrow(state?: StateValues) {
     if (!state) this.#state.playing = true;
     if (!state || this.isComplete) this.#state.shown = Infinity;
@@ -100,7 +100,7 @@ export class Cloud extends FigureController implements SampleCloud {
 
   #restart() {
     this.#state.shown = 0;
-    if (this.#latest.shown > 0) this.configure(this.#simulation, {});
+    if (this.#latestCounts.shown > 0) this.configure(this.#simulation, {});
     this.host.settings.isViewModelStale = true;
   }
 
@@ -111,16 +111,16 @@ export class Cloud extends FigureController implements SampleCloud {
     this.addSamplesUnseen(Infinity);
   }
 
-  show(count: number) {
-    this.#state.shown = Math.min(count, this.#samples);
+  showSamples(count: number) {
+    this.#state.shown = Math.min(count, this.#requestedCount);
     this.addSamplesUnseen(Infinity);
   }
 
   /** Adds samples for `limitMs` milliseconds; returns true if all are shown. */
-  addSamplesUnseen(limitMs = ADDING_MS): boolean {
+  addSamplesUnseen(limitMs = MAX_ADDING_MS): boolean {
     const { targetCount } = this;
     const endTime = performance.now() + limitMs;
-    const latest = this.#latest;
+    const latest = this.#latestCounts;
     const { block } = latest;
     let { shown } = latest;
     while (shown < targetCount) {
@@ -135,7 +135,7 @@ export class Cloud extends FigureController implements SampleCloud {
   }
 
   snapshot(): StateValues {
-    return { shown: this.targetCount, marked: this.#isWanted ? this.selectedIndex : null };
+    return { shown: this.targetCount, marked: this.#isSelectionPossible ? this.selectedIndex : null };
   }
 
   /** Returns the number of samples that follows from a partial state. */
@@ -148,7 +148,7 @@ export class Cloud extends FigureController implements SampleCloud {
     return this.#state.marked ?? -1;
   }
 
-  mark(index: number) {
+  select(index: number) {
     if (index === this.selectedIndex) return;
     this.#state.marked = index < 0 ? null : index;
     this.host.renderer.requestFrame();
@@ -160,37 +160,37 @@ export class Cloud extends FigureController implements SampleCloud {
     if (!simulation || gesture.isPressed || (event.pointerType === 'touch' && event.type !== 'click')) return;
     const [x, y] = toViewPixels(event.currentTarget as Element, picture.view, event);
     const index = picture.nearestSample(simulation, x, y);
-    if (index >= 0 || event.type === 'click') this.mark(index);
+    if (index >= 0 || event.type === 'click') this.select(index);
   }
 
   /** True if the selected sample is shown. */
-  get isMarked() {
-    return this.selectedIndex >= 0 && this.selectedIndex < this.#latest.shown;
+  get isSelectionShown() {
+    return this.selectedIndex >= 0 && this.selectedIndex < this.#latestCounts.shown;
   }
 
   /** True if the selected sample is shown or will be. */
-  get #isWanted() {
+  get #isSelectionPossible() {
     return this.selectedIndex >= 0 && this.selectedIndex < this.selectableCount;
   }
 
   /** Number of samples that can be selected or pinned, including those that are still to be added. */
   get selectableCount() {
-    return this.playing ? this.#samples : this.targetCount;
+    return this.playing ? this.#requestedCount : this.targetCount;
   }
 
   /** Clears the selection if the selected sample is not shown and will not be. */
   clearStaleSelection() {
-    if (!this.#isWanted) this.mark(-1);
+    if (!this.#isSelectionPossible) this.select(-1);
   }
 
   /** Adds samples in a frame. The first frame after a change shows one block, so that drags are quick. */
   addSamplesWhileDrawing() {
-    if (this.playing) this.grow();
+    if (this.playing) this.addGrowthStep();
     else if (!this.host.settings.isViewModelStale) this.addSamplesUnseen();
   }
 
-  grow() {
-    this.show(this.#latest.shown + this.#batchSize);
+  addGrowthStep() {
+    this.showSamples(this.#latestCounts.shown + this.#batchSize);
     if (!this.isComplete) return;
     this.#state.shown = Infinity;
     this.#state.playing = false;
@@ -198,7 +198,7 @@ export class Cloud extends FigureController implements SampleCloud {
   }
 
   /** Runs the action of a button of the cloud, and sets `playing`. */
-  #control(playing: boolean, action: () => void) {
+  #runControl(playing: boolean, action: () => void) {
     if (!this.host.simulation) return;
     action();
     this.#state.playing = playing;
@@ -206,22 +206,22 @@ export class Cloud extends FigureController implements SampleCloud {
     this.host.renderer.requestFrame();
   }
 
-  buttons() {
+  buttonsHtml() {
     const cloudWords = words.cloud;
-    const playOrPause = () => this.#control(!this.playing, () => {
+    const playOrPause = () => this.#runControl(!this.playing, () => {
       if (!this.playing && this.isComplete) this.#restart();
     });
     const [label, otherLabel] = this.playing ? [words.pause, cloudWords.play] : [cloudWords.play, words.pause];
     return html`<div class="buttons">
       ${buttonHtml(label, playOrPause, { title: cloudWords.playTitle, otherLabel })}
-      ${buttonHtml(words.step, () => this.#control(false, () => this.show(this.#latest.shown + this.#batchSize)), { title: cloudWords.step(formatInteger(this.#batchSize)), disabled: this.isComplete })}
-      ${buttonHtml(words.clear, () => this.#control(false, () => this.#restart()), { title: cloudWords.clear })}
-      ${seedField(this.host)} ${buttonHtml(words.newSeed, () => this.host.gesture.requestAndCommit(() => ({ seed: this.host.motion.randomSeed() })), { title: cloudWords.reseed })}
+      ${buttonHtml(words.step, () => this.#runControl(false, () => this.showSamples(this.#latestCounts.shown + this.#batchSize)), { title: cloudWords.step(formatInteger(this.#batchSize)), disabled: this.isComplete })}
+      ${buttonHtml(words.clear, () => this.#runControl(false, () => this.#restart()), { title: cloudWords.clear })}
+      ${seedFieldHtml(this.host)} ${buttonHtml(words.newSeed, () => this.host.gesture.requestAndCommit(() => ({ seed: this.host.motion.randomSeed() })), { title: cloudWords.reseed })}
     </div>`;
   }
 }
 
-/** Read-only properties of elements with a cloud, for `define`. */
+/** Read-only properties of elements with a cloud, for `defineElement`. */
 export const cloudProperties: PropertyDescriptorMap & ThisType<Figure> = {
   playing: { get() { return (this.cloud as Cloud).playing; } },
   poses: { get() { return this.querySimulation((simulation) => simulation.poses); } },
@@ -229,18 +229,18 @@ export const cloudProperties: PropertyDescriptorMap & ThisType<Figure> = {
 
 type CloudFigure = Figure & { cloud: Cloud };
 
-/** Returns the controls of growth, seed and size of the cloud; the slider offers `counts`. */
-export function cloudControls(figure: CloudFigure, counts: readonly number[]) {
-  return fieldsetHtml(words.samples, html`${samplesSlider(figure, counts)} ${figure.cloud.buttons()}`, 'cloud');
+/** Returns the controls of growth, seed and size of the cloud. The slider of the size offers `counts`. */
+export function cloudControlsHtml(figure: CloudFigure, counts: readonly number[]) {
+  return fieldsetHtml(words.samples, html`${samplesSliderHtml(figure, counts)} ${figure.cloud.buttonsHtml()}`, 'cloud');
 }
 
 /** Returns the slider of the number of samples, which offers `counts`. */
-export function samplesSlider(figure: Figure, counts: readonly number[]) {
+export function samplesSliderHtml(figure: Figure, counts: readonly number[]) {
   const sliderSpec: SliderSpec = { symbol: '*N*', role: 'truth', min: counts[0], max: counts[counts.length - 1], step: 1, decimals: 0 };
   return settingSliderHtml(figure, 'samples', { stops: counts, formatValue: formatInteger }, sliderSpec);
 }
 
-function seedField(figure: Figure) {
+function seedFieldHtml(figure: Figure) {
   const { settings, gesture, notice } = figure;
   const seedRefusal = notice.textBeside('seed');
   const enterSeed = (event: Event) => {
@@ -266,7 +266,7 @@ function seedField(figure: Figure) {
  * Returns the field with the number of the selected sample, one of `shown`, and a text about it, if there is one. `id` is also the key of the
  * label in the catalogue. Refused text stays until the user corrects or leaves it.
  */
-export function sampleField(figure: CloudFigure, id: 'robot' | 'sample', shown: number, selected: unknown) {
+export function sampleFieldHtml(figure: CloudFigure, id: 'robot' | 'sample', shown: number, selected: unknown) {
   const { cloud, notice } = figure;
   const { [id]: label, markHint } = (words as any)[figure.definition.messageKey];
   const refusalText = notice.textBeside('marked');
@@ -275,7 +275,7 @@ export function sampleField(figure: CloudFigure, id: 'robot' | 'sample', shown: 
     const number = typedIndex === '' ? 0 : parseTypedNumber(figure, 'marked', label, typedIndex, { min: 1, max: shown, type: 'whole' });
     if (number === undefined) return;
     notice.dismiss();
-    cloud.mark(number - 1);
+    cloud.select(number - 1);
   };
   return html`<p class="marked">
     <label>

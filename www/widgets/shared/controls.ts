@@ -7,19 +7,19 @@ import { words } from '../../messages/registry.ts';
 import { buttonHtml } from '../../ui/controls.ts';
 
 /** Returns a button for each preset, of which the current one is pressed, and the button to start over. */
-export function presetButtons(figure: import('../../figure/figure.ts').Figure) {
+export function presetButtonsHtml(figure: import('../../figure/figure.ts').Figure) {
   const { definition, settings } = figure;
   const { presets } = (words as any)[definition.messageKey];
   const currentPreset = definition.attributes.preset.get(settings.requested);
   return html`<div class="buttons presets" role="group" aria-label=${words.presets}>
     ${Object.entries(presets).map(([name, label]) =>
       buttonHtml(label, () => settings.choosePreset(name), { pressed: name === currentPreset, className: 'preset' }))}
-    ${startOverButton(figure)}
+    ${startOverButtonHtml(figure)}
   </div>`;
 }
 
 /** Returns the button that restores the state that the figure opened with. */
-export const startOverButton = ({ settings }: import('../../figure/figure.ts').Figure, restore = () => settings.restoreAsUser()) => buttonHtml(words.startOver, restore, { title: words.startOverTitle, className: 'start-over' });
+export const startOverButtonHtml = ({ settings }: import('../../figure/figure.ts').Figure, restore = () => settings.restoreAsUser()) => buttonHtml(words.startOver, restore, { title: words.startOverTitle, className: 'start-over' });
 
 /** Player that animates a slider from its current value to its maximum. At the maximum it starts again from 0. */
 export class Player<Key extends string> extends FigureController {
@@ -27,7 +27,7 @@ export class Player<Key extends string> extends FigureController {
   #playedKey: Key | undefined;
   #playedSettings;
 
-  /** Creates the player, with the maximum of each setting and the duration of the animation from 0 to it. */
+  /** Creates the player. `played` has the maximum of each animated setting, and the duration of the animation from 0 to the maximum. */
   constructor(host: import('../../figure/figure.ts').Figure, played: Record<Key, { max: number, durationMs: number }>) {
     super(host);
     this.#playedSettings = played;
@@ -47,7 +47,7 @@ export class Player<Key extends string> extends FigureController {
     return this.host.settings.requested[key];
   }
 
-  #toggle(key: Key) {
+  #togglePlaying(key: Key) {
     const { host: { gesture, renderer, settings } } = this;
     const willPlay = this.#playedKey !== key;
     if (this.#playedKey) gesture.commit();
@@ -57,10 +57,10 @@ export class Player<Key extends string> extends FigureController {
     renderer.requestFrame();
   }
 
-  /** Advances the animation by the milliseconds since the previous frame. Returns true if there is more to play. */
+  /** Advances the animation by the time since the previous frame. Returns true until the animation has reached its end. */
   advance(elapsedMs: number): boolean {
     if (!this.#playedKey) return false;
-    // The figure also draws without elapsed time, after a change of size. That is no step.
+    // A redraw after a change of size has no elapsed time, and does not advance the animation.
     if (elapsedMs === 0) return true;
     const { max, durationMs } = this.#playedSettings[this.#playedKey];
     const nextValue = Math.min(max, this.#valueAt(this.#playedKey) + (max * elapsedMs) / durationMs);
@@ -72,8 +72,8 @@ export class Player<Key extends string> extends FigureController {
   }
 
   /** Returns the button that plays and pauses, with a label for the animation. With reduced motion there is only the slider. */
-  button(key: Key, label: string) {
+  buttonHtml(key: Key, label: string) {
     const [currentLabel, otherLabel] = this.#playedKey === key ? [words.pause, label] : [label, words.pause];
-    return prefersReducedMotion() ? nothing : buttonHtml(currentLabel, () => this.#toggle(key), { otherLabel });
+    return prefersReducedMotion() ? nothing : buttonHtml(currentLabel, () => this.#togglePlaying(key), { otherLabel });
   }
 }

@@ -1,4 +1,4 @@
-/** Opener of files that the user chooses, or drops on a figure. A refusal is shown beside the result. */
+/** Opener of files that the user chooses, or drops on a figure. If files are refused, the reason is shown beside the result. */
 
 import { html } from 'lit';
 import { FigureController } from '../../figure/controller.ts';
@@ -9,9 +9,9 @@ type Figure = import('../../figure/figure.ts').Figure;
 export abstract class FileOpener<Host extends Figure> extends FigureController<Host> {
   /** Id of the element that shows the result. If it is a disclosure, a drop opens it. */
   abstract id: string;
-  /** Error by which the latest files were refused; undefined if they were not. */
+  /** Error by which the latest files were refused; undefined if the files were accepted. */
   refusal: unknown;
-  /** Number of the latest attempt. Results of earlier ones are ignored. */
+  /** Number of the latest attempt to open files. Results of earlier attempts are ignored. */
   #latestAttempt = 0;
 
   /** Opens files that were chosen or dropped. */
@@ -68,7 +68,7 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
   onDrop = (event: DragEvent) => {
     (event.currentTarget as HTMLElement).classList.remove('dropping');
     if (!event.dataTransfer?.types.includes('Files')) return;
-    // The browser would otherwise navigate to the file.
+    // Without this, the browser would navigate to the dropped file.
     event.preventDefault();
     const resultElement = this.host.renderRoot.querySelector(`#${this.id}`);
     if (resultElement instanceof HTMLDetailsElement) resultElement.open = true;
@@ -76,7 +76,7 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
   };
 
   /** Returns a button that opens a file dialog for files with these extensions. */
-  button(id: string, label: string, extensions: string[]) {
+  fileButtonHtml(id: string, label: string, extensions: string[]) {
     const openChosenFiles = (event: Event) => {
       const fileInput = inputOf(event);
       this.choose([...(fileInput.files ?? [])]);

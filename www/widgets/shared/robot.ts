@@ -20,25 +20,25 @@ export function turnHandleDistance(view: Pick<View, 'scaleX'>, radius: number): 
   return Math.max(34, radius * view.scaleX + 22);
 }
 
-/** Draws a robot that the user can drag and turn, with a radius in metres. Labels that are drawn later avoid it. */
+/** Draws a robot that the user can drag and turn. Its radius is in metres. Labels drawn later avoid the robot. */
 export function drawDraggableRobot(drawContext: DrawContext, pose: Pose, radius: number, colour: string) {
-  const { context, view, palette, placedBoxes: placed } = drawContext;
+  const { context, view, palette, placedBoxes } = drawContext;
   const [centre, turnHandle] = view.headingLine(pose, turnHandleDistance(view, radius));
   const edgeStyle = { colour, width: 2.25 };
-  const robotRadius = radiusInPixels(view, radius);
+  const robotRadius = toPixelRadius(view, radius);
   drawDisc(context, centre, robotRadius, palette.paper, edgeStyle);
   strokeLine(context, [centre, turnHandle], edgeStyle);
-  for (const [[x, y], size] of [[centre, robotRadius], [turnHandle, TURN_HANDLE_RADIUS + 3]] as const) placed.push({ x, y, halfWidth: size, halfHeight: size });
+  for (const [[x, y], halfSize] of [[centre, robotRadius], [turnHandle, TURN_HANDLE_RADIUS + 3]] as const) placedBoxes.push({ x, y, halfWidth: halfSize, halfHeight: halfSize });
   drawHandle(drawContext, { x: turnHandle[0], y: turnHandle[1], radius: TURN_HANDLE_RADIUS, colour });
 }
 
 /** Draws the dashed outline of a robot at the end of a command. Lengths are in metres. */
 export function drawRobotOutline({ context, view }: DrawContext, x: number, y: number, radius: number, colour: string) {
-  drawDisc(context, view.toPixel(x, y), radiusInPixels(view, radius), undefined, { colour, width: 1.5, dash: [3, 3] });
+  drawDisc(context, view.toPixel(x, y), toPixelRadius(view, radius), undefined, { colour, width: 1.5, dash: [3, 3] });
 }
 
 /** Converts the radius of a robot from metres to CSS pixels. */
-function radiusInPixels(view: View, radius: number): number {
+function toPixelRadius(view: View, radius: number): number {
   return Math.max(MIN_RADIUS, radius * view.scaleX);
 }
 
@@ -55,7 +55,7 @@ const DEFAULT_BOUNDS = [-4, -4, 4, 4];
 /** Minimum distance of the turning handle from the edge of the picture, CSS pixels. */
 const EDGE_MARGIN = 12;
 
-/** Handles of a robot: one on its body that moves it, and one ahead of it that turns it. */
+/** Handles of a robot: a handle on its body moves the robot, and a handle ahead of it turns the robot. */
 export class PoseHandles extends FigureController<import('../../figure/figure.ts').Figure> {
   #setting;
   #view;

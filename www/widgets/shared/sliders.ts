@@ -8,13 +8,13 @@ export const COMMAND_DASH = [2.5, 3.5];
 const SPEED_SLIDER = { role: 'prior' as const, step: 0.01, decimals: 2 };
 
 /** Returns the sliders of a command. `maxDuration` is in seconds. Handles and charts that set the command respect these ranges. */
-export const commandSliders = (maxDuration: number) => ({
+export const commandSliderSpecs = (maxDuration: number) => ({
   v: { ...SPEED_SLIDER, symbol: '*v*', min: -1.5, max: 1.5 },
   omega: { ...SPEED_SLIDER, symbol: '*ω*', min: -2, max: 2 },
   dt: { ...SPEED_SLIDER, symbol: '*Δt*', min: 0.1, max: maxDuration, step: 0.05 },
 });
 
-export function commandText({ v, omega, dt }: import('../../types.d.ts').Command) {
+export function formatCommand({ v, omega, dt }: import('../../types.d.ts').Command) {
   return `v = ${formatFixed(v, 2)} m/s, ω = ${formatFixed(omega, 2)} rad/s, Δt = ${formatFixed(dt, 2)} s`;
 }
 
@@ -25,7 +25,7 @@ export const subscriptOf = (index: number) => String.fromCharCode(0x2081 + index
 export const ALPHA_SLIDER = { role: 'prediction' as const, min: 0, max: 0.2, step: 0.001, decimals: 3 };
 
 /** Returns the sliders of the first `count` noise parameters of a model, by the names of their settings. */
-export function alphaSliders(count: number, model: 'velocity' | 'odometry' = 'velocity'): Record<string, import('../../figure/controls.ts').SliderSpec> {
+export function alphaSliderSpecs(count: number, model: 'velocity' | 'odometry' = 'velocity'): Record<string, import('../../figure/controls.ts').SliderSpec> {
   return Object.fromEntries(
     Array.from({ length: count }, (_, i) => [`alpha${i + 1}`, { ...ALPHA_SLIDER, symbol: `*α*${subscriptOf(i)}`, alpha: [model, i] }]),
   );

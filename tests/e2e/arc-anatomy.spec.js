@@ -121,7 +121,7 @@ test('the whole wedge of the last turn is in a narrow picture', async ({ page })
   const widget = await openArcAnatomy(page, 'preset="straight"');
   const [wedgeEndX, frameRightX] = await widget.evaluate((element) => {
     const { pictures: [{ view }], simulation: { config: { next }, stats: { lastTurn } } } = /** @type {any} */ (element);
-    return [view.ray({ ...next, theta: next.theta - lastTurn }, 64)[1][0], view.frame.right];
+    return [view.headingLine({ ...next, theta: next.theta - lastTurn }, 64)[1][0], view.plotArea.right];
   });
   expect(wedgeEndX).toBeLessThan(frameRightX);
 });

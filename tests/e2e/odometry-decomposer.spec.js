@@ -30,7 +30,7 @@ test('the views have room for the arcs of the turns and for nearly every outcome
       .filter(([x, y]) => x < extent.xMin || x > extent.xMax || y < extent.yMin || y > extent.yMax).length);
     // `pixelsBelow` is the space below the end of the drive. At the end there is a ring with a radius of about 64 pixels for half a turn.
     const { view } = pictures[0];
-    return { outsideCounts, pixelsBelow: view.frame.bottom - view.toPixelY(scene.linkage[7]) };
+    return { outsideCounts, pixelsBelow: view.plotArea.bottom - view.toPixelY(scene.linkage[7]) };
   });
   expect(Math.max(...viewMeasures.outsideCounts)).toBeLessThanOrEqual(1);
   expect(viewMeasures.pixelsBelow).toBeGreaterThan(64);

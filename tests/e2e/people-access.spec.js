@@ -218,7 +218,7 @@ test.describe('a finger', () => {
       // Finds a robot inside the frame that the handle does not cover.
       for (let i = 0; i < poses.length / 3; i++) {
         const [x, y] = robotPixelOf(i);
-        const { left, right, top, bottom } = view.frame;
+        const { left, right, top, bottom } = view.plotArea;
         if (Math.hypot(x - handlePixel[0], y - handlePixel[1]) > 60 && x > left && x < right && y > top && y < bottom) return [x / view.width, y / view.height];
       }
       throw new Error('No robot is clear of the handle.');

@@ -21,16 +21,16 @@ export async function inspect(givenRecordings: GivenRecording[], statedOptions: 
   onProgress?.(undefined);
   const usableRecordings = givenRecordings.filter((_, i) => recordings[i].series.some(({ summary }) => summary));
   const isUsable = usableRecordings.length > 0;
-  const refused = recordings.flatMap((recording) => recording.refused);
-  const proposal = isUsable || refused.length === 0 ? proposeCommand(isUsable ? usableRecordings : givenRecordings, statedOptions) : {};
-  return { inspection: { recordings, ...proposal }, sentences: [...refused, ...(proposal.missing ? [proposal.missing] : [])], isUsable };
+  const refusalErrors = recordings.flatMap((recording) => recording.refused);
+  const proposal = isUsable || refusalErrors.length === 0 ? proposeCommand(isUsable ? usableRecordings : givenRecordings, statedOptions) : {};
+  return { inspection: { recordings, ...proposal }, sentences: [...refusalErrors, ...(proposal.missing ? [proposal.missing] : [])], isUsable };
 }
 
 /** Returns the series of a recording with their logs, and sentences about the logs that cannot be read. */
 async function contentsOf(recording: Recording, onProgress?: (share: number | undefined) => void) {
   const { name, format } = recording;
   const series: { name: string; type: string; rows: number; uses: string[]; summary?: Summary; sentences?: string[] }[] = [];
-  const refused = new Set<string>();
+  const refusalErrors = new Set<string>();
   for (const { name: seriesName, type, count } of recording.series) {
     const possibleUses = usesOfSeries(recording, seriesName);
     if (possibleUses.length === 0) series.push({ name: seriesName, type, rows: count, uses: [] });
@@ -43,11 +43,11 @@ async function contentsOf(recording: Recording, onProgress?: (share: number | un
       } catch (error) {
         if (!(error instanceof LogError)) throw error;
         series.push(entry);
-        refused.add(`${error.message}${optionAdvice(error)}`);
+        refusalErrors.add(`${error.message}${optionAdvice(error)}`);
       }
     }
   }
-  return { name, format, series, refused: [...refused] };
+  return { name, format, series, refused: [...refusalErrors] };
 }
 
 export function inspectionText({ inspection: { recordings, command }, sentences, isUsable }: Awaited<ReturnType<typeof inspect>>): string {
@@ -59,7 +59,7 @@ export function inspectionText({ inspection: { recordings, command }, sentences,
   return [...recordingLines, ...(isUsable ? sentences : []), ...(command ? ['', `  ${command}`] : []), ''].join('\n');
 }
 
-/** Returns the logs that can be read from a series, several for transforms, each with texts about its possible roles. */
+/** Returns the logs that can be read from a series, each with texts about its possible roles. A series of transforms may have several logs. */
 function usesOfSeries(recording: Recording, name: string): { choice: LogChoice; uses: string[] }[] {
   const rolesAndKinds: [Role, 'commands'?][] = [['odometry'], ['odometry', 'commands'], ['reference']];
   const uses = rolesAndKinds.flatMap(([role, kind]) => {

@@ -72,13 +72,13 @@ const OPTIONS = {
 
 const INSPECT_OPTIONS = ['recording', 'odometry', 'reference', 'columns', 'time-unit', 'length-unit', 'angle-unit', 'json'];
 
-/** Options by the fields of the core's function `calibrate`. */
+/** Command-line options by the fields of the core's function `calibrate`. */
 const OPTION_BY_FIELD: Record<string, string> = {
   'legs.distance': 'update-min-d', 'legs.angle': 'update-min-a', 'legs.duration': 'duration',
   positionStd: 'reference-position-std', yawStd: 'reference-yaw-std', model: 'model', rule: 'rule', outliers: 'outliers',
 };
 
-/** Replaces the field with which an error message of the core begins by its option; undefined if the message begins without a field. */
+/** Replaces the field at the start of a core's error message by its option. Returns undefined if the message does not start with a field. */
 export function replaceFieldByOption(message: string): string | undefined {
   const [field] = message.split(' ');
   return Object.hasOwn(OPTION_BY_FIELD, field) ? `--${OPTION_BY_FIELD[field]}${message.slice(field.length)}.` : undefined;
@@ -133,10 +133,10 @@ export function parseOptions(args: string[]) {
     if (values[`${role}-columns`] !== undefined && !values[role]) throw new UsageError(`--${role}-columns needs --${role} FILE.`);
   }
   const chosenSeries = (role: Role) => withoutUndefined({ series: values[`${role}-topic`], frames: parseFrames(`${role}-frames`, values[`${role}-frames`]) });
-  const inputsOf = (paths: string[], role?: Role) => paths.map((path) => ({ path, open: openOptionsOf(role, role && columnNames(`${role}-columns`)) }));
+  const inputsOfPaths = (paths: string[], role?: Role) => paths.map((path) => ({ path, open: openOptionsOf(role, role && columnNames(`${role}-columns`)) }));
   return {
     command: 'calibrate' as const,
-    inputs: { recording: inputsOf(recording), odometry: inputsOf(odometry, 'odometry'), reference: inputsOf(reference, 'reference') },
+    inputs: { recording: inputsOfPaths(recording), odometry: inputsOfPaths(odometry, 'odometry'), reference: inputsOfPaths(reference, 'reference') },
     userChoices: { odometry: chosenSeries('odometry'), reference: chosenSeries('reference'), ...(values.model === 'velocity' && { kind: 'commands' as const }) },
     fit: withoutUndefined({
       legs: duration === undefined ? { distance: distance ?? 0.25, angle: angle ?? 0.2 } : { duration },

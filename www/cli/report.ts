@@ -59,11 +59,11 @@ export function reportText(result: CalibrationResult, isColored = false): string
     '',
     `${legs.count} legs ${lengthText}; model ${model}${model === 'odometry' ? `, rule ${rule}` : ''}`,
     '',
-    ...alphaTable(calibration, model),
+    ...formatAlphaTable(calibration, model),
     '',
-    ...alignRows([['', 'value', '95 %', ''], ...noiseRows(calibration, options), ...SYSTEMATIC_ERRORS.map((name) => systematicRow(name, calibration)), persistenceRow(calibration)]),
+    ...alignRows([['', 'value', '95 %', ''], ...formatNoiseRows(calibration, options), ...SYSTEMATIC_ERRORS.map((name) => formatSystematicRow(name, calibration)), formatPersistenceRow(calibration)]),
     '',
-    ...alignRows([['check', 'value', 'expected', '', ''], ...checks.map(checkRow)]),
+    ...alignRows([['check', 'value', 'expected', '', ''], ...checks.map(formatCheckRow)]),
     ...checks.filter(({ passed }) => !passed).map(({ name, message }) => `${name}: ${message}`),
     '',
     ...(excludedLegLines.length ? [...excludedLegLines, ''] : []),
@@ -88,7 +88,7 @@ export function verdictLines(result: Judged): string[] {
 }
 
 /** Returns the table of the α's, and the reason for the inflation. */
-function alphaTable({ alphas, intervals, notIdentifiable, recommended }: Calibration, model: string): string[] {
+function formatAlphaTable({ alphas, intervals, notIdentifiable, recommended }: Calibration, model: string): string[] {
   const alphaRows = alphas.map((alpha, i) => [
     `alpha${i + 1}`,
     alpha === null ? 'not identifiable' : formatAlphaOrBound(alpha, intervals[i]),
@@ -99,7 +99,7 @@ function alphaTable({ alphas, intervals, notIdentifiable, recommended }: Calibra
   return [...alignRows([['', 'fitted', '95 %', 'recommended', ''], ...alphaRows]), ...(recommended ? [recommended.reason] : [])];
 }
 
-function noiseRows({ referenceNoise }: Calibration, options: CalibrationResult['options']): string[][] {
+function formatNoiseRows({ referenceNoise }: Calibration, options: CalibrationResult['options']): string[][] {
   const noiseRow = (name: string, key: 'positionStd' | 'yawStd', unit: string) => {
     const { value, interval } = referenceNoise[key];
     const isStated = options[key] !== undefined;
@@ -108,7 +108,7 @@ function noiseRows({ referenceNoise }: Calibration, options: CalibrationResult['
   return [noiseRow('reference position σ', 'positionStd', 'm'), noiseRow('reference yaw σ', 'yawStd', 'rad')];
 }
 
-function systematicRow(name: (typeof SYSTEMATIC_ERRORS)[number], { systematicErrors }: Calibration): string[] {
+function formatSystematicRow(name: (typeof SYSTEMATIC_ERRORS)[number], { systematicErrors }: Calibration): string[] {
   const { constant, corrected } = systematicErrors[name];
   const components = componentsOf(systematicErrors[name]);
   if (components.some(({ value }) => value === null)) return [en.systematic.names[name], 'not identifiable'];
@@ -120,11 +120,11 @@ function systematicRow(name: (typeof SYSTEMATIC_ERRORS)[number], { systematicErr
   ];
 }
 
-function persistenceRow({ persistence: { correlation: { value, interval }, length } }: Calibration): string[] {
+function formatPersistenceRow({ persistence: { correlation: { value, interval }, length } }: Calibration): string[] {
   return ['correlation of neighbouring legs', formatEstimate(value, interval), formatInterval(interval), length > 0 ? `errors persist over ${formatNumber(length, 2)} m` : ''];
 }
 
-function checkRow({ name, value, expected: [low, high], passed }: CalibrationCheck): string[] {
+function formatCheckRow({ name, value, expected: [low, high], passed }: CalibrationCheck): string[] {
   // A failing value is printed with more digits if it would round to a bound.
   const digitCount = [3, 4, 6, 17].find((count) => passed || [low, high].every((bound) => formatNumber(value, count) !== formatNumber(bound, count)));
   const boundsText = low === -Infinity ? `≤ ${formatNumber(high, digitCount)}` : high === Infinity ? `≥ ${formatNumber(low, digitCount)}` : `${formatNumber(low, digitCount)} to ${formatNumber(high, digitCount)}`;

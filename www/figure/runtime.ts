@@ -31,7 +31,7 @@ export class Runtime extends FigureController {
       this.motion = motion;
       const simulation = this.host.createSimulation(motion);
       if (shownState) this.host.enterState(simulation, shownState);
-      Object.assign(this, { simulation, failure: undefined });
+      Object.assign(this, { simulation, failureMessage: undefined });
       settings.resume(shownState);
       await this.#showContent();
     } catch (error) {

@@ -8,7 +8,7 @@ type Field = 't' | 'seconds' | 'subseconds' | 'x' | 'y' | 'z' | 'yaw' | 'qx' | '
 interface Column {
   at: number;
   name: string;
-  /** Unit of time, length or angle in the name. A speed has the unit of its length or angle. */
+  /** Unit of time, length or angle in the column's name. A speed has the unit of its length or angle. */
   unit?: string;
   /** Priority among columns of the same field. The column with the lowest number is used. */
   rank: number;
@@ -21,7 +21,7 @@ export interface Clock {
   unit?: TimeUnit;
 }
 
-export interface Group {
+export interface ColumnGroup {
   name: string;
   kind: Series['kind'];
   hasCommands: boolean;
@@ -158,7 +158,7 @@ function matchField(path: string): ColumnMeaning | undefined {
 }
 
 /** Groups the columns of a table, without those of other quantities. `isTime` checks whether a column without a name holds times. */
-export function groupColumns(names: string[], isTime: (index: number) => boolean = () => false): Group[] {
+export function groupColumns(names: string[], isTime: (index: number) => boolean = () => false): ColumnGroup[] {
   // PlotJuggler puts the topic before each name. A topic may have the name of its message's fields, as in /mocap/pose and /cmd_vel.
   const topics = names.flatMap((name) => /^\s*(\/.+\/)header\/stamp\s*$/.exec(name)?.[1] ?? []);
   const columnsWithMeaning = names.flatMap((name, at) => {
@@ -171,9 +171,9 @@ export function groupColumns(names: string[], isTime: (index: number) => boolean
     const column: Column = { at, name: name.trim(), rank: rank + (unit === 'deg' ? 0.5 : 0), ...(unit !== undefined && { unit }) };
     return [{ field, prefix: dottedName(topic + prefix), column }];
   });
-  const groups = Array.from(group(columnsWithMeaning, ({ prefix }) => prefix), ([name, members]): Group => {
+  const groups = Array.from(group(columnsWithMeaning, ({ prefix }) => prefix), ([name, members]): ColumnGroup => {
     const fieldColumns = Array.from(group(members, ({ field }) => field), ([field, entries]) => [field, entries.map(({ column }) => column).toSorted((one, other) => one.rank - other.rank)] as const);
-    const columns: Group['columns'] = Object.fromEntries(fieldColumns.map(([field, [best]]) => [field, best]));
+    const columns: ColumnGroup['columns'] = Object.fromEntries(fieldColumns.map(([field, [best]]) => [field, best]));
     const duplicateColumns = Object.fromEntries(fieldColumns.filter(([, [best, second]]) => best.rank === second?.rank).map(([field, [, second]]) => [field, second]));
     return { name, kind: null, hasCommands: hasFields(columns, 'v', 'omega'), columns, duplicateColumns, clocks: clocksOf(columns, Object.fromEntries(fieldColumns).t ?? []) };
   });
@@ -192,15 +192,15 @@ export function groupColumns(names: string[], isTime: (index: number) => boolean
   return groups.filter(({ columns }) => columns.x || columns.y || columns.v || columns.omega || columns.yaw || columns.qw);
 }
 
-const hasFields = (columns: Group['columns'], ...fields: Field[]) => fields.every((field) => columns[field]);
+const hasFields = (columns: ColumnGroup['columns'], ...fields: Field[]) => fields.every((field) => columns[field]);
 
-const headingFieldsOf = (columns: Group['columns']): Field[] =>
+const headingFieldsOf = (columns: ColumnGroup['columns']): Field[] =>
   ([['qx', 'qy', 'qz', 'qw'], ['yaw'], ['qz', 'qw']] satisfies Field[][]).find((fields) => hasFields(columns, ...fields)) ?? [];
 
 const clockOf = (column: Column): Clock => ({ name: column.name, columns: [column], ...(column.unit !== undefined && { unit: column.unit as TimeUnit }) });
 
-/** Returns the clocks of a group; `timeColumns` are sorted, the best first. The stamp of the message comes first. Another clock may be the time of recording. */
-function clocksOf({ seconds, subseconds }: Group['columns'], timeColumns: Column[]): Clock[] {
+/** Returns the clocks of a group. `timeColumns` are sorted, the best first. The first clock is the message's stamp. A second clock may be the time of recording. */
+function clocksOf({ seconds, subseconds }: ColumnGroup['columns'], timeColumns: Column[]): Clock[] {
   const singleColumnClocks = timeColumns.map(clockOf);
   if (seconds && subseconds) return [{ name: `${seconds.name}, ${subseconds.name}`, columns: [seconds, subseconds], unit: 's' }, ...singleColumnClocks];
   const timePartColumn = seconds ?? subseconds;
@@ -208,28 +208,28 @@ function clocksOf({ seconds, subseconds }: Group['columns'], timeColumns: Column
 }
 
 /** Returns the columns of a log: x, y and heading, or v and omega. Throws a LogError if one is missing, the heading included, or if two may be the same field. */
-export function logLayoutOf(columnGroup: Group | undefined, names: string[], place: ErrorPlace, wantedKind: LogKind | undefined) {
+export function logLayoutOf(columnGroup: ColumnGroup | undefined, names: string[], errorPlace: ErrorPlace, wantedKind: LogKind | undefined) {
   const columnNames = listNames(names.map((name) => name.trim()));
   const ask: Question = { what: 'columns', choices: [], columns: names };
-  if (!columnGroup) throw new LogError(place, (texts) => texts.noColumns(wantedKind === 'poses' ? wantedKind : 'either', columnNames), ask);
+  if (!columnGroup) throw new LogError(errorPlace, (texts) => texts.noColumns(wantedKind === 'poses' ? wantedKind : 'either', columnNames), ask);
   const { columns, duplicateColumns, clocks } = columnGroup;
-  if (clocks.length === 0) throw new LogError(place, (texts) => texts.noTime(columnNames), ask);
+  if (clocks.length === 0) throw new LogError(errorPlace, (texts) => texts.noTime(columnNames), ask);
   const takesCommands = columnGroup.hasCommands && wantedKind !== 'poses' && (wantedKind === 'commands' || columnGroup.kind === 'commands');
-  if (!takesCommands && !hasFields(columns, 'x', 'y')) throw new LogError(place, (texts) => texts.noColumns(wantedKind === 'poses' ? wantedKind : 'either', columnNames), ask);
+  if (!takesCommands && !hasFields(columns, 'x', 'y')) throw new LogError(errorPlace, (texts) => texts.noColumns(wantedKind === 'poses' ? wantedKind : 'either', columnNames), ask);
   const headingFields = headingFieldsOf(columns);
   const fields: Field[] = takesCommands ? ['v', 'omega'] : ['x', 'y', ...headingFields];
   for (const field of [...(clocks[0].columns[0] === columns.t ? ['t' as const] : []), ...fields]) {
     const [firstColumn, secondColumn] = [columns[field], duplicateColumns[field]];
-    if (firstColumn && secondColumn) throw new LogError(place, (texts) => texts.twice(field, truncate(firstColumn.name), truncate(secondColumn.name)), ask);
+    if (firstColumn && secondColumn) throw new LogError(errorPlace, (texts) => texts.twice(field, truncate(firstColumn.name), truncate(secondColumn.name)), ask);
   }
   const usedColumns = fields.map((field) => columns[field] as Column);
   const lengthUnits = [...new Set((takesCommands ? usedColumns.slice(0, 1) : usedColumns.slice(0, 2)).map(({ unit }) => unit))];
   const angleUnit = takesCommands ? columns.omega?.unit : headingFields[0] === 'yaw' ? columns.yaw?.unit : undefined;
   for (const [units, knownUnits] of [[lengthUnits, UNITS.lengthUnit], [[angleUnit], UNITS.angleUnit]] as [(string | undefined)[], readonly string[]][]) {
     const isKnown = units.length === 1 && (units[0] === undefined || knownUnits.includes(units[0]));
-    if (!isKnown) throw new LogError(place, (texts) => texts.unknownUnit(units.map((unit) => truncate(unit ?? '–')).join(', ')));
+    if (!isKnown) throw new LogError(errorPlace, (texts) => texts.unknownUnit(units.map((unit) => truncate(unit ?? '–')).join(', ')));
   }
-  if (!takesCommands && headingFields.length === 0) throw new LogError({ file: place.file }, (texts) => texts.positions(listNames(usedColumns.map(({ name }) => name))));
+  if (!takesCommands && headingFields.length === 0) throw new LogError({ file: errorPlace.file }, (texts) => texts.positions(listNames(usedColumns.map(({ name }) => name))));
   const kind: LogKind = takesCommands ? 'commands' : 'poses';
   return { kind, clocks, columns: usedColumns, fields, length: lengthUnits[0] as LengthUnit | undefined, angle: angleUnit as AngleUnit | undefined };
 }

@@ -4,7 +4,7 @@ import { LogError, listNames, ROLES, framesOption, framesText, type LogChoice, t
 
 export interface RecordingChoice { recording: Recording; choice: LogChoice }
 
-/** Plan of the logs to read: drives with both logs, and single logs that are paired after they are read. */
+/** Plan of the logs to read: drives with odometry and reference, and single logs that are paired after they are read. */
 export interface LogPlan {
   drives: Record<Role, RecordingChoice>[];
   unpaired: Record<Role, RecordingChoice[]>;
@@ -12,7 +12,7 @@ export interface LogPlan {
   unused: LogError[];
 }
 
-/** Choices of the user. Missing ones are guessed. */
+/** Choices of the user. Missing choices are guessed. */
 export interface UserChoices {
   /** `series` is the name of a series, or a prefix of names without the separator that follows. `frames` selects among transforms. */
   odometry?: { series?: string; frames?: FramePair };
@@ -54,7 +54,7 @@ export function planDrives(all: Recording[], userChoices: UserChoices = {}): Log
   const usableRecordings = all.filter((recording) => userChoices.roles?.has(recording) || readableSeries(recording).length > 0);
   const recordings = usableRecordings.length > 0 ? usableRecordings : all;
   const unpaired: LogPlan['unpaired'] = { odometry: [], reference: [] };
-  const plan: LogPlan = { drives: [], unpaired, unused: all.filter((recording) => !recordings.includes(recording)).map(unusable) };
+  const plan: LogPlan = { drives: [], unpaired, unused: all.filter((recording) => !recordings.includes(recording)).map(unusableError) };
   const unnamedRecordings: Recording[] = [];
   for (const recording of recordings) {
     const role = userChoices.roles?.get(recording) ?? (recordings.length > 1 ? roleOfRecording(recording, userChoices) : 'both');
@@ -64,7 +64,7 @@ export function planDrives(all: Recording[], userChoices: UserChoices = {}): Log
   }
   const { odometry, reference } = unpaired;
   for (const recording of unnamedRecordings) {
-    // If its name shows no role, the roles of the other files determine it.
+    // If a file's name shows no role, the roles of the other files determine its role.
     const role = 2 * odometry.length >= recordings.length ? 'reference' : 2 * reference.length >= recordings.length ? 'odometry' : undefined;
     if (!role) throw new LogError({ file: recording.name }, (texts) => texts.noRole, { what: 'roles', choices: [] });
     plan.unpaired[role].push({ recording, choice: chooseLog(recording, role, userChoices) });
@@ -74,12 +74,12 @@ export function planDrives(all: Recording[], userChoices: UserChoices = {}): Log
   if (plan.drives.length === Math.abs(odometry.length - reference.length)) plan.unpaired[missingRole].push(...plan.drives.splice(0).map((drive) => drive[missingRole]));
   if (odometry.length !== reference.length) {
     const longerList = odometry.length > reference.length ? odometry : reference;
-    // A recording with both logs may have several candidates for the missing one. The error that asks for a choice is then more helpful.
+    // A recording with odometry and reference may have several candidates for the missing log. The error that asks for a choice is then more helpful.
     for (const { recording } of longerList) valueUnlessLogError(() => chooseBothLogs(recording, userChoices), ({ ask }) => ask?.what !== 'series');
-    const [first] = longerList;
+    const [firstUnpaired] = longerList;
     const recordingNames = (parts: RecordingChoice[]) => listNames(parts.map(({ recording }) => recording.name));
     const isSameFile = recordings.length === 2 && recordings[0].name === recordings[1].name;
-    throw new LogError({ file: first.recording.name }, (texts) => (isSameFile ? texts.givenTwice : texts.unpaired(recordingNames(odometry), recordingNames(reference))), isSameFile ? undefined : { what: 'roles', choices: [] });
+    throw new LogError({ file: firstUnpaired.recording.name }, (texts) => (isSameFile ? texts.givenTwice : texts.unpaired(recordingNames(odometry), recordingNames(reference))), isSameFile ? undefined : { what: 'roles', choices: [] });
   }
   return plan;
 }
@@ -151,13 +151,13 @@ function framesError({ name: file }: Recording, { name: topic, frames = [] }: Se
 
 function guessChoice(recording: Recording, role: Role, userChoices: UserChoices, other?: LogChoice): LogChoice {
   const bestChoices = likeliestChoices(recording, role, userChoices, (choice) => !isSameChoice(choice, other));
-  // Among the best choices, those with the robot frame of the other log are preferred.
+  // Among equally likely choices, logs with the same robot frame as the other log are preferred.
   const choicesOfSameRobot = bestChoices.filter(({ frames }) => frames && frames.child === other?.frames?.child);
   if (choicesOfSameRobot.length === 1) return choicesOfSameRobot[0];
   if (bestChoices.length === 1) return bestChoices[0];
   const file = recording.name;
   const usableSeries = readableSeries(recording);
-  if (usableSeries.length === 0) throw unusable(recording);
+  if (usableSeries.length === 0) throw unusableError(recording);
   const chains = usableSeries.filter(({ kind }) => kind === 'transforms');
   const hasOnlyOtherChoice = other && chains.every(({ name: series, frames = [] }) => frames.every((ends) => isSameChoice({ series, frames: ends }, other)));
   if (chains.length === usableSeries.length && !hasOnlyOtherChoice) throw framesError(recording, chains.find((chain) => chain.frames) ?? chains[0], role);
@@ -176,7 +176,7 @@ function guessChoice(recording: Recording, role: Role, userChoices: UserChoices,
   );
 }
 
-function unusable({ name: file, series }: Recording): LogError {
+function unusableError({ name: file, series }: Recording): LogError {
   const shortSeries = series.find(({ kind }) => kind !== null);
   return new LogError({ file, topic: shortSeries?.name }, (texts) => (shortSeries ? texts.few(shortSeries.count, shortSeries.count) : texts.noTopics(describeSeries(series))));
 }
@@ -201,8 +201,8 @@ export const readableSeries = (recording: Recording): Series[] => recording.seri
 
 /** Returns the series with a name. Separators and capitals do not count. */
 function seriesNamed(series: Series[], wantedName: string): Series | undefined {
-  const words = (name: string) => name.toLowerCase().split(/[^\p{L}\p{N}]+/u).filter(Boolean).join('.');
-  return series.find(({ name }) => name === wantedName) ?? series.find(({ name }) => words(name) !== '' && words(name) === words(wantedName));
+  const wordsOfName = (name: string) => name.toLowerCase().split(/[^\p{L}\p{N}]+/u).filter(Boolean).join('.');
+  return series.find(({ name }) => name === wantedName) ?? series.find(({ name }) => wordsOfName(name) !== '' && wordsOfName(name) === wordsOfName(wantedName));
 }
 
 /** Returns the names of the series that could be the log of a role, the likeliest first. */

@@ -1,10 +1,10 @@
 /** Format of a table (separator, preamble and header) from its first lines, and parsers of the numbers and dates in its cells. */
 
-import { groupColumns, isHeader, isUnit, type Group } from './columns.ts';
+import { groupColumns, isHeader, isUnit, type ColumnGroup } from './columns.ts';
 import { LogError, truncate, type ErrorPlace } from './log.ts';
 import { epochTimeUnitOf } from './units.ts';
 
-export interface Format {
+export interface TableFormat {
   /** Separator of cells. A space stands for any number of spaces and tabs. */
   separator: string;
   hasDecimalCommas: boolean;
@@ -12,7 +12,7 @@ export interface Format {
   names: string[];
   /** Line of the header. Concatenated files repeat it among the rows. */
   header?: string;
-  groups: Group[];
+  groups: ColumnGroup[];
   /** True if a row may have empty cells, because it is a sample of another topic. */
   isSparse: boolean;
   /** True if either Y or Z may be the vertical axis, as in exports of Motive. */
@@ -97,7 +97,7 @@ function separatorOf(lines: string[]): string {
 }
 
 /** Detects the format from the first lines, with at least one row if the file has any. Throws a LogError if the columns are ambiguous. */
-export function detectTableFormat(lines: string[], file: string, columns: string[] | undefined): Format {
+export function detectTableFormat(lines: string[], file: string, columns: string[] | undefined): TableFormat {
   const filledLines = lines.map((line, i) => ({ line, number: i + 1 })).filter(({ line }) => line.trim() !== '');
   const isComment = ({ line }: { line: string }) => /^\s*(#|%|\/\/)/.test(line);
   const textLines = filledLines.filter((textLine) => !isComment(textLine));
@@ -130,7 +130,7 @@ export function detectTableFormat(lines: string[], file: string, columns: string
   const header = headerOf(preambleLines, separator, rowWidth, rows[0]);
   if (header) {
     const { number } = header;
-    const names = withUnits(header.names, preambleLines.flatMap((text) => (text.number > number ? [cells(text.line)] : [])));
+    const names = addUnits(header.names, preambleLines.flatMap((text) => (text.number > number ? [cells(text.line)] : [])));
     // Rows with decimal commas between commas have more cells than the header.
     if (rowWidth > names.length) throw new LogError({ file, line: firstRowLine?.number }, (texts) => texts.wide(rowWidth, names.length, number));
     const groups = columnGroups(names, rows[0]);
@@ -149,13 +149,13 @@ export function detectTableFormat(lines: string[], file: string, columns: string
 
 const unitWithoutBrackets = (cell: string) => cell.replaceAll(/[\s"[\](){}]/g, '');
 
-function withUnits(names: string[], below: string[][]): string[] {
+function addUnits(names: string[], below: string[][]): string[] {
   const unitTexts = below.map((row) => row.map(unitWithoutBrackets)).find((row) => row.length === names.length && row.filter(isUnit).length >= 2);
   return names.map((name, i) => (unitTexts && isUnit(unitTexts[i]) ? `${name} [${unitTexts[i]}]` : name));
 }
 
 /** Groups columns. A column without a name has times if its first cell is a date or a fraction. A whole number there is a row number. */
-function columnGroups(names: string[], row: string[] | undefined): Group[] {
+function columnGroups(names: string[], row: string[] | undefined): ColumnGroup[] {
   return groupColumns(names, (orientationIndex) => {
     const cell = row?.[orientationIndex]?.trim() ?? '';
     return parseDate(cell) !== undefined || /^\d+[.,]\d+$/.test(cell) || epochTimeUnitOf(Number(cell)) !== undefined;
@@ -195,7 +195,7 @@ function columnsByContent(rows: string[][]): string[] | undefined {
 }
 
 /** Returns the format of a Motive export, with a group for each rigid body. Throws a LogError for Euler angles. */
-function motiveFormat(above: string[][], place: ErrorPlace): Pick<Format, 'names' | 'groups' | 'hasUnknownAxis'> | undefined {
+function motiveFormat(above: string[][], place: ErrorPlace): Pick<TableFormat, 'names' | 'groups' | 'hasUnknownAxis'> | undefined {
   const rowNamed = (name: string) => above.find((row) => row.slice(0, 3).some((cell) => cell.trim() === name));
   const [axisRow, quantityRow] = above.toReversed();
   const bodyNames = rowNamed('Name');

@@ -3,7 +3,7 @@
 import { bisector, sort } from 'd3-array';
 import type { Message } from './formats/container.ts';
 import { framesText, type FramePair } from './log.ts';
-import { sampleOfPose, withoutSlash, type StampedTransform, type Transform } from './messages.ts';
+import { rowOfPose, withoutSlash, type StampedTransform, type Transform } from './messages.ts';
 import { hamiltonProduct } from './path.ts';
 import type { Sample } from './rows.ts';
 
@@ -21,10 +21,10 @@ const byRecordTime = bisector(({ recordTime }: RecordedTransform) => recordTime)
 /** Transforms between a frame and its parent. */
 interface FrameLink extends FramePair {
   isStatic: boolean;
-  /** First transform. */
+  /** First recorded transform of the link. */
   origin: Transform;
   hasChanged: boolean;
-  /** Largest distance (m) from the first position. */
+  /** Largest distance (m) of the child from its first position in the parent. */
   maxDistance: number;
   /** Transforms in the order of their messages, if poses are read. */
   samples: RecordedTransform[];
@@ -34,7 +34,7 @@ interface FrameLink extends FramePair {
 export class FrameTree {
   #links = new Map<string, FrameLink>();
 
-  /** Returns the link to which a transform was added. */
+  /** Adds a transform to the link between its frames, and returns that link. */
   add({ parent, child, transform }: StampedTransform, isStatic: boolean): FrameLink {
     const name = framesText({ parent, child });
     const link = this.#links.get(name) ?? { parent, child, isStatic, origin: transform, hasChanged: false, maxDistance: 0, samples: [] };
@@ -53,11 +53,11 @@ export class FrameTree {
   }
 
   /** Returns the links from one frame to another, or undefined if they are not connected. */
-  findChain({ parent, child }: FramePair, seen = new Set<string>()): FrameLink[] | undefined {
-    if (seen.has(child)) return undefined;
-    seen.add(child);
+  findChain({ parent, child }: FramePair, visitedFrames = new Set<string>()): FrameLink[] | undefined {
+    if (visitedFrames.has(child)) return undefined;
+    visitedFrames.add(child);
     for (const link of this.#linksTo(child)) {
-      const chain = link.parent === parent ? [] : this.findChain({ parent, child: link.parent }, seen);
+      const chain = link.parent === parent ? [] : this.findChain({ parent, child: link.parent }, visitedFrames);
       if (chain) return [...chain, link];
     }
     return undefined;
@@ -113,7 +113,7 @@ export class Chain extends FrameTree {
   }
 
   /**
-   * Passes on a pose for each message of the changing transform that is nearest to the child. All other links have their latest transforms. A
+   * Calls `onPose` for each message of the changing transform nearest to the child. All other links have their latest transforms. A
    * transform that never changes also holds before its first message. Returns false if no transform ever changes.
    */
   poses(onPose: (reading: Sample, recordedTransform: RecordedTransform) => void): boolean {
@@ -126,7 +126,7 @@ export class Chain extends FrameTree {
     };
     for (const sample of (nearestMovingLink && samplesByLink.get(nearestMovingLink)) ?? []) {
       const transforms = this.#chainLinks.map((link) => (link === nearestMovingLink ? sample.transform : transformAt(link, sample.recordTime)));
-      if (transforms.every((transform) => transform !== undefined)) onPose(sampleOfPose(sample.time, transforms.reduce(composeTransforms)), sample);
+      if (transforms.every((transform) => transform !== undefined)) onPose(rowOfPose(sample.time, transforms.reduce(composeTransforms)), sample);
     }
     return nearestMovingLink !== undefined;
   }

@@ -75,7 +75,7 @@ export interface Question {
   choices: string[];
   /** Unit that was assumed, and may be wrong. */
   doubted?: string;
-  /** Units of odometry and reference with which they agree, as an option states them. */
+  /** Units of odometry and reference with which the two logs agree, in the form of an option. */
   pair?: string;
   /** Columns of the table: their names, or the cells of its first row. */
   columns?: string[];
@@ -182,7 +182,7 @@ export interface ErrorPlace {
 export type ErrorReason = (texts: Words['refused']) => string;
 
 /** Maximum number of quoted characters in a sentence: of a name or value, and of a library's message. */
-const [MAX_QUOTED, MAX_REASON] = [40, 100];
+const [MAX_QUOTED_LENGTH, MAX_REASON_LENGTH] = [40, 100];
 
 /** Error of a log. Its message is one sentence that names the file, the line or topic, the value, and what is expected. */
 export class LogError extends Error {
@@ -203,16 +203,16 @@ export class LogError extends Error {
 }
 
 /** Shortens a text to one line for quotation in a sentence. */
-export function truncate(text: string, maxLength = MAX_QUOTED): string {
+export function truncate(text: string, maxLength = MAX_QUOTED_LENGTH): string {
   // oxlint-disable-next-line no-control-regex
   const shortLine = text.slice(0, maxLength + 1).replaceAll(/[\0-\x1f\x7f-\x9f\u2028\u2029]/g, '\ufffd');
   return shortLine.length > maxLength ? `${shortLine.slice(0, maxLength)}…` : shortLine;
 }
 
-/** Returns the message of a library's error, for a sentence. */
+/** Returns the shortened message of a library's error, for use in a sentence. */
 export function reasonOf(error: unknown): string {
   const message = error instanceof Error ? error.message : String(error);
-  return truncate(message.replace(/ \[(library=[^\]]*|no header)\]$/, ''), MAX_REASON);
+  return truncate(message.replace(/ \[(library=[^\]]*|no header)\]$/, ''), MAX_REASON_LENGTH);
 }
 
 /** Returns a text with the first eight names of a list, for a sentence. */

@@ -63,7 +63,7 @@ class MessageReader {
     return new TextDecoder().decode(bytesOf(this.#view, this.#at - length, this.#at)).replace(/\0$/, '');
   }
 
-  /** Returns the position of a value, and moves past it. */
+  /** Returns the position of the next value after alignment, and moves past the value. */
   #next(size: number): number {
     const valueAlignment = Math.min(size, this.#alignment);
     const at = this.#at + ((this.#start - this.#at) & (valueAlignment - 1));
@@ -85,7 +85,7 @@ function readTransform(reader: MessageReader): Transform {
   return [reader.float64(), reader.float64(), reader.float64(), reader.float64(), reader.float64(), reader.float64(), reader.float64()];
 }
 
-export function sampleOfPose(time: number, [x, y, , qx, qy, qz, qw]: Transform): Sample {
+export function rowOfPose(time: number, [x, y, , qx, qy, qz, qw]: Transform): Sample {
   return { time, a: x, b: y, ...rotationOf(qx, qy, qz, qw) };
 }
 
@@ -100,10 +100,10 @@ function readTwist(time: number, reader: MessageReader): Sample {
 function readFrameTransform(reader: MessageReader): Sample {
   const stamp = readHeader(reader);
   reader.skip(reader.uint32());
-  return sampleOfPose(stamp, readTransform(reader));
+  return rowOfPose(stamp, readTransform(reader));
 }
 
-const readStampedPose = (reader: MessageReader) => sampleOfPose(readHeader(reader), readTransform(reader));
+const readStampedPose = (reader: MessageReader) => rowOfPose(readHeader(reader), readTransform(reader));
 
 /** Kinds of logs of message types, by their ROS 1 names, and the readers of poses and commands. */
 const MESSAGE_TYPES = new Map<string, [kind: Series['kind'], readSample?: (reader: MessageReader) => Sample]>([
@@ -111,7 +111,7 @@ const MESSAGE_TYPES = new Map<string, [kind: Series['kind'], readSample?: (reade
   ['geometry_msgs/TransformStamped', ['poses', readFrameTransform]],
   ['geometry_msgs/PoseStamped', ['poses', readStampedPose]],
   ['geometry_msgs/PoseWithCovarianceStamped', ['poses', readStampedPose]],
-  ['geometry_msgs/Pose', ['poses', (reader) => sampleOfPose(0, readTransform(reader))]],
+  ['geometry_msgs/Pose', ['poses', (reader) => rowOfPose(0, readTransform(reader))]],
   ['geometry_msgs/Pose2D', ['poses', (reader) => ({ time: 0, a: reader.float64(), b: reader.float64(), c: reader.float64() })]],
   ['geometry_msgs/Twist', ['commands', (reader) => readTwist(0, reader)]],
   ['geometry_msgs/TwistStamped', ['commands', (reader) => readTwist(readHeader(reader), reader)]],

@@ -48,7 +48,7 @@ export async function openRecordings(files: Source[], options: OpenOptions | ((f
   }
   const openedSources = [...formatByFile.keys()];
   const recordings: Recording[] = [];
-  // Files that a metadata.yaml lists are opened with it, and then no more by themselves.
+  // Files that a metadata.yaml lists are opened with the metadata.yaml, and not as recordings of their own.
   for (const source of sort(openedSources, (opened) => Number(formatByFile.get(opened) !== 'metadata'))) {
     if (!formatByFile.has(source)) continue;
     await reportSkipped(async () => {

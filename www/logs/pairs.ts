@@ -1,4 +1,4 @@
-/** Reading of the two logs of each drive, and checks whether they fit. */
+/** Reading of the odometry and reference of each drive, and checks that both logs belong together. */
 
 import { min } from 'd3-array';
 import type { CalibrationLog } from '../types.d.ts';
@@ -22,7 +22,7 @@ const MIN_ODOMETRY_MOTION = 0.05;
 /** Motion of the robot in one step, in the frame of the robot, in m and rad. */
 type Motion = [forward: number, left: number, turn: number];
 
-/** Correction that makes two logs of a drive agree. */
+/** Scale or unit correction of one log that makes both logs of a drive agree. */
 export interface Correction {
   name: 'leftHanded' | 'angles' | 'lengths';
   at: Role;
@@ -173,7 +173,7 @@ function correctionOf(odometry: Log, reference: Log): Correction | undefined {
   return isPlausibleScale(angle) ? undefined : { name: 'angles', at: angle < 1 ? 'reference' : 'odometry', score, factor, unit: 'deg' };
 }
 
-/** Returns the correction of lengths. The log whose lengths then have a known unit needs it. `factor` is that for the reference. */
+/** Returns the correction of lengths, for the log whose corrected lengths have a known unit. `factor` is the scale of the reference's lengths. */
 function lengthCorrection(logs: Record<Role, Log>, score: number, factor: number): Correction {
   const corrections = ([['reference', factor], ['odometry', 1 / factor]] as const).map(([at, factorOfLog]): Correction => {
     const size = METRES_PER_UNIT[logs[at].summary.units.length.unit] * factorOfLog;
@@ -222,14 +222,14 @@ function agreementAt(odometry: Motion[], reference: Motion[], lag: number, count
   let [odoDriveSquares, driveProducts, across, refDriveSquares, odoTurnSquares, turnProducts, refTurnSquares] = [0, 0, 0, 0, 0, 0, 0];
   const [first, end] = [Math.max(0, -lag), Math.min(odometry.length, reference.length - lag)];
   for (let i = first; i < end; i++) {
-    const [odo, ref] = [odometry[i], reference[i + lag]];
-    odoDriveSquares += odo[0] * odo[0] + odo[1] * odo[1];
-    driveProducts += odo[0] * ref[0] + odo[1] * ref[1];
-    across += odo[0] * ref[1] - odo[1] * ref[0];
-    refDriveSquares += ref[0] * ref[0] + ref[1] * ref[1];
-    odoTurnSquares += odo[2] * odo[2];
-    turnProducts += odo[2] * ref[2];
-    refTurnSquares += ref[2] * ref[2];
+    const [odometryMotion, referenceMotion] = [odometry[i], reference[i + lag]];
+    odoDriveSquares += odometryMotion[0] * odometryMotion[0] + odometryMotion[1] * odometryMotion[1];
+    driveProducts += odometryMotion[0] * referenceMotion[0] + odometryMotion[1] * referenceMotion[1];
+    across += odometryMotion[0] * referenceMotion[1] - odometryMotion[1] * referenceMotion[0];
+    refDriveSquares += referenceMotion[0] * referenceMotion[0] + referenceMotion[1] * referenceMotion[1];
+    odoTurnSquares += odometryMotion[2] * odometryMotion[2];
+    turnProducts += odometryMotion[2] * referenceMotion[2];
+    refTurnSquares += referenceMotion[2] * referenceMotion[2];
   }
   if (2 * (end - first) < count) return { score: -1, length: 1, angle: 1 };
   // For a robot that only drives straight or only turns on the spot, one of the two correlations is undefined.

@@ -12,7 +12,7 @@ export interface Path { t: number[]; poses: Pose[]; breaks: Set<number> }
 export const wrapAngle = (angle: number) => angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
 
 /** Returns the path of poses, or of commands from the origin, with a pose for each `every` rows and one for the last row. */
-export function pathOf(data: Poses | Commands, every = 1): Path {
+export function pathOf(data: Poses | Commands, rowsPerPose = 1): Path {
   const { t, breaks } = data;
   const path: Path = { t: [], poses: [], breaks: new Set() };
   let [x, y, theta, next] = [0, 0, 0, 0];
@@ -24,7 +24,7 @@ export function pathOf(data: Poses | Commands, every = 1): Path {
       y += data.v[i - 1] * dt * Math.sin(theta + turn / 2);
       theta += turn;
     }
-    if (i % every !== 0 && i < t.length - 1) continue;
+    if (i % rowsPerPose !== 0 && i < t.length - 1) continue;
     if ('x' in data) [x, y, theta] = [data.x[i], data.y[i], data.theta[i]];
     for (; next < breaks.length && breaks[next] <= i; next++) path.breaks.add(path.poses.length);
     path.t.push(t[i]);
@@ -58,16 +58,16 @@ export function alignedPath(path: Path, target: Path, offset = 0): Path {
     sin += (x - from[0]) * (v - to[1]) - (y - from[1]) * (u - to[0]);
   }
   const angle = Math.atan2(sin, cos);
-  const movedPose = ([x, y, heading]: Pose): Pose => [
+  const transformPose = ([x, y, heading]: Pose): Pose => [
     to[0] + Math.cos(angle) * (x - from[0]) - Math.sin(angle) * (y - from[1]),
     to[1] + Math.sin(angle) * (x - from[0]) + Math.cos(angle) * (y - from[1]),
     heading + angle,
   ];
-  return { ...path, poses: path.poses.map(movedPose) };
+  return { ...path, poses: path.poses.map(transformPose) };
 }
 
 /** Minimum distance (m) between points whose distances are added up, so that the noise of poses at rest is left out. */
-const MIN_STEP = 0.05;
+const MIN_STEP_METRES = 0.05;
 
 /** Returns the distance driven (m), without the jumps before the rows `jumps`. */
 export function distanceOf(data: Poses | Commands, jumps: number[]): number {
@@ -82,7 +82,7 @@ export function distanceOf(data: Poses | Commands, jumps: number[]): number {
     const stepLength = Math.hypot(x[i] - x[last], y[i] - y[last]);
     const isJump = jumps[next] === i;
     if (isJump) next += 1;
-    else if (stepLength < MIN_STEP) continue;
+    else if (stepLength < MIN_STEP_METRES) continue;
     else distance += stepLength;
     last = i;
   }
@@ -113,7 +113,7 @@ export const hamiltonProduct = ([ax, ay, az, aw]: Quaternion, [bx, by, bz, bw]: 
   aw * bw - ax * bx - ay * by - az * bz,
 ];
 
-/** Maximum number of items from which a quantile is computed. */
+/** Maximum number of values from which a quantile is computed. */
 const MAX_ITEMS = 10_000;
 
 /** Evaluates `value` at evenly spaced indices below `count`, at most `MAX_ITEMS` of them. */

@@ -50,13 +50,13 @@ const STANDSTILL_FACTOR = 8;
 /** Maximum time between overlapping rows, in median steps, and maximum number of them in a run of rising times and as a fraction of all rows. */
 const [MAX_OVERLAP_STEPS, MAX_RUN_OVERLAPS, MAX_OVERLAP_FRACTION] = [0.75, 2, 0.02];
 
-/** Maximum ratio of the path's lengths in the order of times and of the file, if rows are late, and minimum number of rows for this ratio. */
+/** Maximum ratio of the path's length in order of times to its length in order of the file, and minimum number of rows for this ratio. */
 const [MAX_LATE_PATH_RATIO, MIN_LATE_ROWS] = [0.75, 20];
 
 /** Minimum distance (m) of two paths whose poses alternate, above vibrations, and minimum number of steps between them, above that of jumps. */
 const [MIN_PATH_DISTANCE, MIN_LONG_STEPS] = [0.05, 20];
 
-/** Maximum rows and seconds until a path continues among the poses of another one, and maximum fraction of poses that are far from there. */
+/** Maximum rows and seconds until a path continues among the poses of another path, and maximum ratio of long steps over those rows to long steps between neighbours. */
 const [MAX_RETURN_ROWS, MAX_RETURN_SECONDS, MAX_LONG_FRACTION] = [8, 1, 0.2];
 
 /** Minimum length of a jump in metres and radians, above the noise of a fast log. */
@@ -84,13 +84,13 @@ export class Rows {
   /** True if the path before the next row is unknown, because an unusable row was dropped. */
   #isBroken = false;
   #dropped: Summary['dropped'] = {};
-  /** Number of damaged rows. The first one has the line and the reason. */
+  /** Number of damaged rows, and reason of the first damaged row. */
   #damage: { count: number; line: number; reason: ErrorReason } | undefined;
 
   /** Number of all rows, including dropped rows. */
   count = 0;
 
-  /** @param place for errors */
+  /** @param place file and topic that error messages name */
   constructor(place: ErrorPlace) {
     this.#logPlace = place;
   }
@@ -103,7 +103,7 @@ export class Rows {
     if (reason) this.#damage = { line, reason, ...this.#damage, count: (this.#damage?.count ?? 0) + 1 };
   }
 
-  /** Adds a row, or drops it. `otherTime` is that of the clock that is used if the first one stands still. */
+  /** Adds a row, or drops an unusable row. `otherTime` is the time of the fallback clock, which is used if the first clock stands still. */
   add({ time, a, b, c, z = 0, tiltCosine }: Sample, line: number, otherTime = 0): void {
     if (c === undefined) return this.drop('noRotation', line);
     if (!(Number.isFinite(time) && Math.max(Math.abs(a), Math.abs(b), Math.abs(c)) <= MAX_VALUE)) return this.drop('notFinite', line);
@@ -170,7 +170,7 @@ export class Rows {
     return { name, kind, start: columns.start, data, summary };
   }
 
-  /** Returns true if most rows have the time of the row before: stamps may be 0, or always that of the start. */
+  /** Returns true if most rows have the time of the previous row, because the stamps are 0 or never change. */
   #isClockStill(): boolean {
     const { time } = this.#columns;
     return 2 * time.filter((value, row) => value === time[row - 1]).length > time.length;
@@ -181,7 +181,7 @@ export class Rows {
     return a[one] === a[other] && b[one] === b[other] && c[one] === c[other];
   }
 
-  /** Returns all rows, but those whose stamp was not set: it is 0, and all other times are since 1970. */
+  /** Returns the rows without those whose stamp was not set. Such a stamp is 0 although all other times are since 1970. */
   #withoutUnsetTimes(): Uint32Array {
     const rows = new Uint32Array(this.#times.length).map((_, row) => row);
     const isSince1970 = this.#times.every((time) => time === 0 || epochTimeUnitOf(time) !== undefined);
@@ -223,7 +223,7 @@ export class Rows {
     return { sortedRows: order.map((i) => rows[i]), lateCount: times.filter(isLate).length };
   }
 
-  /** Returns the rows, of which only the first one of each time is kept. Throws a LogError if many rows contradict another one of their time. */
+  /** Returns the first row of each time. Throws a LogError if many rows have the time of another row but other values. */
   #withoutEqualTimes(rows: Uint32Array): Uint32Array {
     let [lastTime, contradictions] = [-Infinity, 0];
     const distinctRows = this.#without(rows, 'duplicate', (row, i) => {
@@ -261,7 +261,7 @@ export class Rows {
     });
   }
 
-  /** Returns the rows that are not dropped. A break before a dropped row is moved to the next row. */
+  /** Returns the rows for which `isDropped` is false. A break before a dropped row is moved to the next row. */
   #without(rows: Uint32Array, cause: DropCause, isDropped: (row: number, i: number) => boolean): Uint32Array {
     const { line, isBroken } = this.#columns;
     return rows.filter((row, i) => {

@@ -15,7 +15,7 @@ type OpenedRecording = Recording & { place: number };
 /** LogError as posted to the page, with its sentence in each language. */
 export type LogFailure = Pick<LogError, 'message' | 'place' | 'ask'> & { sentences: Record<'en' | 'de', string> };
 
-/** Minimum time between reports of progress, ms. The page renders the figure after each. */
+/** Minimum time (ms) between progress reports. The page renders the figure after each report. */
 const PROGRESS_INTERVAL = 50;
 
 /** Opened recordings, and the simulation that fits logs. */

@@ -1,8 +1,8 @@
 /** Reader of logs in text tables of robots, recorders and spreadsheets. */
 
 import { least } from 'd3-array';
-import { logLayoutOf, type Clock, type Group } from './columns.ts';
-import { splitCells, detectTableFormat, parseDate, parseNumber, parseTime, type Format } from './format.ts';
+import { logLayoutOf, type Clock, type ColumnGroup } from './columns.ts';
+import { splitCells, detectTableFormat, parseDate, parseNumber, parseTime, type TableFormat } from './format.ts';
 import { LogError, readBytes, truncate, listNames, type ErrorPlace, type ErrorReason, type Log, type Note, type OpenOptions, type Recording, type Series, type Source, type Summary, type TimeUnit } from './log.ts';
 import { rotationOf, type Quaternion } from './path.ts';
 import { Rows } from './rows.ts';
@@ -25,14 +25,14 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
   const headText = new TextDecoder(encoding).decode(headBytes, { stream: true });
   if (headText.slice(0, CHECKED_CHARACTERS).includes('\0')) throw new LogError({ file: source.name }, (texts) => texts.binary);
   const headLines = headText.split('\n');
-  // The last line may be incomplete. It is dropped unless it is the only one.
+  // The last line of the head may be incomplete. It is dropped unless it is the only line.
   if (source.size > HEAD_BYTES && headLines.length > 1) headLines.pop();
   const format = detectTableFormat(headLines, source.name, options.columns);
   const readableGroups = format.groups.filter(({ kind }) => kind !== null);
   const headerPlace = { file: source.name, line: Math.max(1, format.firstLine - 1) };
   // If no group can be read, `logLayoutOf` throws the reason for the group with most columns.
   if (readableGroups.length === 0) logLayoutOf(format.groups.toSorted((a, b) => Object.keys(b.columns).length - Object.keys(a.columns).length)[0], format.names, headerPlace, undefined);
-  const seriesOfGroup = (group: Group): Series => ({
+  const seriesOfGroup = (group: ColumnGroup): Series => ({
     name: readableGroups.length === 1 && group.kind !== null ? '' : group.name || listNames(columnNames(group)),
     type: listNames(columnNames(group)),
     kind: group.kind,
@@ -48,7 +48,7 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
       const readersOfChoices = choices.map(({ series: seriesName, kind }) => {
         const chosenGroup = format.groups[allSeries.findIndex(({ name }) => name === seriesName)];
         const name = readableGroups.length === 1 ? source.name : `${source.name}, ${seriesOfGroup(chosenGroup).name}`;
-        const readerOf = (group: Group, upAxis?: 'Y' | 'Z') => logReader(name, { file: source.name }, format, group, logLayoutOf(group, format.names, headerPlace, kind), options, upAxis);
+        const readerOf = (group: ColumnGroup, upAxis?: 'Y' | 'Z') => logReader(name, { file: source.name }, format, group, logLayoutOf(group, format.names, headerPlace, kind), options, upAxis);
         return format.hasUnknownAxis ? [readerOf(chosenGroup, 'Z'), readerOf(withYAxisUp(chosenGroup), 'Y')] : [readerOf(chosenGroup)];
       });
       const allReaders = readersOfChoices.flat();
@@ -61,7 +61,7 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
   };
 }
 
-const columnNames = ({ columns }: Group) => Object.values(columns).toSorted((a, b) => a.at - b.at).map(({ name }) => name);
+const columnNames = ({ columns }: ColumnGroup) => Object.values(columns).toSorted((a, b) => a.at - b.at).map(({ name }) => name);
 
 /** Returns the encoding of a text. Signs are a byte order mark, the zeros of UTF-16, and bytes that UTF-8 does not have. */
 function detectEncoding(bytes: Uint8Array): string {
@@ -96,15 +96,15 @@ async function readLines(source: Source, encoding: string, from: number, onProgr
 }
 
 /** Returns a group for a file whose vertical axis is Y: its columns z and x are x and y of the robot's plane. */
-function withYAxisUp(group: Group): Group {
+function withYAxisUp(group: ColumnGroup): ColumnGroup {
   const { x, y, z, qx, qy, qz } = group.columns;
   return { ...group, columns: { ...group.columns, x: z, y: x, z: y, qx: qz, qy: qx, qz: qy } };
 }
 
 /** Returns a reader of the times of a table. If no unit is stated, the first time that is not 0 determines it. */
 function clockReader({ columns: [{ at }, subseconds], unit: namedUnit }: Clock, statedUnit: TimeUnit | undefined, textOf: (cell: string) => string) {
-  const by = statedUnit ? 'option' : namedUnit ? 'name' : 'usage';
-  const judged: { unit?: TimeUnit; by: Summary['units']['time']['by'] } = { unit: statedUnit ?? namedUnit, by };
+  const unitBasis = statedUnit ? 'option' : namedUnit ? 'name' : 'usage';
+  const judgedUnit: { unit?: TimeUnit; by: Summary['units']['time']['by'] } = { unit: statedUnit ?? namedUnit, by: unitBasis };
   let isDate: boolean | undefined;
   /** Returns the time of a row in seconds; undefined if its cell is neither a number nor a date. */
   const read = (cells: string[]): number | undefined => {
@@ -116,22 +116,22 @@ function clockReader({ columns: [{ at }, subseconds], unit: namedUnit }: Clock, 
     if (text.trim() === '') return NaN;
     if (isDate === undefined) {
       isDate = parseDate(cells[at]) !== undefined;
-      if (isDate) Object.assign(judged, { unit: 's', by: 'date' });
+      if (isDate) Object.assign(judgedUnit, { unit: 's', by: 'date' });
     }
     if (isDate) return parseDate(cells[at]);
-    if (judged.unit === undefined) {
+    if (judgedUnit.unit === undefined) {
       const timeNumber = parseNumber(text);
       const epochUnit = timeNumber && epochTimeUnitOf(timeNumber);
-      if (epochUnit) Object.assign(judged, { unit: epochUnit, by: 'size' });
-      else if (timeNumber) judged.unit = 's';
+      if (epochUnit) Object.assign(judgedUnit, { unit: epochUnit, by: 'size' });
+      else if (timeNumber) judgedUnit.unit = 's';
     }
-    return parseTime(text, UNIT_EXPONENTS[judged.unit ?? 's']);
+    return parseTime(text, UNIT_EXPONENTS[judgedUnit.unit ?? 's']);
   };
-  return { judged, read };
+  return { judged: judgedUnit, read };
 }
 
 /** Returns a reader of the log of one series, line by line. `upAxis` is the vertical axis, if the format does not define it. */
-function logReader(name: string, place: ErrorPlace, format: Format, group: Group, layout: ReturnType<typeof logLayoutOf>, options: OpenOptions, upAxis?: 'Y' | 'Z') {
+function logReader(name: string, place: ErrorPlace, format: TableFormat, group: ColumnGroup, layout: ReturnType<typeof logLayoutOf>, options: OpenOptions, upAxis?: 'Y' | 'Z') {
   const { separator, hasDecimalCommas, isSparse, header, names } = format;
   const { clocks, columns, fields, kind, length, angle } = layout;
   const rows = new Rows(place);
@@ -182,7 +182,7 @@ function logReader(name: string, place: ErrorPlace, format: Format, group: Group
         notes.push({ name: 'cutShort', values: [] });
         return rows.drop('short', number);
       }
-      // A row of another topic has empty cells in the columns of this one.
+      // A row of another topic has empty cells in the columns of this topic.
       if (!(isSparse && columns.every(({ at }) => Number.isNaN(parseNumber(cells[at]))))) addCells(cells, number);
     },
 

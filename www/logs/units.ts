@@ -151,7 +151,7 @@ function scaleColumn(column: Float64Array, factor: number): void {
   for (let i = 0; i < column.length; i++) column[i] *= factor;
 }
 
-/** Divides all times by a factor. Their start remains a whole second. */
+/** Divides all times by a factor. The start of the log remains a whole second. */
 function convertTimes(columns: Columns, factor: number): void {
   if (factor === 1) return;
   const { start, t } = columns;

@@ -24,10 +24,10 @@ export interface Message {
 
 export type IsWanted = (channel: Channel) => boolean;
 export type OnMessage = (message: Message) => void;
-/** Called after each block with the share that has been read. Reading stops if it returns true. */
+/** Callback after each block, with the fraction of the file that has been read. Reading stops if the callback returns true. */
 export type OnBlock = (share: number) => boolean | void;
 
-/** File of messages, or several files as one. */
+/** Container of messages: one file, or several files of a recording. */
 export type Container = Pick<MessageFile<unknown>, 'format' | 'channels' | 'cutReason' | 'damage' | 'read'>;
 
 /** Base class of files of messages, with their channels by id. */
@@ -50,7 +50,7 @@ export abstract class MessageFile<Id> {
     return [...this.channelsById.values()];
   }
 
-  /** Passes on the messages of channels, block by block, without those of damaged blocks. */
+  /** Reads blocks, and passes each message of the wanted channels to `onMessage`. Damaged blocks are skipped. */
   abstract read(isWanted: IsWanted, onMessage: OnMessage, onBlock?: OnBlock): Promise<void>;
 
   /** Notes the damage of a block. An error of reading the file itself is thrown again. */

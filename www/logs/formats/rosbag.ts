@@ -34,7 +34,7 @@ function fieldOf(header: DataView, name: string): DataView {
 
 const uint32Of = (header: DataView, name: string) => fieldOf(header, name).getUint32(0, true);
 const textOf = (header: DataView, name: string) => new TextDecoder().decode(fieldOf(header, name));
-const opOf = (header: DataView) => fieldOf(header, 'op').getUint8(0);
+const opcodeOf = (header: DataView) => fieldOf(header, 'op').getUint8(0);
 
 interface BagRecord { header: DataView; from: number; to: number }
 
@@ -64,14 +64,14 @@ class Rosbag extends MessageFile<number> {
     try {
       const { header } = recordAt(dataViewOf(await readBytes(this.source, MAGIC_BYTES, MAGIC_BYTES + MAX_HEADER_BYTES)), 0);
       const [start, count] = [uint53(fieldOf(header, 'index_pos'), 0), uint32Of(header, 'chunk_count')];
-      if (opOf(header) !== BAG || start === 0 || start > size) return false;
+      if (opcodeOf(header) !== BAG || start === 0 || start > size) return false;
       const bytes = await readBytes(this.source, start, size);
       const view = dataViewOf(bytes);
       const chunks = [];
       for (const { header: recordHeader, from, to } of recordsIn(view)) {
-        const op = opOf(recordHeader);
-        if (op === CONNECTION) this.#addConnection(recordHeader, bytes.subarray(from, to));
-        if (op !== CHUNK_INFO) continue;
+        const opcode = opcodeOf(recordHeader);
+        if (opcode === CONNECTION) this.#addConnection(recordHeader, bytes.subarray(from, to));
+        if (opcode !== CHUNK_INFO) continue;
         const idsWithCounts = Array.from({ length: uint32Of(recordHeader, 'count') }, (_, i) => [0, 4].map((part) => view.getUint32(from + 8 * i + part, true)));
         for (const [id, messages] of idsWithCounts) {
           const channel = this.channelsById.get(id);
@@ -89,7 +89,7 @@ class Rosbag extends MessageFile<number> {
     }
   }
 
-  /** Adds the channel of a connection. The data of its record has fields, too. */
+  /** Adds the channel of a connection record. The record's data also consists of fields. */
   #addConnection(header: DataView, data: Uint8Array): void {
     const id = uint32Of(header, 'conn');
     if (this.channelsById.has(id)) return;
@@ -103,7 +103,7 @@ class Rosbag extends MessageFile<number> {
       const { header, from, to } = recordAt(dataViewOf(await readBytesAt(at, Math.min(at + MAX_HEADER_BYTES, size))), 0);
       if (at + to > size) throw new RangeError('a record is cut short');
       setEnd(at + to);
-      const op = opOf(header);
+      const op = opcodeOf(header);
       if (this.chunks && op !== CHUNK) throw new RangeError('no chunk is there');
       if (op === CONNECTION) this.#addConnection(header, await readBytesAt(at + from, at + to));
       if (op !== CHUNK) return;
@@ -117,7 +117,7 @@ class Rosbag extends MessageFile<number> {
   #readRecords(bytes: Uint8Array, isWanted: IsWanted, onMessage: OnMessage): void {
     const block = dataViewOf(bytes);
     for (const { header, from, to } of recordsIn(block)) {
-      const op = opOf(header);
+      const op = opcodeOf(header);
       if (op === CONNECTION) this.#addConnection(header, bytes.subarray(from, to));
       const channel = op === MESSAGE ? this.channelsById.get(uint32Of(header, 'conn')) : undefined;
       if (!channel || !isWanted(channel)) continue;

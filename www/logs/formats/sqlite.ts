@@ -4,7 +4,7 @@ import { LogError, readBytes, type Source } from '../log.ts';
 import { MessageFile, readAhead, dataViewOf, type Channel, type Container, type IsWanted, type OnBlock, type OnMessage } from './container.ts';
 import { loadZstd } from './decompression.ts';
 
-const [INTERIOR_PAGE, LEAF_PAGE] = [5, 13];
+const [INTERIOR_PAGE_TYPE, LEAF_PAGE_TYPE] = [5, 13];
 
 const HEADER_BYTES = 100;
 
@@ -102,7 +102,7 @@ class Rosbag2 extends MessageFile<SqliteValue> {
     for (const [i, number] of leafPages.entries()) {
       try {
         const pageBytes = await this.#page(number);
-        for (const cell of cellPositionsOf(pageBytes, number, LEAF_PAGE)) {
+        for (const cell of cellPositionsOf(pageBytes, number, LEAF_PAGE_TYPE)) {
           const pendingRow = onRow(this.#rowAt(pageBytes, cell));
           if (pendingRow) await pendingRow;
         }
@@ -126,10 +126,10 @@ class Rosbag2 extends MessageFile<SqliteValue> {
         // Interior pages are far from each other, so that reading larger pieces would be slow.
         const page = await readBytes(this.source, (number - 1) * this.#pageSize, number * this.#pageSize);
         const start = number === 1 ? HEADER_BYTES : 0;
-        if (page[start] === LEAF_PAGE && pagesOfNextLevel.length === 0) return pagesOfLevel;
+        if (page[start] === LEAF_PAGE_TYPE && pagesOfNextLevel.length === 0) return pagesOfLevel;
         try {
           const view = dataViewOf(page);
-          for (const cell of cellPositionsOf(page, number, INTERIOR_PAGE)) pagesOfNextLevel.push(view.getUint32(cell));
+          for (const cell of cellPositionsOf(page, number, INTERIOR_PAGE_TYPE)) pagesOfNextLevel.push(view.getUint32(cell));
           pagesOfNextLevel.push(view.getUint32(start + 8));
         } catch (error) {
           this.noteDamage(number, error);
@@ -184,7 +184,7 @@ function cellPositionsOf(page: Uint8Array, number: number, type: number): number
   const view = dataViewOf(page);
   const start = number === 1 ? HEADER_BYTES : 0;
   if (view.getUint8(start) !== type) throw new RangeError('a page is damaged');
-  const cellPointers = start + (type === LEAF_PAGE ? 8 : 12);
+  const cellPointers = start + (type === LEAF_PAGE_TYPE ? 8 : 12);
   return Array.from({ length: view.getUint16(start + 3) }, (_, i) => view.getUint16(cellPointers + 2 * i));
 }
 

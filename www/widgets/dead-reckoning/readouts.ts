@@ -90,7 +90,7 @@ export function ratioPlotHtml(figure: import('./dead-reckoning.ts').DeadReckonin
   const x = Array.from({ length: steps }, (_, i) => i + 1);
   const highestRatio = Math.max(...curves.flatMap(({ ratio }) => Array.from(ratio, (value) => value || 0)));
   const shownCurves = COMPONENTS.map((name, axis) => ({ ...curveStyleOf(name, figure.highlight), name, ...curves[axis] })).filter(({ name }) => overlays.includes(name));
-  const toleranceBand = { name: texts.overlays.tolerance, ...curveStyleOf('tolerance', figure.highlight), x: [0, steps], y: [1, 1], error: [RATIO_TOLERANCE, RATIO_TOLERANCE], area: true };
+  const toleranceBand = { name: texts.overlays.tolerance, ...curveStyleOf('tolerance', figure.highlight), x: [0, steps], y: [1, 1], error: [RATIO_TOLERANCE, RATIO_TOLERANCE], isBandOnly: true };
   return plotHtml({
     label: ratioText(viewModel, overlays),
     x: { name: texts.stepAxis, from: 0, to: steps },
@@ -118,7 +118,7 @@ export function ratioPlotHtml(figure: import('./dead-reckoning.ts').DeadReckonin
 function curveStyleOf(name: keyof typeof CURVE_STYLES, highlight: string | null) {
   const { role, dash } = CURVE_STYLES[name] as import('../../scene/draw.ts').LineStyle & { role: Role };
   const isHighlighted = highlight !== null && highlight in CURVE_STYLES ? name === highlight : undefined;
-  return { role, dash: dash?.join(' '), lit: isHighlighted };
+  return { role, dash: dash?.join(' '), isHighlighted };
 }
 
 /** Returns the headline of the figure: the ratio at the selected step that is furthest from 1. */

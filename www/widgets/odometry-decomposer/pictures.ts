@@ -232,13 +232,13 @@ export class LegsPicture extends SamplesPicture<Scene> {
     };
     const driveMiddle = { x: view.toPixelX((startPose.x + drivenPose.x) / 2), y: view.toPixelY((startPose.y + drivenPose.y) / 2) };
     const labels = [
-      { sub: 'rot1', unit: 'rad', isShown: Math.abs(legs.rot1) >= MIN_DRAWN_TURN, anchor: leaderEndOf(turns[0]) },
-      { sub: 'trans', unit: 'm', isShown: legs.trans * view.scaleX >= MIN_LABELLED_DRIVE, anchor: driveMiddle },
-      { sub: 'rot2', unit: 'rad', isShown: Math.abs(legs.rot2) >= MIN_DRAWN_TURN, anchor: leaderEndOf(turns[1]) },
+      { subscript: 'rot1', unit: 'rad', isShown: Math.abs(legs.rot1) >= MIN_DRAWN_TURN, anchor: leaderEndOf(turns[0]) },
+      { subscript: 'trans', unit: 'm', isShown: legs.trans * view.scaleX >= MIN_LABELLED_DRIVE, anchor: driveMiddle },
+      { subscript: 'rot2', unit: 'rad', isShown: Math.abs(legs.rot2) >= MIN_DRAWN_TURN, anchor: leaderEndOf(turns[1]) },
     ] as const;
-    return labels.filter(({ isShown }) => isShown).map(({ sub, unit, anchor }) => {
-      const deviationText = deviations[sub] > 0 ? ` ± ${formatFixed(deviations[sub], 2)}` : '';
-      return { ...anchor, symbol: 'δ', sub, text: `${formatFixed(legs[sub], 2)}${deviationText} ${unit}`, colour };
+    return labels.filter(({ isShown }) => isShown).map(({ subscript, unit, anchor }) => {
+      const deviationText = deviations[subscript] > 0 ? ` ± ${formatFixed(deviations[subscript], 2)}` : '';
+      return { ...anchor, symbol: 'δ', subscript, text: `${formatFixed(legs[subscript], 2)}${deviationText} ${unit}`, colour };
     });
   }
 
@@ -308,7 +308,7 @@ export class WorldPicture extends SamplesPicture<Scene> {
   #labels({ view }: DrawContext, poses: Pose[], symbol: string, colours: string[]) {
     const [firstLabel, secondLabel] = poses.map((pose, i) => {
       const [x, y] = view.toPixel(pose.x, pose.y);
-      return { x, y, symbol, sub: ['t−1', 't'][i], colour: colours[i] };
+      return { x, y, symbol, subscript: ['t−1', 't'][i], colour: colours[i] };
     });
     return Math.hypot(firstLabel.x - secondLabel.x, firstLabel.y - secondLabel.y) > MIN_LABELLED_DRIVE ? [firstLabel, secondLabel] : [secondLabel];
   }

@@ -2,40 +2,41 @@
 
 use super::trajectory::Trajectory;
 
-/// Smallest step (s) of the scans of clock offsets. A turn of a robot lasts several steps.
+/// Smallest step (s) of the scans of clock offsets. A robot's turn lasts several such steps.
 const FINEST_STEP: f64 = 0.05;
 
-/// Largest clock offset (s) of the first scan. Synchronized clocks differ by less. A robot that drives in circles takes longer for a round.
+/// Largest clock offset (s) of the first scan. Synchronized clocks differ by less. A round of a robot that drives in circles takes longer.
 const MAX_NEAR_OFFSET: f64 = 10.0;
 
-/// Number of offsets in the coarse scan of clocks without a common start: over an hour they are 1 s apart.
+/// Number of offsets in the coarse scan of clocks without a common start: 1 s apart for an hour.
 const COARSE_OFFSETS: f64 = 4096.0;
 
 /// Maximum number of turn rates that are compared at each clock offset.
 const MAX_SAMPLES: f64 = 100_000.0;
 
-/// Correlation below which turn rates do not match. Only over a few seconds may unrelated turn rates reach it.
+/// Correlation below which turn rates do not match. Unrelated turn rates reach this correlation only over a few seconds.
 const MIN_CORRELATION: f64 = 0.5;
 
 /// Correlation at which the search for other clock offsets ends. At the right offset the correlation is 1 up to a few hundredths.
 const CONFIDENT_CORRELATION: f64 = 0.9;
 
-/// Minimum gain of correlation for which an offset beyond [`MAX_NEAR_OFFSET`] is preferred to one within.
+/// Minimum gain of correlation for which an offset beyond [`MAX_NEAR_OFFSET`] is preferred to an offset within.
 const MIN_CORRELATION_GAIN: f64 = 0.05;
 
 /// Clock offset (s), and the correlation of the two turn rates at this offset.
 type OffsetMatch = (f64, f64);
 
-/// Returns the time (s) by which the reference's clock is ahead of the odometry's. At this offset the correlation of their turn rates is
-/// largest.
+/// Returns the time (s) by which the reference's clock is ahead of the odometry's clock: the offset with the largest correlation of turn
+/// rates.
 ///
-/// If turn rates do not correlate at any offset, for example because the robot does not turn, the offset is 0. None if the recordings do not
-/// overlap either. Compared are only offsets at which half of the shorter recording overlaps the other one.
+/// If turn rates do not correlate at any offset, for example because the robot does not turn, the offset is 0. None if the recordings do
+/// not overlap either. An offset is compared only if half of the shorter recording overlaps the longer recording.
 pub(super) fn clock_offset(odometry: &Trajectory, reference: &Trajectory) -> Option<f64> {
-    let ([from, to], [start, end]) = (odometry.span()?, reference.span()?);
-    let min_overlap = 0.5 * (to - from).min(end - start);
-    let overlap = to.min(end) - from.max(start);
-    let finest_step = FINEST_STEP.max(0.5 * odometry.median_period()).max((to - from) / MAX_SAMPLES);
+    let ([odom_start, odom_end], [ref_start, ref_end]) = (odometry.span()?, reference.span()?);
+    let min_overlap = 0.5 * (odom_end - odom_start).min(ref_end - ref_start);
+    let overlap = odom_end.min(ref_end) - odom_start.max(ref_start);
+    let finest_step =
+        FINEST_STEP.max(0.5 * odometry.median_period()).max((odom_end - odom_start) / MAX_SAMPLES);
     let best_match_within =
         |range: [f64; 2], step: f64| best_match(odometry, reference, range, finest_step.max(step));
     let near_match = if overlap < min_overlap {
@@ -46,7 +47,7 @@ pub(super) fn clock_offset(odometry: &Trajectory, reference: &Trajectory) -> Opt
     if let Some((offset, _)) = near_match.filter(|(_, correlation)| *correlation >= CONFIDENT_CORRELATION) {
         return Some(offset);
     }
-    let range = [start - to + min_overlap, end - from - min_overlap];
+    let range = [ref_start - odom_end + min_overlap, ref_end - odom_start - min_overlap];
     let mut step = finest_step.max((range[1] - range[0]) / COARSE_OFFSETS);
     let mut far_match = best_match_within(range, step);
     while let Some((rough_offset, _)) = far_match.filter(|_| step > finest_step) {
@@ -68,16 +69,16 @@ pub(super) fn clock_offset(odometry: &Trajectory, reference: &Trajectory) -> Opt
 fn best_match(
     odometry: &Trajectory,
     reference: &Trajectory,
-    [from, to]: [f64; 2],
+    [min_offset, max_offset]: [f64; 2],
     step: f64,
 ) -> Option<OffsetMatch> {
-    let [first, last] = odometry.span()?;
-    let turn_count = ((last - first) / step) as usize;
-    let offset_count = ((to - from) / step).round() as usize + 1;
-    let odometry_turns = turns_of_steps(odometry, first, step, turn_count);
-    let reference_turns = turns_of_steps(reference, first + from, step, turn_count + offset_count - 1);
-    let count_known = |rates: &[Option<f64>]| rates.iter().flatten().count();
-    let min_pairs = count_known(&odometry_turns).min(count_known(&reference_turns)) / 2;
+    let [start, end] = odometry.span()?;
+    let turn_count = ((end - start) / step) as usize;
+    let offset_count = ((max_offset - min_offset) / step).round() as usize + 1;
+    let odometry_turns = turns_of_steps(odometry, start, step, turn_count);
+    let reference_turns = turns_of_steps(reference, start + min_offset, step, turn_count + offset_count - 1);
+    let known_count = |turns: &[Option<f64>]| turns.iter().flatten().count();
+    let min_pairs = known_count(&odometry_turns).min(known_count(&reference_turns)) / 2;
     let correlations: Vec<f64> = (0..offset_count)
         .map(|offset| correlation(&odometry_turns, &reference_turns[offset..], min_pairs))
         .collect();
@@ -91,18 +92,18 @@ fn best_match(
     let [before, after] = [best_offset.wrapping_sub(1), best_offset + 1].map(correlation_at);
     let curvature = before - 2.0 * max_correlation + after;
     let fraction = if curvature < 0.0 { 0.5 * (before - after) / curvature } else { 0.0 };
-    Some((from + (best_offset as f64 + fraction) * step, max_correlation))
+    Some((min_offset + (best_offset as f64 + fraction) * step, max_correlation))
 }
 
 /// Returns the turns (rad) between successive times, which are `step` (s) apart. None outside of the trajectory, and across gaps.
-fn turns_of_steps(trajectory: &Trajectory, start: f64, step: f64, count: usize) -> Vec<Option<f64>> {
+fn turns_of_steps(trajectory: &Trajectory, start_time: f64, step: f64, count: usize) -> Vec<Option<f64>> {
     let headings = trajectory.unwrapped_heading();
     let heading_at = |time: f64| {
         let (sample, fraction) = trajectory.locate(time)?;
         let before = headings[sample.saturating_sub(1)];
         Some(before + fraction * (headings[sample] - before))
     };
-    let time_of_step = |i: usize| start + i as f64 * step;
+    let time_of_step = |i: usize| start_time + i as f64 * step;
     let step_headings: Vec<Option<f64>> = (0..=count).map(|i| heading_at(time_of_step(i))).collect();
     let turn_of_step = |i: usize| {
         let turn = step_headings[i + 1]? - step_headings[i]?;
@@ -111,7 +112,7 @@ fn turns_of_steps(trajectory: &Trajectory, start: f64, step: f64, count: usize) 
     (0..count).map(turn_of_step).collect()
 }
 
-/// Returns Pearson's correlation over the pairs of two known numbers. 0 if there are fewer than `min_pairs` such pairs, or one list is
+/// Returns Pearson's correlation of two lists over pairs of known numbers. 0 if there are fewer than `min_pairs` such pairs, or a list is
 /// constant.
 fn correlation(a: &[Option<f64>], b: &[Option<f64>], min_pairs: usize) -> f64 {
     let known_pairs = || a.iter().zip(b).filter_map(|(a, b)| a.zip(*b));

@@ -1,6 +1,6 @@
 //! Checks of a fit: validity of the log, and goodness of fit of the model.
 
-use super::fit::{Fit, Sample};
+use super::fit::{Fit, LegSample};
 use super::legs::{LostLegs, MIN_DRIVE_DISTANCE, MIN_LEGS, MIN_TURN_ANGLE, distance, turn};
 use super::residuals::Model;
 use super::result::LegFit;
@@ -109,7 +109,7 @@ pub struct WindowCoverage {
     pub nees: f64,
 }
 
-/// Checks with the judgement that follows from them.
+/// Checks, and the verdict that follows from the checks.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct Diagnostics {
@@ -180,14 +180,14 @@ impl CheckName {
 /// Number of standard errors by which a sample statistic may differ from its expectation. Logs simulated by the model rarely differ more.
 const MAX_STD_ERRORS: f64 = 3.0;
 
-/// Correlation of neighbours, and excess kurtosis, that is too small to matter in a long log.
+/// Correlation of neighbours, and excess kurtosis, that are negligible in a long log.
 const NEGLIGIBLE_CORRELATION: f64 = 0.1;
 const NEGLIGIBLE_KURTOSIS: f64 = 0.5;
 
 /// Difference of the coverage from 95 % that is too small to matter in a long log.
 const NEGLIGIBLE_COVERAGE: f64 = 0.015;
 
-/// Number of legs below which the check fails, and below which the log is unusable.
+/// Number of legs below which the check [`CheckName::EnoughLegs`] fails, and below which the log is unusable.
 const SUFFICIENT_LEGS: f64 = 100.0;
 const MIN_USABLE_LEGS: f64 = 30.0;
 
@@ -201,25 +201,25 @@ const MIN_RELATIVE_ERROR: f64 = 1e-3;
 /// Minimum number of windows for conclusions from their coverage.
 pub(super) const MIN_WINDOWS: usize = 20;
 
-/// Maximum inflation. α's that need more do not describe the robot.
+/// Maximum inflation. α's that need a larger inflation do not describe the robot.
 pub(super) const MAX_INFLATION: f64 = 30.0;
 
-/// Returns the checks of the log itself. Those that decide whether a log is usable come first: the first failure is the advice.
+/// Returns the checks of the log itself. Checks that decide whether a log is usable come first, because the first failure is displayed.
 pub(super) fn log_checks(
-    sample: &Sample,
+    sample: &LegSample,
     lost: &LostLegs,
     systematic: &Systematic,
     alpha_intervals: &[Option<[f64; 2]>],
     inflation: f64,
 ) -> Vec<Check> {
-    let count = sample.legs.len();
+    let leg_count = sample.legs.len();
     // α's are squares of relative errors. A copy fails by the largest end of their intervals, any other reference by the difference of its
     // motions.
     let max_alpha = alpha_intervals.iter().flatten().map(|[_, end]| *end).reduce(f64::max);
     let copy_error = max_alpha.map(f64::sqrt).filter(|error| *error < MIN_RELATIVE_ERROR);
     let mismatch = || mismatch(sample, systematic).map(|ratio| ratio.max(MIN_RELATIVE_ERROR));
     let mismatch = copy_error.or_else(mismatch);
-    let mut ratios: Vec<f64> =
+    let mut length_ratios: Vec<f64> =
         sample.legs.iter().map(|leg| sample.options.legs.ratio(&leg.odometry, leg.duration())).collect();
     let outlier_count = sample.outliers.iter().filter(|is| **is).count();
     let lost_count = lost.total() - lost.standing;
@@ -227,25 +227,25 @@ pub(super) fn log_checks(
     let mismatch = mismatch.map(|value| Check::new(CheckName::ReferenceMatches, value, matches_range));
     let mut checks = Vec::from_iter(mismatch);
     checks.extend([
-        Check::new(CheckName::EnoughLegs, count as f64, [SUFFICIENT_LEGS, f64::INFINITY]),
-        // The inflation is infinite if none covers the windows.
+        Check::new(CheckName::EnoughLegs, leg_count as f64, [SUFFICIENT_LEGS, f64::INFINITY]),
+        // The inflation is infinite if no inflation covers the windows.
         Check::new(CheckName::InflationBounded, inflation, [1.0, MAX_INFLATION]),
-        Check::new(CheckName::LegsLost, lost_count as f64 / (count + lost_count) as f64, [0.0, 0.2]),
-        Check::new(CheckName::SamplingDense, median(&mut ratios), [0.0, 1.5]),
-        Check::new(CheckName::OutliersFew, outlier_count as f64 / count as f64, [0.0, 0.05]),
+        Check::new(CheckName::LegsLost, lost_count as f64 / (leg_count + lost_count) as f64, [0.0, 0.2]),
+        Check::new(CheckName::SamplingDense, median(&mut length_ratios), [0.0, 1.5]),
+        Check::new(CheckName::OutliersFew, outlier_count as f64 / leg_count as f64, [0.0, 0.05]),
     ]);
     let model = sample.options.model;
     if matches!(model, Model::Odometry(rule) if rule != OdometryRule::Omni) {
         let sideways = sample.observations.iter().filter(|leg| leg.moves_sideways(model)).count();
-        checks.push(Check::new(CheckName::SidewaysRare, sideways as f64 / count as f64, [0.0, 0.02]));
+        checks.push(Check::new(CheckName::SidewaysRare, sideways as f64 / leg_count as f64, [0.0, 0.02]));
     }
     checks
 }
 
-/// Returns the median difference between the motions of a leg by odometry and by reference, divided by the median motion. Of the ratios for
-/// turns and for drives the larger one is returned. `None` if too few legs turn and too few drive. Scales are not corrected, because a scale far
-/// from 1 is another unit.
-fn mismatch(sample: &Sample, systematic: &Systematic) -> Option<f64> {
+/// Returns the median difference between the motions of a leg by odometry and by reference, divided by the median motion. The larger ratio
+/// of turns and drives is returned; `None` if too few legs turn and too few drive. Scales are not corrected, because a scale far from 1 is
+/// another unit.
+fn mismatch(sample: &LegSample, systematic: &Systematic) -> Option<f64> {
     let systematic = Systematic { distance_scale: 1.0, turn_scale: 1.0, ..*systematic };
     // Sizes and differences of turns and of drives.
     let [mut turns, mut drives]: [(Vec<f64>, Vec<f64>); 2] = Default::default();
@@ -268,21 +268,21 @@ fn mismatch(sample: &Sample, systematic: &Systematic) -> Option<f64> {
 pub(super) fn residual_checks(fits: &[LegFit], correlation: f64) -> Vec<Check> {
     let standardized = fits.iter().filter(|fit| !fit.is_outlier).flat_map(|fit| fit.standardized);
     let standardized: Vec<f64> = standardized.filter(|residual| !residual.is_nan()).collect();
-    let count = standardized.len() as f64;
+    let component_count = standardized.len() as f64;
     let mean_power =
-        |power: i32| standardized.iter().map(|residual| residual.powi(power)).sum::<f64>() / count;
+        |power: i32| standardized.iter().map(|residual| residual.powi(power)).sum::<f64>() / component_count;
     let kurtosis = mean_power(4) / mean_power(2).powi(2);
-    let correlation_limit = NEGLIGIBLE_CORRELATION.max(MAX_STD_ERRORS / count.sqrt());
+    let correlation_limit = NEGLIGIBLE_CORRELATION.max(MAX_STD_ERRORS / component_count.sqrt());
     // Kurtosis of a normal sample has variance 24/n.
-    let max_excess_kurtosis = NEGLIGIBLE_KURTOSIS.max(MAX_STD_ERRORS * (24.0 / count).sqrt());
+    let max_excess_kurtosis = NEGLIGIBLE_KURTOSIS.max(MAX_STD_ERRORS * (24.0 / component_count).sqrt());
     vec![
         Check::new(CheckName::ResidualsUncorrelated, correlation, [-correlation_limit, correlation_limit]),
         Check::new(CheckName::TailsNormal, kurtosis, [1.0, 3.0 + max_excess_kurtosis]),
     ]
 }
 
-/// Returns the range of the coverage of logs that the model simulates. `scale_std` is the relative standard error of the variances. It counts
-/// 0.14 times: this is the density of ln χ² with 3 degrees of freedom at the quantile 0.95.
+/// Returns the range of the coverage of logs that the model simulates. `scale_std` is the relative standard error of the variances. Its
+/// factor 0.14 is the density of ln χ² with 3 degrees of freedom at the quantile 0.95.
 pub(super) fn coverage_range(count: usize, scale_std: f64) -> [f64; 2] {
     let variance = 0.95 * 0.05 / count as f64;
     let tolerance = NEGLIGIBLE_COVERAGE.max(MAX_STD_ERRORS * (variance + (0.14 * scale_std).powi(2)).sqrt());
@@ -314,29 +314,31 @@ const NEGLIGIBLE_SCALE_DIFFERENCE: f64 = 0.01;
 
 /// Returns a check of each scale that is identifiable, and the mask of the systematic errors that are constant.
 ///
-/// Only scales are tested. All other errors, and scales that are not identifiable, count as constant. `correlation` is that of neighbouring legs.
+/// Only scales are tested. All other errors, and scales that are not identifiable, count as constant. `correlation` is the correlation of
+/// neighbouring legs.
 pub(super) fn scale_checks(fit: &Fit, correlation: f64) -> (Vec<Check>, ErrorMask) {
     let (mut checks, mut is_constant) = (Vec::new(), [true; ERROR_COUNT]);
     let first_half_count = fit.sample.legs.len() / 2;
     let is_turning = |leg: usize| turn(&fit.sample.observations[leg].expected) > TURNING_LEG_ANGLE;
-    let scales = [
+    let checked_scales = [
         (SystematicError::DistanceScale, CheckName::DistanceScaleConstant),
         (SystematicError::TurnScale, CheckName::TurnScaleConstant),
     ];
-    for (scale, name) in scales.into_iter().filter(|(scale, _)| fit.sample.estimated[*scale as usize]) {
+    for (scale, name) in checked_scales.into_iter().filter(|(scale, _)| fit.sample.estimated[*scale as usize])
+    {
         // Difference of the scales of two groups, and its standard error.
-        let compare_groups = |in_first: &dyn Fn(usize) -> bool| {
-            let [a, a_std] = scale_of(fit, scale, correlation, in_first)?;
-            let [b, b_std] = scale_of(fit, scale, correlation, |leg| !in_first(leg))?;
+        let compare_groups = |is_in_first_group: &dyn Fn(usize) -> bool| {
+            let [a, a_std] = scale_of(fit, scale, correlation, is_in_first_group)?;
+            let [b, b_std] = scale_of(fit, scale, correlation, |leg| !is_in_first_group(leg))?;
             Some((a - b, libm::hypot(a_std, b_std)))
         };
         let halves = compare_groups(&|leg| leg < first_half_count);
-        let other = match scale {
+        let other_comparison = match scale {
             SystematicError::DistanceScale => compare_groups(&is_turning),
             _ => compare_long_turns(fit, correlation),
         };
         let relative_size = |(difference, tolerance): &(f64, f64)| difference.abs() / tolerance;
-        let comparisons = halves.into_iter().chain(other).map(|(difference, std)| {
+        let comparisons = halves.into_iter().chain(other_comparison).map(|(difference, std)| {
             (difference, NEGLIGIBLE_SCALE_DIFFERENCE.max(MAX_SCALE_STD_ERRORS * std))
         });
         let largest_difference = comparisons.max_by(|a, b| relative_size(a).total_cmp(&relative_size(b)));
@@ -374,9 +376,9 @@ fn compare_long_turns(Fit { sample, maximum, .. }: &Fit, correlation: f64) -> Op
     let score_squares = runs.iter().map(|[read, measured]| (read * (measured - slope * read)).powi(2));
     let slope_std = score_squares.sum::<f64>().sqrt() / square_sum;
     let scale_index = SystematicError::TurnScale as usize;
-    let std = maximum.filtered.error_stds(correlation)[scale_index];
+    let mean_scale_std = maximum.filtered.error_stds(correlation)[scale_index];
     let turn_scale = sample.systematic.turn_scale;
-    Some((turn_scale * (1.0 - slope), libm::hypot(std, turn_scale * slope_std)))
+    Some((turn_scale * (1.0 - slope), libm::hypot(mean_scale_std, turn_scale * slope_std)))
 }
 
 /// Returns the scale of the selected legs minus that of all legs, and the standard error of this difference. Other systematic errors are
@@ -402,10 +404,10 @@ fn scale_of(
 /// Returns the verdict that follows from all checks. `identifies` is true if the log identifies at least one α.
 pub(super) fn verdict(checks: &[Check], identifies: bool) -> Verdict {
     let has_failed = |name: CheckName| checks.iter().any(|check| check.name == name && !check.passed);
-    let legs =
+    let leg_count =
         checks.iter().find(|check| check.name == CheckName::EnoughLegs).map_or(0.0, |check| check.value);
     let is_covered = !has_failed(CheckName::InflationBounded);
-    if has_failed(CheckName::ReferenceMatches) || legs < MIN_USABLE_LEGS || !identifies || !is_covered {
+    if has_failed(CheckName::ReferenceMatches) || leg_count < MIN_USABLE_LEGS || !identifies || !is_covered {
         Verdict::Unusable
     } else if checks.iter().all(|check| check.passed) {
         Verdict::Consistent

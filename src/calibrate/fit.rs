@@ -13,9 +13,9 @@ use super::{CalibrateError, Drive, Options};
 use crate::geom::se2::wrap_angle;
 use std::ops::Range;
 
-/// Legs with their residuals, under the systematic errors that are corrected.
+/// Legs of a log with their residuals, for given systematic errors.
 #[derive(Clone, Debug)]
-pub(super) struct Sample {
+pub(super) struct LegSample {
     pub options: Options,
     pub legs: Vec<Leg>,
     pub observations: Vec<Observation>,
@@ -30,12 +30,12 @@ pub(super) struct Sample {
 /// Fit to the legs of a sample.
 #[derive(Clone, Debug)]
 pub(super) struct Fit {
-    pub sample: Sample,
+    pub sample: LegSample,
     pub residuals: Residuals,
     pub maximum: Expansion,
 }
 
-/// Maximum number of legs that are fitted, in blocks spread over the log. With this many legs the standard error of an α is about 3 %.
+/// Maximum number of legs that are fitted, in blocks spread over the log. With 6,000 legs the standard error of an α is about 3 %.
 const MAX_LEGS: usize = 6_000;
 const LEGS_PER_BLOCK: usize = 100;
 
@@ -44,7 +44,7 @@ const MAX_ROUNDS: usize = 15;
 /// Change of a systematic error between rounds, relative to its standard error, below which the rounds end.
 const CONVERGENCE_TOLERANCE: f64 = 0.05;
 
-impl Sample {
+impl LegSample {
     fn new(legs: Vec<Leg>, systematic: &Systematic, estimated: ErrorMask, options: &Options) -> Self {
         let (outliers, observations, terms) = (vec![false; legs.len()], Vec::new(), Vec::new());
         Self { options: *options, legs, observations, terms, outliers, systematic: *systematic, estimated }
@@ -59,7 +59,7 @@ impl Sample {
         self.terms = self.legs.iter().zip(&self.observations).map(term).collect();
     }
 
-    /// Returns true if a leg and the one before it are selected, and the leg starts where the one before it ends.
+    /// Returns true if a leg and the previous leg are selected, and the leg starts where the previous leg ends.
     pub fn follows(&self, leg: usize, select: impl Fn(usize) -> bool) -> bool {
         self.legs[leg].follows && leg > 0 && select(leg - 1) && select(leg)
     }
@@ -78,9 +78,9 @@ impl Sample {
         self.residuals(self.estimated, |leg| range.contains(&leg) && !self.outliers[leg])
     }
 
-    /// Fits the variances, in rounds: the residuals depend on the systematic errors, their weights on the variances, and outliers on both.
-    /// The first round starts at the given variances, or at a guess. With `log`, each round also chooses the systematic errors that are
-    /// identifiable, and corrects them by generalized least squares. Without, they stay as they are.
+    /// Fits the variances in rounds, because residuals depend on the systematic errors, weights on the variances, and outliers on residuals
+    /// and weights. The first round starts at the given variances, or at a guess. With `log`, each round also chooses the systematic errors
+    /// that are identifiable, and corrects them by generalized least squares. Without `log`, the systematic errors stay unchanged.
     fn fit(mut self, log: Option<&Log>, mut parameters: Option<Parameters>) -> Result<Fit, CalibrateError> {
         let all_legs = 0..self.legs.len();
         for round in 1.. {
@@ -105,8 +105,8 @@ impl Sample {
                 return Ok(Fit { sample: self, residuals, maximum });
             }
             if let (Some(log), Some((systematic, _))) = (log, corrected) {
-                let change = systematic.clock_offset - self.systematic.clock_offset;
-                log.realign(&mut self.legs, change);
+                let offset_change = systematic.clock_offset - self.systematic.clock_offset;
+                log.realign(&mut self.legs, offset_change);
                 self.systematic = systematic;
             }
             parameters = Some(maximum.parameters);
@@ -140,8 +140,8 @@ impl Sample {
             };
             let mut leg_alphas: Vec<f64> =
                 self.observations.iter().map(alpha_from).filter(|ratio| ratio.is_finite()).collect();
-            let alpha = (median(&mut leg_alphas) / MEDIAN_CHI2_1).clamp(1e-8, 10.0);
-            alphas.iter().for_each(|index| parameters[*index] = alpha.max(parameters[*index]));
+            let initial_alpha = (median(&mut leg_alphas) / MEDIAN_CHI2_1).clamp(1e-8, 10.0);
+            alphas.iter().for_each(|index| parameters[*index] = initial_alpha.max(parameters[*index]));
         }
         let Options { position_std, yaw_std, .. } = self.options;
         for (variance, std) in [(POSITION_VARIANCE, position_std), (YAW_VARIANCE, yaw_std)] {
@@ -157,7 +157,7 @@ const MEDIAN_CHI2_1: f64 = 0.4549;
 /// Initial guess of the standard deviations of the reference, m and rad.
 const INITIAL_REFERENCE_STD: f64 = 1e-3;
 
-/// Returns the parameters that are fitted: α's of the model, and those variances of the reference that the options do not state.
+/// Returns the parameters that are fitted: α's of the model, and variances of the reference that the options do not state.
 fn free_parameters(options: &Options) -> FreeMask {
     std::array::from_fn(|parameter| match parameter {
         POSITION_VARIANCE => options.position_std.is_none(),
@@ -180,7 +180,7 @@ impl<'a> Log<'a> {
         Ok(Self { drives, offsets: drives.iter().map(clock_offset_of).collect::<Result<_, _>>()? })
     }
 
-    /// Returns the systematic errors before the fit. Their clock offset is that of the first drive.
+    /// Returns the systematic errors before the fit. The clock offset is the offset of the first drive.
     fn initial_errors(&self) -> Systematic {
         Systematic { clock_offset: self.offsets.first().copied().unwrap_or(0.0), ..Systematic::NONE }
     }
@@ -200,12 +200,12 @@ impl<'a> Log<'a> {
         }
     }
 
-    /// Returns the clock offset (s) of a drive where that of the first drive is `clock_offset`.
-    fn offset_of(&self, drive: usize, clock_offset: f64) -> f64 {
-        self.offsets[drive] + clock_offset - self.initial_errors().clock_offset
+    /// Returns the clock offset (s) of a drive, given the offset `clock_offset` of the first drive.
+    fn offset_of(&self, drive_index: usize, clock_offset: f64) -> f64 {
+        self.offsets[drive_index] + clock_offset - self.initial_errors().clock_offset
     }
 
-    /// Moves legs to a clock offset that is `change` (s) larger. A leg that would leave the log stays as it is.
+    /// Moves legs to a clock offset that is `change` (s) larger. A leg that would leave the log stays unchanged.
     fn realign(&self, legs: &mut [Leg], change: f64) {
         for leg in legs {
             *leg = self.drives[leg.drive].realigned(*leg, change).unwrap_or(*leg);
@@ -220,8 +220,8 @@ fn with_max_legs(legs: &[Leg]) -> Vec<Leg> {
     }
     let block_count = MAX_LEGS / LEGS_PER_BLOCK;
     let blocks = (0..block_count).map(|block| block * (legs.len() - LEGS_PER_BLOCK) / (block_count - 1));
-    let legs_of_block = |first: usize| {
-        let mut block = legs[first..first + LEGS_PER_BLOCK].to_vec();
+    let legs_of_block = |first_leg: usize| {
+        let mut block = legs[first_leg..first_leg + LEGS_PER_BLOCK].to_vec();
         block[0].follows = false;
         block
     };
@@ -231,26 +231,26 @@ fn with_max_legs(legs: &[Leg]) -> Vec<Leg> {
 /// Fits all identifiable systematic errors.
 pub(super) fn fit_systematic(log: &Log, options: &Options) -> Result<Fit, CalibrateError> {
     let initial_errors = log.initial_errors();
-    let (legs, _) = log.legs(options, initial_errors.clock_offset)?;
-    let legs = with_max_legs(&legs);
-    let systematic = Systematic { mount_yaw: Systematic::initial_mount_yaw(&legs), ..initial_errors };
-    Sample::new(legs, &systematic, [true; ERROR_COUNT], options).fit(Some(log), None)
+    let (all_legs, _) = log.legs(options, initial_errors.clock_offset)?;
+    let fitted_legs = with_max_legs(&all_legs);
+    let systematic = Systematic { mount_yaw: Systematic::initial_mount_yaw(&fitted_legs), ..initial_errors };
+    LegSample::new(fitted_legs, &systematic, [true; ERROR_COUNT], options).fit(Some(log), None)
 }
 
-/// Fits the variances with only the given errors corrected. Also returns the sample of all legs, because the fit may use only some of them.
+/// Fits the variances with the `corrected` errors removed. Also returns the sample of all legs, because the fit may use only some legs.
 pub(super) fn fit_corrected(
     log: &Log,
     options: &Options,
     corrected: &Systematic,
     mask: ErrorMask,
     start: Parameters,
-) -> Result<(Fit, Sample, LostLegs), CalibrateError> {
+) -> Result<(Fit, LegSample, LostLegs), CalibrateError> {
     let (legs, lost) = log.legs(options, corrected.clock_offset)?;
-    let fit = Sample::new(with_max_legs(&legs), corrected, mask, options).fit(None, Some(start))?;
+    let fit = LegSample::new(with_max_legs(&legs), corrected, mask, options).fit(None, Some(start))?;
     let mut all_legs = fit.sample.clone();
     if legs.len() > all_legs.legs.len() {
         let parameters = &fit.maximum.parameters;
-        all_legs = Sample::new(legs, corrected, mask, options);
+        all_legs = LegSample::new(legs, corrected, mask, options);
         all_legs.update_observations(parameters[POSITION_VARIANCE].sqrt());
         all_legs.mark_outliers(parameters, &fit.maximum.filtered.errors, 1);
     }

@@ -10,7 +10,8 @@ use serde::{Deserialize, Serialize};
 /// Quantile 0.975 of the standard normal distribution.
 pub(super) const NORMAL_95: f64 = 1.959_963_984_540_054;
 
-/// Maximum number of steps of the search for an end of an interval. The square root of the deviance is nearly linear, so few are needed.
+/// Maximum number of steps of the search for an end of an interval. The square root of the deviance is nearly linear, so that few steps are
+/// needed.
 const MAX_SEARCH_STEPS: usize = 12;
 
 /// Relative tolerance on the distance from the estimate to an end of its interval.
@@ -18,10 +19,11 @@ const DISTANCE_TOLERANCE: f64 = 0.02;
 
 /// Returns the function that computes the 95 % interval of a parameter. The interval of a parameter without information is [0, ∞].
 ///
-/// At an end, twice the log-likelihood is t² below its maximum, with t the quantile of Student's t. The other parameters maximize the
-/// likelihood's expansion, with variances of 0 or more. The distance from the maximum to the end is multiplied by √(S/C) if that is above 1,
-/// with C the inverse information and S the sandwich covariance over blocks of legs, because neighbouring legs may be correlated. If the errors of
-/// neighbouring legs have the correlation ρ, their squares have the correlation ρ², and the factor is at least √((1 + ρ²)/(1 − ρ²)).
+/// At an end of the interval, twice the log-likelihood is t² below its maximum, with t the quantile of Student's t. The other parameters
+/// maximize the likelihood's expansion, with variances of 0 or more. Neighbouring legs may be correlated. The distance from the maximum to
+/// the end is therefore multiplied by √(S/C) if this is above 1, with C the inverse information and S the sandwich covariance over blocks
+/// of legs. If the errors of neighbouring legs have the correlation ρ, their squares have the correlation ρ², and the factor is at least
+/// √((1 + ρ²)/(1 − ρ²)).
 pub(super) fn intervals(
     Fit { residuals, maximum, .. }: &Fit,
     correlation: f64,
@@ -32,7 +34,7 @@ pub(super) fn intervals(
     let mean_score = maximum.score / blocks.len() as f64;
     let block_scores: Vec<Parameters> =
         blocks.map(|block| block.iter().sum::<Parameters>() - mean_score).collect();
-    let quantile = student_95(block_scores.len().saturating_sub(1));
+    let student_quantile = student_95(block_scores.len().saturating_sub(1));
     let squared_correlation = correlation * correlation;
     let min_widening = ((1.0 + squared_correlation) / (1.0 - squared_correlation)).sqrt();
     move |parameter| {
@@ -45,23 +47,24 @@ pub(super) fn intervals(
         if variance <= 0.0 {
             return [0.0, f64::INFINITY];
         }
-        let mut others = residuals.free;
-        others[parameter] = false;
+        let mut free_others = residuals.free;
+        free_others[parameter] = false;
         let deviance_root = |distance: f64| {
-            let candidate = feasible_parameters(maximum, others, Parameters::ith(parameter, distance));
+            let candidate = feasible_parameters(maximum, free_others, Parameters::ith(parameter, distance));
             let log_likelihood = residuals.filtered(&candidate).log_likelihood;
             (2.0 * (maximum.filtered.log_likelihood - log_likelihood)).max(0.0).sqrt()
         };
-        let guess = threshold * variance.sqrt();
-        let end = |sign: f64| profile_end(deviance_root, sign * guess, -estimate, threshold);
+        let guessed_distance = threshold * variance.sqrt();
+        let distance_to_end =
+            |sign: f64| profile_end(deviance_root, sign * guessed_distance, -estimate, threshold);
         let sandwich: f64 = block_scores.iter().map(|score| covariances.dot(score).powi(2)).sum();
-        let widening_factor = ((sandwich / variance).sqrt() * quantile / NORMAL_95).max(min_widening);
-        [-1.0, 1.0].map(|sign| (estimate + widening_factor * end(sign)).max(0.0))
+        let widening_factor = ((sandwich / variance).sqrt() * student_quantile / NORMAL_95).max(min_widening);
+        [-1.0, 1.0].map(|sign| (estimate + widening_factor * distance_to_end(sign)).max(0.0))
     }
 }
 
 /// Returns the distance from an estimate at which the root of the deviance has its threshold. The search starts at `guess`. If the root is
-/// below the threshold at the smallest distance, that of a parameter of 0, this distance is returned.
+/// below the threshold at `min_distance`, where the parameter is 0, `min_distance` is returned.
 fn profile_end(deviance_root: impl Fn(f64) -> f64, guess: f64, min_distance: f64, threshold: f64) -> f64 {
     let mut distance = guess.max(min_distance);
     for _ in 0..MAX_SEARCH_STEPS {
@@ -79,10 +82,9 @@ fn profile_end(deviance_root: impl Fn(f64) -> f64, guess: f64, min_distance: f64
 
 /// Quantile 0.975 of Student's t, by the expansion of Fisher and Cornish.
 fn student_95(degrees_of_freedom: usize) -> f64 {
-    let freedom = degrees_of_freedom.max(1) as f64;
+    let dof = degrees_of_freedom.max(1) as f64;
     let (z, z3) = (NORMAL_95, NORMAL_95.powi(3));
-    z + (z3 + z) / (4.0 * freedom)
-        + (5.0 * NORMAL_95.powi(5) + 16.0 * z3 + 3.0 * z) / (96.0 * freedom * freedom)
+    z + (z3 + z) / (4.0 * dof) + (5.0 * NORMAL_95.powi(5) + 16.0 * z3 + 3.0 * z) / (96.0 * dof * dof)
 }
 
 /// Reason for which a log does not identify an α.
@@ -103,11 +105,11 @@ pub enum NotIdentifiable {
 /// Fisher information below which an α is not identifiable. An information of 4 is a standard error of 0.5, far above any plausible α.
 const MIN_INFORMATION: f64 = 4.0;
 
-/// Minimum ratio of the information on an α with and without the other α's being estimated too. Below it, the ratio of turn to distance varies
-/// by less than a seventh between legs.
+/// Minimum ratio of the information on an α if all α's are estimated to the information if only this α is estimated. Below it, the ratio of
+/// turn to distance varies by less than a seventh between legs.
 const MIN_FREE_INFORMATION: f64 = 0.02;
 
-/// Minimum number of legs with a motion that identify an α against an exact reference. Its standard error is then 20 %.
+/// Minimum number of legs with a motion that identify an α against an exact reference. With 50 legs the standard error of the α is 20 %.
 const MIN_MOVING_LEGS: usize = 50;
 
 /// Returns, for each α, the reason why it is not identifiable; None if it is identifiable.

@@ -1,7 +1,7 @@
 //! Legs: sections of a log, each as long as the motion between two updates of the filter that will use the α's.
 //!
-//! Fitted α's depend on the length of the legs. In the models the variance of a drive grows with the square of its length, but that of real
-//! wheels mostly with the length itself.
+//! Fitted α's depend on the length of the legs. In the models the variance of a drive grows with the square of its length. The variance of
+//! real wheels mostly grows with the length itself.
 
 use super::Drive;
 use super::trajectory::Trajectory;
@@ -50,7 +50,8 @@ impl LegLength {
         }
     }
 
-    /// Returns true if a leg ends here: beyond the limit of a displacement, or at the limit of a duration, up to [`LENGTH_TOLERANCE`].
+    /// Returns true if a leg with these end poses is complete: beyond the limit of a displacement, or at the limit of a duration, up to
+    /// [`LENGTH_TOLERANCE`].
     fn is_complete(&self, end_poses: &[SE2; 2], elapsed: f64) -> bool {
         let excess_ratio = self.ratio(end_poses, elapsed) - 1.0;
         match self {
@@ -71,7 +72,7 @@ pub struct Leg {
     pub velocities: [Vector3<f64>; 2],
     /// Poses at start and end in the frame of the reference.
     pub reference: [SE2; 2],
-    /// True if the leg starts at the reference pose at which the leg before it ends.
+    /// True if the leg starts at the reference pose at which the previous leg ends.
     pub follows: bool,
     /// Index of the drive to which the leg belongs.
     pub(super) drive: usize,
@@ -89,7 +90,7 @@ impl Leg {
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "camelCase")]
 pub struct LostLegs {
-    /// Legs for which the reference has no pose at one end.
+    /// Legs for which the reference has no pose at the start or at the end.
     pub without_reference: usize,
     /// Legs across a break, at which the pose of a trajectory may have jumped.
     pub across_breaks: usize,
@@ -129,7 +130,6 @@ const MAX_STANDING_TURN: f64 = 0.02;
 /// Maximum ratio of the length of a leg across a pause to the length in the options. Longer legs are left out.
 const MAX_RATIO_ACROSS_PAUSE: f64 = 2.0;
 
-/// One end of a leg.
 #[derive(Clone, Copy, Debug)]
 struct LegEnd {
     /// Time and pose of the reading at which the leg ends by its length.
@@ -137,16 +137,15 @@ struct LegEnd {
     /// Time by the clock of the odometry, s.
     time: f64,
     odometry: SE2,
-    /// Velocity by the odometry.
     velocity: Vector3<f64>,
-    /// Pose by the reference; None if it has no sample here.
+    /// Pose by the reference; None if the reference has no sample near the reading.
     reference: Option<SE2>,
 }
 
 impl Drive<'_> {
     /// Returns the end of a leg at the sample of the reference nearest to a reading of the odometry.
     ///
-    /// The odometry is interpolated, because an interpolated reference would lose noise of the wheels and mix that of two neighbouring legs.
+    /// The odometry is interpolated. An interpolated reference would lose noise of the wheels, and mix the noise of neighbouring legs.
     fn leg_end(&self, reading: (f64, SE2), clock_offset: f64) -> LegEnd {
         let located = self.reference.locate(reading.0 + clock_offset);
         let neighbours = located.map(|(sample, fraction)| {
@@ -168,10 +167,11 @@ impl Drive<'_> {
         })
     }
 
-    /// Returns a leg of this drive under another clock offset, `change` (s) larger than before. None if the odometry does not cover it.
-    pub(super) fn realigned(&self, mut leg: Leg, change: f64) -> Option<Leg> {
+    /// Returns a leg of this drive under another clock offset, `offset_change` (s) larger than before. None if the odometry does not cover
+    /// the leg.
+    pub(super) fn realigned(&self, mut leg: Leg, offset_change: f64) -> Option<Leg> {
         for end in 0..2 {
-            leg.times[end] -= change;
+            leg.times[end] -= offset_change;
             leg.odometry[end] = self.odometry.pose_at(leg.times[end])?;
             leg.velocities[end] = self.odometry.velocity(leg.times[end]);
         }
@@ -237,10 +237,10 @@ impl Drive<'_> {
     }
 }
 
-/// Cuts a log into legs, each beginning where the one before ended.
+/// Cuts a log into legs. Each leg begins where the previous leg ended.
 ///
-/// `clock_offset` (s) is the time of the reference's clock minus that of the odometry's. A leg may lead across a pause of either
-/// trajectory, because the poses at both ends are known, but not across a break.
+/// `clock_offset` (s) is the time of the reference's clock minus the time of the odometry's clock. A leg may lead across a pause of a
+/// trajectory, because its start and end poses are known, but not across a break.
 pub fn split_into_legs(
     odometry: &Trajectory,
     reference: &Trajectory,

@@ -36,16 +36,17 @@ pub(super) const PARAMETER_COUNT: usize = MAX_ALPHAS + 2;
 pub(super) type Parameters = SVector<f64, PARAMETER_COUNT>;
 pub(super) type Information = SMatrix<f64, PARAMETER_COUNT, PARAMETER_COUNT>;
 
-/// Columns that the recursion carries: the Jacobian of the residual with respect to each systematic error, then the residual.
+/// Columns that the Kalman filter predicts: the Jacobian of the residual with respect to each systematic error, then the residual.
 type Columns = SMatrix<f64, 3, COLUMN_COUNT>;
 const COLUMN_COUNT: usize = ERROR_COUNT + 1;
 pub(super) type ErrorMatrix = SMatrix<f64, ERROR_COUNT, ERROR_COUNT>;
 pub(super) type ErrorVector = SVector<f64, ERROR_COUNT>;
 
-/// Minimum standard deviation of a residual (rad, m or their rates). It keeps the likelihood of a log without noise finite.
+/// Minimum standard deviation of a residual (rad, m or their rates), which keeps the likelihood of a log without noise finite.
 const MIN_STD: f64 = 1e-7;
 
-/// Maximum absolute value of residuals, their derivatives, and coefficients of their variances. Legs with larger values are not used, because their squares would overflow.
+/// Maximum absolute value of residuals, their derivatives, and coefficients of their variances. Legs with larger values are omitted,
+/// because their squares would overflow.
 const MAX_ENTRY: f64 = 1e30;
 
 /// Residuals of one leg in the form that the likelihood needs. By default it has no observed component.
@@ -85,7 +86,6 @@ pub(super) struct Innovation {
     weight: Matrix3<f64>,
     /// Kalman gain of the reference's error at the end of the leg.
     gain: Matrix3<f64>,
-    /// Determinant of the covariance.
     determinant: f64,
 }
 
@@ -98,22 +98,20 @@ pub(super) struct FilterResult {
     pub information: ErrorMatrix,
     /// XᵀV⁻¹r.
     weighted_residual: ErrorVector,
-    /// Estimates of the systematic errors β; 0 for those that are not estimated.
+    /// Estimates of the systematic errors β; 0 for errors that are not estimated.
     pub errors: ErrorVector,
     /// Covariance of the estimate: the inverse of the information on the errors that are estimated.
     pub covariance: ErrorMatrix,
 }
 
-/// Log-likelihood under some parameters, with its derivatives with respect to those that are fitted; 0 for all others.
+/// Log-likelihood at `parameters`, with its derivatives with respect to the fitted parameters; 0 for fixed parameters.
 #[derive(Clone, Debug)]
 pub(super) struct Expansion {
     pub parameters: Parameters,
     pub filtered: FilterResult,
     /// Sum of the scores of all legs.
     pub score: Parameters,
-    /// Score of each leg.
     pub scores: Vec<Parameters>,
-    /// Fisher information.
     pub information: Information,
     /// Inverse of the information; 0 for parameters without information.
     pub covariance: Information,
@@ -145,8 +143,8 @@ impl Term {
     }
 }
 
-/// Returns the innovations of legs, by a Kalman filter whose state is the error of the reference at the end of a leg. A leg that does not follow
-/// the one before it starts at a new pose of the reference.
+/// Returns the innovations of legs, by a Kalman filter whose state is the error of the reference at the end of a leg. A leg that does not
+/// follow the previous leg starts at a new pose of the reference.
 pub(super) fn innovations<'a>(
     model: Model,
     parameters: &Parameters,
@@ -175,11 +173,10 @@ pub(super) fn innovations<'a>(
 }
 
 impl FilterResult {
-    /// Returns the standard errors of the systematic errors; 0 for those that are not estimated.
+    /// Returns the standard errors of the systematic errors; 0 for errors that are not estimated.
     ///
-    /// Each is the larger one of two: that of the covariance C by the likelihood, and that of the sandwich C (Σ gᵦ gᵦᵀ) C with gᵦ the score of a
-    /// block of legs. The first counts correlated legs as fewer legs, by the `correlation` of neighbours. The second has correlated legs in one
-    /// block.
+    /// Each standard error is the larger of two estimates. The covariance C by the likelihood counts correlated legs as fewer legs, by the
+    /// `correlation` of neighbours. The sandwich C (Σ gᵦ gᵦᵀ) C has correlated legs in one block, with gᵦ the score of a block of legs.
     pub fn error_stds(&self, correlation: f64) -> [f64; ERROR_COUNT] {
         let Self { innovations, errors, covariance, .. } = self;
         let score_of_leg = |innovation: &Innovation| {
@@ -212,7 +209,7 @@ pub(super) fn block_length(legs: usize) -> usize {
 }
 
 impl Innovation {
-    /// Returns the innovation of the residual, without the part that these systematic errors explain.
+    /// Returns the innovation of the residual, without the part that the systematic `errors` explain.
     fn without(&self, errors: &ErrorVector) -> Vector3<f64> {
         self.columns * -errors.push(-1.0)
     }
@@ -230,7 +227,7 @@ impl Innovation {
 }
 
 impl Residuals {
-    /// Runs the forward recursion under the given variances.
+    /// Runs the Kalman filter under the given variances.
     pub fn filtered(&self, parameters: &Parameters) -> FilterResult {
         let terms = self.terms.iter().map(|term| (term, term.follows));
         let innovations: Vec<Innovation> = innovations(self.model, parameters, terms).collect();
@@ -341,8 +338,8 @@ pub(super) fn reference_covariance(parameters: &Parameters) -> Matrix3<f64> {
     Matrix3::from_diagonal(&REFERENCE_VARIANCES.map(|variance| parameters[variance]).into())
 }
 
-/// Returns the mask of the systematic errors that are identifiable. The error with the largest standard error relative to its limit is left
-/// out, until none exceeds its limit.
+/// Returns the mask of the systematic errors that are identifiable. The error with the largest standard error relative to its limit is
+/// removed until no error exceeds its limit.
 pub(super) fn identifiable_errors(information: &ErrorMatrix) -> ErrorMask {
     let mut mask = SystematicError::ALL.map(|error| information[(error as usize, error as usize)] > 0.0);
     loop {
@@ -358,14 +355,13 @@ pub(super) fn identifiable_errors(information: &ErrorMatrix) -> ErrorMask {
     }
 }
 
-/// Returns the product of two matrices.
 #[inline(always)]
 fn product<const N: usize>(left: &Matrix3<f64>, right: &SMatrix<f64, 3, N>) -> SMatrix<f64, 3, N> {
     transposed_product(&left.transpose(), right)
 }
 
-/// Returns the product of the transpose of a matrix and another matrix. In WebAssembly a call of nalgebra's general product takes longer than the
-/// product itself; the module would be larger if this one were inlined there.
+/// Returns the product of the transpose of a matrix and another matrix. In WebAssembly a call of nalgebra's general product takes longer
+/// than the product itself. Inlining this function there would make the module larger.
 #[cfg_attr(target_arch = "wasm32", inline(never))]
 #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
 fn transposed_product<const M: usize, const N: usize>(
@@ -390,8 +386,8 @@ fn propagated(jacobian: &Matrix3<f64>, covariance: &Matrix3<f64>) -> Matrix3<f64
 /// Relative amount by which the diagonal of a matrix is increased before it is inverted, because rows may be collinear.
 const REGULARIZATION: f64 = 1e-9;
 
-/// Returns the inverse of the submatrix that a mask selects, with 0 elsewhere, and the logarithm of its determinant. The matrix is an
-/// information. Variables without information are not selected.
+/// Returns the inverse of the submatrix of an information matrix that a mask selects, with 0 elsewhere, and the logarithm of the
+/// submatrix's determinant. Variables without information are not selected.
 pub(super) fn masked_inverse<const N: usize>(
     information: &SMatrix<f64, N, N>,
     mask: &[bool; N],

@@ -1,9 +1,9 @@
 //! Calibration of a robot's α's, from a log of its odometry and a reference of its true poses.
 //!
-//! [`calibrate`] cuts the log into [`Leg`]s. A leg is as long as the motion between two updates of the filter that uses the α's. Its residuals
-//! have variances that are linear in the α's ([`Observation`]). The α's, the noise of the reference and the systematic errors maximize the
-//! restricted likelihood. Checks tell whether to trust them. Windows of a metre give the factor by which α's for a filter are inflated.
-//! `doc/calibration-method.md` has the formulas.
+//! [`calibrate`] cuts the log into [`Leg`]s. A leg is as long as the motion between two updates of the filter that uses the α's. Its
+//! residuals have variances that are linear in the α's ([`Observation`]). The α's, the noise of the reference and the systematic errors
+//! maximize the restricted likelihood. Checks tell whether to trust the result. Windows of a metre give the factor by which α's for a
+//! filter are inflated. `doc/calibration-method.md` has the formulas.
 
 mod alignment;
 mod checks;
@@ -61,8 +61,7 @@ pub struct Options {
     pub legs: LegLength,
     /// Treatment of outliers.
     pub outliers: Outliers,
-    /// True or false for each of [`SystematicError::ALL`] that is corrected or not. None: an error is corrected if
-    /// it is identifiable and constant.
+    /// Correction of each of [`SystematicError::ALL`]: true or false. None: the error is corrected if it is identifiable and constant.
     pub correct: [Option<bool>; ERROR_COUNT],
     /// Standard deviation of each coordinate of the reference, m. None: estimated.
     pub position_std: Option<f64>,
@@ -91,7 +90,7 @@ pub enum CalibrateError {
 /// Calibrates the α's of a robot from one drive or several.
 ///
 /// # Errors
-/// [`CalibrateError`] where odometry and reference have nothing in common, or there are fewer than [`MIN_LEGS`] legs.
+/// [`CalibrateError`] if odometry and reference do not overlap in time, or if there are fewer than [`MIN_LEGS`] legs.
 ///
 /// ```
 /// use motion::calibrate::{CalibrateError, Drive, LegLength, Model, Options, Outliers, Trajectory, calibrate};
@@ -116,12 +115,12 @@ pub enum CalibrateError {
 /// ```
 pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, CalibrateError> {
     let log = Log::new(drives)?;
-    let systematic = fit_systematic(&log, options)?;
-    let errors = systematic.sample.systematic;
-    let persistence = persistence(&systematic);
+    let systematic_fit = fit_systematic(&log, options)?;
+    let errors = systematic_fit.sample.systematic;
+    let persistence = persistence(&systematic_fit);
     let correlation = persistence.correlation.value;
-    let error_stds = systematic.maximum.filtered.error_stds(correlation);
-    let (scale_checks, is_constant) = checks::scale_checks(&systematic, correlation);
+    let error_stds = systematic_fit.maximum.filtered.error_stds(correlation);
+    let (scale_checks, is_constant) = checks::scale_checks(&systematic_fit, correlation);
     let is_corrected: ErrorMask =
         std::array::from_fn(|i| error_stds[i] > 0.0 && options.correct[i].unwrap_or(is_constant[i]));
     let mut corrected = Systematic::NONE;
@@ -129,14 +128,15 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
         *corrected.get_mut(error) = errors.get(error);
     }
     let (fit, all_legs, lost) =
-        fit_corrected(&log, options, &corrected, is_corrected, systematic.maximum.parameters)?;
+        fit_corrected(&log, options, &corrected, is_corrected, systematic_fit.maximum.parameters)?;
     let parameters = &fit.maximum.parameters;
     let not_identifiable = identifiability(&fit);
     let interval_of = intervals(&fit, correlation);
-    let identified = not_identifiable.iter().enumerate();
-    let identified = identified.map(|(alpha, reason)| reason.is_none().then_some(alpha));
-    let alphas: Vec<Option<f64>> = identified.clone().map(|alpha| Some(parameters[alpha?])).collect();
-    let alpha_intervals: Vec<Option<[f64; 2]>> = identified.map(|alpha| alpha.map(&interval_of)).collect();
+    let identified_alphas = not_identifiable.iter().enumerate();
+    let identified_alphas = identified_alphas.map(|(alpha, reason)| reason.is_none().then_some(alpha));
+    let alphas: Vec<Option<f64>> = identified_alphas.clone().map(|alpha| Some(parameters[alpha?])).collect();
+    let alpha_intervals: Vec<Option<[f64; 2]>> =
+        identified_alphas.map(|alpha| alpha.map(&interval_of)).collect();
     let reference_noise = [POSITION_VARIANCE, YAW_VARIANCE].map(|variance| Estimate {
         value: parameters[variance].sqrt(),
         interval: interval_of(variance).map(f64::sqrt),
@@ -144,12 +144,12 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
     let leg_fits = all_legs.leg_fits(parameters, &fit.maximum.filtered.errors);
     let cross_validation = windows::cross_validate(&fit, &all_legs, &alphas);
     let inflation = cross_validation.recommended.as_ref().map_or(f64::INFINITY, |found| found.inflation);
-    let identifies = alphas.iter().any(Option::is_some);
+    let identifies_any_alpha = alphas.iter().any(Option::is_some);
     let mut checks = checks::log_checks(&all_legs, &lost, &errors, &alpha_intervals, inflation);
     checks.extend(scale_checks);
     checks.extend(checks::residual_checks(&leg_fits, neighbour_correlation(&fit).0));
     checks.extend(cross_validation.checks);
-    let verdict = checks::verdict(&checks, identifies);
+    let verdict = checks::verdict(&checks, identifies_any_alpha);
     Ok(Calibration {
         alphas,
         intervals: alpha_intervals,
@@ -174,26 +174,27 @@ pub fn calibrate(drives: &[Drive], options: &Options) -> Result<Calibration, Cal
 /// Returns the correlation of the innovations of neighbouring legs, and its standard error.
 fn neighbour_correlation(Fit { residuals, maximum, .. }: &Fit) -> (f64, f64) {
     let fits: Vec<LegFit> = maximum.filtered.leg_fits().collect();
-    let (mut product, mut square_sum, mut count) = (0.0, 0.0, 0);
+    let (mut product_sum, mut square_sum, mut pair_count) = (0.0, 0.0, 0);
     for (pair, _) in fits.windows(2).zip(&residuals.terms[1..]).filter(|(_, term)| term.follows) {
         for (before, after) in pair[0].standardized.into_iter().zip(pair[1].standardized) {
             if !before.is_nan() && !after.is_nan() {
-                product += before * after;
+                product_sum += before * after;
                 square_sum += 0.5 * (before * before + after * after);
-                count += 1;
+                pair_count += 1;
             }
         }
     }
-    if count == 0 { (0.0, 1.0) } else { (product / square_sum, 1.0 / f64::from(count).sqrt()) }
+    if pair_count == 0 { (0.0, 1.0) } else { (product_sum / square_sum, 1.0 / f64::from(pair_count).sqrt()) }
 }
 
-/// Returns the correlation of the wheels' errors in neighbouring legs, and the distance over which it falls to 1/e.
+/// Returns the correlation of the wheels' errors in neighbouring legs, and the distance over which the correlation falls to 1/e.
 fn persistence(fit: &Fit) -> Persistence {
     let (correlation, std) = neighbour_correlation(fit);
-    let clamp = |value: f64| value.clamp(0.0, 0.95);
+    let clamp_correlation = |value: f64| value.clamp(0.0, 0.95);
     // A correlation that is not significant counts as 0.
-    let value = if correlation > NORMAL_95 * std { clamp(correlation) } else { 0.0 };
-    let interval = [clamp(correlation - NORMAL_95 * std), clamp(correlation + NORMAL_95 * std)];
+    let value = if correlation > NORMAL_95 * std { clamp_correlation(correlation) } else { 0.0 };
+    let interval =
+        [clamp_correlation(correlation - NORMAL_95 * std), clamp_correlation(correlation + NORMAL_95 * std)];
     let legs = &fit.sample.legs;
     let driven_distance = |leg: &Leg| distance(&leg.odometry[0].between(&leg.odometry[1]));
     let mean_leg_distance = legs.iter().map(driven_distance).sum::<f64>() / legs.len() as f64;

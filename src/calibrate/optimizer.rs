@@ -2,7 +2,7 @@
 
 use super::likelihood::{Expansion, FreeMask, PARAMETER_COUNT, Parameters, Residuals, masked_inverse};
 
-/// Minimum gain of log-likelihood (nats). A step with a smaller predicted gain is not tried, and a smaller actual gain ends the search.
+/// Minimum gain of log-likelihood (nats). The search ends at a step whose predicted or actual gain is smaller.
 const MIN_GAIN: f64 = 1e-5;
 
 const MAX_STEPS: usize = 60;
@@ -37,8 +37,8 @@ pub(super) fn maximize(residuals: &Residuals, start: Parameters) -> Expansion {
     expansion
 }
 
-/// Returns the parameters after a scoring step of those in a mask. The others move by a fixed step. A variance that would become negative becomes
-/// 0, and the steps of the others are computed again for that.
+/// Returns the parameters after a scoring step of the parameters in `mask`. Other parameters move by `fixed_step`. A variance that would
+/// become negative is set to 0, and the steps of the remaining parameters are computed again.
 pub(super) fn feasible_parameters(
     Expansion { parameters, score, information, .. }: &Expansion,
     mut mask: FreeMask,

@@ -1,7 +1,8 @@
-//! Outliers: legs whose innovation is outside a gate, for example because the reference jumped. They are listed, and not fitted.
+//! Outliers: legs whose innovation is outside a gate, for example because the reference jumped. Outliers are listed in the result, and not
+//! fitted.
 
 use super::Outliers;
-use super::fit::Sample;
+use super::fit::LegSample;
 use super::likelihood::{ErrorVector, Parameters, innovations};
 use super::result::LegFit;
 use super::trajectory::median;
@@ -15,9 +16,9 @@ const MEDIAN_CHI2: f64 = 2.366;
 /// Last round in which an outlier may become an inlier again. In later rounds a leg near the gate could otherwise alternate forever.
 const LAST_RETURN_ROUND: usize = 2;
 
-impl Sample {
-    /// Returns the innovations of all legs under these parameters, without the part that these systematic errors explain. Each outlier is
-    /// filtered by itself.
+impl LegSample {
+    /// Returns the innovations of all legs under `parameters`, without the part that the systematic `errors` explain. Each outlier is
+    /// filtered independently of its neighbours.
     pub(super) fn leg_fits(&self, parameters: &Parameters, errors: &ErrorVector) -> Vec<LegFit> {
         let is_inlier = |leg: usize| !self.outliers[leg];
         let terms = self.terms.iter().enumerate().map(|(leg, term)| (term, self.follows(leg, is_inlier)));
@@ -27,7 +28,8 @@ impl Sample {
             .collect()
     }
 
-    /// Marks the outliers under these parameters and systematic errors, and returns true if they changed. `round` counts the rounds of the fit from 1.
+    /// Marks the outliers under `parameters` and systematic `errors`, and returns true if the set of outliers changed. `round` counts the
+    /// rounds of the fit from 1.
     pub(super) fn mark_outliers(
         &mut self,
         parameters: &Parameters,
@@ -38,7 +40,7 @@ impl Sample {
             return false;
         }
         let fits = self.leg_fits(parameters, errors);
-        // Variances may still be too small in early rounds. The gate is wider then, so that at most half of the legs are outliers.
+        // Variances may be too small in early rounds. The gate is then wider, so that at most half of the legs are outliers.
         let mut squared_distances: Vec<f64> = fits.iter().map(|fit| fit.squared).collect();
         let gate_factor = (median(&mut squared_distances) / MEDIAN_CHI2).max(1.0);
         let gate = CHI2_9999.map(|quantile| gate_factor * quantile);

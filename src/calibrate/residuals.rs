@@ -21,7 +21,7 @@ pub enum Model {
 }
 
 impl Model {
-    /// Number of α's.
+    /// Returns the number of α's.
     pub fn alphas(self) -> usize {
         match self {
             Self::Odometry(OdometryRule::Omni) => 5,
@@ -30,7 +30,7 @@ impl Model {
         }
     }
 
-    /// Indices, from 0, of the two α's in the variance of each component of [`Observation::residuals`].
+    /// Returns the indices, from 0, of the two α's in the variance of each component of [`Observation::residuals`].
     pub fn component_alphas(self) -> [[usize; 2]; 3] {
         match self {
             // Second rotation, translation, strafe.
@@ -42,7 +42,7 @@ impl Model {
         }
     }
 
-    /// Variances of the wheels' noise in one leg.
+    /// Returns the variances of the wheels' noise in one leg.
     #[inline(always)]
     pub(super) fn wheel_variances(
         self,
@@ -60,7 +60,8 @@ impl Model {
         self == Self::Odometry(OdometryRule::Omni)
     }
 
-    /// Returns true if an α (index from 0) multiplies the square of a turn or turn rate, and false for that of a distance or speed.
+    /// Returns true if an α (index from 0) multiplies the square of a turn or turn rate, and false if it multiplies the square of a
+    /// distance or speed.
     pub fn grows_with_turn(self, alpha: usize) -> bool {
         match self {
             Self::Odometry(_) => [0, 3].contains(&alpha),
@@ -94,7 +95,7 @@ pub struct Observation {
 const MAX_ATAN2_NOISE_RATIO: f64 = 0.05;
 
 impl Observation {
-    /// Returns the residuals of a leg, with these systematic errors corrected.
+    /// Returns the residuals of a leg, with the systematic errors `corrected` removed.
     ///
     /// `position_std` (m) is the standard deviation of the reference.
     pub(super) fn new(model: Model, leg: &Leg, corrected: &Systematic, position_std: f64) -> Self {
@@ -145,12 +146,12 @@ impl Observation {
     }
 }
 
-/// Sine of the angle between a leg's displacement and its mean heading, above which the leg moves sideways. It is 0 for an arc.
+/// Sine of the angle between a leg's displacement and its mean heading, above which the leg moves sideways. The sine is 0 for an arc.
 const MIN_SIDEWAYS_SINE: f64 = 0.5;
 
 impl Observation {
-    /// Returns true if the reading is a drive to the side, which the rule decomposes into large turns. Under Table 5.6 a drive backwards counts
-    /// too. A reading without a first rotation has no direction, and does not count.
+    /// Returns true if the reading is a drive to the side, which the rule decomposes into large turns. Under Table 5.6 a drive backwards
+    /// also counts. A reading without a first rotation has no direction, and does not count.
     pub(crate) fn moves_sideways(&self, model: Model) -> bool {
         let [rot1, _, rot2] = self.reading;
         let (sin, cos) = libm::sincos(rot1 - 0.5 * wrap_angle(rot1 + rot2));
@@ -163,7 +164,7 @@ impl Observation {
     }
 }
 
-/// Returns the variances of a reading per unit of the first α of each component, and per unit of the second.
+/// Returns the variances of a reading per unit of the first α of each component, and per unit of the second α.
 fn unit_variances(rule: OdometryRule, reading: &OdomDelta) -> [LegVariances; 2] {
     [[1.0, 0.0, 1.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0, 0.0]].map(|alphas| rule.variances(reading, &alphas))
 }
@@ -180,7 +181,7 @@ struct Prediction {
 }
 
 impl Prediction {
-    /// Noise of rot1, trans and rot2.
+    /// Returns the prediction of a rule, with noise of rot1, trans and rot2.
     fn differential(rule: OdometryRule, expected: &SE2) -> Self {
         let odometry_reading = OdomDelta::from_poses(&SE2::identity(), expected);
         let OdomDelta { rot1, trans, rot2 } = rule.legs(&odometry_reading);
@@ -197,7 +198,7 @@ impl Prediction {
         Self { reading: [rot1, trans, rot2], motion, coefficients, noise_jacobian }
     }
 
-    /// Noise of the turn, of the translation and of the strafe across it.
+    /// Returns the prediction with noise of the turn, of the translation and of the strafe across the translation.
     fn omnidirectional(expected: &SE2) -> Self {
         let odometry_reading = OdomDelta::from_poses(&SE2::identity(), expected);
         let OdomDelta { rot1, trans, rot2 } = odometry_reading;
@@ -212,7 +213,8 @@ impl Prediction {
         Self { reading: [rot1, trans, rot2], motion: *expected, coefficients, noise_jacobian }
     }
 
-    /// Noise of v, ω and γ of the constant command that explains the odometry. A command has no sideways component.
+    /// Returns the prediction with noise of v, ω and γ of the constant command that explains the odometry. A command has no sideways
+    /// component.
     fn velocity(expected: &SE2, dt: f64) -> Self {
         let twist = expected.log().component_mul(&Vector3::new(1.0, 0.0, 1.0));
         let [v, omega] = [twist.x / dt, twist.z / dt];

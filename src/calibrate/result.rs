@@ -60,7 +60,8 @@ pub struct LegFit {
 }
 
 impl LegFit {
-    /// Returns true if the squared distance is below the quantile for its degrees of freedom, given quantiles for 1, 2 and 3 of them.
+    /// Returns true if the squared distance is below the χ² quantile for its degrees of freedom. `chi2_quantiles` are for 1, 2 and 3
+    /// degrees.
     pub(super) fn is_within(&self, chi2_quantiles: &[f64; 3]) -> bool {
         let observed_count = self.stds.iter().filter(|std| !std.is_nan()).count();
         observed_count == 0 || self.squared < chi2_quantiles[observed_count - 1]
@@ -81,7 +82,7 @@ pub struct Calibration {
     /// Standard errors of [`SystematicError::ALL`]; None for an error that the log does not identify.
     pub systematic_stds: [Option<f64>; ERROR_COUNT],
     /// True for each systematic error that is the same on straight and turning legs, and in both halves of the log, up to its standard
-    /// error. Only scales are tested; the others count as constant.
+    /// error. Only scales are tested; other errors count as constant.
     pub is_constant: ErrorMask,
     /// Systematic errors that were corrected. An error that was not corrected is 0, or 1 if it is a scale.
     pub corrected: Systematic,
@@ -93,15 +94,15 @@ pub struct Calibration {
     pub persistence: Persistence,
     /// Restricted log-likelihood at its maximum, nats.
     pub log_likelihood: f64,
-    /// Legs of all drives, in their order.
+    /// Legs of all drives, in the order of drives and times.
     pub legs: Vec<Leg>,
     /// Residuals of each leg.
     pub observations: Vec<Observation>,
     /// Innovation of each leg under the fit.
     pub leg_fits: Vec<LegFit>,
-    /// Legs that were left out.
+    /// Number of legs that were omitted, by cause.
     pub lost: LostLegs,
-    /// Checks and the judgement that follows from them.
+    /// Checks, and the verdict that follows from the checks.
     pub diagnostics: Diagnostics,
     /// Recommended α's; None if the log is unusable.
     pub recommended: Option<Recommendation>,
@@ -121,7 +122,7 @@ impl Calibration {
         }
     }
 
-    /// 95 % interval of a systematic error; None where the log does not identify it.
+    /// Returns the 95 % interval of a systematic error; None if the log does not identify the error.
     pub fn interval_of(&self, error: SystematicError) -> Option<[f64; 2]> {
         let (value, std) = (self.systematic.get(error), self.systematic_stds[error as usize]?);
         Some([value - NORMAL_95 * std, value + NORMAL_95 * std])

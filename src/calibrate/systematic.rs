@@ -1,4 +1,4 @@
-//! Systematic errors of odometry and reference. They are equal in all legs, and estimated together with the noise.
+//! Systematic errors of odometry and reference, which are equal in all legs and estimated together with the noise.
 
 use super::legs::Leg;
 use super::residuals::Model;
@@ -9,15 +9,15 @@ use serde::{Deserialize, Serialize};
 /// Systematic errors of odometry and reference.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Systematic {
-    /// Time by the reference's clock minus time by the odometry's, s.
+    /// Offset of the reference's clock from the odometry's clock, s.
     pub clock_offset: f64,
-    /// Heading of the reference minus that of the robot's base, rad.
+    /// Heading of the reference minus heading of the robot's base, rad.
     pub mount_yaw: f64,
     /// Position of the point that the reference measures, in the frame of the base, m.
     pub lever_arm: [f64; 2],
-    /// True distance divided by that of the odometry.
+    /// True distance divided by odometry distance.
     pub distance_scale: f64,
-    /// True turn divided by that of the odometry.
+    /// True turn divided by odometry turn.
     pub turn_scale: f64,
 }
 
@@ -91,8 +91,8 @@ impl Systematic {
         }
     }
 
-    /// Returns the initial guess of the mount's yaw: the mean angle between the directions of legs by odometry and by reference. 0 if that angle
-    /// is small, or directions are unrelated.
+    /// Returns the initial guess of the mount's yaw: the mean angle between the directions of legs by odometry and by reference. 0 if the
+    /// angle is small, or directions are unrelated.
     pub(super) fn initial_mount_yaw(legs: &[Leg]) -> f64 {
         let (mut cos_sum, mut sin_sum, mut max_sum) = (0.0, 0.0, 0.0);
         for leg in legs {
@@ -127,43 +127,44 @@ impl Systematic {
     /// Returns the motion that the odometry measured, with its scales corrected. The sideways motion of a robot that cannot drive sideways is a
     /// product of distances and turns, and has both scales.
     pub(super) fn expected(&self, model: Model, leg: &Leg) -> SE2 {
-        let read = leg.odometry[0].between(&leg.odometry[1]);
+        let reading = leg.odometry[0].between(&leg.odometry[1]);
         let Self { distance_scale, turn_scale, .. } = *self;
         if distance_scale == 1.0 && turn_scale == 1.0 {
-            return read;
+            return reading;
         }
         let sideways_scale =
             if model.drives_sideways() { distance_scale } else { distance_scale * turn_scale };
-        SE2::exp(&read.log().component_mul(&Vector3::new(distance_scale, sideways_scale, turn_scale)))
+        SE2::exp(&reading.log().component_mul(&Vector3::new(distance_scale, sideways_scale, turn_scale)))
     }
 
-    /// Returns the Jacobians of the end of the base's motion with respect to the errors of the reference at the leg's start and end. An error is
-    /// a small motion (x, y, θ) in the frame of the reference there, and a change of the end one in the frame of the end.
+    /// Returns the Jacobians of the end of the base's motion with respect to the errors of the reference at the leg's start and end. An
+    /// error is a small motion (x, y, θ) in the frame of the reference pose. A change of the end is a small motion in the frame of the end.
     pub(super) fn reference_jacobians(&self, measured: &SE2) -> [Matrix3<f64>; 2] {
         let to_base = self.base().inverse().adjoint();
         [measured.inverse().adjoint() * -to_base, to_base]
     }
 
-    /// Returns the Jacobian, with respect to [`SystematicError::ALL`], of the end of the motion by the reference, minus that by the odometry, in
-    /// the frame of the end.
+    /// Returns the Jacobian of the difference between reference motion and odometry motion, in the frame of the end, with respect to
+    /// [`SystematicError::ALL`].
     ///
     /// The Jacobian is evaluated at the reading, because the noise of the measured motion would bias the estimate.
     pub(super) fn motion_jacobian(
         &self,
         model: Model,
         leg: &Leg,
-        read: &SE2,
+        reading: &SE2,
     ) -> SMatrix<f64, 3, ERROR_COUNT> {
-        let (to_end, twist) = (read.inverse().adjoint(), read.log());
-        let [start, end] = leg.velocities;
-        // A change of the mount moves both ends of the leg by the same small motion.
-        let mount_derivative = |change: Vector3<f64>| to_end * change - change;
+        let (to_end_frame, twist) = (reading.inverse().adjoint(), reading.log());
+        let [start_velocity, end_velocity] = leg.velocities;
+        // A change of the mount moves the start and the end of the leg by the same small motion.
+        let mount_derivative = |mount_change: Vector3<f64>| to_end_frame * mount_change - mount_change;
         let yaw_change = self.base().inverse().adjoint().column(2).into_owned();
         let twist_per_turn_scale =
             Vector3::new(0.0, if model.drives_sideways() { 0.0 } else { twist.y }, twist.z);
         let twist_jacobian = SE2::right_jacobian(&twist);
-        let mut twist_per_second = SE2::right_jacobian_inverse(&twist) * (end - to_end * start);
-        // A command has no sideways component, and does not gain one with the clock offset.
+        let mut twist_per_second =
+            SE2::right_jacobian_inverse(&twist) * (end_velocity - to_end_frame * start_velocity);
+        // A command has no sideways component at any clock offset.
         if model == Model::Velocity {
             twist_per_second.y = 0.0;
         }

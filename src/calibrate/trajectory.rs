@@ -7,7 +7,7 @@ use thiserror::Error;
 /// Poses in one fixed frame, in the order of their times.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trajectory {
-    /// Times (s), each later than the one before.
+    /// Times (s) in ascending order.
     times: Vec<f64>,
     poses: Vec<SE2>,
     /// Ascending indices of samples before which the pose may have jumped, so that the motion there is unknown.
@@ -46,7 +46,7 @@ impl Trajectory {
     /// Returns the trajectory through `samples`, each a time (s) and a pose.
     ///
     /// # Errors
-    /// [`TrajectoryError`] at the first sample that is not finite or not later than the one before.
+    /// [`TrajectoryError`] at the first sample that is not finite or not later than the previous sample.
     pub fn new(samples: impl IntoIterator<Item = (f64, SE2)>) -> Result<Self, TrajectoryError> {
         let samples = samples.into_iter();
         let (sample_count, _) = samples.size_hint();
@@ -69,7 +69,7 @@ impl Trajectory {
         Ok(Self { times, poses, breaks: Vec::new(), gaps, median_period })
     }
 
-    /// Returns the trajectory with a break before each of these samples, for example where the reference jumped. No leg leads across a break.
+    /// Returns the trajectory with a break before each of `samples`, for example where the reference jumped. No leg leads across a break.
     #[must_use]
     pub fn with_breaks_before(mut self, samples: impl IntoIterator<Item = usize>) -> Self {
         let count = self.times.len();
@@ -86,7 +86,7 @@ impl Trajectory {
     /// added at most 0.1 s apart, so that there are no pauses.
     ///
     /// # Errors
-    /// [`TrajectoryError`] at the first command that is not finite or not later than the one before.
+    /// [`TrajectoryError`] at the first command that is not finite or not later than the previous command.
     pub fn from_commands(
         commands: impl IntoIterator<Item = (f64, f64, f64)>,
     ) -> Result<Self, TrajectoryError> {
@@ -127,20 +127,20 @@ impl Trajectory {
         self.median_period
     }
 
-    /// Returns the unwrapped heading (rad) of each sample minus that of the first. Each step must turn by less than half a circle.
+    /// Returns the unwrapped heading (rad) of each sample, relative to the first sample. Each step must turn by less than half a circle.
     pub(super) fn unwrapped_heading(&self) -> Vec<f64> {
-        let mut sum = 0.0;
+        let mut heading = 0.0;
         let steps = self.poses.windows(2).map(|pair| {
-            sum += wrap_angle(pair[1].theta() - pair[0].theta());
-            sum
+            heading += wrap_angle(pair[1].theta() - pair[0].theta());
+            heading
         });
         self.poses.first().map(|_| 0.0).into_iter().chain(steps).collect()
     }
 
     /// Returns the velocity (m/s ahead and to the left, rad/s) at a time (s), interpolated between the samples before and after it.
     ///
-    /// The noise of a step is in its velocity and in the residuals of legs. Interpolated velocities contain as much noise of the leg that ends as
-    /// of the leg that begins. Velocities of the next sample alone would bias the clock offset.
+    /// Noise of a step is both in its velocity and in the residuals of legs. Interpolated velocities have equal noise from the leg that
+    /// ends and from the leg that begins. Otherwise the clock offset would be biased.
     pub(super) fn velocity(&self, time: f64) -> Vector3<f64> {
         match self.locate(time) {
             Some((sample, 1.0)) => self.velocity_of_sample(sample),
@@ -153,13 +153,15 @@ impl Trajectory {
 
     /// Returns the mean velocity over the steps before and after a sample.
     fn velocity_of_sample(&self, sample: usize) -> Vector3<f64> {
-        let last = self.times.len() - 1;
-        let from = if sample > 0 && !self.has_gap_before(sample) { sample - 1 } else { sample };
-        let to = if sample < last && !self.has_gap_before(sample + 1) { sample + 1 } else { sample };
-        if from == to {
+        let last_sample = self.times.len() - 1;
+        let first_sample = if sample > 0 && !self.has_gap_before(sample) { sample - 1 } else { sample };
+        let end_sample =
+            if sample < last_sample && !self.has_gap_before(sample + 1) { sample + 1 } else { sample };
+        if first_sample == end_sample {
             return Vector3::zeros();
         }
-        self.poses[to].boxminus(&self.poses[from]) / (self.times[to] - self.times[from])
+        self.poses[end_sample].boxminus(&self.poses[first_sample])
+            / (self.times[end_sample] - self.times[first_sample])
     }
 
     /// Returns true if a pause or a break is between the previous sample and this one.
@@ -168,23 +170,23 @@ impl Trajectory {
     }
 
     /// Returns true if a pause or a break lies between two times (s).
-    pub(super) fn has_gap(&self, from: f64, to: f64) -> bool {
-        self.has_any_between(&self.gaps, from, to)
+    pub(super) fn has_gap(&self, start_time: f64, end_time: f64) -> bool {
+        self.has_any_between(&self.gaps, start_time, end_time)
     }
 
     /// Returns true if a break lies between two times (s).
-    pub(super) fn has_break(&self, from: f64, to: f64) -> bool {
-        self.has_any_between(&self.breaks, from, to)
+    pub(super) fn has_break(&self, start_time: f64, end_time: f64) -> bool {
+        self.has_any_between(&self.breaks, start_time, end_time)
     }
 
-    /// Returns true if a motion before one of these samples lies between two times (s), at least in part.
-    fn has_any_between(&self, samples: &[usize], from: f64, to: f64) -> bool {
-        let next_index = samples.partition_point(|sample| self.times[*sample] <= from);
-        samples.get(next_index).is_some_and(|sample| self.times[sample - 1] < to)
+    /// Returns true if the step to one of `samples` overlaps the time between two times (s).
+    fn has_any_between(&self, samples: &[usize], start_time: f64, end_time: f64) -> bool {
+        let next_index = samples.partition_point(|sample| self.times[*sample] <= start_time);
+        samples.get(next_index).is_some_and(|sample| self.times[sample - 1] < end_time)
     }
 
-    /// Returns the first sample that is not earlier than `time` (s), and the fraction of the step to it that has passed; 1 at the sample. None
-    /// outside of the trajectory and inside of a gap.
+    /// Returns the first sample that is not earlier than `time` (s), and the elapsed fraction of the step to this sample; 1 at the sample.
+    /// None outside of the trajectory and inside of a gap.
     pub(super) fn locate(&self, time: f64) -> Option<(usize, f64)> {
         let sample = self.times.partition_point(|row_time| *row_time < time);
         let time_after = *self.times.get(sample)?;

@@ -1,11 +1,11 @@
-//! α's that a filter can use: the fitted ones, inflated until held-out windows of a metre are covered.
+//! Recommended α's for a filter: fitted α's, inflated until held-out windows of a metre are covered.
 //!
 //! Errors of real wheels persist over several legs. A filter needs α's that hold between two corrections of its pose.
 
 use super::checks::{
     Check, CheckName, MAX_INFLATION, MIN_WINDOWS, WindowCoverage, coverage_range, window_checks,
 };
-use super::fit::{Fit, Sample};
+use super::fit::{Fit, LegSample};
 use super::legs::{Leg, distance};
 use super::likelihood::{Parameters, Residuals, reference_covariance};
 use super::optimizer::maximize;
@@ -33,8 +33,9 @@ impl Window {
     }
 }
 
-impl Sample {
-    /// Cuts the legs in `range` into windows of `length` (m) driven. Legs without a covariance are in no window, and none leads across a gap.
+impl LegSample {
+    /// Cuts the legs in `range` into windows of `length` (m) driven. Legs without a covariance are in no window, and no window leads across
+    /// a gap.
     fn windows(
         &self,
         range: Range<usize>,
@@ -47,12 +48,12 @@ impl Sample {
         let mut open_window = None;
         for leg in range {
             let previous_legs = open_window.take().filter(|_| self.legs[leg].follows);
-            let Some(covariance) = covariances[leg] else { continue };
+            let Some(leg_covariance) = covariances[leg] else { continue };
             let (first_leg, mut driven_distance, mut expected, mut wheel_covariance) =
                 previous_legs.unwrap_or((leg, 0.0, SE2::identity(), Matrix3::zeros()));
             let expected_motion = &self.observations[leg].expected;
             let to_leg_end = expected_motion.inverse().adjoint();
-            wheel_covariance = to_leg_end * wheel_covariance * to_leg_end.transpose() + covariance;
+            wheel_covariance = to_leg_end * wheel_covariance * to_leg_end.transpose() + leg_covariance;
             expected = expected * *expected_motion;
             driven_distance += distance(expected_motion);
             if driven_distance < length {
@@ -66,15 +67,16 @@ impl Sample {
         windows
     }
 
-    /// Returns the motion that the reference saw over several legs, and the covariance of its error in the frame of their end.
+    /// Returns the motion that the reference measured over several legs, and the covariance of its error in the frame of the last leg's
+    /// end.
     fn reference_motion(
         &self,
         first_leg: usize,
         last_leg: usize,
         parameters: &Parameters,
     ) -> (SE2, Matrix3<f64>) {
-        let [start, end] = [first_leg, last_leg].map(|leg| &self.legs[leg]);
-        let window = Leg { reference: [start.reference[0], end.reference[1]], ..*start };
+        let [start_leg, end_leg] = [first_leg, last_leg].map(|leg| &self.legs[leg]);
+        let window = Leg { reference: [start_leg.reference[0], end_leg.reference[1]], ..*start_leg };
         let measured = self.systematic.motion(&window);
         let pose_covariance = reference_covariance(parameters);
         let jacobians = self.systematic.reference_jacobians(&measured);
@@ -95,19 +97,20 @@ impl Sample {
     }
 }
 
-/// Returns the fraction of windows inside of their 95 % ellipsoid, and their NEES: the mean squared Mahalanobis distance divided by its 3
+/// Returns the fraction of windows inside of their 95 % ellipsoid, and the NEES: the mean squared Mahalanobis distance divided by its 3
 /// degrees of freedom. The wheels' variances are multiplied by `inflation`.
 fn coverage(windows: &[Window], min_length: f64, inflation: f64) -> WindowCoverage {
     let squared_distances: Vec<f64> =
         windows.iter().map(|window| window.squared_distance(inflation)).collect();
-    let count = squared_distances.len();
+    let window_count = squared_distances.len();
     let covered_count = squared_distances.iter().filter(|square| **square < CHI2_95[2]).count();
     WindowCoverage {
         // The mean of no windows is NaN, which `max` replaces.
-        length: (windows.iter().map(|window| window.length).sum::<f64>() / count as f64).max(min_length),
-        count,
-        coverage: covered_count as f64 / count as f64,
-        nees: squared_distances.iter().sum::<f64>() / (3 * count) as f64,
+        length: (windows.iter().map(|window| window.length).sum::<f64>() / window_count as f64)
+            .max(min_length),
+        count: window_count,
+        coverage: covered_count as f64 / window_count as f64,
+        nees: squared_distances.iter().sum::<f64>() / (3 * window_count) as f64,
     }
 }
 
@@ -137,19 +140,19 @@ const WINDOW_LENGTHS: [f64; 3] = [1.0, 2.0, 5.0];
 /// Quantiles 0.95 of χ² with 1, 2 and 3 degrees of freedom.
 const CHI2_95: [f64; 3] = [3.841, 5.991, 7.815];
 
-/// Recommended α's, with the checks and windows of held-out data from which they follow.
+/// Recommended α's, with the checks and windows of held-out data on which they are based.
 pub(super) struct CrossValidation {
     pub recommended: Option<Recommendation>,
     pub checks: Vec<Check>,
     pub windows: Vec<WindowCoverage>,
 }
 
-/// Fits each half of the log, compares each half with the fit to the other one, and finds the factor on the α's with
-/// which the fit covers 95 % of the errors over a metre.
-pub(super) fn cross_validate(fit: &Fit, all_legs: &Sample, alphas: &[Option<f64>]) -> CrossValidation {
-    let half_ranges = |count: usize| [0..count / 2, count / 2..count];
-    let count = fit.sample.legs.len();
-    let residuals = half_ranges(count).map(|half| fit.sample.inlier_residuals(half));
+/// Fits each half of the log, compares each half with the fit to the other half, and finds the inflation with which the fit covers 95 % of
+/// the errors over a metre.
+pub(super) fn cross_validate(fit: &Fit, all_legs: &LegSample, alphas: &[Option<f64>]) -> CrossValidation {
+    let half_ranges = |legs: usize| [0..legs / 2, legs / 2..legs];
+    let leg_count = fit.sample.legs.len();
+    let residuals = half_ranges(leg_count).map(|half| fit.sample.inlier_residuals(half));
     let parameters_of = |half: &Residuals| maximize(half, fit.maximum.parameters).parameters;
     let parameters_by_other_half = [parameters_of(&residuals[1]), parameters_of(&residuals[0])];
     let (mut covered_legs, mut compared_legs) = (0, 0);
@@ -159,7 +162,7 @@ pub(super) fn cross_validate(fit: &Fit, all_legs: &Sample, alphas: &[Option<f64>
             residuals.filtered(parameters).leg_fits().filter(|fit| fit.is_within(&CHI2_95)).count();
     }
     // Variances estimated from the 3n components of n legs have the relative variance 2/3n; several α's share them.
-    let scale_std = (2.0 * alphas.len() as f64 / (3 * count / 2).max(1) as f64).sqrt();
+    let scale_std = (2.0 * alphas.len() as f64 / (3 * leg_count / 2).max(1) as f64).sqrt();
     let coverage_by_other_half = covered_legs as f64 / compared_legs as f64;
     let expected_coverage = coverage_range(compared_legs, scale_std);
     let mut checks = vec![Check::new(CheckName::HoldoutCovered, coverage_by_other_half, expected_coverage)];

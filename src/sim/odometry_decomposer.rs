@@ -269,9 +269,9 @@ impl OdometryDecomposer {
         }
     }
 
-    /// Returns `point_count` points for lengths of the drive from 0 to `max_length` (m), with the measured rotations. Each point has the
-    /// length, the standard deviation of the end position across the bearing, the part of it that is due to the first rotation, and the
-    /// standard deviation of the length, all in m.
+    /// Returns `point_count` points for lengths of the drive from 0 to `max_length` (m), with the measured rotations. A point has the
+    /// length, the standard deviation of the end across the bearing, its part due to the first rotation, and the standard deviation of the
+    /// length, in m.
     pub fn deviation_curve(&self, max_length: f64, point_count: usize) -> Vec<[f64; 4]> {
         let Settings { rule, alphas, noise, .. } = self.settings;
         let reading = self.reading();

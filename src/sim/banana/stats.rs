@@ -179,8 +179,8 @@ const MIN_GAP_DISTANCE: f64 = 3.7;
 const GAP_FRACTION: f64 = 0.95;
 
 impl BananaMachine {
-    /// Returns up to two points (x, y) in m inside the 2σ ellipse where no robot stops: the point nearer to the start than the mean, and
-    /// the point beyond the mean, with the largest Mahalanobis distance in exponential coordinates.
+    /// Returns up to two points (x, y) in m inside the 2σ ellipse where no robot stops, before and beyond the mean. On its side of the
+    /// mean, each point has the largest Mahalanobis distance in exponential coordinates.
     pub fn gaps(&self) -> Vec<[f64; 2]> {
         let Self { stats, .. } = self;
         if stats.area_ratio.is_nan() || stats.area_ratio < MIN_AREA_RATIO {

@@ -2,8 +2,9 @@
 
 use super::likelihood::{Expansion, FreeMask, PARAMETER_COUNT, Parameters, Residuals, masked_inverse};
 
-/// Minimum gain of log-likelihood (nats). The search ends at a step whose predicted or actual gain is smaller.
-const MIN_GAIN: f64 = 1e-5;
+/// Minimum gain of log-likelihood (nats): that of a step of 0.014 standard errors. The search ends at a step whose predicted or actual gain is
+/// smaller.
+const MIN_GAIN: f64 = 1e-4;
 
 const MAX_STEPS: usize = 60;
 

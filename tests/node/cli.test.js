@@ -382,6 +382,13 @@ test('the report, the lines for Nav2 and the figure’s verdict agree whether th
   }
 });
 
+test('the report advises against α’s that are too small because the odometry moves sideways', async () => {
+  const swappedPaths = [writeInFolder('first.csv', readFileSync(examplePath('reference'))), writeInFolder('second.csv', readFileSync(examplePath('odometry')))];
+  const { out } = await runCalibrate(['--odometry', swappedPaths[0], '--reference', swappedPaths[1]]);
+  assert.match(out, /^Caution\. [^]*sideways/m);
+  assert.ok(!out.includes(en.useAnyway));
+});
+
 test('the report says what failed, what is lost, and what to drive', async () => {
   const { odometry: odometryLogs, reference, ...options } = await readCoreOptions(LOG_ARGS);
   const calibration = /** @type {any} */ (await load()).calibrate({ ...options, odometry: odometryLogs, reference });

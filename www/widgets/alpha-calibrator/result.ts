@@ -185,8 +185,8 @@ export interface Fit {
 
 /**
  * Returns the rating of the α's with its badge, the finding in a sentence, and what to do in sentences. A missing α, or a warning such as a
- * localizer as the reference, makes consistent α's questionable. After a warning nothing says to use the α's. `place` is where corrections
- * are chosen.
+ * localizer as the reference, makes consistent α's questionable. Nothing says to use the α's
+ * after a warning, or if the odometry moves sideways, which makes them too small. `correctionPlace` is where corrections are chosen.
  */
 export function judgementOf({ stats, count, model, corrections, warnings }: Fit, texts: Texts, correctionPlace: string) {
   const { systematicErrors, diagnostics: { verdict, checks } } = stats;
@@ -204,7 +204,8 @@ export function judgementOf({ stats, count, model, corrections, warnings }: Fit,
   const findings = verdict === 'unusable' ? [...defects, ...warningTexts] : [...warningTexts, ...defects];
   const [finding = texts.passed(String(checks.length)), ...otherFindings] = [...findings, ...doubts];
   const rating = verdict === 'consistent' && warnings.length + doubts.length > 0 ? 'questionable' : verdict;
-  const usage = rating === 'unusable' || warnings.length > 0 ? [] : [rating === 'consistent' ? texts.use : texts.useAnyway, ...correctionAdvice(stats, texts.nav2, localizeNumber)];
+  const isUsable = rating !== 'unusable' && warnings.length === 0 && failedChecks.every(({ name }) => name !== 'sideways-rare');
+  const usage = !isUsable ? [] : [rating === 'consistent' ? texts.use : texts.useAnyway, ...correctionAdvice(stats, texts.nav2, localizeNumber)];
   const clockOffset = systematicErrors.clockOffset.value ?? 0;
   const clockNote = Math.abs(clockOffset) > MENTIONED_CLOCK_OFFSET ? [texts.clock(formatInteger(Math.round(Math.abs(clockOffset))), clockOffset > 0)] : [];
   const advice = [...otherFindings, ...(failedCheck ? [checkMessage(failedCheck, texts)] : []), ...clockNote, ...usage];

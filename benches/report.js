@@ -39,8 +39,8 @@ export function formatReport({ ranOn, quick: isQuickRun, node: nodeTimings, chro
     [`Step of the slowest drag (${slowestDrag.control}), processor ${CPU_SLOWDOWN} times slower`, '≤', FRAME_MS, 'ms', { Chromium: slowestDrag.picture }],
   ];
   const targetRows = speedTargets.map(([targetName, comparisonSign, targetLimit, targetUnit, { Node = [], Chromium = [] }]) => {
-    const isReachedByRuntime = [Node, Chromium].filter(({ length }) => length > 0).map((measuredValues) => (comparisonSign === '≤' ? computeQuantile(measuredValues) <= targetLimit : computeQuantile(measuredValues) >= targetLimit));
-    const targetVerdict = isReachedByRuntime.every(Boolean) ? 'yes' : !isReachedByRuntime.some(Boolean) ? 'no' : `in ${isReachedByRuntime[0] ? 'Node' : 'Chromium'} alone`;
+    const targetResults = [Node, Chromium].filter(({ length }) => length > 0).map((measuredValues) => (comparisonSign === '≤' ? computeQuantile(measuredValues) <= targetLimit : computeQuantile(measuredValues) >= targetLimit));
+    const targetVerdict = targetResults.every(Boolean) ? 'yes' : !targetResults.some(Boolean) ? 'no' : `in ${targetResults[0] ? 'Node' : 'Chromium'} alone`;
     return { '': targetName, target: `${comparisonSign} ${targetLimit} ${targetUnit}`, Node: cellTextOf(Node, targetUnit), Chromium: cellTextOf(Chromium, targetUnit), reached: targetVerdict };
   });
   const refreshRows = Object.entries({ Node: nodeTimings, Chromium: chromiumTimings }).flatMap(([runtimeName, { refresh: refreshTimings }]) => refreshTimings.map((refreshRow) => (

@@ -46,9 +46,9 @@ const CHUNK_PATHS = { core: './chunks/', external: './' };
  * another origin starts the worker by a script of its own that imports the worker's script.
  *
  * @param {string} workerPlace path of dist/, relative to the bundle
- * @param {string} [fallbackSource] statement for a bundle that is part of another bundle
+ * @param {string} [fallbackStatement] statement for a bundle that is part of another bundle
  */
-const startWorkerSource = (workerPlace, fallbackSource = '') =>
+const startWorkerSource = (workerPlace, fallbackStatement = '') =>
   'export function startWorker() {' +
   '  const here = import.meta.url;' +
   `  if (here?.includes('${CHUNK_PLACEHOLDER}')) {` +
@@ -56,7 +56,7 @@ const startWorkerSource = (workerPlace, fallbackSource = '') =>
   '    const script = () => URL.createObjectURL(new Blob([`import ${JSON.stringify(url)}`], { type: "text/javascript" }));' +
   '    return new Worker(url.origin === location.origin ? url : script(), { type: "module" });' +
   '  }' +
-  `  ${fallbackSource} ` +
+  `  ${fallbackStatement} ` +
   '}';
 
 /** Sources of the modules by which each kind of bundle replaces its import of the WebAssembly module. They export the cores with their glue. */

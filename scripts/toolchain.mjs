@@ -253,10 +253,10 @@ export async function ensureLints({ bin, env }) {
   if (!(await hasLints())) throw new UserError(missingMessage);
 }
 
-/** Returns the part of a file that the first group of a pattern matches. @param {string} filePath @param {RegExp} groupPattern */
-export function readManifestValue(filePath, groupPattern) {
-  const patternMatch = readFileSync(join(ROOT, filePath), 'utf8').match(groupPattern);
-  if (patternMatch === null) throw new Error(`${filePath} has nothing like ${groupPattern}`);
+/** Returns the part of a file that the first group of a pattern matches. @param {string} filePath @param {RegExp} patternWithGroup */
+export function readManifestValue(filePath, patternWithGroup) {
+  const patternMatch = readFileSync(join(ROOT, filePath), 'utf8').match(patternWithGroup);
+  if (patternMatch === null) throw new Error(`${filePath} has nothing like ${patternWithGroup}`);
   return patternMatch[1];
 }
 

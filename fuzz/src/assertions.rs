@@ -26,7 +26,7 @@ pub fn assert_pose(quantity_name: &str, pose: &SE2) {
 
 /// Asserts that moments are finite, and that the covariance is symmetric without a correlation above 1. The tolerance for rounding is
 /// in proportion to the magnitudes of the values.
-pub fn assert_moments(quantity_name: &str, mean: &Vector3<f64>, cov: &Matrix3<f64>) {
+pub fn assert_valid_moments(quantity_name: &str, mean: &Vector3<f64>, cov: &Matrix3<f64>) {
     assert_finite(quantity_name, mean.as_slice());
     assert_finite(quantity_name, cov.as_slice());
     let scale_of_coordinates = Vector3::from_fn(|i, _| mean[i].abs() + cov[(i, i)].sqrt());

@@ -10,7 +10,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 const SPEED: f64 = 1.0;
 const DURATION: f64 = 0.1;
 
-/// Turn rate |ω̂| (rad/s) below which the chapter's code uses the straight line.
+/// Turn rate |ω̂| (rad/s) below which the code of the book's chapter drives a straight line.
 pub const STRAIGHT_LINE_THRESHOLD: f64 = 1e-6;
 
 /// Turn rates from 10⁻¹² to 10 rad/s, and their number for each factor of ten.

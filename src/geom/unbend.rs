@@ -35,10 +35,10 @@ pub fn unbend_jacobian(twist: &Vector3<f64>, morph_fraction: f64) -> Matrix2x3<f
     morph_jacobian
 }
 
-/// Returns the points to which a morph fraction takes a line of positions. Each position counts as the end of the arc whose turn is nearest
-/// to `expected_turn` (rad).
+/// Returns a line of positions after a fraction of the morph: 0 is the floor, 1 exponential coordinates. Each position counts as the end of the
+/// arc whose turn is nearest to `expected_turn` (rad).
 ///
-/// The result is empty if the arcs change between forward and reverse along the line, as on a line around the start.
+/// The result is empty if some arcs lead forward and others backward, as to a line around the start.
 pub fn unbend_line(points: &[[f64; 2]], expected_turn: f64, morph_fraction: f64) -> Vec<[f64; 2]> {
     let arc_to_position =
         |[x, y]: &[f64; 2]| arc_with_turn_near(&SE2::identity(), &SE2::new(*x, *y, 0.0), expected_turn);

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 /// Number of headings that are tried: one every five degrees.
 const HEADING_COUNT: u32 = 72;
 
-/// Number of cells along the longer side of a plan without a grid.
+/// Number of cells along the longer side of the grid that is made of a plan of walls.
 const CELLS_ALONG_LONGER_SIDE: f64 = 256.0;
 
 impl FloorPlan {
@@ -47,7 +47,7 @@ impl FloorPlan {
 /// Returns the middle of the largest square of free cells, in cells from the lower left corner; None if no cell is free. Of equally large
 /// squares, the square with the first upper right corner row by row is taken.
 fn middle_of_largest_free_square(grid: &OccupancyGrid) -> Option<[f64; 2]> {
-    let ([columns, rows], mut largest_side, mut square_middle) = (grid.size(), 0, None);
+    let ([columns, rows], mut largest_side_so_far, mut square_middle) = (grid.size(), 0, None);
     // Side of the largest free square that ends at each column of the previous row.
     let mut square_sides = vec![0u32; columns];
     for row in 0..rows {
@@ -57,9 +57,9 @@ fn middle_of_largest_free_square(grid: &OccupancyGrid) -> Option<[f64; 2]> {
             let is_free = grid.is_known_free(column, row);
             *square_side = if is_free { 1 + side_below.min(side_at_left).min(side_at_lower_left) } else { 0 };
             (side_at_left, side_at_lower_left) = (*square_side, side_below);
-            if *square_side > largest_side {
-                largest_side = *square_side;
-                let half_side = 0.5 * f64::from(largest_side);
+            if *square_side > largest_side_so_far {
+                largest_side_so_far = *square_side;
+                let half_side = 0.5 * f64::from(largest_side_so_far);
                 square_middle = Some([column, row].map(|index| index as f64 + 1.0 - half_side));
             }
         }

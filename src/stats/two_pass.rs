@@ -144,7 +144,7 @@ impl FirstPass {
         };
         let variance = |square_sum: f64, sum: f64| non_negative(cov(square_sum, sum, sum));
         let [x0, y0, along, lateral, half_heading, length, half_turn] = self.reference_point;
-        // sin θ and cos θ of the double angle, turned so that the reference's heading is 0.
+        // Sums of sin θ and of cos θ, by the formulas for double angles, in a frame in which the reference point has the heading 0.
         let (sin, cos) = libm::sincos(2.0 * half_heading);
         let (sum_sin, sum_cos) = (2.0 * sin_cos, n - 2.0 * sin_sin);
         let rotated_sums = (sum_sin * cos - sum_cos * sin, sum_cos * cos + sum_sin * sin);

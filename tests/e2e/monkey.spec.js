@@ -131,7 +131,7 @@ const RANDOM_ACTIONS = {
     await page.emulateMedia(mediaFeatures);
     return JSON.stringify(mediaFeatures);
   },
-  async language(page, randomSource) {
+  async changeLanguage(page, randomSource) {
     const newLanguage = randomSource.itemOf(LANGUAGE_CODES);
     await page.evaluate((language) => (document.documentElement.lang = language), newLanguage);
     return newLanguage;
@@ -198,7 +198,7 @@ const RANDOM_ACTIONS = {
 };
 
 /** Relative frequencies of the random actions. @type {Record<string, number>} */
-const ACTION_FREQUENCIES = { click: 12, tap: 3, drag: 12, key: 8, type: 6, wheel: 3, attribute: 6, resize: 1, media: 1, language: 1, hash: 1, files: 1, state: 2, reduceSamples: 4, move: 1 };
+const ACTION_FREQUENCIES = { click: 12, tap: 3, drag: 12, key: 8, type: 6, wheel: 3, attribute: 6, resize: 1, media: 1, changeLanguage: 1, hash: 1, files: 1, state: 2, reduceSamples: 4, move: 1 };
 const WEIGHTED_ACTION_NAMES = Object.entries(ACTION_FREQUENCIES).flatMap(([actionName, frequency]) => Array(frequency).fill(actionName));
 
 /**

@@ -48,7 +48,7 @@ export function randomStates(seed) {
       start: { x: randomNumber(1, 5), y: randomNumber(1, 3), theta: randomNumber(-3, 3) },
       alphas: randomAlphas(6),
       clearance: randomNumber(0, 0.2),
-      // The whole-arc sampler always draws every sample. Its settings are valid in any order.
+      // The sampler 'whole-arc' draws all samples under any settings, so that each setting can change first.
       sampler: 'whole-arc',
       steps: randomInteger(1, 64),
       view: randomItem(['whole', 'close']),

@@ -58,7 +58,7 @@ async function runChecksIn(name, address) {
 }
 
 /** Tests the named engines, or all engines if none is named. Returns true if all of them pass. @param {string[]} engineNames */
-async function testEngines(engineNames) {
+async function testBrowserEngines(engineNames) {
   const allEngineNames = Object.keys(engineStarters);
   const unknownName = engineNames.find((name) => !allEngineNames.includes(name));
   if (unknownName !== undefined) throw new UserError(`"${unknownName}" is no engine that is tried; allowed are ${allEngineNames.join(', ')}.`);
@@ -81,5 +81,5 @@ async function testEngines(engineNames) {
 }
 
 await runAsScript(import.meta.url, async () => {
-  if (!(await testEngines(process.argv.slice(2)))) process.exitCode = 1;
+  if (!(await testBrowserEngines(process.argv.slice(2)))) process.exitCode = 1;
 });

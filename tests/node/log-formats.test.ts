@@ -127,22 +127,22 @@ const BLOCK_FINDERS: Record<string, (bytes: Buffer) => number[]> = {
 
 for (const [name, findBlocks] of Object.entries(BLOCK_FINDERS)) {
   test(`${name}: a damaged block loses its own rows, and a file that breaks off those from there on`, async () => {
-    const rowsSoFar: number[] = [];
+    const lostRowsSoFar: number[] = [];
     for (const at of findBlocks(decompressFile(name))) {
       const log = await readDamagedOdometry(name, at);
       const keptRows = rowIndicesOf(log);
       const lostRows = integersFrom(0, 100).filter((row) => !keptRows.includes(row));
       if (lostRows.length > 0) assert.match(summaryTextOf(log), /1 damaged block skipped \(.+\)$/);
       const truncatedLogPromise = readOdometry(decompressFile(name).subarray(0, at), name);
-      if (rowsSoFar.length === 0) await catchRefusalError(truncatedLogPromise);
+      if (lostRowsSoFar.length === 0) await catchRefusalError(truncatedLogPromise);
       else {
-        assert.deepEqual(rowIndicesOf(await truncatedLogPromise), rowsSoFar);
+        assert.deepEqual(rowIndicesOf(await truncatedLogPromise), lostRowsSoFar);
         if (lostRows.length > 0) assert.match(summaryTextOf(await truncatedLogPromise), /gaps: none\. notes: the file is incomplete: it ends in the middle of a row or record$/);
       }
       assert.ok(lostRows.length < 50);
-      rowsSoFar.push(...lostRows);
+      lostRowsSoFar.push(...lostRows);
     }
-    assert.deepEqual(rowsSoFar, integersFrom(0, 100));
+    assert.deepEqual(lostRowsSoFar, integersFrom(0, 100));
   });
 }
 

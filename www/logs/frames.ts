@@ -76,8 +76,8 @@ export class FrameTree {
       const ancestors = this.#ancestors(child);
       const isMoving = movingFrames.has(child);
       const hasMovingDescendant = isMoving && children.some((other) => other !== child && movingFrames.has(other) && this.#ancestors(other).includes(child));
-      // In odom → base_footprint → base_link only base_footprint may move. Its pose in odom is then that of base_link: frames up to the moving one
-      // are no parents.
+      // If only base_footprint moves in odom → base_footprint → base_link, base_link has its pose in odom. Frames between the child and the moving
+      // frame, and that frame itself, are skipped as parents.
       const skipCount = isMoving || !BASE_FRAME.test(child) ? 0 : ancestors.findIndex((frame) => movingFrames.has(frame)) + 1;
       return hasMovingDescendant || (!isMoving && skipCount === 0) ? [] : ancestors.slice(skipCount).map((parent) => ({ parent, child }));
     });

@@ -18,7 +18,7 @@ export type LogFailure = Pick<LogError, 'message' | 'place' | 'ask'> & { sentenc
 /** Minimum time (ms) between progress reports. The page renders the figure after each report. */
 const PROGRESS_INTERVAL = 50;
 
-/** Opened recordings, and the simulation that fits logs. */
+/** Opened recordings, and the object of the core that fits α's to them. */
 export class LogSession {
   #recordings: Recording[] = [];
   #simulation;

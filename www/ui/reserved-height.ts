@@ -40,7 +40,7 @@ export function preUpgradeCss() {
     `${undefinedSelector(tags)}{display:flow-root;position:relative;min-width:0;max-width:100%}`,
     `${undefinedSelector(tags)}::before{${preferredWidthCss}}`,
     `${undefinedSelector(tags)}>:not([slot]){position:absolute;top:0;margin:0}`,
-    // The slots have the same styles as in the figure.
+    // The title and caption of an element that is not defined yet look as they do in the figure.
     `:where(${undefinedSelector(tags)}>[slot=title]){display:block;font-size:1.1em;line-height:1.4}`,
     `:where(${undefinedSelector(tags)}:has(>[slot=title]))::before{margin-bottom:.297em}`,
     `:where(${undefinedSelector(tags)}>[slot=caption]){font-size:.95em;line-height:1.4}`,

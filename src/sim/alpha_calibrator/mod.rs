@@ -179,7 +179,7 @@ impl AlphaCalibrator {
         })
     }
 
-    /// Returns the true values, if the log is simulated. The α's belong to the leg length and rule of the simulation.
+    /// Returns the true values, if the log is simulated. Its α's hold for the leg length and the odometry rule of the simulated log.
     pub fn truth(&self) -> Option<Truth> {
         matches!(self.log_source, LogSource::Simulated).then_some(Truth {
             alphas: example::TRUE_ALPHAS,
@@ -333,11 +333,15 @@ fn create_panel(
         .map(|(observation, fit)| {
             let coefficient = observation.coefficients[component][position_in_component];
             let total_variance = fit.stds[component] * fit.stds[component];
-            let other_variance = total_variance - slope.unwrap_or(0.0) * coefficient;
+            let variance_from_other_noise = total_variance - slope.unwrap_or(0.0) * coefficient;
             let squared_innovation =
                 fit.standardized[component] * fit.standardized[component] * total_variance;
             // The square of a normal variate of variance v has variance 2v².
-            [coefficient, squared_innovation - other_variance, 2.0 * total_variance * total_variance]
+            [
+                coefficient,
+                squared_innovation - variance_from_other_noise,
+                2.0 * total_variance * total_variance,
+            ]
         })
         .collect();
     let mut panel = Panel {

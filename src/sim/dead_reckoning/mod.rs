@@ -63,11 +63,11 @@ pub struct Stats {
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify), serde(rename_all = "kebab-case"))]
 pub struct ByRecursion<T> {
-    /// Value for the chapter's recursion.
+    /// Value that the chapter's recursion predicts.
     pub chapter: T,
-    /// Value for the propagation of first order.
+    /// Value that the propagation of first order predicts.
     pub first_order: T,
-    /// Value for the propagation of fourth order.
+    /// Value that the propagation of fourth order predicts.
     pub fourth_order: T,
 }
 

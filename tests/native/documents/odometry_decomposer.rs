@@ -60,7 +60,7 @@ fn correlation_changes_the_heading_deviation_from_difference_to_sum() {
 
 /// Checks the table of doc/model.md, which has the standard deviations of the legs for three odometry readings.
 #[test]
-fn the_variances_of_the_rules_are_those_in_the_document() {
+fn the_deviations_of_the_rules_are_those_in_the_document() {
     let preset_row_names = [("reverse", "reverse"), ("spin", "spin"), ("rest", "at rest")];
     let rule_column_names = [(Table, "Table 5.6"), (Nav2, "Nav2, Beluga"), (Omni, "omnidirectional")];
     for ((preset_name, row_name), (rule, rule_name)) in

@@ -72,8 +72,7 @@ fn plans_with_too_many_walls_are_refused() {
 fn collision_results_equal_those_of_a_loop_over_all_walls() {
     let mut rng = seeded_rng(9650);
     let diagonal_walls = |wall_count: u32| -> Vec<Segment> {
-        let end_coordinates =
-            |diagonal_offset: f64| (diagonal_offset.min(10.0), (diagonal_offset - 10.0).max(0.0));
+        let end_coordinates = |wall_offset: f64| (wall_offset.min(10.0), (wall_offset - 10.0).max(0.0));
         let wall_offsets = (0..wall_count).map(|i| 20.0 * (f64::from(i) + 0.5) / f64::from(wall_count));
         wall_offsets
             .map(end_coordinates)

@@ -94,7 +94,7 @@ fn robot_gains(cloud: &[SE2], commanded_turn: f64) -> [Vec<f64>; 2] {
         |cartesian: &[DVector<f64>], curved: &[DVector<f64>], map: &dyn Fn(&DVector<f64>) -> DVector<f64>| {
             let log_densities = log_densities(cartesian).into_iter().zip(log_densities(curved));
             let log_volume_factors = curved.iter().map(|point| jacobian_determinant(map, point).abs().ln());
-            log_volume_factors.zip(log_densities).map(|(factor, (p, q))| q - factor - p).collect()
+            log_volume_factors.zip(log_densities).map(|(log_factor, (p, q))| q - log_factor - p).collect()
         };
     [
         log_density_gains(&pose_vectors, &twist_vectors, &pose_of_twist),

@@ -83,7 +83,7 @@ export class ArcPicture extends Picture<Scene> {
           ...styles.inverted,
           side: 1,
           angle: `ω̂Δt = ${formatFixed(inverted.turn, 2)}`,
-          // The radius is positive if the centre is to the left. As printed, it has no sign.
+          // The radius is positive if the centre is to the left. The radius has no sign in Table 5.1 as printed in the book.
           radius: `r* = ${inverted.radius > 0 && !printed ? '+' : ''}${formatFixed(printed ? Math.abs(inverted.radius) : inverted.radius, 2)} m`,
         });
       }

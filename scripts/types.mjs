@@ -80,7 +80,7 @@ async function figureTypes([{ attributes }]) {
   /** @type {any[]} */
   const publicMembers = classes.get('FigureElement').members.filter((/** @type {any} */ { privacy }) => privacy === 'public');
   /** Replaces the type of any widget by a type parameter. @param {{ type: { text: string } }} [typedItem] */
-  const typeTextIn = (typedItem) => (typedItem?.type.text ?? 'void').replace(/\bSimulation\['stats'\]/, 'Stats').replace(/\bValues\b/, 'State');
+  const typeTextIn = (typedItem) => (typedItem?.type.text ?? 'void').replace(/\bSimulation\['stats'\]/, 'Stats').replace(/\bStateValues\b/, 'State');
   const memberFields = publicMembers.map(({ kind, name, description, parameters = [], type, return: returnType, readonly }) => {
     const parameterTexts = parameters.map((/** @type {any} */ methodParameter) => `${methodParameter.name}: ${typeTextIn(methodParameter)}`);
     return { name: kind === 'method' ? `${name}(${parameterTexts.join(', ')})` : name, type: typeTextIn(kind === 'method' ? returnType : { type }), description: joinLines(description), readonly };

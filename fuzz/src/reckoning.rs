@@ -4,7 +4,7 @@ use super::input::{InputReader, is_selected_by_hash};
 use super::assertions;
 use super::settings::{are_settings_allowed, change_settings};
 use motion::sim::dead_reckoning::{
-    DeadReckoning, MAX_SHOWN_ROBOTS, MeasuredMoments, Misses, Outlines, RECURSIONS, Settings, Stats, StraightGrowth,
+    DeadReckoning, MAX_SHOWN_ROBOTS, MeasuredMoments, Misses, StepOutlines, RECURSIONS, Settings, Stats, StraightGrowth,
 };
 use nalgebra::Matrix3;
 
@@ -115,7 +115,7 @@ fn assert_equals_new_simulation(simulation: &DeadReckoning) {
 fn all_results(simulation: &DeadReckoning) -> (String, Vec<u64>) {
     let (settings, stats, measured_moments) = (simulation.settings(), simulation.stats(), simulation.measured_moments());
     let outlines = simulation.outlines(settings.step);
-    let outline_lines = outlines.iter().flat_map(|Outlines { ellipse, exponential, predicted, measured: measured_moments }| {
+    let outline_lines = outlines.iter().flat_map(|StepOutlines { ellipse, exponential, predicted, measured: measured_moments }| {
         [ellipse, exponential, predicted, measured_moments].into_iter().flat_map(|outline| outline.as_flattened())
     });
     let all_coordinates = simulation.poses(settings.step).as_flattened().iter().chain(outline_lines);
@@ -214,7 +214,7 @@ fn assert_outlines(simulation: &DeadReckoning, selected_step: u32) {
         assert!(selected_step > settings.steps);
         return;
     };
-    let Outlines { ellipse, exponential, predicted, measured } = outlines;
+    let StepOutlines { ellipse, exponential, predicted, measured } = outlines;
     for outline in [&ellipse, &exponential, &predicted, &measured] {
         assertions::assert_finite("an outline", outline.as_flattened());
         assert_eq!(outline.first(), outline.last(), "an outline is closed");

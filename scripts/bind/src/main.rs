@@ -7,7 +7,9 @@ use wasm_bindgen_cli_support::Bindgen;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut arguments = std::env::args_os().skip(1).map(PathBuf::from);
-    let (Some(module_path), Some(output_directory), None) = (arguments.next(), arguments.next(), arguments.next()) else {
+    let (Some(module_path), Some(output_directory), None) =
+        (arguments.next(), arguments.next(), arguments.next())
+    else {
         return Err("usage: bind MODULE DIRECTORY".into());
     };
     let mut glue_generator = Bindgen::new();

@@ -77,7 +77,7 @@ pub type CovarianceRows = [[f64; 3]; 3];
 js_structs! {
     /// 2σ outlines after a step as x, y pairs, the first point repeated at the end; empty if the recursion has no covariance there.
     #[derive(Clone, Debug, PartialEq)]
-    pub struct Outlines as "StepOutlines" {
+    pub struct StepOutlines {
         /// Outline of the predicted Gaussian in (x, y), m, as in a filter that estimates x, y and θ.
         pub ellipse: Vec<[f64; 2]> as "Float64Array",
         /// Outline of the predicted Gaussian in exponential coordinates about the commanded pose, on the floor, m.
@@ -94,7 +94,7 @@ js_structs! {
         /// x, y (m) and θ (rad) of the robots in the picture.
         pub poses: Vec<[f64; 3]> as "Float64Array",
         /// Outlines by the selected recursion.
-        pub outlines: Outlines,
+        pub outlines: StepOutlines,
     }
 }
 
@@ -258,7 +258,7 @@ impl DeadReckoning {
     }
 
     /// Returns the outlines after a step, by the selected recursion; None if there is no such step.
-    pub fn outlines(&self, step: u32) -> Option<Outlines> {
+    pub fn outlines(&self, step: u32) -> Option<StepOutlines> {
         let Settings { steps, compounding, .. } = self.settings;
         (1..=steps).contains(&step).then(|| self.outlines_at_index(step as usize - 1, compounding))
     }
@@ -275,19 +275,19 @@ impl DeadReckoning {
         quarter_ends.into_iter().filter_map(milestone_after).collect()
     }
 
-    fn outlines_at_index(&self, step_index: usize, compounding: Compounding) -> Outlines {
+    fn outlines_at_index(&self, step_index: usize, compounding: Compounding) -> StepOutlines {
         let nominal_pose = self.nominal_poses()[step_index];
         let MeasuredMoments { mean, cov, .. } = &self.measured_moments()[step_index];
         let measured = if self.shown_count() < 2 { vec![] } else { xi_ellipse_outline(mean, cov) };
         let Some(cov) = self.predicted_covariances(compounding)[step_index] else {
-            return Outlines { ellipse: vec![], exponential: vec![], predicted: vec![], measured };
+            return StepOutlines { ellipse: vec![], exponential: vec![], predicted: vec![], measured };
         };
         let xi_moments = ExponentialMoments { mean: Vector3::zeros(), cov };
         let (sin, cos) = libm::sincos(nominal_pose.theta());
         let heading_rotation = Matrix2::new(cos, -sin, sin, cos);
         let position_cov = heading_rotation * cov.fixed_view::<2, 2>(0, 0) * heading_rotation.transpose();
         let ellipse = Ellipse::new(Vector2::new(nominal_pose.x(), nominal_pose.y()), position_cov);
-        Outlines {
+        StepOutlines {
             ellipse: ellipse.boundary(OUTLINE_SEGMENTS),
             exponential: ExponentialContour::new(&xi_moments, &nominal_pose).boundary(OUTLINE_SEGMENTS),
             predicted: xi_ellipse_outline(&Vector3::zeros(), &cov),

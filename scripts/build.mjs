@@ -8,12 +8,10 @@ import { join } from 'node:path';
 import { ensureBindProgram } from './bindgen.mjs';
 import { EXAMPLE_LOGS, writeExampleLog } from './example-log.mjs';
 import { listCrates } from './licences.mjs';
-import { ROOT, filesOf, mustRun, printStep, run, runAsScript, settleAll } from './process.mjs';
+import { absolutePath, filesOf, mustRun, printStep, run, runAsScript, settleAll } from './process.mjs';
 import { ensureNativeRust, ensurePackages, ensureRustForWasm } from './toolchain.mjs';
 
-const absolutePath = (/** @type {string} */ repositoryPath) => join(ROOT, repositoryPath);
-
-const PAGE_SCRIPTS = ['bundle', 'declarations', 'manifest', 'names', 'python', 'react', 'tables', 'types', 'typescript'].map((scriptName) => `scripts/${scriptName}.mjs`);
+const PAGE_SCRIPTS = ['bundle', 'declarations', 'manifest', 'python', 'react', 'tables', 'types'].map((scriptName) => `scripts/${scriptName}.mjs`);
 
 /** Type declarations of the module by which scripts/bundle.mjs replaces `motion.wasm`. */
 const BUNDLED_CORE_TYPES = `type Bytes = Uint8Array<ArrayBuffer>;
@@ -149,24 +147,47 @@ async function writeSettings() {
   const cargoArguments = ['run', '--quiet', '--locked', '--example', 'declarations'];
   const { stdout } = await mustRun('The settings could not be listed: see above.', join(bin, 'cargo'), cargoArguments, { env, quiet: true });
   const [widgets, limits] = JSON.parse(stdout);
-  const byTag = (/** @type {'declarations' | 'presets'} */ key) => Object.fromEntries(widgets.map((/** @type {any} */ widget) => [widget.tag, widget[key]]));
-  const settingsConstants = { settings: byTag('declarations'), presets: byTag('presets'), ...limits };
+  const settings = Object.fromEntries(widgets.map((/** @type {any[]} */ [tag, settingsOfWidget]) => [tag, declarationsOf(settingsOfWidget)]));
+  const presets = Object.fromEntries(widgets.map((/** @type {any[]} */ [tag, , presetsOfWidget]) => [tag, presetsOfWidget.map((/** @type {any[]} */ [name, settings]) => ({ name, settings }))]));
   const typeLines = "/** @typedef {import('../www/types.d.ts').Declaration} Declaration */\n\n/** @type {Record<string, Declaration[]>} */\n";
-  const constantLines = Object.entries(settingsConstants).map(([constantName, constantValue]) => `export const ${constantName} = ${JSON.stringify(constantValue, null, 1)};\n`);
+  const constantLines = Object.entries({ settings, presets, ...limits }).map(([constantName, constantValue]) => `export const ${constantName} = ${JSON.stringify(constantValue, null, 1)};\n`);
   writeFileSync(absolutePath('build/settings.js'), typeLines + constantLines.join('\n'));
+}
+
+/**
+ * Returns the declarations of a widget's settings, and of each number of a group or list.
+ *
+ * @param {any[]} settingsOfWidget as scripts/declarations.rs prints them
+ * @returns {import('../www/types.d.ts').Declaration[]}
+ */
+function declarationsOf(settingsOfWidget) {
+  const fieldKeys = settingsOfWidget.flatMap(([, { fields = [] }]) => fields.map((/** @type {any[]} */ [{ key }]) => key));
+  // A field of several groups, such as two poses, is called by the name of its group and its key.
+  const isShared = (/** @type {string} */ fieldKey) => fieldKeys.indexOf(fieldKey) < fieldKeys.lastIndexOf(fieldKey);
+  return settingsOfWidget.flatMap(([{ key, of, unit, sentence, each }, { type, allowed, nullable, weights, words, fields, minLength }, value]) => {
+    const limits = { min: allowed?.start, max: allowed?.end };
+    const numbers = type === 'numbers' && each ? value : [];
+    return [
+      { key, of: of ?? undefined, weights, type, words, fields: fields?.map((/** @type {any[]} */ [field]) => field.key), unit: unit || undefined, nullable, ...limits, default: value, sentence },
+      ...numbers.map((/** @type {number} */ number, /** @type {number} */ index) => (
+        { key: `alpha${index + 1}`, in: key, index, type: 'number', nullable: index >= minLength || undefined, ...limits, default: number, sentence: each }
+      )),
+      ...(fields ?? []).map((/** @type {any[]} */ [field, { start: min, end: max }]) => ({
+        key: isShared(field.key) ? `${key}${field.key[0].toUpperCase()}${field.key.slice(1)}` : field.key, in: key, field: isShared(field.key) ? field.key : undefined,
+        type: 'number', unit: field.unit, min, max, default: value[field.key], sentence: each ? `${field.sentence} ${each}.` : field.sentence,
+      })),
+    ];
+  });
 }
 
 /** Writes the module and the glue of a bound core. @param {string} name @param {boolean} local */
 async function finishCore(name, local) {
   copyFileSync(absolutePath(`build/bound/${name}/motion_bg.wasm`), absolutePath(`build/${name}.wasm`));
-  if (!local) await shrinkModule(`build/${name}.wasm`);
+  if (!local) {
+    await silencePanics(`build/${name}.wasm`);
+    await optimizeModule(`build/${name}.wasm`);
+  }
   await writeGlue(name, local ? readBoundNames(name) : await shortenNames(name));
-}
-
-/** Makes a module smaller, and overwrites its file. @param {string} path */
-async function shrinkModule(path) {
-  await silencePanics(path);
-  await optimizeModule(path);
 }
 
 /**

@@ -8,6 +8,9 @@ import { fileURLToPath } from 'node:url';
 
 export const ROOT = fileURLToPath(new URL('..', import.meta.url));
 
+/** Returns the absolute path of a file of the repository. @param {string} repositoryPath */
+export const absolutePath = (repositoryPath) => join(ROOT, repositoryPath);
+
 /** Error about something that the user has to provide or correct. Its message is printed without a stack trace. */
 export class UserError extends Error {}
 
@@ -123,12 +126,8 @@ export function endGroupWithProcess(processGroupId) {
   for (const signal of ['SIGINT', 'SIGTERM']) process.off(signal, endAfterSignal).on(signal, endAfterSignal);
 }
 
-/** Removes an ended process group from `processGroups`. @param {number} group */
-export function forgetGroup(group) {
-  processGroups.delete(group);
-  // While no program runs, signals have their usual meaning.
-  if (processGroups.size === 0) for (const signal of ['SIGINT', 'SIGTERM']) process.off(signal, endAfterSignal);
-}
+/** Removes an ended process group from `processGroups`. @param {number} processGroupId */
+export const forgetGroup = (processGroupId) => processGroups.delete(processGroupId);
 
 /** Milliseconds without output after which the name of the running program is printed. */
 const MAX_SILENCE_MS = 30_000;
@@ -240,8 +239,8 @@ export function isProgram(filePath) {
 
 /** Returns the sorted files in a directory. For a file, returns the file itself. @param {string} fileOrDirectory from the root */
 export function filesOf(fileOrDirectory) {
-  if (statSync(join(ROOT, fileOrDirectory)).isFile()) return [fileOrDirectory];
-  return readdirSync(join(ROOT, fileOrDirectory), { withFileTypes: true, recursive: true })
+  if (statSync(absolutePath(fileOrDirectory)).isFile()) return [fileOrDirectory];
+  return readdirSync(absolutePath(fileOrDirectory), { withFileTypes: true, recursive: true })
     .filter((directoryEntry) => directoryEntry.isFile())
     .map((directoryEntry) => relative(ROOT, join(directoryEntry.parentPath, directoryEntry.name)))
     .sort();

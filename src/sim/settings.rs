@@ -104,7 +104,7 @@ pub const DURATION_RANGE: RangeInclusive<f64> = 1e-6..=1e6;
 pub const MAX_SEED: u64 = (1 << 53) - 1;
 
 /// Description of a setting, without its type and range.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize)]
 pub struct Declaration {
     /// Name of the setting in attributes and states.
     pub key: &'static str,

@@ -5,20 +5,14 @@ import { appendFileSync, chmodSync, mkdirSync, readFileSync, rmSync, writeFileSy
 import { basename, dirname, join, relative } from 'node:path';
 import { build, transformSync } from 'esbuild';
 import * as declared from '../build/settings.js';
-import { describeWidgets } from './declarations.mjs';
+import { describeWidgets, importTypeScript } from './declarations.mjs';
 import { readLicenceTexts, listBundledPackages } from './licences.mjs';
 import { createManifest } from './manifest.mjs';
-import { ROOT, UserError, filesOf, printStep } from './process.mjs';
+import { ROOT, UserError, absolutePath, filesOf, printStep } from './process.mjs';
 import { writePython } from './python.mjs';
 import { writeComponents } from './react.mjs';
 import { withTables } from './tables.mjs';
 import { writeTypes } from './types.mjs';
-import { importTypeScript } from './typescript.mjs';
-
-const absolutePath = (/** @type {string} */ repositoryPath) => join(ROOT, repositoryPath);
-
-/** Files of www/ that are copied to dist/. */
-const COPIED_FILES_RE = /\.(html|css)$/;
 
 /** Tags of the elements. */
 export const WIDGET_TAGS = Object.keys(declared.settings);
@@ -37,9 +31,6 @@ const LOG_FIGURE_TAGS = ['alpha-calibrator'];
 
 /** Path of the worker's script in dist/. */
 const LOG_WORKER_PATH = 'chunks/log-worker.js';
-
-/** Path of dist/chunks/ from the scripts that share the bytes of the core. */
-const CHUNK_PATHS = { core: './chunks/', external: './' };
 
 /**
  * Returns the source of the function `startWorker`. Within dist/ `startWorker` finds the worker's script by a relative path. A page of
@@ -159,9 +150,8 @@ export declare function isFigureTag(tag: string): boolean;
  *
  * @param {object} [options]
  * @param {string[]} [options.tags] the figures that have a module of their own; the others share the whole core
- * @param {(path: string, script: string) => string} [options.transformScript] returns the script that replaces a script of www/
  */
-export async function bundle({ tags = WIDGET_TAGS, transformScript = (_, scriptSource) => scriptSource } = {}) {
+export async function bundle({ tags = WIDGET_TAGS } = {}) {
   printStep('Bundling the pages');
   await writeTypes();
   await writeComponents();
@@ -172,7 +162,7 @@ export async function bundle({ tags = WIDGET_TAGS, transformScript = (_, scriptS
    * Bundles scripts of www/ for dist/.
    *
    * @param {Record<string, string>} entryPoints paths from www/, by the name of the script in dist/
-   * @param {keyof typeof CHUNK_PATHS | 'inlined' | 'worker'} bundleForm
+   * @param {'core' | 'external' | 'inlined' | 'worker'} bundleForm
    * @param {import('esbuild').BuildOptions} buildOptions
    */
   const bundleScripts = (entryPoints, bundleForm, buildOptions) =>
@@ -202,10 +192,9 @@ export async function bundle({ tags = WIDGET_TAGS, transformScript = (_, scriptS
             };
             onLoad({ filter: /\.wasm$/ }, () => ({ contents: moduleSources[bundleForm](), loader: 'js' }));
             if (buildOptions.platform === 'node') onResolve({ filter: /^\.\/core\.ts$/ }, () => ({ path: './core.js', external: true }));
-            const chunkDirectory = bundleForm === 'core' || bundleForm === 'external' ? CHUNK_PATHS[bundleForm] : undefined;
-            onResolve({ filter: new RegExp(`^${BYTES_MODULE_NAME}$`) }, ({ path }) => (
-              chunkDirectory ? { path: `${chunkDirectory}${basename(bytesScript.path)}`, external: true } : { path, namespace: 'core' }
-            ));
+            // The scripts of these forms share the bytes of the core.
+            const bytesPath = { core: `./chunks/${basename(bytesScript.path)}`, external: `./${basename(bytesScript.path)}`, inlined: undefined, worker: undefined }[bundleForm];
+            onResolve({ filter: new RegExp(`^${BYTES_MODULE_NAME}$`) }, ({ path }) => (bytesPath ? { path: bytesPath, external: true } : { path, namespace: 'core' }));
             onLoad({ filter: /./, namespace: 'core' }, () => ({ contents: MODULE_SOURCES.bytes(moduleBytes, SHIFTED_CHARACTERS[buildOptions.charset === 'ascii' ? 'ascii' : 'utf8']) }));
             // A page without workers runs the worker's script itself.
             if (bundleForm === 'external') onResolve({ filter: /\/logs\/session\.ts$/ }, () => ({ path: `./${basename(LOG_WORKER_PATH)}`, external: true }));
@@ -223,7 +212,7 @@ export async function bundle({ tags = WIDGET_TAGS, transformScript = (_, scriptS
               loader: 'js',
             }));
             onLoad({ filter: /[/\\]www[/\\].+\.[jt]s$/ }, ({ path }) => ({
-              contents: transformScript(path, withoutIndentation(withMinifiedStyles(readFileSync(path, 'utf8'), transformSync))),
+              contents: withoutIndentation(withMinifiedStyles(readFileSync(path, 'utf8'))),
               loader: path.endsWith('.ts') ? 'ts' : 'js',
             }));
           },
@@ -258,12 +247,12 @@ export async function bundle({ tags = WIDGET_TAGS, transformScript = (_, scriptS
   };
   for (const { path, contents, text } of bundleResults.flatMap(({ outputFiles }) => outputFiles)) {
     const outputContents = text.includes(CHUNK_PLACEHOLDER) ? text.replaceAll(CHUNK_PLACEHOLDER, basename(path, '.map')) : contents;
-    writeOutput(path, path.endsWith('.map') ? withoutModule(text) : path.endsWith('.iife.js') ? withNonAsciiEscaped(text) : outputContents);
+    writeOutput(path, path.endsWith('.iife.js') ? withNonAsciiEscaped(text) : outputContents);
   }
   const elementManifest = await createManifest();
   const elementDeclarations = elementManifest.modules.flatMap(({ declarations }) => declarations);
   const widgetDescriptions = await describeWidgets();
-  for (const path of filesOf('www').filter((path) => COPIED_FILES_RE.test(path))) {
+  for (const path of filesOf('www').filter((path) => /\.(html|css)$/.test(path))) {
     const text = readFileSync(absolutePath(path), 'utf8');
     writeOutput(absolutePath(join('dist', relative('www', path))), path.endsWith('.html') ? withTables(text, elementDeclarations, widgetDescriptions) : text);
   }
@@ -300,9 +289,8 @@ const STYLES_RE = new RegExp(String.raw`(?<=\b(?:css|unsafeCSS\()\x60)(?:[^\x60$
  * a line stands for rules or declarations, and is given to the minifier as an at-rule. Any other expression is given as a name.
  *
  * @param {string} script
- * @param {typeof import('esbuild').transformSync} minifyStyle
  */
-function withMinifiedStyles(script, minifyStyle) {
+function withMinifiedStyles(script) {
   return script.replace(STYLES_RE, (styleText) => {
     /** @type {string[]} */
     const templateExpressions = [];
@@ -310,7 +298,7 @@ function withMinifiedStyles(script, minifyStyle) {
       const expressionPlaceholder = `expression${templateExpressions.push(templateExpression)}`;
       return /(^|\n) *$/.test(styleText.slice(0, expressionPosition)) ? `@${expressionPlaceholder};` : expressionPlaceholder;
     });
-    const { code: minifiedStyle, warnings } = minifyStyle(plainStyle, { loader: 'css', minify: true });
+    const { code: minifiedStyle, warnings } = transformSync(plainStyle, { loader: 'css', minify: true });
     if (warnings.length > 0) throw new UserError(`Style that cannot be read: ${warnings[0].text} in ${plainStyle}`);
     return minifiedStyle.trim().replace(/@expression(\d+);|expression(\d+)/g, (_, statementNumber, valueNumber) => templateExpressions[Number(statementNumber ?? valueNumber) - 1]);
   });
@@ -399,13 +387,6 @@ function withReplacedPassages(library, name) {
 /** Adapts import paths in types to the published directory, in which all types are side by side. @param {string} typesSource */
 function withLocalImports(typesSource) {
   return typesSource.replaceAll(/'\.\.\/build\/(\w+)\.d\.ts'/g, "'./$1.js'").replaceAll("'../www/types.d.ts'", "'./core.js'");
-}
-
-/** Removes the text of the inlined module, a quarter of a million characters, from a source map. @param {string} text */
-function withoutModule(text) {
-  const sourceMap = JSON.parse(text);
-  const keepContent = (/** @type {string} */ sourceContent, /** @type {number} */ i) => (sourceMap.sources[i].endsWith(BYTES_MODULE_NAME) ? '' : sourceContent);
-  return JSON.stringify({ ...sourceMap, sourcesContent: sourceMap.sourcesContent.map(keepContent) });
 }
 
 /**

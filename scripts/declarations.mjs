@@ -1,11 +1,14 @@
 // Descriptions of the widgets for the scripts that generate types, tables and the manifest. They come from the settings of the core, from
 // each widget's settings.ts, and from the comments of the elements' classes.
 
+import { pathToFileURL } from 'node:url';
 import { isDeepStrictEqual } from 'node:util';
+import { register } from 'tsx/esm/api';
 import { presets, settings } from '../build/settings.js';
-import { checkScriptName } from './names.mjs';
-import { ROOT, runOnce } from './process.mjs';
-import { importTypeScript } from './typescript.mjs';
+import { ROOT, absolutePath, runOnce } from './process.mjs';
+
+// Node itself does not run TypeScript.
+register();
 
 /**
  * @typedef {import('../build/settings.js').Declaration} Declaration
@@ -17,9 +20,9 @@ import { importTypeScript } from './typescript.mjs';
  * @property {true} [readonly]
  * @property {boolean} [isText] true if a number can be given as text
  *
- * @typedef {Field & { property?: string, opening?: string, allowed?: string, withoutRange: string }} Attribute `property` is the
- *   name of its property if it differs, `opening` the text of its default, `allowed` the range of a number, and `withoutRange` the
- *   description without that range
+ * @typedef {Field & { property?: string, opening?: string, allowed?: string, withoutRange: string, isCommon: boolean }} Attribute
+ *   `property` is the name of its property if it differs, `opening` the text of its default, `allowed` the range of a number,
+ *   `withoutRange` the description without that range, and `isCommon` true if every figure has the attribute
  *
  * @typedef {Record<string, { type: string, readonly?: true, sentence: string }>} DocumentationTable documentation by name
  *
@@ -53,14 +56,20 @@ const CLOUD_DOCUMENTATION = {
   },
 };
 
-/** Returns the name of the class or type for a tag or key. @param {string} tagOrKey */
-export const toPascalCase = (tagOrKey) => checkScriptName(tagOrKey.replaceAll(/(?:^|-)(.)/g, (_, letter) => letter.toUpperCase()));
+/** Returns the name of the class or type for a tag or key, if JavaScript and TypeScript allow it. @param {string} tagOrKey */
+export function toPascalCase(tagOrKey) {
+  const scriptName = tagOrKey.replaceAll(/(?:^|-)(.)/g, (_, letter) => letter.toUpperCase());
+  if (!/^[A-Z]\w*$/.test(scriptName)) throw new Error(`${scriptName} cannot name a declaration in JavaScript: rename it.`);
+  // A declared type of this name would hide a global type of every script, such as Map or Event.
+  if (scriptName in globalThis) throw new Error(`${scriptName} is a global of JavaScript: give the setting or element another name.`);
+  return scriptName;
+}
 
 /** Returns the TypeScript type of some words. @param {readonly string[]} allowedWords */
 export const unionTypeOf = (allowedWords) => allowedWords.map((allowedWord) => `'${allowedWord}'`).join(' | ');
 
 /** Returns the TypeScript type of a setting. @param {Declaration} declaration */
-export function typeTextOf({ key, type, words, nullable }) {
+function typeTextOf({ key, type, words, nullable }) {
   const typeText = words ? unionTypeOf(words) : (TYPE_NAMES[type] ?? toPascalCase(key));
   return nullable ? `${typeText} | null` : typeText;
 }
@@ -71,7 +80,7 @@ export function typeTextOf({ key, type, words, nullable }) {
  * @param {Declaration} settingDeclaration
  * @param {string} [openingValue] the default as text
  */
-export function descriptionOf(settingDeclaration, openingValue) {
+function descriptionOf(settingDeclaration, openingValue) {
   const { sentence, type } = settingDeclaration;
   const rangeText = rangeTextOf(settingDeclaration);
   const numberKind = { whole: 'a whole number', numbers: 'each' }[/** @type {string} */ (type)] ?? '';
@@ -91,6 +100,9 @@ function numberTextOf(limitValue) {
   const numberFormat = new Intl.NumberFormat('en', { maximumSignificantDigits: 7, useGrouping: 'min2' });
   return numberFormat.format(limitValue).replaceAll(',', '\u202f').replace('-', '−');
 }
+
+/** Imports a TypeScript module of www/. @param {string} repositoryPath from the root @returns {Promise<any>} */
+export const importTypeScript = (repositoryPath) => import(pathToFileURL(absolutePath(repositoryPath)).href);
 
 /** Returns the comments of the elements' classes by the names of the classes. */
 export const readClassComments = runOnce(async () => {
@@ -126,7 +138,7 @@ async function describeWidget(widgetTag) {
   const documentedState = Object.assign({}, ...memberDocumentations.map(({ state }) => state));
   const settingOf = (/** @type {string} */ name) => declarations.find((/** @type {Declaration} */ { key }) => key === name);
 
-  /** Returns the description of an attribute. @returns {Attribute} */
+  /** Returns the description of an attribute. @returns {Omit<Attribute, 'isCommon'>} */
   const describeAttribute = (/** @type {[string, any]} */ [attributeName, attributeDefinition]) => {
     const declaration = settingOf(attributeName);
     if (declaration) {
@@ -147,7 +159,7 @@ async function describeWidget(widgetTag) {
   };
   const toItem = (/** @type {[string, any]} */ [name, { sentence, ...rest }]) => ({ name, description: sentence, ...rest });
 
-  const attributeList = Object.entries({ ...attributes, ...COMMON_ATTRS }).map(describeAttribute);
+  const attributeList = Object.entries({ ...attributes, ...COMMON_ATTRS }).map((entry) => ({ ...describeAttribute(entry), isCommon: entry[0] in COMMON_ATTRS }));
   /** @type {Declaration[]} */
   const topLevelSettings = declarations.filter((/** @type {Declaration} */ declaration) => !declaration.in && !declaration.of);
   const groupFields = topLevelSettings.filter(({ key }) => !(key in attributes)).map(fieldOf);
@@ -164,9 +176,9 @@ async function describeWidget(widgetTag) {
   return { tag: widgetTag, className: toPascalCase(widgetTag), attributes: attributeList, properties, state: [...stateFields.values()] };
 }
 
-/** Returns the description of a setting as a field. @param {Declaration} declaration */
-function fieldOf(declaration) {
-  return { name: declaration.key, type: typeTextOf(declaration), description: descriptionOf(declaration) };
+/** Returns the description of a setting, or of a number of a group, as a field. @param {Declaration} declaration */
+export function fieldOf(declaration) {
+  return { name: declaration.field ?? declaration.key, type: typeTextOf(declaration), description: descriptionOf(declaration) };
 }
 
 /** Returns the preset with which the widget opens, if there is one. @param {string} tag */

@@ -26,57 +26,47 @@ import { readClassComments, joinLines, describeWidgets } from './declarations.mj
  */
 export async function createManifest() {
   const { schemaVersion, classes } = await readClassComments();
-  const elementDeclarations = (await describeWidgets()).map((widgetDescription) => {
-    const className = `${widgetDescription.className}Element`;
-    return elementOf(widgetDescription, className, classes.get(className));
+  const elementDeclarations = (await describeWidgets()).map(({ tag, className, attributes, properties }) => {
+    const name = `${className}Element`;
+    const analyzedClass = classes.get(name);
+    /** Replaces the general type names of the common class by those of the element's class. @param {string} typeText */
+    const withClassNames = (typeText) => ({ text: typeText.replace(/\bSimulation\b/, className).replace(/\bValues\b/, `${className}State`) });
+    const itemOf = (/** @type {any} */ { name, type, description }) => ({ name, ...(type && { type: withClassNames(type.text) }), description: description && joinLines(description) });
+    const documentedItems = (/** @type {any[]} */ memberItems) => memberItems.filter(({ description }) => description).map(itemOf);
+    const memberOf = (/** @type {any} */ { kind, parameters, return: returnType, readonly, ...rest }) => ({
+      kind,
+      ...itemOf(rest),
+      ...(parameters && { parameters: parameters.map(itemOf) }),
+      ...(kind === 'method' && returnType && { return: { type: withClassNames(returnType.type.text) } }),
+      ...(readonly && { readonly }),
+    });
+    return {
+      kind: 'class',
+      name,
+      tagName: tag,
+      customElement: true,
+      description: analyzedClass.description,
+      attributes: attributes.map(({ name, property = name, type, description, opening }) => ({
+        name,
+        type: { text: type.replace(' | null', '') },
+        description,
+        fieldName: property,
+        ...(opening !== undefined && { default: `${opening}` }),
+      })),
+      members: [
+        ...attributes.map(({ name, property = name, type, description }) => ({ kind: 'field', name: property, type: { text: type }, description, attribute: name, reflects: true })),
+        ...properties.map(({ name, type, description, readonly }) => ({ kind: 'field', name, type: { text: type }, description, ...(readonly && { readonly }) })),
+        ...analyzedClass.members
+          .filter((/** @type {any} */ { name, privacy }) => privacy === 'public' && !properties.some((property) => property.name === name))
+          .map(memberOf),
+      ],
+      events: documentedItems(analyzedClass.events),
+      slots: documentedItems(analyzedClass.slots),
+      cssParts: documentedItems(analyzedClass.cssParts),
+      cssProperties: documentedItems(analyzedClass.cssProperties),
+    };
   });
   const modulePath = 'dist/external.js';
   const manifestExports = elementDeclarations.map(({ name, tagName }) => ({ kind: 'custom-element-definition', name: tagName, declaration: { name, module: modulePath } }));
   return { schemaVersion, modules: [{ kind: 'javascript-module', path: modulePath, declarations: elementDeclarations, exports: manifestExports }] };
-}
-
-/**
- * Returns the declaration of an element in the manifest.
- *
- * @param {import('./declarations.mjs').Widget} widget
- * @param {string} name of its element's class
- * @param {any} analyzedClass comments of the class, as the analyzer reads them
- */
-function elementOf({ tag, className, attributes, properties }, name, analyzedClass) {
-  /** Replaces the general type names of the common class by those of the element's class. @param {string} typeText */
-  const withClassNames = (typeText) => ({ text: typeText.replace(/\bSimulation\b/, className).replace(/\bValues\b/, `${className}State`) });
-  const itemOf = (/** @type {any} */ { name, type, description }) => ({ name, ...(type && { type: withClassNames(type.text) }), description: description && joinLines(description) });
-  const documentedItems = (/** @type {any[]} */ memberItems) => memberItems.filter(({ description }) => description).map(itemOf);
-  const memberOf = (/** @type {any} */ { kind, parameters, return: returnType, readonly, ...rest }) => ({
-    kind,
-    ...itemOf(rest),
-    ...(parameters && { parameters: parameters.map(itemOf) }),
-    ...(kind === 'method' && returnType && { return: { type: withClassNames(returnType.type.text) } }),
-    ...(readonly && { readonly }),
-  });
-  return {
-    kind: 'class',
-    name,
-    tagName: tag,
-    customElement: true,
-    description: analyzedClass.description,
-    attributes: attributes.map(({ name, property = name, type, description, opening }) => ({
-      name,
-      type: { text: type.replace(' | null', '') },
-      description,
-      fieldName: property,
-      ...(opening !== undefined && { default: `${opening}` }),
-    })),
-    members: [
-      ...attributes.map(({ name, property = name, type, description }) => ({ kind: 'field', name: property, type: { text: type }, description, attribute: name, reflects: true })),
-      ...properties.map(({ name, type, description, readonly }) => ({ kind: 'field', name, type: { text: type }, description, ...(readonly && { readonly }) })),
-      ...analyzedClass.members
-        .filter((/** @type {any} */ { name, privacy }) => privacy === 'public' && !properties.some((property) => property.name === name))
-        .map(memberOf),
-    ],
-    events: documentedItems(analyzedClass.events),
-    slots: documentedItems(analyzedClass.slots),
-    cssParts: documentedItems(analyzedClass.cssParts),
-    cssProperties: documentedItems(analyzedClass.cssProperties),
-  };
 }

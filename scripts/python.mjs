@@ -4,10 +4,8 @@
 import { copyFileSync, readdirSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { settings } from '../build/settings.js';
-import { readClassComments, joinLines, describeWidgets } from './declarations.mjs';
-import { pythonNameOf } from './names.mjs';
+import { readClassComments, importTypeScript, joinLines, describeWidgets } from './declarations.mjs';
 import { ROOT } from './process.mjs';
-import { importTypeScript } from './typescript.mjs';
 
 /**
  * @typedef {import('../build/settings.js').Declaration} Declaration
@@ -15,6 +13,29 @@ import { importTypeScript } from './typescript.mjs';
  */
 
 const PYTHON_DIRECTORY = join(ROOT, 'python');
+
+/** Keywords of Python that consist of lower-case letters, as settings do. */
+const PYTHON_KEYWORDS = new Set(
+  ('and as assert async await break class continue def del elif else except finally for from global if import in is lambda ' +
+    'nonlocal not or pass raise return try while with yield').split(' '),
+);
+
+/**
+ * Members of every widget of ipywidgets, which a trait of the same name would hide. tests/package/python.test.js looks for missing ones.
+ */
+const IPYWIDGET_MEMBERS = new Set(['close', 'comm', 'error', 'keys', 'layout', 'log', 'open', 'stats', 'tabbable', 'tooltip']);
+
+/**
+ * Returns the name of a property in Python. The name is in snake case. A keyword or a member of every widget gets an underscore, as PEP 8
+ * recommends. www/anywidget.ts reads traits by this spelling too.
+ *
+ * @param {string} propertyName
+ */
+export function pythonNameOf(propertyName) {
+  const snakeCaseName = propertyName.replaceAll(/[A-Z]/g, (capital) => `_${capital.toLowerCase()}`);
+  if (!/^[a-z]\w*$/.test(snakeCaseName)) throw new Error(`${propertyName} cannot be the name of a trait in Python: rename it.`);
+  return PYTHON_KEYWORDS.has(snakeCaseName) || IPYWIDGET_MEMBERS.has(snakeCaseName) ? `${snakeCaseName}_` : snakeCaseName;
+}
 
 /** Traits of traitlets for settings without a range. */
 const TRAITS_WITHOUT_RANGE = { Bool: 't.Bool(None, allow_none=True)', Dict: 't.Dict(default_value=None, allow_none=True)', Unicode: 't.Unicode(None, allow_none=True)' };
@@ -33,8 +54,8 @@ export async function writePython() {
   copyFileSync(join(ROOT, 'dist/LICENSE-third-party.txt'), join(PYTHON_DIRECTORY, 'LICENSE-third-party.txt'));
 }
 
-/** Returns the source of the Python module of the elements. @returns {Promise<string>} */
-export async function createElementsSource() {
+/** Returns the source of the Python module of the elements. */
+async function createElementsSource() {
   const { GLOBAL_ATTRIBUTES } = await importTypeScript('www/named.ts');
   const { classes } = await readClassComments();
   const widgetClasses = (await describeWidgets()).map(({ tag, className, attributes, properties }) => {
@@ -77,7 +98,7 @@ function traitCallOf({ name, type, allowed }, tag) {
 }
 
 /** Returns the type of a setting, as Python source. @param {Declaration} declaration @param {string} tag @returns {string} */
-function traitCallOfSetting({ key, type, words: allowedWords = [], fields = [], min, max }, tag) {
+function traitCallOfSetting({ key, type, words: allowedWords = [], min, max }, tag) {
   const rangeText = `${min}, ${max}`;
   switch (type) {
     case 'number': return `Number(${rangeText})`;
@@ -87,8 +108,7 @@ function traitCallOfSetting({ key, type, words: allowedWords = [], fields = [], 
     case 'word': return `Word(${allowedWords.map(quotePython).join(', ')})`;
     case 'group': {
       const nameOf = (/** @type {Declaration} */ groupMember) => groupMember.field ?? groupMember.key;
-      const fieldsOfGroup = settings[tag].filter((member) => member.in === key && fields.includes(nameOf(member)));
-      return `Group(${fieldsOfGroup.map((member) => `${nameOf(member)}=${traitCallOfSetting(member, tag)}`).join(', ')})`;
+      return `Group(${settings[tag].filter((member) => member.in === key).map((member) => `${nameOf(member)}=${traitCallOfSetting(member, tag)}`).join(', ')})`;
     }
   }
 }

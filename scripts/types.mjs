@@ -5,9 +5,8 @@
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { settings } from '../build/settings.js';
-import { readClassComments, descriptionOf, joinLines, toPascalCase, typeTextOf, unionTypeOf, describeWidgets } from './declarations.mjs';
+import { readClassComments, fieldOf, joinLines, toPascalCase, unionTypeOf, describeWidgets } from './declarations.mjs';
 import { ROOT } from './process.mjs';
-import { importTypeScript } from './typescript.mjs';
 
 /** @typedef {import('./declarations.mjs').Field} Field */
 
@@ -30,7 +29,7 @@ export async function writeTypes() {
   const widgetDescriptions = await describeWidgets();
   const coreTypes = readFileSync(join(ROOT, 'build/core.d.ts'), 'utf8');
   writeFileSync(join(ROOT, 'build/simulations.d.ts'), [DISPOSABLE_LIBRARY, GENERATED_HEADER, ...groupInterfaces(), ...Object.keys(settings).map(settingsInterfaceOf), coreTypes].join('\n'));
-  writeFileSync(join(ROOT, 'build/elements.d.ts'), [GENERATED_HEADER, importLineOf(widgetDescriptions), await figureTypes(widgetDescriptions), ...(await Promise.all(widgetDescriptions.map(elementTypesOf))), tagTypesOf(widgetDescriptions)].join('\n'));
+  writeFileSync(join(ROOT, 'build/elements.d.ts'), [GENERATED_HEADER, importLineOf(widgetDescriptions), await figureTypes(widgetDescriptions), ...widgetDescriptions.map(elementTypesOf), tagTypesOf(widgetDescriptions)].join('\n'));
   for (const [frameworkName, { module, namespace, any, prefix }] of Object.entries(TEMPLATE_FRAMEWORKS)) {
     writeFileSync(
       join(ROOT, `build/${frameworkName}.d.ts`),
@@ -54,7 +53,7 @@ function groupInterfaces() {
   for (const [widgetTag, declaredSettings] of Object.entries(settings)) {
     for (const { key, type } of declaredSettings) {
       if (type !== 'group') continue;
-      const partFields = declaredSettings.filter((groupPart) => groupPart.in === key).map((groupPart) => fieldOf({ ...groupPart, key: groupPart.field ?? groupPart.key }));
+      const partFields = declaredSettings.filter((groupPart) => groupPart.in === key).map(fieldOf);
       const interfaceText = asInterface(toPascalCase(key), partFields);
       if ((interfaceByGroup.get(key) ?? interfaceText) !== interfaceText) throw new Error(`${widgetTag}: ${key} is not the group that it is in another widget; call it otherwise.`);
       interfaceByGroup.set(key, interfaceText);
@@ -68,14 +67,8 @@ function settingsInterfaceOf(widgetTag) {
   return asInterface(`${toPascalCase(widgetTag)}Settings`, settings[widgetTag].filter((settingDeclaration) => !settingDeclaration.in && !settingDeclaration.of).map(fieldOf));
 }
 
-/** Returns a setting as a field of an interface. @param {import('../build/settings.js').Declaration} declaration */
-function fieldOf(declaration) {
-  return { name: declaration.field ?? declaration.key, type: typeTextOf(declaration), description: descriptionOf(declaration) };
-}
-
 /** Returns the type of a figure with the public members of its class. @param {import('./declarations.mjs').Widget[]} widgets */
 async function figureTypes([{ attributes }]) {
-  const { COMMON_ATTRS } = await importTypeScript('www/figure/definition.ts');
   const { classes } = await readClassComments();
   /** @type {any[]} */
   const publicMembers = classes.get('FigureElement').members.filter((/** @type {any} */ { privacy }) => privacy === 'public');
@@ -85,7 +78,7 @@ async function figureTypes([{ attributes }]) {
     const parameterTexts = parameters.map((/** @type {any} */ methodParameter) => `${methodParameter.name}: ${typeTextIn(methodParameter)}`);
     return { name: kind === 'method' ? `${name}(${parameterTexts.join(', ')})` : name, type: typeTextIn(kind === 'method' ? returnType : { type }), description: joinLines(description), readonly };
   });
-  const commonFields = attributes.filter(({ name }) => name in COMMON_ATTRS).map(({ property, ...rest }) => ({ ...rest, name: property ?? rest.name }));
+  const commonFields = attributes.filter(({ isCommon }) => isCommon).map(({ property, ...rest }) => ({ ...rest, name: property ?? rest.name }));
   const eventFields = classes.get('FigureElement').events.map((/** @type {any} */ { name, type, description }) => {
     const typeText = type?.text ?? 'Event';
     return { name, type: typeText === 'CustomEvent' ? `CustomEvent<${name[0].toUpperCase()}${name.slice(1)}>` : typeText, description: joinLines(description) };
@@ -110,12 +103,11 @@ const LISTENER_FIELDS = ['add', 'remove'].flatMap((listenerVerb) => {
 });
 
 /** Returns the types of an element and of its state. @param {import('./declarations.mjs').Widget} widget */
-async function elementTypesOf({ tag, className, attributes, properties, state }) {
-  const { COMMON_ATTRS } = await importTypeScript('www/figure/definition.ts');
+function elementTypesOf({ tag, className, attributes, properties, state }) {
   const baseType = `FigureElement<${className}State, ${className}['stats']>`;
   const widgetField = { name: 'widget', type: `'${tag}'`, description: '' };
   // The members that every figure has are in FigureElement.
-  const ownFields = attributes.filter(({ name }) => !(name in COMMON_ATTRS)).map((attributeDescription) => ({ ...attributeDescription, isText: true }));
+  const ownFields = attributes.filter(({ isCommon }) => !isCommon).map((attributeDescription) => ({ ...attributeDescription, isText: true }));
   return (
     `${asInterface(`${className}State`, [widgetField, ...state], 'FigureState')}\n` +
     `/** \`<${tag}>\`. Its attributes have the properties' names. */\n` +

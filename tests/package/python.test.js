@@ -7,8 +7,9 @@ import { existsSync, mkdtempSync, readFileSync, readdirSync, renameSync, rmSync 
 import { tmpdir } from 'node:os';
 import { delimiter, join } from 'node:path';
 import { after, before, test } from 'node:test';
-import { pythonNameOf, checkScriptName } from '../../scripts/names.mjs';
+import { toPascalCase } from '../../scripts/declarations.mjs';
 import { ROOT } from '../../scripts/process.mjs';
+import { pythonNameOf } from '../../scripts/python.mjs';
 import { CACHE_DIRECTORY, ensurePip } from '../../scripts/toolchain.mjs';
 
 const SOURCE_DIRECTORY = join(ROOT, 'python');
@@ -117,6 +118,6 @@ test('settings that were not given are None', () => {
 test('names of generated code are those that its language allows', () => {
   assert.deepEqual(['reverseAware', 'lambda', 'log'].map(pythonNameOf), ['reverse_aware', 'lambda_', 'log_']);
   assert.throws(() => pythonNameOf('2d'), /2d cannot be the name of a trait/);
-  assert.equal(checkScriptName('From'), 'From');
-  for (const scriptName of ['Map', 'class', '2d']) assert.throws(() => checkScriptName(scriptName), { message: new RegExp(`^${scriptName} `) });
+  assert.equal(toPascalCase('from'), 'From');
+  for (const key of ['map', '2d']) assert.throws(() => toPascalCase(key), { message: new RegExp(`^${key} `, 'i') });
 });

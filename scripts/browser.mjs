@@ -2,7 +2,7 @@
 
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { ROOT, UserError, findProgram, mustRun, printStep, run } from './process.mjs';
+import { UserError, absolutePath, findProgram, mustRun, printStep, run } from './process.mjs';
 import { CACHE_DIRECTORY, aptInstall } from './toolchain.mjs';
 
 /** Names of the full Chromium, which alone has a back-forward cache. */
@@ -29,18 +29,14 @@ export const CHROME_ARGUMENTS = [
 
 /** @typedef {{ chrome: string, driver: string, version: string }} Browser */
 
-/** Installs a font as wide as Arial, for which the pages are laid out. With DejaVu as the only font all text is a tenth wider. */
-async function ensureFonts() {
-  if (findProgram('fc-match') === undefined || findProgram('apt-get') === undefined) return;
-  const { stdout } = await run('fc-match', ['--format', '%{family}', 'Arial'], { quiet: true, seconds: 30 });
-  if (/Arial|Liberation|Arimo|Helvetica/.test(stdout)) return;
-  await aptInstall(['fonts-liberation'], 'A font as wide as Arial is missing: install fonts-liberation.');
-}
-
 /** Returns a browser with its driver, and installs what is missing. @returns {Promise<Browser>} */
 export async function ensureBrowser() {
   const browser = await ensureChrome();
-  await ensureFonts();
+  // The pages are laid out for a font as wide as Arial. With DejaVu as the only font all text is a tenth wider.
+  if (findProgram('fc-match') !== undefined && findProgram('apt-get') !== undefined) {
+    const { stdout: arialFamily } = await run('fc-match', ['--format', '%{family}', 'Arial'], { quiet: true, seconds: 30 });
+    if (!/Arial|Liberation|Arimo|Helvetica/.test(arialFamily)) await aptInstall(['fonts-liberation'], 'A font as wide as Arial is missing: install fonts-liberation.');
+  }
   return browser;
 }
 
@@ -51,7 +47,8 @@ async function ensureChrome() {
   if (CHROME !== undefined || CHROMEDRIVER !== undefined) throw new UserError(MISSING_BROWSER_MESSAGE);
   // On Ubuntu, packages of these names only point to a snap. A snap cannot be driven from here.
   const isDebian = existsSync('/etc/os-release') && /^ID=debian$/m.test(readFileSync('/etc/os-release', 'utf8'));
-  const installedBrowser = isDebian ? await installDebianBrowser() : await installChromeForTesting();
+  if (isDebian) await aptInstall(['chromium-headless-shell', 'chromium-driver'], MISSING_BROWSER_MESSAGE);
+  const installedBrowser = isDebian ? await checkPair(findChrome(), findProgram('chromedriver')) : await installChromeForTesting();
   if (installedBrowser === undefined) throw new UserError(MISSING_BROWSER_MESSAGE);
   return installedBrowser;
 }
@@ -84,11 +81,6 @@ async function readVersion(programPath) {
   return stdout.match(/\d+(\.\d+){3}/)?.[0];
 }
 
-async function installDebianBrowser() {
-  await aptInstall(['chromium-headless-shell', 'chromium-driver'], MISSING_BROWSER_MESSAGE);
-  return checkPair(findChrome(), findProgram('chromedriver'));
-}
-
 /** Returns Google's Chrome for Testing, which has a matching chromedriver. The browser and the driver are downloaded once. */
 async function installChromeForTesting() {
   const browsersDirectory = join(CACHE_DIRECTORY, 'browsers');
@@ -101,7 +93,11 @@ async function installChromeForTesting() {
   printStep('Downloading Chrome for Testing');
   const chrome = await downloadProgram(browsersDirectory, 'chrome@stable');
   if (chrome === undefined) return undefined;
-  if ((await readVersion(chrome)) === undefined) await installLibraries();
+  if ((await readVersion(chrome)) === undefined) {
+    // A downloaded Chrome does not include the system libraries with which it is linked.
+    const installLibraries = [absolutePath('node_modules/@playwright/test/cli.js'), 'install-deps', 'chromium'];
+    await mustRun('Libraries that Chrome needs are missing: run `npx playwright install-deps chromium` and start again.', process.execPath, installLibraries, { seconds: 600 });
+  }
   const driver = await downloadProgram(browsersDirectory, `chromedriver@${await readVersion(chrome)}`);
   writeFileSync(pathsFile, JSON.stringify({ chrome, driver }));
   return checkPair(chrome, driver);
@@ -112,14 +108,4 @@ async function downloadProgram(installDirectory, programAndVersion) {
   const installArguments = ['exec', '--yes', '--', '@puppeteer/browsers@2.13.2', 'install', programAndVersion];
   const { ok, stdout } = await run('npm', [...installArguments, '--path', installDirectory, '--format', '{{path}}'], { seconds: 900 });
   return ok ? stdout.trim().split('\n').pop() : undefined;
-}
-
-/** Installs the system libraries with which Chrome is linked. A downloaded Chrome does not include them. */
-async function installLibraries() {
-  await mustRun(
-    'Libraries that Chrome needs are missing: run `npx playwright install-deps chromium` and start again.',
-    process.execPath,
-    [join(ROOT, 'node_modules/@playwright/test/cli.js'), 'install-deps', 'chromium'],
-    { seconds: 600 },
-  );
 }

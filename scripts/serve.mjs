@@ -1,6 +1,7 @@
 // `npm start`: builds stale files and serves dist/ on this machine only. PORT selects a port. The default is the first free port from 4173
 // on.
 
+import { once } from 'node:events';
 import { createServer } from 'node:http';
 import { join } from 'node:path';
 import { build } from './build.mjs';
@@ -26,24 +27,17 @@ export async function startServer(servedDirectory, { port, base: basePath = '/',
     request.url = request.url.slice(basePath.length - 1);
     serveFile(request, response, sendNotFound);
   });
-  let portToTry = port ?? 4173;
-  return new Promise((resolve, reject) => {
-    httpServer.on('error', (/** @type {NodeJS.ErrnoException} */ error) => {
-      if (error.code !== 'EADDRINUSE' && error.code !== 'EACCES') {
-        reject(error);
-      } else if (port === undefined) {
-        httpServer.listen(++portToTry, 'localhost');
-      } else {
-        reject(new UserError(`Port ${port} is not free: set PORT to another one, or leave it unset.`));
-      }
-    });
-    httpServer.on('listening', () => {
-      const serverAddress = httpServer.address();
-      if (serverAddress === null || typeof serverAddress === 'string') return;
-      resolve({ address: `http://localhost:${serverAddress.port}${basePath}`, close: () => httpServer.close().closeAllConnections() });
-    });
-    httpServer.listen(portToTry, 'localhost');
-  });
+  for (let portToTry = port ?? 4173; !httpServer.listening; portToTry++) {
+    try {
+      await once(httpServer.listen(portToTry, 'localhost'), 'listening');
+    } catch (error) {
+      const { code } = /** @type {NodeJS.ErrnoException} */ (error);
+      if (code !== 'EADDRINUSE' && code !== 'EACCES') throw error;
+      if (port !== undefined) throw new UserError(`Port ${port} is not free: set PORT to another one, or leave it unset.`);
+    }
+  }
+  const { port: openPort } = /** @type {import('node:net').AddressInfo} */ (httpServer.address());
+  return { address: `http://localhost:${openPort}${basePath}`, close: () => httpServer.close().closeAllConnections() };
 }
 
 /** Returns the port in the environment variable PORT, or undefined if the variable is not set. @returns {number | undefined} */

@@ -10,7 +10,7 @@ import { join } from 'node:path';
 import { ensureTestRunner } from './bindgen.mjs';
 import { CHROME_ARGUMENTS, ensureBrowser } from './browser.mjs';
 import { build } from './build.mjs';
-import { ROOT, UserError, filesOf, withCollectedOutput, runOnce, printStep, run, runAsScript, settleAll } from './process.mjs';
+import { UserError, absolutePath, filesOf, withCollectedOutput, runOnce, printStep, run, runAsScript, settleAll } from './process.mjs';
 import { ensureLints, ensurePackages, ensureNativeRust, ensureRustForWasm } from './toolchain.mjs';
 
 /** @typedef {{ passed: number, failed: number, skipped: number }} Tally */
@@ -29,7 +29,6 @@ const IS_NIGHTLY = process.argv.includes('--all');
 /** Time limit of a part in s, so that a hanging test does not stop the run. */
 const TIME_LIMIT_SECONDS = IS_NIGHTLY ? 3600 : 1200;
 
-const absolutePath = (/** @type {string} */ repositoryPath) => join(ROOT, repositoryPath);
 /** @type {('tests' | 'tests/package' | 'tests/engines')[]} workspaces of package.json that the tests need */
 const TEST_WORKSPACES = IS_NIGHTLY ? ['tests', 'tests/package', 'tests/engines'] : ['tests'];
 
@@ -42,23 +41,22 @@ const ensureBuilt = runOnce(() => settleAll([build({ local: !IS_NIGHTLY }), ...T
 /** Versions of the tools that the parts of this test run have used so far. */
 const toolVersions = new Set([`Node ${process.versions.node}`]);
 
-async function ensureRust() {
-  const rustTools = await ensureNativeRust();
-  toolVersions.add(rustTools.description);
-  return rustTools;
-}
-
-async function ensureWasmRust() {
-  const rustTools = await ensureRustForWasm();
-  toolVersions.add(`for WebAssembly ${rustTools.description}`);
-  return rustTools;
-}
-
-const ensureTestBrowser = runOnce(async () => {
-  const foundBrowser = await ensureBrowser();
-  toolVersions.add(`Chromium ${foundBrowser.version}`);
-  return foundBrowser;
+/**
+ * Returns a function that ensures that a tool is installed, and adds its version to `toolVersions`.
+ *
+ * @template Tool
+ * @param {() => Promise<Tool>} ensureTool
+ * @param {(tool: Tool) => string} versionOf
+ */
+const withVersion = (ensureTool, versionOf) => runOnce(async () => {
+  const tool = await ensureTool();
+  toolVersions.add(versionOf(tool));
+  return tool;
 });
+
+const ensureRust = withVersion(ensureNativeRust, ({ description }) => description);
+const ensureWasmRust = withVersion(ensureRustForWasm, ({ description }) => `for WebAssembly ${description}`);
+const ensureTestBrowser = withVersion(ensureBrowser, ({ version }) => `Chromium ${version}`);
 
 /**
  * Returns a job that runs a program.
@@ -77,9 +75,6 @@ const createProgramJob = ([programName, ...programArguments], programEnvironment
  * @param {Record<string, string>} [env]
  */
 const createNpmJob = (scriptPath, scriptArguments, env) => createProgramJob([process.execPath, absolutePath(join('node_modules', scriptPath)), ...scriptArguments], env);
-
-/** Returns a job that runs a script of this repository. @param {string} path */
-const createScriptJob = (path) => createProgramJob([process.execPath, absolutePath(path)]);
 
 /**
  * Returns a job that runs cargo.
@@ -163,19 +158,11 @@ const TEST_PARTS = {
     counts: COUNT_PATTERNS.cargo,
   },
   node: {
-    async prepare(programArgs) {
-      const testCommand = nodeTestCommandFor('tests/node', programArgs);
-      await ensureBuilt();
-      return createProgramJob(testCommand);
-    },
+    prepare: (programArgs) => createNodeTestJob('tests/node', programArgs),
     counts: COUNT_PATTERNS.node,
   },
   package: {
-    async prepare(programArgs) {
-      const testCommand = nodeTestCommandFor('tests/package', programArgs);
-      await ensureBuilt();
-      return createProgramJob(testCommand, { CHROME: (await ensureTestBrowser()).chrome });
-    },
+    prepare: async (programArgs) => createNodeTestJob('tests/package', programArgs, { CHROME: (await ensureTestBrowser()).chrome }),
     counts: COUNT_PATTERNS.node,
   },
   browser: {
@@ -187,8 +174,8 @@ const TEST_PARTS = {
     counts: COUNT_PATTERNS.playwright,
   },
   // The nightly tests run in Firefox and WebKit, and embed the package in projects.
-  engines: { prepare: async () => createScriptJob('tests/engines/run.mjs') },
-  embeddings: { prepare: async () => createScriptJob('tests/embeddings/run.mjs') },
+  engines: { prepare: async () => createProgramJob([process.execPath, 'tests/engines/run.mjs']) },
+  embeddings: { prepare: async () => createProgramJob([process.execPath, 'tests/embeddings/run.mjs']) },
 };
 
 /**
@@ -271,12 +258,13 @@ function browserEnvironment(runnerPath, { chrome, driver }) {
 }
 
 /**
- * Returns the command that runs the tests of a directory, or only named files of the directory.
+ * Returns a job that runs the tests of a directory, or only named files of the directory.
  *
  * @param {string} testDirectory
  * @param {string[]} programArgs files or options
+ * @param {Record<string, string>} [env]
  */
-function nodeTestCommandFor(testDirectory, programArgs) {
+async function createNodeTestJob(testDirectory, programArgs, env) {
   const testFiles = filesOf(testDirectory).filter((path) => /\.test\.[jt]s$/.test(path) && (IS_NIGHTLY || !path.endsWith('.nightly.test.js')));
   const namedFiles = testFiles.filter((path) => programArgs.some((argument) => !argument.startsWith('-') && path.includes(argument)));
   const unknownName = programArgs.find((argument, i) => !argument.startsWith('-') && !programArgs[i - 1]?.startsWith('-') && !testFiles.some((path) => path.includes(argument)));
@@ -284,8 +272,9 @@ function nodeTestCommandFor(testDirectory, programArgs) {
   const nodeOptions = programArgs.filter((argument) => !namedFiles.some((path) => path.includes(argument)));
   // Node runs every test whose parent matches, and the parent of all tests is called "<root>".
   const tierOptions = IS_NIGHTLY ? [] : ['--test-name-pattern', '/^(?!<root>|.*@nightly)/'];
+  await ensureBuilt();
   // With the default number of processes a processor core stays idle.
-  return [process.execPath, '--import', 'tsx', '--test', '--test-reporter', 'tap', '--test-concurrency', `${availableParallelism()}`, ...tierOptions, ...nodeOptions, ...(namedFiles.length > 0 ? namedFiles : testFiles)];
+  return createProgramJob([process.execPath, '--import', 'tsx', '--test', '--test-reporter', 'tap', '--test-concurrency', `${availableParallelism()}`, ...tierOptions, ...nodeOptions, ...(namedFiles.length > 0 ? namedFiles : testFiles)], env);
 }
 
 /** Number of last lines of a failed program's output that are shown again below the summary, because they contain the errors. */

@@ -2,8 +2,8 @@
 // installed at the same time. This script imports only Node built-ins, because it runs in a bare clone.
 
 import { createHash } from 'node:crypto';
-import { existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
-import { homedir, tmpdir } from 'node:os';
+import { existsSync, mkdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
+import { homedir } from 'node:os';
 import { delimiter, dirname, join } from 'node:path';
 import { ROOT, UserError, findProgram, mustRun, runOnce, printStep, taskQueue, run, runAsScript } from './process.mjs';
 
@@ -69,20 +69,17 @@ const [aptQueue, rustupQueue] = [taskQueue(), taskQueue()];
  * @param {string[]} debianPackages
  * @param {string} purposeSentence thrown as `UserError` otherwise
  */
-export const aptInstall = (debianPackages, purposeSentence) => aptQueue(() => aptInstallNow(debianPackages, purposeSentence));
-
-/** Installs Debian packages. @param {string[]} packages @param {string} sentence of the error */
-async function aptInstallNow(packages, sentence) {
-  if (findProgram('apt-get') === undefined) throw new UserError(sentence);
+export const aptInstall = (debianPackages, purposeSentence) => aptQueue(async () => {
+  if (findProgram('apt-get') === undefined) throw new UserError(purposeSentence);
   const rootCommand = process.getuid?.() === 0 ? [] : ['sudo', '-n'];
-  if (rootCommand.length > 0 && !(await run('sudo', ['-n', 'true'], { quiet: true })).ok) throw new UserError(sentence);
-  printStep(`Installing ${packages.join(' ')} by apt`);
+  if (rootCommand.length > 0 && !(await run('sudo', ['-n', 'true'], { quiet: true })).ok) throw new UserError(purposeSentence);
+  printStep(`Installing ${debianPackages.join(' ')} by apt`);
   const [command, ...firstArguments] = [...rootCommand, 'env', 'DEBIAN_FRONTEND=noninteractive', 'apt-get'];
   await run(command, [...firstArguments, 'update', '-qq'], { seconds: 300 });
   // Apt must not remove an installed package, and in particular no other Rust.
   const aptOptions = ['-y', '-qq', '--no-remove', '--no-install-recommends', '-o', 'DPkg::Lock::Timeout=300'];
-  await mustRun(sentence, command, [...firstArguments, 'install', ...aptOptions, ...packages], { seconds: 900 });
-}
+  await mustRun(purposeSentence, command, [...firstArguments, 'install', ...aptOptions, ...debianPackages], { seconds: 900 });
+});
 
 /** Ensures that Python and pip, which build the Python package, are installed. */
 export async function ensurePip() {
@@ -120,13 +117,9 @@ export const ensureNativeRust = runOnce(/** @returns {Promise<Rust>} */ async ()
 /** Installs Rust by rustup, and returns true if that succeeded. @returns {Promise<boolean>} */
 async function installRustup() {
   printStep('Installing Rust by rustup');
-  const scriptPath = join(tmpdir(), `rustup-init-${process.pid}.sh`);
-  const curlArguments = ['--proto', '=https', '--tlsv1.2', '-sSf', '--max-time', '60', '-o', scriptPath, 'https://sh.rustup.rs'];
+  const rustupScript = await run('curl', ['--proto', '=https', '--tlsv1.2', '-sSf', '--max-time', '60', 'https://sh.rustup.rs'], { quiet: true });
   const rustupArguments = ['-y', '--no-modify-path', '--profile', 'default', '--target', WASM_TARGET];
-  const isInstalled =
-    (await run('curl', curlArguments)).ok && (await run('sh', [scriptPath, ...rustupArguments], { seconds: 600 })).ok;
-  rmSync(scriptPath, { force: true });
-  return isInstalled;
+  return rustupScript.ok && (await run('sh', ['-c', rustupScript.stdout, 'sh', ...rustupArguments], { seconds: 600 })).ok;
 }
 
 /**

@@ -19,11 +19,7 @@ export function differencesFromCore(core, sampleCount) {
   for (const eventNumber of [0, 30]) {
     const { stats } = readStatsAndContours(simulation, eventNumber);
     const baselineResult = baseline.refresh(commandAt(eventNumber), PICTURE_VIEW, COLOUR_RAMP);
-    for (const [statisticPath, baselineValue] of numbersWithPaths(baselineResult.stats)) {
-      const coreValue = statisticPath.split('.').reduce((statsPart, statsKey) => statsPart[statsKey], /** @type {any} */ (stats));
-      // The negated comparison also reports NaN.
-      if (!(Math.abs(baselineValue - coreValue) <= MAX_DIFFERENCE)) differenceTexts.push(`${statisticPath}: ${baselineValue}, core ${coreValue}`);
-    }
+    differenceTexts.push(...differingNumbers(baselineResult.stats, stats));
     const corePixels = readDensityPixels(simulation);
     const differingPixelCount = baselineResult.pixels.filter((baselinePixel, i) => baselinePixel !== corePixels[i]).length;
     if (differingPixelCount > 0) differenceTexts.push(`pixels: ${differingPixelCount} differ`);
@@ -42,8 +38,9 @@ export function unitNoiseOf({ config: { command: { v, omega }, alphas: [a1, a2, 
   return executedMotions.map((value, i) => (value - [v, omega, 0][i % 3]) / stdDevs[i % 3]);
 }
 
-/** Returns every number of an object with its path. @param {object | number} objectOrNumber @param {string[]} parentKeys @returns {[string, number][]} */
-function numbersWithPaths(objectOrNumber, ...parentKeys) {
-  if (typeof objectOrNumber === 'number') return [[parentKeys.join('.'), objectOrNumber]];
-  return Object.entries(objectOrNumber).flatMap(([key, memberValue]) => numbersWithPaths(memberValue, ...parentKeys, key));
+/** Returns the numbers of the baseline that differ from those of the core, with their paths. @param {any} baselineValue @param {any} coreValue @param {string[]} parentKeys @returns {string[]} */
+function differingNumbers(baselineValue, coreValue, ...parentKeys) {
+  if (typeof baselineValue === 'object') return Object.entries(baselineValue).flatMap(([key, member]) => differingNumbers(member, coreValue[key], ...parentKeys, key));
+  // A difference that is NaN is reported too.
+  return Math.abs(baselineValue - coreValue) <= MAX_DIFFERENCE ? [] : [`${parentKeys.join('.')}: ${baselineValue}, core ${coreValue}`];
 }

@@ -15,26 +15,6 @@ import { formatReport } from '../benches/report.js';
 /** Headers that isolate the page. The clock of an isolated page has steps of 5 µs instead of 100 µs. */
 const ISOLATION_HEADERS = { 'cross-origin-opener-policy': 'same-origin', 'cross-origin-embedder-policy': 'require-corp' };
 
-/** @typedef {{ quick: boolean, log: { odometry: string, reference: string } }} Options */
-
-/** Measures the core and the page, and prints the report. @param {boolean} isQuickRun */
-async function runBench(isQuickRun) {
-  // The full build is measured, because it is published. The local build is not optimized.
-  await build();
-  const [odometry, reference] = [EXAMPLE_LOGS.odometry, EXAMPLE_LOGS.reference].map((logPath) => readFileSync(join(ROOT, logPath), 'utf8'));
-  const benchOptions = { quick: isQuickRun, log: { odometry, reference } };
-  printStep('Node');
-  // These modules import dist/, which exists only after the build.
-  const { measureCore } = await import('../benches/suite.js');
-  const { load } = await import('../dist/core.js');
-  const nodeTimings = await measureCore(/** @type {import('../www/types.d.ts').Motion} */ (await load()), benchOptions);
-  const browser = await ensureBrowser();
-  printStep('Chromium');
-  const benchResults = { ranOn: await describeMachine(browser.version), quick: isQuickRun, node: nodeTimings, ...(await measureInChromium(browser.chrome, benchOptions)) };
-  writeFileSync(join(ROOT, 'build/bench.json'), `${JSON.stringify(benchResults, null, 2)}\n`);
-  console.log(`\n${formatReport(benchResults)}\n\nbuild/bench.json has all measurements.`);
-}
-
 /** Describes the machine and the versions of the programs. @param {string} chromiumVersion */
 async function describeMachine(chromiumVersion) {
   const commitRun = await run('git', ['describe', '--always', '--dirty'], { quiet: true });
@@ -53,7 +33,7 @@ async function describeMachine(chromiumVersion) {
  * Measures the core and the page in Chromium.
  *
  * @param {string} executablePath
- * @param {Options} benchOptions
+ * @param {{ quick: boolean, log: { odometry: string, reference: string } }} benchOptions
  * @returns {Promise<Pick<import('../benches/report.js').Results, 'chromium' | 'start' | 'drags'>>}
  */
 async function measureInChromium(executablePath, benchOptions) {
@@ -89,5 +69,19 @@ await runAsScript(import.meta.url, async () => {
   const commandOptions = process.argv.slice(2);
   const unknownOption = commandOptions.find((commandOption) => commandOption !== '--quick');
   if (unknownOption !== undefined) throw new UserError(`"${unknownOption}" is not an option; \`npm run bench\` takes only --quick.`);
-  await runBench(commandOptions.includes('--quick'));
+  const isQuickRun = commandOptions.length > 0;
+  // The full build is measured, because it is published. The local build is not optimized.
+  await build();
+  const [odometry, reference] = [EXAMPLE_LOGS.odometry, EXAMPLE_LOGS.reference].map((logPath) => readFileSync(join(ROOT, logPath), 'utf8'));
+  const benchOptions = { quick: isQuickRun, log: { odometry, reference } };
+  printStep('Node');
+  // These modules import dist/, which exists only after the build.
+  const { measureCore } = await import('../benches/suite.js');
+  const { load } = await import('../dist/core.js');
+  const nodeTimings = await measureCore(/** @type {import('../www/types.d.ts').Motion} */ (await load()), benchOptions);
+  const browser = await ensureBrowser();
+  printStep('Chromium');
+  const benchResults = { ranOn: await describeMachine(browser.version), quick: isQuickRun, node: nodeTimings, ...(await measureInChromium(browser.chrome, benchOptions)) };
+  writeFileSync(join(ROOT, 'build/bench.json'), `${JSON.stringify(benchResults, null, 2)}\n`);
+  console.log(`\n${formatReport(benchResults)}\n\nbuild/bench.json has all measurements.`);
 });

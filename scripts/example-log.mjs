@@ -29,7 +29,7 @@ const STEPS_PER_ROW = Math.round(ROW_INTERVAL / TIME_STEP);
  */
 const EXTRA_REFERENCE_TIME = 1;
 
-/** Seed of the noise. */
+/** Seed of the noise; each leg has the next one. */
 const NOISE_SEED = 1;
 
 /** Maximum accelerations of the robot, m/s² and rad/s². */
@@ -97,10 +97,9 @@ function findLegEnds(poseRows) {
  *
  * @param {Motion} motion
  * @param {Pose[]} measuredPoses poses of the odometry, one for each row
- * @param {number} seed seed of the first leg's noise; each leg has the next one
  * @returns {Pose[]} one for each row, up to the end of the last complete leg
  */
-function simulateTruth(motion, measuredPoses, seed) {
+function simulateTruth(motion, measuredPoses) {
   const { se2 } = motion;
   const roundedPoses = measuredPoses.map(roundPose);
   const scalePose = (/** @type {Pose} */ { x, y, theta }) => ({ x: TRUE_MODEL.distanceScale * x, y: TRUE_MODEL.distanceScale * y, theta });
@@ -113,7 +112,7 @@ function simulateTruth(motion, measuredPoses, seed) {
     const legStartRow = legEnds[legIndex - 1];
     const [legStart, legGoal] = [legStartRow, legEndRow].map((rowIndex) => scalePose(poseFromArray(roundedPoses[rowIndex])));
     const trueStart = truePoses[legStartRow];
-    const [x, y, theta] = odometryModel.sample(motion.decompose(legStart, legGoal), trueStart, 1, seed + legIndex);
+    const [x, y, theta] = odometryModel.sample(motion.decompose(legStart, legGoal), trueStart, 1, NOISE_SEED + legIndex);
     const motionFromStart = (/** @type {Pose} */ measuredPose) => se2.compose(se2.inverse(legStart), measuredPose);
     const legError = se2.boxminus(se2.compose(se2.inverse(trueStart), { x, y, theta }), motionFromStart(legGoal));
     for (let i = legStartRow + 1; i <= legEndRow; i++) {
@@ -126,26 +125,23 @@ function simulateTruth(motion, measuredPoses, seed) {
   return truePoses;
 }
 
-/** Returns the tables of the example log, as CSV. @param {Motion} motion @param {number} [seed] */
-export function createExampleLog(motion, seed = NOISE_SEED) {
-  const measuredPoses = simulateOdometry(motion);
-  const truePoses = simulateTruth(motion, measuredPoses, seed);
-  const extraRowCount = Math.round(EXTRA_REFERENCE_TIME / ROW_INTERVAL);
-  const csvLineOf = (/** @type {number} */ t, /** @type {Pose} */ pose) => `${[t.toFixed(3), ...roundPose(pose)].join(',')}\n`;
-  const csvTableOf = (/** @type {string[]} */ csvLines) => `t,x,y,yaw\n${csvLines.join('')}`;
-  const [odometryLines, referenceLines] = [/** @type {string[]} */ ([]), /** @type {string[]} */ ([])];
-  const mountPose = { x: 0, y: 0, theta: TRUE_MODEL.mountYaw };
-  const lastRow = truePoses.length - 1;
-  for (let i = 0; i <= lastRow; i++) odometryLines.push(csvLineOf(START_TIME + i * ROW_INTERVAL, measuredPoses[i]));
-  for (let i = -extraRowCount; i <= lastRow + extraRowCount; i++) {
-    const pose = truePoses[Math.max(0, Math.min(i, lastRow))];
-    referenceLines.push(csvLineOf(START_TIME + i * ROW_INTERVAL + TRUE_MODEL.clockOffset, motion.se2.compose(pose, mountPose)));
-  }
-  return { odometry: csvTableOf(odometryLines), reference: csvTableOf(referenceLines) };
-}
-
 /** Writes the two logs. dist/core.js must be built. */
 export async function writeExampleLog() {
   const { load } = await import('../dist/core.js');
-  for (const [logName, csvText] of Object.entries(createExampleLog(await load()))) writeFileSync(join(ROOT, EXAMPLE_LOGS[logName]), csvText);
+  const motion = await load();
+  const measuredPoses = simulateOdometry(motion);
+  const truePoses = simulateTruth(motion, measuredPoses);
+  const extraRowCount = Math.round(EXTRA_REFERENCE_TIME / ROW_INTERVAL);
+  const csvLineOf = (/** @type {number} */ t, /** @type {Pose} */ pose) => `${[t.toFixed(3), ...roundPose(pose)].join(',')}\n`;
+  const csvTableOf = (/** @type {string[]} */ csvLines) => `t,x,y,yaw\n${csvLines.join('')}`;
+  const mountPose = { x: 0, y: 0, theta: TRUE_MODEL.mountYaw };
+  const lastRow = truePoses.length - 1;
+  const odometryLines = truePoses.map((_, i) => csvLineOf(START_TIME + i * ROW_INTERVAL, measuredPoses[i]));
+  const referenceLines = Array.from({ length: truePoses.length + 2 * extraRowCount }, (_, rowIndex) => {
+    const i = rowIndex - extraRowCount;
+    const pose = truePoses[Math.max(0, Math.min(i, lastRow))];
+    return csvLineOf(START_TIME + i * ROW_INTERVAL + TRUE_MODEL.clockOffset, motion.se2.compose(pose, mountPose));
+  });
+  writeFileSync(join(ROOT, EXAMPLE_LOGS.odometry), csvTableOf(odometryLines));
+  writeFileSync(join(ROOT, EXAMPLE_LOGS.reference), csvTableOf(referenceLines));
 }

@@ -38,16 +38,6 @@ async function runCargoFuzz(targetName, inputFolders, fuzzerOptions) {
   return run(join(bin, 'cargo'), cargoArguments, { env: { ...env, FUZZ_TARGET: targetName }, quiet: true });
 }
 
-/** Compiles the targets. */
-async function compileTargets() {
-  const { bin, env } = await ensureNativeRust();
-  const cargoPath = join(bin, 'cargo');
-  const missingMessage =
-    'cargo-fuzz or a nightly Rust is missing: run `rustup toolchain install nightly` and `cargo install --locked cargo-fuzz`, and start again.';
-  await mustRun(missingMessage, cargoPath, ['+nightly', 'fuzz', '--version'], { env, quiet: true });
-  await mustRun('The targets do not compile: see above.', cargoPath, ['+nightly', 'fuzz', 'build', ...BUILD_OPTIONS], { env });
-}
-
 /**
  * Runs a target on new inputs, and returns false if an input failed.
  * @param {string} targetName @param {string} runCount @param {string} seed @returns {Promise<boolean>}
@@ -90,7 +80,10 @@ await runAsScript(import.meta.url, async () => {
   if (unknownTarget !== undefined) throw new UserError(`"${unknownTarget}" is not a target; targets are ${FUZZ_TARGETS.join(', ')}.`);
   const waitingTargets = namedTargets.length > 0 ? namedTargets : [...FUZZ_TARGETS];
   printStep(`${isKeepMode ? 'keep' : `${runs} inputs each, seed ${seed}`}: ${waitingTargets.join(', ')}`);
-  await compileTargets();
+  const { bin, env } = await ensureNativeRust();
+  const missingMessage = 'cargo-fuzz or a nightly Rust is missing: run `rustup toolchain install nightly` and `cargo install --locked cargo-fuzz`, and start again.';
+  await mustRun(missingMessage, join(bin, 'cargo'), ['+nightly', 'fuzz', '--version'], { env, quiet: true });
+  await mustRun('The targets do not compile: see above.', join(bin, 'cargo'), ['+nightly', 'fuzz', 'build', ...BUILD_OPTIONS], { env });
   const runWaitingTargets = async () => {
     for (let target = waitingTargets.shift(); target !== undefined; target = waitingTargets.shift()) {
       const targetRun = isKeepMode ? keepInputs(target) : fuzzTarget(target, `${runs}`, `${seed}`);

@@ -5,9 +5,8 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { CHROME_ARGUMENTS, ensureBrowser } from './browser.mjs';
 import { build } from './build.mjs';
-import { ROOT, findProgram, mustRun, runAsScript } from './process.mjs';
+import { ROOT, mustRun, runAsScript } from './process.mjs';
 import { startServer } from './serve.mjs';
-import { aptInstall } from './toolchain.mjs';
 
 /** Width of the figure, at which it shows a single picture, and the size of its font. */
 const FIGURE_WIDTH_PX = 690;
@@ -17,8 +16,6 @@ const FONT_SIZE_PX = 24;
 const FRAME_COUNT = 24;
 const FRAME_DURATIONS_MS = { each: 100, end: 1600 };
 
-const MISSING_WEBP_MESSAGE = 'img2webp is missing: install the package webp.';
-
 await runAsScript(import.meta.url, async () => {
   await build({ local: true });
   const { chromium } = await import('@playwright/test');
@@ -26,7 +23,6 @@ await runAsScript(import.meta.url, async () => {
   const { address, close } = await startServer(join(ROOT, 'dist'), { port: 0 });
   const frameDirectory = mkdtempSync(join(tmpdir(), 'morph-'));
   try {
-    if (findProgram('img2webp') === undefined) await aptInstall(['webp'], MISSING_WEBP_MESSAGE);
     const page = await browser.newPage({ viewport: { width: FIGURE_WIDTH_PX, height: 1350 } });
     await page.goto(`${address}embed.html?widget=banana-machine`);
     await page.addStyleTag({ content: `body { margin: 0; font-size: ${FONT_SIZE_PX}px }` });
@@ -45,7 +41,7 @@ await runAsScript(import.meta.url, async () => {
       await page.screenshot({ path: framePath, clip: clipBox });
       frameArguments.push('-d', String(i % FRAME_COUNT === 0 ? FRAME_DURATIONS_MS.end : FRAME_DURATIONS_MS.each), framePath);
     }
-    await mustRun(MISSING_WEBP_MESSAGE, 'img2webp', ['-loop', '0', '-lossy', '-q', '50', '-m', '6', ...frameArguments, '-o', join(ROOT, 'doc/morph.webp')]);
+    await mustRun('img2webp is missing: install the package webp.', 'img2webp', ['-loop', '0', '-lossy', '-q', '50', '-m', '6', ...frameArguments, '-o', join(ROOT, 'doc/morph.webp')]);
   } finally {
     await browser.close();
     close();

@@ -30,7 +30,7 @@ export async function createManifest() {
     const name = `${className}Element`;
     const analyzedClass = classes.get(name);
     /** Replaces the general type names of the common class by those of the element's class. @param {string} typeText */
-    const withClassNames = (typeText) => ({ text: typeText.replace(/\bSimulation\b/, className).replace(/\bValues\b/, `${className}State`) });
+    const withClassNames = (typeText) => ({ text: typeText.replace(/\bSimulation\b/, className).replace(/\bStateValues\b/, `${className}State`) });
     const itemOf = (/** @type {any} */ { name, type, description }) => ({ name, ...(type && { type: withClassNames(type.text) }), description: description && joinLines(description) });
     const documentedItems = (/** @type {any[]} */ memberItems) => memberItems.filter(({ description }) => description).map(itemOf);
     const memberOf = (/** @type {any} */ { kind, parameters, return: returnType, readonly, ...rest }) => ({

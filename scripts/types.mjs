@@ -27,7 +27,8 @@ const TEMPLATE_FRAMEWORKS = {
 /** Writes all declaration files. */
 export async function writeTypes() {
   const widgetDescriptions = await describeWidgets();
-  const coreTypes = readFileSync(join(ROOT, 'build/core.d.ts'), 'utf8');
+  // wasm-bindgen writes a comment inside a Rust macro as a raw string literal.
+  const coreTypes = readFileSync(join(ROOT, 'build/core.d.ts'), 'utf8').replaceAll('* r" ', '* ');
   writeFileSync(join(ROOT, 'build/simulations.d.ts'), [DISPOSABLE_LIBRARY, GENERATED_HEADER, ...groupInterfaces(), ...Object.keys(settings).map(settingsInterfaceOf), coreTypes].join('\n'));
   writeFileSync(join(ROOT, 'build/elements.d.ts'), [GENERATED_HEADER, importLineOf(widgetDescriptions), await figureTypes(widgetDescriptions), ...widgetDescriptions.map(elementTypesOf), tagTypesOf(widgetDescriptions)].join('\n'));
   for (const [frameworkName, { module, namespace, any, prefix }] of Object.entries(TEMPLATE_FRAMEWORKS)) {

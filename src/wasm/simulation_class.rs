@@ -123,7 +123,7 @@ macro_rules! read {
     ($(#[$doc:meta])+ $class:ident, $name:literal, $view:literal, [$($getter:ident $(as $key:ident)?),+ $(,)?]) => {
         #[wasm_bindgen(typescript_custom_section)]
         const VIEW_TYPE: &str = concat!(
-            "export type ", $view, " = Pick<", $name, ", never",
+            "/** Result of `read`. */\nexport type ", $view, " = Pick<", $name, ",",
             $(" | '", read!(@key $getter $($key)?), "'",)+
             ">;"
         );

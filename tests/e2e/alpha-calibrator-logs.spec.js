@@ -217,7 +217,9 @@ test('a log is read and fitted in a worker, and the page stays free', async ({ p
   expect(longestTaskShare).toBeLessThan(0.2);
   // The Web Vitals call a layout unstable if its shift is 0.1 or more.
   expect(layoutShifts.reduce((shiftSum, layoutShift) => shiftSum + layoutShift, 0)).toBeLessThan(0.1);
-  // A changed setting starts another fit. The figure shows the previous result meanwhile.
+  await widget.locator('.slider:has(#angle) .typed').fill('x');
+  await widget.locator('.slider:has(#angle) .typed').press('Enter');
+  // A changed setting starts another fit. The figure shows the previous result meanwhile, and other notices stay.
   const { alphas } = await readStats(widget);
   const resultsWhileFitting = await widget.evaluate((element) => {
     const calibratorElement = /** @type {any} */ (element);
@@ -227,6 +229,7 @@ test('a log is read and fitted in a worker, and the page stays free', async ({ p
   expect(resultsWhileFitting).toEqual({ distance: 0.5, alphas });
   await waitUntilSettled(widget);
   expect((await readStats(widget)).alphas).not.toEqual(alphas);
+  await expect(widget.getByRole('alert')).toHaveText(/got "x"/);
 });
 
 testWithWarnings('where the page’s policy forbids workers, a log is read all the same @nightly', async ({ page }) => {

@@ -6,6 +6,7 @@ import { execFileSync, spawnSync } from 'node:child_process';
 import { cpSync, existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
+import { toPascalCase } from '../../scripts/declarations.mjs';
 import { ROOT } from '../../scripts/process.mjs';
 import { settings } from '../../build/settings.js';
 import { serveProject } from './support.js';
@@ -181,6 +182,7 @@ test('custom-elements.json says what the elements have', async () => {
     // Names of HTML attributes have no capital letters.
     assert.deepEqual(sortedNamesOf(attributes).map((name) => name.toLowerCase()).sort(), actualNames.attributes.sort(), tagName);
     assert.deepEqual(actualNames.missingMembers, [], tagName);
+    for (const { name, return: returned } of members) if (name === 'getState') assert.equal(returned.type.text, `${toPascalCase(tagName)}State | null`);
     for (const { name, description } of [...attributes, ...members, ...events, ...cssParts, ...cssProperties]) assert.ok(description, `${name} of ${tagName}`);
     assert.deepEqual(sortedNamesOf(events), ['change', 'error', 'input', 'load', 'stats']);
     // The element with the part `notice` exists only while there is a notice.

@@ -7,46 +7,56 @@ import { FigureController } from './controller.ts';
 
 /** Notice beside a control, or over the lower edge of the figure or window with a button that closes it. Its appearance moves no other content. */
 export class Notice extends FigureController {
-  #currentNotice: { content: () => unknown, control?: string, stop?: () => void } | undefined;
+  #latest: { content: () => unknown, control?: string } | undefined;
+  /** Notice about long work, until `endWork`. It covers another notice at the lower edge. */
+  #work: { content: () => unknown, stop: () => void } | undefined;
 
-  /** Shows a notice: beside the control named `control`, or otherwise with a button. The button calls `stop`, if given, and closes the notice. */
+  /** Shows a notice: beside the control named `control`, or otherwise with a button. A notice about long work has a button that calls `stop`. */
   show(content: () => unknown, { control, stop }: { control?: string, stop?: () => void } = {}) {
-    this.#currentNotice = { content, control, stop };
+    if (stop) this.#work = { content, stop };
+    else this.#latest = { content, control };
     this.host.requestUpdate();
   }
 
-  /** Hides the notice, unless it is about work that can be stopped. */
+  /** Hides the latest notice, unless it is about long work. */
   dismiss() {
-    if (this.#currentNotice && !this.#currentNotice.stop) this.hide();
+    if (this.#latest) this.host.requestUpdate();
+    this.#latest = undefined;
   }
 
-  hide() {
-    this.#currentNotice = undefined;
+  endWork() {
+    this.#work = undefined;
     this.host.requestUpdate();
   }
 
   /** Returns the notice beside a control, such as why a typed text was refused; undefined if there is none. */
   textBeside(control: string) {
-    return this.#currentNotice?.control === control ? (this.#currentNotice.content() as string) : undefined;
+    return this.#latest?.control === control ? (this.#latest.content() as string) : undefined;
   }
 
-  #stopOrHide = () => {
-    this.#currentNotice?.stop?.();
-    this.hide();
+  /** Notice at the lower edge. */
+  get #atEdge() {
+    return this.#work ?? (this.#latest?.control ? undefined : this.#latest);
+  }
+
+  #stopOrDismiss = () => {
+    if (!this.#work) this.dismiss();
+    this.#work?.stop();
+    this.endWork();
   };
 
   /** Stops the work or closes the notice when the user presses Escape. */
   stopOnEscape(event: KeyboardEvent) {
-    if (!this.#currentNotice || this.#currentNotice.control || event.key !== 'Escape' || event.defaultPrevented) return;
+    if (!this.#atEdge || event.key !== 'Escape' || event.defaultPrevented) return;
     event.preventDefault();
-    this.#stopOrHide();
+    this.#stopOrDismiss();
   }
 
   render() {
-    if (!this.#currentNotice || this.#currentNotice.control) return nothing;
-    const { content, stop } = this.#currentNotice;
+    if (!this.#atEdge) return nothing;
+    const { stop, stopTitle } = words.progress;
     return html`<div class="notice"><div part="notice">
-      <div role="alert">${content()}</div> ${stop ? buttonHtml(words.progress.stop, this.#stopOrHide, { title: words.progress.stopTitle }) : buttonHtml(words.close, this.#stopOrHide)}
+      <div role="alert">${this.#atEdge.content()}</div> ${this.#work ? buttonHtml(stop, this.#stopOrDismiss, { title: stopTitle }) : buttonHtml(words.close, this.#stopOrDismiss)}
     </div></div>`;
   }
 }

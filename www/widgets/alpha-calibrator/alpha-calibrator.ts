@@ -386,7 +386,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
       this.#reportError(error);
     } finally {
       clearTimeout(noticeTimer);
-      notice.hide();
+      notice.endWork();
     }
   }
 

@@ -128,6 +128,7 @@ const styles = css`
 
   .morph button {
     grid-row: span 2;
+    align-self: start;
   }
 
   .morph input {

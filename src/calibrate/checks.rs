@@ -140,9 +140,7 @@ impl CheckName {
             Self::EnoughLegs => {
                 "There are few legs, so the intervals are wide and the other checks weak. Drive on: a quarter of an hour of straight drives, arcs and turns on the spot."
             }
-            Self::LegsLost => {
-                "Many legs were lost to gaps, breaks or a standing robot. The α's are those of the rest. Look at the counts by cause, and record without gaps."
-            }
+            Self::LegsLost => "Many legs were lost. The α's are those of the rest.",
             Self::SamplingDense => {
                 "Rows are too sparse for legs of this length: legs are longer than asked, and the α's belong to the longer ones. Record more often, or ask for longer legs."
             }
@@ -223,6 +221,11 @@ pub(super) fn log_checks(
         sample.legs.iter().map(|leg| sample.options.legs.ratio(&leg.odometry, leg.duration())).collect();
     let outlier_count = sample.outliers.iter().filter(|is| **is).count();
     let lost_count = lost.total() - lost.standing;
+    let mut legs_lost =
+        Check::new(CheckName::LegsLost, lost_count as f64 / (leg_count + lost_count) as f64, [0.0, 0.2]);
+    if !legs_lost.passed {
+        legs_lost.message += lost.remedy();
+    }
     let matches_range = [MIN_RELATIVE_ERROR, MAX_MISMATCH];
     let mismatch = mismatch.map(|value| Check::new(CheckName::ReferenceMatches, value, matches_range));
     let mut checks = Vec::from_iter(mismatch);
@@ -230,7 +233,7 @@ pub(super) fn log_checks(
         Check::new(CheckName::EnoughLegs, leg_count as f64, [SUFFICIENT_LEGS, f64::INFINITY]),
         // The inflation is infinite if no inflation covers the windows.
         Check::new(CheckName::InflationBounded, inflation, [1.0, MAX_INFLATION]),
-        Check::new(CheckName::LegsLost, lost_count as f64 / (leg_count + lost_count) as f64, [0.0, 0.2]),
+        legs_lost,
         Check::new(CheckName::SamplingDense, median(&mut length_ratios), [0.0, 1.5]),
         Check::new(CheckName::OutliersFew, outlier_count as f64 / leg_count as f64, [0.0, 0.05]),
     ]);

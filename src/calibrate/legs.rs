@@ -105,6 +105,16 @@ impl LostLegs {
     pub fn total(&self) -> usize {
         self.without_reference + self.across_breaks + self.across_pauses + self.standing
     }
+
+    /// Returns the remedy of the most frequent cause. A standing robot needs none.
+    pub(super) fn remedy(&self) -> &'static str {
+        let remedies = [
+            (self.without_reference, " Most lack the reference: record it for the whole drive."),
+            (self.across_breaks, " Most cross a break: look at the jumps and at the rows left out."),
+            (self.across_pauses, " Most are stretched by a pause: record both logs without gaps."),
+        ];
+        remedies.into_iter().max_by_key(|(count, _)| *count).map_or("", |(_, remedy)| remedy)
+    }
 }
 
 /// Distance (m) above which the motion of a leg counts as a drive, and turn (rad) above which it counts as a turn.

@@ -79,7 +79,7 @@ pub enum CalibrateError {
     NoCommonTime,
     /// There are fewer than [`MIN_LEGS`] legs.
     #[error(
-        "the log has {legs} legs for which both trajectories are known; at least {MIN_LEGS} are needed: choose shorter legs, drive longer, or check the clocks"
+        "not enough data: {legs} legs have poses by both logs, and {MIN_LEGS} are needed. Take both logs from one drive, choose shorter legs, or drive longer"
     )]
     TooFewLegs {
         /// Number of legs.

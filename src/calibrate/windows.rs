@@ -203,7 +203,7 @@ fn recommendation_reason(window: &WindowCoverage, inflation: f64) -> String {
     }
     let [nees, inflation] = [nees, inflation].map(|number| format_decimal(number, 2));
     format!(
-        "The fit covers {coverage_percent} % of {count} held-out windows of ≥ 1 m (squared error over predicted variance {nees}, where 1 is right); times {inflation} it covers at least 95 %."
+        "The fit covers {coverage_percent} % of {count} held-out windows of ≥ 1 m (squared error over predicted variance {nees}, where 1 is right). The fitted α's times {inflation} cover at least 95 %."
     )
 }
 

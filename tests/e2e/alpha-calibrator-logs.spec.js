@@ -15,14 +15,16 @@ testWithWarnings.use(REDUCED_MOTION);
 test('two tables of a user replace the simulated log, and a button brings it back', async ({ page }) => {
   const calibrator = await openCalibrator(page);
   const logTables = await simulatedTablesOf(calibrator);
-  await chooseTables(calibrator, { 'truth.csv': logTables.reference, 'odom.csv': logTables.odometry });
+  // The clock of the reference is an hour ahead.
+  const laterTable = logTables.reference.replaceAll(/^\d+/gm, (seconds) => `${Number(seconds) + 3600}`);
+  await chooseTables(calibrator, { 'truth.csv': laterTable, 'odom.csv': logTables.odometry });
   await waitUntilSettled(calibrator);
   expect(await captionOf(calibrator).innerText()).toMatch(/ \d+ legs of odom\.csv, truth\.csv[.,]/);
   expect(await calibrator.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).simulation.truth)).toBeNull();
-  await expect(calibrator.locator('.drop-zone .present')).toHaveText('Log: odom.csv, truth.csv.');
+  await expect(calibrator.locator('.drop-zone .present')).toHaveText('Results of odometry odom.csv and reference truth.csv.');
   // The summary of the logs stays visible next to the result.
   await expect(calibrator.getByRole('row', { name: /^read \d+ of \d+ rows/ })).toBeVisible();
-  await expect(calibrator.getByRole('img', { name: /^Paths from above: .* m by .* m\.$/ })).toBeVisible();
+  await expect(calibrator.getByRole('img', { name: /^Paths from above: .*, aligned with it\); .* m by .* m\.$/ })).toBeVisible();
   // File names decide the roles of the logs. The order of the chosen files has no effect.
   await calibrator.getByLabel('odom.csv').selectOption('Reference');
   await expect(captionOf(calibrator)).toHaveText(/of truth\.csv, odom\.csv[.,]/);
@@ -31,7 +33,7 @@ test('two tables of a user replace the simulated log, and a button brings it bac
   // A single file is used only together with a second one.
   const errorAlert = calibrator.getByRole('alert');
   await chooseTables(calibrator, { 'odom.csv': logTables.odometry });
-  await expect(errorAlert).toHaveText(/^odom\.csv: it has the odometry only, .*; give the reference too\. Drop or choose the other file too,/);
+  await expect(errorAlert).toHaveText(/^odom\.csv: it has one log only, .* the odometry; give the reference too\. Drop or choose the other file too,/);
   // The α's on screen belong to the previous log. They cannot be copied until the user confirms these results.
   const outdatedResultsText = 'The results are still those of the simulated log, not of the files chosen last.';
   await expect(calibrator.locator('.drop-zone .muted')).toContainText(outdatedResultsText);
@@ -130,7 +132,7 @@ test('names and units of columns that a table does not state are asked for, and 
   await expect(widget.locator('.choosers > p')).toHaveText([/^Not used: empty\.csv: there is nothing in it/]);
   await chooseTables(widget, { 'odom.csv': rowsInMillimetres.join('\n'), 'slam.csv': readExampleTable('reference') });
   await expect(errorAlert).toHaveText(/^odom\.csv, line 1: the table has no header, .* name its 4 columns\.$/);
-  await expect(widget.getByRole('group', { name: 'Columns of odom.csv' }).getByLabel('time', { exact: true })).toBeFocused();
+  await expect(widget.getByRole('group', { name: 'Columns of odom.csv (proposed): choose, then read' }).getByLabel('time', { exact: true })).toBeFocused();
   await widget.getByRole('button', { name: 'Read', exact: true }).press('Enter');
   await expect(errorAlert).toHaveText(/in m, the robot would drive at .* state the unit of lengths: mm or cm or m or in or ft\.$/);
   await widget.getByRole('radiogroup', { name: 'Unit of lengths in odom.csv' }).getByRole('radio', { name: 'millimetres (mm)' }).check();
@@ -167,11 +169,11 @@ test('a log without enough legs is refused, and the present log keeps its place 
   const standstillTable = Buffer.from('t,x,y,yaw\n0,0,0,0\n1,0,0,0\n2,0,0,0\n');
   await dropFiles(widget.locator('.stage').first(), ['odom.csv', 'truth.csv'].map((name) => ({ name, buffer: standstillTable })));
   await expect(widget.locator('.drop-zone').getByRole('alert')).toBeInViewport();
-  await expect(widget.getByRole('alert')).toHaveText('Log refused: Not enough data: fewer than 8 legs, or the logs do not overlap in time. Take both logs from one drive, choose shorter legs, or drive longer.');
+  await expect(widget.getByRole('alert')).toHaveText('Log refused: Not enough data: fewer than 8 legs have poses by both logs. Take both logs from one drive, choose shorter legs, or drive longer.');
   await waitUntilSettled(widget);
   expect(await captionOf(widget).innerText()).toBe(captionBefore);
   expect((await readStats(widget)).alphas).toEqual(alphas);
-  await expect(widget.locator('.drop-zone .present')).toContainText('odometry.csv, reference.csv');
+  await expect(widget.locator('.drop-zone .present')).toHaveText('Results of odometry odometry.csv and reference reference.csv.');
   // The results are marked as outdated, until the figure shows its opening log again.
   await expect(widget.locator('.views')).toHaveCSS('filter', 'grayscale(1)');
   await widget.getByRole('button', { name: 'Start over' }).click();
@@ -351,7 +353,7 @@ test('a log without legs says so @nightly', async ({ page }) => {
   await expect.poll(() => widget.evaluate((element) => /** @type {AlphaCalibratorElement} */ (element).simulation.count)).toBe(0);
   await waitUntilSettled(widget);
   await openDisclosures(widget);
-  await expect(captionOf(widget)).toHaveText(/^✕ Do not use\s+Not enough data: fewer than 8 legs, or the logs do not overlap in time\. .* drive longer\.\s*$/);
+  await expect(captionOf(widget)).toHaveText(/^✕ Do not use\s+Not enough data: fewer than 8 legs have poses by both logs\. .* drive longer\.\s*$/);
   await expect(alphaRowsOf(widget).first()).toHaveText(/—/);
   for (const name of ['plane', 'leg']) await expect(widget.locator(`canvas.${name}`)).toHaveAttribute('aria-label', /^Not enough data: .* choose shorter legs, or drive longer\.$/);
   await expect(widget.locator('.slider.off:has(#leg)')).toBeVisible();

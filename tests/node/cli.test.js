@@ -113,21 +113,21 @@ test('a recording has both logs, by topics and frames that are clear or named', 
       await writeRecordingArgs('unclear.mcap', '/odom', '/other', '/third'),
       'unclear.mcap: it is not clear what the reference is: /odom (Odometry), /other (PoseStamped), /third (PoseStamped). Choose with --reference-topic, as in --reference-topic /other.\n',
     ],
-    [await writeRecordingArgs('alone.mcap', '/odom'), 'alone.mcap: it has the odometry only, /odom (Odometry); give the reference too. Name both, with --odometry FILE and --reference FILE.\n'],
+    [await writeRecordingArgs('alone.mcap', '/odom'), 'alone.mcap: it has one log only, /odom (Odometry), by name or type the odometry; give the reference too. Name both, with --odometry FILE and --reference FILE.\n'],
   ])) assert.equal((await runCalibrate(args)).err, expectedError);
 });
 
 test('bad input has the exit code 2 and a sentence', async () => {
   const straightLogPath = writeInFolder('straight.csv', ['t,x,y,yaw', ...Array.from({ length: 2000 }, (_, i) => `${1_600_000_000 + i / 20},${i / 40},0,0`)].join('\n'));
   for (const [args, errorStart] of /** @type {[string[], string][]} */ ([
-    [[examplePath('odometry')], 'odometry.csv: it has the odometry only, t, x, y, yaw; give the reference too. Name both, '],
+    [[examplePath('odometry')], 'odometry.csv: it has one log only, t, x, y, yaw, by name or type the odometry; give the reference too. Name both, '],
     [['a.csv', 'b.csv', '--time-unit', 'ms,s'], '--time-unit ms,s has two units; give the files with --odometry and --reference.'],
     [['a.csv', 'b.csv', '--reference-columns', 't,x,y,yaw'], '--reference-columns needs --reference FILE.'],
     [['--odometri', 'a'], "Unknown option '--odometri'. --help lists all options.\n"],
     [['--update-min-d', '--json'], "Option '--update-min-d' argument is ambiguous. "],
     [['--columns', '-,t,x,y,yaw'], "Option '--columns' argument is ambiguous. Did you forget to specify the option argument for '--columns'? To specify an option argument starting with a dash use '--columns=-XYZ'. --help "],
     [['a.bag', '--help=3'], "Option '-h, --help' does not take an argument. --help lists all options.\n"],
-    [[writeInFolder('twice.csv', 't,t,x,y,yaw\n0,0,0,0,0\n1,1,0,0,0\n'), LOG_ARGS[3]], 'twice.csv, line 1: both “t” and “t” may be the column of time; expected is one of them. Choose with --columns, as in --columns t,x,y,yaw,-; of one of two files, '],
+    [[writeInFolder('twice.csv', 't,t,x,y,yaw\n0,0,0,0,0\n1,1,0,0,0\n'), LOG_ARGS[3]], 'twice.csv, line 1: both “t” and “t” may be the column of time; expected is one of them. Choose with --columns, as in --columns t,x,y,yaw,-; if only one file has these columns, with --odometry FILE --reference FILE --reference-columns t,x,y,yaw,- '],
     [[writeInFolder('days.csv', ['t,x,y,yaw', ...Array.from({ length: 40 }, (_, i) => `${45_244 + i / 1_728_000},${i / 40},0,0`)].join('\n')), LOG_ARGS[3]], 'days.csv: in s, the times would mean 1.73e+6 rows a second; write them in s, or as dates such as 2024-01-31 12:00:00.5 (a spreadsheet counts days).\n'],
     [['no/metadata.yaml', 'no/run.mcap'], 'no: there is no such file or folder.\n'],
     [['no.bag', '--rule', 'Nav2'], '--rule is "Nav2"; allowed is '],
@@ -139,7 +139,7 @@ test('bad input has the exit code 2 and a sentence', async () => {
     [['--odometry', examplePath('odometry')], '--reference is missing; give a file or folder, or a recording with both.'],
     [
       [examplePath('odometry'), writeInFolder('lidar_odom.csv', readFileSync(examplePath('reference')))],
-      'odometry.csv: the odometry is in odometry.csv, lidar_odom.csv, and the reference in no file; give one of each for a drive. Choose with --odometry and --reference.\n',
+      'odometry.csv: the odometry is in odometry.csv, lidar_odom.csv, and the reference in no file; give one of each for a drive. Name both, with --odometry FILE and --reference FILE.\n',
     ],
     [[...LOG_ARGS, '--plot', 'x.png'], '--plot writes SVG; the name must end in .svg (got “x.png”).'],
     [[...LOG_ARGS, '--json', '--yaml'], '--json excludes --yaml: give one or the other.'],
@@ -344,13 +344,14 @@ test('inspect lists what is in a file, and the command to go on with', async () 
     assert.match(await inspectionOf([examplePath(role)]), new RegExp(`; give the ${otherRole} too\\. Name both, with --odometry FILE and --reference FILE\\.$`, 'm'));
   }
   const [a, b] = [['b', 'reference'], ['a', 'odometry']].map(([name, from]) => writeInFolder(`${name}.csv`, readFileSync(examplePath(from))));
-  assert.match(await inspectionOf([a, b]), /^b\.csv: its name does not say whether it is odometry or reference; .* Choose with --odometry and --reference\.$/m);
+  assert.match(await inspectionOf([a, b]), /^b\.csv: its name does not say whether it is odometry or reference; .* Name both, with --odometry FILE and --reference FILE\.$/m);
   const millimetrePath = writeInFolder('mm.csv', readFileSync(examplePath('reference'), 'utf8').replaceAll(/^([\d.]+),([\d.e-]+),([\d.e-]+)/gm, (_, t, x, y) => [t, 1000 * x, 1000 * y].join(',')));
   assert.match(await inspectionOf([millimetrePath], 2), /^mm\.csv: in m, the robot would drive at .* Choose with --length-unit, as in --length-unit /m);
-  assert.match(await inspectionOf([a, b, writeInFolder('empty_table.csv', 't,x,y,yaw\n')]), /^b\.csv: its name does not say whether it is odometry or reference;/m);
+  assert.match(await inspectionOf([a, b, writeInFolder('empty_table.csv', 't,x,y,yaw\n')], 2), /^b\.csv: its name does not say whether it is odometry or reference;/m);
   const alternatingPath = writeInFolder('alternating.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y,gt_yaw', ...Array.from({ length: 40 }, (_, i) => `${i >> 1},${i % 2},0,0,${i % 2},1,0`)].join('\n'));
   assert.equal((await inspectionOf([alternatingPath], 2)).match(/give the log of one robot/g)?.length, 1);
-  assert.match(await inspectionOf([millimetrePath, examplePath('odometry'), '--length-unit', 'mm']), /^ {2}npx motion-widgets calibrate --odometry \S+odometry\.csv --reference DIR\/mm\.csv --length-unit mm --rule nav2$/m);
+  assert.doesNotMatch(await inspectionOf([examplePath('odometry'), millimetrePath], 2), /give the reference too/);
+  assert.match(await inspectionOf(['--odometry', examplePath('odometry'), '--reference', millimetrePath, '--length-unit', 'm,mm']), /^ {2}npx motion-widgets calibrate --odometry \S+odometry\.csv --reference DIR\/mm\.csv --length-unit m,mm --rule nav2$/m);
   const headless = writeInFolder('headless.csv', ['t,x,y', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},1`)].join('\n'));
   assert.match(await inspectionOf([headless], 2), /^headless\.csv: t, x, y are positions without a heading; give a reference that measures the heading/m);
   const positionsPath = writeInFolder('positions.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},0,0,${i / 40},1`)].join('\n'));
@@ -364,7 +365,7 @@ test('an unusable log has a sentence and no lines for Nav2', async () => {
   const { code: exitCode, out } = await runCalibrate([...LOG_ARGS.slice(0, 3), reversedPath]);
   assert.equal(exitCode, 3);
   for (const linePattern of [
-    /^Do not use\. Failed check: mismatch of odometry and reference \(6 of 13 failed\)\.\nThe reference does not follow the odometry: /m,
+    /^Do not use\. Failed: mismatch of odometry and reference; .*; … \(6 of 13 checks\)\.\nThe reference does not follow the odometry: /m,
     /^reference-matches +\S+ +0\.001 to 0\.7 +FAILED +mismatch of odometry and reference$/m,
     /^alpha1 .* – +rotation noise/m, /^No lines for nav2_params\.yaml: the log is unusable\.$/m,
   ]) assert.match(out, linePattern);
@@ -396,12 +397,12 @@ test('the report says what failed, what is lost, and what to drive', async () =>
   const reportWith = (/** @type {any} */ calibrationChange, optionsChange = {}) => reportText({ calibration: { ...calibration, ...calibrationChange }, options: { ...options, ...optionsChange }, logs: [], start: 0, driveStarts: [10, 1000], date: '' });
   const failedChecks = [{ name: 'enough-legs', value: 20, expected: [100, Infinity], passed: false, message: 'Drive on.' }];
   const reportOfFailure = reportWith({ diagnostics: { ...diagnostics, verdict: 'questionable', checks: failedChecks } });
-  assert.match(reportOfFailure, /^\nCaution\. Failed check: number of legs \(1 of 1 failed\)\.\nDrive on\.\nIf the log .*\n[^]*^enough-legs +20 +≥ 100 +FAILED +number of legs\nenough-legs: Drive on\.$/m);
+  assert.match(reportOfFailure, /^\nCaution\. Failed: number of legs \(1 of 1 checks\)\.\nDrive on\.\nIf the log .*\n[^]*^enough-legs +20 +≥ 100 +FAILED +number of legs\nenough-legs: Drive on\.$/m);
   const roundedChecks = [{ name: 'window-2m-covered', value: 0.8636, expected: [0.8641, 1], passed: false, message: '' }];
   assert.match(reportWith({ diagnostics: { ...diagnostics, verdict: 'questionable', checks: roundedChecks } }), /^window-2m-covered +0\.8636 +0\.8641 to 1 +FAILED +held-out windows of ≥ 2 m within 95 %$/m);
   assert.match(reportWith({ recommended: null, diagnostics: { ...diagnostics, verdict: 'unusable' } }), /^\nDo not use\. The log identifies no α\.\n\n/);
   const inflationChecks = [{ name: 'inflation-bounded', value: Infinity, expected: [1, 30], passed: false, message: 'Find the cause.' }];
-  assert.match(reportWith({ recommended: null, diagnostics: { ...diagnostics, verdict: 'unusable', checks: inflationChecks } }), /^\nDo not use\. Failed check: inflation .*\nFind the cause\.\n\n/);
+  assert.match(reportWith({ recommended: null, diagnostics: { ...diagnostics, verdict: 'unusable', checks: inflationChecks } }), /^\nDo not use\. Failed: inflation .*\nFind the cause\.\n\n/);
   const legsWithOutliers = { count: 3, times: [12, 13, 14, 15, 1005, 1006], outliers: [1, 0, 1] };
   assert.match(reportWith({ legs: legsWithOutliers }), /^outliers: 2 of 3 legs, at 2\.00 s of drive 1, 5\.00 s of drive 2 after the start$/m);
   assert.match(reportWith({ lost: { ...lost, withoutReference: 3, standing: 7 } }), /^lost legs: 3 without reference, 7 standing still$/m);

@@ -48,6 +48,9 @@ test('rows that cannot be used are dropped with the first line of each cause, an
   assert.deepEqual([[...data.t], [...data.breaks]], [[0, 3, 4, 6, ...timesFrom(90, 8), 18], [1, 3, 4, 94]]);
   assert.deepEqual(dropped, { notFinite: { count: 4, first: 3 }, short: { count: 3, first: 11 }, text: { count: 1, first: 103 }, duplicate: { count: 1, first: 6 } });
   assert.deepEqual([count, notes], [tableRows.length, [{ name: 'cutShort', values: [] }]]);
+  // A last number with fewer decimals than all others is cut off, if no line break follows.
+  const cutShortCounts = ['0.1', '0.1\n', '0.25'].map(async (lastYaw) => (await readTable(`t,x,y,yaw\n${timesFrom(30).map((t) => `${t},0,0,0.25\n`).join('')}99,0,0,${lastYaw}`)).summary.notes.length);
+  assert.deepEqual(await Promise.all(cutShortCounts), [1, 0, 0]);
 });
 
 test('late rows are sorted; before and after a time far from all others the path has a gap', async () => {

@@ -200,8 +200,8 @@ fn errors_name_the_refused_value_and_what_is_allowed() {
         motion.calibrate({ odometry: it.odometry, reference: { ...it.reference, breaks: [7, 7] } })
         RangeError: reference.breaks[1] is 7; allowed is more than 7, the one before it
         motion.calibrate({ odometry: it.few, reference: it.few })
-        RangeError: the log has 1 legs for which both trajectories are known; at least 8 are needed: choose shorter
-            legs, drive longer, or check the clocks
+        RangeError: not enough data: 1 legs have poses by both logs, and 8 are needed. Take both logs from one drive, choose
+            shorter legs, or drive longer
         motion.calibrate({ odometry: it.few, reference: it.few, model: 'banana' })
         RangeError: model is "banana"; allowed is "odometry" or "omnidirectional" or "velocity"
         motion.calibrate({ odometry: it.few, reference: it.few, model: 'velocity', rule: 'nav2' })

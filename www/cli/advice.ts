@@ -9,8 +9,8 @@ export const quoteForShell = (text: string): string => (/^[\w./,@%+=:-]+$/.test(
 export function optionAdvice({ ask, message }: LogError): string {
   if (!ask || message.includes(' --')) return '';
   const { what, role = 'odometry', choices, columns = [], doubted } = ask;
-  if (what === 'other') return ' Name both, with --odometry FILE and --reference FILE.';
-  const optionText = { series: `--${role}-topic`, frames: `--${role}-frames`, columns: '--columns', timeUnit: '--time-unit', lengthUnit: '--length-unit', angleUnit: '--angle-unit', roles: '--odometry and --reference' }[what];
+  if (what === 'other' || what === 'roles') return ' Name both, with --odometry FILE and --reference FILE.';
+  const optionText = { series: `--${role}-topic`, frames: `--${role}-frames`, columns: '--columns', timeUnit: '--time-unit', lengthUnit: '--length-unit', angleUnit: '--angle-unit' }[what];
   if (ask.pair) return ` Choose with --odometry FILE --reference FILE ${optionText} ${ask.pair}.`;
   if (what in UNITS) {
     const allUnits: readonly string[] = UNITS[what as keyof typeof UNITS];
@@ -19,6 +19,7 @@ export function optionAdvice({ ask, message }: LogError): string {
     return ` Choose with ${optionText}, as in ${optionText} ${otherUnit}; if odometry and reference differ, with --odometry FILE --reference FILE ${optionText} ${usualUnit},${otherUnit}.`;
   }
   const [exampleChoice] = choices.length > 0 ? choices.filter(Boolean) : what === 'columns' ? [`t,x,y,yaw${',-'.repeat(Math.max(0, columns.length - 4))}`] : [];
-  const exampleText = exampleChoice === undefined ? '' : `, as in ${optionText} ${quoteForShell(truncate(exampleChoice))}`;
-  return ` Choose with ${optionText}${exampleText}${what === 'columns' ? '; of one of two files, with --odometry-columns or --reference-columns' : ''}.`;
+  if (exampleChoice === undefined) return ` Choose with ${optionText}.`;
+  const quotedExample = quoteForShell(truncate(exampleChoice));
+  return ` Choose with ${optionText}, as in ${optionText} ${quotedExample}${what === 'columns' ? `; if only one file has these columns, with --odometry FILE --reference FILE --reference-columns ${quotedExample} (or --odometry-columns)` : ''}.`;
 }

@@ -6,24 +6,25 @@ import { english } from '../logs/en.ts';
 import { LogError, truncate, ROLES, framesOption, framesText, summarySentences, type LogChoice, type Recording, type Role, type Summary } from '../logs/log.ts';
 import { optionAdvice, quoteForShell } from './advice.ts';
 import { alignRows } from './report.ts';
+import type { OpenedInputs } from './run.ts';
 
 const FORMAT_NAMES: Record<Recording['format'], string> = { mcap: 'MCAP recording', rosbag: 'ROS 1 bag', sqlite: 'rosbag2 SQLite recording', csv: 'table' };
 
-export interface GivenRecording { recording: Recording; path: string }
-
 /**
  * Returns the contents of recordings, and the command that calibrates from them with the stated options, or sentences about what is missing.
- * `isUsable` is true if a log can be read.
+ * `isUsable` is true if a log can be read, and none that the command needs is refused.
  */
-export async function inspect(givenRecordings: GivenRecording[], statedOptions: [name: string, value: string][], onProgress?: (share: number | undefined) => void) {
+export async function inspect({ givenRecordings, userChoices }: OpenedInputs, statedOptions: [name: string, value: string][], onProgress?: (share: number | undefined) => void) {
   const recordings: Awaited<ReturnType<typeof contentsOf>>[] = [];
   for (const { recording } of givenRecordings) recordings.push(await contentsOf(recording, onProgress));
   onProgress?.(undefined);
   const usableRecordings = givenRecordings.filter((_, i) => recordings[i].series.some(({ summary }) => summary));
-  const isUsable = usableRecordings.length > 0;
   const refusalErrors = recordings.flatMap((recording) => recording.refused);
-  const proposal = isUsable || refusalErrors.length === 0 ? proposeCommand(isUsable ? usableRecordings : givenRecordings, statedOptions) : {};
-  return { inspection: { recordings, ...proposal }, sentences: [...refusalErrors, ...(proposal.missing ? [proposal.missing] : [])], isUsable };
+  const { command } = usableRecordings.length > 0 ? proposeCommand({ givenRecordings: usableRecordings, userChoices }, statedOptions) : {};
+  // A log that is refused is not missing.
+  const { missing } = command === undefined ? proposeCommand({ givenRecordings, userChoices }, statedOptions) : {};
+  const isUsable = usableRecordings.length > 0 && (command !== undefined || refusalErrors.length === 0);
+  return { inspection: { recordings, command, missing }, sentences: [...refusalErrors, ...(missing ? [missing] : [])], isUsable };
 }
 
 /** Returns the series of a recording with their logs, and sentences about the logs that cannot be read. */
@@ -73,11 +74,11 @@ function usesOfSeries(recording: Recording, name: string): { choice: LogChoice; 
 }
 
 /** Returns the command that calibrates from the recordings, or a sentence about missing logs. */
-function proposeCommand(givenRecordings: GivenRecording[], statedOptions: [name: string, value: string][]): { command?: string; missing?: string } {
+function proposeCommand({ givenRecordings, userChoices }: OpenedInputs, statedOptions: [name: string, value: string][]): { command?: string; missing?: string } {
   const quotedPath = ({ recording }: Pick<RecordingChoice, 'recording'>) => quoteForShell(givenRecordings.find((file) => file.recording === recording)?.path ?? recording.name);
   const quotedPaths = givenRecordings.map(quotedPath);
   try {
-    const { drives, unpaired } = planDrives(givenRecordings.map(({ recording }) => recording));
+    const { drives, unpaired } = planDrives(givenRecordings.map(({ recording }) => recording), userChoices);
     const choiceOptions = ROLES.flatMap((role) => [...drives.map((drive) => drive[role]), ...unpaired[role]].flatMap(({ choice: { series, frames } }) => [
       ...(series ? [`--${role}-topic ${quoteForShell(series)}`] : []),
       ...(frames ? [`--${role}-frames ${quoteForShell(framesOption(frames))}`] : []),

@@ -62,15 +62,17 @@ const textOption = { type: 'string' } as const;
 const repeatedTextOption = { type: 'string', multiple: true } as const;
 const flagOption = { type: 'boolean' } as const;
 
-const OPTIONS = {
+/** Options that say what the logs are, which both commands have. */
+const LOG_OPTIONS = {
   odometry: repeatedTextOption, reference: repeatedTextOption, recording: repeatedTextOption, 'odometry-topic': textOption, 'reference-topic': textOption, 'odometry-frames': textOption,
-  'reference-frames': textOption, columns: textOption, 'odometry-columns': textOption, 'reference-columns': textOption, 'time-unit': textOption, 'length-unit': textOption,
-  'angle-unit': textOption, model: textOption, rule: textOption, 'update-min-d': textOption, 'update-min-a': textOption, duration: textOption, outliers: textOption,
+  'reference-frames': textOption, columns: textOption, 'odometry-columns': textOption, 'reference-columns': textOption, 'time-unit': textOption, 'length-unit': textOption, 'angle-unit': textOption,
+} as const;
+
+const OPTIONS = {
+  ...LOG_OPTIONS, model: textOption, rule: textOption, 'update-min-d': textOption, 'update-min-a': textOption, duration: textOption, outliers: textOption,
   'no-correct': textOption, correct: textOption, 'reference-position-std': textOption, 'reference-yaw-std': textOption, json: flagOption, yaml: flagOption, plot: textOption,
   help: { ...flagOption, short: 'h' }, version: flagOption,
 } as const;
-
-const INSPECT_OPTIONS = ['recording', 'odometry', 'reference', 'columns', 'time-unit', 'length-unit', 'angle-unit', 'json'];
 
 /** Command-line options by the fields of the core's function `calibrate`. */
 const OPTION_BY_FIELD: Record<string, string> = {
@@ -84,7 +86,7 @@ export function replaceFieldByOption(message: string): string | undefined {
   return Object.hasOwn(OPTION_BY_FIELD, field) ? `--${OPTION_BY_FIELD[field]}${message.slice(field.length)}.` : undefined;
 }
 
-export interface InputPath { path: string; open: OpenOptions }
+export interface InputPath { path: string; open: OpenOptions; role?: Role }
 
 export type CalibrateArguments = Extract<ReturnType<typeof parseOptions>, { command: 'calibrate' }>;
 
@@ -96,14 +98,24 @@ export function parseOptions(args: string[]) {
   if (values.version) return 'version';
   if (values.help || args.length === 0) return 'help';
   const columnNames = (name: 'columns' | 'odometry-columns' | 'reference-columns') => values[name]?.split(',').map((column) => column.trim());
-  const openOptionsOf = (role?: Role, names = columnNames('columns')): OpenOptions => ({ ...unitsOf(values, role), ...(names && { columns: names }) });
+  const openOptionsOf = (role?: Role) => withoutUndefined({ ...unitsOf(values, role), columns: (role && columnNames(`${role}-columns`)) ?? columnNames('columns') });
+  const inputsOfPaths = (paths: string[] = [], role?: Role) => paths.map((path): InputPath => ({ path, role, open: openOptionsOf(role) }));
+  const chosenSeries = (role: Role) => withoutUndefined({ series: values[`${role}-topic`], frames: parseFrames(`${role}-frames`, values[`${role}-frames`]) });
+  const recording = [...positionalPaths, ...(values.recording ?? [])];
+  const { odometry = [], reference = [] } = values;
+  for (const role of ROLES) {
+    if (values[`${role}-columns`] !== undefined && !values[role]) throw new UsageError(`--${role}-columns needs --${role} FILE.`);
+  }
+  const logs = {
+    inputs: [...inputsOfPaths(recording), ...inputsOfPaths(odometry, 'odometry'), ...inputsOfPaths(reference, 'reference')],
+    userChoices: { odometry: chosenSeries('odometry'), reference: chosenSeries('reference'), ...(values.model === 'velocity' && { kind: 'commands' as const }) },
+  };
   if (command === 'inspect') {
-    const allPaths = [...positionalPaths, ...(values.recording ?? []), ...(values.odometry ?? []), ...(values.reference ?? [])];
-    if (allPaths.length === 0) throw new UsageError('inspect needs a file or folder: npx motion-widgets inspect run.bag');
-    const ignoredOption = Object.keys(values).find((name) => !INSPECT_OPTIONS.includes(name));
-    if (ignoredOption !== undefined) throw new UsageError(`--${ignoredOption} is an option of calibrate; inspect has ${listOfAlternatives(INSPECT_OPTIONS.map((name) => `--${name}`))}.`);
-    const statedOptions = Object.entries(values).filter((entry): entry is [string, string] => typeof entry[1] === 'string');
-    return { command: 'inspect' as const, inputs: allPaths.map((path) => ({ path, open: openOptionsOf() })), statedOptions, isJson: values.json ?? false };
+    if (logs.inputs.length === 0) throw new UsageError('inspect needs a file or folder: npx motion-widgets inspect run.bag');
+    const ignoredOption = Object.keys(values).find((name) => !(name in LOG_OPTIONS) && name !== 'json');
+    if (ignoredOption !== undefined) throw new UsageError(`--${ignoredOption} is an option of calibrate; inspect has those of the logs, and --json.`);
+    const statedOptions = Object.entries(values).filter((entry): entry is [string, string] => typeof entry[1] === 'string' && /unit$|columns$/.test(entry[0]));
+    return { command: 'inspect' as const, ...logs, statedOptions, isJson: values.json ?? false };
   }
   if (command !== 'calibrate') {
     const path = [command, ...positionalPaths].find(isPath) ?? 'run.bag';
@@ -121,23 +133,15 @@ export function parseOptions(args: string[]) {
   if (duration !== undefined && (distance ?? angle) !== undefined) throw new UsageError('--duration excludes --update-min-d and --update-min-a: give one or the other.');
   if (values.plot !== undefined && !/\.svg$/i.test(values.plot)) throw new UsageError(`--plot writes SVG; the name must end in .svg (got “${truncate(values.plot)}”).`);
   if (values.json && values.yaml) throw new UsageError('--json excludes --yaml: give one or the other.');
-  const recording = [...positionalPaths, ...(values.recording ?? [])];
-  const { odometry = [], reference = [] } = values;
   if (recording.length === 0) {
     for (const [one, other] of [[odometry, 'reference'], [reference, 'odometry']] as const) {
       if (one.length > 0 && !values[other]) throw new UsageError(`--${other} is missing; give a file or folder, or a recording with both.`);
     }
     if (odometry.length === 0) throw new UsageError('no logs are given; give a recording, as in calibrate run.bag, or two files, odometry and reference.');
   }
-  for (const role of ROLES) {
-    if (values[`${role}-columns`] !== undefined && !values[role]) throw new UsageError(`--${role}-columns needs --${role} FILE.`);
-  }
-  const chosenSeries = (role: Role) => withoutUndefined({ series: values[`${role}-topic`], frames: parseFrames(`${role}-frames`, values[`${role}-frames`]) });
-  const inputsOfPaths = (paths: string[], role?: Role) => paths.map((path) => ({ path, open: openOptionsOf(role, role && columnNames(`${role}-columns`)) }));
   return {
     command: 'calibrate' as const,
-    inputs: { recording: inputsOfPaths(recording), odometry: inputsOfPaths(odometry, 'odometry'), reference: inputsOfPaths(reference, 'reference') },
-    userChoices: { odometry: chosenSeries('odometry'), reference: chosenSeries('reference'), ...(values.model === 'velocity' && { kind: 'commands' as const }) },
+    ...logs,
     fit: withoutUndefined({
       legs: duration === undefined ? { distance: distance ?? 0.25, angle: angle ?? 0.2 } : { duration },
       model: values.model ?? (values.rule === 'omni' ? 'omnidirectional' : undefined),

@@ -6,7 +6,7 @@ import { warningsOf } from '../logs/pairs.ts';
 import { en as sharedTexts } from '../messages/en.ts';
 import { en } from '../widgets/alpha-calibrator/en.ts';
 import { componentsOf, formatAlphaOrBound, formatEstimate, formatInterval, formatNumber, formatPercent, isNav2Rule, nav2Lines } from '../widgets/alpha-calibrator/result.ts';
-import { SYSTEMATIC_ERRORS, adviceOf, judgementOf } from '../widgets/alpha-calibrator/result.ts';
+import { LOST_LEG_CAUSES, SYSTEMATIC_ERRORS, adviceOf, judgementOf } from '../widgets/alpha-calibrator/result.ts';
 import type { Calibration, CalibrationCheck } from '../types.d.ts';
 
 /** Log with its summary, as numbers and as sentences. */
@@ -25,8 +25,6 @@ export interface CalibrationResult {
   driveStarts: number[];
   date: string;
 }
-
-const LOST_LEG_CAUSES = ['withoutReference', 'acrossBreaks', 'acrossPauses', 'standing'] as const;
 
 const MAX_LISTED_OUTLIERS = 5;
 

@@ -3,11 +3,11 @@
 import { writeFile } from 'node:fs/promises';
 import { planDrives } from '../logs/drives.ts';
 import { english } from '../logs/en.ts';
-import { LogError, truncate, summarySentences } from '../logs/log.ts';
+import { LogError, truncate, summarySentences, type Recording, type Role } from '../logs/log.ts';
 import { calibrationLogOf, readDrives, type Drive } from '../logs/pairs.ts';
 import { optionAdvice } from './advice.ts';
 import { recordingsOf } from './files.ts';
-import { inspect, inspectionText, type GivenRecording } from './inspect.ts';
+import { inspect, inspectionText } from './inspect.ts';
 import { HELP, UsageError, parseOptions, replaceFieldByOption, type CalibrateArguments } from './options.ts';
 import { drivesSvg } from './plot.ts';
 import { resultJson, logSummaries, nav2Yaml, ruleWarning, reportText, verdictLines, type CalibrationResult } from './report.ts';
@@ -34,9 +34,7 @@ export async function run(args: string[], environment: CliEnvironment): Promise<
     if (options === 'help') print(HELP);
     else if (options === 'version') print(`${environment.version}\n`);
     else if (options.command === 'inspect') {
-      const givenRecordings: GivenRecording[] = [];
-      for (const input of options.inputs) for (const recording of await recordingsOf(input, onSkip)) givenRecordings.push({ recording, path: input.path });
-      const contents = await inspect(givenRecordings, options.statedOptions, onProgress);
+      const contents = await inspect(await openInputs(options, onSkip), options.statedOptions, onProgress);
       print(options.isJson ? `${JSON.stringify(contents.inspection, undefined, 1)}\n` : inspectionText(contents));
       if (!contents.isUsable) {
         complain(`${contents.sentences.join('\n')}\n`);
@@ -52,20 +50,27 @@ export async function run(args: string[], environment: CliEnvironment): Promise<
   }
 }
 
-async function calibrate({ inputs, userChoices, fit, output, plot }: CalibrateArguments, { load, print, complain, onProgress, isColored = false, now = new Date() }: CliEnvironment, onSkip: (error: LogError) => void): Promise<number> {
+/** Opens the recordings of all inputs, and returns them with the choices of the user, which include the roles that options state. */
+async function openInputs({ inputs, userChoices }: Pick<CalibrateArguments, 'inputs' | 'userChoices'>, onSkip: (error: LogError) => void) {
+  const roles = new Map<Recording, Role>();
+  const givenRecordings: { recording: Recording; path: string }[] = [];
+  for (const input of inputs) {
+    for (const recording of await recordingsOf(input, onSkip)) {
+      givenRecordings.push({ recording, path: input.path });
+      if (input.role) roles.set(recording, input.role);
+    }
+  }
+  return { givenRecordings, userChoices: { ...userChoices, roles } };
+}
+
+export type OpenedInputs = Awaited<ReturnType<typeof openInputs>>;
+
+async function calibrate({ fit, output, plot, ...logArguments }: CalibrateArguments, { load, print, complain, onProgress, isColored = false, now = new Date() }: CliEnvironment, onSkip: (error: LogError) => void): Promise<number> {
   const motion = await load();
   // A call without drives checks the options, so that their errors are reported before files are read.
   calibrateDrives(motion, fit, []);
-  const roleByRecording = new Map();
-  const recordings = [];
-  for (const role of ['recording', 'odometry', 'reference'] as const) {
-    for (const input of inputs[role]) {
-      const openedRecordings = await recordingsOf(input, onSkip);
-      recordings.push(...openedRecordings);
-      if (role !== 'recording') for (const recording of openedRecordings) roleByRecording.set(recording, role);
-    }
-  }
-  const plan = planDrives(recordings, { ...userChoices, roles: roleByRecording });
+  const { givenRecordings, userChoices } = await openInputs(logArguments, onSkip);
+  const plan = planDrives(givenRecordings.map(({ recording }) => recording), userChoices);
   plan.unused.forEach(onSkip);
   const drives = await readDrives(plan, onProgress);
   onProgress?.(undefined);

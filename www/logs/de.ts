@@ -28,7 +28,7 @@ const DROP_REASONS: Record<DropCause, string> = {
   damaged: 'beschädigte Nachrichten',
   notFinite: 'keine endliche Zahl, oder eine über einer Milliarde',
   noRotation: 'ein Quaternion, das keine Drehung ist',
-  short: 'zu wenige Felder',
+  short: 'zu wenige Felder oder Ziffern',
   text: 'ein Feld ohne Zahl',
   noStamp: 'der Zeitstempel 0',
   duplicate: 'die Zeit der Zeile davor',
@@ -106,7 +106,7 @@ export const german: Words = {
     noTopic: (series) => `es gibt kein solches Topic, keine solche Gruppe von Spalten und keine solchen Transformationen; erwartet wird eines von ${series}.`,
     noTopics: (topics) => `die Topics sind ${topics}; erwartet wird eines vom Typ ${MESSAGE_TYPES.either}.`,
     alone: (series, role) =>
-      `es ist nur ${role ? `die ${ROLE_NAMES[role]}` : 'ein Log'} darin, ${series}; gebraucht ${role ? `wird auch die ${ROLE_NAMES[role === 'odometry' ? 'reference' : 'odometry']}` : 'werden Odometrie und Referenz'}.`,
+      `es ist nur ein Log darin, ${series}${role ? `, nach Namen oder Typ die ${ROLE_NAMES[role]}` : ''}; gebraucht ${role ? `wird auch die ${ROLE_NAMES[role === 'odometry' ? 'reference' : 'odometry']}` : 'werden Odometrie und Referenz'}.`,
     lacks: (role, series) => `nach Namen und Typen ist keine ${ROLE_NAMES[role]} darin, sondern ${series}; eines davon auswählen, oder auch eine Datei mit der ${ROLE_NAMES[role]} angeben.`,
     choose: (role, series) => `es ist nicht klar, was die ${ROLE_NAMES[role]} ist: ${series}.`,
     type: (type, neededType) => `sein Typ ist „${type}“; erwartet wird ${MESSAGE_TYPES[neededType]} (kodiert als cdr oder ros1).`,
@@ -121,7 +121,7 @@ export const german: Words = {
     correction: (correction, other) =>
       `${CORRECTION_TEXTS[correction.name](correction, other)}. Damit stimmen die Bewegungen überein (Korrelation ${withDecimalComma(correction.score, 2)}).`,
     held: 'ihre Pose steht, während die Odometrie weitergeht: Sie hat den Roboter verloren; gebraucht wird eine, die ihm folgt.',
-    noRole: 'ihr Name sagt nicht, ob sie Odometrie oder Referenz ist; Namen wie odom1.csv, truth1.csv, odom2.csv, … sagen es, oder eine Auswahl.',
+    noRole: 'ihr Name sagt nicht, ob sie Odometrie oder Referenz ist; die Dateien wie odom1.csv, truth1.csv, odom2.csv, … nennen, oder die Rolle jeder auswählen.',
     unpaired: (odometry, reference) => `die Odometrie ist in ${odometry || 'keiner Datei'}, und die Referenz in ${reference || 'keiner Datei'}; gebraucht wird je eines für eine Fahrt.`,
   },
   choose: {
@@ -132,7 +132,7 @@ export const german: Words = {
     lengthUnit: (file) => `Einheit der Längen in ${file}`,
     angleUnit: (file) => `Einheit der Richtungen in ${file}`,
     units: { s: 'Sekunden (s)', ms: 'Millisekunden (ms)', us: 'Mikrosekunden (µs)', ns: 'Nanosekunden (ns)', m: 'Meter (m)', cm: 'Zentimeter (cm)', mm: 'Millimeter (mm)', ft: 'Fuß (ft)', in: 'Zoll (in)', rad: 'Radiant (rad)', deg: 'Grad (°)' },
-    columns: (file) => `Spalten von ${file}`,
+    columns: (file, isProposal) => `Spalten von ${file}${isProposal ? ' (vorgeschlagen)' : ''}: auswählen, dann lesen`,
     column: (number, cell) => `Spalte ${number}: ${cell}`,
     fields: FIELD_NAMES,
     none: 'keine',
@@ -142,7 +142,7 @@ export const german: Words = {
   found: {
     title: 'Was gelesen wurde',
     drive: (number) => `Fahrt ${number}`,
-    paths: (width, height) => `Bahnen von oben: Referenz (durchgezogen) und Odometrie (gestrichelt), an ihr ausgerichtet; ${width} m mal ${height} m.`,
+    paths: (isAligned, width, height) => `Bahnen von oben: Referenz (durchgezogen) und Odometrie (gestrichelt, ${isAligned ? 'an ihr' : 'nicht'} ausgerichtet); ${width} m mal ${height} m.`,
     labels: { rows: 'gelesen', columns: 'Spalten', units: 'Einheiten', frames: 'Koordinatensysteme', clock: 'Zeiten', dropped: 'weggelassen', gaps: 'Lücken', jumps: 'Sprünge', notes: 'Hinweise' },
     rows: (used, rows, seconds, rate, distance) => `${used} von ${rows} Zeilen, ${withDecimalComma(seconds, 1)} s mit ${rate.toPrecision(3).replace('.', ',')} Hz, ${withDecimalComma(distance, 1)} m gefahren`,
     units: ({ time, length, angle }) =>

@@ -22,7 +22,7 @@ const DROP_REASONS = {
   damaged: 'damaged messages',
   notFinite: 'a value that is not finite, or above a billion',
   noRotation: 'a quaternion that is no rotation',
-  short: 'too few cells',
+  short: 'too few cells or digits',
   text: 'a cell that is not a number',
   noStamp: 'a stamp of 0',
   duplicate: 'the time of the row before',
@@ -109,7 +109,7 @@ export const english = {
     noTopic: (series: string) => `it has no such topic, group of columns or transforms; expected is one of ${series}.`,
     noTopics: (topics: string) => `the topics are ${topics}; expected is one of type ${MESSAGE_TYPES.either}.`,
     alone: (series: string, role: Role | undefined) =>
-      `it has ${role ? `the ${role}` : 'one log'} only, ${series}; give ${role ? `the ${role === 'odometry' ? 'reference' : 'odometry'} too` : 'odometry and reference'}.`,
+      `it has one log only, ${series}${role ? `, by name or type the ${role}` : ''}; give ${role ? `the ${role === 'odometry' ? 'reference' : 'odometry'} too` : 'odometry and reference'}.`,
     lacks: (role: Role, series: string) => `by its names and types it has no ${role}, but ${series}; choose one of these, or give a file with the ${role} too.`,
     choose: (role: Role, series: string) => `it is not clear what the ${role} is: ${series}.`,
     type: (type: string, neededType: keyof typeof MESSAGE_TYPES) => `its type is “${type}”; expected is ${MESSAGE_TYPES[neededType]} (encoded as cdr or ros1).`,
@@ -124,7 +124,7 @@ export const english = {
     correction: (correction: Correction, other: string) =>
       `${CORRECTION_TEXTS[correction.name](correction, other)}. The motions then agree (correlation ${correction.score.toFixed(2)}).`,
     held: 'its pose stands still while the odometry moves on: it has lost the robot; give one that follows the robot.',
-    noRole: 'its name does not say whether it is odometry or reference; call the files odom1.csv, truth1.csv, odom2.csv, … or state which is which.',
+    noRole: 'its name does not say whether it is odometry or reference; name the files as odom1.csv, truth1.csv, odom2.csv, …, or choose the role of each.',
     unpaired: (odometry: string, reference: string) => `the odometry is in ${odometry || 'no file'}, and the reference in ${reference || 'no file'}; give one of each for a drive.`,
   },
   choose: {
@@ -135,7 +135,7 @@ export const english = {
     lengthUnit: (file: string) => `Unit of lengths in ${file}`,
     angleUnit: (file: string) => `Unit of headings in ${file}`,
     units: { s: 'seconds (s)', ms: 'milliseconds (ms)', us: 'microseconds (µs)', ns: 'nanoseconds (ns)', m: 'metres (m)', cm: 'centimetres (cm)', mm: 'millimetres (mm)', ft: 'feet (ft)', in: 'inches (in)', rad: 'radians (rad)', deg: 'degrees (°)' },
-    columns: (file: string) => `Columns of ${file}`,
+    columns: (file: string, isProposal: boolean) => `Columns of ${file}${isProposal ? ' (proposed)' : ''}: choose, then read`,
     column: (number: number, cell: string) => `column ${number}: ${cell}`,
     fields: FIELD_NAMES,
     none: 'none',
@@ -145,7 +145,7 @@ export const english = {
   found: {
     title: 'What was read',
     drive: (number: number) => `Drive ${number}`,
-    paths: (width: string, height: string) => `Paths from above: reference (solid) and odometry (dashed), aligned with it; ${width} m by ${height} m.`,
+    paths: (isAligned: boolean, width: string, height: string) => `Paths from above: reference (solid) and odometry (dashed, ${isAligned ? 'aligned with it' : 'not aligned'}); ${width} m by ${height} m.`,
     labels: { rows: 'read', columns: 'columns', units: 'units', frames: 'frames', clock: 'times', dropped: 'left out', gaps: 'gaps', jumps: 'jumps', notes: 'notes' },
     rows: (used: number, rows: number, seconds: number, rate: number, distance: number) =>
       `${used} of ${rows} rows, ${seconds.toFixed(1)} s at ${rate.toPrecision(3)} Hz, ${distance.toFixed(1)} m driven`,

@@ -44,7 +44,7 @@ export function poseAt({ t, poses }: Path, time: number): Pose {
 export const svgPathData = ({ poses, breaks }: Path, toPixel: (pose: Pose) => number[]) =>
   poses.map((pose, i) => `${i === 0 || breaks.has(i) ? 'M' : 'L'}${toPixel(pose).map((value) => value.toFixed(1)).join(' ')}`).join('');
 
-/** Rotates and moves a path so that its squared distance to the target is smallest. Times of the target are later by `offset`. */
+/** Rotates and moves a path so that its squared distance to the target is smallest. Returns the path itself without a common time. Times of the target are later by `offset`. */
 export function alignedPath(path: Path, target: Path, offset = 0): Path {
   const posePairs = path.poses.flatMap((pose, i): [Pose, Pose][] => {
     const time = path.t[i] + offset;

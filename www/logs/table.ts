@@ -19,6 +19,9 @@ const CHECKED_CHARACTERS = 4096;
 /** Maximum number of characters of a line. A row of a thousand columns is shorter. */
 const MAX_LINE_LENGTH = 2 ** 16;
 
+/** Minimum number of rows, all with equally many decimals in the last column, after which fewer decimals show that the file is cut off. */
+const MIN_UNIFORM_ROWS = 20;
+
 export async function openTable(source: Source, options: OpenOptions = {}): Promise<Recording> {
   const headBytes = await readBytes(source, 0, Math.min(HEAD_BYTES, source.size));
   const encoding = detectEncoding(headBytes);
@@ -144,6 +147,8 @@ function logReader(name: string, place: ErrorPlace, format: TableFormat, group: 
   const hasHeight = fields.at(-1) === 'yaw' && z !== undefined;
   const neededCells = Math.max(...[...columns, ...(hasHeight ? [z] : []), ...clocks.flatMap((clock) => clock.columns), ...nameColumns].map(({ at }) => at)) + 1;
   const rowNames = new Set<string>();
+  /** Numbers of decimals in the last column. */
+  const decimalCounts = new Set<number>();
 
   const refuse = (reason: ErrorReason): never => {
     throw new LogError(place, reason);
@@ -177,7 +182,11 @@ function logReader(name: string, place: ErrorPlace, format: TableFormat, group: 
       if (/^\s*(?:[#%]|$)/.test(line)) return;
       if (line === header) return rows.drop('text', number);
       const cells = splitCells(line, separator, neededCells);
-      if (cells.length < neededCells) {
+      const lastCell = cells[neededCells - 1]?.trim() ?? '';
+      const decimalCount = /\.(\d*)/.exec(lastCell)?.[1].length ?? 0;
+      const isCutNumber = isUnterminated && rows.count >= MIN_UNIFORM_ROWS && decimalCounts.size === 1 && decimalCount < Math.min(...decimalCounts) && line.trimEnd().endsWith(lastCell);
+      decimalCounts.add(decimalCount);
+      if (cells.length < neededCells || isCutNumber) {
         if (!isUnterminated) return rows.drop('short', number, (texts) => texts.cells(cells.length, neededCells));
         notes.push({ name: 'cutShort', values: [] });
         return rows.drop('short', number);

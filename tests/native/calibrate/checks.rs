@@ -136,7 +136,11 @@ fn lost_legs_are_reported() {
     let [odometry, reference] = sim.log();
     let reference_with_gaps =
         new_trajectory(reference.samples().filter(|(time, _)| time.rem_euclid(90.0) > 30.0));
-    assert_fails(LegsLost, &calibrate_log(&[odometry, reference_with_gaps], &sim.calibration_options()));
+    let calibration = calibrate_log(&[odometry, reference_with_gaps], &sim.calibration_options());
+    assert_fails(LegsLost, &calibration);
+    assert!(
+        calibration.diagnostics.checks.iter().any(|check| check.message.contains("Most lack the reference"))
+    );
 }
 
 /// The reference has only one row in two seconds.

@@ -80,7 +80,7 @@ fn numbers_in_the_table_and_on_the_page_are_those_of_the_simulation() {
     page_text().assert_numbers(
         "The ellipse covers # times the floor of the green outline: where it alone lies, robots stop a seventh as \
          densely as where the outline alone does. The Gaussian in ξ fits better: a log-likelihood gain of # nats a robot \
-         (# nat is a factor of e); on the gentle arc it is #, on the hard one #.",
+         (# nat: e times as likely); on the gentle arc it is #, on the hard one #.",
         [banana_exact.area_ratio, banana_gain, 1.0, gentle_gain, hard_gain],
     );
     assert_eq!(Settings::default(), settings_of_preset("banana"));

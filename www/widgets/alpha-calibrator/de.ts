@@ -11,8 +11,12 @@ const MESSAGES: Record<string, string> = {
     'Die Referenz folgt der Odometrie nicht: Vielleicht ist sie von einer anderen Fahrt, hat andere Einheiten (Grad, Millimeter), eine gespiegelte y-Achse oder eine andere senkrechte Achse als z, oder ihre Spalten sind vertauscht. Die α sind bedeutungslos. Beide Dateien Zeile für Zeile vergleichen.',
   'enough-legs':
     'Es sind wenige Etappen: Die Intervalle sind breit und die anderen Prüfungen schwach. Weiter aufzeichnen: eine Viertelstunde mit Geraden, Bögen und Drehungen auf der Stelle.',
-  'legs-lost':
-    'Viele Etappen gingen durch Lücken, Brüche oder Stillstand verloren. Die α gelten für den Rest. Die Anzahlen nach Ursache ansehen und ohne Lücken aufzeichnen.',
+  'legs-lost-withoutReference':
+    'Viele Etappen gingen verloren. Die α gelten für den Rest. Den meisten fehlt die Referenz: sie während der ganzen Fahrt aufzeichnen.',
+  'legs-lost-acrossBreaks':
+    'Viele Etappen gingen verloren. Die α gelten für den Rest. Die meisten gehen über einen Bruch: die Sprünge und die weggelassenen Zeilen ansehen.',
+  'legs-lost-acrossPauses':
+    'Viele Etappen gingen verloren. Die α gelten für den Rest. Die meisten sind durch eine Pause zu lang: beide ohne Lücken aufzeichnen.',
   'sampling-dense':
     'Die Aufzeichnung hat zu wenige Zeilen für diese Länge: Die Etappen sind länger als verlangt, und die α gelten für die längeren. Öfter aufzeichnen oder längere Etappen wählen.',
   'outliers-few':
@@ -71,13 +75,13 @@ export const de: typeof import('./en.ts').en = {
   present: (log, legs, outliers) => `${legsWithCount(legs)}${outliers ? `, davon ${outliers} Ausreißer` : ''}, ${log}.`,
   badges: { consistent: 'Verwendbar', questionable: 'Vorsicht', unusable: 'Nicht verwenden' },
   passed: (count) => `Alle ${count} Prüfungen bestanden.`,
-  failed: (name, failed, count) => `Prüfung nicht bestanden: ${name} (${failed} von ${count}).`,
+  failed: (names, failed, count) => `Nicht bestanden: ${names} (${failed} von ${count} Prüfungen).`,
   use: 'Die empfohlenen α mit Etappen dieser Länge verwenden.',
   useAnyway: 'Lässt sich die Aufzeichnung nicht verbessern, die empfohlenen α verwenden.',
   missing: (alphas, drive) => `Von dieser Aufzeichnung nicht bestimmt: ${alphas}; ${drive}.`,
   noAlpha: 'Die Aufzeichnung bestimmt kein α.',
   clock: (seconds, isAhead) => `Die Uhr der Referenz geht gegen die der Odometrie ${seconds} s ${isAhead ? 'vor' : 'nach'}. Beide sind nach den Drehungen des Roboters ausgerichtet: prüfen, ob sie von derselben Fahrt sind.`,
-  none: 'Nicht genug Daten: weniger als 8 Etappen, oder keine gemeinsame Zeit. Beide Aufzeichnungen derselben Fahrt nehmen, kürzere Etappen wählen oder länger fahren.',
+  none: 'Nicht genug Daten: Weniger als 8 Etappen haben Posen nach beiden Aufzeichnungen. Beide Aufzeichnungen derselben Fahrt nehmen, kürzere Etappen wählen oder länger fahren.',
   checks: {
     title: 'Prüfungen',
     check: 'Prüfung',
@@ -197,7 +201,8 @@ export const de: typeof import('./en.ts').en = {
     title: 'Aufzeichnung und Referenz',
     leave: 'Zurück zur simulierten',
     simulated: 'Ein simulierter Roboter folgt einer Kurve und dreht sich ab und zu auf der Stelle. Die wahren Werte stehen neben den Schätzungen.',
-    present: (name) => `Aufzeichnung: ${name}.`,
+    present: (name) => `Ergebnisse von ${name}.`,
+    presentLogs: (odometry, reference) => `Ergebnisse von Odometrie ${odometry} und Referenz ${reference}.`,
     refused: (message) => `Aufzeichnung abgelehnt: ${message}`,
     still: (log) => `Gezeigt wird noch: ${log}, nicht die zuletzt gewählten Dateien.`,
     keep: 'Diese Ergebnisse behalten',

@@ -126,7 +126,7 @@ function columnsFormHtml(opener: LogOpener, asked: OpenQuestion, answer: string[
   };
   return html`<form id=${questionId(asked)} @submit=${submitColumns}>
     <fieldset>
-      <legend>${texts.columns(file)}</legend>
+      <legend>${texts.columns(file, !answer && defaultNames !== '')}</legend>
       <div class="choices">
         ${COLUMN_FIELDS.map((field) => html`<label>
           ${texts.fields[field]}
@@ -165,11 +165,13 @@ export function logSummaryHtml({ chosenFiles, texts, host }: LogOpener) {
   // The page may have set another log in the meantime.
   if (!chosenFiles?.drives || !texts || (chosenFiles.log && chosenFiles.log !== host.log)) return nothing;
   const { drives } = chosenFiles;
+  // The clock offset is known after the fit.
+  const clockOffset = (chosenFiles.log && host.viewModel.stats.systematicErrors.clockOffset.value) ?? 0;
   return html`<details class="found" open>
     <summary>${texts.found.title}</summary>
-    ${guard([drives, texts, language], () => drives.map((drive, i) => html`<div class="drive">
+    ${guard([drives, texts, language, clockOffset], () => drives.map((drive, i) => html`<div class="drive">
       ${logTableHtml(drive, drives.length > 1 ? texts.found.drive(i + 1) : '', texts)}
-      ${pathsPictureHtml(drive, texts)}
+      ${pathsPictureHtml(drive, clockOffset, texts)}
     </div>`))}
   </details>`;
 }
@@ -190,16 +192,16 @@ function logTableHtml({ odometry, reference }: Drive, caption: string, { choose,
   </table>`;
 }
 
-/** Returns a picture of both paths, with the odometry aligned to the reference. */
-function pathsPictureHtml({ odometry, reference }: Drive, { found }: LogWords) {
+/** Returns a picture of both paths, with the odometry aligned to the reference if they have times in common. `clockOffset` is how much later the reference's times are. */
+function pathsPictureHtml({ odometry, reference }: Drive, clockOffset: number, { found }: LogWords) {
   const [drivenPath, referencePath] = [odometry.data, reference.data].map((data) => pathOf(data, Math.ceil(data.t.length / MAX_PATH_POINTS)));
-  const odometryPath = alignedPath(drivenPath, referencePath);
+  const odometryPath = alignedPath(drivenPath, referencePath, clockOffset);
   const allPoses = [...odometryPath.poses, ...referencePath.poses];
   const axisRanges = ([0, 1] as const).map((axis) => [Math.min(...allPoses.map((pose) => pose[axis])), Math.max(...allPoses.map((pose) => pose[axis]))]);
   const [width, height] = axisRanges.map(([low, high]) => high - low);
   const pixelsPerMetre = Math.min((PICTURE_WIDTH - 2 * PICTURE_MARGIN) / Math.max(width, 0.1), (PICTURE_HEIGHT - 2 * PICTURE_MARGIN) / Math.max(height, 0.1));
   const pathData = (path: Path) => svgPathData(path, ([x, y]) => [PICTURE_MARGIN + (x - axisRanges[0][0]) * pixelsPerMetre, PICTURE_HEIGHT - PICTURE_MARGIN - (y - axisRanges[1][0]) * pixelsPerMetre]);
-  const captionText = found.paths(formatFixed(width, 1), formatFixed(height, 1));
+  const captionText = found.paths(odometryPath !== drivenPath, formatFixed(width, 1), formatFixed(height, 1));
   return html`<figure class="paths small">
     <svg viewBox="0 0 ${PICTURE_WIDTH} ${PICTURE_HEIGHT}" role="img" aria-label=${captionText}>
       <g fill="none" stroke-width="1.25" stroke-linejoin="round">

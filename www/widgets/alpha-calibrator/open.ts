@@ -99,6 +99,14 @@ export class LogOpener extends FileOpener<Figure> {
     this.host.requestUpdate();
   }
 
+  /** Sentence that names the log of the results, and its odometry and reference if they are files. */
+  get presentText() {
+    const { present, presentLogs } = words.calibrator.own;
+    const { log, drives } = this.#resultFiles ?? {};
+    const namesOf = (role: Role) => drives?.map((drive) => drive[role].name).join(', ') ?? '';
+    return drives && log === this.host.log ? presentLogs(namesOf('odometry'), namesOf('reference')) : present(this.host.logName);
+  }
+
   /** Sentence that the results are those of another log, while the chosen files are refused; empty otherwise. */
   get otherResultsNote() {
     return this.refusal === undefined || isAbortError(this.refusal) ? '' : words.calibrator.own.still(this.host.logName);
@@ -238,7 +246,7 @@ export function dropZoneHtml(figure: Figure, opener: LogOpener) {
     ${logModule?.logChoosersHtml(opener)}
     ${readFraction !== undefined
       ? html`<p><progress aria-label=${words.progress.label} .value=${readFraction}></progress> ${buttonHtml(words.progress.stop, () => opener.stop())}</p>`
-      : figure.log ? html`<p><span class="present">${texts.present(figure.logName)}</span> ${buttonHtml(texts.leave, () => opener.close())}</p>` : nothing}
+      : figure.log ? html`<p><span class="present">${opener.presentText}</span> ${buttonHtml(texts.leave, () => opener.close())}</p>` : nothing}
     ${opener.refusalNoteHtml}
     ${opener.otherResultsNote ? html`<p class="muted other-results">${opener.otherResultsNote} ${buttonHtml(texts.keep, () => opener.restore())}</p>` : nothing}
   </div>`;

@@ -9,7 +9,7 @@ import { plotHtml, type Curve, type PlotOptions } from '../../ui/plot.ts';
 import { tableHtml, readoutsHtml } from '../../ui/readouts.ts';
 import { subscriptOf } from '../shared/sliders.ts';
 import { en } from './en.ts';
-import { NAV2_RULES, SYSTEMATIC_ERRORS, adviceOf, checkMessage, componentsOf, formatAlphaOrBound, formatEstimate, formatNumber, printsAsZero, judgementOf, localizeInterval, localizeNumber, nav2Lines, } from './result.ts';
+import { LOST_LEG_CAUSES, NAV2_RULES, SYSTEMATIC_ERRORS, adviceOf, checkMessage, componentsOf, formatAlphaOrBound, formatEstimate, formatNumber, printsAsZero, judgementOf, localizeInterval, localizeNumber, nav2Lines, } from './result.ts';
 import { NOISE_COMPONENTS, isTruthComparable, modelRuleOf, settingsOfModelRule, type Regressor, type ViewModel } from './settings.ts';
 import type { CalibrationCheck, CalibrationPanel, Estimate, LegView } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
@@ -157,12 +157,12 @@ export function diagnosticsHtml(figure: Figure) {
     ${fieldsetHtml(lost.title, lostLegsReadoutsHtml(figure))}`;
 }
 
-function checksTableHtml({ viewModel: { stats: { diagnostics: { checks } } } }: Figure) {
+function checksTableHtml({ viewModel: { stats } }: Figure) {
   const texts = words.calibrator.checks;
   return tableHtml({
     columns: [texts.check, texts.value, texts.expected, texts.result],
-    rows: checks.map((check) => [
-      html`${texts.names[check.name]}<div class="muted">${checkMessage(check, words.calibrator)}</div>`,
+    rows: stats.diagnostics.checks.map((check) => [
+      html`${texts.names[check.name]}<div class="muted">${checkMessage(check, stats, words.calibrator)}</div>`,
       formatCheckValue(check.name, check.value),
       expectedRangeText(check),
       check.passed ? `✓ ${texts.passed}` : html`<strong>✕ ${texts.failed}</strong>`,
@@ -194,8 +194,7 @@ function noiseTableHtml({ viewModel: { stats: { referenceNoise: { positionStd, y
 }
 
 function lostLegsReadoutsHtml({ viewModel: { stats: { lost } } }: Figure) {
-  const causes = ['withoutReference', 'acrossBreaks', 'acrossPauses', 'standing'] as const;
-  return readoutsHtml(causes.map((cause) => [words.calibrator.lost[cause], formatInteger(lost[cause])]));
+  return readoutsHtml(LOST_LEG_CAUSES.map((cause) => [words.calibrator.lost[cause], formatInteger(lost[cause])]));
 }
 
 /** Minimum squared distance or rotation at the end of an axis: (1 mm)², or (1 mrad)². */

@@ -1,5 +1,6 @@
 /** Result of a fit as text, which the page and the command line share: numbers, the verdict, and lines for nav2_params.yaml. */
 
+import { greatest } from 'd3-array';
 import { MINUS, NO_VALUE, formatFixed, formatPowerOfTen, formatInteger } from '../../ui/format.ts';
 import { subscriptOf } from '../shared/sliders.ts';
 import type { CalibrationCheck, CalibrationStats, Interval as CertainInterval } from '../../types.d.ts';
@@ -35,6 +36,9 @@ const MAX_PLAIN_NUMBER = 1e15;
 
 /** Largest plausible α. With it the error is as large as the motion, or one radian per metre. */
 const MAX_PLAUSIBLE_ALPHA = 1;
+
+/** Maximum number of failed checks that are named in a sentence, which has little space on the page. */
+const MAX_NAMED_CHECKS = 2;
 
 /** Text for a missing number. */
 const NO_NUMBER = '–';
@@ -192,6 +196,7 @@ export function judgementOf({ stats, count, model, corrections, warnings }: Fit,
   const { systematicErrors, diagnostics: { verdict, checks } } = stats;
   const failedChecks = failedChecksOf(checks);
   const [failedCheck] = count > 0 ? failedChecks : [];
+  const failedNames = failedChecks.map(({ name }, i) => (i < MAX_NAMED_CHECKS ? texts.checks.names[name] : '…')).slice(0, MAX_NAMED_CHECKS + 1);
   const uncorrectedErrors = SYSTEMATIC_ERRORS.filter((name) => corrections[name] === false && isSignificant(name, systematicErrors[name]));
   const doubts = [
     ...missingAlphaTexts(stats, model, texts),
@@ -199,7 +204,7 @@ export function judgementOf({ stats, count, model, corrections, warnings }: Fit,
   ];
   const warningTexts = warnings.map((name) => texts.nav2[name]);
   const defects = count === 0 ? [texts.none]
-    : failedCheck ? [texts.failed(texts.checks.names[failedCheck.name], String(failedChecks.length), String(checks.length))]
+    : failedCheck ? [texts.failed(failedNames.join('; '), String(failedChecks.length), String(checks.length))]
       : verdict === 'unusable' ? [texts.noAlpha] : [];
   const findings = verdict === 'unusable' ? [...defects, ...warningTexts] : [...warningTexts, ...defects];
   const [finding = texts.passed(String(checks.length)), ...otherFindings] = [...findings, ...doubts];
@@ -208,13 +213,18 @@ export function judgementOf({ stats, count, model, corrections, warnings }: Fit,
   const usage = !isUsable ? [] : [rating === 'consistent' ? texts.use : texts.useAnyway, ...correctionAdvice(stats, texts.nav2, localizeNumber)];
   const clockOffset = systematicErrors.clockOffset.value ?? 0;
   const clockNote = Math.abs(clockOffset) > MENTIONED_CLOCK_OFFSET ? [texts.clock(formatInteger(Math.round(Math.abs(clockOffset))), clockOffset > 0)] : [];
-  const advice = [...otherFindings, ...(failedCheck ? [checkMessage(failedCheck, texts)] : []), ...clockNote, ...usage];
+  const advice = [...otherFindings, ...(failedCheck ? [checkMessage(failedCheck, stats, texts)] : []), ...clockNote, ...usage];
   return { rating, badge: texts.badges[rating], finding, advice };
 }
 
-/** Returns what a failed check means and what to do. A reference that matches too closely has its own message. */
-export const checkMessage = ({ name, value, expected: [low], passed, message }: CalibrationCheck, { checks }: Texts) =>
-  (passed ? '' : checks.message(name === 'reference-matches' && value < low ? 'reference-copied' : name, message));
+/** Causes of lost legs. The check does not count those of a standing robot, which come last. */
+export const LOST_LEG_CAUSES = ['withoutReference', 'acrossBreaks', 'acrossPauses', 'standing'] as const;
+
+/** Returns what a failed check means and what to do. A reference that matches too closely, and each cause of lost legs, has its own message. */
+export function checkMessage({ name, value, expected: [low], passed, message }: CalibrationCheck, { lost }: CalibrationStats, { checks }: Texts) {
+  const key = name === 'legs-lost' ? `${name}-${greatest(LOST_LEG_CAUSES.slice(0, -1), (cause) => lost[cause])}` : name === 'reference-matches' && value < low ? 'reference-copied' : name;
+  return passed ? '' : checks.message(key, message);
+}
 
 /** Returns a sentence for each reason why α's are not identifiable, with the drive that would identify them. */
 function missingAlphaTexts({ notIdentifiable, diagnostics: { checks } }: CalibrationStats, model: string | undefined, { missing, alphas: { lacking } }: Texts) {

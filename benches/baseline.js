@@ -40,7 +40,7 @@ export class Baseline {
     const halfTurn = 0.5 * omega * dt;
     const chordLength = halfTurn === 0 ? v * dt : (v * dt * Math.sin(halfTurn)) / halfTurn;
     const noiseFree = { x: chordLength * Math.cos(halfTurn), y: chordLength * Math.sin(halfTurn), l: v * dt, t: 2 * halfTurn };
-    const sums = driveCloud(this.unitNoise, this.cloud, [v, omega, dt], noiseStds, noiseFree);
+    const sums = driveBaselineCloud(this.unitNoise, this.cloud, [v, omega, dt], noiseStds, noiseFree);
     const means = Object.fromEntries(MEAN_KEYS.map((meanKey, i) => [meanKey, sums[i] / n]));
     const covarianceOf = (/** @type {string} */ a, /** @type {string} */ b) => (n / (n - 1)) * ((means[a + b] ?? means[b + a]) - means[a] * means[b]);
     const covarianceMatrixOf = (/** @type {string[]} */ meanKeys) => meanKeys.map((a) => meanKeys.map((b) => covarianceOf(a, b)));
@@ -95,13 +95,13 @@ export class Baseline {
  *
  * @param {Float64Array} unitNoise
  * @param {Float64Array} cloud is filled
- * @param {number[]} command v, ω, Δt
+ * @param {number[]} commandVector v, ω, Δt
  * @param {number[]} noiseStds standard deviations of v̂, ω̂, γ̂
  * @param {{ x: number, y: number, l: number, t: number }} noiseFree noise-free motion
  * @returns {number[]} sums in the order of SUM_NAMES
  */
-function driveCloud(unitNoise, cloud, command, noiseStds, noiseFree) {
-  const [[v, omega, dt], [vStd, omegaStd, gammaStd], { x: noiseFreeX, y: noiseFreeY, l: noiseFreeLength, t: noiseFreeTurn }] = [command, noiseStds, noiseFree];
+function driveBaselineCloud(unitNoise, cloud, commandVector, noiseStds, noiseFree) {
+  const [[v, omega, dt], [vStd, omegaStd, gammaStd], { x: noiseFreeX, y: noiseFreeY, l: noiseFreeLength, t: noiseFreeTurn }] = [commandVector, noiseStds, noiseFree];
   let sumX = 0, sumY = 0, sumLength = 0, sumLateral = 0, sumTurn = 0, sumSin = 0, sumCos = 0;
   let sumXX = 0, sumXY = 0, sumYY = 0, sumXTurn = 0, sumYTurn = 0, sumTurnTurn = 0;
   let sumLengthLength = 0, sumLengthLateral = 0, sumLateralLateral = 0, sumLengthTurn = 0, sumLateralTurn = 0;

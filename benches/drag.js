@@ -61,9 +61,9 @@ async function timeDrag({ widget, selector, i, steps }) {
   // A figure clears the canvas before it paints a picture.
   let pictureCount = 0;
   const { clearRect } = CanvasRenderingContext2D.prototype;
-  CanvasRenderingContext2D.prototype.clearRect = function (...rectangle) {
+  CanvasRenderingContext2D.prototype.clearRect = function (...rectangleSides) {
     pictureCount++;
-    clearRect.apply(this, rectangle);
+    clearRect.apply(this, rectangleSides);
   };
   /** Returns the time at which the page has finished the current frame. At that time it reads the first message after the frame. @returns {Promise<number>} */
   const waitForFrameEnd = () =>

@@ -27,13 +27,13 @@ export function formatReport({ ranOn, quick: isQuickRun, node: nodeTimings, chro
   const slowestDrag = dragTimings.reduce((slowestSoFar, dragTiming) => (computeQuantile(dragTiming.picture) > computeQuantile(slowestSoFar.picture) ? dragTiming : slowestSoFar));
   const valuesByRuntime = (/** @type {(timings: Timings) => number[]} */ valuesOf) => ({ Node: valuesOf(nodeTimings), Chromium: valuesOf(chromiumTimings) });
   const refreshOfSize = (/** @type {number} */ sampleCount) => (/** @type {Timings} */ { refresh: refreshTimings }) => refreshTimings.find((refreshRow) => refreshRow.samples === sampleCount) ?? refreshTimings[0];
-  const speedRatios = (/** @type {Timings['refresh'][number]} */ { core: coreTimes, baseline: baselineTimes }) => baselineTimes.map((baselineTime, turnIndex) => baselineTime / coreTimes[turnIndex]);
+  const computeSpeedRatios = (/** @type {Timings['refresh'][number]} */ { core: coreTimes, baseline: baselineTimes }) => baselineTimes.map((baselineTime, turnIndex) => baselineTime / coreTimes[turnIndex]);
   const [findLargestRefresh, findMiddleRefresh] = [1e6, 1e5].map(refreshOfSize);
   /** @type {[string, '≤' | '≥', number, string, Record<string, number[]>][]} */
   const speedTargets = [
     ['Refresh of 1 000 000 poses', '≤', FRAME_MS, 'ms', valuesByRuntime((timings) => findLargestRefresh(timings).core)],
     ['Refresh of 100 000 poses', '≤', 2, 'ms', valuesByRuntime((timings) => findMiddleRefresh(timings).core)],
-    ['JavaScript takes longer, at 1 000 000 poses', '≥', 3, '×', valuesByRuntime((timings) => speedRatios(findLargestRefresh(timings)))],
+    ['JavaScript takes longer, at 1 000 000 poses', '≥', 3, '×', valuesByRuntime((timings) => computeSpeedRatios(findLargestRefresh(timings)))],
     ['Calibration of the example log', '≤', 1000, 'ms', valuesByRuntime(({ calibration }) => calibration)],
     ['From script start to first cloud', '≤', 100, 'ms', { Chromium: Object.values(startTimings).at(-1) ?? [] }],
     [`Step of the slowest drag (${slowestDrag.control}), processor ${CPU_SLOWDOWN} times slower`, '≤', FRAME_MS, 'ms', { Chromium: slowestDrag.picture }],
@@ -44,22 +44,22 @@ export function formatReport({ ranOn, quick: isQuickRun, node: nodeTimings, chro
     return { '': targetName, target: `${comparisonSign} ${targetLimit} ${targetUnit}`, Node: cellTextOf(Node, targetUnit), Chromium: cellTextOf(Chromium, targetUnit), reached: targetVerdict };
   });
   const refreshRows = Object.entries({ Node: nodeTimings, Chromium: chromiumTimings }).flatMap(([runtimeName, { refresh: refreshTimings }]) => refreshTimings.map((refreshRow) => (
-    { where: runtimeName, samples: formatDigits(refreshRow.samples), 'refresh, ms': cellTextOf(refreshRow.core), 'JavaScript, ms': cellTextOf(refreshRow.baseline), ratio: cellTextOf(speedRatios(refreshRow)) }
+    { where: runtimeName, samples: formatDigits(refreshRow.samples), 'refresh, ms': cellTextOf(refreshRow.core), 'JavaScript, ms': cellTextOf(refreshRow.baseline), ratio: cellTextOf(computeSpeedRatios(refreshRow)) }
   )));
   return [
-    `${Object.entries(ranOn).map(([machinePart, partVersion]) => `${machinePart} ${partVersion}`).join('; ')}. Medians, with quartiles in brackets.${isQuickRun ? ' A quick run: too few turns to be quoted.' : ''}`,
-    markdownTable(targetRows),
-    `One event of the slider:\n\n${markdownTable(refreshRows)}`,
-    `First cloud, from the start of the script:\n\n${markdownTable(Object.entries(startTimings).map(([stageName, stageTimes]) => ({ until: stageName, ms: cellTextOf(stageTimes) })))}`,
-    `Step of a drag, processor ${CPU_SLOWDOWN} times slower, opening sizes:\n\n${markdownTable(dragTimings.map(({ widget, control, picture, text, steady }) => (
+    `${Object.entries(ranOn).map(([machinePart, partVersion]) => `${machinePart} ${partVersion}`).join('; ')}. Medians, with quartiles in brackets.${isQuickRun ? ' A quick run: too few rounds to be quoted.' : ''}`,
+    formatMarkdownTable(targetRows),
+    `One event of the slider:\n\n${formatMarkdownTable(refreshRows)}`,
+    `First cloud, from the start of the script:\n\n${formatMarkdownTable(Object.entries(startTimings).map(([stageName, stageTimes]) => ({ until: stageName, ms: cellTextOf(stageTimes) })))}`,
+    `Step of a drag, processor ${CPU_SLOWDOWN} times slower, opening sizes:\n\n${formatMarkdownTable(dragTimings.map(({ widget, control, picture, text, steady }) => (
       { widget, dragged: control, 'frame with the picture, ms': cellTextOf(picture), 'text after it, ms': cellTextOf(text), 'between frames, a step in each, ms': cellTextOf(steady) }
     )))}`,
   ].join('\n\n');
 }
 
-/** Returns a quantile of the values, by default the median. @param {number[]} values @param {number} [quantileLevel] */
-function computeQuantile(values, quantileLevel = 0.5) {
-  return quantileSorted(values.toSorted((a, b) => a - b), quantileLevel) ?? NaN;
+/** Returns a quantile of the values, by default the median. @param {number[]} sampleValues @param {number} [quantileLevel] */
+function computeQuantile(sampleValues, quantileLevel = 0.5) {
+  return quantileSorted(sampleValues.toSorted((a, b) => a - b), quantileLevel) ?? NaN;
 }
 
 /** Returns the median and the quartiles as text. @param {number[]} values @param {string} [unit] */
@@ -72,7 +72,7 @@ function cellTextOf(values, unit = '') {
 const formatDigits = (value) => value.toLocaleString('en', { maximumSignificantDigits: 3 }).replaceAll(',', '\u202f');
 
 /** Returns a Markdown table with a column for each key of the rows. @param {Record<string, string>[]} rowObjects */
-function markdownTable(rowObjects) {
+function formatMarkdownTable(rowObjects) {
   const columnNames = Object.keys(rowObjects[0]);
   const tableRows = [columnNames, columnNames.map(() => '---'), ...rowObjects.map(Object.values)];
   return tableRows.map((rowCells) => `| ${rowCells.join(' | ')} |`).join('\n');

@@ -3,7 +3,7 @@
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { UserError, absolutePath, findProgram, mustRun, printStep, run } from './process.mjs';
-import { CACHE_DIRECTORY, aptInstall } from './toolchain.mjs';
+import { CACHE_DIRECTORY, installByApt } from './toolchain.mjs';
 
 /** Names of the full Chromium, which alone has a back-forward cache. */
 export const FULL_CHROME_NAMES = ['chromium', 'google-chrome', 'google-chrome-stable', 'chrome', 'chromium-browser'];
@@ -35,7 +35,7 @@ export async function ensureBrowser() {
   // The pages are laid out for a font as wide as Arial. With DejaVu as the only font all text is a tenth wider.
   if (findProgram('fc-match') !== undefined && findProgram('apt-get') !== undefined) {
     const { stdout: arialFamily } = await run('fc-match', ['--format', '%{family}', 'Arial'], { quiet: true, seconds: 30 });
-    if (!/Arial|Liberation|Arimo|Helvetica/.test(arialFamily)) await aptInstall(['fonts-liberation'], 'A font as wide as Arial is missing: install fonts-liberation.');
+    if (!/Arial|Liberation|Arimo|Helvetica/.test(arialFamily)) await installByApt(['fonts-liberation'], 'A font as wide as Arial is missing: install fonts-liberation.');
   }
   return browser;
 }
@@ -47,7 +47,7 @@ async function ensureChrome() {
   if (CHROME !== undefined || CHROMEDRIVER !== undefined) throw new UserError(MISSING_BROWSER_MESSAGE);
   // On Ubuntu, packages of these names only point to a snap. A snap cannot be driven from here.
   const isDebian = existsSync('/etc/os-release') && /^ID=debian$/m.test(readFileSync('/etc/os-release', 'utf8'));
-  if (isDebian) await aptInstall(['chromium-headless-shell', 'chromium-driver'], MISSING_BROWSER_MESSAGE);
+  if (isDebian) await installByApt(['chromium-headless-shell', 'chromium-driver'], MISSING_BROWSER_MESSAGE);
   const installedBrowser = isDebian ? await checkPair(findChrome(), findProgram('chromedriver')) : await installChromeForTesting();
   if (installedBrowser === undefined) throw new UserError(MISSING_BROWSER_MESSAGE);
   return installedBrowser;

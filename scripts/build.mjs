@@ -88,19 +88,19 @@ function isCurrent(stamp, sourceHash, products) {
  * Builds cores, each a module and its glue.
  *
  * @param {string[]} coreNames "motion" for the whole core, or the tags of figures, whose cores have their own simulation alone
- * @param {boolean} local
+ * @param {boolean} isLocal
  */
-async function buildCores(coreNames, local) {
+async function buildCores(coreNames, isLocal) {
   // The build waits for Rust first. Otherwise an error of other work would end the process before the message about missing Rust.
   const rustTools = await ensureRustForWasm();
-  const [binderPromise, packagesPromise] = [ensureBindProgram(), ensurePackages(local ? undefined : 'scripts')];
+  const [binderPromise, packagesPromise] = [ensureBindProgram(), ensurePackages(isLocal ? undefined : 'scripts')];
   printStep(`Compiling the core to WebAssembly (${rustTools.description}): ${coreNames.join(', ')}`);
   const finishPromises = [];
   for (const coreName of coreNames) {
     // Cargo writes all cores to the same path. Each core is bound before the next is compiled, and is optimized meanwhile.
-    const [modulePath, binderPath] = await settleAll([compileCore(rustTools, coreName, local), binderPromise, packagesPromise]);
+    const [modulePath, binderPath] = await settleAll([compileCore(rustTools, coreName, isLocal), binderPromise, packagesPromise]);
     await mustRun('wasm-bindgen failed: see above.', binderPath, [modulePath, absolutePath(`build/bound/${coreName}`)]);
-    finishPromises.push(finishCore(coreName, local));
+    finishPromises.push(finishCore(coreName, isLocal));
   }
   await settleAll(finishPromises);
   if (!coreNames.includes('motion')) return;
@@ -114,10 +114,10 @@ async function buildCores(coreNames, local) {
  *
  * @param {Awaited<ReturnType<typeof ensureRustForWasm>>} rustTools
  * @param {string} name as in `buildCores`
- * @param {boolean} local
+ * @param {boolean} isLocal
  * @returns {Promise<string>} the path of the module as rustc leaves it
  */
-async function compileCore(rustTools, name, local) {
+async function compileCore(rustTools, name, isLocal) {
   const cargoPath = join(rustTools.bin, 'cargo');
   // `cargo build` also makes a Rust library, and then cannot optimize across crates. `cargo rustc` makes only the module. Panic locations
   // contain paths. In a published module the paths of this machine are removed.
@@ -125,8 +125,8 @@ async function compileCore(rustTools, name, local) {
   const { stdout: sysroot } = await run(join(rustTools.bin, 'rustc'), ['--print', 'sysroot'], { env: rustTools.env, quiet: true });
   const remapFlags = [registrySources, join(sysroot.trim(), 'lib/rustlib/src/rust')].map((path) => `"--remap-path-prefix=${path}="`);
   const remapOption = `target.wasm32-unknown-unknown.rustflags=[${remapFlags}]`;
-  const cargoProfile = local ? 'web' : 'release';
-  const cargoOptions = ['--quiet', '--locked', '--profile', cargoProfile, '--lib', '--crate-type', 'cdylib', ...(local ? [] : ['--config', remapOption])];
+  const cargoProfile = isLocal ? 'web' : 'release';
+  const cargoOptions = ['--quiet', '--locked', '--profile', cargoProfile, '--lib', '--crate-type', 'cdylib', ...(isLocal ? [] : ['--config', remapOption])];
   const widgetOptions = name === 'motion' ? [] : ['--', '--cfg', 'widget', '--cfg', `widget="${name}"`];
   await mustRun('The core does not compile: see the errors above.', cargoPath, ['rustc', ...cargoOptions, ...rustTools.target, ...widgetOptions], { env: rustTools.env });
   const outputOfCargo = async (/** @type {string[]} */ ...cargoArguments) => (await run(cargoPath, [...cargoArguments, '--locked'], { env: rustTools.env, quiet: true })).stdout;
@@ -284,8 +284,8 @@ async function writeGlue(name, glueNames) {
     charset: 'utf8',
     plugins: [gluePlugin],
   });
-  const shortNameOf = new Map(glueNames.exports);
-  const shortExportOf = (/** @type {string} */ exportName) => shortNameOf.get(exportName) ?? (() => { throw new Error(`The core of ${name} does not export ${exportName}.`); })();
+  const shortNameByExport = new Map(glueNames.exports);
+  const shortExportOf = (/** @type {string} */ exportName) => shortNameByExport.get(exportName) ?? (() => { throw new Error(`The core of ${name} does not export ${exportName}.`); })();
   const glueBody = outputFiles[0].text.replace(/^export \{[^}]*\};\s*$/m, '').replaceAll(/\bwasm\.(\w+)/g, (_, exportName) => `wasm.${shortExportOf(exportName)}`);
   const moduleLines = [
     'export default async (module) => {',

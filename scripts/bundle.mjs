@@ -155,7 +155,7 @@ export async function bundle({ tags = WIDGET_TAGS } = {}) {
   printStep('Bundling the pages');
   await writeTypes();
   await writeComponents();
-  writeFileSync(absolutePath('build/widgets.js'), await widgetLoaders());
+  writeFileSync(absolutePath('build/widgets.js'), await composeWidgetLoaders());
   const moduleBytes = readFileSync(absolutePath('build/motion.wasm'));
   const bytesScript = hashedFileOf('motion-bytes', '.js', MODULE_SOURCES.bytes(moduleBytes, SHIFTED_CHARACTERS.utf8));
   /**
@@ -198,7 +198,7 @@ export async function bundle({ tags = WIDGET_TAGS } = {}) {
             onLoad({ filter: /./, namespace: 'core' }, () => ({ contents: MODULE_SOURCES.bytes(moduleBytes, SHIFTED_CHARACTERS[buildOptions.charset === 'ascii' ? 'ascii' : 'utf8']) }));
             // A page without workers runs the worker's script itself.
             if (bundleForm === 'external') onResolve({ filter: /\/logs\/session\.ts$/ }, () => ({ path: `./${basename(LOG_WORKER_PATH)}`, external: true }));
-            onLoad({ filter: /[/\\]build[/\\]settings\.js$/ }, () => ({ contents: minimalDeclarations(), loader: 'js' }));
+            onLoad({ filter: /[/\\]build[/\\]settings\.js$/ }, () => ({ contents: composeMinimalDeclarations(), loader: 'js' }));
             onLoad({ filter: /[/\\]www[/\\]address\.ts$/ }, ({ path }) => ({
               contents: buildOptions.format === 'iife' ? ADDRESS_MODULES.classic : buildOptions.splitting ? ADDRESS_MODULES.chunk : readFileSync(path, 'utf8'),
               loader: 'js',
@@ -256,9 +256,9 @@ export async function bundle({ tags = WIDGET_TAGS } = {}) {
     const text = readFileSync(absolutePath(path), 'utf8');
     writeOutput(absolutePath(join('dist', relative('www', path))), path.endsWith('.html') ? withTables(text, elementDeclarations, widgetDescriptions) : text);
   }
-  const { preUpgradeCss } = await importTypeScript('www/ui/reserved-height.ts');
+  const { createPreUpgradeCss } = await importTypeScript('www/ui/reserved-height.ts');
   // If scripts are disabled, no height is reserved.
-  const reservedHeightCss = `@media (scripting:enabled){\n${preUpgradeCss()}\n}`;
+  const reservedHeightCss = `@media (scripting:enabled){\n${createPreUpgradeCss()}\n}`;
   // Slides have a large font, which is too large for figures. `:where` has no specificity, so that any rule of a page takes precedence.
   const slideCss = `:where(.reveal) :where(${WIDGET_TAGS}){font-size:.28em;text-align:start}`;
   appendFileSync(absolutePath('dist/motion-widgets.css'), `\n:where(${WIDGET_TAGS}){margin-block:1em}\n${slideCss}\n${reservedHeightCss}\n`);
@@ -269,7 +269,7 @@ export async function bundle({ tags = WIDGET_TAGS } = {}) {
   writeOutput(absolutePath('dist/external.d.ts'), ELEMENT_DECLARATIONS);
   for (const name of ['de', 'motion-widgets.css']) writeOutput(absolutePath(`dist/${name}.d.ts`), 'export {};\n');
   chmodSync(absolutePath('dist/cli.js'), 0o755);
-  writeOutput(absolutePath('dist/classroom.html'), inlinedPage('index.html'));
+  writeOutput(absolutePath('dist/classroom.html'), composeInlinedPage('index.html'));
   writeOutput(absolutePath('dist/custom-elements.json'), `${JSON.stringify(elementManifest, null, 1)}\n`);
   // Sizes of the bundles, which tests/package/sizes.nightly.test.js reads.
   const bundleOutputs = Object.assign({}, ...bundleResults.map(({ metafile }) => metafile.outputs));
@@ -322,7 +322,7 @@ function withNonAsciiEscaped(script) {
  *
  * @returns {Promise<string>} a module
  */
-async function widgetLoaders() {
+async function composeWidgetLoaders() {
   const loaderLines = WIDGET_TAGS.map((tag) => `  '${tag}': () => import('../www/widgets/${tag}/${tag}.ts'),\n`);
   const settingsModules = await Promise.all(WIDGET_TAGS.map((tag) => importTypeScript(`www/widgets/${tag}/settings.ts`)));
   return (
@@ -336,7 +336,7 @@ async function widgetLoaders() {
  * Returns the declarations of settings without parts that no page uses. These are documentation, and defaults that the defaults of a group
  * contain.
  */
-function minimalDeclarations() {
+function composeMinimalDeclarations() {
   const toJson = (/** @type {unknown} */ declarationValue) => JSON.stringify(declarationValue, function (memberKey, memberValue) {
     return ['sentence', 'nullable'].includes(memberKey) || (memberKey === 'default' && 'in' in this) ? undefined : memberValue;
   });
@@ -395,7 +395,7 @@ function withLocalImports(typesSource) {
  *
  * @param {string} name
  */
-function inlinedPage(name) {
+function composeInlinedPage(name) {
   const readDistFile = (/** @type {string} */ path) => readFileSync(absolutePath(join('dist', path)), 'utf8').replace(/\n?\/\/# sourceMappingURL=\S+\s*$/, '');
   const styleLink = /<link rel="stylesheet" href="\.\/([\w.-]+)" \/>/g;
   const scriptTag = /<script type="module" src="\.\/([\w.-]+)"><\/script>/g;

@@ -42,7 +42,7 @@ async function runCargoFuzz(targetName, inputFolders, fuzzerOptions) {
  * Runs a target on new inputs, and returns false if an input failed.
  * @param {string} targetName @param {string} runCount @param {string} seed @returns {Promise<boolean>}
  */
-async function fuzzTarget(targetName, runCount, seed) {
+async function runFuzzTarget(targetName, runCount, seed) {
   unpackInputs(targetName);
   const fuzzOptions = [`-runs=${runCount}`, `-seed=${seed}`, ...INPUT_LIMITS];
   const { ok, output } = await runCargoFuzz(targetName, [inputFolderOf(targetName, 'found'), inputFolderOf(targetName, 'known')], fuzzOptions);
@@ -52,19 +52,19 @@ async function fuzzTarget(targetName, runCount, seed) {
   return ok;
 }
 
-/** Packs the smallest set of known and found inputs that reaches the same code. @param {string} target */
-async function keepInputs(target) {
-  unpackInputs(target);
-  const mergedFolder = inputFolderOf(target, 'merged');
+/** Packs the smallest set of known and found inputs that reaches the same code. @param {string} fuzzTargetName */
+async function keepInputs(fuzzTargetName) {
+  unpackInputs(fuzzTargetName);
+  const mergedFolder = inputFolderOf(fuzzTargetName, 'merged');
   rmSync(mergedFolder, { recursive: true, force: true });
   mkdirSync(mergedFolder);
   // Hit counts of edges would make the corpus five times as large.
   const mergeOptions = ['-set_cover_merge=1', '-use_counters=0', ...INPUT_LIMITS];
-  const { ok, output } = await runCargoFuzz(target, [mergedFolder, inputFolderOf(target, 'known'), inputFolderOf(target, 'found')], mergeOptions);
+  const { ok, output } = await runCargoFuzz(fuzzTargetName, [mergedFolder, inputFolderOf(fuzzTargetName, 'known'), inputFolderOf(fuzzTargetName, 'found')], mergeOptions);
   if (!ok) throw new UserError(output);
   const inputLines = readdirSync(mergedFolder).map((inputName) => readFileSync(join(mergedFolder, inputName)).toString('hex'));
-  writeFileSync(packedPathOf(target), inputLines.sort().map((hexLine) => `${hexLine}\n`).join(''));
-  console.log(`${target}: ${inputLines.length} inputs`);
+  writeFileSync(packedPathOf(fuzzTargetName), inputLines.sort().map((hexLine) => `${hexLine}\n`).join(''));
+  console.log(`${fuzzTargetName}: ${inputLines.length} inputs`);
   return true;
 }
 
@@ -85,8 +85,8 @@ await runAsScript(import.meta.url, async () => {
   await mustRun(missingMessage, join(bin, 'cargo'), ['+nightly', 'fuzz', '--version'], { env, quiet: true });
   await mustRun('The targets do not compile: see above.', join(bin, 'cargo'), ['+nightly', 'fuzz', 'build', ...BUILD_OPTIONS], { env });
   const runWaitingTargets = async () => {
-    for (let target = waitingTargets.shift(); target !== undefined; target = waitingTargets.shift()) {
-      const targetRun = isKeepMode ? keepInputs(target) : fuzzTarget(target, `${runs}`, `${seed}`);
+    for (let fuzzTargetName = waitingTargets.shift(); fuzzTargetName !== undefined; fuzzTargetName = waitingTargets.shift()) {
+      const targetRun = isKeepMode ? keepInputs(fuzzTargetName) : runFuzzTarget(fuzzTargetName, `${runs}`, `${seed}`);
       if (!(await targetRun)) process.exitCode = 1;
     }
   };

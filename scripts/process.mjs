@@ -28,14 +28,14 @@ function print(printedText, outputStream = process.stdout) {
  * Collects the output of work that runs in parallel with other work, and prints it at the end.
  *
  * @template T
- * @param {() => Promise<T>} collectedWork
+ * @param {() => Promise<T>} doWork
  * @returns {Promise<T>} result of the work
  */
-export async function withCollectedOutput(collectedWork) {
+export async function withCollectedOutput(doWork) {
   /** @type {string[]} */
   const outputTexts = [];
   try {
-    return await collectedOutputStore.run(outputTexts, collectedWork);
+    return await collectedOutputStore.run(outputTexts, doWork);
   } finally {
     print(outputTexts.join(''));
   }
@@ -50,21 +50,21 @@ export function printStep(stepText) {
  * Returns a function that does its work at the first call only, and returns the same result at every call.
  *
  * @template T
- * @param {() => Promise<T>} singleWork
+ * @param {() => Promise<T>} doWork
  * @returns {() => Promise<T>}
  */
-export function runOnce(singleWork) {
+export function runOnce(doWork) {
   /** @type {Promise<T> | undefined} */
   let resultPromise;
-  return () => (resultPromise ??= singleWork());
+  return () => (resultPromise ??= doWork());
 }
 
 /** Returns a function that runs tasks one after the other. @returns {<T>(work: () => Promise<T>) => Promise<T>} */
-export function taskQueue() {
+export function createTaskQueue() {
   /** @type {Promise<unknown>} */
   let lastTask = Promise.resolve();
-  return (work) => {
-    const taskResult = lastTask.then(work);
+  return (doWork) => {
+    const taskResult = lastTask.then(doWork);
     lastTask = taskResult.catch(() => {});
     return taskResult;
   };

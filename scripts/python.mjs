@@ -115,8 +115,8 @@ function traitCallOfSetting({ key, type, words: allowedWords = [], min, max }, t
 
 /** Returns the words that a trait accepts, as a sentence. @param {string} trait */
 function wordSentenceOf(trait) {
-  const [, isList, allowedWords] = trait.match(/^(Sequence\()?Word\(([^)]+)\)/) ?? [];
-  return allowedWords ? ` ${isList ? 'Some' : 'One'} of ${allowedWords}.` : '';
+  const [, sequencePrefix, allowedWords] = trait.match(/^(Sequence\()?Word\(([^)]+)\)/) ?? [];
+  return allowedWords ? ` ${sequencePrefix ? 'Some' : 'One'} of ${allowedWords}.` : '';
 }
 
 /** Constants of JavaScript, with their names in Python. @type {Record<string, string>} */

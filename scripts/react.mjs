@@ -13,7 +13,7 @@ const GENERATED_HEADER = '// Generated from the declarations: not to be edited.\
 /** Writes build/react.js and build/react.d.ts. */
 export async function writeComponents() {
   const widgetDescriptions = await describeWidgets();
-  writeFileSync(join(ROOT, 'build/react.js'), `'use client';\n${GENERATED_HEADER}\nimport { component } from '../www/react.ts';\n\n${widgetDescriptions.map(componentSourceOf).join('')}`);
+  writeFileSync(join(ROOT, 'build/react.js'), `'use client';\n${GENERATED_HEADER}\nimport { createComponent } from '../www/react.ts';\n\n${widgetDescriptions.map(componentSourceOf).join('')}`);
   writeFileSync(join(ROOT, 'build/react.d.ts'), [GENERATED_HEADER, importLinesOf(widgetDescriptions), PROP_TYPES_SOURCE, ...widgetDescriptions.map(componentTypesOf), jsxTagsOf(widgetDescriptions)].join('\n'));
 }
 
@@ -25,7 +25,7 @@ function componentSourceOf({ tag, className, attributes, properties }) {
     flags: attributes.filter(({ type, opening }) => type === 'boolean' && opening === undefined).map(({ name }) => name),
     properties: properties.filter(({ readonly }) => !readonly).map(({ name }) => name),
   };
-  return `export const ${className} = component('${className}', '${tag}', ${JSON.stringify(propNames)});\n`;
+  return `export const ${className} = createComponent('${className}', '${tag}', ${JSON.stringify(propNames)});\n`;
 }
 
 /** Returns the imports of the types. @param {Widget[]} allWidgets */

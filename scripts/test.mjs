@@ -153,7 +153,7 @@ const TEST_PARTS = {
     async prepare(programArgs) {
       const rustTools = await ensureWasmRust();
       const cargoTestOptions = ['--locked', '--profile', 'web', '--test', 'web', ...rustTools.target];
-      return createCargoJob(rustTools, ['test', ...cargoTestOptions, ...programArgs], browserEnvironment(await ensureTestRunner(), await ensureTestBrowser()));
+      return createCargoJob(rustTools, ['test', ...cargoTestOptions, ...programArgs], createBrowserEnvironment(await ensureTestRunner(), await ensureTestBrowser()));
     },
     counts: COUNT_PATTERNS.cargo,
   },
@@ -221,20 +221,20 @@ async function runParts(args) {
 async function runPart(name, programArgs) {
   const { prepare, counts } = TEST_PARTS[name];
   let startTime = Date.now();
-  const elapsedSeconds = () => (Date.now() - startTime) / 1000;
+  const getElapsedSeconds = () => (Date.now() - startTime) / 1000;
   try {
-    const partJob = await prepare(programArgs);
+    const runJob = await prepare(programArgs);
     printStep(name);
     startTime = Date.now();
-    const { ok, output, timedOut } = await partJob();
+    const { ok, output, timedOut } = await runJob();
     const sumMatches = (/** @type {RegExp} */ numberPattern) => [...output.matchAll(numberPattern)].reduce((sumSoFar, [, matchedCount]) => sumSoFar + Number(matchedCount), 0);
     const testTally = counts && { passed: sumMatches(counts.passed), failed: sumMatches(counts.failed), skipped: sumMatches(counts.skipped) };
     const ranNoTest = testTally !== undefined && testTally.passed + testTally.failed === 0;
     const outcomeNote = timedOut ? `ended after ${TIME_LIMIT_SECONDS} s` : ranNoTest ? 'no test ran' : undefined;
-    return { name, ok: ok && !ranNoTest && !testTally?.failed, seconds: elapsedSeconds(), output, tally: testTally, note: outcomeNote };
+    return { name, ok: ok && !ranNoTest && !testTally?.failed, seconds: getElapsedSeconds(), output, tally: testTally, note: outcomeNote };
   } catch (error) {
     printStep(`${name}: ${error instanceof UserError ? error.message : (error instanceof Error && error.stack) || error}`);
-    return { name, ok: false, seconds: elapsedSeconds(), note: 'not run: see above' };
+    return { name, ok: false, seconds: getElapsedSeconds(), note: 'not run: see above' };
   }
 }
 
@@ -244,7 +244,7 @@ async function runPart(name, programArgs) {
  * @param {string} runnerPath of wasm-bindgen
  * @param {import('./browser.mjs').Browser} browser
  */
-function browserEnvironment(runnerPath, { chrome, driver }) {
+function createBrowserEnvironment(runnerPath, { chrome, driver }) {
   const capabilitiesFile = absolutePath('test-results/webdriver.json');
   const chromeSettings = { binary: chrome, args: ['--headless', ...CHROME_ARGUMENTS] };
   writeFileSync(capabilitiesFile, JSON.stringify({ 'goog:chromeOptions': chromeSettings }));

@@ -5,7 +5,7 @@ import { createHash } from 'node:crypto';
 import { existsSync, mkdirSync, readFileSync, statSync, writeFileSync } from 'node:fs';
 import { homedir } from 'node:os';
 import { delimiter, dirname, join } from 'node:path';
-import { ROOT, UserError, findProgram, mustRun, runOnce, printStep, taskQueue, run, runAsScript } from './process.mjs';
+import { ROOT, UserError, findProgram, mustRun, runOnce, printStep, createTaskQueue, run, runAsScript } from './process.mjs';
 
 const WASM_TARGET = 'wasm32-unknown-unknown';
 const RUSTUP_BIN = join(process.env.CARGO_HOME ?? join(homedir(), '.cargo'), 'bin');
@@ -26,7 +26,7 @@ export const CACHE_DIRECTORY = join(
  */
 
 /** Installations by npm run one at a time, because all of them write to one directory. */
-const npmQueue = taskQueue();
+const enqueueForNpm = createTaskQueue();
 
 /** @type {Map<string, Promise<void>>} */
 const installationByWorkspace = new Map();
@@ -39,7 +39,7 @@ const installationByWorkspace = new Map();
 export async function ensurePackages(workspaceName) {
   if (workspaceName) await ensurePackages();
   const workspaceKey = workspaceName ?? 'root';
-  if (!installationByWorkspace.has(workspaceKey)) installationByWorkspace.set(workspaceKey, npmQueue(() => installPackages(workspaceKey)));
+  if (!installationByWorkspace.has(workspaceKey)) installationByWorkspace.set(workspaceKey, enqueueForNpm(() => installPackages(workspaceKey)));
   return installationByWorkspace.get(workspaceKey);
 }
 
@@ -61,7 +61,7 @@ async function installPackages(workspaceKey) {
 }
 
 /** Queues of apt and of rustup. They ensure that neither program runs twice at the same time. */
-const [aptQueue, rustupQueue] = [taskQueue(), taskQueue()];
+const [enqueueForApt, enqueueForRustup] = [createTaskQueue(), createTaskQueue()];
 
 /**
  * Installs packages by apt, if apt needs no password.
@@ -69,7 +69,7 @@ const [aptQueue, rustupQueue] = [taskQueue(), taskQueue()];
  * @param {string[]} debianPackages
  * @param {string} purposeSentence thrown as `UserError` otherwise
  */
-export const aptInstall = (debianPackages, purposeSentence) => aptQueue(async () => {
+export const installByApt = (debianPackages, purposeSentence) => enqueueForApt(async () => {
   if (findProgram('apt-get') === undefined) throw new UserError(purposeSentence);
   const rootCommand = process.getuid?.() === 0 ? [] : ['sudo', '-n'];
   if (rootCommand.length > 0 && !(await run('sudo', ['-n', 'true'], { quiet: true })).ok) throw new UserError(purposeSentence);
@@ -84,7 +84,7 @@ export const aptInstall = (debianPackages, purposeSentence) => aptQueue(async ()
 /** Ensures that Python and pip, which build the Python package, are installed. */
 export async function ensurePip() {
   if ((await run('python3', ['-m', 'pip', '--version'], { quiet: true })).ok) return;
-  await aptInstall(['python3', 'python3-pip'], 'Python 3 or its pip is missing: install them as python.org says and start again.');
+  await installByApt(['python3', 'python3-pip'], 'Python 3 or its pip is missing: install them as python.org says and start again.');
 }
 
 /**
@@ -100,13 +100,13 @@ export const ensureNativeRust = runOnce(/** @returns {Promise<Rust>} */ async ()
   let cargoPath = findProgram('cargo', [RUSTUP_BIN]);
   if (cargoPath === undefined) {
     if (!(await installRustup())) {
-      await aptInstall(['rustc-web', 'cargo-web'], 'Rust is missing: install it as rustup.rs says and start again.');
+      await installByApt(['rustc-web', 'cargo-web'], 'Rust is missing: install it as rustup.rs says and start again.');
     }
     cargoPath = findProgram('cargo', [RUSTUP_BIN]) ?? join(DEBIAN_BIN, 'cargo');
   }
   if (findProgram('cc') === undefined) {
     const installHint = process.platform === 'darwin' ? 'run `xcode-select --install`' : 'install gcc';
-    await aptInstall(['gcc', 'libc6-dev'], `A C compiler, which Rust links with, is missing: ${installHint} and start again.`);
+    await installByApt(['gcc', 'libc6-dev'], `A C compiler, which Rust links with, is missing: ${installHint} and start again.`);
   }
   const bin = dirname(cargoPath);
   const rustEnvironment = bin === DEBIAN_BIN ? createDebianEnvironment() : createEnvironment(bin);
@@ -128,7 +128,7 @@ async function installRustup() {
  */
 export const ensureRustForWasm = runOnce(/** @returns {Promise<Rust>} */ async () => {
   const nativeToolchain = await ensureNativeRust();
-  if (nativeToolchain.bin !== DEBIAN_BIN && (await rustupQueue(() => hasTarget(nativeToolchain)))) {
+  if (nativeToolchain.bin !== DEBIAN_BIN && (await enqueueForRustup(() => hasTarget(nativeToolchain)))) {
     return { ...nativeToolchain, target: ['--target', WASM_TARGET], description: `${nativeToolchain.description}, ${WASM_TARGET} of rustup` };
   }
   const missingMessage =
@@ -136,7 +136,7 @@ export const ensureRustForWasm = runOnce(/** @returns {Promise<Rust>} */ async (
     'or on Debian `sudo apt-get install rustc-web cargo-web rust-web-src lld`, and start again.';
   const requiredFiles = ['rustc', 'cargo', 'wasm-ld'].map((programName) => join(DEBIAN_BIN, programName));
   if (![...requiredFiles, '/usr/lib/rustlib/src/rust/library/Cargo.lock'].every(existsSync)) {
-    await aptInstall(['rustc-web', 'cargo-web', 'rust-web-src', 'lld'], missingMessage);
+    await installByApt(['rustc-web', 'cargo-web', 'rust-web-src', 'lld'], missingMessage);
   }
   // Tests abort on panic, as the published module does, and therefore share its compiled library.
   const env = { ...createDebianEnvironment(), CARGO_UNSTABLE_PANIC_ABORT_TESTS: 'true' };
@@ -237,11 +237,11 @@ export async function ensureLints({ bin, env }) {
   if (await hasLints()) return;
   const missingMessage = 'rustfmt or clippy is missing: run `rustup component add rustfmt clippy` and start again.';
   if (bin === DEBIAN_BIN) {
-    await aptInstall(['rustfmt-web', 'rust-web-clippy'], missingMessage);
+    await installByApt(['rustfmt-web', 'rust-web-clippy'], missingMessage);
   } else {
     const rustupPath = findProgram('rustup', [bin]);
     if (rustupPath === undefined) throw new UserError(missingMessage);
-    await rustupQueue(() => mustRun(missingMessage, rustupPath, ['component', 'add', 'rustfmt', 'clippy'], { env, seconds: 300 }));
+    await enqueueForRustup(() => mustRun(missingMessage, rustupPath, ['component', 'add', 'rustfmt', 'clippy'], { env, seconds: 300 }));
   }
   if (!(await hasLints())) throw new UserError(missingMessage);
 }

@@ -29,8 +29,8 @@ export async function writeTypes() {
   const widgetDescriptions = await describeWidgets();
   // wasm-bindgen writes a comment inside a Rust macro as a raw string literal.
   const coreTypes = readFileSync(join(ROOT, 'build/core.d.ts'), 'utf8').replaceAll('* r" ', '* ');
-  writeFileSync(join(ROOT, 'build/simulations.d.ts'), [DISPOSABLE_LIBRARY, GENERATED_HEADER, ...groupInterfaces(), ...Object.keys(settings).map(settingsInterfaceOf), coreTypes].join('\n'));
-  writeFileSync(join(ROOT, 'build/elements.d.ts'), [GENERATED_HEADER, importLineOf(widgetDescriptions), await figureTypes(widgetDescriptions), ...widgetDescriptions.map(elementTypesOf), tagTypesOf(widgetDescriptions)].join('\n'));
+  writeFileSync(join(ROOT, 'build/simulations.d.ts'), [DISPOSABLE_LIBRARY, GENERATED_HEADER, ...composeGroupInterfaces(), ...Object.keys(settings).map(settingsInterfaceOf), coreTypes].join('\n'));
+  writeFileSync(join(ROOT, 'build/elements.d.ts'), [GENERATED_HEADER, importLineOf(widgetDescriptions), await composeFigureTypes(widgetDescriptions), ...widgetDescriptions.map(elementTypesOf), tagTypesOf(widgetDescriptions)].join('\n'));
   for (const [frameworkName, { module, namespace, any, prefix }] of Object.entries(TEMPLATE_FRAMEWORKS)) {
     writeFileSync(
       join(ROOT, `build/${frameworkName}.d.ts`),
@@ -48,7 +48,7 @@ declare module '${module}' {
 }
 
 /** Returns the interfaces of groups of settings. A group must be the same in all widgets that have it. */
-function groupInterfaces() {
+function composeGroupInterfaces() {
   /** @type {Map<string, string>} */
   const interfaceByGroup = new Map();
   for (const [widgetTag, declaredSettings] of Object.entries(settings)) {
@@ -69,7 +69,7 @@ function settingsInterfaceOf(widgetTag) {
 }
 
 /** Returns the type of a figure with the public members of its class. @param {import('./declarations.mjs').Widget[]} widgets */
-async function figureTypes([{ attributes }]) {
+async function composeFigureTypes([{ attributes }]) {
   const { classes } = await readClassComments();
   /** @type {any[]} */
   const publicMembers = classes.get('FigureElement').members.filter((/** @type {any} */ { privacy }) => privacy === 'public');
@@ -97,9 +97,9 @@ async function figureTypes([{ attributes }]) {
  */
 const LISTENER_FIELDS = ['add', 'remove'].flatMap((listenerVerb) => {
   const optionsParameter = `options?: boolean | ${listenerVerb === 'add' ? 'AddEventListenerOptions' : 'EventListenerOptions'}`;
-  const listenerOverload = (/** @type {string} */ eventsType) =>
+  const listenerOverloadOf = (/** @type {string} */ eventsType) =>
     `${listenerVerb}EventListener<Type extends keyof ${eventsType}>(type: Type, listener: (this: FigureElement<State, Stats>, event: ${eventsType}[Type]) => unknown, ${optionsParameter})`;
-  const overloadLines = [listenerOverload('FigureEvents<Stats>'), listenerOverload('HTMLElementEventMap'), `${listenerVerb}EventListener(type: string, listener: EventListenerOrEventListenerObject, ${optionsParameter})`];
+  const overloadLines = [listenerOverloadOf('FigureEvents<Stats>'), listenerOverloadOf('HTMLElementEventMap'), `${listenerVerb}EventListener(type: string, listener: EventListenerOrEventListenerObject, ${optionsParameter})`];
   return overloadLines.map((name) => ({ name, type: 'void', description: '' }));
 });
 

@@ -13,7 +13,7 @@ await zstd.isLoaded;
 export const stampOf = (t) => ({ sec: Math.floor(t), nanosec: Math.round((t - Math.floor(t)) * 1e9) });
 
 const fieldsOf = (/** @type {string} */ type, /** @type {string[]} */ ...fieldNames) => fieldNames.map((name) => ({ type, name, isComplex: /[A-Z]/.test(type) }));
-const covarianceField = { type: 'float64', name: 'covariance', isArray: true, arrayLength: 36 };
+const covarianceFieldDefinition = { type: 'float64', name: 'covariance', isArray: true, arrayLength: 36 };
 
 /** Definitions of the messages, with all their fields. @type {Record<string, any[]>} */
 const MESSAGE_DEFINITIONS = {
@@ -22,9 +22,9 @@ const MESSAGE_DEFINITIONS = {
   Quaternion: fieldsOf('float64', 'x', 'y', 'z', 'w'),
   Pose: [...fieldsOf('Vector3', 'position'), ...fieldsOf('Quaternion', 'orientation')],
   'geometry_msgs/msg/Pose': [...fieldsOf('Vector3', 'position'), ...fieldsOf('Quaternion', 'orientation')],
-  PoseWithCovariance: [...fieldsOf('Pose', 'pose'), covarianceField],
+  PoseWithCovariance: [...fieldsOf('Pose', 'pose'), covarianceFieldDefinition],
   Twist: fieldsOf('Vector3', 'linear', 'angular'),
-  TwistWithCovariance: [...fieldsOf('Twist', 'twist'), covarianceField],
+  TwistWithCovariance: [...fieldsOf('Twist', 'twist'), covarianceFieldDefinition],
   'nav_msgs/msg/Odometry': [...fieldsOf('Header', 'header'), ...fieldsOf('string', 'child_frame_id'), ...fieldsOf('PoseWithCovariance', 'pose'), ...fieldsOf('TwistWithCovariance', 'twist')],
   'geometry_msgs/msg/PoseStamped': [...fieldsOf('Header', 'header'), ...fieldsOf('Pose', 'pose')],
   'geometry_msgs/msg/Twist': fieldsOf('Vector3', 'linear', 'angular'),

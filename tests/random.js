@@ -1,5 +1,5 @@
 /** Returns a generator of random numbers from 0 to 1 (mulberry32), which are the same on every run. @param {number} seed */
-export function randomGenerator(seed) {
+export function createRandomGenerator(seed) {
   let state = seed;
   return () => {
     state = (state + 0x6d2b79f5) | 0;

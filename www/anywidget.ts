@@ -10,7 +10,7 @@ import './de.ts';
 import './motion-widgets.ts';
 import { COMMON_ATTRS } from './figure/definition.ts';
 import { includesFields } from './data/checks.ts';
-import { GLOBAL_ATTRIBUTES, createWidget, errorParagraph } from './named.ts';
+import { GLOBAL_ATTRIBUTES, createWidget, createErrorParagraph } from './named.ts';
 
 export interface Model {
   /** Returns the value of a trait; undefined if the model does not have it. */
@@ -27,7 +27,7 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
   try {
     element = createWidget(model.get('widget'));
   } catch (error) {
-    el.append(errorParagraph('This cell', error));
+    el.append(createErrorParagraph('This cell', error));
     return;
   }
   // Without this, JupyterLab would treat letters and digits typed in a figure as shortcuts, and change the cell.
@@ -60,7 +60,7 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
       // Before its start, the figure has no values.
       if (!element.simulation) return;
       const ownTraits = traits.filter(([, property]) => !GLOBAL_ATTRIBUTES.includes(property));
-      const traitValues = ownTraits.map(([trait, property]) => [trait, jsonValue(element[property])] as [string, unknown]);
+      const traitValues = ownTraits.map(([trait, property]) => [trait, toJsonValue(element[property])] as [string, unknown]);
       // Nulls come last, because a null (no preset, for example) follows from the other values, and other views apply values in this order.
       isWriting = true;
       for (const isNull of [false, true]) for (const [trait, value] of traitValues) if ((value === null) === isNull) setTrait(trait, value);
@@ -84,11 +84,11 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
   });
   element.addEventListener('stats', ({ detail }: CustomEvent) => {
     if (model.get('stats') === undefined) return;
-    setTrait('stats', jsonValue(detail));
+    setTrait('stats', toJsonValue(detail));
     saveChanges();
   });
 
-  const stopListening = traits.map(([trait, property]) => {
+  const stopFunctions = traits.map(([trait, property]) => {
     const applyTrait = () => {
       if (isWriting) return;
       setTrait('error', '');
@@ -104,7 +104,7 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
   el.append(element);
 
   return () => {
-    for (const stopListeningToTrait of stopListening) withoutKernel(stopListeningToTrait);
+    for (const stopListeningToTrait of stopFunctions) withoutKernel(stopListeningToTrait);
     element.remove();
   };
 }
@@ -132,11 +132,11 @@ function traitsOf(element: any): [trait: string, property: string][] {
 }
 
 /** Returns a value as JSON can represent it: lists for typed arrays, null for numbers that are not finite. */
-function jsonValue(value: unknown): unknown {
+function toJsonValue(value: unknown): unknown {
   if (typeof value === 'number') return Number.isFinite(value) ? value : null;
   if (typeof value !== 'object' || value === null) return value;
-  if (Array.isArray(value) || ArrayBuffer.isView(value)) return Array.from(value as ArrayLike<unknown>, jsonValue);
-  return Object.fromEntries(Object.entries(value).map(([key, member]) => [key, jsonValue(member)]));
+  if (Array.isArray(value) || ArrayBuffer.isView(value)) return Array.from(value as ArrayLike<unknown>, toJsonValue);
+  return Object.fromEntries(Object.entries(value).map(([key, member]) => [key, toJsonValue(member)]));
 }
 
 export default { render };

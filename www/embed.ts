@@ -5,7 +5,7 @@
  */
 
 import './de.ts';
-import { GLOBAL_ATTRIBUTES, createWidget, errorParagraph } from './named.ts';
+import { GLOBAL_ATTRIBUTES, createWidget, createErrorParagraph } from './named.ts';
 
 /** Returns the widget that a query describes. Throws an error that names the parameter and what is allowed. */
 function widgetFromQuery(query: URLSearchParams) {
@@ -26,7 +26,7 @@ function widgetFromQuery(query: URLSearchParams) {
 try {
   document.body.append(widgetFromQuery(new URLSearchParams(location.search)));
 } catch (error) {
-  document.body.append(errorParagraph('This address', error));
+  document.body.append(createErrorParagraph('This address', error));
 }
 new ResizeObserver(() => {
   const height = Math.ceil(document.body.getBoundingClientRect().height);

@@ -5,7 +5,7 @@
 
 import { messageKeys, widgets } from '../build/widgets.js';
 import { foundTags } from './core.ts';
-import { preUpgradeCss } from './ui/reserved-height.ts';
+import { createPreUpgradeCss } from './ui/reserved-height.ts';
 import { en } from './messages/en.ts';
 import { addEnglishMessages } from './messages/registry.ts';
 
@@ -55,7 +55,7 @@ function watchRoot(root: Document | ShadowRoot) {
 if (elementObserver) {
   // Space is reserved, so that nothing moves when the elements are defined.
   const reservedHeights = new CSSStyleSheet();
-  reservedHeights.replaceSync(preUpgradeCss());
+  reservedHeights.replaceSync(createPreUpgradeCss());
   document.adoptedStyleSheets.push(reservedHeights);
   watchRoot(document);
 }

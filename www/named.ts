@@ -15,5 +15,5 @@ export function createWidget(name: unknown): HTMLElement {
 }
 
 /** Returns a paragraph with the error instead of a figure. `requester` names the page or cell that requested the figure. */
-export const errorParagraph = (requester: string, error: unknown) =>
+export const createErrorParagraph = (requester: string, error: unknown) =>
   Object.assign(document.createElement('p'), { role: 'alert', textContent: `${requester} shows no figure: ${(error as Error).message}.` });

@@ -73,7 +73,7 @@ class PropWriter {
   }
 }
 
-export function component(displayName: string, tag: string, names: PropNames) {
+export function createComponent(displayName: string, tag: string, names: PropNames) {
   const ownProps = new Set([...Object.keys(names.attributes), ...names.properties, ...Object.values(HANDLER_PROPS)]);
   const render = (props: Props, ref: import('react').ForwardedRef<unknown>) => {
     const elementRef = useRef(null);

@@ -53,12 +53,12 @@ fn middles_and_obstacles(grid: &OccupancyGrid, unknown_cells: UnknownCells) -> V
     let is_blocking =
         |cell: Cell| cell == Cell::Occupied || (cell == Cell::Unknown && unknown_cells == UnknownCells::Blocked);
     let indexed_cells = grid.cells().enumerate();
-    let cell_middle = |i: usize| {
+    let middle_of_cell = |i: usize| {
         let [u, v] = [i % column_count, i / column_count].map(|cell_index| (cell_index as f64 + 0.5) * cell_side);
         let middle_pose = grid_origin * SE2::new(u, v, 0.0);
         [middle_pose.x(), middle_pose.y()]
     };
-    indexed_cells.map(|(i, cell)| (cell_middle(i), is_blocking(cell))).collect()
+    indexed_cells.map(|(i, cell)| (middle_of_cell(i), is_blocking(cell))).collect()
 }
 
 /// Asserts that each cell contains its middle, and that the total length of the outlines equals the total length of the

@@ -31,7 +31,7 @@ pub fn read_plan(input: &mut InputReader) -> Option<FloorPlan> {
         [left, bottom, left + width, bottom + height]
     };
     let [left, bottom, right, top] = bounds;
-    let next_coordinate = |input: &mut InputReader, min_coordinate: f64, max_coordinate: f64| {
+    let read_coordinate = |input: &mut InputReader, min_coordinate: f64, max_coordinate: f64| {
         let range_fraction = f64::from(input.next_byte()) / 255.0;
         let number_inside = min_coordinate + (max_coordinate - min_coordinate) * range_fraction;
         if input.next_below(16) == 0 { input.next_number() } else { number_inside }
@@ -40,9 +40,9 @@ pub fn read_plan(input: &mut InputReader) -> Option<FloorPlan> {
     let mut walls: Vec<Segment> = Vec::new();
     for i in 0..wall_count {
         let earlier_wall = walls.get(i.wrapping_sub(1)).copied();
-        let mut next_point = || [next_coordinate(input, left, right), next_coordinate(input, bottom, top)];
-        let wall_start = next_point();
-        let wall_end = next_point();
+        let mut read_point = || [read_coordinate(input, left, right), read_coordinate(input, bottom, top)];
+        let wall_start = read_point();
+        let wall_end = read_point();
         // Some walls equal the previous wall, or start at the end of the previous wall.
         walls.push(match (input.next_below(8), earlier_wall) {
             (0, Some(wall)) => wall,
@@ -105,7 +105,7 @@ pub fn assert_collision_verdicts(plan: &FloorPlan, input: &mut InputReader) {
     let clearance = input.draw_number_within(0.0..=10.0);
     let driven_arc = Arc { start: start_pose, length: arc_length, turn: arc_turn };
     let distance_tolerance = rounding_error(plan, &driven_arc, clearance);
-    let depth_inside = |x: f64, y: f64| depth_inside(plan, [x, y]);
+    let depth_at = |x: f64, y: f64| depth_inside(plan, [x, y]);
 
     // Upper bound of the minimum distance of the path from the edge of the map, computed at some points of the path. `min_depth -
     // max_distance_to_tested_point` is a lower bound.
@@ -113,7 +113,7 @@ pub fn assert_collision_verdicts(plan: &FloorPlan, input: &mut InputReader) {
     let min_depth = (0..=INTERVAL_COUNT).fold(f64::INFINITY, |min_so_far, i| {
         let f = f64::from(i) / f64::from(INTERVAL_COUNT);
         let point_on_path = Arc { length: f * arc_length, turn: f * arc_turn, ..driven_arc }.end();
-        min_so_far.min(depth_inside(point_on_path.x(), point_on_path.y()))
+        min_so_far.min(depth_at(point_on_path.x(), point_on_path.y()))
     });
     // Upper bound of the distance of any point of the arc from the nearest tested point.
     let circle_diameter = if arc_turn == 0.0 { f64::INFINITY } else { 2.0 * (arc_length / arc_turn).abs() };
@@ -135,7 +135,7 @@ pub fn assert_collision_verdicts(plan: &FloorPlan, input: &mut InputReader) {
     let wall_distance = plan.walls().iter().map(|wall| wall.distance_to_point(end_point)).fold(f64::INFINITY, f64::min);
     let is_free = plan.test_point(end_point, clearance).free;
     let is_in_obstacle = plan.grid().is_some_and(|grid| grid.is_blocked_at(end_point));
-    let depth_of_end = depth_inside(end_point[0], end_point[1]);
+    let depth_of_end = depth_at(end_point[0], end_point[1]);
     if is_free {
         assert!(wall_distance > clearance - distance_tolerance && depth_of_end >= -distance_tolerance && !is_in_obstacle, "{end_point:?}, {clearance}");
     } else {

@@ -55,6 +55,6 @@ fn correct_checksums(bytes: &[u8]) -> Vec<u8> {
 }
 
 fn crc32(bytes: &[u8]) -> u32 {
-    let shift_bit = |crc_so_far: u32| (crc_so_far >> 1) ^ (0xedb8_8320 & (crc_so_far & 1).wrapping_neg());
-    !bytes.iter().fold(!0, |crc, byte| (0..8).fold(crc ^ u32::from(*byte), |crc, _| shift_bit(crc)))
+    let shift_crc_bit = |crc_so_far: u32| (crc_so_far >> 1) ^ (0xedb8_8320 & (crc_so_far & 1).wrapping_neg());
+    !bytes.iter().fold(!0, |crc, byte| (0..8).fold(crc ^ u32::from(*byte), |crc, _| shift_crc_bit(crc)))
 }

@@ -77,8 +77,8 @@ fn best_match(
     let offset_count = ((max_offset - min_offset) / step).round() as usize + 1;
     let odometry_turns = turns_of_steps(odometry, start, step, turn_count);
     let reference_turns = turns_of_steps(reference, start + min_offset, step, turn_count + offset_count - 1);
-    let known_count = |turns: &[Option<f64>]| turns.iter().flatten().count();
-    let min_pairs = known_count(&odometry_turns).min(known_count(&reference_turns)) / 2;
+    let count_known = |turns: &[Option<f64>]| turns.iter().flatten().count();
+    let min_pairs = count_known(&odometry_turns).min(count_known(&reference_turns)) / 2;
     let correlations: Vec<f64> = (0..offset_count)
         .map(|offset| correlation(&odometry_turns, &reference_turns[offset..], min_pairs))
         .collect();
@@ -115,9 +115,9 @@ fn turns_of_steps(trajectory: &Trajectory, start_time: f64, step: f64, count: us
 /// Returns Pearson's correlation of two lists over pairs of known numbers. 0 if there are fewer than `min_pairs` such pairs, or a list is
 /// constant.
 fn correlation(a: &[Option<f64>], b: &[Option<f64>], min_pairs: usize) -> f64 {
-    let known_pairs = || a.iter().zip(b).filter_map(|(a, b)| a.zip(*b));
+    let iter_known_pairs = || a.iter().zip(b).filter_map(|(a, b)| a.zip(*b));
     let (mut count, mut sums) = (0.0, [0.0; 5]);
-    for (x, y) in known_pairs() {
+    for (x, y) in iter_known_pairs() {
         count += 1.0;
         for (sum, term) in sums.iter_mut().zip([x, y, x * x, y * y, x * y]) {
             *sum += term;

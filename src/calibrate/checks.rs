@@ -1,6 +1,6 @@
 //! Checks of a fit: validity of the log, and goodness of fit of the model.
 
-use super::fit::{Fit, LegSample};
+use super::fit::{Fit, LegSet};
 use super::legs::{LostLegs, MIN_DRIVE_DISTANCE, MIN_LEGS, MIN_TURN_ANGLE, distance, turn};
 use super::residuals::Model;
 use super::result::LegFit;
@@ -204,22 +204,22 @@ pub(super) const MAX_INFLATION: f64 = 30.0;
 
 /// Returns the checks of the log itself. Checks that decide whether a log is usable come first, because the first failure is displayed.
 pub(super) fn log_checks(
-    sample: &LegSample,
+    leg_set: &LegSet,
     lost: &LostLegs,
     systematic: &Systematic,
     alpha_intervals: &[Option<[f64; 2]>],
     inflation: f64,
 ) -> Vec<Check> {
-    let leg_count = sample.legs.len();
+    let leg_count = leg_set.legs.len();
     // α's are squares of relative errors. A copy fails by the largest end of their intervals, any other reference by the difference of its
     // motions.
     let max_alpha = alpha_intervals.iter().flatten().map(|[_, end]| *end).reduce(f64::max);
     let copy_error = max_alpha.map(f64::sqrt).filter(|error| *error < MIN_RELATIVE_ERROR);
-    let mismatch = || mismatch(sample, systematic).map(|ratio| ratio.max(MIN_RELATIVE_ERROR));
-    let mismatch = copy_error.or_else(mismatch);
+    let measure_mismatch = || mismatch(leg_set, systematic).map(|ratio| ratio.max(MIN_RELATIVE_ERROR));
+    let mismatch = copy_error.or_else(measure_mismatch);
     let mut length_ratios: Vec<f64> =
-        sample.legs.iter().map(|leg| sample.options.legs.ratio(&leg.odometry, leg.duration())).collect();
-    let outlier_count = sample.outliers.iter().filter(|is| **is).count();
+        leg_set.legs.iter().map(|leg| leg_set.options.legs.ratio(&leg.odometry, leg.duration())).collect();
+    let outlier_count = leg_set.outliers.iter().filter(|is| **is).count();
     let lost_count = lost.total() - lost.standing;
     let mut legs_lost =
         Check::new(CheckName::LegsLost, lost_count as f64 / (leg_count + lost_count) as f64, [0.0, 0.2]);
@@ -237,9 +237,9 @@ pub(super) fn log_checks(
         Check::new(CheckName::SamplingDense, median(&mut length_ratios), [0.0, 1.5]),
         Check::new(CheckName::OutliersFew, outlier_count as f64 / leg_count as f64, [0.0, 0.05]),
     ]);
-    let model = sample.options.model;
+    let model = leg_set.options.model;
     if matches!(model, Model::Odometry(rule) if rule != OdometryRule::Omni) {
-        let sideways = sample.observations.iter().filter(|leg| leg.moves_sideways(model)).count();
+        let sideways = leg_set.observations.iter().filter(|leg| leg.moves_sideways(model)).count();
         checks.push(Check::new(CheckName::SidewaysRare, sideways as f64 / leg_count as f64, [0.0, 0.02]));
     }
     checks
@@ -248,12 +248,12 @@ pub(super) fn log_checks(
 /// Returns the median difference between the motions of a leg by odometry and by reference, divided by the median motion. The larger ratio
 /// of turns and drives is returned; `None` if too few legs turn and too few drive. Scales are not corrected, because a scale far from 1 is
 /// another unit.
-fn mismatch(sample: &LegSample, systematic: &Systematic) -> Option<f64> {
+fn mismatch(leg_set: &LegSet, systematic: &Systematic) -> Option<f64> {
     let systematic = Systematic { distance_scale: 1.0, turn_scale: 1.0, ..*systematic };
     // Sizes and differences of turns and of drives.
     let [mut turns, mut drives]: [(Vec<f64>, Vec<f64>); 2] = Default::default();
-    for leg in &sample.legs {
-        let (expected, measured) = (systematic.expected(sample.options.model, leg), systematic.motion(leg));
+    for leg in &leg_set.legs {
+        let (expected, measured) = (systematic.expected(leg_set.options.model, leg), systematic.motion(leg));
         if turn(&expected) > MIN_TURN_ANGLE {
             turns.extend([(turn(&expected), (measured.theta() - expected.theta()).abs())]);
         }
@@ -297,10 +297,10 @@ pub(super) fn window_checks(windows: &[WindowCoverage], scale_std: f64) -> Vec<C
     let check_names = [CheckName::Window1Covered, CheckName::Window2Covered, CheckName::Window5Covered];
     let sufficient_windows =
         windows.iter().zip(check_names).filter(|(window, _)| window.count >= MIN_WINDOWS);
-    let coverage_check = |(window, name): (&WindowCoverage, CheckName)| {
+    let check_coverage = |(window, name): (&WindowCoverage, CheckName)| {
         Check::new(name, window.coverage, coverage_range(window.count, scale_std))
     };
-    sufficient_windows.map(coverage_check).collect()
+    sufficient_windows.map(check_coverage).collect()
 }
 
 /// Turn (rad) above which a leg counts as turning. All other legs count as straight.
@@ -340,11 +340,11 @@ pub(super) fn scale_checks(fit: &Fit, correlation: f64) -> (Vec<Check>, ErrorMas
             SystematicError::DistanceScale => compare_groups(&is_turning),
             _ => compare_long_turns(fit, correlation),
         };
-        let relative_size = |(difference, tolerance): &(f64, f64)| difference.abs() / tolerance;
+        let ratio_of = |(difference, tolerance): &(f64, f64)| difference.abs() / tolerance;
         let comparisons = halves.into_iter().chain(other_comparison).map(|(difference, std)| {
             (difference, NEGLIGIBLE_SCALE_DIFFERENCE.max(MAX_SCALE_STD_ERRORS * std))
         });
-        let largest_difference = comparisons.max_by(|a, b| relative_size(a).total_cmp(&relative_size(b)));
+        let largest_difference = comparisons.max_by(|a, b| ratio_of(a).total_cmp(&ratio_of(b)));
         let (difference, tolerance) = largest_difference.unwrap_or((0.0, NEGLIGIBLE_SCALE_DIFFERENCE));
         let check = Check::new(name, difference, [-tolerance, tolerance]);
         is_constant[scale as usize] = check.passed;
@@ -365,9 +365,9 @@ fn compare_long_turns(Fit { sample, maximum, .. }: &Fit, correlation: f64) -> Op
     let sections = inliers.chunk_by(|_, next| sample.follows(*next, is_inlier));
     // Turns by the corrected odometry and by the reference.
     let turns_of_run = |run: &[usize]| {
-        let observations = || run.iter().map(|leg| &sample.observations[*leg]);
-        let expected_turn: f64 = observations().map(|leg| leg.expected.theta()).sum();
-        [expected_turn, observations().map(|leg| leg.measured.theta()).sum()]
+        let observations_of_run = || run.iter().map(|leg| &sample.observations[*leg]);
+        let expected_turn: f64 = observations_of_run().map(|leg| leg.expected.theta()).sum();
+        [expected_turn, observations_of_run().map(|leg| leg.measured.theta()).sum()]
     };
     let runs: Vec<[f64; 2]> =
         sections.flat_map(|section| section.chunks_exact(RUN_LEGS)).map(turns_of_run).collect();

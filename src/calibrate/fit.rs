@@ -15,7 +15,7 @@ use std::ops::Range;
 
 /// Legs of a log with their residuals, for given systematic errors.
 #[derive(Clone, Debug)]
-pub(super) struct LegSample {
+pub(super) struct LegSet {
     pub options: Options,
     pub legs: Vec<Leg>,
     pub observations: Vec<Observation>,
@@ -30,7 +30,7 @@ pub(super) struct LegSample {
 /// Fit to the legs of a sample.
 #[derive(Clone, Debug)]
 pub(super) struct Fit {
-    pub sample: LegSample,
+    pub sample: LegSet,
     pub residuals: Residuals,
     pub maximum: Expansion,
 }
@@ -44,7 +44,7 @@ const MAX_ROUNDS: usize = 15;
 /// Change of a systematic error between rounds, relative to its standard error, below which the rounds end.
 const CONVERGENCE_TOLERANCE: f64 = 0.05;
 
-impl LegSample {
+impl LegSet {
     fn new(legs: Vec<Leg>, systematic: &Systematic, estimated: ErrorMask, options: &Options) -> Self {
         let (outliers, observations, terms) = (vec![false; legs.len()], Vec::new(), Vec::new());
         Self { options: *options, legs, observations, terms, outliers, systematic: *systematic, estimated }
@@ -234,7 +234,7 @@ pub(super) fn fit_systematic(log: &Log, options: &Options) -> Result<Fit, Calibr
     let (all_legs, _) = log.legs(options, initial_errors.clock_offset)?;
     let fitted_legs = with_max_legs(&all_legs);
     let systematic = Systematic { mount_yaw: Systematic::initial_mount_yaw(&fitted_legs), ..initial_errors };
-    LegSample::new(fitted_legs, &systematic, [true; ERROR_COUNT], options).fit(Some(log), None)
+    LegSet::new(fitted_legs, &systematic, [true; ERROR_COUNT], options).fit(Some(log), None)
 }
 
 /// Fits the variances with the `corrected` errors removed. Also returns the sample of all legs, because the fit may use only some legs.
@@ -244,13 +244,13 @@ pub(super) fn fit_corrected(
     corrected: &Systematic,
     mask: ErrorMask,
     start: Parameters,
-) -> Result<(Fit, LegSample, LostLegs), CalibrateError> {
+) -> Result<(Fit, LegSet, LostLegs), CalibrateError> {
     let (legs, lost) = log.legs(options, corrected.clock_offset)?;
-    let fit = LegSample::new(with_max_legs(&legs), corrected, mask, options).fit(None, Some(start))?;
+    let fit = LegSet::new(with_max_legs(&legs), corrected, mask, options).fit(None, Some(start))?;
     let mut all_legs = fit.sample.clone();
     if legs.len() > all_legs.legs.len() {
         let parameters = &fit.maximum.parameters;
-        all_legs = LegSample::new(legs, corrected, mask, options);
+        all_legs = LegSet::new(legs, corrected, mask, options);
         all_legs.update_observations(parameters[POSITION_VARIANCE].sqrt());
         all_legs.mark_outliers(parameters, &fit.maximum.filtered.errors, 1);
     }

@@ -49,14 +49,14 @@ pub(super) fn intervals(
         }
         let mut free_others = residuals.free;
         free_others[parameter] = false;
-        let deviance_root = |distance: f64| {
+        let deviance_root_at = |distance: f64| {
             let candidate = feasible_parameters(maximum, free_others, Parameters::ith(parameter, distance));
             let log_likelihood = residuals.filtered(&candidate).log_likelihood;
             (2.0 * (maximum.filtered.log_likelihood - log_likelihood)).max(0.0).sqrt()
         };
         let guessed_distance = threshold * variance.sqrt();
         let distance_to_end =
-            |sign: f64| profile_end(deviance_root, sign * guessed_distance, -estimate, threshold);
+            |sign: f64| profile_end(deviance_root_at, sign * guessed_distance, -estimate, threshold);
         let sandwich: f64 = block_scores.iter().map(|score| covariances.dot(score).powi(2)).sum();
         let widening_factor = ((sandwich / variance).sqrt() * student_quantile / NORMAL_95).max(min_widening);
         [-1.0, 1.0].map(|sign| (estimate + widening_factor * distance_to_end(sign)).max(0.0))
@@ -65,14 +65,14 @@ pub(super) fn intervals(
 
 /// Returns the distance from an estimate at which the root of the deviance has its threshold. The search starts at `guess`. If the root is
 /// below the threshold at `min_distance`, where the parameter is 0, `min_distance` is returned.
-fn profile_end(deviance_root: impl Fn(f64) -> f64, guess: f64, min_distance: f64, threshold: f64) -> f64 {
+fn profile_end(deviance_root_at: impl Fn(f64) -> f64, guess: f64, min_distance: f64, threshold: f64) -> f64 {
     let mut distance = guess.max(min_distance);
     for _ in 0..MAX_SEARCH_STEPS {
         if distance == 0.0 {
             break;
         }
         let last_distance = distance;
-        distance = (distance * (threshold / deviance_root(distance)).clamp(0.25, 4.0)).max(min_distance);
+        distance = (distance * (threshold / deviance_root_at(distance)).clamp(0.25, 4.0)).max(min_distance);
         if (distance / last_distance - 1.0).abs() < DISTANCE_TOLERANCE {
             break;
         }

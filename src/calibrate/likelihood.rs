@@ -344,12 +344,12 @@ pub(super) fn identifiable_errors(information: &ErrorMatrix) -> ErrorMask {
     let mut mask = SystematicError::ALL.map(|error| information[(error as usize, error as usize)] > 0.0);
     loop {
         let (covariance, _) = masked_inverse(information, &mask);
-        let relative_std = |error: &usize| {
+        let relative_std_of = |error: &usize| {
             covariance[(*error, *error)].sqrt() / SystematicError::ALL[*error].identifiability_limit()
         };
         let candidates = (0..ERROR_COUNT).filter(|error| mask[*error]);
-        match candidates.max_by(|a, b| relative_std(a).total_cmp(&relative_std(b))) {
-            Some(worst) if relative_std(&worst) > 1.0 => mask[worst] = false,
+        match candidates.max_by(|a, b| relative_std_of(a).total_cmp(&relative_std_of(b))) {
+            Some(worst) if relative_std_of(&worst) > 1.0 => mask[worst] = false,
             _ => return mask,
         }
     }

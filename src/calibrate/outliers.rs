@@ -2,7 +2,7 @@
 //! fitted.
 
 use super::Outliers;
-use super::fit::LegSample;
+use super::fit::LegSet;
 use super::likelihood::{ErrorVector, Parameters, innovations};
 use super::result::LegFit;
 use super::trajectory::median;
@@ -16,7 +16,7 @@ const MEDIAN_CHI2: f64 = 2.366;
 /// Last round in which an outlier may become an inlier again. In later rounds a leg near the gate could otherwise alternate forever.
 const LAST_RETURN_ROUND: usize = 2;
 
-impl LegSample {
+impl LegSet {
     /// Returns the innovations of all legs under `parameters`, without the part that the systematic `errors` explain. Each outlier is
     /// filtered independently of its neighbours.
     pub(super) fn leg_fits(&self, parameters: &Parameters, errors: &ErrorVector) -> Vec<LegFit> {

@@ -164,12 +164,12 @@ impl Trajectory {
             / (self.times[end_sample] - self.times[first_sample])
     }
 
-    /// Returns true if a pause or a break is between the previous sample and this one.
+    /// Returns true if there is a gap before a sample: a pause of the recording, or a break, where the pose may have jumped.
     fn has_gap_before(&self, sample: usize) -> bool {
         self.gaps.binary_search(&sample).is_ok()
     }
 
-    /// Returns true if a pause or a break lies between two times (s).
+    /// Returns true if there is a gap, a pause of the recording or a break, between two times (s).
     pub(super) fn has_gap(&self, start_time: f64, end_time: f64) -> bool {
         self.has_any_between(&self.gaps, start_time, end_time)
     }

@@ -5,7 +5,7 @@
 use super::checks::{
     Check, CheckName, MAX_INFLATION, MIN_WINDOWS, WindowCoverage, coverage_range, window_checks,
 };
-use super::fit::{Fit, LegSample};
+use super::fit::{Fit, LegSet};
 use super::legs::{Leg, distance};
 use super::likelihood::{Parameters, Residuals, reference_covariance};
 use super::optimizer::maximize;
@@ -33,7 +33,7 @@ impl Window {
     }
 }
 
-impl LegSample {
+impl LegSet {
     /// Cuts the legs in `range` into windows of `length` (m) driven. Legs without a covariance are in no window, and no window leads across
     /// a gap.
     fn windows(
@@ -99,7 +99,7 @@ impl LegSample {
 
 /// Returns the fraction of windows inside of their 95 % ellipsoid, and the NEES: the mean squared Mahalanobis distance divided by its 3
 /// degrees of freedom. The wheels' variances are multiplied by `inflation`.
-fn coverage(windows: &[Window], min_length: f64, inflation: f64) -> WindowCoverage {
+fn coverage(windows: &[Window], min_window_length: f64, inflation: f64) -> WindowCoverage {
     let squared_distances: Vec<f64> =
         windows.iter().map(|window| window.squared_distance(inflation)).collect();
     let window_count = squared_distances.len();
@@ -107,7 +107,7 @@ fn coverage(windows: &[Window], min_length: f64, inflation: f64) -> WindowCovera
     WindowCoverage {
         // The mean of no windows is NaN, which `max` replaces.
         length: (windows.iter().map(|window| window.length).sum::<f64>() / window_count as f64)
-            .max(min_length),
+            .max(min_window_length),
         count: window_count,
         coverage: covered_count as f64 / window_count as f64,
         nees: squared_distances.iter().sum::<f64>() / (3 * window_count) as f64,
@@ -149,10 +149,10 @@ pub(super) struct CrossValidation {
 
 /// Fits each half of the log, compares each half with the fit to the other half, and finds the inflation with which the fit covers 95 % of
 /// the errors over a metre.
-pub(super) fn cross_validate(fit: &Fit, all_legs: &LegSample, alphas: &[Option<f64>]) -> CrossValidation {
-    let half_ranges = |legs: usize| [0..legs / 2, legs / 2..legs];
+pub(super) fn cross_validate(fit: &Fit, all_legs: &LegSet, alphas: &[Option<f64>]) -> CrossValidation {
+    let split_in_halves = |legs: usize| [0..legs / 2, legs / 2..legs];
     let leg_count = fit.sample.legs.len();
-    let residuals = half_ranges(leg_count).map(|half| fit.sample.inlier_residuals(half));
+    let residuals = split_in_halves(leg_count).map(|half| fit.sample.inlier_residuals(half));
     let parameters_of = |half: &Residuals| maximize(half, fit.maximum.parameters).parameters;
     let parameters_by_other_half = [parameters_of(&residuals[1]), parameters_of(&residuals[0])];
     let (mut covered_legs, mut compared_legs) = (0, 0);
@@ -167,7 +167,7 @@ pub(super) fn cross_validate(fit: &Fit, all_legs: &LegSample, alphas: &[Option<f
     let expected_coverage = coverage_range(compared_legs, scale_std);
     let mut checks = vec![Check::new(CheckName::HoldoutCovered, coverage_by_other_half, expected_coverage)];
     // Windows of the whole log, each under the fit to the other half.
-    let half_ranges_of_log = half_ranges(all_legs.legs.len());
+    let half_ranges_of_log = split_in_halves(all_legs.legs.len());
     let halves_with_parameters = || half_ranges_of_log.iter().cloned().zip(&parameters_by_other_half);
     let covariances: Vec<Option<Matrix3<f64>>> = halves_with_parameters()
         .flat_map(|(half, parameters)| half.map(|leg| all_legs.wheel_covariance(leg, parameters)))

@@ -58,7 +58,7 @@ impl Trigonometry {
     #[inline(never)]
     pub fn sin_cos_any_angle(&self, x: f64x4) -> SinCos {
         if is_any_lane_beyond(x, MAX_REDUCED_ANGLE) {
-            let map_lanes = |lane_function: fn(f64) -> f64| f64x4::from(x.to_array().map(lane_function));
+            let map_lanes = |apply_to_lane: fn(f64) -> f64| f64x4::from(x.to_array().map(apply_to_lane));
             let [sinc, sin, cos] = [super::sinc::sinc, libm::sin, libm::cos].map(map_lanes);
             return SinCos { sinc, sin, cos };
         }
@@ -109,12 +109,12 @@ fn is_any_lane_beyond(x: f64x4, limit: f64) -> bool {
 
 #[inline(always)]
 pub(crate) fn is_any_lane_set(lane_mask: f64x4) -> bool {
-    let [low_lanes, high_lanes] = split_lanes(lane_mask);
+    let [low_lanes, high_lanes] = split_into_lane_pairs(lane_mask);
     (low_lanes | high_lanes).any()
 }
 
 #[inline(always)]
-pub(crate) fn split_lanes(four_lanes: f64x4) -> [f64x2; 2] {
+pub(crate) fn split_into_lane_pairs(four_lanes: f64x4) -> [f64x2; 2] {
     bytemuck::cast(four_lanes)
 }
 

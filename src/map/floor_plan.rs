@@ -360,7 +360,7 @@ impl ArcSweep<'_> {
     /// enough to decide.
     fn are_walls_clear(&mut self, part_middle: [f64; 2], part_radius: f64, max_error: f64) -> bool {
         let (arc, clearance) = (self.arc, self.clearance);
-        let prepared_arc = || self.local_arc.get_or_init(|| arc.local_arc());
+        let prepare_arc = || self.local_arc.get_or_init(|| arc.local_arc());
         let (clear_distance, blocked_distance) = (part_radius + clearance, (clearance - max_error).max(0.0));
         self.plan.are_near_walls_clear(
             part_middle,
@@ -370,7 +370,7 @@ impl ArcSweep<'_> {
                 node.is_farther_than(part_middle, clear_distance)
                     // This test saves time only if the node is thinner than the part is long.
                     || node.capsule_radius < part_radius
-                        && node.capsule_axis.distance_to_local_arc(prepared_arc()) - node.capsule_radius > clearance
+                        && node.capsule_axis.distance_to_local_arc(prepare_arc()) - node.capsule_radius > clearance
             },
             |wall| {
                 let squared_distance = wall.squared_distance_to_point(part_middle);
@@ -378,7 +378,7 @@ impl ArcSweep<'_> {
                 if is_clear || squared_distance < blocked_distance * blocked_distance {
                     return is_clear;
                 }
-                wall.distance_to_local_arc(prepared_arc()) > clearance
+                wall.distance_to_local_arc(prepare_arc()) > clearance
             },
         )
     }

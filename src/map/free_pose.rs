@@ -17,14 +17,14 @@ impl FloorPlan {
     /// heading of the longest free path. If the disc does not fit there, the first cell where it fits is taken; None if it fits nowhere.
     pub fn find_free_pose(&self, clearance: f64) -> Option<SE2> {
         let raster = self.grid().map_or_else(|| Cow::Owned(self.rasterize()), Cow::Borrowed);
-        let disc_fits = |point: &[f64; 2]| self.test_point(*point, clearance).free;
+        let does_disc_fit = |point: &[f64; 2]| self.test_point(*point, clearance).free;
         let [columns, rows] = raster.size();
         let middle_coordinates =
             (0..rows).flat_map(|row| (0..columns).map(move |column| [column as f64 + 0.5, row as f64 + 0.5]));
         let mut cell_middles = middle_coordinates.map(|middle| raster.world_point(middle));
         let square_middle = middle_of_largest_free_square(&raster).map(|middle| raster.world_point(middle));
-        let [x, y] = square_middle.filter(disc_fits).or_else(|| cell_middles.find(disc_fits))?;
-        Some(SE2::new(x, y, heading_of_longest_path(&raster, [x, y], disc_fits)))
+        let [x, y] = square_middle.filter(does_disc_fit).or_else(|| cell_middles.find(does_disc_fit))?;
+        Some(SE2::new(x, y, heading_of_longest_path(&raster, [x, y], does_disc_fit)))
     }
 
     /// Returns a grid of a plan of walls, in which cells that may touch a wall are occupied.
@@ -71,7 +71,7 @@ fn middle_of_largest_free_square(grid: &OccupancyGrid) -> Option<[f64; 2]> {
 fn heading_of_longest_path(
     grid: &OccupancyGrid,
     [x, y]: [f64; 2],
-    disc_fits: impl Fn(&[f64; 2]) -> bool,
+    does_disc_fit: impl Fn(&[f64; 2]) -> bool,
 ) -> f64 {
     let is_free = |point: &[f64; 2]| {
         let [column, row] = grid.cell_coordinates(*point);
@@ -84,7 +84,7 @@ fn heading_of_longest_path(
         let free_steps = (1..)
             .map(|steps| 0.5 * grid.resolution() * f64::from(steps))
             .map(|distance| [x + distance * cos, y + distance * sin])
-            .take_while(|point| is_free(point) && disc_fits(point))
+            .take_while(|point| is_free(point) && does_disc_fit(point))
             .count();
         if free_steps > max_steps {
             (max_steps, best_heading) = (free_steps, tried_heading);

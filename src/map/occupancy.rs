@@ -103,14 +103,14 @@ impl PixelClassifier {
         // Thresholds are rounded to f32, as the brightness is, so that a pixel at a threshold is not beyond it.
         let (occupied_threshold, free_threshold) = (self.occupied_thresh as f32, self.free_thresh as f32);
         // The grey value is computed only if needed, because rounding is slow on processors without an instruction for it.
-        let grey_value = || (brightness * 255.0).round();
+        let grey_value_of = || (brightness * 255.0).round();
         match self.mode {
             MapMode::Scale if opacity < 1.0 => Cell::Unknown,
             MapMode::Trinary | MapMode::Scale if occupancy > occupied_threshold => Cell::Occupied,
             // Rounding may make the occupancy of a pixel at the threshold slightly less than the threshold.
             MapMode::Trinary if occupancy > free_threshold - f32::EPSILON => Cell::Unknown,
-            MapMode::Raw if grey_value() == 100.0 => Cell::Occupied,
-            MapMode::Raw if grey_value() > 100.0 => Cell::Unknown,
+            MapMode::Raw if grey_value_of() == 100.0 => Cell::Occupied,
+            MapMode::Raw if grey_value_of() > 100.0 => Cell::Unknown,
             _ => Cell::Free,
         }
     }

@@ -5,16 +5,16 @@ use thiserror::Error;
 
 /// Reason why bytes are not a PGM image.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("line {line}: {field} is {value}; allowed is {allowed}")]
+#[error("line {line}: {field} is {actual_text}; allowed is {allowed_text}")]
 pub struct PgmError {
     /// Name of the field: "the width".
     pub field: &'static str,
     /// Line of the header (from 1) in which the field should have been.
     pub line: usize,
     /// Invalid text, in the quotation marks of the message.
-    pub value: String,
+    pub actual_text: String,
     /// Allowed values, as text of the message.
-    pub allowed: String,
+    pub allowed_text: String,
 }
 
 /// Largest number of pixels of an image: a map of 250 m × 250 m at 5 cm has 5000 × 5000.
@@ -54,8 +54,8 @@ pub fn read_pgm(bytes: &[u8]) -> Result<Image<f32>, PgmError> {
     let available_raster = bytes.get(reader.position + if is_crlf { 2 } else { 1 }..).unwrap_or_default();
     let Some(raster) = available_raster.get(..raster_byte_count) else {
         let allowed_text = format!("{raster_byte_count} for {width} × {height} pixels");
-        let (field, value) = ("the length of the raster in bytes", available_raster.len().to_string());
-        return Err(PgmError { field, line: reader.line, value, allowed: allowed_text });
+        let (field, actual_text) = ("the length of the raster in bytes", available_raster.len().to_string());
+        return Err(PgmError { field, line: reader.line, actual_text, allowed_text });
     };
     // A pixel of 16 bits has its higher byte first.
     let decode_pixel = |pixel: &[u8]| pixel.iter().fold(0, |value, byte| 256 * value + usize::from(*byte));
@@ -102,17 +102,17 @@ impl<'a> TokenReader<'a> {
             .ok_or_else(|| self.create_error(field, token, format!("a whole number from {min} to {max}")))
     }
 
-    fn create_error(&self, field: &'static str, token: &[u8], allowed: String) -> PgmError {
+    fn create_error(&self, field: &'static str, token: &[u8], allowed_text: String) -> PgmError {
         // Bytes that are not printable ASCII may be pixels of another image format. A message cannot show them.
-        let printable_char = |byte: &u8| {
+        let to_printable = |byte: &u8| {
             if byte.is_ascii_graphic() { char::from(*byte) } else { char::REPLACEMENT_CHARACTER }
         };
-        let mut value_text = String::from("missing");
+        let mut actual_text = String::from("missing");
         if !token.is_empty() {
-            let quoted_token: String = token.iter().take(MAX_QUOTED_CHARACTERS).map(printable_char).collect();
-            value_text =
+            let quoted_token: String = token.iter().take(MAX_QUOTED_CHARACTERS).map(to_printable).collect();
+            actual_text =
                 format!("\"{quoted_token}{}\"", if token.len() > MAX_QUOTED_CHARACTERS { "…" } else { "" });
         }
-        PgmError { field, line: self.line, value: value_text, allowed }
+        PgmError { field, line: self.line, actual_text, allowed_text }
     }
 }

@@ -174,10 +174,10 @@ impl TangentNoiseModel {
 /// Returns the fourth-order part of the covariance of log(exp(a)·exp(b)) for independent a and b with covariances `a` and `b`. The part is
 /// (𝒜_a·b + b·𝒜_aᵀ + 𝒜_b·a + a·𝒜_bᵀ)/12 + ℬ/4, with 𝒜_a = E[ad(a)²] and ℬ = E[ad(a)·b·ad(a)ᵀ].
 fn fourth_order_terms(a: &Matrix3<f64>, b: &Matrix3<f64>) -> Matrix3<f64> {
-    let mean_square = |factor_cov| {
+    let mean_square_of = |factor_cov| {
         expected_adjoint_product(factor_cov, |left_adjoint, right_adjoint| left_adjoint * right_adjoint)
     };
-    let one_sided_terms = mean_square(a) * b + mean_square(b) * a;
+    let one_sided_terms = mean_square_of(a) * b + mean_square_of(b) * a;
     let two_sided_term = expected_adjoint_product(a, |left_adjoint, right_adjoint| {
         left_adjoint * b * right_adjoint.transpose()
     });
@@ -188,14 +188,14 @@ fn fourth_order_terms(a: &Matrix3<f64>, b: &Matrix3<f64>) -> Matrix3<f64> {
 /// twists.
 fn expected_adjoint_product(
     cov: &Matrix3<f64>,
-    bilinear_function: impl Fn(&Matrix3<f64>, &Matrix3<f64>) -> Matrix3<f64>,
+    bilinear_form: impl Fn(&Matrix3<f64>, &Matrix3<f64>) -> Matrix3<f64>,
 ) -> Matrix3<f64> {
     let basis_adjoints =
         [Vector3::x(), Vector3::y(), Vector3::z()].map(|basis_twist| small_adjoint(&basis_twist));
     let mut expectation_sum = Matrix3::zeros();
     for (i, left_adjoint) in basis_adjoints.iter().enumerate() {
         for (j, right_adjoint) in basis_adjoints.iter().enumerate() {
-            expectation_sum += bilinear_function(left_adjoint, right_adjoint) * cov[(i, j)];
+            expectation_sum += bilinear_form(left_adjoint, right_adjoint) * cov[(i, j)];
         }
     }
     expectation_sum

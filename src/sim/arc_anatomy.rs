@@ -228,8 +228,8 @@ impl ArcAnatomy {
         let (start, next) = (self.settings.start(), self.settings.next());
         let (estimates, inverted) = (self.selected_inversion(), self.signed_inversion());
         let factors = self.noise_residuals(&estimates).map(|residual| Factor::of(*noise, residual));
-        let abs_deviation = |i: &usize| factors[*i].deviations.abs();
-        let weakest = (0..3).rev().max_by(|a, b| abs_deviation(a).total_cmp(&abs_deviation(b))).unwrap_or(0);
+        let deviation_of = |i: &usize| factors[*i].deviations.abs();
+        let weakest = (0..3).rev().max_by(|a, b| deviation_of(a).total_cmp(&deviation_of(b))).unwrap_or(0);
         let arc_of_speeds = |v: f64, omega: f64| {
             ArcWithCircle::of(&Arc { start, length: v * command.dt, turn: omega * command.dt })
         };
@@ -309,7 +309,7 @@ impl ArcAnatomy {
         let pose_on_twist_path =
             |i: usize, segment_count: usize| start.boxplus(xi * (i as f64 / segment_count as f64));
         let position_of = |pose: SE2| [pose.x(), pose.y()];
-        let lateral_velocity_segment = |i: usize| {
+        let segment_of_lateral_velocity = |i: usize| {
             let pose = pose_on_twist_path(i, TWIST_PATH_TICKS);
             let [x, y] = PreparedPose::new(pose).transform_point([0.0, xi.y]);
             [pose.x(), pose.y(), x, y]
@@ -321,7 +321,7 @@ impl ArcAnatomy {
             lie: (0..=TWIST_PATH_CHORDS)
                 .map(|i| position_of(pose_on_twist_path(i, TWIST_PATH_CHORDS)))
                 .collect(),
-            ticks: (0..=TWIST_PATH_TICKS).map(lateral_velocity_segment).collect(),
+            ticks: (0..=TWIST_PATH_TICKS).map(segment_of_lateral_velocity).collect(),
         }
     }
 
@@ -354,16 +354,16 @@ impl ArcAnatomy {
         let rows = (max_cells / columns).max(1.0).floor();
         let cell_size = [width / columns, height / rows];
         let (columns, rows) = (columns as usize, rows as usize);
-        let cell_centre = |[column, row]: [f64; 2]| {
+        let cell_centre_at = |[column, row]: [f64; 2]| {
             [min_corner[0] + (column + 0.5) * cell_size[0], max_corner[1] - (row + 0.5) * cell_size[1]]
         };
         let evaluate_cells = |score_at: &dyn Fn([f64; 3]) -> f64| -> Vec<f64> {
-            let cell_score = |i: usize| {
-                let [x, y] = cell_centre([(i % columns) as f64, (i / columns) as f64]);
+            let cell_score_at = |i: usize| {
+                let [x, y] = cell_centre_at([(i % columns) as f64, (i / columns) as f64]);
                 // The density is infinite at the start pose.
                 score_at([x, y, theta]).min(f64::MAX)
             };
-            (0..columns * rows).map(cell_score).collect()
+            (0..columns * rows).map(cell_score_at).collect()
         };
         let prob_values =
             evaluate_cells(&|next| Self { settings: Settings { next, ..self.settings } }.prob());
@@ -385,7 +385,7 @@ impl ArcAnatomy {
                 .filter(|_| max_value > 0.0)
                 .map(|fraction| libm::log(fraction * max_value));
             let contour_lines = log_levels.flat_map(|level| trace_level_set(&log_values, columns, level));
-            contour_lines.map(|line| line.into_iter().map(cell_centre).collect()).collect()
+            contour_lines.map(|line| line.into_iter().map(cell_centre_at).collect()).collect()
         };
         Some(Surface {
             columns,

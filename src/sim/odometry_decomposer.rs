@@ -215,12 +215,12 @@ impl OdometryDecomposer {
 
     /// Returns the pose of the robot at the selected phase of the motion.
     pub fn robot_pose(&self) -> SE2 {
-        let completed_fraction = |phase_before: f64| (self.settings.phase - phase_before).clamp(0.0, 1.0);
+        let fraction_after = |phase_before: f64| (self.settings.phase - phase_before).clamp(0.0, 1.0);
         let OdomDelta { rot1, trans, rot2 } = self.legs();
         let legs = OdomDelta {
-            rot1: completed_fraction(0.0) * rot1,
-            trans: completed_fraction(1.0) * trans,
-            rot2: completed_fraction(2.0) * rot2,
+            rot1: fraction_after(0.0) * rot1,
+            trans: fraction_after(1.0) * trans,
+            rot2: fraction_after(2.0) * rot2,
         };
         legs.apply(&self.start_pose())
     }

@@ -40,8 +40,8 @@ impl Ellipse {
             cov[(1, 1)] - cross_term * cross_term,
             rounding_variance.max(MIN_UNCORRELATED_FRACTION * cov[(1, 1)]),
         );
-        let inverse_or_zero = |std: f64| if std > 0.0 { 1.0 / std } else { 0.0 };
-        let (z, w) = (inverse_or_zero(first_std), inverse_or_zero(second_std));
+        let inverse_or_zero_of = |std: f64| if std > 0.0 { 1.0 / std } else { 0.0 };
+        let (z, w) = (inverse_or_zero_of(first_std), inverse_or_zero_of(second_std));
         let whitening_matrix = Matrix2::new(z, 0.0, -cross_term * z * w, w);
         Self { centre, cov_root: Matrix2::new(first_std, 0.0, cross_term, second_std), whitening_matrix }
     }

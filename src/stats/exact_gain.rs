@@ -217,7 +217,7 @@ fn triangular_mean_log(m: f64, half_width: f64) -> f64 {
         }
         return sum;
     }
-    let antiderivative = |x: f64| if x == 0.0 { 0.0 } else { x * x * (0.5 * libm::log(x.abs()) - 0.75) };
-    (antiderivative(m + half_width) - 2.0 * antiderivative(m) + antiderivative(m - half_width))
+    let antiderivative_at = |x: f64| if x == 0.0 { 0.0 } else { x * x * (0.5 * libm::log(x.abs()) - 0.75) };
+    (antiderivative_at(m + half_width) - 2.0 * antiderivative_at(m) + antiderivative_at(m - half_width))
         / (half_width * half_width)
 }

@@ -41,7 +41,7 @@ pub fn trace_level_set(field_values: &[f64], columns: usize, level: f64) -> Vec<
             }
         }
     }
-    let crossing_point = |edge: usize| {
+    let crossing_point_on = |edge: usize| {
         let (i, is_vertical) = (edge / 2, edge % 2 == 1);
         let (start_value, end_value) =
             (field_values[i], field_values[if is_vertical { i + columns } else { i + 1 }]);
@@ -57,7 +57,7 @@ pub fn trace_level_set(field_values: &[f64], columns: usize, level: f64) -> Vec<
         if edge_links[first_edge][0] == NO_EDGE {
             continue;
         }
-        let (mut line, mut edge) = (vec![crossing_point(first_edge)], first_edge);
+        let (mut line, mut edge) = (vec![crossing_point_on(first_edge)], first_edge);
         loop {
             let [edge_a, edge_b] = std::mem::replace(&mut edge_links[edge], [NO_EDGE; 2]);
             let next_edge =
@@ -69,7 +69,7 @@ pub fn trace_level_set(field_values: &[f64], columns: usize, level: f64) -> Vec<
                 }
                 break;
             }
-            line.push(crossing_point(next_edge));
+            line.push(crossing_point_on(next_edge));
             edge = next_edge;
         }
         contour_lines.push(line);

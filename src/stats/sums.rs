@@ -1,6 +1,6 @@
 //! Sums of millions of terms, four at a time. Plain sums of blocks of terms are added to a compensated total.
 
-use crate::geom::lanes::split_lanes;
+use crate::geom::lanes::split_into_lane_pairs;
 use wide::{f64x2, f64x4};
 
 /// Compensated sums of `N` quantities.
@@ -48,7 +48,7 @@ fn compensated_total(total: f64x2, compensation: f64x2) -> f64 {
 #[inline(always)]
 pub fn add_to_block<const N: usize>(block: &mut [f64x2; N], terms: [f64x4; N]) {
     for i in 0..N {
-        let [low, high] = split_lanes(terms[i]);
+        let [low, high] = split_into_lane_pairs(terms[i]);
         block[i] += low + high;
     }
 }

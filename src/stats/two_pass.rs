@@ -10,7 +10,7 @@ use super::gain::{ChartGaussians, FourRobots, LogDensityDifferences, MeanAndCov,
 use super::moments::{CartesianMoments, ExponentialMoments, non_negative};
 use super::sums::{CompensatedSums, PairSums, add_to_block};
 use crate::geom::angle::wrap_angle;
-use crate::geom::lanes::{LANE_COUNT, is_any_lane_set, split_lanes};
+use crate::geom::lanes::{LANE_COUNT, is_any_lane_set, split_into_lane_pairs};
 use crate::geom::se2::SE2;
 use nalgebra::{Matrix2, Matrix3, Vector3};
 use std::f64::consts::{LN_2, PI, TAU};
@@ -91,15 +91,15 @@ impl FirstPass {
 
     #[inline(always)]
     pub fn multiply_jacobians(&mut self, poses: &FourPoses, arcs: &FourArcs) {
-        let lane_product = |lanes: f64x4| {
-            let [low, high] = split_lanes(lanes);
+        let multiply_lanes = |lanes: f64x4| {
+            let [low, high] = split_into_lane_pairs(lanes);
             low * high
         };
-        let (twist_sincs, arc_sincs) = (lane_product(poses.sinc), lane_product(arcs.sinc));
+        let (twist_sincs, arc_sincs) = (multiply_lanes(poses.sinc), multiply_lanes(arcs.sinc));
         let [twist_scale, arc_scale] = self.jacobian_scale;
         self.jacobian_products[0] *= twist_sincs * (twist_scale * twist_scale);
         self.jacobian_products[1] *=
-            lane_product(arcs.length) * (arc_sincs * arc_sincs) * (arc_scale * arc_scale);
+            multiply_lanes(arcs.length) * (arc_sincs * arc_sincs) * (arc_scale * arc_scale);
     }
 
     /// Multiplies the products by the Jacobians of the poses whose lanes of `mask` have all bits set.
@@ -139,10 +139,10 @@ impl FirstPass {
         let irregular_sums = self.irregular_arcs.totals();
         let [s, t, ss, st, tt] = std::array::from_fn(|i| regular_sums[i] + irregular_sums[i]);
         // A covariance is the mean of the products minus the product of the means.
-        let cov = |product_sum: f64, first_sum: f64, second_sum: f64| {
+        let cov_of = |product_sum: f64, first_sum: f64, second_sum: f64| {
             if count > 1 { (product_sum - first_sum * (second_sum / n)) / (n - 1.0) } else { f64::NAN }
         };
-        let variance = |square_sum: f64, sum: f64| non_negative(cov(square_sum, sum, sum));
+        let variance_of_sums = |square_sum: f64, sum: f64| non_negative(cov_of(square_sum, sum, sum));
         let [x0, y0, along, lateral, half_heading, length, half_turn] = self.reference_point;
         // Sums of sin θ and of cos θ, by the formulas for double angles, in a frame in which the reference point has the heading 0.
         let (sin, cos) = libm::sincos(2.0 * half_heading);
@@ -151,10 +151,10 @@ impl FirstPass {
         // Equal headings have spread 0, although their sines may be rounded.
         let turn_from_reference = if hh == 0.0 { 0.0 } else { libm::atan2(rotated_sums.0, rotated_sums.1) };
         let mean_turn = 2.0 * half_heading + turn_from_reference;
-        let position_cov = [variance(xx, x), cov(xy, x, y), variance(yy, y)];
-        let [aa, al, ll] = [variance(aa, a), cov(al, a, l), variance(ll, l)];
-        let [ah, lh, hh] = [2.0 * cov(ah, a, h), 2.0 * cov(lh, l, h), 4.0 * variance(hh, h)];
-        let [ss, st, tt] = [variance(ss, s), 2.0 * cov(st, s, t), 4.0 * variance(tt, t)];
+        let position_cov = [variance_of_sums(xx, x), cov_of(xy, x, y), variance_of_sums(yy, y)];
+        let [aa, al, ll] = [variance_of_sums(aa, a), cov_of(al, a, l), variance_of_sums(ll, l)];
+        let [ah, lh, hh] = [2.0 * cov_of(ah, a, h), 2.0 * cov_of(lh, l, h), 4.0 * variance_of_sums(hh, h)];
+        let [ss, st, tt] = [variance_of_sums(ss, s), 2.0 * cov_of(st, s, t), 4.0 * variance_of_sums(tt, t)];
         // All four lanes are scaled, including those without a pose.
         let scaled_lane_count = count.next_multiple_of(LANE_COUNT) as f64;
         let [mean_log_twist, mean_log_arc] = [0, 1]

@@ -110,7 +110,7 @@ fn systematic_errors(calibration: &Calibration) -> SystematicErrors {
     let Calibration { systematic, systematic_stds, is_constant, is_corrected, .. } = calibration;
     let optional_value =
         |error: SystematicError| systematic_stds[error as usize].map(|_| systematic.get(error));
-    let scalar_value = |error: SystematicError| SystematicValue {
+    let scalar_value_of = |error: SystematicError| SystematicValue {
         value: optional_value(error),
         interval: calibration.interval_of(error),
         constant: is_constant[error as usize],
@@ -119,16 +119,16 @@ fn systematic_errors(calibration: &Calibration) -> SystematicErrors {
     let lever_arm = [SystematicError::LeverArmAhead, SystematicError::LeverArmLeft];
     let has_any = |flags: &[bool; ERROR_COUNT]| lever_arm.iter().any(|error| flags[*error as usize]);
     SystematicErrors {
-        clock_offset: scalar_value(SystematicError::ClockOffset),
-        mount_yaw: scalar_value(SystematicError::MountYaw),
+        clock_offset: scalar_value_of(SystematicError::ClockOffset),
+        mount_yaw: scalar_value_of(SystematicError::MountYaw),
         lever_arm: SystematicValue {
             value: lever_arm.map(optional_value),
             interval: lever_arm.map(|error| calibration.interval_of(error)),
             constant: has_any(is_constant),
             corrected: has_any(is_corrected),
         },
-        distance_scale: scalar_value(SystematicError::DistanceScale),
-        turn_scale: scalar_value(SystematicError::TurnScale),
+        distance_scale: scalar_value_of(SystematicError::DistanceScale),
+        turn_scale: scalar_value_of(SystematicError::TurnScale),
     }
 }
 

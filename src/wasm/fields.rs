@@ -22,12 +22,12 @@ pub struct Fields<'a> {
 
 impl<'a> Fields<'a> {
     pub fn new(name: &str, prefix: &'a str, object: &'a JsValue, known: &[&str]) -> Result<Self, JsValue> {
-        let allowed_text = || format!("an object with keys from {}", known.join(", "));
+        let describe_keys = || format!("an object with keys from {}", known.join(", "));
         if Array::is_array(object) {
-            return Err(TypeError::new(&format!("{name} is an array; allowed is {}", allowed_text())).into());
+            return Err(TypeError::new(&format!("{name} is an array; allowed is {}", describe_keys())).into());
         }
         if !object.is_object() {
-            return Err(type_error(name, object, &allowed_text()));
+            return Err(type_error(name, object, &describe_keys()));
         }
         for key in Reflect::own_keys(object)?.iter().filter_map(|key| key.as_string()) {
             if !known.contains(&key.as_str()) {

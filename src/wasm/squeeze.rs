@@ -50,15 +50,15 @@ getters! {
         /// Level n of the noise parameters; null if they are not in the ratios of a level.
         noise: "number | null" = number_or_null(simulation.settings().noise());
         plan: "Plan" = {
-            let wall_coordinates = |Segment { from, to }: &Segment| [from[0], from[1], to[0], to[1]];
-            let walls = simulation.plan().walls().iter().map(wall_coordinates).collect();
+            let wall_coordinates_of = |Segment { from, to }: &Segment| [from[0], from[1], to[0], to[1]];
+            let walls = simulation.plan().walls().iter().map(wall_coordinates_of).collect();
             to_plain_js(&Plan { bounds: simulation.plan().bounds(), walls })
         };
         /// Cells of the map; null for a plan of walls.
         grid: "Grid | null" = to_plain_js(&simulation.plan().grid().map(|grid| {
             let ([columns, rows], origin) = (grid.size(), grid.origin().into());
-            let cell_flags = |state| grid.cells().map(|cell| u8::from(cell == state)).collect();
-            let [occupied, unknown] = [Cell::Occupied, Cell::Unknown].map(cell_flags);
+            let cell_flags_of = |state| grid.cells().map(|cell| u8::from(cell == state)).collect();
+            let [occupied, unknown] = [Cell::Occupied, Cell::Unknown].map(cell_flags_of);
             Grid { columns, rows, resolution: grid.resolution(), origin, occupied, unknown }
         }));
         /// Free start pose: in the middle of the largest square that is known to be free, heading where the path is free

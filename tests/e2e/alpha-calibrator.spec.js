@@ -186,8 +186,8 @@ test('for an α that a log does not determine, the table says why, and what to a
     const sampleCount = 2000;
     const t = Float64Array.from({ length: sampleCount }, (_, i) => i / 20);
     const zeroColumn = new Float64Array(sampleCount);
-    const noisyXColumn = (/** @type {number} */ noiseAmplitude) => t.map((time, i) => 0.5 * time + noiseAmplitude * Math.sin(i * i));
-    Object.assign(element, { log: { odometry: { t, x: noisyXColumn(0), y: zeroColumn, theta: zeroColumn }, reference: { t, x: noisyXColumn(0.002), y: zeroColumn, theta: zeroColumn } } });
+    const createNoisyXColumn = (/** @type {number} */ noiseAmplitude) => t.map((time, i) => 0.5 * time + noiseAmplitude * Math.sin(i * i));
+    Object.assign(element, { log: { odometry: { t, x: createNoisyXColumn(0), y: zeroColumn, theta: zeroColumn }, reference: { t, x: createNoisyXColumn(0.002), y: zeroColumn, theta: zeroColumn } } });
   });
   await waitUntilSettled(widget);
   await expect(alphaRowsOf(widget).nth(0)).toHaveText(/not determined: too little rotation in this log; add ~50 in-place rotations/);

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { REDUCED_MOTION, readCentre, waitForFrames, mountFigure, parseNumberIn, readPicture, countPixelsOfRole, playSlider, readoutValue, test, openDisclosures } from './support.js';
+import { REDUCED_MOTION, readCentre, waitForFrames, mountFigure, parseNumberIn, readPicture, countPixelsOfRole, playSliderOf, readoutValueOf, test, openDisclosures } from './support.js';
 
 /**
  * @import { Locator, Page } from '@playwright/test'
@@ -42,8 +42,8 @@ test('opens off the arc, and says which factor is the worst', async ({ page }) =
     await expect(factorRows.nth(i).locator('.keeps')).toHaveText(`factor: ${(100 * share).toFixed(1)}\u202f% of its peak`);
   }
   await openDisclosures(widget);
-  expect(parseNumberIn(await readoutValue(widget, 'p of the tables').textContent())).toBeCloseTo(stats.prob, 3);
-  expect(parseNumberIn(await readoutValue(widget, 'density').textContent())).toBeCloseTo(stats.density ?? NaN, 3);
+  expect(parseNumberIn(await readoutValueOf(widget, 'p of the tables').textContent())).toBeCloseTo(stats.prob, 3);
+  expect(parseNumberIn(await readoutValueOf(widget, 'density').textContent())).toBeCloseTo(stats.density ?? NaN, 3);
   // The pointer must not be on an entry of the legend, because the entry would highlight its line.
   await page.mouse.move(0, 0);
   for (const colorRole of ['prior', 'prediction', 'accent', 'truth']) expect(await countPixelsOfRole(canvasOf(widget), colorRole), colorRole).toBeGreaterThan(colorRole === 'accent' ? 10 : 20);
@@ -121,7 +121,7 @@ test('the whole wedge of the last turn is in a narrow picture', async ({ page })
   const widget = await openArcAnatomy(page, 'preset="straight"');
   const [wedgeEndX, frameRightX] = await widget.evaluate((element) => {
     const { pictures: [{ view }], simulation: { config: { next }, stats: { lastTurn } } } = /** @type {any} */ (element);
-    return [view.headingLine({ ...next, theta: next.theta - lastTurn }, 64)[1][0], view.plotArea.right];
+    return [view.headingLineFrom({ ...next, theta: next.theta - lastTurn }, 64)[1][0], view.plotArea.right];
   });
   expect(wedgeEndX).toBeLessThan(frameRightX);
 });
@@ -232,14 +232,14 @@ test('without noise it says so, and draws no map @nightly', async ({ page }) => 
   const widget = await openArcAnatomy(page, 'map="density" alpha5="0" alpha6="0"');
   await expect(verdictOf(widget)).toHaveText('The last turn γ̂ has zero variance but a non-zero residual, so p = 0.');
   await openDisclosures(widget);
-  await expect(readoutValue(widget, 'density')).toHaveText('none: a variance is 0');
+  await expect(readoutValueOf(widget, 'density')).toHaveText('none: a variance is 0');
   await expect(widget.locator('.lines li')).toHaveCount(9);
 });
 
 test('a button plays the drive along the arcs', async ({ page }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   const widget = await openArcAnatomy(page);
-  const { sliderValues, buttonLabel } = await playSlider(widget, 'underway', 3);
+  const { sliderValues, buttonLabel } = await playSliderOf(widget, 'underway', 3);
   expect(buttonLabel).toBe('Pause');
   expect(sliderValues[0]).toBe(0);
   expect(sliderValues[2]).toBeGreaterThan(sliderValues[1]);
@@ -253,6 +253,6 @@ test('a change of size while a slider plays is no step', async ({ page }) => {
   await widget.evaluate((element) => element.addEventListener('input', () => {
     /** @type {HTMLElement} */ (element).style.width = `${element.clientWidth - 1}px`;
   }));
-  const { sliderValues } = await playSlider(widget, 'underway', 8);
+  const { sliderValues } = await playSliderOf(widget, 'underway', 8);
   expect(new Set(sliderValues).size).toBe(sliderValues.length);
 });

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { REDUCED_MOTION, readBananaResults, readBox, readCentre, waitForFrames, parseNumberIn, openBanana, openBananaWithDisclosures, pauseEarly, readPicture, countPixelsOfRole, readPoses, readoutValue, readoutDetail, setSliders, test } from './support.js';
+import { REDUCED_MOTION, readBananaResults, readBox, readCentre, waitForFrames, parseNumberIn, openBanana, openBananaWithDisclosures, pauseEarly, readPicture, countPixelsOfRole, readPoses, readoutValueOf, readoutDetailOf, setSliders, test } from './support.js';
 
 /** @typedef {import('./support.js').BananaMachineElement} BananaMachineElement */
 /** @typedef {import('@playwright/test').Locator} Locator */
@@ -38,7 +38,7 @@ test('the cloud grows by itself, pauses, and goes on', async ({ page }) => {
   await widget.getByRole('button', { name: 'Pin' }).click();
   await expect.poll(async () => (await readBananaResults(widget)).shown, { timeout: 20_000 }).toBe(pausedResults.config.samples);
   // Numbers that are pinned while the cloud grows are numbers of the whole cloud.
-  await expect(readoutValue(widget, 'cross-track skew')).toHaveText(/^(.+ ± .+) pinned: \1$/);
+  await expect(readoutValueOf(widget, 'cross-track skew')).toHaveText(/^(.+ ± .+) pinned: \1$/);
   await expect(playButton).toBeVisible();
   expect((await readPoses(widget)).slice(0, firstPoses.length)).toEqual(firstPoses);
 });
@@ -49,11 +49,11 @@ test('opens with the whole cloud of the opening command, and shows the numbers o
   expect(config).toMatchObject({ model: 'velocity', noise: 'normal', command: { v: 1, omega: 0, dt: 2 }, alphas: OPENING_ALPHAS, isolate: null });
   expect(shownCount).toBe(config.samples);
   expect(Math.abs(table.exact.areaRatio - 1.967)).toBeLessThan(5e-4);
-  const readReadoutText = async (/** @type {string | RegExp} */ name) => (await readoutValue(widget, name).textContent()) ?? '';
+  const readReadoutText = async (/** @type {string | RegExp} */ name) => (await readoutValueOf(widget, name).textContent()) ?? '';
   const [printedSkew, skewError] = (await readReadoutText('cross-track skew')).split(' ± ').map(parseNumberIn);
   expect(printedSkew).toBeCloseTo(stats.crossTrackSkew, 3);
   expect(skewError).toBeCloseTo(stats.crossTrackSkewError, 3);
-  await expect(readoutDetail(widget, 'cross-track skew')).toHaveText('exactly 0.000');
+  await expect(readoutDetailOf(widget, 'cross-track skew')).toHaveText('exactly 0.000');
   expect(parseNumberIn(await readReadoutText('predicts'))).toBeCloseTo(stats.gaussianSkew, 3);
   expect(parseNumberIn(await readReadoutText('ρ'))).toBeCloseTo(stats.rhoCrossHeading, 3);
   expect((await readReadoutText('robots shown')).split(' of ').map(parseNumberIn)).toEqual([stats.n, config.samples]);
@@ -62,8 +62,8 @@ test('opens with the whole cloud of the opening command, and shows the numbers o
   expect(gainError).toBeCloseTo(stats.likelihoodGainError.pose, 3);
   expect(await readReadoutText('area covered')).toBe(`${stats.areaRatio.toFixed(2)} ×`);
   const coverageTexts = [stats.coverage.ellipse, stats.coverage.exponential].map((coverageShare) => `${(100 * coverageShare).toFixed(1)}\u202f%`);
-  await expect(readoutDetail(widget, 'area covered')).toHaveText(`± ${stats.areaRatioError.toPrecision(1)}; inside: ellipse ${coverageTexts.join(', outline ')}`);
-  await expect(readoutDetail(widget, 'gain in fit')).toHaveText(`exactly ${table.exact.likelihoodGain.pose.toFixed(3)}; 1 nat: e times as likely`);
+  await expect(readoutDetailOf(widget, 'area covered')).toHaveText(`± ${stats.areaRatioError.toPrecision(1)}; inside: ellipse ${coverageTexts.join(', outline ')}`);
+  await expect(readoutDetailOf(widget, 'gain in fit')).toHaveText(`exactly ${table.exact.likelihoodGain.pose.toFixed(3)}; 1 nat: e times as likely`);
   const varianceRow = widget.locator('tr').filter({ has: page.getByRole('rowheader', { name: 'Σxx', exact: true }) });
   const xVariances = (await varianceRow.getByRole('cell').allTextContents()).map(parseNumberIn);
   for (const [i, tableColumn] of [table.linearized, table.exact, table.measured].entries()) expect(xVariances[i] / tableColumn.cov[0][0]).toBeCloseTo(1, 2);
@@ -78,7 +78,7 @@ test('Clear empties the cloud, Step adds a batch of the same robots', async ({ p
   const [wholeCloud, wholeCloudPoses] = [await readBananaResults(widget), await readPoses(widget)];
   await widget.getByRole('button', { name: 'Clear' }).click();
   expect((await readBananaResults(widget)).shown).toBe(0);
-  await expect(readoutValue(widget, 'cross-track skew')).toHaveText('—');
+  await expect(readoutValueOf(widget, 'cross-track skew')).toHaveText('—');
   await expect(widget.getByRole('img', { name: 'No robots yet' }).first()).toBeVisible();
 
   const batchSize = Math.ceil(wholeCloud.config.samples / GROWTH_STEPS);
@@ -160,7 +160,7 @@ test('the sentence says what holds exactly for the model, and what the robots sh
   expect(Math.abs(table.exact.crossTrackSkew)).toBeLessThan(1e-9);
   expect(Math.abs(table.exact.areaRatio - 1.97)).toBeLessThan(0.005);
   // The caption contains the area ratio of the readout.
-  const [areaRatioText] = (await readoutValue(widget, 'area covered').innerText()).split(' ');
+  const [areaRatioText] = (await readoutValueOf(widget, 'area covered').innerText()).split(' ');
   await expect(captionOf(widget)).toHaveText(
     new RegExp(`^The cloud is bent: its ellipse covers ${areaRatioText} times the area of the ξ outline\\. Both sides are alike: skew −?0\\.\\d+\\s±\\s0\\.\\d+, exactly 0 by symmetry\\.$`),
   );
@@ -194,8 +194,8 @@ test('a cloud that turns a full circle has no exponential coordinates, and says 
   const widget = await openBananaWithDisclosures(page);
   await setSliders(widget, { omega: 2, dt: 3 });
   await expect(widget.locator('.note')).toContainText('there are no statistics in ξ');
-  await expect(readoutDetail(widget, 'area covered')).toHaveText(/inside: ellipse [\d.]+\u202f%, outline —$/);
-  for (const readoutName of ['predicts', 'area covered', 'gain in fit', 'exact area']) await expect(readoutValue(widget, readoutName)).toHaveText('—');
+  await expect(readoutDetailOf(widget, 'area covered')).toHaveText(/inside: ellipse [\d.]+\u202f%, outline —$/);
+  for (const readoutName of ['predicts', 'area covered', 'gain in fit', 'exact area']) await expect(readoutValueOf(widget, readoutName)).toHaveText('—');
   await expect(widget.getByRole('row', { name: 'mean ξ along' }).getByRole('cell').last()).toHaveText('—');
 });
 

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { NEW_PAGE_TAG, REDUCED_MOTION, readBananaResults, readBox, readCentre, openBanana, readPicture, playSlider, readProperty, readoutValue, showPage, readState, test, waitUntilReady } from './support.js';
+import { NEW_PAGE_TAG, REDUCED_MOTION, readBananaResults, readBox, readCentre, openBanana, readPicture, playSliderOf, readProperty, readoutValueOf, showPage, readState, test, waitUntilReady } from './support.js';
 
 test.use(REDUCED_MOTION);
 
@@ -34,7 +34,7 @@ test('a preset brings back the floor, also the present one', async ({ page }) =>
 test('Play carries the floor all the way', async ({ page }) => {
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   const widget = await openBanana(page, 'samples="1000"');
-  const { sliderValues, buttonLabel } = await playSlider(widget, 'morph');
+  const { sliderValues, buttonLabel } = await playSliderOf(widget, 'morph');
   expect(buttonLabel).toBe('Pause');
   expect(sliderValues.at(-1)).toBe(1);
   for (const [i, sliderValue] of sliderValues.entries()) expect(sliderValue).toBeGreaterThan(sliderValues[i - 1] ?? 0);
@@ -62,7 +62,7 @@ test('Pin keeps the numbers and outlines to compare with, and lets go of them', 
   const widget = await openBanana(page);
   const pinButton = widget.getByRole('button', { name: 'Pin' });
   const areaReadout = widget.locator('.readouts div').filter({ hasText: 'area covered' });
-  const areaTextBefore = await readoutValue(widget, 'area covered').innerText();
+  const areaTextBefore = await readoutValueOf(widget, 'area covered').innerText();
   const sliderBox = await readBox(widget.locator('#v'));
   await pinButton.click();
   await expect(pinButton).toHaveText('Unpin');

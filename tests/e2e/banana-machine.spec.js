@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { REDUCED_MOTION, readBananaResults, readCentre, dragSlider, waitForFrames, openBanana, openBananaWithDisclosures, readPicture, readoutValue, test, waitUntilSettled } from './support.js';
+import { REDUCED_MOTION, readBananaResults, readCentre, dragSlider, waitForFrames, openBanana, openBananaWithDisclosures, readPicture, readoutValueOf, test, waitUntilSettled } from './support.js';
 
 test.use(REDUCED_MOTION);
 
@@ -100,7 +100,7 @@ test('a dragged α moves the same robots, once a frame', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page, `${GENTLE_PRESET} samples="20000"`);
   const resultsBefore = await readBananaResults(widget);
   const pictureBefore = await readPicture(widget.locator('canvas.plane'));
-  const skewTextBefore = await readoutValue(widget, 'cross-track skew').textContent();
+  const skewTextBefore = await readoutValueOf(widget, 'cross-track skew').textContent();
   await dragSlider(widget.getByRole('slider', { name: 'α4' }), 0.85);
   await waitUntilSettled(widget);
   const resultsAfter = await readBananaResults(widget);
@@ -109,7 +109,7 @@ test('a dragged α moves the same robots, once a frame', async ({ page }) => {
   expect(resultsAfter.config).toEqual({ ...resultsBefore.config, alphas: resultsBefore.config.alphas.with(3, changedAlpha) });
   expect(resultsAfter.shown).toBe(resultsBefore.shown);
   expect(await readPicture(widget.locator('canvas.plane'))).not.toBe(pictureBefore);
-  expect(await readoutValue(widget, 'cross-track skew').textContent()).not.toBe(skewTextBefore);
+  expect(await readoutValueOf(widget, 'cross-track skew').textContent()).not.toBe(skewTextBefore);
   // Several inputs between two frames cause one change of the statistics.
   const statsChangeCount = await widget.evaluate(async (element) => {
     let statsEventCount = 0;

@@ -1,6 +1,6 @@
 import { readFileSync } from 'node:fs';
 import { expect } from '@playwright/test';
-import { STATE_SEEDS, randomStates } from './random-states.js';
+import { STATE_SEEDS, createRandomStates } from './random-states.js';
 import { ALL_NAMES, FIGURE_FACTS, TWO_NAMES } from './figures.js';
 import { REDUCED_MOTION, setProperty, waitForFrames, mountFigure, readProperty, showPage, takeEvents, test, testEach, openDisclosures, waitUntilReady } from './support.js';
 
@@ -136,7 +136,7 @@ testEach('code to embed opens the settings of a state, with its attributes in an
   const widget = page.locator(name).first();
   await waitUntilReady(widget);
   for (const seed of isFull ? STATE_SEEDS : STATE_SEEDS.slice(0, 2)) {
-    const randomState = { ...randomStates(seed)[name], ...Reflect.get(VALUES_WITHOUT_ATTRIBUTES, name) };
+    const randomState = { ...createRandomStates(seed)[name], ...Reflect.get(VALUES_WITHOUT_ATTRIBUTES, name) };
     const [originalConfig, ...copiedConfigs] = await widget.evaluate(async (element, newState) => {
       /** @type {any} */ (element).setState(newState);
       const codeContainer = document.createElement('div');
@@ -208,7 +208,7 @@ test('properties that were set before the element was defined are taken up, in a
 
 test('properties that are assigned their own value change nothing @nightly', async ({ page, figureName }) => {
   const widget = await mountFigure(page, figureName);
-  await widget.evaluate((element, newState) => /** @type {any} */ (element).setState(newState), /** @type {any} */ (randomStates(2)[figureName]));
+  await widget.evaluate((element, newState) => /** @type {any} */ (element).setState(newState), /** @type {any} */ (createRandomStates(2)[figureName]));
   await takeEvents(page, ['stats']);
   const assignedCount = await widget.evaluate((element, propertyKeys) => {
     const figure = /** @type {any} */ (element);
@@ -216,7 +216,7 @@ test('properties that are assigned their own value change nothing @nightly', asy
     for (const key of propertyNames) figure[key] = structuredClone(figure[key]);
     for (const { name, value } of [...element.attributes]) element.setAttribute(name, value);
     return propertyNames.length;
-  }, Object.keys(randomStates(2)[figureName]));
+  }, Object.keys(createRandomStates(2)[figureName]));
   expect(assignedCount).toBeGreaterThan(6);
   expect(await takeEvents(page, ['stats', 'error', 'input', 'change'])).toEqual([]);
 });

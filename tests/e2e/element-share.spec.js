@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { randomGenerator } from '../random.js';
+import { createRandomGenerator } from '../random.js';
 import { expectAccessible } from './axe.js';
 import { FIGURE_FACTS } from './figures.js';
 import { NEW_PAGE_TAG, REDUCED_MOTION, waitForFrames, mountFigure, readProperty, showPage, readState, takeEvents, test, waitUntilReady } from './support.js';
@@ -233,7 +233,7 @@ test('copies a link, and the code to embed with the address of the script', asyn
     await expect(widget.getByText('Copied.')).toContainText('Your map is not in it');
     await widget.getByRole('button', { name: 'Copy link' }).click();
     await expect(widget.getByText('Copied.')).toHaveText('Copied.');
-    const nextRandom = randomGenerator(1);
+    const nextRandom = createRandomGenerator(1);
     // A map of random cells cannot be compressed.
     const [columnCount, rowCount] = [4000, 2000];
     const byteCount = (columnCount * rowCount) / 8;

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { STATE_SEEDS, randomStates } from './random-states.js';
+import { STATE_SEEDS, createRandomStates } from './random-states.js';
 import { REDUCED_MOTION, waitForFrames, mountFigure, showPage, readState, takeEvents, test, testEach, openDisclosures, waitUntilReady } from './support.js';
 
 /** @typedef {import('./support.js').AnyElement} AnyElement */
@@ -12,7 +12,7 @@ testEach('random states go in and come out, and a second element in the same sta
   await waitUntilReady(firstWidget);
   await waitUntilReady(secondWidget);
   for (const seed of isFull ? STATE_SEEDS : STATE_SEEDS.slice(0, 2)) {
-    const randomState = randomStates(seed)[figureName];
+    const randomState = createRandomStates(seed)[figureName];
     const [firstResults, secondResults] = await page.evaluate(async (newState) => {
       const figureElements = ['one', 'two'].map((elementId) => /** @type {AnyElement} */ (/** @type {unknown} */ (document.getElementById(elementId))));
       figureElements[0].setState(newState);

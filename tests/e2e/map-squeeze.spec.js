@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { openSqueeze, readSqueezeResults } from './squeeze-support.js';
-import { REDUCED_MOTION, readCentre, waitForFrames, parseNumberIn, readPicture, readoutValue, readState, test, openDisclosures } from './support.js';
+import { REDUCED_MOTION, readCentre, waitForFrames, parseNumberIn, readPicture, readoutValueOf, readState, test, openDisclosures } from './support.js';
 
 /**
  * @typedef {import('@playwright/test').Locator} Locator
@@ -99,7 +99,7 @@ test('the sampler is chosen by name, and the readouts are those of the simulatio
     await widget.getByLabel(samplerLabel, { exact: true }).check();
     const { config, stats } = await readSqueezeResults(widget);
     expect(config.sampler).toBe(samplerName);
-    const readNumber = async (/** @type {string | RegExp} */ name) => parseNumberIn(await readoutValue(widget, name).textContent());
+    const readNumber = async (/** @type {string | RegExp} */ name) => parseNumberIn(await readoutValueOf(widget, name).textContent());
     expect(await readNumber(/^\s*drawn/)).toBe(stats.drawn);
     expect(await readNumber('samples drawn per accepted sample')).toBeCloseTo(stats.drawsPerAccepted, 2);
     expect(await readNumber('wall distances computed per accepted sample')).toBeCloseTo(stats.wallTestsPerAccepted, 2);

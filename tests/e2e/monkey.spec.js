@@ -4,7 +4,7 @@
 // MONKEY_EVENTS is the number of events, and MONKEY_SEED is the seed. The message of a failure contains number and seed, for a replay.
 
 import { expect } from '@playwright/test';
-import { randomGenerator } from '../random.js';
+import { createRandomGenerator } from '../random.js';
 import { makeMapFile, makePgmFile, makeYamlFile } from './squeeze-support.js';
 import { NEW_PAGE_TAG, waitForFrames, test, waitUntilReady } from './support.js';
 import { ALL_NAMES } from './figures.js';
@@ -45,9 +45,9 @@ const DROPPED_FILES = [
 
 /** Returns a generator of random integers and of random list elements. @param {number} seed @returns {Random} */
 function createRandom(seed) {
-  const nextRandom = randomGenerator(seed);
-  const randomBelow = (/** @type {number} */ limit) => Math.floor(limit * nextRandom());
-  return { integerBelow: randomBelow, itemOf: (itemList) => itemList[randomBelow(itemList.length)] };
+  const drawUniform = createRandomGenerator(seed);
+  const drawBelow = (/** @type {number} */ limit) => Math.floor(limit * drawUniform());
+  return { integerBelow: drawBelow, itemOf: (itemList) => itemList[drawBelow(itemList.length)] };
 }
 
 /** Scrolls a random part of a widget into view, and returns a random point in it. @param {Page} page @param {Random} randomSource @param {string} partSelector */

@@ -1,5 +1,5 @@
 import { expect } from '@playwright/test';
-import { REDUCED_MOTION, waitForFrames, mountFigure, readPicture, playSlider, readoutValue, test, openDisclosures } from './support.js';
+import { REDUCED_MOTION, waitForFrames, mountFigure, readPicture, playSliderOf, readoutValueOf, test, openDisclosures } from './support.js';
 
 /** @import { Locator, Page } from '@playwright/test' */
 /** @typedef {HTMLElement & { simulation: import('../../www/types.d.ts').OdometryDecomposer }} DecomposerElement */
@@ -59,13 +59,13 @@ test('opens on Reverse, and presets set the reading', async ({ page }) => {
   await expect(widget).toHaveJSProperty('preset', 'reverse');
   await expect(widget.locator('[part=caption]')).toContainText('two rotations beyond π/2');
   // The heading deviations are 0.743 rad by Table 5.6 and 0.182 rad by Nav2.
-  await expect(readoutValue(widget, 'Table 5.6 expects')).toHaveText('4.1 ×');
+  await expect(readoutValueOf(widget, 'Table 5.6 expects')).toHaveText('4.1 ×');
   await widget.getByRole('button', { name: 'Turn, drive, turn' }).click();
   const resultsAfter = await readResults(widget);
   expect(resultsAfter.config).toEqual({ ...config, to: { x: 1.2, y: 1, theta: 1.2 } });
   await expect(widget).toHaveJSProperty('preset', 'all');
   await expect(widget).toHaveAttribute('tox', '1.2');
-  await expect(readoutValue(widget, 'Table 5.6 expects')).toHaveText('1.0 ×');
+  await expect(readoutValueOf(widget, 'Table 5.6 expects')).toHaveText('1.0 ×');
 });
 
 test('the picture names the spreads of two noise models, drawn to one scale', async ({ page }) => {
@@ -169,12 +169,12 @@ test('the path is scrubbed, and is played to its end and again from its beginnin
   await page.emulateMedia({ reducedMotion: 'no-preference' });
   const secondWidget = await openDecomposer(page, 'phase="2.8"');
   const playButton = secondWidget.locator('.playable.phase button');
-  const { sliderValues: valuesToEnd, buttonLabel } = await playSlider(secondWidget, 'phase');
+  const { sliderValues: valuesToEnd, buttonLabel } = await playSliderOf(secondWidget, 'phase');
   expect(buttonLabel).toBe('Pause');
   expect(valuesToEnd[0]).toBeGreaterThan(2.8);
   expect(valuesToEnd.at(-1)).toBe(3);
   await expect(playButton).toHaveText('Play the motion');
-  const { sliderValues: valuesFromStart } = await playSlider(secondWidget, 'phase', 3);
+  const { sliderValues: valuesFromStart } = await playSliderOf(secondWidget, 'phase', 3);
   expect(valuesFromStart[0]).toBe(0);
   expect(valuesFromStart[2]).toBeGreaterThan(valuesFromStart[1]);
   await expect(playButton).toHaveText('Play the motion');

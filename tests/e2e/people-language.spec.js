@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { ALL_NAMES, FIGURE_FACTS } from './figures.js';
-import { REDUCED_MOTION, readBananaResults, waitForFrames, mountFigure, parseNumberIn, openBanana, readPicture, readoutValue, showPage, test, testEach, openDisclosures, waitUntilReady, waitUntilSettled } from './support.js';
+import { REDUCED_MOTION, readBananaResults, waitForFrames, mountFigure, parseNumberIn, openBanana, readPicture, readoutValueOf, showPage, test, testEach, openDisclosures, waitUntilReady, waitUntilSettled } from './support.js';
 
 test.use(REDUCED_MOTION);
 
@@ -76,17 +76,17 @@ test('the nearest lang decides, also on the form of numbers; a language without 
   const widget = await openBanana(page);
   await page.addScriptTag({ type: 'module', url: '/de.js' });
   const expectPlayButton = (/** @type {string} */ buttonName) => expect(widget.getByRole('button', { name: buttonName, exact: true })).toBeVisible();
-  const englishSkew = (await readoutValue(widget, 'cross-track skew').textContent()) ?? '';
+  const englishSkew = (await readoutValueOf(widget, 'cross-track skew').textContent()) ?? '';
   await widget.evaluate((element) => element.setAttribute('lang', 'de'));
   await expectPlayButton('Stichproben ziehen');
-  const germanSkew = (await readoutValue(widget, /[Qq]uer/).textContent()) ?? '';
+  const germanSkew = (await readoutValueOf(widget, /[Qq]uer/).textContent()) ?? '';
   expect(germanSkew).toBe(englishSkew.replaceAll('.', ','));
   expect(germanSkew).toMatch(/^−0,\d{3,4} ± 0,\d{3,4}$/);
   expect(parseNumberIn(germanSkew.split(' ± ')[0].replace(',', '.'))).toBeCloseTo((await readBananaResults(widget)).stats.crossTrackSkew, 3);
   await expect(widget.locator('#v')).toHaveAttribute('aria-valuetext', '1,00 m/s');
   await widget.evaluate((element) => element.setAttribute('lang', 'fr'));
   await expectPlayButton('Draw samples');
-  await expect(readoutValue(widget, 'cross-track skew')).toHaveText(/^−0\.\d{3}/);
+  await expect(readoutValueOf(widget, 'cross-track skew')).toHaveText(/^−0\.\d{3}/);
   await widget.evaluate((element) => {
     element.removeAttribute('lang');
     /** @type {HTMLElement} */ (element.parentElement).lang = 'de-not a tag';
@@ -130,7 +130,7 @@ test('a page may replace words and add languages; a message of another shape is 
   await expect(widget.locator('p[part=caption]')).toHaveText('À droite.');
   // Digits and decimal separators are the Latin ones in all languages.
   await widget.evaluate((element) => element.setAttribute('lang', 'ar-EG'));
-  await expect(readoutValue(widget, 'cross-track skew')).toHaveText(/^−0\.\d{3}/);
+  await expect(readoutValueOf(widget, 'cross-track skew')).toHaveText(/^−0\.\d{3}/);
 });
 
 test('a page from right to left has the same picture, and nothing beside its figure @nightly', async ({ page, figureName }) => {

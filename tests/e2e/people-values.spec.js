@@ -1,6 +1,6 @@
 import { expect } from '@playwright/test';
 import { expectAccessible } from './axe.js';
-import { REDUCED_MOTION, waitForFrames, openBananaWithDisclosures, readProperty, takeEvents, test, valueField } from './support.js';
+import { REDUCED_MOTION, waitForFrames, openBananaWithDisclosures, readProperty, takeEvents, test, valueFieldOf } from './support.js';
 
 /** @typedef {import('@playwright/test').Locator} Locator */
 
@@ -14,7 +14,7 @@ test('a digit on a slider leads into its value, Enter back, and the value may li
   const alpha1Slider = widget.locator('#alpha1');
   await alpha1Slider.focus();
   await page.keyboard.type('0.4');
-  await expect(valueField(widget, 'alpha1')).toBeFocused();
+  await expect(valueFieldOf(widget, 'alpha1')).toBeFocused();
   await page.keyboard.press('Enter');
   await expect(alpha1Slider).toBeFocused();
   expect(await readProperty(widget, 'alpha1')).toBe(0.4);
@@ -34,7 +34,7 @@ test('a digit on a slider leads into its value, Enter back, and the value may li
 
 test('a value is typed with its unit, a true minus and few more decimals, and Escape takes it back', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page);
-  const valueInput = valueField(widget, 'v');
+  const valueInput = valueFieldOf(widget, 'v');
   await expect(helpOf(widget, 'v')).toHaveText('How far the robot drives: vΔt; below zero it backs up.');
   // The numeric keyboard of a phone has no minus sign.
   await expect(valueInput).toHaveAttribute('inputmode', 'text');
@@ -67,7 +67,7 @@ test('a value that is refused is reported with the allowed range, and the last g
     ['samples', '2.5', 'N must be a whole number between 1 and 10\u202f000\u202f000 (got 2.5).'],
   ]) {
     const valueBefore = await readProperty(widget, settingKey);
-    const valueInput = valueField(widget, settingKey);
+    const valueInput = valueFieldOf(widget, settingKey);
     const shownText = await valueInput.inputValue();
     await valueInput.click();
     await valueInput.fill(typedText);
@@ -86,7 +86,7 @@ test('a value that is refused is reported with the allowed range, and the last g
   }
   // Thousands separators are accepted in the English form and in the form of the page.
   for (const numberText of ['2,000', '3\u202f000']) {
-    await valueField(widget, 'samples').fill(numberText);
+    await valueFieldOf(widget, 'samples').fill(numberText);
     await page.keyboard.press('Enter');
     expect(await readProperty(widget, 'samples')).toBe(Number(numberText.replace(/\D/, '')));
   }
@@ -94,7 +94,7 @@ test('a value that is refused is reported with the allowed range, and the last g
 
 test('a change by the page leaves what is being typed @nightly', async ({ page }) => {
   const widget = await openBananaWithDisclosures(page);
-  const valueInput = valueField(widget, 'alpha1');
+  const valueInput = valueFieldOf(widget, 'alpha1');
   const setAlpha1 = (/** @type {number} */ newAlpha1) => widget.evaluate(async (element, newAlpha1) => {
     /** @type {any} */ (element).alpha1 = newAlpha1;
     await /** @type {import('lit').LitElement} */ (element).updateComplete;
@@ -127,7 +127,7 @@ test('German has a decimal comma, and takes a point too', async ({ page }) => {
     await page.keyboard.press('Enter');
     expect(await readProperty(widget, 'alpha1')).toBe(expectedValue);
   }
-  await expect(valueField(widget, 'alpha1')).toHaveValue('0,450');
+  await expect(valueFieldOf(widget, 'alpha1')).toHaveValue('0,450');
   // The number of robots is an integer, so that a point before three digits separates thousands.
   await widget.locator('#samples').focus();
   await page.keyboard.type('20.000');

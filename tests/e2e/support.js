@@ -179,7 +179,7 @@ export function setProperty(widget, name, propertyValue) {
  * @param {number} [maxSteps] steps until it is paused
  * @returns {Promise<{ sliderValues: number[], buttonLabel: string }>} value at each step, and the label of the button at the first
  */
-export function playSlider(widget, key, maxSteps = Infinity) {
+export function playSliderOf(widget, key, maxSteps = Infinity) {
   return widget.evaluate(
     (element, [key, maxSteps]) =>
       new Promise((resolve) => {
@@ -258,7 +258,7 @@ export async function openDisclosures(widget) {
 }
 
 /** Returns the text field of a slider's value. @param {Locator} widget @param {string} key of the setting */
-export function valueField(widget, key) {
+export function valueFieldOf(widget, key) {
   return widget.locator(`.slider:has(#${key}) .typed`);
 }
 
@@ -375,12 +375,12 @@ export async function countPixelsOfRole(canvasLocator, colorRole) {
 }
 
 /** Returns the element with the value of a readout. The element does not contain the line of detail. @param {Locator} widget @param {string | RegExp} name */
-export function readoutValue(widget, name) {
+export function readoutValueOf(widget, name) {
   return widget.locator('.readouts div').filter({ hasText: name }).locator('dd').first();
 }
 
 /** Returns the line of detail below a readout. @param {Locator} widget @param {string | RegExp} name */
-export function readoutDetail(widget, name) {
+export function readoutDetailOf(widget, name) {
   return widget.locator('.readouts div').filter({ hasText: name }).locator('dd.detail');
 }
 

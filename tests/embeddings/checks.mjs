@@ -1,5 +1,5 @@
 /**
- * Checks that run on the pages of every engine. An engine is a tool that makes web pages, such as Hugo, Next or JupyterLab.
+ * Checks that run on the pages of every platform. A platform is a tool that makes web pages, such as Hugo, Next or JupyterLab.
  *
  * @module
  */
@@ -9,7 +9,7 @@ import { join } from 'node:path';
 import { ROOT } from '../../scripts/process.mjs';
 
 /** @typedef {import('@playwright/test').Page} Page */
-/** @typedef {{ name: string, definition: import('./project.mjs').Engine, serving: import('./project.mjs').Serving, url: string }} Site */
+/** @typedef {{ name: string, definition: import('./project.mjs').Platform, serving: import('./project.mjs').Serving, url: string }} Site */
 
 /** Time limit in milliseconds. It is long, because a development server compiles a page at the first request. */
 const TIMEOUT_MS = 90_000;
@@ -138,7 +138,7 @@ async function checkAwayAndBack(page, site) {
  */
 async function checkFromOtherPage(page, site) {
   await page.goto(addressOf(site, site.definition.pages.second ?? ''));
-  // When the network is idle, the engine's script handles links.
+  // When the network is idle, the platform's script handles links.
   await page.waitForLoadState('networkidle');
   await followLink(page, site, 'first');
   await untilLive(page, site);

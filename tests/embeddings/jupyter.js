@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { propertiesOf, untilLive, untilScheme } from './checks.mjs';
-import { pinnedVersions, pythonDirectoryOf, installPythonPackages, pythonProgramPath } from './project.mjs';
+import { pinnedVersionsOf, pythonDirectoryOf, installPythonPackages, pythonProgramPathOf } from './project.mjs';
 import { serveFiles, serveByProgram } from './serving.mjs';
 
 /** @typedef {import('@playwright/test').Page} Page */
@@ -146,10 +146,10 @@ const VOILA_CHECKS = {
   },
 };
 
-/** @type {import('./project.mjs').Engine} */
+/** @type {import('./project.mjs').Platform} */
 export default {
   heading: 'Jupyter',
-  versions: () => pinnedVersions('jupyter', 'jupyterlab', 'anywidget', 'nbconvert', 'voila'),
+  versions: () => pinnedVersionsOf('jupyter', 'jupyterlab', 'anywidget', 'nbconvert', 'voila'),
   python: true,
   async install(directory, { run: execute, start, wheel }) {
     const toolsDirectory = pythonDirectoryOf(directory);
@@ -163,7 +163,7 @@ export default {
   async build(directory, { run: execute }) {
     packagesDirectory = join(pythonDirectoryOf(directory), 'node_modules');
     const nbconvertArguments = ['nbconvert', '--execute', '--to', 'html', '--output-dir', '_build'];
-    await execute(pythonProgramPath(directory, 'jupyter'), [...nbconvertArguments, 'motion.ipynb']);
+    await execute(pythonProgramPathOf(directory, 'jupyter'), [...nbconvertArguments, 'motion.ipynb']);
     assert.ok(readFileSync(join(directory, '_build/motion.html'), 'utf8').includes('widget-state+json'));
   },
   servings: [
@@ -174,13 +174,13 @@ export default {
         // JupyterLab has a separate configuration directory, so that this user's settings do not affect the test.
         const ownDirectoryOf = (/** @type {string} */ name) => join(pythonDirectoryOf(directory), 'own', name);
         const jupyterEnvironment = { JUPYTER_CONFIG_DIR: ownDirectoryOf('config'), JUPYTERLAB_SETTINGS_DIR: ownDirectoryOf('settings'), JUPYTERLAB_WORKSPACES_DIR: ownDirectoryOf('workspaces') };
-        return [pythonProgramPath(directory, 'jupyter'), ['lab', ...labArguments, '--port', port], jupyterEnvironment];
+        return [pythonProgramPathOf(directory, 'jupyter'), ['lab', ...labArguments, '--port', port], jupyterEnvironment];
       }),
       checks: JUPYTERLAB_CHECKS,
     },
     {
       name: 'Voilà',
-      serve: serveByProgram((port, directory) => [pythonProgramPath(directory, 'voila'), ['motion.ipynb', '--no-browser', '--port', port]]),
+      serve: serveByProgram((port, directory) => [pythonProgramPathOf(directory, 'voila'), ['motion.ipynb', '--no-browser', '--port', port]]),
       checks: VOILA_CHECKS,
     },
     { name: 'exported by nbconvert', serve: serveFiles('_build'), checks: EXPORT_CHECKS },

@@ -1,5 +1,5 @@
 import { untilLive } from './checks.mjs';
-import { pinnedVersions, installPythonPackages, pythonProgramPath } from './project.mjs';
+import { pinnedVersionsOf, installPythonPackages, pythonProgramPathOf } from './project.mjs';
 import { serveByProgram } from './serving.mjs';
 
 /** @type {NonNullable<import('./project.mjs').Serving['checks']>} */
@@ -14,16 +14,16 @@ const MARIMO_CHECKS = {
   },
 };
 
-/** @type {import('./project.mjs').Engine} */
+/** @type {import('./project.mjs').Platform} */
 export default {
   heading: 'marimo',
-  versions: () => pinnedVersions('marimo', 'marimo', 'anywidget'),
+  versions: () => pinnedVersionsOf('marimo', 'marimo', 'anywidget'),
   python: true,
   install: (directory, tools) => installPythonPackages(directory, tools, [tools.wheel]),
   servings: [
     {
       name: 'app',
-      serve: serveByProgram((port, directory) => [pythonProgramPath(directory, 'marimo'), ['run', 'motion.py', '--headless', '--no-token', '--port', port]]),
+      serve: serveByProgram((port, directory) => [pythonProgramPathOf(directory, 'marimo'), ['run', 'motion.py', '--headless', '--no-token', '--port', port]]),
       checks: MARIMO_CHECKS,
     },
   ],

@@ -1,15 +1,15 @@
 import { writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { installNpmPackages, pinnedVersions } from './project.mjs';
+import { installNpmPackages, pinnedVersionsOf } from './project.mjs';
 import { serveFiles, serveByProgram } from './serving.mjs';
 
 /** Returns a function that serves a site by the server of Next. @param {string} command @param {string[]} nextArguments */
 const serveWithNext = (command, ...nextArguments) => serveByProgram((port) => ['npx', ['next', command, '--port', port, ...nextArguments]]);
 
-/** @type {import('./project.mjs').Engine} */
+/** @type {import('./project.mjs').Platform} */
 export default {
   heading: 'Next',
-  versions: () => pinnedVersions('next', 'next', 'react'),
+  versions: () => pinnedVersionsOf('next', 'next', 'react'),
   install: installNpmPackages,
   build: (_directory, { run }) => run('npm', ['run', 'build']),
   servings: [

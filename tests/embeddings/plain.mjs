@@ -1,5 +1,5 @@
 /**
- * Engines that need no code of their own. `npm run build` writes their site, and `npm run dev` serves it for authors.
+ * Platforms that need no code of their own. `npm run build` writes their site, and `npm run dev` serves it for authors.
  *
  * @module
  */
@@ -7,10 +7,10 @@
 import { copyFileSync, mkdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { ROOT } from '../../scripts/process.mjs';
-import { installNpmPackages, pinnedVersions, installPythonPackages, pythonProgramPath } from './project.mjs';
+import { installNpmPackages, pinnedVersionsOf, installPythonPackages, pythonProgramPathOf } from './project.mjs';
 import { serveFiles, serveByProgram } from './serving.mjs';
 
-/** @typedef {import('./project.mjs').Engine} Engine */
+/** @typedef {import('./project.mjs').Platform} Platform */
 
 /**
  * @typedef {object} Plain
@@ -28,8 +28,8 @@ import { serveFiles, serveByProgram } from './serving.mjs';
 const FIGURE_SETTINGS = { omega: 0.8, samples: 20000 };
 const FIGURE_ALPHAS = [0.1, 0.05, 0.05, 0.1, 0.01, 0.01];
 
-/** @type {Record<string, Plain & Partial<Engine>>} */
-const ENGINE_DEFINITIONS = {
+/** @type {Record<string, Plain & Partial<Platform>>} */
+const PLATFORM_DEFINITIONS = {
   vite: { heading: 'Vite', packages: ['vite'], output: 'dist', base: '/book/', go: undefined },
   angular: {
     heading: 'Angular',
@@ -84,11 +84,11 @@ const ENGINE_DEFINITIONS = {
     install: (directory, tools) => installPythonPackages(directory, tools, []),
     async build(directory, { run }) {
       copySingleFiles(join(directory, 'static'));
-      await run(pythonProgramPath(directory, 'hugo'), []);
+      await run(pythonProgramPathOf(directory, 'hugo'), []);
     },
     servings: [
       { name: 'production', serve: serveFiles('public', '/book/') },
-      { name: 'development', serve: serveByProgram((port, directory) => [pythonProgramPath(directory, 'hugo'), ['server', '--port', port, '--baseURL', '/']]) },
+      { name: 'development', serve: serveByProgram((port, directory) => [pythonProgramPathOf(directory, 'hugo'), ['server', '--port', port, '--baseURL', '/']]) },
     ],
     pages: { first: '' },
     go: undefined,
@@ -102,9 +102,9 @@ export function copySingleFiles(directory) {
   for (const name of ['motion-widgets.iife.js', 'motion-widgets.css']) copyFileSync(join(ROOT, 'dist', name), join(directory, name));
 }
 
-/** @type {[string, Engine][]} */
-const engineEntries = Object.entries(ENGINE_DEFINITIONS).map(([name, { packages, output, base, devBase, copies, lists, only, ...more }]) => [name, {
-  versions: () => pinnedVersions(name, ...packages),
+/** @type {[string, Platform][]} */
+const platformEntries = Object.entries(PLATFORM_DEFINITIONS).map(([name, { packages, output, base, devBase, copies, lists, only, ...more }]) => [name, {
+  versions: () => pinnedVersionsOf(name, ...packages),
   install: installNpmPackages,
   async build(directory, { run }) {
     if (copies) copySingleFiles(join(directory, copies));
@@ -120,5 +120,5 @@ const engineEntries = Object.entries(ENGINE_DEFINITIONS).map(([name, { packages,
   ...more,
 }]);
 
-/** Plain engines, by the name of the example. */
-export const plainEngines = Object.fromEntries(engineEntries);
+/** Plain platforms, by the name of the example. */
+export const plainPlatforms = Object.fromEntries(platformEntries);

@@ -14,9 +14,9 @@ import { startProgram } from './serving.mjs';
 import { CACHE_DIRECTORY } from '../../scripts/toolchain.mjs';
 
 /**
- * Description of an engine, which is the default export of a file in this folder.
+ * Description of a platform, which is the default export of a file in this folder.
  *
- * @typedef {object} Engine
+ * @typedef {object} Platform
  * @property {string} heading of its section in doc/embedding/, and its name in the table of doc/embedding.md
  * @property {() => string} versions of its packages, as the files of the example pin them
  * @property {boolean} [python] true if it uses the Python package
@@ -29,18 +29,18 @@ import { CACHE_DIRECTORY } from '../../scripts/toolchain.mjs';
  *   or to "first" or "second" where both have one address
  * @property {(page: import('@playwright/test').Page, on: boolean) => Promise<unknown>} [dark] turns dark mode on or off
  * @property {ExpectedFigure[]} expected figures that the example contains
- * @property {{ message: RegExp, reason: string }[]} [allowed] messages of the console that the engine causes
+ * @property {{ message: RegExp, reason: string }[]} [allowed] messages of the console that the platform causes
  *
  * @typedef {object} Serving
  * @property {string} name
  * @property {(directory: string, tools: Tools) => Promise<RunningServer>} serve
  * @property {Record<string, (page: import('@playwright/test').Page, site: import('./checks.mjs').Site) => Promise<void>>} [checks] for
  *   servings that are not sites, in place of the usual checks
- * @property {Engine['dark']} [dark] replaces that of the engine, if only some servings have dark mode
+ * @property {Platform['dark']} [dark] replaces that of the platform, if only some servings have dark mode
  *
  * @typedef {{ url: string, stop: () => unknown }} RunningServer
  * @typedef {{ selector: string, properties: Record<string, unknown> }} ExpectedFigure selector of a figure, and properties that it must have
- * @typedef {{ tarball: string, wheel: string }} PackagePaths paths of the packages; the wheel (Python) is empty for engines without Python
+ * @typedef {{ tarball: string, wheel: string }} PackagePaths paths of the packages; the wheel (Python) is empty for platforms without Python
  * @typedef {object} Tools
  * @property {(command: string, args: string[], env?: Record<string, string>) => Promise<string>} run runs a program in
  *   the copy, asserts that it succeeds, and returns its output
@@ -48,7 +48,7 @@ import { CACHE_DIRECTORY } from '../../scripts/toolchain.mjs';
  *   starts a program in the copy and does not wait for its end
  */
 
-/** Environment variables that turn off telemetry and questions of the engines. */
+/** Environment variables that turn off telemetry and questions of the platforms. */
 const SILENT_ENVIRONMENT = {
   ASTRO_TELEMETRY_DISABLED: '1',
   NEXT_TELEMETRY_DISABLED: '1',
@@ -62,20 +62,20 @@ const SILENT_ENVIRONMENT = {
 /** Directory for this clone of the repository. Tests of other clones may run at the same time. */
 const SCRATCH_DIRECTORY = join(CACHE_DIRECTORY, 'embeddings', createHash('sha256').update(ROOT).digest('hex').slice(0, 8));
 
-/** Returns the names of all engines. @returns {Promise<string[]>} */
-export async function findEngineNames() {
-  const { plainEngines } = await import('./plain.mjs');
-  return [...Object.keys(plainEngines), ...readdirSync(join(ROOT, 'tests/embeddings')).flatMap((fileName) => fileName.match(/^(.+)\.js$/)?.slice(1) ?? [])];
+/** Returns the names of all platforms. @returns {Promise<string[]>} */
+export async function findPlatformNames() {
+  const { plainPlatforms } = await import('./plain.mjs');
+  return [...Object.keys(plainPlatforms), ...readdirSync(join(ROOT, 'tests/embeddings')).flatMap((fileName) => fileName.match(/^(.+)\.js$/)?.slice(1) ?? [])];
 }
 
-/** Returns the description of an engine. @param {string} name @returns {Promise<Engine>} */
-export async function loadEngine(name) {
-  const { plainEngines } = await import('./plain.mjs');
-  return plainEngines[name] ?? (await import(`./${name}.js`)).default;
+/** Returns the description of a platform. @param {string} name @returns {Promise<Platform>} */
+export async function loadPlatform(name) {
+  const { plainPlatforms } = await import('./plain.mjs');
+  return plainPlatforms[name] ?? (await import(`./${name}.js`)).default;
 }
 
 /** Returns packages with the versions to which an example pins them. @param {string} exampleName @param {string[]} packageNames */
-export function pinnedVersions(exampleName, ...packageNames) {
+export function pinnedVersionsOf(exampleName, ...packageNames) {
   const exampleDirectory = join(ROOT, 'examples', exampleName);
   const readText = (/** @type {string} */ name) => (existsSync(join(exampleDirectory, name)) ? readFileSync(join(exampleDirectory, name), 'utf8') : '');
   const { dependencies = {}, devDependencies = {} } = JSON.parse(readText('package.json') || '{}');
@@ -90,23 +90,23 @@ export function pinnedVersions(exampleName, ...packageNames) {
     .join(', ');
 }
 
-/** Installs the npm packages of an engine. @param {string} _directory @param {Tools & PackagePaths} tools */
+/** Installs the npm packages of a platform. @param {string} _directory @param {Tools & PackagePaths} tools */
 export async function installNpmPackages(_directory, { run, tarball }) {
   await run('npm', ['install', '--no-audit', '--no-fund', '--prefer-offline', '--loglevel', 'error', tarball]);
 }
 
 /**
- * Returns the directory of an example's Python tools. The directory is outside of the example, because some engines read all files of an
+ * Returns the directory of an example's Python tools. The directory is outside of the example, because some platforms read all files of an
  * example.
  * @param {string} directory
  */
 export const pythonDirectoryOf = (directory) => `${directory}.tools`;
 
 /** Returns the path of a program that `installPythonPackages` has installed. @param {string} directory @param {string} name */
-export const pythonProgramPath = (directory, name) => join(pythonDirectoryOf(directory), 'bin', name);
+export const pythonProgramPathOf = (directory, name) => join(pythonDirectoryOf(directory), 'bin', name);
 
 /**
- * Installs the Python packages of an engine.
+ * Installs the Python packages of a platform.
  *
  * @param {string} directory
  * @param {Tools} tools
@@ -114,7 +114,7 @@ export const pythonProgramPath = (directory, name) => join(pythonDirectoryOf(dir
  */
 export async function installPythonPackages(directory, { run }, wheelPaths) {
   await run('python3', ['-m', 'venv', pythonDirectoryOf(directory)]);
-  const pipPath = pythonProgramPath(directory, 'pip');
+  const pipPath = pythonProgramPathOf(directory, 'pip');
   const pipArguments = ['install', '--quiet', '--disable-pip-version-check'];
   await run(pipPath, [...pipArguments, '--requirement', 'requirements.txt', ...wheelPaths]);
   // The package may have changed although its version is the same.
@@ -161,22 +161,22 @@ function toolsIn(directory, toolEnvironment) {
 const KEPT_NAMES = ['node_modules', '.venv', '.installed'];
 
 /**
- * Makes a fresh copy of an engine's example with the package installed. The installation is kept until the example's pins, or
+ * Makes a fresh copy of a platform's example with the package installed. The installation is kept until the example's pins, or
  * the package, change.
  *
  * @param {string} name
- * @param {Engine} engineDefinition
+ * @param {Platform} platformDefinition
  */
-export async function prepareExample(name, engineDefinition) {
+export async function prepareExample(name, platformDefinition) {
   const exampleDirectory = join(ROOT, 'examples', name);
   const directory = join(SCRATCH_DIRECTORY, name);
-  const exampleTools = toolsIn(directory, { ...SILENT_ENVIRONMENT, ...(await environmentWithNode(engineDefinition)) });
+  const exampleTools = toolsIn(directory, { ...SILENT_ENVIRONMENT, ...(await environmentWithNode(platformDefinition)) });
   mkdirSync(directory, { recursive: true });
   for (const entryName of readdirSync(directory)) {
     if (!KEPT_NAMES.includes(entryName)) rmSync(join(directory, entryName), { recursive: true });
   }
   cpSync(exampleDirectory, directory, { recursive: true, filter: (path) => !KEPT_NAMES.includes(basename(path)) });
-  const packagePaths = { tarball: await packTarball(), wheel: engineDefinition.python ? await buildWheel() : '' };
+  const packagePaths = { tarball: await packTarball(), wheel: platformDefinition.python ? await buildWheel() : '' };
   const pinFiles = ['package.json', 'requirements.txt'].map((fileName) => join(exampleDirectory, fileName)).filter((path) => existsSync(path));
   const packageHash = createHash('sha256');
   for (const path of [...pinFiles, ...Object.values(packagePaths).filter((path) => path !== '')]) packageHash.update(readFileSync(path));
@@ -186,7 +186,7 @@ export async function prepareExample(name, engineDefinition) {
   rmSync(stampFile, { force: true });
   removeCaches(join(directory, 'node_modules'));
   printStep(`${name}: installing`);
-  await engineDefinition.install(directory, { ...exampleTools, ...packagePaths });
+  await platformDefinition.install(directory, { ...exampleTools, ...packagePaths });
   writeFileSync(stampFile, currentHash);
   return { directory, tools: exampleTools };
 }
@@ -204,8 +204,8 @@ function removeCaches(modulesDirectory) {
 }
 
 /**
- * Returns an environment with the version of Node that an engine needs. That version is installed if the current one is older.
- * @param {Engine} definition @returns {Promise<Record<string, string>>}
+ * Returns an environment with the version of Node that a platform needs. That version is installed if the current one is older.
+ * @param {Platform} definition @returns {Promise<Record<string, string>>}
  */
 async function environmentWithNode({ node = 0 }) {
   if (Number.parseInt(process.versions.node) >= node) return {};

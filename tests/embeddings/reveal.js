@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import { untilLive } from './checks.mjs';
-import { installNpmPackages, pinnedVersions } from './project.mjs';
+import { installNpmPackages, pinnedVersionsOf } from './project.mjs';
 import { serveFiles } from './serving.mjs';
 
 /** @type {NonNullable<import('./project.mjs').Serving['checks']>} */
@@ -17,10 +17,10 @@ const SLIDE_CHECKS = {
   },
 };
 
-/** @type {import('./project.mjs').Engine} */
+/** @type {import('./project.mjs').Platform} */
 export default {
   heading: 'reveal.js',
-  versions: () => pinnedVersions('reveal', 'reveal.js'),
+  versions: () => pinnedVersionsOf('reveal', 'reveal.js'),
   install: installNpmPackages,
   servings: [{ name: 'page', serve: serveFiles('.'), checks: SLIDE_CHECKS }],
   pages: { first: '/' },

@@ -1,6 +1,6 @@
 /**
- * `npm run test:embeddings`: builds, packs, and opens each example as its engine serves it. `npm run test:embeddings -- ENGINE…`
- * selects some of the engines. Pictures of the pages are in test-results/embeddings.
+ * `npm run test:embeddings`: builds, packs, and opens each example as its platform serves it. `npm run test:embeddings -- PLATFORM…`
+ * selects some of the platforms. Pictures of the pages are in test-results/embeddings.
  *
  * @module
  */
@@ -12,37 +12,37 @@ import { CHROME_ARGUMENTS, ensureBrowser } from '../../scripts/browser.mjs';
 import { build } from '../../scripts/build.mjs';
 import { ROOT, UserError, printStep, runAsScript } from '../../scripts/process.mjs';
 import { runChecks } from './checks.mjs';
-import { loadEngine, findEngineNames, prepareExample } from './project.mjs';
+import { loadPlatform, findPlatformNames, prepareExample } from './project.mjs';
 
 /** @typedef {{ name: string, serving: string, passed: number, failures: string[], seconds: number }} Outcome */
 
 /**
- * Returns an outcome for each way of serving a site. If the engine cannot be served, returns a single outcome.
+ * Returns an outcome for each way of serving a site. If the platform cannot be served, returns a single outcome.
  *
  * @param {import('@playwright/test').Browser} browser
- * @param {string} engineName
+ * @param {string} platformName
  */
-async function testEngine(browser, engineName) {
-  const engineDefinition = await loadEngine(engineName);
+async function testPlatform(browser, platformName) {
+  const platformDefinition = await loadPlatform(platformName);
   /** @type {Outcome[]} */
   const servingOutcomes = [];
   let startTime = Date.now();
   const addOutcome = (/** @type {string} */ servingName, /** @type {number} */ passedCount, /** @type {string[]} */ failures) => {
-    servingOutcomes.push({ name: engineName, serving: servingName, passed: passedCount, failures, seconds: (Date.now() - startTime) / 1000 });
+    servingOutcomes.push({ name: platformName, serving: servingName, passed: passedCount, failures, seconds: (Date.now() - startTime) / 1000 });
     for (const failure of failures) console.log(`FAILED ${failure}`);
     startTime = Date.now();
   };
   let servingName = 'build';
   try {
-    const { directory, tools } = await prepareExample(engineName, engineDefinition);
-    printStep(`${engineName}: building`);
-    await engineDefinition.build?.(directory, tools);
-    for (const currentServing of engineDefinition.servings) {
+    const { directory, tools } = await prepareExample(platformName, platformDefinition);
+    printStep(`${platformName}: building`);
+    await platformDefinition.build?.(directory, tools);
+    for (const currentServing of platformDefinition.servings) {
       servingName = currentServing.name;
-      printStep(`${engineName}: ${servingName}`);
+      printStep(`${platformName}: ${servingName}`);
       const { url, stop } = await currentServing.serve(directory, tools);
       try {
-        const { passed, failures } = await runChecks(browser, { name: engineName, definition: engineDefinition, serving: currentServing, url });
+        const { passed, failures } = await runChecks(browser, { name: platformName, definition: platformDefinition, serving: currentServing, url });
         addOutcome(servingName, passed, failures);
       } finally {
         await stop();
@@ -54,11 +54,11 @@ async function testEngine(browser, engineName) {
   return servingOutcomes;
 }
 
-/** Tests the named engines, or all engines if none is named. Returns true if all of them pass. @param {string[]} engineNames */
-async function testEngines(engineNames) {
-  const allEngineNames = await findEngineNames();
-  const unknownName = engineNames.find((name) => !allEngineNames.includes(name));
-  if (unknownName !== undefined) throw new UserError(`"${unknownName}" is no engine that is tried; allowed are ${allEngineNames.join(', ')}.`);
+/** Tests the named platforms, or all platforms if none is named. Returns true if all of them pass. @param {string[]} platformNames */
+async function testPlatforms(platformNames) {
+  const allPlatformNames = await findPlatformNames();
+  const unknownName = platformNames.find((name) => !allPlatformNames.includes(name));
+  if (unknownName !== undefined) throw new UserError(`"${unknownName}" is no platform that is tried; allowed are ${allPlatformNames.join(', ')}.`);
   await build();
   const { chrome, version } = await ensureBrowser();
   mkdirSync(join(ROOT, 'test-results/embeddings'), { recursive: true });
@@ -67,7 +67,7 @@ async function testEngines(engineNames) {
   /** @type {Outcome[]} */
   const outcomes = [];
   try {
-    for (const name of engineNames.length > 0 ? engineNames : allEngineNames) outcomes.push(...(await testEngine(browser, name)));
+    for (const name of platformNames.length > 0 ? platformNames : allPlatformNames) outcomes.push(...(await testPlatform(browser, name)));
   } finally {
     await browser.close();
   }
@@ -78,7 +78,7 @@ async function testEngines(engineNames) {
 /** Prints the versions of the packages and the outcomes. @param {Outcome[]} outcomes @param {string} version of the browser */
 async function printSummary(outcomes, version) {
   printStep(`Versions: Node ${process.versions.node}, Chromium ${version}`);
-  for (const name of new Set(outcomes.map(({ name }) => name))) console.log(`${name.padEnd(16)} ${(await loadEngine(name)).versions()}`);
+  for (const name of new Set(outcomes.map(({ name }) => name))) console.log(`${name.padEnd(16)} ${(await loadPlatform(name)).versions()}`);
   printStep('Summary');
   for (const { name, serving, passed, failures, seconds } of outcomes) {
     const countText = `${passed} passed, ${failures.length} failed`;
@@ -87,5 +87,5 @@ async function printSummary(outcomes, version) {
 }
 
 await runAsScript(import.meta.url, async () => {
-  if (!(await testEngines(process.argv.slice(2)))) process.exitCode = 1;
+  if (!(await testPlatforms(process.argv.slice(2)))) process.exitCode = 1;
 });

@@ -1,5 +1,5 @@
 /**
- * Servers for the sites of the engines. A site has a file server or the server of its engine.
+ * Servers for the sites of the platforms. A site has a file server or the server of its platform.
  *
  * @module
  */
@@ -25,28 +25,28 @@ export const serveFiles = (outputDirectory, basePath) => async (directory) => {
 };
 
 /**
- * Starts the server of an engine, and waits until it answers.
+ * Starts the server of a platform, and waits until it answers.
  *
- * @param {(port: string, directory: string) => [command: string, args: string[], env?: Record<string, string>]} command that starts it
+ * @param {(port: string, directory: string) => [command: string, args: string[], env?: Record<string, string>]} commandFor that starts it
  * @param {string} [base] the path of the site, with a slash at both ends
  * @returns {import('./project.mjs').Serving['serve']}
  */
-export const serveByProgram = (command, base = '/') => async (directory, { start }) => {
+export const serveByProgram = (commandFor, base = '/') => async (directory, { start }) => {
   const port = await findFreePort();
   const url = `http://localhost:${port}${base}`;
-  const engineServer = start(...command(port, directory));
-  const earlyEnd = engineServer.ended.then(() => {
-    throw new Error(`The server has ended:\n${engineServer.output()}`);
+  const platformServer = start(...commandFor(port, directory));
+  const earlyEnd = platformServer.ended.then(() => {
+    throw new Error(`The server has ended:\n${platformServer.output()}`);
   });
   try {
     await Promise.race([untilAnswered(url), earlyEnd]);
   } catch (error) {
-    await engineServer.stop();
+    await platformServer.stop();
     throw error;
   }
   // From here on, the server may end.
   earlyEnd.catch(() => {});
-  return { url, stop: engineServer.stop };
+  return { url, stop: platformServer.stop };
 };
 
 /** Returns a free port, which a temporary server has just left. */

@@ -2,12 +2,12 @@
 
 import { join } from 'node:path';
 import { copySingleFiles } from './plain.mjs';
-import { pinnedVersions, installPythonPackages, pythonProgramPath } from './project.mjs';
+import { pinnedVersionsOf, installPythonPackages, pythonProgramPathOf } from './project.mjs';
 import { serveFiles } from './serving.mjs';
 
 /**
  * Functions that switch a theme between light and dark, by the theme's name. One of the themes has no switch.
- * @type {Record<string, import('./project.mjs').Engine['dark']>}
+ * @type {Record<string, import('./project.mjs').Platform['dark']>}
  */
 const DARK_SWITCH_OF_THEME = {
   async furo(page, isDark) {
@@ -23,10 +23,10 @@ const DARK_SWITCH_OF_THEME = {
 };
 const themeNames = Object.keys(DARK_SWITCH_OF_THEME);
 
-/** @type {import('./project.mjs').Engine} */
+/** @type {import('./project.mjs').Platform} */
 export default {
   heading: 'Sphinx',
-  versions: () => pinnedVersions('sphinx', 'sphinx', ...themeNames.map((themeName) => themeName.replaceAll('_', '-'))),
+  versions: () => pinnedVersionsOf('sphinx', 'sphinx', ...themeNames.map((themeName) => themeName.replaceAll('_', '-'))),
   async install(directory, tools) {
     await installPythonPackages(directory, tools, []);
   },
@@ -34,7 +34,7 @@ export default {
     copySingleFiles(join(directory, '_static'));
     for (const theme of themeNames) {
       const sphinxArguments = ['--fail-on-warning', '--quiet', '--define', `html_theme=${theme}`];
-      await run(pythonProgramPath(directory, 'sphinx-build'), [...sphinxArguments, '.', `_build/${theme}`]);
+      await run(pythonProgramPathOf(directory, 'sphinx-build'), [...sphinxArguments, '.', `_build/${theme}`]);
     }
   },
   servings: themeNames.map((theme) => ({ name: theme, serve: serveFiles(`_build/${theme}`, '/a/book/'), dark: DARK_SWITCH_OF_THEME[theme] })),

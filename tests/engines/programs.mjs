@@ -2,7 +2,7 @@
 
 import { join } from 'node:path';
 import { UserError, findProgram, mustRun, printStep, run } from '../../scripts/process.mjs';
-import { CACHE_DIRECTORY, aptInstall, ensureNativeRust } from '../../scripts/toolchain.mjs';
+import { CACHE_DIRECTORY, installByApt, ensureNativeRust } from '../../scripts/toolchain.mjs';
 
 const FIREFOX_NAMES = ['firefox-esr', 'firefox'];
 const FIREFOX_MISSING_MESSAGE =
@@ -13,7 +13,7 @@ const WEBKIT_MISSING_MESSAGE =
 /** Returns the programs of Firefox. Installs them if they are missing. @returns {Promise<{ firefox: string, driver: string }>} */
 export async function ensureFirefox() {
   const findFirefox = () => process.env.FIREFOX ?? FIREFOX_NAMES.map((programName) => findProgram(programName)).find((programPath) => programPath !== undefined);
-  if (findFirefox() === undefined) await aptInstall(['firefox-esr'], FIREFOX_MISSING_MESSAGE);
+  if (findFirefox() === undefined) await installByApt(['firefox-esr'], FIREFOX_MISSING_MESSAGE);
   const firefoxPath = findFirefox();
   if (firefoxPath === undefined || !(await run(firefoxPath, ['--version'], { quiet: true, seconds: 60 })).ok) throw new UserError(FIREFOX_MISSING_MESSAGE);
   return { firefox: firefoxPath, driver: await ensureGeckodriver() };
@@ -36,7 +36,7 @@ async function ensureGeckodriver() {
 /** Returns the driver of WebKit, and the program of a virtual screen. Installs them if they are missing. */
 export async function ensureWebKit() {
   const findWebKit = () => ['WebKitWebDriver', 'Xvfb'].map((programName) => findProgram(programName));
-  if (findWebKit().includes(undefined)) await aptInstall(['webkit2gtk-driver', 'xvfb'], WEBKIT_MISSING_MESSAGE);
+  if (findWebKit().includes(undefined)) await installByApt(['webkit2gtk-driver', 'xvfb'], WEBKIT_MISSING_MESSAGE);
   const [driverProgram, displayProgram] = findWebKit();
   if (driverProgram === undefined || displayProgram === undefined) throw new UserError(WEBKIT_MISSING_MESSAGE);
   return { driver: driverProgram, display: displayProgram };

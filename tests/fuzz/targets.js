@@ -39,7 +39,7 @@ const mapSqueeze = new core.MapSqueeze({ samples: 1 });
  *
  * @type {{ attributes: ReturnType<typeof selectAttributes>, simulation: any, opening: any }[]}
  */
-const widgetSimulations = Object.entries(settings).map(([widgetTag, declaredSettings]) => {
+const widgetTestCases = Object.entries(settings).map(([widgetTag, declaredSettings]) => {
   const hasSamples = declaredSettings.some(({ key }) => key === 'samples');
   const simulation = { 'map-squeeze': mapSqueeze, 'alpha-calibrator': calibrator }[widgetTag] ?? new (/** @type {any} */ (core)[toPascalCase(widgetTag)])(hasSamples ? { samples: 1 } : {});
   return { attributes: selectAttributes(propertiesOf(declaredSettings)), simulation, opening: simulation.config };
@@ -217,7 +217,7 @@ export const fuzzTargets = {
       const isMapAccepted = map === null || isAccepted(() => applyMap(mapSqueeze, map));
       if (!isMapAccepted) assert.deepEqual(currentMapOf(mapSqueeze, ''), mapBefore);
       const isConfigured = isAccepted(() => mapSqueeze.configure(fields));
-      mapSqueeze.configure(widgetSimulations[1].opening);
+      mapSqueeze.configure(widgetTestCases[1].opening);
       return isMapAccepted && isConfigured;
     },
   },
@@ -225,7 +225,7 @@ export const fuzzTargets = {
     corpus: bytesOfTexts('v=1', 'omega=-0.5', 'alpha1=1e-3', 'conditioned=false', 'conditioned=', 'sampler=whole-arc', 'samples=10', 'seed=7', 'x=2.05', 'noise=0.12', 'model=odometry', 'alpha6=0', 'nextY=-0.5', 'rule=nav2', 'phase=1.5', 'steps=40', 'per=path', 'map=density', 'startTheta=1'),
     async run(bytes) {
       const [attributeName, ...valueParts] = bytes.toString().split('=');
-      const { attributes, simulation, opening } = widgetSimulations[bytes.length % widgetSimulations.length];
+      const { attributes, simulation, opening } = widgetTestCases[bytes.length % widgetTestCases.length];
       const inputAttribute = Object.hasOwn(attributes, attributeName) ? attributes[attributeName] : Object.values(attributes)[bytes.length % 9];
       // Millions of samples would take too much memory.
       if (/^(samples|steps)$/.test(attributeName) && Number(valueParts.join('=')) > 1e5) return false;

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { en } from '../../www/widgets/alpha-calibrator/en.ts';
-import { formatAlphaOrBound, correctionAdvice, formatInterval as ends, formatEstimate, judgementOf, localizeNumber, nav2Lines, formatNumber } from '../../www/widgets/alpha-calibrator/result.ts';
+import { formatAlphaOrBound, adviseCorrection, formatInterval as ends, formatEstimate, judgementOf, localizeNumber, formatNav2Lines, formatNumber } from '../../www/widgets/alpha-calibrator/result.ts';
 import { viewCornersOf } from '../../www/widgets/alpha-calibrator/pictures.ts';
 import { SIMULATED_LEGS, legClassesOf, isTruthComparable } from '../../www/widgets/alpha-calibrator/settings.ts';
 import { settings } from '../../build/settings.js';
@@ -56,7 +56,7 @@ const calibrationWith = (changedFields) => ({
 
 /** Returns the lines for Nav2 without indentation. @param {object} [changedFields] of the calibration @param {object} [otherFields] options */
 const nav2LinesOf = (changedFields, otherFields) =>
-  nav2Lines({ calibration: calibrationWith(changedFields), count: 9, model: 'odometry', rule: 'nav2', legs: { distance: 0.25, angle: 0.2 }, log: 'a.csv and b.csv', warnings: [], date: '2026-01-02', ...otherFields }, en.nav2)
+  formatNav2Lines({ calibration: calibrationWith(changedFields), count: 9, model: 'odometry', rule: 'nav2', legs: { distance: 0.25, angle: 0.2 }, log: 'a.csv and b.csv', warnings: [], date: '2026-01-02', ...otherFields }, en.nav2)
     .map((nav2Line) => nav2Line.trim());
 
 test('lines for Nav2 have the recommended α’s, and the fitted ones in comments', () => {
@@ -73,7 +73,7 @@ test('lines for Nav2 have the recommended α’s, and the fitted ones in comment
 });
 
 test('lines for Nav2 have no α that means nothing, and none at all where none is recommended', () => {
-  assert.deepEqual([nav2LinesOf({ recommended: null }), correctionAdvice(calibrationWith({ recommended: null }), en.nav2)], [[], []]);
+  assert.deepEqual([nav2LinesOf({ recommended: null }), adviseCorrection(calibrationWith({ recommended: null }), en.nav2)], [[], []]);
   assert.deepEqual(nav2LinesOf({}, { model: 'velocity' }), []);
   const exampleAlphas = [null, 1e-7, 103, 1e-8];
   const exampleIntervals = [null, [0, 0.0016], [50, 200], null];
@@ -104,8 +104,8 @@ test('clocks that differ by more than synchronized ones are mentioned, and chang
     }),
     count: 500, corrections: {}, warnings: [],
   }, en, '');
-  const { advice: [note], rating } = judgementWith(86_400.06);
-  assert.deepEqual([note, rating], ['The reference’s clock is 86\u202f400 s ahead of the odometry’s. The turns of the robot aligned both: check that they are of one drive.', 'consistent']);
+  const { advice: [firstSentence], rating } = judgementWith(86_400.06);
+  assert.deepEqual([firstSentence, rating], ['The reference’s clock is 86\u202f400 s ahead of the odometry’s. The turns of the robot aligned both: check that they are of one drive.', 'consistent']);
   assert.match(judgementWith(-3600).advice[0], /is 3\u202f600 s behind the/);
   assert.deepEqual(judgementWith(-9.5).advice, [en.use]);
 });

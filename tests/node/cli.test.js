@@ -11,7 +11,7 @@ import { load } from '../../dist/core.js';
 import { TRUE_MODEL } from '../../scripts/example-log.mjs';
 import { HELP } from '../../www/cli/options.ts';
 import { drivesSvg } from '../../www/cli/plot.ts';
-import { reportText } from '../../www/cli/report.ts';
+import { formatReport } from '../../www/cli/report.ts';
 import { run } from '../../www/cli/run.ts';
 import { warningsOf } from '../../www/logs/pairs.ts';
 import { en } from '../../www/widgets/alpha-calibrator/en.ts';
@@ -20,8 +20,8 @@ import { judgeFit } from '../../www/widgets/alpha-calibrator/readouts.ts';
 import { odometryMessageOf, poseOf, recordingOf, stampOf, transformMessageOf, twistOf } from '../mcap.js';
 
 const CLI_PATH = fileURLToPath(new URL('../../dist/cli.js', import.meta.url));
-const examplePath = (/** @type {string} */ exampleName) => fileURLToPath(new URL(`../../examples/calibration/${exampleName}.csv`, import.meta.url));
-const LOG_ARGS = ['--odometry', examplePath('odometry'), '--reference', examplePath('reference')];
+const examplePathOf = (/** @type {string} */ exampleName) => fileURLToPath(new URL(`../../examples/calibration/${exampleName}.csv`, import.meta.url));
+const LOG_ARGS = ['--odometry', examplePathOf('odometry'), '--reference', examplePathOf('reference')];
 
 /** @type {string} */
 let temporaryFolder;
@@ -65,7 +65,7 @@ test('options reach the core', async () => {
 });
 
 test('files without an option are recordings, paired where each is one table', async () => {
-  const [odometryPath, referencePath] = [examplePath('odometry'), examplePath('reference')];
+  const [odometryPath, referencePath] = [examplePathOf('odometry'), examplePathOf('reference')];
   const writeLaterCopy = (/** @type {string} */ copyName, /** @type {string} */ sourcePath) => writeInFolder(copyName, readFileSync(sourcePath, 'utf8').replaceAll(/^(\d+)/gm, (_, seconds) => `${Number(seconds) + 1000}`));
   const expectedOptions = await readCoreOptions(LOG_ARGS);
   assert.deepEqual(await readCoreOptions([referencePath, odometryPath]), expectedOptions);
@@ -120,7 +120,7 @@ test('a recording has both logs, by topics and frames that are clear or named', 
 test('bad input has the exit code 2 and a sentence', async () => {
   const straightLogPath = writeInFolder('straight.csv', ['t,x,y,yaw', ...Array.from({ length: 2000 }, (_, i) => `${1_600_000_000 + i / 20},${i / 40},0,0`)].join('\n'));
   for (const [args, errorStart] of /** @type {[string[], string][]} */ ([
-    [[examplePath('odometry')], 'odometry.csv: it has one log only, t, x, y, yaw, by name or type the odometry; give the reference too. Name both, '],
+    [[examplePathOf('odometry')], 'odometry.csv: it has one log only, t, x, y, yaw, by name or type the odometry; give the reference too. Name both, '],
     [['a.csv', 'b.csv', '--time-unit', 'ms,s'], '--time-unit ms,s has two units; give the files with --odometry and --reference.'],
     [['a.csv', 'b.csv', '--reference-columns', 't,x,y,yaw'], '--reference-columns needs --reference FILE.'],
     [['--odometri', 'a'], "Unknown option '--odometri'. --help lists all options.\n"],
@@ -136,9 +136,9 @@ test('bad input has the exit code 2 and a sentence', async () => {
       "two.csv: it is not clear what the odometry is: t, x, y, yaw (t, x, y, yaw), b (b_x, b_y, b_yaw). Choose with --odometry-topic, as in --odometry-topic 't, x, y, yaw'.\n",
     ],
     [['--json'], 'no logs are given; give a recording, as in calibrate run.bag, or two files, odometry and reference.'],
-    [['--odometry', examplePath('odometry')], '--reference is missing; give a file or folder, or a recording with both.'],
+    [['--odometry', examplePathOf('odometry')], '--reference is missing; give a file or folder, or a recording with both.'],
     [
-      [examplePath('odometry'), writeInFolder('lidar_odom.csv', readFileSync(examplePath('reference')))],
+      [examplePathOf('odometry'), writeInFolder('lidar_odom.csv', readFileSync(examplePathOf('reference')))],
       'odometry.csv: the odometry is in odometry.csv, lidar_odom.csv, and the reference in no file; give one of each for a drive. Name both, with --odometry FILE and --reference FILE.\n',
     ],
     [[...LOG_ARGS, '--plot', 'x.png'], '--plot writes SVG; the name must end in .svg (got “x.png”).'],
@@ -173,7 +173,7 @@ test('a shell gets help and errors, and may close the pipe', () => {
   assert.match(runInShell('my/bag').stderr, /^the command must be calibrate or inspect \(got “my\/bag”\), as in npx motion-widgets inspect my\/bag; --help has examples\.$/m);
   const outputOfClosedPipe = spawnSync('sh', ['-c', '"$0" "$@" | head -c 1', process.execPath, CLI_PATH, 'calibrate', ...LOG_ARGS, '--json'], { encoding: 'utf8' });
   assert.deepEqual([outputOfClosedPipe.stdout, outputOfClosedPipe.stderr], ['{', '']);
-  const outputOfPipedLog = spawnSync('sh', ['-c', 'cat "$2" | "$0" "$1" inspect /dev/stdin', process.execPath, CLI_PATH, examplePath('odometry')], { encoding: 'utf8' });
+  const outputOfPipedLog = spawnSync('sh', ['-c', 'cat "$2" | "$0" "$1" inspect /dev/stdin', process.execPath, CLI_PATH, examplePathOf('odometry')], { encoding: 'utf8' });
   assert.match(outputOfPipedLog.stdout, /^stdin: table\n.*\n.* 4494 /);
 });
 
@@ -181,7 +181,7 @@ test('a recording of the example has the truth in its intervals, and its JSON th
   /** @type {import('../mcap.js').Message[]} */
   const messages = [];
   for (const [topic, name, type] of [['/odom', 'odometry', 'nav_msgs/msg/Odometry'], ['/truth', 'reference', 'geometry_msgs/msg/PoseStamped']]) {
-    for (const csvRow of readFileSync(examplePath(name), 'utf8').trim().split('\n').slice(1)) {
+    for (const csvRow of readFileSync(examplePathOf(name), 'utf8').trim().split('\n').slice(1)) {
       const [t, x, y, theta] = csvRow.split(',').map(Number);
       const message = topic === '/odom' ? odometryMessageOf(t, x, y, theta) : { header: { stamp: stampOf(t), frame_id: 'map' }, pose: poseOf(x, y, theta) };
       messages.push({ topic, type, t, message });
@@ -212,7 +212,7 @@ test('doc/calibration.md shows the report of the example', async () => {
 });
 
 test('units are stated for both logs, or for each', async () => {
-  const [header, ...csvRows] = readFileSync(examplePath('odometry'), 'utf8').trim().split('\n');
+  const [header, ...csvRows] = readFileSync(examplePathOf('odometry'), 'utf8').trim().split('\n');
   const scaledPath = writeInFolder('scaled.csv', [header, ...csvRows.map((csvRow) => csvRow.split(',').map((cell, i) => Number(cell) * [1000, 1000, 1000, 180 / Math.PI][i]).join(','))].join('\n'));
   const unitArgs = ['--time-unit', 'ms,s', '--length-unit', 'mm,m', '--angle-unit', 'deg,rad'];
   const [siOptions, statedUnitOptions] = [await readCoreOptions(LOG_ARGS), await readCoreOptions(['--odometry', scaledPath, ...LOG_ARGS.slice(2), ...unitArgs])];
@@ -226,7 +226,7 @@ test('units are stated for both logs, or for each', async () => {
 test('a folder gives its logs, and other files are skipped', async () => {
   const driveFolder = join(temporaryFolder, 'drive');
   mkdirSync(driveFolder);
-  for (const [name, exampleName] of [['odom.csv', 'odometry'], ['truth.csv', 'reference'], ['._odom.csv', 'odometry'], ['run.db3-shm', 'odometry']]) writeFileSync(join(driveFolder, name), readFileSync(examplePath(exampleName)));
+  for (const [name, exampleName] of [['odom.csv', 'odometry'], ['truth.csv', 'reference'], ['._odom.csv', 'odometry'], ['run.db3-shm', 'odometry']]) writeFileSync(join(driveFolder, name), readFileSync(examplePathOf(exampleName)));
   writeFileSync(join(driveFolder, 'README.md'), '# A drive\n\nwith words, and no numbers\n');
   writeFileSync(join(driveFolder, 'camera.mcap'), await recordingOf([0, 1].map((t) => ({ topic: '/image', type: 'std_msgs/msg/String', t, message: { data: '' } }))));
   let inspectionText = '';
@@ -240,7 +240,7 @@ test('a folder gives its logs, and other files are skipped', async () => {
 test('a journal beside a recording is named, unless it is empty', async () => {
   for (const [journalHex, expectedMessage] of [['', ''], ['377f0682', 'skipped: odometry.db3-wal: it is a journal']]) {
     writeInFolder('odometry.db3-wal', Buffer.from(journalHex, 'hex'));
-    const { code: exitCode, err } = await runCalibrate(['--odometry', writeInFolder('odometry.db3', readFileSync(examplePath('odometry'))), ...LOG_ARGS.slice(2)]);
+    const { code: exitCode, err } = await runCalibrate(['--odometry', writeInFolder('odometry.db3', readFileSync(examplePathOf('odometry'))), ...LOG_ARGS.slice(2)]);
     assert.deepEqual([exitCode, err.split(' with')[0]], [0, expectedMessage]);
   }
   // All messages of the recording are in the journal of the database.
@@ -256,7 +256,7 @@ test('a journal beside a recording is named, unless it is empty', async () => {
 
 /** Writes the reference of another drive. It is the path of the example from its end to its start. */
 const writeReversedReference = () => {
-  const [header, ...rows] = readFileSync(examplePath('reference'), 'utf8').trim().split('\n').map((row) => row.split(','));
+  const [header, ...rows] = readFileSync(examplePathOf('reference'), 'utf8').trim().split('\n').map((row) => row.split(','));
   return writeInFolder('other.csv', [header, ...rows.map(([t], i) => [t, ...rows[rows.length - 1 - i].slice(1)])].join('\n'));
 };
 
@@ -266,10 +266,10 @@ test('--yaml prints the lines for Nav2 alone, or none of an unusable log', async
   assert.match(out, /^amcl:\n {2}ros__parameters:\n[^]*\n {4}update_min_a: 0\.2\n$/);
   assert.match(err, /^Odometry: odometry\.csv\n {2}\d+ of \d+ rows, [^]*^Trust\. .*\nUse the recommended α’s with legs of this length\.\nFirst multiply the odometry’s distances by .*\n$/m);
   assert.match((await runCalibrate([...LOG_ARGS, '--yaml'])).err, /\nWarning: fitted by another rule than Nav2’s; give --rule nav2\.\n$/);
-  const swappedOutput = await runCalibrate(['--odometry', examplePath('reference'), '--reference', examplePath('odometry'), '--yaml']);
+  const swappedOutput = await runCalibrate(['--odometry', examplePathOf('reference'), '--reference', examplePathOf('odometry'), '--yaml']);
   assert.match(swappedOutput.err, /^Caution. Warning: by their names, the reference is odometry, .*: exchange the two\.$/m);
   // The legs of a reference at 1 Hz are longer than asked.
-  const [header, ...rows] = readFileSync(examplePath('reference'), 'utf8').trim().split('\n');
+  const [header, ...rows] = readFileSync(examplePathOf('reference'), 'utf8').trim().split('\n');
   const sparsePath = writeInFolder('sparse.csv', [header, ...rows.filter((_, i) => i % 20 === 0)].join('\n'));
   const sparseOutput = await runCalibrate([...LOG_ARGS.slice(0, 3), sparsePath, '--yaml', '--rule', 'nav2']);
   const [, lengthRatio, printedDistance, printedAngle] = /legs are (\S+) times as long as asked\. .*\n +update_min_d: (\S+)\n +update_min_a: (\S+)\n$/.exec(sparseOutput.out)?.map(Number) ?? [];
@@ -341,17 +341,17 @@ test('inspect lists what is in a file, and the command to go on with', async () 
     /^ {2}npx motion-widgets calibrate DIR\/run\.mcap --odometry-topic \/odom --reference-topic '\/vicon\/robot 1' --rule nav2$/m,
   ]) assert.match(recordingInspection, linePattern);
   for (const [role, otherRole] of [['odometry', 'reference'], ['reference', 'odometry']]) {
-    assert.match(await inspectionOf([examplePath(role)]), new RegExp(`; give the ${otherRole} too\\. Name both, with --odometry FILE and --reference FILE\\.$`, 'm'));
+    assert.match(await inspectionOf([examplePathOf(role)]), new RegExp(`; give the ${otherRole} too\\. Name both, with --odometry FILE and --reference FILE\\.$`, 'm'));
   }
-  const [a, b] = [['b', 'reference'], ['a', 'odometry']].map(([name, from]) => writeInFolder(`${name}.csv`, readFileSync(examplePath(from))));
+  const [a, b] = [['b', 'reference'], ['a', 'odometry']].map(([name, from]) => writeInFolder(`${name}.csv`, readFileSync(examplePathOf(from))));
   assert.match(await inspectionOf([a, b]), /^b\.csv: its name does not say whether it is odometry or reference; .* Name both, with --odometry FILE and --reference FILE\.$/m);
-  const millimetrePath = writeInFolder('mm.csv', readFileSync(examplePath('reference'), 'utf8').replaceAll(/^([\d.]+),([\d.e-]+),([\d.e-]+)/gm, (_, t, x, y) => [t, 1000 * x, 1000 * y].join(',')));
+  const millimetrePath = writeInFolder('mm.csv', readFileSync(examplePathOf('reference'), 'utf8').replaceAll(/^([\d.]+),([\d.e-]+),([\d.e-]+)/gm, (_, t, x, y) => [t, 1000 * x, 1000 * y].join(',')));
   assert.match(await inspectionOf([millimetrePath], 2), /^mm\.csv: in m, the robot would drive at .* Choose with --length-unit, as in --length-unit /m);
   assert.match(await inspectionOf([a, b, writeInFolder('empty_table.csv', 't,x,y,yaw\n')], 2), /^b\.csv: its name does not say whether it is odometry or reference;/m);
   const alternatingPath = writeInFolder('alternating.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y,gt_yaw', ...Array.from({ length: 40 }, (_, i) => `${i >> 1},${i % 2},0,0,${i % 2},1,0`)].join('\n'));
   assert.equal((await inspectionOf([alternatingPath], 2)).match(/give the log of one robot/g)?.length, 1);
-  assert.doesNotMatch(await inspectionOf([examplePath('odometry'), millimetrePath], 2), /give the reference too/);
-  assert.match(await inspectionOf(['--odometry', examplePath('odometry'), '--reference', millimetrePath, '--length-unit', 'm,mm']), /^ {2}npx motion-widgets calibrate --odometry \S+odometry\.csv --reference DIR\/mm\.csv --length-unit m,mm --rule nav2$/m);
+  assert.doesNotMatch(await inspectionOf([examplePathOf('odometry'), millimetrePath], 2), /give the reference too/);
+  assert.match(await inspectionOf(['--odometry', examplePathOf('odometry'), '--reference', millimetrePath, '--length-unit', 'm,mm']), /^ {2}npx motion-widgets calibrate --odometry \S+odometry\.csv --reference DIR\/mm\.csv --length-unit m,mm --rule nav2$/m);
   const headless = writeInFolder('headless.csv', ['t,x,y', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},1`)].join('\n'));
   assert.match(await inspectionOf([headless], 2), /^headless\.csv: t, x, y are positions without a heading; give a reference that measures the heading/m);
   const positionsPath = writeInFolder('positions.csv', ['t,odom_x,odom_y,odom_yaw,gt_x,gt_y', ...Array.from({ length: 40 }, (_, i) => `${i / 20},${i / 40},0,0,${i / 40},1`)].join('\n'));
@@ -374,17 +374,17 @@ test('an unusable log has a sentence and no lines for Nav2', async () => {
 
 test('the report, the lines for Nav2 and the figure’s verdict agree whether the reference is a localizer’s', async () => {
   for (const [name, isLocalizer] of /** @type {const} */ ([['slam_pose', true], ['cartographer', true], ['truth_amcl', false]])) {
-    const args = [...LOG_ARGS.slice(0, 3), writeInFolder(`${name}.csv`, readFileSync(examplePath('reference')))];
+    const args = [...LOG_ARGS.slice(0, 3), writeInFolder(`${name}.csv`, readFileSync(examplePathOf('reference')))];
     const [{ out }, { out: jsonText }] = [await runCalibrate(args), await runCalibrate([...args, '--json'])];
     const { logs, ...stats } = JSON.parse(jsonText);
     const { rating } = judgeFit(/** @type {any} */ ({ stats, legs: stats.legs, fitted: stats.systematicErrors }), warningsOf(logs));
-    const areNoted = [out.includes(`\nCaution. ${en.nav2.localizer}\n`) && !out.includes(en.useAnyway), out.includes(`# ${en.nav2.localizer}`), rating === 'questionable'];
-    assert.deepEqual(areNoted, [isLocalizer, isLocalizer, isLocalizer], name);
+    const notedPlaces = [out.includes(`\nCaution. ${en.nav2.localizer}\n`) && !out.includes(en.useAnyway), out.includes(`# ${en.nav2.localizer}`), rating === 'questionable'];
+    assert.deepEqual(notedPlaces, [isLocalizer, isLocalizer, isLocalizer], name);
   }
 });
 
 test('the report advises against α’s that are too small because the odometry moves sideways', async () => {
-  const swappedPaths = [writeInFolder('first.csv', readFileSync(examplePath('reference'))), writeInFolder('second.csv', readFileSync(examplePath('odometry')))];
+  const swappedPaths = [writeInFolder('first.csv', readFileSync(examplePathOf('reference'))), writeInFolder('second.csv', readFileSync(examplePathOf('odometry')))];
   const { out } = await runCalibrate(['--odometry', swappedPaths[0], '--reference', swappedPaths[1]]);
   assert.match(out, /^Caution\. [^]*sideways/m);
   assert.ok(!out.includes(en.useAnyway));
@@ -394,7 +394,7 @@ test('the report says what failed, what is lost, and what to drive', async () =>
   const { odometry: odometryLogs, reference, ...options } = await readCoreOptions(LOG_ARGS);
   const calibration = /** @type {any} */ (await load()).calibrate({ ...options, odometry: odometryLogs, reference });
   const { diagnostics, lost, persistence, systematicErrors } = calibration;
-  const reportWith = (/** @type {any} */ calibrationChange, optionsChange = {}) => reportText({ calibration: { ...calibration, ...calibrationChange }, options: { ...options, ...optionsChange }, logs: [], start: 0, driveStarts: [10, 1000], date: '' });
+  const reportWith = (/** @type {any} */ calibrationChange, optionsChange = {}) => formatReport({ calibration: { ...calibration, ...calibrationChange }, options: { ...options, ...optionsChange }, logs: [], start: 0, driveStarts: [10, 1000], date: '' });
   const failedChecks = [{ name: 'enough-legs', value: 20, expected: [100, Infinity], passed: false, message: 'Drive on.' }];
   const reportOfFailure = reportWith({ diagnostics: { ...diagnostics, verdict: 'questionable', checks: failedChecks } });
   assert.match(reportOfFailure, /^\nCaution\. Failed: number of legs \(1 of 1 checks\)\.\nDrive on\.\nIf the log .*\n[^]*^enough-legs +20 +≥ 100 +FAILED +number of legs\nenough-legs: Drive on\.$/m);

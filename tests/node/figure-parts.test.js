@@ -5,7 +5,7 @@ import { test } from 'node:test';
 import { WORD_LIST_CONVERTER, propertiesOf, selectAttributes } from '../../www/figure/definition.ts';
 import { View } from '../../www/scene/view.ts';
 import { settings } from '../../build/settings.js';
-import { scaleRatioTexts } from '../../www/widgets/dead-reckoning/pictures.ts';
+import { formatScaleRatios } from '../../www/widgets/dead-reckoning/pictures.ts';
 
 test('boolean attributes may be empty or "true", and lists may have any space', () => {
   const { conditioned } = selectAttributes(propertiesOf(settings['map-squeeze']));
@@ -30,7 +30,7 @@ test('a view that was fitted to a tiny canvas zooms in on a larger one, and keep
 });
 
 test('the stretched axis has the factor of the scales, and none that is not seen', () => {
-  assert.deepEqual(scaleRatioTexts({ scaleX: 100, scaleY: 720 }), ['', '7.2']);
-  assert.deepEqual(scaleRatioTexts({ scaleX: 1230, scaleY: 100 }), ['10', '']);
-  assert.deepEqual(scaleRatioTexts({ scaleX: 100, scaleY: 104 }), ['', '']);
+  assert.deepEqual(formatScaleRatios({ scaleX: 100, scaleY: 720 }), ['', '7.2']);
+  assert.deepEqual(formatScaleRatios({ scaleX: 1230, scaleY: 100 }), ['10', '']);
+  assert.deepEqual(formatScaleRatios({ scaleX: 100, scaleY: 104 }), ['', '']);
 });

@@ -8,7 +8,7 @@ import { test } from 'node:test';
 import { setImmediate as yieldToEventLoop } from 'node:timers/promises';
 import { createMutant } from '../fuzz/mutate.js';
 import { fuzzTargets } from '../fuzz/targets.js';
-import { randomGenerator } from '../random.js';
+import { createRandomGenerator } from '../random.js';
 
 /** Number of mutations for each target. The nightly job sets a larger number and another seed. */
 const INPUT_COUNT = Number(process.env.FUZZ_INPUTS ?? 400);
@@ -29,7 +29,7 @@ function readFoundInputs(targetName) {
 
 for (const [targetName, { corpus, run }] of Object.entries(fuzzTargets)) {
   test(`${targetName}: every input gives a result or a sentence`, async () => {
-    const nextRandom = randomGenerator(FUZZ_SEED);
+    const nextRandom = createRandomGenerator(FUZZ_SEED);
     const allInputs = [...corpus, ...readFoundInputs(targetName)];
     /** Runs a target on an input, and returns true if the input is accepted. @param {Buffer<ArrayBuffer>} inputBytes */
     const checkInput = async (inputBytes) => {

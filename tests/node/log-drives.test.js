@@ -7,7 +7,7 @@ import { planDrives } from '../../www/logs/drives.ts';
 import { english } from '../../www/logs/en.ts';
 import { openRecordings } from '../../www/logs/open.ts';
 import { pairLogs, readDrives } from '../../www/logs/pairs.ts';
-import { summarySentences } from '../../www/logs/log.ts';
+import { summarySentencesOf } from '../../www/logs/log.ts';
 import { catchRefusalError, catchRefusalSentence } from './log-support.js';
 
 /** @import { Recording } from '../../www/logs/log.ts' */
@@ -159,8 +159,8 @@ test('two logs get one start, and none in common is noted', async () => {
   assert.deepEqual([[...overlappingDrive.odometry.data.t], [...overlappingDrive.reference.data.t]], [[0.25, 9.5], [3.125, 8.5]]);
   const [disjointDrive] = await readDrivesOf({ 'odom.csv': odometryTable, 'truth.csv': 't,x,y,yaw\n0,0,0,0\n1,0,0,0' });
   assert.deepEqual([disjointDrive.odometry.start, [...disjointDrive.odometry.data.t]], [0, [1_700_000_000.25, 1_700_000_009.5]]);
-  assert.match(summarySentences(disjointDrive.reference, english.found).at(-1) ?? '', /^notes: no time in common with odom\.csv \(0\.00 s to 1\.00 s, and 1700000000\.25 s to 1700000009\.50 s\): /);
-  assert.equal(summarySentences(disjointDrive.reference, german.found).length, summarySentences(overlappingDrive.reference, german.found).length + 1);
+  assert.match(summarySentencesOf(disjointDrive.reference, english.found).at(-1) ?? '', /^notes: no time in common with odom\.csv \(0\.00 s to 1\.00 s, and 1700000000\.25 s to 1700000009\.50 s\): /);
+  assert.equal(summarySentencesOf(disjointDrive.reference, german.found).length, summarySentencesOf(overlappingDrive.reference, german.found).length + 1);
 });
 
 test('names of a localizer, and swapped ones, are noted', async () => {
@@ -203,14 +203,14 @@ test('a log that does not follow the other one names the correction that makes i
   const pathPoints = [[0, 0]];
   for (const [i, stepHeading] of exampleHeadings.entries()) pathPoints.push([pathPoints[i][0] + Math.cos(stepHeading) / 40, pathPoints[i][1] + Math.sin(stepHeading) / 40]);
   const tableWithChange = (/** @type {(row: number[]) => number[]} */ changeRow) => poseTableOf(1200, (i) => changeRow([i / 20, ...pathPoints[i], exampleHeadings[i]]).map((value) => Number(value.toFixed(6))));
-  const distortRow = (/** @type {number[]} */ [t, x, y, yaw]) => [t + 0.2, 1.02 * x + 3, 1.02 * y, 1.01 * yaw];
+  const changeDistortedRow = (/** @type {number[]} */ [t, x, y, yaw]) => [t + 0.2, 1.02 * x + 3, 1.02 * y, 1.01 * yaw];
   const scaledBy = (/** @type {number} */ lengthFactor) => (/** @type {number[]} */ [t, x, y, yaw]) => [t, lengthFactor * x, lengthFactor * y, yaw];
   for (const [changeRow, expectedMessage, what, pair] of /** @type {[(row: number[]) => number[], RegExp, string?, string?][]} */ ([
     [([t, x, y, yaw]) => [t, x, -y, -yaw], /it turns left where \S+ turns right: /],
     [scaledBy(5), /: multiplied by 0\.196, its lengths match those of odom\.csv; multiply them\./],
     [scaledBy(1 / 0.3048), /, its lengths match those of odom\.csv: they are in ft; state their unit\./, 'lengthUnit', 'm,ft'],
   ])) {
-    const refusalError = await catchRefusalError(readDrivesOf({ 'odom.csv': tableWithChange((row) => row), 'truth.csv': tableWithChange((row) => changeRow(distortRow(row))) }));
+    const refusalError = await catchRefusalError(readDrivesOf({ 'odom.csv': tableWithChange((row) => row), 'truth.csv': tableWithChange((row) => changeRow(changeDistortedRow(row))) }));
     assert.match(refusalError.message, expectedMessage);
     assert.match(refusalError.message, /^truth\.csv: .*\. The motions then agree \(correlation (1\.00|0\.9\d)\)\.$/);
     assert.deepEqual([refusalError.ask?.what, refusalError.ask?.pair], [what, pair]);
@@ -221,15 +221,15 @@ test('a log that does not follow the other one names the correction that makes i
   // The changed tables have mirrored axes, swapped axes, and compass headings, which are clockwise from north.
   const mirrorRows = /** @type {((row: number[]) => number[])[]} */ ([([t, x, y, yaw]) => [t, x, -y, yaw], ([t, x, y, yaw]) => [t, -x, y, yaw], ([t, x, y, yaw]) => [t, y, x, yaw], ([t, x, y, yaw]) => [t, x, y, Math.PI / 2 - yaw]]);
   for (const mirrorRow of mirrorRows) {
-    const [mirroredTable, otherTable] = [tableWithChange((row) => mirrorRow(distortRow(row))), tableWithChange(distortRow)];
+    const [mirroredTable, otherTable] = [tableWithChange((row) => mirrorRow(changeDistortedRow(row))), tableWithChange(changeDistortedRow)];
     for (const [odometry, reference, questionedLog] of [[mirroredTable, otherTable, 'odom'], [otherTable, mirroredTable, 'truth'], [mirroredTable, mirroredTable, 'odom']]) {
       assert.match(await catchRefusalSentence(readDrivesOf({ 'odom.csv': odometry, 'truth.csv': reference })), RegExp(`^${questionedLog}\\.csv: the headings turn the other way than the path; expected`));
     }
   }
   // If the log of a slow robot is read alone, no question about its unit is asked.
-  const slowTable = (/** @type {number} */ factor) => tableWithChange(([t, x, y, yaw]) => [20 * t, factor * x, factor * y, yaw]);
+  const slowTableOf = (/** @type {number} */ factor) => tableWithChange(([t, x, y, yaw]) => [20 * t, factor * x, factor * y, yaw]);
   for (const [odometry, reference, file, pair] of /** @type {const} */ ([[1, 100, 'truth', 'm,cm'], [100, 1, 'odom', 'cm,m']])) {
-    const { message, ask } = await catchRefusalError(readDrivesOf({ 'odom.csv': slowTable(odometry), 'truth.csv': slowTable(reference) }));
+    const { message, ask } = await catchRefusalError(readDrivesOf({ 'odom.csv': slowTableOf(odometry), 'truth.csv': slowTableOf(reference) }));
     assert.match(message, RegExp(`^${file}\\.csv: multiplied by 0\\.01, its lengths match those of \\w+\\.csv: they are in cm; state their unit\\.`));
     assert.deepEqual([ask?.what, ask?.pair], ['lengthUnit', pair]);
   }
@@ -239,7 +239,7 @@ test('a summary has the distance driven, units and how they were judged, dropped
   const tableRows = Array.from({ length: 200 }, (_, i) => `${1_700_000_000_000 + 50 * i + (i > 100 ? 3000 : 0)},${i === 9 ? 'nan' : i / 100},${(i % 2) / 1000},${i / 2}`);
   const [{ reference }] = await readDrivesOf({ 'odom.csv': straightTableOf((i) => i / 90, 1_700_000_000), 'truth.csv': ['t,x,y,yaw_deg', ...tableRows].join('\n') });
   assert.equal(reference.summary.distance.toFixed(1), '2.0');
-  assert.deepEqual(summarySentences(reference, english.found), [
+  assert.deepEqual(summarySentencesOf(reference, english.found), [
     '199 of 200 rows, 13.0 s at 20.0 Hz, 2.0 m driven', 'columns: t, x, y, yaw_deg', 'units: time in ms (by size), lengths in m, yaw in degrees (by name)',
     'left out: 1 row, line 11: a value that is not finite, or above a billion', 'gaps: 1, the first 5.00 s after the start, the longest of 3.05 s',
   ]);

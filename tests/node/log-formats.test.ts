@@ -7,8 +7,8 @@ import { test } from 'node:test';
 import { gunzipSync } from 'node:zlib';
 import xxhash from 'xxhash-wasm';
 import { UNSUPPORTED_FORMATS, english } from '../../www/logs/en.ts';
-import { unlz4 } from '../../www/logs/formats/decompression.ts';
-import { summarySentences, type LogChoice, type Commands, type Log, type Poses, type Recording, type Source } from '../../www/logs/log.ts';
+import { decompressLz4 } from '../../www/logs/formats/decompression.ts';
+import { summarySentencesOf, type LogChoice, type Commands, type Log, type Poses, type Recording, type Source } from '../../www/logs/log.ts';
 import { openRecordings } from '../../www/logs/open.ts';
 import { odometryMessageOf, recordingOf, transformMessageOf, type Message } from '../mcap.js';
 import { catchRefusalError, catchRefusalSentence } from './log-support.js';
@@ -33,7 +33,7 @@ async function openRecording(...fileSources: Source[]): Promise<Recording> {
   return recordings[0];
 }
 
-const summaryTextOf = (log: Log) => summarySentences(log, english.found).join('. ');
+const summaryTextOf = (log: Log) => summarySentencesOf(log, english.found).join('. ');
 
 /** Odometry and reference of the drive, read from its tables. */
 const tableLogPromises = (await openRecordings(['odometry.csv', 'reference.csv'].map((name) => createFile(decompressFile(name), name)))).map((tableName) => tableName.read([{ series: '' }]));
@@ -171,21 +171,21 @@ test('LZ4 frames of another size are refused, and any damage to one with checksu
   const bytes = decompressFile('lz4.mcap');
   // The header of the first chunk contains the size of its records, a checksum, the compression, and the size of the compressed frame.
   const namePosition = bytes.indexOf('lz4');
-  const [contentSize, frameSize] = [namePosition - 16, namePosition + 3].map((sizePosition) => Number(bytes.readBigUInt64LE(sizePosition)));
-  const compressedFrame = bytes.subarray(namePosition + 11, namePosition + 11 + frameSize);
-  const chunkRecords = await unlz4(compressedFrame, contentSize);
-  for (const wrongSize of [contentSize - 1, contentSize + 1]) await assert.rejects(unlz4(compressedFrame, wrongSize), RangeError);
+  const [contentSize, lz4FrameSize] = [namePosition - 16, namePosition + 3].map((sizePosition) => Number(bytes.readBigUInt64LE(sizePosition)));
+  const lz4Frame = bytes.subarray(namePosition + 11, namePosition + 11 + lz4FrameSize);
+  const chunkRecords = await decompressLz4(lz4Frame, contentSize);
+  for (const wrongSize of [contentSize - 1, contentSize + 1]) await assert.rejects(decompressLz4(lz4Frame, wrongSize), RangeError);
   // Checksums of the only block and of the contents are added.
   const { h32Raw } = await xxhash();
-  const checksumOf = (part: Uint8Array) => Buffer.from(Uint32Array.of(h32Raw(part)).buffer);
-  const blockStart = compressedFrame[4] & 0x08 ? 15 : 7;
-  const frameWithChecksums = Buffer.concat([compressedFrame.subarray(0, -4), checksumOf(compressedFrame.subarray(blockStart + 4, -4)), compressedFrame.subarray(-4), checksumOf(chunkRecords)]);
-  frameWithChecksums[4] |= 0x14;
-  assert.deepEqual(await unlz4(frameWithChecksums, contentSize), chunkRecords);
-  for (let i = blockStart + 4; i < frameWithChecksums.length; i++) {
-    const damagedFrame = Buffer.from(frameWithChecksums);
-    damagedFrame[i] ^= 17;
-    await assert.rejects(unlz4(damagedFrame, contentSize), RangeError);
+  const checksumOf = (bytes: Uint8Array) => Buffer.from(Uint32Array.of(h32Raw(bytes)).buffer);
+  const blockStart = lz4Frame[4] & 0x08 ? 15 : 7;
+  const lz4FrameWithChecksums = Buffer.concat([lz4Frame.subarray(0, -4), checksumOf(lz4Frame.subarray(blockStart + 4, -4)), lz4Frame.subarray(-4), checksumOf(chunkRecords)]);
+  lz4FrameWithChecksums[4] |= 0x14;
+  assert.deepEqual(await decompressLz4(lz4FrameWithChecksums, contentSize), chunkRecords);
+  for (let i = blockStart + 4; i < lz4FrameWithChecksums.length; i++) {
+    const damagedLz4Frame = Buffer.from(lz4FrameWithChecksums);
+    damagedLz4Frame[i] ^= 17;
+    await assert.rejects(decompressLz4(damagedLz4Frame, contentSize), RangeError);
   }
 });
 
@@ -236,7 +236,7 @@ test('a transform that never changes is no log', async () => {
 });
 
 test('a constant transform that is published more often than the moving one adds no rows', async () => {
-  const messages = mapSteps((i) => [tfMessageAt(i, movingTransformAt(i)), ...[0.3, 0.6].map((part) => tfMessageAt(i + part, transformMessageOf(timeAt(i + part), 'base_footprint', 'base_link', 0.5, 0, 0)))]).flat();
+  const messages = mapSteps((i) => [tfMessageAt(i, movingTransformAt(i)), ...[0.3, 0.6].map((timeOffset) => tfMessageAt(i + timeOffset, transformMessageOf(timeAt(i + timeOffset), 'base_footprint', 'base_link', 0.5, 0, 0)))]).flat();
   const [{ data }] = await readLogsOf(messages, BASE_CHOICE);
   assert.deepEqual([...data.t].map((t) => Math.round(20 * t)), [...Array(stepCount).keys()]);
   assert.deepEqual([...(data as Poses).x], mapSteps((i) => i / 50 + 0.5));

@@ -6,9 +6,9 @@ import { planDrives } from '../../www/logs/drives.ts';
 import { english } from '../../www/logs/en.ts';
 import { readAhead } from '../../www/logs/formats/container.ts';
 import { openRecordings } from '../../www/logs/open.ts';
-import { summarySentences } from '../../www/logs/log.ts';
+import { summarySentencesOf } from '../../www/logs/log.ts';
 import { odometryMessageOf, poseOf, recordingOf, stampOf, transformMessageOf, twistOf } from '../mcap.js';
-import { randomGenerator } from '../random.js';
+import { createRandomGenerator } from '../random.js';
 import { readLog, catchRefusalSentence } from './log-support.js';
 
 /** @import { Message } from '../mcap.js' */
@@ -93,10 +93,10 @@ test('an incomplete index is not used', async () => {
 });
 
 test('stamps that begin at 0 are used; messages without stamps have the times of recording, which is reported', async () => {
-  const readLogWithStamps = async (/** @type {(i: number) => number} */ stamp) => {
-    const messages = createOdometryMessages(100, (i) => odometryMessageOf(stamp(i), i, 0, 0)).map((message, i) => ({ ...message, t: 1_700_000_000 + i / 20 }));
+  const readLogWithStamps = async (/** @type {(i: number) => number} */ stampAt) => {
+    const messages = createOdometryMessages(100, (i) => odometryMessageOf(stampAt(i), i, 0, 0)).map((message, i) => ({ ...message, t: 1_700_000_000 + i / 20 }));
     const log = await readLog(mcapFileOf(await recordingOf(messages)), { series: '/odom' });
-    return { ...log, sentences: summarySentences(log, english.found).join(' ') };
+    return { ...log, sentences: summarySentencesOf(log, english.found).join(' ') };
   };
   const simulatedLog = await readLogWithStamps((i) => i / 10);
   assert.deepEqual([simulatedLog.start, simulatedLog.summary.rows, simulatedLog.data.t[0], simulatedLog.data.t[99]], [0, 100, 0, 9.9]);
@@ -211,7 +211,7 @@ test('chunks with another checksum or size than they state are not read', async 
 });
 
 test('a file that is read in pieces has its bytes, one after the other, across pieces and after gaps', async () => {
-  const nextRandom = randomGenerator(7);
+  const nextRandom = createRandomGenerator(7);
   const bytes = Buffer.alloc(60e6, Buffer.from(Array.from({ length: 9973 }, () => nextRandom() * 256)));
   const readRange = readAhead(new File([bytes], 'run.mcap'));
   for (let start = 0; start < bytes.length; ) {

@@ -14,9 +14,9 @@ export async function readLog(logFile, logChoice) {
 export async function catchRefusalError(logPromise) {
   const refusalError = await logPromise.then(() => undefined, (rejectionReason) => rejectionReason);
   assert.ok(refusalError instanceof LogError, String(refusalError));
-  assert.notEqual(refusalError.sentence(german), refusalError.message);
+  assert.notEqual(refusalError.messageIn(german), refusalError.message);
   return refusalError;
 }
 
-/** Returns the message of the error with which a log is refused. @param {Promise<unknown>} reading */
-export const catchRefusalSentence = async (reading) => (await catchRefusalError(reading)).message;
+/** Returns the message of the error with which a log is refused. @param {Promise<unknown>} logPromise */
+export const catchRefusalSentence = async (logPromise) => (await catchRefusalError(logPromise)).message;

@@ -70,14 +70,14 @@ test('a log that is out of order everywhere is sorted, and one of two clocks in 
   const [header, ...rowLines] = circleTableOf().split('\n');
   const rowOrder = rowLines.map((_, i) => (i * 301) % rowLines.length);
   for (const shuffleRange of [8, rowLines.length]) {
-    const shuffledIndices = rowLines.map((_, i) => i).toSorted((one, other) => one + (rowOrder[one] % shuffleRange) - other - (rowOrder[other] % shuffleRange));
+    const shuffledIndices = rowLines.map((_, i) => i).toSorted((index, otherIndex) => index + (rowOrder[index] % shuffleRange) - otherIndex - (rowOrder[otherIndex] % shuffleRange));
     const { data, summary } = await readTable([header, ...shuffledIndices.map((i) => rowLines[i])].join('\n'));
     assert.deepEqual([[...data.x], [...data.breaks], summary.used], [CIRCLE_ROWS.map(([, x]) => x), [], rowLines.length]);
     assert.ok(summary.notes[0].name === 'sorted' && Number(summary.notes[0].values[0]) > rowLines.length / 8, JSON.stringify(summary.notes));
   }
   // Stamps vary by a fifth of a step, and every third row comes late.
   const jitteredRows = CIRCLE_ROWS.map(([t, ...poseCells], i) => [t + ((rowOrder[i] % 21) - 10) / 1000, ...poseCells]);
-  const lateTable = jitteredRows.map((_, i) => i).toSorted((one, other) => one + (one % 3 ? 0 : 3.5) - other - (other % 3 ? 0 : 3.5)).map((i) => jitteredRows[i].join(','));
+  const lateTable = jitteredRows.map((_, i) => i).toSorted((index, otherIndex) => index + (index % 3 ? 0 : 3.5) - otherIndex - (otherIndex % 3 ? 0 : 3.5)).map((i) => jitteredRows[i].join(','));
   assert.deepEqual([...(await readTable([header, ...lateTable].join('\n'))).data.x], CIRCLE_ROWS.map(([, x]) => x));
   const rowsOfTwoClocks = rowLines.flatMap((row, i) => [row, [CIRCLE_ROWS[i][0] + 5.02, ...CIRCLE_ROWS[rowLines.length - 1 - i].slice(1)].join(',')]);
   assert.match(await catchRefusalSentence(readTable([header, ...rowsOfTwoClocks].join('\n'))), /^run\.csv, line 202: times go back by 4\.97 s and repeat those before;/);
@@ -240,7 +240,7 @@ const REFUSED_TABLES = [
   ['robots one after the other', circleTableOf((row, i) => [...row, i >> 9], 't,x,y,yaw,robot_id'), /of several frames, topics or robots \(0, 1\); keep/],
   ['robots one after the other, with a prefix', circleTableOf((row, i) => [...row, i >> 9], 't,odom_x,odom_y,odom_yaw,robot_id'), /of several frames, topics or robots \(0, 1\); keep/],
   ['two robots in turns', circleTableOf((row, i) => [...row, i % 2], 't,x,y,yaw,robot_id'), /of several frames, topics or robots \(0, 1\); keep/],
-  ['two paths', circleTableOf(([t, x, ...rest], i) => [t, i % 6 ? x : x + 1, ...rest]), /poses of two paths alternate, 1\.\d m apart: .*; keep those of one\.$/],
+  ['two paths', circleTableOf(([t, x, ...yawAndRest], i) => [t, i % 6 ? x : x + 1, ...yawAndRest]), /poses of two paths alternate, 1\.\d m apart: .*; keep those of one\.$/],
   ['poses of KITTI', `${KITTI_ROW}\n${KITTI_ROW}\n`, /poses of KITTI, which have no times; give/],
   ['Euler angles of Motive', 'Format Version,1.23,Take Name,x,Rotation Type,XYZ,Length Units,Meters\n\n,Type,Rigid Body\n,Name,Robot\n,ID,1\n,,Rotation\nFrame,Time (Seconds),X\n0,0.0,1\n1,0.1,1\n', /Euler angles \(XYZ\); export/],
   ['commands without times', '0.4,0.0,0.0,0.0,0.0,0.1\n0.4,0.0,0.0,0.0,0.0,0.1\n', /geometry_msgs\/Twist, which have no times; give/],
@@ -255,13 +255,13 @@ for (const [name, tableText, expectedMessage, options] of REFUSED_TABLES) {
     const refusalError = await catchRefusalError(readTable(tableText, options));
     assert.match(refusalError.message, expectedMessage);
     assert.match(refusalError.message, /; [a-z].+\.$/);
-    assert.match(refusalError.sentence(german), /^run\.csv(, Zeile \d+)?: .+; .+\.$/);
+    assert.match(refusalError.messageIn(german), /^run\.csv(, Zeile \d+)?: .+; .+\.$/);
   });
 }
 
 test('columns that are proposed for Y up give the path on the floor', async () => {
-  for (const horizontal of [(/** @type {number} */ x, /** @type {number} */ y) => [x, 0.1, y], (/** @type {number} */ x, /** @type {number} */ y) => [y, 0.1, x]]) {
-    const tableText = circleTableOf(([t, x, y, yaw]) => [t, ...horizontal(x, y), yaw], 't,x,y,z,yaw');
+  for (const positionOf of [(/** @type {number} */ x, /** @type {number} */ y) => [x, 0.1, y], (/** @type {number} */ x, /** @type {number} */ y) => [y, 0.1, x]]) {
+    const tableText = circleTableOf(([t, x, y, yaw]) => [t, ...positionOf(x, y), yaw], 't,x,y,z,yaw');
     const { ask } = await catchRefusalError(readTable(tableText));
     const { data } = await readTable(tableText, { columns: ask?.choices[0].split(',') });
     assert.deepEqual([[...data.x], [...data.y]], [1, 2].map((column) => CIRCLE_ROWS.map((row) => row[column])));

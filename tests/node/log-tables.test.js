@@ -6,7 +6,7 @@ import { test } from 'node:test';
 import { openRecordings } from '../../www/logs/open.ts';
 import { german } from '../../www/logs/de.ts';
 import { english } from '../../www/logs/en.ts';
-import { summarySentences } from '../../www/logs/log.ts';
+import { summarySentencesOf } from '../../www/logs/log.ts';
 
 /**
  * @import { LogChoice, OpenOptions } from '../../www/logs/log.ts'
@@ -35,8 +35,8 @@ const tableOf = (headerCells, cellsOf, separator = ',') => [headerCells, ...CIRC
 
 const EPOCH_SECONDS = 1_718_000_000;
 /** Returns the digits of a time (s) in nanoseconds. @param {number} t */
-const nanosecondText = (t) => `${EPOCH_SECONDS + Math.floor(t)}${String(Math.round((t % 1) * 1e9)).padStart(9, '0')}`;
-const secondsAndNanoseconds = (/** @type {number} */ t) => [EPOCH_SECONDS + Math.floor(t), Math.round((t % 1) * 1e9)];
+const formatNanoseconds = (t) => `${EPOCH_SECONDS + Math.floor(t)}${String(Math.round((t % 1) * 1e9)).padStart(9, '0')}`;
+const splitSeconds = (/** @type {number} */ t) => [EPOCH_SECONDS + Math.floor(t), Math.round((t % 1) * 1e9)];
 const withDecimalComma = (/** @type {unknown} */ cellValue) => String(cellValue).replace('.', ',');
 const toDegrees = (/** @type {number} */ radians) => (radians * 180) / Math.PI;
 const isoDateOf = (/** @type {number} */ t) => new Date((EPOCH_SECONDS + Math.floor(t)) * 1000).toISOString().slice(0, 19) + `.${String(Math.round((t % 1) * 1e9)).padStart(9, '0')}`;
@@ -48,9 +48,9 @@ const utf16BytesOf = (/** @type {string} */ text) => new Uint8Array(Buffer.from(
 const ODOMETRY_COLUMNS = 'seq header.frame_id child_frame_id pose.pose.position.x pose.pose.position.y pose.pose.position.z pose.pose.orientation.x pose.pose.orientation.y pose.pose.orientation.z pose.pose.orientation.w'.split(' ');
 const VELOCITY_COLUMNS = ['twist.twist.linear.x', 'twist.twist.linear.y', 'twist.twist.angular.x', 'twist.twist.angular.z'];
 const rostopicTableOf = (/** @type {(row: Row) => string | number} */ stampOf) =>
-  tableOf(['%time', 'field.header.stamp', ...[...ODOMETRY_COLUMNS, 'pose.covariance0', ...VELOCITY_COLUMNS].map((fieldName) => `field.${fieldName}`)].join(','), (row) => [nanosecondText(row.t), stampOf(row), row.i, 'odom', 'base', ...poseCellsOf(row), 9, row.v, 9, 9, row.omega]);
+  tableOf(['%time', 'field.header.stamp', ...[...ODOMETRY_COLUMNS, 'pose.covariance0', ...VELOCITY_COLUMNS].map((fieldName) => `field.${fieldName}`)].join(','), (row) => [formatNanoseconds(row.t), stampOf(row), row.i, 'odom', 'base', ...poseCellsOf(row), 9, row.v, 9, 9, row.omega]);
 const bagpyTableOf = (/** @type {string} */ secondsColumn, /** @type {string} */ nanosecondsColumn) =>
-  tableOf(['Time', secondsColumn, nanosecondsColumn, ...ODOMETRY_COLUMNS, ...VELOCITY_COLUMNS].join(','), (row) => [EPOCH_SECONDS + row.t + 7, ...secondsAndNanoseconds(row.t), row.i, 'odom', 'base', ...poseCellsOf(row), row.v, 9, 9, row.omega]);
+  tableOf(['Time', secondsColumn, nanosecondsColumn, ...ODOMETRY_COLUMNS, ...VELOCITY_COLUMNS].join(','), (row) => [EPOCH_SECONDS + row.t + 7, ...splitSeconds(row.t), row.i, 'odom', 'base', ...poseCellsOf(row), row.v, 9, 9, row.omega]);
 
 /** PlotJuggler's table of two topics, in which each sample of a topic has its own row. */
 const plotjugglerTable = [
@@ -103,7 +103,7 @@ const READABLE_TABLES = [
   { name: 'semicolons, decimal commas, sep=', text: `\ufeffsep=;\r\n${tableOf('Time [s];X [m];Y [m];Yaw [rad]', ({ t, x, y, theta }) => [t, x, y, theta].map(withDecimalComma), ';').replaceAll('\n', '\r\n')}` },
   { name: 'a spreadsheet in UTF-16', text: utf16BytesOf(tableOf('t\tx\ty\tyaw', ({ t, x, y, theta }) => [t, x, y, theta].map(withDecimalComma), '\t')) },
   { name: 'commas in quotes', text: tableOf('t,x,y,yaw', ({ t, x, y, theta }) => [t, x, y, theta].map((value) => `"${withDecimalComma(value)}"`)) },
-  { name: 'times with exponents', start: EPOCH_SECONDS, text: tableOf('t;x;y;yaw', ({ t, x, y, theta }) => [`1,${nanosecondText(t).slice(1)}E+18`, ...[x, y, theta].map(withDecimalComma)], ';') },
+  { name: 'times with exponents', start: EPOCH_SECONDS, text: tableOf('t;x;y;yaw', ({ t, x, y, theta }) => [`1,${formatNanoseconds(t).slice(1)}E+18`, ...[x, y, theta].map(withDecimalComma)], ';') },
   { name: 'units in a row below the header', text: tableOf('t,x,y,yaw,battery\n[ms],mm,mm,deg,V', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, toDegrees(theta), 24.5]), says: /time in ms \(by name\), lengths in mm \(by name\), yaw in degrees \(by name\)/ },
   { name: 'quantities over their units', text: tableOf('t/ms,x pos/mm,y pos / mm,yaw in deg', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, toDegrees(theta)]), says: /time in ms \(by name\), lengths in mm \(by name\), yaw in degrees \(by name\)/ },
   { name: 'bars, seconds and microseconds', start: EPOCH_SECONDS, text: tableOf('tv_sec|tv_usec|x|y|yaw', ({ t, x, y, theta }) => [EPOCH_SECONDS + Math.floor(t), (t % 1) * 1e6, x, y, theta], '|') },
@@ -114,17 +114,17 @@ const READABLE_TABLES = [
   { name: 'names of MATLAB', text: tableOf('Time,x_m_,y_m_,yaw_deg_', ({ t, x, y, theta }) => [t, x, y, toDegrees(theta)]), says: /degrees/ },
   { name: 'durations of MATLAB', text: tableOf('Time,x,y,yaw', ({ t, x, y, theta }) => [`00:00:${String(Math.floor(t)).padStart(2, '0')}.${String(t % 1).slice(2).padEnd(1, '0')}`, x, y, theta]) },
   { name: 'millimetres, degrees and milliseconds by name', text: tableOf('t_ms,x [mm],y [mm],yaw (deg)', ({ t, x, y, theta }) => [t * 1000, x * 1000, y * 1000, toDegrees(theta)]) },
-  { name: 'rostopic echo -p', start: EPOCH_SECONDS, text: rostopicTableOf(({ t }) => nanosecondText(t)) },
+  { name: 'rostopic echo -p', start: EPOCH_SECONDS, text: rostopicTableOf(({ t }) => formatNanoseconds(t)) },
   { name: 'rostopic echo -p with stamps of 0', start: EPOCH_SECONDS, text: rostopicTableOf(() => 0) },
-  { name: 'rostopic echo -p, commands', start: EPOCH_SECONDS, kind: 'commands', choice: { kind: 'commands' }, text: rostopicTableOf(({ t }) => nanosecondText(t)) },
+  { name: 'rostopic echo -p, commands', start: EPOCH_SECONDS, kind: 'commands', choice: { kind: 'commands' }, text: rostopicTableOf(({ t }) => formatNanoseconds(t)) },
   { name: 'bagpy', start: EPOCH_SECONDS, text: bagpyTableOf('header.stamp.secs', 'header.stamp.nsecs') },
   { name: 'stamp_sec, stamp_nsec', start: EPOCH_SECONDS, text: bagpyTableOf('stamp_sec', 'stamp_nsec') },
   { name: 'seconds, nanoseconds', start: EPOCH_SECONDS, text: bagpyTableOf('seconds', 'nanoseconds [ns]') },
-  { name: 'ros2 topic echo --csv of odometry', start: EPOCH_SECONDS, text: tableOf('', (row) => [...secondsAndNanoseconds(row.t), 'odom', 'base', ...poseCellsOf(row), ...zerosOf(36), row.v, 0, 0, 0, 0, row.omega, ...zerosOf(36)]).slice(1) },
-  { name: 'ros2 topic echo --csv --no-arr of odometry', start: EPOCH_SECONDS, text: tableOf('', (row) => [...secondsAndNanoseconds(row.t), 'odom', 'base', ...poseCellsOf(row), ABBREVIATED_ARRAY, row.v, 0, 0, 0, 0, row.omega, ABBREVIATED_ARRAY]).slice(1) },
-  { name: 'ros2 topic echo --csv --no-arr of poses with covariance', start: EPOCH_SECONDS, text: tableOf('', (row) => [...secondsAndNanoseconds(row.t), 'map', ...poseCellsOf(row), ABBREVIATED_ARRAY]).slice(1) },
-  { name: 'ros2 topic echo --csv of poses', start: EPOCH_SECONDS, text: tableOf('', (row) => [...secondsAndNanoseconds(row.t), 'map', ...poseCellsOf(row)]).slice(1) },
-  { name: 'ros2 topic echo --csv of commands', start: EPOCH_SECONDS, kind: 'commands', text: tableOf('', ({ t, v, omega }) => [...secondsAndNanoseconds(t), 'base', v, 0, 0, 0, 0, omega]).slice(1) },
+  { name: 'ros2 topic echo --csv of odometry', start: EPOCH_SECONDS, text: tableOf('', (row) => [...splitSeconds(row.t), 'odom', 'base', ...poseCellsOf(row), ...zerosOf(36), row.v, 0, 0, 0, 0, row.omega, ...zerosOf(36)]).slice(1) },
+  { name: 'ros2 topic echo --csv --no-arr of odometry', start: EPOCH_SECONDS, text: tableOf('', (row) => [...splitSeconds(row.t), 'odom', 'base', ...poseCellsOf(row), ABBREVIATED_ARRAY, row.v, 0, 0, 0, 0, row.omega, ABBREVIATED_ARRAY]).slice(1) },
+  { name: 'ros2 topic echo --csv --no-arr of poses with covariance', start: EPOCH_SECONDS, text: tableOf('', (row) => [...splitSeconds(row.t), 'map', ...poseCellsOf(row), ABBREVIATED_ARRAY]).slice(1) },
+  { name: 'ros2 topic echo --csv of poses', start: EPOCH_SECONDS, text: tableOf('', (row) => [...splitSeconds(row.t), 'map', ...poseCellsOf(row)]).slice(1) },
+  { name: 'ros2 topic echo --csv of commands', start: EPOCH_SECONDS, kind: 'commands', text: tableOf('', ({ t, v, omega }) => [...splitSeconds(t), 'base', v, 0, 0, 0, 0, omega]).slice(1) },
   { name: 'PlotJuggler, a topic of two', start: EPOCH_SECONDS, series: ['odom', 'mocap', 'imu'], choice: { series: 'odom' }, text: plotjugglerTable },
   {
     name: 'PlotJuggler, stamps of two topics', start: EPOCH_SECONDS, series: ['mocap.pose', 'cmd.vel'], choice: { series: 'mocap.pose' },
@@ -141,7 +141,7 @@ const READABLE_TABLES = [
   { name: 'UTIAS', start: EPOCH_SECONDS, text: tableOf('# Ground truth\n# Time [s]    x [m]    y [m]    orientation [rad]', ({ t, x, y, theta }) => [EPOCH_SECONDS + t, x, y, theta], '    ') },
   { name: 'UTIAS, commands', kind: 'commands', text: tableOf('# Time [s]    forward velocity [m/s]    angular velocity[rad/s]', ({ t, v, omega }) => [t, v, omega], '\t') },
   { name: 'a commented header in another order', text: tableOf('# ground truth\n# timestamp tx ty tz qw qx qy qz', ({ t, x, y, qz, qw }) => [t, x, y, 0, qw, 0, 0, qz], ' ') },
-  { name: 'EuRoC', start: EPOCH_SECONDS, text: tableOf('#timestamp [ns], p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z [], v_RS_R_x [m s^-1], v_RS_R_y [m s^-1]', ({ t, x, y, qz, qw }) => [nanosecondText(t), x, y, 0, qw, 0, 0, qz, 1, 1]) },
+  { name: 'EuRoC', start: EPOCH_SECONDS, text: tableOf('#timestamp [ns], p_RS_R_x [m], p_RS_R_y [m], p_RS_R_z [m], q_RS_w [], q_RS_x [], q_RS_y [], q_RS_z [], v_RS_R_x [m s^-1], v_RS_R_y [m s^-1]', ({ t, x, y, qz, qw }) => [formatNanoseconds(t), x, y, 0, qw, 0, 0, qz, 1, 1]) },
   { name: 'columns that are given, some skipped', options: { columns: ['-', 't', 'x', 'y', 'yaw_deg'] }, text: tableOf('a,b,c,d,e', ({ i, t, x, y, theta }) => [i, t, x, y, toDegrees(theta)]) },
   { name: 'dates with a zone, in a column without a name', start: EPOCH_SECONDS, text: tableOf(',x,y,yaw', ({ t, x, y, theta }) => [`${isoDateOf(t + 7200)}+02:00`, x, y, theta]) },
   { name: 'times in ms, by rate and speed', text: tableOf('t,x,y,yaw', ({ t, x, y, theta }) => [t * 1000, x, y, theta]), says: /time in ms \(by rate and speed\)/ },
@@ -161,8 +161,8 @@ for (const { name, text, kind = 'poses', start = 0, series = [''], choice, optio
       // Conversion from other units or from quaternions rounds values, by up to 1.25 in the last place.
       for (const fieldName of fieldNames) assert.ok(Math.abs(columns[fieldName][row.i] - row[fieldName]) <= Number.EPSILON, `${fieldName} ${columns[fieldName][row.i]} ${row[fieldName]}`);
     }
-    const summaryLines = summarySentences(log, english.found);
+    const summaryLines = summarySentencesOf(log, english.found);
     if (says) assert.match(summaryLines.join('\n'), says);
-    assert.equal(summarySentences(log, german.found).length, summaryLines.length);
+    assert.equal(summarySentencesOf(log, german.found).length, summaryLines.length);
   });
 }

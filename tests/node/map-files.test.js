@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { crc32 } from 'node:zlib';
 import { limits } from '../../build/settings.js';
-import { mapYamlFile, fileWith, simulationWithMap, catchRefusalMessage } from './map-support.js';
+import { createMapYamlFile, fileWith, simulationWithMap, catchRefusalMessage } from './map-support.js';
 
 const PGM_FILE = fileWith('map.pgm', 'P5 2 1 255\n\x00\x7f');
 /** PNG image of the same two pixels as the PGM image. */
@@ -42,14 +42,14 @@ test('YAML features other than fields and values are refused at once', async () 
   await assertRefusedAtOnce('image: *a', 'unidentified alias "a"|aliases exceeded maxAliases \\(0\\)');
   // A long key is ignored like other unknown fields. So is a key that is the name of a property of objects.
   for (const ignoredKey of ['x'.repeat(9e4), '__proto__', 'constructor', 'toString', '<<']) {
-    const { grid } = await simulationWithMap(mapYamlFile({ image: 'map.pgm', [ignoredKey]: '{resolution: 9, image: [1]}' }), PGM_FILE);
+    const { grid } = await simulationWithMap(createMapYamlFile({ image: 'map.pgm', [ignoredKey]: '{resolution: 9, image: [1]}' }), PGM_FILE);
     assert.deepEqual([grid?.columns, grid?.rows, grid?.resolution], [2, 1, 0.05]);
   }
   assert.equal(Reflect.get({}, 'resolution'), undefined);
 });
 
 test('files that are not one map, or a plan that is not JSON, are refused with what is expected', async () => {
-  const yamlFile = mapYamlFile({ image: 'map.pgm' });
+  const yamlFile = createMapYamlFile({ image: 'map.pgm' });
   const planFile = fileWith('plan.json', '{"bounds": [0, 0, 1, 1], "walls": []}');
   for (const fileSelection of [[yamlFile, PGM_FILE, planFile], [PGM_FILE], [yamlFile, PGM_FILE, fileWith('notes.txt', '')]]) {
     const fileNames = fileSelection.map(({ name }) => name).join(', ');
@@ -59,7 +59,7 @@ test('files that are not one map, or a plan that is not JSON, are refused with w
 });
 
 test('a description is read as leniently as map_server reads it', async () => {
-  const expectedSimulation = await simulationWithMap(mapYamlFile({ image: 'map.pgm', origin: '[-1, 2, 0]', mode: 'trinary', negate: 1 }), PGM_FILE);
+  const expectedSimulation = await simulationWithMap(createMapYamlFile({ image: 'map.pgm', origin: '[-1, 2, 0]', mode: 'trinary', negate: 1 }), PGM_FILE);
   for (const yaml of [
     'image: map.pgm\r\nresolution: "0.05"\r\norigin: ["-1.0", \'2\', 0]\r\nnegate: "1"\r\nmode: Trinary\r\n',
     'image:\tmap.pgm\nresolution:\t0.05\t\norigin:\t[-1,\t2,\t0]\n\tnegate: Yes\nmode:\tTRINARY\n',
@@ -67,7 +67,7 @@ test('a description is read as leniently as map_server reads it', async () => {
 });
 
 test('a PNG image may have any extension', async () => {
-  const [pgmMap, pngMap] = await Promise.all([PGM_FILE, fileWith('map.pgm', PNG_BYTES)].map((image) => simulationWithMap(mapYamlFile({ image: 'map.pgm' }), image)));
+  const [pgmMap, pngMap] = await Promise.all([PGM_FILE, fileWith('map.pgm', PNG_BYTES)].map((image) => simulationWithMap(createMapYamlFile({ image: 'map.pgm' }), image)));
   assert.deepEqual(pngMap.grid, pgmMap.grid);
 });
 
@@ -75,7 +75,7 @@ test('a value of any kind or length is refused by a sentence that can be read', 
   const longText = 'x'.repeat(9e4);
   for (const yamlValue of [`"${longText}"`, `[${'[1], '.repeat(1e4)}]`, '{a: {b: [c]}}', 'null', 'true', '.nan', '1e999', '""']) {
     for (const fieldName of ['image', 'resolution', 'origin', 'negate', 'mode', 'occupied_thresh', 'free_thresh']) {
-      const message = await catchRefusalMessage([mapYamlFile({ image: 'map.pgm', [fieldName]: yamlValue }), PGM_FILE]);
+      const message = await catchRefusalMessage([createMapYamlFile({ image: 'map.pgm', [fieldName]: yamlValue }), PGM_FILE]);
       const isAccepted = fieldName === 'negate' && yamlValue === 'true';
       assert.match(message, isAccepted ? /^$/ : new RegExp(`^map\\.yaml: ${fieldName}(\\[0\\])? .+; (allowed|expected) (is|are) .+\\.$`), `${fieldName}: ${yamlValue.slice(0, 30)}`);
       assert.ok(message.length < 400, `${fieldName}: ${yamlValue.slice(0, 30)}: ${message.length} characters`);
@@ -88,17 +88,17 @@ test('the size of a file is checked before the file is read', async () => {
     const largeFile = fileWith(name, '');
     Object.defineProperty(largeFile, 'size', { value: maxBytes + 1 });
     largeFile.arrayBuffer = () => assert.fail(`${name} is read.`);
-    const files = name === 'map.pgm' ? [mapYamlFile({ image: name }), largeFile] : [largeFile];
+    const files = name === 'map.pgm' ? [createMapYamlFile({ image: name }), largeFile] : [largeFile];
     assert.equal(await catchRefusalMessage(files), `${name}: the file has ${maxBytes + 1} bytes; expected are at most ${maxBytes}.`);
   }
 });
 
 test('a damaged or too large PNG image is refused by a sentence', async () => {
-  const message = await catchRefusalMessage([mapYamlFile(), fileWith('map.png', PNG_BYTES.subarray(0, 50))]);
+  const message = await catchRefusalMessage([createMapYamlFile(), fileWith('map.png', PNG_BYTES.subarray(0, 50))]);
   assert.match(message, /^map\.png: the PNG image is damaged or cut short before byte \d+ of 50; allowed is a complete one\.$/);
   const largeImage = Buffer.from(PNG_BYTES);
   largeImage.fill(Buffer.of(0, 1, 0x86, 0xa0), 16, 24);
   // The checksum of the PNG header follows its type and its data.
   largeImage.writeUInt32BE(crc32(largeImage.subarray(12, 29)), 29);
-  assert.equal(await catchRefusalMessage([mapYamlFile(), fileWith('map.png', largeImage)]), 'map.png: image has 100000 × 100000 pixels; allowed are at most 33554432.');
+  assert.equal(await catchRefusalMessage([createMapYamlFile(), fileWith('map.png', largeImage)]), 'map.png: image has 100000 × 100000 pixels; allowed are at most 33554432.');
 });

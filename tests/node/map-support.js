@@ -13,7 +13,7 @@ const decodePng = async (/** @type {Uint8Array} */ pngBytes) => core.readMapImag
 export const fileWith = (fileName, fileContents) => new File([fileContents], fileName);
 
 /** Returns the YAML file that describes an image, with fields replaced or added. @param {Record<string, unknown>} [changedFields] */
-export function mapYamlFile(changedFields) {
+export function createMapYamlFile(changedFields) {
   const allFields = { image: 'map.png', resolution: 0.05, origin: '[0, 0, 0]', ...changedFields };
   return fileWith('map.yaml', Object.entries(allFields).map(([fieldName, fieldValue]) => `${fieldName}: ${fieldValue}\n`).join(''));
 }
@@ -33,7 +33,7 @@ export async function catchRefusalMessage(mapFiles, language = 'en') {
   try {
     (await readMapFiles(mapFiles, decodePng)).apply(trialSimulation);
   } catch (error) {
-    if (error instanceof MapFileError) return error.sentence({ en, de }[language].refused);
+    if (error instanceof MapFileError) return error.messageIn({ en, de }[language].refused);
     throw error;
   }
   return '';

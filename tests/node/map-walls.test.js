@@ -2,7 +2,7 @@
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { findWallContact, gripsOf, wallsAfterMove } from '../../www/widgets/map-squeeze/walls.ts';
+import { findWallContact, gripsOf, moveWall } from '../../www/widgets/map-squeeze/walls.ts';
 
 /** Room of 6 m × 4 m with a wall at x = 3 that has a doorway, and a wall that ends at its lower part. */
 const ROOM_BOUNDS = Float64Array.of(0, 0, 6, 4);
@@ -26,13 +26,13 @@ test('a jamb goes along its wall, up to the other jamb and down to a stub', () =
   assert.ok(grip);
   assert.deepEqual(grip.axis, [0, 1]);
   assert.deepEqual(grip.range.map((rangeLimit) => Number(rangeLimit.toFixed(9))), [-1.45, 0.95]);
-  assert.deepEqual([...wallsAfterMove(WALLS, grip, 0.5).subarray(LOWER_WALL_INDEX, LOWER_WALL_INDEX + 4)], [3, 0, 3, 2]);
+  assert.deepEqual([...moveWall(WALLS, grip, 0.5).subarray(LOWER_WALL_INDEX, LOWER_WALL_INDEX + 4)], [3, 0, 3, 2]);
 });
 
 test('a wall goes across, and the wall that ends at it follows', () => {
   const grip = gripOf('side');
   assert.ok(grip);
-  const wallsAfter = wallsAfterMove(WALLS, grip, grip.axis[0] * 0.5);
+  const wallsAfter = moveWall(WALLS, grip, grip.axis[0] * 0.5);
   assert.deepEqual([...wallsAfter.subarray(LOWER_WALL_INDEX)], [3.5, 0, 3.5, 1.5, 3, 2.5, 3, 4, 0, 1, 3.5, 1]);
   assert.deepEqual([...wallsAfter.subarray(0, LOWER_WALL_INDEX)], OUTER_WALLS);
 });

@@ -5,7 +5,7 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { test } from 'node:test';
 import { ROOT, filesOf } from '../../scripts/process.mjs';
-import { loadEngine, findEngineNames } from '../embeddings/project.mjs';
+import { loadPlatform, findPlatformNames } from '../embeddings/project.mjs';
 
 const embeddingDocuments = filesOf('doc').filter((path) => /embedding.*\.md$/.test(path)).map((path) => readFileSync(join(ROOT, path), 'utf8')).join('\n');
 const linesOf = (/** @type {string} */ sourceText) => sourceText.split('\n').map((line) => line.trim()).filter((line) => line !== '');
@@ -16,8 +16,8 @@ function linesOfFile(path) {
   return linesOf(path.endsWith('.ipynb') ? JSON.parse(text).cells.map((/** @type {any} */ { source }) => source.join('')).join('\n') : text);
 }
 
-for (const engineName of await findEngineNames()) {
-  const { heading, versions } = await loadEngine(engineName);
+for (const platformName of await findPlatformNames()) {
+  const { heading, versions } = await loadPlatform(platformName);
 
   test(`${heading}: the document has lines of the example, and the versions that were tried`, () => {
     const tableRow = embeddingDocuments.split('\n').find((line) => line.startsWith(`| ${heading} |`));
@@ -25,8 +25,8 @@ for (const engineName of await findEngineNames()) {
     const documentSection = embeddingDocuments.split(/^## /m).find((text) => text.startsWith(`${heading}\n`)) ?? '';
     // The files of the example contain no shell commands.
     const codeBlocks = [...documentSection.matchAll(/^```(\w*)\n(.*?)^```$/gms)].filter(([, codeLanguage]) => codeLanguage !== 'sh');
-    const exampleLines = new Set(filesOf(join('examples', engineName)).flatMap(linesOfFile));
+    const exampleLines = new Set(filesOf(join('examples', platformName)).flatMap(linesOfFile));
     const missingLines = codeBlocks.flatMap(([, , codeBlock]) => linesOf(codeBlock)).filter((line) => !exampleLines.has(line));
-    assert.deepEqual(missingLines, [], `examples/${engineName} does not have these lines of the document.`);
+    assert.deepEqual(missingLines, [], `examples/${platformName} does not have these lines of the document.`);
   });
 }

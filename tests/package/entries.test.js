@@ -202,8 +202,8 @@ test('external.js loads a widget when its tag is met, with the words that the pa
   await page.route('**/page.html', (route) => route.fulfill({ contentType: 'text/html', body: pageHtml }));
   await page.goto(`${installedProject.address}page.html`);
   await page.locator('banana-machine canvas').first().waitFor();
-  const squeezeRequestPaths = () => requestedPaths.filter((path) => path.includes('/map-squeeze-'));
-  assert.deepEqual(squeezeRequestPaths(), []);
+  const listSqueezeRequestPaths = () => requestedPaths.filter((path) => path.includes('/map-squeeze-'));
+  assert.deepEqual(listSqueezeRequestPaths(), []);
   // The element that is defined later has a Map Squeeze in its shadow root.
   await page.evaluate(() => {
     const LateElement = class extends HTMLElement {
@@ -215,7 +215,7 @@ test('external.js loads a widget when its tag is met, with the words that the pa
   });
   await page.locator('map-squeeze').scrollIntoViewIfNeeded();
   await page.getByRole('region', { name: 'Le plan' }).getByRole('button', { name: 'Un pas' }).waitFor();
-  assert.equal(squeezeRequestPaths().length, 1);
+  assert.equal(listSqueezeRequestPaths().length, 1);
 });
 
 test('package.json names no file that the package leaves out', () => {

@@ -66,7 +66,7 @@ test('the one file of a classroom, from a disk', async () => {
 // The bundlers below do not copy the WebAssembly modules into their output. They do not process `new URL(…, import.meta.url)`.
 
 /** Returns a function by which esbuild bundles main.js into a directory. @param {import('esbuild').BuildOptions} buildOptions */
-const esbuildBundler = (buildOptions) => async (/** @type {string} */ outputDirectory) => {
+const createEsbuildBundler = (buildOptions) => async (/** @type {string} */ outputDirectory) => {
   const entryPoints = [join(installedProject.directory, 'main.js')];
   const { warnings } = await build({ entryPoints, outdir: outputDirectory, bundle: true, minify: true, logLevel: 'silent', ...buildOptions });
   assert.deepEqual(warnings, []);
@@ -74,9 +74,9 @@ const esbuildBundler = (buildOptions) => async (/** @type {string} */ outputDire
 
 /** Bundlers by the names of their tests. Each bundler writes main.js into a directory. @type {Record<string, (outdir: string) => Promise<void>>} */
 const BUNDLERS = {
-  'esbuild with chunks': esbuildBundler({ format: 'esm', splitting: true }),
-  "esbuild in one file, as Hugo's js.Build": esbuildBundler({ format: 'esm' }),
-  'esbuild as a classic script': esbuildBundler({ format: 'iife' }),
+  'esbuild with chunks': createEsbuildBundler({ format: 'esm', splitting: true }),
+  "esbuild in one file, as Hugo's js.Build": createEsbuildBundler({ format: 'esm' }),
+  'esbuild as a classic script': createEsbuildBundler({ format: 'iife' }),
   async Rollup(outputDirectory) {
     // Rollup needs a plugin to find packages.
     const rollupBundle = await rollup({ input: { main: join(installedProject.directory, 'node_modules/motion-widgets/dist/external.js') } });

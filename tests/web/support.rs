@@ -48,13 +48,13 @@ impl JsObject {
     /// Asserts that each expression throws the error in the line below it and does not change the state. A line with more
     /// indentation than the first continues the line before it.
     pub fn assert_refused(&self, state_expression: &str, expressions_and_errors: &str) {
-        let indentation = |line: &str| line.len() - line.trim_start().len();
+        let indentation_of = |line: &str| line.len() - line.trim_start().len();
         let base_indentation =
-            expressions_and_errors.lines().find(|line| !line.trim().is_empty()).map_or(0, indentation);
+            expressions_and_errors.lines().find(|line| !line.trim().is_empty()).map_or(0, indentation_of);
         let mut cases_and_errors: Vec<String> = Vec::new();
         for line in expressions_and_errors.lines().filter(|line| !line.trim().is_empty()) {
             match cases_and_errors.last_mut() {
-                Some(previous_line) if indentation(line) > base_indentation => {
+                Some(previous_line) if indentation_of(line) > base_indentation => {
                     *previous_line += &format!(" {}", line.trim())
                 }
                 _ => cases_and_errors.push(line.trim().to_owned()),

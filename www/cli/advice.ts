@@ -6,7 +6,7 @@ import { LogError, truncate, UNITS } from '../logs/log.ts';
 export const quoteForShell = (text: string): string => (/^[\w./,@%+=:-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
 
 /** Returns a sentence with the option that answers the question of an error. */
-export function optionAdvice({ ask, message }: LogError): string {
+export function adviseOption({ ask, message }: LogError): string {
   if (!ask || message.includes(' --')) return '';
   const { what, role = 'odometry', choices, columns = [], doubted } = ask;
   if (what === 'other' || what === 'roles') return ' Name both, with --odometry FILE and --reference FILE.';

@@ -3,8 +3,8 @@
 import { group } from 'd3-array';
 import { findCandidates, isLocalizer, planDrives, type RecordingChoice } from '../logs/drives.ts';
 import { english } from '../logs/en.ts';
-import { LogError, truncate, ROLES, framesOption, framesText, summarySentences, type LogChoice, type Recording, type Role, type Summary } from '../logs/log.ts';
-import { optionAdvice, quoteForShell } from './advice.ts';
+import { LogError, truncate, ROLES, formatFramesOption, formatFrames, summarySentencesOf, type LogChoice, type Recording, type Role, type Summary } from '../logs/log.ts';
+import { adviseOption, quoteForShell } from './advice.ts';
 import { alignRows } from './report.ts';
 import type { OpenedInputs } from './run.ts';
 
@@ -37,21 +37,21 @@ async function contentsOf(recording: Recording, onProgress?: (share: number | un
     if (possibleUses.length === 0) series.push({ name: seriesName, type, rows: count, uses: [] });
     // Each chain of transforms that could be a log has its own entry.
     for (const { choice, uses } of possibleUses) {
-      const entry = { name: choice.frames ? `${seriesName} (${framesText(choice.frames)})` : seriesName, type, rows: count, uses };
+      const entry = { name: choice.frames ? `${seriesName} (${formatFrames(choice.frames)})` : seriesName, type, rows: count, uses };
       try {
         const [log] = await recording.read([choice], onProgress);
-        series.push({ ...entry, rows: log.summary.rows, summary: log.summary, sentences: summarySentences(log, english.found) });
+        series.push({ ...entry, rows: log.summary.rows, summary: log.summary, sentences: summarySentencesOf(log, english.found) });
       } catch (error) {
         if (!(error instanceof LogError)) throw error;
         series.push(entry);
-        refusalErrors.add(`${error.message}${optionAdvice(error)}`);
+        refusalErrors.add(`${error.message}${adviseOption(error)}`);
       }
     }
   }
   return { name, format, series, refused: [...refusalErrors] };
 }
 
-export function inspectionText({ inspection: { recordings, command }, sentences, isUsable }: Awaited<ReturnType<typeof inspect>>): string {
+export function formatInspection({ inspection: { recordings, command }, sentences, isUsable }: Awaited<ReturnType<typeof inspect>>): string {
   const recordingLines = recordings.flatMap(({ name, format, series }) => {
     const tableRows = series.map(({ name: seriesName, type, rows: count, uses, summary }) => [seriesName || '(all columns)', format === 'csv' ? truncate(type) : type, String(count || ''), summary ? `${summary.rate.toPrecision(3)} Hz` : '', uses.join(' or ')]);
     const summaryLines = series.flatMap(({ name: seriesName, sentences = [] }) => sentences.map((line, i) => (i > 0 ? `  ${line}` : seriesName ? `${seriesName}: ${line}` : line)));
@@ -63,33 +63,33 @@ export function inspectionText({ inspection: { recordings, command }, sentences,
 /** Returns the logs that can be read from a series, each with texts about its possible roles. A series of transforms may have several logs. */
 function usesOfSeries(recording: Recording, name: string): { choice: LogChoice; uses: string[] }[] {
   const rolesAndKinds: [Role, 'commands'?][] = [['odometry'], ['odometry', 'commands'], ['reference']];
-  const uses = rolesAndKinds.flatMap(([role, kind]) => {
-    const candidates = findCandidates(recording, role, { kind }).flat().filter((choice) => choice.series === name && (!kind || choice.kind === kind));
-    const suffixOf = ({ frames }: LogChoice) => (kind ? ' (commands)' : role === 'reference' && isLocalizer(name, frames) ? ' (a localizer)' : '');
+  const uses = rolesAndKinds.flatMap(([role, wantedKind]) => {
+    const candidates = findCandidates(recording, role, { kind: wantedKind }).flat().filter((choice) => choice.series === name && (!wantedKind || choice.kind === wantedKind));
+    const suffixOf = ({ frames }: LogChoice) => (wantedKind ? ' (commands)' : role === 'reference' && isLocalizer(name, frames) ? ' (a localizer)' : '');
     return candidates.map((choice) => ({ frames: choice.frames, text: `${role}${suffixOf(choice)}` }));
   });
-  return Array.from(group(uses, ({ frames }) => frames && framesOption(frames)).values(), (usesOfLog) => ({
+  return Array.from(group(uses, ({ frames }) => frames && formatFramesOption(frames)).values(), (usesOfLog) => ({
     choice: { series: name, ...(usesOfLog[0].frames && { frames: usesOfLog[0].frames }) }, uses: [...new Set(usesOfLog.map(({ text }) => text))],
   }));
 }
 
 /** Returns the command that calibrates from the recordings, or a sentence about missing logs. */
 function proposeCommand({ givenRecordings, userChoices }: OpenedInputs, statedOptions: [name: string, value: string][]): { command?: string; missing?: string } {
-  const quotedPath = ({ recording }: Pick<RecordingChoice, 'recording'>) => quoteForShell(givenRecordings.find((file) => file.recording === recording)?.path ?? recording.name);
-  const quotedPaths = givenRecordings.map(quotedPath);
+  const quotePath = ({ recording }: Pick<RecordingChoice, 'recording'>) => quoteForShell(givenRecordings.find((file) => file.recording === recording)?.path ?? recording.name);
+  const quotedPaths = givenRecordings.map(quotePath);
   try {
     const { drives, unpaired } = planDrives(givenRecordings.map(({ recording }) => recording), userChoices);
     const choiceOptions = ROLES.flatMap((role) => [...drives.map((drive) => drive[role]), ...unpaired[role]].flatMap(({ choice: { series, frames } }) => [
       ...(series ? [`--${role}-topic ${quoteForShell(series)}`] : []),
-      ...(frames ? [`--${role}-frames ${quoteForShell(framesOption(frames))}`] : []),
+      ...(frames ? [`--${role}-frames ${quoteForShell(formatFramesOption(frames))}`] : []),
     ]));
-    const fileArguments = [...drives.map(({ odometry }) => quotedPath(odometry)), ...ROLES.flatMap((role) => unpaired[role].map((part) => `--${role} ${quotedPath(part)}`))];
+    const fileArguments = [...drives.map(({ odometry }) => quotePath(odometry)), ...ROLES.flatMap((role) => unpaired[role].map((recordingChoice) => `--${role} ${quotePath(recordingChoice)}`))];
     // The logs of one folder may have different roles, so that the folder is given without a role.
     const isPathShared = new Set(quotedPaths).size < quotedPaths.length;
     const optionTexts = [...new Set([...(isPathShared ? quotedPaths : fileArguments), ...choiceOptions]), ...statedOptions.map(([name, value]) => `--${name} ${quoteForShell(value)}`)];
     return { command: ['npx motion-widgets calibrate', ...optionTexts, '--rule nav2'].join(' ') };
   } catch (error) {
     if (!(error instanceof LogError)) throw error;
-    return { missing: `${error.message}${optionAdvice(error)}` };
+    return { missing: `${error.message}${adviseOption(error)}` };
   }
 }

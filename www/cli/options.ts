@@ -121,7 +121,7 @@ export function parseOptions(args: string[]) {
     const path = [command, ...positionalPaths].find(isPath) ?? 'run.bag';
     throw new UsageError(`the command must be calibrate or inspect (got “${truncate(command ?? '')}”), as in npx motion-widgets inspect ${quoteForShell(path)}; --help has examples.`);
   }
-  const numberOption = (name: 'update-min-d' | 'update-min-a' | 'duration' | 'reference-position-std' | 'reference-yaw-std') => {
+  const readNumberOption = (name: 'update-min-d' | 'update-min-a' | 'duration' | 'reference-position-std' | 'reference-yaw-std') => {
     const value = values[name];
     if (value === undefined) return undefined;
     const parsedNumber = value.trim() === '' ? NaN : Number(value);
@@ -129,13 +129,13 @@ export function parseOptions(args: string[]) {
     const decimalHint = /^-?\d*,\d+$/.test(value) ? ` with a decimal point, ${value.replace(',', '.')}` : '';
     throw new UsageError(`--${name} must be a number${decimalHint} (got “${truncate(value)}”).`);
   };
-  const [distance, angle, duration] = [numberOption('update-min-d'), numberOption('update-min-a'), numberOption('duration')];
+  const [distance, angle, duration] = [readNumberOption('update-min-d'), readNumberOption('update-min-a'), readNumberOption('duration')];
   if (duration !== undefined && (distance ?? angle) !== undefined) throw new UsageError('--duration excludes --update-min-d and --update-min-a: give one or the other.');
   if (values.plot !== undefined && !/\.svg$/i.test(values.plot)) throw new UsageError(`--plot writes SVG; the name must end in .svg (got “${truncate(values.plot)}”).`);
   if (values.json && values.yaml) throw new UsageError('--json excludes --yaml: give one or the other.');
   if (recording.length === 0) {
-    for (const [one, other] of [[odometry, 'reference'], [reference, 'odometry']] as const) {
-      if (one.length > 0 && !values[other]) throw new UsageError(`--${other} is missing; give a file or folder, or a recording with both.`);
+    for (const [pathsOfRole, otherRole] of [[odometry, 'reference'], [reference, 'odometry']] as const) {
+      if (pathsOfRole.length > 0 && !values[otherRole]) throw new UsageError(`--${otherRole} is missing; give a file or folder, or a recording with both.`);
     }
     if (odometry.length === 0) throw new UsageError('no logs are given; give a recording, as in calibrate run.bag, or two files, odometry and reference.');
   }
@@ -148,8 +148,8 @@ export function parseOptions(args: string[]) {
       rule: values.rule,
       outliers: values.outliers,
       correct: parseCorrections(values['no-correct'], values.correct),
-      positionStd: numberOption('reference-position-std'),
-      yawStd: numberOption('reference-yaw-std'),
+      positionStd: readNumberOption('reference-position-std'),
+      yawStd: readNumberOption('reference-yaw-std'),
     }),
     output: values.json ? 'json' : values.yaml ? 'yaml' : 'text',
     plot: values.plot,

@@ -1,8 +1,8 @@
 /** Picture of the drives: both paths, the ends of legs, and outliers, as SVG. */
 
 import type { Drive } from '../logs/pairs.ts';
-import { alignedPath, pathOf, poseAt, type Pose } from '../logs/path.ts';
-import { drawAxes, lineLegendEntry } from '../scene/axes.ts';
+import { alignPath, pathOf, poseAt, type Pose } from '../logs/path.ts';
+import { drawAxes, createLineLegendEntry } from '../scene/axes.ts';
 import { drawDisc, strokePath, type DrawContext } from '../scene/canvas.ts';
 import { SvgContext, escapeXml } from '../scene/svg.ts';
 import { View, extentOf } from '../scene/view.ts';
@@ -23,15 +23,15 @@ const LINE_STYLES = {
 
 export const drivesSvg = (drives: Drive[], calibration: any): string => `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${PANEL_WIDTH} ${PANEL_HEIGHT * drives.length}" width="${PANEL_WIDTH}" height="${PANEL_HEIGHT * drives.length}">
 <rect width="100%" height="100%" fill="#fff"/>
-${drives.map((drive, i) => `<g transform="translate(0 ${PANEL_HEIGHT * i})">${drivePanel(drive, calibration, `drive-${i}`)}</g>`).join('\n')}
+${drives.map((drive, i) => `<g transform="translate(0 ${PANEL_HEIGHT * i})">${createDrivePanel(drive, calibration, `drive-${i}`)}</g>`).join('\n')}
 </svg>
 `;
 
-function drivePanel({ odometry, reference }: Drive, { legs, systematicErrors }: any, id: string): string {
+function createDrivePanel({ odometry, reference }: Drive, { legs, systematicErrors }: any, id: string): string {
   const [drivenPath, referencePath] = [odometry.data, reference.data].map((data) => pathOf(data, Math.ceil(data.t.length / MAX_PATH_POINTS)));
   // Times of legs are in the odometry's clock.
   const clockOffset = systematicErrors.clockOffset.value ?? 0;
-  const odometryPath = alignedPath(drivenPath, referencePath, clockOffset);
+  const odometryPath = alignPath(drivenPath, referencePath, clockOffset);
   const [startTime, endTime] = [odometry.data.t[0], odometry.data.t[odometry.data.t.length - 1]];
   const legsOfDrive = Array.from({ length: legs.count }, (_, leg) => ({ times: [legs.times[2 * leg], legs.times[2 * leg + 1]], isOutlier: legs.outliers[leg] === 1 })).filter(({ times: [from, to] }) => from >= startTime && to <= endTime);
   const outlierLegs = legsOfDrive.filter(({ isOutlier }) => isOutlier);
@@ -43,7 +43,7 @@ function drivePanel({ odometry, reference }: Drive, { legs, systematicErrors }: 
   const context = new SvgContext(id);
   const drawContext = { context, view, palette: PALETTE, font: '13px sans-serif' } as unknown as DrawContext;
   const shownLines = [LINE_STYLES.reference, LINE_STYLES.odometry, ...(outlierLegs.length ? [LINE_STYLES.outlier] : [])];
-  drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, shownLines.map(({ label, ...style }) => lineLegendEntry(drawContext, label, style)));
+  drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, shownLines.map(({ label, ...style }) => createLineLegendEntry(drawContext, label, style)));
   const strokePoses = (poses: Pose[], breaks: Set<number>, style: (typeof shownLines)[number]) => strokePath(drawContext.context, style, () => poses.forEach(([x, y], i) => {
     if (i === 0 || breaks.has(i)) context.moveTo(...view.toPixel(x, y));
     else context.lineTo(...view.toPixel(x, y));

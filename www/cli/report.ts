@@ -5,7 +5,7 @@ import { ROLES, type Summary } from '../logs/log.ts';
 import { warningsOf } from '../logs/pairs.ts';
 import { en as sharedTexts } from '../messages/en.ts';
 import { en } from '../widgets/alpha-calibrator/en.ts';
-import { componentsOf, formatAlphaOrBound, formatEstimate, formatInterval, formatNumber, formatPercent, isNav2Rule, nav2Lines } from '../widgets/alpha-calibrator/result.ts';
+import { componentsOf, formatAlphaOrBound, formatEstimate, formatInterval, formatNumber, formatPercent, isNav2Rule, formatNav2Lines } from '../widgets/alpha-calibrator/result.ts';
 import { LOST_LEG_CAUSES, SYSTEMATIC_ERRORS, adviceOf, judgementOf } from '../widgets/alpha-calibrator/result.ts';
 import type { Calibration, CalibrationCheck } from '../types.d.ts';
 
@@ -41,19 +41,19 @@ const RATING_COLORS = { consistent: GREEN, questionable: YELLOW, unusable: RED }
 const colorize = (color: number) => (text: string) => `\x1b[${color}m${text}\x1b[0m`;
 
 /** Returns the text report, which follows the summaries of the logs. */
-export function reportText(result: CalibrationResult, isColored = false): string {
-  const { calibration, options, driveStarts } = result;
+export function formatReport(calibrationResult: CalibrationResult, isColored = false): string {
+  const { calibration, options, driveStarts } = calibrationResult;
   const { legs, lost, diagnostics: { checks, windows } } = calibration;
   const { model = 'odometry', rule = 'thrun' } = options;
   const { distance, angle, duration } = options.legs;
   const lengthText = duration === undefined ? en.nav2.moved(formatNumber(distance), formatNumber(angle)) : en.nav2.lasted(formatNumber(duration));
-  const { yaml, reason } = nav2Yaml(result);
+  const { yaml, reason } = formatNav2Yaml(calibrationResult);
   const windowRows = windows.map(({ length, count, coverage, nees }) => [`of ${formatNumber(length)} m`, String(count), formatPercent(coverage), formatNumber(nees)]);
   const lostLegTexts = LOST_LEG_CAUSES.filter((cause) => lost[cause] > 0).map((cause) => `${lost[cause]} ${en.lost[cause]}`);
-  const excludedLegLines = [...(lostLegTexts.length ? [`lost legs: ${lostLegTexts.join(', ')}`] : []), ...outlierLines(legs, driveStarts)];
+  const excludedLegLines = [...(lostLegTexts.length ? [`lost legs: ${lostLegTexts.join(', ')}`] : []), ...formatOutliers(legs, driveStarts)];
   const uncoloredReport = [
     '',
-    ...verdictLines(result),
+    ...formatVerdict(calibrationResult),
     '',
     `${legs.count} legs ${lengthText}; model ${model}${model === 'odometry' ? `, rule ${rule}` : ''}`,
     '',
@@ -67,11 +67,11 @@ export function reportText(result: CalibrationResult, isColored = false): string
     ...(excludedLegLines.length ? [...excludedLegLines, ''] : []),
     ...alignRows([['held-out windows', 'number', 'covered', 'squared error / variance (NEES)'], ...windowRows]),
     '',
-    ...(reason ? [reason] : [...ruleWarning(result), '# nav2_params.yaml', yaml.trimEnd()]),
+    ...(reason ? [reason] : [...warnAboutRule(calibrationResult), '# nav2_params.yaml', yaml.trimEnd()]),
     '',
   ].join('\n');
   if (!isColored) return uncoloredReport;
-  const { rating, badge } = judge(result);
+  const { rating, badge } = judge(calibrationResult);
   return uncoloredReport.replace(badge, colorize(RATING_COLORS[rating])).replaceAll(/\bok(?= {2})/g, colorize(GREEN)).replaceAll(/\bFAILED(?= {2})/g, colorize(RED));
 }
 
@@ -80,8 +80,8 @@ function judge({ calibration, options: { model, correct = {} }, logs }: Judged) 
 }
 
 /** Returns the verdict as on the page, and what to do, in a line for each sentence. */
-export function verdictLines(result: Judged): string[] {
-  const { badge, finding, advice } = judge(result);
+export function formatVerdict(judgedResult: Judged): string[] {
+  const { badge, finding, advice } = judge(judgedResult);
   return [`${badge}. ${finding}`, ...advice];
 }
 
@@ -98,12 +98,12 @@ function formatAlphaTable({ alphas, intervals, notIdentifiable, recommended }: C
 }
 
 function formatNoiseRows({ referenceNoise }: Calibration, options: CalibrationResult['options']): string[][] {
-  const noiseRow = (name: string, key: 'positionStd' | 'yawStd', unit: string) => {
+  const formatNoiseRow = (name: string, key: 'positionStd' | 'yawStd', unit: string) => {
     const { value, interval } = referenceNoise[key];
     const isStated = options[key] !== undefined;
     return [name, `${formatEstimate(value, interval)} ${unit}`, isStated ? '' : formatInterval(interval), isStated ? 'as stated' : 'estimated'];
   };
-  return [noiseRow('reference position σ', 'positionStd', 'm'), noiseRow('reference yaw σ', 'yawStd', 'rad')];
+  return [formatNoiseRow('reference position σ', 'positionStd', 'm'), formatNoiseRow('reference yaw σ', 'yawStd', 'rad')];
 }
 
 function formatSystematicRow(name: (typeof SYSTEMATIC_ERRORS)[number], { systematicErrors }: Calibration): string[] {
@@ -130,7 +130,7 @@ function formatCheckRow({ name, value, expected: [low, high], passed }: Calibrat
 }
 
 /** Lists outliers by their times after the start of the odometry. */
-function outlierLines({ count, times, outliers }: Calibration['legs'], driveStarts: number[]): string[] {
+function formatOutliers({ count, times, outliers }: Calibration['legs'], driveStarts: number[]): string[] {
   const outlierLegs = Array.from({ length: count }, (_, leg) => leg).filter((leg) => outliers[leg] === 1);
   const timeTexts = outlierLegs.slice(0, MAX_LISTED_OUTLIERS).map((leg) => {
     const driveStart = Math.max(...driveStarts.filter((begin) => begin <= times[2 * leg]));
@@ -140,14 +140,14 @@ function outlierLines({ count, times, outliers }: Calibration['legs'], driveStar
 }
 
 /** Returns a warning if the α's were fitted by another rule than that of Nav2's AMCL. */
-export const ruleWarning = ({ options: { model = 'odometry', rule = 'thrun' } }: Pick<CalibrationResult, 'options'>): string[] =>
+export const warnAboutRule = ({ options: { model = 'odometry', rule = 'thrun' } }: Pick<CalibrationResult, 'options'>): string[] =>
   (isNav2Rule(model, rule) ? [] : ['Warning: fitted by another rule than Nav2’s; give --rule nav2.']);
 
 /** Returns the lines for nav2_params.yaml, or the reason why there are none. */
-export function nav2Yaml({ calibration, options: { model = 'odometry', rule = 'thrun', legs }, logs, date }: CalibrationResult): { yaml: string; reason?: string } {
+export function formatNav2Yaml({ calibration, options: { model = 'odometry', rule = 'thrun', legs }, logs, date }: CalibrationResult): { yaml: string; reason?: string } {
   if (calibration.recommended === null) return { yaml: '', reason: 'No lines for nav2_params.yaml: the log is unusable.' };
   const logNames = new Intl.ListFormat('en').format(new Set(logs.map(({ name }) => name)));
-  const yamlLines = nav2Lines({ calibration, count: calibration.legs.count, model, rule, legs, log: logNames, warnings: warningsOf(logs), date }, en.nav2);
+  const yamlLines = formatNav2Lines({ calibration, count: calibration.legs.count, model, rule, legs, log: logNames, warnings: warningsOf(logs), date }, en.nav2);
   return yamlLines.length ? { yaml: `${yamlLines.join('\n')}\n` } : { yaml: '', reason: 'No lines for nav2_params.yaml: Nav2 has no velocity model.' };
 }
 
@@ -157,7 +157,7 @@ export function alignRows(rows: string[][]): string[] {
 }
 
 /** Returns the result as JSON, with typed arrays as plain arrays. */
-export function resultJson({ calibration, options, logs, start, date }: CalibrationResult): string {
+export function formatResultJson({ calibration, options, logs, start, date }: CalibrationResult): string {
   const replaceTypedArrays = (_: string, value: unknown) => (ArrayBuffer.isView(value) ? [...(value as Float64Array)] : value);
   return `${JSON.stringify({ date, options, logs, start, ...calibration }, replaceTypedArrays, 1)}\n`;
 }

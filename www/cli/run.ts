@@ -3,14 +3,14 @@
 import { writeFile } from 'node:fs/promises';
 import { planDrives } from '../logs/drives.ts';
 import { english } from '../logs/en.ts';
-import { LogError, truncate, summarySentences, type Recording, type Role } from '../logs/log.ts';
+import { LogError, truncate, summarySentencesOf, type Recording, type Role } from '../logs/log.ts';
 import { calibrationLogOf, readDrives, type Drive } from '../logs/pairs.ts';
-import { optionAdvice } from './advice.ts';
+import { adviseOption } from './advice.ts';
 import { recordingsOf } from './files.ts';
-import { inspect, inspectionText } from './inspect.ts';
+import { inspect, formatInspection } from './inspect.ts';
 import { HELP, UsageError, parseOptions, replaceFieldByOption, type CalibrateArguments } from './options.ts';
 import { drivesSvg } from './plot.ts';
-import { resultJson, logSummaries, nav2Yaml, ruleWarning, reportText, verdictLines, type CalibrationResult } from './report.ts';
+import { formatResultJson, logSummaries, formatNav2Yaml, warnAboutRule, formatReport, formatVerdict, type CalibrationResult } from './report.ts';
 
 interface CliEnvironment {
   load(): Promise<any>;
@@ -35,7 +35,7 @@ export async function run(args: string[], environment: CliEnvironment): Promise<
     else if (options === 'version') print(`${environment.version}\n`);
     else if (options.command === 'inspect') {
       const contents = await inspect(await openInputs(options, onSkip), options.statedOptions, onProgress);
-      print(options.isJson ? `${JSON.stringify(contents.inspection, undefined, 1)}\n` : inspectionText(contents));
+      print(options.isJson ? `${JSON.stringify(contents.inspection, undefined, 1)}\n` : formatInspection(contents));
       if (!contents.isUsable) {
         complain(`${contents.sentences.join('\n')}\n`);
         return EXIT_BAD_INPUT;
@@ -45,7 +45,7 @@ export async function run(args: string[], environment: CliEnvironment): Promise<
   } catch (error) {
     onProgress?.(undefined);
     if (!(error instanceof LogError || error instanceof UsageError)) throw error;
-    complain(`${error.message}${error instanceof LogError ? optionAdvice(error) : ''}\n`);
+    complain(`${error.message}${error instanceof LogError ? adviseOption(error) : ''}\n`);
     return EXIT_BAD_INPUT;
   }
 }
@@ -75,7 +75,7 @@ async function calibrate({ fit, output, plot, ...logArguments }: CalibrateArgume
   const drives = await readDrives(plan, onProgress);
   onProgress?.(undefined);
   const [{ odometry: { start } }] = drives;
-  const logs = drives.flatMap(({ odometry, reference }) => [odometry, reference]).map(({ name, ...log }) => ({ name, summary: log.summary, sentences: summarySentences({ name, ...log }, english.found) }));
+  const logs = drives.flatMap(({ odometry, reference }) => [odometry, reference]).map(({ name, ...log }) => ({ name, summary: log.summary, sentences: summarySentencesOf({ name, ...log }, english.found) }));
   // The summary is shown even if the fit is refused.
   if (output === 'text') print(logSummaries(logs));
   if (output === 'yaml') complain(logSummaries(logs));
@@ -84,12 +84,12 @@ async function calibrate({ fit, output, plot, ...logArguments }: CalibrateArgume
   if (plot !== undefined) await saveFile(plot, drivesSvg(drives, calibration));
   const isUnusableLog = calibration.recommended === null;
   if (output === 'yaml') {
-    const { yaml, reason } = nav2Yaml(result);
-    complain([...verdictLines(result), ...(yaml ? ruleWarning(result) : []), ...(reason ? [reason] : []), ''].join('\n'));
+    const { yaml, reason } = formatNav2Yaml(result);
+    complain([...formatVerdict(result), ...(yaml ? warnAboutRule(result) : []), ...(reason ? [reason] : []), ''].join('\n'));
     print(yaml);
     return isUnusableLog ? EXIT_UNUSABLE : yaml ? EXIT_SUCCESS : EXIT_BAD_INPUT;
   }
-  print(output === 'json' ? resultJson(result) : reportText(result, isColored));
+  print(output === 'json' ? formatResultJson(result) : formatReport(result, isColored));
   return isUnusableLog ? EXIT_UNUSABLE : EXIT_SUCCESS;
 }
 

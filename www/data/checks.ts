@@ -1,6 +1,6 @@
 /** Checks of values from the page. Error messages have the form of the core's. */
 
-export function refusalError(field: string, value: unknown, allowed: string, ErrorClass = RangeError): TypeError | RangeError {
+export function createRefusalError(field: string, value: unknown, allowed: string, ErrorClass = RangeError): TypeError | RangeError {
   return new ErrorClass(`${field} is ${describeValue(value)}; allowed is ${allowed}`);
 }
 
@@ -21,7 +21,7 @@ const shorten = (text: string) => text.replace(/^(.{40}).+$/su, '$1…');
 
 export function checkObject(field: string, value: unknown, keys: readonly string[]) {
   if (typeof value !== 'object' || value === null || Array.isArray(value)) {
-    throw refusalError(field, value, `an object with keys from ${keys.join(', ')}`, TypeError);
+    throw createRefusalError(field, value, `an object with keys from ${keys.join(', ')}`, TypeError);
   }
   const unknownKey = Object.keys(value).find((key) => !keys.includes(key));
   if (unknownKey !== undefined) {
@@ -34,19 +34,19 @@ export function checkWord<Word extends string>(field: string, value: unknown, al
   const matchingWord = allowed.find((word) => word === value);
   if (matchingWord !== undefined) return matchingWord;
   const ErrorClass = typeof value === 'string' ? RangeError : TypeError;
-  throw refusalError(field, value, allowed.map((word) => JSON.stringify(word)).join(' or '), ErrorClass);
+  throw createRefusalError(field, value, allowed.map((word) => JSON.stringify(word)).join(' or '), ErrorClass);
 }
 
 export function checkNumber(field: string, value: unknown, min: number, max: number, isWhole = false) {
   const allowed = `${isWhole ? 'a whole number from ' : ''}${min} to ${max}`;
-  if (typeof value !== 'number') throw refusalError(field, value, allowed, TypeError);
-  if (!(value >= min && value <= max) || (isWhole && !Number.isInteger(value))) throw refusalError(field, value, allowed);
+  if (typeof value !== 'number') throw createRefusalError(field, value, allowed, TypeError);
+  if (!(value >= min && value <= max) || (isWhole && !Number.isInteger(value))) throw createRefusalError(field, value, allowed);
   return value;
 }
 
 /** Returns the allowed names that the array contains, in the order of `allowed`. */
 function checkSubset(field: string, value: unknown, allowed: readonly string[]): string[] {
-  if (!Array.isArray(value)) throw refusalError(field, value, `an array of ${allowed.join(', ')}`, TypeError);
+  if (!Array.isArray(value)) throw createRefusalError(field, value, `an array of ${allowed.join(', ')}`, TypeError);
   const checkedNames = value.map((name, i) => checkWord(`${field}[${i}]`, name, allowed));
   return allowed.filter((name) => checkedNames.includes(name));
 }
@@ -66,7 +66,7 @@ export function checkValue(field: string, value: unknown, { type, words = [], mi
   if (type === 'words') return checkSubset(field, value, words);
   if (type === 'word') return checkWord(field, value, words);
   if (type !== 'boolean') return checkNumber(field, value, min, max, type === 'whole');
-  if (typeof value !== 'boolean') throw refusalError(field, value, 'true or false', TypeError);
+  if (typeof value !== 'boolean') throw createRefusalError(field, value, 'true or false', TypeError);
   return value;
 }
 

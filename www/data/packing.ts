@@ -1,6 +1,6 @@
 /** Conversion of states and bytes to text, and back. */
 
-import { refusalError } from './checks.ts';
+import { createRefusalError } from './checks.ts';
 
 /** Maximum size of an unpacked state, in bytes, because a link may be malicious. The largest grid takes 11.2 million. */
 const MAX_BYTES = 12_000_000;
@@ -25,7 +25,7 @@ export async function unpackJson(text: string): Promise<unknown> {
     const decompressedStream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate-raw'));
     return await new Response(decompressedStream.pipeThrough(new TransformStream({ transform: checkSize }))).json();
   } catch {
-    throw refusalError('state in the address', text, 'what shareLink gives');
+    throw createRefusalError('state in the address', text, 'what shareLink gives');
   }
 }
 

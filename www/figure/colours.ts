@@ -1,6 +1,6 @@
 /** Colours of a figure: those of the page around it, those of its own theme, or light ones in print. */
 
-import { elementAndAncestors, readPageColours } from '../ui/page-colours.ts';
+import { listElementAndAncestors, readPageColours } from '../ui/page-colours.ts';
 import { resolvePalette, type Palette } from '../ui/theme.ts';
 import { FigureController } from './controller.ts';
 
@@ -10,7 +10,7 @@ export class Colours extends FigureController {
   hostConnected() {
     // A background of the page has its final colour only when its CSS transition ends.
     const onTransitionEnd = ({ target, propertyName }: TransitionEvent) => {
-      if (propertyName === 'background-color' && elementAndAncestors(this.host).includes(target as Element)) this.applyAndDraw();
+      if (propertyName === 'background-color' && listElementAndAncestors(this.host).includes(target as Element)) this.applyAndDraw();
     };
     document.addEventListener('transitionend', onTransitionEnd, { signal: this.host.lifetime.signal });
   }

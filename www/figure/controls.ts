@@ -21,7 +21,7 @@ export interface SliderSpec {
   step: number;
   decimals: number;
   /** Value of a slider that shows several settings as one. */
-  combinedValue?: (config: any) => number;
+  combinedValueOf?: (config: any) => number;
   /** Noise parameter whose name and effect label the slider. */
   alpha?: [model: 'velocity' | 'odometry', index: number];
 }
@@ -34,7 +34,7 @@ type RowOverrides = Partial<SliderRow> & { maxTyped?: number };
 
 /** Returns the slider of a setting. `overrides` replaces fields of its slider row. */
 export function settingSliderHtml(figure: Figure, key: string, overrides?: RowOverrides, sliderSpec = figure.definition.sliderSpecs[key]) {
-  const { symbol, decimals, combinedValue, ...sliderFields } = sliderSpec;
+  const { symbol, decimals, combinedValueOf, ...sliderFields } = sliderSpec;
   const { name, effect } = wordsFor(figure, key);
   const declaration = declarationOf(figure, key);
   const { unit } = declaration;
@@ -45,7 +45,7 @@ export function settingSliderHtml(figure: Figure, key: string, overrides?: RowOv
     id: key,
     symbol: symbol && formatMarkup(symbol),
     name: formatMarkup(name),
-    value: combinedValue ? combinedValue(config) : (attribute.get(config) as number),
+    value: combinedValueOf ? combinedValueOf(config) : (attribute.get(config) as number),
     formatValue: (value) => formatEditable(value, decimals) + (unit ? ` ${unit}` : ''),
     effect: effect && formatMarkup(effect),
     onInput: (value) => figure.settings.request((requested) => attribute.changesFor(value, requested)),

@@ -78,8 +78,8 @@ function propertyOf({ key, in: group, field = key, index, of, weights = [], type
     return {
       ...plainProperty,
       get: (config) => commonFactorOf(config[of], weights),
-      changesFor: (factor, { [of]: numbers }) => {
-        const scaledNumbers = weights.map((weight) => weight * checkNumber(key, factor, min, max));
+      changesFor: (commonFactor, { [of]: numbers }) => {
+        const scaledNumbers = weights.map((weight) => weight * checkNumber(key, commonFactor, min, max));
         return { [of]: [...numbers.slice(0, -weights.length), ...scaledNumbers] };
       },
     };
@@ -90,7 +90,7 @@ function propertyOf({ key, in: group, field = key, index, of, weights = [], type
     ...plainProperty,
     corePath: index !== undefined ? `${group}[${index}]` : field === key ? undefined : `${group}.${field}`,
     get: (config) => config[group][memberKey] ?? null,
-    changesFor: (value, { [group]: groupValue }) => ({ [group]: Object.assign(index === undefined ? { ...groupValue } : [...groupValue], { [memberKey]: value }) }),
+    changesFor: (fieldValue, { [group]: groupValue }) => ({ [group]: Object.assign(index === undefined ? { ...groupValue } : [...groupValue], { [memberKey]: fieldValue }) }),
   };
 }
 
@@ -104,7 +104,7 @@ function commonFactorOf(numbers: number[], weights: number[]): number | null {
 const KEYS_KEPT_BY_PRESETS = ['samples', 'seed'];
 
 /** Returns the configuration that a figure opens with: the defaults of its settings. */
-export function defaultConfig(declarations: Declaration[]): StateValues {
+export function defaultConfigOf(declarations: Declaration[]): StateValues {
   return Object.fromEntries(declarations.filter((declaration) => !declaration.in && !declaration.of).map((declaration) => [declaration.key, declaration.default]));
 }
 
@@ -143,10 +143,10 @@ export interface WidgetDefinition {
   elementFields: Record<string, ElementField>;
   elementDefaults: StateValues;
   sliderSpecs: Record<string, SliderSpec>;
-  dependentDefaults?: (config: StateValues) => StateValues;
+  dependentDefaultsOf?: (config: StateValues) => StateValues;
 }
 
-interface DefinitionOptions extends Pick<WidgetDefinition, 'messageKey' | 'sliderSpecs' | 'dependentDefaults'> {
+interface DefinitionOptions extends Pick<WidgetDefinition, 'messageKey' | 'sliderSpecs' | 'dependentDefaultsOf'> {
   /** Styles of the lines and marks in the pictures. The keys are the words of the attribute `overlays`. */
   overlayStyles: Record<string, LineStyle>;
   openingOverlays?: readonly string[];

@@ -53,11 +53,11 @@ function hashOf(text: string) {
   return hashValue.toString(36);
 }
 
-const settingsJson = ({ localName }: Figure, settings: object) => JSON.stringify({ element: localName, ...settings });
+const createSettingsJson = ({ localName }: Figure, settings: object) => JSON.stringify({ element: localName, ...settings });
 
 export function svgOf(figure: Figure) {
   const { settings, description } = figure.exportData;
-  const idPrefix = `figure-${hashOf(settingsJson(figure, settings))}`;
+  const idPrefix = `figure-${hashOf(createSettingsJson(figure, settings))}`;
   const svg = new SvgContext(idPrefix);
   const { view, width, height } = drawForExport(figure, 1, () => svg);
   return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${formatLength(view.width)} ${formatLength(view.height)}" direction="ltr" role="img" aria-labelledby="${idPrefix}-title ${idPrefix}-text">
@@ -75,7 +75,7 @@ export function csvOf(figure: Figure) {
   const columnGroups = Object.entries(columns).map(([names, numbers]) => ({ names: names.split(' '), numbers }));
   const rowAt = (i: number) => columnGroups.flatMap(({ names, numbers }) => names.map((_, columnIndex) => numbers[names.length * i + columnIndex]));
   const rows = Array.from({ length: columnGroups[0].numbers.length / columnGroups[0].names.length }, (_, i) => rowAt(i));
-  const csvLines = [`# ${settingsJson(figure, settings)}`, columnGroups.flatMap(({ names }) => names), ...rows];
+  const csvLines = [`# ${createSettingsJson(figure, settings)}`, columnGroups.flatMap(({ names }) => names), ...rows];
   return `${csvLines.join('\n')}\n`;
 }
 
@@ -127,7 +127,7 @@ const PUBLISHED_SCRIPT_URL = 'https://cdn.jsdelivr.net/npm/motion-widgets@0.1/di
 /** Returns HTML for any page: the script, and the tag with the attributes that differ from the defaults. */
 export function embedCodeOf(figure: Figure) {
   const pageAttributes = ['theme', 'lang', 'dir'].map((name) => [name, figure.getAttribute(name) ?? ''] as [string, string]);
-  const stateAttributes = figure.simulation ? figure.reflection.neededAttributes() : [];
+  const stateAttributes = figure.simulation ? figure.reflection.findNeededAttributes() : [];
   // Addresses of local files and inline scripts do not work on other pages.
   const isWebAddress = /^https?:/.test(address);
   const typeAttribute = (isWebAddress && isClassic ? ['defer', ''] : ['type', 'module']) as [string, string];

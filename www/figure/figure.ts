@@ -7,7 +7,7 @@ import { Canvases } from '../scene/canvases.ts';
 import { layoutStyles } from '../ui/layout.ts';
 import { plotStyles } from '../ui/plot.ts';
 import { presentationStyles } from '../ui/presentation.ts';
-import { reservedHeightCss } from '../ui/reserved-height.ts';
+import { reservedHeightCssOf } from '../ui/reserved-height.ts';
 import { themeStyles } from '../ui/theme.ts';
 import { checkWord } from '../data/checks.ts';
 import { Colours } from './colours.ts';
@@ -102,7 +102,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   /** Puts the styles of all figures before those of the widget. */
   static finalizeStyles(widgetStyles: CSSResultGroup = []) {
     // Lit also calls this method on the base class, which has no definition.
-    const reservedStyles = this.definition ? reservedHeightCss(this.definition.tag) : [];
+    const reservedStyles = this.definition ? reservedHeightCssOf(this.definition.tag) : [];
     return super.finalizeStyles([themeStyles, presentationStyles, reservedStyles, ...layoutStyles, plotStyles, widgetStyles]);
   }
 
@@ -225,9 +225,9 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   }
 
   /** Returns the answer of the simulation to a question, after all pending changes; null without a simulation. */
-  querySimulation<Answer>(query: (simulation: Simulation) => Answer): Answer | null {
+  querySimulation<Answer>(askSimulation: (simulation: Simulation) => Answer): Answer | null {
     this.settings.applyPending();
-    return this.simulation ? query(this.simulation) : null;
+    return this.simulation ? askSimulation(this.simulation) : null;
   }
 
   // Public properties and methods.
@@ -360,7 +360,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   attributeChangedCallback(name: string, oldText: string | null, text: string | null) {
     super.attributeChangedCallback(name, oldText, text);
     if (oldText === text) return;
-    this.reflection.attributeChanged(name, text);
+    this.reflection.applyAttribute(name, text);
     if (!(name in COMMON_ATTRS)) return;
     this.requestUpdate();
     this.presentationMode.syncWithAttribute();

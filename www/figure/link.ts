@@ -18,10 +18,10 @@ export class StateLink extends FigureController {
 
   hostConnected() {
     addEventListener('hashchange', () => {
-      if (this.#isOwnPart(fragmentParts()[0])) this.#scrollHere();
+      if (this.#isOwnPart(splitFragment()[0])) this.#scrollHere();
       void this.applyAddress();
     }, { signal: this.host.lifetime.signal });
-    pendingLinkPart ??= wasOpenedByLink() ? fragmentParts()[0] : '';
+    pendingLinkPart ??= wasOpenedByLink() ? splitFragment()[0] : '';
     if (!this.#isOwnPart(pendingLinkPart)) return;
     pendingLinkPart = '';
     this.#scrollHere();
@@ -40,7 +40,7 @@ export class StateLink extends FigureController {
   /** Applies the state in the page's address, if any, now or as soon as there is a simulation. */
   async applyAddress() {
     const { host } = this;
-    const part = fragmentParts().find((fragmentPart) => this.#isOwnPart(fragmentPart));
+    const part = splitFragment().find((fragmentPart) => this.#isOwnPart(fragmentPart));
     if (part === undefined) return;
     try {
       const state = await unpackJson(part.slice(part.indexOf('=') + 1));
@@ -53,7 +53,7 @@ export class StateLink extends FigureController {
 
   /** Writes the state into the address, if `share` is set or the address has the figure's state. The page does not scroll, and its history gets no entry. */
   async writeToAddress() {
-    if (!this.host.share && !fragmentParts().some((part) => this.#isOwnPart(part))) return;
+    if (!this.host.share && !splitFragment().some((part) => this.#isOwnPart(part))) return;
     const writeToken = (this.#latestWrite = {});
     const packedState = await this.#packState();
     if (writeToken !== this.#latestWrite || !this.host.isConnected) return;
@@ -92,7 +92,7 @@ function partKeyOf(element: Element): string {
 /** Returns the page's address with a figure's part added or replaced, or moved to the beginning if `isFirst`. */
 function addressWith(key: string, packedState: string, isFirst: boolean = false): string {
   const part = `${key}=${packedState}`;
-  const allParts = fragmentParts();
+  const allParts = splitFragment();
   const partIndex = allParts.findIndex((fragmentPart) => fragmentPart.startsWith(`${key}=`));
   const otherParts = allParts.filter((_, i) => i !== partIndex);
   const nextParts = isFirst ? [part, ...otherParts] : partIndex < 0 ? [...allParts, part] : allParts.with(partIndex, part);
@@ -100,7 +100,7 @@ function addressWith(key: string, packedState: string, isFirst: boolean = false)
   return `${location.href.replace(/#.*/, '')}#${nextParts.join('&')}`;
 }
 
-const fragmentParts = () => location.hash.slice(1).split('&').filter((part) => part !== '');
+const splitFragment = () => location.hash.slice(1).split('&').filter((part) => part !== '');
 
 /** Fragment part of the figure to which a followed link still has to scroll. Empty after the scroll, and undefined until the first figure is connected. */
 let pendingLinkPart: string | undefined;

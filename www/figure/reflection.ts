@@ -2,7 +2,7 @@
 
 import { includesFields, withFieldRenamed, checkWord } from '../data/checks.ts';
 import { FigureController } from './controller.ts';
-import { COMMON_ATTRS, defaultConfig } from './definition.ts';
+import { COMMON_ATTRS, defaultConfigOf } from './definition.ts';
 import type { Figure } from './figure.ts';
 import type { StateValues } from './settings.ts';
 
@@ -95,7 +95,7 @@ export class Reflection extends FigureController {
   }
 
   /** Applies an attribute's new text. The name is in lower case. */
-  attributeChanged(attribute: string, text: string | null) {
+  applyAttribute(attribute: string, text: string | null) {
     const { words } = COMMON_ATTRS[attribute] ?? {};
     if (words && text !== null) this.host.runtime.attemptOrReport(() => checkWord(attribute, text, words));
     const name = Object.keys(this.#attributes).find((key) => key.toLowerCase() === attribute);
@@ -105,7 +105,7 @@ export class Reflection extends FigureController {
   /** Default configuration. Some defaults depend on the present settings. */
   get #defaultConfig(): StateValues {
     const { definition, settings } = this.host;
-    return { ...defaultConfig(definition.declarations), ...definition.elementDefaults, ...definition.dependentDefaults?.(settings.requested) };
+    return { ...defaultConfigOf(definition.declarations), ...definition.elementDefaults, ...definition.dependentDefaultsOf?.(settings.requested) };
   }
 
   /** Writes attributes that differ from the settings. A missing one is written if a new figure would need it, or if a preset has changed it. */
@@ -115,7 +115,7 @@ export class Reflection extends FigureController {
     if (!simulation || !viewModel) return;
     const attributeTexts = this.#attributeTextsOf(settings.requested);
     const previousTexts = this.#previousTexts ?? attributeTexts;
-    const neededTexts = this.neededAttributes((name, text) => text !== previousTexts.get(name));
+    const neededTexts = this.findNeededAttributes((name, text) => text !== previousTexts.get(name));
     this.#previousTexts = attributeTexts;
     this.#isWritingAttributes = true;
     for (const [name, { converter: { parse, print } }] of Object.entries(this.#attributes)) {
@@ -132,7 +132,7 @@ export class Reflection extends FigureController {
    * Returns the attributes with which a new figure opens in the present state: those that differ from the defaults, without those that another
    * attribute determines, such as a preset, unless `isWanted` accepts them.
    */
-  neededAttributes(isWanted = (_name: string, _text: string) => false): Map<string, string> {
+  findNeededAttributes(isWanted = (_name: string, _text: string) => false): Map<string, string> {
     const attributeTexts = this.#attributeTextsOf(this.host.settings.requested);
     const defaultTexts = this.#attributeTextsOf(this.#defaultConfig);
     const coveredNames: Set<string> = new Set();
@@ -146,8 +146,8 @@ export class Reflection extends FigureController {
     return neededTexts;
   }
 
-  #attributeTextsOf(config: StateValues): Map<string, string> {
-    const textEntries = Object.entries(this.#attributes).map(([name, { converter, get }]) => [name, converter.print(get(config) ?? null)] as const);
+  #attributeTextsOf(stateValues: StateValues): Map<string, string> {
+    const textEntries = Object.entries(this.#attributes).map(([name, { converter, get }]) => [name, converter.print(get(stateValues) ?? null)] as const);
     return new Map(textEntries.filter((entry): entry is [string, string] => entry[1] !== null));
   }
 }

@@ -58,7 +58,7 @@ export class Renderer extends FigureController {
     printQuery.addEventListener('change', () => this.#setPrinting(printQuery.matches), { signal });
     // An element that is removed during print gets no event at its end.
     if (this.isPrinting !== printQuery.matches) this.#setPrinting(printQuery.matches);
-    onLanguage(this.host, () => this.#languageChanged(), signal);
+    onLanguage(this.host, () => this.#applyLanguage(), signal);
     this.#nearObserver.observe(this.host);
     // The script that defines the element may still call `load(source)`.
     queueMicrotask(() => {
@@ -102,7 +102,7 @@ export class Renderer extends FigureController {
     this.#isNear = isNear;
   }
 
-  #languageChanged() {
+  #applyLanguage() {
     this.host.settings.isViewModelStale = true;
     this.host.requestUpdate();
     this.requestFrame();

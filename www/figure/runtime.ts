@@ -63,9 +63,9 @@ export class Runtime extends FigureController {
   }
 
   /** Runs work. After a trap, replaces the core and returns undefined. Other errors go to `handleError`, by default to the caller. */
-  attempt<Result>(work: () => Result, handleError = (error: unknown): void => { throw error; }): Result | undefined {
+  attempt<Result>(doWork: () => Result, handleError = (error: unknown): void => { throw error; }): Result | undefined {
     try {
-      return work();
+      return doWork();
     } catch (error) {
       if (isWasmTrap(error)) this.#recover(error);
       else handleError(error);
@@ -73,10 +73,10 @@ export class Runtime extends FigureController {
   }
 
   /** Runs work as `attempt` does; an error ends the figure with a message. */
-  attemptOrFail = <Result>(work: () => Result) => this.attempt(work, (error) => this.fail(error));
+  attemptOrFail = <Result>(doWork: () => Result) => this.attempt(doWork, (error) => this.fail(error));
 
   /** Runs work as `attempt` does; an error is reported. */
-  attemptOrReport = (work: () => void) => this.attempt(work, (error) => this.reportError(error));
+  attemptOrReport = (doWork: () => void) => this.attempt(doWork, (error) => this.reportError(error));
 
   /** Fires an `error` event, and warns on the console if no listener prevents that. */
   reportError(error: unknown) {

@@ -1,6 +1,6 @@
 /** Settings of the simulation, and state of a figure as plain data: the settings, and fields that the element keeps because the simulation does not have them. */
 
-import { checkObject, checkValue, checkWord, refusalError } from '../data/checks.ts';
+import { checkObject, checkValue, checkWord, createRefusalError } from '../data/checks.ts';
 import { FigureController } from './controller.ts';
 
 /** Settings or a state as plain data. */
@@ -55,8 +55,8 @@ export class Settings extends FigureController {
   request(change: StateValues | ((requested: StateValues) => StateValues)) {
     const { simulation, gesture, renderer } = this.host;
     if (!simulation) return;
-    const values = typeof change === 'function' ? change(this.requested) : change;
-    for (const [key, value] of Object.entries(values)) (key in this.elementState ? this.elementState : this.#pendingChanges)[key] = value;
+    const changedFields = typeof change === 'function' ? change(this.requested) : change;
+    for (const [key, value] of Object.entries(changedFields)) (key in this.elementState ? this.elementState : this.#pendingChanges)[key] = value;
     gesture.recordStep();
     renderer.requestFrame();
   }
@@ -65,7 +65,7 @@ export class Settings extends FigureController {
   assign(values: StateValues) {
     const { host } = this;
     this.applyPending();
-    const elementValues = this.#checkedElementValues('', values, () => host.snapshot());
+    const elementValues = this.#checkElementValues('', values, () => host.snapshot());
     const settings = Object.entries(values).filter(([key]) => !(key in elementValues));
     if (settings.length > 0) this.#configure(Object.fromEntries(settings));
     Object.assign(this.elementState, elementValues);
@@ -90,7 +90,7 @@ export class Settings extends FigureController {
   }
 
   /** Checks the values of the element's own state fields, and returns them. Errors name a field with the prefix `path`. */
-  #checkedElementValues(path: string, values: StateValues, getState: () => StateValues) {
+  #checkElementValues(path: string, values: StateValues, getState: () => StateValues) {
     const fields = Object.entries(this.#elementFields).filter(([name]) => name in values);
     return Object.fromEntries(fields.map(([name, { maxInState, max, ...range }]) =>
       [name, checkValue(path + name, values[name], { ...range, max: maxInState ? maxInState(getState()) : max })]));
@@ -112,7 +112,7 @@ export class Settings extends FigureController {
     this.applyPending();
     const { widget, version } = Object(state);
     checkWord('state.widget', widget, [host.localName]);
-    if (version !== STATE_VERSION) throw refusalError('state.version', version, String(STATE_VERSION));
+    if (version !== STATE_VERSION) throw createRefusalError('state.version', version, String(STATE_VERSION));
     const currentState = host.snapshot();
     const changes = checkObject('state', state, Object.keys(currentState));
     const wholeState: StateValues = { ...currentState, ...host.withDerivedFields(currentState, changes) };
@@ -120,7 +120,7 @@ export class Settings extends FigureController {
     const simulation = host.createSimulation(host.motion);
     host.enterState(simulation, wholeState);
     const changedValues = Object.fromEntries(Object.keys(changes).map((key) => [key, wholeState[key]]));
-    Object.assign(wholeState, this.#checkedElementValues('state.', changedValues, () => wholeState));
+    Object.assign(wholeState, this.#checkElementValues('state.', changedValues, () => wholeState));
     for (const name of Object.keys(this.elementState)) this.elementState[name] = wholeState[name];
     host.runtime.replaceSimulation(simulation);
     host.renderer.letViewsZoomIn(1);

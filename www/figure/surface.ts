@@ -47,11 +47,11 @@ function placeholderHtml(figure: Figure) {
   return html`<div class="reserved" tabindex="0" role="group" aria-label=${accessibleNameOf(figure)} @focus=${moveFocus}></div>`;
 }
 
-const slottedChildren = (figure: Figure, name: string) => [...figure.children].filter(({ slot }) => slot === name);
+const slottedChildrenOf = (figure: Figure, name: string) => [...figure.children].filter(({ slot }) => slot === name);
 
 /** Returns the name of a figure: the page's title, or the widget's own. */
 export function accessibleNameOf(figure: Figure) {
-  const title = slottedChildren(figure, 'title').map(({ textContent }) => textContent).join(' ').replace(/\s+/g, ' ').trim();
+  const title = slottedChildrenOf(figure, 'title').map(({ textContent }) => textContent).join(' ').replace(/\s+/g, ' ').trim();
   return title || (words as any)[figure.definition.messageKey].title;
 }
 
@@ -61,7 +61,7 @@ function slotHtml(figure: Figure, name: string, fallbackText = '', headingLevel:
     class="${name}-slot"
     role=${headingLevel ? 'heading' : nothing}
     aria-level=${headingLevel ?? nothing}
-    ?hidden=${!fallbackText && slottedChildren(figure, name).length === 0}
+    ?hidden=${!fallbackText && slottedChildrenOf(figure, name).length === 0}
   >
     <slot name=${name} @slotchange=${() => figure.requestUpdate()}>${fallbackText || nothing}</slot>
   </div>`;

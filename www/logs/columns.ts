@@ -109,7 +109,7 @@ const QUANTITY_OF_FIELD: Partial<Record<Field, [ParsedUnit['quantity'], boolean]
 };
 
 /** Returns a name in lower case, with dots between its parts. */
-function dottedName(name: string): string {
+function toDottedName(name: string): string {
   const lowerCaseName = name.replace(/^%/, '').replace(/^field\./, '').replaceAll(/(\p{Ll})(\p{Lu})/gu, '$1.$2').toLowerCase();
   return lowerCaseName.replaceAll(/[^\p{L}\p{N}°]+/gu, '.').replaceAll(/^\.+|\.+$/g, '');
 }
@@ -120,7 +120,7 @@ interface ColumnMeaning { field: Field; rank: number; prefix: string; unit?: str
 function parseColumnName(name: string): ColumnMeaning | undefined {
   const [bracketedUnit = '', unitText = ''] = UNIT_IN_BRACKETS.exec(name) ?? [];
   const nameWithoutUnit = name.slice(0, name.length - bracketedUnit.length);
-  const dottedPath = dottedName(nameWithoutUnit);
+  const dottedPath = toDottedName(nameWithoutUnit);
   const fullNameMeaning = matchField(dottedPath);
   if (!EMPTY_UNIT.test(unitText.trim())) {
     const unit = unitOf(unitText);
@@ -135,7 +135,7 @@ function parseColumnName(name: string): ColumnMeaning | undefined {
   }
   const [unitSuffix, unitWord] = UNIT_AT_END.exec(nameWithoutUnit) ?? [];
   const unit = unitWord === undefined ? undefined : unitOf(unitWord.replace(/[. ]/, '_'));
-  const meaning = unitSuffix !== undefined && unit ? matchField(dottedName(nameWithoutUnit.slice(0, -unitSuffix.length))) : undefined;
+  const meaning = unitSuffix !== undefined && unit ? matchField(toDottedName(nameWithoutUnit.slice(0, -unitSuffix.length))) : undefined;
   if (meaning && unit && canHaveUnit(meaning.field, unit)) return { ...meaning, unit: unit.unit };
   const [, baseName, suffix] = SUFFIXED_NAME.exec(dottedPath) ?? [];
   const baseMeaning = baseName === undefined ? undefined : matchField(baseName);
@@ -158,7 +158,7 @@ function matchField(path: string): ColumnMeaning | undefined {
 }
 
 /** Groups the columns of a table, without those of other quantities. `isTime` checks whether a column without a name holds times. */
-export function groupColumns(names: string[], isTime: (index: number) => boolean = () => false): ColumnGroup[] {
+export function groupColumnsByPrefix(names: string[], isTime: (index: number) => boolean = () => false): ColumnGroup[] {
   // PlotJuggler puts the topic before each name. A topic may have the name of its message's fields, as in /mocap/pose and /cmd_vel.
   const topics = names.flatMap((name) => /^\s*(\/.+\/)header\/stamp\s*$/.exec(name)?.[1] ?? []);
   const columnsWithMeaning = names.flatMap((name, at) => {
@@ -169,12 +169,12 @@ export function groupColumns(names: string[], isTime: (index: number) => boolean
     const { field, prefix, rank, unit } = meaning;
     // Headings in radians are preferred. Headings in degrees beside them are usually derived.
     const column: Column = { at, name: name.trim(), rank: rank + (unit === 'deg' ? 0.5 : 0), ...(unit !== undefined && { unit }) };
-    return [{ field, prefix: dottedName(topic + prefix), column }];
+    return [{ field, prefix: toDottedName(topic + prefix), column }];
   });
   const groups = Array.from(group(columnsWithMeaning, ({ prefix }) => prefix), ([name, members]): ColumnGroup => {
-    const fieldColumns = Array.from(group(members, ({ field }) => field), ([field, entries]) => [field, entries.map(({ column }) => column).toSorted((one, other) => one.rank - other.rank)] as const);
+    const fieldColumns = Array.from(group(members, ({ field }) => field), ([field, entries]) => [field, entries.map(({ column }) => column).toSorted((column, otherColumn) => column.rank - otherColumn.rank)] as const);
     const columns: ColumnGroup['columns'] = Object.fromEntries(fieldColumns.map(([field, [best]]) => [field, best]));
-    const duplicateColumns = Object.fromEntries(fieldColumns.filter(([, [best, second]]) => best.rank === second?.rank).map(([field, [, second]]) => [field, second]));
+    const duplicateColumns = Object.fromEntries(fieldColumns.filter(([, [best, secondBest]]) => best.rank === secondBest?.rank).map(([field, [, secondBest]]) => [field, secondBest]));
     return { name, kind: null, hasCommands: hasFields(columns, 'v', 'omega'), columns, duplicateColumns, clocks: clocksOf(columns, Object.fromEntries(fieldColumns).t ?? []) };
   });
   const tableGroup = groups.find(({ name }) => name === '');

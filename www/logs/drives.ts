@@ -1,6 +1,6 @@
 /** Search for the odometry and the reference of each drive in recordings. */
 
-import { LogError, listNames, ROLES, framesOption, framesText, type LogChoice, type FramePair, type LogKind, type Recording, type Role, type Series } from './log.ts';
+import { LogError, listNames, ROLES, formatFramesOption, formatFrames, type LogChoice, type FramePair, type LogKind, type Recording, type Role, type Series } from './log.ts';
 
 export interface RecordingChoice { recording: Recording; choice: LogChoice }
 
@@ -47,14 +47,14 @@ const ODOMETRY_FILE_NAMES = /odom|wheel|encoder|cmd/i;
 
 const describeSeries = (series: Series[]) => listNames(series.map(({ name, type }) => (name ? `${name} (${type.replace(/^\w+\/(msg\/)?(?=\w+( as |$))/, '')})` : type)));
 
-const isSameChoice = (one: LogChoice, other?: LogChoice) => one.series === other?.series && one.frames?.parent === other.frames?.parent && one.frames?.child === other.frames?.child;
+const isSameChoice = (choice: LogChoice, otherChoice?: LogChoice) => choice.series === otherChoice?.series && choice.frames?.parent === otherChoice.frames?.parent && choice.frames?.child === otherChoice.frames?.child;
 
 /** Assigns the logs of recordings to drives. Throws a LogError, which has a question if the choice is ambiguous. */
-export function planDrives(all: Recording[], userChoices: UserChoices = {}): LogPlan {
-  const usableRecordings = all.filter((recording) => userChoices.roles?.has(recording) || readableSeries(recording).length > 0);
-  const recordings = usableRecordings.length > 0 ? usableRecordings : all;
+export function planDrives(allRecordings: Recording[], userChoices: UserChoices = {}): LogPlan {
+  const usableRecordings = allRecordings.filter((recording) => userChoices.roles?.has(recording) || readableSeriesOf(recording).length > 0);
+  const recordings = usableRecordings.length > 0 ? usableRecordings : allRecordings;
   const unpaired: LogPlan['unpaired'] = { odometry: [], reference: [] };
-  const plan: LogPlan = { drives: [], unpaired, unused: all.filter((recording) => !recordings.includes(recording)).map(unusableError) };
+  const plan: LogPlan = { drives: [], unpaired, unused: allRecordings.filter((recording) => !recordings.includes(recording)).map(createUnusableError) };
   const unnamedRecordings: Recording[] = [];
   for (const recording of recordings) {
     const role = userChoices.roles?.get(recording) ?? (recordings.length > 1 ? roleOfRecording(recording, userChoices) : 'both');
@@ -73,21 +73,21 @@ export function planDrives(all: Recording[], userChoices: UserChoices = {}): Log
   const missingRole = odometry.length < reference.length ? 'odometry' : 'reference';
   if (plan.drives.length === Math.abs(odometry.length - reference.length)) plan.unpaired[missingRole].push(...plan.drives.splice(0).map((drive) => drive[missingRole]));
   if (odometry.length !== reference.length) {
-    const longerList = odometry.length > reference.length ? odometry : reference;
+    const longerRoleChoices = odometry.length > reference.length ? odometry : reference;
     // A recording with odometry and reference may have several candidates for the missing log. The error that asks for a choice is then more helpful.
-    for (const { recording } of longerList) valueUnlessLogError(() => chooseBothLogs(recording, userChoices), ({ ask }) => ask?.what !== 'series');
-    const [firstUnpaired] = longerList;
-    const recordingNames = (parts: RecordingChoice[]) => listNames(parts.map(({ recording }) => recording.name));
+    for (const { recording } of longerRoleChoices) tryUnlessLogError(() => chooseBothLogs(recording, userChoices), ({ ask }) => ask?.what !== 'series');
+    const [firstUnpaired] = longerRoleChoices;
+    const listRecordingNames = (recordingChoices: RecordingChoice[]) => listNames(recordingChoices.map(({ recording }) => recording.name));
     const isSameFile = recordings.length === 2 && recordings[0].name === recordings[1].name;
-    throw new LogError({ file: firstUnpaired.recording.name }, (texts) => (isSameFile ? texts.givenTwice : texts.unpaired(recordingNames(odometry), recordingNames(reference))), isSameFile ? undefined : { what: 'roles', choices: [] });
+    throw new LogError({ file: firstUnpaired.recording.name }, (texts) => (isSameFile ? texts.givenTwice : texts.unpaired(listRecordingNames(odometry), listRecordingNames(reference))), isSameFile ? undefined : { what: 'roles', choices: [] });
   }
   return plan;
 }
 
 /** Returns the role of one of several recordings, by its name or contents; undefined if it has one log and nothing shows the role. */
 function roleOfRecording(recording: Recording, userChoices: UserChoices): Role | 'both' | undefined {
-  if (valueUnlessLogError(() => chooseBothLogs(recording, userChoices))) return 'both';
-  const [isOdometry, isReference] = ROLES.map((role) => valueUnlessLogError(() => chooseLog(recording, role, userChoices)) !== undefined);
+  if (tryUnlessLogError(() => chooseBothLogs(recording, userChoices))) return 'both';
+  const [isOdometry, isReference] = ROLES.map((role) => tryUnlessLogError(() => chooseLog(recording, role, userChoices)) !== undefined);
   if (isOdometry !== isReference) return isOdometry ? 'odometry' : 'reference';
   // A file with several bodies has logs, although the choice is ambiguous in both roles.
   const hasLogs = isOdometry || ROLES.every((role) => findCandidates(recording, role, userChoices).some(({ length }) => length > 0));
@@ -96,9 +96,9 @@ function roleOfRecording(recording: Recording, userChoices: UserChoices): Role |
 }
 
 /** Returns the result of a function, or undefined if it throws an expected LogError. */
-function valueUnlessLogError<Result>(work: () => Result, isExpected: (error: LogError) => boolean = () => true): Result | undefined {
+function tryUnlessLogError<Result>(doWork: () => Result, isExpected: (error: LogError) => boolean = () => true): Result | undefined {
   try {
-    return work();
+    return doWork();
   } catch (error) {
     if (error instanceof LogError && isExpected(error)) return undefined;
     throw error;
@@ -109,74 +109,74 @@ function chooseBothLogs(recording: Recording, userChoices: UserChoices): Record<
   // A series that the user chose as the reference is not guessed as the odometry.
   const { series, frames } = userChoices.reference ?? {};
   const chosenReference = series !== undefined || frames ? chooseLog(recording, 'reference', userChoices) : undefined;
-  const odometry = valueUnlessLogError(() => chooseLog(recording, 'odometry', userChoices, chosenReference)) ?? chooseLog(recording, 'odometry', userChoices);
+  const odometry = tryUnlessLogError(() => chooseLog(recording, 'odometry', userChoices, chosenReference)) ?? chooseLog(recording, 'odometry', userChoices);
   const reference = chosenReference ?? chooseLog(recording, 'reference', userChoices, odometry);
   if (isSameChoice(odometry, reference)) {
     const ask = { what: 'series' as const, role: 'reference' as const, choices: seriesNamesFor(recording, 'reference').filter((name) => name !== reference.series) };
-    throw new LogError({ file: recording.name, topic: reference.series }, (texts) => texts.ownReference(reference.frames ? framesText(reference.frames) : reference.series), ask);
+    throw new LogError({ file: recording.name, topic: reference.series }, (texts) => texts.ownReference(reference.frames ? formatFrames(reference.frames) : reference.series), ask);
   }
   return { odometry: { recording, choice: odometry }, reference: { recording, choice: reference } };
 }
 
 /** Returns the likeliest logs for a role, of those that are possible. */
-const likeliestChoices = (recording: Recording, role: Role, userChoices: UserChoices, isPossible: (choice: LogChoice) => boolean) =>
-  findCandidates(recording, role, userChoices).map((tier) => tier.filter(isPossible)).find(({ length }) => length) ?? [];
+const findLikeliestChoices = (recording: Recording, role: Role, userChoices: UserChoices, isPossible: (choice: LogChoice) => boolean) =>
+  findCandidates(recording, role, userChoices).map((choiceTier) => choiceTier.filter(isPossible)).find(({ length }) => length) ?? [];
 
 /** Returns the choice of a log for a role, different from `other`, the choice for the other role. */
-function chooseLog(recording: Recording, role: Role, userChoices: UserChoices, other?: LogChoice): LogChoice {
+function chooseLog(recording: Recording, role: Role, userChoices: UserChoices, otherRoleChoice?: LogChoice): LogChoice {
   const { series, frames } = userChoices[role] ?? {};
-  if (series === undefined && !frames) return guessChoice(recording, role, userChoices, other);
+  if (series === undefined && !frames) return guessChoice(recording, role, userChoices, otherRoleChoice);
   const kind = role === 'reference' ? 'poses' : userChoices.kind;
   const namedSeries = series === undefined
     ? recording.series.find((entry) => entry.frames)
-    : seriesNamed(recording.series, series);
+    : findSeriesByName(recording.series, series);
   if (!namedSeries) {
     const names = seriesNamesFor(recording, role);
     throw new LogError(
       { file: recording.name, topic: series },
-      (texts) => texts.noTopic(describeSeries(readableSeries(recording))),
+      (texts) => texts.noTopic(describeSeries(readableSeriesOf(recording))),
       { what: 'series', role, choices: names },
     );
   }
   if (namedSeries.kind !== 'transforms' || frames) return { series: namedSeries.name, ...(kind && { kind }), ...(frames && { frames }) };
-  const chains = likeliestChoices(recording, role, userChoices, (choice) => choice.series === namedSeries.name);
+  const chains = findLikeliestChoices(recording, role, userChoices, (choice) => choice.series === namedSeries.name);
   if (chains.length === 1) return chains[0];
-  throw framesError(recording, namedSeries, role);
+  throw createFramesError(recording, namedSeries, role);
 }
 
-function framesError({ name: file }: Recording, { name: topic, frames = [] }: Series, role: Role): LogError {
-  const frameTexts = [...new Set([...likeliestFrames(frames, role), ...frames])].map(framesOption);
-  return new LogError({ file, topic }, (texts) => texts.frames(listNames(frames.map(framesText))), { what: 'frames', role, choices: frameTexts });
+function createFramesError({ name: file }: Recording, { name: topic, frames = [] }: Series, role: Role): LogError {
+  const frameTexts = [...new Set([...findLikeliestFrames(frames, role), ...frames])].map(formatFramesOption);
+  return new LogError({ file, topic }, (texts) => texts.frames(listNames(frames.map(formatFrames))), { what: 'frames', role, choices: frameTexts });
 }
 
-function guessChoice(recording: Recording, role: Role, userChoices: UserChoices, other?: LogChoice): LogChoice {
-  const bestChoices = likeliestChoices(recording, role, userChoices, (choice) => !isSameChoice(choice, other));
+function guessChoice(recording: Recording, role: Role, userChoices: UserChoices, otherRoleChoice?: LogChoice): LogChoice {
+  const bestChoices = findLikeliestChoices(recording, role, userChoices, (choice) => !isSameChoice(choice, otherRoleChoice));
   // Among equally likely choices, logs with the same robot frame as the other log are preferred.
-  const choicesOfSameRobot = bestChoices.filter(({ frames }) => frames && frames.child === other?.frames?.child);
+  const choicesOfSameRobot = bestChoices.filter(({ frames }) => frames && frames.child === otherRoleChoice?.frames?.child);
   if (choicesOfSameRobot.length === 1) return choicesOfSameRobot[0];
   if (bestChoices.length === 1) return bestChoices[0];
   const file = recording.name;
-  const usableSeries = readableSeries(recording);
-  if (usableSeries.length === 0) throw unusableError(recording);
+  const usableSeries = readableSeriesOf(recording);
+  if (usableSeries.length === 0) throw createUnusableError(recording);
   const chains = usableSeries.filter(({ kind }) => kind === 'transforms');
-  const hasOnlyOtherChoice = other && chains.every(({ name: series, frames = [] }) => frames.every((ends) => isSameChoice({ series, frames: ends }, other)));
-  if (chains.length === usableSeries.length && !hasOnlyOtherChoice) throw framesError(recording, chains.find((chain) => chain.frames) ?? chains[0], role);
+  const hasOnlyOtherChoice = otherRoleChoice && chains.every(({ name: series, frames = [] }) => frames.every((ends) => isSameChoice({ series, frames: ends }, otherRoleChoice)));
+  if (chains.length === usableSeries.length && !hasOnlyOtherChoice) throw createFramesError(recording, chains.find((chain) => chain.frames) ?? chains[0], role);
   const positionSeries = usableSeries.filter(({ name, kind }) => kind === 'positions' && !GOAL_NAMES.test(name));
   if (positionSeries.length === usableSeries.length || (role === 'reference' && bestChoices.length === 0 && positionSeries.length > 0)) {
     throw new LogError({ file }, (texts) => texts.positions(describeSeries(positionSeries)));
   }
   if (usableSeries.length === 1) {
-    const ownRole = roleOfSeries(recording, usableSeries[0]) ?? (other?.frames && ROLES.find((otherRole) => otherRole !== role));
+    const ownRole = roleOfSeries(recording, usableSeries[0]) ?? (otherRoleChoice?.frames && ROLES.find((otherRole) => otherRole !== role));
     throw new LogError({ file }, (texts) => texts.alone(describeSeries(usableSeries), ownRole), { what: 'other', role: ownRole, choices: [] });
   }
   throw new LogError(
     { file },
     (texts) => (bestChoices.length > 0 ? texts.choose : texts.lacks)(role, describeSeries(usableSeries)),
-    { what: 'series', role, choices: bestChoices.length > 0 ? seriesNamesFor(recording, role).filter((name) => name !== other?.series) : usableSeries.filter(({ kind }) => role === 'odometry' && kind === 'commands').map(({ name }) => name) },
+    { what: 'series', role, choices: bestChoices.length > 0 ? seriesNamesFor(recording, role).filter((name) => name !== otherRoleChoice?.series) : usableSeries.filter(({ kind }) => role === 'odometry' && kind === 'commands').map(({ name }) => name) },
   );
 }
 
-function unusableError({ name: file, series }: Recording): LogError {
+function createUnusableError({ name: file, series }: Recording): LogError {
   const shortSeries = series.find(({ kind }) => kind !== null);
   return new LogError({ file, topic: shortSeries?.name }, (texts) => (shortSeries ? texts.few(shortSeries.count, shortSeries.count) : texts.noTopics(describeSeries(series))));
 }
@@ -197,26 +197,26 @@ export function roleByName(name: string): Role | undefined {
 }
 
 /** Returns the series that can be read. A topic needs two messages. */
-export const readableSeries = (recording: Recording): Series[] => recording.series.filter(({ kind, count }) => kind !== null && (recording.format === 'csv' || count > 1));
+export const readableSeriesOf = (recording: Recording): Series[] => recording.series.filter(({ kind, count }) => kind !== null && (recording.format === 'csv' || count > 1));
 
 /** Returns the series with a name. Separators and capitals do not count. */
-function seriesNamed(series: Series[], wantedName: string): Series | undefined {
+function findSeriesByName(series: Series[], wantedName: string): Series | undefined {
   const wordsOfName = (name: string) => name.toLowerCase().split(/[^\p{L}\p{N}]+/u).filter(Boolean).join('.');
   return series.find(({ name }) => name === wantedName) ?? series.find(({ name }) => wordsOfName(name) !== '' && wordsOfName(name) === wordsOfName(wantedName));
 }
 
 /** Returns the names of the series that could be the log of a role, the likeliest first. */
 function seriesNamesFor(recording: Recording, role: Role): string[] {
-  const usableSeries = readableSeries(recording).filter(({ kind }) => role === 'odometry' || kind !== 'commands');
+  const usableSeries = readableSeriesOf(recording).filter(({ kind }) => role === 'odometry' || kind !== 'commands');
   return [...new Set([...findCandidates(recording, role).flat().map(({ series }) => series), ...usableSeries.map(({ name }) => name)])];
 }
 
 /** Returns the logs that could have a role, in tiers: groups of equal likelihood, the likeliest first. A tier of several logs is ambiguous. */
 export function findCandidates(recording: Recording, role: Role, { kind }: { kind?: LogKind } = {}): LogChoice[][] {
   const isTableFile = recording.format === 'csv';
-  const seriesWithoutGoals = readableSeries(recording).filter(({ name }) => !GOAL_NAMES.test(name));
+  const seriesWithoutGoals = readableSeriesOf(recording).filter(({ name }) => !GOAL_NAMES.test(name));
   const poseSeries = seriesWithoutGoals.filter((entry) => entry.kind === 'poses');
-  const chainChoices = seriesWithoutGoals.flatMap(({ name, frames = [] }) => likeliestFrames(frames, role).map((pair) => ({ series: name, frames: pair })));
+  const chainChoices = seriesWithoutGoals.flatMap(({ name, frames = [] }) => findLikeliestFrames(frames, role).map((pair) => ({ series: name, frames: pair })));
   if (role === 'reference') {
     const unfilteredPaths = poseSeries.filter(({ name }) => !FILTER_NAMES.test(name) && !ODOMETRY_NAMES[0].test(name));
     return [...choiceTiersByName(poseSeries, [MEASUREMENT_NAMES, LOCALIZER_NAMES], 'poses'), choicesOf(unfilteredPaths, 'poses'), ...(isTableFile && seriesWithoutGoals.length === 1 ? [choicesOf(poseSeries, 'poses')] : []), chainChoices];
@@ -234,8 +234,8 @@ const choicesOf = (series: Series[], kind?: LogKind): LogChoice[] => series.map(
 const choiceTiersByName = (series: Series[], names: RegExp[], kind?: LogKind): LogChoice[][] => names.map((pattern) => choicesOf(series.filter(({ name }) => pattern.test(name)), kind));
 
 /** Returns the likeliest pairs of frames for a role, by the names of the frames. */
-function likeliestFrames(frames: FramePair[], role: Role): FramePair[] {
-  const firstMatchingFrames = (framePairs: FramePair[], names: RegExp[], end: keyof FramePair) => names.map((name) => framePairs.filter((pair) => name.test(pair[end]))).find(({ length }) => length);
-  const pairsWithFixedParent = firstMatchingFrames(frames, FIXED_FRAME_NAMES[role], 'parent') ?? [];
-  return firstMatchingFrames(pairsWithFixedParent, BASE_FRAME_NAMES, 'child') ?? pairsWithFixedParent;
+function findLikeliestFrames(frames: FramePair[], role: Role): FramePair[] {
+  const findFirstMatchingFrames = (framePairs: FramePair[], names: RegExp[], end: keyof FramePair) => names.map((name) => framePairs.filter((pair) => name.test(pair[end]))).find(({ length }) => length);
+  const pairsWithFixedParent = findFirstMatchingFrames(frames, FIXED_FRAME_NAMES[role], 'parent') ?? [];
+  return findFirstMatchingFrames(pairsWithFixedParent, BASE_FRAME_NAMES, 'child') ?? pairsWithFixedParent;
 }

@@ -1,6 +1,6 @@
 /** Format of a table (separator, preamble and header) from its first lines, and parsers of the numbers and dates in its cells. */
 
-import { groupColumns, isHeader, isUnit, type ColumnGroup } from './columns.ts';
+import { groupColumnsByPrefix, isHeader, isUnit, type ColumnGroup } from './columns.ts';
 import { LogError, truncate, type ErrorPlace } from './log.ts';
 import { epochTimeUnitOf } from './units.ts';
 
@@ -19,7 +19,7 @@ export interface TableFormat {
   hasUnknownAxis?: boolean;
 }
 
-/** Number of rows, and of first and of last lines, from which the format is detected. */
+/** Maximum number of lines at the start of a file, of lines at its end, and of rows that are read to detect the format. */
 const SAMPLED_LINES = 50;
 
 /** Names of the columns in tables without a header, which are recognized by their number of columns. */
@@ -87,7 +87,7 @@ function isDataRow(cells: string[]): boolean {
 
 /** Returns the separator that splits lines into most numbers, or, if there are no numbers, into most cells. */
 function separatorOf(lines: string[]): string {
-  const declaredSeparator = lines.map((line) => /^"?sep=(.)"?$/i.exec(line)?.[1]).find((found) => found !== undefined);
+  const declaredSeparator = lines.map((line) => /^"?sep=(.)"?$/i.exec(line)?.[1]).find((separatorMatch) => separatorMatch !== undefined);
   if (declaredSeparator) return declaredSeparator;
   const scoreOf = (separator: string) => {
     const cellRows = lines.map((line) => splitCells(line, separator));
@@ -106,9 +106,9 @@ export function detectTableFormat(lines: string[], file: string, columns: string
   if (notation !== undefined) throw new LogError({ file }, (texts) => texts.noTable(notation));
 
   const separator = separatorOf([...textLines.slice(0, SAMPLED_LINES), ...textLines.slice(-SAMPLED_LINES)].map(({ line }) => line.trim()));
-  const cells = (line: string) => splitCells(line, separator);
-  const firstRowLine = textLines.find(({ line }, i) => isDataRow(cells(line)) && (i + 1 === textLines.length || isDataRow(cells(textLines[i + 1].line)))) ?? textLines.findLast(({ line }) => isDataRow(cells(line)));
-  const rows = firstRowLine ? textLines.filter(({ number }) => number >= firstRowLine.number).slice(0, SAMPLED_LINES).map(({ line }) => cells(line)) : [];
+  const cellsOfLine = (line: string) => splitCells(line, separator);
+  const firstRowLine = textLines.find(({ line }, i) => isDataRow(cellsOfLine(line)) && (i + 1 === textLines.length || isDataRow(cellsOfLine(textLines[i + 1].line)))) ?? textLines.findLast(({ line }) => isDataRow(cellsOfLine(line)));
+  const rows = firstRowLine ? textLines.filter(({ number }) => number >= firstRowLine.number).slice(0, SAMPLED_LINES).map(({ line }) => cellsOfLine(line)) : [];
   // Between commas, a comma in quotes may also separate thousands.
   const hasDecimalComma = (cell: string) => DECIMAL_COMMA.test(cell) && (separator !== ',' || !THOUSANDS_COMMA.test(cell));
   const hasDecimalCommas = rows.flat().some(hasDecimalComma);
@@ -119,27 +119,27 @@ export function detectTableFormat(lines: string[], file: string, columns: string
 
   if (columns) {
     if (firstRowLine && columns.length !== rowWidth) throw new LogError(errorPlace, (texts) => texts.given(rowWidth, columns.length));
-    return { ...commonFormat, names: columns, groups: columnGroups(columns, rows[0]) };
+    return { ...commonFormat, names: columns, groups: findColumnGroups(columns, rows[0]) };
   }
   // At least half of the lines must be rows: prose can also contain single rows of numbers.
   if (2 * rows.filter(isDataRow).length < rows.length) throw noLogError();
   const preambleLines = filledLines.filter(({ number }) => number < commonFormat.firstLine);
-  const motiveLayout = preambleLines.length > 0 && /^"?Format Version/.test(preambleLines[0].line) ? motiveFormat(preambleLines.map(({ line }) => cells(line)), errorPlace) : undefined;
+  const motiveLayout = preambleLines.length > 0 && /^"?Format Version/.test(preambleLines[0].line) ? detectMotiveFormat(preambleLines.map(({ line }) => cellsOfLine(line)), errorPlace) : undefined;
   if (motiveLayout) return { ...commonFormat, ...motiveLayout };
 
   const header = headerOf(preambleLines, separator, rowWidth, rows[0]);
   if (header) {
     const { number } = header;
-    const names = addUnits(header.names, preambleLines.flatMap((text) => (text.number > number ? [cells(text.line)] : [])));
+    const names = addUnits(header.names, preambleLines.flatMap((text) => (text.number > number ? [cellsOfLine(text.line)] : [])));
     // Rows with decimal commas between commas have more cells than the header.
     if (rowWidth > names.length) throw new LogError({ file, line: firstRowLine?.number }, (texts) => texts.wide(rowWidth, names.length, number));
-    const groups = columnGroups(names, rows[0]);
+    const groups = findColumnGroups(names, rows[0]);
     if (!firstRowLine && groups.every(({ kind }) => kind === null)) throw noLogError();
     return { ...commonFormat, names, header: lines[number - 1], groups, isSparse: groups.length > 1 || names.some((name) => name.trim() === '__time') };
   }
   if (!firstRowLine) throw noLogError();
   const names = columnsByContent(rows);
-  if (names) return { ...commonFormat, names, groups: columnGroups(names, rows[0]) };
+  if (names) return { ...commonFormat, names, groups: findColumnGroups(names, rows[0]) };
   // Poses of KITTI have 12 numbers. In geometry_msgs/Twist, four of six numbers are 0.
   const isTwist = rowWidth === 6 && rows.every((row) => row.slice(1, 5).every((cell) => Number(cell) === 0));
   if (rowWidth === 12 || isTwist) throw new LogError(errorPlace, (texts) => texts.timeless(rowWidth));
@@ -147,24 +147,24 @@ export function detectTableFormat(lines: string[], file: string, columns: string
   throw new LogError(errorPlace, (texts) => texts.noHeader(rowWidth, truncate(firstRowLine.line.trim().replaceAll('\t', ' '))), { what: 'columns', choices: [defaultNames], columns: rows[0].slice(0, rowWidth) });
 }
 
-const unitWithoutBrackets = (cell: string) => cell.replaceAll(/[\s"[\](){}]/g, '');
+const stripUnitBrackets = (cell: string) => cell.replaceAll(/[\s"[\](){}]/g, '');
 
-function addUnits(names: string[], below: string[][]): string[] {
-  const unitTexts = below.map((row) => row.map(unitWithoutBrackets)).find((row) => row.length === names.length && row.filter(isUnit).length >= 2);
+function addUnits(names: string[], rowsBelowHeader: string[][]): string[] {
+  const unitTexts = rowsBelowHeader.map((row) => row.map(stripUnitBrackets)).find((row) => row.length === names.length && row.filter(isUnit).length >= 2);
   return names.map((name, i) => (unitTexts && isUnit(unitTexts[i]) ? `${name} [${unitTexts[i]}]` : name));
 }
 
 /** Groups columns. A column without a name has times if its first cell is a date or a fraction. A whole number there is a row number. */
-function columnGroups(names: string[], row: string[] | undefined): ColumnGroup[] {
-  return groupColumns(names, (orientationIndex) => {
-    const cell = row?.[orientationIndex]?.trim() ?? '';
+function findColumnGroups(names: string[], row: string[] | undefined): ColumnGroup[] {
+  return groupColumnsByPrefix(names, (columnIndex) => {
+    const cell = row?.[columnIndex]?.trim() ?? '';
     return parseDate(cell) !== undefined || /^\d+[.,]\d+$/.test(cell) || epochTimeUnitOf(Number(cell)) !== undefined;
   });
 }
 
 /** Returns the header: the last line above the rows with names of fields, or a comment with as many names as a row has cells. */
-function headerOf(above: { line: string; number: number }[], separator: string, width: number, row: string[] | undefined) {
-  for (const { line, number } of above.toReversed()) {
+function headerOf(preambleLines: { line: string; number: number }[], separator: string, width: number, row: string[] | undefined) {
+  for (const { line, number } of preambleLines.toReversed()) {
     const textLine = line.trim().replace(/^\/\//, '');
     const isComment = /^#|^%(?!time)/.test(textLine) || textLine !== line.trim();
     const commentText = textLine.replace(/^[#%]+\s*(?=[^,;])/, isComment ? '' : '$&');
@@ -172,11 +172,11 @@ function headerOf(above: { line: string; number: number }[], separator: string, 
     const possibleCells = [splitCells(commentText, separator), ...(isComment ? [commentText.split(/\s{2,}/), commentText.split(/[\s,;]+(?![[(])/)] : [])];
     const names = possibleCells.find((cells) => cells.length === width) ?? possibleCells[0];
     if (!isHeader(names)) continue;
-    const fieldNames = columnGroups(names, row).flatMap(({ columns }) => Object.keys(columns));
+    const fieldNames = findColumnGroups(names, row).flatMap(({ columns }) => Object.keys(columns));
     // In a row of units below the header, V for volts looks like the name of a speed.
-    if (names.filter((name) => isUnit(unitWithoutBrackets(name))).length > fieldNames.length) continue;
+    if (names.filter((name) => isUnit(stripUnitBrackets(name))).length > fieldNames.length) continue;
     if (isComment && (fieldNames.length < 3 || (names.length !== width && fieldNames.length < 4))) continue;
-    if (isComment || fieldNames.length > 0 || !above.some((earlier) => earlier.number < number && !/^\s*["#%]?sep=/i.test(earlier.line) && columnGroups(splitCells(earlier.line, separator), row).length > 0)) {
+    if (isComment || fieldNames.length > 0 || !preambleLines.some((earlier) => earlier.number < number && !/^\s*["#%]?sep=/i.test(earlier.line) && findColumnGroups(splitCells(earlier.line, separator), row).length > 0)) {
       return { names: names.map((name) => name.trim().replace(/^"(.*)"$/, '$1')), number };
     }
   }
@@ -195,16 +195,16 @@ function columnsByContent(rows: string[][]): string[] | undefined {
 }
 
 /** Returns the format of a Motive export, with a group for each rigid body. Throws a LogError for Euler angles. */
-function motiveFormat(above: string[][], place: ErrorPlace): Pick<TableFormat, 'names' | 'groups' | 'hasUnknownAxis'> | undefined {
-  const rowNamed = (name: string) => above.find((row) => row.slice(0, 3).some((cell) => cell.trim() === name));
-  const [axisRow, quantityRow] = above.toReversed();
-  const bodyNames = rowNamed('Name');
+function detectMotiveFormat(preambleRows: string[][], place: ErrorPlace): Pick<TableFormat, 'names' | 'groups' | 'hasUnknownAxis'> | undefined {
+  const findRowByName = (name: string) => preambleRows.find((row) => row.slice(0, 3).some((cell) => cell.trim() === name));
+  const [axisRow, quantityRow] = preambleRows.toReversed();
+  const bodyNames = findRowByName('Name');
   if (!bodyNames || !quantityRow) return undefined;
-  const exportSettings = new Map(above[0].flatMap((cell, i) => (i % 2 === 0 ? [[cell.trim(), above[0][i + 1]?.trim() ?? '']] : [])));
+  const exportSettings = new Map(preambleRows[0].flatMap((cell, i) => (i % 2 === 0 ? [[cell.trim(), preambleRows[0][i + 1]?.trim() ?? '']] : [])));
   const rotationType = exportSettings.get('Rotation Type') ?? 'Quaternion';
   if (rotationType !== 'Quaternion') throw new LogError(place, (texts) => texts.euler(truncate(rotationType)));
   const unit = (exportSettings.get('Length Units') ?? exportSettings.get('Units') ?? 'Meters').toLowerCase();
-  const bodyTypes = rowNamed('Type');
+  const bodyTypes = findRowByName('Type');
   const names = axisRow.map((axis, i) => {
     if (/^Time/.test(axis.trim())) return 't [s]';
     const isRigidBody = bodyTypes === undefined || bodyTypes[i]?.trim() === 'Rigid Body';
@@ -214,7 +214,7 @@ function motiveFormat(above: string[][], place: ErrorPlace): Pick<TableFormat, '
     if (quantityRow[i]?.trim() === 'Rotation') return `${bodyName}/q${axisName}`;
     return quantityRow[i]?.trim() === 'Position' ? `${bodyName}/${axisName} [${unit}]` : '-';
   });
-  return { names, groups: groupColumns(names), hasUnknownAxis: true };
+  return { names, groups: groupColumnsByPrefix(names), hasUnknownAxis: true };
 }
 
 /** Parses a number. Returns NaN for an empty cell or a word such as "nan", and undefined for any other text. */

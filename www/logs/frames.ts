@@ -2,9 +2,9 @@
 
 import { bisector, sort } from 'd3-array';
 import type { Message } from './formats/container.ts';
-import { framesText, type FramePair } from './log.ts';
+import { formatFrames, type FramePair } from './log.ts';
 import { rowOfPose, withoutSlash, type StampedTransform, type Transform } from './messages.ts';
-import { hamiltonProduct } from './path.ts';
+import { multiplyQuaternions } from './path.ts';
 import type { Sample } from './rows.ts';
 
 /** Minimum motion (m) of a frame that counts as travelling. Frames of joints only turn, and those of suspensions move less. */
@@ -36,11 +36,11 @@ export class FrameTree {
 
   /** Adds a transform to the link between its frames, and returns that link. */
   add({ parent, child, transform }: StampedTransform, isStatic: boolean): FrameLink {
-    const name = framesText({ parent, child });
+    const name = formatFrames({ parent, child });
     const link = this.#links.get(name) ?? { parent, child, isStatic, origin: transform, hasChanged: false, maxDistance: 0, samples: [] };
     this.#links.set(name, link);
     link.maxDistance = Math.max(link.maxDistance, Math.hypot(transform[0] - link.origin[0], transform[1] - link.origin[1]));
-    link.hasChanged ||= transform.some((value, i) => value !== link.origin[i]);
+    link.hasChanged ||= transform.some((transformValue, i) => transformValue !== link.origin[i]);
     return link;
   }
 
@@ -73,9 +73,9 @@ export class FrameTree {
     const movingFrames = new Set((travellingLinks.length ? travellingLinks : links.filter(({ isStatic }) => !isStatic)).map(({ child }) => child));
     const children = [...new Set(links.map(({ child }) => child))];
     return children.flatMap((child) => {
-      const ancestors = this.#ancestors(child);
+      const ancestors = this.#ancestorsOf(child);
       const isMoving = movingFrames.has(child);
-      const hasMovingDescendant = isMoving && children.some((other) => other !== child && movingFrames.has(other) && this.#ancestors(other).includes(child));
+      const hasMovingDescendant = isMoving && children.some((sibling) => sibling !== child && movingFrames.has(sibling) && this.#ancestorsOf(sibling).includes(child));
       // If only base_footprint moves in odom → base_footprint → base_link, base_link has its pose in odom. Frames between the child and the moving
       // frame, and that frame itself, are skipped as parents.
       const skipCount = isMoving || !BASE_FRAME.test(child) ? 0 : ancestors.findIndex((frame) => movingFrames.has(frame)) + 1;
@@ -84,7 +84,7 @@ export class FrameTree {
   }
 
   /** Returns the parent of a frame, the parent of that frame and so on. */
-  #ancestors(frame: string): string[] {
+  #ancestorsOf(frame: string): string[] {
     const ancestorFrames = new Set<string>([frame]);
     for (const ancestor of ancestorFrames) for (const { parent } of this.#linksTo(ancestor)) ancestorFrames.add(parent);
     return [...ancestorFrames].slice(1);
@@ -102,9 +102,9 @@ export class Chain extends FrameTree {
     this.#endFrames = { parent: withoutSlash(parent), child: withoutSlash(child) };
   }
 
-  addSample(stampedTransform: StampedTransform, isStatic: boolean, { time: recordTime }: Message, number: number): void {
+  addSample(stampedTransform: StampedTransform, isStatic: boolean, { time: recordTime }: Message, messageNumber: number): void {
     const link = this.add(stampedTransform, isStatic);
-    if (!this.isConnected || this.#chainLinks.includes(link)) link.samples.push({ ...stampedTransform, recordTime, number });
+    if (!this.isConnected || this.#chainLinks.includes(link)) link.samples.push({ ...stampedTransform, recordTime, number: messageNumber });
     if (!this.isConnected) this.#chainLinks = this.findChain(this.#endFrames) ?? [];
   }
 
@@ -116,7 +116,7 @@ export class Chain extends FrameTree {
    * Calls `onPose` for each message of the changing transform nearest to the child. All other links have their latest transforms. A
    * transform that never changes also holds before its first message. Returns false if no transform ever changes.
    */
-  poses(onPose: (reading: Sample, recordedTransform: RecordedTransform) => void): boolean {
+  readPoses(onPose: (poseSample: Sample, recordedTransform: RecordedTransform) => void): boolean {
     // A static transform may be published again with other values, which is no motion.
     const nearestMovingLink = this.#chainLinks.findLast(({ isStatic, hasChanged }) => !isStatic && hasChanged);
     const samplesByLink = new Map(this.#chainLinks.map((link) => [link, sort(link.samples, ({ recordTime }) => recordTime)]));
@@ -135,6 +135,6 @@ export class Chain extends FrameTree {
 /** Returns the composition of two transforms: the second one is relative to the frame of the first. */
 function composeTransforms([x, y, z, ...rotation]: Transform, [x2, y2, z2, ...rotation2]: Transform): Transform {
   const [qx, qy, qz, qw] = rotation;
-  const [dx, dy, dz] = hamiltonProduct(hamiltonProduct(rotation, [x2, y2, z2, 0]), [-qx, -qy, -qz, qw]);
-  return [x + dx, y + dy, z + dz, ...hamiltonProduct(rotation, rotation2)];
+  const [dx, dy, dz] = multiplyQuaternions(multiplyQuaternions(rotation, [x2, y2, z2, 0]), [-qx, -qy, -qz, qw]);
+  return [x + dx, y + dy, z + dz, ...multiplyQuaternions(rotation, rotation2)];
 }

@@ -30,9 +30,9 @@ export interface Series {
 
 export interface FramePair { parent: string; child: string }
 
-export const framesText = ({ parent, child }: FramePair) => `${parent} → ${child}`;
+export const formatFrames = ({ parent, child }: FramePair) => `${parent} → ${child}`;
 
-export const framesOption = ({ parent, child }: FramePair) => `${parent},${child}`;
+export const formatFramesOption = ({ parent, child }: FramePair) => `${parent},${child}`;
 
 export interface LogChoice {
   series: string;
@@ -146,12 +146,12 @@ export const LOG_TIME = 'log time';
 type Label = keyof Words['found']['labels'];
 
 /** Returns the lines of a log's summary by their labels. */
-export function summaryLines({ summary }: Log, texts: Words['found']): Partial<Record<Label, string[]>> {
+export function summaryLinesOf({ summary }: Log, texts: Words['found']): Partial<Record<Label, string[]>> {
   const { rows, used, dropped, seconds, rate, distance, units, clock, columns, frames, gaps, jumps, notes } = summary;
   return {
     rows: [texts.rows(used, rows, seconds, rate, distance)],
     ...(columns && { columns: [Object.values(columns).join(', ')], units: [texts.units(units)] }),
-    ...(frames && { frames: [framesText(frames)] }),
+    ...(frames && { frames: [formatFrames(frames)] }),
     ...(clock === LOG_TIME && { clock: [texts.recorded] }),
     dropped: (Object.entries(dropped) as [DropCause, { count: number; first: number }][]).map(([cause, { count, first }]) => texts.dropped(cause, count, columns ? first : 0)),
     gaps: [gaps.count ? texts.gaps(gaps.count, gaps.first, gaps.longest) : texts.noGaps],
@@ -164,8 +164,8 @@ export function summaryLines({ summary }: Log, texts: Words['found']): Partial<R
 }
 
 /** Returns the summary of a log as sentences, the one about its rows first. */
-export function summarySentences(log: Log, texts: Words['found']): string[] {
-  const { rows = [], ...otherLines } = summaryLines(log, texts);
+export function summarySentencesOf(log: Log, texts: Words['found']): string[] {
+  const { rows = [], ...otherLines } = summaryLinesOf(log, texts);
   return [...rows, ...Object.entries(otherLines).flatMap(([label, lines]) => lines.map((line) => `${texts.labels[label as Label]}: ${line}`))];
 }
 
@@ -190,15 +190,15 @@ export class LogError extends Error {
   /** Question whose answer resolves the error. */
   ask?: Question;
   /** Returns the message in the language of the given words. */
-  sentence: (texts: Words) => string;
+  messageIn: (texts: Words) => string;
 
-  constructor(place: ErrorPlace, reason: ErrorReason, ask?: Question) {
-    const sentenceOf = (texts: Words) => `${texts.place(truncate(place.file), place.line ?? 0, truncate(place.topic ?? ''))}: ${reason(texts.refused)}`;
-    super(sentenceOf(english));
+  constructor(place: ErrorPlace, formatReason: ErrorReason, ask?: Question) {
+    const composeMessage = (texts: Words) => `${texts.place(truncate(place.file), place.line ?? 0, truncate(place.topic ?? ''))}: ${formatReason(texts.refused)}`;
+    super(composeMessage(english));
     this.name = 'LogError';
     this.place = place;
     this.ask = ask;
-    this.sentence = sentenceOf;
+    this.messageIn = composeMessage;
   }
 }
 

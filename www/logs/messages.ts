@@ -1,7 +1,7 @@
 /** Readers of ROS 1 and ROS 2 messages with poses, commands or transforms. They ignore later fields, such as covariances. */
 
 import { dataViewOf, type Channel, type Message } from './formats/container.ts';
-import { unzstdMessage } from './formats/decompression.ts';
+import { decompressZstdMessage } from './formats/decompression.ts';
 import type { Series } from './log.ts';
 import { rotationOf } from './path.ts';
 import type { Sample } from './rows.ts';
@@ -136,7 +136,7 @@ const ZSTD_MAGIC = 0x28b52ffd;
 function readerOf(channel: Channel, message: MessageBytes): MessageReader {
   const { block, from, to } = message;
   if (channel.encoding === 'ros1' || block.getUint32(from) !== ZSTD_MAGIC) return new MessageReader(channel, message);
-  const bytes = unzstdMessage(bytesOf(block, from, to));
+  const bytes = decompressZstdMessage(bytesOf(block, from, to));
   return new MessageReader(channel, { block: dataViewOf(bytes), from: 0, to: bytes.length });
 }
 

@@ -42,7 +42,7 @@ export async function openRecordings(files: Source[], options: OpenOptions | ((f
   for (const file of files) {
     await reportSkipped(async () => {
       const fileFormat = await detectFormat(file);
-      const openedSource = fileFormat === 'zstd' ? await (await import('./formats/decompression.ts')).unzstdFile(file) : file;
+      const openedSource = fileFormat === 'zstd' ? await (await import('./formats/decompression.ts')).decompressZstdFile(file) : file;
       formatByFile.set(openedSource, fileFormat === 'zstd' ? await detectFormat(openedSource) : fileFormat);
     });
   }
@@ -55,10 +55,10 @@ export async function openRecordings(files: Source[], options: OpenOptions | ((f
       const format = formatByFile.get(source);
       formatByFile.delete(source);
       if (!format) return void recordings.push(await openTable(source, optionsOf(source.name)));
-      const { name, files: parts } = format === 'metadata' ? await (await import('./formats/metadata.ts')).listedFiles(source, openedSources) : { name: source.name, files: [source] };
+      const { name, files: parts } = format === 'metadata' ? await (await import('./formats/metadata.ts')).findListedFiles(source, openedSources) : { name: source.name, files: [source] };
       const partFormats = parts.map((part) => (part === source ? format : formatByFile.get(part)));
       for (const part of parts) formatByFile.delete(part);
-      const container = joinedContainer(await Promise.all(parts.map((part, i) => openContainer(part, partFormats[i]))));
+      const container = joinContainers(await Promise.all(parts.map((part, i) => openContainer(part, partFormats[i]))));
       recordings.push(await (await import('./topics.ts')).recordingOf(name, container, optionsOf(name)));
     });
   }
@@ -82,7 +82,7 @@ async function openContainer(source: Source, format: FileFormat | undefined): Pr
 }
 
 /** Returns a container with the messages of several containers, one after the other. */
-function joinedContainer(parts: Container[]): Container {
+function joinContainers(parts: Container[]): Container {
   return {
     format: parts[0].format,
     channels: parts.flatMap(({ channels }) => channels),

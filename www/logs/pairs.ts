@@ -3,7 +3,7 @@
 import { min } from 'd3-array';
 import type { CalibrationLog } from '../types.d.ts';
 import { isLocalizer, roleByName, type LogPlan } from './drives.ts';
-import { LogError, ROLES, UNITS, framesText, type AngleUnit, type LengthUnit, type Log, type Note, type Poses, type Question, type Role, type Warning } from './log.ts';
+import { LogError, ROLES, UNITS, formatFrames, type AngleUnit, type LengthUnit, type Log, type Note, type Poses, type Question, type Role, type Warning } from './log.ts';
 import { pathOf, poseAt, wrapAngle } from './path.ts';
 import { METRES_PER_UNIT } from './units.ts';
 
@@ -53,26 +53,26 @@ interface Agreement { score: number; length: number; angle: number }
 
 const timeSpanOf = ({ start, data: { t } }: Log): [number, number] => [start + t[0], start + t[t.length - 1]];
 
-const timeSpanText = (log: Log) => timeSpanOf(log).map((time) => `${time.toFixed(2)} s`).join(' to ');
+const formatTimeSpan = (log: Log) => timeSpanOf(log).map((time) => `${time.toFixed(2)} s`).join(' to ');
 
 /** Returns the duration of the overlap of two logs; negative if there is a gap between them. */
-function overlapSeconds(one: Log, other: Log): number {
-  const [[a, b], [c, d]] = [timeSpanOf(one), timeSpanOf(other)];
+function overlapSecondsOf(log: Log, otherLog: Log): number {
+  const [[a, b], [c, d]] = [timeSpanOf(log), timeSpanOf(otherLog)];
   return Math.min(b, d) - Math.max(a, c);
 }
 
 /** Returns the part of a file's name that both files of a drive share: without its extension and words for a role. */
-const fileStem = (name: string) => name.toLowerCase().replace(/\.\w+$/, '').replace(/odom(etry)?|wheels?|encoders?|cmd(_vel)?|(ground)?[_-]?truth|gt|reference|ref|mocap|vicon|optitrack|poses?/g, '').replace(/[^a-z0-9]+/g, '');
+const fileStemOf = (name: string) => name.toLowerCase().replace(/\.\w+$/, '').replace(/odom(etry)?|wheels?|encoders?|cmd(_vel)?|(ground)?[_-]?truth|gt|reference|ref|mocap|vicon|optitrack|poses?/g, '').replace(/[^a-z0-9]+/g, '');
 
 /** Pairs logs of several drives: by their times, by the names of their files, or in their order. */
 function matchLogs(odometry: Log[], reference: Log[]): [Log, Log][] {
-  const overlapsMostly = (one: Log, other: Log) => overlapSeconds(one, other) > MIN_OVERLAP * Math.min(one.summary.seconds, other.summary.seconds);
-  const hasSameStem = (one: Log, other: Log) => fileStem(one.name) === fileStem(other.name);
+  const overlapsMostly = (odometryLog: Log, referenceLog: Log) => overlapSecondsOf(odometryLog, referenceLog) > MIN_OVERLAP * Math.min(odometryLog.summary.seconds, referenceLog.summary.seconds);
+  const hasSameStem = (odometryLog: Log, referenceLog: Log) => fileStemOf(odometryLog.name) === fileStemOf(referenceLog.name);
   for (const isMatch of [overlapsMostly, hasSameStem]) {
-    const partnersOfEach = odometry.map((one) => reference.filter((other) => isMatch(one, other)));
-    if (partnersOfEach.every(({ length }) => length === 1) && new Set(partnersOfEach.flat()).size === reference.length) return odometry.map((one, i) => [one, partnersOfEach[i][0]]);
+    const partnersOfEach = odometry.map((odometryLog) => reference.filter((referenceLog) => isMatch(odometryLog, referenceLog)));
+    if (partnersOfEach.every(({ length }) => length === 1) && new Set(partnersOfEach.flat()).size === reference.length) return odometry.map((odometryLog, i) => [odometryLog, partnersOfEach[i][0]]);
   }
-  return odometry.map((one, i) => [one, reference[i]]);
+  return odometry.map((odometryLog, i) => [odometryLog, reference[i]]);
 }
 
 /** Pairs two logs of one drive, whose times are after one start. Throws a LogError if they do not fit, or if one needs a correction. */
@@ -80,7 +80,7 @@ export function pairLogs(odometry: Log, reference: Log): Drive {
   const referencePlace = { file: reference.name };
   if (reference.kind === 'commands') throw new LogError(referencePlace, (texts) => texts.noColumns('poses', 't, v, omega'));
   const { frames } = reference.summary;
-  if (frames?.parent === 'odom') throw new LogError(referencePlace, (texts) => texts.ownReference(framesText(frames)));
+  if (frames?.parent === 'odom') throw new LogError(referencePlace, (texts) => texts.ownReference(formatFrames(frames)));
   const brokenReference = breakFrozenPoses(reference, odometry);
   if (brokenReference.summary.used < 2) throw new LogError(referencePlace, (texts) => texts.held);
   const logs = { odometry, reference: brokenReference };
@@ -93,7 +93,7 @@ export function pairLogs(odometry: Log, reference: Log): Drive {
     ...brokenReference.summary.notes,
     ...(roleByName(odometry.name) !== 'odometry' && roleByName(reference.name) === 'odometry' ? [{ name: 'swapped' as const, values: [odometry.name] }] : []),
     ...(isLocalizer(reference.name, frames) ? [{ name: 'localizer' as const, values: [] }] : []),
-    ...(overlapSeconds(odometry, reference) < 0 ? [{ name: 'apart' as const, values: [odometry.name, timeSpanText(reference), timeSpanText(odometry)] }] : []),
+    ...(overlapSecondsOf(odometry, reference) < 0 ? [{ name: 'apart' as const, values: [odometry.name, formatTimeSpan(reference), formatTimeSpan(odometry)] }] : []),
   ];
   return { ...logs, reference: { ...brokenReference, summary: { ...brokenReference.summary, notes } } };
 }
@@ -134,11 +134,11 @@ export function calibrationLogOf(drives: Drive[]): Pick<CalibrationLog, Role> {
 
 /** Reads the logs of a plan and pairs them. Their times are relative to one start. Rejects with a LogError. */
 export async function readDrives({ drives, unpaired }: Pick<LogPlan, 'drives' | 'unpaired'>, onProgress?: (share: number) => void): Promise<Drive[]> {
-  const readGroups = [...drives.map((drive) => [drive.odometry, drive.reference]), ...[...unpaired.odometry, ...unpaired.reference].map((part) => [part])];
+  const readGroups = [...drives.map((drive) => [drive.odometry, drive.reference]), ...[...unpaired.odometry, ...unpaired.reference].map((recordingChoice) => [recordingChoice])];
   const logs: Log[] = [];
-  for (const [i, parts] of readGroups.entries()) {
-    const [{ recording }] = parts;
-    logs.push(...(await recording.read(parts.map(({ choice }) => choice), (share) => onProgress?.((i + share) / readGroups.length))));
+  for (const [i, recordingChoices] of readGroups.entries()) {
+    const [{ recording }] = recordingChoices;
+    logs.push(...(await recording.read(recordingChoices.map(({ choice }) => choice), (share) => onProgress?.((i + share) / readGroups.length))));
   }
   const start = min(logs, (log) => log.start) ?? 0;
   const logsFromStart = logs.map((log): Log => ({ ...log, start, data: { ...log.data, t: log.data.t.map((time) => time + (log.start - start)) } }));
@@ -162,20 +162,20 @@ function correctionOf(odometry: Log, reference: Log): Correction | undefined {
   const stepCount = Math.floor((to - from) / step);
   if (!(stepCount >= MIN_STEPS)) return undefined;
   const [odometryMotions, referenceMotions] = ROLES.map((role) => motionsOf(logs[role], from, step, stepCount));
-  const { score, length: factor, angle } = bestAgreementOf(odometryMotions, referenceMotions, step);
+  const { score, length: lengthFactor, angle } = bestAgreementOf(odometryMotions, referenceMotions, step);
   if (score < MIN_AGREEMENT_SCORE) {
     const mirrored = bestAgreementOf(odometryMotions, referenceMotions.map(([forward, left, turn]) => [forward, -left, -turn]), step);
     const minScore = Math.max(MIN_CORRECTED_SCORE, 1 - MAX_REMAINING_FRACTION * (1 - score));
-    if (mirrored.score >= minScore && [mirrored.length, mirrored.angle].every(isPlausibleScale)) return { name: 'leftHanded', at: 'reference', score: mirrored.score, factor };
+    if (mirrored.score >= minScore && [mirrored.length, mirrored.angle].every(isPlausibleScale)) return { name: 'leftHanded', at: 'reference', score: mirrored.score, factor: lengthFactor };
     if (score < MIN_CORRECTED_SCORE) return undefined;
   }
-  if (!isPlausibleScale(factor)) return lengthCorrection(logs, score, factor);
-  return isPlausibleScale(angle) ? undefined : { name: 'angles', at: angle < 1 ? 'reference' : 'odometry', score, factor, unit: 'deg' };
+  if (!isPlausibleScale(lengthFactor)) return computeLengthCorrection(logs, score, lengthFactor);
+  return isPlausibleScale(angle) ? undefined : { name: 'angles', at: angle < 1 ? 'reference' : 'odometry', score, factor: lengthFactor, unit: 'deg' };
 }
 
 /** Returns the correction of lengths, for the log whose corrected lengths have a known unit. `factor` is the scale of the reference's lengths. */
-function lengthCorrection(logs: Record<Role, Log>, score: number, factor: number): Correction {
-  const corrections = ([['reference', factor], ['odometry', 1 / factor]] as const).map(([at, factorOfLog]): Correction => {
+function computeLengthCorrection(logs: Record<Role, Log>, score: number, lengthFactor: number): Correction {
+  const corrections = ([['reference', lengthFactor], ['odometry', 1 / lengthFactor]] as const).map(([at, factorOfLog]): Correction => {
     const size = METRES_PER_UNIT[logs[at].summary.units.length.unit] * factorOfLog;
     const unit = UNITS.lengthUnit.find((name) => Math.max(size / METRES_PER_UNIT[name], METRES_PER_UNIT[name] / size) < MAX_UNIT_ERROR);
     return { name: 'lengths', at, score, factor: factorOfLog, unit };

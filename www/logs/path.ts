@@ -41,11 +41,11 @@ export function poseAt({ t, poses }: Path, time: number): Pose {
   return [a[0] + fraction * (b[0] - a[0]), a[1] + fraction * (b[1] - a[1]), a[2] + fraction * wrapAngle(b[2] - a[2])];
 }
 
-export const svgPathData = ({ poses, breaks }: Path, toPixel: (pose: Pose) => number[]) =>
+export const svgPathDataOf = ({ poses, breaks }: Path, toPixel: (pose: Pose) => number[]) =>
   poses.map((pose, i) => `${i === 0 || breaks.has(i) ? 'M' : 'L'}${toPixel(pose).map((value) => value.toFixed(1)).join(' ')}`).join('');
 
 /** Rotates and moves a path so that its squared distance to the target is smallest. Returns the path itself without a common time. Times of the target are later by `offset`. */
-export function alignedPath(path: Path, target: Path, offset = 0): Path {
+export function alignPath(path: Path, target: Path, offset = 0): Path {
   const posePairs = path.poses.flatMap((pose, i): [Pose, Pose][] => {
     const time = path.t[i] + offset;
     return time >= target.t[0] && time <= target.t[target.t.length - 1] ? [[pose, poseAt(target, time)]] : [];
@@ -78,13 +78,13 @@ export function distanceOf(data: Poses | Commands, jumps: number[]): number {
     return distance;
   }
   const { x, y } = data;
-  for (let i = 1, last = 0, next = 0; i < t.length; i++) {
-    const stepLength = Math.hypot(x[i] - x[last], y[i] - y[last]);
+  for (let i = 1, lastRow = 0, next = 0; i < t.length; i++) {
+    const stepLength = Math.hypot(x[i] - x[lastRow], y[i] - y[lastRow]);
     const isJump = jumps[next] === i;
     if (isJump) next += 1;
     else if (stepLength < MIN_STEP_METRES) continue;
     else distance += stepLength;
-    last = i;
+    lastRow = i;
   }
   return distance;
 }
@@ -106,7 +106,7 @@ export function rotationOf(qx: number, qy: number, qz: number, qw: number): { c:
   return { c: heading, tiltCosine };
 }
 
-export const hamiltonProduct = ([ax, ay, az, aw]: Quaternion, [bx, by, bz, bw]: Quaternion): Quaternion => [
+export const multiplyQuaternions = ([ax, ay, az, aw]: Quaternion, [bx, by, bz, bw]: Quaternion): Quaternion => [
   aw * bx + ax * bw + ay * bz - az * by,
   aw * by - ax * bz + ay * bw + az * bx,
   aw * bz + ax * by - ay * bx + az * bw,
@@ -117,12 +117,12 @@ export const hamiltonProduct = ([ax, ay, az, aw]: Quaternion, [bx, by, bz, bw]: 
 const MAX_ITEMS = 10_000;
 
 /** Evaluates `value` at evenly spaced indices below `count`, at most `MAX_ITEMS` of them. */
-export function sampleEvenly(count: number, value: (i: number) => number): Float64Array {
+export function sampleEvenly(count: number, valueAt: (i: number) => number): Float64Array {
   const stride = Math.max(1, Math.ceil(count / MAX_ITEMS));
   const values = new Float64Array(Math.max(0, Math.ceil(count / stride)));
-  for (let i = 0; i < values.length; i++) values[i] = value(i * stride);
+  for (let i = 0; i < values.length; i++) values[i] = valueAt(i * stride);
   return values;
 }
 
 /** Sorts the values in place and returns a quantile of them; NaN of no values. */
-export const quantile = (values: Float64Array, fraction: number) => values.sort()[Math.floor(fraction * (values.length - 1))] ?? NaN;
+export const quantileOf = (values: Float64Array, fraction: number) => values.sort()[Math.floor(fraction * (values.length - 1))] ?? NaN;

@@ -2,7 +2,7 @@
 
 import { group, max, min, range, sum } from 'd3-array';
 import { LogError, type ErrorPlace, type DropCause, type Log, type LogKind, type Note, type OpenOptions, type ErrorReason, type Question, type Summary, type Words } from './log.ts';
-import { distanceOf, quantile, sampleEvenly, wrapAngle } from './path.ts';
+import { distanceOf, quantileOf, sampleEvenly, wrapAngle } from './path.ts';
 import { epochTimeUnitOf, judgeUnits, type Columns, type ColumnNames, type Units } from './units.ts';
 
 /** Pose (x, y and heading) or command (v, omega and 0). `time` is in s, or 0 if unknown. The heading is undefined if the quaternion is no rotation. */
@@ -76,31 +76,31 @@ const MAX_TILT_SPREAD = 0.5;
 
 export class Rows {
   #logPlace: ErrorPlace;
-  /** Columns of the rows that were added. `isBroken` is 1 if the path before a row is unknown. */
-  #columns = { time: [] as number[], a: [] as number[], b: [] as number[], c: [] as number[], z: [] as number[], line: [] as number[], otherTime: [] as number[], isBroken: [] as number[] };
+  /** Columns of the rows that were added. `breakFlags` is 1 if the path before a row is unknown. */
+  #columns = { time: [] as number[], a: [] as number[], b: [] as number[], c: [] as number[], z: [] as number[], line: [] as number[], otherTime: [] as number[], breakFlags: [] as number[] };
   #tiltCosines: number[] = [];
   /** Times of the clock that is used. */
   #times = this.#columns.time;
   /** True if the path before the next row is unknown, because an unusable row was dropped. */
-  #isBroken = false;
+  #isPathBroken = false;
   #dropped: Summary['dropped'] = {};
   /** Number of damaged rows, and reason of the first damaged row. */
-  #damage: { count: number; line: number; reason: ErrorReason } | undefined;
+  #damage: { count: number; line: number; formatReason: ErrorReason } | undefined;
 
   /** Number of all rows, including dropped rows. */
   count = 0;
 
-  /** @param place file and topic that error messages name */
-  constructor(place: ErrorPlace) {
-    this.#logPlace = place;
+  /** @param logPlace file and topic that error messages name */
+  constructor(logPlace: ErrorPlace) {
+    this.#logPlace = logPlace;
   }
 
   /** Drops a row. If many rows are dropped with a reason, the log is refused with the reason of the first. */
-  drop(cause: DropCause, line: number, reason?: ErrorReason): void {
+  drop(cause: DropCause, line: number, formatReason?: ErrorReason): void {
     this.count += 1;
     this.#countDropped(cause, line);
-    this.#isBroken = true;
-    if (reason) this.#damage = { line, reason, ...this.#damage, count: (this.#damage?.count ?? 0) + 1 };
+    this.#isPathBroken = true;
+    if (formatReason) this.#damage = { line, formatReason, ...this.#damage, count: (this.#damage?.count ?? 0) + 1 };
   }
 
   /** Adds a row, or drops an unusable row. `otherTime` is the time of the fallback clock, which is used if the first clock stands still. */
@@ -118,13 +118,13 @@ export class Rows {
     if (tiltCosine !== undefined) this.#tiltCosines.push(tiltCosine);
     columns.line.push(line);
     columns.otherTime.push(otherTime);
-    columns.isBroken.push(Number(this.#isBroken));
-    this.#isBroken = false;
+    columns.breakFlags.push(Number(this.#isPathBroken));
+    this.#isPathBroken = false;
   }
 
   /** Difference of the 95 % and the 5 % quantile of the cosine of the tilt. It is small if Z is vertical. */
   get tiltSpread(): number {
-    const [low, high] = [0.05, 0.95].map((fraction) => quantile(sampleEvenly(this.#tiltCosines.length, (i) => this.#tiltCosines[i]), fraction));
+    const [low, high] = [0.05, 0.95].map((fraction) => quantileOf(sampleEvenly(this.#tiltCosines.length, (i) => this.#tiltCosines[i]), fraction));
     return high - low || 0;
   }
 
@@ -133,8 +133,8 @@ export class Rows {
     const { count } = this;
     const damage = this.#damage;
     if (damage && damage.count > MAX_DAMAGED_FRACTION * count) {
-      const sentences = (texts: Words['refused']) => [damage.reason(texts), ...(damage.count > 1 && damage.count < count ? [texts.manyBad(damage.count, count, 100 * MAX_DAMAGED_FRACTION)] : [])];
-      throw new LogError({ ...this.#logPlace, line: damage.line }, (texts) => sentences(texts).join(' '));
+      const composeSentences = (texts: Words['refused']) => [damage.formatReason(texts), ...(damage.count > 1 && damage.count < count ? [texts.manyBad(damage.count, count, 100 * MAX_DAMAGED_FRACTION)] : [])];
+      throw new LogError({ ...this.#logPlace, line: damage.line }, (texts) => composeSentences(texts).join(' '));
     }
     const ask: Question | undefined = names && { what: 'columns', choices: [], columns: names.given };
     if (this.tiltSpread > MAX_TILT_SPREAD) throw new LogError(this.#logPlace, (texts) => texts.tilted(names !== undefined), ask);
@@ -155,7 +155,7 @@ export class Rows {
     const units = judgeUnits(this.#logPlace, kind, columns, assumed, options, names);
     const pathDistance = kind === 'poses' ? distanceOfPaths(t, a, b) : 0;
     if (pathDistance > 0) throw new LogError(this.#logPlace, (texts) => texts.turns(pathDistance));
-    const { breaks, jumpRows, ...foundGaps } = this.#findEvents(kind, [t, a, b, c], (i) => this.#columns.isBroken[rows[i]] === 1);
+    const { breaks, jumpRows, ...foundGaps } = this.#findEvents(kind, [t, a, b, c], (i) => this.#columns.breakFlags[rows[i]] === 1);
     const data = { t, ...(kind === 'poses' ? { x: a, y: b, theta: c } : { v: a, omega: b }), breaks } as Log['data'];
     const notes: Note[] = [
       ...decisions.notes,
@@ -173,12 +173,12 @@ export class Rows {
   /** Returns true if most rows have the time of the previous row, because the stamps are 0 or never change. */
   #isClockStill(): boolean {
     const { time } = this.#columns;
-    return 2 * time.filter((value, row) => value === time[row - 1]).length > time.length;
+    return 2 * time.filter((rowTime, row) => rowTime === time[row - 1]).length > time.length;
   }
 
-  #isSame(one: number, other: number): boolean {
+  #isSame(rowIndex: number, otherRowIndex: number): boolean {
     const { a, b, c } = this.#columns;
-    return a[one] === a[other] && b[one] === b[other] && c[one] === c[other];
+    return a[rowIndex] === a[otherRowIndex] && b[rowIndex] === b[otherRowIndex] && c[rowIndex] === c[otherRowIndex];
   }
 
   /** Returns the rows without those whose stamp was not set. Such a stamp is 0 although all other times are since 1970. */
@@ -196,23 +196,23 @@ export class Rows {
     const runOfRow = new Uint32Array(rows.length);
     for (let i = 1; i < rows.length; i++) runOfRow[i] = runOfRow[i - 1] + Number(times[i] < times[i - 1]);
     if (!runOfRow.at(-1)) return { sortedRows: rows, lateCount: 0 };
-    const order = rows.map((_, i) => i).sort((one, other) => times[one] - times[other] || one - other);
-    const medianStep = quantile(sampleEvenly(times.length - 1, (i) => times[order[i + 1]] - times[order[i]]).filter((step) => step > 0), 0.5);
-    const distance = (one: number, other: number) => Math.hypot(a[rows[one]] - a[rows[other]], b[rows[one]] - b[rows[other]]);
+    const sortedOrder = rows.map((_, i) => i).sort((one, other) => times[one] - times[other] || one - other);
+    const medianStep = quantileOf(sampleEvenly(times.length - 1, (i) => times[sortedOrder[i + 1]] - times[sortedOrder[i]]).filter((step) => step > 0), 0.5);
+    const distanceBetween = (position: number, otherPosition: number) => Math.hypot(a[rows[position]] - a[rows[otherPosition]], b[rows[position]] - b[rows[otherPosition]]);
     // Rows overlap if they are close in time but not in the file. Rows that were only late make the path shorter when they are sorted.
     const overlaps: { run: number; sortedLength: number; fileLength: number }[] = [];
-    for (let i = 1; i < order.length; i++) {
-      const [one, other] = [order[i - 1], order[i]];
-      const isOverlap = runOfRow[one] !== runOfRow[other] && times[other] - times[one] < MAX_OVERLAP_STEPS * medianStep && !this.#isSame(rows[one], rows[other]);
-      const run = Math.max(runOfRow[one], runOfRow[other]);
-      if (isOverlap) overlaps.push({ run, sortedLength: distance(one, other), fileLength: distance(other, Math.max(other, 1) - 1) });
+    for (let i = 1; i < sortedOrder.length; i++) {
+      const [previousPosition, position] = [sortedOrder[i - 1], sortedOrder[i]];
+      const isOverlap = runOfRow[previousPosition] !== runOfRow[position] && times[position] - times[previousPosition] < MAX_OVERLAP_STEPS * medianStep && !this.#isSame(rows[previousPosition], rows[position]);
+      const run = Math.max(runOfRow[previousPosition], runOfRow[position]);
+      if (isOverlap) overlaps.push({ run, sortedLength: distanceBetween(previousPosition, position), fileLength: distanceBetween(position, Math.max(position, 1) - 1) });
     }
-    const isSetBack = (found: typeof overlaps, maxCount: number) => {
-      const hasShorterPath = sum(found, ({ sortedLength }) => sortedLength) < MAX_LATE_PATH_RATIO * sum(found, ({ fileLength }) => fileLength);
-      return found.length > maxCount && !(hasShorterPath && found.length >= MIN_LATE_ROWS);
+    const isSetBack = (overlapsOfRun: typeof overlaps, maxCount: number) => {
+      const hasShorterPath = sum(overlapsOfRun, ({ sortedLength }) => sortedLength) < MAX_LATE_PATH_RATIO * sum(overlapsOfRun, ({ fileLength }) => fileLength);
+      return overlapsOfRun.length > maxCount && !(hasShorterPath && overlapsOfRun.length >= MIN_LATE_ROWS);
     };
     const hasManyOverlaps = isSetBack(overlaps, Math.max(MAX_RUN_OVERLAPS, MAX_OVERLAP_FRACTION * rows.length));
-    const [setBackRun] = [...group(overlaps, ({ run }) => run)].find(([, found]) => hasManyOverlaps || isSetBack(found, MAX_RUN_OVERLAPS)) ?? [];
+    const [setBackRun] = [...group(overlaps, ({ run }) => run)].find(([, overlapsOfRun]) => hasManyOverlaps || isSetBack(overlapsOfRun, MAX_RUN_OVERLAPS)) ?? [];
     if (setBackRun !== undefined) {
       const setBackRow = runOfRow.indexOf(setBackRun);
       const line = this.#columns.line[rows[setBackRow]];
@@ -220,7 +220,7 @@ export class Rows {
     }
     let newestTime = -Infinity;
     const isLate = (time: number) => time < (newestTime = Math.max(newestTime, time));
-    return { sortedRows: order.map((i) => rows[i]), lateCount: times.filter(isLate).length };
+    return { sortedRows: sortedOrder.map((i) => rows[i]), lateCount: times.filter(isLate).length };
   }
 
   /** Returns the first row of each time. Throws a LogError if many rows have the time of another row but other values. */
@@ -251,7 +251,7 @@ export class Rows {
       if (isRepeated(i)) rowsPerPose[rowsPerPose.length - 1] += 1;
       else rowsPerPose.push(1);
     }
-    const usualRowsPerPose = rowsPerPose.length < MIN_POSES ? 1 : quantile(sampleEvenly(rowsPerPose.length, (i) => rowsPerPose[i]), 0.5);
+    const usualRowsPerPose = rowsPerPose.length < MIN_POSES ? 1 : quantileOf(sampleEvenly(rowsPerPose.length, (i) => rowsPerPose[i]), 0.5);
     if (usualRowsPerPose === 1) return rows;
     let [pose, repeatCount] = [-1, 0];
     return this.#without(rows, 'repeated', (_, i) => {
@@ -263,24 +263,24 @@ export class Rows {
 
   /** Returns the rows for which `isDropped` is false. A break before a dropped row is moved to the next row. */
   #without(rows: Uint32Array, cause: DropCause, isDropped: (row: number, i: number) => boolean): Uint32Array {
-    const { line, isBroken } = this.#columns;
+    const { line, breakFlags } = this.#columns;
     return rows.filter((row, i) => {
       if (!isDropped(row, i)) return true;
       this.#countDropped(cause, line[row]);
-      if (i + 1 < rows.length) isBroken[rows[i + 1]] ||= isBroken[row];
+      if (i + 1 < rows.length) breakFlags[rows[i + 1]] ||= breakFlags[row];
       return false;
     });
   }
 
   /** Returns the rate, the gaps, the jumps, and the breaks: rows before which the path is unknown. */
-  #findEvents(kind: LogKind, [t, a, b, c]: Float64Array[], isBroken: (i: number) => boolean) {
-    const medianStep = quantile(sampleEvenly(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
+  #findEvents(kind: LogKind, [t, a, b, c]: Float64Array[], hasBreakBefore: (i: number) => boolean) {
+    const medianStep = quantileOf(sampleEvenly(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
     const [gapRows, jumpRows, breaks]: number[][] = [[], [], []];
-    const isJump = kind === 'poses' ? jumpChecker(t, a, b, c) : () => false;
+    const isJump = kind === 'poses' ? createJumpChecker(t, a, b, c) : () => false;
     for (let i = 1; i < t.length; i++) {
       if (t[i] - t[i - 1] > MIN_GAP_STEPS * medianStep) gapRows.push(i);
       if (isJump(i)) jumpRows.push(i);
-      if (jumpRows.at(-1) === i || isBroken(i)) breaks.push(i);
+      if (jumpRows.at(-1) === i || hasBreakBefore(i)) breaks.push(i);
     }
     return {
       rate: 1 / medianStep, breaks: Uint32Array.from(breaks), jumpRows,
@@ -297,23 +297,23 @@ export class Rows {
 
 /** Returns the distance (m) of two paths whose poses alternate: many are far from the next one, and near one a few rows later. 0 for one path. */
 function distanceOfPaths(t: Float64Array, x: Float64Array, y: Float64Array): number {
-  const distancesOver = (rows: number) => sampleEvenly(x.length - rows, (i) => Math.sqrt((x[i + rows] - x[i]) ** 2 + (y[i + rows] - y[i]) ** 2));
-  const longStep = quantile(distancesOver(1), 0.9);
-  const countLongSteps = (rows: number) => distancesOver(rows).filter((distance) => distance > longStep / 2).length;
+  const distancesAfterRows = (rows: number) => sampleEvenly(x.length - rows, (i) => Math.sqrt((x[i + rows] - x[i]) ** 2 + (y[i + rows] - y[i]) ** 2));
+  const longStep = quantileOf(distancesAfterRows(1), 0.9);
+  const countLongSteps = (rows: number) => distancesAfterRows(rows).filter((distance) => distance > longStep / 2).length;
   const hasReturnedAfter = (rows: number) => countLongSteps(rows) < MAX_LONG_FRACTION * countLongSteps(1);
   const maxRows = Math.min(MAX_RETURN_ROWS, (MAX_RETURN_SECONDS * t.length) / (t[t.length - 1] - t[0]));
   return longStep > MIN_PATH_DISTANCE && countLongSteps(1) >= MIN_LONG_STEPS && range(2, maxRows + 1).some(hasReturnedAfter) ? longStep : 0;
 }
 
 /** Returns a function that checks for a jump between a row and the one before it. */
-function jumpChecker(t: Float64Array, x: Float64Array, y: Float64Array, theta: Float64Array): (i: number) => boolean {
-  const distance = (i: number) => Math.sqrt((x[i] - x[i - 1]) ** 2 + (y[i] - y[i - 1]) ** 2);
-  const turn = (i: number) => Math.abs(wrapAngle(theta[i] - theta[i - 1]));
-  const motionTests = ([[distance, MIN_JUMP], [turn, MIN_JUMP_TURN]] as const).map(([length, minLength]) => {
-    const stepRates = sampleEvenly(t.length - 1, (i) => length(i + 1) / (t[i + 1] - t[i]));
-    const jumpLimit = JUMP_FACTOR * quantile(stepRates.filter((rate) => rate > MIN_MOVING_SPEED), 0.9);
+function createJumpChecker(t: Float64Array, x: Float64Array, y: Float64Array, theta: Float64Array): (i: number) => boolean {
+  const distanceToPrevious = (i: number) => Math.sqrt((x[i] - x[i - 1]) ** 2 + (y[i] - y[i - 1]) ** 2);
+  const turnFromPrevious = (i: number) => Math.abs(wrapAngle(theta[i] - theta[i - 1]));
+  const motionTests = ([[distanceToPrevious, MIN_JUMP], [turnFromPrevious, MIN_JUMP_TURN]] as const).map(([lengthOfStep, minLength]) => {
+    const stepRates = sampleEvenly(t.length - 1, (i) => lengthOfStep(i + 1) / (t[i + 1] - t[i]));
+    const jumpLimit = JUMP_FACTOR * quantileOf(stepRates.filter((rate) => rate > MIN_MOVING_SPEED), 0.9);
     // For a robot that never moves the limit is NaN.
-    return (i: number) => length(i) > Math.max(minLength, (jumpLimit || 0) * (t[i] - t[i - 1]));
+    return (i: number) => lengthOfStep(i) > Math.max(minLength, (jumpLimit || 0) * (t[i] - t[i - 1]));
   });
   return (i) => motionTests.some((test) => test(i));
 }

@@ -35,10 +35,10 @@ export class LogSession {
   }
 
   async read({ drives, unpaired }: Pick<LogPlan, 'drives' | 'unpaired'>, onProgress: (share: number) => void): Promise<Drive[]> {
-    const openedChoice = ({ recording, choice }: RecordingChoice) => ({ recording: this.#recordings[(recording as OpenedRecording).place], choice });
+    const openedChoiceOf = ({ recording, choice }: RecordingChoice) => ({ recording: this.#recordings[(recording as OpenedRecording).place], choice });
     const plan = {
-      drives: drives.map(({ odometry, reference }) => ({ odometry: openedChoice(odometry), reference: openedChoice(reference) })),
-      unpaired: { odometry: unpaired.odometry.map(openedChoice), reference: unpaired.reference.map(openedChoice) },
+      drives: drives.map(({ odometry, reference }) => ({ odometry: openedChoiceOf(odometry), reference: openedChoiceOf(reference) })),
+      unpaired: { odometry: unpaired.odometry.map(openedChoiceOf), reference: unpaired.reference.map(openedChoiceOf) },
     };
     let nextProgress = 0;
     const readLogs = await readDrives(plan, (share) => {
@@ -59,7 +59,7 @@ export class LogSession {
   }
 }
 
-function failureOf({ message, place, ask, sentence }: LogError): LogFailure {
+function failureOf({ message, place, ask, messageIn: sentence }: LogError): LogFailure {
   return { message, place, ask, sentences: { en: sentence(english), de: sentence(german) } };
 }
 

@@ -36,8 +36,8 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
   // If no group can be read, `logLayoutOf` throws the reason for the group with most columns.
   if (readableGroups.length === 0) logLayoutOf(format.groups.toSorted((a, b) => Object.keys(b.columns).length - Object.keys(a.columns).length)[0], format.names, headerPlace, undefined);
   const seriesOfGroup = (group: ColumnGroup): Series => ({
-    name: readableGroups.length === 1 && group.kind !== null ? '' : group.name || listNames(columnNames(group)),
-    type: listNames(columnNames(group)),
+    name: readableGroups.length === 1 && group.kind !== null ? '' : group.name || listNames(columnNamesOf(group)),
+    type: listNames(columnNamesOf(group)),
     kind: group.kind,
     hasCommands: group.hasCommands,
     count: 0,
@@ -51,7 +51,7 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
       const readersOfChoices = choices.map(({ series: seriesName, kind }) => {
         const chosenGroup = format.groups[allSeries.findIndex(({ name }) => name === seriesName)];
         const name = readableGroups.length === 1 ? source.name : `${source.name}, ${seriesOfGroup(chosenGroup).name}`;
-        const readerOf = (group: ColumnGroup, upAxis?: 'Y' | 'Z') => logReader(name, { file: source.name }, format, group, logLayoutOf(group, format.names, headerPlace, kind), options, upAxis);
+        const readerOf = (group: ColumnGroup, upAxis?: 'Y' | 'Z') => createLogReader(name, { file: source.name }, format, group, logLayoutOf(group, format.names, headerPlace, kind), options, upAxis);
         return format.hasUnknownAxis ? [readerOf(chosenGroup, 'Z'), readerOf(withYAxisUp(chosenGroup), 'Y')] : [readerOf(chosenGroup)];
       });
       const allReaders = readersOfChoices.flat();
@@ -64,13 +64,13 @@ export async function openTable(source: Source, options: OpenOptions = {}): Prom
   };
 }
 
-const columnNames = ({ columns }: ColumnGroup) => Object.values(columns).toSorted((a, b) => a.at - b.at).map(({ name }) => name);
+const columnNamesOf = ({ columns }: ColumnGroup) => Object.values(columns).toSorted((a, b) => a.at - b.at).map(({ name }) => name);
 
 /** Returns the encoding of a text. Signs are a byte order mark, the zeros of UTF-16, and bytes that UTF-8 does not have. */
 function detectEncoding(bytes: Uint8Array): string {
-  const [first, second, third, fourth] = bytes;
-  if ((first === 0xff && second === 0xfe) || (first !== 0 && second === 0 && third !== 0 && fourth === 0)) return 'utf-16le';
-  if (first === 0xfe && second === 0xff) return 'utf-16be';
+  const [byte0, byte1, byte2, byte3] = bytes;
+  if ((byte0 === 0xff && byte1 === 0xfe) || (byte0 !== 0 && byte1 === 0 && byte2 !== 0 && byte3 === 0)) return 'utf-16le';
+  if (byte0 === 0xfe && byte1 === 0xff) return 'utf-16be';
   try {
     new TextDecoder('utf-8', { fatal: true }).decode(bytes, { stream: true });
     return 'utf-8';
@@ -105,7 +105,7 @@ function withYAxisUp(group: ColumnGroup): ColumnGroup {
 }
 
 /** Returns a reader of the times of a table. If no unit is stated, the first time that is not 0 determines it. */
-function clockReader({ columns: [{ at }, subseconds], unit: namedUnit }: Clock, statedUnit: TimeUnit | undefined, textOf: (cell: string) => string) {
+function createClockReader({ columns: [{ at }, subseconds], unit: namedUnit }: Clock, statedUnit: TimeUnit | undefined, textOf: (cell: string) => string) {
   const unitBasis = statedUnit ? 'option' : namedUnit ? 'name' : 'usage';
   const judgedUnit: { unit?: TimeUnit; by: Summary['units']['time']['by'] } = { unit: statedUnit ?? namedUnit, by: unitBasis };
   let isDate: boolean | undefined;
@@ -113,8 +113,8 @@ function clockReader({ columns: [{ at }, subseconds], unit: namedUnit }: Clock, 
   const read = (cells: string[]): number | undefined => {
     const text = textOf(cells[at]);
     if (subseconds) {
-      const [seconds, rest] = [parseNumber(text), parseNumber(cells[subseconds.at])];
-      return seconds !== undefined && rest !== undefined ? seconds + rest / 10 ** UNIT_EXPONENTS[subseconds.unit as TimeUnit] : undefined;
+      const [seconds, subsecondTicks] = [parseNumber(text), parseNumber(cells[subseconds.at])];
+      return seconds !== undefined && subsecondTicks !== undefined ? seconds + subsecondTicks / 10 ** UNIT_EXPONENTS[subseconds.unit as TimeUnit] : undefined;
     }
     if (text.trim() === '') return NaN;
     if (isDate === undefined) {
@@ -134,13 +134,13 @@ function clockReader({ columns: [{ at }, subseconds], unit: namedUnit }: Clock, 
 }
 
 /** Returns a reader of the log of one series, line by line. `upAxis` is the vertical axis, if the format does not define it. */
-function logReader(name: string, place: ErrorPlace, format: TableFormat, group: ColumnGroup, layout: ReturnType<typeof logLayoutOf>, options: OpenOptions, upAxis?: 'Y' | 'Z') {
+function createLogReader(name: string, errorPlace: ErrorPlace, format: TableFormat, group: ColumnGroup, layout: ReturnType<typeof logLayoutOf>, options: OpenOptions, upAxis?: 'Y' | 'Z') {
   const { separator, hasDecimalCommas, isSparse, header, names } = format;
   const { clocks, columns, fields, kind, length, angle } = layout;
-  const rows = new Rows(place);
+  const rows = new Rows(errorPlace);
   const notes: Note[] = upAxis ? [{ name: 'upAxis', values: [upAxis] }] : [];
   const textOf = hasDecimalCommas ? withDecimalPoint : (cell: string) => cell;
-  const clockReaders = clocks.map((clock, i) => clockReader(clock, i === 0 ? options.timeUnit : undefined, textOf));
+  const clockReaders = clocks.map((clock, i) => createClockReader(clock, i === 0 ? options.timeUnit : undefined, textOf));
   // Columns that name the frames, topic or robot of a row.
   const nameColumns = [group.columns.source, group.columns.frame, group.columns.child].filter((column) => column !== undefined);
   const { x, y, z } = group.columns;
@@ -151,7 +151,7 @@ function logReader(name: string, place: ErrorPlace, format: TableFormat, group: 
   const decimalCounts = new Set<number>();
 
   const refuse = (reason: ErrorReason): never => {
-    throw new LogError(place, reason);
+    throw new LogError(errorPlace, reason);
   };
 
   const dropText = (line: number, columnName: string, cell: string) => rows.drop('text', line, (texts) => texts.number(truncate(columnName), truncate(cell.trim())));

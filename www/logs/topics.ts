@@ -3,7 +3,7 @@
 import { group, sort, sum } from 'd3-array';
 import type { Channel, Container, Message } from './formats/container.ts';
 import { Chain, FrameTree } from './frames.ts';
-import { LogError, truncate, listNames, reasonOf, LOG_TIME, framesText, type ErrorReason, type LogChoice, type Log, type Note, type OpenOptions, type Recording, type Series } from './log.ts';
+import { LogError, truncate, listNames, reasonOf, LOG_TIME, formatFrames, type ErrorReason, type LogChoice, type Log, type Note, type OpenOptions, type Recording, type Series } from './log.ts';
 import { isReadable, logKindOfType, poseReader, readTransforms } from './messages.ts';
 import { Rows } from './rows.ts';
 
@@ -26,7 +26,7 @@ export async function recordingOf(name: string, container: Container, options: O
   return { name, format, series, read };
 
   async function read(choices: LogChoice[], onProgress?: (share: number) => void): Promise<Log[]> {
-    const choiceReaders = choices.map((choice) => topicReader(name, container, choice, series.find((entry) => entry.name === choice.series)));
+    const choiceReaders = choices.map((choice) => createTopicReader(name, container, choice, series.find((entry) => entry.name === choice.series)));
     const readersByChannel = new Map(container.channels.map((channel) => [channel, choiceReaders.filter((reader) => reader.wants(channel))]));
     const passMessage = (message: Message) => {
       for (const reader of readersByChannel.get(message.channel) ?? []) reader.addMessage(message);
@@ -47,8 +47,8 @@ async function listSeries(container: Container): Promise<Series[]> {
     const readableChannels = allChannels.filter((channel) => isReadable(channel) && logKindOfType(channel.type) !== null);
     const channels = readableChannels.length > 0 ? readableChannels : allChannels;
     const types = [...new Set(channels.map((channel) => (isReadable(channel) ? channel.type : `${channel.type} as ${channel.encoding}`)))];
-    const kind = readableChannels.length > 0 && types.length === 1 ? logKindOfType(types[0]) : null;
-    return { name: topic, type: types.join(', '), kind, count: sum(channels, ({ count }) => count) };
+    const readableKind = readableChannels.length > 0 && types.length === 1 ? logKindOfType(types[0]) : null;
+    return { name: topic, type: types.join(', '), kind: readableKind, count: sum(channels, ({ count }) => count) };
   });
   for (const seriesEntry of series) {
     if (seriesEntry.kind !== 'transforms' || isStaticTopic({ topic: seriesEntry.name, type: seriesEntry.type })) continue;
@@ -70,7 +70,7 @@ async function listSeries(container: Container): Promise<Series[]> {
 }
 
 /** Returns a reader of one topic. For a topic of transforms it also reads the static transforms. Throws a LogError if the topic has no such log. */
-function topicReader(file: string, container: Container, { series: topic, kind: wantedKind, frames }: LogChoice, { type, kind }: Pick<Series, 'type' | 'kind'> = { type: '', kind: null }) {
+function createTopicReader(file: string, container: Container, { series: topic, kind: wantedKind, frames }: LogChoice, { type, kind }: Pick<Series, 'type' | 'kind'> = { type: '', kind: null }) {
   const refuse = (reason: ErrorReason): never => {
     throw new LogError({ file, topic }, reason);
   };
@@ -101,17 +101,17 @@ function topicReader(file: string, container: Container, { series: topic, kind: 
       const { format, damage, cutReason } = container;
       const lossReason = damageReasonOf(container);
       if (messageCount === 0 && lossReason) refuse((texts) => texts.damaged(lossReason, format));
-      if (chain && !chain.isConnected) refuse((texts) => texts.noChain(framesText(frames), listNames(chain.links.map(framesText))));
-      if (chain && !chain.poses((pose, { recordTime, number }) => rows.add(pose, number, recordTime))) {
-        const otherFrames = chain.findPoseFrames().map(framesText).filter((otherText) => otherText !== framesText(frames));
-        refuse((texts) => texts.constant(framesText(frames), listNames(otherFrames)));
+      if (chain && !chain.isConnected) refuse((texts) => texts.noChain(formatFrames(frames), listNames(chain.links.map(formatFrames))));
+      if (chain && !chain.readPoses((pose, { recordTime, number }) => rows.add(pose, number, recordTime))) {
+        const otherFrames = chain.findPoseFrames().map(formatFrames).filter((otherText) => otherText !== formatFrames(frames));
+        refuse((texts) => texts.constant(formatFrames(frames), listNames(otherFrames)));
       }
       const logKind = kind === 'commands' ? 'commands' : 'poses';
       const notes: Note[] = [
         ...(damage.size > 0 ? [{ name: 'damaged' as const, values: [damage.size, lossReason as string] }] : []),
         ...(cutReason ? [{ name: 'cutShort' as const, values: [] }] : []),
       ];
-      return rows.end(`${file}, ${topic}${frames ? ` (${framesText(frames)})` : ''}`, logKind, {
+      return rows.end(`${file}, ${topic}${frames ? ` (${formatFrames(frames)})` : ''}`, logKind, {
         units: { time: { unit: 'ns', by: 'format' }, length: { unit: 'm', by: 'format' }, angle: { unit: logKind === 'poses' ? 'quaternion' : 'none', by: 'format' } },
         clocks: ['header.stamp', LOG_TIME],
         ...(frames && { frames }),

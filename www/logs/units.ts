@@ -2,7 +2,7 @@
 
 import { sort } from 'd3-array';
 import { LogError, UNITS, type ErrorPlace, type AngleUnit, type LogKind, type OpenOptions, type Summary, type TimeUnit } from './log.ts';
-import { quantile, sampleEvenly } from './path.ts';
+import { quantileOf, sampleEvenly } from './path.ts';
 
 export type Units = Summary['units'];
 
@@ -65,7 +65,7 @@ export function judgeUnits(place: ErrorPlace, kind: LogKind, columns: Columns, a
   if (metresPerUnit !== 1) for (const column of kind === 'poses' ? [a, b, z] : [a]) scaleColumn(column, metresPerUnit);
   const time = isJudged ? judgeTimeUnit(kind, columns, assumed.time, askUnit) : assumed.time;
   convertTimes(columns, 10 ** (UNIT_EXPONENTS[time.unit] - UNIT_EXPONENTS[assumed.time.unit]));
-  const speed = kind === 'poses' ? speedOf(t, a, b) : quantile(sampleEvenly(a.length, (i) => Math.abs(a[i])), 0.9);
+  const speed = kind === 'poses' ? speedOf(t, a, b) : quantileOf(sampleEvenly(a.length, (i) => Math.abs(a[i])), 0.9);
   const isDoubtful = speed > MAX_VEHICLE_SPEED || (speed > DOUBTFUL_SPEED && accelerationOf(kind, columns) > MAX_ACCELERATION);
   // Feet and inches are rare, and come last.
   const likelyUnits = sort(UNITS.lengthUnit, (unit) => Number(unit === 'ft' || unit === 'in'), (unit) => Math.abs(Math.log((speed * METRES_PER_UNIT[unit]) / USUAL_SPEED)));
@@ -77,7 +77,7 @@ export function judgeUnits(place: ErrorPlace, kind: LogKind, columns: Columns, a
   const alignmentWithYUp = isJudged && kind === 'poses' && names && !alignment ? alignmentWithPath(t, a, z, c) : undefined;
   if (names && alignmentWithYUp) throw new LogError(place, (texts) => texts.yUp, { what: 'columns', choices: [names.withYUp(alignmentWithYUp.sign).join()], columns: names.given });
   const turnRateAt = kind === 'poses' ? (i: number) => (c[i + 1] - c[i]) / (t[i + 1] - t[i]) : (i: number) => b[i];
-  const turnRate = quantile(sampleEvenly(t.length - 1, (i) => Math.abs(turnRateAt(i))), 0.9);
+  const turnRate = quantileOf(sampleEvenly(t.length - 1, (i) => Math.abs(turnRateAt(i))), 0.9);
   const mayBeDegrees = kind === 'poses' ? c.some((heading) => Math.abs(heading) > MAX_WRAPPED_HEADING) : turnRate > MAX_SPEED;
   const isContradicted = alignment !== undefined && unit !== 'quaternion' && alignment.unit !== unit;
   const isUnclear = by === 'usage' ? mayBeDegrees && !alignment : isContradicted;
@@ -94,9 +94,9 @@ function judgeTimeUnit(kind: LogKind, { t, a, b }: Columns, assumed: Units['time
   if (assumed.by !== 'usage' && assumed.by !== 'size') return assumed;
   const rate = 1 / medianStepOf(t);
   const speed = kind === 'poses' ? speedOf(t, a, b) : 0;
-  const unitsPerSecond = (unit: TimeUnit) => 10 ** (UNIT_EXPONENTS[unit] - UNIT_EXPONENTS[assumed.unit]);
-  const hasUsualRate = (unit: TimeUnit) => isInRange(rate * unitsPerSecond(unit), assumed.by === 'size' ? POSSIBLE_RATES : USUAL_RATES);
-  const hasUsualSpeed = (unit: TimeUnit) => speed === 0 || isInRange(speed * unitsPerSecond(unit), [MIN_SPEED, MAX_SPEED]);
+  const unitsPerSecondOf = (unit: TimeUnit) => 10 ** (UNIT_EXPONENTS[unit] - UNIT_EXPONENTS[assumed.unit]);
+  const hasUsualRate = (unit: TimeUnit) => isInRange(rate * unitsPerSecondOf(unit), assumed.by === 'size' ? POSSIBLE_RATES : USUAL_RATES);
+  const hasUsualSpeed = (unit: TimeUnit) => speed === 0 || isInRange(speed * unitsPerSecondOf(unit), [MIN_SPEED, MAX_SPEED]);
   if (hasUsualRate(assumed.unit) && (assumed.by === 'size' || hasUsualSpeed(assumed.unit))) return assumed;
   const possibleUnits = UNITS.timeUnit.filter(hasUsualRate);
   const [unit, ...otherUnits] = possibleUnits.filter(hasUsualSpeed);
@@ -126,25 +126,25 @@ function alignmentWithPath(t: Float64Array, x: Float64Array, y: Float64Array, he
   }
   // The mean resultant length is 1 if all differences are equal, and near 0 if they are random.
   const alignments = candidates.map(({ unit, sign, cosine, sine }) => ({ unit, sign, alignment: Math.hypot(cosine, sine) / stepCount }));
-  const [best, second] = alignments.sort((one, other) => other.alignment - one.alignment);
-  return stepCount >= MIN_STEPS && best.alignment > MIN_ALIGNMENT && best.alignment - second.alignment > MIN_ALIGNMENT_LEAD ? best : undefined;
+  const [best, secondBest] = alignments.sort((alignment, otherAlignment) => otherAlignment.alignment - alignment.alignment);
+  return stepCount >= MIN_STEPS && best.alignment > MIN_ALIGNMENT && best.alignment - secondBest.alignment > MIN_ALIGNMENT_LEAD ? best : undefined;
 }
 
-const medianStepOf = (t: Float64Array) => quantile(sampleEvenly(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
+const medianStepOf = (t: Float64Array) => quantileOf(sampleEvenly(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
 
 /** Returns the 90 % quantile of the speeds of steps. Their duration assumes that times are in seconds. */
 function speedOf(t: Float64Array, x: Float64Array, y: Float64Array): number {
   const stride = Math.min(Math.max(1, Math.round(STEP_DURATION / medianStepOf(t))), t.length - 1);
-  return quantile(sampleEvenly(t.length - stride, (i) => Math.hypot(x[i + stride] - x[i], y[i + stride] - y[i]) / (t[i + stride] - t[i])), 0.9);
+  return quantileOf(sampleEvenly(t.length - stride, (i) => Math.hypot(x[i + stride] - x[i], y[i + stride] - y[i]) / (t[i + stride] - t[i])), 0.9);
 }
 
 /** Returns the 99 % quantile of the accelerations between steps. For commands it is that of v. */
 function accelerationOf(kind: LogKind, { t, a, b }: Columns): number {
   const stride = Math.max(1, Math.round(STEP_DURATION / medianStepOf(t)));
   const velocityAt = (i: number, column: Float64Array) => (column[i + stride] - column[i]) / (t[i + stride] - t[i]);
-  const change = (i: number, column: Float64Array) => velocityAt(i + stride, column) - velocityAt(i, column);
-  const accelerationAt = (i: number) => (kind === 'poses' ? (2 * Math.hypot(change(i, a), change(i, b))) / (t[i + 2 * stride] - t[i]) : Math.abs(velocityAt(i, a)));
-  return quantile(sampleEvenly(t.length - 2 * stride, accelerationAt), 0.99);
+  const velocityChangeAt = (i: number, column: Float64Array) => velocityAt(i + stride, column) - velocityAt(i, column);
+  const accelerationAt = (i: number) => (kind === 'poses' ? (2 * Math.hypot(velocityChangeAt(i, a), velocityChangeAt(i, b))) / (t[i + 2 * stride] - t[i]) : Math.abs(velocityAt(i, a)));
+  return quantileOf(sampleEvenly(t.length - 2 * stride, accelerationAt), 0.99);
 }
 
 function scaleColumn(column: Float64Array, factor: number): void {

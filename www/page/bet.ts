@@ -3,7 +3,7 @@
 import type { Figure } from '../page.ts';
 
 /** Returns the number at a path of keys separated by dots; null if there is none. */
-const numberAtPath = (stats: Record<string, any>, path: string): number | null => path.split('.').reduce((part: any, key) => part?.[key], stats) ?? null;
+const findNumberAtPath = (stats: Record<string, any>, path: string): number | null => path.split('.').reduce((valueSoFar: any, key) => valueSoFar?.[key], stats) ?? null;
 
 /**
  * Completes a form that has one slider. `enterState` puts the figure into the state of `data-try`. `data-answer` is the path of the answer in
@@ -35,7 +35,7 @@ export function prepareBet(form: HTMLFormElement, enterState: (values: Record<st
     event.preventDefault();
     await enterState(JSON.parse(stateText));
     await figure.settled;
-    const answerNumber = numberAtPath(figure.stats, answerPath);
+    const answerNumber = findNumberAtPath(figure.stats, answerPath);
     const actualValue = answerNumber === null ? null : isPercent ? 100 * answerNumber : answerNumber;
     form.style.setProperty('--truth', String(((actualValue ?? max) - min) / (max - min)));
     form.classList.add('revealed');

@@ -20,10 +20,10 @@ const MIN_SPREAD = 1e-6;
 const toPixel = ([x, y]: Point) => [START_PIXEL.x + PIXELS_PER_METRE * x, START_PIXEL.y - PIXELS_PER_METRE * y] as Point;
 
 /** Returns a path through points in pixels. */
-const pathDataOf = (points: Point[], closed: boolean = false) => (points.length ? `M${points.map(([x, y]) => `${x.toFixed(1)} ${y.toFixed(1)}`).join('L')}${closed ? 'Z' : ''}` : '');
+const pathDataOf = (points: Point[], isClosed: boolean = false) => (points.length ? `M${points.map(([x, y]) => `${x.toFixed(1)} ${y.toFixed(1)}`).join('L')}${isClosed ? 'Z' : ''}` : '');
 
 /** Returns points of the commanded arc, with an error of the turn rate in rad/s. */
-function commandedArc({ v, omega, dt }: { v: number, omega: number, dt: number }, turnRateError: number = 0) {
+function sampleCommandedArc({ v, omega, dt }: { v: number, omega: number, dt: number }, turnRateError: number = 0) {
   const turnRate = omega + turnRateError || 1e-9;
   return Array.from({ length: 25 }, (_, i) => {
     const turnSoFar = (turnRate * dt * i) / 24;
@@ -33,15 +33,15 @@ function commandedArc({ v, omega, dt }: { v: number, omega: number, dt: number }
 
 /** Outlines that can be chosen instead of drawn, by name. */
 const SHAPE_OUTLINES: Record<string, (command: { v: number, omega: number, dt: number }) => Point[]> = {
-  point: (command) => ellipseAround(toPixel(commandedArc(command)[24]), 7, 7),
+  point: (command) => createEllipseAround(toPixel(sampleCommandedArc(command)[24]), 7, 7),
   band: (command) => {
-    const bandEdge = (speedFactor: number) => Array.from({ length: 13 }, (_, i) => toPixel(commandedArc({ ...command, v: command.v * speedFactor }, (i - 6) / 18)[24]));
-    return [...bandEdge(1.04), ...bandEdge(0.96).reverse()];
+    const bandEdgeOf = (speedFactor: number) => Array.from({ length: 13 }, (_, i) => toPixel(sampleCommandedArc({ ...command, v: command.v * speedFactor }, (i - 6) / 18)[24]));
+    return [...bandEdgeOf(1.04), ...bandEdgeOf(0.96).reverse()];
   },
-  ellipse: (command) => ellipseAround(toPixel(commandedArc(command)[24]), 42, 26),
+  ellipse: (command) => createEllipseAround(toPixel(sampleCommandedArc(command)[24]), 42, 26),
 };
 
-const ellipseAround = ([x, y]: Point, radiusX: number, radiusY: number) =>
+const createEllipseAround = ([x, y]: Point, radiusX: number, radiusY: number) =>
   Array.from({ length: 37 }, (_, i) => [x + radiusX * Math.cos((i * Math.PI) / 18), y + radiusY * Math.sin((i * Math.PI) / 18)] as Point);
 
 /** Maximum width and height (pixels) of a drawing that counts as a point. */
@@ -60,7 +60,7 @@ function shapeOf(points: Point[]): string {
  * Returns sentences on where the robots stop (`poses`: x, y, θ triples), and whether the expected shape is right. For a drawing, they say
  * which fraction of the robots stops inside the outline.
  */
-function outcomeText(poses: Float64Array, expectedShape: string, insideFraction: number) {
+function describeOutcome(poses: Float64Array, expectedShape: string, insideFraction: number) {
   const deviationAlong = (axis: number) => deviation(poses.filter((_, i) => i % 3 === axis)) ?? 0;
   const [positionStd, headingStd] = [Math.hypot(deviationAlong(0), deviationAlong(1)), deviationAlong(2)];
   const insideText = `${Math.round(100 * insideFraction)}\u00a0% of the robots stop inside your outline. `;
@@ -72,27 +72,27 @@ function outcomeText(poses: Float64Array, expectedShape: string, insideFraction:
 
 /** Prepares a form with a pad to draw on. `enterState` puts the figure into the state of the chosen radio button `case`. */
 export function prepareSketch(form: HTMLFormElement, enterState: (values: Record<string, unknown>) => Promise<void>, figure: Figure) {
-  const svgChild = (name: string) => form.querySelector(`svg .${name}`) as SVGElement;
+  const findSvgChild = (name: string) => form.querySelector(`svg .${name}`) as SVGElement;
   const drawingPad = form.querySelector('svg') as SVGSVGElement;
   const statusOutput = form.querySelector('[role=status]') as HTMLElement;
   const button = form.querySelector('button') as HTMLButtonElement;
   let drawnPoints: Point[] = [];
 
-  const checkedInput = (name: string) => form.querySelector(`[name=${name}]:checked`) as HTMLInputElement | null;
-  const chosenCase = () => JSON.parse(checkedInput('case')?.value ?? '{}');
-  const currentCommand = () => ({ v: 1, omega: chosenCase().omega ?? 0, dt: 2 });
+  const findCheckedInput = (name: string) => form.querySelector(`[name=${name}]:checked`) as HTMLInputElement | null;
+  const getChosenCase = () => JSON.parse(findCheckedInput('case')?.value ?? '{}');
+  const readCurrentCommand = () => ({ v: 1, omega: getChosenCase().omega ?? 0, dt: 2 });
   const showDrawing = (points: Point[]) => {
     drawnPoints = points;
-    svgChild('drawn').setAttribute('d', pathDataOf(points, true));
+    findSvgChild('drawn').setAttribute('d', pathDataOf(points, true));
     button.disabled = points.length < 2;
   };
   const resetDrawing = () => {
-    const arcPixels = commandedArc(currentCommand()).map(toPixel);
-    svgChild('command').setAttribute('d', pathDataOf(arcPixels));
-    for (const [name, coordinateIndex] of [['cx', 0], ['cy', 1]]) svgChild('end').setAttribute(String(name), String(arcPixels[24][Number(coordinateIndex)]));
-    for (const name of ['robots', 'headings']) svgChild(name).setAttribute('d', '');
+    const arcPixels = sampleCommandedArc(readCurrentCommand()).map(toPixel);
+    findSvgChild('command').setAttribute('d', pathDataOf(arcPixels));
+    for (const [name, coordinateIndex] of [['cx', 0], ['cy', 1]]) findSvgChild('end').setAttribute(String(name), String(arcPixels[24][Number(coordinateIndex)]));
+    for (const name of ['robots', 'headings']) findSvgChild(name).setAttribute('d', '');
     statusOutput.textContent = '';
-    const shapeInput = checkedInput('shape');
+    const shapeInput = findCheckedInput('shape');
     if (shapeInput) shapeInput.checked = false;
     showDrawing([]);
   };
@@ -102,7 +102,7 @@ export function prepareSketch(form: HTMLFormElement, enterState: (values: Record
   };
 
   drawingPad.addEventListener('pointerdown', (event) => {
-    const shapeInput = checkedInput('shape');
+    const shapeInput = findCheckedInput('shape');
     if (shapeInput) shapeInput.checked = false;
     drawingPad.setPointerCapture(event.pointerId);
     showDrawing([pointOfEvent(event)]);
@@ -113,23 +113,23 @@ export function prepareSketch(form: HTMLFormElement, enterState: (values: Record
   form.addEventListener('change', ({ target }) => {
     const { name, value } = target as HTMLInputElement;
     if (name === 'case') resetDrawing();
-    else showDrawing(SHAPE_OUTLINES[value](currentCommand()));
+    else showDrawing(SHAPE_OUTLINES[value](readCurrentCommand()));
   });
   form.addEventListener('submit', async (event) => {
     event.preventDefault();
-    await enterState(chosenCase());
+    await enterState(getChosenCase());
     const poses = figure.poses as Float64Array;
     const robotPoses = Array.from({ length: poses.length / 3 }, (_, i) => poses.subarray(3 * i, 3 * i + 3));
     const robotDots = robotPoses.slice(0, MAX_DRAWN_ROBOTS).map(([x, y, theta]) => {
       const [px, py] = toPixel([x, y]);
       return { dot: `M${px} ${py}h0`, tick: `M${px} ${py}l${TICK_LENGTH * Math.cos(theta)} ${-TICK_LENGTH * Math.sin(theta)}` };
     });
-    svgChild('robots').setAttribute('d', robotDots.map(({ dot }) => dot).join(''));
-    svgChild('headings').setAttribute('d', robotDots.map(({ tick }) => tick).join(''));
-    const drawnOutline = svgChild('drawn') as SVGPathElement;
+    findSvgChild('robots').setAttribute('d', robotDots.map(({ dot }) => dot).join(''));
+    findSvgChild('headings').setAttribute('d', robotDots.map(({ tick }) => tick).join(''));
+    const drawnOutline = findSvgChild('drawn') as SVGPathElement;
     const insideCount = robotPoses.filter(([x, y]) => drawnOutline.isPointInFill(new DOMPoint(...toPixel([x, y])))).length;
     form.classList.add('revealed');
-    statusOutput.textContent = outcomeText(poses, checkedInput('shape')?.value ?? shapeOf(drawnPoints), insideCount / robotPoses.length);
+    statusOutput.textContent = describeOutcome(poses, findCheckedInput('shape')?.value ?? shapeOf(drawnPoints), insideCount / robotPoses.length);
   });
   resetDrawing();
 }

@@ -56,7 +56,7 @@ export interface LegendEntry {
   drawSample: (x: number, y: number, width: number) => void;
 }
 
-export const lineLegendEntry = ({ context }: DrawContext, name: string, style: LineStroke): LegendEntry => ({ name, drawSample: (x, y, width) => strokeLine(context, [[x, y], [x + width, y]], style) });
+export const createLineLegendEntry = ({ context }: DrawContext, name: string, style: LineStroke): LegendEntry => ({ name, drawSample: (x, y, width) => strokeLine(context, [[x, y], [x + width, y]], style) });
 
 function drawLegend({ context, view, palette, font }: DrawContext, axisName: string, entries: LegendEntry[]) {
   const fontSize = parseFloat(font);

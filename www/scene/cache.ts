@@ -1,6 +1,6 @@
 /** Caches of a single result, of drawings with thousands of lines, and of images that cover the plot area. Drawings are kept on hidden canvases. */
 
-import { addLine, hiddenContext, strokePath, type DrawContext, type LineStroke } from './canvas.ts';
+import { addLine, createHiddenContext, strokePath, type DrawContext, type LineStroke } from './canvas.ts';
 
 /** Cache of one result, valid while its dependencies are the same. */
 export class Memo<Result> {
@@ -35,7 +35,7 @@ export class CachedLayer {
       // Setting the size clears the canvas.
       this.#canvas.width = Math.round(width * pixelRatio);
       this.#canvas.height = Math.round(height * pixelRatio);
-      const layerContext = hiddenContext(this.#canvas);
+      const layerContext = createHiddenContext(this.#canvas);
       layerContext.scale(pixelRatio, pixelRatio);
       paint({ context: layerContext, view, palette, pixelRatio, highlight });
     });
@@ -69,7 +69,7 @@ export class CachedImage {
       const { pixels, columns } = computePixels();
       const rows = pixels.length / (4 * columns);
       Object.assign(this.#canvas, { width: columns, height: rows });
-      hiddenContext(this.#canvas).putImageData(new ImageData(pixels, columns, rows), 0, 0);
+      createHiddenContext(this.#canvas).putImageData(new ImageData(pixels, columns, rows), 0, 0);
     });
     const { left, right, top, bottom } = view.plotArea;
     context.drawImage(this.#canvas, left, top, right - left, bottom - top);

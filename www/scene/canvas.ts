@@ -50,7 +50,7 @@ export function toViewPixels(element: Element, view: import('./view.ts').View, {
 }
 
 /** Returns the context of a hidden canvas that is copied to visible ones. It is drawn by the CPU, because a GPU may lose its contents. */
-export function hiddenContext(canvas: OffscreenCanvas) {
+export function createHiddenContext(canvas: OffscreenCanvas) {
   return canvas.getContext('2d', { willReadFrequently: true }) as OffscreenCanvasRenderingContext2D;
 }
 

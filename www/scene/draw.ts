@@ -3,8 +3,8 @@
 import { greatest } from 'd3-array';
 import { html, nothing, svg } from 'lit';
 import { limits } from '../../build/settings.js';
-import { colourChannels } from '../ui/theme.ts';
-import { lineLegendEntry, type LegendEntry } from './axes.ts';
+import { colourChannelsOf } from '../ui/theme.ts';
+import { createLineLegendEntry, type LegendEntry } from './axes.ts';
 import { addLine, drawDisc, paintWithOpacity, strokeLine, strokePath, type DrawContext, type LineStroke } from './canvas.ts';
 import { strokeInBatches } from './cache.ts';
 import type { Callout } from './labels.ts';
@@ -29,7 +29,7 @@ export function drawDots(drawContext: DrawContext, poses: Float64Array, tickScal
   const radius = dotScale * (isSparse ? 2.4 : 1.8);
   if (tickScale > 0) {
     const tickLength = tickScale * dotScale * (isSparse ? 13 : 9);
-    const headingTicks = dotPixels.map((_, i) => view.headingLine({ x: poses[3 * i], y: poses[3 * i + 1], theta: poses[3 * i + 2] }, tickLength));
+    const headingTicks = dotPixels.map((_, i) => view.headingLineFrom({ x: poses[3 * i], y: poses[3 * i + 1], theta: poses[3 * i + 2] }, tickLength));
     paintWithOpacity(context, isSparse ? 0.6 : 0.32, () => strokeInBatches(context, headingTicks, { colour: palette.cloud, width: 1 }, TICKS_PER_STROKE));
   }
   // Squares with the area of the discs are drawn six times as fast. If they are many and small, they look like discs.
@@ -46,9 +46,9 @@ export function drawDots(drawContext: DrawContext, poses: Float64Array, tickScal
 /**
  * Returns the colour ramp of a density as RGBA bytes, from an empty cell to the fullest one: the colour of clouds with increasing opacity.
  */
-export function densityRamp(palette: Palette): Uint8Array {
-  const cloudColour = colourChannels(palette.cloud);
-  const inkColour = colourChannels(palette.ink);
+export function createDensityRamp(palette: Palette): Uint8Array {
+  const cloudColour = colourChannelsOf(palette.cloud);
+  const inkColour = colourChannelsOf(palette.ink);
   const ramp = new Uint8Array(4 * limits.ramp);
   for (let i = 0; i < limits.ramp; i++) {
     const relativeCount = i / (limits.ramp - 1);
@@ -80,19 +80,19 @@ const HIGHLIGHT_WIDTH = 1.9;
 const DIMMED_OPACITY = 0.3;
 
 /** Returns the line styles by name, in the colours of their roles. The highlighted line is thicker, and all others are faint. */
-export function lineStyles<Name extends string>({ palette, highlight }: Pick<DrawContext, 'palette' | 'highlight'>, lines: Record<Name, LineStyle>) {
+export function createLineStyles<Name extends string>({ palette, highlight }: Pick<DrawContext, 'palette' | 'highlight'>, lines: Record<Name, LineStyle>) {
   const hasHighlight = Object.keys(lines).some((name) => name === highlight);
   const styleEntries = Object.entries(lines as Record<string, LineStyle>).map(([name, { role, width = 2.25, dash = [] }]) => {
-    const colour = hasHighlight && name !== highlight ? `rgb(${colourChannels(palette[role]).join(' ')} / ${DIMMED_OPACITY})` : palette[role];
+    const colour = hasHighlight && name !== highlight ? `rgb(${colourChannelsOf(palette[role]).join(' ')} / ${DIMMED_OPACITY})` : palette[role];
     return [name, { colour, width: name === highlight ? HIGHLIGHT_WIDTH * width : width, dash }];
   });
   return Object.fromEntries(styleEntries) as Record<Name, { colour: string, width: number, dash: number[] }>;
 }
 
 /** Returns the legend of an exported picture: the named lines with their words. On the page there is a legend beside the picture. */
-export function lineLegendEntries<Name extends string>(drawContext: DrawContext, lines: Record<Name, LineStyle>, names: Name[], labels: Record<Name, string>): LegendEntry[] {
-  const stylesByName = lineStyles(drawContext, lines);
-  return drawContext.isExported ? names.map((name) => lineLegendEntry(drawContext, labels[name].replaceAll('*', ''), stylesByName[name])) : [];
+export function createLineLegend<Name extends string>(drawContext: DrawContext, lines: Record<Name, LineStyle>, names: Name[], labels: Record<Name, string>): LegendEntry[] {
+  const stylesByName = createLineStyles(drawContext, lines);
+  return drawContext.isExported ? names.map((name) => createLineLegendEntry(drawContext, labels[name].replaceAll('*', ''), stylesByName[name])) : [];
 }
 
 /** Returns true if an outline is longer than rounding errors. The outline of robots that all stop at one point has no length. */
@@ -152,7 +152,7 @@ export function swatchHtml({ role, dash, width = 2.25, shape = 'line' }: LineSty
 export function drawRobot(drawContext: DrawContext, { x, y, heading, colour }: { x: number, y: number, heading: number, colour: string }) {
   const { context, view, palette } = drawContext;
   drawDisc(context, view.toPixel(x, y), 8, palette.paper, { colour, width: 2 });
-  strokeLine(context, view.headingLine({ x, y, theta: heading }, 14), { colour, width: 2 });
+  strokeLine(context, view.headingLineFrom({ x, y, theta: heading }, 14), { colour, width: 2 });
 }
 
 /** Adds the arc of a turn (rad) from a heading, about a point and with a radius in pixels, to the path. On the screen y points down. */
@@ -172,7 +172,7 @@ export function drawCrosshair(drawContext: DrawContext, { x, y, heading }: { x: 
     strokePath(context, style, () => {
       context.arc(px, py, 7, 0, 2 * Math.PI);
       for (const [dx, dy] of [[1, 0], [0, 1], [-1, 0], [0, -1]]) addLine(context, [[px + 7 * dx, py + 7 * dy], [px + 12 * dx, py + 12 * dy]]);
-      if (heading !== null) addLine(context, view.headingLine({ x, y, theta: heading }, 24));
+      if (heading !== null) addLine(context, view.headingLineFrom({ x, y, theta: heading }, 24));
     });
   }
 }

@@ -5,7 +5,7 @@ import { formatEm, toViewPixels } from './canvas.ts';
 
 /** Callbacks of a handle; lengths in metres. */
 interface HandleCallbacks {
-  view: () => import('./view.ts').View;
+  getView: () => import('./view.ts').View;
   /** Returns the point (x, y) that a pointer at the point `pointer` grasps; by default the middle of the handle. */
   graspedPointAt?: (pointer: number[]) => number[] | undefined;
   drag: (x: number, y: number) => void;
@@ -76,7 +76,7 @@ export class Handle {
 
   handleHtml({ name, keysHint, title, valueRange, value, valueText, limitText, hint }: HandleLabels) {
     // The text about the limit is on the side that faces the middle of the picture.
-    const limitTextSide = 2 * this.#middlePixels[0] > this.#callbacks.view().width ? 'right' : '';
+    const limitTextSide = 2 * this.#middlePixels[0] > this.#callbacks.getView().width ? 'right' : '';
     return html`<div
       class="handle ${this.#classNames} ${limitTextSide} ${this.isHeld ? 'held' : ''}"
       role="slider"
@@ -99,7 +99,7 @@ export class Handle {
   }
 
   /** Moves the middle of the element in `root` to a point in pixels of the view. `size` replaces the size of its style. */
-  place(root: ParentNode, x: number, y: number, size?: number) {
+  placeInView(root: ParentNode, x: number, y: number, size?: number) {
     const handle = root.querySelector(`.handle.${this.#classNames.replace(' ', '.')}`) as HTMLElement | null;
     if (!handle) return;
     this.#middlePixels = [x, y];
@@ -108,7 +108,7 @@ export class Handle {
   }
 
   #pointerInWorld(event: PointerEvent) {
-    const view = this.#callbacks.view();
+    const view = this.#callbacks.getView();
     return view.toWorld(...toViewPixels((event.currentTarget as Element).parentElement as Element, view, event));
   }
 
@@ -118,7 +118,7 @@ export class Handle {
     handle.setPointerCapture(event.pointerId);
     this.#heldPointer = { id: event.pointerId, element: handle };
     const pointerInWorld = this.#pointerInWorld(event);
-    const graspedPoint = this.#callbacks.graspedPointAt?.(pointerInWorld) ?? this.#callbacks.view().toWorld(...this.#middlePixels);
+    const graspedPoint = this.#callbacks.graspedPointAt?.(pointerInWorld) ?? this.#callbacks.getView().toWorld(...this.#middlePixels);
     this.#gripOffset = [graspedPoint[0] - pointerInWorld[0], graspedPoint[1] - pointerInWorld[1]];
   };
 

@@ -99,10 +99,10 @@ function measureParts({ context, font }: DrawContext, { symbol = '', subscript =
     { text: symbol, style: `italic ${font}`, drop: 0 },
     { text: subscript, style: subscriptFont, drop: SUBSCRIPT_DROP },
     { text: symbol && text ? ` ${text}` : text, style: font, drop: 0 },
-  ].filter((part) => part.text);
-  return textParts.map((part) => {
-    context.font = part.style;
-    return { ...part, width: context.measureText(part.text).width };
+  ].filter((textPart) => textPart.text);
+  return textParts.map((textPart) => {
+    context.font = textPart.style;
+    return { ...textPart, width: context.measureText(textPart.text).width };
   });
 }
 
@@ -155,7 +155,7 @@ export interface Callout {
 export function drawCallouts({ context, view, palette, font, placedBoxes }: DrawContext, callouts: Callout[], { shapeCentre, lines }: { shapeCentre: [number, number], lines: Float64Array[] }) {
   context.font = font;
   const [centreX, centreY] = view.toPixel(...shapeCentre);
-  const linePoints = lines.flatMap((line) => pairs(view.toPixels(line)).flatMap(([start, end]) => pointsBetween(start, end)));
+  const linePoints = lines.flatMap((line) => pairs(view.toPixels(line)).flatMap(([start, end]) => sampleLine(start, end)));
   const avoidedPoints: number[][] = [...callouts.map(({ point }) => view.toPixel(...point)), ...linePoints];
   const { left, right, top, bottom } = view.plotArea;
   for (const { text, point, colour = palette.ink } of callouts) {
@@ -176,7 +176,7 @@ export function drawCallouts({ context, view, palette, font, placedBoxes }: Draw
     const bestBox = least(candidateBoxes, ({ cost }) => cost) ?? candidateBoxes[0];
     const leaderStart = [clamp(x, bestBox.x - halfWidth, bestBox.x + halfWidth), clamp(y, bestBox.y - halfHeight, bestBox.y + halfHeight)];
     placedBoxes.push(bestBox);
-    avoidedPoints.push(...pointsBetween(leaderStart, [x, y]));
+    avoidedPoints.push(...sampleLine(leaderStart, [x, y]));
 
     drawLeader(context, [leaderStart, [x, y]], colour);
     context.fillStyle = palette.paper;
@@ -190,7 +190,7 @@ export function drawCallouts({ context, view, palette, font, placedBoxes }: Draw
 const MAX_LINE_POINTS = 200;
 
 /** Returns points on the line between two points, beginning with the first one, that a sentence must not cover; pixels. */
-function pointsBetween([x, y]: number[], [toX, toY]: number[]) {
+function sampleLine([x, y]: number[], [toX, toY]: number[]) {
   const pointCount = Math.min(MAX_LINE_POINTS, Math.ceil(Math.hypot(toX - x, toY - y) / (2 * MIN_DISTANCE)) || 1);
   return Array.from({ length: pointCount }, (_, i) => [x + (i / pointCount) * (toX - x), y + (i / pointCount) * (toY - y)]);
 }

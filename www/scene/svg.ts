@@ -66,17 +66,17 @@ export class SvgContext {
     this.#path += `${this.#path ? 'L' : 'M'}${formatLength(x)},${formatLength(y)}`;
   };
 
-  arc: CanvasPath['arc'] = (x, y, radius, from, to, backwards = false) => {
+  arc: CanvasPath['arc'] = (x, y, radius, from, to, isCounterclockwise = false) => {
     const r = formatLength(radius);
-    const sweep = backwards ? from - to : to - from;
+    const sweep = isCounterclockwise ? from - to : to - from;
     if (sweep >= 2 * Math.PI) {
       const diameter = formatLength(2 * radius);
       this.#path += `M${formatLength(x - radius)},${formatLength(y)}a${r},${r} 0 1 0 ${diameter},0a${r},${r} 0 1 0 -${diameter},0Z`;
       return;
     }
     const pointAt = (angle: number) => `${formatLength(x + radius * Math.cos(angle))},${formatLength(y + radius * Math.sin(angle))}`;
-    const [isLargeArc, isClockwise] = [sweep > Math.PI, !backwards].map(Number);
-    this.#path += `${this.#path ? 'L' : 'M'}${pointAt(from)}A${r},${r} 0 ${isLargeArc} ${isClockwise} ${pointAt(to)}`;
+    const [largeArcFlag, clockwiseFlag] = [sweep > Math.PI, !isCounterclockwise].map(Number);
+    this.#path += `${this.#path ? 'L' : 'M'}${pointAt(from)}A${r},${r} 0 ${largeArcFlag} ${clockwiseFlag} ${pointAt(to)}`;
   };
 
   rect: CanvasPath['rect'] = (x, y, width, height) => {
@@ -108,10 +108,10 @@ export class SvgContext {
   }
 
   fill() {
-    this.#elements.push(`<path d="${this.#path}" fill="${this.fillStyle}"${this.#opacityAttribute()}/>`);
+    this.#elements.push(`<path d="${this.#path}" fill="${this.fillStyle}"${this.#formatOpacityAttribute()}/>`);
   }
 
-  #opacityAttribute() {
+  #formatOpacityAttribute() {
     return this.globalAlpha === 1 ? '' : ` opacity="${this.globalAlpha}"`;
   }
 
@@ -119,7 +119,7 @@ export class SvgContext {
     const dashAttribute = this.#dash.length ? ` stroke-dasharray="${this.#dash}"` : '';
     const capAttribute = this.lineCap === 'butt' ? '' : ` stroke-linecap="${this.lineCap}"`;
     const lineJoinAttribute = this.lineJoin === 'miter' ? '' : ` stroke-linejoin="${this.lineJoin}"`;
-    return ` stroke="${this.strokeStyle}" stroke-width="${this.lineWidth}"${dashAttribute}${capAttribute}${lineJoinAttribute}${this.#opacityAttribute()}`;
+    return ` stroke="${this.strokeStyle}" stroke-width="${this.lineWidth}"${dashAttribute}${capAttribute}${lineJoinAttribute}${this.#formatOpacityAttribute()}`;
   }
 
   measureText(text: string): { width: number } {
@@ -130,11 +130,11 @@ export class SvgContext {
     return this.#measuringContext.measureText(text);
   }
 
-  fillText: CanvasText['fillText'] = (text, x, y) => this.#text(text, x, y, ` fill="${this.fillStyle}"${this.#opacityAttribute()}`);
+  fillText: CanvasText['fillText'] = (text, x, y) => this.#addText(text, x, y, ` fill="${this.fillStyle}"${this.#formatOpacityAttribute()}`);
 
-  strokeText: CanvasText['strokeText'] = (text, x, y) => this.#text(text, x, y, ` fill="none"${this.#strokeAttributes()}`);
+  strokeText: CanvasText['strokeText'] = (text, x, y) => this.#addText(text, x, y, ` fill="none"${this.#strokeAttributes()}`);
 
-  #text(text: string, x: number, y: number, paintAttributes: string) {
+  #addText(text: string, x: number, y: number, paintAttributes: string) {
     const dy = BASELINE_SHIFTS[this.textBaseline] ?? '0';
     const anchor = TEXT_ANCHORS[this.textAlign] ?? 'start';
     const textPosition = `x="${formatLength(x)}" y="${formatLength(y)}" dy="${dy}" text-anchor="${anchor}"`;
@@ -146,6 +146,6 @@ export class SvgContext {
     const canvas = Object.assign(document.createElement('canvas'), { width: image.width, height: image.height });
     (canvas.getContext('2d') as CanvasRenderingContext2D).drawImage(image, 0, 0);
     const imageBox = `x="${x}" y="${y}" width="${width}" height="${height}"`;
-    this.#elements.push(`<image ${imageBox} preserveAspectRatio="none" href="${canvas.toDataURL()}"${this.#opacityAttribute()}/>`);
+    this.#elements.push(`<image ${imageBox} preserveAspectRatio="none" href="${canvas.toDataURL()}"${this.#formatOpacityAttribute()}/>`);
   }
 }

@@ -58,7 +58,7 @@ export class View {
     this.height = height;
     const { left, right, top, bottom } = this.#margins;
     this.plotArea = { left, top, right: Math.max(left + 1, width - right), bottom: Math.max(top + 1, height - bottom) };
-    if (this.#requiredExtent) this.extent = this.#targetExtent = this.#coveringExtent(this.#requiredExtent);
+    if (this.#requiredExtent) this.extent = this.#targetExtent = this.#findCoveringExtent(this.#requiredExtent);
     // Marks of a size in pixels need more metres on a smaller canvas, such as that of an unfinished layout.
     this.allowZoomIn();
   }
@@ -87,7 +87,7 @@ export class View {
   }
 
   /** Returns the scale (pixels per metre) at which a part of the world fits into the view. */
-  fittingScale({ xMin, yMin, xMax, yMax }: Extent) {
+  fittingScaleOf({ xMin, yMin, xMax, yMax }: Extent) {
     const { left, right, top, bottom } = this.plotArea;
     return Math.min((right - left) / (xMax - xMin), (bottom - top) / (yMax - yMin));
   }
@@ -105,7 +105,7 @@ export class View {
   }
 
   /** Returns a step of one pixel in the direction of a heading (rad), for equal scales of x and y. */
-  pixelDirection(heading: number): { x: number, y: number } {
+  pixelDirectionOf(heading: number): { x: number, y: number } {
     return { x: Math.cos(heading), y: -Math.sin(heading) };
   }
 
@@ -119,9 +119,9 @@ export class View {
   }
 
   /** Returns both ends, in pixels, of a line from a pose in its heading, with a length in pixels. */
-  headingLine({ x, y, theta }: { x: number, y: number, theta: number }, length: number): [from: [x: number, y: number], to: [x: number, y: number]] {
+  headingLineFrom({ x, y, theta }: { x: number, y: number, theta: number }, length: number): [from: [x: number, y: number], to: [x: number, y: number]] {
     const [startX, startY] = this.toPixel(x, y);
-    const headingStep = this.pixelDirection(theta);
+    const headingStep = this.pixelDirectionOf(theta);
     return [[startX, startY], [startX + length * headingStep.x, startY + length * headingStep.y]];
   }
 
@@ -137,20 +137,20 @@ export class View {
     const { xMin, xMax, yMin, yMax } = neededExtent;
     const paddedExtent = this.#hasNoMargin ? neededExtent : widenExtent(neededExtent, RELATIVE_MARGIN * (xMax - xMin), RELATIVE_MARGIN * (yMax - yMin));
     this.#requiredExtent = keptTarget && this.hasZoomedOut ? extentAround([paddedExtent.xMin, paddedExtent.yMin, paddedExtent.xMax, paddedExtent.yMax], 2, keptTarget) : paddedExtent;
-    this.#targetExtent = this.#coveringExtent(this.#requiredExtent);
+    this.#targetExtent = this.#findCoveringExtent(this.#requiredExtent);
     if (!keptTarget) this.extent = this.#targetExtent;
   }
 
   /** Moves the extent towards the target by the time `elapsedMs` since the last call, or completely. Returns true if it has not arrived. */
   moveTowardsTarget(elapsedMs: number, isImmediate: boolean): boolean {
-    const target = this.#targetExtent;
-    if (!target || target === this.extent) return false;
+    const targetExtent = this.#targetExtent;
+    if (!targetExtent || targetExtent === this.extent) return false;
     const progress = isImmediate ? 1 : 1 - Math.exp(-elapsedMs / EASING_MS);
-    const nextExtent = interpolateExtent(this.extent, target, progress);
-    const remainingDistance = (minKey: keyof Extent, maxKey: keyof Extent) => Math.abs(nextExtent[minKey] - target[minKey]) + Math.abs(nextExtent[maxKey] - target[maxKey]);
-    const hasArrived = remainingDistance('xMin', 'xMax') * this.scaleX + remainingDistance('yMin', 'yMax') * this.scaleY < 0.5;
-    this.extent = hasArrived || isImmediate ? target : nextExtent;
-    return this.extent !== target;
+    const nextExtent = interpolateExtent(this.extent, targetExtent, progress);
+    const remainingDistanceOf = (minKey: keyof Extent, maxKey: keyof Extent) => Math.abs(nextExtent[minKey] - targetExtent[minKey]) + Math.abs(nextExtent[maxKey] - targetExtent[maxKey]);
+    const hasArrived = remainingDistanceOf('xMin', 'xMax') * this.scaleX + remainingDistanceOf('yMin', 'yMax') * this.scaleY < 0.5;
+    this.extent = hasArrived || isImmediate ? targetExtent : nextExtent;
+    return this.extent !== targetExtent;
   }
 
   #fillOf(currentExtent: Extent, neededExtent: Extent) {
@@ -159,7 +159,7 @@ export class View {
   }
 
   /** Returns an extent that contains `requiredExtent`, moved into the limits. Its size is rounded if the view has a margin. With equal scales it has the aspect ratio of the plot area. */
-  #coveringExtent(requiredExtent: Extent) {
+  #findCoveringExtent(requiredExtent: Extent) {
     const { left, right, top, bottom } = this.plotArea;
     const roundSize = this.#hasNoMargin ? (size: number) => size : roundUpToNiceSize;
     const aspectRatio = (bottom - top) / (right - left);
@@ -167,14 +167,14 @@ export class View {
     const width = roundSize(this.#hasEqualScales ? Math.max(requiredWidth, requiredHeight / aspectRatio) : requiredWidth);
     const height = this.#hasEqualScales ? width * aspectRatio : roundSize(requiredHeight);
     const limits = this.limits ?? { xMin: -Infinity, xMax: Infinity, yMin: -Infinity, yMax: Infinity };
-    const x = clampedMiddle((requiredExtent.xMin + requiredExtent.xMax) / 2, width, limits.xMin, limits.xMax);
-    const y = clampedMiddle((requiredExtent.yMin + requiredExtent.yMax) / 2, height, limits.yMin, limits.yMax);
+    const x = clampMiddle((requiredExtent.xMin + requiredExtent.xMax) / 2, width, limits.xMin, limits.xMax);
+    const y = clampMiddle((requiredExtent.yMin + requiredExtent.yMax) / 2, height, limits.yMin, limits.yMax);
     return { xMin: x - width / 2, xMax: x + width / 2, yMin: y - height / 2, yMax: y + height / 2 };
   }
 }
 
 /** Returns the middle of an interval after moving it between limits. An interval that is longer than their distance is centred on them. */
-function clampedMiddle(middle: number, length: number, min: number, max: number) {
+function clampMiddle(middle: number, length: number, min: number, max: number) {
   return max - min > length ? clamp(middle, min + length / 2, max - length / 2) : (min + max) / 2;
 }
 

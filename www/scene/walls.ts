@@ -1,8 +1,8 @@
 /** Cached drawing of the walls or cells of a map. A map may have thousands of them, and they change only with the map, the view or the colours. */
 
 import { clamp } from '../ui/format.ts';
-import { colourChannels } from '../ui/theme.ts';
-import { addLine, paintWithOpacity, hiddenContext, strokePath, strokeLine, type DrawContext } from './canvas.ts';
+import { colourChannelsOf } from '../ui/theme.ts';
+import { addLine, paintWithOpacity, createHiddenContext, strokePath, strokeLine, type DrawContext } from './canvas.ts';
 import { CachedLayer, strokeInBatches, type LayerDrawContext } from './cache.ts';
 import type { View } from './view.ts';
 import type { Grid, Plan } from '../types.d.ts';
@@ -39,7 +39,7 @@ export class WallLayer {
       // Unknown cells are first filled. Compositing then replaces the filled pixels by hatching.
       fillCells(drawContext, grid, grid.unknown, palette.muted);
       context.globalCompositeOperation = 'source-in';
-      hatchView(context, view, palette.muted);
+      hatchVisibleArea(context, view, palette.muted);
       context.globalCompositeOperation = 'source-over';
     }
     if (grid) fillCells(drawContext, grid, grid.occupied, palette.truth);
@@ -52,14 +52,14 @@ export class WallLayer {
   }
 }
 
-function hatchView(context: LayerDrawContext['context'], { width, height }: View, colour: string) {
+function hatchVisibleArea(context: LayerDrawContext['context'], { width, height }: View, colour: string) {
   paintWithOpacity(context, HATCHING.opacity, () => strokePath(context, { colour, width: HATCHING.width }, () => {
     for (let x = -height; x < width; x += HATCHING.spacing) addLine(context, [[x, height], [x + height, 0]]);
   }));
 }
 
 /** Returns the range of visible cells: first column and row, and the column and row after the last. Each is a multiple of `cellsPerSquare`, or the end of the grid. */
-function visibleCellRange({ extent: { xMin, xMax, yMin, yMax } }: View, { columns, rows, resolution, origin: [x, y, yaw] }: CellGrid, cellsPerSquare: number): number[] {
+function findVisibleCellRange({ extent: { xMin, xMax, yMin, yMax } }: View, { columns, rows, resolution, origin: [x, y, yaw] }: CellGrid, cellsPerSquare: number): number[] {
   const [xStep, yStep] = [Math.cos(yaw) / resolution, Math.sin(yaw) / resolution];
   const viewCorners = [xMin - x, xMax - x].flatMap((dx) => [yMin - y, yMax - y].map((dy) => [dx * xStep + dy * yStep, dy * xStep - dx * yStep]));
   const cellRanges = [columns, rows].map((count, i) => {
@@ -70,7 +70,7 @@ function visibleCellRange({ extent: { xMin, xMax, yMin, yMax } }: View, { column
 }
 
 /** Returns the position (m) of the lower left corner of a cell in the grid's own axes. */
-export function cellCorner({ resolution, origin: [x, y, yaw] }: CellGrid, column: number, row: number): [x: number, y: number] {
+export function cellCornerOf({ resolution, origin: [x, y, yaw] }: CellGrid, column: number, row: number): [x: number, y: number] {
   const [xStep, yStep] = [resolution * Math.cos(yaw), resolution * Math.sin(yaw)];
   return [x + column * xStep - row * yStep, y + column * yStep + row * xStep];
 }
@@ -81,12 +81,12 @@ export function cellCorner({ resolution, origin: [x, y, yaw] }: CellGrid, column
  */
 function fillCells({ context, view, pixelRatio }: LayerDrawContext, grid: CellGrid, cells: Uint8Array, colour: string) {
   const cellsPerSquare = Math.max(1, Math.floor(1 / (grid.resolution * view.scaleX * pixelRatio)));
-  const [left, bottom, right, top] = visibleCellRange(view, grid, cellsPerSquare);
+  const [left, bottom, right, top] = findVisibleCellRange(view, grid, cellsPerSquare);
   const [width, height] = [Math.ceil((right - left) / cellsPerSquare), Math.ceil((top - bottom) / cellsPerSquare)];
   if (width < 1 || height < 1) return;
   const squaresImage = new ImageData(width, height);
   const pixels = new Uint32Array(squaresImage.data.buffer);
-  const [pixelColour] = new Uint32Array(Uint8Array.of(...colourChannels(colour), 255).buffer);
+  const [pixelColour] = new Uint32Array(Uint8Array.of(...colourChannelsOf(colour), 255).buffer);
   for (let row = bottom; row < top; row++) {
     const rowEnd = row * grid.columns + right;
     let pixelIndex = Math.floor((row - bottom) / cellsPerSquare) * width;
@@ -95,10 +95,10 @@ function fillCells({ context, view, pixelRatio }: LayerDrawContext, grid: CellGr
     }
   }
   const canvas = new OffscreenCanvas(width, height);
-  hiddenContext(canvas).putImageData(squaresImage, 0, 0);
-  const cornerPixel = (column: number, row: number) => view.toPixel(...cellCorner(grid, column, row));
+  createHiddenContext(canvas).putImageData(squaresImage, 0, 0);
+  const cornerPixelOf = (column: number, row: number) => view.toPixel(...cellCornerOf(grid, column, row));
   // The first row of the image is the lowest one, as in the grid.
-  const [[originX, originY], [rightX, rightY], [aboveX, aboveY]] = [cornerPixel(left, bottom), cornerPixel(left + cellsPerSquare, bottom), cornerPixel(left, bottom + cellsPerSquare)];
+  const [[originX, originY], [rightX, rightY], [aboveX, aboveY]] = [cornerPixelOf(left, bottom), cornerPixelOf(left + cellsPerSquare, bottom), cornerPixelOf(left, bottom + cellsPerSquare)];
   context.save();
   context.transform(rightX - originX, rightY - originY, aboveX - originX, aboveY - originY, originX, originY);
   // Large cells have sharp edges.

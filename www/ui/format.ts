@@ -9,7 +9,7 @@ export const NO_VALUE = '\u2014';
 const decimalSeparators: Map<string, string> = new Map([['en', '.']]);
 
 /** Returns the decimal separator of the current language between Latin digits. The first use of `Intl` takes longer than the rest of the first frame. */
-function decimalSeparator(): string {
+function getDecimalSeparator(): string {
   // The text is "0.5" or "0,5".
   if (!decimalSeparators.has(language)) decimalSeparators.set(language, (0.5).toLocaleString(language, { numberingSystem: 'latn' })[1]);
   return decimalSeparators.get(language) as string;
@@ -21,7 +21,7 @@ export function formatFixed(value: number, decimals: number): string {
   // `toFixed` rounds the exact binary number. `Intl` rounds its shortest decimal form, and may round a false tie up.
   const digits = Math.abs(value).toFixed(decimals);
   const sign = value < 0 && Number(digits) !== 0 ? MINUS : '';
-  return sign + (Number.isFinite(value) ? digits.replace('.', decimalSeparator()) : '∞');
+  return sign + (Number.isFinite(value) ? digits.replace('.', getDecimalSeparator()) : '∞');
 }
 
 /** Maximum number of decimals of an editable value beyond the usual number. */
@@ -43,7 +43,7 @@ export function formatEditable(value: number, decimals: number): string {
 export function parseNumber(text: string, unit: string = '', isWhole: boolean = false): number {
   const compactText = text.replace(/\s/g, '').replace(MINUS, '-');
   const withoutUnit = unit && compactText.endsWith(unit) ? compactText.slice(0, -unit.length) : compactText;
-  const decimalSign = decimalSeparator();
+  const decimalSign = getDecimalSeparator();
   // In English, commas separate complete groups of three digits. Where the comma is the decimal separator, points may.
   const groupPattern = decimalSign === '.' ? /^-?[1-9]\d{0,2}(,\d{3})+$/ : isWhole && /^-?[1-9]\d{0,2}(\.\d{3})+$/;
   const ungroupedText = groupPattern && groupPattern.test(withoutUnit) ? withoutUnit.replace(/[,.]/g, '') : withoutUnit;

@@ -1,6 +1,6 @@
 /** Colours of the page around a figure, and adjustments of the figure's palette to the page's background. */
 
-import { colourChannels } from './theme.ts';
+import { colourChannelsOf } from './theme.ts';
 
 /**
  * Colours around a figure. `shade` is the amount by which colours are darkened for this background. `strength` is the share of the text
@@ -18,7 +18,7 @@ const MUTED_SHARES = [75, 80, 85, 90, 95];
 const MIN_CONTRAST = 4.55;
 
 /** Returns a node's element and its ancestors across shadow roots, the nearest first. */
-export function elementAndAncestors(node: Node): Element[] {
+export function listElementAndAncestors(node: Node): Element[] {
   const elements = [];
   let ancestor: any = node;
   for (; ancestor; ancestor = ancestor.assignedSlot ?? ancestor.parentNode ?? ancestor.host) if (ancestor.nodeType === 1) elements.push(ancestor);
@@ -28,27 +28,27 @@ export function elementAndAncestors(node: Node): Element[] {
 /** Reads the colours around a figure. The scheme is dark if the background is darker than legible text, or than medium grey if the text is not legible. */
 export function readPageColours(probe: Element): PageColours {
   const { color, borderTopColor: canvasColour, colorScheme } = getComputedStyle(probe);
-  const textColour = colourChannels(color);
-  const isDarkByDefault = colorScheme === 'normal' && lightness(textColour) > 0.5;
-  const ancestorBackgrounds = elementAndAncestors(probe).map((ancestor) => getComputedStyle(ancestor).backgroundColor);
-  const backgroundColour = colourChannels(...[...ancestorBackgrounds, isDarkByDefault ? DARK_BACKGROUND : canvasColour].reverse());
-  const backgroundLightness = lightness(backgroundColour);
-  const isLegible = contrastRatio(textColour, backgroundColour) >= MIN_CONTRAST;
-  const scheme = backgroundLightness < (isLegible ? lightness(textColour) : 0.5) ? 'dark' : 'light';
+  const textColour = colourChannelsOf(color);
+  const isDarkByDefault = colorScheme === 'normal' && lightnessOf(textColour) > 0.5;
+  const ancestorBackgrounds = listElementAndAncestors(probe).map((ancestor) => getComputedStyle(ancestor).backgroundColor);
+  const backgroundColour = colourChannelsOf(...[...ancestorBackgrounds, isDarkByDefault ? DARK_BACKGROUND : canvasColour].reverse());
+  const backgroundLightness = lightnessOf(backgroundColour);
+  const isLegible = contrastRatioOf(textColour, backgroundColour) >= MIN_CONTRAST;
+  const scheme = backgroundLightness < (isLegible ? lightnessOf(textColour) : 0.5) ? 'dark' : 'light';
   // Darker backgrounds need darker lines. Nearly white backgrounds need no darkening.
   const shade = scheme === 'light' && backgroundLightness < 0.97 ? `${100 * (1 - backgroundLightness ** 2.2)}%` : '';
-  const mutedColour = (share: number) => backgroundColour.map((channel, i) => channel + (share / 100) * (textColour[i] - channel));
-  const mutedStrength = isLegible ? `${MUTED_SHARES.find((share) => contrastRatio(mutedColour(share), backgroundColour) >= MIN_CONTRAST) ?? 100}%` : '';
+  const mixMutedColour = (share: number) => backgroundColour.map((channel, i) => channel + (share / 100) * (textColour[i] - channel));
+  const mutedStrength = isLegible ? `${MUTED_SHARES.find((share) => contrastRatioOf(mixMutedColour(share), backgroundColour) >= MIN_CONTRAST) ?? 100}%` : '';
   return { ground: `rgb(${backgroundColour})`, text: isLegible ? color : '', shade, strength: mutedStrength, scheme };
 }
 
-function contrastRatio(firstColour: number[], secondColour: number[]) {
-  const linearChannel = (channel: number) => (channel > 10 ? ((channel / 255 + 0.055) / 1.055) ** 2.4 : channel / 3294.6);
-  const [low, high] = [firstColour, secondColour].map((colour) => lightness(colour.map((channel) => 255 * linearChannel(channel)))).sort((a, b) => a - b);
+function contrastRatioOf(firstColour: number[], secondColour: number[]) {
+  const linearizeChannel = (channel: number) => (channel > 10 ? ((channel / 255 + 0.055) / 1.055) ** 2.4 : channel / 3294.6);
+  const [low, high] = [firstColour, secondColour].map((colour) => lightnessOf(colour.map((channel) => 255 * linearizeChannel(channel)))).sort((a, b) => a - b);
   return (high + 0.05) / (low + 0.05);
 }
 
 /** Returns the lightness from 0, black, to 1, with the weights of Rec. 709. */
-function lightness([red, green, blue]: number[]): number {
+function lightnessOf([red, green, blue]: number[]): number {
   return (0.2126 * red + 0.7152 * green + 0.0722 * blue) / 255;
 }

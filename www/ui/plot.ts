@@ -143,8 +143,8 @@ export function plotHtml({ label, x, y, curves, points = [], marks = [], slider,
       <text font-style="italic" x=${PLOT_RIGHT} y=${PLOT_BOTTOM + 30} text-anchor="end">${x.name}</text>
       <text font-style="italic" x="0" y="12">${y.name}</text>
       <svg x=${PLOT_LEFT} y=${PLOT_TOP} width=${PLOT_RIGHT - PLOT_LEFT} height=${PLOT_BOTTOM - PLOT_TOP} viewBox="${PLOT_LEFT} ${PLOT_TOP} ${PLOT_RIGHT - PLOT_LEFT} ${PLOT_BOTTOM - PLOT_TOP}">
-        ${curves.map((curve) => curve.error && svg`<path class="band ${highlightClass(curve)}" opacity="0.22" fill="var(--${curve.role})" d=${bandPathData(curve, toPixelX, toPixelY)} />`)}
-        ${curves.map((curve) => !curve.isBandOnly && svg`<path class="curve ${highlightClass(curve)}" fill="none" stroke-width="1.9" stroke="var(--${curve.role})" stroke-dasharray=${curve.dash ?? nothing} d=${curvePathData(curve, toPixelX, toPixelY)} />`)}
+        ${curves.map((curve) => curve.error && svg`<path class="band ${highlightClass(curve)}" opacity="0.22" fill="var(--${curve.role})" d=${bandPathDataOf(curve, toPixelX, toPixelY)} />`)}
+        ${curves.map((curve) => !curve.isBandOnly && svg`<path class="curve ${highlightClass(curve)}" fill="none" stroke-width="1.9" stroke="var(--${curve.role})" stroke-dasharray=${curve.dash ?? nothing} d=${curvePathDataOf(curve, toPixelX, toPixelY)} />`)}
         ${marks.map((mark, row) => markSvg(mark, row, toPixelX(mark.x)))}
         ${points.filter(({ y: value, error }) => !Number.isNaN(value + error)).map(
           ({ role, x: pointX, y: value, error }) => svg`<path
@@ -188,21 +188,21 @@ function createPixelScale({ from, to, isLogarithmic }: Axis, firstPixel: number,
 
 function axisLabelsOf({ from, to, isLogarithmic }: Axis, maxCount: number): [value: number, text: string][] {
   if (!isLogarithmic) return ticks(from, to, maxCount - 1).map((value, _, values) => [value, formatTick(value, values.length > 1 ? values[1] - values[0] : 1)]);
-  const [first, last] = [Math.ceil(Math.log10(from) - 1e-9), Math.floor(Math.log10(to) + 1e-9)];
-  const exponentStep = Math.max(1, Math.ceil((last - first + 1) / maxCount));
-  const exponents = Array.from({ length: Math.floor((last - first) / exponentStep) + 1 }, (_, i) => first + i * exponentStep);
+  const [firstPower, lastPower] = [Math.ceil(Math.log10(from) - 1e-9), Math.floor(Math.log10(to) + 1e-9)];
+  const exponentStep = Math.max(1, Math.ceil((lastPower - firstPower + 1) / maxCount));
+  const exponents = Array.from({ length: Math.floor((lastPower - firstPower) / exponentStep) + 1 }, (_, i) => firstPower + i * exponentStep);
   return exponents.map((exponent) => [10 ** exponent, formatPowerOfTen(exponent)]);
 }
 
-function curvePathData({ x, y }: Curve, toPixelX: (value: number) => number, toPixelY: (value: number) => number) {
+function curvePathDataOf({ x, y }: Curve, toPixelX: (value: number) => number, toPixelY: (value: number) => number) {
   const points = Array.from(x, (value, i) => (Number.isNaN(value + y[i]) ? '' : `${toPixelX(value).toFixed(2)},${toPixelY(y[i]).toFixed(2)}`));
   return points.map((point, i) => point && `${points[i - 1] ? 'L' : 'M'}${point}`).join('');
 }
 
-function bandPathData({ x, y, error = [] }: Curve, toPixelX: (value: number) => number, toPixelY: (value: number) => number) {
+function bandPathDataOf({ x, y, error = [] }: Curve, toPixelX: (value: number) => number, toPixelY: (value: number) => number) {
   const definedIndices = Array.from(x, (_, i) => i).filter((i) => !Number.isNaN(x[i] + y[i] + error[i]));
-  const bandEdge = (side: number) => definedIndices.map((i) => `${toPixelX(x[i]).toFixed(2)},${toPixelY(y[i] + side * error[i]).toFixed(2)}`);
-  return definedIndices.length > 0 ? `M${[...bandEdge(1), ...bandEdge(-1).reverse()].join('L')}Z` : '';
+  const bandEdgeOf = (side: number) => definedIndices.map((i) => `${toPixelX(x[i]).toFixed(2)},${toPixelY(y[i] + side * error[i]).toFixed(2)}`);
+  return definedIndices.length > 0 ? `M${[...bandEdgeOf(1), ...bandEdgeOf(-1).reverse()].join('L')}Z` : '';
 }
 
 /** Returns the line and text of a vertical mark. Each mark's text is in its own row, so that neighbouring texts do not touch. */

@@ -17,33 +17,33 @@ const HEIGHTS_EM: Record<string, ([number, number] | string)[]> = {
 };
 
 /** Returns the height for any width as a CSS maximum over the classes. Outside of its class, a term is hugely negative. */
-function heightCss(tag: string, unit: '%' | 'cqi') {
+function heightCssOf(tag: string, unit: '%' | 'cqi') {
   const heightTerms = HEIGHTS_EM[tag].map((height, i, { length }) => {
     const [fromEm, toEm] = [WIDTH_CLASS_BOUNDS_EM[i], WIDTH_CLASS_BOUNDS_EM[i + 1]];
     const clampedWidth = `min(100${unit},${toEm}em)`;
-    const interpolatedHeight = (from: number, to: number) => `${from}em + ${((to - from) / (toEm - fromEm)).toFixed(3)}*(${clampedWidth} - ${fromEm}em)`;
+    const interpolateHeight = (from: number, to: number) => `${from}em + ${((to - from) / (toEm - fromEm)).toFixed(3)}*(${clampedWidth} - ${fromEm}em)`;
     const penaltyBelow = i > 0 ? ` - 1e6*max(0em,${fromEm}em - 100${unit})` : '';
     const penaltyAbove = i === length - 1 ? '' : ` - 1e6*max(0em,100${unit} - ${toEm - 0.001}em)`;
-    return `${typeof height === 'string' ? height : interpolatedHeight(...height)}${penaltyBelow}${penaltyAbove}`;
+    return `${typeof height === 'string' ? height : interpolateHeight(...height)}${penaltyBelow}${penaltyAbove}`;
   });
   return `max(${heightTerms})`;
 }
 
-export const reservedHeightCss = (tag: string) =>
-  unsafeCSS(`.reserved,.simulation{--height:${heightCss(tag, 'cqi')};min-height:var(--height)}.simulation{min-height:calc(var(--height) + var(--motion-sticky-bottom,0px))}`);
+export const reservedHeightCssOf = (tag: string) =>
+  unsafeCSS(`.reserved,.simulation{--height:${heightCssOf(tag, 'cqi')};min-height:var(--height)}.simulation{min-height:calc(var(--height) + var(--motion-sticky-bottom,0px))}`);
 
 /** Returns the style sheet that reserves heights until the elements are defined. */
-export function preUpgradeCss() {
+export function createPreUpgradeCss() {
   const tags = Object.keys(HEIGHTS_EM);
-  const undefinedSelector = (selectors: string | string[]) => `:is(${selectors}):not(:defined)`;
+  const undefinedSelectorFor = (selectors: string | string[]) => `:is(${selectors}):not(:defined)`;
   return [
-    `${undefinedSelector(tags)}{display:flow-root;position:relative;min-width:0;max-width:100%}`,
-    `${undefinedSelector(tags)}::before{${preferredWidthCss}}`,
-    `${undefinedSelector(tags)}>:not([slot]){position:absolute;top:0;margin:0}`,
+    `${undefinedSelectorFor(tags)}{display:flow-root;position:relative;min-width:0;max-width:100%}`,
+    `${undefinedSelectorFor(tags)}::before{${preferredWidthCss}}`,
+    `${undefinedSelectorFor(tags)}>:not([slot]){position:absolute;top:0;margin:0}`,
     // The title and caption of an element that is not defined yet look as they do in the figure.
-    `:where(${undefinedSelector(tags)}>[slot=title]){display:block;font-size:1.1em;line-height:1.4}`,
-    `:where(${undefinedSelector(tags)}:has(>[slot=title]))::before{margin-bottom:.297em}`,
-    `:where(${undefinedSelector(tags)}>[slot=caption]){font-size:.95em;line-height:1.4}`,
-    ...tags.map((tag) => `${undefinedSelector(tag)}::before{padding-top:${heightCss(tag, '%')}}`),
+    `:where(${undefinedSelectorFor(tags)}>[slot=title]){display:block;font-size:1.1em;line-height:1.4}`,
+    `:where(${undefinedSelectorFor(tags)}:has(>[slot=title]))::before{margin-bottom:.297em}`,
+    `:where(${undefinedSelectorFor(tags)}>[slot=caption]){font-size:.95em;line-height:1.4}`,
+    ...tags.map((tag) => `${undefinedSelectorFor(tag)}::before{padding-top:${heightCssOf(tag, '%')}}`),
   ].join('\n');
 }

@@ -5,14 +5,14 @@ import { live } from 'lit/directives/live.js';
 import { inputOf } from './controls.ts';
 
 /** Returns the styles of the track and thumb of a slider, whose pseudo-elements have other names in each browser. */
-const trackStyles = (track: string, thumb: string) => unsafeCSS(`
-  input[type='range']::${track} {
+const createTrackStyles = (trackPseudoElement: string, thumbPseudoElement: string) => unsafeCSS(`
+  input[type='range']::${trackPseudoElement} {
     height: 2px;
     background: var(--track, var(--muted));
     border-radius: 1px;
   }
 
-  input[type='range']::${thumb} {
+  input[type='range']::${thumbPseudoElement} {
     appearance: none;
     box-sizing: border-box;
     width: var(--thumb-width, 1.05em);
@@ -24,7 +24,7 @@ const trackStyles = (track: string, thumb: string) => unsafeCSS(`
   }
 
   /* Focus ring around the thumb only: around the slider it would overlap the rows above and below. */
-  input[type='range']:focus-visible::${thumb} {
+  input[type='range']:focus-visible::${thumbPseudoElement} {
     outline: 2px solid var(--accent);
     outline-offset: 2px;
   }
@@ -137,8 +137,8 @@ export const sliderStyles = css`
     touch-action: pan-y;
   }
 
-  ${trackStyles('-webkit-slider-runnable-track', '-webkit-slider-thumb')}
-  ${trackStyles('-moz-range-track', '-moz-range-thumb')}
+  ${createTrackStyles('-webkit-slider-runnable-track', '-webkit-slider-thumb')}
+  ${createTrackStyles('-moz-range-track', '-moz-range-thumb')}
 
   /* Chromium and WebKit put the top of the thumb on the top of the track. Firefox centres the thumb. */
   input[type='range']::-webkit-slider-thumb {
@@ -182,7 +182,7 @@ export function sliderRowHtml(row: SliderRow) {
         ${row.pickControl ?? nothing}
         <label for=${row.id} id="${row.id}-name">${row.symbol ? html`<bdi class="symbol notranslate" translate="no">${row.symbol}</bdi>` : nothing}${row.name}</label>
       </span>
-      ${sliderTrackHtml({ ...row, ...rangeOfStops(row), name: undefined, text: printedValue, describedBy: `${row.id}-effect`, keydown: focusField })}
+      ${sliderTrackHtml({ ...row, ...rangeOfStops(row), name: undefined, text: printedValue, describedBy: `${row.id}-effect`, onKeydown: focusField })}
       <form method="dialog" class="value notranslate" translate="no" dir="ltr" data-longest=${longestText}>
         <span class="printed">${printedValue}</span>
         ${valueFieldHtml(row, printedValue)}
@@ -240,11 +240,11 @@ interface Track extends SliderRange {
   name?: string;
   text: string;
   describedBy?: string;
-  keydown?: (event: KeyboardEvent) => void;
+  onKeydown?: (event: KeyboardEvent) => void;
 }
 
 /** Returns the track of a slider. A finger that moves up or down over it scrolls the page. */
-export function sliderTrackHtml({ id, name, min, max, step, value, text, describedBy, keydown, onInput, onCommit }: Track) {
+export function sliderTrackHtml({ id, name, min, max, step, value, text, describedBy, onKeydown: keydown, onInput, onCommit }: Track) {
   // A browser changes a slider as soon as it is touched. The change is applied only after the touch proves to be a tap or a sideways move.
   const setValue = (event: Event) => {
     if (!undecidedTouch) onInput(inputOf(event).valueAsNumber);

@@ -210,7 +210,7 @@ export function resolvePalette(surface: HTMLElement) {
   const paletteEntries = colourProbes.map((colourProbe, i) => {
     const { color } = getComputedStyle(colourProbe);
     // Mixed colours are serialized in notations that few programs read.
-    return [ROLES[i], /^rgb/.test(color) ? color : `rgb(${colourChannels(color)})`];
+    return [ROLES[i], /^rgb/.test(color) ? color : `rgb(${colourChannelsOf(color)})`];
   });
   for (const colourProbe of colourProbes) colourProbe.remove();
   return Object.fromEntries(paletteEntries) as Palette;
@@ -219,7 +219,7 @@ export function resolvePalette(surface: HTMLElement) {
 let pixelContext: OffscreenCanvasRenderingContext2D | undefined;
 
 /** Returns red, green and blue from 0 to 255 of colours in any CSS notation, each painted over the previous ones. */
-export function colourChannels(...colours: string[]): [number, number, number] {
+export function colourChannelsOf(...colours: string[]): [number, number, number] {
   // Browsers serialize most colours in this notation.
   const rgbMatch = colours.at(-1)?.match(/^rgb\((\d+), (\d+), (\d+)\)$/);
   if (rgbMatch) return [Number(rgbMatch[1]), Number(rgbMatch[2]), Number(rgbMatch[3])];

@@ -249,13 +249,13 @@ impl AlphaCalibrator {
     /// Returns the leg whose path is nearest to a point (m), within `radius`.
     pub fn nearest(&self, point: [f64; 2], radius: f64) -> Option<usize> {
         let corrected_errors = &self.calibration().corrected;
-        let path_distance = |leg: &Leg| {
+        let path_distance_to = |leg: &Leg| {
             let [from, to] = leg.reference.map(|pose| pose * corrected_errors.base());
             Segment { from: [from.x(), from.y()], to: [to.x(), to.y()] }.distance_to_point(point)
         };
-        let path_distances = self.legs().iter().map(path_distance).enumerate();
+        let path_distances = self.legs().iter().map(path_distance_to).enumerate();
         path_distances
-            .filter(|(_, path_distance)| *path_distance < radius)
+            .filter(|(_, path_distance_to)| *path_distance_to < radius)
             .min_by(|(_, a), (_, b)| a.total_cmp(b))
             .map(|(index, _)| index)
     }
@@ -366,7 +366,7 @@ fn create_panel(
             leg_points.iter().filter(|point| point[0] > previous_limit && point[0] <= bin_limit).collect();
         previous_limit = bin_limit;
         let leg_count = bin.len() as f64;
-        let sum_over_bin = |term: &dyn Fn(&[f64; 3]) -> f64| bin.iter().map(|point| term(point)).sum::<f64>();
+        let sum_over_bin = |term_of: &dyn Fn(&[f64; 3]) -> f64| bin.iter().copied().map(term_of).sum::<f64>();
         let [x, y] = [0, 1].map(|column| sum_over_bin(&|point| point[column]) / leg_count);
         let mean_variance =
             sum_over_bin(&|point| (point[1] - y) * (point[1] - y)) / (leg_count * (leg_count - 1.0));

@@ -94,14 +94,14 @@ impl Settings {
         let Self { mount_yaw, lever_arm, distance_scale, turn_scale, clock_offset, .. } = *self;
         let is_corrected: [bool; ERROR_COUNT] =
             [clock_offset, mount_yaw, lever_arm, lever_arm, distance_scale, turn_scale];
-        let positive_or_none = |std: f64| (std > 0.0).then_some(std);
+        let none_unless_positive = |std: f64| (std > 0.0).then_some(std);
         Options {
             model: self.model(),
             legs: self.leg_length(),
             outliers: self.outliers,
             correct: is_corrected.map(|corrected| if corrected { None } else { Some(false) }),
-            position_std: positive_or_none(self.position_std),
-            yaw_std: positive_or_none(self.yaw_std),
+            position_std: none_unless_positive(self.position_std),
+            yaw_std: none_unless_positive(self.yaw_std),
         }
     }
 

@@ -66,19 +66,19 @@ impl Stats {
     /// Returns the statistics of a cloud of `n` samples. Statistics in coordinates that are undefined for the cloud are NaN.
     pub fn of(n: usize, cloud: &CloudStats, defined: DefinedCharts) -> Self {
         let CloudStats { cartesian, cross_track, gain, .. } = *cloud;
-        let one_if_defined = |is_defined: bool| if is_defined { 1.0 } else { f64::NAN };
-        let [pose_factor, arc_factor] = [defined.pose, defined.arc].map(one_if_defined);
+        let one_or_nan_of = |is_defined: bool| if is_defined { 1.0 } else { f64::NAN };
+        let [pose_factor, arc_factor] = [defined.pose, defined.arc].map(one_or_nan_of);
         let exponential = ExponentialMoments {
             mean: cloud.exponential.mean * pose_factor,
             cov: cloud.exponential.cov * pose_factor,
         };
-        let defined_gain = |LikelihoodGain { pose, floor }: LikelihoodGain| LikelihoodGain {
+        let gain_if_defined = |LikelihoodGain { pose, floor }: LikelihoodGain| LikelihoodGain {
             pose: pose * pose_factor,
             floor: floor * arc_factor,
         };
         let ellipse = Ellipse::from_moments(&cartesian);
         // The shape is undefined if all positions are equal. Exponential coordinates may then differ, because of the headings.
-        let shape_factor = one_if_defined(defined.pose && !ellipse.is_point());
+        let shape_factor = one_or_nan_of(defined.pose && !ellipse.is_point());
         let contour = ExponentialContour::new(&exponential, &START_POSE);
         let area_ratio = contour.area_ratio(&ellipse, OUTLINE_SEGMENTS);
         Self {
@@ -93,8 +93,8 @@ impl Stats {
                 ellipse: cloud.inside_ellipse,
                 exponential: shape_factor * cloud.inside_exponential,
             },
-            likelihood_gain: defined_gain(gain.value),
-            likelihood_gain_error: defined_gain(gain.error),
+            likelihood_gain: gain_if_defined(gain.value),
+            likelihood_gain_error: gain_if_defined(gain.error),
             area_ratio,
             area_ratio_error: area_ratio * cloud.log_area_error,
         }
@@ -199,12 +199,12 @@ impl BananaMachine {
             })
             .filter(|(_, distance, _)| *distance > MIN_GAP_DISTANCE)
             .collect();
-        let furthest_candidate = |is_near_side: bool| {
+        let find_furthest_candidate = |is_near_side: bool| {
             let candidates_of_side =
                 gap_candidates.iter().filter(|(_, _, is_before)| *is_before == is_near_side);
             candidates_of_side.max_by(|(_, a, _), (_, b, _)| a.total_cmp(b))
         };
-        let mut gaps: Vec<_> = [true, false].into_iter().filter_map(furthest_candidate).collect();
+        let mut gaps: Vec<_> = [true, false].into_iter().filter_map(find_furthest_candidate).collect();
         gaps.sort_by(|(_, a, _), (_, b, _)| b.total_cmp(a));
         gaps.into_iter().map(|(point, _, _)| *point).collect()
     }

@@ -76,11 +76,11 @@ pub fn nearest_index(
     target: [f64; 2],
     radii: [f64; 2],
 ) -> Option<usize> {
-    let squared_distance = |[x, y]: [f64; 2]| {
+    let squared_distance_to = |[x, y]: [f64; 2]| {
         let (dx, dy) = ((x - target[0]) / radii[0], (y - target[1]) / radii[1]);
         dx * dx + dy * dy
     };
-    let squared_distances = points.into_iter().map(squared_distance).enumerate();
+    let squared_distances = points.into_iter().map(squared_distance_to).enumerate();
     squared_distances
         .filter(|(_, distance)| *distance <= 1.0)
         .min_by(|(_, a), (_, b)| a.total_cmp(b))

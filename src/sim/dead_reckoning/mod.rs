@@ -398,15 +398,15 @@ fn find_misses(ratios: &[Vector3<f64>], measured: &[MeasuredMoments], axis: usiz
     let is_decidable = defined_ratios().next().is_some()
         && defined_ratios().all(|(_, measured)| measured.relative_error[axis] <= MAX_STANDARD_ERROR);
     let is_miss = |ratio: &Vector3<f64>| is_decidable && (ratio[axis] - 1.0).abs() > MISS_TOLERANCE;
-    let step_number = |index: usize| index as u32 + 1;
+    let step_number_of = |index: usize| index as u32 + 1;
     let [end, error] = match (ratios.last(), measured.last()) {
         (Some(ratio), Some(measured)) => [ratio[axis] - 1.0, ratio[axis] * measured.relative_error[axis]],
         _ => [f64::NAN; 2],
     };
     Misses {
         decidable: is_decidable,
-        first: ratios.iter().position(is_miss).map(step_number),
-        last: ratios.iter().rposition(is_miss).map(step_number),
+        first: ratios.iter().position(is_miss).map(step_number_of),
+        last: ratios.iter().rposition(is_miss).map(step_number_of),
         end,
         error,
     }

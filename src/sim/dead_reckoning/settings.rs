@@ -86,11 +86,11 @@ impl Settings {
     pub(super) fn has_same_rollouts(&self, other: &Self) -> bool {
         let Self { step, compounding, samples, .. } = *other;
         // −0 equals 0, but leads to other signs of zeros in the results.
-        let sign_bits = |settings: &Self| {
+        let sign_bits_of = |settings: &Self| {
             let VelocityCmd { v, omega, dt } = settings.command;
             ([v, omega, dt].map(f64::is_sign_negative), settings.alphas.map(f64::is_sign_negative))
         };
-        Self { step, compounding, samples, ..*self } == *other && sign_bits(self) == sign_bits(other)
+        Self { step, compounding, samples, ..*self } == *other && sign_bits_of(self) == sign_bits_of(other)
     }
 }
 

@@ -50,8 +50,8 @@ struct Tally {
     gave_up: bool,
 }
 
-/// Average number of draws for a part of a motion at which the simulation gives up: an acceptance of 5 %. With a smaller limit the
-/// simulation would stop where a filter still works; with a larger limit a page would wait for seconds.
+/// Mean number of draws for a part of a motion (the sub-stepped sampler has several) at which the simulation gives up. A smaller limit would
+/// stop it where a filter still works. A larger limit, an acceptance below 5 %, would let a page wait for seconds.
 const MAX_MEAN_DRAWS_PER_PART: usize = 20;
 
 /// Number of parts of motions that a block of attempts tests against the map. A block takes some milliseconds.
@@ -74,10 +74,10 @@ impl MapSqueeze {
     }
 
     fn reserve_memory(&mut self, settings: &Settings) -> Result<(), SettingsError> {
-        let memory_error = |_| SettingsError::out_of_memory(settings.samples);
+        let to_memory_error = |_| SettingsError::out_of_memory(settings.samples);
         let missing_attempts = settings.samples.saturating_sub(self.attempts.len());
-        self.attempts.try_reserve_exact(missing_attempts).map_err(memory_error)?;
-        self.draws.reserve(settings.samples).map_err(memory_error)
+        self.attempts.try_reserve_exact(missing_attempts).map_err(to_memory_error)?;
+        self.draws.reserve(settings.samples).map_err(to_memory_error)
     }
 
     /// Returns the floor plan.
@@ -174,18 +174,18 @@ impl MapSqueeze {
     pub fn stats(&self) -> Stats {
         let Tally { cost, accepted, through_wall, gave_up } = self.tally;
         // NaN for 0/0, and infinity for another number over 0.
-        let ratio = |numerator: usize, denominator: usize| numerator as f64 / denominator as f64;
+        let ratio_of = |numerator: usize, denominator: usize| numerator as f64 / denominator as f64;
         Stats {
             attempts: self.attempts.len(),
             drawn: cost.draws,
             accepted,
             // In an accepted attempt of k parts, k draws were accepted.
-            acceptance_rate: ratio(accepted * self.settings.part_count() as usize, cost.draws),
+            acceptance_rate: ratio_of(accepted * self.settings.part_count() as usize, cost.draws),
             through_wall,
-            through_wall_rate: ratio(through_wall, accepted),
+            through_wall_rate: ratio_of(through_wall, accepted),
             through_wall_interval: wilson_interval(through_wall, accepted),
-            draws_per_accepted: ratio(cost.draws, accepted),
-            wall_tests_per_accepted: ratio(cost.wall_tests, accepted),
+            draws_per_accepted: ratio_of(cost.draws, accepted),
+            wall_tests_per_accepted: ratio_of(cost.wall_tests, accepted),
             gave_up,
         }
     }
@@ -422,10 +422,10 @@ fn paint_attempts(attempts: &[Attempt], grid: &ViewGrid, ramps: &[Ramp; OUTCOME_
             cell_counts[cell_index][attempt.outcome_kind()] += 1;
         }
     }
-    let total_count = |kind_counts: &[u32; OUTCOME_KIND_COUNT]| kind_counts.iter().sum::<u32>();
-    let highest_count = cell_counts.iter().map(total_count).max().unwrap_or(0);
-    let cell_colour = |kind_counts: &[u32; OUTCOME_KIND_COUNT]| {
-        let attempt_count = total_count(kind_counts);
+    let total_count_of = |kind_counts: &[u32; OUTCOME_KIND_COUNT]| kind_counts.iter().sum::<u32>();
+    let highest_count = cell_counts.iter().map(total_count_of).max().unwrap_or(0);
+    let cell_colour_of = |kind_counts: &[u32; OUTCOME_KIND_COUNT]| {
+        let attempt_count = total_count_of(kind_counts);
         let most_frequent_kind = (0..OUTCOME_KIND_COUNT).max_by_key(|kind| kind_counts[*kind]).unwrap_or(0);
         if attempt_count == 0 {
             [0; 4]
@@ -433,5 +433,5 @@ fn paint_attempts(attempts: &[Attempt], grid: &ViewGrid, ramps: &[Ramp; OUTCOME_
             ramps[most_frequent_kind][ramp_step(attempt_count, highest_count)]
         }
     };
-    cell_counts.iter().map(cell_colour).collect()
+    cell_counts.iter().map(cell_colour_of).collect()
 }

@@ -150,14 +150,14 @@ fn report_wrong_alphas(model: Model, scenario: &Scenario, study: &Study) -> Vec<
     alpha_reports.map(|message| format!("{}, {model:?}: {message}", scenario.name)).collect()
 }
 
-/// Asserts that the α's of every model are right in a hundred logs, and that `further_reports` reports nothing.
-fn assert_right_in_every_model(scenario: &Scenario, further_reports: impl Fn(&Study) -> Vec<String>) {
+/// Asserts that the α's of every model are right in a hundred logs, and that `further_reports_of` reports nothing.
+fn assert_right_in_every_model(scenario: &Scenario, further_reports_of: impl Fn(&Study) -> Vec<String>) {
     let reports: Vec<String> = MODELS
         .into_iter()
         .flat_map(|model| {
             let study = run_calibration_study(model, scenario, 100);
             let other_reports =
-                further_reports(&study).into_iter().map(move |message| format!("{model:?}: {message}"));
+                further_reports_of(&study).into_iter().map(move |message| format!("{model:?}: {message}"));
             report_wrong_alphas(model, scenario, &study).into_iter().chain(other_reports).collect::<Vec<_>>()
         })
         .collect();

@@ -185,9 +185,9 @@ fn a_log_that_no_inflation_covers_is_unusable() {
     assert_unusable(&calibration, "a jump");
 }
 
-/// Returns the calibration of a log whose odometry is divided by varying scales. `scales` returns the scales of distance and turn at a time
+/// Returns the calibration of a log whose odometry is divided by varying scales. `scale_at` returns the scales of distance and turn at a time
 /// (as a fraction of the log) and a velocity.
-fn calibrate_with_scales(sim: &Simulation, scales: impl Fn(f64, &Vector3<f64>) -> [f64; 2]) -> Calibration {
+fn calibrate_with_scales(sim: &Simulation, scale_at: impl Fn(f64, &Vector3<f64>) -> [f64; 2]) -> Calibration {
     let [odometry, reference] = sim.log();
     let odometry_rows: Vec<(f64, SE2)> = odometry.samples().collect();
     let log_duration = odometry_rows[odometry_rows.len() - 1].0;
@@ -196,7 +196,7 @@ fn calibrate_with_scales(sim: &Simulation, scales: impl Fn(f64, &Vector3<f64>) -
     for adjacent_rows in odometry_rows.windows(2) {
         let twist = adjacent_rows[1].1.boxminus(&adjacent_rows[0].1);
         let [distance_scale, turn_scale] =
-            scales(adjacent_rows[1].0 / log_duration, &(twist / (adjacent_rows[1].0 - adjacent_rows[0].0)));
+            scale_at(adjacent_rows[1].0 / log_duration, &(twist / (adjacent_rows[1].0 - adjacent_rows[0].0)));
         odometry_pose =
             odometry_pose.boxplus(Vector3::new(twist.x / distance_scale, 0.0, twist.z / turn_scale));
         scaled_odometry.push((adjacent_rows[1].0, odometry_pose));
@@ -210,7 +210,7 @@ fn calibrate_with_scales(sim: &Simulation, scales: impl Fn(f64, &Vector3<f64>) -
 fn odometry_that_moves_sideways_is_reported_if_the_rule_takes_its_direction() {
     let sim = simulation_that_passes(600, 12);
     let [odometry, reference] = sim.log();
-    let jittered_odometry = |jitter_std: f64| {
+    let jitter_odometry = |jitter_std: f64| {
         let mut rng = seeded_rng(12);
         let mut draw_noise = || NoiseKind::Normal.sample(Variance(jitter_std * jitter_std), &mut rng);
         change_poses(&odometry, |pose| {
@@ -231,10 +231,10 @@ fn odometry_that_moves_sideways_is_reported_if_the_rule_takes_its_direction() {
     };
     let [table_5_6_model, omni_model] = [OdometryRule::Table, OdometryRule::Omni].map(Model::Odometry);
     for (odometry, model, expected_pass) in [
-        (&jittered_odometry(0.01), NAV2, Some(false)),
+        (&jitter_odometry(0.01), NAV2, Some(false)),
         (&shifted_odometry, NAV2, Some(false)),
-        (&jittered_odometry(1e-3), table_5_6_model, Some(false)),
-        (&jittered_odometry(1e-3), NAV2, Some(true)),
+        (&jitter_odometry(1e-3), table_5_6_model, Some(false)),
+        (&jitter_odometry(1e-3), NAV2, Some(true)),
         (&shifted_odometry, omni_model, None),
         (&shifted_odometry, Model::Velocity, None),
     ] {

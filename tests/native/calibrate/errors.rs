@@ -18,7 +18,7 @@ fn simulation_with_errors(model: Model, leg_count: usize, errors: Systematic) ->
 
 /// Asserts that an estimated error is within four standard errors of the truth. Standard errors below 1e-3 are raised to 1e-3, because they
 /// neglect products of noises.
-fn assert_recovers(calibration: &Calibration, error_kind: SystematicError, true_value: f64) {
+fn assert_systematic_error_near(calibration: &Calibration, error_kind: SystematicError, true_value: f64) {
     let standard_error = calibration.systematic_stds[error_kind as usize].expect("identifiable");
     let deviation = wrap_angle(calibration.systematic.get(error_kind) - true_value).abs();
     assert!(
@@ -32,9 +32,9 @@ fn a_mount_yaw_of_any_size_and_a_lever_arm_are_found() {
     for (model, mount_yaw) in MODELS.into_iter().zip([0.07, FRAC_PI_2, -2.6, PI, -FRAC_PI_2]) {
         let true_errors = Systematic { mount_yaw, lever_arm: [0.3, -0.2], ..Systematic::NONE };
         let calibration = calibrate_simulation(&simulation_with_errors(model, 500, true_errors));
-        assert_recovers(&calibration, SystematicError::MountYaw, mount_yaw);
-        assert_recovers(&calibration, SystematicError::LeverArmAhead, 0.3);
-        assert_recovers(&calibration, SystematicError::LeverArmLeft, -0.2);
+        assert_systematic_error_near(&calibration, SystematicError::MountYaw, mount_yaw);
+        assert_systematic_error_near(&calibration, SystematicError::LeverArmAhead, 0.3);
+        assert_systematic_error_near(&calibration, SystematicError::LeverArmLeft, -0.2);
         // The ratio of fitted to true α may differ from 1 by four standard errors, which are at most 13 % each.
         for (fitted_alpha, true_alpha) in calibration.alphas.iter().zip(ALPHAS) {
             let alpha_ratio = fitted_alpha.expect("identifiable") / true_alpha;
@@ -48,7 +48,7 @@ fn clocks_with_any_offset_are_aligned() {
     for clock_offset in [-1.7e9, -4000.0, 0.12, 7.25, 15.12, 1.7e9] {
         let true_errors = Systematic { clock_offset, ..Systematic::NONE };
         let calibration = calibrate_simulation(&simulation_with_errors(NAV2, 500, true_errors));
-        assert_recovers(&calibration, SystematicError::ClockOffset, clock_offset);
+        assert_systematic_error_near(&calibration, SystematicError::ClockOffset, clock_offset);
         assert!(calibration.legs.len() > 490, "{clock_offset}: {}", calibration.legs.len());
     }
 }
@@ -79,7 +79,7 @@ fn clocks_are_aligned_by_the_turns_of_a_broken_reference() {
         short_reference,
     ] {
         let calibration = calibrate_log(&[odometry.clone(), reference], &simulation.calibration_options());
-        assert_recovers(&calibration, SystematicError::ClockOffset, 3.2);
+        assert_systematic_error_near(&calibration, SystematicError::ClockOffset, 3.2);
     }
 }
 
@@ -99,17 +99,17 @@ fn trajectories_without_a_common_time_are_refused() {
         Err(CalibrateError::NoCommonTime)
     );
     // Straight drives have no turns that could align the clocks. Their clocks are assumed equal, provided that the times overlap.
-    let straight_drive = |start_time: f64| {
+    let straight_drive_from = |start_time: f64| {
         let row_indices = (0..1000).map(f64::from);
         new_trajectory(row_indices.map(|row| (start_time + 0.1 * row, SE2::new(0.05 * row, 0.0, 0.0))))
     };
     assert_eq!(
-        calibrate_logs(&straight_drive(0.0), &straight_drive(70.0))
+        calibrate_logs(&straight_drive_from(0.0), &straight_drive_from(70.0))
             .map(|systematic_errors| systematic_errors.clock_offset),
         Ok(0.0)
     );
     assert_eq!(
-        calibrate_logs(&straight_drive(0.0), &straight_drive(100.0)),
+        calibrate_logs(&straight_drive_from(0.0), &straight_drive_from(100.0)),
         Err(CalibrateError::NoCommonTime)
     );
 }
@@ -138,10 +138,10 @@ fn an_uncorrected_error_appears_as_noise_of_the_wheels_or_of_the_reference() {
         calibrate_uncorrected(simulation.calibration_options()),
         calibrate_uncorrected(exact_reference_options),
     ];
-    let fitted_alpha2 = |calibration: &Calibration| calibration.alphas[1].expect("identifiable");
-    let added_alpha2 = fitted_alpha2(&uncorrected_fit) - fitted_alpha2(&corrected_fit);
+    let fitted_alpha2_of = |calibration: &Calibration| calibration.alphas[1].expect("identifiable");
+    let added_alpha2 = fitted_alpha2_of(&uncorrected_fit) - fitted_alpha2_of(&corrected_fit);
     assert!((0.05..0.2).contains(&added_alpha2), "{added_alpha2}");
-    let alpha2_ratio = fitted_alpha2(&fit_with_estimated_noise) / fitted_alpha2(&corrected_fit);
+    let alpha2_ratio = fitted_alpha2_of(&fit_with_estimated_noise) / fitted_alpha2_of(&corrected_fit);
     assert!((0.7..1.5).contains(&alpha2_ratio), "{alpha2_ratio}");
     let yaw_std = fit_with_estimated_noise.reference_noise[1].value;
     assert!((yaw_std / 0.07 - 1.0).abs() < 0.1, "{yaw_std}");
@@ -213,9 +213,9 @@ fn noise_of_the_odometry_does_not_bias_the_clock_offset() {
         let mut true_pose = SE2::identity();
         let true_trajectory = new_trajectory((0..12_000).map(|row| {
             let time = STEP_SECONDS * f64::from(row);
-            let sine_wave = |frequency: f64| (frequency * time).sin();
-            let v = 0.4 + 0.15 * sine_wave(2.0) + 0.1 * sine_wave(0.91);
-            let omega = 0.5 * sine_wave(1.3) + 0.4 * sine_wave(0.41) + 0.3 * sine_wave(3.17);
+            let sine_wave_of = |frequency: f64| (frequency * time).sin();
+            let v = 0.4 + 0.15 * sine_wave_of(2.0) + 0.1 * sine_wave_of(0.91);
+            let omega = 0.5 * sine_wave_of(1.3) + 0.4 * sine_wave_of(0.41) + 0.3 * sine_wave_of(3.17);
             true_pose = true_pose.boxplus(Vector3::new(v, 0.0, omega) * STEP_SECONDS);
             (time, true_pose)
         }));
@@ -248,12 +248,12 @@ fn four_drives_are_as_informative_as_one_of_the_same_length() {
     let fit_of_one_drive = calibrate_simulation(&simulation_with_clock_offset(0.0, 1200, 20));
     assert!(fit_of_four_drives.legs.len() > 1190, "{}", fit_of_four_drives.legs.len());
     for (alpha_index, true_alpha) in ALPHAS.into_iter().enumerate().take(4) {
-        let relative_interval_width = |calibration: &Calibration| {
+        let relative_interval_width_of = |calibration: &Calibration| {
             let [low, high] = calibration.intervals[alpha_index].expect("identifiable");
             (high - low) / calibration.alphas[alpha_index].expect("identifiable")
         };
         let width_ratio =
-            relative_interval_width(&fit_of_four_drives) / relative_interval_width(&fit_of_one_drive);
+            relative_interval_width_of(&fit_of_four_drives) / relative_interval_width_of(&fit_of_one_drive);
         assert!((width_ratio - 1.0).abs() < 0.3, "α{}: {width_ratio}", alpha_index + 1);
         // The ratio of fitted to true α may differ from 1 by four standard errors, which are at most 9 % each.
         let alpha_ratio = fit_of_four_drives.alphas[alpha_index].expect("identifiable") / true_alpha;
@@ -292,6 +292,6 @@ fn encoder_jitter_of_a_standing_robot_does_not_change_the_scales() {
         [0, 1].map(|trajectory_index| new_trajectory(pose_rows.iter().map(|row| row[trajectory_index])));
     let options = Options { legs: LegLength::Duration { duration: 0.5 }, ..default_options(NAV2) };
     let calibration = calibrate_log(&log, &options);
-    assert_recovers(&calibration, SystematicError::TurnScale, 1.0);
-    assert_recovers(&calibration, SystematicError::DistanceScale, 1.0);
+    assert_systematic_error_near(&calibration, SystematicError::TurnScale, 1.0);
+    assert_systematic_error_near(&calibration, SystematicError::DistanceScale, 1.0);
 }

@@ -17,15 +17,15 @@ fn simulation_of_bends(leg_count: usize) -> Simulation {
 }
 
 /// Returns the Jacobian of a function at 0, by central differences. Angles are wrapped.
-fn jacobian_of(function: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Matrix3<f64> {
+fn jacobian_of(evaluate: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Matrix3<f64> {
     const H: f64 = 1e-6;
-    let jacobian_column = |argument_index: usize| {
+    let jacobian_column_of = |argument_index: usize| {
         let argument_offset = Vector3::from_fn(|k, _| if k == argument_index { H } else { 0.0 });
-        let mut central_difference = function(argument_offset) - function(-argument_offset);
+        let mut central_difference = evaluate(argument_offset) - evaluate(-argument_offset);
         central_difference.iter_mut().for_each(|component| *component = wrap_angle(*component));
         central_difference / (2.0 * H)
     };
-    Matrix3::from_columns(&[0, 1, 2].map(jacobian_column))
+    Matrix3::from_columns(&[0, 1, 2].map(jacobian_column_of))
 }
 
 fn pose_coordinates(pose: &SE2) -> Vector3<f64> {
@@ -69,7 +69,7 @@ fn pose_jacobian(leg: &Leg, systematic_errors: &Systematic, end_index: usize) ->
 fn error_derivative(leg: &Leg, systematic_errors: &Systematic, error_kind: SystematicError) -> Vector3<f64> {
     const H: f64 = 1e-6;
     let odometry_motion = expected_motion(leg, systematic_errors);
-    let motion_error = |error_step: f64| {
+    let motion_error_after = |error_step: f64| {
         let mut changed_errors = *systematic_errors;
         *changed_errors.get_mut(error_kind) += error_step;
         // The reference has the corrected errors, and its robot executes the odometry motion.
@@ -80,7 +80,7 @@ fn error_derivative(leg: &Leg, systematic_errors: &Systematic, error_kind: Syste
         let measured_motion = changed_errors.base().inverse() * (reference_motion * changed_errors.base());
         pose_coordinates(&measured_motion) - pose_coordinates(&expected_motion(leg, &changed_errors))
     };
-    reading_jacobian(leg, systematic_errors) * (motion_error(H) - motion_error(-H)) / (2.0 * H)
+    reading_jacobian(leg, systematic_errors) * (motion_error_after(H) - motion_error_after(-H)) / (2.0 * H)
 }
 
 /// Returns the restricted log-likelihood, from a dense covariance matrix of all residuals.
@@ -214,10 +214,10 @@ fn an_interval_ends_where_the_profile_likelihood_has_fallen() {
     let n = calibration.legs.len() as f64;
     // The noise of translation and strafe grows with the distance only.
     for (component_index, alpha_index) in [(1, 2), (2, 4)] {
-        let alpha_estimate = |observation: &motion::calibrate::Observation| {
+        let estimate_alpha = |observation: &motion::calibrate::Observation| {
             observation.residuals[component_index].powi(2) / observation.coefficients[component_index][0]
         };
-        let expected_alpha = calibration.observations.iter().map(alpha_estimate).sum::<f64>() / n;
+        let expected_alpha = calibration.observations.iter().map(estimate_alpha).sum::<f64>() / n;
         let fitted_alpha = calibration.alphas[alpha_index].expect("identifiable");
         assert!((fitted_alpha / expected_alpha - 1.0).abs() < 1e-3, "{fitted_alpha} {expected_alpha}");
         for interval_bound in calibration.intervals[alpha_index].expect("identifiable") {

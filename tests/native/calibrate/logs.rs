@@ -58,16 +58,16 @@ fn legs_end_as_amcl_ends_them() {
 /// Ten steps of 0.02 rad equal the limit of 0.2 rad, except for the rounding of doubles or of text with six decimals.
 #[test]
 fn rounding_does_not_decide_where_a_leg_ends() {
-    let leg_end_times = |round_heading: fn(f64) -> f64| {
-        let rounded_heading = |row: usize| round_heading(wrap_angle(0.123_456_7 + 0.02 * row as f64));
+    let leg_end_times_with = |round_heading: fn(f64) -> f64| {
+        let heading_at = |row: usize| round_heading(wrap_angle(0.123_456_7 + 0.02 * row as f64));
         let turning_drive =
-            new_trajectory((0..400).map(|row| (0.1 * row as f64, SE2::new(0.0, 0.0, rounded_heading(row)))));
+            new_trajectory((0..400).map(|row| (0.1 * row as f64, SE2::new(0.0, 0.0, heading_at(row)))));
         leg_times(&split_into_legs(&turning_drive, &turning_drive, AMCL_LEG, 0.0).0)
     };
-    let exact_leg_times = leg_end_times(|heading| heading);
+    let exact_leg_times = leg_end_times_with(|heading| heading);
     // A leg does not end at exactly the limit. Each leg therefore has eleven steps.
     assert_eq!(exact_leg_times.len(), 36);
-    assert_eq!(leg_end_times(|heading| (heading * 1e6).round() / 1e6), exact_leg_times);
+    assert_eq!(leg_end_times_with(|heading| (heading * 1e6).round() / 1e6), exact_leg_times);
 }
 
 /// A leg normally has five steps. A leg with a pause of six steps after its first step is 0.44 m long. With the pause after the fourth
@@ -147,12 +147,12 @@ fn no_leg_leads_across_a_break() {
 
 #[test]
 fn no_velocity_spans_a_declared_jump() {
-    let jump_offset = |row: usize| if (40..43).contains(&row) { 5.0 } else { 0.0 };
+    let jump_offset_at = |row: usize| if (40..43).contains(&row) { 5.0 } else { 0.0 };
     let rows_before_jumps = straight_drive(101, 0.1);
     let rows_before_jumps = rows_before_jumps
         .samples()
         .enumerate()
-        .map(|(row, (time, pose))| (time, SE2::new(pose.x(), jump_offset(row), 0.0)));
+        .map(|(row, (time, pose))| (time, SE2::new(pose.x(), jump_offset_at(row), 0.0)));
     let drive_with_jumps = new_trajectory(rows_before_jumps).with_breaks_before([40, 43]);
     // Some legs consist of the three rows between the jumps.
     let leg_length = LegLength::Displacement { distance: 0.15, angle: 0.2 };
@@ -203,17 +203,17 @@ fn poses_between_samples_lie_on_an_arc() {
 
 #[test]
 fn times_must_rise_and_numbers_must_be_finite() {
-    let rejection_message = |rows: &[(f64, f64)]| {
+    let message_for = |rows: &[(f64, f64)]| {
         let poses = rows.iter().map(|(time, x)| (*time, SE2::new(*x, 0.0, 0.0)));
         Trajectory::new(poses).err().map(|trajectory_error| trajectory_error.to_string())
     };
-    assert_eq!([rejection_message(&[]), rejection_message(&[(1.0, 2.0)])], [None, None]);
+    assert_eq!([message_for(&[]), message_for(&[(1.0, 2.0)])], [None, None]);
     let not_later_message = "sample 2 is not later than the one before, at 1 s; allowed are times that rise";
-    assert_eq!(rejection_message(&[(0.0, 0.0), (1.0, 0.0), (1.0, 0.0)]).as_deref(), Some(not_later_message));
+    assert_eq!(message_for(&[(0.0, 0.0), (1.0, 0.0), (1.0, 0.0)]).as_deref(), Some(not_later_message));
     let not_finite_message =
         "sample 1 has a time or a coordinate that is not finite; allowed are finite numbers";
-    assert_eq!(rejection_message(&[(0.0, 0.0), (f64::NAN, 0.0)]).as_deref(), Some(not_finite_message));
-    assert_eq!(rejection_message(&[(0.0, 0.0), (1.0, f64::INFINITY)]).as_deref(), Some(not_finite_message));
+    assert_eq!(message_for(&[(0.0, 0.0), (f64::NAN, 0.0)]).as_deref(), Some(not_finite_message));
+    assert_eq!(message_for(&[(0.0, 0.0), (1.0, f64::INFINITY)]).as_deref(), Some(not_finite_message));
     assert!(Trajectory::from_commands([(0.0, 1.0, 0.0), (1.0, f64::NAN, 0.0)]).is_err());
 }
 

@@ -68,12 +68,12 @@ fn linearized_moments_equal_the_printed_table() {
     assert_printed(cov[(1, 2)] / (cov[(1, 1)] * cov[(2, 2)]).sqrt(), 0.887, 3, "ρyθ");
     // The columns of the Jacobian are the derivatives of the arc with respect to v and ω. With a single α of 1 the covariance is the
     // outer product of one column.
-    let linearized_covariance = |alphas: [f64; 6]| {
+    let linearized_covariance_of = |alphas: [f64; 6]| {
         let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal };
         model.cartesian_cov(&U, &SE2::identity())
     };
-    let covariance_by_v = linearized_covariance([1.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
-    let covariance_by_omega = linearized_covariance([0.0, 0.0, 1.0, 0.0, 0.0, 0.0]);
+    let covariance_by_v = linearized_covariance_of([1.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
+    let covariance_by_omega = linearized_covariance_of([0.0, 0.0, 1.0, 0.0, 0.0, 0.0]);
     assert_printed(covariance_by_v[(0, 0)].sqrt(), 0.958851, 6, "∂x/∂v");
     assert_printed(covariance_by_v[(1, 0)] / covariance_by_v[(0, 0)].sqrt(), 0.244835, 6, "∂y/∂v");
     assert_eq!(covariance_by_v[(2, 2)], 0.0);

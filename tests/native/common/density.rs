@@ -71,8 +71,8 @@ impl PolarGrid {
     }
 
     /// Returns the probability mass of each cell, by an 8 × 8 × 8 Gauss rule in each cell.
-    pub fn cell_masses(&self, density: impl Fn(&SE2) -> f64) -> Vec<f64> {
-        let nodes_and_weights = |axis: usize, cell_index: usize| {
+    pub fn cell_masses(&self, density_at: impl Fn(&SE2) -> f64) -> Vec<f64> {
+        let nodes_and_weights_of = |axis: usize, cell_index: usize| {
             let (cell_start, cell_size) = (self.lower_bound(axis, cell_index), self.cell_size[axis]);
             GAUSS_LEGENDRE_RULE.map(|(gauss_node, gauss_weight)| {
                 (cell_start + 0.5 * (1.0 + gauss_node) * cell_size, 0.5 * gauss_weight * cell_size)
@@ -83,13 +83,13 @@ impl PolarGrid {
             for j in 0..self.cell_counts[1] {
                 for k in 0..self.cell_counts[2] {
                     let mut mass = 0.0;
-                    for (c, c_weight) in nodes_and_weights(0, i) {
-                        for (beta, beta_weight) in nodes_and_weights(1, j) {
+                    for (c, c_weight) in nodes_and_weights_of(0, i) {
+                        for (beta, beta_weight) in nodes_and_weights_of(1, j) {
                             let (x, y) =
                                 (self.start_pose.x() + c * beta.cos(), self.start_pose.y() + c * beta.sin());
-                            for (theta, theta_weight) in nodes_and_weights(2, k) {
+                            for (theta, theta_weight) in nodes_and_weights_of(2, k) {
                                 let pose = SE2::new(x, y, self.slope * beta + theta);
-                                mass += c_weight * beta_weight * theta_weight * c.abs() * density(&pose);
+                                mass += c_weight * beta_weight * theta_weight * c.abs() * density_at(&pose);
                             }
                         }
                     }
@@ -100,8 +100,8 @@ impl PolarGrid {
         cell_masses
     }
 
-    pub fn integrate_density(&self, density: impl Fn(&SE2) -> f64) -> f64 {
-        self.cell_masses(density).iter().sum()
+    pub fn integrate_density(&self, density_at: impl Fn(&SE2) -> f64) -> f64 {
+        self.cell_masses(density_at).iter().sum()
     }
 
     fn pose_counts(&self, poses: &[SE2]) -> Vec<f64> {
@@ -135,10 +135,11 @@ impl PolarGrid {
     ///
     /// If a kink of the triangular density crosses a cell, the Gauss rule has an error of about 1e-3 of its mass. With 10⁶
     /// samples that changes χ² by about 1, and the limit is above 100.
-    fn chi_square(&self, poses: &[SE2], density: impl Fn(&SE2) -> f64) -> (f64, f64) {
+    fn chi_square(&self, poses: &[SE2], density_at: impl Fn(&SE2) -> f64) -> (f64, f64) {
         let n = poses.len() as f64;
         let mut observed_counts = self.pose_counts(poses);
-        let mut expected_counts: Vec<f64> = self.cell_masses(density).iter().map(|mass| mass * n).collect();
+        let mut expected_counts: Vec<f64> =
+            self.cell_masses(density_at).iter().map(|mass| mass * n).collect();
         observed_counts.push(n - observed_counts.iter().sum::<f64>());
         expected_counts.push(n - expected_counts.iter().sum::<f64>());
         let (sparse_cells, full_cells): (Vec<_>, Vec<_>) =
@@ -150,11 +151,11 @@ impl PolarGrid {
             "the density has more mass than 1: {} poses remain",
             pooled_cell.1
         );
-        let chi_square_term = |(observed, expected): &(f64, f64)| (observed - expected).powi(2) / expected;
+        let chi_square_term_of = |(observed, expected): &(f64, f64)| (observed - expected).powi(2) / expected;
         // The pooled cell is left out if it expects few poses, because the quadrature error may exceed their number.
-        let pooled_term = if pooled_cell.1 >= 20.0 { chi_square_term(&pooled_cell) } else { 0.0 };
+        let pooled_term = if pooled_cell.1 >= 20.0 { chi_square_term_of(&pooled_cell) } else { 0.0 };
         (
-            full_cells.iter().map(chi_square_term).sum::<f64>() + pooled_term,
+            full_cells.iter().map(chi_square_term_of).sum::<f64>() + pooled_term,
             chi_square_limit(full_cells.len() + 1),
         )
     }

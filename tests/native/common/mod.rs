@@ -132,11 +132,11 @@ impl ReferenceRow<'_> {
 pub const MAX_KOLMOGOROV_SMIRNOV: f64 = 1.95;
 
 /// Returns √n times the Kolmogorov–Smirnov distance between a sample of n numbers and a distribution function.
-pub fn kolmogorov_smirnov(mut sample_values: Vec<f64>, distribution_function: impl Fn(f64) -> f64) -> f64 {
+pub fn kolmogorov_smirnov(mut sample_values: Vec<f64>, probability_below: impl Fn(f64) -> f64) -> f64 {
     sample_values.sort_by(f64::total_cmp);
     let n = sample_values.len() as f64;
     let distance = sample_values.iter().enumerate().map(|(i, &sample_value)| {
-        let cumulative_probability = distribution_function(sample_value);
+        let cumulative_probability = probability_below(sample_value);
         (cumulative_probability - i as f64 / n).max((i + 1) as f64 / n - cumulative_probability)
     });
     distance.fold(0.0, f64::max) * n.sqrt()
@@ -171,8 +171,8 @@ pub fn variance(values: &[f64]) -> f64 {
 }
 
 /// Returns a statistic of a sample and its standard error, from the spread of the statistic over 100 equal batches.
-pub fn statistic_with_standard_error<T>(sample: &[T], statistic: impl Fn(&[T]) -> f64) -> (f64, f64) {
+pub fn statistic_with_standard_error<T>(sample: &[T], compute_statistic: impl Fn(&[T]) -> f64) -> (f64, f64) {
     let batch_size = sample.len() / 100;
-    let batch_statistics: Vec<f64> = sample.chunks_exact(batch_size).map(&statistic).collect();
-    (statistic(sample), (variance(&batch_statistics) / batch_statistics.len() as f64).sqrt())
+    let batch_statistics: Vec<f64> = sample.chunks_exact(batch_size).map(&compute_statistic).collect();
+    (compute_statistic(sample), (variance(&batch_statistics) / batch_statistics.len() as f64).sqrt())
 }

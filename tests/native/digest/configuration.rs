@@ -62,12 +62,12 @@ impl Configuration<'_> {
             .get("bounds")
             .unwrap_or(&self.configurations_json["widgets"][self.widget]["bounds"]);
         let [x_min, y_min, x_max, y_max] = numbers_of(bounds);
-        let picture_size = |key| self.configurations_json["picture"][key].as_u64().expect("a size") as usize;
+        let size_of = |key| self.configurations_json["picture"][key].as_u64().expect("a size") as usize;
         ViewGrid {
             min: [x_min, y_min],
             max: [x_max, y_max],
-            columns: picture_size("columns"),
-            rows: picture_size("rows"),
+            columns: size_of("columns"),
+            rows: size_of("rows"),
         }
     }
 }

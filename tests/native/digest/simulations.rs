@@ -19,16 +19,16 @@ pub fn banana_machine(configuration: &Configuration) -> Vec<HashedPart> {
     let mut simulation = BananaMachine::new(configuration.settings()).expect("a valid setting");
     let (reading, contours, table) = (simulation.reading(), simulation.contours(), simulation.table());
     let stats = *simulation.stats();
-    let gain_fields = |likelihood_gain: LikelihoodGain| (likelihood_gain.pose, likelihood_gain.floor);
+    let gain_fields_of = |likelihood_gain: LikelihoodGain| (likelihood_gain.pose, likelihood_gain.floor);
     let column_values =
-        |c: TableColumn| (c.mean, c.cov, c.cross_track_skew, gain_fields(c.likelihood_gain), c.area_ratio);
+        |c: TableColumn| (c.mean, c.cov, c.cross_track_skew, gain_fields_of(c.likelihood_gain), c.area_ratio);
     let stats = (
         stats.n,
         (stats.cartesian.mean, stats.cartesian.cov),
         (stats.exponential.mean, stats.exponential.cov),
         (stats.cross_track_skew, stats.cross_track_skew_error, stats.gaussian_skew, stats.rho_cross_heading),
         (stats.coverage.ellipse, stats.coverage.exponential),
-        (gain_fields(stats.likelihood_gain), gain_fields(stats.likelihood_gain_error)),
+        (gain_fields_of(stats.likelihood_gain), gain_fields_of(stats.likelihood_gain_error)),
         stats.area_ratio,
     );
     let table_columns =
@@ -165,29 +165,28 @@ pub fn dead_reckoning(configuration: &Configuration) -> Vec<HashedPart> {
 pub fn alpha_calibrator(configuration: &Configuration) -> Vec<HashedPart> {
     let simulation = AlphaCalibrator::new(configuration.settings()).expect("a valid setting");
     let calibration = simulation.calibration();
-    let estimate_fields = |Estimate { value, interval }: &Estimate| (*value, *interval);
-    let error_estimate = |error: SystematicError| {
+    let estimate_fields_of = |Estimate { value, interval }: &Estimate| (*value, *interval);
+    let estimate_of = |error: SystematicError| {
         calibration.systematic_stds[error as usize].map(|_| calibration.systematic.get(error))
     };
-    let error_interval = |error: SystematicError| calibration.interval_of(error);
+    let interval_of = |error: SystematicError| calibration.interval_of(error);
     let is_constant_and_corrected = |error_kinds: &[SystematicError]| {
         let [is_constant, is_corrected] = [calibration.is_constant, calibration.is_corrected]
             .map(|error_flags| error_kinds.iter().any(|error| error_flags[*error as usize]));
         (is_constant, is_corrected)
     };
-    let error_fields =
-        |error| (error_estimate(error), error_interval(error), is_constant_and_corrected(&[error]));
+    let error_fields = |error| (estimate_of(error), interval_of(error), is_constant_and_corrected(&[error]));
     let lever_arm = [SystematicError::LeverArmAhead, SystematicError::LeverArmLeft];
     let systematic_errors = (
         // The number of errors comes first, because JavaScript has them as a list. The lever arm is one error with two coordinates.
         5usize,
         error_fields(SystematicError::ClockOffset),
         error_fields(SystematicError::MountYaw),
-        (lever_arm.map(error_estimate), lever_arm.map(error_interval), is_constant_and_corrected(&lever_arm)),
+        (lever_arm.map(estimate_of), lever_arm.map(interval_of), is_constant_and_corrected(&lever_arm)),
         error_fields(SystematicError::DistanceScale),
         error_fields(SystematicError::TurnScale),
     );
-    let reference_noise = calibration.reference_noise.each_ref().map(estimate_fields);
+    let reference_noise = calibration.reference_noise.each_ref().map(estimate_fields_of);
     let encoded_checks: Vec<_> = calibration
         .diagnostics
         .checks
@@ -209,7 +208,7 @@ pub fn alpha_calibrator(configuration: &Configuration) -> Vec<HashedPart> {
         (alphas, simulated_truth.lever_arm, simulated_truth.distance_scale, simulated_truth.turn_scale)
     });
     let encoded_persistence =
-        (estimate_fields(&calibration.persistence.correlation), calibration.persistence.length);
+        (estimate_fields_of(&calibration.persistence.correlation), calibration.persistence.length);
     vec![
         HashedPart::new(
             "alphas",

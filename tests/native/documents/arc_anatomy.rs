@@ -7,7 +7,7 @@ use crate::simulations::arc_anatomy::stats;
 use motion::sim::arc_anatomy::{ArcAnatomy, Settings, Stats, SurfaceKind};
 
 /// Returns settings with the final pose turned until the wedge disappears.
-fn without_wedge(settings: Settings) -> Settings {
+fn settings_without_wedge(settings: Settings) -> Settings {
     let arc_heading = stats(settings).driven.end[2];
     Settings { next: [settings.next[0], settings.next[1], arc_heading], ..settings }
 }
@@ -24,7 +24,7 @@ fn the_last_turn_explains_the_low_probability() {
     printed_product_percentage.assert_percent(share, 0.0);
     let [printed_remaining_percentage] = page_text()
         .sentence_numbers("With the heading of the arc the wedge is gone: # % are left, and the position");
-    let Stats { factors, share, .. } = stats(without_wedge(Settings::default()));
+    let Stats { factors, share, .. } = stats(settings_without_wedge(Settings::default()));
     printed_remaining_percentage.assert_percent(share, 0.0);
     assert!((factors[2].share - 1.0).abs() < 1e-12);
 }

@@ -116,13 +116,13 @@ fn the_ellipse_covers_floor_where_few_robots_stop() {
         .collect();
     let robots_inside: Vec<[bool; 2]> =
         simulation.poses().map(|pose| is_inside_outlines([pose.x(), pose.y()])).collect();
-    let robot_density = |inside_outlines: [bool; 2]| {
+    let robot_density_in = |inside_outlines: [bool; 2]| {
         let count_points = |inside_flags: &[[bool; 2]]| {
             inside_flags.iter().filter(|flags_of_point| **flags_of_point == inside_outlines).count() as f64
         };
         count_points(&robots_inside) / (count_points(&cells_inside) * CELL_SIZE * CELL_SIZE)
     };
-    let density_ratio = robot_density([false, true]) / robot_density([true, false]);
+    let density_ratio = robot_density_in([false, true]) / robot_density_in([true, false]);
     assert_eq!(density_ratio.round(), 7.0, "{density_ratio}");
 }
 
@@ -138,15 +138,15 @@ fn a_tenth_of_the_time_leaves_less_than_a_tenth_of_the_cloud() {
     };
     let [long_drive_simulation, short_drive_simulation] = [long_drive_settings, short_drive_settings]
         .map(|settings| simulation(Settings { samples: 10, ..settings }));
-    let largest_std = |simulation: &BananaMachine| {
+    let largest_std_of = |simulation: &BananaMachine| {
         let cov = simulation.table().exact.cov;
         (cov[(0, 0)] + cov[(1, 1)]).sqrt()
     };
     assert!(
-        largest_std(&short_drive_simulation) < 0.1 * largest_std(&long_drive_simulation),
+        largest_std_of(&short_drive_simulation) < 0.1 * largest_std_of(&long_drive_simulation),
         "{} {}",
-        largest_std(&short_drive_simulation),
-        largest_std(&long_drive_simulation)
+        largest_std_of(&short_drive_simulation),
+        largest_std_of(&long_drive_simulation)
     );
 }
 
@@ -172,9 +172,9 @@ fn the_predicted_skew_misses_under_the_odometry_model() {
 #[test]
 fn a_hundred_times_the_robots_leave_a_tenth_of_the_error() {
     page_text().assert_contains("A hundred times the robots leave a tenth of the standard error.");
-    let skew_error = |samples| {
+    let skew_error_with = |samples| {
         simulation(Settings { samples, ..settings_of_preset("gentle") }).stats().cross_track_skew_error
     };
-    let error_ratio = skew_error(2000) / skew_error(200_000);
+    let error_ratio = skew_error_with(2000) / skew_error_with(200_000);
     assert!((error_ratio - 10.0).abs() < 1.0, "{error_ratio}");
 }

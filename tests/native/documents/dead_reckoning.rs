@@ -14,14 +14,14 @@ fn simulation_of_preset(preset_name: &str) -> DeadReckoning {
 /// Returns the predicted variances of an axis after each step, divided by those of the fourth order, which are accurate to a few
 /// thousandths.
 fn ratios_to_fourth_order(simulation: &DeadReckoning, recursion: Compounding, axis_index: usize) -> Vec<f64> {
-    let predicted_variances = |recursion| {
+    let predicted_variances_by = |recursion| {
         simulation
             .predicted_covariances(recursion)
             .iter()
             .map(move |variance| variance.expect("a covariance")[(axis_index, axis_index)])
     };
-    predicted_variances(recursion)
-        .zip(predicted_variances(Compounding::FourthOrder))
+    predicted_variances_by(recursion)
+        .zip(predicted_variances_by(Compounding::FourthOrder))
         .map(|(variance, exact_variance)| variance / exact_variance)
         .collect()
 }
@@ -119,12 +119,12 @@ fn the_crossing_times_are_those_of_exercise_2() {
     let initial_simulation = simulation(Settings { samples: 1, ..Settings::default() });
     let straight_growth = initial_simulation.straight_growth();
     let last_index = straight_growth.durations.len() - 1;
-    let growth_exponent = |stds_by_step: &[f64]| {
+    let growth_exponent_of = |stds_by_step: &[f64]| {
         (stds_by_step[last_index] / stds_by_step[0]).ln()
             / (straight_growth.durations[last_index] / straight_growth.durations[0]).ln()
     };
     let growth_exponents = [&straight_growth.along_first_order, &straight_growth.across_first_order]
-        .map(|stds| growth_exponent(stds));
+        .map(|stds| growth_exponent_of(stds));
     let heading_alpha = 4.0 * initial_simulation.settings().heading_noise().expect("a level");
     let alphas = [0.02, 0.02, heading_alpha, heading_alpha, heading_alpha / 4.0, heading_alpha / 4.0];
     let doubled_simulation = simulation(Settings { alphas, samples: 1, ..Settings::default() });

@@ -41,12 +41,12 @@ fn rms_error_of_arc_form(omega: f64, dt: f64) -> f64 {
 #[test]
 fn exercise_1_prints_the_errors_of_the_straight_line_branch() {
     let dt = 0.1;
-    let expected_line_error = |omega: f64| 0.5 * omega * dt * dt;
+    let expected_line_error_at = |omega: f64| 0.5 * omega * dt * dt;
     // The error of the arc form varies strongly with ω. Its geometric mean over a tenth of a decade is therefore compared.
     let line_to_arc_error_ratio = |omega: f64| {
         let turn_rates = (0..20).map(|i| omega * 10f64.powf(f64::from(i) / 200.0 - 0.05));
         (turn_rates
-            .map(|omega| (rms_error_of_arc_form(omega, dt) / expected_line_error(omega)).ln())
+            .map(|omega| (rms_error_of_arc_form(omega, dt) / expected_line_error_at(omega)).ln())
             .sum::<f64>()
             / 20.0)
             .exp()
@@ -62,10 +62,10 @@ fn exercise_1_prints_the_errors_of_the_straight_line_branch() {
         .sentence_numbers(
             "the straight line is off by # nm, and the arc form by # nm. Switching so early costs # times",
         );
-    let (expected_line_error, arc_error) = (expected_line_error(1e-6), rms_error_of_arc_form(1e-6, dt));
-    printed_line_error.assert_near(expected_line_error / 1e-9, 0.0);
+    let (expected_line_error_at, arc_error) = (expected_line_error_at(1e-6), rms_error_of_arc_form(1e-6, dt));
+    printed_line_error.assert_near(expected_line_error_at / 1e-9, 0.0);
     printed_arc_error.assert_near(arc_error / 1e-9, 0.0);
-    printed_ratio.assert_near(expected_line_error / arc_error, 0.0);
+    printed_ratio.assert_near(expected_line_error_at / arc_error, 0.0);
     exercises_document().assert_contains("up to half a micrometre where Δt is a second");
     let arc_end = Arc { start: SE2::identity(), length: 1.0, turn: 1e-6 }.end();
     assert!(((arc_end.x() - 1.0).hypot(arc_end.y()) - 0.5e-6).abs() < 1e-12, "{arc_end:?}");
@@ -136,18 +136,18 @@ fn exercise_5_prints_the_fractions_through_walls() {
         let (alphas, steps, samples) = (alphas_of_noise_level(noise_level), sampler.part_count(), 20_000);
         squeeze::Settings { command, alphas, sampler, steps, samples, ..Default::default() }
     };
-    let squeeze_stats = |settings| MapSqueeze::new(settings).expect("valid settings").stats();
+    let squeeze_stats_of = |settings| MapSqueeze::new(settings).expect("valid settings").stats();
     for n in ["0.02", "0.05", "0.12", "0.4"] {
         let printed_numbers: [PrintedNumber; 5] =
             exercises_document().sentence_numbers(&format!("| {n} | # | # | # | # | # |"));
         for (printed_fraction, omega) in printed_numbers.into_iter().zip([0.0, 0.2, 0.4, 0.6, 0.8]) {
             let settings = settings_with(n.parse().expect("a number"), omega, Sampler::Endpoint);
-            printed_fraction.assert_percent(squeeze_stats(settings).through_wall_rate, 0.0);
+            printed_fraction.assert_percent(squeeze_stats_of(settings).through_wall_rate, 0.0);
         }
     }
     exercises_document().assert_contains("Noise alone, up to 0.4, never gets it to 40 %.");
     for i in [8, 24, 40, 56, 80] {
-        let endpoint_stats = squeeze_stats(settings_with(0.005 * f64::from(i), 0.0, Sampler::Endpoint));
+        let endpoint_stats = squeeze_stats_of(settings_with(0.005 * f64::from(i), 0.0, Sampler::Endpoint));
         assert!(endpoint_stats.through_wall_rate < 0.4, "{i}: {}", endpoint_stats.through_wall_rate);
     }
     let [printed_arc_draws, printed_quarters_draws, printed_quarters_percentage, printed_eighths_draws]: [PrintedNumber; 4] = [
@@ -157,12 +157,12 @@ fn exercise_5_prints_the_fractions_through_walls() {
         "eight cost # draws",
     ]
     .map(|sentence| exercises_document().sentence_numbers::<1>(sentence)[0]);
-    let sampler_stats = |sampler| squeeze_stats(settings_with(0.12, 0.6, sampler));
-    let whole_arc_stats = sampler_stats(Sampler::WholeArc);
+    let stats_of_sampler = |sampler| squeeze_stats_of(settings_with(0.12, 0.6, sampler));
+    let whole_arc_stats = stats_of_sampler(Sampler::WholeArc);
     printed_arc_draws.assert_near(whole_arc_stats.draws_per_accepted, 0.0);
     assert_eq!(whole_arc_stats.through_wall, 0);
     let [quarters_stats, eighths_stats] =
-        [4, 8].map(|part_count| sampler_stats(Sampler::SubStepped(part_count)));
+        [4, 8].map(|part_count| stats_of_sampler(Sampler::SubStepped(part_count)));
     printed_quarters_draws.assert_near(quarters_stats.draws_per_accepted, 0.0);
     printed_quarters_percentage.assert_percent(quarters_stats.through_wall_rate, 0.0);
     printed_eighths_draws.assert_near(eighths_stats.draws_per_accepted, 0.0);

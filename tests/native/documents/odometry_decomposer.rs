@@ -33,12 +33,12 @@ fn only_the_table_adds_noise_of_two_half_turns_in_reverse() {
     let [printed_table_std, printed_localizer_std] = page_text().sentence_numbers(
         "adds ± # rad and more; the localizers AMCL of Nav2 and Beluga add ± # for either.",
     );
-    let rule_deviations = |rule| rule_noise(settings_of_preset("reverse"), rule).deviations;
-    let [rot1_std, _, rot2_std, _] = rule_deviations(Table);
+    let deviations_by_rule = |rule| rule_noise(settings_of_preset("reverse"), rule).deviations;
+    let [rot1_std, _, rot2_std, _] = deviations_by_rule(Table);
     printed_table_std.assert_near(rot1_std, 0.0);
     assert!(rot2_std > rot1_std);
     for rule in [Nav2, Beluga] {
-        let [rot1_std, _, rot2_std, _] = rule_deviations(rule);
+        let [rot1_std, _, rot2_std, _] = deviations_by_rule(rule);
         printed_localizer_std.assert_near(rot1_std, 0.0);
         printed_localizer_std.assert_near(rot2_std, 0.0);
     }

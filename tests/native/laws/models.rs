@@ -62,12 +62,12 @@ proptest! {
 
     #[test]
     fn quantiles_are_odd_and_finite_and_rise(kind in noise_kinds(), a in uniform_draws(), b in uniform_draws()) {
-        let quantile = |q: f64| kind.quantile(q);
-        prop_assert_eq!(quantile(-a).to_bits(), (-quantile(a)).to_bits());
+        let quantile_at = |q: f64| kind.quantile(q);
+        prop_assert_eq!(quantile_at(-a).to_bits(), (-quantile_at(a)).to_bits());
         let max_quantile = if kind == NoiseKind::Normal { 8.5 } else { 6f64.sqrt() };
-        prop_assert!(quantile(a).abs() <= max_quantile && (quantile(a) > 0.0) == (a > 0.0), "{}", quantile(a));
+        prop_assert!(quantile_at(a).abs() <= max_quantile && (quantile_at(a) > 0.0) == (a > 0.0), "{}", quantile_at(a));
         // The quantile function is an approximation. Its error may reverse the order of neighbouring quantiles.
-        let [low, high] = [a.min(b), a.max(b)].map(quantile);
+        let [low, high] = [a.min(b), a.max(b)].map(quantile_at);
         prop_assert!(low <= high + 2e-15 * high.abs(), "{} {}", low, high);
     }
 

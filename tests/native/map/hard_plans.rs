@@ -21,16 +21,16 @@ fn hard_plans(wall_count: usize) -> Vec<(&'static str, Vec<Segment>)> {
     let make_walls = |make: &mut dyn FnMut(f64) -> Segment| {
         (0..wall_count).map(|i| make(i as f64 / wall_count as f64)).collect()
     };
-    let diagonal_wall = |width: f64| move |s: f64| clamped_wall(width * s, 0.0, 10.0, 10.0 - width * s);
+    let diagonal_of = |width: f64| move |s: f64| clamped_wall(width * s, 0.0, 10.0, 10.0 - width * s);
     let wall_along_ray = |s: f64, ray_length: f64| {
         let (sin, cos) = (TAU * s).sin_cos();
         clamped_wall(5.0, 5.0, 5.0 + ray_length * cos, 5.0 + ray_length * sin)
     };
-    let mut random_coordinate = move || draw_uniform(&mut rng, 0.0, 10.0);
+    let mut draw_coordinate = move || draw_uniform(&mut rng, 0.0, 10.0);
     vec![
-        ("equal diagonals", make_walls(&mut diagonal_wall(0.0))),
-        ("nearly equal diagonals", make_walls(&mut diagonal_wall(1e-9))),
-        ("diagonals close together", make_walls(&mut diagonal_wall(0.1))),
+        ("equal diagonals", make_walls(&mut diagonal_of(0.0))),
+        ("nearly equal diagonals", make_walls(&mut diagonal_of(1e-9))),
+        ("diagonals close together", make_walls(&mut diagonal_of(0.1))),
         ("equal but for their direction", {
             let mut is_forward = false;
             make_walls(&mut |_| {
@@ -58,7 +58,7 @@ fn hard_plans(wall_count: usize) -> Vec<(&'static str, Vec<Segment>)> {
         (
             "long ones anywhere",
             make_walls(&mut |_| {
-                let [x0, y0, x1, y1] = std::array::from_fn(|_| random_coordinate());
+                let [x0, y0, x1, y1] = std::array::from_fn(|_| draw_coordinate());
                 clamped_wall(x0, y0, x1, y1)
             }),
         ),

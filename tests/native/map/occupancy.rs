@@ -181,12 +181,12 @@ fn a_grid_outside_the_range_of_coordinates_is_refused() {
 /// Returns a grid with cells of 10 cm that are drawn as `#` (occupied), `?` (unknown) and `.` (free). The first row is at the
 /// top.
 fn grid_from_drawing(drawn_rows: &[&str], unknown_cells: UnknownCells) -> OccupancyGrid {
-    let cell_shade = |cell| match cell {
+    let shade_of_cell = |cell| match cell {
         '#' => 0.0,
         '?' => 0.5,
         _ => 1.0,
     };
-    let pixels = drawn_rows.iter().flat_map(|row| row.chars()).map(cell_shade).collect();
+    let pixels = drawn_rows.iter().flat_map(|row| row.chars()).map(shade_of_cell).collect();
     let image = Image::<f32> { width: drawn_rows[0].len(), height: drawn_rows.len(), pixels };
     OccupancyGrid::new(&image, &PixelClassifier::default(), 0.1, SE2::identity()).with_unknown(unknown_cells)
 }

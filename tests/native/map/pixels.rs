@@ -7,8 +7,8 @@ use motion::map::{Cell, Image, MAX_PIXELS, MapMode, OccupancyGrid, Pixel, PixelC
 #[test]
 fn pixels_are_read_as_map_server_reads_them() {
     let trinary_mode = PixelClassifier::default();
-    let grey_pixel = |grey_value: u8| Pixel { brightness: f32::from(grey_value) / 255.0, opacity: 1.0 };
-    let transparent_pixel = |grey_value: u8| Pixel { opacity: 0.0, ..grey_pixel(grey_value) };
+    let new_grey = |grey_value: u8| Pixel { brightness: f32::from(grey_value) / 255.0, opacity: 1.0 };
+    let new_transparent_pixel = |grey_value: u8| Pixel { opacity: 0.0, ..new_grey(grey_value) };
     let scale_mode = PixelClassifier { mode: MapMode::Scale, ..trinary_mode };
     let raw_mode = PixelClassifier { mode: MapMode::Raw, ..trinary_mode };
     let with_occupied_threshold = |occupied_thresh| PixelClassifier { occupied_thresh, ..trinary_mode };
@@ -16,52 +16,42 @@ fn pixels_are_read_as_map_server_reads_them() {
         |occupied_thresh| PixelClassifier { negate: true, ..with_occupied_threshold(occupied_thresh) };
     let with_free_threshold = |free_thresh| PixelClassifier { free_thresh, ..trinary_mode };
     let interpretation_cases = [
-        ("black", trinary_mode, grey_pixel(0), Cell::Occupied),
-        ("white", trinary_mode, grey_pixel(255), Cell::Free),
+        ("black", trinary_mode, new_grey(0), Cell::Occupied),
+        ("white", trinary_mode, new_grey(255), Cell::Free),
         (
             "the grey that maps are saved with where nothing is known",
             trinary_mode,
-            grey_pixel(205),
+            new_grey(205),
             Cell::Unknown,
         ),
-        ("occupancy 0.192", trinary_mode, grey_pixel(206), Cell::Free),
-        ("occupancy 0.651", trinary_mode, grey_pixel(89), Cell::Occupied),
-        ("occupancy 0.647", trinary_mode, grey_pixel(90), Cell::Unknown),
-        ("transparent black", trinary_mode, transparent_pixel(0), Cell::Occupied),
-        ("black, negated", negate_with_threshold(0.65), grey_pixel(0), Cell::Free),
-        ("white, negated", negate_with_threshold(0.65), grey_pixel(255), Cell::Occupied),
-        ("at the threshold", with_occupied_threshold(0.6), grey_pixel(102), Cell::Unknown),
-        ("past it", with_occupied_threshold(0.6), grey_pixel(101), Cell::Occupied),
-        ("nothing is above 1", with_occupied_threshold(1.0), grey_pixel(0), Cell::Unknown),
-        ("at the threshold for free", with_free_threshold(0.2), grey_pixel(204), Cell::Unknown),
-        ("below the threshold for free", with_free_threshold(0.2), grey_pixel(205), Cell::Free),
-        ("nothing is below 0", with_free_threshold(0.0), grey_pixel(255), Cell::Unknown),
-        ("scale, black", scale_mode, grey_pixel(0), Cell::Occupied),
-        ("scale, transparent black is unknown", scale_mode, transparent_pixel(0), Cell::Unknown),
-        (
-            "scale, what is between the thresholds is known in degrees",
-            scale_mode,
-            grey_pixel(150),
-            Cell::Free,
-        ),
-        ("raw, 100", raw_mode, grey_pixel(100), Cell::Occupied),
-        ("raw, 99", raw_mode, grey_pixel(99), Cell::Free),
-        ("raw, 101 is unknown", raw_mode, grey_pixel(101), Cell::Unknown),
-        ("raw, 0 is free", raw_mode, grey_pixel(0), Cell::Free),
-        ("raw, 255 is unknown", raw_mode, grey_pixel(255), Cell::Unknown),
-        (
-            "raw does not negate",
-            PixelClassifier { negate: true, ..raw_mode },
-            grey_pixel(100),
-            Cell::Occupied,
-        ),
-        ("raw does not negate", PixelClassifier { negate: true, ..raw_mode }, grey_pixel(155), Cell::Unknown),
+        ("occupancy 0.192", trinary_mode, new_grey(206), Cell::Free),
+        ("occupancy 0.651", trinary_mode, new_grey(89), Cell::Occupied),
+        ("occupancy 0.647", trinary_mode, new_grey(90), Cell::Unknown),
+        ("transparent black", trinary_mode, new_transparent_pixel(0), Cell::Occupied),
+        ("black, negated", negate_with_threshold(0.65), new_grey(0), Cell::Free),
+        ("white, negated", negate_with_threshold(0.65), new_grey(255), Cell::Occupied),
+        ("at the threshold", with_occupied_threshold(0.6), new_grey(102), Cell::Unknown),
+        ("past it", with_occupied_threshold(0.6), new_grey(101), Cell::Occupied),
+        ("nothing is above 1", with_occupied_threshold(1.0), new_grey(0), Cell::Unknown),
+        ("at the threshold for free", with_free_threshold(0.2), new_grey(204), Cell::Unknown),
+        ("below the threshold for free", with_free_threshold(0.2), new_grey(205), Cell::Free),
+        ("nothing is below 0", with_free_threshold(0.0), new_grey(255), Cell::Unknown),
+        ("scale, black", scale_mode, new_grey(0), Cell::Occupied),
+        ("scale, transparent black is unknown", scale_mode, new_transparent_pixel(0), Cell::Unknown),
+        ("scale, what is between the thresholds is known in degrees", scale_mode, new_grey(150), Cell::Free),
+        ("raw, 100", raw_mode, new_grey(100), Cell::Occupied),
+        ("raw, 99", raw_mode, new_grey(99), Cell::Free),
+        ("raw, 101 is unknown", raw_mode, new_grey(101), Cell::Unknown),
+        ("raw, 0 is free", raw_mode, new_grey(0), Cell::Free),
+        ("raw, 255 is unknown", raw_mode, new_grey(255), Cell::Unknown),
+        ("raw does not negate", PixelClassifier { negate: true, ..raw_mode }, new_grey(100), Cell::Occupied),
+        ("raw does not negate", PixelClassifier { negate: true, ..raw_mode }, new_grey(155), Cell::Unknown),
     ];
-    for (case_name, interpretation, grey_pixel, expected_cell) in interpretation_cases {
+    for (case_name, interpretation, new_grey, expected_cell) in interpretation_cases {
         assert_eq!(
-            interpretation.classify_pixel(grey_pixel),
+            interpretation.classify_pixel(new_grey),
             expected_cell,
-            "{case_name}: {interpretation:?} {grey_pixel:?}"
+            "{case_name}: {interpretation:?} {new_grey:?}"
         );
     }
 }

@@ -71,7 +71,7 @@ fn plans_with_too_many_walls_are_refused() {
 #[test]
 fn collision_results_equal_those_of_a_loop_over_all_walls() {
     let mut rng = seeded_rng(9650);
-    let diagonal_walls = |wall_count: u32| -> Vec<Segment> {
+    let new_diagonal_walls = |wall_count: u32| -> Vec<Segment> {
         let end_coordinates = |wall_offset: f64| (wall_offset.min(10.0), (wall_offset - 10.0).max(0.0));
         let wall_offsets = (0..wall_count).map(|i| 20.0 * (f64::from(i) + 0.5) / f64::from(wall_count));
         wall_offsets
@@ -79,16 +79,16 @@ fn collision_results_equal_those_of_a_loop_over_all_walls() {
             .map(|(larger, smaller)| new_wall(smaller, larger, larger, smaller))
             .collect()
     };
-    let binary_pixel = |is_dark: bool| Pixel { brightness: if is_dark { 0.0 } else { 1.0 }, opacity: 1.0 };
-    let pixels: Vec<_> = (0..1600).map(|_| binary_pixel(rng.next_u32().is_multiple_of(40))).collect();
+    let new_pixel = |is_dark: bool| Pixel { brightness: if is_dark { 0.0 } else { 1.0 }, opacity: 1.0 };
+    let pixels: Vec<_> = (0..1600).map(|_| new_pixel(rng.next_u32().is_multiple_of(40))).collect();
     let image = Image { width: 40, height: 40, pixels };
     let grid = OccupancyGrid::new(&image, &PixelClassifier::default(), 0.25, SE2::new(3.0, -2.0, 0.4));
     let new_room_plan = |walls| FloorPlan::new(walls, ROOM_BOUNDS).expect("a valid plan");
     let long_walls = random_walls(12, 10.0, ROOM_BOUNDS, &mut rng);
     let tested_plans = [
         FloorPlan::apartment(),
-        new_room_plan(diagonal_walls(20)),
-        new_room_plan(diagonal_walls(300)),
+        new_room_plan(new_diagonal_walls(20)),
+        new_room_plan(new_diagonal_walls(300)),
         new_room_plan(long_walls),
         new_room_plan(vec![new_wall(2.0, 2.0, 9.0, 9.0); 300]),
         FloorPlan::from_grid(grid).expect("a small grid"),
@@ -106,11 +106,11 @@ fn collision_results_equal_those_of_a_loop_over_all_walls() {
             let arc = Arc { length: length_factor * arc.length, turn, ..arc };
             let clearance = [0.0, 0.01, 0.13, 0.4][(rng.next_u32() % 4) as usize];
             let arc_end = [arc.end().x(), arc.end().y()];
-            let min_distance = |distance_to_wall: &dyn Fn(&Segment) -> f64| {
+            let min_distance_over_walls = |distance_to_wall: &dyn Fn(&Segment) -> f64| {
                 plan.walls().iter().map(distance_to_wall).fold(f64::INFINITY, f64::min)
             };
-            let distance_to_end = min_distance(&|wall| wall.distance_to_point(arc_end));
-            let distance_to_arc = min_distance(&|wall| wall.distance_to_arc(&arc));
+            let distance_to_end = min_distance_over_walls(&|wall| wall.distance_to_point(arc_end));
+            let distance_to_arc = min_distance_over_walls(&|wall| wall.distance_to_arc(&arc));
             if (distance_to_end - clearance).abs() < 1e-12 || (distance_to_arc - clearance).abs() < 1e-12 {
                 continue;
             }

@@ -66,11 +66,11 @@ fn every_kind_of_image_is_decoded_exactly() {
         {
             for has_transparency in [false, true] {
                 let sample_count = image_width as usize * image_height * color_type.samples();
-                let mut random_below = |limit: u32| (rng.next_u32() % limit) as u16;
-                let samples: Vec<u16> = (0..sample_count).map(|_| random_below(1 << bit_depth)).collect();
-                let palette: Vec<u8> = (0..3 << bit_depth.min(8)).map(|_| random_below(256) as u8).collect();
+                let mut draw_below = |limit: u32| (rng.next_u32() % limit) as u16;
+                let samples: Vec<u16> = (0..sample_count).map(|_| draw_below(1 << bit_depth)).collect();
+                let palette: Vec<u8> = (0..3 << bit_depth.min(8)).map(|_| draw_below(256) as u8).collect();
                 let opacities: Vec<u8> =
-                    (0..1 << (bit_depth.min(8) - 1)).map(|_| random_below(256) as u8).collect();
+                    (0..1 << (bit_depth.min(8) - 1)).map(|_| draw_below(256) as u8).collect();
                 let first_pixel = &samples[..color_type.samples()];
                 let transparency = match color_type {
                     ColorType::Indexed => opacities.clone(),

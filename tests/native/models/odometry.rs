@@ -30,11 +30,11 @@ fn odometry_readings() -> [OdomDelta; 6] {
     ]
 }
 
-/// Returns the variances of Table 5.6. `effective_angle` is the angle from which the noise of a rotation is computed.
-fn table_variances(reading: &OdomDelta, effective_angle: impl Fn(f64) -> f64) -> [f64; 3] {
+/// Returns the variances of Table 5.6. `angle_used_for` is the angle from which the noise of a rotation is computed.
+fn table_variances(reading: &OdomDelta, angle_used_for: impl Fn(f64) -> f64) -> [f64; 3] {
     let [a1, a2, a3, a4] = ALPHAS.0;
     let [rot1_angle, trans, rot2_angle] =
-        [effective_angle(reading.rot1).powi(2), reading.trans.powi(2), effective_angle(reading.rot2).powi(2)];
+        [angle_used_for(reading.rot1).powi(2), reading.trans.powi(2), angle_used_for(reading.rot2).powi(2)];
     [a1 * rot1_angle + a2 * trans, a3 * trans + a4 * (rot1_angle + rot2_angle), a1 * rot2_angle + a2 * trans]
 }
 
@@ -194,11 +194,11 @@ fn reverse_aware_noise_excludes_half_turns() {
     let x = SE2::new(1.0, 1.0, 0.5);
     let backward_reading = OdomDelta::from_poses(&x, &x.boxplus(Vector3::new(-0.5, 0.0, 0.02)));
     assert!(backward_reading.rot1.abs() > 3.0 && backward_reading.rot2.abs() > 3.0, "{backward_reading:?}");
-    let effective_angle = |rotation: f64| rotation.abs().min((PI - rotation.abs()).abs());
+    let effective_angle_of = |rotation: f64| rotation.abs().min((PI - rotation.abs()).abs());
     for kind in NOISE_KINDS {
         let (unaware_model, aware_model) =
             (odometry_model(kind), ConfiguredOdometry { model: odometry_model(kind), reverse_aware: true });
-        let grid = box_around(&backward_reading, &x, table_variances(&backward_reading, effective_angle));
+        let grid = box_around(&backward_reading, &x, table_variances(&backward_reading, effective_angle_of));
         grid.assert_sampled(&aware_model, &backward_reading, &x, 110);
 
         // As in Table 5.5, `prob` computes the variances from the hypothetical legs.
@@ -208,7 +208,7 @@ fn reverse_aware_noise_excludes_half_turns() {
             backward_reading.rot2 - 0.03,
         );
         let [r1, t, r2] =
-            table_variances(&OdomDelta::from_poses(&x, &executed_legs.apply(&x)), effective_angle);
+            table_variances(&OdomDelta::from_poses(&x, &executed_legs.apply(&x)), effective_angle_of);
         let expected_score =
             kind.prob(0.02, Variance(r1)) * kind.prob(0.05, Variance(t)) * kind.prob(0.03, Variance(r2));
         assert!(

@@ -78,8 +78,8 @@ fn nav2_and_beluga_differ_at_exactly_a_centimetre_only() {
         (MAX_SPIN_DISTANCE, 1.0, 0.0),
         (MAX_SPIN_DISTANCE.next_up(), 1.0, 1.0),
     ] {
-        let rule_rot1 = |rule: OdometryRule| rule.legs(&new_reading(trans)).rot1;
-        assert_eq!([rule_rot1(Nav2), rule_rot1(Beluga)], [nav2_rot1, beluga_rot1], "{trans}");
+        let rot1_by_rule = |rule: OdometryRule| rule.legs(&new_reading(trans)).rot1;
+        assert_eq!([rot1_by_rule(Nav2), rot1_by_rule(Beluga)], [nav2_rot1, beluga_rot1], "{trans}");
         for rule in OdometryRule::ALL {
             let OdomDelta { rot1, rot2, .. } = rule.legs(&new_reading(trans));
             assert!((rot1 + rot2 - 0.6).abs() < 1e-15, "{rule:?} loses a turn");
@@ -119,7 +119,7 @@ fn exact_variances_match_samples() {
             let start_pose = SE2::new(0.4, -0.2, 1.0);
             let bearing = start_pose.theta() + executed_legs.rot1;
             let correlation: f64 = -0.6;
-            let sampled_outcomes: Vec<[f64; 2]> = (0..SAMPLE_COUNT)
+            let sampled_error_pairs: Vec<[f64; 2]> = (0..SAMPLE_COUNT)
                 .map(|_| {
                     let [a, b, c] = [draw_unit_noise(), draw_unit_noise(), draw_unit_noise()];
                     let executed_motion = leg_variances.executed_motion(
@@ -139,11 +139,11 @@ fn exact_variances_match_samples() {
                 leg_variances.heading_variance(correlation),
             ];
             for (k, exact_variances) in exact_variances.into_iter().enumerate() {
-                let mean_power = |exponent| {
-                    sampled_outcomes.iter().map(|outcome| outcome[k].powi(exponent)).sum::<f64>()
+                let mean_power_of = |exponent| {
+                    sampled_error_pairs.iter().map(|outcome| outcome[k].powi(exponent)).sum::<f64>()
                         / SAMPLE_COUNT as f64
                 };
-                let (mean_square, mean_fourth_power) = (mean_power(2), mean_power(4));
+                let (mean_square, mean_fourth_power) = (mean_power_of(2), mean_power_of(4));
                 let standard_error =
                     ((mean_fourth_power - mean_square * mean_square) / SAMPLE_COUNT as f64).sqrt();
                 assert!(

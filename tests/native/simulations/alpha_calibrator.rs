@@ -28,11 +28,11 @@ fn do_intervals_contain_truth(simulation: &AlphaCalibrator) -> Vec<bool> {
         [truth.clock_offset, truth.mount_yaw, lever_ahead, lever_left, distance_scale, turn_scale];
     let error_intervals = SystematicError::ALL.map(|error_kind| calibration.interval_of(error_kind));
     let intervals = calibration.intervals.iter().copied().chain(error_intervals);
-    let contains_value = |(interval, true_value): (Option<[f64; 2]>, f64)| {
+    let is_value_inside = |(interval, true_value): (Option<[f64; 2]>, f64)| {
         let [low, high] = interval.expect("the log turns and drives");
         (low..=high).contains(&true_value)
     };
-    intervals.zip(truth.alphas.into_iter().chain(true_errors)).map(contains_value).collect()
+    intervals.zip(truth.alphas.into_iter().chain(true_errors)).map(is_value_inside).collect()
 }
 
 #[test]
@@ -111,19 +111,20 @@ fn panels_are_means_of_squared_innovations() {
     regression_points.sort_by(|a, b| a[0].total_cmp(&b[0]));
     let bin_size = regression_points.len().div_ceil(8);
     // Legs that turned by equal amounts are in the same bin.
-    let bin_end_index = |i: usize| {
+    let end_of_bin = |i: usize| {
         regression_points.partition_point(|regression_point| {
             regression_point[0] <= regression_points[(i * bin_size).min(regression_points.len()) - 1][0]
         })
     };
     for i in 0..8 {
-        let bin_points = &regression_points[if i == 0 { 0 } else { bin_end_index(i) }..bin_end_index(i + 1)];
-        let bin_mean = |coordinate_index: usize| {
+        let bin_points = &regression_points[if i == 0 { 0 } else { end_of_bin(i) }..end_of_bin(i + 1)];
+        let bin_mean_of = |coordinate_index: usize| {
             bin_points.iter().map(|regression_point| regression_point[coordinate_index]).sum::<f64>()
                 / bin_points.len() as f64
         };
         assert!(
-            (trans_panel.x[i] - bin_mean(0)).abs() < 1e-12 && (trans_panel.y[i] - bin_mean(1)).abs() < 1e-12,
+            (trans_panel.x[i] - bin_mean_of(0)).abs() < 1e-12
+                && (trans_panel.y[i] - bin_mean_of(1)).abs() < 1e-12,
             "bin {i}"
         );
     }
@@ -219,13 +220,13 @@ fn a_leg_is_shown_in_the_frame_of_its_start() {
     let leg_variances =
         OdometryRule::Table.variances(&OdomDelta { rot1, trans, rot2 }, &alphas.map(|alpha| 4.0 * alpha));
     let outcome_count = leg_view.outcomes.len() as f64;
-    let outcome_variance = |quantity_of: &dyn Fn(&[f64; 3]) -> f64| {
+    let outcome_variance_of = |quantity_of: &dyn Fn(&[f64; 3]) -> f64| {
         let quantity_mean = leg_view.outcomes.iter().map(quantity_of).sum::<f64>() / outcome_count;
         leg_view.outcomes.iter().map(|outcome| (quantity_of(outcome) - quantity_mean).powi(2)).sum::<f64>()
             / outcome_count
     };
-    let drive_variance = outcome_variance(&|[x, y, _]| libm::hypot(*x, *y));
-    let turn_variance = outcome_variance(&|[_, _, theta]| *theta);
+    let drive_variance = outcome_variance_of(&|[x, y, _]| libm::hypot(*x, *y));
+    let turn_variance = outcome_variance_of(&|[_, _, theta]| *theta);
     for (computed, expected) in [
         (drive_variance, leg_variances.trans.0),
         (turn_variance, leg_variances.rot1.0 + leg_variances.rot2.0),
@@ -243,10 +244,11 @@ fn the_nearest_leg_passes_through_the_point() {
     let [start_pose, end_pose] = base_poses(calibration, 7);
     let leg_midpoint = [0.5 * (start_pose.x() + end_pose.x()), 0.5 * (start_pose.y() + end_pose.y())];
     let nearest_index = simulation.nearest(leg_midpoint, 1e-9).expect("it leads through there");
-    let distance = |a: [f64; 2], b: [f64; 2]| libm::hypot(a[0] - b[0], a[1] - b[1]);
+    let distance_between = |a: [f64; 2], b: [f64; 2]| libm::hypot(a[0] - b[0], a[1] - b[1]);
     let [leg_start, leg_end] = base_poses(calibration, nearest_index).map(|pose| [pose.x(), pose.y()]);
     assert!(
-        distance(leg_start, leg_midpoint) + distance(leg_midpoint, leg_end) - distance(leg_start, leg_end)
+        distance_between(leg_start, leg_midpoint) + distance_between(leg_midpoint, leg_end)
+            - distance_between(leg_start, leg_end)
             < 1e-9
     );
     assert_eq!(simulation.nearest([1e6, 0.0], 1.0), None);

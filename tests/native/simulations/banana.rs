@@ -100,7 +100,7 @@ fn the_cloud_equals_samples_of_the_model() {
 fn changed_settings_move_the_same_robots() {
     let first_settings = Settings { samples: 300, ..settings_of_preset("gentle") };
     let mut simulation = simulation(first_settings);
-    let unit_noises = |simulation: &BananaMachine| -> Vec<[f64; 3]> {
+    let unit_noises_of = |simulation: &BananaMachine| -> Vec<[f64; 3]> {
         let settings = simulation.settings();
         let model = VelocityModel { alphas: VelocityAlphas(settings.velocity_alphas), noise: settings.noise };
         let [v_std, omega_std, gamma_std] =
@@ -116,22 +116,22 @@ fn changed_settings_move_the_same_robots() {
             })
             .collect()
     };
-    let initial_noises = unit_noises(&simulation);
+    let initial_noises = unit_noises_of(&simulation);
     let command = VelocityCmd { v: -0.6, omega: 1.1, dt: 0.7 };
     for settings in [
         Settings { velocity_alphas: [0.01, 0.2, 0.03, 0.04, 0.3, 0.2], ..first_settings },
         Settings { command, ..first_settings },
     ] {
         simulation.configure(settings).unwrap();
-        for (a, b) in unit_noises(&simulation).iter().zip(&initial_noises) {
+        for (a, b) in unit_noises_of(&simulation).iter().zip(&initial_noises) {
             assert!(a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-9), "{a:?} was {b:?}");
         }
     }
     simulation.configure(first_settings).unwrap();
-    assert_eq!(unit_noises(&simulation), initial_noises, "and back again to the bit");
+    assert_eq!(unit_noises_of(&simulation), initial_noises, "and back again to the bit");
     simulation.configure(Settings { seed: 8, ..first_settings }).unwrap();
     assert!(
-        unit_noises(&simulation).iter().zip(&initial_noises).all(|(a, b)| a != b),
+        unit_noises_of(&simulation).iter().zip(&initial_noises).all(|(a, b)| a != b),
         "a new seed changes it"
     );
 }
@@ -255,7 +255,7 @@ fn exponential_statistics_are_undefined_near_a_full_turn() {
             ..settings_of_preset("gentle")
         })
     };
-    // The standard deviation of the heading is 3·√(0.02·(1 + ω²)), 0.6 and 0.9 rad.
+    // The heading's standard deviation is 3·√(0.02·(1 + ω²)): 0.6 rad for ω = 0.9, 0.9 rad for ω = ±2.
     for (omega, is_defined) in [(0.9, true), (2.0, false), (-2.0, false)] {
         let simulation = simulate_turn(omega);
         assert_eq!(simulation.is_chart_defined(), is_defined, "ω = {omega}");

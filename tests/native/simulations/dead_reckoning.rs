@@ -110,12 +110,12 @@ fn moments_are_those_of_the_cloud() {
                 measured_moments.cov
             );
             for axis in 0..3 {
-                let central_moment = |p: i32| {
+                let moment_of = |p: i32| {
                     twists.iter().map(|twist| (twist[axis] - expected_mean[axis]).powi(p)).sum::<f64>() / n
                 };
-                let expected_std_error = ((central_moment(4) / central_moment(2).powi(2) - 1.0) / n).sqrt();
+                let expected_std_error = ((moment_of(4) / moment_of(2).powi(2) - 1.0) / n).sqrt();
                 let relative_std_error = measured_moments.relative_error[axis];
-                if central_moment(2) > 1e-20 {
+                if moment_of(2) > 1e-20 {
                     assert!(
                         (relative_std_error / expected_std_error - 1.0).abs() < 1e-6,
                         "{i}, {k}, {axis}: {relative_std_error}, not {expected_std_error}"
@@ -187,24 +187,22 @@ fn misses_are_reported_with_enough_robots_only() {
 /// A component without variance has no relative error, however small the numbers are.
 #[test]
 fn a_zero_variance_has_no_relative_error() {
-    let relative_errors = |settings| simulation(settings).measured_moments()[1].relative_error;
+    let errors_with = |settings| simulation(settings).measured_moments()[1].relative_error;
     for samples in [1, 2] {
         assert!(
-            relative_errors(Settings { alphas: [0.0; 6], ..settings_with_robots(samples) })
+            errors_with(Settings { alphas: [0.0; 6], ..settings_with_robots(samples) })
                 .iter()
                 .all(|relative_error| relative_error.is_nan())
         );
     }
-    assert!(relative_errors(settings_with_robots(1)).iter().all(|relative_error| relative_error.is_nan()));
+    assert!(errors_with(settings_with_robots(1)).iter().all(|relative_error| relative_error.is_nan()));
     // Two robots always have a kurtosis of 1. The formula would therefore give an error of 0.
     assert!(
-        relative_errors(settings_with_robots(2))
-            .iter()
-            .all(|error| error.is_finite() && *error >= 2f64.sqrt())
+        errors_with(settings_with_robots(2)).iter().all(|error| error.is_finite() && *error >= 2f64.sqrt())
     );
     // Robots that only turn have no variance along the track.
     let command_on_the_spot = VelocityCmd { v: 0.0, omega: 0.5, dt: 0.2 };
-    let [along_error, _, heading_error] = relative_errors(Settings {
+    let [along_error, _, heading_error] = errors_with(Settings {
         command: command_on_the_spot,
         alphas: [0.0, 0.0, 0.0, 0.02, 0.0, 0.0],
         ..settings_with_robots(300)
@@ -254,13 +252,13 @@ fn a_seed_gives_the_same_draws() {
         assert_eq!(short_simulation.rollout(robot_index).as_deref(), Some(&path[..7]));
         // With twice the noise, the executed velocities of the first step differ from the command by twice as much.
         let u = Settings::default().command;
-        let first_step_noise = |path: &[[f64; 3]]| {
+        let first_step_noise_of = |path: &[[f64; 3]]| {
             let [x, y, theta] = path[0];
             let inversion = motion::invert_arc(&SE2::identity(), &SE2::new(x, y, theta), u.dt);
             Vector3::new(inversion.v_hat - u.v, inversion.omega_hat - u.omega, inversion.gamma_hat)
         };
-        let double_noise = first_step_noise(&noisy_simulation.rollout(robot_index).expect("a robot"));
-        assert!((double_noise - first_step_noise(&path) * 2.0).amax() < 1e-12, "{double_noise}");
+        let double_noise = first_step_noise_of(&noisy_simulation.rollout(robot_index).expect("a robot"));
+        assert!((double_noise - first_step_noise_of(&path) * 2.0).amax() < 1e-12, "{double_noise}");
     }
     assert_ne!(
         large_simulation.rollout(0),
@@ -335,14 +333,14 @@ fn outlines_are_two_standard_deviations_from_the_commanded_pose() {
 
 #[test]
 fn milestones_are_the_quarters_of_the_path_but_not_the_selected_step() {
-    let milestone_steps = |steps: u32, step: u32| {
+    let milestone_steps_of = |steps: u32, step: u32| {
         let simulation = simulation(Settings { steps, step, ..settings_with_robots(20) });
         let step_of = |poses: &[[f64; 3]]| (1..=steps).find(|step| simulation.poses(*step) == poses);
         simulation.milestones().iter().map(|milestone| step_of(&milestone.poses)).collect::<Vec<_>>()
     };
-    assert_eq!(milestone_steps(20, 20), [5, 10, 15].map(Some));
-    assert_eq!(milestone_steps(20, 5), [10, 15, 20].map(Some));
-    assert_eq!(milestone_steps(2, 1), [Some(2)]);
+    assert_eq!(milestone_steps_of(20, 20), [5, 10, 15].map(Some));
+    assert_eq!(milestone_steps_of(20, 5), [10, 15, 20].map(Some));
+    assert_eq!(milestone_steps_of(2, 1), [Some(2)]);
 }
 
 #[test]
@@ -374,7 +372,7 @@ fn variances_of_a_straight_drive_cross_where_the_formula_says() {
         let straight_growth = simulation.straight_growth();
         let crossing_time = straight_growth.crossing.expect("a crossing");
         let model = VelocityModel { alphas: VelocityAlphas(alphas), noise: NoiseKind::Normal };
-        let exact_variance_ratio = |dt: f64| {
+        let exact_variance_ratio_at = |dt: f64| {
             let cov =
                 motion::stats::ExactMoments::of_velocity(&model, &VelocityCmd { v, omega: 0.0, dt }).cov;
             cov[(1, 1)] / cov[(0, 0)]
@@ -382,7 +380,7 @@ fn variances_of_a_straight_drive_cross_where_the_formula_says() {
         let (mut low, mut high) = (1e-3, 1e3);
         for _ in 0..100 {
             let middle_time = f64::sqrt(low * high);
-            if exact_variance_ratio(middle_time) < 1.0 { low = middle_time } else { high = middle_time }
+            if exact_variance_ratio_at(middle_time) < 1.0 { low = middle_time } else { high = middle_time }
         }
         // The formula is exact to first order in the noise. Its relative error is a few times the variances, 1e-6.
         assert!((crossing_time / low - 1.0).abs() < 1e-4, "{crossing_time}, found {low}");

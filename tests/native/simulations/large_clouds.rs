@@ -50,7 +50,7 @@ fn assert_exact_moments(poses: &[SE2], moments: &CartesianMoments, cross_track: 
     assert_close("mean x", moments.mean.x, mean_position[0], 1.0);
     assert_close("mean y", moments.mean.y, mean_position[1], 1.0);
 
-    let pose_residuals = || {
+    let iter_pose_residuals = || {
         poses.iter().map(|pose| {
             Vector3::new(
                 pose.x() - mean_position[0],
@@ -59,13 +59,13 @@ fn assert_exact_moments(poses: &[SE2], moments: &CartesianMoments, cross_track: 
             )
         })
     };
-    let mean_heading_residual = exact_mean(pose_residuals().map(|r| r.z));
+    let mean_heading_residual = exact_mean(iter_pose_residuals().map(|r| r.z));
     for i in 0..3 {
         for j in 0..3 {
             let subtract_expected_mean =
                 |r: Vector3<f64>, k: usize| if k == 2 { r.z - mean_heading_residual } else { r[k] };
             let expected_cov = exact_mean(
-                pose_residuals().map(|r| subtract_expected_mean(r, i) * subtract_expected_mean(r, j)),
+                iter_pose_residuals().map(|r| subtract_expected_mean(r, i) * subtract_expected_mean(r, j)),
             ) * n
                 / (n - 1.0);
             let std_product = (moments.cov[(i, i)] * moments.cov[(j, j)]).sqrt();
@@ -74,16 +74,16 @@ fn assert_exact_moments(poses: &[SE2], moments: &CartesianMoments, cross_track: 
     }
 
     let (sin, cos) = libm::sincos(mean_heading);
-    let track_coordinates = |r: Vector3<f64>| (r.x * cos + r.y * sin, r.y * cos - r.x * sin, r.z);
-    let all_track_coordinates = || pose_residuals().map(track_coordinates);
-    let lateral_variance = exact_mean(all_track_coordinates().map(|(_, d, _)| d * d));
+    let to_track_coordinates = |r: Vector3<f64>| (r.x * cos + r.y * sin, r.y * cos - r.x * sin, r.z);
+    let iter_track_coordinates = || iter_pose_residuals().map(to_track_coordinates);
+    let lateral_variance = exact_mean(iter_track_coordinates().map(|(_, d, _)| d * d));
     let lateral_std = lateral_variance.sqrt();
-    let expected_skew = exact_mean(all_track_coordinates().map(|(_, d, _)| (d / lateral_std).powi(3)));
+    let expected_skew = exact_mean(iter_track_coordinates().map(|(_, d, _)| (d / lateral_std).powi(3)));
     assert_close("skew", cross_track[0], expected_skew, 1.0);
-    let mean_resultant_length = exact_mean(pose_residuals().map(|r| libm::cos(r.z)));
+    let mean_resultant_length = exact_mean(iter_pose_residuals().map(|r| libm::cos(r.z)));
     let (along_lateral_mean, along_lateral_square_mean) = (
-        exact_mean(all_track_coordinates().map(|(a, d, _)| a * d)),
-        exact_mean(all_track_coordinates().map(|(a, d, _)| a * d * d)),
+        exact_mean(iter_track_coordinates().map(|(a, d, _)| a * d)),
+        exact_mean(iter_track_coordinates().map(|(a, d, _)| a * d * d)),
     );
     let heading_factor = 3.0
         * (expected_skew * along_lateral_mean / lateral_variance
@@ -95,10 +95,10 @@ fn assert_exact_moments(poses: &[SE2], moments: &CartesianMoments, cross_track: 
             + heading_factor * libm::sin(turn)
     };
     let expected_skew_error =
-        (exact_mean(all_track_coordinates().map(|robot| influence_on_skew(robot).powi(2))) / n).sqrt();
+        (exact_mean(iter_track_coordinates().map(|robot| influence_on_skew(robot).powi(2))) / n).sqrt();
     assert_close("skew error", cross_track[1], expected_skew_error, expected_skew_error);
-    let heading_variance = exact_mean(pose_residuals().map(|r| (r.z - mean_heading_residual).powi(2)));
-    let expected_correlation = exact_mean(all_track_coordinates().map(|(_, d, turn)| d * turn))
+    let heading_variance = exact_mean(iter_pose_residuals().map(|r| (r.z - mean_heading_residual).powi(2)));
+    let expected_correlation = exact_mean(iter_track_coordinates().map(|(_, d, turn)| d * turn))
         / (lateral_variance * heading_variance).sqrt();
     assert_close("rho", cross_track[2], expected_correlation, 1.0);
 }
@@ -113,14 +113,14 @@ fn assert_exact_stats(simulation: &BananaMachine) {
 
     let pose_twist =
         |pose: &SE2| pose.log_near(simulation.settings().command.omega * simulation.settings().command.dt);
-    let robot_twists = || poses.iter().map(pose_twist);
-    let twist_mean = Vector3::from_fn(|i, _| exact_mean(robot_twists().map(|pose_twist| pose_twist[i])));
+    let iter_robot_twists = || poses.iter().map(pose_twist);
+    let twist_mean = Vector3::from_fn(|i, _| exact_mean(iter_robot_twists().map(|pose_twist| pose_twist[i])));
     // Exponential coordinates are undefined if robots turn by a full circle.
     for i in if simulation.is_chart_defined() { 0..3 } else { 0..0 } {
         assert_close(&format!("twist {i}"), exponential.mean[i], twist_mean[i], 1.0);
         for j in 0..3 {
             let expected_cov =
-                exact_mean(robot_twists().map(|t| (t[i] - twist_mean[i]) * (t[j] - twist_mean[j]))) * n
+                exact_mean(iter_robot_twists().map(|t| (t[i] - twist_mean[i]) * (t[j] - twist_mean[j]))) * n
                     / (n - 1.0);
             let std_product = (exponential.cov[(i, i)] * exponential.cov[(j, j)]).sqrt();
             assert_close(&format!("twist cov {i}{j}"), exponential.cov[(i, j)], expected_cov, std_product);

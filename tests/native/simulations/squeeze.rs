@@ -142,11 +142,11 @@ fn the_commanded_arc_and_the_test_of_its_start_follow_the_settings() {
 #[test]
 fn the_product_of_samples_and_parts_is_limited() {
     for (sampler, max_samples) in [(Sampler::WholeArc, 1_000_000), (Sampler::SubStepped(4), 250_000)] {
-        let refused_field = |samples| {
+        let refused_field_of = |samples| {
             Settings { samples, sampler, ..Settings::default() }.check().err().map(|error| error.field)
         };
         assert_eq!(
-            [refused_field(max_samples), refused_field(max_samples + 1)],
+            [refused_field_of(max_samples), refused_field_of(max_samples + 1)],
             [None, Some("samples".to_owned())]
         );
     }

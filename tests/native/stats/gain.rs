@@ -43,8 +43,8 @@ fn assert_close(case: &str, computed: f64, expected: f64, tolerance: f64) {
 fn log_densities(point_vectors: &[DVector<f64>]) -> Vec<f64> {
     let (n, dimension) = (point_vectors.len() as f64, point_vectors[0].len());
     let mean_vector = point_vectors.iter().sum::<DVector<f64>>() / n;
-    let outer_product = |p: &DVector<f64>| (p - &mean_vector) * (p - &mean_vector).transpose();
-    let cov = point_vectors.iter().map(outer_product).sum::<DMatrix<f64>>() / (n - 1.0);
+    let outer_product_of = |p: &DVector<f64>| (p - &mean_vector) * (p - &mean_vector).transpose();
+    let cov = point_vectors.iter().map(outer_product_of).sum::<DMatrix<f64>>() / (n - 1.0);
     let (inverse_cov, normalization) =
         (cov.clone().try_inverse().unwrap(), (TAU.powi(dimension as i32) * cov.determinant()).sqrt());
     let log_density_at = |p: &DVector<f64>| {
@@ -54,17 +54,17 @@ fn log_densities(point_vectors: &[DVector<f64>]) -> Vec<f64> {
 }
 
 /// Returns the Jacobian determinant of a map, by differences of fourth order. Its absolute error is about 1e-13.
-fn jacobian_determinant(mapping: impl Fn(&DVector<f64>) -> DVector<f64>, point: &DVector<f64>) -> f64 {
+fn jacobian_determinant(map_point: impl Fn(&DVector<f64>) -> DVector<f64>, point: &DVector<f64>) -> f64 {
     const STEP: f64 = 1e-3;
     let jacobian_columns: Vec<DVector<f64>> = (0..point.len())
         .map(|i| {
-            let central_difference = |step_factor: f64| {
+            let central_difference_of = |step_factor: f64| {
                 let mut shifted_points = [point.clone(), point.clone()];
                 shifted_points[0][i] += step_factor * STEP;
                 shifted_points[1][i] -= step_factor * STEP;
-                (mapping(&shifted_points[0]) - mapping(&shifted_points[1])) / (2.0 * step_factor * STEP)
+                (map_point(&shifted_points[0]) - map_point(&shifted_points[1])) / (2.0 * step_factor * STEP)
             };
-            (4.0 * central_difference(1.0) - central_difference(2.0)) / 3.0
+            (4.0 * central_difference_of(1.0) - central_difference_of(2.0)) / 3.0
         })
         .collect();
     DMatrix::from_columns(&jacobian_columns).determinant()
@@ -147,16 +147,15 @@ fn exact_gains_match_the_references() {
 #[test]
 fn the_gain_on_the_floor_does_not_depend_on_the_last_turn() {
     for &(_, Settings { command, .. }) in Settings::PRESETS {
-        let floor_gains = |last_turn_alpha: f64| {
+        let gains_with = |last_turn_alpha: f64| {
             let simulation =
                 simulation(command, [0.05, 0.05, 0.05, 0.09, last_turn_alpha, last_turn_alpha], 10_000);
             [simulation.stats().likelihood_gain.floor, simulation.exact_gain().value.floor]
         };
-        let gains_without_turn = floor_gains(0.0);
+        let gains_without_turn = gains_with(0.0);
         assert!(gains_without_turn.iter().all(|floor_gain| floor_gain.is_finite()), "{command:?}");
         for last_turn_alpha in [1e-9, 0.01, 0.3] {
-            for (gain, gain_without_turn) in floor_gains(last_turn_alpha).into_iter().zip(gains_without_turn)
-            {
+            for (gain, gain_without_turn) in gains_with(last_turn_alpha).into_iter().zip(gains_without_turn) {
                 assert_close("floor", gain, gain_without_turn, 1e-12);
             }
         }
@@ -178,7 +177,7 @@ fn the_gain_on_the_floor_does_not_depend_on_the_last_turn() {
 /// The expected areas are those of the drawn outlines, by the shoelace formula.
 #[test]
 fn the_area_ratio_is_that_of_the_drawn_outlines() {
-    let outline_area = |outline: &[[f64; 2]]| -> f64 {
+    let area_of_outline = |outline: &[[f64; 2]]| -> f64 {
         outline.windows(2).map(|w| 0.5 * (w[0][0] * w[1][1] - w[1][0] * w[0][1])).sum::<f64>().abs()
     };
     for (command, alphas) in [
@@ -189,7 +188,7 @@ fn the_area_ratio_is_that_of_the_drawn_outlines() {
     ] {
         let simulation = simulation(command, alphas, 5000);
         let contours = simulation.contours();
-        let expected_ratio = outline_area(&contours.ellipse) / outline_area(&contours.exponential);
+        let expected_ratio = area_of_outline(&contours.ellipse) / area_of_outline(&contours.exponential);
         assert_close("ratio", simulation.stats().area_ratio, expected_ratio, 1e-12 * expected_ratio);
     }
 }
@@ -236,13 +235,13 @@ fn the_gain_is_infinite_if_only_exponential_coordinates_have_no_volume() {
                 assert!(exact_gain.pose == f64::INFINITY && exact_gain.floor.is_finite(), "{command:?}");
             }
             // With a tiny variance of γ̂ the gain is finite. It grows by half a nat if the variance falls by a factor e.
-            let pose_gain = |last_turn_alpha: f64| {
+            let pose_gain_with = |last_turn_alpha: f64| {
                 simulation(command, [0.05, 0.05, 0.05, 0.09, last_turn_alpha, last_turn_alpha], 5000)
                     .stats()
                     .likelihood_gain
                     .pose
             };
-            assert_close("growth", pose_gain(1e-16) - pose_gain(1e-14), 100f64.ln() / 2.0, 1e-4);
+            assert_close("growth", pose_gain_with(1e-16) - pose_gain_with(1e-14), 100f64.ln() / 2.0, 1e-4);
         }
     }
     // The cloud is a curve in the plane, and a straight line in exponential coordinates.

@@ -83,13 +83,13 @@ fn contours_lie_at_the_levels_of_the_models() {
             _ => model.pose_density(&next_pose, &settings.command, &origin).expect("noise of full rank"),
         }
     };
-    let cell_centre = |i: usize| {
+    let centre_of = |i: usize| {
         let [column, row] = [i % columns, i / columns].map(|cell_index| cell_index as f64 + 0.5);
         [-0.5 + 2.5 * column / columns as f64, 1.5 - 2.5 * row / rows as f64]
     };
     for (contour_lines, surface_kind) in [(&prob, SurfaceKind::Prob), (&density, SurfaceKind::Density)] {
         let max_density =
-            (0..shades.len()).map(|i| density_at_point(cell_centre(i), surface_kind)).fold(0.0, f64::max);
+            (0..shades.len()).map(|i| density_at_point(centre_of(i), surface_kind)).fold(0.0, f64::max);
         assert!(contour_lines.len() >= CONTOUR_LEVELS.len());
         for contour_point in contour_lines.iter().flatten().filter(|[x, y]| x.hypot(*y) > 0.7) {
             let relative_density = density_at_point(*contour_point, surface_kind) / max_density;
@@ -103,9 +103,9 @@ fn contours_lie_at_the_levels_of_the_models() {
         }
     }
     let max_density =
-        (0..shades.len()).map(|i| density_at_point(cell_centre(i), SurfaceKind::Density)).fold(0.0, f64::max);
+        (0..shades.len()).map(|i| density_at_point(centre_of(i), SurfaceKind::Density)).fold(0.0, f64::max);
     for (i, cell_shade) in shades.iter().enumerate() {
-        let expected_shade = 255.0 * density_at_point(cell_centre(i), SurfaceKind::Density) / max_density;
+        let expected_shade = 255.0 * density_at_point(centre_of(i), SurfaceKind::Density) / max_density;
         assert!((f64::from(*cell_shade) - expected_shade).abs() <= 0.5 + 1e-9);
     }
 }

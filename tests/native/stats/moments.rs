@@ -28,7 +28,7 @@ fn the_exponential_contour_covers_two_deviations() {
     let model = VelocityModel { alphas, noise: NoiseKind::Normal };
     let mut rng = seeded_rng(134);
     let poses: Vec<SE2> = (0..200_000).map(|_| model.sample(&COMMAND, &start_pose, &mut rng)).collect();
-    let fraction_inside = |cloud_moments: &ExponentialMoments| {
+    let inside_share_of = |cloud_moments: &ExponentialMoments| {
         let contour = ExponentialContour::new(cloud_moments, &start_pose);
         poses.iter().filter(|pose| contour.contains(pose)).count() as f64 / 200_000.0
     };
@@ -38,11 +38,11 @@ fn the_exponential_contour_covers_two_deviations() {
         cov: model.tangent_cov(&COMMAND).unwrap(),
     };
     assert!(
-        (fraction_inside(&exact_moments) - TWO_SIGMA_FRACTION).abs() < MAX_STANDARD_ERRORS * standard_error,
+        (inside_share_of(&exact_moments) - TWO_SIGMA_FRACTION).abs() < MAX_STANDARD_ERRORS * standard_error,
         "{}",
-        fraction_inside(&exact_moments)
+        inside_share_of(&exact_moments)
     );
-    let fitted_fraction = fraction_inside(&ExponentialMoments::from_poses(&poses, &start_pose));
+    let fitted_fraction = inside_share_of(&ExponentialMoments::from_poses(&poses, &start_pose));
     assert!(
         (fitted_fraction - TWO_SIGMA_FRACTION).abs() < MAX_STANDARD_ERRORS * standard_error,
         "{fitted_fraction}"

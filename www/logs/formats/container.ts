@@ -119,4 +119,4 @@ export function readAhead(source: Source): (from: number, to: number) => Promise
 export const dataViewOf = ({ buffer, byteOffset, byteLength }: Uint8Array) => new DataView(buffer, byteOffset, byteLength);
 
 /** Returns an unsigned number of eight bytes. It is exact below 2^53, and rounded above. */
-export const uint53 = (view: DataView, at: number) => view.getUint32(at, true) + 2 ** 32 * view.getUint32(at + 4, true);
+export const readUint53 = (view: DataView, at: number) => view.getUint32(at, true) + 2 ** 32 * view.getUint32(at + 4, true);

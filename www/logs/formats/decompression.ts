@@ -18,7 +18,7 @@ const MAX_EMPTY_PARTS = 100;
 export const loadZstd = () => zstdDecoder.init();
 
 /** Decompresses a block of known size; throws a RangeError if it has another size. */
-export function unzstd(bytes: Uint8Array, size: number): Uint8Array {
+export function decompressZstd(bytes: Uint8Array, size: number): Uint8Array {
   // The decoder treats size 0 as unknown.
   const output = size === 0 ? new Uint8Array() : zstdDecoder.decode(bytes, size);
   if (output.length !== size) throw new RangeError('a compressed block is not what was written');
@@ -26,7 +26,7 @@ export function unzstd(bytes: Uint8Array, size: number): Uint8Array {
 }
 
 /** Decompresses pieces of a file or message; undefined if the content has more than `maxBytes`. Throws an error if it is damaged. */
-function unzstdPieces(pieces: Iterable<Uint8Array>, maxBytes: number): Uint8Array<ArrayBuffer>[] | undefined {
+function decompressZstdPieces(pieces: Iterable<Uint8Array>, maxBytes: number): Uint8Array<ArrayBuffer>[] | undefined {
   const outputParts: Uint8Array<ArrayBuffer>[] = [];
   let [size, emptyParts] = [0, 0];
   for (const outputPart of zstdDecoder.decodeStreaming(pieces)) {
@@ -40,17 +40,17 @@ function unzstdPieces(pieces: Iterable<Uint8Array>, maxBytes: number): Uint8Arra
   return outputParts;
 }
 
-export function unzstdMessage(bytes: Uint8Array): Uint8Array {
-  const [message, ...otherParts] = unzstdPieces([bytes], MAX_MESSAGE_BYTES)?.filter(({ length }) => length > 0) ?? [];
+export function decompressZstdMessage(bytes: Uint8Array): Uint8Array {
+  const [message, ...otherParts] = decompressZstdPieces([bytes], MAX_MESSAGE_BYTES)?.filter(({ length }) => length > 0) ?? [];
   if (!message || otherParts.length > 0) throw new RangeError('a message that is empty, or longer than any with poses');
   return message;
 }
 
-export async function unzstdFile(source: Source): Promise<Source> {
+export async function decompressZstdFile(source: Source): Promise<Source> {
   await loadZstd();
   let outputParts: Uint8Array<ArrayBuffer>[] | undefined;
   try {
-    outputParts = source.size > MAX_FILE_BYTES ? undefined : unzstdPieces(piecesOf(await readBytes(source, 0, source.size)), MAX_FILE_BYTES);
+    outputParts = source.size > MAX_FILE_BYTES ? undefined : decompressZstdPieces(piecesOf(await readBytes(source, 0, source.size)), MAX_FILE_BYTES);
   } catch (error) {
     if (error instanceof LogError) throw error;
     throw new LogError({ file: source.name }, (texts) => texts.damaged(reasonOf(error)));
@@ -83,7 +83,7 @@ function assertValid(condition: boolean): void {
 let xxhash32: ((bytes: Uint8Array) => number) | undefined;
 
 /** Decompresses an LZ4 frame; rejects with a RangeError if it is damaged, its content has another size than `size`, or a checksum is wrong. */
-export async function unlz4(bytes: Uint8Array, size: number): Promise<Uint8Array<ArrayBuffer>> {
+export async function decompressLz4(bytes: Uint8Array, size: number): Promise<Uint8Array<ArrayBuffer>> {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const flags = view.getUint8(4);
   assertValid(view.getUint32(0, true) === LZ4_MAGIC && (flags & VERSION) === VERSION_1 && !(flags & DICTIONARY));

@@ -3,8 +3,8 @@
 import { crc32 } from '@foxglove/crc';
 import { McapIndexedReader, McapStreamReader, type Channel } from '@mcap/core';
 import { readBytes, type Source } from '../log.ts';
-import { MAX_BLOCK_BYTES, MessageFile, readAhead, uint53, dataViewOf, type Container, type IsWanted, type OnBlock, type OnMessage } from './container.ts';
-import { unlz4, loadZstd, unzstd } from './decompression.ts';
+import { MAX_BLOCK_BYTES, MessageFile, readAhead, readUint53, dataViewOf, type Container, type IsWanted, type OnBlock, type OnMessage } from './container.ts';
+import { decompressLz4, loadZstd, decompressZstd } from './decompression.ts';
 
 /** Opcodes of records, and the number of bytes of opcode and length before the content of a record. */
 const [SCHEMA, CHANNEL, MESSAGE, CHUNK, DATA_END] = [3, 4, 5, 6, 15];
@@ -56,7 +56,7 @@ class Mcap extends MessageFile<number> {
     let isComplete = this.chunks !== undefined;
     const readBlock = async (at: number, setEnd: (end: number) => void) => {
       const recordHead = await readBytesAt(at, at + RECORD_HEAD_BYTES);
-      const [opcode, length] = [recordHead[0], uint53(dataViewOf(recordHead), 1)];
+      const [opcode, length] = [recordHead[0], readUint53(dataViewOf(recordHead), 1)];
       const end = at + RECORD_HEAD_BYTES + length;
       if (end > size) throw new RangeError('a record is cut short');
       isComplete ||= opcode === DATA_END;
@@ -74,12 +74,12 @@ class Mcap extends MessageFile<number> {
   #readRecords(bytes: Uint8Array, isWanted: IsWanted, onMessage: OnMessage): void {
     const view = dataViewOf(bytes);
     for (let at = 0; at < bytes.length; ) {
-      const nextRecord = at + RECORD_HEAD_BYTES + uint53(view, at + 1);
+      const nextRecord = at + RECORD_HEAD_BYTES + readUint53(view, at + 1);
       if (nextRecord > bytes.length) throw new RangeError('a record is cut short');
       if (bytes[at] === MESSAGE) {
         const channel = this.channelsById.get(view.getUint16(at + RECORD_HEAD_BYTES, true));
         if (channel && isWanted(channel)) {
-          onMessage({ channel, time: uint53(view, at + RECORD_HEAD_BYTES + 6) / 1e9, block: view, from: at + RECORD_HEAD_BYTES + 22, to: nextRecord });
+          onMessage({ channel, time: readUint53(view, at + RECORD_HEAD_BYTES + 6) / 1e9, block: view, from: at + RECORD_HEAD_BYTES + 22, to: nextRecord });
         }
       } else {
         const reader = new McapStreamReader({ noMagicPrefix: true });
@@ -96,13 +96,13 @@ class Mcap extends MessageFile<number> {
 /** Returns the records of a chunk; rejects if it is damaged, or its compression is unknown. */
 async function recordsOf(chunk: Uint8Array): Promise<Uint8Array> {
   const view = dataViewOf(chunk);
-  const [size, crc, length] = [uint53(view, 16), view.getUint32(24, true), view.getUint32(28, true)];
+  const [size, crc, length] = [readUint53(view, 16), view.getUint32(24, true), view.getUint32(28, true)];
   if (size > MAX_BLOCK_BYTES) throw new RangeError(`a chunk of ${size} bytes`);
   const compression = new TextDecoder().decode(chunk.subarray(32, 32 + length));
   const bytes = chunk.subarray(40 + length);
-  const decompressor = { '': () => bytes, zstd: () => unzstd(bytes, size), lz4: () => unlz4(bytes, size) }[compression];
-  if (!decompressor) throw new RangeError(`compression by ${compression}, not by zstd or lz4`);
-  const chunkContents = await decompressor();
+  const decompressChunk = { '': () => bytes, zstd: () => decompressZstd(bytes, size), lz4: () => decompressLz4(bytes, size) }[compression];
+  if (!decompressChunk) throw new RangeError(`compression by ${compression}, not by zstd or lz4`);
+  const chunkContents = await decompressChunk();
   if (crc !== 0 && crc32(chunkContents) !== crc) throw new RangeError('the checksum of a chunk is wrong');
   return chunkContents;
 }

@@ -6,16 +6,16 @@ import { LogError, listNames, readBytes, reasonOf, type Source } from '../log.ts
 const MAX_METADATA_BYTES = 2 ** 24;
 
 const folderOf = ({ path = '' }: Source) => path.replace(/[^/]*$/, '');
-const baseName = (path: string) => path.replace(/^.*\//, '');
+const baseNameOf = (path: string) => path.replace(/^.*\//, '');
 
 /** Returns the files that a metadata.yaml lists, in its folder. */
-export async function listedFiles(metadata: Source, sources: Source[]): Promise<{ name: string; files: Source[] }> {
+export async function findListedFiles(metadata: Source, sources: Source[]): Promise<{ name: string; files: Source[] }> {
   const errorPlace = { file: metadata.path || metadata.name };
   const fileNames: string[] = [];
   try {
     const text = new TextDecoder().decode(await readBytes(metadata, 0, Math.min(metadata.size, MAX_METADATA_BYTES)));
     const { rosbag2_bagfile_information: { relative_file_paths: paths } } = load(text) as { rosbag2_bagfile_information: { relative_file_paths: unknown[] } };
-    fileNames.push(...paths.map((path) => baseName(String(path))));
+    fileNames.push(...paths.map((path) => baseNameOf(String(path))));
   } catch (error) {
     if (error instanceof LogError) throw error;
     throw new LogError(errorPlace, (texts) => texts.damaged(reasonOf(error)));
@@ -25,6 +25,6 @@ export async function listedFiles(metadata: Source, sources: Source[]): Promise<
   const files = fileNames.map((name) => filesInFolder.find((source) => source.name === name || `${source.name}.zstd` === name));
   const missingNames = fileNames.filter((_, i) => !files[i]);
   if (missingNames.length > 0 || files.length === 0) throw new LogError(errorPlace, (texts) => texts.noFiles(listNames(missingNames)));
-  const folder = baseName(folderOf(metadata).replace(/\/$/, ''));
+  const folder = baseNameOf(folderOf(metadata).replace(/\/$/, ''));
   return { name: folder || fileNames[0], files: files as Source[] };
 }

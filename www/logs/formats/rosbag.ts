@@ -1,8 +1,8 @@
 /** Connections and messages of ROS 1 bags. http://wiki.ros.org/Bags/Format/2.0 */
 
 import { LogError, readBytes, type Source } from '../log.ts';
-import { MAX_BLOCK_BYTES, MessageFile, dataViewOf, readAhead, uint53, type Container, type IsWanted, type OnBlock, type OnMessage } from './container.ts';
-import { unlz4 } from './decompression.ts';
+import { MAX_BLOCK_BYTES, MessageFile, dataViewOf, readAhead, readUint53, type Container, type IsWanted, type OnBlock, type OnMessage } from './container.ts';
+import { decompressLz4 } from './decompression.ts';
 
 /** Values of the field "op" of records. */
 const [MESSAGE, BAG, CHUNK, CHUNK_INFO, CONNECTION] = [2, 3, 5, 6, 7];
@@ -63,7 +63,7 @@ class Rosbag extends MessageFile<number> {
     const { size } = this.source;
     try {
       const { header } = recordAt(dataViewOf(await readBytes(this.source, MAGIC_BYTES, MAGIC_BYTES + MAX_HEADER_BYTES)), 0);
-      const [start, count] = [uint53(fieldOf(header, 'index_pos'), 0), uint32Of(header, 'chunk_count')];
+      const [start, count] = [readUint53(fieldOf(header, 'index_pos'), 0), uint32Of(header, 'chunk_count')];
       if (opcodeOf(header) !== BAG || start === 0 || start > size) return false;
       const bytes = await readBytes(this.source, start, size);
       const view = dataViewOf(bytes);
@@ -72,12 +72,12 @@ class Rosbag extends MessageFile<number> {
         const opcode = opcodeOf(recordHeader);
         if (opcode === CONNECTION) this.#addConnection(recordHeader, bytes.subarray(from, to));
         if (opcode !== CHUNK_INFO) continue;
-        const idsWithCounts = Array.from({ length: uint32Of(recordHeader, 'count') }, (_, i) => [0, 4].map((part) => view.getUint32(from + 8 * i + part, true)));
+        const idsWithCounts = Array.from({ length: uint32Of(recordHeader, 'count') }, (_, i) => [0, 4].map((fieldOffset) => view.getUint32(from + 8 * i + fieldOffset, true)));
         for (const [id, messages] of idsWithCounts) {
           const channel = this.channelsById.get(id);
           if (channel) channel.count += messages;
         }
-        chunks.push({ position: uint53(fieldOf(recordHeader, 'chunk_pos'), 0), ids: idsWithCounts.map(([id]) => id) });
+        chunks.push({ position: readUint53(fieldOf(recordHeader, 'chunk_pos'), 0), ids: idsWithCounts.map(([id]) => id) });
       }
       if (chunks.length !== count) throw new RangeError('the index is incomplete');
       this.chunks = chunks;
@@ -129,7 +129,7 @@ class Rosbag extends MessageFile<number> {
 
 async function decompress(compression: string, bytes: Uint8Array, size: number): Promise<Uint8Array> {
   if (compression === 'none') return bytes;
-  if (compression === 'lz4') return unlz4(bytes, size);
+  if (compression === 'lz4') return decompressLz4(bytes, size);
   if (compression !== 'bz2') throw new RangeError(`compression by ${compression}, not by bz2 or lz4`);
   const { default: bzip } = await import('@openpgp/seek-bzip');
   return bzip.decode(bytes, new Uint8Array(size));

@@ -23,7 +23,7 @@ interface Row {
   next: number;
 }
 
-interface Table { root: number; columns: string[] }
+interface SqliteTable { root: number; columns: string[] }
 
 const decodeText = (value: SqliteValue) => (value instanceof Uint8Array ? new TextDecoder().decode(value) : '');
 
@@ -39,25 +39,25 @@ class Rosbag2 extends MessageFile<SqliteValue> {
   #pageSize = 0;
   /** Bytes of a page without those reserved at its end. */
   #usableBytes = 0;
-  #messages: Table = { root: 0, columns: [] };
+  #messages: SqliteTable = { root: 0, columns: [] };
   #readBytesAt = readAhead(this.source);
 
   async open(): Promise<void> {
     const view = dataViewOf(await readBytes(this.source, 0, HEADER_BYTES));
-    const notRosbag2 = () => new LogError({ file: this.source.name }, (texts) => texts.noRosbag2);
+    const createNotRosbag2Error = () => new LogError({ file: this.source.name }, (texts) => texts.noRosbag2);
     if (view.byteLength < HEADER_BYTES) {
       this.cutReason = 'its header is cut short';
       return;
     }
     this.#pageSize = view.getUint16(16) === 1 ? 65536 : view.getUint16(16);
     this.#usableBytes = this.#pageSize - view.getUint8(20);
-    if (this.#usableBytes < 480) throw notRosbag2();
+    if (this.#usableBytes < 480) throw createNotRosbag2Error();
     // Pages beyond the number in the header belong to an unfinished transaction.
     const pageCount = view.getUint32(28);
     if (pageCount > 0 && pageCount * this.#pageSize !== this.source.size) this.cutReason = 'the recorder did not close it';
-    const tablesByName = new Map<string, Table>();
-    await this.#eachRow({ root: 1, columns: [] }, async (row) => {
-      const bytes = await this.#wholeRow(row);
+    const tablesByName = new Map<string, SqliteTable>();
+    await this.#visitRows({ root: 1, columns: [] }, async (row) => {
+      const bytes = await this.#readWholeRow(row);
       const [name, root, sql] = [1, 3, 4].map((column) => columnValueOf(bytes, column));
       const columns = decodeText(sql).replace(/^[^(]*\(|\)[^)]*$/g, '').split(',').map((column) => column.trim().split(/\s/)[0]);
       tablesByName.set(decodeText(name), { root: Number(root), columns });
@@ -65,16 +65,16 @@ class Rosbag2 extends MessageFile<SqliteValue> {
     const [topics, messages] = ['topics', 'messages'].map((name) => tablesByName.get(name));
     if (!topics || !messages) {
       if (this.cutReason) return;
-      throw notRosbag2();
+      throw createNotRosbag2Error();
     }
     this.#messages = messages;
-    await this.#eachRow(topics, async (row) => {
-      const bytes = await this.#wholeRow(row);
+    await this.#visitRows(topics, async (row) => {
+      const bytes = await this.#readWholeRow(row);
       const [topic, type, encoding] = ['name', 'type', 'serialization_format'].map((column) => decodeText(columnValueOf(bytes, topics.columns.indexOf(column))));
       this.channelsById.set(row.id, { topic, type, encoding, count: 0 });
     });
     const topicId = messages.columns.indexOf('topic_id');
-    await this.#eachRow(messages, ({ bytes }) => {
+    await this.#visitRows(messages, ({ bytes }) => {
       const channel = this.channelsById.get(columnValueOf(bytes, topicId));
       if (channel) channel.count += 1;
     });
@@ -87,27 +87,27 @@ class Rosbag2 extends MessageFile<SqliteValue> {
       const block = dataViewOf(columnValueOf(bytes, data) as Uint8Array);
       onMessage({ channel, time: Number(columnValueOf(bytes, timestamp)) / 1e9, block, from: 0, to: block.byteLength });
     };
-    await this.#eachRow(this.#messages, (row) => {
+    await this.#visitRows(this.#messages, (row) => {
       const channel = wantedChannels.get(columnValueOf(row.bytes, topicId));
       if (!channel) return undefined;
-      return row.bytes.length < row.length ? this.#wholeRow(row).then((bytes) => passRow(channel, bytes)) : passRow(channel, row.bytes);
+      return row.bytes.length < row.length ? this.#readWholeRow(row).then((bytes) => passRow(channel, bytes)) : passRow(channel, row.bytes);
     }, onProgress);
   }
 
   /** Calls `onRow` for the rows of a table in the order of their ids. Damaged pages are skipped. */
-  async #eachRow({ root }: Table, onRow: (row: Row) => void | Promise<void>, onProgress?: OnBlock): Promise<void> {
+  async #visitRows({ root }: SqliteTable, onRow: (row: Row) => void | Promise<void>, onProgress?: OnBlock): Promise<void> {
     // In an incomplete file interior pages may be missing, so all pages are tried. Pages of other tables then fail without a note.
     const triesAllPages = this.cutReason !== undefined && root === this.#messages.root;
     const leafPages = triesAllPages ? Array.from({ length: this.source.size / this.#pageSize }, (_, i) => i + 1) : await this.#leavesOf(root);
-    for (const [i, number] of leafPages.entries()) {
+    for (const [i, pageNumber] of leafPages.entries()) {
       try {
-        const pageBytes = await this.#page(number);
-        for (const cell of cellPositionsOf(pageBytes, number, LEAF_PAGE_TYPE)) {
+        const pageBytes = await this.#readPage(pageNumber);
+        for (const cell of cellPositionsOf(pageBytes, pageNumber, LEAF_PAGE_TYPE)) {
           const pendingRow = onRow(this.#rowAt(pageBytes, cell));
           if (pendingRow) await pendingRow;
         }
       } catch (error) {
-        if (!triesAllPages || error instanceof LogError) this.noteDamage(number, error);
+        if (!triesAllPages || error instanceof LogError) this.noteDamage(pageNumber, error);
       }
       if (onProgress?.((i + 1) / leafPages.length)) return;
     }
@@ -119,20 +119,20 @@ class Rosbag2 extends MessageFile<SqliteValue> {
     const visitedPages = new Set<number>();
     while (pagesOfLevel.length > 0) {
       const pagesOfNextLevel: number[] = [];
-      for (const number of pagesOfLevel) {
+      for (const pageNumber of pagesOfLevel) {
         // The pointers of damaged pages may form a circle.
-        if (visitedPages.has(number)) continue;
-        visitedPages.add(number);
+        if (visitedPages.has(pageNumber)) continue;
+        visitedPages.add(pageNumber);
         // Interior pages are far from each other, so that reading larger pieces would be slow.
-        const page = await readBytes(this.source, (number - 1) * this.#pageSize, number * this.#pageSize);
-        const start = number === 1 ? HEADER_BYTES : 0;
+        const page = await readBytes(this.source, (pageNumber - 1) * this.#pageSize, pageNumber * this.#pageSize);
+        const start = pageNumber === 1 ? HEADER_BYTES : 0;
         if (page[start] === LEAF_PAGE_TYPE && pagesOfNextLevel.length === 0) return pagesOfLevel;
         try {
           const view = dataViewOf(page);
-          for (const cell of cellPositionsOf(page, number, INTERIOR_PAGE_TYPE)) pagesOfNextLevel.push(view.getUint32(cell));
+          for (const cell of cellPositionsOf(page, pageNumber, INTERIOR_PAGE_TYPE)) pagesOfNextLevel.push(view.getUint32(cell));
           pagesOfNextLevel.push(view.getUint32(start + 8));
         } catch (error) {
-          this.noteDamage(number, error);
+          this.noteDamage(pageNumber, error);
         }
       }
       pagesOfLevel = pagesOfNextLevel;
@@ -140,8 +140,8 @@ class Rosbag2 extends MessageFile<SqliteValue> {
     return [];
   }
 
-  async #page(number: number): Promise<Uint8Array> {
-    const page = await this.#readBytesAt((number - 1) * this.#pageSize, number * this.#pageSize);
+  async #readPage(pageNumber: number): Promise<Uint8Array> {
+    const page = await this.#readBytesAt((pageNumber - 1) * this.#pageSize, pageNumber * this.#pageSize);
     if (page.length < this.#pageSize) throw new RangeError('a page is cut short');
     return page;
   }
@@ -149,13 +149,13 @@ class Rosbag2 extends MessageFile<SqliteValue> {
   #rowAt(page: Uint8Array, cell: number): Row {
     const [length, afterLength] = varintAt(page, cell);
     const [id, start] = varintAt(page, afterLength);
-    const localEnd = start + this.#localBytes(length);
+    const localEnd = start + this.#localByteCountOf(length);
     if (localEnd > page.length || length > Math.min(MAX_ROW_BYTES, this.source.size)) throw new RangeError('a row is damaged');
     return { id, bytes: page.subarray(start, localEnd), length, next: localEnd - start < length ? dataViewOf(page).getUint32(localEnd) : 0 };
   }
 
   /** Returns the number of bytes of a row on its own page. The other bytes are on overflow pages. */
-  #localBytes(length: number): number {
+  #localByteCountOf(length: number): number {
     const maxLocalBytes = this.#usableBytes - 35;
     if (length <= maxLocalBytes) return length;
     const minLocalBytes = Math.floor(((this.#usableBytes - 12) * 32) / 255) - 23;
@@ -164,12 +164,12 @@ class Rosbag2 extends MessageFile<SqliteValue> {
   }
 
   /** Returns all bytes of a row, including those on overflow pages. */
-  async #wholeRow({ bytes, length, next }: Row): Promise<Uint8Array> {
+  async #readWholeRow({ bytes, length, next }: Row): Promise<Uint8Array> {
     if (bytes.length === length) return bytes;
     const row = new Uint8Array(length);
     row.set(bytes);
     for (let filledBytes = bytes.length; filledBytes < length; ) {
-      const page = await this.#page(next);
+      const page = await this.#readPage(next);
       const overflowPart = page.subarray(4, Math.min(this.#usableBytes, 4 + length - filledBytes));
       row.set(overflowPart, filledBytes);
       filledBytes += overflowPart.length;
@@ -180,9 +180,9 @@ class Rosbag2 extends MessageFile<SqliteValue> {
 }
 
 /** Returns the positions of the cells of a page. Throws a RangeError if the page has another type. */
-function cellPositionsOf(page: Uint8Array, number: number, type: number): number[] {
+function cellPositionsOf(page: Uint8Array, pageNumber: number, type: number): number[] {
   const view = dataViewOf(page);
-  const start = number === 1 ? HEADER_BYTES : 0;
+  const start = pageNumber === 1 ? HEADER_BYTES : 0;
   if (view.getUint8(start) !== type) throw new RangeError('a page is damaged');
   const cellPointers = start + (type === LEAF_PAGE_TYPE ? 8 : 12);
   return Array.from({ length: view.getUint16(start + 3) }, (_, i) => view.getUint16(cellPointers + 2 * i));

@@ -14,7 +14,7 @@ import { readoutsHtml } from '../../ui/readouts.ts';
 import { startOverButtonHtml } from '../shared/controls.ts';
 import { LogOpener, LogService, dropZoneHtml, isAbortError, referenceControlsHtml } from './open.ts';
 import { LegPicture, PathPicture } from './pictures.ts';
-import { alphaTableHtml, alphaTexts, captionOf, diagnosticsHtml, judgeFit, legText, nav2ButtonHtml, nav2ExportControlsHtml, pathText, recommendationReason, regressionPanelsHtml, systematicTableHtml, verdictHtml } from './readouts.ts';
+import { alphaTableHtml, alphaTextsOf, captionOf, diagnosticsHtml, judgeFit, describeLeg, nav2ButtonHtml, nav2ExportControlsHtml, describePath, explainRecommendation, regressionPanelsHtml, systematicTableHtml, verdictHtml } from './readouts.ts';
 import { NOISE_COMPONENTS, LINE_STYLES, definition, modelRuleOf, observedCount, settingsOfModelRule, viewModelOf, type ViewModel } from './settings.ts';
 import type { AlphaCalibrator as Simulation, CalibrationLog, CalibrationPanel, LegView, Motion } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
@@ -351,7 +351,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
    * Fits a log, and then replaces the present log by it; null is the simulated log. If `check` throws, the present log stays. `warnings` are
    * notes on the new log that make its α's doubtful.
    */
-  async open(log: CalibrationLog | null, warnings: Warning[], check?: (simulation: Simulation) => void) {
+  async open(log: CalibrationLog | null, warnings: Warning[], checkSimulation?: (simulation: Simulation) => void) {
     const config = this.settings.pickSettings(this.settings.current) as Simulation['config'];
     const openedLog = log && { log, warnings, config, fit: await this.service.calibrate(config, log) };
     this.runtime.attempt(() => {
@@ -359,7 +359,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
       this.settings.applyPending();
       const simulation = this.createSimulation(this.motion, openedLog);
       this.enterState(simulation, this.settings.current);
-      check?.(simulation);
+      checkSimulation?.(simulation);
       if (log !== this.log) {
         this.settings.elementState.leg = null;
         for (const { view } of this.pictures) view.clearTarget();
@@ -409,19 +409,19 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   get exportData() {
     const { fitted, legs } = this.currentViewModel;
     const missingNote = this.log ? words.calibrator.logNotInCopies : '';
-    const statisticColumns = (statistic: string) => NOISE_COMPONENTS[fitted.model].map((name) => `${statistic}_${name}`).join(' ');
-    const poseColumns = (log: string) => ['from', 'to'].flatMap((end) => ['x_m', 'y_m', 'theta_rad'].map((key) => `${log}_${end}_${key}`)).join(' ');
+    const statisticColumnsOf = (statistic: string) => NOISE_COMPONENTS[fitted.model].map((name) => `${statistic}_${name}`).join(' ');
+    const poseColumnsOf = (log: string) => ['from', 'to'].flatMap((end) => ['x_m', 'y_m', 'theta_rad'].map((key) => `${log}_${end}_${key}`)).join(' ');
     return {
-      description: [pathText(this.viewModel, this.chosen), captionOf(this), ...alphaTexts(this.viewModel).map((text) => `${text}.`), recommendationReason(this.viewModel)].join(' '),
+      description: [describePath(this.viewModel, this.chosen), captionOf(this), ...alphaTextsOf(this.viewModel).map((text) => `${text}.`), explainRecommendation(this.viewModel)].join(' '),
       settings: { ...(this.log && { log: this.log.name }), ...fitted },
       columns: {
         'begins_s ends_s': legs.times,
-        [poseColumns('odometry')]: legs.odometry,
-        [poseColumns('reference')]: legs.reference,
+        [poseColumnsOf('odometry')]: legs.odometry,
+        [poseColumnsOf('reference')]: legs.reference,
         'reading_1 reading_2 reading_3': legs.readings,
-        [statisticColumns('residual')]: legs.residuals,
-        [statisticColumns('standardized')]: legs.standardized,
-        [statisticColumns('std')]: legs.stds,
+        [statisticColumnsOf('residual')]: legs.residuals,
+        [statisticColumnsOf('standardized')]: legs.standardized,
+        [statisticColumnsOf('std')]: legs.stds,
         squared_mahalanobis: legs.squared,
         outlier: legs.outliers,
       },
@@ -442,9 +442,9 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
       ${dropZoneHtml(this, this.#opener)}
       <div class="views">
         <p part="caption" class="caption verdict">${this.renderer.renderAfterFirstPicture(() => verdictHtml(this))}</p>
-        ${titledPictureHtml(texts.path, html`<div class="stage" part="picture" @click=${this.#chooseLegAt}>${pictureCanvasHtml(this, this.#pathPicture, pathText(viewModel, chosen))}</div>`)}
+        ${titledPictureHtml(texts.path, html`<div class="stage" part="picture" @click=${this.#chooseLegAt}>${pictureCanvasHtml(this, this.#pathPicture, describePath(viewModel, chosen))}</div>`)}
         <div class="one">
-          ${titledPictureHtml(texts.oneLeg(formatInteger(chosen + 1)), html`<div class="stage">${pictureCanvasHtml(this, this.#legPicture, legText(this.predicted, chosen))}</div>`)}
+          ${titledPictureHtml(texts.oneLeg(formatInteger(chosen + 1)), html`<div class="stage">${pictureCanvasHtml(this, this.#legPicture, describeLeg(this.predicted, chosen))}</div>`)}
           ${this.renderer.renderAfterFirstPicture(() => html`<div class="looked with-button">${legControlsHtml(this)}</div>`)}
         </div>
         ${this.renderer.renderAfterFirstPicture(() => html`
@@ -455,7 +455,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
           </div>
           <p class="to-do">${this.#opener.otherResultsNote || judgeFit(viewModel, this.warnings).advice.join(' ')}</p>
           ${alphaTableHtml(viewModel)}
-          <p class="reason muted small">${recommendationReason(viewModel)}</p>
+          <p class="reason muted small">${explainRecommendation(viewModel)}</p>
         </div>`)}
       </div>
       ${this.renderer.renderAfterFirstPicture(() => html`

@@ -3,9 +3,9 @@
 import { html, nothing, svg } from 'lit';
 import { guard } from 'lit/directives/guard.js';
 import { live } from 'lit/directives/live.js';
-import { findCandidates, planDrives, readableSeries, type LogPlan } from '../../logs/drives.ts';
-import { ROLES, UNITS, framesText, summaryLines, type LogChoice, type Question, type Recording, type Role } from '../../logs/log.ts';
-import { alignedPath, pathOf, svgPathData, type Path } from '../../logs/path.ts';
+import { findCandidates, planDrives, readableSeriesOf, type LogPlan } from '../../logs/drives.ts';
+import { ROLES, UNITS, formatFrames, summaryLinesOf, type LogChoice, type Question, type Recording, type Role } from '../../logs/log.ts';
+import { alignPath, pathOf, svgPathDataOf, type Path } from '../../logs/path.ts';
 import { language } from '../../messages/registry.ts';
 import { radioGroupHtml } from '../../ui/controls.ts';
 import { formatFixed } from '../../ui/format.ts';
@@ -26,10 +26,10 @@ const MAX_CELL_LENGTH = 16;
 const MAX_NAMED_FILES = 4;
 
 /** Returns the name of a choice: its series, with the frames of transforms. */
-export const choiceLabel = ({ series, frames }: LogChoice) => (frames ? `${series}: ${framesText(frames)}` : series);
+export const choiceLabelOf = ({ series, frames }: LogChoice) => (frames ? `${series}: ${formatFrames(frames)}` : series);
 
 /** Plans which logs are read, by the user's choices. */
-export function planReading({ recordings, userChoices, roles }: ChosenFiles, kind: 'commands' | undefined): LogPlan {
+export function planLogReading({ recordings, userChoices, roles }: ChosenFiles, kind: 'commands' | undefined): LogPlan {
   return planDrives(recordings, { ...userChoices, kind, roles: new Map([...roles].map(([index, role]) => [recordings[index], role])) });
 }
 
@@ -38,14 +38,14 @@ export function logNameOf({ drives, unpaired }: LogPlan) {
   const plannedLogs = [...drives.map(({ odometry }) => odometry), ...unpaired.odometry, ...unpaired.reference];
   const names = plannedLogs.map(({ recording }) => recording.name);
   const [onlyDrive] = plannedLogs.length === 1 ? drives : [];
-  return [...names.slice(0, MAX_NAMED_FILES), ...(names.length > MAX_NAMED_FILES ? ['…'] : []), ...(onlyDrive ? [onlyDrive.odometry, onlyDrive.reference].map(({ choice }) => choiceLabel(choice)) : [])].filter(Boolean).join(', ');
+  return [...names.slice(0, MAX_NAMED_FILES), ...(names.length > MAX_NAMED_FILES ? ['…'] : []), ...(onlyDrive ? [onlyDrive.odometry, onlyDrive.reference].map(({ choice }) => choiceLabelOf(choice)) : [])].filter(Boolean).join(', ');
 }
 
 /** Returns all logs that can be chosen for a role, with labels. Each pair of frames is a separate choice. */
 function labelledChoicesOf(recording: Recording, role?: Role): [label: string, LogChoice][] {
-  const usableSeries = readableSeries(recording).filter(({ kind }) => role !== 'reference' || kind !== 'commands');
+  const usableSeries = readableSeriesOf(recording).filter(({ kind }) => role !== 'reference' || kind !== 'commands');
   const choices = usableSeries.flatMap(({ name: series, kind, frames = [] }): LogChoice[] => (kind === 'transforms' ? frames.map((pair) => ({ series, frames: pair })) : [{ series }]));
-  return choices.map((choice) => [choiceLabel(choice) || recording.name, choice]);
+  return choices.map((choice) => [choiceLabelOf(choice) || recording.name, choice]);
 }
 
 /** Returns the form controls for the open choices about the present files. */
@@ -78,15 +78,15 @@ function selectHtml(id: string, label: string, value: string, options: [value: s
 function seriesSelectHtml(opener: LogOpener, { recordings, userChoices, plan }: ChosenFiles, role: Role, { choose: texts }: LogWords) {
   const choiceByLabel = new Map(recordings.flatMap((recording) => labelledChoicesOf(recording, role)));
   const [plannedLog] = plan ? [...plan.drives.map((drive) => drive[role]), ...plan.unpaired[role]] : [];
-  const currentChoice = (userChoices[role] as LogChoice | undefined) ?? plannedLog?.choice ?? likeliestChoice(recordings[0], role, opener.kind);
-  return selectHtml(`log-${role}`, texts.roles[role], currentChoice ? choiceLabel(currentChoice) || (plannedLog?.recording ?? recordings[0]).name : '', [...choiceByLabel.keys()].map((label) => [label, label]), (label) => {
+  const currentChoice = (userChoices[role] as LogChoice | undefined) ?? plannedLog?.choice ?? findLikeliestChoice(recordings[0], role, opener.kind);
+  return selectHtml(`log-${role}`, texts.roles[role], currentChoice ? choiceLabelOf(currentChoice) || (plannedLog?.recording ?? recordings[0]).name : '', [...choiceByLabel.keys()].map((label) => [label, label]), (label) => {
     const choice = choiceByLabel.get(label);
     if (choice) opener.change({ userChoices: { ...userChoices, [role]: choice } });
   }, texts.open);
 }
 
 /** Returns the likeliest choice; undefined if there are several. */
-function likeliestChoice(recording: Recording, role: Role, kind: 'commands' | undefined): LogChoice | undefined {
+function findLikeliestChoice(recording: Recording, role: Role, kind: 'commands' | undefined): LogChoice | undefined {
   const likeliestChoices = findCandidates(recording, role, { kind }).find(({ length }) => length > 0);
   return likeliestChoices?.length === 1 ? likeliestChoices[0] : undefined;
 }
@@ -108,15 +108,15 @@ function questionHtml(opener: LogOpener, { answers }: ChosenFiles, asked: OpenQu
   if (what === 'columns') return columnsFormHtml(opener, asked, answers[file]?.columns, texts);
   if (what !== 'timeUnit' && what !== 'lengthUnit' && what !== 'angleUnit') return nothing;
   const labels: Record<string, string> = Object.fromEntries((choices.length ? choices : UNITS[what]).map((unit) => [unit, texts.units[unit as keyof typeof texts.units]]));
-  return html`<div id=${questionId(asked)}>
-    ${radioGroupHtml(texts[what](file), questionId(asked), labels, answers[file]?.[what] ?? '', (unit) => opener.answer(asked, { [what]: unit }))}
+  return html`<div id=${questionIdOf(asked)}>
+    ${radioGroupHtml(texts[what](file), questionIdOf(asked), labels, answers[file]?.[what] ?? '', (unit) => opener.answer(asked, { [what]: unit }))}
   </div>`;
 }
 
 /** Returns a form with one `<select>` for each field, which assigns a column to it. */
-function columnsFormHtml(opener: LogOpener, asked: OpenQuestion, answer: string[] | undefined, texts: LogWords['choose']) {
+function columnsFormHtml(opener: LogOpener, asked: OpenQuestion, answeredFields: string[] | undefined, texts: LogWords['choose']) {
   const { file, ask: { choices: [defaultNames = ''], columns = [] } } = asked;
-  const assignedFields = answer ?? defaultNames.split(',');
+  const assignedFields = answeredFields ?? defaultNames.split(',');
   const options = columns.map((cell, index): [string, string] => [String(index), texts.column(index + 1, cell.trim().slice(0, MAX_CELL_LENGTH))]);
   const submitColumns = (event: Event) => {
     event.preventDefault();
@@ -124,9 +124,9 @@ function columnsFormHtml(opener: LogOpener, asked: OpenQuestion, answer: string[
     for (const [field, index] of new FormData(event.target as HTMLFormElement)) if (index !== '') fieldNames[Number(index)] = String(field);
     opener.answer(asked, { columns: fieldNames });
   };
-  return html`<form id=${questionId(asked)} @submit=${submitColumns}>
+  return html`<form id=${questionIdOf(asked)} @submit=${submitColumns}>
     <fieldset>
-      <legend>${texts.columns(file, !answer && defaultNames !== '')}</legend>
+      <legend>${texts.columns(file, !answeredFields && defaultNames !== '')}</legend>
       <div class="choices">
         ${COLUMN_FIELDS.map((field) => html`<label>
           ${texts.fields[field]}
@@ -141,13 +141,13 @@ function columnsFormHtml(opener: LogOpener, asked: OpenQuestion, answer: string[
   </form>`;
 }
 
-const questionId = ({ file, ask: { what } }: OpenQuestion) => `log-${what}-${file.replaceAll(/[^\w-]/g, '_')}`;
+const questionIdOf = ({ file, ask: { what } }: OpenQuestion) => `log-${what}-${file.replaceAll(/[^\w-]/g, '_')}`;
 
 /** Moves the focus to the control that answers a question, unless such a control already has it. Returns true if there is a control. */
 export function focusChooser({ renderRoot }: AlphaCalibratorElement, asked: OpenQuestion): boolean {
   const { what, role = 'odometry' }: Question = asked.ask;
   const selectors = { series: `#log-${role}`, frames: `#log-${role}`, roles: '[id^=log-role-]' } as Partial<Record<Question['what'], string>>;
-  const chooserElement = renderRoot.querySelector<HTMLElement>(selectors[what] ?? `#${questionId(asked)}`);
+  const chooserElement = renderRoot.querySelector<HTMLElement>(selectors[what] ?? `#${questionIdOf(asked)}`);
   const firstControl = chooserElement?.matches('select') ? chooserElement : chooserElement?.querySelector<HTMLElement>('select, input');
   if (!firstControl) return false;
   if (!firstControl.closest('.choosers')?.contains((renderRoot as ShadowRoot).activeElement)) firstControl.focus();
@@ -178,8 +178,8 @@ export function logSummaryHtml({ chosenFiles, texts, host }: LogOpener) {
 
 function logTableHtml({ odometry, reference }: Drive, caption: string, { choose, found }: LogWords) {
   const logs = [odometry, reference];
-  const tableRows = logs.map((log) => summaryLines(log, found));
-  const tableCell = (texts: string[] = []) => html`<td>${texts.length ? texts.map((text, i) => html`${i ? html`<br />` : nothing}${text}`) : '—'}</td>`;
+  const tableRows = logs.map((log) => summaryLinesOf(log, found));
+  const tableCellHtml = (texts: string[] = []) => html`<td>${texts.length ? texts.map((text, i) => html`${i ? html`<br />` : nothing}${text}`) : '—'}</td>`;
   const labels = (Object.keys(found.labels) as (keyof typeof found.labels)[]).filter((label) => tableRows.some((tableRow) => tableRow[label]?.length));
   return html`<table>
     ${caption ? html`<caption>${caption}</caption>` : nothing}
@@ -187,7 +187,7 @@ function logTableHtml({ odometry, reference }: Drive, caption: string, { choose,
       <tr><td></td>${ROLES.map((role, i) => html`<th scope="col">${choose.roles[role]}: ${logs[i].name}</th>`)}</tr>
     </thead>
     <tbody>
-      ${labels.map((label) => html`<tr><th scope="row">${found.labels[label]}</th>${tableRows.map((line) => tableCell(line[label]))}</tr>`)}
+      ${labels.map((label) => html`<tr><th scope="row">${found.labels[label]}</th>${tableRows.map((line) => tableCellHtml(line[label]))}</tr>`)}
     </tbody>
   </table>`;
 }
@@ -195,17 +195,17 @@ function logTableHtml({ odometry, reference }: Drive, caption: string, { choose,
 /** Returns a picture of both paths, with the odometry aligned to the reference if they have times in common. `clockOffset` is how much later the reference's times are. */
 function pathsPictureHtml({ odometry, reference }: Drive, clockOffset: number, { found }: LogWords) {
   const [drivenPath, referencePath] = [odometry.data, reference.data].map((data) => pathOf(data, Math.ceil(data.t.length / MAX_PATH_POINTS)));
-  const odometryPath = alignedPath(drivenPath, referencePath, clockOffset);
+  const odometryPath = alignPath(drivenPath, referencePath, clockOffset);
   const allPoses = [...odometryPath.poses, ...referencePath.poses];
   const axisRanges = ([0, 1] as const).map((axis) => [Math.min(...allPoses.map((pose) => pose[axis])), Math.max(...allPoses.map((pose) => pose[axis]))]);
   const [width, height] = axisRanges.map(([low, high]) => high - low);
   const pixelsPerMetre = Math.min((PICTURE_WIDTH - 2 * PICTURE_MARGIN) / Math.max(width, 0.1), (PICTURE_HEIGHT - 2 * PICTURE_MARGIN) / Math.max(height, 0.1));
-  const pathData = (path: Path) => svgPathData(path, ([x, y]) => [PICTURE_MARGIN + (x - axisRanges[0][0]) * pixelsPerMetre, PICTURE_HEIGHT - PICTURE_MARGIN - (y - axisRanges[1][0]) * pixelsPerMetre]);
+  const pathDataOf = (path: Path) => svgPathDataOf(path, ([x, y]) => [PICTURE_MARGIN + (x - axisRanges[0][0]) * pixelsPerMetre, PICTURE_HEIGHT - PICTURE_MARGIN - (y - axisRanges[1][0]) * pixelsPerMetre]);
   const captionText = found.paths(odometryPath !== drivenPath, formatFixed(width, 1), formatFixed(height, 1));
   return html`<figure class="paths small">
     <svg viewBox="0 0 ${PICTURE_WIDTH} ${PICTURE_HEIGHT}" role="img" aria-label=${captionText}>
       <g fill="none" stroke-width="1.25" stroke-linejoin="round">
-        ${svg`<path stroke="var(--ink)" d=${pathData(referencePath)} /><path stroke="var(--prior)" stroke-dasharray="4 2" d=${pathData(odometryPath)} />`}
+        ${svg`<path stroke="var(--ink)" d=${pathDataOf(referencePath)} /><path stroke="var(--prior)" stroke-dasharray="4 2" d=${pathDataOf(odometryPath)} />`}
       </g>
     </svg>
     <figcaption>${captionText}</figcaption>

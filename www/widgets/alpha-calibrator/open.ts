@@ -77,7 +77,7 @@ export class LogOpener extends FileOpener<Figure> {
     if (!chosenFiles?.log || chosenFiles.log !== this.host.log || this.readFraction !== undefined || this.#preferredKind === this.kind) return;
     const previousPlanText = planKeyOf(chosenFiles.plan);
     this.#restart(async (logModule) => {
-      const plan = logModule.planReading(chosenFiles, this.kind);
+      const plan = logModule.planLogReading(chosenFiles, this.kind);
       if (planKeyOf(plan) !== previousPlanText) await this.#readAndFit((this.chosenFiles = { ...chosenFiles }), plan, logModule);
     });
   }
@@ -160,7 +160,7 @@ export class LogOpener extends FileOpener<Figure> {
   async #makePlan(chosen: ChosenFiles, logModule: LogModule): Promise<LogPlan> {
     try {
       if (chosen.recordings.length === 0) throw chosen.skipped[0];
-      return logModule.planReading(chosen, this.kind);
+      return logModule.planLogReading(chosen, this.kind);
     } catch (error) {
       // A skipped file may be the missing log, so its question comes first.
       const skipped = chosen.skipped.find(({ ask }) => ask);
@@ -172,7 +172,7 @@ export class LogOpener extends FileOpener<Figure> {
       const [files, questions] = [[...loneLogFiles.files, ...chosen.files], [...loneLogFiles.questions, ...chosen.questions]];
       Object.assign(chosen, { files, questions, answers: { ...loneLogFiles.answers, ...chosen.answers } });
       Object.assign(chosen, await this.host.service.open(files, chosen.answers));
-      return logModule.planReading(chosen, this.kind);
+      return logModule.planLogReading(chosen, this.kind);
     }
   }
 
@@ -203,7 +203,7 @@ export class LogOpener extends FileOpener<Figure> {
 
   explain(refusal: Refusal) {
     if (isAbortError(refusal)) return words.progress.stopped;
-    const { message, sentence, sentences, ask } = refusal;
+    const { message, messageIn: sentence, sentences, ask } = refusal;
     const refusalReason = sentences?.[language === 'de' ? 'de' : 'en'] ?? (sentence && this.texts ? sentence(this.texts) : words.calibrator.own.refused(message));
     return [refusalReason, ...(ask?.what === 'other' && this.texts ? [this.texts.choose.other] : [])].join(' ');
   }

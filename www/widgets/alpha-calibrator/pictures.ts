@@ -5,7 +5,7 @@ import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { LINES_PER_STROKE, CachedLayer, Memo, strokeInBatches, type LayerDrawContext } from '../../scene/cache.ts';
 import { strokePath } from '../../scene/canvas.ts';
-import { drawDots, drawCrosshair, drawOutline, drawOutlines, drawRobot, lineLegendEntries, lineStyles } from '../../scene/draw.ts';
+import { drawDots, drawCrosshair, drawOutline, drawOutlines, drawRobot, createLineLegend, createLineStyles } from '../../scene/draw.ts';
 import { Picture, SamplesPicture } from '../../scene/picture.ts';
 import { View, extentAround, extentOf } from '../../scene/view.ts';
 import { LEG_CLASSES, LINE_STYLES, type LineName, type ViewModel } from './settings.ts';
@@ -70,7 +70,7 @@ export class PathPicture extends SamplesPicture<Scene> {
   paint: Picture<Scene>['paint'] = (drawContext, { legs, classes, chosen, overlays }) => {
     const { palette } = drawContext;
     const legendNames = ([...LEG_CLASSES.toReversed(), 'odometry'] as const).filter((name) => overlays.includes(name));
-    drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, lineLegendEntries(drawContext, LINE_STYLES, legendNames, words.calibrator.overlays));
+    drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, createLineLegend(drawContext, LINE_STYLES, legendNames, words.calibrator.overlays));
     clipToPlot(drawContext, () => {
       const paintLegs = (painter: LayerDrawContext) => drawPath(painter, legs, this.#odometryPathOf(legs), classes, overlays);
       if ('vector' in drawContext.context || legs.count <= MAX_WIDE_LEGS) paintLegs(drawContext);
@@ -86,7 +86,7 @@ export class PathPicture extends SamplesPicture<Scene> {
 function drawPath(drawContext: LayerDrawContext, legs: CalibrationLegs, odometry: Float64Array, classes: Uint8Array, overlays: LineName[]) {
   const { context, view } = drawContext;
   const { count, reference, outliers } = legs;
-  const styles = lineStyles(drawContext, LINE_STYLES);
+  const styles = createLineStyles(drawContext, LINE_STYLES);
   if (overlays.includes('odometry')) {
     const points = view.toPixels(odometry);
     const pathPieces = range(0, points.length, LINES_PER_STROKE).map((start) => points.slice(start, start + LINES_PER_STROKE + 1));
@@ -131,19 +131,19 @@ export class LegPicture extends Picture<Scene> {
     drawAxes(drawContext, { x: words.calibrator.axisAhead, y: words.calibrator.axisLeft }, []);
     if (!leg) return;
     const { outcomes, outline, read, ended } = leg;
-    const showsLine = (name: LineName) => overlays.includes(name);
-    const styles = lineStyles(drawContext, LINE_STYLES);
-    const styledLine = (name: LineName, points: Float64Array) => (showsLine(name) ? [{ points, ...styles[name] }] : []);
+    const isLineShown = (name: LineName) => overlays.includes(name);
+    const styles = createLineStyles(drawContext, LINE_STYLES);
+    const styledLineOf = (name: LineName, points: Float64Array) => (isLineShown(name) ? [{ points, ...styles[name] }] : []);
     clipToPlot(drawContext, () => {
-      if (showsLine('predicted')) drawDots(drawContext, outcomes);
+      if (isLineShown('predicted')) drawDots(drawContext, outcomes);
       drawOutlines(drawContext, [
-        ...styledLine('predicted', outline),
-        ...styledLine('odometry', Float64Array.of(0, 0, read[0], read[1])),
-        ...styledLine('reference', Float64Array.of(0, 0, ended[0], ended[1])),
+        ...styledLineOf('predicted', outline),
+        ...styledLineOf('odometry', Float64Array.of(0, 0, read[0], read[1])),
+        ...styledLineOf('reference', Float64Array.of(0, 0, ended[0], ended[1])),
       ]);
       drawRobot(drawContext, { x: 0, y: 0, heading: 0, colour: palette.truth });
-      if (showsLine('odometry')) drawCrosshair(drawContext, { x: read[0], y: read[1], heading: read[2] }, palette.prior);
-      if (showsLine('reference')) drawCrosshair(drawContext, { x: ended[0], y: ended[1], heading: ended[2] }, palette.ink);
+      if (isLineShown('odometry')) drawCrosshair(drawContext, { x: read[0], y: read[1], heading: read[2] }, palette.prior);
+      if (isLineShown('reference')) drawCrosshair(drawContext, { x: ended[0], y: ended[1], heading: ended[2] }, palette.ink);
     });
   };
 }

@@ -9,7 +9,7 @@ import { plotHtml, type Curve, type PlotOptions } from '../../ui/plot.ts';
 import { tableHtml, readoutsHtml } from '../../ui/readouts.ts';
 import { subscriptOf } from '../shared/sliders.ts';
 import { en } from './en.ts';
-import { LOST_LEG_CAUSES, NAV2_RULES, SYSTEMATIC_ERRORS, adviceOf, checkMessage, componentsOf, formatAlphaOrBound, formatEstimate, formatNumber, printsAsZero, judgementOf, localizeInterval, localizeNumber, nav2Lines, } from './result.ts';
+import { LOST_LEG_CAUSES, NAV2_RULES, SYSTEMATIC_ERRORS, adviceOf, checkMessage, componentsOf, formatAlphaOrBound, formatEstimate, formatNumber, printsAsZero, judgementOf, localizeInterval, localizeNumber, formatNav2Lines, } from './result.ts';
 import { NOISE_COMPONENTS, isTruthComparable, modelRuleOf, settingsOfModelRule, type Regressor, type ViewModel } from './settings.ts';
 import type { CalibrationCheck, CalibrationPanel, Estimate, LegView } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
@@ -32,13 +32,13 @@ export function formatCheckValue(name: CalibrationCheck['name'], value: number) 
 export const formatPassRange = (low: string, high: string) => `${low} – ${high}`;
 
 /** Prints the range of values with which a check passes. */
-export function expectedRangeText({ name, expected: [low, high] }: CalibrationCheck) {
+export function formatExpectedRange({ name, expected: [low, high] }: CalibrationCheck) {
   if (high === Infinity) return `≥ ${formatCheckValue(name, low)}`;
   return low === 0 ? `≤ ${formatCheckValue(name, high)}` : formatPassRange(formatCheckValue(name, low), formatCheckValue(name, high));
 }
 
 /** Returns the reason for the recommended α's. */
-export function recommendationReason({ stats: { recommended, diagnostics: { checks, windows } } }: ViewModel) {
+export function explainRecommendation({ stats: { recommended, diagnostics: { checks, windows } } }: ViewModel) {
   const texts = words.calibrator.recommended;
   if (!recommended) return texts.none;
   const [{ count, coverage, nees }] = windows;
@@ -47,27 +47,27 @@ export function recommendationReason({ stats: { recommended, diagnostics: { chec
   return inflation === 1 ? texts.covered(formatPercent(coverage), formatInteger(count)) : texts.inflated(formatFixed(inflation, 2), formatPercent(coverage), formatInteger(count), formatFixed(nees, 2));
 }
 
-export const noiseNames = (model: ViewModel['config']['model']) => words.alphas[model === 'velocity' ? 'velocity' : 'odometry'].map(([name]) => name);
+export const noiseNamesOf = (model: ViewModel['config']['model']) => words.alphas[model === 'velocity' ? 'velocity' : 'odometry'].map(([name]) => name);
 
 /** Returns the number of legs and outliers of the named log in a sentence; empty if there are no legs. */
-export function legsText({ legs }: ViewModel, log: string) {
+export function describeLegs({ legs }: ViewModel, log: string) {
   if (legs.count === 0) return '';
-  const outlierCount = legs.outliers.reduce((sum, isOutlier) => sum + isOutlier, 0);
+  const outlierCount = legs.outliers.reduce((sum, outlierFlag) => sum + outlierFlag, 0);
   return words.calibrator.present(log, formatInteger(legs.count), outlierCount > 0 ? formatInteger(outlierCount) : '');
 }
 
 export function captionOf({ viewModel, warnings, logName }: Pick<Figure, 'viewModel' | 'warnings' | 'logName'>) {
   const { badge, finding, advice } = judgeFit(viewModel, warnings);
-  return [`${badge}.`, finding, legsText(viewModel, logName), ...advice].filter(Boolean).join(' ');
+  return [`${badge}.`, finding, describeLegs(viewModel, logName), ...advice].filter(Boolean).join(' ');
 }
 
-export function pathText({ legs, classes }: ViewModel, chosen: number) {
+export function describePath({ legs, classes }: ViewModel, chosen: number) {
   if (chosen < 0) return words.calibrator.none;
   const unlikelyCount = classes.reduce((sum, legClass) => sum + Number(legClass > 1), 0);
   return words.calibrator.way(formatInteger(legs.count), formatInteger(unlikelyCount), formatInteger(chosen + 1));
 }
 
-export function legText(leg: LegView | null, chosen: number) {
+export function describeLeg(leg: LegView | null, chosen: number) {
   if (!leg) return words.calibrator.none;
   const [readX, readY, endX, endY] = [leg.read[0], leg.read[1], leg.ended[0], leg.ended[1]];
   return words.calibrator.legText(formatInteger(chosen + 1), formatFixed(readX, 3), formatFixed(readY, 3), formatFixed(endX, 3), formatFixed(endY, 3));
@@ -81,7 +81,7 @@ export function verdictHtml({ viewModel, logName, warnings }: Figure) {
   const { rating, badge, finding } = judgeFit(viewModel, warnings);
   const [icon, role] = RATING_LOOKS[rating];
   return html`<span class="badge" data-role=${role}><span aria-hidden="true">${icon}</span> ${badge}</span>
-    <strong>${finding}</strong> <span class="muted">${legsText(viewModel, logName)}</span>`;
+    <strong>${finding}</strong> <span class="muted">${describeLegs(viewModel, logName)}</span>`;
 }
 
 /** Returns the table of the α's, with the true values where they are comparable. */
@@ -92,25 +92,25 @@ export function alphaTableHtml(viewModel: ViewModel) {
   const nameHtml = (name: string, i: number) => html`${formatMarkup(`*α*${subscriptOf(i)}`)} <span class="muted">${name}</span>`;
   return html`<div class="alphas">${tableHtml({
     columns: [texts.noise, texts.value, texts.recommended, ...(shownTruth ? [words.calibrator.systematic.truth] : [])],
-    rows: noiseNames(model).slice(0, alphas.length).map((name, i) => (alphas[i] === null
-      ? [nameHtml(name, i), missingAlphaText(viewModel, i)]
+    rows: noiseNamesOf(model).slice(0, alphas.length).map((name, i) => (alphas[i] === null
+      ? [nameHtml(name, i), explainMissingAlpha(viewModel, i)]
       : [
         nameHtml(name, i),
-        stackedTextsHtml([alphaText(viewModel, i), localizeInterval(intervals[i])]),
-        html`<strong>${recommendedAlphaText(viewModel, i)}</strong>`,
+        stackedTextsHtml([formatAlpha(viewModel, i), localizeInterval(intervals[i])]),
+        html`<strong>${formatRecommendedAlpha(viewModel, i)}</strong>`,
         ...(shownTruth ? [localizeNumber(formatNumber(shownTruth[i]))] : []),
       ])),
   })}</div>`;
 }
 
 /** Prints an α times a factor. */
-const alphaText = ({ stats: { alphas, intervals } }: ViewModel, index: number, factor?: number) => localizeNumber(formatAlphaOrBound(alphas[index], intervals[index], factor));
+const formatAlpha = ({ stats: { alphas, intervals } }: ViewModel, index: number, inflation?: number) => localizeNumber(formatAlphaOrBound(alphas[index], intervals[index], inflation));
 
-const recommendedAlphaText = (viewModel: ViewModel, index: number) =>
-  (viewModel.stats.recommended ? alphaText(viewModel, index, viewModel.stats.recommended.inflation) : NO_VALUE);
+const formatRecommendedAlpha = (viewModel: ViewModel, index: number) =>
+  (viewModel.stats.recommended ? formatAlpha(viewModel, index, viewModel.stats.recommended.inflation) : NO_VALUE);
 
 /** Returns the reason why an α is not identifiable, and the drive that would identify it. */
-function missingAlphaText({ stats: { notIdentifiable }, fitted: { model } }: ViewModel, index: number) {
+function explainMissingAlpha({ stats: { notIdentifiable }, fitted: { model } }: ViewModel, index: number) {
   const texts = words.calibrator.alphas;
   const reason = notIdentifiable[index];
   if (!reason) return NO_VALUE;
@@ -119,11 +119,11 @@ function missingAlphaText({ stats: { notIdentifiable }, fitted: { model } }: Vie
 }
 
 /** Returns all α's as texts, each with its interval. */
-export function alphaTexts(viewModel: ViewModel) {
+export function alphaTextsOf(viewModel: ViewModel) {
   const { stats: { alphas }, fitted } = viewModel;
   return alphas.map((alpha, i) => {
-    const alphaParts = alpha === null ? [missingAlphaText(viewModel, i)] : [alphaText(viewModel, i), localizeInterval(viewModel.stats.intervals[i]), `${words.calibrator.alphas.recommended} ${recommendedAlphaText(viewModel, i)}`];
-    return `α${subscriptOf(i)} ${noiseNames(fitted.model)[i]}: ${alphaParts.join(', ')}`;
+    const alphaParts = alpha === null ? [explainMissingAlpha(viewModel, i)] : [formatAlpha(viewModel, i), localizeInterval(viewModel.stats.intervals[i]), `${words.calibrator.alphas.recommended} ${formatRecommendedAlpha(viewModel, i)}`];
+    return `α${subscriptOf(i)} ${noiseNamesOf(fitted.model)[i]}: ${alphaParts.join(', ')}`;
   });
 }
 
@@ -164,7 +164,7 @@ function checksTableHtml({ viewModel: { stats } }: Figure) {
     rows: stats.diagnostics.checks.map((check) => [
       html`${texts.names[check.name]}<div class="muted">${checkMessage(check, stats, words.calibrator)}</div>`,
       formatCheckValue(check.name, check.value),
-      expectedRangeText(check),
+      formatExpectedRange(check),
       check.passed ? `✓ ${texts.passed}` : html`<strong>✕ ${texts.failed}</strong>`,
     ]),
   });
@@ -181,13 +181,13 @@ function windowsTableHtml({ viewModel: { stats: { diagnostics: { windows } } } }
 
 function noiseTableHtml({ viewModel: { stats: { referenceNoise: { positionStd, yawStd }, persistence: { correlation, length } } } }: Figure) {
   const { noise: texts, systematic, settings, alphas: { interval: intervalName } } = words.calibrator;
-  const noiseRow = (name: string, { value, interval }: Estimate) => [name, localizeNumber(formatEstimate(value, interval)), localizeInterval(interval)];
+  const formatNoiseRow = (name: string, { value, interval }: Estimate) => [name, localizeNumber(formatEstimate(value, interval)), localizeInterval(interval)];
   return tableHtml({
     columns: [texts.what, systematic.value, intervalName],
     rows: [
-      noiseRow(`${settings.positionStd.name} (m)`, positionStd),
-      noiseRow(`${settings.yawStd.name} (rad)`, yawStd),
-      noiseRow(texts.correlation, correlation),
+      formatNoiseRow(`${settings.positionStd.name} (m)`, positionStd),
+      formatNoiseRow(`${settings.yawStd.name} (rad)`, yawStd),
+      formatNoiseRow(texts.correlation, correlation),
       [texts.length, length > 0 ? `${formatRounded(length, 2)} m` : NO_VALUE, NO_VALUE],
     ],
   });
@@ -211,14 +211,14 @@ export function regressionPanelsHtml(figure: Figure) {
     <figure><div class="panels">
       ${figure.panels.map((panel, i) => html`<figure>
         ${plotHtml(panelPlotHtml(panel, texts.kinds[NOISE_COMPONENTS[model][i]], axisNames[regressor as Regressor]))}
-        ${identifiabilityNote(panel, viewModel)}
+        ${noteIdentifiability(panel, viewModel)}
       </figure>`)}
     </div>
     <figcaption>${formatMarkup(texts.caption)}</figcaption></figure>`;
 }
 
 /** Returns the plot of a panel. `kind` is the name of its noise component, and `axis` that of its regressor. */
-function panelPlotHtml({ alpha, x, y, error, slope, interval }: CalibrationPanel, kind: string, axis: string): PlotOptions {
+function panelPlotHtml({ alpha, x, y, error, slope, interval }: CalibrationPanel, panelTitle: string, axis: string): PlotOptions {
   const texts = words.calibrator.panels;
   const maxRegressor = Math.max(0, ...x);
   // A log without rotation or without translation has an empty axis.
@@ -237,25 +237,25 @@ function panelPlotHtml({ alpha, x, y, error, slope, interval }: CalibrationPanel
     { name: words.calibrator.alphas.interval, role: 'cloud', isBandOnly: true, x: [0, axisEnd], y: [0, scaleToAxis(slopeMiddle * axisEnd)], error: [0, scaleToAxis(((high - low) / 2) * axisEnd)] },
   ];
   return {
-    label: texts.label(kind, String(alpha + 1), slope === null ? NO_VALUE : localizeNumber(formatAlphaOrBound(slope, interval))),
+    label: texts.label(panelTitle, String(alpha + 1), slope === null ? NO_VALUE : localizeNumber(formatAlphaOrBound(slope, interval))),
     x: { name: axis, from: 0, to: axisEnd },
-    y: { name: `${kind}, ${texts.axis}${exponent < 0 ? ` (${formatPowerOfTen(exponent)})` : ''}`, from: scaleToAxis(axisBottom), to: scaleToAxis(axisTop) },
+    y: { name: `${panelTitle}, ${texts.axis}${exponent < 0 ? ` (${formatPowerOfTen(exponent)})` : ''}`, from: scaleToAxis(axisBottom), to: scaleToAxis(axisTop) },
     curves: [...slopeLines, { name: texts.bins, role: 'ink', x: [], y: [] }],
     points: x.map((value, i) => ({ role: 'ink' as const, x: value, y: scaleToAxis(y[i]), error: scaleToAxis(error[i]) })),
   };
 }
 
 /** Returns the kind of motion that identifies an α (index from 0), as the reason for an α that is not identifiable. */
-function missingMotion(model: string, index: number): 'insufficient-rotation' | 'insufficient-translation' {
+function missingMotionOf(model: string, index: number): 'insufficient-rotation' | 'insufficient-translation' {
   const needsRotation = model === 'velocity' ? index % 2 === 1 : index === 0 || index === 3;
   return needsRotation ? 'insufficient-rotation' : 'insufficient-translation';
 }
 
 /** Returns a note on an α that is not distinguishable from 0, with the drive that would identify it. */
-function identifiabilityNote({ alpha, slope, interval }: CalibrationPanel, { fitted: { model } }: ViewModel) {
+function noteIdentifiability({ alpha, slope, interval }: CalibrationPanel, { fitted: { model } }: ViewModel) {
   const { panels: texts, alphas: { lacking } } = words.calibrator;
   if (!printsAsZero(slope, interval)) return '';
-  return html`<p class="note">${formatMarkup(texts.zero(subscriptOf(alpha), adviceOf(lacking, model, missingMotion(model, alpha)).drive))}</p>`;
+  return html`<p class="note">${formatMarkup(texts.zero(subscriptOf(alpha), adviceOf(lacking, model, missingMotionOf(model, alpha)).drive))}</p>`;
 }
 
 /** Returns the lines for nav2_params.yaml; empty if Nav2 has no such model, or no α's are recommended. */
@@ -264,7 +264,7 @@ function yamlOf({ viewModel, logName, warnings }: Figure): string {
   const { model, rule, distance, angle, duration } = config;
   const date = new Date().toISOString().slice(0, 10);
   const fittedLog = { calibration: stats, count, model, rule, legs: duration > 0 ? { duration } : { distance, angle }, log: logName, warnings, date };
-  return nav2Lines(fittedLog, words.calibrator.nav2).map((line) => `${line}\n`).join('');
+  return formatNav2Lines(fittedLog, words.calibrator.nav2).map((line) => `${line}\n`).join('');
 }
 
 /** Returns all results as JSON, with typed arrays as plain arrays. */

@@ -55,10 +55,10 @@ export const isNav2Rule = (model: string, rule: string): boolean => model !== 'o
 export const formatNumber = (value: number | null, digits = VALUE_DIGITS) => (value !== null && Number.isFinite(value) ? withPointInMantissa(String(Number(value.toPrecision(digits)))) : NO_NUMBER);
 
 /** Adds a decimal point to a number with an exponent. YAML 1.1 parses a number without the point as a string. */
-const withPointInMantissa = (number: string) => number.replace(/^(-?\d)e/, '$1.0e');
+const withPointInMantissa = (numberText: string) => numberText.replace(/^(-?\d)e/, '$1.0e');
 
 /** Adds a decimal to a whole number, because Nav2 refuses integers for parameters of type double. */
-const withDecimalPoint = (number: string) => (number.includes('.') ? number : `${number}.0`);
+const withDecimalPoint = (numberText: string) => (numberText.includes('.') ? numberText : `${numberText}.0`);
 
 /** Prints a value with the decimals that are significant for its interval. A value that rounds to 0 has no sign. */
 export function formatEstimate(value: number | null, interval: Interval | undefined) {
@@ -77,8 +77,8 @@ export const formatInterval = (interval: Interval | undefined) => (interval?.eve
 export const printsAsZero = (alpha: number | null, interval: Interval | undefined) => alpha !== null && Number(formatEstimate(alpha, interval)) === 0;
 
 /** Converts a number as printed in files (-1.5e-7) to the signs of the language and a power of ten. */
-export const localizeNumber = (number: string) =>
-  number.replace(/^-/, MINUS).replace('.', formatFixed(0.5, 1)[1]).replace(/e(-?\d+)$/, (_, exponent) => `·${formatPowerOfTen(Number(exponent))}`);
+export const localizeNumber = (numberText: string) =>
+  numberText.replace(/^-/, MINUS).replace('.', formatFixed(0.5, 1)[1]).replace(/e(-?\d+)$/, (_, exponent) => `·${formatPowerOfTen(Number(exponent))}`);
 
 /** Prints an interval in the current language; a dash if an end is not finite. */
 export const localizeInterval = (interval: Interval | undefined) =>
@@ -88,16 +88,16 @@ export const formatPercent = (fraction: number | null) => (fraction !== null && 
 
 const formatUpperEnd = (interval: Interval | undefined) => formatNumber(interval?.[1] ?? null, WIDTH_DIGITS);
 
-const scaleInterval = (interval: Interval, factor: number): Interval => interval && [factor * interval[0], factor * interval[1]];
+const scaleInterval = (interval: Interval, inflation: number): Interval => interval && [inflation * interval[0], inflation * interval[1]];
 
 /** Prints an α times a factor, or its upper bound if it is not significantly different from 0. */
-export const formatAlphaOrBound = (alpha: number | null, interval: Interval, factor = 1) => (printsAsZero(alpha, interval) ? `≤ ${formatUpperEnd(scaleInterval(interval, factor))}` : formatEstimate(alpha && factor * alpha, scaleInterval(interval, factor)));
+export const formatAlphaOrBound = (alpha: number | null, interval: Interval, inflation = 1) => (printsAsZero(alpha, interval) ? `≤ ${formatUpperEnd(scaleInterval(interval, inflation))}` : formatEstimate(alpha && inflation * alpha, scaleInterval(interval, inflation)));
 
 /**
  * Returns the YAML lines with the recommended α's, and with the fitted α's in comments. Returns no lines if Nav2 has no such model, or if
  * no α's are recommended.
  */
-export function nav2Lines({ calibration, count, model, rule, legs, log, warnings, date }: FittedLog, texts: Texts['nav2']): string[] {
+export function formatNav2Lines({ calibration, count, model, rule, legs, log, warnings, date }: FittedLog, texts: Texts['nav2']): string[] {
   const { alphas, intervals, recommended, systematicErrors, diagnostics: { checks, windows: [window] } } = calibration;
   if (!Object.hasOwn(NAV2_PLUGINS, model) || recommended === null) return [];
   const { inflation } = recommended;
@@ -107,8 +107,8 @@ export function nav2Lines({ calibration, count, model, rule, legs, log, warnings
     texts.of(String(count), duration === undefined ? texts.moved(formatNumber(distance ?? null), formatNumber(angle ?? null)) : texts.lasted(formatNumber(duration)), log, date),
     texts.recommended(formatNumber(inflation), formatPercent(window.coverage), String(window.count)),
     ...(isNav2Rule(model, rule) ? [] : [texts.otherRule]),
-    ...correctedErrorsText(systematicErrors).map((errors) => texts.corrected(errors)),
-    ...correctionAdvice(calibration, texts),
+    ...listCorrectedErrors(systematicErrors).map((errors) => texts.corrected(errors)),
+    ...adviseCorrection(calibration, texts),
     ...(failedNames ? [texts.failed(failedNames)] : []),
     ...warnings.map((name) => texts[name]),
   ];
@@ -124,17 +124,17 @@ export function nav2Lines({ calibration, count, model, rule, legs, log, warnings
   });
   // A line break in a file's name would end the comment.
   const commentLines = notes.map((note) => `# ${note.replaceAll(/\s+/g, ' ')}`);
-  const fifthAlphaNote = alphas.length < 5 ? [`# ${texts.fifth}`] : [];
+  const fifthAlphaLines = alphas.length < 5 ? [`# ${texts.fifth}`] : [];
   // The α's belong to the legs of the log, which are longer than asked if its rows are sparse.
   const sparseCheck = failedChecksOf(checks).find(({ name }) => name === 'sampling-dense');
   const legRatio = sparseCheck?.value ?? 1;
   const updateTriggers = duration === undefined
     ? [
       ...(sparseCheck ? [`# ${texts.longerLegs(formatNumber(legRatio))}`] : []),
-      ...Object.entries({ update_min_d: distance, update_min_a: angle }).map(([name, value]) => `${name}: ${withDecimalPoint(formatNumber(value === undefined ? null : legRatio * value))}`),
+      ...Object.entries({ update_min_d: distance, update_min_a: angle }).map(([name, formatted]) => `${name}: ${withDecimalPoint(formatNumber(formatted === undefined ? null : legRatio * formatted))}`),
     ]
     : [];
-  const parameterLines = [...commentLines, `robot_model_type: "${NAV2_PLUGINS[model]}"`, ...alphaLines, ...fifthAlphaNote, ...updateTriggers];
+  const parameterLines = [...commentLines, `robot_model_type: "${NAV2_PLUGINS[model]}"`, ...alphaLines, ...fifthAlphaLines, ...updateTriggers];
   return ['amcl:', '  ros__parameters:', ...parameterLines.map((line) => `    ${line}`)];
 }
 
@@ -146,7 +146,7 @@ export const failedChecksOf = (checks: CalibrationCheck[]) => checks.filter(({ p
  *
  * @param formatLocally formats numbers
  */
-export function correctionAdvice({ recommended, systematicErrors }: CalibrationStats, texts: Texts['nav2'], formatLocally = (number: string) => number): string[] {
+export function adviseCorrection({ recommended, systematicErrors }: CalibrationStats, texts: Texts['nav2'], formatLocally = (number: string) => number): string[] {
   if (!recommended) return [];
   const [distance, turn] = (['distanceScale', 'turnScale'] as const).map((key) => {
     const { value, interval, corrected } = systematicErrors[key];
@@ -156,10 +156,10 @@ export function correctionAdvice({ recommended, systematicErrors }: CalibrationS
 }
 
 /** Lists the systematic errors that were corrected, in one text or none. */
-function correctedErrorsText(systematicErrors: CalibrationStats['systematicErrors']): string[] {
+function listCorrectedErrors(systematicErrors: CalibrationStats['systematicErrors']): string[] {
   const correctedErrors = Object.entries(systematicErrors).filter(([, error]) => error.corrected);
-  const errorList = correctedErrors.map(([name, error]) => `${name} ${componentsOf(error).map(({ value, interval }) => formatEstimate(value, interval)).join(', ')}`);
-  return errorList.length ? [errorList.join('; ')] : [];
+  const errorTexts = correctedErrors.map(([name, error]) => `${name} ${componentsOf(error).map(({ value, interval }) => formatEstimate(value, interval)).join(', ')}`);
+  return errorTexts.length ? [errorTexts.join('; ')] : [];
 }
 
 /** Returns the components of a systematic error (two for a lever arm) with their intervals. Both are null if the component is not identifiable. */
@@ -199,8 +199,8 @@ export function judgementOf({ stats, count, model, corrections, warnings }: Fit,
   const failedNames = failedChecks.map(({ name }, i) => (i < MAX_NAMED_CHECKS ? texts.checks.names[name] : '…')).slice(0, MAX_NAMED_CHECKS + 1);
   const uncorrectedErrors = SYSTEMATIC_ERRORS.filter((name) => corrections[name] === false && isSignificant(name, systematicErrors[name]));
   const doubts = [
-    ...missingAlphaTexts(stats, model, texts),
-    ...(uncorrectedErrors.length ? [texts.systematic.matters(systematicText(uncorrectedErrors, stats, texts), correctionPlace)] : []),
+    ...explainMissingAlphas(stats, model, texts),
+    ...(uncorrectedErrors.length ? [texts.systematic.matters(describeSystematicErrors(uncorrectedErrors, stats, texts), correctionPlace)] : []),
   ];
   const warningTexts = warnings.map((name) => texts.nav2[name]);
   const defects = count === 0 ? [texts.none]
@@ -210,10 +210,10 @@ export function judgementOf({ stats, count, model, corrections, warnings }: Fit,
   const [finding = texts.passed(String(checks.length)), ...otherFindings] = [...findings, ...doubts];
   const rating = verdict === 'consistent' && warnings.length + doubts.length > 0 ? 'questionable' : verdict;
   const isUsable = rating !== 'unusable' && warnings.length === 0 && failedChecks.every(({ name }) => name !== 'sideways-rare');
-  const usage = !isUsable ? [] : [rating === 'consistent' ? texts.use : texts.useAnyway, ...correctionAdvice(stats, texts.nav2, localizeNumber)];
+  const usageSentences = !isUsable ? [] : [rating === 'consistent' ? texts.use : texts.useAnyway, ...adviseCorrection(stats, texts.nav2, localizeNumber)];
   const clockOffset = systematicErrors.clockOffset.value ?? 0;
   const clockNote = Math.abs(clockOffset) > MENTIONED_CLOCK_OFFSET ? [texts.clock(formatInteger(Math.round(Math.abs(clockOffset))), clockOffset > 0)] : [];
-  const advice = [...otherFindings, ...(failedCheck ? [checkMessage(failedCheck, stats, texts)] : []), ...clockNote, ...usage];
+  const advice = [...otherFindings, ...(failedCheck ? [checkMessage(failedCheck, stats, texts)] : []), ...clockNote, ...usageSentences];
   return { rating, badge: texts.badges[rating], finding, advice };
 }
 
@@ -227,7 +227,7 @@ export function checkMessage({ name, value, expected: [low], passed, message }: 
 }
 
 /** Returns a sentence for each reason why α's are not identifiable, with the drive that would identify them. */
-function missingAlphaTexts({ notIdentifiable, diagnostics: { checks } }: CalibrationStats, model: string | undefined, { missing, alphas: { lacking } }: Texts) {
+function explainMissingAlphas({ notIdentifiable, diagnostics: { checks } }: CalibrationStats, model: string | undefined, { missing, alphas: { lacking } }: Texts) {
   // Driving differently does not help if the reference is of another drive, or has other units.
   if (failedChecksOf(checks).some(({ name }) => name === 'reference-matches')) return [];
   const reasons = [...new Set(notIdentifiable)].filter((reason) => reason !== null);
@@ -250,7 +250,7 @@ function isSignificant(name: string, error: Parameters<typeof componentsOf>[0]) 
 }
 
 /** Lists systematic errors with their values; empty if none is identifiable. */
-export function systematicText(names: readonly (typeof SYSTEMATIC_ERRORS)[number][], { systematicErrors }: CalibrationStats, { systematic }: Texts) {
+export function describeSystematicErrors(names: readonly (typeof SYSTEMATIC_ERRORS)[number][], { systematicErrors }: CalibrationStats, { systematic }: Texts) {
   return names.flatMap((name) => {
     const texts = componentsOf(systematicErrors[name]).flatMap(({ value, interval }) => (value === null ? [] : [`${localizeNumber(formatEstimate(value, interval))} (${localizeInterval(interval)})`]));
     return texts.length ? [`${systematic.names[name]} ${texts.join(', ')}`] : [];

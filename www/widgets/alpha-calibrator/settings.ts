@@ -43,9 +43,9 @@ export type ModelRule = keyof typeof import('./en.ts').en.kinds;
 
 export const modelRuleOf = ({ model, rule }: AlphaCalibratorSettings): ModelRule => (model === 'velocity' ? 'velocity' : rule);
 
-export function settingsOfModelRule(kind: ModelRule) {
-  if (kind === 'velocity') return { model: 'velocity', rule: 'thrun' };
-  return { model: kind === 'omni' ? 'omnidirectional' : 'odometry', rule: kind };
+export function settingsOfModelRule(modelRule: ModelRule) {
+  if (modelRule === 'velocity') return { model: 'velocity', rule: 'thrun' };
+  return { model: modelRule === 'omni' ? 'omnidirectional' : 'odometry', rule: modelRule };
 }
 
 /** Noise components by model, in the order of the residuals. */
@@ -135,7 +135,7 @@ export const observedCount = (residuals: Float64Array, leg: number) => residuals
 function worstLegsOf({ squared }: Pick<CalibrationLegs, 'squared'>) {
   const minListedSquare = squared.toSorted()[Math.max(0, squared.length - LISTED_LEGS)];
   const worstLegs = [...squared.keys()].filter((leg) => squared[leg] >= minListedSquare);
-  return worstLegs.sort((one, other) => squared[other] - squared[one]).slice(0, LISTED_LEGS);
+  return worstLegs.sort((legIndex, otherLegIndex) => squared[otherLegIndex] - squared[legIndex]).slice(0, LISTED_LEGS);
 }
 
 /**
@@ -144,7 +144,7 @@ function worstLegsOf({ squared }: Pick<CalibrationLegs, 'squared'>) {
  */
 function defaultLegOf({ squared, outliers, odometry }: CalibrationLegs, distance: number): number {
   const isFullLeg = (leg: number) => Math.hypot(odometry[6 * leg + 3] - odometry[6 * leg], odometry[6 * leg + 4] - odometry[6 * leg + 1]) >= distance;
-  const worstLeg = squared.reduce((worst, error, leg) => (outliers[leg] === 0 && isFullLeg(leg) && error > (squared[worst] ?? -1) ? leg : worst), -1);
+  const worstLeg = squared.reduce((worstSoFar, squaredDistance, leg) => (outliers[leg] === 0 && isFullLeg(leg) && squaredDistance > (squared[worstSoFar] ?? -1) ? leg : worstSoFar), -1);
   return worstLeg < 0 && squared.length > 0 ? 0 : worstLeg;
 }
 

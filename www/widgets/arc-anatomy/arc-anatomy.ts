@@ -12,7 +12,7 @@ import { sliderTrackHtml } from '../../ui/slider.ts';
 import { Player, presetButtonsHtml } from '../shared/controls.ts';
 import { PoseHandles } from '../shared/robot.ts';
 import { ArcPicture, ROBOT_RADIUS } from './picture.ts';
-import { formErrorsPlotHtml, factorBarsHtml, headlineHtml, likelihoodReadoutsHtml, tableLinesHtml, lineText, captionOf, pictureText } from './readouts.ts';
+import { formErrorsPlotHtml, factorBarsHtml, headlineHtml, likelihoodReadoutsHtml, tableLinesHtml, tableLineTextOf, captionOf, describePicture } from './readouts.ts';
 import { LINE_STYLES, UNDERWAY_AT_END, definition, CONTOUR_STYLES, ALPHA_SLIDERS, COMMAND_SLIDERS, TABLE_LINES, type ViewModel } from './settings.ts';
 import type { ArcAnatomy as Simulation, Motion } from '../../types.d.ts';
 
@@ -20,19 +20,19 @@ import type { ArcAnatomy as Simulation, Motion } from '../../types.d.ts';
 function likelihoodControlsHtml(figure: ArcAnatomyElement) {
   const { likelihood, maps, printed } = words.anatomy;
   const { map } = figure.settings.requested;
-  const contourEntry = (name: 'prob' | 'density') => html`<span>${swatchHtml(CONTOUR_STYLES[name])} ${maps[name]}</span>`;
+  const contourEntryHtml = (name: 'prob' | 'density') => html`<span>${swatchHtml(CONTOUR_STYLES[name])} ${maps[name]}</span>`;
   return fieldsetHtml(likelihood, html`${settingCheckboxHtml(figure, 'printed', formatMarkup(printed))} ${settingRadiosHtml(figure, 'map', maps)}
-    ${map === 'none' ? nothing : html`<p class="legend">${contourEntry('prob')} ${contourEntry('density')}</p>`}`);
+    ${map === 'none' ? nothing : html`<p class="legend">${contourEntryHtml('prob')} ${contourEntryHtml('density')}</p>`}`);
 }
 
-function lineStepperHtml(figure: ArcAnatomyElement) {
+function tableLineStepperHtml(figure: ArcAnatomyElement) {
   const texts = words.anatomy.table;
   const { line } = figure.settings.elementState;
-  const chooseLine = (newLine: number) => () => figure.gesture.setElementField('line', newLine);
+  const chooseTableLine = (newTableLine: number) => () => figure.gesture.setElementField('line', newTableLine);
   return html`<div class="stepper" role="group" aria-label=${texts.label}>
-    ${buttonHtml(html`<span aria-hidden="true">‹</span>`, chooseLine(line - 1), { disabled: line === 0, title: texts.back })}
-    ${buttonHtml(html`<span aria-hidden="true">›</span>`, chooseLine(line + 1), { disabled: line === TABLE_LINES, title: texts.on })}
-    <p role="status">${line === 0 ? texts.begin : formatMarkup(lineText(figure.viewModel, line))}</p>
+    ${buttonHtml(html`<span aria-hidden="true">‹</span>`, chooseTableLine(line - 1), { disabled: line === 0, title: texts.back })}
+    ${buttonHtml(html`<span aria-hidden="true">›</span>`, chooseTableLine(line + 1), { disabled: line === TABLE_LINES, title: texts.on })}
+    <p role="status">${line === 0 ? texts.begin : formatMarkup(tableLineTextOf(figure.viewModel, line))}</p>
   </div>`;
 }
 
@@ -188,7 +188,7 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
   get exportData() {
     const { config, stats: { factors } } = this.currentViewModel;
     return {
-      description: pictureText(this.viewModel),
+      description: describePicture(this.viewModel),
       settings: config,
       columns: {
         'estimate residual standard_deviation residual_over_deviation prob share_of_peak':
@@ -208,7 +208,7 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
     return html`
       <div class="views">
         ${titledPictureHtml(texts.floor, html`<div class="stage" part="picture">
-          ${pictureCanvasHtml(this, this.#picture, pictureText(viewModel))} ${this.#handles.map((handle) => handle.render())}
+          ${pictureCanvasHtml(this, this.#picture, describePicture(viewModel))} ${this.#handles.map((handle) => handle.render())}
         </div>`)}
         ${this.renderer.renderAfterFirstPicture(() => html`
         <div class="aside">${headlineHtml(viewModel)} ${factorBarsHtml(viewModel, this.settings.elementState.line)}</div>`)}
@@ -221,7 +221,7 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
       ${disclosuresHtml(this, {
         renderControls: () => html`<div class="controls">${likelihoodControlsHtml(this)}
           ${fieldsetHtml(words.noise, html`${settingRadiosHtml(this, 'noise', words.noises)} ${settingSlidersHtml(this, ALPHA_SLIDERS)}`, 'alphas')}</div>`,
-        renderNumbers: () => html`${lineStepperHtml(this)} ${tableLinesHtml(viewModel, this.settings.elementState.line)} ${likelihoodReadoutsHtml(viewModel)} ${formErrorsPlotHtml(this.motion)}`,
+        renderNumbers: () => html`${tableLineStepperHtml(this)} ${tableLinesHtml(viewModel, this.settings.elementState.line)} ${likelihoodReadoutsHtml(viewModel)} ${formErrorsPlotHtml(this.motion)}`,
         fileNameSuffix: 'figure',
         csvTitle: texts.csvTitle,
       })}`)}

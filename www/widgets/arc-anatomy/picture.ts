@@ -3,7 +3,7 @@
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { addLine, drawDisc, fillPath, paintWithOpacity, strokePath, strokeLine, type DrawContext, type LineStroke } from '../../scene/canvas.ts';
-import { addTurnArc, drawOutlines, drawRobot, lineLegendEntries, lineStyles, strokeLines, densityRamp } from '../../scene/draw.ts';
+import { addTurnArc, drawOutlines, drawRobot, createLineLegend, createLineStyles, strokeLines, createDensityRamp } from '../../scene/draw.ts';
 import { drawLabel } from '../../scene/labels.ts';
 import { Memo, CachedImage } from '../../scene/cache.ts';
 import { Picture } from '../../scene/picture.ts';
@@ -61,7 +61,7 @@ export class ArcPicture extends Picture<Scene> {
     for (const { center, radius } of [commanded, inverted]) if (center && Math.abs(radius) < maxRadius) points.push(...center);
     const extentWithMargin = widenExtent(extentAround(points, 2), MARGIN_METRES);
     // The view's own margin makes up for the scale that the wedge itself reduces.
-    const wedgeRadius = WEDGE_RADIUS / this.view.fittingScale(extentWithMargin);
+    const wedgeRadius = WEDGE_RADIUS / this.view.fittingScaleOf(extentWithMargin);
     const wedgeHeadings = overlays.includes('wedge') ? [next.theta, next.theta - lastTurn] : [];
     this.view.fit(extentAround(wedgeHeadings.flatMap((theta) => [next.x + wedgeRadius * Math.cos(theta), next.y + wedgeRadius * Math.sin(theta)]), 2, extentWithMargin));
   }
@@ -69,16 +69,16 @@ export class ArcPicture extends Picture<Scene> {
   paint: Picture<Scene>['paint'] = (drawContext, scene) => {
     const { config: { start, next, printed }, stats, paths, overlays } = scene;
     const { palette } = drawContext;
-    const showsLine = (name: LineName) => overlays.includes(name);
-    const styles = lineStyles(drawContext, LINE_STYLES);
+    const isOverlayShown = (name: LineName) => overlays.includes(name);
+    const styles = createLineStyles(drawContext, LINE_STYLES);
     drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, legendEntriesOf(drawContext, scene));
     clipToPlot(drawContext, () => {
       this.#drawHeatMap(drawContext, scene);
       const { commanded, inverted, driven, lastTurn } = stats;
-      if (showsLine('commanded')) {
+      if (isOverlayShown('commanded')) {
         drawArcConstruction(drawContext, start, commanded, { ...styles.commanded, side: -1, angle: `ωΔt = ${formatFixed(commanded.turn, 2)}`, radius: '' });
       }
-      if (showsLine('inverted')) {
+      if (isOverlayShown('inverted')) {
         drawArcConstruction(drawContext, start, inverted, {
           ...styles.inverted,
           side: 1,
@@ -87,27 +87,27 @@ export class ArcPicture extends Picture<Scene> {
           radius: `r* = ${inverted.radius > 0 && !printed ? '+' : ''}${formatFixed(printed ? Math.abs(inverted.radius) : inverted.radius, 2)} m`,
         });
       }
-      if (showsLine('chord')) strokeLines(drawContext, [{ points: Float64Array.of(start.x, start.y, next.x, next.y), ...styles.chord }]);
-      if (showsLine('wedge')) drawWedge(drawContext, next, lastTurn, styles.wedge.colour);
+      if (isOverlayShown('chord')) strokeLines(drawContext, [{ points: Float64Array.of(start.x, start.y, next.x, next.y), ...styles.chord }]);
+      if (isOverlayShown('wedge')) drawWedge(drawContext, next, lastTurn, styles.wedge.colour);
       // Displacements by the lateral velocity of the constant twist, as short lines across its path.
-      if (showsLine('twist')) strokePath(drawContext.context, { colour: styles.twist.colour, width: 1.25 }, () => {
+      if (isOverlayShown('twist')) strokePath(drawContext.context, { colour: styles.twist.colour, width: 1.25 }, () => {
         for (let i = 0; i < paths.ticks.length; i += 4) addLine(drawContext.context, drawContext.view.toPixels(paths.ticks.subarray(i, i + 4)));
       });
       const drivenPaths = { commanded: paths.commanded, twist: paths.lie, inverted: paths.driven };
-      drawOutlines(drawContext, (['commanded', 'twist', 'inverted'] as const).filter(showsLine).map((name) => ({ points: drivenPaths[name], ...styles[name] })));
-      if (showsLine('inverted') && driven.arcLength !== inverted.arcLength) {
+      drawOutlines(drawContext, (['commanded', 'twist', 'inverted'] as const).filter(isOverlayShown).map((name) => ({ points: drivenPaths[name], ...styles[name] })));
+      if (isOverlayShown('inverted') && driven.arcLength !== inverted.arcLength) {
         drawOutlines(drawContext, [{ points: paths.inverted, colour: styles.inverted.colour, width: 1, dash: [2, 3] }]);
       }
       drawTableLineConstruction(drawContext, scene);
-      if (showsLine('commanded')) {
+      if (isOverlayShown('commanded')) {
         const [endX, endY, endTheta] = commanded.end;
         drawRobotOutline(drawContext, endX, endY, ROBOT_RADIUS, styles.commanded.colour);
-        strokeLine(drawContext.context, drawContext.view.headingLine({ x: endX, y: endY, theta: endTheta }, HEADING_LENGTH), { colour: styles.commanded.colour, width: 1.5 });
+        strokeLine(drawContext.context, drawContext.view.headingLineFrom({ x: endX, y: endY, theta: endTheta }, HEADING_LENGTH), { colour: styles.commanded.colour, width: 1.5 });
       }
       drawMovingRobots(drawContext, scene);
       drawDraggableRobot(drawContext, start, ROBOT_RADIUS, palette.truth);
       drawDraggableRobot(drawContext, next, ROBOT_RADIUS, palette.prediction);
-      if (showsLine('wedge')) drawWedgeLabel(drawContext, next, lastTurn, styles.wedge.colour);
+      if (isOverlayShown('wedge')) drawWedgeLabel(drawContext, next, lastTurn, styles.wedge.colour);
     });
   };
 
@@ -119,14 +119,14 @@ export class ArcPicture extends Picture<Scene> {
     const surface = this.#surfaceMemo.get([config, xMin, yMin, xMax, yMax], () => simulation.surface(xMin, yMin, xMax, yMax));
     if (!surface) return;
     this.#heatMapImage.draw(drawContext, [surface, palette], () => {
-      const rampColours = new Uint32Array(densityRamp(palette).buffer);
+      const rampColours = new Uint32Array(createDensityRamp(palette).buffer);
       // The lowest shade is transparent.
       rampColours[0] = 0;
       return { pixels: new Uint8ClampedArray(Uint32Array.from(surface.shades, (shade) => rampColours[shade]).buffer), columns: surface.columns };
     });
     for (const name of ['prob', 'density'] as const) {
       const { role, ...style } = CONTOUR_STYLES[name];
-      paintWithOpacity(context, 0.7, () => strokePath(context, { ...style, colour: palette[role] }, () => surface[name].forEach((line) => addLine(context, view.toPixels(line)))));
+      paintWithOpacity(context, 0.7, () => strokePath(context, { ...style, colour: palette[role] }, () => surface[name].forEach((tableLine) => addLine(context, view.toPixels(tableLine)))));
     }
   }
 }
@@ -135,8 +135,8 @@ export class ArcPicture extends Picture<Scene> {
 function legendEntriesOf(drawContext: DrawContext, { overlays, config: { map } }: Scene) {
   const drawnNames = (['inverted', 'commanded', 'chord', 'twist'] as LineName[]).filter((name) => overlays.includes(name));
   return [
-    ...lineLegendEntries(drawContext, LINE_STYLES, drawnNames, words.anatomy.overlays),
-    ...lineLegendEntries(drawContext, CONTOUR_STYLES, map === 'none' ? [] : ['prob', 'density'], words.anatomy.maps),
+    ...createLineLegend(drawContext, LINE_STYLES, drawnNames, words.anatomy.overlays),
+    ...createLineLegend(drawContext, CONTOUR_STYLES, map === 'none' ? [] : ['prob', 'density'], words.anatomy.maps),
   ];
 }
 
@@ -149,7 +149,7 @@ function drawArcConstruction(drawContext: DrawContext, start: Pose, { center, en
   const { context, view } = drawContext;
   const [x, y] = view.toPixel(center[0], center[1]);
   const [fromX, fromY] = view.toPixel(start.x, start.y);
-  const ahead = view.pixelDirection(start.theta);
+  const ahead = view.pixelDirectionOf(start.theta);
   const [offX, offY] = [1.5 * side * ahead.x, 1.5 * side * ahead.y];
   const visibleFractionOfRadius = visibleFractionOf(view.plotArea, [fromX, fromY], [x, y]);
   strokePath(context, { colour, width: 1.25, dash }, () => {
@@ -175,9 +175,9 @@ function drawArcConstruction(drawContext: DrawContext, start: Pose, { center, en
 
 /** Returns the visible fraction of the line from a visible point to another point. */
 function visibleFractionOf({ left, right, top, bottom }: import('../../scene/view.ts').View['plotArea'], [fromX, fromY]: [x: number, y: number], [x, y]: [x: number, y: number]) {
-  const fractionAlong = (start: number, end: number, min: number, max: number) =>
+  const fractionAlongRange = (start: number, end: number, min: number, max: number) =>
     end >= min && end <= max ? 1 : (clamp(end, min, max) - start) / (end - start);
-  return Math.min(fractionAlong(fromX, x, left, right), fractionAlong(fromY, y, top, bottom));
+  return Math.min(fractionAlongRange(fromX, x, left, right), fractionAlongRange(fromY, y, top, bottom));
 }
 
 /** Draws a wedge for the last turn (rad), by which the final heading differs from the heading at the end of the arc. */
@@ -188,13 +188,13 @@ function drawWedge({ context, view }: DrawContext, next: Pose, turn: number, col
     addTurnArc(context, [x, y], WEDGE_RADIUS, next.theta - turn, turn);
   }));
   // Edge of the wedge along the heading at the end of the arc.
-  strokeLine(context, view.headingLine({ ...next, theta: next.theta - turn }, WEDGE_RADIUS), { colour, width: 1.25 });
+  strokeLine(context, view.headingLineFrom({ ...next, theta: next.theta - turn }, WEDGE_RADIUS), { colour, width: 1.25 });
 }
 
 /** Draws the label of the wedge where it does not cover the wedge. */
 function drawWedgeLabel(drawContext: DrawContext, next: Pose, turn: number, colour: string) {
   const [x, y] = drawContext.view.toPixel(next.x, next.y);
-  const ahead = drawContext.view.pixelDirection(next.theta - turn / 2);
+  const ahead = drawContext.view.pixelDirectionOf(next.theta - turn / 2);
   drawLabel(drawContext, { x: x + (WEDGE_RADIUS + 8) * ahead.x, y: y + (WEDGE_RADIUS + 20) * ahead.y, freeSide: ahead.x, text: `γ̂Δt = ${formatFixed(turn, 2)}`, colour });
 }
 
@@ -209,8 +209,8 @@ function drawMovingRobots(drawContext: DrawContext, { underway, overlays }: Scen
 }
 
 /** Draws the construction of the highlighted line of Table 5.1. */
-function drawTableLineConstruction(drawContext: DrawContext, { config: { start, next }, stats: { inverted, lastTurn }, table: { middle }, paths, line: number }: Scene) {
-  const highlightedConstructions = CONSTRUCTIONS_BY_LINE[number] ?? [];
+function drawTableLineConstruction(drawContext: DrawContext, { config: { start, next }, stats: { inverted, lastTurn }, table: { middle }, paths, line: lineNumber }: Scene) {
+  const highlightedConstructions = CONSTRUCTIONS_BY_LINE[lineNumber] ?? [];
   const { context, view, palette: { accent } } = drawContext;
   const toPixel = ([x, y]: number[]) => view.toPixel(x, y);
   const drawAccentLine = (width: number, ...points: number[][]) => strokeLine(context, points, { colour: accent, width });

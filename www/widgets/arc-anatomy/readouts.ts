@@ -39,13 +39,13 @@ export function captionOf({ config, stats: { factors, weakest, share, driven, in
   return texts.off(estimateName, formatFixed(Math.abs(deviations), 1), formatShare(keptShare), formatShare(share));
 }
 
-const poseText = ({ x, y, theta }: Pose) => words.anatomy.pose(formatFixed(x, 2), formatFixed(y, 2), formatFixed(theta, 2));
+const formatPose = ({ x, y, theta }: Pose) => words.anatomy.pose(formatFixed(x, 2), formatFixed(y, 2), formatFixed(theta, 2));
 
-export function pictureText(viewModel: ViewModel) {
+export function describePicture(viewModel: ViewModel) {
   const { config, stats: { inverted } } = viewModel;
   const texts = words.anatomy.picture;
   return [
-    texts.poses(poseText(config.start), formatCommand(config.command), poseText(config.next)),
+    texts.poses(formatPose(config.start), formatCommand(config.command), formatPose(config.next)),
     inverted.center === null ? texts.straight : texts.arc(formatFixed(inverted.radius, 2), inverted.radius > 0),
     captionOf(viewModel),
   ].join(' ');
@@ -59,7 +59,7 @@ const BAR_MIDDLE = BAR_SCALE.max * BAR_SCALE.pixels + 4;
  * Symbols, errors and units of the factors. A bar to the right means more than commanded. The table has the residuals of v and ω with the
  * opposite sign.
  */
-const FACTOR_NOTATION = [
+const FACTOR_NOTATIONS = [
   { symbol: '*v̂*', error: '(*v̂* − *v*)', sign: -1, unit: 'm/s' },
   { symbol: '*ω̂*', error: '(*ω̂* − *ω*)', sign: -1, unit: 'rad/s' },
   { symbol: '*γ̂*', error: '*γ̂*', sign: 1, unit: 'rad/s' },
@@ -74,11 +74,11 @@ export function headlineHtml({ stats: { share } }: ViewModel) {
  * Returns the three errors in standard deviations, each with its factor as a share of the peak. The last line of Table 5.1 highlights
  * them.
  */
-export function factorBarsHtml({ stats: { factors, weakest, share } }: ViewModel, line: number) {
+export function factorBarsHtml({ stats: { factors, weakest, share } }: ViewModel, tableLine: number) {
   const texts = words.anatomy.bars;
-  return html`<ul part="readouts" class="factors ${line === TABLE_LINES ? 'lit' : ''}" aria-label=${texts.label}>
+  return html`<ul part="readouts" class="factors ${tableLine === TABLE_LINES ? 'lit' : ''}" aria-label=${texts.label}>
     ${factors.map((factor, i) => {
-      const { symbol, error, sign, unit } = FACTOR_NOTATION[i];
+      const { symbol, error, sign, unit } = FACTOR_NOTATIONS[i];
       const deviations = sign * factor.deviations;
       return html`<li class=${i === weakest && share < 1 ? 'weakest' : nothing}>
         <span class="estimate">${formatMarkup(symbol)} ${texts.names[i]} = ${formatFixed(factor.estimate, 2)} ${unit}</span>
@@ -91,14 +91,14 @@ export function factorBarsHtml({ stats: { factors, weakest, share } }: ViewModel
 }
 
 function barHtml(deviations: number) {
-  const barX = (value: number) => BAR_MIDDLE + BAR_SCALE.pixels * clamp(value, -BAR_SCALE.max, BAR_SCALE.max);
+  const barXOf = (value: number) => BAR_MIDDLE + BAR_SCALE.pixels * clamp(value, -BAR_SCALE.max, BAR_SCALE.max);
   const isBeyondScale = Math.abs(deviations) > BAR_SCALE.max;
-  const barEnd = barX(deviations);
+  const barEnd = barXOf(deviations);
   const barSide = Math.sign(deviations);
   const barTicks = Array.from({ length: 2 * BAR_SCALE.max + 1 }, (_, i) => i - BAR_SCALE.max);
   return html`<svg viewBox="0 0 ${2 * BAR_MIDDLE} 20" preserveAspectRatio="none" aria-hidden="true">
-    ${barTicks.map((tick) => svg`<line stroke="var(--muted)" vector-effect="non-scaling-stroke" x1=${barX(tick)} x2=${barX(tick)} y1=${tick === 0 ? 0 : 14} y2="20" />`)}
-    <rect fill="var(--prediction)" x=${Math.min(barX(0), barEnd)} width=${Math.abs(barEnd - barX(0))} y="3" height="11" />
+    ${barTicks.map((tick) => svg`<line stroke="var(--muted)" vector-effect="non-scaling-stroke" x1=${barXOf(tick)} x2=${barXOf(tick)} y1=${tick === 0 ? 0 : 14} y2="20" />`)}
+    <rect fill="var(--prediction)" x=${Math.min(barXOf(0), barEnd)} width=${Math.abs(barEnd - barXOf(0))} y="3" height="11" />
     ${isBeyondScale ? svg`<path fill="none" stroke="var(--prediction)" stroke-width="3" d="M${barEnd - 6 * barSide},1l${6 * barSide},7.5l${-6 * barSide},7.5" />` : nothing}
   </svg>`;
 }
@@ -129,17 +129,17 @@ const TABLE_FORMULAS = [
 const LINE_UNITS = ['', ' m', ' m', ' m', ' rad', ' m/s', ' rad/s', ' rad/s', ''];
 
 /** Returns a line of the table, counted from 1, with its value. */
-export function lineText({ table: { lines }, config: { printed } }: ViewModel, line: number) {
-  const lineValue = lines[line - 1];
-  const lineFormula = printed ? TABLE_FORMULAS[line - 1].replace('±', '') : TABLE_FORMULAS[line - 1];
-  const valueText = line === TABLE_LINES ? formatDensity(lineValue) : formatFixed(lineValue, 3);
-  return `${line}. ${lineFormula} = ${valueText}${LINE_UNITS[line - 1]}`;
+export function tableLineTextOf({ table: { lines }, config: { printed } }: ViewModel, tableLine: number) {
+  const tableLineValue = lines[tableLine - 1];
+  const tableLineFormula = printed ? TABLE_FORMULAS[tableLine - 1].replace('±', '') : TABLE_FORMULAS[tableLine - 1];
+  const valueText = tableLine === TABLE_LINES ? formatDensity(tableLineValue) : formatFixed(tableLineValue, 3);
+  return `${tableLine}. ${tableLineFormula} = ${valueText}${LINE_UNITS[tableLine - 1]}`;
 }
 
-export function tableLinesHtml(viewModel: ViewModel, highlightedLine: number) {
+export function tableLinesHtml(viewModel: ViewModel, highlightedTableLine: number) {
   const texts = words.anatomy.table;
   return html`<ol class="lines" part="table">
-      ${TABLE_FORMULAS.map((_, i) => html`<li class=${i + 1 === highlightedLine ? 'lit' : nothing}>${formatMarkup(lineText(viewModel, i + 1))}</li>`)}
+      ${TABLE_FORMULAS.map((_, i) => html`<li class=${i + 1 === highlightedTableLine ? 'lit' : nothing}>${formatMarkup(tableLineTextOf(viewModel, i + 1))}</li>`)}
     </ol>
     <p class="muted">${formatMarkup(texts.sign)}</p>`;
 }
@@ -147,7 +147,7 @@ export function tableLinesHtml(viewModel: ViewModel, highlightedLine: number) {
 /** Range (m) of the error axis, from below the rounding error of the distance to above the whole distance. */
 const ERROR_RANGE = { from: 1e-18, to: 1 };
 
-/** Cached errors of the three forms of the arc, which depend on no setting. */
+/** Cached errors of three formulas for the end of a motion: arc, straight line and chord. They depend on no setting. */
 let cachedFormErrors: FormErrors | undefined;
 
 export function formErrorsPlotHtml({ ArcAnatomy }: Motion) {

@@ -1,7 +1,7 @@
 /** Arc Anatomy's settings: their attributes, their part of the state, and their sliders; line styles, and the view model. */
 
 import { createDefinition } from '../../figure/definition.ts';
-import { COMMAND_DASH, alphaSliderSpecs, commandSliderSpecs } from '../shared/sliders.ts';
+import { COMMAND_DASH, createAlphaSliderSpecs, createCommandSliderSpecs } from '../shared/sliders.ts';
 import type { ArcAnatomy } from '../../types.d.ts';
 
 /** Values of the simulation that the picture and the readouts need. */
@@ -37,9 +37,9 @@ export const documentation = {
   },
 };
 
-export const COMMAND_SLIDERS = commandSliderSpecs(4);
+export const COMMAND_SLIDERS = createCommandSliderSpecs(4);
 
-export const ALPHA_SLIDERS = alphaSliderSpecs(6);
+export const ALPHA_SLIDERS = createAlphaSliderSpecs(6);
 
 export const definition = createDefinition('arc-anatomy', {
   messageKey: 'anatomy',

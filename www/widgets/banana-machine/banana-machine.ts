@@ -17,9 +17,9 @@ import { cloudProperties, samplesSliderHtml } from '../shared/cloud.ts';
 import { Player, presetButtonsHtml } from '../shared/controls.ts';
 import { subscriptOf } from '../shared/sliders.ts';
 import { IntroducedCloud } from './introduction.ts';
-import { MORPH_MS, morphControlHtml, outlinesAt, morphedPoint } from './morph.ts';
+import { MORPH_MS, morphControlHtml, outlinesAt, morphPoint } from './morph.ts';
 import { PlanePicture, TwistPicture } from './pictures.ts';
-import { markedRobotFieldHtml, otherReadoutsHtml, mainReadoutsHtml, twistTableHtml, workedExampleTableHtml, calloutsOf, captionOf, floorTitle, planeText, twistCaption, twistText } from './readouts.ts';
+import { markedRobotFieldHtml, otherReadoutsHtml, mainReadoutsHtml, twistTableHtml, workedExampleTableHtml, calloutsOf, captionOf, floorTitleOf, describePlane, twistCaptionOf, describeTwists } from './readouts.ts';
 import { sliderSpecs, LINE_STYLES, OVERLAY_NAMES, definition, COMMAND_SLIDERS, SAMPLE_COUNTS, viewModelOf, viewModelOfSettings, type ViewModel } from './settings.ts';
 import type { StateValues } from '../../figure/settings.ts';
 import type { BananaMachine as Simulation, BananaMachineSettings as Settings, Inspection, Motion } from '../../types.d.ts';
@@ -183,7 +183,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
   pictures = [this.#planePicture, this.#twistPicture];
   /** Handle at the end of the commanded arc, drawn as a ring. */
   #arcEndHandle = new Handle('end', {
-    view: () => this.#planePicture.view,
+    getView: () => this.#planePicture.view,
     drag: (x, y) => this.#moveArcEnd(x, y),
     handleKey: (event) => {
       const keySteps = stepsOfKey(event);
@@ -281,13 +281,13 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
   /** Position at which the end of the commanded arc is drawn, in the view's world. */
   get visibleArcEnd() {
     const { v, omega, dt } = this.currentViewModel.config.command;
-    return morphedPoint([v * dt, 0, omega * dt], this.settings.elementState.morph);
+    return morphPoint([v * dt, 0, omega * dt], this.settings.elementState.morph);
   }
 
   placeHandles() {
     const { view } = this.#planePicture;
     const [x, y] = this.visibleArcEnd;
-    this.#arcEndHandle.place(this.renderRoot, view.toPixelX(x), view.toPixelY(y));
+    this.#arcEndHandle.placeInView(this.renderRoot, view.toPixelX(x), view.toPixelY(y));
   }
 
   /**
@@ -346,13 +346,13 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
 
   get #planeTitle() {
     const { morph } = this.settings.elementState;
-    return morph === 0 ? floorTitle(this.viewModel) : morph === 1 ? words.banana.morph.arrived : words.banana.morph.title;
+    return morph === 0 ? floorTitleOf(this.viewModel) : morph === 1 ? words.banana.morph.arrived : words.banana.morph.title;
   }
 
   get #planeDescription() {
     const { overlays } = this.settings.elementState as { overlays: (typeof OVERLAY_NAMES)[number][] };
     const drawnOutlineNames = overlays.filter((name) => hasLength(this.viewModel.contours[name]));
-    return planeText(this.viewModel, drawnOutlineNames.map((name) => words.banana.overlays[name]), this.settings.elementState.morph);
+    return describePlane(this.viewModel, drawnOutlineNames.map((name) => words.banana.overlays[name]), this.settings.elementState.morph);
   }
 
   renderContent(viewModel: ViewModel) {
@@ -363,7 +363,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
         ${titledPictureHtml(this.#planeTitle, html`<div class="stage" part="picture">
           ${pictureCanvasHtml(this, this.#planePicture, this.#planeDescription)} ${this.#handleHtml(config.command)}
         </div>`)}
-        ${titledPictureHtml(texts.twist, html`<div class="stage">${pictureCanvasHtml(this, this.#twistPicture, twistText(viewModel))}</div>`, 'twist')}
+        ${titledPictureHtml(texts.twist, html`<div class="stage">${pictureCanvasHtml(this, this.#twistPicture, describeTwists(viewModel))}</div>`, 'twist')}
       </div>
       ${this.renderer.renderAfterFirstPicture(() => html`
       <div class="morphing">
@@ -389,7 +389,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
       <div class="figures" part="figures">
         <figure>${this.#skewChartHtml(viewModel)}<figcaption>${formatMarkup(texts.chartCaption)}</figcaption></figure>
         <figure>${workedExampleTableHtml(viewModel)}</figure>
-        <figure>${twistTableHtml(viewModel)}<p>${twistCaption(viewModel)}</p></figure>
+        <figure>${twistTableHtml(viewModel)}<p>${twistCaptionOf(viewModel)}</p></figure>
       </div>`;
   }
 
@@ -399,7 +399,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     const { min, max, step } = sliderSpecs.omega;
     // The curve is cached by the settings on which it depends.
     const skews = this.#skewCurveMemo.get([JSON.stringify([model, noise, v, dt, alphas, isolate])], () => (this.simulation as Simulation).skewCurve(min, max, CURVE_POINTS));
-    const maxSkew = skews.reduce((largest, value) => Math.max(largest, Math.abs(value) || 0), 0);
+    const maxSkew = skews.reduce((largest, skew) => Math.max(largest, Math.abs(skew) || 0), 0);
     const chartHeight = CHART_HEIGHTS.find((height) => height >= maxSkew) ?? maxSkew;
     const omegaRange = [min, max];
     return plotHtml({

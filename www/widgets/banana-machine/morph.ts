@@ -23,7 +23,7 @@ const MORPH_STEP = 0.01;
  * Returns the point in a morphed picture for a twist (m, m, rad), like `geom::unbend` of the core. The morph runs from 0, the floor, to 1,
  * exponential coordinates.
  */
-export function morphedPoint({ 0: along, 1: lateral, 2: heading }: ArrayLike<number>, morph: number): [number, number] {
+export function morphPoint({ 0: along, 1: lateral, 2: heading }: ArrayLike<number>, morph: number): [number, number] {
   const halfHeading = ((1 - morph) * heading) / 2;
   const sinc = halfHeading === 0 ? 1 : Math.sin(halfHeading) / halfHeading;
   const [ahead, sideways] = [sinc * along, sinc * (1 - morph) * lateral];
@@ -35,15 +35,15 @@ export function morphedPoint({ 0: along, 1: lateral, 2: heading }: ArrayLike<num
 export function outlinesAt(motion: Motion, viewModel: ViewModel, morph: number): Outlines {
   const { config: { command: { v, omega, dt } }, contours, stats } = viewModel;
   if (morph === 0) return contours;
-  const morphLine = (line: Float64Array) => motion.unbendLine(line, omega * dt, morph);
+  const morphOutline = (outline: Float64Array) => motion.unbendLine(outline, omega * dt, morph);
   const chordCount = contours.command.length / 2 - 1;
-  const pointAtChord = (i: number) => morphedPoint([(i / chordCount) * v * dt, 0, (i / chordCount) * omega * dt], morph);
+  const pointAtChord = (i: number) => morphPoint([(i / chordCount) * v * dt, 0, (i / chordCount) * omega * dt], morph);
   const { mean, cov } = stats.exponential;
   return {
     command: Float64Array.from(Array.from({ length: chordCount + 1 }, (_, i) => pointAtChord(i)).flat()),
-    ellipse: morphLine(contours.ellipse),
-    linearized: morphLine(contours.linearized),
-    additive: morphLine(contours.additive),
+    ellipse: morphOutline(contours.ellipse),
+    linearized: morphOutline(contours.linearized),
+    additive: morphOutline(contours.additive),
     exponential: contours.exponential.length > 0 ? motion.unbendGaussian(Float64Array.from([...mean, ...cov.flat()]), morph) : contours.exponential,
   };
 }
@@ -116,7 +116,7 @@ const CHORDS_PER_LINE = 32;
 export function drawMorphGrid({ context, view, palette }: DrawContext, { extent: { xMin, xMax, yMin, yMax } }: View, morph: number) {
   const drawGridLine = (pointAt: (fraction: number) => [along: number, heading: number]) => addLine(context, Array.from({ length: CHORDS_PER_LINE + 1 }, (_, i) => {
     const [along, heading] = pointAt(i / CHORDS_PER_LINE);
-    return view.toPixel(...morphedPoint([along, 0, heading], morph));
+    return view.toPixel(...morphPoint([along, 0, heading], morph));
   }));
   // The grid becomes visible early in the morph, and ends as the straight grid of the axes.
   paintWithOpacity(context, 0.7 * Math.min(1, 5 * morph), () => strokePath(context, { colour: palette.rule, width: 1 }, () => {

@@ -4,12 +4,12 @@ import { quantile } from 'd3-array';
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { drawCallouts, drawLabel } from '../../scene/labels.ts';
-import { addTurnArc, densityRamp, drawDots, drawEarlierOutlines, drawHandle, drawCrosshair, drawOutline, drawOutlines, drawRobot, hasLength, lineLegendEntries, lineStyles } from '../../scene/draw.ts';
+import { addTurnArc, createDensityRamp, drawDots, drawEarlierOutlines, drawHandle, drawCrosshair, drawOutline, drawOutlines, drawRobot, hasLength, createLineLegend, createLineStyles } from '../../scene/draw.ts';
 import { Memo, CachedImage } from '../../scene/cache.ts';
 import { Picture } from '../../scene/picture.ts';
 import { cornersAround, extentOf } from '../../scene/view.ts';
 import { formatInteger } from '../../ui/format.ts';
-import { drawMorphGrid, MorphView, morphedPoint, type Outlines } from './morph.ts';
+import { drawMorphGrid, MorphView, morphPoint, type Outlines } from './morph.ts';
 import { stdOfVariance, type ViewModel, LINE_STYLES, type LineName } from './settings.ts';
 import type { BananaMachine, Moments } from '../../types.d.ts';
 import { addLine, drawDisc, paintWithOpacity, strokeLine, strokePath, type DrawContext } from '../../scene/canvas.ts';
@@ -61,7 +61,7 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
   /** Returns the positions of the robots that are drawn as dots, with their headings scaled down by the morph. */
   #dotPositionsOf({ simulation, stats }: Scene): Float64Array {
     const { morph } = this.view;
-    return this.#dotPositions.get([stats, morph], () => (morph === 0 ? simulation.firstPoses(MAX_DOTS) : morphedPoses(simulation.firstTwists(MAX_DOTS), morph)));
+    return this.#dotPositions.get([stats, morph], () => (morph === 0 ? simulation.firstPoses(MAX_DOTS) : morphPoses(simulation.firstTwists(MAX_DOTS), morph)));
   }
 
   paint: Picture<Scene>['paint'] = (drawContext, scene) => {
@@ -70,9 +70,9 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
     const { morph, endViews: [floorView, twistView] } = this.view;
     const isPlane = this.name === 'plane';
     const outlines = this.outlinesOf(scene, scene);
-    const outlineStyles = lineStyles(drawContext, LINE_STYLES);
+    const outlineStyles = createLineStyles(drawContext, LINE_STYLES);
     const isDrawn = (name: LineName) => this.outlineNames.includes(name) && overlays[name] && hasLength(outlines[name]);
-    const legendEntries = lineLegendEntries(drawContext, LINE_STYLES, LEGEND_ORDER.filter(isDrawn), words.banana.overlays);
+    const legendEntries = createLineLegend(drawContext, LINE_STYLES, LEGEND_ORDER.filter(isDrawn), words.banana.overlays);
     // One pair of axes fades out before the other fades in.
     const axesOfEndViews = [
       { view: floorView, opacity: 1 - 2 * morph, names: { x: 'x (m)', y: 'y (m)' } },
@@ -83,7 +83,7 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
       const gridOpacity = axesView === twistView && morph < 1 ? 0 : undefined;
       if (opacity > 0) paintWithOpacity(context, Math.min(1, opacity), () => drawAxes({ ...drawContext, view: axesView }, names, legendEntries, gridOpacity));
     }
-    const cloudMiddle = morphedPoint(twistMoments(scene)[0].mean, morph);
+    const cloudMiddle = morphPoint(twistMomentsOf(scene)[0].mean, morph);
     const outlinesInStyle = (outlinePoints: Outlines) => this.outlineNames.filter(isDrawn).map((name) => ({ points: outlinePoints[name], ...outlineStyles[name] }));
     // Outlines of the pinned settings, or those before the current gesture, stay in the picture for comparison.
     const earlierViewModel: ViewModel | undefined = pinned ?? drawContext.previousViewModel;
@@ -110,7 +110,7 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
       }
       if (marked) {
         if (morph === 0) drawOutline(drawContext, marked.path, { colour: palette.accent, width: 1.25, dash: [6, 2] });
-        const [x, y] = morphedPoint(marked.twist, morph);
+        const [x, y] = morphPoint(marked.twist, morph);
         drawCrosshair(drawContext, { x, y, heading: morph < 1 ? (1 - morph) * marked.pose[2] : null });
       }
     });
@@ -134,20 +134,20 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
     }
     // Products of the standard deviations along the axes of the cloud, at both ends of the morph.
     const floorProduct = Math.sqrt(Math.max(0, cov[0][0] * cov[1][1] - cov[0][1] * cov[1][0]));
-    const [{ cov: twistCov }] = twistMoments(scene);
+    const [{ cov: twistCov }] = twistMomentsOf(scene);
     const twistProduct = stdOfVariance(twistCov[0][0]) * stdOfVariance(twistCov[2][2]);
     const area = 4 * Math.PI * ((1 - morph) * floorProduct + morph * twistProduct) * scaleX * scaleY;
     // A cloud of many robots allows small cells. Sizes are in CSS pixels.
     const cellSize = Math.min(7, Math.max(2, Math.round(Math.sqrt((3 * area) / shown))));
-    this.#density.drawDensity(drawContext, cellSize, [stats, morph, drawContext.palette], (...viewPart) => simulation.picture(morph, ...viewPart, densityRamp(drawContext.palette)));
+    this.#density.drawDensity(drawContext, cellSize, [stats, morph, drawContext.palette], (...viewPart) => simulation.picture(morph, ...viewPart, createDensityRamp(drawContext.palette)));
   }
 }
 
 /** Returns x, y and heading of each robot at a morph. The heading shrinks to 0 towards exponential coordinates. */
-function morphedPoses(twists: Float64Array, morph: number) {
+function morphPoses(twists: Float64Array, morph: number) {
   const poses = new Float64Array(twists.length);
   for (let i = 0; i < twists.length; i += 3) {
-    poses.set([...morphedPoint(twists.subarray(i, i + 3), morph), (1 - morph) * twists[i + 2]], i);
+    poses.set([...morphPoint(twists.subarray(i, i + 3), morph), (1 - morph) * twists[i + 2]], i);
   }
   return poses;
 }
@@ -173,7 +173,7 @@ export class PlanePicture extends MorphPicture {
     const fanMargin = 0.2 * (floorExtent.xMax - floorExtent.xMin);
     this.view.fitEnd(extentOf([...points, ...cornersAround(x, y, fanMargin)], 0.4), 0);
     if (scene.morph === 0) return;
-    this.view.fitEnd(extentOf([...neededTwistPoints(scene), ...(overlays.ellipse ? scene.outlinesOf(scene, 1).ellipse : []), ...pinnedAt(1)], 0.1), 1);
+    this.view.fitEnd(extentOf([...neededTwistPointsOf(scene), ...(overlays.ellipse ? scene.outlinesOf(scene, 1).ellipse : []), ...pinnedAt(1)], 0.1), 1);
   }
 }
 
@@ -193,7 +193,7 @@ export class TwistPicture extends MorphPicture {
   }
 
   fitView(scene: Scene) {
-    this.view.fitEnd(extentOf([...neededTwistPoints(scene), ...(scene.pinned?.contours.twistEllipse ?? [])], 0.1), 1);
+    this.view.fitEnd(extentOf([...neededTwistPointsOf(scene), ...(scene.pinned?.contours.twistEllipse ?? [])], 0.1), 1);
   }
 }
 
@@ -221,24 +221,24 @@ const TURN_LINE_LENGTH = 38;
 function drawOdometryReading(drawContext: DrawContext, { rot1, trans, rot2 }: import('../../types.d.ts').OdomDelta, [x, y]: [number, number]) {
   const { context, view, palette } = drawContext;
   const [start, turned] = [{ x: 0, y: 0, theta: 0 }, { x, y, theta: rot1 }];
-  const [[fromX, fromY], startHeadingEnd] = view.headingLine(start, TURN_LINE_LENGTH);
-  const [[toX, toY], continuationEnd] = view.headingLine(turned, TURN_LINE_LENGTH);
+  const [[fromX, fromY], startHeadingEnd] = view.headingLineFrom(start, TURN_LINE_LENGTH);
+  const [[toX, toY], continuationEnd] = view.headingLineFrom(turned, TURN_LINE_LENGTH);
   const colour = palette.prior;
   const style = { colour, width: 1.5 };
   strokePath(context, style, () => {
     // The heading at the start, the drive, and its continuation, from which the second rotation starts.
     addLine(context, [startHeadingEnd, [fromX, fromY], [toX, toY], continuationEnd]);
-    addLine(context, view.headingLine({ x, y, theta: rot1 + rot2 }, TURN_LINE_LENGTH));
+    addLine(context, view.headingLineFrom({ x, y, theta: rot1 + rot2 }, TURN_LINE_LENGTH));
   });
   const turns = [['rot1', start, rot1], ['rot2', turned, rot2]] as const;
   for (const [, pose, turn] of turns) strokePath(context, style, () => addTurnArc(context, view.toPixel(pose.x, pose.y), TURN_RADIUS, pose.theta, turn));
   for (const [legName, pose, turn] of turns) {
     const middlePose = { ...pose, theta: pose.theta + turn / 2 };
-    const [labelX, labelY] = view.headingLine(middlePose, TURN_LINE_LENGTH + 6)[1];
+    const [labelX, labelY] = view.headingLineFrom(middlePose, TURN_LINE_LENGTH + 6)[1];
     drawLabel(drawContext, { x: labelX, y: labelY, freeSide: Math.cos(middlePose.theta) < 0 ? -1 : 1, symbol: 'δ', subscript: legName, colour });
   }
   if (trans > 0) {
-    const driveDirection = view.pixelDirection(rot1);
+    const driveDirection = view.pixelDirectionOf(rot1);
     const [transLabelX, transLabelY] = [(fromX + toX) / 2 + 10 * driveDirection.y, (fromY + toY) / 2 - 10 * driveDirection.x + 6];
     drawLabel(drawContext, { x: transLabelX, y: transLabelY, freeSide: 1, symbol: 'δ', subscript: 'trans', colour });
   }
@@ -250,7 +250,7 @@ function drawCoincidentRobots(drawContext: DrawContext, poses: Float64Array, sho
   const headings = [...poses.subarray(0, 3 * MAX_RAYS)].filter((_, i) => i % 3 === 2);
   const [x, y] = poses;
   paintWithOpacity(context, Math.min(1, 30 / headings.length), () => {
-    for (const theta of headings) strokeLine(context, view.headingLine({ x, y, theta }, 64), { colour, width: 1 });
+    for (const theta of headings) strokeLine(context, view.headingLineFrom({ x, y, theta }, 64), { colour, width: 1 });
   });
   // The disc is larger than the handle, which is often at the same position.
   const [pixelX, pixelY] = view.toPixel(x, y);
@@ -262,7 +262,7 @@ function drawCoincidentRobots(drawContext: DrawContext, poses: Float64Array, sho
  * Returns the moments of the model and of the samples in exponential coordinates. If neither are defined, they are replaced by the
  * commanded twist, with the total variance of the position as the variance along the track.
  */
-function twistMoments({ config, stats, table }: Scene): Moments[] {
+function twistMomentsOf({ config, stats, table }: Scene): Moments[] {
   const definedMoments = [table.tangent, stats.exponential].filter((moments) => moments !== null);
   const finiteMoments = definedMoments.filter(({ cov }) => Number.isFinite(cov[0][0]));
   if (finiteMoments.length > 0) return finiteMoments;
@@ -276,7 +276,7 @@ function twistMoments({ config, stats, table }: Scene): Moments[] {
 const VIEW_QUANTILES = [0.025, 0.975];
 
 /** Returns points around everything that is visible in exponential coordinates. */
-function neededTwistPoints(scene: Scene) {
+function neededTwistPointsOf(scene: Scene) {
   const { v, omega, dt } = scene.config.command;
   const points = [v * dt, omega * dt];
   if (!scene.chartHolds && scene.shown > 0) {
@@ -284,7 +284,7 @@ function neededTwistPoints(scene: Scene) {
     const [along, heading] = [0, 2].map((coordinate) => twists.filter((_, i) => i % 3 === coordinate));
     for (const share of VIEW_QUANTILES) points.push(quantile(along, share)!, quantile(heading, share)!);
   }
-  for (const { mean, cov } of twistMoments(scene)) {
+  for (const { mean, cov } of twistMomentsOf(scene)) {
     points.push(...cornersAround(mean[0], mean[2], VIEWED_DEVIATIONS * stdOfVariance(cov[0][0]), VIEWED_DEVIATIONS * stdOfVariance(cov[2][2])));
   }
   return points;

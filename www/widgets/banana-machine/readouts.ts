@@ -15,7 +15,7 @@ import type { Inspection, Moments } from '../../types.d.ts';
 addEnglishMessages({ banana: en });
 
 /** Returns the text equivalent of the view of the floor, with the names of the outlines that are shown. */
-export function planeText(viewModel: ViewModel, overlays: string[], morph: number) {
+export function describePlane(viewModel: ViewModel, overlays: string[], morph: number) {
   const { config, stats, table, note } = viewModel;
   const { plane, between, noRobots, mean, onePlace, spread, drawnOver } = words.banana;
   const commandPhrase = formatCommand(config.command);
@@ -51,7 +51,7 @@ const VISIBLE_AREA_RATIO = 1.1;
 const VISIBLE_GAINS = { floor: 0.05, pose: 0.1 };
 
 /** Returns the title of the floor view, which says how well the ellipse fits. It uses exact values, or those of the samples if exact values are undefined. */
-export function floorTitle({ stats, table: { exact } }: Pick<ViewModel, 'stats' | 'table'>) {
+export function floorTitleOf({ stats, table: { exact } }: Pick<ViewModel, 'stats' | 'table'>) {
   const { floor, ellipseIs } = words.banana;
   if (stats.n < 2 || Number.isNaN(stats.areaRatio)) return floor;
   const { areaRatio, likelihoodGain: { floor: onFloor, pose } } = Number.isNaN(exact.areaRatio) ? stats : exact;
@@ -63,14 +63,14 @@ export function floorTitle({ stats, table: { exact } }: Pick<ViewModel, 'stats' 
 
 /** Returns the callouts of the floor picture, at points that the ellipse covers but the cloud does not. */
 export const calloutsOf = ({ gaps }: ViewModel): Callout[] =>
-  words.banana.callouts.slice(0, gaps.length / 2).map((text, i) => ({ text, point: [gaps[2 * i], gaps[2 * i + 1]] }));
+  words.banana.callouts.slice(0, gaps.length / 2).map((calloutText, i) => ({ text: calloutText, point: [gaps[2 * i], gaps[2 * i + 1]] }));
 
 /** Returns a sentence on the bend of the cloud. The exact skew determines its side, and the skew of the samples its significance. */
 function bendText({ stats: { crossTrackSkew: skew, crossTrackSkewError: error, areaRatio, exponential: { mean, cov } }, exactSkew, table, gain }: ViewModel) {
   if (Number.isNaN(skew)) return '';
   const texts = words.banana.bend;
   // A line break must not separate a number from its error.
-  const joinWithNonBreakingSpaces = (number: string) => number.replaceAll(' ', '\u00a0');
+  const joinWithNonBreakingSpaces = (numberText: string) => numberText.replaceAll(' ', '\u00a0');
   const [measuredSkew, exactText] = [joinWithNonBreakingSpaces(formatWithError(skew, error, 3)), formatFixed(exactSkew, 3)];
   // Robots end on both sides of the start.
   if (stdOfVariance(cov[0][0]) > Math.abs(mean[0])) return texts.bowTie(formatFixed(mean[0], 2), formatDeviation(cov[0][0]), measuredSkew);
@@ -92,7 +92,7 @@ export function captionOf(viewModel: ViewModel) {
 }
 
 /** Returns the caption of the view in exponential coordinates, which says whether the cloud is Gaussian in them. */
-export function twistCaption({ config: { model, noise, alphas, isolate }, note }: ViewModel) {
+export function twistCaptionOf({ config: { model, noise, alphas, isolate }, note }: ViewModel) {
   const { twist, twistIs } = words.banana;
   if (note) return `${twist}.`;
   const hasFinalTurn = alphas.some((alpha, i) => i >= 4 && alpha > 0 && (isolate === null || isolate === i + 1));
@@ -100,7 +100,7 @@ export function twistCaption({ config: { model, noise, alphas, isolate }, note }
   return `${twist}: ${twistIs[captionKind]}`;
 }
 
-export function twistText({ stats: { n, exponential, coverage } }: ViewModel) {
+export function describeTwists({ stats: { n, exponential, coverage } }: ViewModel) {
   const { mean, cov } = exponential;
   const { twist, twistAxes, robotsHere, twistMoments } = words.banana;
   const textStart = `${twist}, ${twistAxes}.`;
@@ -121,19 +121,19 @@ const FRACTION_IN_ELLIPSE = 1 - Math.exp(-2);
 export function mainReadoutsHtml(viewModel: ViewModel, pinned?: ViewModel) {
   const texts = words.banana.readouts;
   const { stats: { coverage, areaRatioError }, exactSkew, gain } = viewModel;
-  const printedValues = printedStatistics(viewModel);
-  const pinnedValues = pinned && printedStatistics(pinned).map((value) => `${words.banana.pinned}: ${value}`);
+  const printedValues = printedStatisticsOf(viewModel);
+  const pinnedValues = pinned && printedStatisticsOf(pinned).map((value) => `${words.banana.pinned}: ${value}`);
   const coverages = [coverage.ellipse, coverage.exponential];
   return readoutsHtml([
     [texts.area, printedValues[0], coverages.every(Number.isNaN) ? NO_VALUE : texts.areaDetail(Number.isNaN(areaRatioError) ? '' : formatSignificant(areaRatioError, 1), formatPercent(coverages[0]), formatPercent(coverages[1])), pinnedValues?.[0]],
     // A gain on the floor and one of poses are not comparable.
-    [gain.unbounded ? texts.gainOnFloor : texts.gain, printedValues[1], gainText(gain), pinned?.gain.unbounded === gain.unbounded ? pinnedValues?.[1] : undefined],
+    [gain.unbounded ? texts.gainOnFloor : texts.gain, printedValues[1], formatGain(gain), pinned?.gain.unbounded === gain.unbounded ? pinnedValues?.[1] : undefined],
     [texts.skew, printedValues[2], Number.isNaN(exactSkew) ? NO_VALUE : texts.exactly(formatFixed(exactSkew, 3)), pinnedValues?.[2]],
   ], 0);
 }
 
 /** Returns the area ratio, the gain and the skew as they are printed. */
-function printedStatistics({ stats, gain }: ViewModel) {
+function printedStatisticsOf({ stats, gain }: ViewModel) {
   return [
     Number.isNaN(stats.areaRatio) ? NO_VALUE : `${formatFixed(stats.areaRatio, 2)} ×`,
     formatWithError(gain.value, gain.error, 3),
@@ -142,7 +142,7 @@ function printedStatistics({ stats, gain }: ViewModel) {
 }
 
 /** Returns a text on the exact gain, or the reason why the gain is unbounded. */
-function gainText({ unbounded, value, exact, wraps }: ViewModel['gain']) {
+function formatGain({ unbounded, value, exact, wraps }: ViewModel['gain']) {
   const { withoutLimit, onLine, exactly, unwrapped, nat } = words.banana.readouts;
   if (Number.isNaN(value)) return NO_VALUE;
   if (value === Infinity) return onLine;

@@ -4,7 +4,7 @@ import { withFieldRenamed } from '../../data/checks.ts';
 import { createDefinition } from '../../figure/definition.ts';
 import { words } from '../../messages/registry.ts';
 import { openingAlphas } from '../../../build/settings.js';
-import { COMMAND_DASH, alphaSliderSpecs, commandSliderSpecs } from '../shared/sliders.ts';
+import { COMMAND_DASH, createAlphaSliderSpecs, createCommandSliderSpecs } from '../shared/sliders.ts';
 import type { BananaMachine as Simulation, BananaMachineSettings as Settings, Motion, Stats, Table } from '../../types.d.ts';
 
 /** Styles of the lines in the pictures. */
@@ -28,9 +28,9 @@ export const documentation = {
   },
 };
 
-export const COMMAND_SLIDERS = commandSliderSpecs(3);
+export const COMMAND_SLIDERS = createCommandSliderSpecs(3);
 
-export const sliderSpecs = { ...COMMAND_SLIDERS, ...alphaSliderSpecs(6) };
+export const sliderSpecs = { ...COMMAND_SLIDERS, ...createAlphaSliderSpecs(6) };
 
 export const definition = createDefinition('banana-machine', {
   messageKey: 'banana',
@@ -43,7 +43,7 @@ export const definition = createDefinition('banana-machine', {
     pinned: { default: null },
     morph: { type: 'number', default: 0, min: 0, max: 1, isResetByPreset: true, access: 'attribute' },
   },
-  dependentDefaults: ({ model }) => ({ alphas: openingAlphas[model as keyof typeof openingAlphas] }),
+  dependentDefaultsOf: ({ model }) => ({ alphas: openingAlphas[model as keyof typeof openingAlphas] }),
 });
 
 /** Sample counts that the slider offers, in the steps 1–2–5 of a logarithmic scale. Clouds beyond a million would lag behind the finger. */
@@ -59,7 +59,7 @@ export function viewModelOf(simulation: Simulation) {
   const { config, stats, contours, table, chartHolds } = results;
   return {
     ...results,
-    note: unusualCloudNote(config, table, stats, chartHolds),
+    note: explainUnusualCloud(config, table, stats, chartHolds),
     exactSkew: table.exact.crossTrackSkew,
     gain: gainOfExponential(stats, table),
     /** Command as an odometry reading; null under the velocity model. */
@@ -104,16 +104,16 @@ export function spreadKindOf({ exact: { cov } }: Table): 'point' | 'headings' | 
 }
 
 /**
- * Returns a sentence about an unusual cloud, with the settings that cause it; empty for a usual cloud. `chartHolds` is false if robots turn
+ * Returns a sentence about an unusual cloud, with the settings that cause it; empty for a usual cloud. `isChartDefined` is false if robots turn
  * so far that exponential coordinates are undefined.
  */
-function unusualCloudNote({ model, command, reverseAware }: Settings, table: Table, stats: Stats, chartHolds: boolean): string {
+function explainUnusualCloud({ model, command, reverseAware }: Settings, table: Table, stats: Stats, isChartDefined: boolean): string {
   const { notes } = words.banana;
   const kindOfSpread = spreadKindOf(table);
   const { v, omega } = command;
   if (kindOfSpread === 'point') return v === 0 && omega === 0 ? notes.still : notes.silent;
   if (kindOfSpread === 'headings') return notes.headings;
-  if (!chartHolds) return notes.circle;
+  if (!isChartDefined) return notes.circle;
   if (model === 'odometry' && v < 0 && !reverseAware) return notes.backwards;
   return stats.n > 2 && Object.values(stats.coverage).some(Number.isNaN) ? notes.line : '';
 }

@@ -11,7 +11,7 @@ import { formatFixed } from '../../ui/format.ts';
 import { Cloud, cloudControlsHtml, cloudProperties } from '../shared/cloud.ts';
 import { presetButtonsHtml } from '../shared/controls.ts';
 import { PathPicture, StepPicture } from './pictures.ts';
-import { headlineHtml, markedRobotFieldHtml, missTableHtml, ratioPlotHtml, straightGrowthPlotHtml, captionOf, planeText, stepText } from './readouts.ts';
+import { headlineHtml, markedRobotFieldHtml, missTableHtml, ratioPlotHtml, straightGrowthPlotHtml, captionOf, describePlane, describeStep } from './readouts.ts';
 import { CURVE_STYLES, OUTLINE_STYLES, RECURSIONS, definition, COMMAND_SLIDERS, NOISE_SLIDERS, SAMPLE_COUNTS, COMPONENTS, viewModelOf, type ViewModel } from './settings.ts';
 import type { StateValues } from '../../figure/settings.ts';
 import type { DeadReckoning as Simulation, Motion } from '../../types.d.ts';
@@ -156,7 +156,7 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
     const { config } = this.currentViewModel;
     const { measured, relativeErrors, predicted } = this.simulation as Simulation;
     return {
-      description: planeText(this.viewModel),
+      description: describePlane(this.viewModel),
       settings: config,
       columns: {
         step: Array.from({ length: config.steps }, (_, i) => i + 1),
@@ -187,8 +187,8 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
           <p part="caption" class="caption ${condition !== 'certain' && 'note'}">${captionOf(viewModel, overlays)}</p>
           ${settingRadiosHtml(this, 'compounding', texts.recursions)}
         </div>
-        ${titledPictureHtml(texts.floor, html`<div class="stage" part="picture">${pictureCanvasHtml(this, this.#floorPicture, planeText(viewModel))}</div>`, 'floor')}
-        ${titledPictureHtml(texts.atStepTitle(step), html`<div class="stage">${pictureCanvasHtml(this, this.#stepPicture, stepText(viewModel))}</div>`, 'step')}
+        ${titledPictureHtml(texts.floor, html`<div class="stage" part="picture">${pictureCanvasHtml(this, this.#floorPicture, describePlane(viewModel))}</div>`, 'floor')}
+        ${titledPictureHtml(texts.atStepTitle(step), html`<div class="stage">${pictureCanvasHtml(this, this.#stepPicture, describeStep(viewModel))}</div>`, 'step')}
       </div>
       ${this.renderer.renderAfterFirstPicture(() => html`
       ${legendHtml(this, OUTLINE_STYLES)} ${presetButtonsHtml(this)} 

@@ -3,7 +3,7 @@
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { drawCallouts, type Callout } from '../../scene/labels.ts';
-import { drawDots, drawEarlierOutlines, drawCrosshair, drawOutlines, drawRobot, lineLegendEntries, lineStyles, strokeLines } from '../../scene/draw.ts';
+import { drawDots, drawEarlierOutlines, drawCrosshair, drawOutlines, drawRobot, createLineLegend, createLineStyles, strokeLines } from '../../scene/draw.ts';
 import { Picture, SamplesPicture } from '../../scene/picture.ts';
 import { View, cornersAround, extentAround, extentOf } from '../../scene/view.ts';
 import { formatSignificant } from '../../ui/format.ts';
@@ -41,10 +41,10 @@ export class PathPicture extends SamplesPicture<Scene> {
 
   paint: Picture<Scene>['paint'] = (drawContext, { commanded, outlines, milestones, poses, pose, marked, overlays, config: { step } }) => {
     const { palette } = drawContext;
-    const styles = lineStyles(drawContext, OUTLINE_STYLES);
+    const styles = createLineStyles(drawContext, OUTLINE_STYLES);
     const shownNamesOf = (names: (keyof typeof OUTLINE_STYLES)[]) => names.filter((name) => overlays.includes(name));
     const shownNames = shownNamesOf(['ellipse', 'exponential']) as ('ellipse' | 'exponential')[];
-    drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, lineLegendEntries(drawContext, OUTLINE_STYLES, shownNamesOf(['ellipse', 'exponential', 'command']), words.reckoning.overlays));
+    drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, createLineLegend(drawContext, OUTLINE_STYLES, shownNamesOf(['ellipse', 'exponential', 'command']), words.reckoning.overlays));
     const linesOf = (stepOutlines: Scene['outlines']) => shownNames.map((name) => ({ points: stepOutlines[name], ...styles[name] }));
     const callouts: Callout[] = [];
     clipToPlot(drawContext, () => {
@@ -91,7 +91,7 @@ export class StepPicture extends Picture<Scene> {
   }
 
   paint: Picture<Scene>['paint'] = (drawContext, { outlines: { predicted, measured }, overlays, twists }) => {
-    const styles = lineStyles(drawContext, OUTLINE_STYLES);
+    const styles = createLineStyles(drawContext, OUTLINE_STYLES);
     const shownNames = (['exponential', 'measured'] as ('exponential' | 'measured')[]).filter((name) => overlays.includes(name));
     drawAxes(drawContext, axisNamesOf(this.view));
     const points = { exponential: predicted, measured };
@@ -109,14 +109,14 @@ export class StepPicture extends Picture<Scene> {
 const MIN_VISIBLE_RATIO = 1.05;
 
 /** Returns texts of the ratios scale x : scale y and scale y : scale x. The text of a ratio that is not visible is empty. */
-export function scaleRatioTexts({ scaleX, scaleY }: Pick<View, 'scaleX' | 'scaleY'>) {
-  return [scaleX / scaleY, scaleY / scaleX].map((factor) => (factor > MIN_VISIBLE_RATIO ? formatSignificant(factor, factor < 10 ? 2 : 1) : ''));
+export function formatScaleRatios({ scaleX, scaleY }: Pick<View, 'scaleX' | 'scaleY'>) {
+  return [scaleX / scaleY, scaleY / scaleX].map((scaleRatio) => (scaleRatio > MIN_VISIBLE_RATIO ? formatSignificant(scaleRatio, scaleRatio < 10 ? 2 : 1) : ''));
 }
 
 /** Returns the names of the axes. The upper name also has the ratio of the scales, because near the lower name it would hide ticks. */
 function axisNamesOf(view: View) {
   const { axisAlong: x, axisLateral, stretched } = words.reckoning;
-  const [along, lateral] = scaleRatioTexts(view);
+  const [along, lateral] = formatScaleRatios(view);
   const ratioText = along ? stretched.along(along) : lateral && stretched.lateral(lateral);
   return { x, y: ratioText ? `${axisLateral}, ${ratioText}` : axisLateral };
 }

@@ -25,7 +25,7 @@ function formatSignedPercent(share: number, printedPercent: string = formatFixed
 }
 
 /** Returns the relative error of the predicted variance after the last step, as text. */
-const finalErrorText = ({ end, error }: { end: number, error: number }) => formatSignedPercent(end, formatWithError(100 * end, 100 * error, 1));
+const formatFinalError = ({ end, error }: { end: number, error: number }) => formatSignedPercent(end, formatWithError(100 * end, 100 * error, 1));
 
 /** Returns a caption that says how well the recursion predicts the components that are shown. */
 export function captionOf({ config: { compounding }, stats: { misses, n }, condition, curves }: ViewModel, overlays: string[]) {
@@ -55,7 +55,7 @@ function shownComponentsOf(overlays: string[]): readonly (typeof COMPONENTS)[num
   return selectedComponents.length > 0 ? selectedComponents : COMPONENTS;
 }
 
-function ratioText({ config: { step, compounding }, curves }: ViewModel, overlays: string[]) {
+function formatRatio({ config: { step, compounding }, curves }: ViewModel, overlays: string[]) {
   const texts = words.reckoning;
   const ratioTexts = shownComponentsOf(overlays).map((name) => {
     const { ratio, error } = curves[COMPONENTS.indexOf(name)];
@@ -64,16 +64,16 @@ function ratioText({ config: { step, compounding }, curves }: ViewModel, overlay
   return texts.ratioText(texts.recursions[compounding], String(step), ratioTexts.join(', '));
 }
 
-export function planeText({ config, shown, pose }: ViewModel) {
+export function describePlane({ config, shown, pose }: ViewModel) {
   const { command, steps, step, compounding } = config;
   const texts = words.reckoning;
   return texts.plane(formatCommand(command), String(steps), formatInteger(shown), String(step), formatFixed(pose[0], 2), formatFixed(pose[1], 2), texts.recursions[compounding]);
 }
 
-export function stepText({ config: { step, compounding }, stats: { measured, predicted } }: ViewModel) {
+export function describeStep({ config: { step, compounding }, stats: { measured, predicted } }: ViewModel) {
   const texts = words.reckoning;
-  const planeDeviations = (cov: number[][] | null) => [0, 1].map((axis) => formatFixed(Math.sqrt(cov?.[axis][axis] ?? NaN), 4));
-  return texts.stepText(String(step), planeDeviations(measured.cov), planeDeviations(predicted[compounding]));
+  const planeDeviationsOf = (cov: number[][] | null) => [0, 1].map((axis) => formatFixed(Math.sqrt(cov?.[axis][axis] ?? NaN), 4));
+  return texts.stepText(String(step), planeDeviationsOf(measured.cov), planeDeviationsOf(predicted[compounding]));
 }
 
 /** Allowed heights of the plot, so that its axis does not change with every step of a drag. */
@@ -92,7 +92,7 @@ export function ratioPlotHtml(figure: import('./dead-reckoning.ts').DeadReckonin
   const shownCurves = COMPONENTS.map((name, axis) => ({ ...curveStyleOf(name, figure.highlight), name, ...curves[axis] })).filter(({ name }) => overlays.includes(name));
   const toleranceBand = { name: texts.overlays.tolerance, ...curveStyleOf('tolerance', figure.highlight), x: [0, steps], y: [1, 1], error: [RATIO_TOLERANCE, RATIO_TOLERANCE], isBandOnly: true };
   return plotHtml({
-    label: ratioText(viewModel, overlays),
+    label: formatRatio(viewModel, overlays),
     x: { name: texts.stepAxis, from: 0, to: steps },
     y: { name: texts.ratioAxis, from: 0, to: CHART_HEIGHTS.find((height) => height >= highestRatio) ?? highestRatio },
     curves: [
@@ -158,9 +158,9 @@ export function straightGrowthPlotHtml({ durations: x, along, across, alongFirst
 
 /** Returns the range of steps at which a recursion misses the measured variance, as text. */
 function formatMissRange({ decidable, first, last, end }: Misses) {
-  const { never, unknown, from: rangeText } = words.reckoning.misses;
+  const { never, unknown, from: formatRange } = words.reckoning.misses;
   if (!decidable) return Number.isNaN(end) ? NO_VALUE : unknown;
-  return first === null || last === null ? never : rangeText(first, last);
+  return first === null || last === null ? never : formatRange(first, last);
 }
 
 /** Returns the table of the steps at which each recursion misses the measured variance, by component. */
@@ -171,7 +171,7 @@ export function missTableHtml({ stats: { misses } }: ViewModel, overlays: string
     columns: [texts.misses.component, ...RECURSIONS.map((recursion) => texts.recursions[recursion])],
     rows: shownComponentsOf(overlays).flatMap((component) => {
       const missesOfRecursions = RECURSIONS.map((recursion) => misses[recursion][COMPONENTS.indexOf(component)]);
-      return [[texts.overlays[component], ...missesOfRecursions.map(formatMissRange)], [texts.misses.endOf(texts.overlays[component]), ...missesOfRecursions.map(finalErrorText)]];
+      return [[texts.overlays[component], ...missesOfRecursions.map(formatMissRange)], [texts.misses.endOf(texts.overlays[component]), ...missesOfRecursions.map(formatFinalError)]];
     }),
   });
 }
@@ -179,6 +179,6 @@ export function missTableHtml({ stats: { misses } }: ViewModel, overlays: string
 /** Returns the field with the number of the marked robot, and the pose of that robot at the step. */
 export function markedRobotFieldHtml(figure: import('./dead-reckoning.ts').DeadReckoningElement, marked: Float64Array | undefined): import('lit').TemplateResult {
   const { config: { step }, shown } = figure.viewModel;
-  const [x, y, theta] = Array.from(marked?.subarray(3 * (step - 1), 3 * step) ?? [], (value) => formatFixed(value, 3));
+  const [x, y, theta] = Array.from(marked?.subarray(3 * (step - 1), 3 * step) ?? [], (coordinate) => formatFixed(coordinate, 3));
   return sampleFieldHtml(figure, 'robot', shown, marked && `x ${x} m, y ${y} m, θ ${theta} rad`);
 }

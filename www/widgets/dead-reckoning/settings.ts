@@ -1,8 +1,8 @@
 /** Dead Reckoning's settings: their attributes, their part of the state, and their sliders; line styles, and the view model. */
 
-import { defaultConfig, createDefinition } from '../../figure/definition.ts';
+import { defaultConfigOf, createDefinition } from '../../figure/definition.ts';
 import { settings } from '../../../build/settings.js';
-import { ALPHA_SLIDER, COMMAND_DASH, alphaSliderSpecs, commandSliderSpecs } from '../shared/sliders.ts';
+import { ALPHA_SLIDER, COMMAND_DASH, createAlphaSliderSpecs, createCommandSliderSpecs } from '../shared/sliders.ts';
 import type { DeadReckoning as Simulation, DeadReckoningSettings } from '../../types.d.ts';
 
 const settingDeclarations = settings['dead-reckoning'];
@@ -26,9 +26,9 @@ export const OUTLINE_STYLES = {
   exponential: { role: 'posterior', width: 2.25, dash: [] },
 } satisfies Record<string, import('../../scene/draw.ts').LineStyle>;
 
-export const COMMAND_SLIDERS: Record<string, import('../../figure/controls.ts').SliderSpec> = commandSliderSpecs(1);
+export const COMMAND_SLIDERS: Record<string, import('../../figure/controls.ts').SliderSpec> = createCommandSliderSpecs(1);
 
-export const NOISE_SLIDERS = alphaSliderSpecs(6);
+export const NOISE_SLIDERS = createAlphaSliderSpecs(6);
 
 export const definition = createDefinition('dead-reckoning', {
   messageKey: 'reckoning',
@@ -39,9 +39,9 @@ export const definition = createDefinition('dead-reckoning', {
     step: { symbol: '*k*', role: 'truth', min: 1, max: 200, step: 1, decimals: 0 },
     steps: { symbol: '*K*', role: 'prior', min: 1, max: 200, step: 1, decimals: 0 },
     // The slider shows α₃, even if the other three are not in the usual ratio to it.
-    headingNoise: { ...ALPHA_SLIDER, step: 0.005, combinedValue: ({ alphas }) => alphas[2] },
+    headingNoise: { ...ALPHA_SLIDER, step: 0.005, combinedValueOf: ({ alphas }) => alphas[2] },
   },
-  dependentDefaults: ({ steps }) => ({ step: Math.min(defaultConfig(settingDeclarations).step, steps) }),
+  dependentDefaultsOf: ({ steps }) => ({ step: Math.min(defaultConfigOf(settingDeclarations).step, steps) }),
 });
 
 /** Sample counts that the slider offers. Larger clouds would lag behind the slider. */
@@ -82,7 +82,7 @@ function ratioConditionOf({ compounding }: DeadReckoningSettings, { n, predicted
   if (n === 0) return 'none';
   // A single robot has no variance.
   if (n === 1) return 'few';
-  if (measured.cov.every((row) => row.every((entry) => Math.abs(entry) < Number.EPSILON ** 2))) return 'still';
+  if (measured.cov.every((row) => row.every((covariance) => Math.abs(covariance) < Number.EPSILON ** 2))) return 'still';
   // Single components may have no variance, such as a heading without noise.
   if (predicted[compounding] === null || ratios.slice(-COMPONENTS.length).every(Number.isNaN)) return 'lost';
   return misses[compounding].some(({ decidable, end }) => !decidable && !Number.isNaN(end)) ? 'few' : 'certain';

@@ -13,7 +13,7 @@ import { Cloud, cloudControlsHtml, cloudProperties, sampleFieldHtml } from '../s
 import { FileOpener } from '../shared/files.ts';
 import { PoseHandles } from '../shared/robot.ts';
 import { presetButtonsHtml, startOverButtonHtml } from '../shared/controls.ts';
-import { measureCosts, overviewMapHtml, costTableHtml, tallyReadoutsHtml, captionOf, headlineOf, mapText, pictureText, verdictText } from './readouts.ts';
+import { measureCosts, overviewMapHtml, costTableHtml, tallyReadoutsHtml, captionOf, headlineOf, describeMap, describePicture, explainVerdict } from './readouts.ts';
 import { applyMap, gridOf, mapDataOf } from './maps/data.ts';
 import { FloorPicture } from './picture.ts';
 import { LINE_STYLES, OPENING_POSE, PRESET_SETTING, definition, COMMAND_SLIDERS, MAX_SAMPLES, SAMPLE_COUNTS, outcomeIndexOf, viewModelOf, type ViewModel } from './settings.ts';
@@ -99,7 +99,7 @@ class MapOpener extends FileOpener<MapSqueezeElement> {
     });
   }
 
-  explain({ message, sentence }: Error & Partial<MapFileError>) {
+  explain({ message, messageIn: sentence }: Error & Partial<MapFileError>) {
     const { refused } = words.squeeze;
     return sentence ? sentence(refused) : refused.cannot(message);
   }
@@ -460,11 +460,11 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
 
   get #mapText() {
     const { pasted, apartment } = words.squeeze;
-    return mapText(this.map ? this.map.name || pasted : apartment, this.picture.plan);
+    return describeMap(this.map ? this.map.name || pasted : apartment, this.picture.plan);
   }
 
   get #description() {
-    return pictureText(this.viewModel, this.#mapText);
+    return describePicture(this.viewModel, this.#mapText);
   }
 
   renderContent(viewModel: ViewModel) {
@@ -496,7 +496,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
       ${posesByOutcome ? nothing : html`<p class="about muted">${density}</p>`}
       ${disclosuresHtml(this, {
         renderControls: () => html`<div class="controls">${robotAndMapControlsHtml(this, hasUnknown)}</div> ${userMapControlsHtml(this, this.#opener, this.#mapText)}`,
-        renderNumbers: () => html`${tallyReadoutsHtml(viewModel)} ${sampleFieldHtml(this, 'sample', stats.attempts, isSelectionShown && verdictText(verdicts[selectedIndex], config))} ${costTableHtml(this)}`,
+        renderNumbers: () => html`${tallyReadoutsHtml(viewModel)} ${sampleFieldHtml(this, 'sample', stats.attempts, isSelectionShown && explainVerdict(verdicts[selectedIndex], config))} ${costTableHtml(this)}`,
       })}`)}
     `;
   }

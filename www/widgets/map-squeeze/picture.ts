@@ -2,12 +2,12 @@
 
 import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
-import { densityRamp, drawCrosshair, drawOutline, lineStyles } from '../../scene/draw.ts';
+import { createDensityRamp, drawCrosshair, drawOutline, createLineStyles } from '../../scene/draw.ts';
 import { CachedImage, strokeInBatches } from '../../scene/cache.ts';
 import { drawLabel, drawLeader } from '../../scene/labels.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
 import { View, cornersAround, extentAround, widenExtent } from '../../scene/view.ts';
-import { WallLayer, cellCorner, type CellGrid } from '../../scene/walls.ts';
+import { WallLayer, cellCornerOf, type CellGrid } from '../../scene/walls.ts';
 import { limits } from '../../../build/settings.js';
 import { clamp } from '../../ui/format.ts';
 import { drawDraggableRobot, drawRobotOutline } from '../shared/robot.ts';
@@ -133,24 +133,24 @@ export class FloorPicture extends SamplesPicture<Scene> {
   paint: SamplesPicture<Scene>['paint'] = (drawContext, scene) => {
     const { posesByOutcome, paths, commanded, config, marked, overlays } = scene;
     const { palette } = drawContext;
-    const showsLine = (name: string) => overlays.includes(name);
-    const { accepted, through, rejected, commanded: commandStyle } = lineStyles(drawContext, LINE_STYLES);
+    const isLineShown = (name: string) => overlays.includes(name);
+    const { accepted, through, rejected, commanded: commandStyle } = createLineStyles(drawContext, LINE_STYLES);
     drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, drawContext.isExported ? legendEntriesOf(drawContext, scene) : []);
     clipToPlot(drawContext, () => {
       // The walls are drawn after the paths, so that a path through a wall does not hide the wall.
       if (posesByOutcome) {
-        if (showsLine('through')) drawPaths(drawContext, paths, through.colour);
-        if (showsLine('accepted')) drawSamples(drawContext, posesByOutcome.free, accepted.colour);
-        if (showsLine('through')) drawSamples(drawContext, posesByOutcome.through, through.colour);
-        this.#wallLayer.draw(drawContext, showsLine('unknown'));
-        if (showsLine('rejected')) drawCrosses(drawContext, posesByOutcome.rejected, rejected.colour);
+        if (isLineShown('through')) drawPaths(drawContext, paths, through.colour);
+        if (isLineShown('accepted')) drawSamples(drawContext, posesByOutcome.free, accepted.colour);
+        if (isLineShown('through')) drawSamples(drawContext, posesByOutcome.through, through.colour);
+        this.#wallLayer.draw(drawContext, isLineShown('unknown'));
+        if (isLineShown('rejected')) drawCrosses(drawContext, posesByOutcome.rejected, rejected.colour);
       } else {
         this.#drawDensity(drawContext, scene);
-        this.#wallLayer.draw(drawContext, showsLine('unknown'));
-        if (showsLine('through')) drawPaths(drawContext, paths.slice(0, MAX_PATHS_ON_DENSITY), through.colour);
+        this.#wallLayer.draw(drawContext, isLineShown('unknown'));
+        if (isLineShown('through')) drawPaths(drawContext, paths.slice(0, MAX_PATHS_ON_DENSITY), through.colour);
       }
       const { start, clearance } = config;
-      if (showsLine('commanded')) {
+      if (isLineShown('commanded')) {
         drawOutline(drawContext, commanded, commandStyle);
         const [endX, endY] = commanded.slice(-2);
         drawRobotOutline(drawContext, endX, endY, clearance, commandStyle.colour);
@@ -168,7 +168,7 @@ export class FloorPicture extends SamplesPicture<Scene> {
   #drawDensity(drawContext: DrawContext, { simulation, stats, overlays }: Scene) {
     const { palette } = drawContext;
     const outcomeColours = [['rejected', palette.truth], ['accepted', palette.cloud], ['through', palette.accent]] as const;
-    const outcomeRamps = outcomeColours.flatMap(([name, cloud]) => [...(overlays.includes(name) ? densityRamp({ ...palette, cloud }) : TRANSPARENT_RAMP)]);
+    const outcomeRamps = outcomeColours.flatMap(([name, cloud]) => [...(overlays.includes(name) ? createDensityRamp({ ...palette, cloud }) : TRANSPARENT_RAMP)]);
     const cellSize = clamp(DENSITY_CELL.max * Math.sqrt(DENSITY_CELL.samples / stats.attempts) / 2, DENSITY_CELL.min, DENSITY_CELL.max);
     this.#densityImage.drawDensity(drawContext, cellSize, [stats, palette, overlays], (...viewPart) => simulation.picture(...viewPart, Uint8Array.from(outcomeRamps)));
   }
@@ -180,7 +180,7 @@ function knownCornersOf(grid: CellGrid, unknown: Uint8Array) {
   return Array.from({ length: unknown.length / columns }, (_, row) => {
     const rowCells = unknown.subarray(row * columns, (row + 1) * columns);
     const outerColumns = rowCells.includes(0) ? [rowCells.indexOf(0), rowCells.lastIndexOf(0) + 1] : [];
-    return outerColumns.flatMap((column) => [row, row + 1].flatMap((cornerRow) => cellCorner(grid, column, cornerRow)));
+    return outerColumns.flatMap((column) => [row, row + 1].flatMap((cornerRow) => cellCornerOf(grid, column, cornerRow)));
   }).flat();
 }
 

@@ -8,14 +8,14 @@ import { formatInteger, formatFixed, formatPercent, formatRounded } from '../../
 import { tableHtml, readoutsHtml } from '../../ui/readouts.ts';
 import { formatCommand } from '../shared/sliders.ts';
 import { en } from './en.ts';
-import { throughWallText, SAMPLERS, type ViewModel } from './settings.ts';
+import { formatThroughWallRate, SAMPLERS, type ViewModel } from './settings.ts';
 import type { MapSqueeze, Plan, SamplerName, MapSqueezeSettings as Settings, SqueezeStats as Stats } from '../../types.d.ts';
 import type { MapSqueezeElement as Figure } from './map-squeeze.ts';
 
 addEnglishMessages({ squeeze: en });
 
 /** Returns the text of a verdict, a sum of `bits`. */
-export function verdictText(verdict: number, config: Settings) {
+export function explainVerdict(verdict: number, config: Settings) {
   const hasBit = (bit: number) => (verdict & bit) !== 0;
   const { overlays, verdict: reasons } = words.squeeze;
   const isAccepted = hasBit(bits.accepted);
@@ -42,17 +42,17 @@ export function captionOf({ config: { conditioned, sampler }, stats, note }: Vie
   if (note && (accepted === 0 || gaveUp)) return note;
   if (attempts === 0) return `${texts.headline.untried}.`;
   const testedText = texts.tested[conditioned ? sampler : 'off'](formatInteger(accepted), formatInteger(attempts));
-  return `${testedText}; ${throughWallText(stats, conditioned && sampler === 'whole-arc')}. ${note}`.trim();
+  return `${testedText}; ${formatThroughWallRate(stats, conditioned && sampler === 'whole-arc')}. ${note}`.trim();
 }
 
 /** Returns the name of a map with its size. */
-export function mapText(name: string, { bounds, walls }: Plan) {
+export function describeMap(name: string, { bounds, walls }: Plan) {
   const [left, bottom, right, top] = bounds;
   return words.squeeze.mapText(name, formatFixed(right - left, 1), formatFixed(top - bottom, 1), formatInteger(walls.length / 4));
 }
 
-/** Returns the text equivalent of the picture, with the map as `mapText` has it. */
-export function pictureText(viewModel: ViewModel, map: string) {
+/** Returns the text equivalent of the picture, with the map as `describeMap` has it. */
+export function describePicture(viewModel: ViewModel, map: string) {
   const { start: { x, y, theta }, command } = viewModel.config;
   const texts = words.squeeze;
   return [texts.picture(map), texts.robotAt(formatFixed(x, 2), formatFixed(y, 2), formatFixed(theta, 2), formatCommand(command)), captionOf(viewModel)].join(' ');
@@ -103,13 +103,13 @@ function measureCost(simulation: MapSqueeze, sampler: SamplerName, subStepCount:
 export function costTableHtml(figure: Figure) {
   const { samplers, costs: texts } = words.squeeze;
   const { costs, viewModel: { config } } = figure;
-  const costRow = (sampler: SamplerName, cost: SampleCost) => [
+  const costRowOf = (sampler: SamplerName, cost: SampleCost) => [
     sampler === 'sub-stepped' ? `${samplers[sampler]} (${config.steps})` : samplers[sampler],
     ...(typeof cost === 'string' ? [texts[cost]] : [formatFixed(cost.draws, 2), formatFixed(cost.wallTests, 2), formatRounded(cost.micros, 2), `${formatRounded(100 * cost.micros * 1e-6 * SAMPLES_PER_SECOND, 2)}\u202f%`]),
   ];
   return html`<div class="table">
     ${buttonHtml(texts.measure, () => figure.measureSamplerCosts())}
-    ${costs ? tableHtml({ caption: texts.caption, columns: [texts.sampler, texts.draws, texts.tests, 'µs', texts.core], rows: SAMPLERS.map((sampler) => costRow(sampler, costs[sampler])) }) : nothing}
+    ${costs ? tableHtml({ caption: texts.caption, columns: [texts.sampler, texts.draws, texts.tests, 'µs', texts.core], rows: SAMPLERS.map((sampler) => costRowOf(sampler, costs[sampler])) }) : nothing}
   </div>`;
 }
 

@@ -4,7 +4,7 @@ import { presetAttributeOf, createDefinition } from '../../figure/definition.ts'
 import { words } from '../../messages/registry.ts';
 import { presets, settings, verdict as bits } from '../../../build/settings.js';
 import { formatInteger, formatFixed, formatPercent } from '../../ui/format.ts';
-import { COMMAND_DASH, commandSliderSpecs } from '../shared/sliders.ts';
+import { COMMAND_DASH, createCommandSliderSpecs } from '../shared/sliders.ts';
 import type { MapSqueeze, MapSqueezeSettings, SamplerName, SqueezeStats } from '../../types.d.ts';
 
 const settingDeclarations = settings['map-squeeze'];
@@ -24,7 +24,7 @@ export const LINE_STYLES = {
   unknown: { role: 'muted', shape: 'area' },
 } satisfies Record<string, import('../../scene/draw.ts').LineStyle>;
 
-export const COMMAND_SLIDERS = commandSliderSpecs(4);
+export const COMMAND_SLIDERS = createCommandSliderSpecs(4);
 
 /** Parts of the map that the picture shows. */
 const VIEWS = ['close', 'whole'];
@@ -34,7 +34,7 @@ export const definition = createDefinition('map-squeeze', {
   overlayStyles: LINE_STYLES,
   sliderSpecs: {
     ...COMMAND_SLIDERS,
-    noise: { role: 'prediction', min: 0, max: 0.4, step: 0.005, decimals: 3, combinedValue: ({ alphas }) => alphas[0] },
+    noise: { role: 'prediction', min: 0, max: 0.4, step: 0.005, decimals: 3, combinedValueOf: ({ alphas }) => alphas[0] },
     clearance: { symbol: '*r*', role: 'truth', min: 0, max: 0.4, step: 0.01, decimals: 2 },
     steps: { role: 'prediction', min: 1, max: 64, step: 1, decimals: 0 },
   },
@@ -67,7 +67,7 @@ export function viewModelOf(simulation: MapSqueeze) {
   return {
     ...results,
     posesByOutcome: stats.attempts > MAX_DOTS ? undefined : groupByOutcome(poses, verdicts),
-    note: stuckRobotNote(config, stats, startFree),
+    note: explainStuckRobot(config, stats, startFree),
   };
 }
 
@@ -89,16 +89,16 @@ export function outcomeIndexOf(verdict: number) {
  * Returns a text on the accepted motions that went through a wall: their number, and their share with its interval. There is no interval if
  * the sampler excludes such motions (`certain`), or if the simulation gave up, because giving up depends on chance.
  */
-export function throughWallText({ throughWall, throughWallRate, throughWallInterval: [low, high], gaveUp }: Pick<SqueezeStats, 'throughWall' | 'throughWallRate' | 'throughWallInterval' | 'gaveUp'>, isCertain: boolean) {
+export function formatThroughWallRate({ throughWall, throughWallRate, throughWallInterval: [low, high], gaveUp }: Pick<SqueezeStats, 'throughWall' | 'throughWallRate' | 'throughWallInterval' | 'gaveUp'>, isCertain: boolean) {
   const intervalText = isCertain || gaveUp ? '' : `${formatFixed(100 * low, 1)}\u2060–\u2060${formatPercent(high)}`;
   return words.squeeze.throughOf(throughWall, formatInteger(throughWall), formatPercent(throughWallRate), intervalText);
 }
 
 /** Returns a sentence on a robot that cannot move; empty for an ordinary cloud. */
-function stuckRobotNote(config: MapSqueezeSettings, stats: SqueezeStats, startFree: boolean): string {
+function explainStuckRobot(config: MapSqueezeSettings, stats: SqueezeStats, startFree: boolean): string {
   const { wedged, nothing, noRoom } = words.squeeze;
   const { accepted, drawn } = stats;
-  if (stats.gaveUp) return wedged(formatInteger(drawn), formatInteger(accepted), formatInteger(config.samples), throughWallText(stats, false));
+  if (stats.gaveUp) return wedged(formatInteger(drawn), formatInteger(accepted), formatInteger(config.samples), formatThroughWallRate(stats, false));
   if (drawn > 0 && accepted === 0) return nothing(formatInteger(drawn));
   return startFree ? '' : noRoom;
 }

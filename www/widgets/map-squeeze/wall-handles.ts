@@ -7,7 +7,7 @@ import { swatchHtml } from '../../scene/draw.ts';
 import { Handle, stepsOfKey, turnStepsOfKey } from '../../scene/handle.ts';
 import { Memo } from '../../scene/cache.ts';
 import { clamp, formatFixed } from '../../ui/format.ts';
-import { gripsOf, wallsAfterMove, type Grip } from './walls.ts';
+import { gripsOf, moveWall, type Grip } from './walls.ts';
 import type { View } from '../../scene/view.ts';
 
 /** Displacement of a wall per key press, metres. */
@@ -39,7 +39,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     const texts = words.squeeze.walls;
     return this.#currentGrips.map((grip) => {
       if (!grip) return nothing;
-      const [x, y] = this.#grippedPoint(grip);
+      const [x, y] = this.#grippedPointOf(grip);
       const position = x * grip.axis[0] + y * grip.axis[1];
       return this.#handleOf(grip).handleHtml({
         name: grip.part === 'side' ? texts.wall : texts.jamb,
@@ -67,7 +67,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     const root = this.host.renderRoot;
     const placedHandles = this.#currentGrips.filter((grip) => grip !== undefined).map((grip) => {
       const handleElement = root.querySelector(`.handle.${handleClassOf(grip)}`) as HTMLElement | null;
-      const gripPoint = grip.part === 'side' ? this.#visibleMiddle(grip, view) : this.#gripPosition(grip, view);
+      const gripPoint = grip.part === 'side' ? this.#visibleMiddleOf(grip, view) : this.#gripPositionOf(grip, view);
       const gripPixel = gripPoint && [view.toPixelX(gripPoint[0]), view.toPixelY(gripPoint[1])];
       const { left, right, top, bottom } = view.plotArea;
       const isShown = gripPixel !== undefined && gripPixel[0] > left && gripPixel[0] < right && gripPixel[1] > top && gripPixel[1] < bottom;
@@ -75,7 +75,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
         handleElement.style.visibility = isShown ? '' : 'hidden';
         if (grip.part === 'side') handleElement.style.rotate = `${Math.atan(grip.axis[0] / grip.axis[1])}rad`;
       }
-      if (isShown) this.#handleOf(grip).place(root, gripPixel[0], gripPixel[1]);
+      if (isShown) this.#handleOf(grip).placeInView(root, gripPixel[0], gripPixel[1]);
       return { name: handleClassOf(grip), element: isShown ? handleElement : null };
     });
     const shownHandles = placedHandles.filter(({ element }) => element);
@@ -91,8 +91,8 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
       return currentGrip && useGrip(currentGrip);
     };
     const handle = this.#handles.get(gripName) ?? new Handle(`${grip.part === 'side' ? 'side' : 'jamb'} ${gripName}`, {
-      view: () => this.host.picture.view,
-      graspedPointAt: () => callWithGrip((currentGrip) => this.#grippedPoint(currentGrip)),
+      getView: () => this.host.picture.view,
+      graspedPointAt: () => callWithGrip((currentGrip) => this.#grippedPointOf(currentGrip)),
       drag: (x, y) => callWithGrip((currentGrip) => this.#moveGrip(currentGrip, (point, axis) => (x - point[0]) * axis[0] + (y - point[1]) * axis[1])),
       handleKey: (event) => callWithGrip((currentGrip) => this.#onKey(event, currentGrip)) ?? false,
       commit: () => this.host.gesture.commit(),
@@ -128,37 +128,37 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
   /** Moves a grip along its axis by the requested distance, within its range. Returns false if the distance is NaN. */
   #moveGrip(grip: Grip, distanceOf: (point: number[], axis: number[]) => number) {
     this.#tabbableName = handleClassOf(grip);
-    const moveDistance = clamp(distanceOf(this.#grippedPoint(grip), grip.axis), grip.range[0], grip.range[1]);
-    if (moveDistance) this.host.moveWalls(wallsAfterMove(this.#walls, grip, moveDistance));
+    const moveDistance = clamp(distanceOf(this.#grippedPointOf(grip), grip.axis), grip.range[0], grip.range[1]);
+    if (moveDistance) this.host.moveWalls(moveWall(this.#walls, grip, moveDistance));
     return !Number.isNaN(moveDistance);
   }
 
   /** Returns the end of a wall that a grip moves, or its first end. */
-  #grippedPoint({ wall, part }: Grip) {
+  #grippedPointOf({ wall, part }: Grip) {
     return [...this.#walls.subarray(wall, wall + 4)].slice(...(part === 'to' ? [2] : [0, 2]));
   }
 
   /** Returns the position of the grip of an end. */
-  #gripPosition(grip: Grip, view: View) {
-    const [x, y] = this.#grippedPoint(grip);
+  #gripPositionOf(grip: Grip, view: View) {
+    const [x, y] = this.#grippedPointOf(grip);
     const [ux, uy] = grip.axis;
-    const insetLength = this.#insetLength(grip, view);
+    const insetLength = this.#insetLengthOf(grip, view);
     return [x - insetLength * ux, y - insetLength * uy];
   }
 
   /** Returns the distance between an end and its grip, m. */
-  #insetLength({ wall }: Grip, view: View) {
+  #insetLengthOf({ wall }: Grip, view: View) {
     const [x, y, x1, y1] = this.#walls.subarray(wall, wall + 4);
     return Math.min(MAX_GRIP_INSET * Math.hypot(x1 - x, y1 - y), GRIP_INSET / view.scaleX);
   }
 
   /** Returns the middle of the visible part of a wall between the grips of its ends; undefined where none is visible. */
-  #visibleMiddle(grip: Grip, view: View) {
+  #visibleMiddleOf(grip: Grip, view: View) {
     const { wall } = grip;
     const { xMin, yMin, xMax, yMax } = view.extent;
     const [x, y, x1, y1] = this.#walls.subarray(wall, wall + 4);
     const [dx, dy] = [x1 - x, y1 - y];
-    const fractionBeyondGrip = (part: Grip['part']) => (this.#currentGrips.some((otherGrip) => otherGrip?.wall === wall && otherGrip.part === part) ? (2 * this.#insetLength(grip, view)) / Math.hypot(dx, dy) : 0);
+    const fractionBeyondGrip = (part: Grip['part']) => (this.#currentGrips.some((otherGrip) => otherGrip?.wall === wall && otherGrip.part === part) ? (2 * this.#insetLengthOf(grip, view)) / Math.hypot(dx, dy) : 0);
     let [firstFraction, lastFraction] = [fractionBeyondGrip('from'), 1 - fractionBeyondGrip('to')];
     for (const [coordinate, delta, min, max] of [[x, dx, xMin, xMax], [y, dy, yMin, yMax]]) {
       if (!delta) continue;

@@ -69,10 +69,10 @@ export function gripsOf({ bounds, walls }: Plan): (Grip | undefined)[] {
     const wallNormal = [-wallDirection[1], wallDirection[0]];
     const isOuterWall = [0, 1].some((i) => [bounds[i], bounds[i + 2]].some((bound) => walls[wall + i] === bound && walls[wall + i + 2] === bound));
     const endGrips: [part: 'from' | 'to', end: number[], axis: number[]][] = [['from', [x0, y0], wallDirection.map((component) => -component)], ['to', [x1, y1], wallDirection]];
-    for (const [part, end, axis] of endGrips) {
-      const maxMove = Math.min(moveRangeOf(bounds, [end], axis)[1], freeDistanceAlong(walls, wall, end, axis));
+    for (const [endName, end, axis] of endGrips) {
+      const maxMove = Math.min(moveRangeOf(bounds, [end], axis)[1], freeDistanceAlongAxis(walls, wall, end, axis));
       const range = [Math.min(0, MIN_GAP - wallLength), Math.max(0, maxMove)];
-      grips.push(isOuterWall || wallLength < MIN_GAP || !isUnattachedEnd(walls, wall, end) ? undefined : { wall, part, axis, range });
+      grips.push(isOuterWall || wallLength < MIN_GAP || !isUnattachedEnd(walls, wall, end) ? undefined : { wall, part: endName, axis, range });
     }
     const range = moveRangeOf(bounds, [[x0, y0], [x1, y1]], wallNormal);
     grips.push(isOuterWall || wallLength < MIN_GAP ? undefined : { wall, part: 'side' as const, axis: wallNormal, range });
@@ -99,7 +99,7 @@ function moveRangeOf(bounds: ArrayLike<number>, points: readonly (readonly numbe
 }
 
 /** Returns the distance by which the end of a wall may move along an axis before it is near another wall. */
-function freeDistanceAlong(walls: Float64Array, wall: number, [x, y]: readonly number[], [ux, uy]: readonly number[]) {
+function freeDistanceAlongAxis(walls: Float64Array, wall: number, [x, y]: readonly number[], [ux, uy]: readonly number[]) {
   let minFreeDistance = Infinity;
   for (let k = 0; k < walls.length; k += 4) {
     if (k === wall) continue;
@@ -113,7 +113,7 @@ function freeDistanceAlong(walls: Float64Array, wall: number, [x, y]: readonly n
 }
 
 /** Returns the walls after one has moved. Walls that end on a wall that moves sideways follow it, if they only get longer or shorter. */
-export function wallsAfterMove(walls: Float64Array, { wall, part, axis: [ux, uy] }: Grip, distance: number) {
+export function moveWall(walls: Float64Array, { wall, part, axis: [ux, uy] }: Grip, distance: number) {
   const movedWalls = walls.slice();
   const moveEnd = (index: number) => {
     movedWalls[index] = walls[index] + distance * ux;

@@ -13,7 +13,7 @@ import { Cloud, cloudControlsHtml, cloudProperties } from '../shared/cloud.ts';
 import { Player, presetButtonsHtml } from '../shared/controls.ts';
 import { PoseHandles } from '../shared/robot.ts';
 import { LegsPicture, ROBOT_RADIUS, WorldPicture } from './pictures.ts';
-import { headlineHtml, outcomeReadoutsHtml, spreadPlotHtml, driftDistanceOf, captionOf, legsPictureText, worldText } from './readouts.ts';
+import { headlineHtml, outcomeReadoutsHtml, spreadPlotHtml, driftDistanceOf, captionOf, describeLegs, describeWorld } from './readouts.ts';
 import { LINE_STYLES, definition, sliderSpecs, NOISE_SLIDERS, SAMPLE_COUNTS, viewModelOf, type ViewModel } from './settings.ts';
 import type { Motion, OdometryDecomposer as Simulation } from '../../types.d.ts';
 
@@ -22,7 +22,7 @@ function noiseModelTableHtml(figure: OdometryDecomposerElement) {
   const { rules: names, table: texts, settings } = words.decomposer;
   const { rules } = figure.viewModel;
   const currentRule = figure.settings.requested.rule;
-  const printedRows = rules.map(({ deviations, crossTrack, heading }) => [...deviations, crossTrack, heading].map((value) => formatFixed(value, 3)));
+  const printedRows = rules.map(({ deviations, crossTrack, heading }) => [...deviations, crossTrack, heading].map((noiseValue) => formatFixed(noiseValue, 3)));
   return html`<div class="rules" role="radiogroup" aria-label=${settings.rule.name}>
     ${tableHtml({
       caption: formatMarkup(texts.caption),
@@ -172,7 +172,7 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
   get exportData() {
     const { config, poses } = this.currentViewModel;
     return {
-      description: legsPictureText(this.viewModel),
+      description: describeLegs(this.viewModel),
       settings: config,
       columns: { 'x_m y_m theta_rad': poses },
     };
@@ -189,9 +189,9 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
     return html`
       <div class="views">
         ${titledPictureHtml(texts.legsTitle, html`<div class="stage" part="picture">
-          ${pictureCanvasHtml(this, this.#legsPicture, legsPictureText(viewModel))} ${this.#handles.map((handle) => handle.render())}
+          ${pictureCanvasHtml(this, this.#legsPicture, describeLegs(viewModel))} ${this.#handles.map((handle) => handle.render())}
         </div>`, 'legs')}
-        ${titledPictureHtml(texts.worldTitle, html`<div class="stage">${pictureCanvasHtml(this, this.#worldPicture, worldText(viewModel))}</div>`)}
+        ${titledPictureHtml(texts.worldTitle, html`<div class="stage">${pictureCanvasHtml(this, this.#worldPicture, describeWorld(viewModel))}</div>`)}
         ${this.renderer.renderAfterFirstPicture(() => html`
         <div class="summary">${headlineHtml(viewModel)} <p class="caption" part="caption">${captionOf(viewModel)}</p></div>
         <p class="caption">${formatMarkup(texts.worldCaption(formatFixed(driftDistanceOf(viewModel), 2)))}</p>`)}

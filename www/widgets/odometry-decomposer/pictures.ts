@@ -5,11 +5,11 @@ import { words } from '../../messages/registry.ts';
 import { clipToPlot, drawAxes } from '../../scene/axes.ts';
 import { drawCallouts, type Callout, LABELS_ABOVE_HEIGHT, drawLabel, drawLabelsAbove } from '../../scene/labels.ts';
 import { addLine, fillPath, paintWithOpacity, strokePath, drawDisc, strokeLine, type DrawContext, type LineStroke } from '../../scene/canvas.ts';
-import { addTurnArc, drawDots, drawCrosshair, drawOutlines, hasLength, lineLegendEntries, lineStyles, strokeLines } from '../../scene/draw.ts';
+import { addTurnArc, drawDots, drawCrosshair, drawOutlines, hasLength, createLineLegend, createLineStyles, strokeLines } from '../../scene/draw.ts';
 import { SamplesPicture } from '../../scene/picture.ts';
 import { View, cornersAround, extentOf } from '../../scene/view.ts';
 import { formatFixed } from '../../ui/format.ts';
-import { drawDraggableRobot, drawRobotOutline, turnHandleDistance } from '../shared/robot.ts';
+import { drawDraggableRobot, drawRobotOutline, turnHandleDistanceOf } from '../shared/robot.ts';
 import { poseAt, LINE_STYLES } from './settings.ts';
 import type { Pose, RuleNoise } from '../../types.d.ts';
 
@@ -37,11 +37,11 @@ function drawTurn({ context, view }: DrawContext, startPose: Pose, turn: number,
   strokePath(context, { colour, width: 1.75 }, () => addTurnArc(context, view.toPixel(startPose.x, startPose.y), radius, startPose.theta, turn));
   // The arrow head is smaller on a short arc.
   const headLength = Math.min(ARROW_HEAD_SIZE.length, radius * Math.abs(turn));
-  const tip = view.headingLine({ ...startPose, theta: startPose.theta + turn }, radius)[1];
+  const tip = view.headingLineFrom({ ...startPose, theta: startPose.theta + turn }, radius)[1];
   const headBase = { ...startPose, theta: startPose.theta + turn - (Math.sign(turn) * headLength) / radius };
   const headScale = headLength / ARROW_HEAD_SIZE.length;
-  const headCorner = (side: number) => view.headingLine(headBase, radius + side * headScale * ARROW_HEAD_SIZE.half)[1];
-  fillPath(context, colour, () => addLine(context, [tip, headCorner(1), headCorner(-1)]));
+  const headCornerOf = (side: number) => view.headingLineFrom(headBase, radius + side * headScale * ARROW_HEAD_SIZE.half)[1];
+  fillPath(context, colour, () => addLine(context, [tip, headCornerOf(1), headCornerOf(-1)]));
 }
 
 /** Draws a standard deviation (rad) to either side of a heading, as a fan with a radius in pixels. */
@@ -61,11 +61,11 @@ function drawDeviationFan({ context, view }: DrawContext, { x, y, theta }: Pose,
 /** Draws a standard deviation (m) as a bar with ends, along the heading of a pose and to either side of its position. */
 function drawDeviationBar({ context, view }: DrawContext, pose: Pose, deviation: number, colour: string) {
   if (deviation === 0) return;
-  const barDirection = view.pixelDirection(pose.theta);
+  const barDirection = view.pixelDirectionOf(pose.theta);
   const halfLength = deviation * view.scaleX;
   strokePath(context, { colour, width: 1.75 }, () => {
     for (const endOffset of [-halfLength, halfLength]) {
-      const [barMiddle, [endX, endY]] = view.headingLine(pose, endOffset);
+      const [barMiddle, [endX, endY]] = view.headingLineFrom(pose, endOffset);
       addLine(context, [barMiddle, [endX, endY]]);
       addLine(context, [[endX - ARROW_HEAD_SIZE.half * barDirection.y, endY + ARROW_HEAD_SIZE.half * barDirection.x], [endX + ARROW_HEAD_SIZE.half * barDirection.y, endY - ARROW_HEAD_SIZE.half * barDirection.x]]);
     }
@@ -149,7 +149,7 @@ function drawMarked(drawContext: DrawContext, { marked }: Scene) {
 type Turn = [Pose, turn: number, radius: number];
 
 /** Returns the radii of the arcs of both turns, pixels. */
-const turnRadiiOf = (view: Pick<View, 'scaleX'>) => [0, 1].map((arc) => turnHandleDistance(view, ROBOT_RADIUS) + ARC_GAPS.handle + arc * ARC_GAPS.arcs);
+const turnRadiiOf = (view: Pick<View, 'scaleX'>) => [0, 1].map((arc) => turnHandleDistanceOf(view, ROBOT_RADIUS) + ARC_GAPS.handle + arc * ARC_GAPS.arcs);
 
 /** Returns points of an arc about a pose that starts at its heading, as x, y pairs. The turn is in radians, and the radius in metres. */
 function turnArcPoints({ x, y, theta }: Pose, turn: number, radius: number) {
@@ -179,8 +179,8 @@ export class LegsPicture extends SamplesPicture<Scene> {
       return extentOf([...worldPoints, ...arcCorners], 1.2);
     };
     // The arcs have a fixed size in pixels, and need more space in metres at a smaller scale.
-    let scale = view.fittingScale(extentOf(worldPoints, 1.2));
-    for (let i = 0; i < SCALE_STEPS; i++) scale = view.fittingScale(extentAtScale(scale));
+    let scale = view.fittingScaleOf(extentOf(worldPoints, 1.2));
+    for (let i = 0; i < SCALE_STEPS; i++) scale = view.fittingScaleOf(extentAtScale(scale));
     view.fit(extentAtScale(scale));
   }
 
@@ -189,10 +189,10 @@ export class LegsPicture extends SamplesPicture<Scene> {
     const { linkage, legs, deviations, config, overlays } = scene;
     const [startPose, turnedPose, drivenPose] = [0, 1, 2].map((index) => poseAt(linkage, index));
     const legendNames = (['legs', 'deviation', 'outcomes'] as const).filter((name) => overlays.includes(name));
-    drawAxes(drawContext, AXIS_NAMES, lineLegendEntries(drawContext, LINE_STYLES, legendNames, words.decomposer.overlays));
+    drawAxes(drawContext, AXIS_NAMES, createLineLegend(drawContext, LINE_STYLES, legendNames, words.decomposer.overlays));
     const [firstRadius, secondRadius] = turnRadiiOf(this.view);
     const turns: Turn[] = [[startPose, legs.rot1, firstRadius], [drivenPose, legs.rot2, secondRadius]];
-    const styles = lineStyles(drawContext, LINE_STYLES);
+    const styles = createLineStyles(drawContext, LINE_STYLES);
     const showsDeviation = overlays.includes('deviation');
     const { colour } = styles.deviation;
     const ellipses = showsDeviation ? spreadEllipsesOf(drawContext, scene) : [];
@@ -216,19 +216,19 @@ export class LegsPicture extends SamplesPicture<Scene> {
       drawMarked(drawContext, scene);
     });
     const turnArcs = turns.map(([turnPose, turn, turnRadius]) => Float64Array.from(turnArcPoints(turnPose, turn, turnRadius / this.view.scaleX)));
-    if (overlays.includes('legs')) drawLabelsAbove(drawContext, this.#labels(drawContext, scene, turns));
+    if (overlays.includes('legs')) drawLabelsAbove(drawContext, this.#createLabels(drawContext, scene, turns));
     drawCallouts(drawContext, ellipses.map(({ callout }) => callout), { shapeCentre: [drivenPose.x, drivenPose.y], lines: [...ellipses.map(({ points }) => points), ...turnArcs] });
   };
 
   /** Returns labels with the value and standard deviation of each leg that is long enough to see. */
-  #labels({ view, palette: { prior: colour } }: DrawContext, { legs, deviations }: Scene, turns: Turn[]) {
+  #createLabels({ view, palette: { prior: colour } }: DrawContext, { legs, deviations }: Scene, turns: Turn[]) {
     const [startPose, drivenPose] = turns.map(([turnPose]) => turnPose);
     // The point of an arc that is nearest to the labels, and inside the axes.
     const leaderEndOf = ([{ x, y, theta }, turn, radius]: Turn) => {
-      const leaderEndCandidates = LEADER_ENDS.map((share) => view.headingLine({ x, y, theta: theta + share * turn }, radius)[1])
+      const leaderEndCandidates = LEADER_ENDS.map((share) => view.headingLineFrom({ x, y, theta: theta + share * turn }, radius)[1])
         .map(([placeX, placeY]) => ({ x: placeX, y: placeY }))
-        .sort((one, other) => one.y - other.y);
-      return leaderEndCandidates.find((place) => place.y > view.plotArea.top) ?? leaderEndCandidates[leaderEndCandidates.length - 1];
+        .sort((candidate, otherCandidate) => candidate.y - otherCandidate.y);
+      return leaderEndCandidates.find((candidate) => candidate.y > view.plotArea.top) ?? leaderEndCandidates[leaderEndCandidates.length - 1];
     };
     const driveMiddle = { x: view.toPixelX((startPose.x + drivenPose.x) / 2), y: view.toPixelY((startPose.y + drivenPose.y) / 2) };
     const labels = [
@@ -243,9 +243,9 @@ export class LegsPicture extends SamplesPicture<Scene> {
   }
 
   #paintGhosts({ context, view, palette }: DrawContext, { ghosts }: Scene) {
-    const ghostPixel = (index: number) => view.toPixel(ghosts[3 * index], ghosts[3 * index + 1]);
+    const ghostPixelOf = (index: number) => view.toPixel(ghosts[3 * index], ghosts[3 * index + 1]);
     paintWithOpacity(context, 0.5, () => strokePath(context, { colour: palette.cloud, width: 1 }, () => {
-      for (let i = 0; i < ghosts.length / 3; i += 4) addLine(context, [0, 1, 2, 3].map((k) => ghostPixel(i + k)));
+      for (let i = 0; i < ghosts.length / 3; i += 4) addLine(context, [0, 1, 2, 3].map((k) => ghostPixelOf(i + k)));
     }));
   }
 
@@ -253,7 +253,7 @@ export class LegsPicture extends SamplesPicture<Scene> {
     const radius = Math.max(7, 0.7 * ROBOT_RADIUS * view.scaleX);
     const robotEdge = { colour: palette.paper, width: 2 };
     drawDisc(context, view.toPixel(pose.x, pose.y), radius, palette.accent, robotEdge);
-    strokeLine(context, view.headingLine(pose, radius), robotEdge);
+    strokeLine(context, view.headingLineFrom(pose, radius), robotEdge);
   }
 }
 
@@ -276,17 +276,17 @@ export class WorldPicture extends SamplesPicture<Scene> {
     const { overlays } = scene;
     const [frame, odometryStart, odometryEnd] = [0, 1, 2].map((index) => poseAt(scene.drifted.poses, index));
     const [startPose, predictedPose] = [poseAt(scene.linkage, 0), poseAt(scene.linkage, 3)];
-    const styles = lineStyles(drawContext, LINE_STYLES);
+    const styles = createLineStyles(drawContext, LINE_STYLES);
     drawAxes(drawContext, AXIS_NAMES);
     clipToPlot(drawContext, () => {
       if (overlays.includes('odometry')) {
         const axisLength = FRAME_AXIS_LENGTH * view.scaleX;
-        const [, yAxisEnd] = view.headingLine({ ...frame, theta: frame.theta + Math.PI / 2 }, axisLength);
-        strokeLine(context, [yAxisEnd, ...view.headingLine(frame, axisLength)], { colour: palette.prior, width: 1.25 });
+        const [, yAxisEnd] = view.headingLineFrom({ ...frame, theta: frame.theta + Math.PI / 2 }, axisLength);
+        strokeLine(context, [yAxisEnd, ...view.headingLineFrom(frame, axisLength)], { colour: palette.prior, width: 1.25 });
         drawSegment(drawContext, odometryStart, odometryEnd, styles.odometry);
         for (const pose of [odometryStart, odometryEnd]) {
           drawRobotOutline(drawContext, pose.x, pose.y, ROBOT_RADIUS, palette.prior);
-          strokeLine(context, view.headingLine(pose, ROBOT_RADIUS * view.scaleX + 8), { colour: palette.prior, width: 1.5 });
+          strokeLine(context, view.headingLineFrom(pose, ROBOT_RADIUS * view.scaleX + 8), { colour: palette.prior, width: 1.5 });
         }
       }
       drawOutcomes(drawContext, scene);
@@ -299,13 +299,13 @@ export class WorldPicture extends SamplesPicture<Scene> {
     const { outcomesBy, rules } = words.decomposer;
     if (overlays.includes('outcomes')) drawLabel(drawContext, { text: outcomesBy(rules[scene.config.rule]), x: left, y: bottom, freeSide: 1, colour: palette.prediction });
     drawLabelsAbove(drawContext, [
-      ...(overlays.includes('prediction') ? this.#labels(drawContext, [startPose, predictedPose], 'x', [palette.ink, palette.prediction]) : []),
-      ...(overlays.includes('odometry') ? this.#labels(drawContext, [odometryStart, odometryEnd], 'x̄', [palette.prior, palette.prior]) : []),
+      ...(overlays.includes('prediction') ? this.#createLabels(drawContext, [startPose, predictedPose], 'x', [palette.ink, palette.prediction]) : []),
+      ...(overlays.includes('odometry') ? this.#createLabels(drawContext, [odometryStart, odometryEnd], 'x̄', [palette.prior, palette.prior]) : []),
     ]);
   };
 
   /** Returns the labels of the poses before and after the motion; only the second if both are at one place on the screen. */
-  #labels({ view }: DrawContext, poses: Pose[], symbol: string, colours: string[]) {
+  #createLabels({ view }: DrawContext, poses: Pose[], symbol: string, colours: string[]) {
     const [firstLabel, secondLabel] = poses.map((pose, i) => {
       const [x, y] = view.toPixel(pose.x, pose.y);
       return { x, y, symbol, subscript: ['t−1', 't'][i], colour: colours[i] };

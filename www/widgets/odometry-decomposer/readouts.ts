@@ -36,14 +36,14 @@ export function driftDistanceOf({ drifted, linkage }: ViewModel) {
   return Math.hypot(odometryPose.x - predictedPose.x, odometryPose.y - predictedPose.y);
 }
 
-export function legsPictureText(viewModel: ViewModel) {
+export function describeLegs(viewModel: ViewModel) {
   const { legs: { rot1, trans, rot2 }, config: { to }, stats } = viewModel;
   const texts = words.decomposer;
   const outcomesText = stats.n === 0 ? texts.none : texts.outcomes(formatInteger(stats.n), formatFixed(stats.crossTrack, 2), formatFixed(stats.heading, 2));
   return `${texts.picture(formatFixed(rot1, 2), formatFixed(trans, 2), formatFixed(rot2, 2), formatFixed(to.x, 2), formatFixed(to.y, 2))} ${outcomesText} ${captionOf(viewModel)}`;
 }
 
-export function worldText(viewModel: ViewModel) {
+export function describeWorld(viewModel: ViewModel) {
   const { x, y, theta } = poseAt(viewModel.drifted.poses, 0);
   return words.decomposer.worldPicture(formatFixed(x, 2), formatFixed(y, 2), formatFixed(theta, 2), formatFixed(driftDistanceOf(viewModel), 2));
 }
@@ -77,8 +77,8 @@ export function spreadPlotHtml(curveOf: (longest: number, points: number) => Flo
   const texts = words.decomposer.plot;
   const maxLength = Math.max(1, 2 * legs.trans);
   const curveRows = curveOf(maxLength, CURVE_POINTS);
-  const curveColumn = (index: number) => Float64Array.from({ length: CURVE_POINTS }, (_, i) => curveRows[4 * i + index]);
-  const [x, crossTrack, lever, along] = [0, 1, 2, 3].map(curveColumn);
+  const curveColumnOf = (index: number) => Float64Array.from({ length: CURVE_POINTS }, (_, i) => curveRows[4 * i + index]);
+  const [x, crossTrack, lever, along] = [0, 1, 2, 3].map(curveColumnOf);
   const maxDeviation = Math.max(0.1, ...crossTrack, ...along, stats.crossTrack + stats.crossTrackError || 0);
   return html`<figure>
     <p class="panel-title">${texts.title}</p>

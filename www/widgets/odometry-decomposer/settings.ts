@@ -1,7 +1,7 @@
 /** The Odometry Decomposer's settings: their attributes, their part of the state, and their sliders; line styles, and the view model. */
 
 import { createDefinition } from '../../figure/definition.ts';
-import { alphaSliderSpecs } from '../shared/sliders.ts';
+import { createAlphaSliderSpecs } from '../shared/sliders.ts';
 import type { OdometryDecomposer, RuleNoise } from '../../types.d.ts';
 
 /** Styles of the lines and marks in the pictures. */
@@ -16,7 +16,7 @@ export const LINE_STYLES = {
 
 /** Sliders of the noise parameters and of the correlation. */
 export const NOISE_SLIDERS = {
-  ...alphaSliderSpecs(5, 'odometry'),
+  ...createAlphaSliderSpecs(5, 'odometry'),
   correlation: { symbol: '*ρ*', role: 'prediction' as const, min: -1, max: 1, step: 0.05, decimals: 2 },
 };
 

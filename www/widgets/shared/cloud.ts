@@ -89,7 +89,7 @@ export class Cloud extends FigureController implements SampleCloud {
   showOrGrow(state?: StateValues) {
     if (!state) this.#state.playing = true;
     if (!state || this.isComplete) this.#state.shown = Infinity;
-    if (!state && !prefersReducedMotion()) this.#restart();
+    if (!state && !prefersReducedMotion()) this.#restartSampling();
     if (this.playing && prefersReducedMotion()) this.addAllSamples();
   }
 
@@ -98,7 +98,7 @@ export class Cloud extends FigureController implements SampleCloud {
     return simulation.configureFirst(settings, shown);
   }
 
-  #restart() {
+  #restartSampling() {
     this.#state.shown = 0;
     if (this.#latestCounts.shown > 0) this.configure(this.#simulation, {});
     this.host.settings.isViewModelStale = true;
@@ -198,24 +198,24 @@ export class Cloud extends FigureController implements SampleCloud {
   }
 
   /** Runs the action of a button of the cloud, and sets `playing`. */
-  #runControl(playing: boolean, action: () => void) {
+  #runControl(shouldPlay: boolean, runAction: () => void) {
     if (!this.host.simulation) return;
-    action();
-    this.#state.playing = playing;
+    runAction();
+    this.#state.playing = shouldPlay;
     this.host.gesture.commitOneStep();
     this.host.renderer.requestFrame();
   }
 
   buttonsHtml() {
     const cloudWords = words.cloud;
-    const playOrPause = () => this.#runControl(!this.playing, () => {
-      if (!this.playing && this.isComplete) this.#restart();
+    const togglePlaying = () => this.#runControl(!this.playing, () => {
+      if (!this.playing && this.isComplete) this.#restartSampling();
     });
     const [label, otherLabel] = this.playing ? [words.pause, cloudWords.play] : [cloudWords.play, words.pause];
     return html`<div class="buttons">
-      ${buttonHtml(label, playOrPause, { title: cloudWords.playTitle, otherLabel })}
+      ${buttonHtml(label, togglePlaying, { title: cloudWords.playTitle, otherLabel })}
       ${buttonHtml(words.step, () => this.#runControl(false, () => this.showSamples(this.#latestCounts.shown + this.#batchSize)), { title: cloudWords.step(formatInteger(this.#batchSize)), disabled: this.isComplete })}
-      ${buttonHtml(words.clear, () => this.#runControl(false, () => this.#restart()), { title: cloudWords.clear })}
+      ${buttonHtml(words.clear, () => this.#runControl(false, () => this.#restartSampling()), { title: cloudWords.clear })}
       ${seedFieldHtml(this.host)} ${buttonHtml(words.newSeed, () => this.host.gesture.requestAndCommit(() => ({ seed: this.host.motion.randomSeed() })), { title: cloudWords.reseed })}
     </div>`;
   }
@@ -272,10 +272,10 @@ export function sampleFieldHtml(figure: CloudFigure, id: 'robot' | 'sample', sho
   const refusalText = notice.textBeside('marked');
   const enterIndex = (event: Event) => {
     const typedIndex = inputOf(event).value;
-    const number = typedIndex === '' ? 0 : parseTypedNumber(figure, 'marked', label, typedIndex, { min: 1, max: shown, type: 'whole' });
-    if (number === undefined) return;
+    const sampleNumber = typedIndex === '' ? 0 : parseTypedNumber(figure, 'marked', label, typedIndex, { min: 1, max: shown, type: 'whole' });
+    if (sampleNumber === undefined) return;
     notice.dismiss();
-    cloud.select(number - 1);
+    cloud.select(sampleNumber - 1);
   };
   return html`<p class="marked">
     <label>

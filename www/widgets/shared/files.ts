@@ -72,7 +72,7 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
     event.preventDefault();
     const resultElement = this.host.renderRoot.querySelector(`#${this.id}`);
     if (resultElement instanceof HTMLDetailsElement) resultElement.open = true;
-    droppedFiles(event.dataTransfer).then((files) => files.length > 0 && this.choose(files));
+    readDroppedFiles(event.dataTransfer).then((files) => files.length > 0 && this.choose(files));
   };
 
   /** Returns a button that opens a file dialog for files with these extensions. */
@@ -90,7 +90,7 @@ export abstract class FileOpener<Host extends Figure> extends FigureController<H
 }
 
 /** Returns the dropped files, and the files in dropped folders with their paths in the folders. */
-async function droppedFiles({ items }: DataTransfer): Promise<File[]> {
+async function readDroppedFiles({ items }: DataTransfer): Promise<File[]> {
   // All entries are read synchronously, because the browser empties the list afterwards.
   const droppedItems = [...items].filter(({ kind }) => kind === 'file').map((item) => ({ entry: item.webkitGetAsEntry(), file: item.getAsFile() }));
   const files = await Promise.all(droppedItems.map(({ entry, file }) => (entry?.isDirectory ? filesInDirectory(entry as FileSystemDirectoryEntry) : file ? [file] : [])));

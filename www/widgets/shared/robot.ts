@@ -16,14 +16,14 @@ const MIN_RADIUS = 3;
 const TURN_HANDLE_RADIUS = 5.5;
 
 /** Returns the distance (CSS pixels) from the centre of a robot to the handle that turns it. The radius of the robot is in metres. */
-export function turnHandleDistance(view: Pick<View, 'scaleX'>, radius: number): number {
+export function turnHandleDistanceOf(view: Pick<View, 'scaleX'>, radius: number): number {
   return Math.max(34, radius * view.scaleX + 22);
 }
 
 /** Draws a robot that the user can drag and turn. Its radius is in metres. Labels drawn later avoid the robot. */
 export function drawDraggableRobot(drawContext: DrawContext, pose: Pose, radius: number, colour: string) {
   const { context, view, palette, placedBoxes } = drawContext;
-  const [centre, turnHandle] = view.headingLine(pose, turnHandleDistance(view, radius));
+  const [centre, turnHandle] = view.headingLineFrom(pose, turnHandleDistanceOf(view, radius));
   const edgeStyle = { colour, width: 2.25 };
   const robotRadius = toPixelRadius(view, radius);
   drawDisc(context, centre, robotRadius, palette.paper, edgeStyle);
@@ -58,8 +58,8 @@ const EDGE_MARGIN = 12;
 /** Handles of a robot: a handle on its body moves the robot, and a handle ahead of it turns the robot. */
 export class PoseHandles extends FigureController<import('../../figure/figure.ts').Figure> {
   #setting;
-  #view;
-  #bounds;
+  #getView;
+  #getBounds;
   #bodyHandle;
   #turnHandle;
 
@@ -67,12 +67,12 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
    * Creates the handles of a setting that is a pose, in the view of a picture. `bounds` returns left, bottom, right and top of the allowed
    * positions, metres. The catalogue of the figure has the names of both handles under `handles`.
    */
-  constructor(host: import('../../figure/figure.ts').Figure, setting: string, view: () => View, bounds: () => number[] | Float64Array = () => DEFAULT_BOUNDS) {
+  constructor(host: import('../../figure/figure.ts').Figure, setting: string, getView: () => View, getBounds: () => number[] | Float64Array = () => DEFAULT_BOUNDS) {
     super(host);
     this.#setting = setting;
-    this.#view = view;
-    this.#bounds = bounds;
-    const callbacks = { view, commit: () => host.gesture.commit() };
+    this.#getView = getView;
+    this.#getBounds = getBounds;
+    const callbacks = { getView, commit: () => host.gesture.commit() };
     this.#bodyHandle = new Handle(`body ${setting}`, {
       ...callbacks,
       graspedPointAt: () => [this.#pose.x, this.#pose.y],
@@ -99,7 +99,7 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
     const [bodyName, headingName] = (words as any)[this.host.definition.messageKey].handles[this.#setting];
     const { keys, headingKeys, moveTitle, turnTitle, ends } = words.pose;
     const { x, y, theta } = this.#pose;
-    const [left, bottom, right, top] = this.#bounds();
+    const [left, bottom, right, top] = this.#getBounds();
     return [
       this.#bodyHandle.handleHtml({
         name: bodyName,
@@ -123,12 +123,12 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
 
   /** Places the handles on the drawn robot, whose radius is in metres. */
   place(config: Record<string, any>, radius: number) {
-    const view = this.#view();
+    const view = this.#getView();
     const root = this.host.renderRoot;
-    const [[x, y], [turnX, turnY]] = view.headingLine(config[this.#setting], turnHandleDistance(view, radius));
+    const [[x, y], [turnX, turnY]] = view.headingLineFrom(config[this.#setting], turnHandleDistanceOf(view, radius));
     const clampToPicture = (coordinate: number, size: number) => clamp(coordinate, EDGE_MARGIN, size - EDGE_MARGIN);
-    this.#bodyHandle.place(root, x, y, Math.max(MIN_BODY_HANDLE_SIZE, 2 * radius * view.scaleX));
-    this.#turnHandle.place(root, clampToPicture(turnX, view.width), clampToPicture(turnY, view.height));
+    this.#bodyHandle.placeInView(root, x, y, Math.max(MIN_BODY_HANDLE_SIZE, 2 * radius * view.scaleX));
+    this.#turnHandle.placeInView(root, clampToPicture(turnX, view.width), clampToPicture(turnY, view.height));
   }
 
   /** Moves the robot by steps along x and y; returns false if there are none. */
@@ -148,7 +148,7 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
 
   /** Moves the robot to a point in metres, within its bounds. */
   #moveTo(x: number, y: number) {
-    const [left, bottom, right, top] = this.#bounds();
+    const [left, bottom, right, top] = this.#getBounds();
     this.#requestPose({ ...this.#pose, x: clamp(x, left, right), y: clamp(y, bottom, top) });
   }
 

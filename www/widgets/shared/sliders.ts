@@ -8,7 +8,7 @@ export const COMMAND_DASH = [2.5, 3.5];
 const SPEED_SLIDER = { role: 'prior' as const, step: 0.01, decimals: 2 };
 
 /** Returns the sliders of a command. `maxDuration` is in seconds. Handles and charts that set the command respect these ranges. */
-export const commandSliderSpecs = (maxDuration: number) => ({
+export const createCommandSliderSpecs = (maxDuration: number) => ({
   v: { ...SPEED_SLIDER, symbol: '*v*', min: -1.5, max: 1.5 },
   omega: { ...SPEED_SLIDER, symbol: '*ω*', min: -2, max: 2 },
   dt: { ...SPEED_SLIDER, symbol: '*Δt*', min: 0.1, max: maxDuration, step: 0.05 },
@@ -25,7 +25,7 @@ export const subscriptOf = (index: number) => String.fromCharCode(0x2081 + index
 export const ALPHA_SLIDER = { role: 'prediction' as const, min: 0, max: 0.2, step: 0.001, decimals: 3 };
 
 /** Returns the sliders of the first `count` noise parameters of a model, by the names of their settings. */
-export function alphaSliderSpecs(count: number, model: 'velocity' | 'odometry' = 'velocity'): Record<string, import('../../figure/controls.ts').SliderSpec> {
+export function createAlphaSliderSpecs(count: number, model: 'velocity' | 'odometry' = 'velocity'): Record<string, import('../../figure/controls.ts').SliderSpec> {
   return Object.fromEntries(
     Array.from({ length: count }, (_, i) => [`alpha${i + 1}`, { ...ALPHA_SLIDER, symbol: `*α*${subscriptOf(i)}`, alpha: [model, i] }]),
   );

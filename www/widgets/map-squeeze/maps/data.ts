@@ -1,6 +1,6 @@
 /** Maps as plain data, the form in which a state contains a map of the user. */
 
-import { checkObject, refusalError, withFieldRenamed, checkNumber } from '../../../data/checks.ts';
+import { checkObject, createRefusalError, withFieldRenamed, checkNumber } from '../../../data/checks.ts';
 import { fromBase64, toBase64 } from '../../../data/packing.ts';
 import { limits } from '../../../../build/settings.js';
 import type { CellGrid } from '../../../scene/walls.ts';
@@ -30,19 +30,19 @@ export function mapDataOf(simulation: MapSqueeze, name: string, grid: CellGrid |
     return freeze({ name, columns, rows, resolution, origin: freeze([...origin]), occupied, ...unknownField });
   }
   const { bounds, walls } = simulation.plan;
-  const wallList = [];
-  for (let i = 0; i < walls.length; i += 4) wallList.push(freeze([walls[i], walls[i + 1], walls[i + 2], walls[i + 3]]));
-  return freeze({ name, bounds: freeze([...bounds]), walls: freeze(wallList) });
+  const wallObjects = [];
+  for (let i = 0; i < walls.length; i += 4) wallObjects.push(freeze([walls[i], walls[i + 1], walls[i + 2], walls[i + 3]]));
+  return freeze({ name, bounds: freeze([...bounds]), walls: freeze(wallObjects) });
 }
 
 /** Sets the map of a simulation. Throws a TypeError or RangeError that names the field, and then changes nothing. */
-export function applyMap(simulation: MapSqueeze, data: unknown) {
-  if (typeof data !== 'object' || data === null || Array.isArray(data)) {
-    throw refusalError('map', data, `a plan, an object of ${PLAN_KEYS.join(', ')}, or a grid, one of ${GRID_KEYS.join(', ')}`, TypeError);
+export function applyMap(simulation: MapSqueeze, mapData: unknown) {
+  if (typeof mapData !== 'object' || mapData === null || Array.isArray(mapData)) {
+    throw createRefusalError('map', mapData, `a plan, an object of ${PLAN_KEYS.join(', ')}, or a grid, one of ${GRID_KEYS.join(', ')}`, TypeError);
   }
-  const isGrid = GRID_ONLY_KEYS.some((key) => key in data);
-  const map = checkObject('map', data, isGrid ? GRID_KEYS : PLAN_KEYS);
-  if (map.name !== undefined && typeof map.name !== 'string') throw refusalError('map.name', map.name, 'a text', TypeError);
+  const isGrid = GRID_ONLY_KEYS.some((key) => key in mapData);
+  const map = checkObject('map', mapData, isGrid ? GRID_KEYS : PLAN_KEYS);
+  if (map.name !== undefined && typeof map.name !== 'string') throw createRefusalError('map.name', map.name, 'a text', TypeError);
   if (!isGrid) {
     withRenamedFields(PLAN_KEYS, () => simulation.setPlan({ bounds: map.bounds, walls: map.walls }));
     return;
@@ -88,16 +88,16 @@ function packBits(cells: Uint8Array): string {
   return toBase64(packedBytes);
 }
 
-function decodeBits(field: string, text: unknown, count: number) {
+function decodeBits(field: string, encodedBits: unknown, count: number) {
   const byteLength = Math.ceil(count / 8);
   const allowedText = `base64 of ${byteLength} bytes, a bit for each cell`;
-  if (typeof text !== 'string') throw refusalError(field, text, allowedText, TypeError);
+  if (typeof encodedBits !== 'string') throw createRefusalError(field, encodedBits, allowedText, TypeError);
   let packedBytes;
   try {
-    packedBytes = fromBase64(text);
+    packedBytes = fromBase64(encodedBits);
   } catch {
-    throw refusalError(field, text, allowedText);
+    throw createRefusalError(field, encodedBits, allowedText);
   }
-  if (packedBytes.length !== byteLength) throw refusalError(field, text, allowedText);
+  if (packedBytes.length !== byteLength) throw createRefusalError(field, encodedBits, allowedText);
   return packedBytes;
 }

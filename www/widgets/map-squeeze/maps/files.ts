@@ -17,12 +17,12 @@ export interface UserMap {
 
 /** Error with one sentence that names the file, the line or field, and what was expected. */
 export class MapFileError extends Error {
-  sentence: (texts: RefusalWords) => string;
+  messageIn: (texts: RefusalWords) => string;
 
   /** Creates the error of a file; the sentence is made when it is shown, in the language of that time. */
-  constructor(file: string, sentence: (texts: RefusalWords, file: string) => string) {
+  constructor(file: string, composeMessage: (texts: RefusalWords, file: string) => string) {
     super('The map is refused.');
-    this.sentence = (texts: RefusalWords) => sentence(texts, quoteText(file));
+    this.messageIn = (texts: RefusalWords) => composeMessage(texts, quoteText(file));
   }
 }
 
@@ -40,8 +40,8 @@ const PNG_MAGIC = [0x89, 0x50, 0x4e, 0x47];
 
 /** Reads the map in files; rejects with a MapFileError. */
 export async function readMapFiles(files: File[], decodePng: DecodePng): Promise<UserMap> {
-  const filesNamed = (pattern: RegExp) => files.filter(({ name }) => pattern.test(name));
-  const [planFiles, yamlFiles, imageFiles] = [filesNamed(/\.json$/i), filesNamed(/\.ya?ml$/i), filesNamed(/\.(pgm|png)$/i)];
+  const filesMatching = (pattern: RegExp) => files.filter(({ name }) => pattern.test(name));
+  const [planFiles, yamlFiles, imageFiles] = [filesMatching(/\.json$/i), filesMatching(/\.ya?ml$/i), filesMatching(/\.(pgm|png)$/i)];
   const isOneMap = planFiles.length + yamlFiles.length === 1 && planFiles.length + yamlFiles.length + imageFiles.length === files.length;
   if (!isOneMap) throw new MapFileError(files.map(({ name }) => name).join(', '), (texts, names) => texts.files(names));
   return planFiles.length ? readPlan(planFiles[0].name, await readText(planFiles[0], MAX_PLAN_BYTES)) : readGrid(yamlFiles[0], imageFiles, decodePng);
@@ -89,7 +89,7 @@ async function readGrid(file: File, imageFiles: File[], decodePng: DecodePng): P
   const imageContent = isPng ? await decodePng(imageBytes).catch(throwPngError) : imageBytes;
   return {
     name: file.name,
-    apply: (simulation) => explainErrors(file.name, () => simulation.setGrid(description, imageContent), (texts, name, reason) => gridErrorSentence(texts, name, quoteText(imageFile.name), reason)),
+    apply: (simulation) => explainErrors(file.name, () => simulation.setGrid(description, imageContent), (texts, name, reason) => explainGridError(texts, name, quoteText(imageFile.name), reason)),
   };
 }
 
@@ -100,9 +100,9 @@ const BOOLEAN_WORDS = new Map([['true', true], ['yes', true], ['on', true], ['fa
 const NUMBER_FIELDS = ['resolution', 'origin', 'negate', 'occupied_thresh', 'free_thresh'];
 
 /** Returns a number in quotes as a number, and other values unchanged. */
-function numberFromText(value: unknown): unknown {
-  if (Array.isArray(value)) return value.map(numberFromText);
-  return typeof value === 'string' && value.trim() !== '' && Number.isFinite(Number(value)) ? Number(value) : value;
+function numberFromText(yamlValue: unknown): unknown {
+  if (Array.isArray(yamlValue)) return yamlValue.map(numberFromText);
+  return typeof yamlValue === 'string' && yamlValue.trim() !== '' && Number.isFinite(Number(yamlValue)) ? Number(yamlValue) : yamlValue;
 }
 
 /** Parses the fields of a description as leniently as map_server does. Without fields, the image is missing. */
@@ -123,19 +123,19 @@ function parseDescription(name: string, text: string): Record<string, unknown> {
 }
 
 /** Returns the sentence about a grid that the core refuses, with the name of the YAML file or of the image. */
-function gridErrorSentence(texts: RefusalWords, description: string, image: string, reason: string) {
+function explainGridError(texts: RefusalWords, description: string, image: string, reason: string) {
   const errorLine = /^line (\d+): (.*)$/.exec(reason);
   if (errorLine) return texts.line(image, errorLine[1], errorLine[2]);
   return `${reason.startsWith('image') ? image : description}: ${reason}.`;
 }
 
 /** Runs a parser or the core with a file, and explains why the file is refused. */
-function explainErrors<Result>(name: string, readOrApply: () => Result, sentence: (texts: RefusalWords, file: string, reason: string) => string): Result {
+function explainErrors<Result>(name: string, readOrApply: () => Result, composeMessage: (texts: RefusalWords, file: string, reason: string) => string): Result {
   try {
     return readOrApply();
   } catch (error) {
     if (!(error instanceof RangeError || error instanceof TypeError || error instanceof SyntaxError)) throw error;
     const reason = error.message.replace(' is undefined;', ' is missing;');
-    throw new MapFileError(name, (texts, file) => sentence(texts, file, reason));
+    throw new MapFileError(name, (texts, file) => composeMessage(texts, file, reason));
   }
 }

@@ -263,8 +263,6 @@ test('walls are moved by keyboard from one stop of Tab, and their handles are na
   expect((await readSqueezeResults(widget)).walls[18]).toBeCloseTo(walls[18] + 0.05, 9);
   await page.keyboard.press(']');
   expect(await readFocusedHandle()).toBe('side-4');
-  expect(await widget.evaluate(({ shadowRoot }) => getComputedStyle(/** @type {Element} */ (shadowRoot?.activeElement), '::before').content)).toBe('"Drag to move"');
-  await expect(widget.locator('.legend')).toContainText('handles: drag walls and edges of doorways');
   await page.keyboard.press('Shift+ArrowDown');
   const resultsAfterMove = await readSqueezeResults(widget);
   expect(resultsAfterMove.walls[17]).toBeCloseTo(walls[17] - 0.25, 9);

@@ -1,6 +1,6 @@
 /** HTML of the controls of settings, made from declarations, slider specifications and words, and of the legend, which shows and hides lines. */
 
-import { html, noChange, nothing } from 'lit';
+import { html, noChange } from 'lit';
 import { words } from '../messages/registry.ts';
 import { radioGroupHtml, formatMarkup, checkboxHtml } from '../ui/controls.ts';
 import { formatLimit, parseNumber, formatEditable } from '../ui/format.ts';
@@ -161,8 +161,8 @@ function wordsFor(figure: Figure, key: string): { name: string, effect?: string 
   return { ...(words.settings as any)[key], ...(motionModel && { name: alphaName, effect: alphaEffect }), ...(words as any)[figure.definition.messageKey].settings[key] };
 }
 
-/** Returns the legend of a figure's pictures, with names from the catalogue. `extraEntries` have no toggle. */
-export function legendHtml(figure: Figure, styles: Record<string, LineStyle>, extraEntries: unknown = nothing) {
+/** Returns the legend of a figure's pictures, with names from the catalogue. */
+export function legendHtml(figure: Figure, styles: Record<string, LineStyle>) {
   const { overlays } = figure.settings.elementState;
   const { overlays: overlayNames } = (words as any)[figure.definition.messageKey];
   const styleNames = Object.keys(styles);
@@ -178,6 +178,5 @@ export function legendHtml(figure: Figure, styles: Record<string, LineStyle>, ex
         onChange: (isShown) => showOverlay(name, isShown),
       })}
     </span>`)}
-    ${extraEntries}
   </div>`;
 }

@@ -72,7 +72,7 @@ export interface LineStyle {
   /** Line width, CSS pixels. */
   width?: number;
   /** Symbol in the legend; default: line. */
-  shape?: 'line' | 'dot' | 'ring' | 'area' | 'cross' | 'box';
+  shape?: 'line' | 'dot' | 'ring' | 'area' | 'cross';
 }
 
 const HIGHLIGHT_WIDTH = 1.9;
@@ -142,7 +142,6 @@ export function swatchHtml({ role, dash, width = 2.25, shape = 'line' }: LineSty
     dot: svg`<circle fill="var(--role)" cx="15" cy="6" r="3" />`,
     ring: svg`<circle cx="15" cy="6" r="4" stroke-width=${width} />`,
     area: svg`<rect fill="var(--role)" x="4" y="1" width="22" height="10" opacity="0.4" />`,
-    box: svg`<rect x="9" y="2" width="12" height="8" rx="2" stroke-width=${width} />`,
     cross: svg`<path d="M11 2l8 8m0 -8l-8 8" stroke-width=${width} />`,
   };
   return html`<svg class="swatch" viewBox="0 0 30 12" aria-hidden="true" data-role=${role}>${shapes[shape]}</svg>`;

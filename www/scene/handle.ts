@@ -25,6 +25,8 @@ interface HandleLabels {
   limitText?: string | false;
   /** Hint for a user who has not used the handle yet, shown while the handle pulses once. */
   hint?: string | false;
+  /** Default: 0, in the tab order. */
+  tabIndex?: number;
 }
 
 /** Steps along x (right) and y (up) by key. Home and End go to the ends of the range along x. */
@@ -74,13 +76,13 @@ export class Handle {
     return this.#heldPointer?.element.hasPointerCapture(this.#heldPointer.id) ?? false;
   }
 
-  handleHtml({ name, keysHint, title, valueRange, value, valueText, limitText, hint }: HandleLabels) {
+  handleHtml({ name, keysHint, title, valueRange, value, valueText, limitText, hint, tabIndex = 0 }: HandleLabels) {
     // The text about the limit is on the side that faces the middle of the picture.
     const limitTextSide = 2 * this.#middlePixels[0] > this.#callbacks.getView().width ? 'right' : '';
     return html`<div
       class="handle ${this.#classNames} ${limitTextSide} ${this.isHeld ? 'held' : ''}"
       role="slider"
-      tabindex="0"
+      tabindex=${tabIndex}
       aria-label=${name}
       aria-description=${keysHint}
       aria-valuemin=${valueRange[0]}
@@ -98,12 +100,13 @@ export class Handle {
     ></div>`;
   }
 
-  /** Moves the middle of the element in `root` to a point in pixels of the view. `size` replaces the size of its style. */
-  placeInView(root: ParentNode, x: number, y: number, size?: number) {
+  /** Moves the middle of the element in `root` to a point in pixels of the view. `size` (pixels) and `angle` (rad) replace those of its style. */
+  placeInView(root: ParentNode, x: number, y: number, { size, angle }: { size?: number, angle?: number } = {}) {
     const handle = root.querySelector(`.handle.${this.#classNames.replace(' ', '.')}`) as HTMLElement | null;
     if (!handle) return;
     this.#middlePixels = [x, y];
     if (size !== undefined) handle.style.width = handle.style.height = formatEm(size);
+    if (angle !== undefined) handle.style.rotate = `${angle}rad`;
     handle.style.translate = `${formatEm(x)} ${formatEm(y)}`;
   }
 

@@ -157,7 +157,7 @@ export const themeStyles = css`
       aspect-ratio: auto !important;
     }
 
-    :is(button, input, textarea, summary, .notice, .handle, .grips, .end, .effect, .marked, .visually-hidden),
+    :is(button, input, textarea, summary, .notice, .handle, .end, .effect, .marked, .visually-hidden),
     :not(th) > label:has(input:not(:checked)) {
       display: none !important;
     }

@@ -68,7 +68,6 @@ export const de: typeof import('./en.ts').en = {
   walls: {
     jamb: 'Türkante',
     wall: 'Wand',
-    legendEntryHtml: 'Griffe: Wände und Türkanten ziehen',
     keys: 'Pfeiltasten bewegen sie, mit Umschalt in größeren Schritten; Komma und Punkt oder [ und ] führen zu den anderen Wänden',
   },
   tally: {

@@ -70,7 +70,6 @@ export const en = {
   walls: {
     jamb: 'Edge of a doorway',
     wall: 'Wall',
-    legendEntryHtml: 'handles: drag walls and edges of doorways',
     keys: 'Arrow keys move it, with Shift by larger steps; comma and period, or [ and ], go to the other walls',
   },
   tally: {

@@ -142,17 +142,6 @@ const styles = css`
     transform-origin: 0 0;
   }
 
-  /* Name of a wall's handle, along the wall and towards the middle of the picture. */
-  .handle:is(.jamb, .side):is(:hover, :focus-visible):not(.held)::before {
-    content: attr(title);
-    top: 100%;
-    background: var(--ink);
-  }
-
-  .handle.right:is(.jamb, .side)::before {
-    right: 0;
-  }
-
   .handle.side::after {
     inset: 0.625em 0.2em;
     border-width: 1.5px;
@@ -355,7 +344,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
 
   placeHandles({ config }: ViewModel) {
     this.#handles.place(config, config.clearance);
-    this.#wallHandles.place(this.picture.view);
+    this.#wallHandles.place();
   }
 
   /** Start place in the apartment; null elsewhere. */
@@ -480,7 +469,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
             ${this.renderer.renderAfterFirstPicture(() => this.#wallHandles.render())}
             ${this.#handles.render()}
           </div>
-          ${this.renderer.renderAfterFirstPicture(() => legendHtml(this, hasUnknown ? { ...markStyles, unknown } : markStyles, this.#wallHandles.legendEntryHtml()))}`)}
+          ${this.renderer.renderAfterFirstPicture(() => legendHtml(this, hasUnknown ? { ...markStyles, unknown } : markStyles))}`)}
         ${this.renderer.renderAfterFirstPicture(() => html`<div class="aside">
           <div class="result">
             <p class="headline">${headlineOf(stats)}</p>

@@ -1,12 +1,13 @@
 /** Geometry of walls: contacts of a path with walls, and moving of walls. Lengths are in metres. */
 
+import { clamp } from '../../ui/format.ts';
 import { extentAround } from '../../scene/view.ts';
 import type { Plan } from '../../types.d.ts';
 
 /** Distance below which two walls touch. */
 const TOUCH_DISTANCE = 1e-6;
 
-/** Minimum gap between the end of a wall and the next wall, and minimum length of a wall, m. */
+/** Minimum gap between the end of a wall and another wall, and minimum length of a wall, m. */
 const MIN_GAP = 0.05;
 
 /** Minimum distance (m) at which a path counts as touching a wall, and number of tested points of a path in such a distance. */
@@ -17,8 +18,7 @@ const POINTS_PER_RADIUS = 4;
 function nearestPointOfWall(walls: ArrayLike<number>, k: number, x: number, y: number) {
   const [x0, y0] = [walls[k], walls[k + 1]];
   const [dx, dy] = [walls[k + 2] - x0, walls[k + 3] - y0];
-  const projection = ((x - x0) * dx + (y - y0) * dy) / (dx * dx + dy * dy || 1);
-  const fraction = Math.min(1, Math.max(0, projection));
+  const fraction = clamp(((x - x0) * dx + (y - y0) * dy) / (dx * dx + dy * dy || 1), 0, 1);
   const point = [x0 + fraction * dx, y0 + fraction * dy];
   return { point, distance: Math.hypot(x - point[0], y - point[1]) };
 }
@@ -27,12 +27,10 @@ function nearestPointOfWall(walls: ArrayLike<number>, k: number, x: number, y: n
 export function findWallContact(path: ArrayLike<number>, walls: Float64Array, radius: number) {
   const touchRadius = Math.max(radius, MIN_TOUCH_RADIUS);
   const pathExtent = extentAround(path, 2);
-  const nearWalls = [];
-  for (let k = 0; k < walls.length; k += 4) {
+  const nearWalls = wallIndicesOf(walls).filter((k) => {
     const wall = extentAround(walls.subarray(k, k + 4), 2);
-    const extentDistance = Math.max(wall.xMin - pathExtent.xMax, pathExtent.xMin - wall.xMax, wall.yMin - pathExtent.yMax, pathExtent.yMin - wall.yMax);
-    if (extentDistance < touchRadius) nearWalls.push(k);
-  }
+    return Math.max(wall.xMin - pathExtent.xMax, pathExtent.xMin - wall.xMax, wall.yMin - pathExtent.yMax, pathExtent.yMin - wall.yMax) < touchRadius;
+  });
   for (let i = 0; i + 3 < path.length; i += 2) {
     const [dx, dy] = [path[i + 2] - path[i], path[i + 3] - path[i + 1]];
     const pointCount = Math.ceil((POINTS_PER_RADIUS * Math.hypot(dx, dy)) / touchRadius) || 1;
@@ -44,87 +42,68 @@ export function findWallContact(path: ArrayLike<number>, walls: Float64Array, ra
   }
 }
 
+/** Returns the index of the first number of each wall. */
+const wallIndicesOf = (walls: Float64Array) => Array.from({ length: walls.length / 4 }, (_, i) => 4 * i);
+
 /** Part of a wall that can be moved along an axis. */
 export interface Grip {
-  /** Index of the wall's first coordinate in the list of all walls. */
+  /** Index of the wall's first number in the list of all walls. */
   wall: number;
   /** An end of the wall, or the whole wall, which moves across its direction. */
   part: 'from' | 'to' | 'side';
   /** Unit vector. */
   axis: number[];
-  /** Smallest and largest movement along the axis, metres. */
-  range: number[];
 }
 
-/**
- * Returns three grips of each wall, in the order of the walls: two ends, which can be moved where they touch no other wall, and the side.
- * The outer walls of the map have none.
- */
-export function gripsOf({ bounds, walls }: Plan): (Grip | undefined)[] {
-  const grips = [];
-  for (let wall = 0; wall < walls.length; wall += 4) {
+/** Returns the grips of the inner walls: each end that touches no other wall, and the side. */
+export function gripsOf({ bounds, walls }: Plan): Grip[] {
+  return wallIndicesOf(walls).flatMap((wall): Grip[] => {
     const [x0, y0, x1, y1] = walls.subarray(wall, wall + 4);
     const wallLength = Math.hypot(x1 - x0, y1 - y0);
-    const wallDirection = [(x1 - x0) / wallLength, (y1 - y0) / wallLength];
-    const wallNormal = [-wallDirection[1], wallDirection[0]];
     const isOuterWall = [0, 1].some((i) => [bounds[i], bounds[i + 2]].some((bound) => walls[wall + i] === bound && walls[wall + i + 2] === bound));
-    const endGrips: [part: 'from' | 'to', end: number[], axis: number[]][] = [['from', [x0, y0], wallDirection.map((component) => -component)], ['to', [x1, y1], wallDirection]];
-    for (const [endName, end, axis] of endGrips) {
-      const maxMove = Math.min(moveRangeOf(bounds, [end], axis)[1], freeDistanceAlongAxis(walls, wall, end, axis));
-      const range = [Math.min(0, MIN_GAP - wallLength), Math.max(0, maxMove)];
-      grips.push(isOuterWall || wallLength < MIN_GAP || !isUnattachedEnd(walls, wall, end) ? undefined : { wall, part: endName, axis, range });
-    }
-    const range = moveRangeOf(bounds, [[x0, y0], [x1, y1]], wallNormal);
-    grips.push(isOuterWall || wallLength < MIN_GAP ? undefined : { wall, part: 'side' as const, axis: wallNormal, range });
-  }
-  return grips;
+    if (isOuterWall || wallLength < MIN_GAP) return [];
+    const [ux, uy] = [(x1 - x0) / wallLength, (y1 - y0) / wallLength];
+    const grips: Grip[] = [{ wall, part: 'from', axis: [-ux, -uy] }, { wall, part: 'to', axis: [ux, uy] }, { wall, part: 'side', axis: [-uy, ux] }];
+    return grips.filter(({ part }) => part === 'side' || distanceToOtherWalls(walls, wall, part === 'from' ? [x0, y0] : [x1, y1]) > TOUCH_DISTANCE);
+  });
 }
 
-/** Returns true if an end of a wall touches no other wall. */
-function isUnattachedEnd(walls: Float64Array, wall: number, [x, y]: readonly number[]) {
-  for (let k = 0; k < walls.length; k += 4) if (k !== wall && nearestPointOfWall(walls, k, x, y).distance < TOUCH_DISTANCE) return false;
-  return true;
-}
+const distanceToOtherWalls = (walls: Float64Array, wall: number, [x, y]: number[]) =>
+  Math.min(...wallIndicesOf(walls).filter((k) => k !== wall).map((k) => nearestPointOfWall(walls, k, x, y).distance));
 
-/** Returns the range by which points may move along an axis within bounds. */
-function moveRangeOf(bounds: ArrayLike<number>, points: readonly (readonly number[])[], axis: readonly number[]): [number, number] {
-  let [minMove, maxMove] = [-Infinity, Infinity];
-  for (const point of points) {
-    for (const i of [0, 1].filter((k) => Math.abs(axis[k]) > TOUCH_DISTANCE)) {
-      const moveLimits = [bounds[i] + MIN_GAP, bounds[i + 2] - MIN_GAP].map((bound) => (bound - point[i]) / axis[i]).sort((a, b) => a - b);
-      [minMove, maxMove] = [Math.max(minMove, moveLimits[0]), Math.min(maxMove, moveLimits[1])];
-    }
-  }
-  return [Math.min(0, minMove), Math.max(0, maxMove)];
-}
-
-/** Returns the distance by which the end of a wall may move along an axis before it is near another wall. */
-function freeDistanceAlongAxis(walls: Float64Array, wall: number, [x, y]: readonly number[], [ux, uy]: readonly number[]) {
-  let minFreeDistance = Infinity;
-  for (let k = 0; k < walls.length; k += 4) {
-    if (k === wall) continue;
-    const wallEnds = [k, k + 2].map((i) => [(walls[i] - x) * ux + (walls[i + 1] - y) * uy, (walls[i + 1] - y) * ux - (walls[i] - x) * uy]);
-    const [[ahead, left], [further, right]] = wallEnds;
-    if (Math.min(left, right) > TOUCH_DISTANCE || Math.max(left, right) < -TOUCH_DISTANCE) continue;
-    const distance = Math.abs(right - left) < TOUCH_DISTANCE ? Math.min(ahead, further) : ahead - (left * (further - ahead)) / (right - left);
-    if (distance > 0) minFreeDistance = Math.min(minFreeDistance, distance - MIN_GAP);
-  }
-  return minFreeDistance;
-}
-
-/** Returns the walls after one has moved. Walls that end on a wall that moves sideways follow it, if they only get longer or shorter. */
-export function moveWall(walls: Float64Array, { wall, part, axis: [ux, uy] }: Grip, distance: number) {
+/**
+ * Returns the walls after a grip has moved along its axis, within the bounds of the plan. An end stops at the next wall. Walls that end on a
+ * wall that moves sideways follow it, if they only get longer or shorter.
+ */
+export function moveWall({ bounds, walls }: Plan, { wall, part, axis: [ux, uy] }: Grip, distance: number) {
   const movedWalls = walls.slice();
-  const moveEnd = (index: number) => {
-    movedWalls[index] = walls[index] + distance * ux;
-    movedWalls[index + 1] = walls[index + 1] + distance * uy;
+  const moveEnd = (index: number, endDistance: number) => {
+    for (const [i, component] of [ux, uy].entries()) {
+      if (Math.abs(component) > TOUCH_DISTANCE) movedWalls[index + i] = clamp(walls[index + i] + endDistance * component, bounds[i] + MIN_GAP, bounds[i + 2] - MIN_GAP);
+    }
   };
-  if (part !== 'to') moveEnd(wall);
-  if (part !== 'from') moveEnd(wall + 2);
-  for (let k = 0; k < walls.length && part === 'side'; k += 4) {
-    const [dx, dy] = [walls[k + 2] - walls[k], walls[k + 3] - walls[k + 1]];
-    if (k === wall || Math.abs(dx * uy - dy * ux) > TOUCH_DISTANCE) continue;
-    for (const end of [k, k + 2]) if (nearestPointOfWall(walls, wall, walls[end], walls[end + 1]).distance < TOUCH_DISTANCE) moveEnd(end);
+  if (part !== 'side') {
+    const [x0, y0, x1, y1] = walls.subarray(wall, wall + 4);
+    const end = part === 'from' ? [x0, y0] : [x1, y1];
+    moveEnd(part === 'from' ? wall : wall + 2, Math.max(Math.min(distance, freeDistanceOf(walls, wall, end, [ux, uy], distance)), MIN_GAP - Math.hypot(x1 - x0, y1 - y0)));
+    return movedWalls;
+  }
+  for (const k of wallIndicesOf(walls)) {
+    const isAcross = Math.abs((walls[k + 2] - walls[k]) * uy - (walls[k + 3] - walls[k + 1]) * ux) < TOUCH_DISTANCE;
+    const isMoved = (index: number) => k === wall || (isAcross && nearestPointOfWall(walls, wall, walls[index], walls[index + 1]).distance < TOUCH_DISTANCE);
+    for (const index of [k, k + 2]) if (isMoved(index)) moveEnd(index, distance);
   }
   return movedWalls;
+}
+
+/** Returns how far the end of a wall can move along an axis, up to a distance, before it is near another wall. */
+function freeDistanceOf(walls: Float64Array, wall: number, [x, y]: number[], [ux, uy]: number[], distance: number) {
+  let freeDistance = 0;
+  let gap = Infinity;
+  // Each step is as long as the distance to the nearest wall allows.
+  while (freeDistance < distance && gap > TOUCH_DISTANCE) {
+    gap = distanceToOtherWalls(walls, wall, [x + freeDistance * ux, y + freeDistance * uy]) - MIN_GAP;
+    freeDistance += Math.max(0, gap);
+  }
+  return freeDistance;
 }

@@ -127,7 +127,7 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
     const root = this.host.renderRoot;
     const [[x, y], [turnX, turnY]] = view.headingLineFrom(config[this.#setting], turnHandleDistanceOf(view, radius));
     const clampToPicture = (coordinate: number, size: number) => clamp(coordinate, EDGE_MARGIN, size - EDGE_MARGIN);
-    this.#bodyHandle.placeInView(root, x, y, Math.max(MIN_BODY_HANDLE_SIZE, 2 * radius * view.scaleX));
+    this.#bodyHandle.placeInView(root, x, y, { size: Math.max(MIN_BODY_HANDLE_SIZE, 2 * radius * view.scaleX) });
     this.#turnHandle.placeInView(root, clampToPicture(turnX, view.width), clampToPicture(turnY, view.height));
   }
 

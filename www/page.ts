@@ -5,8 +5,7 @@
  * @module
  */
 
-import { prepareBet } from './page/bet.ts';
-import { prepareSketch } from './page/sketch.ts';
+import { prepareBet, prepareShapeBet } from './page/bet.ts';
 
 /** Any of the elements. */
 export type Figure = HTMLElement & Record<string, any>;
@@ -68,5 +67,5 @@ document.addEventListener('click', ({ target }) => {
   if (button) void enterTriedState(button as HTMLElement);
 });
 for (const type of ['pointerover', 'pointerout', 'focusin', 'focusout']) document.addEventListener(type, highlightTerm);
-for (const form of document.querySelectorAll('form')) (form.matches('.sketch') ? prepareSketch : prepareBet)(form, (values) => enterState(figureOf(form), values), figureOf(form));
+for (const form of document.querySelectorAll('form')) (form.matches('.shape-bet') ? prepareShapeBet : prepareBet)(form, (values) => enterState(figureOf(form), values), figureOf(form));
 keepPicturesInSight();

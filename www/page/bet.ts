@@ -1,5 +1,6 @@
-/** Bet form: the reader predicts a number by a slider, and the figure then reveals the number. */
+/** Bet forms: the reader predicts a number by a slider or the shape of a cloud by a radio button, and the figure then reveals it. */
 
+import { deviation } from 'd3-array';
 import type { Figure } from '../page.ts';
 
 /** Returns the number at a path of keys separated by dots; null if there is none. */
@@ -41,5 +42,31 @@ export function prepareBet(form: HTMLFormElement, enterState: (values: Record<st
     form.classList.add('revealed');
     answerOutput.textContent = `Your bet: ${formatValue(slider.valueAsNumber)}. The figure’s answer, ▲:\u00a0${actualValue === null ? 'never' : formatValue(actualValue)}.`;
     submitButton.textContent = 'Reveal again';
+  });
+}
+
+/** Smallest standard deviation that counts as a spread. */
+const MIN_SPREAD = 1e-6;
+
+/** Returns sentences on whether the expected shape is right, and on where the robots stop (`poses`: x, y, θ triples). */
+function describeOutcome(poses: Float64Array, expectedShape: string) {
+  const deviationAlong = (axis: number) => deviation(poses.filter((_, i) => i % 3 === axis)) ?? 0;
+  const [positionStd, headingStd] = [Math.hypot(deviationAlong(0), deviationAlong(1)), deviationAlong(2)];
+  const verdictText = expectedShape === (positionStd > MIN_SPREAD ? 'band' : 'point') ? 'Right. ' : 'Not what you expected. ';
+  if (positionStd > MIN_SPREAD) return `${verdictText}The robots spread over a curved band, by ${positionStd.toFixed(2)}\u00a0m (1σ), their headings by ${headingStd.toFixed(2)}\u00a0rad.`;
+  if (headingStd > MIN_SPREAD) return `${verdictText}Every robot stops at the same point. Only the headings differ, by ${headingStd.toFixed(2)}\u00a0rad (1σ).`;
+  return `${verdictText}Every robot stops at the same point, with the same heading. There is no cloud.`;
+}
+
+/** Prepares a form with radio buttons for the state of the figure (`case`) and for the expected shape of the cloud (`shape`). */
+export function prepareShapeBet(form: HTMLFormElement, enterState: (values: Record<string, unknown>) => Promise<void>, figure: Figure) {
+  const answerOutput = form.querySelector('[role=status]') as HTMLElement;
+  form.addEventListener('change', () => (answerOutput.textContent = ''));
+  form.addEventListener('submit', async (event) => {
+    event.preventDefault();
+    const choices = new FormData(form);
+    await enterState(JSON.parse(String(choices.get('case'))));
+    form.classList.add('revealed');
+    answerOutput.textContent = describeOutcome(figure.poses, String(choices.get('shape')));
   });
 }

@@ -1,6 +1,5 @@
 /** Sentences about logs, in German. */
 
-import type { Correction } from './pairs.ts';
 import { REPAIR_COMMANDS } from './en.ts';
 import type { Words, UnitBasis, DropCause, Summary } from './log.ts';
 
@@ -45,12 +44,6 @@ const UNSUPPORTED_FORMATS: typeof import('./en.ts').UNSUPPORTED_FORMATS = {
   compressed: 'mit gzip, bzip2, xz oder LZ4 komprimiert; mit „gunzip“, „bunzip2“, „unxz“ oder „unlz4“ dekomprimieren und das Ergebnis angeben.',
   hdf5: 'eine HDF5- oder MATLAB-Datei; Zeiten und Posen als CSV exportieren.',
   parquet: 'eine Parquet-Tabelle; als CSV exportieren.',
-};
-
-const CORRECTION_TEXTS: Record<Correction['name'], (correction: Correction, other: string) => string> = {
-  leftHanded: (_, other) => `sie dreht nach links, wo ${other} nach rechts dreht: eine der beiden hat Z nach unten oder ein linkshändiges Koordinatensystem; y und Richtung dieser einen negieren`,
-  angles: () => 'ihre Winkel sind in Grad und wurden als Radiant gelesen; ihre Einheit angeben',
-  lengths: ({ factor, unit }, other) => `multipliziert mit ${String(Number(factor.toPrecision(3))).replace('.', ',')} passen ihre Längen zu denen von ${other}${unit ? `: Sie sind in ${unit}; ihre Einheit angeben` : '; sie damit multiplizieren'}`,
 };
 
 export const german: Words = {
@@ -118,8 +111,8 @@ export const german: Words = {
       `die Transformation ${frames} ändert sich nie und ist daher keine Bahn eines Roboters; erwartet werden Frames, die sich bewegen${others ? `, wie ${others}` : ''}.`,
     givenTwice: 'sie ist zweimal angegeben; gebraucht werden zwei unabhängige Messungen einer Fahrt, Odometrie und Referenz.',
     ownReference: (name) => `${name} ist die Odometrie selbst; gebraucht wird eine Referenz, die nicht von den Rädern kommt, wie Motion-Capture oder Scan-Matching.`,
-    correction: (correction, other) =>
-      `${CORRECTION_TEXTS[correction.name](correction, other)}. Damit stimmen die Bewegungen überein (Korrelation ${withDecimalComma(correction.score, 2)}).`,
+    leftHanded: (other) => `sie dreht nach links, wo ${other} nach rechts dreht: eine der beiden hat Z nach unten oder ein linkshändiges Koordinatensystem; y und Richtung dieser einen negieren.`,
+    otherUnit: (factor, other, unit) => `der Roboter führe ${Math.round(factor)}-mal so schnell wie in ${other}: Die Längen sind wohl in ${unit}; ihre Einheit angeben.`,
     held: 'ihre Pose steht, während die Odometrie weitergeht: Sie hat den Roboter verloren; gebraucht wird eine, die ihm folgt.',
     noRole: 'ihr Name sagt nicht, ob sie Odometrie oder Referenz ist; die Dateien wie odom1.csv, truth1.csv, odom2.csv, … nennen, oder die Rolle jeder auswählen.',
     unpaired: (odometry, reference) => `die Odometrie ist in ${odometry || 'keiner Datei'}, und die Referenz in ${reference || 'keiner Datei'}; gebraucht wird je eines für eine Fahrt.`,

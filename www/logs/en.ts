@@ -1,6 +1,5 @@
 /** Sentences about logs, in English. */
 
-import type { Correction } from './pairs.ts';
 import type { UnitBasis, DropCause, Recording, Role, Summary } from './log.ts';
 
 const FIELD_NAMES: Record<string, string> = { t: 'time', x: 'x', y: 'y', yaw: 'yaw', qx: 'qx', qy: 'qy', qz: 'qz', qw: 'qw', v: 'speed v', omega: 'turn rate ω' };
@@ -28,13 +27,6 @@ const DROP_REASONS = {
   duplicate: 'the time of the row before',
   repeated: 'a pose repeated at a higher rate than it was measured',
   held: 'the pose stands still while the odometry moves on',
-};
-
-/** Errors of a log, found by comparing it with the other log, and how to correct them. */
-const CORRECTION_TEXTS: Record<Correction['name'], (correction: Correction, other: string) => string> = {
-  leftHanded: (_, other) => `it turns left where ${other} turns right: one of the two has Z down or a left-handed frame; negate y and the heading of that one`,
-  angles: () => 'its angles are in degrees and were read as radians; state their unit',
-  lengths: ({ factor, unit }, other) => `multiplied by ${Number(factor.toPrecision(3))}, its lengths match those of ${other}${unit ? `: they are in ${unit}; state their unit` : '; multiply them'}`,
 };
 
 /** Formats that are recognized but not read, each with a remedy. */
@@ -121,8 +113,8 @@ export const english = {
       `the transform ${frames} never changes, so it is no path of a robot; expected are frames that move${others ? `, as ${others}` : ''}.`,
     givenTwice: 'it is given twice; give two independent measurements of one drive, odometry and reference.',
     ownReference: (name: string) => `${name} is the odometry itself; choose a reference that does not come from the wheels, such as motion capture or scan matching.`,
-    correction: (correction: Correction, other: string) =>
-      `${CORRECTION_TEXTS[correction.name](correction, other)}. The motions then agree (correlation ${correction.score.toFixed(2)}).`,
+    leftHanded: (other: string) => `it turns left where ${other} turns right: one of the two has Z down or a left-handed frame; negate y and the heading of that one.`,
+    otherUnit: (factor: number, other: string, unit: string) => `the robot would drive ${Math.round(factor)} times as fast as in ${other}: its lengths seem to be in ${unit}; state their unit.`,
     held: 'its pose stands still while the odometry moves on: it has lost the robot; give one that follows the robot.',
     noRole: 'its name does not say whether it is odometry or reference; name the files as odom1.csv, truth1.csv, odom2.csv, …, or choose the role of each.',
     unpaired: (odometry: string, reference: string) => `the odometry is in ${odometry || 'no file'}, and the reference in ${reference || 'no file'}; give one of each for a drive.`,

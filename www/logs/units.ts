@@ -1,7 +1,7 @@
 /** Units of a log, judged by names, sizes and the motion of the robot. If they are in doubt, the log is refused with a question. */
 
 import { sort } from 'd3-array';
-import { LogError, UNITS, type ErrorPlace, type AngleUnit, type LogKind, type OpenOptions, type Summary, type TimeUnit } from './log.ts';
+import { LogError, UNITS, type ErrorPlace, type AngleUnit, type Commands, type LogKind, type OpenOptions, type Poses, type Summary, type TimeUnit } from './log.ts';
 import { quantileOf, sampleEvenly } from './path.ts';
 
 export type Units = Summary['units'];
@@ -65,7 +65,7 @@ export function judgeUnits(place: ErrorPlace, kind: LogKind, columns: Columns, a
   if (metresPerUnit !== 1) for (const column of kind === 'poses' ? [a, b, z] : [a]) scaleColumn(column, metresPerUnit);
   const time = isJudged ? judgeTimeUnit(kind, columns, assumed.time, askUnit) : assumed.time;
   convertTimes(columns, 10 ** (UNIT_EXPONENTS[time.unit] - UNIT_EXPONENTS[assumed.time.unit]));
-  const speed = kind === 'poses' ? speedOf(t, a, b) : quantileOf(sampleEvenly(a.length, (i) => Math.abs(a[i])), 0.9);
+  const speed = kind === 'poses' ? pathSpeedOf(t, a, b) : commandSpeedOf(a);
   const isDoubtful = speed > MAX_VEHICLE_SPEED || (speed > DOUBTFUL_SPEED && accelerationOf(kind, columns) > MAX_ACCELERATION);
   // Feet and inches are rare, and come last.
   const likelyUnits = sort(UNITS.lengthUnit, (unit) => Number(unit === 'ft' || unit === 'in'), (unit) => Math.abs(Math.log((speed * METRES_PER_UNIT[unit]) / USUAL_SPEED)));
@@ -93,7 +93,7 @@ type Ask = (what: 'timeUnit' | 'lengthUnit' | 'angleUnit', value: number, unit: 
 function judgeTimeUnit(kind: LogKind, { t, a, b }: Columns, assumed: Units['time'], ask: Ask): Units['time'] {
   if (assumed.by !== 'usage' && assumed.by !== 'size') return assumed;
   const rate = 1 / medianStepOf(t);
-  const speed = kind === 'poses' ? speedOf(t, a, b) : 0;
+  const speed = kind === 'poses' ? pathSpeedOf(t, a, b) : 0;
   const unitsPerSecondOf = (unit: TimeUnit) => 10 ** (UNIT_EXPONENTS[unit] - UNIT_EXPONENTS[assumed.unit]);
   const hasUsualRate = (unit: TimeUnit) => isInRange(rate * unitsPerSecondOf(unit), assumed.by === 'size' ? POSSIBLE_RATES : USUAL_RATES);
   const hasUsualSpeed = (unit: TimeUnit) => speed === 0 || isInRange(speed * unitsPerSecondOf(unit), [MIN_SPEED, MAX_SPEED]);
@@ -133,10 +133,15 @@ function alignmentWithPath(t: Float64Array, x: Float64Array, y: Float64Array, he
 const medianStepOf = (t: Float64Array) => quantileOf(sampleEvenly(t.length - 1, (i) => t[i + 1] - t[i]), 0.5);
 
 /** Returns the 90 % quantile of the speeds of steps. Their duration assumes that times are in seconds. */
-function speedOf(t: Float64Array, x: Float64Array, y: Float64Array): number {
+function pathSpeedOf(t: Float64Array, x: Float64Array, y: Float64Array): number {
   const stride = Math.min(Math.max(1, Math.round(STEP_DURATION / medianStepOf(t))), t.length - 1);
   return quantileOf(sampleEvenly(t.length - stride, (i) => Math.hypot(x[i + stride] - x[i], y[i + stride] - y[i]) / (t[i + stride] - t[i])), 0.9);
 }
+
+const commandSpeedOf = (v: Float64Array): number => quantileOf(sampleEvenly(v.length, (i) => Math.abs(v[i])), 0.9);
+
+/** Returns the 90 % quantile of the speeds of a log (m/s). */
+export const speedOf = (data: Poses | Commands): number => ('x' in data ? pathSpeedOf(data.t, data.x, data.y) : commandSpeedOf(data.v));
 
 /** Returns the 99 % quantile of the accelerations between steps. For commands it is that of v. */
 function accelerationOf(kind: LogKind, { t, a, b }: Columns): number {

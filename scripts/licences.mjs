@@ -46,7 +46,7 @@ export function readLicenceTexts(packages) {
   for (const { name, version, licence, directory } of packages) {
     const licenceFiles = readdirSync(directory).filter((fileName) => /^(licen[cs]e|copying)/i.test(fileName));
     // MIT is chosen from several licences, because it is the shortest.
-    const licenceFile = licenceFiles.find((licenceName) => /mit/i.test(licenceName)) ?? licenceFiles[0];
+    const licenceFile = licenceFiles.find((licenceFileName) => /mit/i.test(licenceFileName)) ?? licenceFiles[0];
     if (licenceFile === undefined) throw new Error(`${name} ${version} (${licence}) comes without the text of its licence.`);
     const licenceText = readFileSync(join(directory, licenceFile), 'utf8').replaceAll('\r', '').trim();
     packagesByText.set(licenceText, [...(packagesByText.get(licenceText) ?? []), `${name} ${version} (${licence})`]);

@@ -48,8 +48,8 @@ export async function writePython() {
   const sourceDirectory = join(PYTHON_DIRECTORY, 'src/motion_widgets');
   writeFileSync(join(sourceDirectory, '_elements.py'), await createElementsSource());
   copyFileSync(join(ROOT, 'dist/anywidget.js'), join(sourceDirectory, 'anywidget.js'));
-  for (const licenceName of readdirSync(ROOT).filter((fileName) => fileName.startsWith('LICENSE'))) {
-    copyFileSync(join(ROOT, licenceName), join(PYTHON_DIRECTORY, licenceName));
+  for (const licenceFileName of readdirSync(ROOT).filter((fileName) => fileName.startsWith('LICENSE'))) {
+    copyFileSync(join(ROOT, licenceFileName), join(PYTHON_DIRECTORY, licenceFileName));
   }
   copyFileSync(join(ROOT, 'dist/LICENSE-third-party.txt'), join(PYTHON_DIRECTORY, 'LICENSE-third-party.txt'));
 }

@@ -201,7 +201,7 @@ function createDebianEnvironment() {
 }
 
 /**
- * Returns the environment in which the programs of `bin` come first. cargo-clippy runs the program in CARGO.
+ * Returns the variables PATH and CARGO with which the programs of `bin` are found first. cargo-clippy runs the program that CARGO names.
  *
  * @param {string} bin
  */

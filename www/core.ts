@@ -69,7 +69,7 @@ export async function instantiateFor(widgetTag: string): Promise<Motion> {
   return motion;
 }
 
-/** Compiled module of a widget, and the key of its glue in the bundle. A worker makes a core from both. */
+/** Compiled WebAssembly module of a widget, and the key of its JavaScript glue in the bundle. A worker instantiates the simulation core from these. */
 export interface SharedCore {
   module: WebAssembly.Module;
   glue: string;

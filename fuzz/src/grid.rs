@@ -16,22 +16,22 @@ const MAX_SIDE_CELLS: usize = 3;
 
 pub fn run(input_bytes: &[u8]) {
     let mut input = InputReader(input_bytes);
-    let Some((grid, unknown_cells)) = read_random_grid(&mut input) else { return };
+    let Some((grid, unknown_cell_rule)) = read_random_grid(&mut input) else { return };
     let [column_count, row_count] = grid.size();
     assert_eq!(grid.cells().len(), column_count * row_count);
     // Most runs stop here, because the distance field of a plan takes a hundred times as long as everything else.
     if input.next_below(16) != 1 {
-        assert_outlines(&grid.with_unknown(unknown_cells), unknown_cells);
+        assert_outlines(&grid.with_unknown(unknown_cell_rule), unknown_cell_rule);
         return;
     }
-    let plan = match FloorPlan::from_grid(grid.with_unknown(unknown_cells)) {
+    let plan = match FloorPlan::from_grid(grid.with_unknown(unknown_cell_rule)) {
         Ok(plan) => plan,
         Err(FloorPlanError::BadGrid(_)) => return,
         Err(plan_error) => panic!("{plan_error}"),
     };
     let grid = plan.grid().expect("made of a grid");
-    assert_outlines(grid, unknown_cells);
-    for (cell_middle, is_obstacle) in middles_and_obstacles(grid, unknown_cells) {
+    assert_outlines(grid, unknown_cell_rule);
+    for (cell_middle, is_obstacle) in middles_and_obstacles(grid, unknown_cell_rule) {
         assert_eq!(plan.test_point(cell_middle, 0.0).free, !is_obstacle, "{cell_middle:?} in {grid:?}");
     }
     for _ in 0..MAX_ARCS {
@@ -44,14 +44,14 @@ pub fn run(input_bytes: &[u8]) {
 
 /// Returns the middle of each cell, and true for an obstacle. The list is empty if the coordinates are too large to
 /// distinguish cells.
-fn middles_and_obstacles(grid: &OccupancyGrid, unknown_cells: UnknownCells) -> Vec<([f64; 2], bool)> {
+fn middles_and_obstacles(grid: &OccupancyGrid, unknown_cell_rule: UnknownCells) -> Vec<([f64; 2], bool)> {
     let ([column_count, row_count], grid_origin, cell_side) = (grid.size(), grid.origin(), grid.resolution());
     let largest_coordinate = grid_origin.x().abs().max(grid_origin.y().abs()) + (column_count + row_count) as f64 * cell_side;
     if cell_side <= 1e3 * f64::EPSILON * largest_coordinate {
         return Vec::new();
     }
     let is_blocking =
-        |cell: Cell| cell == Cell::Occupied || (cell == Cell::Unknown && unknown_cells == UnknownCells::Blocked);
+        |cell: Cell| cell == Cell::Occupied || (cell == Cell::Unknown && unknown_cell_rule == UnknownCells::Blocked);
     let indexed_cells = grid.cells().enumerate();
     let middle_of_cell = |i: usize| {
         let [u, v] = [i % column_count, i / column_count].map(|cell_index| (cell_index as f64 + 0.5) * cell_side);
@@ -63,8 +63,8 @@ fn middles_and_obstacles(grid: &OccupancyGrid, unknown_cells: UnknownCells) -> V
 
 /// Asserts that each cell contains its middle, and that the total length of the outlines equals the total length of the
 /// sides between obstacles and other cells.
-fn assert_outlines(grid: &OccupancyGrid, unknown_cells: UnknownCells) {
-    let middles_and_obstacles = middles_and_obstacles(grid, unknown_cells);
+fn assert_outlines(grid: &OccupancyGrid, unknown_cell_rule: UnknownCells) {
+    let middles_and_obstacles = middles_and_obstacles(grid, unknown_cell_rule);
     for (middle, is_obstacle) in &middles_and_obstacles {
         assert_eq!(grid.is_blocked_at(*middle), *is_obstacle, "{middle:?} in {grid:?}");
     }
@@ -106,7 +106,7 @@ pub fn read_random_grid(input: &mut InputReader) -> Option<(OccupancyGrid, Unkno
     let is_negated = input.next_bool();
     let [a, b] = [0; 2].map(|_| f64::from(input.next_byte()) / 255.0);
     let interpretation = PixelClassifier { mode: map_mode, negate: is_negated, occupied_thresh: a.max(b), free_thresh: a.min(b) };
-    let unknown_cells = input.choose_one(&[UnknownCells::Free, UnknownCells::Blocked]);
+    let unknown_cell_rule = input.choose_one(&[UnknownCells::Free, UnknownCells::Blocked]);
     let is_opaque = input.next_bool();
     let pixels: Vec<Pixel> = (0..width * height)
         .map(|_| Pixel {
@@ -118,7 +118,7 @@ pub fn read_random_grid(input: &mut InputReader) -> Option<(OccupancyGrid, Unkno
         assert_cell_of_pixel(&interpretation, *pixel);
     }
     let image = Image { width, height, pixels };
-    Some((OccupancyGrid::new(&image, &interpretation, resolution, SE2::new(x, y, yaw)), unknown_cells))
+    Some((OccupancyGrid::new(&image, &interpretation, resolution, SE2::new(x, y, yaw)), unknown_cell_rule))
 }
 
 /// Checks the cell of a pixel against the documentation of `map_server`. If the pixel is within rounding of a threshold, both states are

@@ -211,8 +211,8 @@ pub(super) fn log_checks(
     inflation: f64,
 ) -> Vec<Check> {
     let leg_count = leg_set.legs.len();
-    // α's are squares of relative errors. A copy fails by the largest end of their intervals, any other reference by the difference of its
-    // motions.
+    // A reference that is a copy of the odometry is recognized by α's whose intervals end near 0: α's are squares of relative
+    // errors. Any other unsuitable reference is recognized by the difference of its motions from the odometry's.
     let max_alpha = alpha_intervals.iter().flatten().map(|[_, end]| *end).reduce(f64::max);
     let copy_error = max_alpha.map(f64::sqrt).filter(|error| *error < MIN_RELATIVE_ERROR);
     let measure_mismatch = || mismatch(leg_set, systematic).map(|ratio| ratio.max(MIN_RELATIVE_ERROR));
@@ -284,21 +284,22 @@ pub(super) fn residual_checks(fits: &[LegFit], correlation: f64) -> Vec<Check> {
     ]
 }
 
-/// Returns the range of the coverage of logs that the model simulates. `scale_std` is the relative standard error of the variances. Its
-/// factor 0.14 is the density of ln χ² with 3 degrees of freedom at the quantile 0.95.
-pub(super) fn coverage_range(count: usize, scale_std: f64) -> [f64; 2] {
+/// Returns the range of the coverage of logs that the model simulates. `variance_std_error` is the relative standard error of the variances.
+/// Its factor 0.14 is the density of ln χ² with 3 degrees of freedom at the quantile 0.95.
+pub(super) fn coverage_range(count: usize, variance_std_error: f64) -> [f64; 2] {
     let variance = 0.95 * 0.05 / count as f64;
-    let tolerance = NEGLIGIBLE_COVERAGE.max(MAX_STD_ERRORS * (variance + (0.14 * scale_std).powi(2)).sqrt());
+    let tolerance =
+        NEGLIGIBLE_COVERAGE.max(MAX_STD_ERRORS * (variance + (0.14 * variance_std_error).powi(2)).sqrt());
     [0.95 - tolerance, (0.95 + tolerance).min(1.0)]
 }
 
 /// Returns the checks of windows, for the lengths with at least [`MIN_WINDOWS`] windows.
-pub(super) fn window_checks(windows: &[WindowCoverage], scale_std: f64) -> Vec<Check> {
+pub(super) fn window_checks(windows: &[WindowCoverage], variance_std_error: f64) -> Vec<Check> {
     let check_names = [CheckName::Window1Covered, CheckName::Window2Covered, CheckName::Window5Covered];
     let sufficient_windows =
         windows.iter().zip(check_names).filter(|(window, _)| window.count >= MIN_WINDOWS);
     let check_coverage = |(window, name): (&WindowCoverage, CheckName)| {
-        Check::new(name, window.coverage, coverage_range(window.count, scale_std))
+        Check::new(name, window.coverage, coverage_range(window.count, variance_std_error))
     };
     sufficient_windows.map(check_coverage).collect()
 }

@@ -3,7 +3,7 @@
 use super::alignment::clock_offset;
 use super::legs::{Leg, LostLegs, MIN_LEGS};
 use super::likelihood::{
-    Expansion, FreeMask, POSITION_VARIANCE, Parameters, Residuals, Term, YAW_VARIANCE, identifiable_errors,
+    Expansion, FreeMask, LegTerm, POSITION_VARIANCE, Parameters, Residuals, YAW_VARIANCE, identifiable_errors,
 };
 use super::optimizer::maximize;
 use super::residuals::Observation;
@@ -19,7 +19,7 @@ pub(super) struct LegSet {
     pub options: Options,
     pub legs: Vec<Leg>,
     pub observations: Vec<Observation>,
-    pub terms: Vec<Term>,
+    pub terms: Vec<LegTerm>,
     pub outliers: Vec<bool>,
     /// Systematic errors with which the residuals were computed.
     pub systematic: Systematic,
@@ -55,7 +55,8 @@ impl LegSet {
         let Self { systematic, options: Options { model, .. }, .. } = *self;
         let observe = |leg| Observation::new(model, leg, &systematic, position_std);
         self.observations = self.legs.iter().map(observe).collect();
-        let term = |(leg, observation): (&Leg, &Observation)| Term::new(model, leg, observation, &systematic);
+        let term =
+            |(leg, observation): (&Leg, &Observation)| LegTerm::new(model, leg, observation, &systematic);
         self.terms = self.legs.iter().zip(&self.observations).map(term).collect();
     }
 

@@ -2,7 +2,7 @@
 
 use super::fit::Fit;
 use super::legs::{MIN_DRIVE_DISTANCE, MIN_TURN_ANGLE, distance, turn};
-use super::likelihood::{PARAMETER_COUNT, Parameters, block_length};
+use super::likelihood::{PARAMETER_COUNT, Parameters, legs_per_score_block};
 use super::optimizer::feasible_parameters;
 use super::residuals::Observation;
 use serde::{Deserialize, Serialize};
@@ -29,7 +29,7 @@ pub(super) fn intervals(
     correlation: f64,
 ) -> impl Fn(usize) -> [f64; 2] {
     let threshold = student_95(residuals.terms.len().saturating_sub(PARAMETER_COUNT));
-    let blocks = maximum.scores.chunks(block_length(residuals.terms.len()));
+    let blocks = maximum.scores.chunks(legs_per_score_block(residuals.terms.len()));
     // The mean score is not 0 if a variance is 0.
     let mean_score = maximum.score / blocks.len() as f64;
     let block_scores: Vec<Parameters> =

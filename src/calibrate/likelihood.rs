@@ -51,7 +51,7 @@ const MAX_ENTRY: f64 = 1e30;
 
 /// Residuals of one leg in the form that the likelihood needs. By default it has no observed component.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Term {
+pub(super) struct LegTerm {
     columns: Columns,
     /// Factors of the α's in the variance of each component.
     coefficients: [[f64; 2]; 3],
@@ -73,7 +73,7 @@ pub(super) struct Residuals {
     pub model: Model,
     pub free: FreeMask,
     pub estimated: ErrorMask,
-    pub terms: Vec<Term>,
+    pub terms: Vec<LegTerm>,
 }
 
 /// Innovation of one leg: its residual and the Jacobian of the residual, minus their predictions from the previous legs.
@@ -117,7 +117,7 @@ pub(super) struct Expansion {
     pub covariance: Information,
 }
 
-impl Term {
+impl LegTerm {
     pub fn new(model: Model, leg: &Leg, observation: &Observation, corrected: &Systematic) -> Self {
         let Observation { residuals, coefficients, jacobian, expected, measured, .. } = observation;
         let error_jacobian = jacobian * corrected.motion_jacobian(model, leg, expected);
@@ -148,7 +148,7 @@ impl Term {
 pub(super) fn innovations<'a>(
     model: Model,
     parameters: &Parameters,
-    terms_with_follows: impl Iterator<Item = (&'a Term, bool)>,
+    terms_with_follows: impl Iterator<Item = (&'a LegTerm, bool)>,
 ) -> impl Iterator<Item = Innovation> {
     let reference_covariance = reference_covariance(parameters);
     let (mut mean, mut prior) = (Columns::zeros(), reference_covariance);
@@ -183,7 +183,7 @@ impl FilterResult {
             let weighted = innovation.weight * innovation.without(errors);
             innovation.columns.fixed_columns::<ERROR_COUNT>(0).tr_mul(&weighted)
         };
-        let scores = innovations.chunks(block_length(innovations.len())).map(|block| {
+        let scores = innovations.chunks(legs_per_score_block(innovations.len())).map(|block| {
             let score: ErrorVector = block.iter().map(score_of_leg).sum();
             score * score.transpose()
         });
@@ -204,7 +204,7 @@ impl FilterResult {
 }
 
 /// Returns the number of legs of a block whose scores are summed for a sandwich covariance.
-pub(super) fn block_length(legs: usize) -> usize {
+pub(super) fn legs_per_score_block(legs: usize) -> usize {
     ((2.0 * (legs as f64).cbrt()).ceil() as usize).max(1)
 }
 

@@ -162,9 +162,9 @@ pub(super) fn cross_validate(fit: &Fit, all_legs: &LegSet, alphas: &[Option<f64>
             residuals.filtered(parameters).leg_fits().filter(|fit| fit.is_within(&CHI2_95)).count();
     }
     // Variances estimated from the 3n components of n legs have the relative variance 2/3n; several α's share them.
-    let scale_std = (2.0 * alphas.len() as f64 / (3 * leg_count / 2).max(1) as f64).sqrt();
+    let variance_std_error = (2.0 * alphas.len() as f64 / (3 * leg_count / 2).max(1) as f64).sqrt();
     let coverage_by_other_half = covered_legs as f64 / compared_legs as f64;
-    let expected_coverage = coverage_range(compared_legs, scale_std);
+    let expected_coverage = coverage_range(compared_legs, variance_std_error);
     let mut checks = vec![Check::new(CheckName::HoldoutCovered, coverage_by_other_half, expected_coverage)];
     // Windows of the whole log, each under the fit to the other half.
     let half_ranges_of_log = split_in_halves(all_legs.legs.len());
@@ -179,7 +179,7 @@ pub(super) fn cross_validate(fit: &Fit, all_legs: &LegSet, alphas: &[Option<f64>
     let inflation = required_inflation(&windows[0]);
     let window_coverages: Vec<WindowCoverage> =
         windows.iter().zip(WINDOW_LENGTHS).map(|(windows, length)| coverage(windows, length, 1.0)).collect();
-    checks.extend(window_checks(&window_coverages, scale_std));
+    checks.extend(window_checks(&window_coverages, variance_std_error));
     let recommendation = inflation.map(|inflation| Recommendation {
         alphas: alphas.iter().map(|alpha| alpha.map(|alpha| inflation * alpha)).collect(),
         inflation,

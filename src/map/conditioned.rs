@@ -227,7 +227,8 @@ impl MapConditioned<'_> {
         Ok(AcceptedMotion { pose, end_free, path_free, cost })
     }
 
-    /// Returns the cost of one accepted motion in a particle filter. A filter tests only what the sampler's condition needs.
+    /// Returns the draws and wall tests until one motion is accepted. As in a particle filter, tests on which acceptance does not
+    /// depend are left out.
     ///
     /// # Errors
     /// [`NoAcceptedSample`] after [`MAX_DRAWS`] rejected draws.

@@ -36,8 +36,8 @@ const MAX_CELLS: f64 = 1_048_576.0;
 const MAX_WALLS_PER_BLOCK: usize = 32;
 const MAX_WALLS_PER_CELL: usize = 3;
 
-/// Accepted error of the distance from a block, as a fraction of its radius, if there is a tree. Walls closer together
-/// than that are measured as one.
+/// Accepted error of the distance from a block of cells to the nearest wall, as a fraction of the block's radius; 0 if the tree is a
+/// single leaf. Walls closer together than the error are measured as one.
 const RELATIVE_BLOCK_UNCERTAINTY: f64 = 0.125;
 
 /// Lower bound of a distance that was not computed.

@@ -100,7 +100,7 @@ impl CollisionVerdict {
     const BLOCKED: Self = Self { free: false, wall_tests: 0 };
 }
 
-/// Range of bounds, m: the range of a robot's coordinates.
+/// Range of the coordinates of a plan's bounds, m. A robot's coordinates have the same range.
 const COORDINATE_RANGE: RangeInclusive<f64> = -1e6..=1e6;
 /// Range of the width and height of bounds, m.
 const SIDE_RANGE: RangeInclusive<f64> = 0.01..=1e5;

@@ -131,8 +131,8 @@ impl MotionModel for VelocityModel {
         let relative_pose = x.between(x_next);
         let distance = libm::hypot(relative_pose.x(), relative_pose.y());
         let shortest_turn = inversion.omega_hat * u.dt;
-        let squared_distance_dt = distance * distance * u.dt;
-        if squared_distance_dt == 0.0 {
+        let squared_distance_times_dt = distance * distance * u.dt;
+        if squared_distance_times_dt == 0.0 {
             return Some(if self.noise.prob(u.v, v_variance) > 0.0 { f64::INFINITY } else { 0.0 });
         }
         // All arcs that lead to the pose are on one circle, so that their lengths are proportional to their turns. On a straight line there
@@ -148,7 +148,7 @@ impl MotionModel for VelocityModel {
             };
             // With |sinc(φ/2)| = d/|v̂Δt| the determinant is d²Δt/(2|v̂|) times the Δt of γ̂.
             product_or_zero([
-                2.0 * v_hat.abs() / squared_distance_dt,
+                2.0 * v_hat.abs() / squared_distance_times_dt,
                 self.noise.prob(v_hat - u.v, v_variance),
                 self.noise.prob(arc_turn / u.dt - u.omega, omega_variance),
             ])

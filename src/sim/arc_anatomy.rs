@@ -8,7 +8,7 @@ use crate::models::{MotionModel, VelocityAlphas, VelocityCmd, VelocityModel};
 use crate::noise::{NoiseKind, Variance, product_or_zero};
 use crate::stats::trace_level_set;
 
-/// Quantity of the heat map over the positions of the final pose, at its heading.
+/// Quantity of the heat map. Each cell is a possible position of the final pose; the heading is that of the selected final pose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SurfaceKind {
     /// No heat map.

@@ -72,7 +72,8 @@ const DRIFT_TWIST: [f64; 3] = [0.015, 0.008, -0.01];
 pub const MAX_CURVE_POINTS: u64 = 10_000;
 
 js_structs! {
-    /// Legs of the reading under one rule, with the standard deviations of their noises.
+    /// Legs of the odometry reading (rotation, translation, rotation) under one noise rule, with the standard deviations of their
+    /// noises.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct RuleNoise {
         /// Rule of the noise.
@@ -215,12 +216,12 @@ impl OdometryDecomposer {
 
     /// Returns the pose of the robot at the selected phase of the motion.
     pub fn robot_pose(&self) -> SE2 {
-        let fraction_after = |phase_before: f64| (self.settings.phase - phase_before).clamp(0.0, 1.0);
+        let done_fraction_from = |phase_before: f64| (self.settings.phase - phase_before).clamp(0.0, 1.0);
         let OdomDelta { rot1, trans, rot2 } = self.legs();
         let legs = OdomDelta {
-            rot1: fraction_after(0.0) * rot1,
-            trans: fraction_after(1.0) * trans,
-            rot2: fraction_after(2.0) * rot2,
+            rot1: done_fraction_from(0.0) * rot1,
+            trans: done_fraction_from(1.0) * trans,
+            rot2: done_fraction_from(2.0) * rot2,
         };
         legs.apply(&self.start_pose())
     }

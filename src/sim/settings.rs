@@ -412,7 +412,7 @@ pub trait Rules: DeclaredSettings + 'static {
 /// - `up to` names a method that returns the end of the range, if it depends on other settings.
 /// - `by` names a method that returns a reference to the value, if the setting is not a field.
 /// - `of` names another setting that has the same value in another form.
-/// - `each` describes each number of a list, or ends the descriptions of the numbers of a group.
+/// - `each` describes each number of a list. For a pose or command, it is the phrase after the name of each of its numbers.
 /// - `kept` lists fields of the struct that are not settings.
 macro_rules! settings {
     (

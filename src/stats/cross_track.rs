@@ -52,7 +52,7 @@ impl CrossTrackStats {
 
     pub(super) fn from_moments(pose_count: usize, moments: &TrackMoments) -> Self {
         let TrackMoments { products, squared_extent, resultant_length } = *moments;
-        let [ad, ad2, m2, m3, d4, d5, d6, ss, sd, sd2, sd3, t, tt, td] = products;
+        let [along_d, along_d2, m2, m3, d4, d5, d6, ss, sd, sd2, sd3, t, tt, td] = products;
         if pose_count < 3 || m2 <= (MIN_RELATIVE_STD * MIN_RELATIVE_STD * squared_extent).max(MIN_VARIANCE) {
             return Self::UNDEFINED;
         }
@@ -61,7 +61,7 @@ impl CrossTrackStats {
         let sd = m2.sqrt();
         let skew = m3 / (m2 * sd);
         // Rotating the axis by dh changes d by −along·dh. The influence of a pose on the mean heading is sin(turn)/resultant.
-        let heading_influence = 3.0 * (skew * ad / m2 - ad2 / (m2 * sd)) / resultant_length;
+        let heading_influence = 3.0 * (skew * along_d / m2 - along_d2 / (m2 * sd)) / resultant_length;
         // The influence of a pose on the skew is z³ − skew − 3z − 1.5·skew·(z² − 1) + heading_influence·sin(turn), with z = d/sd. The
         // influence is a polynomial in d, so that its mean square is a sum of moments.
         let influence_polynomial = [0.5 * skew, -3.0 / sd, -1.5 * skew / m2, 1.0 / (m2 * sd)];

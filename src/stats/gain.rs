@@ -138,13 +138,14 @@ impl LogDensityDifferences {
         MeasuredGain { value: self.gaussians.gain, error: LikelihoodGain { pose, floor } }
     }
 
-    /// Returns the standard error of ln(A/B) by the delta method. A is the area of the 2σ ellipse in (x, y); B is the area of the image on
-    /// the floor of the 2σ ellipse in arc coordinates.
+    /// Returns the standard error of ln(A/B) by the delta method. A is the area of the 2σ ellipse in (x, y). B is the area within
+    /// the curve on the floor to which the 2σ ellipse in arc coordinates is mapped.
     ///
     /// The areas are 4π√(det Σ_xy) and 4π√(det Σ_sφ) times the mean Jacobian over the ellipse. Uniform points of a 2σ ellipse have the
     /// Gaussian's own covariance, so that to third order this mean is the mean over the robots. The influence of a robot is then ½(z² − w²)
-    /// − J/mean J, up to a constant. Here z and w are its two Mahalanobis distances. The outline in ξ has the same error to first order.
-    /// With the presets it is 0 to 14 % smaller than the spread of the ratio.
+    /// − J/mean J, up to a constant. Here z and w are its two Mahalanobis distances. If B is the area within the
+    /// outline of the 2σ ellipsoid in ξ, the error is the same to first order. With the presets the error is 0 to 14 % smaller than the
+    /// measured spread of ln(A/B).
     pub fn log_area_error(&self, count: usize) -> f64 {
         let total_weight = self.weight_sums.reduce_add();
         let [u, uu, hu, hh] = self.area_sums.map(|sum| sum.reduce_add() / total_weight);

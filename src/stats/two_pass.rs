@@ -41,7 +41,8 @@ pub struct FourArcs {
     pub sinc: f64x4,
 }
 
-/// Reference point, whose coordinates are subtracted in all sums: x, y, along, lateral, half heading; length and half turn of the arc.
+/// Reference values that are subtracted from the values of each robot in all sums: x, y, along, lateral, half of the heading, length of
+/// the arc, half of its turn.
 pub type ReferencePoint = [f64; 7];
 
 /// Factors that scale two terms of the Jacobians to about 1, so that a product of many does not underflow. One term is

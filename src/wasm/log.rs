@@ -95,8 +95,8 @@ fn read_poses(field: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
     checked_trajectory(fields, Trajectory::new(t.iter().copied().zip(poses)))
 }
 
-/// Adds the breaks of `fields` to a trajectory. JavaScript formats the numbers of errors, because Rust's number formatting would be 5 % of
-/// a module.
+/// Returns the trajectory, interrupted at the samples in `fields.breaks`, or the error for JavaScript. JavaScript formats the numbers
+/// in the error's message, because Rust's number formatting would be 5 % of a module.
 fn checked_trajectory(
     fields: &Fields,
     trajectory: Result<Trajectory, TrajectoryError>,

@@ -118,7 +118,8 @@ macro_rules! getters {
     };
 }
 
-/// Declares `read` of the class of a simulation, which returns an object of these getters. `$view` is its TypeScript type.
+/// Declares the method `read` of a simulation's class. It returns an object with the values of the listed getters. `$view` names the
+/// object's TypeScript type.
 macro_rules! read {
     ($(#[$doc:meta])+ $class:ident, $name:literal, $view:literal, [$($getter:ident $(as $key:ident)?),+ $(,)?]) => {
         #[wasm_bindgen(typescript_custom_section)]

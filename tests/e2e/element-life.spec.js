@@ -191,7 +191,7 @@ test('folds, fields and height of a figure stay over a move and over a removal',
   await openDisclosures(widget);
   const readOpenFolds = () => foldDisclosures.evaluateAll((foldElements) => foldElements.map((foldElement) => /** @type {HTMLDetailsElement} */ (foldElement).open));
   const openFoldsBefore = await readOpenFolds();
-  const fieldInDisclosure = foldDisclosures.nth(fieldInFold.foldIndex).locator(fieldInFold.field);
+  const fieldInDisclosure = foldDisclosures.nth(fieldInFold.disclosureIndex).locator(fieldInFold.field);
   await fieldInDisclosure.fill(fieldInFold.value);
   await widget.evaluate((element) => document.querySelector('#b')?.append(element));
   await waitForFrames(page);
@@ -208,7 +208,7 @@ test('folds, fields and height of a figure stay over a move and over a removal',
   await waitUntilReady(widget);
   expect(await readOpenFolds()).toEqual(openFoldsBefore);
   await expect(fieldInDisclosure).toHaveValue(fieldInFold.value);
-  await expect(foldDisclosures.nth(fieldInFold.foldIndex).locator('.folded')).not.toBeEmpty();
+  await expect(foldDisclosures.nth(fieldInFold.disclosureIndex).locator('.folded')).not.toBeEmpty();
   // The figure has its former height in the first and in the second frame.
   expect(heightsAfter).toEqual([heightBefore, heightBefore]);
 });

@@ -215,7 +215,7 @@ test.describe('a finger', () => {
       const { pictures: [{ view }], poses, viewModel: { end } } = /** @type {any} */ (element);
       const robotPixelOf = (/** @type {number} */ i) => [view.toPixelX(poses[3 * i]), view.toPixelY(poses[3 * i + 1])];
       const handlePixel = [view.toPixelX(end[0]), view.toPixelY(end[1])];
-      // Finds a robot inside the frame that the handle does not cover.
+      // Finds a robot inside the plot area that is not covered by the handle.
       for (let i = 0; i < poses.length / 3; i++) {
         const [x, y] = robotPixelOf(i);
         const { left, right, top, bottom } = view.plotArea;
@@ -287,8 +287,8 @@ test('paper has figures that were far from the window, with their pictures @nigh
 
 test('a print shows the disclosures that the user opened, and no controls @nightly', async ({ page, figureName }) => {
   const widget = await mountFigure(page, figureName);
-  const { foldIndex, part } = FIGURE_FACTS[figureName].printedPart;
-  const foldDisclosure = widget.locator('.folds details').nth(foldIndex);
+  const { disclosureIndex, part } = FIGURE_FACTS[figureName].printedPart;
+  const foldDisclosure = widget.locator('.folds details').nth(disclosureIndex);
   await expect(foldDisclosure).toBeVisible();
   await page.emulateMedia({ media: 'print' });
   await expect(foldDisclosure.locator(part).first()).toBeHidden();

@@ -187,7 +187,7 @@ export function playSliderOf(widget, key, maxSteps = Infinity) {
         const playButton = /** @type {HTMLButtonElement} */ (figureElement.shadowRoot?.querySelector(`.${key} button`));
         const sliderValues = /** @type {number[]} */ ([]);
         let buttonLabel = '';
-        const recordStep = async () => {
+        const recordSliderValue = async () => {
           sliderValues.push(/** @type {any} */ (figureElement.getState())[key]);
           if (sliderValues.length === 1) {
             await /** @type {any} */ (figureElement).updateComplete;
@@ -195,9 +195,9 @@ export function playSliderOf(widget, key, maxSteps = Infinity) {
           }
           if (sliderValues.length === maxSteps) playButton.click();
         };
-        figureElement.addEventListener('input', recordStep);
+        figureElement.addEventListener('input', recordSliderValue);
         figureElement.addEventListener('change', () => {
-          figureElement.removeEventListener('input', recordStep);
+          figureElement.removeEventListener('input', recordSliderValue);
           resolve({ sliderValues, buttonLabel });
         }, { once: true });
         playButton.click();

@@ -28,7 +28,7 @@ export default {
   pages: { first: '/', second: '/sensors' },
   go: (page, path) => page.getByRole('link', { name: path === '/' ? 'Motion' : 'Sensors' }).click(),
   dark: (page, isDark) => page.emulateMedia({ colorScheme: isDark ? 'dark' : 'light' }),
-  // Next keeps pages that the user has left in the document, and hides them.
+  // When the user leaves a page, Next.js hides it, but keeps it in the document.
   expected: [
     { selector: 'main:visible banana-machine >> nth=0', properties: { omega: 0.8, samples: 20000, alphas: [0.1, 0.05, 0.05, 0.1, 0.01, 0.01] } },
     { selector: 'main:visible banana-machine >> nth=1', properties: { omega: 0, alphas: [0.1, 0.1, 0.1, 0.1, 0, 0] } },

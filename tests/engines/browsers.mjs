@@ -37,14 +37,14 @@ const KEY_CODES = { ArrowRight: Key.ARROW_RIGHT, ArrowLeft: Key.ARROW_LEFT, Arro
 async function startChromium() {
   const { chrome, driver } = await ensureBrowser();
   const chromeArguments = [...CHROME_ARGUMENTS, '--headless=new', '--force-prefers-reduced-motion'];
-  return startEngine(driver, {}, { browserName: 'chrome', 'goog:chromeOptions': { binary: chrome, args: chromeArguments } });
+  return startBrowserByDriver(driver, {}, { browserName: 'chrome', 'goog:chromeOptions': { binary: chrome, args: chromeArguments } });
 }
 
 /** Starts Firefox. @returns {Promise<Engine>} */
 async function startFirefox() {
   const { firefox, driver } = await ensureFirefox();
   const firefoxPreferences = { 'ui.prefersReducedMotion': 1 };
-  return startEngine(driver, {}, { browserName: 'firefox', 'moz:firefoxOptions': { binary: firefox, args: ['-headless'], prefs: firefoxPreferences } });
+  return startBrowserByDriver(driver, {}, { browserName: 'firefox', 'moz:firefoxOptions': { binary: firefox, args: ['-headless'], prefs: firefoxPreferences } });
 }
 
 /** Starts WebKit's MiniBrowser on a virtual screen. @returns {Promise<Engine>} */
@@ -58,7 +58,7 @@ async function startWebKit() {
   writeFileSync(join(configDirectory, 'gtk-3.0/settings.ini'), '[Settings]\ngtk-enable-animations=false\n');
   const displayEnvironment = { DISPLAY: `:${displayNumber}`, XDG_CONFIG_HOME: configDirectory };
   // WebKit's driver starts MiniBrowser by itself.
-  return startEngine(driver, displayEnvironment, { browserName: 'MiniBrowser' }, async () => {
+  return startBrowserByDriver(driver, displayEnvironment, { browserName: 'MiniBrowser' }, async () => {
     await screenProcess.stop();
     rmSync(configDirectory, { recursive: true });
   });
@@ -73,7 +73,7 @@ async function startWebKit() {
  * @param {() => Promise<unknown>} [cleanUp] called after the driver has ended
  * @returns {Promise<Engine>}
  */
-async function startEngine(driverPath, driverEnvironment, browserCapabilities, cleanUp = async () => {}) {
+async function startBrowserByDriver(driverPath, driverEnvironment, browserCapabilities, cleanUp = async () => {}) {
   const driverServer = await serveByProgram((port) => [driverPath, [`--port=${port}`], driverEnvironment], '/status')('', {
     start: (command, args) => startProgram(command, args, { env: driverEnvironment }),
     run: () => Promise.reject(new Error('It runs nothing.')),

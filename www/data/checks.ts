@@ -5,8 +5,8 @@ export function createRefusalError(field: string, value: unknown, allowed: strin
 }
 
 /** Replaces the field at the start of an error's message (`path`, by default `name`) by `name`. */
-export function withFieldRenamed(error: unknown, name: string, path: string = name) {
-  if (error instanceof Error && error.message.startsWith(path)) error.message = name + error.message.slice(path.length);
+export function withFieldRenamed(error: unknown, newName: string, path: string = newName) {
+  if (error instanceof Error && error.message.startsWith(path)) error.message = newName + error.message.slice(path.length);
   return error;
 }
 

@@ -157,7 +157,7 @@ function matchField(path: string): ColumnMeaning | undefined {
   return undefined;
 }
 
-/** Groups the columns of a table, without those of other quantities. `isTime` checks whether a column without a name holds times. */
+/** Groups the columns of a table that hold times, poses or commands; other columns are left out. `isTime` checks whether a column without a name holds times. */
 export function groupColumnsByPrefix(names: string[], isTime: (index: number) => boolean = () => false): ColumnGroup[] {
   // PlotJuggler puts the topic before each name. A topic may have the name of its message's fields, as in /mocap/pose and /cmd_vel.
   const topics = names.flatMap((name) => /^\s*(\/.+\/)header\/stamp\s*$/.exec(name)?.[1] ?? []);

@@ -130,7 +130,7 @@ export function detectTableFormat(lines: string[], file: string, columns: string
   const header = headerOf(preambleLines, separator, rowWidth, rows[0]);
   if (header) {
     const { number } = header;
-    const names = addUnits(header.names, preambleLines.flatMap((text) => (text.number > number ? [cellsOfLine(text.line)] : [])));
+    const names = addUnits(header.names, preambleLines.flatMap((preambleLine) => (preambleLine.number > number ? [cellsOfLine(preambleLine.line)] : [])));
     // Rows with decimal commas between commas have more cells than the header.
     if (rowWidth > names.length) throw new LogError({ file, line: firstRowLine?.number }, (texts) => texts.wide(rowWidth, names.length, number));
     const groups = findColumnGroups(names, rows[0]);

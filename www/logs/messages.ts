@@ -146,7 +146,7 @@ export function poseReader(type: string): ((message: Message) => Sample) | undef
   return readSample && ((message) => readSample(readerOf(message.channel, message)));
 }
 
-/** Returns the name of a frame without the leading slash of the first tf. */
+/** Returns the name of a coordinate frame without the leading slash that ROS 1's old tf library wrote. */
 export const withoutSlash = (name: string) => name.replace(/^\/+/, '');
 
 /** Reads transforms; throws an error for bytes of another message type. */

@@ -299,10 +299,10 @@ export class Rows {
 function distanceOfPaths(t: Float64Array, x: Float64Array, y: Float64Array): number {
   const distancesAfterRows = (rows: number) => sampleEvenly(x.length - rows, (i) => Math.sqrt((x[i + rows] - x[i]) ** 2 + (y[i + rows] - y[i]) ** 2));
   const longStep = quantileOf(distancesAfterRows(1), 0.9);
-  const countLongSteps = (rows: number) => distancesAfterRows(rows).filter((distance) => distance > longStep / 2).length;
-  const hasReturnedAfter = (rows: number) => countLongSteps(rows) < MAX_LONG_FRACTION * countLongSteps(1);
+  const countLongDistances = (rows: number) => distancesAfterRows(rows).filter((distance) => distance > longStep / 2).length;
+  const hasReturnedAfter = (rows: number) => countLongDistances(rows) < MAX_LONG_FRACTION * countLongDistances(1);
   const maxRows = Math.min(MAX_RETURN_ROWS, (MAX_RETURN_SECONDS * t.length) / (t[t.length - 1] - t[0]));
-  return longStep > MIN_PATH_DISTANCE && countLongSteps(1) >= MIN_LONG_STEPS && range(2, maxRows + 1).some(hasReturnedAfter) ? longStep : 0;
+  return longStep > MIN_PATH_DISTANCE && countLongDistances(1) >= MIN_LONG_STEPS && range(2, maxRows + 1).some(hasReturnedAfter) ? longStep : 0;
 }
 
 /** Returns a function that checks for a jump between a row and the one before it. */

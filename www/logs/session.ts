@@ -41,14 +41,14 @@ export class LogSession {
       unpaired: { odometry: unpaired.odometry.map(openedChoiceOf), reference: unpaired.reference.map(openedChoiceOf) },
     };
     let nextProgress = 0;
-    const readLogs = await readDrives(plan, (share) => {
+    const driveLogs = await readDrives(plan, (share) => {
       const now = performance.now();
       if (now < nextProgress) return;
       nextProgress = now + PROGRESS_INTERVAL;
       onProgress(share);
     }).catch(throwFailure);
-    const columns = readLogs.flatMap(({ odometry, reference }) => [odometry, reference]).flatMap(({ data }) => Object.values(data) as ArrayBufferView[]);
-    return transfer(readLogs, [...new Set(columns.map(({ buffer }) => buffer as ArrayBuffer))]);
+    const columns = driveLogs.flatMap(({ odometry, reference }) => [odometry, reference]).flatMap(({ data }) => Object.values(data) as ArrayBufferView[]);
+    return transfer(driveLogs, [...new Set(columns.map(({ buffer }) => buffer as ArrayBuffer))]);
   }
 
   /** Returns the fit to a log, for `AlphaCalibrator.restored`. */

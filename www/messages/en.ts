@@ -38,7 +38,7 @@ export const en = {
   },
   noises: { normal: 'normal', triangular: 'triangular' },
   noise: 'Noise',
-  /** Noise parameters: the noise with the motion that it grows with, and its effect. */
+  /** Names of the noise parameters (which noise grows with which motion), and their effects. */
   alphas: {
     velocity: [
       ['speed noise from speed', '*v*² into *v̂*: spreads robots along the arc.'],

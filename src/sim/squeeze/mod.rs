@@ -267,7 +267,7 @@ js_structs! {
     pub struct Stats as "SqueezeStats" {
         /// Number of attempts.
         pub attempts: usize,
-        /// Draws of the model; for the sub-stepped sampler, draws of parts of motions.
+        /// Number of motions that were drawn. The sub-stepped sampler counts the parts of motions that it drew.
         pub drawn: usize,
         /// Number of accepted attempts.
         pub accepted: usize,

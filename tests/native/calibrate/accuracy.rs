@@ -1,7 +1,7 @@
 //! Accuracy of the α's, their intervals and the noise of the reference, over many simulated logs.
 
 use super::calibrate_simulation;
-use super::simulated::{ALPHAS, MODELS, Sampling, Simulation, Violation};
+use super::simulated::{ALPHAS, MODELS, SampleTimes, Simulation, Violation};
 use motion::calibrate::{ERROR_COUNT, Model, Systematic, SystematicError};
 
 const LEGS_PER_LOG: usize = 600;
@@ -29,7 +29,7 @@ const PERSISTENT_ERRORS: Scenario = Scenario {
 };
 
 const UNRELATED_TIMES: Scenario =
-    scenario("67 Hz and 29 Hz", |sim| sim.sampling = Sampling::Unrelated([3, 7]));
+    scenario("67 Hz and 29 Hz", |sim| sim.times = SampleTimes::Unrelated([3, 7]));
 
 const TRUE_SYSTEMATIC_ERRORS: Systematic = Systematic {
     clock_offset: 0.12,

@@ -72,7 +72,8 @@ fn error_derivative(leg: &Leg, systematic_errors: &Systematic, error_kind: Syste
     let motion_error_after = |error_step: f64| {
         let mut changed_errors = *systematic_errors;
         *changed_errors.get_mut(error_kind) += error_step;
-        // The reference has the corrected errors, and its robot executes the odometry motion.
+        // In the simulated reference, the sensor is mounted with `systematic_errors`, and the robot executes the motion that
+        // odometry measured.
         let mount_pose =
             |errors: &Systematic| SE2::new(errors.lever_arm[0], errors.lever_arm[1], errors.mount_yaw);
         let reference_motion =

@@ -52,12 +52,12 @@ pub struct Simulation {
     /// Standard deviations of the reference, m and rad.
     pub reference_stds: [f64; 2],
     /// Times of the samples.
-    pub sampling: Sampling,
+    pub times: SampleTimes,
 }
 
 /// Times of the samples of odometry and reference.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Sampling {
+pub enum SampleTimes {
     /// Both have a sample each 50 ms.
     Common,
     /// The odometry has a sample each first number of [`FINE_STEP_SECONDS`], the reference each second number, at unrelated times. The noise of
@@ -80,7 +80,7 @@ impl Simulation {
             violation: Violation::None,
             seed,
             reference_stds: [0.0; 2],
-            sampling: Sampling::Common,
+            times: SampleTimes::Common,
         }
     }
 
@@ -98,9 +98,9 @@ impl Simulation {
 
     /// Returns odometry and reference.
     pub fn log(&self) -> [Trajectory; 2] {
-        let (step_seconds, [rows_per_reading, rows_per_reference]) = match self.sampling {
-            Sampling::Common => (STEP_SECONDS, [1, 1]),
-            Sampling::Unrelated(rows) => (FINE_STEP_SECONDS, rows),
+        let (step_seconds, [rows_per_reading, rows_per_reference]) = match self.times {
+            SampleTimes::Common => (STEP_SECONDS, [1, 1]),
+            SampleTimes::Unrelated(rows) => (FINE_STEP_SECONDS, rows),
         };
         let rows_per_step = (STEP_SECONDS / step_seconds).round() as usize;
         let mut rng = seeded_rng(self.seed);
@@ -188,7 +188,7 @@ impl Simulation {
 
     /// Returns a step of the random walk of the noise within a leg.
     fn draw_walk_step(&self, rng: &mut impl Rng) -> f64 {
-        if self.sampling == Sampling::Common { 0.0 } else { NoiseKind::Normal.sample(Variance(1.0), rng) }
+        if self.times == SampleTimes::Common { 0.0 } else { NoiseKind::Normal.sample(Variance(1.0), rng) }
     }
 
     /// Returns v and ω of a straight drive, a bend, a turn on the spot, or a drive in reverse if the rule allows it.

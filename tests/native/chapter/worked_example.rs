@@ -123,8 +123,8 @@ fn measured_moments_agree_with_the_printed_table() {
         ("skew", Box::new(motion::stats::cross_track_skew), -0.301, 3, exact_moments.cross_track_skew),
         ("E x", Box::new(|poses| CartesianMoments::from_poses(poses).mean.x), 0.955, 3, exact_moments.mean.x),
     ];
-    for (quantity, statistic, printed, decimals, exact_value) in statistics {
-        let (measured, standard_error) = statistic_with_standard_error(&cloud, statistic);
+    for (quantity, statistic_of, printed, decimals, exact_value) in statistics {
+        let (measured, standard_error) = statistic_with_standard_error(&cloud, statistic_of);
         assert!(
             (measured - exact_value).abs() < MAX_STANDARD_ERRORS * standard_error,
             "{quantity}: {measured} ± {standard_error}, exactly {exact_value}"

@@ -65,9 +65,9 @@ pub fn distance_of_segments(p: [Point; 2], q: [Point; 2]) -> f64 {
     .fold(f64::INFINITY, f64::min)
 }
 
-/// Returns a lower and an upper bound of the distance. A piece of the arc with length l and turn t deviates from its chord by at most l·t/8.
-/// Pieces that cannot contain the nearest point are dropped, and the others are halved until only rounding is left. Halving ends at 1000
-/// pieces, because all pieces may be equally near the centre of the circle.
+/// Returns a lower and an upper bound of the distance between an arc and a wall. A piece of the arc with length l and turn t deviates
+/// from its chord by at most l·t/8. Pieces that cannot contain the nearest point are dropped, and the others are halved until only
+/// rounding is left. Halving ends at 1000 pieces, because a wall that ends at the centre of the circle is equally near to all pieces.
 pub fn distance_by_halving(arc: &Arc, wall: &Segment) -> [f64; 2] {
     let arc_start = [arc.start.x(), arc.start.y()];
     let wall_ends = [subtract_points(wall.from, arc_start), subtract_points(wall.to, arc_start)];

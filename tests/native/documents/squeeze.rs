@@ -120,20 +120,21 @@ fn fractions_through_walls_by_substeps_are_those_in_the_documents() {
         fraction_in_parts(DOORWAY_PRESET, printed_part_count.value as u32, printed_omega.value),
         printed_parts,
     );
-    let [doorway_1, doorway_4, doorway_6, doorway_8, doorway_16, corridor_1, corridor_4, corridor_6, corridor_8, corridor_12] = model_document().sentence_numbers(
+    let printed_numbers: [_; 10] = model_document().sentence_numbers(
         "At the doorway it is # % at k = 1, # % at 4, # % at 6, # % at 8, and # % at 16. In the corridor it rises from # % \
          over # and # % to # % at k = 8, and falls to # % at 12.",
     );
-    for (preset, endpoint_fraction, printed_fractions) in [
-        (DOORWAY_PRESET, doorway_1, [(4, doorway_4), (6, doorway_6), (8, doorway_8), (16, doorway_16)]),
-        (CORRIDOR_PRESET, corridor_1, [(4, corridor_4), (6, corridor_6), (8, corridor_8), (12, corridor_12)]),
+    let (doorway_percentages, corridor_percentages) = printed_numbers.split_at(5);
+    for (preset, part_counts, percentages) in [
+        (DOORWAY_PRESET, [4, 6, 8, 16], doorway_percentages),
+        (CORRIDOR_PRESET, [4, 6, 8, 12], corridor_percentages),
     ] {
         assert_printed_percentage(
             fraction_through_wall(settings_at(preset, Sampler::Endpoint, printed_omega.value)),
-            endpoint_fraction,
+            percentages[0],
         );
-        for (part_count, fraction) in printed_fractions {
-            assert_printed_percentage(fraction_in_parts(preset, part_count, printed_omega.value), fraction);
+        for (part_count, &percentage) in part_counts.into_iter().zip(&percentages[1..]) {
+            assert_printed_percentage(fraction_in_parts(preset, part_count, printed_omega.value), percentage);
         }
     }
 }

@@ -39,7 +39,7 @@ pub fn finite_doubles() -> impl Strategy<Value = f64> {
 
 /// Returns limits of common ranges, with either sign, and their neighbouring doubles.
 fn range_limits() -> impl Strategy<Value = f64> {
-    const SPECIAL_LIMITS: [f64; 15] = [
+    const RANGE_LIMITS: [f64; 15] = [
         0.0,
         f64::from_bits(1),
         f64::MIN_POSITIVE,
@@ -56,11 +56,11 @@ fn range_limits() -> impl Strategy<Value = f64> {
         9_007_199_254_740_993.0,
         f64::MAX,
     ];
-    (0..SPECIAL_LIMITS.len(), any::<bool>(), -1..=1).prop_map(|(i, is_negative, neighbour_offset)| {
+    (0..RANGE_LIMITS.len(), any::<bool>(), -1..=1).prop_map(|(i, is_negative, neighbour_offset)| {
         let nearby_limit = match neighbour_offset {
-            -1 => SPECIAL_LIMITS[i].next_down(),
-            0 => SPECIAL_LIMITS[i],
-            _ => SPECIAL_LIMITS[i].next_up().min(f64::MAX),
+            -1 => RANGE_LIMITS[i].next_down(),
+            0 => RANGE_LIMITS[i],
+            _ => RANGE_LIMITS[i].next_up().min(f64::MAX),
         };
         if is_negative { -nearby_limit } else { nearby_limit }
     })

@@ -28,11 +28,11 @@ fn do_intervals_contain_truth(simulation: &AlphaCalibrator) -> Vec<bool> {
         [truth.clock_offset, truth.mount_yaw, lever_ahead, lever_left, distance_scale, turn_scale];
     let error_intervals = SystematicError::ALL.map(|error_kind| calibration.interval_of(error_kind));
     let intervals = calibration.intervals.iter().copied().chain(error_intervals);
-    let is_value_inside = |(interval, true_value): (Option<[f64; 2]>, f64)| {
+    let contains_true_value = |(interval, true_value): (Option<[f64; 2]>, f64)| {
         let [low, high] = interval.expect("the log turns and drives");
         (low..=high).contains(&true_value)
     };
-    intervals.zip(truth.alphas.into_iter().chain(true_errors)).map(is_value_inside).collect()
+    intervals.zip(truth.alphas.into_iter().chain(true_errors)).map(contains_true_value).collect()
 }
 
 #[test]

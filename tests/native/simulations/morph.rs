@@ -91,9 +91,9 @@ fn the_same_robots_stay_inside_an_outline() {
                     .collect::<Vec<_>>()
             })
         };
-        let are_inside_on_floor = are_robots_inside(0.0);
+        let inside_flags_on_floor = are_robots_inside(0.0);
         for morph in MORPH_FRACTIONS {
-            for (are_inside, are_inside_at_0) in are_robots_inside(morph).iter().zip(&are_inside_on_floor) {
+            for (are_inside, are_inside_at_0) in are_robots_inside(morph).iter().zip(&inside_flags_on_floor) {
                 let changed_count = are_inside.iter().zip(are_inside_at_0).filter(|(a, b)| a != b).count();
                 assert!(changed_count <= 10, "{changed_count} robots at {morph}");
             }

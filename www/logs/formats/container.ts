@@ -105,9 +105,9 @@ export function readAhead(source: Source): (from: number, to: number) => Promise
       piece.then((bytes) => pieces.has(i) && pieces.set(i, bytes), () => {});
     }
     const partOf = (piece: Uint8Array | undefined, i: number) => (piece ?? new Uint8Array()).subarray(Math.max(from - i * PIECE_BYTES, 0), end - i * PIECE_BYTES);
-    const pieceOfStart = pieces.get(firstPiece);
+    const firstPieceBytes = pieces.get(firstPiece);
     // Awaiting bytes that have already been read would take longer than reading a record.
-    const partOfFirstPiece = partOf(pieceOfStart instanceof Promise ? await pieceOfStart : pieceOfStart, firstPiece);
+    const partOfFirstPiece = partOf(firstPieceBytes instanceof Promise ? await firstPieceBytes : firstPieceBytes, firstPiece);
     if (lastPiece === firstPiece) return partOfFirstPiece;
     const bytes = new Uint8Array(end - from);
     bytes.set(partOfFirstPiece);

@@ -8,7 +8,7 @@ const zstdDecoder = new ZSTDDecoder();
 const MAX_FILE_BYTES = 2 ** 30;
 
 /** Maximum size of a message that is compressed by itself: the decoder returns it in one part. Transforms have a hundred bytes each. */
-const MAX_MESSAGE_BYTES = 2 ** 17;
+const MAX_LOG_MESSAGE_BYTES = 2 ** 17;
 
 const INPUT_PIECE_BYTES = 2 ** 20;
 
@@ -41,7 +41,7 @@ function decompressZstdPieces(pieces: Iterable<Uint8Array>, maxBytes: number): U
 }
 
 export function decompressZstdMessage(bytes: Uint8Array): Uint8Array {
-  const [message, ...otherParts] = decompressZstdPieces([bytes], MAX_MESSAGE_BYTES)?.filter(({ length }) => length > 0) ?? [];
+  const [message, ...otherParts] = decompressZstdPieces([bytes], MAX_LOG_MESSAGE_BYTES)?.filter(({ length }) => length > 0) ?? [];
   if (!message || otherParts.length > 0) throw new RangeError('a message that is empty, or longer than any with poses');
   return message;
 }

@@ -102,7 +102,7 @@ class Rosbag2 extends MessageFile<SqliteValue> {
     for (const [i, pageNumber] of leafPages.entries()) {
       try {
         const pageBytes = await this.#readPage(pageNumber);
-        for (const cell of cellPositionsOf(pageBytes, pageNumber, LEAF_PAGE_TYPE)) {
+        for (const cell of cellOffsetsOf(pageBytes, pageNumber, LEAF_PAGE_TYPE)) {
           const pendingRow = onRow(this.#rowAt(pageBytes, cell));
           if (pendingRow) await pendingRow;
         }
@@ -129,7 +129,7 @@ class Rosbag2 extends MessageFile<SqliteValue> {
         if (page[start] === LEAF_PAGE_TYPE && pagesOfNextLevel.length === 0) return pagesOfLevel;
         try {
           const view = dataViewOf(page);
-          for (const cell of cellPositionsOf(page, pageNumber, INTERIOR_PAGE_TYPE)) pagesOfNextLevel.push(view.getUint32(cell));
+          for (const cell of cellOffsetsOf(page, pageNumber, INTERIOR_PAGE_TYPE)) pagesOfNextLevel.push(view.getUint32(cell));
           pagesOfNextLevel.push(view.getUint32(start + 8));
         } catch (error) {
           this.noteDamage(pageNumber, error);
@@ -180,7 +180,7 @@ class Rosbag2 extends MessageFile<SqliteValue> {
 }
 
 /** Returns the positions of the cells of a page. Throws a RangeError if the page has another type. */
-function cellPositionsOf(page: Uint8Array, pageNumber: number, type: number): number[] {
+function cellOffsetsOf(page: Uint8Array, pageNumber: number, type: number): number[] {
   const view = dataViewOf(page);
   const start = pageNumber === 1 ? HEADER_BYTES : 0;
   if (view.getUint8(start) !== type) throw new RangeError('a page is damaged');

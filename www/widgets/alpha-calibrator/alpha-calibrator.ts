@@ -292,7 +292,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
     return leg !== null && leg < legs.count ? leg : opening;
   }
 
-  /** Predicted cloud and ends of the leg that is shown, by the latest complete fit; null without a leg. */
+  /** Predicted cloud of the selected leg by the latest complete fit, with its start pose, and its end poses by odometry and reference; null without a leg. */
   get predicted() {
     const { chosen, simulation, viewModel: { config } } = this;
     return chosen < 0 || !simulation ? null : this.#predictedLeg.get([config, chosen], () => simulation.leg(chosen));

@@ -65,7 +65,7 @@ function render({ model, el }: { model: Model, el: HTMLElement }): (() => void) 
       isWriting = true;
       for (const isNull of [false, true]) for (const [trait, value] of traitValues) if ((value === null) === isNull) setTrait(trait, value);
       isWriting = false;
-      // `_shown` has all values at one time and the number of the last applied request, by which the kernel recognizes newer requests.
+      // `_shown` has all values of one moment, and the number of the last request that was applied. The kernel compares it with its newer requests.
       setTrait('_shown', { heard: model.get('_asked'), settings: Object.fromEntries(traitValues.filter(([trait]) => model.get(trait) !== undefined)) });
       saveChanges();
     });
@@ -121,8 +121,8 @@ function withoutKernel(callKernel: () => void) {
 /** Returns all spellings of traits with their properties. Properties on which others depend come first. */
 function traitsOf(element: any): [trait: string, property: string][] {
   const { properties } = element.constructor.definition;
-  const entries: Record<string, { property?: string }> = { ...properties, ...COMMON_ATTRS, ...Object.fromEntries(GLOBAL_ATTRIBUTES.map((name) => [name, {}])) };
-  return Object.entries(entries).flatMap(([name, { property = name }]) => {
+  const propertiesByName: Record<string, { property?: string }> = { ...properties, ...COMMON_ATTRS, ...Object.fromEntries(GLOBAL_ATTRIBUTES.map((name) => [name, {}])) };
+  return Object.entries(propertiesByName).flatMap(([name, { property = name }]) => {
     if (!(property in element)) return [];
     const pythonName = property.replaceAll(/[A-Z]/g, (capital) => `_${capital.toLowerCase()}`);
     // In Python a name that is a keyword ends with an underscore, as in `from_`.

@@ -1,6 +1,6 @@
 /**
  * Loader of the WebAssembly core, which a page or process compiles once. It is the only file that uses wasm-bindgen's glue.
- * An import has no effects: it needs no DOM, and fetches and compiles nothing before `load()`.
+ * Importing this file has no effects: it needs no DOM, and fetches and compiles nothing before `load()`.
  */
 
 import bundledCores from '../build/motion.wasm';
@@ -13,7 +13,7 @@ export type ModuleSource = BufferSource | URL | string | WebAssembly.Module;
 
 /** Source that the first caller passed to `load` or `instantiate`. */
 let requestedSource: ModuleSource | undefined;
-/** Functions of a bundle that load a module, and the JavaScript that wasm-bindgen made for it (its glue). */
+/** Functions that load a WebAssembly module of the bundle, and its glue: the JavaScript that wasm-bindgen generated for the module. */
 type BundledCore = typeof bundledCores.motion;
 
 /** Promises of compiled modules by source. For a bundled core, the key is the core itself. */
@@ -27,7 +27,7 @@ let corePromise: Promise<Motion> | undefined;
  *
  * `source` is the module as bytes, an address, or compiled. By default it is the module of the bundle. For external.js that is the file
  * `motion.wasm` next to it, or if the file cannot be fetched, the copy embedded in a script. The first caller with a source determines the
- * source for the page. A script may import the elements before it calls `load(source)`, but must not wait in between.
+ * source for the page. A script may import the elements before it calls `load(source)`, but must not await anything in between.
  */
 export function load(source?: ModuleSource): Promise<Motion> {
   requestedSource ??= source;
@@ -47,7 +47,7 @@ export function instantiate(source?: ModuleSource): Promise<Motion> {
   return instantiateFor('motion');
 }
 
-/** Returns a core: that of all widgets for "motion", or the smaller one of a widget for its tag, which external.js uses on a page with one kind of widget. */
+/** Returns a new core. For "motion" it serves all widgets. For a widget's tag it may serve that widget alone: external.js has such smaller cores for pages with one kind of widget. */
 export async function instantiateFor(widgetTag: string): Promise<Motion> {
   if (typeof WebAssembly === 'undefined') {
     throw new Error('WebAssembly is not available here, and motion-widgets needs it.');
@@ -72,19 +72,19 @@ export async function instantiateFor(widgetTag: string): Promise<Motion> {
 /** Compiled WebAssembly module of a widget, and the key of its JavaScript glue in the bundle. A worker instantiates the simulation core from these. */
 export interface SharedCore {
   module: WebAssembly.Module;
-  glue: string;
+  glueKey: string;
 }
 
-/** Returns the module and glue of a widget's core for another thread. */
+/** Returns the compiled module of a widget's core and the key of its glue, to send to a worker. */
 export async function moduleForWorker(widgetTag: string): Promise<SharedCore> {
   const [module] = await loadModuleAndGlue(widgetTag);
   const bundledCore = bundledCoreOf(widgetTag);
-  return { module, glue: Object.keys(bundledCores).find((key) => bundledCores[key] === bundledCore) ?? 'motion' };
+  return { module, glueKey: Object.keys(bundledCores).find((key) => bundledCores[key] === bundledCore) ?? 'motion' };
 }
 
 /** Returns a core from a module that another thread has compiled. */
-export async function instantiateShared({ module, glue }: SharedCore): Promise<Motion> {
-  const { default: createCore } = await (bundledCores[glue] ?? bundledCores.motion).glue();
+export async function instantiateShared({ module, glueKey }: SharedCore): Promise<Motion> {
+  const { default: createCore } = await (bundledCores[glueKey] ?? bundledCores.motion).glue();
   return createCore(module);
 }
 
@@ -122,26 +122,26 @@ function bundledCoreOf(widgetTag: string) {
 }
 
 function compileOnce(bundledCore: BundledCore): Promise<WebAssembly.Module> {
-  const key = requestedSource ?? bundledCore;
-  let module = modulesBySource.get(key);
+  const cacheKey = requestedSource ?? bundledCore;
+  let module = modulesBySource.get(cacheKey);
   if (!module) {
     module = compileSource(requestedSource ?? bundledCore.source()).catch((error) => {
       requestedSource = undefined;
-      modulesBySource.delete(key);
+      modulesBySource.delete(cacheKey);
       throw error;
     });
-    modulesBySource.set(key, module);
+    modulesBySource.set(cacheKey, module);
   }
   return module;
 }
 
 /** Starts to compile the module of a bundle that contains it, while this thread still evaluates scripts. */
 export function precompile() {
-  // A bundle with an embedded core has the other cores in files.
+  // A bundle with an embedded fallback core loads the other cores from files.
   if (!bundledCores.embedded && requestedSource === undefined) compileOnce(bundledCores.motion).catch(() => {});
 }
 
-/** Advice for the author of a site without the module. */
+/** Advice for the author of a site that lacks the module's file. */
 const MISSING_MODULE_ADVICE =
   "Copy motion.wasm from the package's dist/ into the site and give its address to load(), or leave the address out.";
 
@@ -162,7 +162,7 @@ async function compileSource(sourceOrPromise: ModuleSource | Promise<BufferSourc
   );
 }
 
-/** Returns true if a Content-Security-Policy forbids an empty module: WebKit then does not instantiate it, other browsers do not compile it. */
+/** Returns true if a Content-Security-Policy forbids WebAssembly. WebKit then refuses to instantiate even an empty module, and other browsers to compile it. */
 function isWasmForbidden() {
   try {
     return !new WebAssembly.Instance(new WebAssembly.Module(Uint8Array.of(0, 0x61, 0x73, 0x6d, 1, 0, 0, 0)));
@@ -171,7 +171,7 @@ function isWasmForbidden() {
   }
 }
 
-/** Compiles a module while it downloads; after the download if its MIME type is not application/wasm. */
+/** Compiles a module during its download, or after the download if its MIME type is not application/wasm. */
 async function compileStreamed(source: URL | string) {
   const moduleResponse = await fetch(source).catch((error) => {
     throw new Error(

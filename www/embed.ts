@@ -11,14 +11,14 @@ import { GLOBAL_ATTRIBUTES, createWidget, createErrorParagraph } from './named.t
 function widgetFromQuery(query: URLSearchParams) {
   const widget = createWidget(query.get('widget'));
   const tagName = widget.localName;
-  const knownNames = [...(widget.constructor as any).observedAttributes, ...GLOBAL_ATTRIBUTES];
-  for (const [key, value] of query) {
-    if (key === 'widget') continue;
-    if (!knownNames.includes(key)) {
-      throw new Error(`${key} is an unknown parameter of ${tagName}; allowed are ${knownNames.sort().join(', ')}`);
+  const allowedParameters = [...(widget.constructor as any).observedAttributes, ...GLOBAL_ATTRIBUTES];
+  for (const [parameter, value] of query) {
+    if (parameter === 'widget') continue;
+    if (!allowedParameters.includes(parameter)) {
+      throw new Error(`${parameter} is an unknown parameter of ${tagName}; allowed are ${allowedParameters.sort().join(', ')}`);
     }
-    if (query.getAll(key).length > 1) throw new Error(`${key} is given more than once; allowed is once`);
-    widget.setAttribute(key, value);
+    if (query.getAll(parameter).length > 1) throw new Error(`${parameter} is given more than once; allowed is once`);
+    widget.setAttribute(parameter, value);
   }
   return widget;
 }

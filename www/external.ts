@@ -15,7 +15,7 @@ export { setMessages } from './messages/registry.ts';
 // A page may set the words of a widget before its script is loaded.
 addEnglishMessages({ ...en, ...Object.fromEntries(messageKeys.map((key) => [key, {}])) });
 
-/** Returns true for the tag of a figure. Compilers of templates ask which tags are custom elements. */
+/** Returns true for the tag of a figure. Template compilers, such as Vue's, need it to recognize custom elements. */
 export const isFigureTag = (tag: string) => tag in widgets;
 
 /** Tags of widgets whose scripts are not loaded yet. */

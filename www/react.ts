@@ -7,11 +7,11 @@ export type Props = Record<string, any>;
 
 /** Names of the props of an element. */
 export interface PropNames {
-  /** Attributes by their props. */
+  /** Names of attributes by the names of their props. */
   attributes: Record<string, string>;
-  /** Props of boolean attributes, which are present or absent. */
+  /** Names of the props of boolean attributes, which are present or absent. */
   flags: string[];
-  /** Props of properties without an attribute. */
+  /** Names of the props of properties that have no attribute. */
   properties: string[];
 }
 
@@ -34,8 +34,8 @@ class PropWriter {
   /** Props of the previous rendering. */
   props: Props | undefined;
 
-  constructor(names: PropNames) {
-    this.propNames = names;
+  constructor(propNames: PropNames) {
+    this.propNames = propNames;
   }
 
   /** Returns the text of a prop's attribute, or null. */
@@ -47,7 +47,7 @@ class PropWriter {
   update(element: any, props: Props) {
     const { props: previousProps } = this;
     Object.assign(this, { element, props });
-    for (const type of EVENT_TYPES) element.addEventListener(type, this);
+    for (const eventType of EVENT_TYPES) element.addEventListener(eventType, this);
     if (!previousProps && element.stats) {
       // An element that the server sent was running before React attached the listeners.
       element.dispatchEvent(new Event('load'));
@@ -73,17 +73,17 @@ class PropWriter {
   }
 }
 
-export function createComponent(displayName: string, tag: string, names: PropNames) {
-  const ownProps = new Set([...Object.keys(names.attributes), ...names.properties, ...Object.values(HANDLER_PROPS)]);
+export function createComponent(displayName: string, tag: string, propNames: PropNames) {
+  const ownProps = new Set([...Object.keys(propNames.attributes), ...propNames.properties, ...Object.values(HANDLER_PROPS)]);
   const render = (props: Props, ref: import('react').ForwardedRef<unknown>) => {
     const elementRef = useRef(null);
-    const [propWriter] = useState(() => new PropWriter(names));
+    const [propWriter] = useState(() => new PropWriter(propNames));
     useImperativeHandle(ref, () => elementRef.current, []);
     useLayout(() => propWriter.update(elementRef.current, props));
     useLayout(() => () => propWriter.removeListeners(), [propWriter]);
-    // React 18 does not know className of elements that HTML does not know.
+    // React 18 does not translate `className` for custom elements.
     const { className, ...otherProps } = Object.fromEntries(Object.entries(props).filter(([name]) => !ownProps.has(name)));
-    const attributeTexts = isOnServer ? Object.entries(names.attributes).map(([name, attribute]) => [attribute, propWriter.attributeTextOf(name, props)]) : [];
+    const attributeTexts = isOnServer ? Object.entries(propNames.attributes).map(([name, attribute]) => [attribute, propWriter.attributeTextOf(name, props)]) : [];
     return createElement(tag, { ...otherProps, ...Object.fromEntries(attributeTexts), class: className, ref: elementRef, suppressHydrationWarning: true });
   };
   return Object.assign(forwardRef(render), { displayName });

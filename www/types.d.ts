@@ -13,17 +13,17 @@ export declare function load(source?: BufferSource | URL | string | WebAssembly.
 /** Returns a new core with its own memory. */
 export declare function instantiate(source?: BufferSource | URL | string | WebAssembly.Module): Promise<Motion>;
 
-/** Declaration of a setting, or of a number of a group or list. */
+/** Declaration of a setting, or of a number in a group or list. */
 export interface Declaration {
   /** Name of the setting as attribute, as property and in states. */
   key: string;
   /** Key of the group or list that contains the setting. */
   in?: string;
-  /** Key of another setting that this setting sets in another form. */
+  /** Key of a list setting whose last numbers are multiples of this setting. Changing this setting changes those numbers. */
   of?: string;
-  /** Ratios of the last numbers of that other setting to this setting. */
+  /** Ratios of the last numbers of the list setting `of` to this setting. */
   weights?: number[];
-  /** Key in the group, if a field of another group has the same key. */
+  /** Key in the group, if it differs from `key` because a field of another group has the same name. */
   field?: string;
   /** Index in the list, from 0. */
   index?: number;

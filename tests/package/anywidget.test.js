@@ -100,7 +100,7 @@ test('traits become what the figure shows, by whichever of their names, and thos
   assert.equal(traits.v, 1);
   assert.equal(traits.samples, 2000);
   assert.deepEqual(traits.alphas, figure.alphas);
-  await page.getByRole('button', { name: 'Neu würfeln' }).waitFor();
+  await page.getByRole('button', { name: 'Neuer Startwert' }).waitFor();
   await setTraits(page, { lang: null, omega: null });
   assert.deepEqual((await readTraitsAndProperties(page, ['omega', 'lang'])).figure, { omega: 0, lang: '' });
   await page.getByRole('button', { name: 'New seed' }).waitFor();

@@ -1,12 +1,12 @@
-/** Checks of values from the page. Error messages have the form of the core's. */
+/** Checks of values from the page. Error messages have the same form as those of the Rust core. */
 
 export function createRefusalError(field: string, value: unknown, allowed: string, ErrorClass = RangeError): TypeError | RangeError {
   return new ErrorClass(`${field} is ${describeValue(value)}; allowed is ${allowed}`);
 }
 
-/** Replaces the field at the start of an error's message (`path`, by default `name`) by `name`. */
-export function withFieldRenamed(error: unknown, newName: string, path: string = newName) {
-  if (error instanceof Error && error.message.startsWith(path)) error.message = newName + error.message.slice(path.length);
+/** Returns the error. If its message starts with `corePath`, the core's name of a field, that name is replaced by `newName`. */
+export function withFieldRenamed(error: unknown, newName: string, corePath: string = newName) {
+  if (error instanceof Error && error.message.startsWith(corePath)) error.message = newName + error.message.slice(corePath.length);
   return error;
 }
 
@@ -70,9 +70,9 @@ export function checkValue(field: string, value: unknown, { type, words = [], mi
   return value;
 }
 
-/** Returns true if `present` has all fields of `fields` with the same values. Objects are compared deeply. */
-export function includesFields(present: any, fields: any): boolean {
-  if (Object.is(present, fields)) return true;
-  if (typeof present !== 'object' || typeof fields !== 'object' || !present || !fields || present.length !== fields.length) return false;
-  return Object.keys(fields).every((key) => Object.hasOwn(present, key) && includesFields(present[key], fields[key]));
+/** Returns true if `object` has all fields of `subset` with the same values. Objects are compared deeply. */
+export function includesFields(object: any, subset: any): boolean {
+  if (Object.is(object, subset)) return true;
+  if (typeof object !== 'object' || typeof subset !== 'object' || !object || !subset || object.length !== subset.length) return false;
+  return Object.keys(subset).every((key) => Object.hasOwn(object, key) && includesFields(object[key], subset[key]));
 }

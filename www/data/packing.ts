@@ -3,23 +3,23 @@
 import { createRefusalError } from './checks.ts';
 
 /** Maximum size of an unpacked state, in bytes, because a link may be malicious. The largest grid takes 11.2 million. */
-const MAX_BYTES = 12_000_000;
+const MAX_UNPACKED_BYTES = 12_000_000;
 
-/** Returns compressed data as letters, digits, - and _. */
-export async function packJson(data: object): Promise<string> {
-  const compressedStream = new Blob([JSON.stringify(data)]).stream().pipeThrough(new CompressionStream('deflate-raw'));
+/** Returns a state as compressed JSON, written with letters, digits, - and _. */
+export async function packJson(state: object): Promise<string> {
+  const compressedStream = new Blob([JSON.stringify(state)]).stream().pipeThrough(new CompressionStream('deflate-raw'));
   const compressedBytes = new Uint8Array(await new Response(compressedStream).arrayBuffer());
   return toBase64(compressedBytes).replaceAll('+', '-').replaceAll('/', '_').replaceAll('=', '');
 }
 
-/** Returns the data of a packed text; throws a RangeError for any other text. */
+/** Returns the state that `packJson` packed into a text; throws a RangeError for any other text. */
 export async function unpackJson(text: string): Promise<unknown> {
   try {
     const bytes = fromBase64(text.replaceAll('-', '+').replaceAll('_', '/'));
     let byteCount = 0;
     const checkSize = (chunk: Uint8Array, controller: TransformStreamDefaultController) => {
       byteCount += chunk.length;
-      if (byteCount > MAX_BYTES) controller.error();
+      if (byteCount > MAX_UNPACKED_BYTES) controller.error();
       else controller.enqueue(chunk);
     };
     const decompressedStream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream('deflate-raw'));
@@ -30,11 +30,11 @@ export async function unpackJson(text: string): Promise<unknown> {
 }
 
 export function toBase64(bytes: Uint8Array & { toBase64?: () => string }) {
-  // The method of newer browsers is a hundred times as fast.
+  // Newer browsers have this method, which is a hundred times as fast.
   return bytes.toBase64?.() ?? btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(''));
 }
 
-/** Returns the bytes; throws a DOMException or SyntaxError for other text. */
+/** Returns the bytes of a base64 text; throws a DOMException or SyntaxError for any other text. */
 export function fromBase64(text: string) {
   const { fromBase64: nativeFromBase64 } = Uint8Array as { fromBase64?: (text: string) => Uint8Array<ArrayBuffer> };
   return nativeFromBase64 ? nativeFromBase64.call(Uint8Array, text) : Uint8Array.from(atob(text), (character) => character.charCodeAt(0));

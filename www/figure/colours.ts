@@ -17,7 +17,7 @@ export class Colours extends FigureController {
 
   /** Resolved CSS colours by role, for drawing on canvases. */
   get palette() {
-    return (this.#palette ??= resolvePalette(this.#find('.surface')));
+    return (this.#palette ??= resolvePalette(this.#findElement('.surface')));
   }
 
   /** Applies the colours of the page or theme to the figure, and redraws its pictures. */
@@ -28,22 +28,22 @@ export class Colours extends FigureController {
 
   /** Sets the figure's custom properties to the page's colours, or to its own if its theme differs from the page's. In print the theme is light. */
   applyPageColours() {
-    const surfaceStyle = this.#find('.surface')?.style;
+    const surfaceStyle = this.#findElement('.surface')?.style;
     if (!surfaceStyle) return;
     const { renderer: { isPrinting }, theme } = this.host;
-    const { scheme, ...pageColours } = readPageColours(this.#find('.scheme-probe'));
+    const { scheme, ...pageColours } = readPageColours(this.#findElement('.scheme-probe'));
     // Forced colours override the theme.
     const followsPage = theme === 'auto' || matchMedia('(forced-colors: active)').matches;
     surfaceStyle.colorScheme = isPrinting ? 'light' : followsPage ? scheme : theme;
     const hasOwnColours = isPrinting || surfaceStyle.colorScheme !== scheme;
     for (const [name, colour] of Object.entries(pageColours)) surfaceStyle.setProperty(`--${name}`, hasOwnColours ? '' : colour);
     surfaceStyle.setProperty('--back', hasOwnColours ? 'var(--paper)' : '');
-    // The page chooses muted text and rules for its own background. They would be illegible on the figure's.
+    // The page's colours of muted text and rules suit its own background. On the figure's background they would be illegible.
     for (const role of ['muted', 'rule']) surfaceStyle.setProperty(`--mw-${role}`, hasOwnColours ? 'initial' : '');
     this.#palette = undefined;
   }
 
-  #find(selector: string) {
+  #findElement(selector: string) {
     return this.host.renderRoot?.querySelector(selector) as HTMLElement;
   }
 }

@@ -1,4 +1,4 @@
-/** HTML of the controls of settings, made from declarations, slider specifications and words, and of the legend, which shows and hides lines. */
+/** HTML of the controls of a figure's settings, and of its legend, whose checkboxes show and hide lines. */
 
 import { html, noChange } from 'lit';
 import { words } from '../messages/registry.ts';
@@ -20,16 +20,16 @@ export interface SliderSpec {
   max: number;
   step: number;
   decimals: number;
-  /** Value of a slider that shows several settings as one. */
+  /** Returns the value of a slider that shows several settings as one number. */
   combinedValueOf?: (config: any) => number;
   /** Noise parameter whose name and effect label the slider. */
   alpha?: [model: 'velocity' | 'odometry', index: number];
 }
 
 /** Range, type and unit of the numbers that can be typed. */
-type AllowedNumbers = Pick<Declaration, 'type' | 'unit'> & { min: number, max: number };
+type TypedNumberSpec = Pick<Declaration, 'type' | 'unit'> & { min: number, max: number };
 
-/** Fields that replace those of a slider row. `maxTyped` is a maximum of typed values, below that of the declaration. */
+/** Fields that replace those of a slider row. `maxTyped` is the maximum of typed values, if it is below the maximum of the declaration. */
 type RowOverrides = Partial<SliderRow> & { maxTyped?: number };
 
 /** Returns the slider of a setting. `overrides` replaces fields of its slider row. */
@@ -48,36 +48,36 @@ export function settingSliderHtml(figure: Figure, key: string, overrides?: RowOv
     value: combinedValueOf ? combinedValueOf(config) : (attribute.get(config) as number),
     formatValue: (value) => formatEditable(value, decimals) + (unit ? ` ${unit}` : ''),
     effect: effect && formatMarkup(effect),
-    onInput: (value) => figure.settings.request((requested) => attribute.changesFor(value, requested)),
+    onInput: (value) => figure.settings.requestChange((requested) => attribute.changesFor(value, requested)),
     onCommit: () => figure.gesture.commit(),
     ...overrides,
   });
 }
 
 /** Returns a slider whose value can also be typed, within an allowed range. */
-export function editableSliderHtml(figure: Figure, symbol: string, { min, max: declaredMax, type, unit }: AllowedNumbers, row: Omit<SliderRow, 'inputMode' | 'applyTypedText' | 'refusal' | 'clearRefusal'> & { maxTyped?: number }) {
-  const max = row.maxTyped ?? declaredMax;
+export function editableSliderHtml(figure: Figure, symbol: string, { min, max: declaredMax, type, unit }: TypedNumberSpec, sliderRow: Omit<SliderRow, 'inputMode' | 'applyTypedText' | 'refusal' | 'clearRefusal'> & { maxTyped?: number }) {
+  const max = sliderRow.maxTyped ?? declaredMax;
   const isInteger = type === 'whole';
-  // With the thumb at an end of the slider, a text says that values beyond that end can be typed.
-  const reachedEnd = row.value >= row.max && row.max < max ? row.max : row.value <= row.min && row.min > min ? row.min : undefined;
+  // If the thumb is at an end of the slider, a text tells the user that values beyond that end can be typed.
+  const endAtThumb = sliderRow.value >= sliderRow.max && sliderRow.max < max ? sliderRow.max : sliderRow.value <= sliderRow.min && sliderRow.min > min ? sliderRow.min : undefined;
   return sliderRowHtml({
-    ...row,
-    effect: reachedEnd === undefined ? row.effect : words.sliderEnds(row.formatValue(reachedEnd)),
+    ...sliderRow,
+    effect: endAtThumb === undefined ? sliderRow.effect : words.sliderEnds(sliderRow.formatValue(endAtThumb)),
     inputMode: min < 0 ? 'text' : isInteger ? 'numeric' : 'decimal',
     applyTypedText: (text) => {
-      const typedNumber = parseTypedNumber(figure, row.id, symbol, text, { min, max, type, unit });
+      const typedNumber = parseTypedNumber(figure, sliderRow.id, symbol, text, { min, max, type, unit });
       if (typedNumber === undefined) return undefined;
-      row.onInput(typedNumber);
-      row.onCommit();
-      return row.formatValue(typedNumber);
+      sliderRow.onInput(typedNumber);
+      sliderRow.onCommit();
+      return sliderRow.formatValue(typedNumber);
     },
-    refusal: figure.notice.textBeside(row.id),
+    refusal: figure.notice.findTextBeside(sliderRow.id),
     clearRefusal: () => figure.notice.dismiss(),
   });
 }
 
 /** Parses a number that the user typed. Returns undefined for a text that is refused, and shows the reason. */
-export function parseTypedNumber({ notice }: Figure, key: string, name: string, text: string, { min, max, unit, type }: AllowedNumbers) {
+export function parseTypedNumber({ notice }: Figure, key: string, name: string, text: string, { min, max, unit, type }: TypedNumberSpec) {
   const isInteger = type === 'whole';
   const number = parseNumber(text, unit, isInteger);
   if (number >= min && number <= max && (!isInteger || Number.isInteger(number))) {
@@ -113,9 +113,9 @@ export const settingCheckboxHtml = (figure: Figure, key: string, label: unknown)
 interface DisclosureOptions {
   renderControls: () => unknown;
   renderNumbers: () => unknown;
-  /** Part of the names of exported files. */
+  /** Suffix of the names of exported files. */
   fileNameSuffix?: string | number;
-  /** Description of a CSV file that has no samples. */
+  /** Tooltip of the button that saves a CSV file, if the file has something other than samples. */
   csvTitle?: string;
 }
 
@@ -152,7 +152,7 @@ export function titledPictureHtml(title: unknown, picture: unknown, className?: 
   </figure>`;
 }
 
-export const declarationOf = (figure: Figure, key: string): Declaration & AllowedNumbers =>
+export const declarationOf = (figure: Figure, key: string): Declaration & TypedNumberSpec =>
   figure.definition.declarations.find((declaration) => declaration.key === key) as any;
 
 function wordsFor(figure: Figure, key: string): { name: string, effect?: string } {
@@ -161,13 +161,13 @@ function wordsFor(figure: Figure, key: string): { name: string, effect?: string 
   return { ...(words.settings as any)[key], ...(motionModel && { name: alphaName, effect: alphaEffect }), ...(words as any)[figure.definition.messageKey].settings[key] };
 }
 
-/** Returns the legend of a figure's pictures, with names from the catalogue. */
+/** Returns the legend of a figure's pictures, with names from the message catalogue. */
 export function legendHtml(figure: Figure, styles: Record<string, LineStyle>) {
   const { overlays } = figure.settings.elementState;
   const { overlays: overlayNames } = (words as any)[figure.definition.messageKey];
   const styleNames = Object.keys(styles);
   const allOverlays = figure.definition.attributes.overlays.words as string[];
-  const showOverlay = (name: string, isShown: boolean) =>
+  const setOverlayShown = (name: string, isShown: boolean) =>
     figure.gesture.setElementField('overlays', allOverlays.filter((overlay) => (overlay === name ? isShown : overlays.includes(overlay))));
   const highlightLine = (name: string | null) => (figure.highlight = name);
   return html`<div class="legend" part="legend" role="group" aria-label=${words.legend}>
@@ -175,7 +175,7 @@ export function legendHtml(figure: Figure, styles: Record<string, LineStyle>) {
       ${checkboxHtml({
         label: html`${swatchHtml(styles[name])}<span>${formatMarkup(overlayNames[name])}</span>`,
         checked: overlays.includes(name),
-        onChange: (isShown) => showOverlay(name, isShown),
+        onChange: (isShown) => setOverlayShown(name, isShown),
       })}
     </span>`)}
   </div>`;

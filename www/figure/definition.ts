@@ -11,7 +11,7 @@ interface AttributeConverter {
   /** Converts a text to a value. Returns an invalid text unchanged, which the check of the value then refuses. */
   parse: (text: string) => unknown;
   /** Converts a value to a text; null removes the attribute. */
-  print: (value: any) => string | null;
+  format: (value: any) => string | null;
 }
 
 interface Property {
@@ -35,19 +35,19 @@ type Attribute = Property & { converter: AttributeConverter };
 
 const NUMBER_CONVERTER: AttributeConverter = {
   parse: (text) => (text.trim() === '' || Number.isNaN(Number(text)) ? text : Number(text)),
-  print: (value) => (value === null ? null : String(value)),
+  format: (value) => (value === null ? null : String(value)),
 };
 
-const WORD_CONVERTER: AttributeConverter = { parse: (text) => text, print: (value) => value };
+const WORD_CONVERTER: AttributeConverter = { parse: (text) => text, format: (value) => value };
 
 /** Boolean attribute. Without a value it is true, as in HTML. The value "false" makes it false. Other values are refused. */
 const BOOLEAN_CONVERTER: AttributeConverter = {
   parse: (text) => text !== 'false' && (text === '' || text === 'true' || text),
-  print: String,
+  format: String,
 };
 
 /** Conversion of a list of words, which are separated by spaces in the text. */
-export const WORD_LIST_CONVERTER: AttributeConverter = { parse: (text) => text.split(/\s/).filter(Boolean), print: (value) => value.join(' ') };
+export const WORD_LIST_CONVERTER: AttributeConverter = { parse: (text) => text.split(/\s/).filter(Boolean), format: (value) => value.join(' ') };
 
 /** Converters by type of setting. Objects and arrays have no attribute, and so no converter. */
 const CONVERTERS: Record<string, AttributeConverter> = { number: NUMBER_CONVERTER, whole: NUMBER_CONVERTER, word: WORD_CONVERTER, words: WORD_LIST_CONVERTER, boolean: BOOLEAN_CONVERTER };
@@ -73,7 +73,7 @@ const createFieldProperty = (key: string, converter?: AttributeConverter): Prope
 
 function propertyOf({ key, in: group, field = key, index, of, weights = [], type, min = -Infinity, max = Infinity }: Declaration): Property {
   const plainProperty = createFieldProperty(key, CONVERTERS[type]);
-  // The property is a factor: the last numbers of the array `of` are the `weights` times that factor.
+  // The property is a factor: the last numbers of the list setting named by `of` are the `weights` times that factor.
   if (of) {
     return {
       ...plainProperty,
@@ -94,7 +94,7 @@ function propertyOf({ key, in: group, field = key, index, of, weights = [], type
   };
 }
 
-/** Returns the factor f for which the last numbers are f times their weights; null if there is no such factor. */
+/** Returns the factor by which the last numbers are multiples of their weights; null if there is no such common factor. */
 function commonFactorOf(numbers: number[], weights: number[]): number | null {
   const lastNumbers = numbers.slice(-weights.length);
   const commonFactor = lastNumbers[0] / weights[0];

@@ -10,9 +10,9 @@ import type { Figure } from './figure.ts';
 
 export interface ExportData {
   description: string;
-  /** Settings that are exported, after the tag of the element. */
+  /** Settings, which exported files contain as JSON after the tag of the element. */
   settings: object;
-  /** Numbers of the table, row after row, by the names of their columns in one text, such as 'x_m y_m theta_rad'. */
+  /** Numbers of the table. A key is the names of some columns, such as 'x_m y_m theta_rad'; its value has their numbers, row by row. */
   columns: Record<string, ArrayLike<number>>;
   /** Sentences that name the state that a copied link or copied HTML does not contain. */
   linkNote?: string;
@@ -22,7 +22,7 @@ export interface ExportData {
 /** Pixels of a PNG image per CSS pixel, fine enough for print. */
 const PNG_PIXEL_RATIO = 2;
 
-/** Size in CSS pixels of a figure without layout, such as in a hidden tab panel. */
+/** Size (CSS pixels) of an exported picture if the figure has no layout, for example in a hidden tab panel. */
 const FALLBACK_SIZE = { width: 720, height: 432 };
 
 /** Draws the first picture for a file, in its size and font on the page. `ratio` is the number of pixels per CSS pixel. Returns the size in pixels and the view. */
@@ -30,8 +30,8 @@ function drawForExport({ scene, pictures: [picture], canvases, colours }: Figure
   const pageCanvas = canvases.canvasOf(picture);
   const { width: clientWidth, height } = pageCanvas.clientWidth > 0 ? pageCanvas.getBoundingClientRect() : FALLBACK_SIZE;
   const exportSize = { width: Math.round(ratio * clientWidth), height: Math.round(ratio * height) };
-  const surface = { ...exportSize, clientWidth, fontStyle: getComputedStyle(pageCanvas), context: contextOf(exportSize) as CanvasRenderingContext2D };
-  picture.draw(surface, scene, colours.palette, { keepsScale: true, isImmediate: true, isExported: true });
+  const exportSurface = { ...exportSize, clientWidth, fontStyle: getComputedStyle(pageCanvas), context: contextOf(exportSize) as CanvasRenderingContext2D };
+  picture.draw(exportSurface, scene, colours.palette, { keepsScale: true, isImmediate: true, isExported: true });
   return { view: picture.view, ...exportSize };
 }
 
@@ -72,10 +72,10 @@ ${svg.markup}
 /** Returns CSV: a comment with settings and seed, a header, and a line for each sample with all digits. */
 export function csvOf(figure: Figure) {
   const { settings, columns } = figure.exportData;
-  const columnGroups = Object.entries(columns).map(([names, numbers]) => ({ names: names.split(' '), numbers }));
-  const rowAt = (i: number) => columnGroups.flatMap(({ names, numbers }) => names.map((_, columnIndex) => numbers[names.length * i + columnIndex]));
-  const rows = Array.from({ length: columnGroups[0].numbers.length / columnGroups[0].names.length }, (_, i) => rowAt(i));
-  const csvLines = [`# ${createSettingsJson(figure, settings)}`, columnGroups.flatMap(({ names }) => names), ...rows];
+  const columnGroups = Object.entries(columns).map(([columnNames, numbers]) => ({ columnNames: columnNames.split(' '), numbers }));
+  const rowOf = (i: number) => columnGroups.flatMap(({ columnNames, numbers }) => columnNames.map((_, columnIndex) => numbers[columnNames.length * i + columnIndex]));
+  const rows = Array.from({ length: columnGroups[0].numbers.length / columnGroups[0].columnNames.length }, (_, i) => rowOf(i));
+  const csvLines = [`# ${createSettingsJson(figure, settings)}`, columnGroups.flatMap(({ columnNames }) => columnNames), ...rows];
   return `${csvLines.join('\n')}\n`;
 }
 
@@ -86,7 +86,7 @@ export function downloadFile(fileName: string, blob: Blob) {
   setTimeout(() => URL.revokeObjectURL(downloadLink.href), 60_000);
 }
 
-/** Returns the buttons that save the figure. `fileNameSuffix` is part of the file names, so that files of different states differ in name. */
+/** Returns the buttons that save the figure. `fileNameSuffix` distinguishes the names of files from different states. */
 export function exportButtonsHtml(figure: Figure, fileNameSuffix: string | number, csvTitle: string = words.exports.csvTitle) {
   const exportWords = words.exports;
   const baseName = `${figure.localName}-${fileNameSuffix}`;
@@ -99,12 +99,12 @@ export function exportButtonsHtml(figure: Figure, fileNameSuffix: string | numbe
 }
 
 /** Returns a button that copies a text. A notice then confirms the copy, with a note on state that the text does not contain. */
-export function copyButtonHtml(figure: Figure, label: string, textOf: () => string | Promise<string>, buttonOptions: { title?: string, disabled?: boolean }, noteOf: () => string | undefined = () => '') {
+export function copyButtonHtml(figure: Figure, label: string, createText: () => string | Promise<string>, buttonOptions: { title?: string, disabled?: boolean }, createNote: () => string | undefined = () => '') {
   const copyText = async () => {
-    const text = await textOf();
-    // Frames without permission may not use the clipboard. Pages without HTTPS do not have it.
+    const text = await createText();
+    // Iframes without permission may not use the clipboard. Pages without HTTPS do not have it.
     const isCopied = await Promise.resolve(navigator.clipboard?.writeText(text).then(() => true)).catch(() => false);
-    const note = noteOf() ?? '';
+    const note = createNote() ?? '';
     figure.notice.show(() => (isCopied
       ? `${words.copies.done} ${note}`
       : html`${words.copies.byHand} ${note} <textarea readonly rows="3" aria-label=${words.copies.byHand} .value=${text}></textarea>`));
@@ -136,5 +136,5 @@ export function embedCodeOf(figure: Figure) {
 }
 
 function tagHtml(name: string, attributes: [string, string][]) {
-  return `<${name}${attributes.map(([key, text]) => (text === '' ? ` ${key}` : ` ${key}="${escapeXml(text)}"`)).join('')}></${name}>`;
+  return `<${name}${attributes.map(([attribute, text]) => (text === '' ? ` ${attribute}` : ` ${attribute}="${escapeXml(text)}"`)).join('')}></${name}>`;
 }

@@ -35,7 +35,7 @@ export interface SampleCloud {
   readonly isSettled: boolean;
   /** Starts the growth of the cloud, or shows the samples of a state. */
   showOrGrow(state?: StateValues): void;
-  /** Changes settings of a simulation, and shows the first of `shown` samples, by default of those requested. Returns all settings. */
+  /** Changes settings of a simulation and shows one block of samples; later frames add the others, up to `shown`. Returns all settings. */
   configure(simulation: any, settings: StateValues, shown?: number): StateValues;
   /** Adds samples in a frame that draws pictures. */
   addSamplesWhileDrawing(): void;
@@ -53,7 +53,7 @@ export interface SampleCloud {
 /**
  * Figure with one simulation object of the core. A widget defines its simulation, view model, pictures, HTML and export.
  *
- * Attributes and properties have the values that the figure shows, also after changes by the user, and set them; properties accept texts.
+ * Attributes and properties set the values of the figure, and have its present values also after changes by the user. Properties accept texts.
  * A value out of range causes an `error` event that names the field, the value and what is allowed, and the last valid value stays;
  * `setState` throws.
  *
@@ -78,7 +78,7 @@ export interface SampleCloud {
  * @csspart readouts - Statistics of the samples.
  * @csspart table - Table of numbers.
  * @csspart fold - Disclosure, with its name.
- * @csspart notice - Message over the lower edge, or a long calculation, with a button that closes or stops it.
+ * @csspart notice - Message over the lower edge, with a button that closes it, or that stops a long calculation.
  * @csspart exports - Buttons that save pictures and data.
  * @csspart copies - Button that copies HTML.
  * @cssprop --motion-paper - Background; default: that of the surroundings.
@@ -173,7 +173,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   abstract get exportData(): import('./export.ts').ExportData;
 
   /** Returns the announcement for screen readers after a completed change. */
-  abstract announcement(viewModel: ViewModel): string;
+  abstract announcementOf(viewModel: ViewModel): string;
 
   /** Runs after the simulation was replaced. */
   onSimulationReplaced() {}
@@ -212,7 +212,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
 
   /** Announces the outcome of a change, unless the cloud is still growing. */
   announceOutcome() {
-    if (this.cloud?.isSettled ?? true) this.announcer.setOutcome(() => this.announcement(this.viewModel));
+    if (this.cloud?.isSettled ?? true) this.announcer.setOutcome(() => this.announcementOf(this.viewModel));
   }
 
   /** View model of the simulation after all pending changes are applied. */
@@ -241,8 +241,8 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   }
 
   /**
-   * Promise that resolves when the figure is ready, all changes are in effect and in its text, all samples are shown and no log is being read. It starts a
-   * figure far from the window, and waits for the growth of a visible cloud.
+   * Promise that resolves when the figure is ready, all changes are in effect and in its text, all samples are shown and no log is being read.
+   * Reading it starts a figure that is far from the window. It waits until a visible cloud has grown.
    * @public
    */
   get settled(): Promise<void> {
@@ -331,7 +331,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
    * @public
    */
   async shareLink(): Promise<string> {
-    return this.stateLink.addressWithState();
+    return this.stateLink.createShareAddress();
   }
 
   /**
@@ -367,7 +367,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
     this.colours.applyAndDraw();
   }
 
-  /** Renders the first time a task later. If the core is ready by then, no placeholder is rendered before the content. */
+  /** Delays the first rendering by a task. If the core is ready by then, no placeholder is rendered before the content. */
   protected async scheduleUpdate() {
     // In forced colours, Chromium keeps light colours in content that is rendered before `colours` has found a dark scheme.
     if (!this.hasUpdated && !matchMedia('(forced-colors: active)').matches) {
@@ -399,7 +399,7 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   }
 }
 
-// The attributes of every figure hold the values of these properties.
+// Properties of every figure whose values are stored in its attributes.
 for (const [name, { property = name, words: allowedWords, nullable }] of Object.entries(COMMON_ATTRS)) {
   Object.defineProperty(FigureElement.prototype, property, {
     configurable: true,

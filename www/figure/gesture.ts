@@ -35,8 +35,8 @@ export class Gesture extends FigureController {
     if (this.#isOpen) this.commit();
   }
 
-  /** Records a step of a change that may continue. */
-  recordStep() {
+  /** Begins a gesture if none is open, and fires `input` for a step of a change that may continue. */
+  dispatchInput() {
     if (!this.#isOpen) this.previousViewModel = this.host.viewModel;
     this.#isOpen = true;
     this.host.notice.dismiss();
@@ -47,7 +47,7 @@ export class Gesture extends FigureController {
   commit() {
     const { host } = this;
     host.settings.applyPending();
-    host.announcer.announceNext();
+    host.announcer.requestAnnouncement();
     this.#endGesture();
     if (host.settings.isViewModelStale) host.renderer.requestFrame();
     else if (host.simulation) {
@@ -56,21 +56,21 @@ export class Gesture extends FigureController {
     }
   }
 
-  /** Records a change that was made in one step. */
+  /** Fires `input` and `change` for a change that was made in one step. */
   commitOneStep() {
-    this.recordStep();
+    this.dispatchInput();
     this.commit();
   }
 
   /** Changes settings as a complete gesture, such as a click. */
   requestAndCommit(change: StateValues | ((requested: StateValues) => StateValues)) {
-    this.host.settings.request(change);
+    this.host.settings.requestChange(change);
     this.commit();
   }
 
   /** Changes a field of the element's state as a complete gesture. No outcome is announced. */
   setElementField(name: string, value: unknown) {
-    this.host.settings.request({ [name]: value });
+    this.host.settings.requestChange({ [name]: value });
     this.#endGesture();
   }
 

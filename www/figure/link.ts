@@ -14,21 +14,21 @@ export class StateLink extends FigureController {
   /** True if the latest address was written without the user's map, because a map would make it too long. */
   lacksMap = false;
   /** Token of the latest write of the address. An earlier write that finishes later is dropped. */
-  #latestWrite = {};
+  #latestWriteToken = {};
 
   hostConnected() {
     addEventListener('hashchange', () => {
-      if (this.#isOwnPart(splitFragment()[0])) this.#scrollHere();
-      void this.applyAddress();
+      if (this.#isOwnFragmentPart(splitFragment()[0])) this.#scrollHere();
+      void this.applyStateInAddress();
     }, { signal: this.host.lifetime.signal });
     pendingLinkPart ??= wasOpenedByLink() ? splitFragment()[0] : '';
-    if (!this.#isOwnPart(pendingLinkPart)) return;
+    if (!this.#isOwnFragmentPart(pendingLinkPart)) return;
     pendingLinkPart = '';
     this.#scrollHere();
   }
 
-  #isOwnPart(part = '') {
-    return part.startsWith(`${partKeyOf(this.host)}=`);
+  #isOwnFragmentPart(fragmentPart = '') {
+    return fragmentPart.startsWith(`${fragmentKeyOf(this.host)}=`);
   }
 
   #scrollHere() {
@@ -38,12 +38,12 @@ export class StateLink extends FigureController {
   }
 
   /** Applies the state in the page's address, if any, now or as soon as there is a simulation. */
-  async applyAddress() {
+  async applyStateInAddress() {
     const { host } = this;
-    const part = splitFragment().find((fragmentPart) => this.#isOwnPart(fragmentPart));
-    if (part === undefined) return;
+    const ownPart = splitFragment().find((fragmentPart) => this.#isOwnFragmentPart(fragmentPart));
+    if (ownPart === undefined) return;
     try {
-      const state = await unpackJson(part.slice(part.indexOf('=') + 1));
+      const state = await unpackJson(ownPart.slice(ownPart.indexOf('=') + 1));
       host.runtime.attemptOrReport(() => host.setState(state as any));
     } catch (error) {
       host.runtime.reportError(error);
@@ -53,51 +53,51 @@ export class StateLink extends FigureController {
 
   /** Writes the state into the address, if `share` is set or the address has the figure's state. The page does not scroll, and its history gets no entry. */
   async writeToAddress() {
-    if (!this.host.share && !splitFragment().some((part) => this.#isOwnPart(part))) return;
-    const writeToken = (this.#latestWrite = {});
+    if (!this.host.share && !splitFragment().some((part) => this.#isOwnFragmentPart(part))) return;
+    const writeToken = (this.#latestWriteToken = {});
     const packedState = await this.#packState();
-    if (writeToken !== this.#latestWrite || !this.host.isConnected) return;
-    const address = addressWith(partKeyOf(this.host), packedState);
+    if (writeToken !== this.#latestWriteToken || !this.host.isConnected) return;
+    const address = createAddress(fragmentKeyOf(this.host), packedState);
     if (address === location.href) return;
     try {
       history.replaceState(history.state, document.title, address);
     } catch {
-      // Pages without an address of their own, such as those made by a script, throw.
+      // On pages without an address of their own, such as about:srcdoc, `replaceState` throws.
     }
   }
 
   /** Returns the address of this page with the state. The figure's part comes first, because a link scrolls to the figure of its first part. */
-  async addressWithState(): Promise<string> {
-    return addressWith(partKeyOf(this.host), await this.#packState(), true);
+  async createShareAddress(): Promise<string> {
+    return createAddress(fragmentKeyOf(this.host), await this.#packState(), true);
   }
 
   async #packState() {
     const state = this.host.getState() ?? {};
     const packedState = await packJson(state);
     this.lacksMap = packedState.length > MAX_PACKED_LENGTH;
-    // The start pose belongs to the map.
+    // The start pose is valid only on its map.
     return this.lacksMap ? packJson({ ...state, map: undefined, start: undefined }) : packedState;
   }
 }
 
 /** Returns the key of an element's part: its tag with its id or its index among elements of that tag. Keys of shadow hosts come first. */
-function partKeyOf(element: Element): string {
+function fragmentKeyOf(element: Element): string {
   const { localName, id } = element;
   const rootNode = element.getRootNode() as any;
-  const key = (rootNode.host ? `${partKeyOf(rootNode.host)}/` : '') + encodeURIComponent(localName);
+  const key = (rootNode.host ? `${fragmentKeyOf(rootNode.host)}/` : '') + encodeURIComponent(localName);
   if (id) return `${key}:${encodeURIComponent(id)}`;
   return `${key}.${[...rootNode.querySelectorAll(CSS.escape(localName))].indexOf(element) + 1}`;
 }
 
 /** Returns the page's address with a figure's part added or replaced, or moved to the beginning if `isFirst`. */
-function addressWith(key: string, packedState: string, isFirst: boolean = false): string {
+function createAddress(key: string, packedState: string, isFirst: boolean = false): string {
   const part = `${key}=${packedState}`;
   const allParts = splitFragment();
   const partIndex = allParts.findIndex((fragmentPart) => fragmentPart.startsWith(`${key}=`));
   const otherParts = allParts.filter((_, i) => i !== partIndex);
-  const nextParts = isFirst ? [part, ...otherParts] : partIndex < 0 ? [...allParts, part] : allParts.with(partIndex, part);
-  // The address is complete, because a base element would change a relative one.
-  return `${location.href.replace(/#.*/, '')}#${nextParts.join('&')}`;
+  const newParts = isFirst ? [part, ...otherParts] : partIndex < 0 ? [...allParts, part] : allParts.with(partIndex, part);
+  // The address is absolute, because a `base` element would redirect a relative one.
+  return `${location.href.replace(/#.*/, '')}#${newParts.join('&')}`;
 }
 
 const splitFragment = () => location.hash.slice(1).split('&').filter((part) => part !== '');
@@ -107,6 +107,6 @@ let pendingLinkPart: string | undefined;
 
 /** Returns true if the page was opened by a link: on a reload the browser restores the scroll position. */
 function wasOpenedByLink() {
-  const [navigation] = performance.getEntriesByType('navigation') as PerformanceNavigationTiming[];
-  return navigation?.type === 'navigate';
+  const [navigationTiming] = performance.getEntriesByType('navigation') as PerformanceNavigationTiming[];
+  return navigationTiming?.type === 'navigate';
 }

@@ -7,56 +7,56 @@ import { FigureController } from './controller.ts';
 
 /** Notice beside a control, or over the lower edge of the figure or window with a button that closes it. Its appearance moves no other content. */
 export class Notice extends FigureController {
-  #latest: { content: () => unknown, control?: string } | undefined;
-  /** Notice about long work, until `endWork`. It covers another notice at the lower edge. */
-  #work: { content: () => unknown, stop: () => void } | undefined;
+  #latestNotice: { renderContent: () => unknown, control?: string } | undefined;
+  /** Notice about long work, shown until `endWork` is called. At the lower edge it takes the place of the latest notice. */
+  #workNotice: { renderContent: () => unknown, stop: () => void } | undefined;
 
   /** Shows a notice: beside the control named `control`, or otherwise with a button. A notice about long work has a button that calls `stop`. */
-  show(content: () => unknown, { control, stop }: { control?: string, stop?: () => void } = {}) {
-    if (stop) this.#work = { content, stop };
-    else this.#latest = { content, control };
+  show(renderContent: () => unknown, { control, stop }: { control?: string, stop?: () => void } = {}) {
+    if (stop) this.#workNotice = { renderContent, stop };
+    else this.#latestNotice = { renderContent, control };
     this.host.requestUpdate();
   }
 
   /** Hides the latest notice, unless it is about long work. */
   dismiss() {
-    if (this.#latest) this.host.requestUpdate();
-    this.#latest = undefined;
+    if (this.#latestNotice) this.host.requestUpdate();
+    this.#latestNotice = undefined;
   }
 
   endWork() {
-    this.#work = undefined;
+    this.#workNotice = undefined;
     this.host.requestUpdate();
   }
 
   /** Returns the notice beside a control, such as why a typed text was refused; undefined if there is none. */
-  textBeside(control: string) {
-    return this.#latest?.control === control ? (this.#latest.content() as string) : undefined;
+  findTextBeside(control: string) {
+    return this.#latestNotice?.control === control ? (this.#latestNotice.renderContent() as string) : undefined;
   }
 
   /** Notice at the lower edge. */
-  get #atEdge() {
-    return this.#work ?? (this.#latest?.control ? undefined : this.#latest);
+  get #noticeAtEdge() {
+    return this.#workNotice ?? (this.#latestNotice?.control ? undefined : this.#latestNotice);
   }
 
   #stopOrDismiss = () => {
-    if (!this.#work) this.dismiss();
-    this.#work?.stop();
+    if (!this.#workNotice) this.dismiss();
+    this.#workNotice?.stop();
     this.endWork();
   };
 
   /** Stops the work or closes the notice when the user presses Escape. */
   stopOnEscape(event: KeyboardEvent) {
-    if (!this.#atEdge || event.key !== 'Escape' || event.defaultPrevented) return;
+    if (!this.#noticeAtEdge || event.key !== 'Escape' || event.defaultPrevented) return;
     event.preventDefault();
     this.#stopOrDismiss();
   }
 
   render() {
-    if (!this.#atEdge) return nothing;
+    if (!this.#noticeAtEdge) return nothing;
     const { stop, stopTitle } = words.progress;
     return html`<div class="notice"><div part="notice">
-      <div role="alert">${this.#atEdge.content()}</div> ${this.#work ? buttonHtml(stop, this.#stopOrDismiss, { title: stopTitle }) : buttonHtml(words.close, this.#stopOrDismiss)}
+      <div role="alert">${this.#noticeAtEdge.renderContent()}</div> ${this.#workNotice ? buttonHtml(stop, this.#stopOrDismiss, { title: stopTitle }) : buttonHtml(words.close, this.#stopOrDismiss)}
     </div></div>`;
   }
 }
@@ -69,7 +69,7 @@ export class Announcer {
   #latestOutcome: string | undefined;
 
   /** Requests an announcement of the next outcome. */
-  announceNext() {
+  requestAnnouncement() {
     this.#isAnnouncementDue = true;
   }
 

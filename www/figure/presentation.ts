@@ -13,14 +13,14 @@ const RESTORE_KEY = '0';
 export class Presentation extends FigureController {
   showsControls = false;
   /** State at the beginning of the presentation; undefined if the figure opened in a presentation. */
-  #stateAtBegin: import('./settings.ts').StateValues | undefined;
-  /** Controller that removes the key listener at the end of the presentation; undefined while the figure is not presented. */
+  #stateAtStart: import('./settings.ts').StateValues | undefined;
+  /** AbortController that removes the key listener at the end of the presentation; undefined while the figure is not presented. */
   #keyListenerAbort: AbortController | undefined;
 
   hostConnected() {
     const { host } = this;
     this.syncWithAttribute();
-    // The browser ends full screen by its own keys.
+    // The user can also leave full screen by keys of the browser.
     host.addEventListener('fullscreenchange', () => {
       if (!host.matches(':fullscreen')) host.presentation = false;
     }, { signal: host.lifetime.signal });
@@ -39,10 +39,10 @@ export class Presentation extends FigureController {
 
   async #beginPresentation() {
     const { host } = this;
-    this.#stateAtBegin = host.simulation && host.snapshot();
+    this.#stateAtStart = host.simulation && host.snapshot();
     host.notice.dismiss();
     this.#keyListenerAbort = new AbortController();
-    addEventListener('keydown', this.#onKey, { signal: this.#keyListenerAbort.signal });
+    addEventListener('keydown', this.#onKeyDown, { signal: this.#keyListenerAbort.signal });
     const focusedButton = host.renderRoot?.querySelector('.to-present:focus-visible');
     await host.updateComplete;
     // A click should leave no focus ring in the presentation.
@@ -77,18 +77,18 @@ export class Presentation extends FigureController {
     (this.host.renderRoot.querySelector(selector) as HTMLElement | null)?.focus();
   }
 
-  #onKey = ({ key, ctrlKey, altKey, metaKey, defaultPrevented }: KeyboardEvent) => {
+  #onKeyDown = ({ key, ctrlKey, altKey, metaKey, defaultPrevented }: KeyboardEvent) => {
     if (defaultPrevented || ctrlKey || altKey || metaKey) return;
     const { definition, simulation, settings } = this.host;
-    const preset = definition.attributes.preset?.words?.[Number(key) - 1];
+    const presetName = definition.attributes.preset?.words?.[Number(key) - 1];
     if (key === 'Escape') this.host.presentation = false;
     else if (key.toLowerCase() === CONTROLS_KEY) this.#toggleControls();
     else if (key === RESTORE_KEY) this.#restoreState();
-    else if (preset !== undefined && simulation) settings.choosePreset(preset);
+    else if (presetName !== undefined && simulation) settings.choosePreset(presetName);
   };
 
   #restoreState() {
-    if (this.host.simulation) this.host.settings.restoreAsUser(this.#stateAtBegin);
+    if (this.host.simulation) this.host.settings.restoreAsUser(this.#stateAtStart);
   }
 
   #toggleControls() {

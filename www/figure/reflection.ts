@@ -16,7 +16,7 @@ export class Reflection extends FigureController {
   #isWritingAttributes = false;
   #previousTexts: Map<string, string> | undefined;
 
-  /** Applies properties that were set before the element was upgraded, or that a server wrote as text. */
+  /** Applies properties that were set before the element was upgraded, and lists that the page gives as attributes. */
   hostConnected() {
     const host = this.host as unknown as Record<string, unknown>;
     // An element that is moved in the page keeps its settings.
@@ -29,7 +29,7 @@ export class Reflection extends FigureController {
     }
   }
 
-  /** Reads list properties from texts such as `alphas="0.1,0.2"` or `"[0.1, 0.2]"`. The property refuses and reports any other text. */
+  /** Reads list properties from attributes such as `alphas="0.1,0.2"` or `"[0.1, 0.2]"`. The property refuses and reports any other text. */
   #applyListAttributes(host: Record<string, unknown>) {
     for (const [name, { converter }] of Object.entries(this.#properties)) {
       const listText = converter || name in this.host.settings.elementState ? null : this.host.getAttribute(name);
@@ -54,7 +54,7 @@ export class Reflection extends FigureController {
     else this.#earlyAssignments.set({}, { apply: applyState });
   }
 
-  /** Sets a property to a value or to its text. Null or undefined sets the default. A value that is refused is reported. */
+  /** Sets a property to a value, which may be given as text. Null or undefined sets the default. A value that is refused is reported. */
   setProperty(name: string, value: any, apply: (value: any) => void) {
     const property = this.#properties[name];
     const parsedValue = typeof value === 'string' && property?.converter ? property.converter.parse(value) : value;
@@ -81,7 +81,7 @@ export class Reflection extends FigureController {
     return structuredClone(simulation ? this.#properties[name].get(settings.requested) : settings.elementState[name]);
   }
 
-  /** Sets a property of the definition, as `setProperty` does. An error names the property as the caller did. */
+  /** Sets a property of the definition, as `setProperty` does. Errors have the property's name in place of the core's name of the setting. */
   set(name: string, value: unknown) {
     const { settings } = this.host;
     const { changesFor, corePath } = this.#properties[name];
@@ -108,22 +108,22 @@ export class Reflection extends FigureController {
     return { ...defaultConfigOf(definition.declarations), ...definition.elementDefaults, ...definition.dependentDefaultsOf?.(settings.requested) };
   }
 
-  /** Writes attributes that differ from the settings. A missing one is written if a new figure would need it, or if a preset has changed it. */
+  /** Updates attributes that differ from the settings. A missing attribute is added if a new figure would need it, or if a preset has changed it. */
   updateAttributes() {
     const { simulation, viewModel, settings } = this.host;
-    // At first the attributes of the page still wait in `#earlyAssignments`.
+    // Before the first frame, the page's attributes still wait in `#earlyAssignments`.
     if (!simulation || !viewModel) return;
     const attributeTexts = this.#attributeTextsOf(settings.requested);
     const previousTexts = this.#previousTexts ?? attributeTexts;
     const neededTexts = this.findNeededAttributes((name, text) => text !== previousTexts.get(name));
     this.#previousTexts = attributeTexts;
     this.#isWritingAttributes = true;
-    for (const [name, { converter: { parse, print } }] of Object.entries(this.#attributes)) {
+    for (const [name, { converter: { parse, format } }] of Object.entries(this.#attributes)) {
       const currentText = this.host.getAttribute(name);
       const text = (currentText === null ? neededTexts : attributeTexts).get(name);
       if (text === undefined) this.host.removeAttribute(name);
       // An attribute stays as the page wrote it if it has the same value.
-      else if (currentText === null || print(parse(currentText)) !== text) this.host.setAttribute(name, text);
+      else if (currentText === null || format(parse(currentText)) !== text) this.host.setAttribute(name, text);
     }
     this.#isWritingAttributes = false;
   }
@@ -147,7 +147,7 @@ export class Reflection extends FigureController {
   }
 
   #attributeTextsOf(stateValues: StateValues): Map<string, string> {
-    const textEntries = Object.entries(this.#attributes).map(([name, { converter, get }]) => [name, converter.print(get(stateValues) ?? null)] as const);
+    const textEntries = Object.entries(this.#attributes).map(([name, { converter, get }]) => [name, converter.format(get(stateValues) ?? null)] as const);
     return new Map(textEntries.filter((entry): entry is [string, string] => entry[1] !== null));
   }
 }
@@ -157,7 +157,7 @@ export function defineElement(Widget: typeof import('./figure.ts').FigureElement
   const { prototype, definition: { tag, properties } } = Widget;
   if (customElements.get(tag)) return;
   for (const name of Object.keys(properties)) {
-    // A widget may define this property itself, because it does more than read and write the value.
+    // A widget defines a property itself if its accessors do more than read and write the value.
     if (Object.hasOwn(prototype, name)) continue;
     Object.defineProperty(prototype, name, {
       configurable: true,

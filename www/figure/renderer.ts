@@ -1,4 +1,4 @@
-/** Start of a figure near the viewport; drawing of its pictures, and then of its text, while it is visible, and in print. */
+/** Rendering of a figure: its start near the viewport, and the drawing of its pictures, then of its text, while it is visible and in print. */
 
 import { nothing } from 'lit';
 import { onLanguage } from '../messages/registry.ts';
@@ -30,11 +30,11 @@ export const prefersReducedMotion = () => matchMedia('(prefers-reduced-motion: r
 export class Renderer extends FigureController {
   isVisible = false;
   #isNear = false;
-  /** Observes the content, or the element as long as there is none: a sticky picture stays in sight outside of the element's box. */
+  /** Observes the content, or the element before it has content. A sticky picture may be in sight while the element's own box is not. */
   #visibleObserver = new IntersectionObserver((entries) => this.#updateVisible(entries));
   #visibleTarget: Element | undefined;
   #nearObserver = new IntersectionObserver((entries) => {
-    // A start depends on the visibility, but the order of the observers' callbacks is undefined.
+    // Starting depends on the visibility, but the order in which the two observers call back is undefined.
     this.#updateVisible(this.#visibleObserver.takeRecords());
     for (const { isIntersecting } of entries) this.#setNear(isIntersecting);
   }, { rootMargin: NEAR_MARGIN_CSS });
@@ -44,7 +44,7 @@ export class Renderer extends FigureController {
   /** Time (ms) of the first picture that is newer than the text; undefined if the text is up to date. */
   #textPendingSince: number | undefined;
   #frameRequest: number | undefined;
-  /** Time (ms) of the previous frame, or of the request if no frame was drawn since. */
+  /** Time (ms) of the previous frame, or of a later request of a frame. */
   #previousFrameMs = 0;
   isPrinting = false;
 
@@ -56,7 +56,7 @@ export class Renderer extends FigureController {
     // Some browsers do not fire `beforeprint` and `afterprint`, and others fire them too late.
     const printQuery = matchMedia('print');
     printQuery.addEventListener('change', () => this.#setPrinting(printQuery.matches), { signal });
-    // An element that is removed during print gets no event at its end.
+    // An element that is removed during print gets no event at the end of the print.
     if (this.isPrinting !== printQuery.matches) this.#setPrinting(printQuery.matches);
     onLanguage(this.host, () => this.#applyLanguage(), signal);
     this.#nearObserver.observe(this.host);
@@ -88,7 +88,7 @@ export class Renderer extends FigureController {
     this.#visibleObserver.observe(target);
   }
 
-  /** Checks the position of the figure now: the observers report it a frame later. */
+  /** Checks the position of the figure at once: the observers would report it a frame later. */
   #checkPosition() {
     const { top, bottom } = this.host.getBoundingClientRect();
     // The box of a removed element is all 0.
@@ -159,7 +159,7 @@ export class Renderer extends FigureController {
       const { simulation, cloud, settings } = host;
       if (!simulation) return;
       settings.applyPending();
-      // A script awaits all samples. Nobody sees the cloud grow.
+      // A script awaits all samples, and nobody sees the cloud grow.
       if (host.isSettledAwaited) cloud?.addAllSamples();
       if (cloud && !cloud.addSamplesUnseen()) this.#scheduleFrame();
       else if (settings.isViewModelStale) host.updateViewModel();
@@ -211,8 +211,8 @@ export class Renderer extends FigureController {
       // A figure may have replaced its picture.
       if (!host.pictures.includes(picture) || !hasPixels(canvas)) continue;
       // A drag keeps the scale of pictures with handles, so that they stay under the pointer.
-      const isStill = isPressed && canvas.parentElement!.querySelector('.handle') !== null;
-      isMoving = picture.draw(host.canvases.surfaceOf(canvas), scene, host.colours.palette, { ...drawOptions, keepsScale: isStill }) || isMoving;
+      const keepsScale = isPressed && canvas.parentElement!.querySelector('.handle') !== null;
+      isMoving = picture.draw(host.canvases.surfaceOf(canvas), scene, host.colours.palette, { ...drawOptions, keepsScale }) || isMoving;
       if ((!isResizing || this.isOpening) && performance.now() - startTimeMs > MAX_DRAW_MS_PER_FRAME) break;
     }
     host.placeHandles(scene);
@@ -250,7 +250,7 @@ export class Renderer extends FigureController {
     this.#attemptDraw(0, true);
   }
 
-  /** Draws for print, in light colours and with all samples, or for the screen again. A print starts a figure that is far from the viewport. */
+  /** Draws for print, in light colours and with all samples, or for the screen again. Printing starts a figure that is far from the viewport. */
   async #setPrinting(isPrinting: boolean) {
     const { host } = this;
     this.isPrinting = isPrinting;

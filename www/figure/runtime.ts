@@ -27,7 +27,7 @@ export class Runtime extends FigureController {
     try {
       const { localName, stateLink, settings, viewModel } = this.host;
       const shownState = viewModel && this.host.snapshot();
-      const [motion] = await Promise.all([instantiateFor(localName), shownState ?? stateLink.applyAddress()]);
+      const [motion] = await Promise.all([instantiateFor(localName), shownState ?? stateLink.applyStateInAddress()]);
       this.motion = motion;
       const simulation = this.host.createSimulation(motion);
       if (shownState) this.host.enterState(simulation, shownState);

@@ -52,12 +52,12 @@ export class Settings extends FigureController {
   }
 
   /** Changes values as the user asked: settings in the next frame, so that a drag configures the simulation once in each frame. */
-  request(change: StateValues | ((requested: StateValues) => StateValues)) {
+  requestChange(change: StateValues | ((requested: StateValues) => StateValues)) {
     const { simulation, gesture, renderer } = this.host;
     if (!simulation) return;
     const changedFields = typeof change === 'function' ? change(this.requested) : change;
     for (const [key, value] of Object.entries(changedFields)) (key in this.elementState ? this.elementState : this.#pendingChanges)[key] = value;
-    gesture.recordStep();
+    gesture.dispatchInput();
     renderer.requestFrame();
   }
 
@@ -102,7 +102,7 @@ export class Settings extends FigureController {
     this.reset();
     host.onSimulationReplaced();
     host.reflection.applyEarlyAssignments();
-    // The simulation is missing after a trap. The settings are not stale if an assigned state was shown already.
+    // The simulation is missing after a trap. The view model is up to date if an assigned state was shown already.
     if (host.simulation && this.isViewModelStale) this.#showState(state);
   }
 
@@ -127,12 +127,12 @@ export class Settings extends FigureController {
     this.#showState(wholeState);
   }
 
-  choosePreset(preset: string) {
+  choosePreset(presetName: string) {
     const { host } = this;
     host.player?.stop();
     host.renderer.letViewsZoomIn(1);
     for (const [name, { isResetByPreset, default: openingValue }] of Object.entries(this.#elementFields)) if (isResetByPreset) this.elementState[name] = openingValue;
-    Object.assign(host, { preset });
+    Object.assign(host, { preset: presetName });
     host.gesture.commitOneStep();
   }
 

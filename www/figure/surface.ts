@@ -81,8 +81,8 @@ function stopUsedKey({ notice }: Figure, event: KeyboardEvent) {
   notice.stopOnEscape(event);
   const { key, ctrlKey, altKey, metaKey, defaultPrevented } = event;
   const keyTarget = event.target as Element;
-  const isPress = PRESS_KEYS.test(key) && keyTarget.matches('button, input, summary');
-  const isUsedByControl = keyTarget.matches(TEXT_FIELD_SELECTOR) ? key !== 'Escape' : isPress || (keyTarget.matches('input') && MOVE_KEYS.test(key));
+  const isPressKey = PRESS_KEYS.test(key) && keyTarget.matches('button, input, summary');
+  const isUsedByControl = keyTarget.matches(TEXT_FIELD_SELECTOR) ? key !== 'Escape' : isPressKey || (keyTarget.matches('input') && MOVE_KEYS.test(key));
   if (defaultPrevented || (isUsedByControl && !ctrlKey && !altKey && !metaKey)) event.stopPropagation();
 }
 
@@ -120,7 +120,7 @@ export class FocusKeeper extends FigureController {
   }
 }
 
-/** Moves the focus into the figure, to the end that is nearer to `origin`. */
+/** Moves the focus to the figure's first control, or to its last control if the focus comes from below the figure. */
 async function moveFocusInto(figure: Figure, previousFocus: EventTarget | null) {
   await figure.runtime.start();
   // Waits for the controls, which are rendered after the first picture.
@@ -129,7 +129,7 @@ async function moveFocusInto(figure: Figure, previousFocus: EventTarget | null) 
   // After the removal of the focused placeholder, the focus is on the body unless the user has moved it.
   if (!figure.simulation || document.activeElement !== document.body) return;
   const focusableElements = focusableElementsIn(figure.renderRoot);
-  // With Shift+Tab the focus comes from an element below the figure.
+  // Shift+Tab moves the focus from an element below the figure.
   const comesFromBelow = previousFocus instanceof Node && figure.compareDocumentPosition(previousFocus) & Node.DOCUMENT_POSITION_FOLLOWING;
   focusableElements.at(comesFromBelow ? -1 : 0)?.focus();
 }
@@ -153,7 +153,7 @@ export class TextHeights extends FigureController {
     }
   }
 
-  /** Keeps new heights, which are never below the kept ones, or measures all texts again. */
+  /** Makes new heights of texts their minimum heights. After a change of width or language, measures all texts again. */
   #keepHeights(entries: ResizeObserverEntry[]) {
     const { clientWidth } = this.host;
     if (clientWidth === this.#lastWidth && language === this.#language) {

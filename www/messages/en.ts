@@ -3,7 +3,7 @@
  * selects the words. In HTML, *stars* make italics, and subscript digits and _{braces} make subscripts.
  */
 
-export const countOf = (count: string, word: string) => `${count} ${word}${count === '1' ? '' : 's'}`;
+export const formatCount = (count: string, word: string) => `${count} ${word}${count === '1' ? '' : 's'}`;
 
 export const en = {
   failure: (reason) => `This interactive figure cannot run here. ${reason}`,
@@ -73,7 +73,7 @@ export const en = {
     csv: 'CSV',
     pngTitle: 'The picture in twice the pixels of the screen',
     svgTitle: 'The picture as vector graphics',
-    csvTitle: 'Every sample, with the parameters and the seed',
+    csvTitle: 'Every sample, with the settings and the seed',
   },
   close: 'Close',
   unreadableLink: 'This link cannot be read: it may be cut off. The figure stays as it was.',

@@ -15,12 +15,12 @@ interface SharedCatalogues {
   english: object;
   catalogues: Record<string, Record<string, object>>;
   /** Fires a `change` event when words or languages change. */
-  changes: EventTarget;
+  changeEvents: EventTarget;
 }
 
 const REGISTRY_KEY = Symbol.for('motion-widgets.messages');
 
-const sharedCatalogues: SharedCatalogues = ((globalThis as any)[REGISTRY_KEY] ??= { english: {}, catalogues: {}, changes: new EventTarget() });
+const sharedCatalogues: SharedCatalogues = ((globalThis as any)[REGISTRY_KEY] ??= { english: {}, catalogues: {}, changeEvents: new EventTarget() });
 
 export let words: Messages;
 
@@ -28,7 +28,7 @@ export let words: Messages;
 export let language = 'en';
 
 const wordsByLanguage: Map<string, { words: Messages, language: string }> = new Map();
-sharedCatalogues.changes.addEventListener('change', () => wordsByLanguage.clear());
+sharedCatalogues.changeEvents.addEventListener('change', () => wordsByLanguage.clear());
 
 /** Adds English words of the elements, which define the keys of all catalogues. A later call may fill a group that was empty at first. */
 export function addEnglishMessages(messages: { [key: string]: Message }) {
@@ -76,10 +76,10 @@ function describeMessage(value: any) {
   return value === null || value === undefined ? String(value) : typeof value === 'object' ? 'a group' : `a ${typeof value}`;
 }
 
-function mergeMessages(base: any, overrides: any) {
-  const mergedMessages = { ...base };
+function mergeMessages(baseMessages: any, overrides: any) {
+  const mergedMessages = { ...baseMessages };
   for (const [key, message] of Object.entries(overrides)) {
-    mergedMessages[key] = typeof message === 'object' && !Array.isArray(message) ? mergeMessages(base[key] ?? {}, message) : message;
+    mergedMessages[key] = typeof message === 'object' && !Array.isArray(message) ? mergeMessages(baseMessages[key] ?? {}, message) : message;
   }
   return mergedMessages;
 }
@@ -121,7 +121,7 @@ let languageObserver: MutationObserver | undefined;
 
 /** Defined outside of `onLanguage`: a closure would keep the element of that call alive for as long as the page lives. */
 function notifyListeners() {
-  sharedCatalogues.changes.dispatchEvent(new Event('change'));
+  sharedCatalogues.changeEvents.dispatchEvent(new Event('change'));
 }
 
 /** Calls `listener` when the words or the language of an element may have changed, until the signal is aborted. */
@@ -131,5 +131,5 @@ export function onLanguage(element: Element, listener: () => void, signal: Abort
   languageObserver.observe(document, observeOptions);
   const rootNode = element.getRootNode();
   if (rootNode !== document) languageObserver.observe(rootNode, observeOptions);
-  sharedCatalogues.changes.addEventListener('change', listener, { signal });
+  sharedCatalogues.changeEvents.addEventListener('change', listener, { signal });
 }

@@ -47,7 +47,7 @@ function legControlsHtml(figure: AlphaCalibratorElement) {
       effect: undefined,
       role: 'truth',
       hasNoEffect: legs.count < 2,
-      onInput: (legNumber) => figure.settings.request({ leg: legNumber - 1 }),
+      onInput: (legNumber) => figure.settings.requestChange({ leg: legNumber - 1 }),
       onCommit: () => figure.gesture.commit(),
     })}
     ${buttonHtml(texts.worst, () => figure.gesture.requestAndCommit({ leg: nextLeg }), { disabled: nextLeg === undefined })}`;
@@ -430,7 +430,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
     };
   }
 
-  announcement(viewModel: ViewModel) {
+  announcementOf(viewModel: ViewModel) {
     return captionOf({ viewModel, warnings: this.warnings, logName: this.logName });
   }
 

@@ -1,6 +1,6 @@
 /** The Alpha Calibrator in English; see messages/en.ts. */
 
-import { countOf } from '../../messages/en.ts';
+import { formatCount } from '../../messages/en.ts';
 
 export const en = {
   title: 'The Alpha Calibrator',
@@ -34,7 +34,7 @@ export const en = {
   axisAhead: 'ahead (m)',
   axisLeft: 'left (m)',
   simulated: 'the simulated log',
-  present: (log, legs, outliers) => `${countOf(legs, 'leg')} of ${log}${outliers ? `, ${countOf(outliers, 'outlier')}` : ''}.`,
+  present: (log, legs, outliers) => `${formatCount(legs, 'leg')} of ${log}${outliers ? `, ${formatCount(outliers, 'outlier')}` : ''}.`,
   badges: { consistent: 'Trust', questionable: 'Caution', unusable: 'Do not use' },
   passed: (count) => `All ${count} checks passed.`,
   failed: (names, failed, count) => `Failed: ${names} (${failed} of ${count} checks).`,
@@ -73,7 +73,7 @@ export const en = {
   },
   recommended: {
     none: 'There are no recommended α’s: the log is unusable.',
-    few: (count) => `Recommended: the fit itself, as ${countOf(count, 'held-out window')} of ≥ 1 m cannot judge it.`,
+    few: (count) => `Recommended: the fit itself, as ${formatCount(count, 'held-out window')} of ≥ 1 m cannot judge it.`,
     covered: (coverage, count) => `Recommended: the fit itself. It covers ${coverage} of ${count} held-out windows of ≥ 1 m; 95 % is right.`,
     inflated: (inflation, coverage, count, nees) =>
       `Recommended: fitted × ${inflation}, which covers at least 95 % of ${count} held-out windows of ≥ 1 m. The fit covers ${coverage}, with a squared error over predicted variance (NEES) of ${nees}, expected 1.`,
@@ -181,7 +181,7 @@ export const en = {
     notIdentifiable: 'not identifiable from this log; Nav2 uses its default',
     zero: (upperEnd) => `not significantly different from 0, 95 % up to ${upperEnd}`,
     tooLarge: 'implausible (> 1): see the failed checks and the outliers',
-    of: (legs, length, log, date) => `${countOf(legs, 'leg')} ${length} of ${log}, ${date}`,
+    of: (legs, length, log, date) => `${formatCount(legs, 'leg')} ${length} of ${log}, ${date}`,
     moved: (distance, angle) => `of ${distance} m or ${angle} rad`,
     lasted: (duration) => `of ${duration} s`,
     recommended: (factor, coverage, windows) => `recommended = fitted × ${factor}: the fit covers ${coverage} of ${windows} held-out windows of ≥ 1 m`,
@@ -198,7 +198,7 @@ export const en = {
   csvTitle: 'Every leg, with odometry, reference and residuals',
   logNotInCopies: 'Your log is not in it: the figure opens with the simulated one.',
   way: (legs, classes, chosen) =>
-    `View of the floor from above, x to the right and y up: the path of the robot by the reference, in ${countOf(legs, 'leg')}. ${classes} have a p-value below 0.05. Leg ${chosen} is shown.`,
+    `View of the floor from above, x to the right and y up: the path of the robot by the reference, in ${formatCount(legs, 'leg')}. ${classes} have a p-value below 0.05. Leg ${chosen} is shown.`,
   legText: (number, readX, readY, endX, endY) =>
     `Leg ${number} in the frame of the robot at its start, x ahead and y to the left. By odometry it ends at ${readX} m, ${readY} m; by the reference, at ${endX} m, ${endY} m. The predicted cloud lies around the end by odometry.`,
 } satisfies import('../../messages/registry.ts').Message;

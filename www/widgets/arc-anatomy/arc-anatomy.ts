@@ -197,7 +197,7 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
     };
   }
 
-  announcement = captionOf;
+  announcementOf = captionOf;
 
   placeHandles({ config }: ViewModel) {
     for (const handles of this.#handles) handles.place(config, ROBOT_RADIUS);

@@ -79,7 +79,7 @@ function alphaSliderHtml(figure: BananaMachineElement, alphaNumber: number, [nam
     formatValue: (value) => (hasNoEffect ? words.banana.off(formatEditable(value, 3)) : formatEditable(value, 3)),
     onInput: (value) => {
       if (hasNoEffect) chooseAlpha();
-      figure.settings.request(({ alphas }) => ({ alphas: alphas.with(alphaNumber - 1, value) }));
+      figure.settings.requestChange(({ alphas }) => ({ alphas: alphas.with(alphaNumber - 1, value) }));
     },
   });
 }
@@ -267,7 +267,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     };
   }
 
-  announcement = captionOf;
+  announcementOf = captionOf;
 
   snapshot() {
     return { ...super.snapshot(), alphas: ((this.settings.isViewModelStale && this.simulation) || this.viewModel).alphasOfModels };
@@ -320,7 +320,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
    * nearest to the current arc.
    */
   #moveArcEnd(x: number, y: number) {
-    this.settings.request(({ command }) => {
+    this.settings.requestChange(({ command }) => {
       const { v, omega } = this.motion.commandReaching(x, y, command, this.settings.elementState.morph);
       const clampToSlider = (value: number, { min, max }: { min: number, max: number }) => clamp(value, min, max);
       return { command: { ...command, v: clampToSlider(v, sliderSpecs.v), omega: clampToSlider(omega, sliderSpecs.omega) } };
@@ -420,7 +420,7 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
         step,
         value: omega,
         text: texts.chartText(formatFixed(omega, 2), formatFixed(exactSkew, 3)),
-        onInput: (newOmega) => this.settings.request(({ command }) => ({ command: { ...command, omega: newOmega } })),
+        onInput: (newOmega) => this.settings.requestChange(({ command }) => ({ command: { ...command, omega: newOmega } })),
         onCommit: () => this.gesture.commit(),
       },
     });

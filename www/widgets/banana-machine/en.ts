@@ -1,6 +1,6 @@
 /** The Banana Machine in English; see messages/en.ts. */
 
-import { countOf } from '../../messages/en.ts';
+import { formatCount } from '../../messages/en.ts';
 
 export const en = {
   title: 'The Banana Machine',
@@ -52,7 +52,7 @@ export const en = {
     bent: (skew, left) => `The cloud is bent, with its tail to the ${left ? 'left' : 'right'} of the mean heading: skew ${skew}, where any Gaussian in (x, y) has 0.`,
   },
   fewRobots: 'Too few robots for a skew.',
-  robotsHere: (count) => `${countOf(count, 'robot')} here`,
+  robotsHere: (count) => `${formatCount(count, 'robot')} here`,
   twist: 'Same robots, exponential coordinates ξ',
   twistIs: {
     odometry:

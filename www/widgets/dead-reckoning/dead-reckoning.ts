@@ -167,7 +167,7 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
     };
   }
 
-  announcement = (viewModel: ViewModel) => captionOf(viewModel, this.settings.elementState.overlays);
+  announcementOf = (viewModel: ViewModel) => captionOf(viewModel, this.settings.elementState.overlays);
 
   /** Poses of the selected robot after each step, if that robot has been driven. */
   get #markedPoses() {
@@ -193,7 +193,7 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
       ${this.renderer.renderAfterFirstPicture(() => html`
       ${legendHtml(this, OUTLINE_STYLES)} ${presetButtonsHtml(this)} 
       <div class="controls" part="controls">
-        ${settingSliderHtml(this, 'headingNoise')} ${settingSliderHtml(this, 'steps', { onInput: (steps) => this.settings.request((requested) => settingsForSteps(requested, steps)) })}
+        ${settingSliderHtml(this, 'headingNoise')} ${settingSliderHtml(this, 'steps', { onInput: (steps) => this.settings.requestChange((requested) => settingsForSteps(requested, steps)) })}
       </div>
       ${disclosuresHtml(this, {
         renderControls: () => moreControlsHtml(this),

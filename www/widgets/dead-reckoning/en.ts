@@ -1,6 +1,6 @@
 /** Dead Reckoning in English; see messages/en.ts. */
 
-import { countOf } from '../../messages/en.ts';
+import { formatCount } from '../../messages/en.ts';
 
 export const en = {
   title: 'Dead Reckoning',
@@ -41,7 +41,7 @@ export const en = {
   atStepMark: (step) => `step ${step}`,
   /** Before the ratio, and after it. */
   predicted: (component) => `predicted ${component} variance`,
-  ofMeasured: (error, step, robots) => `${error && `± ${error} `}of the measured, at step ${step}, ${countOf(robots, 'robot')}`,
+  ofMeasured: (error, step, robots) => `${error && `± ${error} `}of the measured, at step ${step}, ${formatCount(robots, 'robot')}`,
   ratioText: (recursion, step, ratios) =>
     `Predicted over measured variance by step; recursion: ${recursion}. At step ${step}: ${ratios}.`,
   wrong: (worst, list, end, far) => `At the end the predicted ${far} variance is off by ${end}. Before, the ${worst} one is ${list} of the measured one.`,
@@ -53,7 +53,7 @@ export const en = {
     few: 'Too few robots to tell 5 %: the bands are wider than that.',
   },
   plane: (command, steps, robots, step, x, y, recursion) =>
-    `View of the floor from above, x to the right and y up. ${countOf(robots, 'robot')} ${robots === '1' ? 'drives' : 'drive'} ${countOf(steps, 'step')} of ${command}. Clouds grow along the path; after step ${step} the command is at x ${x} m, y ${y} m. Outlines by the recursion: ${recursion}.`,
+    `View of the floor from above, x to the right and y up. ${formatCount(robots, 'robot')} ${robots === '1' ? 'drives' : 'drive'} ${formatCount(steps, 'step')} of ${command}. Clouds grow along the path; after step ${step} the command is at x ${x} m, y ${y} m. Outlines by the recursion: ${recursion}.`,
   stepText: (step, measured, predicted) =>
     `Step ${step} in exponential coordinates, ξ along to the right and ξ lateral up. Standard deviations measured ${measured[0]} m and ${measured[1]} m, predicted ${predicted[0]} m and ${predicted[1]} m.`,
   misses: {

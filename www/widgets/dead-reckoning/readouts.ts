@@ -107,7 +107,7 @@ export function ratioPlotHtml(figure: import('./dead-reckoning.ts').DeadReckonin
       step: 1,
       value: step,
       text: texts.atStepMark(step),
-      onInput: (newStep) => figure.settings.request({ step: Math.max(1, newStep) }),
+      onInput: (newStep) => figure.settings.requestChange({ step: Math.max(1, newStep) }),
       onCommit: () => figure.gesture.commit(),
     },
     legend: nothing,

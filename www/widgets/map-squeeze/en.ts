@@ -1,6 +1,6 @@
 /** Map Squeeze in English; see messages/en.ts. */
 
-import { countOf } from '../../messages/en.ts';
+import { formatCount } from '../../messages/en.ts';
 
 export const en = {
   title: 'Map Squeeze',
@@ -61,7 +61,7 @@ export const en = {
   apartment: 'The apartment',
   edited: 'Edited apartment',
   pasted: 'Pasted plan',
-  mapText: (name, width, height, walls) => `${name}: ${width} m × ${height} m, ${countOf(walls, 'wall')}`,
+  mapText: (name, width, height, walls) => `${name}: ${width} m × ${height} m, ${formatCount(walls, 'wall')}`,
   picture: (map) => `Floor plan from above, x to the right and y up. ${map}.`,
   robotAt: (x, y, theta, command) =>
     `The robot stands at x ${x} m, y ${y} m, heading ${theta} rad. Commanded: ${command}.`,

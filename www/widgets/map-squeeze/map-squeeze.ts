@@ -340,7 +340,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     };
   }
 
-  announcement = captionOf;
+  announcementOf = captionOf;
 
   placeHandles({ config }: ViewModel) {
     this.#handles.place(config, config.clearance);
@@ -422,7 +422,7 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     const apply: UserMap['apply'] = (simulation) => simulation.setPlan({ bounds: [...bounds], walls });
     this.runtime.attemptOrReport(() => {
       this.#enterMap({ name, apply, start: this.settings.requested.start });
-      this.gesture.recordStep();
+      this.gesture.dispatchInput();
     });
     this.renderer.requestFrame();
   }

@@ -178,7 +178,7 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
     };
   }
 
-  announcement = captionOf;
+  announcementOf = captionOf;
 
   placeHandles({ config }: ViewModel) {
     for (const handles of this.#handles) handles.place(config, ROBOT_RADIUS);

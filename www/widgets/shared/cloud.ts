@@ -194,7 +194,7 @@ export class Cloud extends FigureController implements SampleCloud {
     if (!this.isComplete) return;
     this.#state.shown = Infinity;
     this.#state.playing = false;
-    this.host.announcer.announceNext();
+    this.host.announcer.requestAnnouncement();
   }
 
   /** Runs the action of a button of the cloud, and sets `playing`. */
@@ -242,10 +242,10 @@ export function samplesSliderHtml(figure: Figure, counts: readonly number[]) {
 
 function seedFieldHtml(figure: Figure) {
   const { settings, gesture, notice } = figure;
-  const seedRefusal = notice.textBeside('seed');
+  const seedRefusal = notice.findTextBeside('seed');
   const enterSeed = (event: Event) => {
     const seed = parseTypedNumber(figure, 'seed', words.seed, inputOf(event).value, declarationOf(figure, 'seed'));
-    if (seed !== undefined) settings.request({ seed });
+    if (seed !== undefined) settings.requestChange({ seed });
   };
   return html`<label class="seed">
     ${words.seed}
@@ -269,7 +269,7 @@ function seedFieldHtml(figure: Figure) {
 export function sampleFieldHtml(figure: CloudFigure, id: 'robot' | 'sample', shown: number, selected: unknown) {
   const { cloud, notice } = figure;
   const { [id]: label, markHint } = (words as any)[figure.definition.messageKey];
-  const refusalText = notice.textBeside('marked');
+  const refusalText = notice.findTextBeside('marked');
   const enterIndex = (event: Event) => {
     const typedIndex = inputOf(event).value;
     const sampleNumber = typedIndex === '' ? 0 : parseTypedNumber(figure, 'marked', label, typedIndex, { min: 1, max: shown, type: 'whole' });

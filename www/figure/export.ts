@@ -9,7 +9,6 @@ import { accessibleNameOf } from './surface.ts';
 import type { Figure } from './figure.ts';
 
 export interface ExportData {
-  description: string;
   /** Settings, which exported files contain as JSON after the tag of the element. */
   settings: object;
   /** Numbers of the table. A key is the names of some columns, such as 'x_m y_m theta_rad'; its value has their numbers, row by row. */
@@ -56,13 +55,13 @@ function hashOf(text: string) {
 const createSettingsJson = ({ localName }: Figure, settings: object) => JSON.stringify({ element: localName, ...settings });
 
 export function svgOf(figure: Figure) {
-  const { settings, description } = figure.exportData;
+  const { settings } = figure.exportData;
   const idPrefix = `figure-${hashOf(createSettingsJson(figure, settings))}`;
   const svg = new SvgContext(idPrefix);
   const { view, width, height } = drawForExport(figure, 1, () => svg);
   return `<svg xmlns="http://www.w3.org/2000/svg" width="${width}" height="${height}" viewBox="0 0 ${formatLength(view.width)} ${formatLength(view.height)}" direction="ltr" role="img" aria-labelledby="${idPrefix}-title ${idPrefix}-text">
 <title id="${idPrefix}-title">${escapeXml(accessibleNameOf(figure))}</title>
-<desc id="${idPrefix}-text">${escapeXml(description)}</desc>
+<desc id="${idPrefix}-text">${escapeXml(figure.description)}</desc>
 <rect width="100%" height="100%" fill="${figure.colours.palette.paper}"/>
 ${svg.markup}
 </svg>

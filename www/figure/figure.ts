@@ -169,11 +169,24 @@ export abstract class FigureElement<Simulation extends { free(): void, stats: ob
   /** Returns the HTML of the figure. */
   abstract renderContent(viewModel: ViewModel): unknown;
 
-  /** Description, settings and columns for exported files, after all pending changes. */
+  /** Returns sentences, without full stops, that describe the first picture. The announcement follows them in the text equivalent. */
+  abstract describePicture(viewModel: ViewModel): string[];
+
+  /** Text equivalent of the first picture, in the page and in exported files. */
+  get description() {
+    return [...this.describePicture(this.viewModel).map((sentence) => `${sentence}.`), this.announcementOf(this.viewModel)].join(' ');
+  }
+
+  /** Settings and columns for exported files, after all pending changes. */
   abstract get exportData(): import('./export.ts').ExportData;
 
   /** Returns the announcement for screen readers after a completed change. */
   abstract announcementOf(viewModel: ViewModel): string;
+
+  /** Handles a moving or clicking pointer on a picture. */
+  selectAtPointer(picture: Picture<any>, event: PointerEvent) {
+    this.cloud?.selectAtPointer(picture, event);
+  }
 
   /** Runs after the simulation was replaced. */
   onSimulationReplaced() {}

@@ -2,7 +2,7 @@
 
 import { html, css } from 'lit';
 import { checkObject } from '../../data/checks.ts';
-import { pictureCanvasHtml, disclosuresHtml, titledPictureHtml, settingRadiosHtml, editableSliderHtml, settingSliderHtml, legendHtml } from '../../figure/controls.ts';
+import { pictureHtml, disclosuresHtml, settingRadiosHtml, editableSliderHtml, settingSliderHtml, legendHtml } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { defineElement } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
@@ -14,7 +14,7 @@ import { readoutsHtml } from '../../ui/readouts.ts';
 import { startOverButtonHtml } from '../shared/controls.ts';
 import { LogOpener, LogService, dropZoneHtml, isAbortError, referenceControlsHtml } from './open.ts';
 import { LegPicture, PathPicture } from './pictures.ts';
-import { alphaTableHtml, alphaTextsOf, captionOf, diagnosticsHtml, judgeFit, describeLeg, nav2ButtonHtml, nav2ExportControlsHtml, describePath, explainRecommendation, regressionPanelsHtml, systematicTableHtml, verdictHtml } from './readouts.ts';
+import { alphaTableHtml, captionOf, diagnosticsHtml, judgeFit, nav2ButtonHtml, nav2ExportControlsHtml, explainRecommendation, regressionPanelsHtml, systematicTableHtml, verdictHtml } from './readouts.ts';
 import { NOISE_COMPONENTS, LINE_STYLES, definition, modelRuleOf, observedCount, settingsOfModelRule, viewModelOf, type ViewModel } from './settings.ts';
 import type { AlphaCalibrator as Simulation, CalibrationLog, CalibrationPanel, LegView, Motion } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
@@ -309,13 +309,13 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
     return { ...viewModel, chosen: this.chosen, leg: this.predicted, overlays: this.settings.elementState.overlays };
   }
 
-  #chooseLegAt = (event: MouseEvent) => {
+  /** Chooses the leg that is clicked in the picture of the path. */
+  selectAtPointer(picture: PathPicture | LegPicture, event: PointerEvent) {
     const { simulation } = this;
-    if (!simulation || !(event.target instanceof HTMLCanvasElement)) return;
-    const [x, y] = toViewPixels(event.target, this.#pathPicture.view, event);
-    const leg = this.#pathPicture.nearestSample(simulation, x, y);
+    if (!simulation || event.type !== 'click') return;
+    const leg = picture.nearestSample(simulation, ...toViewPixels(event.target as Element, picture.view, event));
     if (leg >= 0) this.gesture.requestAndCommit({ leg });
-  };
+  }
 
   /**
    * A log of the page’s own; null for the simulated one. `getState` and shared links do not contain it.
@@ -412,7 +412,6 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
     const statisticColumnsOf = (statistic: string) => NOISE_COMPONENTS[fitted.model].map((name) => `${statistic}_${name}`).join(' ');
     const poseColumnsOf = (log: string) => ['from', 'to'].flatMap((end) => ['x_m', 'y_m', 'theta_rad'].map((key) => `${log}_${end}_${key}`)).join(' ');
     return {
-      description: [describePath(this.viewModel, this.chosen), captionOf(this), ...alphaTextsOf(this.viewModel).map((text) => `${text}.`), explainRecommendation(this.viewModel)].join(' '),
       settings: { ...(this.log && { log: this.log.name }), ...fitted },
       columns: {
         'begins_s ends_s': legs.times,
@@ -434,6 +433,8 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
     return captionOf({ viewModel, warnings: this.warnings, logName: this.logName });
   }
 
+  describePicture = () => [words.calibrator.path];
+
   renderContent(viewModel: ViewModel) {
     const texts = words.calibrator;
     const { chosen } = this;
@@ -442,9 +443,9 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
       ${dropZoneHtml(this, this.#opener)}
       <div class="views">
         <p part="caption" class="caption verdict">${this.renderer.renderAfterFirstPicture(() => verdictHtml(this))}</p>
-        ${titledPictureHtml(texts.path, html`<div class="stage" part="picture" @click=${this.#chooseLegAt}>${pictureCanvasHtml(this, this.#pathPicture, describePath(viewModel, chosen))}</div>`)}
+        ${pictureHtml(this, this.#pathPicture, texts.path)}
         <div class="one">
-          ${titledPictureHtml(texts.oneLeg(formatInteger(chosen + 1)), html`<div class="stage">${pictureCanvasHtml(this, this.#legPicture, describeLeg(this.predicted, chosen))}</div>`)}
+          ${pictureHtml(this, this.#legPicture, texts.oneLeg(formatInteger(chosen + 1)))}
           ${this.renderer.renderAfterFirstPicture(() => html`<div class="looked with-button">${legControlsHtml(this)}</div>`)}
         </div>
         ${this.renderer.renderAfterFirstPicture(() => html`

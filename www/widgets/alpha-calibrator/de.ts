@@ -235,8 +235,4 @@ export const de: typeof import('./en.ts').en = {
   },
   csvTitle: 'Jede Etappe mit Odometrie, Referenz und Residuen',
   logNotInCopies: 'Die eigene Aufzeichnung ist nicht dabei: Die Abbildung öffnet sich mit der simulierten.',
-  way: (legs, far, chosen) =>
-    `Der Boden von oben, x nach rechts und y nach oben: der Weg des Roboters nach der Referenz in ${legsWithCount(legs)}. ${far} davon haben einen p-Wert unter 0,05. Gezeigt wird Etappe ${chosen}.`,
-  legText: (number, readX, readY, endX, endY) =>
-    `Etappe ${number} im Koordinatensystem des Roboters an ihrem Anfang, x voraus und y nach links. Nach der Odometrie endete sie bei ${readX} m, ${readY} m, nach der Referenz bei ${endX} m, ${endY} m. Um das Ende nach der Odometrie liegt die vorhergesagte Wolke.`,
 };

@@ -197,8 +197,4 @@ export const en = {
   },
   csvTitle: 'Every leg, with odometry, reference and residuals',
   logNotInCopies: 'Your log is not in it: the figure opens with the simulated one.',
-  way: (legs, classes, chosen) =>
-    `View of the floor from above, x to the right and y up: the path of the robot by the reference, in ${formatCount(legs, 'leg')}. ${classes} have a p-value below 0.05. Leg ${chosen} is shown.`,
-  legText: (number, readX, readY, endX, endY) =>
-    `Leg ${number} in the frame of the robot at its start, x ahead and y to the left. By odometry it ends at ${readX} m, ${readY} m; by the reference, at ${endX} m, ${endY} m. The predicted cloud lies around the end by odometry.`,
 } satisfies import('../../messages/registry.ts').Message;

@@ -11,7 +11,7 @@ import { subscriptOf } from '../shared/sliders.ts';
 import { en } from './en.ts';
 import { LOST_LEG_CAUSES, NAV2_RULES, SYSTEMATIC_ERRORS, adviceOf, checkMessage, componentsOf, formatAlphaOrBound, formatEstimate, formatNumber, printsAsZero, judgementOf, localizeInterval, localizeNumber, formatNav2Lines, } from './result.ts';
 import { NOISE_COMPONENTS, isTruthComparable, modelRuleOf, settingsOfModelRule, type Regressor, type ViewModel } from './settings.ts';
-import type { CalibrationCheck, CalibrationPanel, Estimate, LegView } from '../../types.d.ts';
+import type { CalibrationCheck, CalibrationPanel, Estimate } from '../../types.d.ts';
 import type { Warning } from '../../logs/log.ts';
 import type { AlphaCalibratorElement as Figure } from './alpha-calibrator.ts';
 
@@ -61,18 +61,6 @@ export function captionOf({ viewModel, warnings, logName }: Pick<Figure, 'viewMo
   return [`${badge}.`, finding, describeLegs(viewModel, logName), ...advice].filter(Boolean).join(' ');
 }
 
-export function describePath({ legs, classes }: ViewModel, chosen: number) {
-  if (chosen < 0) return words.calibrator.none;
-  const unlikelyCount = classes.reduce((sum, legClass) => sum + Number(legClass > 1), 0);
-  return words.calibrator.way(formatInteger(legs.count), formatInteger(unlikelyCount), formatInteger(chosen + 1));
-}
-
-export function describeLeg(leg: LegView | null, chosen: number) {
-  if (!leg) return words.calibrator.none;
-  const [readX, readY, endX, endY] = [leg.read[0], leg.read[1], leg.ended[0], leg.ended[1]];
-  return words.calibrator.legText(formatInteger(chosen + 1), formatFixed(readX, 3), formatFixed(readY, 3), formatFixed(endX, 3), formatFixed(endY, 3));
-}
-
 /** Icons and colours of the ratings. */
 const RATING_LOOKS = { consistent: ['✓', 'posterior'], questionable: ['!', 'prediction'], unusable: ['✕', 'accent'] };
 
@@ -116,15 +104,6 @@ function explainMissingAlpha({ stats: { notIdentifiable }, fitted: { model } }: 
   if (!reason) return NO_VALUE;
   const { lack, drive } = adviceOf(texts.lacking, model, reason);
   return texts.unknown(lack, drive);
-}
-
-/** Returns all α's as texts, each with its interval. */
-export function alphaTextsOf(viewModel: ViewModel) {
-  const { stats: { alphas }, fitted } = viewModel;
-  return alphas.map((alpha, i) => {
-    const alphaParts = alpha === null ? [explainMissingAlpha(viewModel, i)] : [formatAlpha(viewModel, i), localizeInterval(viewModel.stats.intervals[i]), `${words.calibrator.alphas.recommended} ${formatRecommendedAlpha(viewModel, i)}`];
-    return `α${subscriptOf(i)} ${noiseNamesOf(fitted.model)[i]}: ${alphaParts.join(', ')}`;
-  });
 }
 
 export function systematicTableHtml(figure: Figure) {

@@ -1,7 +1,7 @@
 /** <arc-anatomy>: the arc between two poses, and how likely it is after a command. */
 
 import { html, nothing, css } from 'lit';
-import { pictureCanvasHtml, disclosuresHtml, titledPictureHtml, settingCheckboxHtml, settingRadiosHtml, settingSlidersHtml, legendHtml } from '../../figure/controls.ts';
+import { pictureHtml, disclosuresHtml, settingCheckboxHtml, settingRadiosHtml, settingSlidersHtml, legendHtml } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { defineElement } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
@@ -11,8 +11,9 @@ import { formatFixed } from '../../ui/format.ts';
 import { sliderTrackHtml } from '../../ui/slider.ts';
 import { Player, presetButtonsHtml } from '../shared/controls.ts';
 import { PoseHandles } from '../shared/robot.ts';
+import { describeCommand } from '../shared/sliders.ts';
 import { ArcPicture, ROBOT_RADIUS } from './picture.ts';
-import { formErrorsPlotHtml, factorBarsHtml, headlineHtml, likelihoodReadoutsHtml, tableLinesHtml, tableLineTextOf, captionOf, describePicture } from './readouts.ts';
+import { formErrorsPlotHtml, factorBarsHtml, headlineHtml, likelihoodReadoutsHtml, tableLinesHtml, tableLineTextOf, captionOf } from './readouts.ts';
 import { LINE_STYLES, UNDERWAY_AT_END, definition, CONTOUR_STYLES, ALPHA_SLIDERS, COMMAND_SLIDERS, TABLE_LINES, type ViewModel } from './settings.ts';
 import type { ArcAnatomy as Simulation, Motion } from '../../types.d.ts';
 
@@ -188,7 +189,6 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
   get exportData() {
     const { config, stats: { factors } } = this.currentViewModel;
     return {
-      description: describePicture(this.viewModel),
       settings: config,
       columns: {
         'estimate residual standard_deviation residual_over_deviation prob share_of_peak':
@@ -199,6 +199,8 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
 
   announcementOf = captionOf;
 
+  describePicture = ({ config }: ViewModel) => [words.anatomy.floor, describeCommand(config.command)];
+
   placeHandles({ config }: ViewModel) {
     for (const handles of this.#handles) handles.place(config, ROBOT_RADIUS);
   }
@@ -207,9 +209,7 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
     const texts = words.anatomy;
     return html`
       <div class="views">
-        ${titledPictureHtml(texts.floor, html`<div class="stage" part="picture">
-          ${pictureCanvasHtml(this, this.#picture, describePicture(viewModel))} ${this.#handles.map((handle) => handle.render())}
-        </div>`)}
+        ${pictureHtml(this, this.#picture, texts.floor, { handles: this.#handles.map((handle) => handle.render()) })}
         ${this.renderer.renderAfterFirstPicture(() => html`
         <div class="aside">${headlineHtml(viewModel)} ${factorBarsHtml(viewModel, this.settings.elementState.line)}</div>`)}
       </div>

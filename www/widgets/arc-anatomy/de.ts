@@ -37,12 +37,6 @@ export const de: typeof import('./en.ts').en = {
     printed: (v, share) =>
       `Wie gedruckt hat der Radius kein Vorzeichen: v̂ = ${v} m/s hat das falsche, und p liegt bei ${share} seines Maximums.`,
   },
-  pose: (x, y, theta) => `x ${x} m, y ${y} m, Richtung ${theta} rad`,
-  picture: {
-    poses: (start, command, next) => `Ein Roboter von oben. Er beginnt bei ${start}; befohlen ist ${command}. Gefunden wird er bei ${next}.`,
-    arc: (radius, left) => `Der Bogen dazwischen hat den Radius ${radius} m, sein Mittelpunkt ist ${left ? 'links' : 'rechts'}.`,
-    straight: 'Der Weg dazwischen ist gerade.',
-  },
   forms: {
     error: 'Fehler des Endes (m)',
     arc: 'Bogen, mit seinem Radius',

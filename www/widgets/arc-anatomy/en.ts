@@ -37,12 +37,6 @@ export const en = {
     printed: (v, share) =>
       `As printed, the radius has no sign: v̂ = ${v} m/s has the wrong sign, and p is ${share} of its peak.`,
   },
-  pose: (x, y, theta) => `x ${x} m, y ${y} m, heading ${theta} rad`,
-  picture: {
-    poses: (start, command, next) => `A robot from above. It starts at ${start}; commanded is ${command}. It is found at ${next}.`,
-    arc: (radius, left) => `The arc between them has the radius ${radius} m, its centre to the ${left ? 'left' : 'right'}.`,
-    straight: 'The path between them is straight.',
-  },
   forms: {
     error: 'error of the end (m)',
     arc: 'arc, by its radius',

@@ -6,10 +6,9 @@ import { formatMarkup } from '../../ui/controls.ts';
 import { clamp, formatFixed, formatPercent, formatPowerOfTen, formatSignificant } from '../../ui/format.ts';
 import { plotHtml } from '../../ui/plot.ts';
 import { readoutsHtml } from '../../ui/readouts.ts';
-import { formatCommand } from '../shared/sliders.ts';
 import { en } from './en.ts';
 import { TABLE_LINES, type ViewModel } from './settings.ts';
-import type { FormErrors, Motion, Pose } from '../../types.d.ts';
+import type { FormErrors, Motion } from '../../types.d.ts';
 
 addEnglishMessages({ anatomy: en });
 
@@ -37,18 +36,6 @@ export function captionOf({ config, stats: { factors, weakest, share, driven, in
   if (share === 1) return texts.peak;
   if (deviation === 0) return texts.noiseless(estimateName);
   return texts.off(estimateName, formatFixed(Math.abs(deviations), 1), formatShare(keptShare), formatShare(share));
-}
-
-const formatPose = ({ x, y, theta }: Pose) => words.anatomy.pose(formatFixed(x, 2), formatFixed(y, 2), formatFixed(theta, 2));
-
-export function describePicture(viewModel: ViewModel) {
-  const { config, stats: { inverted } } = viewModel;
-  const texts = words.anatomy.picture;
-  return [
-    texts.poses(formatPose(config.start), formatCommand(config.command), formatPose(config.next)),
-    inverted.center === null ? texts.straight : texts.arc(formatFixed(inverted.radius, 2), inverted.radius > 0),
-    captionOf(viewModel),
-  ].join(' ');
 }
 
 /** Scale of the bars: maximum number of standard deviations to either side, and pixels per standard deviation. */

@@ -2,7 +2,7 @@
 
 import { html, nothing, css } from 'lit';
 import { checkObject } from '../../data/checks.ts';
-import { pictureCanvasHtml, disclosuresHtml, titledPictureHtml, settingCheckboxHtml, settingRadiosHtml, settingSliderHtml, settingSlidersHtml, legendHtml } from '../../figure/controls.ts';
+import { pictureHtml, disclosuresHtml, settingCheckboxHtml, settingRadiosHtml, settingSliderHtml, settingSlidersHtml, legendHtml } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { defineElement } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
@@ -15,11 +15,11 @@ import { clamp, formatFixed, formatEditable } from '../../ui/format.ts';
 import { plotHtml } from '../../ui/plot.ts';
 import { cloudProperties, samplesSliderHtml } from '../shared/cloud.ts';
 import { Player, presetButtonsHtml } from '../shared/controls.ts';
-import { subscriptOf } from '../shared/sliders.ts';
+import { describeCommand, subscriptOf } from '../shared/sliders.ts';
 import { IntroducedCloud } from './introduction.ts';
 import { MORPH_MS, morphControlHtml, outlinesAt, morphPoint } from './morph.ts';
 import { PlanePicture, TwistPicture } from './pictures.ts';
-import { markedRobotFieldHtml, otherReadoutsHtml, mainReadoutsHtml, twistTableHtml, workedExampleTableHtml, calloutsOf, captionOf, floorTitleOf, describePlane, twistCaptionOf, describeTwists } from './readouts.ts';
+import { markedRobotFieldHtml, otherReadoutsHtml, mainReadoutsHtml, twistTableHtml, workedExampleTableHtml, calloutsOf, captionOf, floorTitleOf, twistCaptionOf } from './readouts.ts';
 import { sliderSpecs, LINE_STYLES, OVERLAY_NAMES, definition, COMMAND_SLIDERS, SAMPLE_COUNTS, viewModelOf, viewModelOfSettings, type ViewModel } from './settings.ts';
 import type { StateValues } from '../../figure/settings.ts';
 import type { BananaMachine as Simulation, BananaMachineSettings as Settings, Inspection, Motion } from '../../types.d.ts';
@@ -261,13 +261,14 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     const { config } = this.currentViewModel;
     const { poses, twists, executed } = this.simulation as Simulation;
     return {
-      description: this.#planeDescription,
       settings: config,
       columns: { 'x_m y_m theta_rad': poses, 'xi_along_m xi_lateral_m xi_heading_rad': twists, [EXECUTED_COLUMNS[config.model]]: executed },
     };
   }
 
   announcementOf = captionOf;
+
+  describePicture = ({ config }: ViewModel) => [this.#planeTitle, describeCommand(config.command)];
 
   snapshot() {
     return { ...super.snapshot(), alphas: ((this.settings.isViewModelStale && this.simulation) || this.viewModel).alphasOfModels };
@@ -349,21 +350,13 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     return morph === 0 ? floorTitleOf(this.viewModel) : morph === 1 ? words.banana.morph.arrived : words.banana.morph.title;
   }
 
-  get #planeDescription() {
-    const { overlays } = this.settings.elementState as { overlays: (typeof OVERLAY_NAMES)[number][] };
-    const drawnOutlineNames = overlays.filter((name) => hasLength(this.viewModel.contours[name]));
-    return describePlane(this.viewModel, drawnOutlineNames.map((name) => words.banana.overlays[name]), this.settings.elementState.morph);
-  }
-
   renderContent(viewModel: ViewModel) {
     const { config, note } = viewModel;
     const texts = words.banana;
     return html`
       <div class="views">
-        ${titledPictureHtml(this.#planeTitle, html`<div class="stage" part="picture">
-          ${pictureCanvasHtml(this, this.#planePicture, this.#planeDescription)} ${this.#handleHtml(config.command)}
-        </div>`)}
-        ${titledPictureHtml(texts.twist, html`<div class="stage">${pictureCanvasHtml(this, this.#twistPicture, describeTwists(viewModel))}</div>`, 'twist')}
+        ${pictureHtml(this, this.#planePicture, this.#planeTitle, { handles: this.#handleHtml(config.command) })}
+        ${pictureHtml(this, this.#twistPicture, texts.twist, { className: 'twist', description: twistCaptionOf(viewModel) })}
       </div>
       ${this.renderer.renderAfterFirstPicture(() => html`
       <div class="morphing">

@@ -31,13 +31,7 @@ export const de: typeof import('./en.ts').en = {
     backwards: 'Die Odometrie liest Rückwärtsfahren als zwei halbe Drehungen und berechnet für beide Rauschen.',
     line: 'Nur ein Rauschen versetzt die Roboter: Sie liegen auf einer Linie, und ein Umriss ohne Fläche enthält keinen Anteil.',
   },
-  between: (share, command) => `${share} des Weges vom Boden zu Exponentialkoordinaten. Befohlen: ${command}.`,
-  plane: (command) => `Der Boden von oben, x nach rechts und y nach oben. Befohlen: ${command}.`,
-  drawnOver: (overlays) => `Darüber gezeichnet: ${overlays}.`,
   noRobots: 'Noch keine Roboter.',
-  mean: (robots, x, y) => `${robots} Roboter halten um x ${x} m, y ${y} m.`,
-  onePlace: (robots, x, y) => `Alle ${robots} halten an einer Stelle, x ${x} m, y ${y} m.`,
-  spread: (x, y) => `Standardabweichungen ${x} m in x und ${y} m in y.`,
   bend: {
     unsure: (skew, exactly) => `Zu wenige Roboter, um die Neigung zu zeigen: Schiefe ${skew}, genau ${exactly}.`,
     hardly: (skew, exactly) => `Beide Seiten sind fast gleich: Schiefe ${skew}, genau ${exactly}.`,
@@ -58,10 +52,6 @@ export const de: typeof import('./en.ts').en = {
     turned: 'fast eine Gauß-Verteilung. Daran hindert sie γ̂, das den Roboter nach seinem Bogen dreht.',
     exact: 'genau eine Gauß-Verteilung, deren Umriss eine Ellipse ist.',
   },
-  twistAxes: 'ξ längs nach rechts und ξ Richtung nach oben',
-  twistMoments: (along, heading, deviationAlong, deviationHeading, share) =>
-    `Mittelwerte ${along} m und ${heading} rad, Standardabweichungen ${deviationAlong} m und ${deviationHeading} rad.` +
-    (share && ` ${share} liegen in der 2σ-Ellipse.`),
   axisAlong: 'ξ längs (m)',
   axisHeading: 'ξ Richtung (rad)',
   morph: {

@@ -33,13 +33,7 @@ export const en = {
     backwards: 'Odometry reads backing up as two half turns, and the table charges noise for both.',
     line: 'Only one noise moves the robots: they lie on a line, and an outline without area holds no share of them.',
   },
-  between: (share, command) => `${share} of the way from the floor to exponential coordinates. Commanded: ${command}.`,
-  plane: (command) => `View of the floor from above, x to the right and y up. Commanded: ${command}.`,
-  drawnOver: (overlays) => `Drawn over it: ${overlays}.`,
   noRobots: 'No robots yet.',
-  mean: (robots, x, y) => `${robots} robots end around x ${x} m, y ${y} m.`,
-  onePlace: (robots, x, y) => `All ${robots} end at one place, x ${x} m, y ${y} m.`,
-  spread: (x, y) => `Standard deviations ${x} m in x and ${y} m in y.`,
   bend: {
     unsure: (skew, exactly) => `Too few robots to show the lean: skew ${skew}, exactly ${exactly}.`,
     hardly: (skew, exactly) => `Both sides are nearly alike: skew ${skew}, exactly ${exactly}.`,
@@ -61,10 +55,6 @@ export const en = {
     turned: 'nearly a Gaussian. What keeps it from being one is γ̂, which turns a robot after its arc.',
     exact: 'exactly a Gaussian, whose outline is an ellipse.',
   },
-  twistAxes: 'ξ along to the right and ξ heading up',
-  twistMoments: (along, heading, deviationAlong, deviationHeading, share) =>
-    `Mean ${along} m and ${heading} rad, standard deviations ${deviationAlong} m and ${deviationHeading} rad.` +
-    (share && ` ${share} lie inside the 2σ ellipse.`),
   axisAlong: 'ξ along (m)',
   axisHeading: 'ξ heading (rad)',
   morph: {

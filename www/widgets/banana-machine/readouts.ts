@@ -6,30 +6,12 @@ import { formatMarkup } from '../../ui/controls.ts';
 import { formatInteger, formatFixed, formatPercent, formatWithError, NO_VALUE, formatSignificant } from '../../ui/format.ts';
 import { tableHtml, readoutsHtml } from '../../ui/readouts.ts';
 import { sampleFieldHtml } from '../shared/cloud.ts';
-import { formatCommand } from '../shared/sliders.ts';
 import { en } from './en.ts';
-import { stdOfVariance, spreadKindOf, type ViewModel } from './settings.ts';
+import { stdOfVariance, type ViewModel } from './settings.ts';
 import type { Callout } from '../../scene/labels.ts';
 import type { Inspection, Moments } from '../../types.d.ts';
 
 addEnglishMessages({ banana: en });
-
-/** Returns the text equivalent of the view of the floor, with the names of the outlines that are shown. */
-export function describePlane(viewModel: ViewModel, overlays: string[], morph: number) {
-  const { config, stats, table, note } = viewModel;
-  const { plane, between, noRobots, mean, onePlace, spread, drawnOver } = words.banana;
-  const commandPhrase = formatCommand(config.command);
-  const planeSentences = [morph === 0 ? plane(commandPhrase) : between(formatPercent(morph), commandPhrase)];
-  if (stats.n === 0) planeSentences.push(noRobots);
-  else {
-    const { mean: centre, cov } = stats.cartesian;
-    planeSentences.push((spreadKindOf(table) === 'cloud' ? mean : onePlace)(formatInteger(stats.n), formatFixed(centre[0], 2), formatFixed(centre[1], 2)));
-    if (note) planeSentences.push(note);
-    else planeSentences.push(spread(formatDeviation(cov[0][0]), formatDeviation(cov[1][1])), bendText(viewModel));
-  }
-  if (overlays.length) planeSentences.push(drawnOver(overlays.join(', ')));
-  return planeSentences.filter(Boolean).join(' ');
-}
 
 function formatDeviation(variance: number) {
   return formatFixed(stdOfVariance(variance), 2);
@@ -98,17 +80,6 @@ export function twistCaptionOf({ config: { model, noise, alphas, isolate }, note
   const hasFinalTurn = alphas.some((alpha, i) => i >= 4 && alpha > 0 && (isolate === null || isolate === i + 1));
   const captionKind = model === 'odometry' ? model : noise === 'triangular' ? noise : hasFinalTurn ? 'turned' : 'exact';
   return `${twist}: ${twistIs[captionKind]}`;
-}
-
-export function describeTwists({ stats: { n, exponential, coverage } }: ViewModel) {
-  const { mean, cov } = exponential;
-  const { twist, twistAxes, robotsHere, twistMoments } = words.banana;
-  const textStart = `${twist}, ${twistAxes}.`;
-  if (n < 2) return `${textStart} ${robotsHere(formatInteger(n))}.`;
-  const [along, heading] = [formatFixed(mean[0], 2), formatFixed(mean[2], 2)];
-  const [alongDeviation, headingDeviation] = [formatDeviation(cov[0][0]), formatDeviation(cov[2][2])];
-  const coverageText = Number.isNaN(coverage.exponential) ? '' : formatPercent(coverage.exponential);
-  return `${textStart} ${twistMoments(along, heading, alongDeviation, headingDeviation, coverageText)}`;
 }
 
 /** Fraction of a Gaussian in the plane inside its 2σ ellipse, 1 − e⁻². */

@@ -98,7 +98,7 @@ export function stdOfVariance(variance: number) {
 }
 
 /** Returns the kind of spread according to the exact covariance: one pose, one position with many headings, or a cloud. */
-export function spreadKindOf({ exact: { cov } }: Table): 'point' | 'headings' | 'cloud' {
+function spreadKindOf({ exact: { cov } }: Table): 'point' | 'headings' | 'cloud' {
   if (stdOfVariance(Math.max(cov[0][0], cov[1][1])) > MIN_SPREAD) return 'cloud';
   return stdOfVariance(cov[2][2]) > MIN_SPREAD ? 'headings' : 'point';
 }

@@ -1,7 +1,5 @@
 /** Dead Reckoning in German; see messages/en.ts. */
 
-const stepsOf = (steps: string) => (steps === '1' ? '1 Schritt' : `${steps} Schritte`);
-
 export const de: typeof import('./en.ts').en = {
   title: 'Koppelnavigation',
   presets: { chapter: '20 Schritte (Kapitel)', doubled: 'Richtungs-σ verdoppelt', fine: '200 Schritte', straight: 'Geradeaus' },
@@ -50,10 +48,6 @@ export const de: typeof import('./en.ts').en = {
     lost: 'Die vierte Ordnung lässt keine Kovarianz übrig: zu viel Rauschen für eine Reihe.',
     few: 'Zu wenige Roboter für 5 %: Die Bänder sind breiter.',
   },
-  plane: (command, steps, robots, step, x, y, recursion) =>
-    `Der Boden von oben, x nach rechts und y nach oben. ${robots} Roboter ${robots === '1' ? 'fährt' : 'fahren'} ${stepsOf(steps)} mit ${command}. Wolken wachsen den Weg entlang; nach Schritt ${step} ist der Befehl bei x ${x} m, y ${y} m. Umrisse nach der Rekursion: ${recursion}.`,
-  stepText: (step, measured, predicted) =>
-    `Schritt ${step} in Exponentialkoordinaten, ξ längs nach rechts und ξ quer nach oben. Standardabweichungen gemessen ${measured[0]} m und ${measured[1]} m, vorhergesagt ${predicted[0]} m und ${predicted[1]} m.`,
   misses: {
     caption: 'Schritte, bei denen vorhergesagte und gemessene Varianz um mehr als 5 % auseinanderliegen, und der Unterschied nach dem letzten',
     component: 'Komponente',

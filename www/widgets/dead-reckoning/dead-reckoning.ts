@@ -1,7 +1,7 @@
 /** <dead-reckoning>: one command driven step after step, and how well its growing uncertainty is predicted. */
 
 import { html, css } from 'lit';
-import { pictureCanvasHtml, settingRadiosHtml, disclosuresHtml, titledPictureHtml, settingSliderHtml, settingSlidersHtml, legendHtml } from '../../figure/controls.ts';
+import { pictureHtml, settingRadiosHtml, disclosuresHtml, panelHtml, settingSliderHtml, settingSlidersHtml, legendHtml } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { defineElement } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
@@ -10,8 +10,9 @@ import { fieldsetHtml } from '../../ui/controls.ts';
 import { formatFixed } from '../../ui/format.ts';
 import { Cloud, cloudControlsHtml, cloudProperties } from '../shared/cloud.ts';
 import { presetButtonsHtml } from '../shared/controls.ts';
+import { describeCommand } from '../shared/sliders.ts';
 import { PathPicture, StepPicture } from './pictures.ts';
-import { headlineHtml, markedRobotFieldHtml, missTableHtml, ratioPlotHtml, straightGrowthPlotHtml, captionOf, describePlane, describeStep } from './readouts.ts';
+import { headlineHtml, markedRobotFieldHtml, missTableHtml, ratioPlotHtml, straightGrowthPlotHtml, captionOf } from './readouts.ts';
 import { CURVE_STYLES, OUTLINE_STYLES, RECURSIONS, definition, COMMAND_SLIDERS, NOISE_SLIDERS, SAMPLE_COUNTS, COMPONENTS, viewModelOf, type ViewModel } from './settings.ts';
 import type { StateValues } from '../../figure/settings.ts';
 import type { DeadReckoning as Simulation, Motion } from '../../types.d.ts';
@@ -156,7 +157,6 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
     const { config } = this.currentViewModel;
     const { measured, relativeErrors, predicted } = this.simulation as Simulation;
     return {
-      description: describePlane(this.viewModel),
       settings: config,
       columns: {
         step: Array.from({ length: config.steps }, (_, i) => i + 1),
@@ -166,6 +166,8 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
       },
     };
   }
+
+  describePicture = ({ config: { command, steps } }: ViewModel) => [words.reckoning.floor, `${describeCommand(command)}; ${words.reckoning.settings.steps.name}: ${steps}`];
 
   announcementOf = (viewModel: ViewModel) => captionOf(viewModel, this.settings.elementState.overlays);
 
@@ -181,14 +183,13 @@ export class DeadReckoningElement extends FigureElement<Simulation, ViewModel> {
     const texts = words.reckoning;
     return html`
       <div class="views">
-        ${titledPictureHtml(texts.chart, html`<div class="chart">${ratioPlotHtml(this, viewModel)}</div> ${legendHtml(this, CURVE_STYLES)}`, 'ratios')}
+        ${panelHtml(texts.chart, html`<div class="chart">${ratioPlotHtml(this, viewModel)}</div> ${legendHtml(this, CURVE_STYLES)}`, 'ratios')}
         <div class="summary">
           ${headlineHtml(viewModel, overlays)}
           <p part="caption" class="caption ${condition !== 'certain' && 'note'}">${captionOf(viewModel, overlays)}</p>
           ${settingRadiosHtml(this, 'compounding', texts.recursions)}
         </div>
-        ${titledPictureHtml(texts.floor, html`<div class="stage" part="picture">${pictureCanvasHtml(this, this.#floorPicture, describePlane(viewModel))}</div>`, 'floor')}
-        ${titledPictureHtml(texts.atStepTitle(step), html`<div class="stage">${pictureCanvasHtml(this, this.#stepPicture, describeStep(viewModel))}</div>`, 'step')}
+        ${pictureHtml(this, this.#floorPicture, texts.floor, { className: 'floor' })} ${pictureHtml(this, this.#stepPicture, texts.atStepTitle(step), { className: 'step' })}
       </div>
       ${this.renderer.renderAfterFirstPicture(() => html`
       ${legendHtml(this, OUTLINE_STYLES)} ${presetButtonsHtml(this)} 

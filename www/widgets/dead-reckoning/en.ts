@@ -52,10 +52,6 @@ export const en = {
     lost: 'The fourth order has left no covariance: too much noise for a series.',
     few: 'Too few robots to tell 5 %: the bands are wider than that.',
   },
-  plane: (command, steps, robots, step, x, y, recursion) =>
-    `View of the floor from above, x to the right and y up. ${formatCount(robots, 'robot')} ${robots === '1' ? 'drives' : 'drive'} ${formatCount(steps, 'step')} of ${command}. Clouds grow along the path; after step ${step} the command is at x ${x} m, y ${y} m. Outlines by the recursion: ${recursion}.`,
-  stepText: (step, measured, predicted) =>
-    `Step ${step} in exponential coordinates, ξ along to the right and ξ lateral up. Standard deviations measured ${measured[0]} m and ${measured[1]} m, predicted ${predicted[0]} m and ${predicted[1]} m.`,
   misses: {
     caption: 'Steps at which predicted and measured variance differ by more than 5 %, and the difference after the last step',
     component: 'component',

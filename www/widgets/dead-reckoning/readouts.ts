@@ -8,7 +8,6 @@ import { NO_VALUE, formatInteger, formatFixed, formatWithError, formatSignifican
 import { plotHtml, type Role } from '../../ui/plot.ts';
 import { tableHtml, readoutsHtml } from '../../ui/readouts.ts';
 import { sampleFieldHtml } from '../shared/cloud.ts';
-import { formatCommand } from '../shared/sliders.ts';
 import { en } from './en.ts';
 import { COMPONENTS, CURVE_STYLES, RECURSIONS, type ViewModel } from './settings.ts';
 import type { Misses } from '../../types.d.ts';
@@ -62,18 +61,6 @@ function formatRatio({ config: { step, compounding }, curves }: ViewModel, overl
     return `${texts.overlays[name]} ${formatWithError(ratio[step - 1], error[step - 1], 2)}`;
   });
   return texts.ratioText(texts.recursions[compounding], String(step), ratioTexts.join(', '));
-}
-
-export function describePlane({ config, shown, pose }: ViewModel) {
-  const { command, steps, step, compounding } = config;
-  const texts = words.reckoning;
-  return texts.plane(formatCommand(command), String(steps), formatInteger(shown), String(step), formatFixed(pose[0], 2), formatFixed(pose[1], 2), texts.recursions[compounding]);
-}
-
-export function describeStep({ config: { step, compounding }, stats: { measured, predicted } }: ViewModel) {
-  const texts = words.reckoning;
-  const planeDeviationsOf = (cov: number[][] | null) => [0, 1].map((axis) => formatFixed(Math.sqrt(cov?.[axis][axis] ?? NaN), 4));
-  return texts.stepText(String(step), planeDeviationsOf(measured.cov), planeDeviationsOf(predicted[compounding]));
 }
 
 /** Allowed heights of the plot, so that its axis does not change with every step of a drag. */

@@ -60,9 +60,6 @@ export const de: typeof import('./en.ts').en = {
   edited: 'Geänderte Wohnung',
   pasted: 'Eingegebener Plan',
   mapText: (name, width, height, walls) => `${name}: ${width} m × ${height} m, ${walls} ${walls === '1' ? 'Wand' : 'Wände'}`,
-  picture: (map) => `Grundriss von oben, x nach rechts und y nach oben. ${map}.`,
-  robotAt: (x, y, theta, command) =>
-    `Der Roboter steht bei x ${x} m, y ${y} m, Richtung ${theta} rad. Befohlen: ${command}.`,
   throughThisWall: 'durch diese Wand',
   handles: { start: ['Roboter', 'Richtung des Roboters'] },
   walls: {

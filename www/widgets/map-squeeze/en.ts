@@ -62,9 +62,6 @@ export const en = {
   edited: 'Edited apartment',
   pasted: 'Pasted plan',
   mapText: (name, width, height, walls) => `${name}: ${width} m × ${height} m, ${formatCount(walls, 'wall')}`,
-  picture: (map) => `Floor plan from above, x to the right and y up. ${map}.`,
-  robotAt: (x, y, theta, command) =>
-    `The robot stands at x ${x} m, y ${y} m, heading ${theta} rad. Commanded: ${command}.`,
   throughThisWall: 'through this wall',
   handles: { start: ['Robot', 'Heading of the robot'] },
   walls: {

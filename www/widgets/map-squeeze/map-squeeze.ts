@@ -2,7 +2,7 @@
 
 import { html, nothing, css } from 'lit';
 import { instantiate } from '../../core.ts';
-import { pictureCanvasHtml, disclosuresHtml, titledPictureHtml, settingCheckboxHtml, settingRadiosHtml, settingSliderHtml, settingSlidersHtml, legendHtml } from '../../figure/controls.ts';
+import { pictureHtml, disclosuresHtml, settingCheckboxHtml, settingRadiosHtml, settingSliderHtml, settingSlidersHtml, legendHtml } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { defineElement } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
@@ -13,7 +13,8 @@ import { Cloud, cloudControlsHtml, cloudProperties, sampleFieldHtml } from '../s
 import { FileOpener } from '../shared/files.ts';
 import { PoseHandles } from '../shared/robot.ts';
 import { presetButtonsHtml, startOverButtonHtml } from '../shared/controls.ts';
-import { measureCosts, overviewMapHtml, costTableHtml, tallyReadoutsHtml, captionOf, headlineOf, describeMap, describePicture, explainVerdict } from './readouts.ts';
+import { describeCommand } from '../shared/sliders.ts';
+import { measureCosts, overviewMapHtml, costTableHtml, tallyReadoutsHtml, captionOf, headlineOf, describeMap, explainVerdict } from './readouts.ts';
 import { applyMap, gridOf, mapDataOf } from './maps/data.ts';
 import { FloorPicture } from './picture.ts';
 import { LINE_STYLES, OPENING_POSE, PRESET_SETTING, definition, COMMAND_SLIDERS, MAX_SAMPLES, SAMPLE_COUNTS, outcomeIndexOf, viewModelOf, type ViewModel } from './settings.ts';
@@ -329,7 +330,6 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   get exportData() {
     const { config, poses, verdicts } = this.currentViewModel;
     return {
-      description: this.#description,
       settings: { map: this.map?.name ?? null, ...config },
       columns: {
         'x_m y_m theta_rad': poses,
@@ -341,6 +341,8 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
   }
 
   announcementOf = captionOf;
+
+  describePicture = ({ config }: ViewModel) => [words.squeeze.floor, this.#mapText, describeCommand(config.command)];
 
   placeHandles({ config }: ViewModel) {
     this.#handles.place(config, config.clearance);
@@ -452,10 +454,6 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     return describeMap(this.map ? this.map.name || pasted : apartment, this.picture.plan);
   }
 
-  get #description() {
-    return describePicture(this.viewModel, this.#mapText);
-  }
-
   renderContent(viewModel: ViewModel) {
     const { posesByOutcome, stats, note, verdicts, config } = viewModel;
     const { isSelectionShown, selectedIndex } = this.cloud;
@@ -464,12 +462,10 @@ export class MapSqueezeElement extends FigureElement<Simulation, ViewModel> {
     const { unknown, ...markStyles } = LINE_STYLES;
     return html`
       <div class="views">
-        ${titledPictureHtml(floor, html`<div class="stage" part="picture">
-            ${pictureCanvasHtml(this, this.picture, this.#description)}
-            ${this.renderer.renderAfterFirstPicture(() => this.#wallHandles.render())}
-            ${this.#handles.render()}
-          </div>
-          ${this.renderer.renderAfterFirstPicture(() => legendHtml(this, hasUnknown ? { ...markStyles, unknown } : markStyles))}`)}
+        ${pictureHtml(this, this.picture, floor, {
+          handles: html`${this.renderer.renderAfterFirstPicture(() => this.#wallHandles.render())} ${this.#handles.render()}`,
+          below: this.renderer.renderAfterFirstPicture(() => legendHtml(this, hasUnknown ? { ...markStyles, unknown } : markStyles)),
+        })}
         ${this.renderer.renderAfterFirstPicture(() => html`<div class="aside">
           <div class="result">
             <p class="headline">${headlineOf(stats)}</p>

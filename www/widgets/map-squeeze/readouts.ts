@@ -6,7 +6,6 @@ import { verdict as bits, limits } from '../../../build/settings.js';
 import { buttonHtml } from '../../ui/controls.ts';
 import { formatInteger, formatFixed, formatPercent, formatRounded } from '../../ui/format.ts';
 import { tableHtml, readoutsHtml } from '../../ui/readouts.ts';
-import { formatCommand } from '../shared/sliders.ts';
 import { en } from './en.ts';
 import { formatThroughWallRate, SAMPLERS, type ViewModel } from './settings.ts';
 import type { MapSqueeze, Plan, SamplerName, MapSqueezeSettings as Settings, SqueezeStats as Stats } from '../../types.d.ts';
@@ -49,13 +48,6 @@ export function captionOf({ config: { conditioned, sampler }, stats, note }: Vie
 export function describeMap(name: string, { bounds, walls }: Plan) {
   const [left, bottom, right, top] = bounds;
   return words.squeeze.mapText(name, formatFixed(right - left, 1), formatFixed(top - bottom, 1), formatInteger(walls.length / 4));
-}
-
-/** Returns the text equivalent of the picture, with the map as `describeMap` has it. */
-export function describePicture(viewModel: ViewModel, map: string) {
-  const { start: { x, y, theta }, command } = viewModel.config;
-  const texts = words.squeeze;
-  return [texts.picture(map), texts.robotAt(formatFixed(x, 2), formatFixed(y, 2), formatFixed(theta, 2), formatCommand(command)), captionOf(viewModel)].join(' ');
 }
 
 export function tallyReadoutsHtml({ stats, paths: { length: paths } }: ViewModel) {

@@ -77,10 +77,5 @@ export const de: typeof import('./en.ts').en = {
     here: 'gemessen',
     caption: 'Die Drehungen wie gemessen. Der Punkt ist der der Ausgänge, mit seinem Standardfehler.',
   },
-  picture: (rot1, trans, rot2, x, y) =>
-    `Der Boden von oben, im Koordinatensystem der Odometrie, x nach rechts und y nach oben. Die Messung: eine erste Drehung um ${rot1} rad, eine Fahrt von ${trans} m, eine zweite Drehung um ${rot2} rad, nach x ${x} m, y ${y} m.`,
-  outcomes: (count, across, heading) => `${count} Ausgänge streuen um ${across} m quer zum Weg und um ${heading} rad in ihrer Richtung.`,
-  none: 'Noch ist kein Ausgang gezogen.',
-  worldPicture: (x, y, theta, distance) =>
-    `Die Welt von oben. Das Koordinatensystem der Odometrie ist nach x ${x} m, y ${y} m, Richtung ${theta} rad gedriftet. Der Roboter und seine vorhergesagten Ausgänge sind, wo sie waren, ${distance} m von der Pose der Odometrie.`,
+  reading: (rot1, trans, rot2) => `Die Messung: eine erste Drehung um ${rot1} rad, eine Fahrt von ${trans} m, eine zweite Drehung um ${rot2} rad`,
 };

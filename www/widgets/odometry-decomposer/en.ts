@@ -77,10 +77,5 @@ export const en = {
     here: 'read',
     caption: 'The rotations as they were read. The point is that of the outcomes, with its standard error.',
   },
-  picture: (rot1, trans, rot2, x, y) =>
-    `Floor from above, in the frame of the odometry, x to the right and y up. The reading: a first rotation by ${rot1} rad, a drive of ${trans} m, a second rotation by ${rot2} rad, to x ${x} m, y ${y} m.`,
-  outcomes: (count, across, heading) => `${count} outcomes spread by ${across} m across the path and by ${heading} rad in their heading.`,
-  none: 'No outcome has been drawn yet.',
-  worldPicture: (x, y, theta, distance) =>
-    `The world from above. The frame of the odometry has drifted to x ${x} m, y ${y} m, heading ${theta} rad. The robot and its predicted outcomes are where they were, ${distance} m from the odometry’s own pose.`,
+  reading: (rot1, trans, rot2) => `The reading: a first rotation by ${rot1} rad, a drive of ${trans} m, a second rotation by ${rot2} rad`,
 } satisfies import('../../messages/registry.ts').Message;

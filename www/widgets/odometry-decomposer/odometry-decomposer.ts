@@ -1,7 +1,7 @@
 /** <odometry-decomposer>: an odometry reading as rotate, drive, rotate, and the noise that localizers add to it. */
 
 import { html, css } from 'lit';
-import { pictureCanvasHtml, disclosuresHtml, titledPictureHtml, settingRadiosHtml, settingSliderHtml, settingSlidersHtml, legendHtml } from '../../figure/controls.ts';
+import { pictureHtml, disclosuresHtml, settingRadiosHtml, settingSliderHtml, settingSlidersHtml, legendHtml } from '../../figure/controls.ts';
 import { FigureElement } from '../../figure/figure.ts';
 import { defineElement } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
@@ -13,7 +13,7 @@ import { Cloud, cloudControlsHtml, cloudProperties } from '../shared/cloud.ts';
 import { Player, presetButtonsHtml } from '../shared/controls.ts';
 import { PoseHandles } from '../shared/robot.ts';
 import { LegsPicture, ROBOT_RADIUS, WorldPicture } from './pictures.ts';
-import { headlineHtml, outcomeReadoutsHtml, spreadPlotHtml, driftDistanceOf, captionOf, describeLegs, describeWorld } from './readouts.ts';
+import { headlineHtml, outcomeReadoutsHtml, spreadPlotHtml, driftDistanceOf, captionOf } from './readouts.ts';
 import { LINE_STYLES, definition, sliderSpecs, NOISE_SLIDERS, SAMPLE_COUNTS, viewModelOf, type ViewModel } from './settings.ts';
 import type { Motion, OdometryDecomposer as Simulation } from '../../types.d.ts';
 
@@ -172,13 +172,14 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
   get exportData() {
     const { config, poses } = this.currentViewModel;
     return {
-      description: describeLegs(this.viewModel),
       settings: config,
       columns: { 'x_m y_m theta_rad': poses },
     };
   }
 
   announcementOf = captionOf;
+
+  describePicture = ({ legs: { rot1, trans, rot2 } }: ViewModel) => [words.decomposer.legsTitle, words.decomposer.reading(formatFixed(rot1, 2), formatFixed(trans, 2), formatFixed(rot2, 2))];
 
   placeHandles({ config }: ViewModel) {
     for (const handles of this.#handles) handles.place(config, ROBOT_RADIUS);
@@ -188,10 +189,8 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
     const texts = words.decomposer;
     return html`
       <div class="views">
-        ${titledPictureHtml(texts.legsTitle, html`<div class="stage" part="picture">
-          ${pictureCanvasHtml(this, this.#legsPicture, describeLegs(viewModel))} ${this.#handles.map((handle) => handle.render())}
-        </div>`, 'legs')}
-        ${titledPictureHtml(texts.worldTitle, html`<div class="stage">${pictureCanvasHtml(this, this.#worldPicture, describeWorld(viewModel))}</div>`)}
+        ${pictureHtml(this, this.#legsPicture, texts.legsTitle, { className: 'legs', handles: this.#handles.map((handle) => handle.render()) })}
+        ${pictureHtml(this, this.#worldPicture, texts.worldTitle)}
         ${this.renderer.renderAfterFirstPicture(() => html`
         <div class="summary">${headlineHtml(viewModel)} <p class="caption" part="caption">${captionOf(viewModel)}</p></div>
         <p class="caption">${formatMarkup(texts.worldCaption(formatFixed(driftDistanceOf(viewModel), 2)))}</p>`)}

@@ -3,7 +3,7 @@
 import { html } from 'lit';
 import { addEnglishMessages, words } from '../../messages/registry.ts';
 import { formatMarkup } from '../../ui/controls.ts';
-import { formatInteger, formatFixed, NO_VALUE, formatRounded, formatWithError } from '../../ui/format.ts';
+import { formatFixed, NO_VALUE, formatRounded, formatWithError } from '../../ui/format.ts';
 import { plotHtml } from '../../ui/plot.ts';
 import { readoutsHtml } from '../../ui/readouts.ts';
 import { en } from './en.ts';
@@ -34,18 +34,6 @@ export function captionOf({ config: { rule, alphas }, rules, legs, deviations, s
 export function driftDistanceOf({ drifted, linkage }: ViewModel) {
   const [odometryPose, predictedPose] = [poseAt(drifted.poses, 2), poseAt(linkage, 3)];
   return Math.hypot(odometryPose.x - predictedPose.x, odometryPose.y - predictedPose.y);
-}
-
-export function describeLegs(viewModel: ViewModel) {
-  const { legs: { rot1, trans, rot2 }, config: { to }, stats } = viewModel;
-  const texts = words.decomposer;
-  const outcomesText = stats.n === 0 ? texts.none : texts.outcomes(formatInteger(stats.n), formatFixed(stats.crossTrack, 2), formatFixed(stats.heading, 2));
-  return `${texts.picture(formatFixed(rot1, 2), formatFixed(trans, 2), formatFixed(rot2, 2), formatFixed(to.x, 2), formatFixed(to.y, 2))} ${outcomesText} ${captionOf(viewModel)}`;
-}
-
-export function describeWorld(viewModel: ViewModel) {
-  const { x, y, theta } = poseAt(viewModel.drifted.poses, 0);
-  return words.decomposer.worldPicture(formatFixed(x, 2), formatFixed(y, 2), formatFixed(theta, 2), formatFixed(driftDistanceOf(viewModel), 2));
 }
 
 const formatMetres = (value: number) => `${formatFixed(value, 3)} m`;

@@ -1,5 +1,6 @@
 /** Sliders of the velocity command and of the noise parameters (α's) of a motion model, and the command in words. */
 
+import { words } from '../../messages/registry.ts';
 import { formatFixed } from '../../ui/format.ts';
 
 /** Dash of the commanded path, CSS pixels. */
@@ -14,8 +15,8 @@ export const createCommandSliderSpecs = (maxDuration: number) => ({
   dt: { ...SPEED_SLIDER, symbol: '*Δt*', min: 0.1, max: maxDuration, step: 0.05 },
 });
 
-export function formatCommand({ v, omega, dt }: import('../../types.d.ts').Command) {
-  return `v = ${formatFixed(v, 2)} m/s, ω = ${formatFixed(omega, 2)} rad/s, Δt = ${formatFixed(dt, 2)} s`;
+export function describeCommand({ v, omega, dt }: import('../../types.d.ts').Command) {
+  return `${words.command}: v = ${formatFixed(v, 2)} m/s, ω = ${formatFixed(omega, 2)} rad/s, Δt = ${formatFixed(dt, 2)} s`;
 }
 
 /** Returns the subscript of an α, counted from 0. */

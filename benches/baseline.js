@@ -10,7 +10,7 @@
  * @typedef {import('./scene.js').Picture} Picture
  */
 
-/** Names of the sums of the first pass, in order: x, y, length, lateral, turn, sine and cosine of the turn, and products. */
+/** Keys of the sums over all samples, in order: x, y, length, lateral offset, turn, sine and cosine of the turn, and products. */
 const MEAN_KEYS = ['x', 'y', 'l', 'm', 't', 's', 'c', 'xx', 'xy', 'yy', 'xt', 'yt', 'tt', 'll', 'lm', 'mm', 'lt', 'mt'];
 
 export class Baseline {
@@ -58,7 +58,7 @@ export class Baseline {
       const l00 = Math.sqrt(covMatrix[0][0]);
       const l10 = covMatrix[0][secondIndex] / l00;
       const l11 = Math.sqrt(covMatrix[secondIndex][secondIndex] - l10 * l10);
-      // The factors scale two standard deviations to length 1.
+      // The whitening factors map the ellipse of two standard deviations to the unit circle.
       return [0.5 / l00, (-0.5 * l10) / (l00 * l11), 0.5 / l11];
     };
     const cloudCentre = [means.x, means.y, means.l, means.t];
@@ -80,7 +80,7 @@ export class Baseline {
     };
   }
 
-  /** Paints the pixels by a table of the colours of all counts. @param {Uint8Array} colourRamp @param {number} maxCount */
+  /** Paints each pixel in the colour of its number of samples. @param {Uint8Array} colourRamp @param {number} maxCount */
   #paint(colourRamp, maxCount) {
     const { counts, pixels } = this;
     const colours = new Uint32Array(colourRamp.buffer, colourRamp.byteOffset, 256);
@@ -91,7 +91,7 @@ export class Baseline {
 }
 
 /**
- * Moves every sample and adds up its moments. This is the first pass.
+ * First pass: computes the motion of every sample, and adds up the moments.
  *
  * @param {Float64Array} unitNoise
  * @param {Float64Array} cloud is filled
@@ -147,8 +147,7 @@ function driveBaselineCloud(unitNoise, cloud, commandVector, noiseStds, noiseFre
 }
 
 /**
- * Counts the samples in both contours and in the cells of the picture, and adds up central moments across the mean heading. This is the
- * second pass.
+ * Second pass: counts the samples in both contours and in the cells of the picture, and adds up central moments across the mean heading.
  *
  * @param {Float64Array} cloud
  * @param {Uint32Array} counts are added to

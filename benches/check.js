@@ -29,7 +29,7 @@ export function differencesFromCore(core, sampleCount) {
 }
 
 /**
- * Returns the standard normal noise of a simulation's samples: executed command minus given command, over the deviations of the model.
+ * Returns the standard normal noise of a simulation's samples: executed minus given command, divided by the model's standard deviations.
  *
  * @param {import('../www/types.d.ts').BananaMachine} simulation
  */
@@ -41,6 +41,6 @@ export function unitNoiseOf({ config: { command: { v, omega }, alphas: [a1, a2, 
 /** Returns the numbers of the baseline that differ from those of the core, with their paths. @param {any} baselineValue @param {any} coreValue @param {string[]} parentKeys @returns {string[]} */
 function differingNumbers(baselineValue, coreValue, ...parentKeys) {
   if (typeof baselineValue === 'object') return Object.entries(baselineValue).flatMap(([key, member]) => differingNumbers(member, coreValue[key], ...parentKeys, key));
-  // A difference that is NaN is reported too.
+  // The condition is false for NaN, so that a difference of NaN is reported too.
   return Math.abs(baselineValue - coreValue) <= MAX_DIFFERENCE ? [] : [`${parentKeys.join('.')}: ${baselineValue}, core ${coreValue}`];
 }

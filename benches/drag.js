@@ -65,7 +65,7 @@ async function timeDrag({ widget, selector, i, steps }) {
     pictureCount++;
     clearRect.apply(this, rectangleSides);
   };
-  /** Returns the time at which the page has finished the current frame. At that time it reads the first message after the frame. @returns {Promise<number>} */
+  /** Returns the time at which the current frame is finished. The page receives a message to itself only then. @returns {Promise<number>} */
   const waitForFrameEnd = () =>
     new Promise((resolve) => {
       const { port1, port2 } = new MessageChannel();

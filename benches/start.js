@@ -4,7 +4,7 @@
  * @module
  */
 
-/** Stage that ends with each mark, in order. */
+/** Stages of the start. The key of a stage is the performance mark that is set at its end. */
 const STAGE_OF_MARK = /** @type {const} */ ({
   evaluated: 'the script is evaluated',
   drawn: 'module, simulation, first rendering, first samples drawn',
@@ -54,7 +54,7 @@ function markStages() {
       if (!(canvasRoot instanceof ShadowRoot) || canvasRoot.host.localName !== 'banana-machine') return;
       if ((methodName === 'arc' && ++dotCount < DOTS_OF_CLOUD) || performance.getEntriesByName('drawn').length > 0) return;
       performance.mark('drawn');
-      // The message is read after the current frame was handed to the screen.
+      // The page receives a message to itself after the current frame was handed to the screen.
       const { port1, port2 } = new MessageChannel();
       port1.onmessage = () => performance.mark('shown');
       port2.postMessage(undefined);

@@ -12,7 +12,7 @@ import { raceContenders } from './timing.js';
 /** @typedef {import('../www/types.d.ts').Motion} Motion */
 
 /**
- * @typedef {object} Timings ms, turn by turn
+ * @typedef {object} Timings in ms, one time for each round
  * @property {{ samples: number, core: number[], baseline: number[] }[]} refresh one event of the slider, by core and baseline
  * @property {number[]} calibration of the example log
  */

@@ -1,14 +1,12 @@
 /**
- * Races of contenders, each of which runs once in each round. A slower machine slows all contenders of a round alike. Ratios are by round.
- *
- * @module
+ * Timings of several functions (contenders) in rounds. If the machine is slower during a round, ratios of that round stay the same.
  */
 
-/** Minimum duration (ms) of a contender's run in a round. The clock's step of 5 µs in an isolated page is half a per cent of it. */
+/** Minimum duration (ms) of a contender's run in a round: 200 times the resolution of the clock in an isolated page. */
 const MIN_RUN_MS = 1;
-/** Number of warm-up rounds, after which V8 compiles nothing more. */
+/** Number of rounds before the measured ones. After these rounds V8 has compiled all functions. */
 const WARM_UP_ROUNDS = 8;
-/** Limits of the number of rounds. Fewer rounds have no meaningful quartiles, and more rounds change nothing. */
+/** Limits of the number of measured rounds. Quartiles of fewer rounds are not meaningful, and more rounds do not change the quartiles. */
 const [MIN_ROUNDS, MAX_ROUNDS] = [5, 60];
 
 /**
@@ -27,7 +25,7 @@ export async function raceContenders(contenders, totalSeconds) {
   let endTime = Infinity;
   for (let roundNumber = -WARM_UP_ROUNDS; roundNumber < MAX_ROUNDS && (roundNumber < MIN_ROUNDS || performance.now() < endTime); roundNumber++) {
     if (roundNumber === 0) endTime = performance.now() + 1000 * totalSeconds;
-    // Between two rounds the page can handle events.
+    // Between two rounds the page handles pending events.
     await new Promise((resolve) => setTimeout(resolve));
     for (const [contenderName, handleEvent] of contenderList) {
       const [runStart, firstEvent] = [performance.now(), eventNumber];

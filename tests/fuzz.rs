@@ -20,7 +20,7 @@ macro_rules! tests {
         const TESTED_TARGETS: &[&str] = &[$(stringify!($name)),+];
         $(#[test]
         fn $name() {
-            run_on_corpus_and_mutations(stringify!($name), targets::$name::run, $every, $mutations);
+            run_on_corpus_and_mutations(stringify!($name), targets::$name::check_input, $every, $mutations);
         })+
     };
 }
@@ -40,7 +40,7 @@ tests! {
 #[test]
 #[ignore = "nightly: 200 calibrations"]
 fn calibrate_runs_on_its_whole_corpus() {
-    run_on_corpus_and_mutations("calibrate", targets::calibrate::run, 1, 100);
+    run_on_corpus_and_mutations("calibrate", targets::calibrate::check_input, 1, 100);
 }
 
 #[test]
@@ -54,7 +54,7 @@ macro_rules! regressions {
     ($($name:ident: $target:ident $hex:literal,)+) => {
         $(#[test]
         fn $name() {
-            run_target(targets::$target::run, &bytes_from_hex($hex));
+            run_target(targets::$target::check_input, &parse_hex($hex));
         })+
     };
 }
@@ -71,64 +71,65 @@ regressions! {
 }
 
 fn run_on_corpus_and_mutations(name: &str, target: FuzzTarget, corpus_step: usize, mutation_count: u32) {
-    let corpus_text = read_to_string(repository_root().join("fuzz/corpus").join(name).with_extension("txt"))
-        .expect("a file");
-    let corpus_inputs: Vec<_> = corpus_text.lines().map(bytes_from_hex).collect();
+    let corpus_text =
+        read_to_string(find_repository_root().join("fuzz/corpus").join(name).with_extension("txt"))
+            .expect("a file");
+    let corpus_inputs: Vec<_> = corpus_text.lines().map(parse_hex).collect();
     assert!(corpus_inputs.len() > 20, "{} inputs of {name}", corpus_inputs.len());
     corpus_inputs.iter().step_by(corpus_step).for_each(|input_bytes| run_target(target, input_bytes));
     let mut rng = seeded_rng(2911);
     for _ in 0..mutation_count {
-        let mut mutated_input = random_item(&corpus_inputs, &mut rng).clone();
-        for _ in 0..=random_below(4, &mut rng) {
+        let mut mutated_input = choose_item(&corpus_inputs, &mut rng).clone();
+        for _ in 0..=draw_below(4, &mut rng) {
             mutate_input(&mut mutated_input, &corpus_inputs, &mut rng);
         }
         run_target(target, &mutated_input);
     }
 }
 
-fn repository_root() -> &'static Path {
+fn find_repository_root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-fn bytes_from_hex(hex: &str) -> Vec<u8> {
-    let parse_byte_at = |i| u8::from_str_radix(&hex[i..i + 2], 16).expect("two hexadecimal digits");
-    (0..hex.len()).step_by(2).map(parse_byte_at).collect()
+fn parse_hex(hex_digits: &str) -> Vec<u8> {
+    let parse_byte_at = |i| u8::from_str_radix(&hex_digits[i..i + 2], 16).expect("two hexadecimal digits");
+    (0..hex_digits.len()).step_by(2).map(parse_byte_at).collect()
 }
 
-fn run_target(target: FuzzTarget, bytes: &[u8]) {
-    catch_unwind(AssertUnwindSafe(|| target(bytes))).unwrap_or_else(|panic_payload| {
-        eprintln!("on the bytes {bytes:02x?}");
+fn run_target(target: FuzzTarget, input_bytes: &[u8]) {
+    catch_unwind(AssertUnwindSafe(|| target(input_bytes))).unwrap_or_else(|panic_payload| {
+        eprintln!("on the bytes {input_bytes:02x?}");
         resume_unwind(panic_payload);
     });
 }
 
-fn random_below(limit: usize, rng: &mut impl Rng) -> usize {
-    rng.next_u32() as usize % limit
+fn draw_below(exclusive_limit: usize, rng: &mut impl Rng) -> usize {
+    rng.next_u32() as usize % exclusive_limit
 }
 
-fn random_item<'a, T>(items: &'a [T], rng: &mut impl Rng) -> &'a T {
-    &items[random_below(items.len(), rng)]
+fn choose_item<'a, T>(choices: &'a [T], rng: &mut impl Rng) -> &'a T {
+    &choices[draw_below(choices.len(), rng)]
 }
 
 /// Returns the input with one of the changes that libFuzzer makes.
-fn mutate_input(bytes: &mut Vec<u8>, corpus_inputs: &[Vec<u8>], rng: &mut impl Rng) {
+fn mutate_input(mutated_bytes: &mut Vec<u8>, corpus_inputs: &[Vec<u8>], rng: &mut impl Rng) {
     const SPECIAL_BYTES: [u8; 9] = [0, 1, 16, 32, 48, 57, 127, 128, 255];
-    let byte_count = bytes.len();
-    let edit_start = random_below(byte_count + 1, rng);
-    let edit_length = random_below(8, rng).min(byte_count - edit_start);
-    match random_below(6, rng) {
-        0 => bytes.insert(edit_start, *random_item(&SPECIAL_BYTES, rng)),
-        1 => drop(bytes.drain(edit_start..edit_start + edit_length)),
-        2 => bytes.extend_from_within(edit_start..edit_start + edit_length),
+    let byte_count = mutated_bytes.len();
+    let change_start = draw_below(byte_count + 1, rng);
+    let change_length = draw_below(8, rng).min(byte_count - change_start);
+    match draw_below(6, rng) {
+        0 => mutated_bytes.insert(change_start, *choose_item(&SPECIAL_BYTES, rng)),
+        1 => drop(mutated_bytes.drain(change_start..change_start + change_length)),
+        2 => mutated_bytes.extend_from_within(change_start..change_start + change_length),
         3 => {
-            let other_input = random_item(corpus_inputs, rng);
-            bytes.splice(
-                edit_start..,
-                other_input[random_below(other_input.len() + 1, rng)..].iter().copied(),
+            let other_input = choose_item(corpus_inputs, rng);
+            mutated_bytes.splice(
+                change_start..,
+                other_input[draw_below(other_input.len() + 1, rng)..].iter().copied(),
             );
         }
-        _ if edit_start == byte_count => bytes.push(rng.next_u32() as u8),
-        4 => bytes[edit_start] ^= 1 << random_below(8, rng),
-        _ => bytes[edit_start] = rng.next_u32() as u8,
+        _ if change_start == byte_count => mutated_bytes.push(rng.next_u32() as u8),
+        4 => mutated_bytes[change_start] ^= 1 << draw_below(8, rng),
+        _ => mutated_bytes[change_start] = rng.next_u32() as u8,
     }
 }

@@ -1,4 +1,4 @@
-// A frame sends the height of its widget, and the iframe element takes that height.
+// The page in the iframe sends the height of its widget, and the iframe element takes that height.
 addEventListener('message', ({ data, source }) => {
   if (data?.type !== 'motion-widgets:height' || !Number.isFinite(data.height)) return;
   for (const frame of document.querySelectorAll('iframe')) {

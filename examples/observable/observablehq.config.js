@@ -4,6 +4,6 @@ export default {
 <script type="module" src="motion-widgets.iife.js"></script>`,
   // By default the pages load fonts from another server.
   globalStylesheets: [],
-  // Addresses of files keep their endings, so that any file server finds the files.
+  // Links keep the extension `.html`, so that any file server finds the pages.
   preserveExtension: true,
 };

@@ -10,8 +10,8 @@ use motion::sim::views::ViewGrid;
 /// Maximum number of calls in a run.
 const MAX_CALLS: usize = 4;
 
-pub fn run(input_bytes: &[u8]) {
-    let mut input = InputReader(input_bytes);
+pub fn check_input(fuzz_input_bytes: &[u8]) {
+    let mut input = InputReader(fuzz_input_bytes);
     let should_check_paths = input.next_below(8) == 1;
     let first_settings = change_settings(&Settings::default(), &mut input);
     if !are_settings_allowed(&first_settings) {
@@ -24,18 +24,18 @@ pub fn run(input_bytes: &[u8]) {
             break;
         }
         if input.next_below(3) == 0 {
-            position_at(&simulation, input.draw_number_within(0.0..=1.0));
+            find_position_at(&simulation, input.draw_number_within(0.0..=1.0));
         } else {
             change_simulation_settings(&mut simulation, &mut input);
         }
     }
     assert_results(&simulation);
-    // Paths are rarely checked, because each of their thousand points needs a sine and a cosine.
-    if should_check_paths && is_selected_by_hash(4, input_bytes) {
+    // Paths are checked in few runs, because each of their thousand points needs a sine and a cosine.
+    if should_check_paths && is_selected_by_hash(4, fuzz_input_bytes) {
         assert_paths(&simulation);
     }
-    // Heat maps are rarely checked, because a heat map takes as long as hundreds of other calls.
-    if is_selected_by_hash(256, input_bytes) {
+    // Heat maps are checked in few runs, because a heat map takes as long as hundreds of other calls.
+    if is_selected_by_hash(256, fuzz_input_bytes) {
         assert_surface(&simulation, &mut input);
     }
 }
@@ -54,65 +54,66 @@ fn change_simulation_settings(simulation: &mut ArcAnatomy, input: &mut InputRead
 /// Asserts that all results are finite. An undefined result must have its documented value.
 fn assert_results(simulation: &ArcAnatomy) {
     let settings = simulation.settings();
-    let Stats { commanded, inverted, driven, last_turn, factors, weakest, prob, share, density, xi } =
+    let Stats { commanded: commanded_arc, inverted: inverted_arc, driven: driven_arc, last_turn,
+        factors: probability_factors, weakest: weakest_factor_index, prob: table_score, share: share_of_highest_score, density: pose_density, xi: final_twist } =
         simulation.stats();
-    for (arc_name, tested_arc) in [("commanded", &commanded), ("inverted", &inverted), ("driven", &driven)] {
+    for (arc_name, tested_arc) in [("commanded", &commanded_arc), ("inverted", &inverted_arc), ("driven", &driven_arc)] {
         assert_arc(arc_name, tested_arc);
     }
     assertions::assert_finite("last turn", &[last_turn]);
-    assertions::assert_finite("xi", &xi);
-    for factor in &factors {
-        assertions::assert_finite("factor", &[factor.estimate, factor.residual, factor.deviation, factor.value]);
-        assert!(factor.deviation >= 0.0 && factor.value >= 0.0, "{factor:?}");
-        assert!((0.0..=1.0).contains(&factor.share), "{factor:?}");
-        let sigma_count = factor.deviations.abs();
-        assert!(sigma_count <= factors[weakest].deviations.abs(), "{factor:?} {weakest}");
-        assert!(sigma_count.is_finite() || factor.deviation == 0.0, "{factor:?}");
+    assertions::assert_finite("xi", &final_twist);
+    for probability_factor in &probability_factors {
+        assertions::assert_finite("factor", &[probability_factor.estimate, probability_factor.residual, probability_factor.deviation, probability_factor.value]);
+        assert!(probability_factor.deviation >= 0.0 && probability_factor.value >= 0.0, "{probability_factor:?}");
+        assert!((0.0..=1.0).contains(&probability_factor.share), "{probability_factor:?}");
+        let sigma_count = probability_factor.deviations.abs();
+        assert!(sigma_count <= probability_factors[weakest_factor_index].deviations.abs(), "{probability_factor:?} {weakest_factor_index}");
+        assert!(sigma_count.is_finite() || probability_factor.deviation == 0.0, "{probability_factor:?}");
     }
-    assert!(prob >= 0.0 && (0.0..=1.0).contains(&share), "p = {prob}, {share} of its highest");
-    let are_all_factors_noisy = factors.iter().all(|factor| factor.deviation > 0.0);
-    assert!(density.is_some() == are_all_factors_noisy && density.is_none_or(|density| density >= 0.0), "{density:?}");
-    assert!(settings.printed || driven == inverted, "{driven:?} {inverted:?}");
+    assert!(table_score >= 0.0 && (0.0..=1.0).contains(&share_of_highest_score), "p = {table_score}, {share_of_highest_score} of its highest");
+    let are_all_factors_noisy = probability_factors.iter().all(|probability_factor| probability_factor.deviation > 0.0);
+    assert!(pose_density.is_some() == are_all_factors_noisy && pose_density.is_none_or(|pose_density| pose_density >= 0.0), "{pose_density:?}");
+    assert!(settings.printed || driven_arc == inverted_arc, "{driven_arc:?} {inverted_arc:?}");
 
-    let (start_pose, next_pose) = start_and_next_pose(settings);
+    let (start_pose, next_pose) = find_start_and_next_pose(settings);
     let largest_coordinate =
         [start_pose.x(), start_pose.y(), next_pose.x(), next_pose.y()].iter().fold(0.0, |max_so_far: f64, coordinate| max_so_far.max(coordinate.abs()));
     let distance_to_next_pose = |[x, y]: [f64; 2]| (x - next_pose.x()).hypot(y - next_pose.y());
     // With a signed radius, both the inverted arc and the constant twist lead to the final position.
-    let end_positions = [[inverted.end[0], inverted.end[1]], position_at(simulation, 1.0)];
+    let end_positions = [[inverted_arc.end[0], inverted_arc.end[1]], find_position_at(simulation, 1.0)];
     let position_tolerance = assertions::ROUNDING_TOLERANCE * largest_coordinate + f64::MIN_POSITIVE;
     assert!(end_positions.iter().all(|end_position| distance_to_next_pose(*end_position) <= position_tolerance), "{end_positions:?} for {settings:?}");
-    assert_eq!(position_at(simulation, 0.0), [start_pose.x(), start_pose.y()]);
-    assert_table(simulation, prob);
+    assert_eq!(find_position_at(simulation, 0.0), [start_pose.x(), start_pose.y()]);
+    assert_table(simulation, table_score);
 }
 
-fn start_and_next_pose(settings: &Settings) -> (SE2, SE2) {
+fn find_start_and_next_pose(settings: &Settings) -> (SE2, SE2) {
     (settings.start.into(), settings.next.into())
 }
 
-fn assert_table(simulation: &ArcAnatomy, prob: f64) {
-    let (start_pose, next_pose) = start_and_next_pose(simulation.settings());
-    let Table { lines: [mu, x, y, radius, controls @ ..], middle, normal } = simulation.table();
+fn assert_table(simulation: &ArcAnatomy, table_score: f64) {
+    let (start_pose, next_pose) = find_start_and_next_pose(simulation.settings());
+    let Table { lines: [table_mu, x, y, table_radius, table_controls @ ..], middle: chord_middle, normal: left_normal } = simulation.table();
     let relative_pose = start_pose.inverse() * next_pose;
     let has_no_displacement = [relative_pose.x(), relative_pose.y()] == [0.0; 2];
-    assert!([x, y, radius].iter().all(|table_value| !table_value.is_nan()), "{x} {y} {radius}");
-    assert!(!mu.is_nan() || has_no_displacement, "{mu} for {relative_pose:?}");
-    assert!(!simulation.settings().printed || radius >= 0.0, "{radius}");
-    assertions::assert_finite("controls", &controls[..4]);
-    assertions::assert_same_numbers("p", &controls[4..], &[prob]);
-    assertions::assert_finite("middle and normal", &[middle, normal].concat());
+    assert!([x, y, table_radius].iter().all(|table_value| !table_value.is_nan()), "{x} {y} {table_radius}");
+    assert!(!table_mu.is_nan() || has_no_displacement, "{table_mu} for {relative_pose:?}");
+    assert!(!simulation.settings().printed || table_radius >= 0.0, "{table_radius}");
+    assertions::assert_finite("controls", &table_controls[..4]);
+    assertions::assert_same_numbers("p", &table_controls[4..], &[table_score]);
+    assertions::assert_finite("middle and normal", &[chord_middle, left_normal].concat());
 }
 
 fn assert_paths(simulation: &ArcAnatomy) {
-    let Paths { commanded, inverted, driven, lie, ticks } = simulation.paths();
+    let Paths { commanded: commanded_path, inverted: inverted_path, driven: driven_path, lie: constant_twist_path, ticks: lateral_velocity_segments } = simulation.paths();
     for (path_name, path_points) in
-        [("commanded", &commanded), ("inverted", &inverted), ("driven", &driven), ("lie", &lie)]
+        [("commanded", &commanded_path), ("inverted", &inverted_path), ("driven", &driven_path), ("lie", &constant_twist_path)]
     {
         assertions::assert_finite(path_name, path_points.as_flattened());
     }
-    assertions::assert_finite("ticks", ticks.as_flattened());
+    assertions::assert_finite("ticks", lateral_velocity_segments.as_flattened());
     let Stats { inverted: ArcWithCircle { end: [x, y, _], .. }, .. } = simulation.stats();
-    assert_eq!(inverted.last(), Some(&[x, y]));
+    assert_eq!(inverted_path.last(), Some(&[x, y]));
 }
 
 fn assert_arc(arc_name: &str, tested_arc: &ArcWithCircle) {
@@ -124,7 +125,7 @@ fn assert_arc(arc_name: &str, tested_arc: &ArcWithCircle) {
 }
 
 /// Returns the position on the path with constant twist after `time_fraction` of the time.
-fn position_at(simulation: &ArcAnatomy, time_fraction: f64) -> [f64; 2] {
+fn find_position_at(simulation: &ArcAnatomy, time_fraction: f64) -> [f64; 2] {
     let poses = simulation.poses_at(time_fraction);
     poses.iter().for_each(|pose| assertions::assert_pose("poses_at", pose));
     [poses[2].x(), poses[2].y()]
@@ -132,13 +133,13 @@ fn position_at(simulation: &ArcAnatomy, time_fraction: f64) -> [f64; 2] {
 
 /// Asserts that the contours of the heat map are inside its rectangle.
 fn assert_surface(simulation: &ArcAnatomy, input: &mut InputReader) {
-    let ViewGrid { min, max, .. } = banana::read_grid(input);
-    let surface = simulation.surface(min, max);
-    assert_eq!(surface.is_none(), simulation.settings().map == SurfaceKind::Nothing);
-    let Some(Surface { columns, rows, shades, prob, density }) = surface else { return };
-    assert!(shades.len() == columns * rows && !shades.is_empty(), "{columns} × {rows}");
-    for [x, y] in prob.iter().chain(&density).flatten() {
-        let is_inside = (min[0]..=max[0]).contains(x) && (min[1]..=max[1]).contains(y);
-        assert!(is_inside, "{x}, {y} of {min:?} to {max:?}");
+    let ViewGrid { min: view_min, max: view_max, .. } = banana::read_view_grid(input);
+    let heat_map = simulation.surface(view_min, view_max);
+    assert_eq!(heat_map.is_none(), simulation.settings().map == SurfaceKind::Nothing);
+    let Some(Surface { columns: column_count, rows: row_count, shades: pixel_shades, prob: score_contours, density: density_contours }) = heat_map else { return };
+    assert!(pixel_shades.len() == column_count * row_count && !pixel_shades.is_empty(), "{column_count} × {row_count}");
+    for [x, y] in score_contours.iter().chain(&density_contours).flatten() {
+        let is_inside_view = (view_min[0]..=view_max[0]).contains(x) && (view_min[1]..=view_max[1]).contains(y);
+        assert!(is_inside_view, "{x}, {y} of {view_min:?} to {view_max:?}");
     }
 }

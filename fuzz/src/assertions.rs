@@ -29,15 +29,15 @@ pub fn assert_pose(quantity_name: &str, pose: &SE2) {
 pub fn assert_valid_moments(quantity_name: &str, mean: &Vector3<f64>, cov: &Matrix3<f64>) {
     assert_finite(quantity_name, mean.as_slice());
     assert_finite(quantity_name, cov.as_slice());
-    let scale_of_coordinates = Vector3::from_fn(|i, _| mean[i].abs() + cov[(i, i)].sqrt());
-    let position_magnitude = scale_of_coordinates.x + scale_of_coordinates.y;
-    let scale_of_coordinates = [position_magnitude, position_magnitude, scale_of_coordinates.z];
+    let coordinate_scales = Vector3::from_fn(|i, _| mean[i].abs() + cov[(i, i)].sqrt());
+    let position_magnitude = coordinate_scales.x + coordinate_scales.y;
+    let coordinate_scales = [position_magnitude, position_magnitude, coordinate_scales.z];
     for i in 0..3 {
         assert!(cov[(i, i)] >= 0.0, "{quantity_name}: {mean:?} {cov:?}");
         for j in 0..i {
             let max_cov = cov[(i, i)].sqrt() * cov[(j, j)].sqrt();
-            let tolerance = ROUNDING_TOLERANCE * scale_of_coordinates[i] * scale_of_coordinates[j]
-                + MAX_UNDERFLOWING_DEVIATION * (scale_of_coordinates[i] + scale_of_coordinates[j]);
+            let tolerance = ROUNDING_TOLERANCE * coordinate_scales[i] * coordinate_scales[j]
+                + SQUARE_UNDERFLOW_LIMIT * (coordinate_scales[i] + coordinate_scales[j]);
             assert!((cov[(i, j)] - cov[(j, i)]).abs() <= tolerance, "{quantity_name}: {mean:?} {cov:?}");
             assert!(cov[(i, j)].abs() <= max_cov + tolerance, "{quantity_name}: {mean:?} {cov:?}");
         }
@@ -47,8 +47,8 @@ pub fn assert_valid_moments(quantity_name: &str, mean: &Vector3<f64>, cov: &Matr
 /// Relative rounding error of a few dozen units in the last place.
 pub const ROUNDING_TOLERANCE: f64 = 64.0 * f64::EPSILON;
 
-/// Twice the largest deviation whose square underflows to 0.
-pub const MAX_UNDERFLOWING_DEVIATION: f64 = 1e-161;
+/// Numbers below this limit may have a square that underflows to 0.
+pub const SQUARE_UNDERFLOW_LIMIT: f64 = 1e-161;
 
 /// Asserts that two lists have the same numbers, where NaN equals NaN.
 pub fn assert_same_numbers(list_name: &str, a: &[f64], b: &[f64]) {

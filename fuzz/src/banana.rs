@@ -17,15 +17,15 @@ use motion::sim::views::{EXTENT_RANGE, ViewGrid};
 const MAX_SAMPLES: usize = 12;
 const MAX_CALLS: usize = 4;
 
-pub fn run(input_bytes: &[u8]) {
+pub fn check_input(input_bytes: &[u8]) {
     let mut input = InputReader(input_bytes);
-    let [should_check_curves, should_compare_new_simulation] = [0; 2].map(|_| input.next_below(4) == 1);
-    let first_settings = change_settings(&limit_samples(Settings::default()), &mut input);
+    let [should_check_contours, should_compare_new_simulation] = [0; 2].map(|_| input.next_below(4) == 1);
+    let first_settings = change_settings(&limit_settings(Settings::default()), &mut input);
     if !are_settings_allowed(&first_settings) {
         assert!(BananaMachine::with_shown_count(first_settings, 0).is_err());
         return;
     }
-    let mut simulation = BananaMachine::with_shown_count(limit_samples(first_settings), 0).expect("allowed");
+    let mut simulation = BananaMachine::with_shown_count(limit_settings(first_settings), 0).expect("allowed");
     if input.next_bool() {
         simulation.add_samples(MAX_SAMPLES);
     }
@@ -37,7 +37,7 @@ pub fn run(input_bytes: &[u8]) {
     }
     assert_results(&simulation);
     // Slow checks run for some inputs only.
-    if should_check_curves {
+    if should_check_contours {
         assert_contours(&simulation);
     }
     if should_compare_new_simulation {
@@ -46,7 +46,7 @@ pub fn run(input_bytes: &[u8]) {
 }
 
 /// Returns the settings with at most `MAX_SAMPLES` samples.
-fn limit_samples(settings: Settings) -> Settings {
+fn limit_settings(settings: Settings) -> Settings {
     Settings { samples: settings.samples.min(MAX_SAMPLES), ..settings }
 }
 
@@ -81,13 +81,13 @@ fn call_method(simulation: &mut BananaMachine, input: &mut InputReader) {
 fn change_simulation_settings(simulation: &mut BananaMachine, input: &mut InputReader) {
     let settings = change_settings(simulation.settings(), input);
     if are_settings_allowed(&settings) {
-        simulation.configure(limit_samples(settings)).expect("allowed");
+        simulation.configure(limit_settings(settings)).expect("allowed");
         return;
     }
-    let (settings_before, results_before) = (*simulation.settings(), all_results(simulation));
+    let (settings_before, results_before) = (*simulation.settings(), collect_results(simulation));
     assert!(simulation.configure(settings).is_err() && simulation.configure_first(settings, 0).is_err());
     assert_eq!(*simulation.settings(), settings_before);
-    assertions::assert_same_numbers("after a refusal", &all_results(simulation), &results_before);
+    assertions::assert_same_numbers("after a refusal", &collect_results(simulation), &results_before);
 }
 
 /// Asserts that samples that are added in several blocks equal samples that are added in one call.
@@ -97,13 +97,13 @@ fn assert_same_if_added_in_blocks(simulation: &mut BananaMachine, input: &mut In
         return;
     }
     let mut simulation_in_one_call = simulation.clone();
-    simulation_in_one_call.configure(limit_samples(settings)).expect("allowed");
+    simulation_in_one_call.configure(limit_settings(settings)).expect("allowed");
     let block_size = 1 + usize::from(input.next_byte());
-    simulation.configure_first(limit_samples(settings), block_size).expect("allowed");
+    simulation.configure_first(limit_settings(settings), block_size).expect("allowed");
     while simulation.shown_count() < simulation.settings().samples {
         simulation.add_samples(block_size);
     }
-    assertions::assert_same_numbers("in blocks", &all_results(simulation), &all_results(&simulation_in_one_call));
+    assertions::assert_same_numbers("in blocks", &collect_results(simulation), &collect_results(&simulation_in_one_call));
 }
 
 /// Asserts that a simulation depends on its settings only, and not on earlier calls.
@@ -111,33 +111,33 @@ fn assert_equals_new_simulation(simulation: &BananaMachine) {
     let mut new_simulation = BananaMachine::with_shown_count(*simulation.settings(), 0).expect("allowed");
     if simulation.shown_count() > 0 {
         new_simulation.add_samples(simulation.shown_count());
-        assertions::assert_same_numbers("as if new", &all_results(simulation), &all_results(&new_simulation));
+        assertions::assert_same_numbers("as if new", &collect_results(simulation), &collect_results(&new_simulation));
     }
 }
 
 /// Returns the poses and statistics.
-fn all_results(simulation: &BananaMachine) -> Vec<f64> {
-    let mut all_numbers: Vec<f64> = simulation.poses().flat_map(|pose| [pose.x(), pose.y(), pose.theta()]).collect();
-    let stats @ Stats { cartesian, exponential, coverage, .. } = simulation.stats();
-    all_numbers.extend(cartesian.mean.iter().chain(cartesian.cov.iter()));
-    all_numbers.extend(exponential.mean.iter().chain(exponential.cov.iter()));
-    all_numbers.extend([stats.cross_track_skew, stats.cross_track_skew_error]);
-    all_numbers.extend([stats.rho_cross_heading, stats.gaussian_skew]);
-    all_numbers.extend([coverage.ellipse, coverage.exponential, stats.area_ratio, stats.area_ratio_error]);
+fn collect_results(simulation: &BananaMachine) -> Vec<f64> {
+    let mut result_numbers: Vec<f64> = simulation.poses().flat_map(|pose| [pose.x(), pose.y(), pose.theta()]).collect();
+    let stats @ Stats { cartesian: cartesian_moments, exponential: exponential_moments, coverage: contour_coverage, .. } = simulation.stats();
+    result_numbers.extend(cartesian_moments.mean.iter().chain(cartesian_moments.cov.iter()));
+    result_numbers.extend(exponential_moments.mean.iter().chain(exponential_moments.cov.iter()));
+    result_numbers.extend([stats.cross_track_skew, stats.cross_track_skew_error]);
+    result_numbers.extend([stats.rho_cross_heading, stats.gaussian_skew]);
+    result_numbers.extend([contour_coverage.ellipse, contour_coverage.exponential, stats.area_ratio, stats.area_ratio_error]);
     for gain_or_error in [stats.likelihood_gain, stats.likelihood_gain_error] {
-        all_numbers.extend([gain_or_error.pose, gain_or_error.floor]);
+        result_numbers.extend([gain_or_error.pose, gain_or_error.floor]);
     }
-    all_numbers
+    result_numbers
 }
 
-/// Asserts that all results are finite. An undefined result must be NaN.
+/// Asserts that every result of the simulation is finite, or NaN if it is undefined.
 fn assert_results(simulation: &BananaMachine) {
     let (n, stats) = (simulation.shown_count(), simulation.stats());
     simulation.poses().for_each(|pose| assertions::assert_pose("a pose", &pose));
     assert_eq!(simulation.poses().len(), n);
     assertions::assert_finite("executed", simulation.executed_motions().collect::<Vec<_>>().as_flattened());
-    let is_chart_defined = simulation.is_chart_defined();
-    if is_chart_defined {
+    let are_twists_defined = simulation.is_chart_defined();
+    if are_twists_defined {
         simulation.twists().for_each(|twist| assertions::assert_finite("a twist", twist.as_slice()));
     }
     if n > 0 {
@@ -146,16 +146,16 @@ fn assert_results(simulation: &BananaMachine) {
     if n > 1 {
         assertions::assert_valid_moments("pose", &stats.cartesian.mean, &stats.cartesian.cov);
     }
-    if is_chart_defined && n > 1 {
+    if are_twists_defined && n > 1 {
         assertions::assert_valid_moments("exponential", &stats.exponential.mean, &stats.exponential.cov);
     } else {
         assert!(n == 1 || stats.exponential.cov.iter().all(|cov_entry| cov_entry.is_nan()));
     }
-    let (skew, skew_error) = (stats.cross_track_skew, stats.cross_track_skew_error);
-    assertions::assert_all_finite_or_all_nan("skew", &[skew, skew_error]);
+    let (cross_track_skew, skew_error) = (stats.cross_track_skew, stats.cross_track_skew_error);
+    assertions::assert_all_finite_or_all_nan("skew", &[cross_track_skew, skew_error]);
     // The skew of n samples is largest for n − 1 equal samples and one different sample.
     let max_skew = (n as f64 - 2.0) / (n as f64 - 1.0).sqrt();
-    assert!(skew.is_nan() || skew.abs() <= max_skew * (1.0 + 1e-9), "{skew} of {n}");
+    assert!(cross_track_skew.is_nan() || cross_track_skew.abs() <= max_skew * (1.0 + 1e-9), "{cross_track_skew} of {n}");
     assert!(skew_error.is_nan() || skew_error >= 0.0, "{skew_error}");
     let lateral_heading_correlation = stats.rho_cross_heading;
     assert!(lateral_heading_correlation.is_nan() || lateral_heading_correlation.abs() <= 1.0, "{lateral_heading_correlation}");
@@ -163,35 +163,36 @@ fn assert_results(simulation: &BananaMachine) {
     assertions::assert_fraction("inside the ellipse", stats.coverage.ellipse);
     assertions::assert_fraction("inside the contour", stats.coverage.exponential);
     assert!(stats.area_ratio.is_nan() || stats.area_ratio >= 0.0, "{}", stats.area_ratio);
-    let (likelihood_gain, gain_error) = (stats.likelihood_gain, stats.likelihood_gain_error);
-    for (likelihood_gain, gain_error) in [(likelihood_gain.pose, gain_error.pose), (likelihood_gain.floor, gain_error.floor)] {
-        assert!(gain_error.is_nan() || (gain_error >= 0.0 && likelihood_gain.is_finite()), "gain {likelihood_gain} ± {gain_error}");
+    let (gain, gain_error) = (stats.likelihood_gain, stats.likelihood_gain_error);
+    for (gain, gain_error) in [(gain.pose, gain_error.pose), (gain.floor, gain_error.floor)] {
+        assert!(gain_error.is_nan() || (gain_error >= 0.0 && gain.is_finite()), "gain {gain} ± {gain_error}");
     }
 }
 
 fn assert_contours(simulation: &BananaMachine) {
-    let Contours { command, ellipse, linearized, exponential, twist_ellipse, additive } = simulation.contours();
+    let Contours { command: command_path, ellipse: covariance_ellipse, linearized: linearized_ellipse,
+        exponential: exponential_contour, twist_ellipse, additive: additive_contour } = simulation.contours();
     for (outline_name, outline) in [
-        ("command", &command),
-        ("ellipse", &ellipse),
-        ("linearized", &linearized),
-        ("exponential", &exponential),
+        ("command", &command_path),
+        ("ellipse", &covariance_ellipse),
+        ("linearized", &linearized_ellipse),
+        ("exponential", &exponential_contour),
         ("twist ellipse", &twist_ellipse),
-        ("additive", &additive),
+        ("additive", &additive_contour),
     ] {
         assertions::assert_finite(outline_name, outline.as_flattened());
     }
-    for outline in [&ellipse, &linearized, &exponential, &twist_ellipse, &additive] {
+    for outline in [&covariance_ellipse, &linearized_ellipse, &exponential_contour, &twist_ellipse, &additive_contour] {
         assert_eq!(outline.first(), outline.last(), "an outline is closed");
     }
-    assert_eq!(ellipse.is_empty(), simulation.shown_count() < 2);
-    assert_eq!(exponential.is_empty(), simulation.shown_count() < 2 || !simulation.is_chart_defined());
+    assert_eq!(covariance_ellipse.is_empty(), simulation.shown_count() < 2);
+    assert_eq!(exponential_contour.is_empty(), simulation.shown_count() < 2 || !simulation.is_chart_defined());
 }
 
-/// Checks every column of the table. The check is slow, because exact moments need quadrature.
+/// Checks every column of the simulation's table of moments. The check is slow, because exact moments need quadrature.
 fn assert_table(simulation: &BananaMachine) {
-    let table = simulation.table();
-    for (column_name, table_column) in [("linearized", &table.linearized), ("exact", &table.exact)] {
+    let moment_table = simulation.table();
+    for (column_name, table_column) in [("linearized", &moment_table.linearized), ("exact", &moment_table.exact)] {
         let TableColumn { mean, cov, cross_track_skew, likelihood_gain, area_ratio } = table_column;
         assertions::assert_valid_moments(column_name, mean, cov);
         assertions::assert_all_finite_or_all_nan(column_name, &[*cross_track_skew]);
@@ -201,11 +202,11 @@ fn assert_table(simulation: &BananaMachine) {
         );
         assert!(area_ratio.is_nan() || *area_ratio >= 0.0, "{column_name}: {area_ratio}");
     }
-    if let Some(tangent) = table.tangent {
-        assertions::assert_valid_moments("tangent", &tangent.mean, &tangent.cov);
+    if let Some(tangent_moments) = moment_table.tangent {
+        assertions::assert_valid_moments("tangent", &tangent_moments.mean, &tangent_moments.cov);
     }
-    let reading = simulation.reading();
-    assertions::assert_finite("reading", &[reading.rot1, reading.trans, reading.rot2]);
+    let odometry_reading = simulation.reading();
+    assertions::assert_finite("reading", &[odometry_reading.rot1, odometry_reading.trans, odometry_reading.rot2]);
 }
 
 fn assert_executed_motion(simulation: &BananaMachine, robot_index: usize) {
@@ -215,46 +216,46 @@ fn assert_executed_motion(simulation: &BananaMachine, robot_index: usize) {
     };
     assertions::assert_pose("inspected", &inspected_sample.pose.into());
     assertions::assert_finite("path", inspected_sample.path.as_flattened());
-    if let Some(executed_legs) = inspected_sample.legs {
-        assertions::assert_finite("legs", &[executed_legs.rot1, executed_legs.trans, executed_legs.rot2]);
+    if let Some(executed_odometry) = inspected_sample.legs {
+        assertions::assert_finite("legs", &[executed_odometry.rot1, executed_odometry.trans, executed_odometry.rot2]);
     }
     let [x, y] = *inspected_sample.path.last().expect("a path has an end");
     // Paths are computed by scalar functions, and poses by SIMD functions. Paths and poses agree to 2e-15 of the length.
-    let path_length = inspected_sample.path.windows(2).map(|segment_ends| point_distance(segment_ends[0], segment_ends[1])).sum::<f64>();
+    let path_length = inspected_sample.path.windows(2).map(|segment_ends| distance_between(segment_ends[0], segment_ends[1])).sum::<f64>();
     let command = simulation.settings().command;
     let commanded_path_length = (command.v * command.dt).abs();
-    let max_path_length = inspected_sample.legs.map_or((inspected_sample.v_hat * command.dt).abs(), |executed_legs| executed_legs.trans.abs());
+    let max_path_length = inspected_sample.legs.map_or((inspected_sample.v_hat * command.dt).abs(), |executed_odometry| executed_odometry.trans.abs());
     assert!(path_length <= max_path_length * (1.0 + 1e-9) + 1e-9, "{path_length}, {max_path_length}");
-    // If the noise nearly cancels the command, the motion still has the rounding error of the command.
+    // If the noise nearly cancels the command, the executed motion is short, but has the rounding error of the longer commanded motion.
     let rounding_factor = 1.0 + (command.omega * command.dt).abs();
     let rounding_error = 1e-14 * (max_path_length * rounding_factor + commanded_path_length) + f64::MIN_POSITIVE;
     assert!(
-        point_distance([x, y], [inspected_sample.pose[0], inspected_sample.pose[1]]) <= rounding_error,
+        distance_between([x, y], [inspected_sample.pose[0], inspected_sample.pose[1]]) <= rounding_error,
         "{inspected_sample:?} of {:?}",
         simulation.settings()
     );
 }
 
-fn point_distance(a: [f64; 2], b: [f64; 2]) -> f64 {
+fn distance_between(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-/// Returns a rectangle of a view with few cells.
-pub fn read_grid(input: &mut InputReader) -> ViewGrid {
-    let grid_min = [0; 2].map(|_| input.draw_number_within(EXTENT_RANGE));
-    let grid_max = grid_min.map(|min_coordinate| input.draw_number_within(min_coordinate..=*EXTENT_RANGE.end()));
+/// Reads a rectangle in the coordinates of a view, divided into at most 40 × 40 cells.
+pub fn read_view_grid(input: &mut InputReader) -> ViewGrid {
+    let view_min = [0; 2].map(|_| input.draw_number_within(EXTENT_RANGE));
+    let view_max = view_min.map(|min_coordinate| input.draw_number_within(min_coordinate..=*EXTENT_RANGE.end()));
     let [column_count, row_count] = [0; 2].map(|_| 1 + input.next_below(40));
-    ViewGrid { min: grid_min, max: grid_max, columns: column_count, rows: row_count }
+    ViewGrid { min: view_min, max: view_max, columns: column_count, rows: row_count }
 }
 
 fn assert_picture(simulation: &mut BananaMachine, input: &mut InputReader) {
-    let (view, grid) = (input.choose_one(&[View::Plane, View::Twist]), read_grid(input));
-    let cell_counts = simulation.density(view, &grid);
-    assert_eq!(cell_counts.len(), grid.columns * grid.rows);
-    assert!(cell_counts.iter().sum::<u32>() as usize <= simulation.shown_count(), "{grid:?}: {cell_counts:?}");
-    let pixels = simulation.paint(view, &grid, &[[1; 4]; RAMP_STEP_COUNT]);
+    let (view, view_grid) = (input.choose_one(&[View::Plane, View::Twist]), read_view_grid(input));
+    let cell_counts = simulation.density(view, &view_grid);
+    assert_eq!(cell_counts.len(), view_grid.columns * view_grid.rows);
+    assert!(cell_counts.iter().sum::<u32>() as usize <= simulation.shown_count(), "{view_grid:?}: {cell_counts:?}");
+    let pixels = simulation.paint(view, &view_grid, &[[1; 4]; RAMP_STEP_COUNT]);
     assert_eq!(pixels.len(), cell_counts.len());
-    assert!(pixels.iter().zip(&cell_counts).all(|(pixel, cell_count)| (pixel[3] > 0) == (*cell_count > 0)), "{grid:?}");
+    assert!(pixels.iter().zip(&cell_counts).all(|(pixel_rgba, cell_count)| (pixel_rgba[3] > 0) == (*cell_count > 0)), "{view_grid:?}");
 }
 
 fn assert_nearest_pose(simulation: &BananaMachine, input: &mut InputReader) {
@@ -263,7 +264,7 @@ fn assert_nearest_pose(simulation: &BananaMachine, input: &mut InputReader) {
     let Some(nearest_index) = simulation.nearest(View::Plane, search_point, search_radii) else { return };
     let nearest_pose: SE2 = simulation.pose(nearest_index).expect("a sample that is shown");
     let relative_distance_to = |pose: &SE2| ((pose.x() - search_point[0]) / search_radii[0]).hypot((pose.y() - search_point[1]) / search_radii[1]);
-    // The square of a distance below 1e-154 underflows to 0.
+    // The absolute tolerance is 1e-150, because squares of distances below 1e-154 underflow to 0.
     let min_relative_distance = simulation.poses().map(|pose| relative_distance_to(&pose)).fold(f64::INFINITY, f64::min);
     assert!(relative_distance_to(&nearest_pose) <= min_relative_distance * (1.0 + 1e-9) + 1e-150, "{search_point:?} {search_radii:?}: {nearest_index}");
 }

@@ -12,12 +12,12 @@ use nalgebra::Vector3;
 use rand::{RngExt, SeedableRng};
 use rand_xoshiro::Xoshiro256PlusPlus;
 
-/// Maximum number of parts of a drive.
-const MAX_DRIVE_PARTS: usize = 6;
+/// Maximum number of additional sections of a drive. Each section has a constant velocity.
+const MAX_ADDED_SECTIONS: usize = 6;
 
-/// Maximum number of rows in a part of a drive in most runs. The time of a calibration grows with the number of rows.
-const MAX_PART_ROWS_OF_MOST_RUNS: usize = 12;
-const MAX_PART_ROWS: usize = 64; // in a few long runs
+/// Maximum number of rows in a section of a drive, in most runs. The time of a calibration grows with the number of rows.
+const MAX_SECTION_ROWS_OF_MOST_RUNS: usize = 12;
+const MAX_SECTION_ROWS: usize = 64; // in a few long runs
 
 const MODELS: [Model; 5] = [
     Model::Odometry(OdometryRule::Table),
@@ -27,22 +27,22 @@ const MODELS: [Model; 5] = [
     Model::Velocity,
 ];
 
-pub fn run(input_bytes: &[u8]) {
+pub fn check_input(input_bytes: &[u8]) {
     let mut input = InputReader(input_bytes);
     let options = read_options(&mut input);
-    let mut odometry_log = odometry_rows(&mut input, if is_selected_by_hash(128, input_bytes) { MAX_PART_ROWS } else { MAX_PART_ROWS_OF_MOST_RUNS });
-    let mut reference_log = reference_rows(&odometry_log, &mut input);
+    let mut odometry_log = read_odometry_rows(&mut input, if is_selected_by_hash(128, input_bytes) { MAX_SECTION_ROWS } else { MAX_SECTION_ROWS_OF_MOST_RUNS });
+    let mut reference_log = read_reference_rows(&odometry_log, &mut input);
     edit_rows(&mut odometry_log, &mut input);
     edit_rows(&mut reference_log, &mut input);
-    let (Some(odometry), Some(reference)) = (trajectory_from_rows(&odometry_log, &mut input), trajectory_from_rows(&reference_log, &mut input))
+    let (Some(odometry_trajectory), Some(reference_trajectory)) = (build_trajectory(&odometry_log, &mut input), build_trajectory(&reference_log, &mut input))
     else {
         return;
     };
-    match calibrate(&[Drive { odometry: &odometry, reference: &reference }], &options) {
+    match calibrate(&[Drive { odometry: &odometry_trajectory, reference: &reference_trajectory }], &options) {
         Ok(calibration) => assert_calibration(&calibration, &options),
-        Err(CalibrateError::TooFewLegs { legs }) => assert!(legs < MIN_LEGS),
+        Err(CalibrateError::TooFewLegs { legs: leg_count }) => assert!(leg_count < MIN_LEGS),
         Err(CalibrateError::NoCommonTime) => {
-            let [odometry_span, reference_span] = [&odometry, &reference].map(|trajectory| trajectory.span().expect("a row at least"));
+            let [odometry_span, reference_span] = [&odometry_trajectory, &reference_trajectory].map(|trajectory| trajectory.span().expect("a row at least"));
             assert!(odometry_span[1] < reference_span[0] || reference_span[1] < odometry_span[0], "{odometry_span:?} {reference_span:?}");
         }
     }
@@ -54,40 +54,40 @@ fn read_options(input: &mut InputReader) -> Options {
         1 => LegLength::Duration { duration: read_leg_size(input) },
         _ => LegLength::Displacement { distance: read_leg_size(input), angle: read_leg_size(input) },
     };
-    let outliers = input.choose_one(&[Outliers::Reject, Outliers::Keep]);
-    let correction_bits = input.next_byte();
+    let outlier_handling = input.choose_one(&[Outliers::Reject, Outliers::Keep]);
+    let correction_mask = input.next_byte();
     let mut read_std = || (input.next_below(3) == 0).then(|| input.draw_number_within(0.0..=1e3));
     let [position_std, yaw_std] = [read_std(), read_std()];
     Options {
         model: input.choose_one(&MODELS),
         legs: leg_length,
-        outliers,
-        correct: std::array::from_fn(|error_index| (correction_bits >> error_index & 1 == 1).then_some(correction_bits & 64 == 0)),
+        outliers: outlier_handling,
+        correct: std::array::from_fn(|error_index| (correction_mask >> error_index & 1 == 1).then_some(correction_mask & 64 == 0)),
         position_std,
         yaw_std,
     }
 }
 
-/// Returns the length of a leg in m, rad or s.
+/// Reads a random size of a leg: a distance in m, an angle in rad, or a duration in s.
 fn read_leg_size(input: &mut InputReader) -> f64 {
     if input.next_bool() { input.choose_one(&[0.1, 0.2, 0.25, 0.5]) } else { input.draw_number_within(1e-6..=1e6) }
 }
 
 type LogRow = (f64, SE2);
 
-/// Returns one of the usual numbers, or sometimes any other number.
-fn choice_or_any_number(usual_numbers: &[f64], input: &mut InputReader) -> f64 {
-    let choice_index = input.next_below(usual_numbers.len() + 1);
-    usual_numbers.get(choice_index).copied().unwrap_or_else(|| input.draw_number_within(-1e9..=1e9))
+/// Returns one of the given numbers, or sometimes any other number.
+fn choose_number_or_draw_any(number_choices: &[f64], input: &mut InputReader) -> f64 {
+    let choice_index = input.next_below(number_choices.len() + 1);
+    number_choices.get(choice_index).copied().unwrap_or_else(|| input.draw_number_within(-1e9..=1e9))
 }
 
-fn odometry_rows(input: &mut InputReader, max_rows_of_part: usize) -> Vec<LogRow> {
-    let time_step = choice_or_any_number(&[0.05, 0.1, 0.1, 0.5, 1.0], input).abs();
-    let mut log_rows = vec![(choice_or_any_number(&[0.0, 10.0, 1.7e9], input), SE2::identity())];
-    for _ in 0..=input.next_below(MAX_DRIVE_PARTS) {
-        let v = choice_or_any_number(&[0.0, 0.2, 0.5, 0.8, -0.3], input);
-        let omega = choice_or_any_number(&[0.0, 0.2, -0.4, 0.9, -0.9], input);
-        for _ in 0..1 + usize::from(input.next_byte()) % max_rows_of_part {
+fn read_odometry_rows(input: &mut InputReader, max_section_rows: usize) -> Vec<LogRow> {
+    let time_step = choose_number_or_draw_any(&[0.05, 0.1, 0.1, 0.5, 1.0], input).abs();
+    let mut log_rows = vec![(choose_number_or_draw_any(&[0.0, 10.0, 1.7e9], input), SE2::identity())];
+    for _ in 0..=input.next_below(MAX_ADDED_SECTIONS) {
+        let v = choose_number_or_draw_any(&[0.0, 0.2, 0.5, 0.8, -0.3], input);
+        let omega = choose_number_or_draw_any(&[0.0, 0.2, -0.4, 0.9, -0.9], input);
+        for _ in 0..1 + usize::from(input.next_byte()) % max_section_rows {
             let (time, last_pose) = log_rows[log_rows.len() - 1];
             log_rows.push((time + time_step, last_pose.boxplus(Vector3::new(v, 0.0, omega) * time_step)));
         }
@@ -96,10 +96,10 @@ fn odometry_rows(input: &mut InputReader, max_rows_of_part: usize) -> Vec<LogRow
 }
 
 /// Returns the rows of the reference. The reference is the odometry with an error in each step, and with occasional jumps.
-fn reference_rows(odometry: &[LogRow], input: &mut InputReader) -> Vec<LogRow> {
-    let clock_offset = choice_or_any_number(&[0.0, 0.12, -3.0, 50.0], input);
-    let mount_pose = SE2::new(0.1 * f64::from(input.next_below(3) as u8), 0.0, choice_or_any_number(&[0.0, 0.07, 3.0], input));
-    let relative_noise = choice_or_any_number(&[0.0, 0.01, 0.1, 0.5], input);
+fn read_reference_rows(odometry: &[LogRow], input: &mut InputReader) -> Vec<LogRow> {
+    let clock_offset = choose_number_or_draw_any(&[0.0, 0.12, -3.0, 50.0], input);
+    let mount_pose = SE2::new(0.1 * f64::from(input.next_below(3) as u8), 0.0, choose_number_or_draw_any(&[0.0, 0.07, 3.0], input));
+    let relative_noise = choose_number_or_draw_any(&[0.0, 0.01, 0.1, 0.5], input);
     let jump_interval = usize::from(input.next_byte());
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(u64::from(input.next_byte()));
     let mut pose = SE2::new(1.0, 2.0, 3.0);
@@ -128,7 +128,7 @@ fn edit_rows(log_rows: &mut Vec<LogRow>, input: &mut InputReader) {
             2 => log_rows[row_index].1 = SE2::new(x, y, input.next_number()),
             3 => log_rows[row_index..].iter_mut().for_each(|row| row.0 += 10.0),
             4 => log_rows[row_index].0 = time.next_up(),
-            _ => drop(log_rows.drain(row_index..(row_index + 1 + usize::from(input.next_byte()) % MAX_PART_ROWS).min(log_rows.len()))),
+            _ => drop(log_rows.drain(row_index..(row_index + 1 + usize::from(input.next_byte()) % MAX_SECTION_ROWS).min(log_rows.len()))),
         }
         if log_rows.is_empty() {
             log_rows.push((time, pose));
@@ -137,9 +137,9 @@ fn edit_rows(log_rows: &mut Vec<LogRow>, input: &mut InputReader) {
 }
 
 /// Returns the trajectory of the rows, with breaks before some rows. Returns None if the trajectory refuses a row.
-fn trajectory_from_rows(rows: &[LogRow], input: &mut InputReader) -> Option<Trajectory> {
+fn build_trajectory(rows: &[LogRow], input: &mut InputReader) -> Option<Trajectory> {
     let trajectory_or_error = match input.next_below(4) {
-        // The columns x and θ are used as speed and turn rate.
+        // The velocities of such a trajectory are arbitrary: the coordinates x and θ are used as speed and turn rate.
         0 => Trajectory::from_commands(rows.iter().map(|(time, pose)| (*time, pose.x(), pose.theta()))),
         _ => Trajectory::new(rows.iter().copied()),
     };
@@ -149,13 +149,13 @@ fn trajectory_from_rows(rows: &[LogRow], input: &mut InputReader) -> Option<Traj
             let break_indices: Vec<usize> = (0..input.next_below(4)).map(|_| usize::from(input.next_byte())).collect();
             Some(trajectory.with_breaks_before(break_indices))
         }
-        Err(TrajectoryError::NotLater { sample, before: time_before }) => {
-            assert!(sample > 0 && rows[sample].0 <= time_before && rows[sample - 1].0 == time_before);
+        Err(TrajectoryError::NotLater { sample: refused_index, before: time_before }) => {
+            assert!(refused_index > 0 && rows[refused_index].0 <= time_before && rows[refused_index - 1].0 == time_before);
             None
         }
-        // Poses after large commands may overflow.
-        Err(TrajectoryError::NotFinite { sample }) => {
-            assert!(sample < rows.len());
+        // Poses after large commands may overflow, so that the trajectory is refused.
+        Err(TrajectoryError::NotFinite { sample: refused_index }) => {
+            assert!(refused_index < rows.len());
             None
         }
     }
@@ -181,8 +181,8 @@ fn assert_calibration(calibration: &Calibration, options: &Options) {
     let is_usable = calibration.diagnostics.verdict != Verdict::Unusable;
     assert!(!is_usable || !calibration.log_likelihood.is_nan());
     for (i, error_kind) in SystematicError::ALL.into_iter().enumerate() {
-        let (estimate, error_interval) = (calibration.systematic.get(error_kind), calibration.interval_of(error_kind));
-        assert!(estimate.is_finite() && error_interval.is_none_or(|[low, high]| low <= estimate && estimate <= high));
+        let (error_estimate, error_interval) = (calibration.systematic.get(error_kind), calibration.interval_of(error_kind));
+        assert!(error_estimate.is_finite() && error_interval.is_none_or(|[low, high]| low <= error_estimate && error_estimate <= high));
         let may_be_corrected = error_interval.is_some() && options.correct[i] != Some(false);
         assert!(may_be_corrected || !calibration.is_corrected[i], "{error_kind:?}");
     }
@@ -190,29 +190,29 @@ fn assert_calibration(calibration: &Calibration, options: &Options) {
         assert!(adjacent_legs[0].times[1] <= adjacent_legs[1].times[0]);
     }
     assert!(legs.iter().all(|leg| leg.times[0] < leg.times[1]));
-    for leg in leg_fits {
-        let is_finite = leg.squared.is_finite() && leg.stds.iter().all(|innovation_std| innovation_std.is_nan() || *innovation_std >= 0.0);
-        assert!(!is_usable || is_finite, "{leg:?}");
-        assert!(options.outliers == Outliers::Reject || !leg.is_outlier);
+    for leg_fit in leg_fits {
+        let is_fit_finite = leg_fit.squared.is_finite() && leg_fit.stds.iter().all(|innovation_std| innovation_std.is_nan() || *innovation_std >= 0.0);
+        assert!(!is_usable || is_fit_finite, "{leg_fit:?}");
+        assert!(options.outliers == Outliers::Reject || !leg_fit.is_outlier);
     }
     assert_diagnostics(calibration);
 }
 
-fn assert_diagnostics(Calibration { alphas, diagnostics, persistence, recommended, .. }: &Calibration) {
-    for Check { name: check_name, value: check_value, expected: [low, high], passed, message } in &diagnostics.checks {
-        assert_eq!(message.is_empty(), *passed, "{check_name:?}");
-        assert_eq!(*passed, low <= check_value && check_value <= high, "{check_name:?}: {check_value} {low} {high}");
+fn assert_diagnostics(Calibration { alphas, diagnostics, persistence: error_persistence, recommended: recommendation, .. }: &Calibration) {
+    for Check { name: check_name, value: check_value, expected: [low, high], passed: has_passed, message: failure_message } in &diagnostics.checks {
+        assert_eq!(failure_message.is_empty(), *has_passed, "{check_name:?}");
+        assert_eq!(*has_passed, low <= check_value && check_value <= high, "{check_name:?}: {check_value} {low} {high}");
     }
     let have_all_passed = diagnostics.checks.iter().all(|diagnostic_check| diagnostic_check.passed);
     assert!(have_all_passed || diagnostics.verdict != Verdict::Consistent);
-    for window in diagnostics.windows.iter().filter(|window| window.count > 0) {
-        assertions::assert_fraction("covered windows", window.coverage);
+    for leg_window in diagnostics.windows.iter().filter(|leg_window| leg_window.count > 0) {
+        assertions::assert_fraction("covered windows", leg_window.coverage);
     }
-    assertions::assert_fraction("persistence", persistence.correlation.value);
-    assert_eq!(recommended.is_none(), diagnostics.verdict == Verdict::Unusable);
-    let Some(recommended) = recommended else { return };
-    assert!((1.0..=100.0).contains(&recommended.inflation), "{recommended:?}");
-    for (alpha, inflated_alpha) in alphas.iter().zip(&recommended.alphas) {
-        assert_eq!(alpha.map(|alpha| alpha * recommended.inflation), *inflated_alpha);
+    assertions::assert_fraction("persistence", error_persistence.correlation.value);
+    assert_eq!(recommendation.is_none(), diagnostics.verdict == Verdict::Unusable);
+    let Some(recommendation) = recommendation else { return };
+    assert!((1.0..=100.0).contains(&recommendation.inflation), "{recommendation:?}");
+    for (alpha, inflated_alpha) in alphas.iter().zip(&recommendation.alphas) {
+        assert_eq!(alpha.map(|alpha| alpha * recommendation.inflation), *inflated_alpha);
     }
 }

@@ -13,14 +13,14 @@ const MAX_SAMPLES: usize = 12;
 const MAX_CURVE_POINTS: usize = 6;
 const MAX_CALLS: usize = 4;
 
-pub fn run(input_bytes: &[u8]) {
+pub fn check_input(input_bytes: &[u8]) {
     let mut input = InputReader(input_bytes);
-    let first_settings = change_settings(&limit_samples(Settings::default()), &mut input);
+    let first_settings = change_settings(&limit_settings(Settings::default()), &mut input);
     if !are_settings_allowed(&first_settings) {
         assert!(OdometryDecomposer::new(first_settings).is_err());
         return;
     }
-    let mut simulation = OdometryDecomposer::new(limit_samples(first_settings)).expect("allowed");
+    let mut simulation = OdometryDecomposer::new(limit_settings(first_settings)).expect("allowed");
     for _ in 0..MAX_CALLS {
         if input.is_empty() {
             break;
@@ -31,7 +31,7 @@ pub fn run(input_bytes: &[u8]) {
 }
 
 /// Returns the settings with at most `MAX_SAMPLES` outcomes.
-fn limit_samples(settings: Settings) -> Settings {
+fn limit_settings(settings: Settings) -> Settings {
     Settings { samples: settings.samples.min(MAX_SAMPLES), ..settings }
 }
 
@@ -51,7 +51,7 @@ fn call_method(simulation: &mut OdometryDecomposer, input: &mut InputReader) {
             let leg_poses = simulation.sample_leg_poses(usize::from(input.next_byte()));
             assert!(leg_poses.len() <= shown_count);
             leg_poses.as_flattened().iter().for_each(|pose| assertions::assert_pose("a leg pose", pose));
-            assert!(leg_poses.iter().zip(simulation.poses()).all(|(outcome_poses, pose)| outcome_poses[3] == *pose));
+            assert!(leg_poses.iter().zip(simulation.poses()).all(|(poses_of_outcome, pose)| poses_of_outcome[3] == *pose));
         }
         5 => assert_deviation_curve(simulation, input.draw_number_within(0.0..=*QUANTITY_RANGE.end()), 1 + input.next_below(MAX_CURVE_POINTS)),
         _ => assert_nearest_pose(simulation, input),
@@ -67,7 +67,7 @@ fn change_simulation_settings(simulation: &mut OdometryDecomposer, input: &mut I
         assert_eq!(simulation.poses(), poses_before);
         return;
     }
-    let settings = limit_samples(settings);
+    let settings = limit_settings(settings);
     simulation.configure(settings).expect("allowed");
     assert_eq!(simulation.poses().len(), settings.samples);
 }
@@ -77,7 +77,7 @@ fn assert_deviation_curve(simulation: &OdometryDecomposer, max_distance: f64, po
     assert_eq!(curve_points.len(), point_count);
     for curve_point in curve_points {
         assertions::assert_finite("curve", &curve_point);
-        assert!(curve_point[1..].iter().all(|deviation| *deviation >= 0.0), "{curve_point:?}");
+        assert!(curve_point[1..].iter().all(|std_dev| *std_dev >= 0.0), "{curve_point:?}");
     }
 }
 
@@ -87,61 +87,61 @@ fn assert_nearest_pose(simulation: &OdometryDecomposer, input: &mut InputReader)
     let Some(nearest_index) = simulation.nearest(search_point, search_radius) else { return };
     let relative_distance_to = |pose: &SE2| ((pose.x() - search_point[0]) / search_radius).hypot((pose.y() - search_point[1]) / search_radius);
     let min_relative_distance = simulation.poses().iter().map(relative_distance_to).fold(f64::INFINITY, f64::min);
-    // The square of a distance below 1e-154 of the radius underflows to 0.
+    // The absolute tolerance allows for distances below 1e-154 of the radius, whose squares underflow to 0.
     let found_relative_distance = relative_distance_to(&simulation.poses()[nearest_index]);
     assert!(found_relative_distance <= min_relative_distance * (1.0 + 1e-9) + 1e-150 && found_relative_distance <= 1.0 + 1e-9, "{search_point:?} {search_radius}: {nearest_index}");
 }
 
-/// Asserts that all results are finite. Without outcomes they must be NaN.
+/// Asserts that every result of the simulation is finite, or NaN if there are no outcomes.
 fn assert_results(simulation: &OdometryDecomposer) {
     let settings = simulation.settings();
     simulation.poses().iter().for_each(|pose| assertions::assert_pose("an outcome", pose));
     simulation.leg_poses().iter().for_each(|pose| assertions::assert_pose("a leg pose", pose));
     assertions::assert_pose("the robot", &simulation.robot_pose());
-    let DriftedOdometry { poses, legs } = simulation.drifted_odometry();
-    poses.into_iter().for_each(|pose| assertions::assert_pose("drifted", &pose.into()));
-    assert_legs("drifted legs", &legs);
+    let DriftedOdometry { poses: drifted_poses, legs: drifted_legs } = simulation.drifted_odometry();
+    drifted_poses.into_iter().for_each(|pose| assertions::assert_pose("drifted", &pose.into()));
+    assert_legs("drifted legs", &drifted_legs);
     assert_legs("reading", &simulation.reading());
 
     let Stats {
         n,
-        cross_track,
-        cross_track_error,
-        exact_cross_track,
-        lever,
-        heading,
-        heading_error,
-        exact_heading,
-        independent_heading,
+        cross_track: cross_track_std,
+        cross_track_error: cross_track_std_error,
+        exact_cross_track: exact_cross_track_std,
+        lever: lever_arm_estimate,
+        heading: heading_std,
+        heading_error: heading_std_error,
+        exact_heading: exact_heading_std,
+        independent_heading: independent_heading_std,
     } = simulation.stats();
     assert_eq!(n, simulation.poses().len());
-    let exact_values = [exact_cross_track, lever, exact_heading, independent_heading];
-    let measured_values = [cross_track, cross_track_error, heading, heading_error];
-    assertions::assert_finite("exact", &exact_values);
-    assertions::assert_all_finite_or_all_nan("measured", &measured_values);
-    assert_eq!(n == 0, cross_track.is_nan());
+    let exact_stds = [exact_cross_track_std, lever_arm_estimate, exact_heading_std, independent_heading_std];
+    let measured_stds_and_errors = [cross_track_std, cross_track_std_error, heading_std, heading_std_error];
+    assertions::assert_finite("exact", &exact_stds);
+    assertions::assert_all_finite_or_all_nan("measured", &measured_stds_and_errors);
+    assert_eq!(n == 0, cross_track_std.is_nan());
     assert!(
-        exact_values.iter().chain(&measured_values).all(|deviation| deviation.is_nan() || *deviation >= 0.0),
-        "{exact_values:?} {measured_values:?}"
+        exact_stds.iter().chain(&measured_stds_and_errors).all(|std_dev| std_dev.is_nan() || *std_dev >= 0.0),
+        "{exact_stds:?} {measured_stds_and_errors:?}"
     );
 
     for rule_noise in simulation.rule_noises() {
         assert_legs("legs", &rule_noise.legs);
-        let rule_deviations = [&rule_noise.deviations[..], &[rule_noise.cross_track, rule_noise.heading]].concat();
-        assertions::assert_finite("a rule", &rule_deviations);
-        assert!(rule_deviations.iter().all(|rule_deviation| *rule_deviation >= 0.0), "{rule_noise:?}");
+        let rule_stds = [&rule_noise.deviations[..], &[rule_noise.cross_track, rule_noise.heading]].concat();
+        assertions::assert_finite("a rule", &rule_stds);
+        assert!(rule_stds.iter().all(|rule_std| *rule_std >= 0.0), "{rule_noise:?}");
         if rule_noise.rule == settings.rule {
             assert_eq!(rule_noise.legs, simulation.legs());
-            assertions::assert_same_numbers("exact", &rule_deviations[4..], &[exact_cross_track, exact_heading]);
+            assertions::assert_same_numbers("exact", &rule_stds[4..], &[exact_cross_track_std, exact_heading_std]);
         }
     }
 
-    // The last leg ends at the second odometry pose. Noise rules may ignore the direction of a tiny translation.
+    // The drawn legs of the reading end at the second odometry pose. Noise rules may ignore the direction of a tiny translation.
     let [x, y, _] = settings.to;
-    let [.., last_leg_end] = simulation.leg_poses();
-    let distance_to_second_pose = (last_leg_end.x() - x).hypot(last_leg_end.y() - y);
+    let [.., final_leg_pose] = simulation.leg_poses();
+    let distance_to_second_pose = (final_leg_pose.x() - x).hypot(final_leg_pose.y() - y);
     let largest_coordinate = settings.from.iter().chain(&settings.to).fold(0.0, |max_so_far: f64, coordinate| max_so_far.max(coordinate.abs()));
-    assert!(distance_to_second_pose <= 2.0 * MAX_SPIN_DISTANCE + 1e-14 * largest_coordinate, "{last_leg_end:?} for {settings:?}: {distance_to_second_pose}");
+    assert!(distance_to_second_pose <= 2.0 * MAX_SPIN_DISTANCE + 1e-14 * largest_coordinate, "{final_leg_pose:?} for {settings:?}: {distance_to_second_pose}");
 
     // Asserts that a simulation depends on its settings only, and not on earlier calls.
     let mut new_simulation = OdometryDecomposer::new(*settings).expect("allowed");

@@ -12,9 +12,9 @@ use motion::sim::settings::QUANTITY_RANGE;
 /// Maximum number of arcs that are tested on a grid.
 const MAX_ARCS: usize = 3;
 /// Maximum number of cells along a side.
-const MAX_SIDE_CELLS: usize = 3;
+const MAX_CELLS_PER_SIDE: usize = 3;
 
-pub fn run(input_bytes: &[u8]) {
+pub fn check_input(input_bytes: &[u8]) {
     let mut input = InputReader(input_bytes);
     let Some((grid, unknown_cell_rule)) = read_random_grid(&mut input) else { return };
     let [column_count, row_count] = grid.size();
@@ -24,27 +24,27 @@ pub fn run(input_bytes: &[u8]) {
         assert_outlines(&grid.with_unknown(unknown_cell_rule), unknown_cell_rule);
         return;
     }
-    let plan = match FloorPlan::from_grid(grid.with_unknown(unknown_cell_rule)) {
-        Ok(plan) => plan,
+    let floor_plan = match FloorPlan::from_grid(grid.with_unknown(unknown_cell_rule)) {
+        Ok(floor_plan) => floor_plan,
         Err(FloorPlanError::BadGrid(_)) => return,
-        Err(plan_error) => panic!("{plan_error}"),
+        Err(floor_plan_error) => panic!("{floor_plan_error}"),
     };
-    let grid = plan.grid().expect("made of a grid");
+    let grid = floor_plan.grid().expect("made of a grid");
     assert_outlines(grid, unknown_cell_rule);
-    for (cell_middle, is_obstacle) in middles_and_obstacles(grid, unknown_cell_rule) {
-        assert_eq!(plan.test_point(cell_middle, 0.0).free, !is_obstacle, "{cell_middle:?} in {grid:?}");
+    for (cell_middle, is_cell_obstacle) in find_middles_and_obstacles(grid, unknown_cell_rule) {
+        assert_eq!(floor_plan.test_point(cell_middle, 0.0).free, !is_cell_obstacle, "{cell_middle:?} in {grid:?}");
     }
     for _ in 0..MAX_ARCS {
-        plan::assert_collision_verdicts(&plan, &mut input);
+        plan::assert_collision_verdicts(&floor_plan, &mut input);
         if input.is_empty() {
             break;
         }
     }
 }
 
-/// Returns the middle of each cell, and true for an obstacle. The list is empty if the coordinates are too large to
-/// distinguish cells.
-fn middles_and_obstacles(grid: &OccupancyGrid, unknown_cell_rule: UnknownCells) -> Vec<([f64; 2], bool)> {
+/// Returns the middle of each cell, and whether the cell is an obstacle. The list is empty if the coordinates are too large to distinguish
+/// cells.
+fn find_middles_and_obstacles(grid: &OccupancyGrid, unknown_cell_rule: UnknownCells) -> Vec<([f64; 2], bool)> {
     let ([column_count, row_count], grid_origin, cell_side) = (grid.size(), grid.origin(), grid.resolution());
     let largest_coordinate = grid_origin.x().abs().max(grid_origin.y().abs()) + (column_count + row_count) as f64 * cell_side;
     if cell_side <= 1e3 * f64::EPSILON * largest_coordinate {
@@ -64,33 +64,33 @@ fn middles_and_obstacles(grid: &OccupancyGrid, unknown_cell_rule: UnknownCells) 
 /// Asserts that each cell contains its middle, and that the total length of the outlines equals the total length of the
 /// sides between obstacles and other cells.
 fn assert_outlines(grid: &OccupancyGrid, unknown_cell_rule: UnknownCells) {
-    let middles_and_obstacles = middles_and_obstacles(grid, unknown_cell_rule);
-    for (middle, is_obstacle) in &middles_and_obstacles {
-        assert_eq!(grid.is_blocked_at(*middle), *is_obstacle, "{middle:?} in {grid:?}");
+    let find_middles_and_obstacles = find_middles_and_obstacles(grid, unknown_cell_rule);
+    for (cell_middle, is_obstacle) in &find_middles_and_obstacles {
+        assert_eq!(grid.is_blocked_at(*cell_middle), *is_obstacle, "{cell_middle:?} in {grid:?}");
     }
-    let [columns, rows] = grid.size();
+    let [column_count, row_count] = grid.size();
     let is_obstacle_at = |column_index: usize, row_index: usize| {
-        (column_index < columns && row_index < rows)
-            .then(|| middles_and_obstacles.get(row_index * columns + column_index))
+        (column_index < column_count && row_index < row_count)
+            .then(|| find_middles_and_obstacles.get(row_index * column_count + column_index))
             .flatten()
-            .is_some_and(|cell| cell.1)
+            .is_some_and(|middle_and_obstacle| middle_and_obstacle.1)
     };
     let mut obstacle_side_count = 0;
-    for row in 0..=rows {
-        for column in 0..=columns {
-            let is_obstacle_here = is_obstacle_at(column, row);
-            obstacle_side_count += usize::from(is_obstacle_here != is_obstacle_at(column.wrapping_sub(1), row));
-            obstacle_side_count += usize::from(is_obstacle_here != is_obstacle_at(column, row.wrapping_sub(1)));
+    for row in 0..=row_count {
+        for column in 0..=column_count {
+            let is_cell_obstacle = is_obstacle_at(column, row);
+            obstacle_side_count += usize::from(is_cell_obstacle != is_obstacle_at(column.wrapping_sub(1), row));
+            obstacle_side_count += usize::from(is_cell_obstacle != is_obstacle_at(column, row.wrapping_sub(1)));
         }
     }
     let wall_outlines = grid.outlines(usize::MAX).expect("no limit");
-    let total_length: f64 = wall_outlines.iter().map(wall_length).sum();
-    if !middles_and_obstacles.is_empty() {
-        assert!((total_length / grid.resolution() - obstacle_side_count as f64).abs() < 1e-3 * (1 + obstacle_side_count) as f64, "{grid:?}");
+    let total_outline_length: f64 = wall_outlines.iter().map(wall_length_of).sum();
+    if !find_middles_and_obstacles.is_empty() {
+        assert!((total_outline_length / grid.resolution() - obstacle_side_count as f64).abs() < 1e-3 * (1 + obstacle_side_count) as f64, "{grid:?}");
     }
 }
 
-fn wall_length(wall: &Segment) -> f64 {
+fn wall_length_of(wall: &Segment) -> f64 {
     (wall.to[0] - wall.from[0]).hypot(wall.to[1] - wall.from[1])
 }
 
@@ -101,43 +101,43 @@ pub fn read_random_grid(input: &mut InputReader) -> Option<(OccupancyGrid, Unkno
     if !RESOLUTION_RANGE.contains(&resolution) || ![x, y, yaw].iter().all(|origin_coordinate| QUANTITY_RANGE.contains(origin_coordinate)) {
         return None;
     }
-    let [width, height] = [0; 2].map(|_| 1 + input.next_below(MAX_SIDE_CELLS));
+    let [image_width, image_height] = [0; 2].map(|_| 1 + input.next_below(MAX_CELLS_PER_SIDE));
     let map_mode = input.choose_one(&[MapMode::Trinary, MapMode::Scale, MapMode::Raw]);
     let is_negated = input.next_bool();
-    let [a, b] = [0; 2].map(|_| f64::from(input.next_byte()) / 255.0);
-    let interpretation = PixelClassifier { mode: map_mode, negate: is_negated, occupied_thresh: a.max(b), free_thresh: a.min(b) };
+    let [first_threshold, second_threshold] = [0; 2].map(|_| f64::from(input.next_byte()) / 255.0);
+    let pixel_classifier = PixelClassifier { mode: map_mode, negate: is_negated, occupied_thresh: first_threshold.max(second_threshold), free_thresh: first_threshold.min(second_threshold) };
     let unknown_cell_rule = input.choose_one(&[UnknownCells::Free, UnknownCells::Blocked]);
     let is_opaque = input.next_bool();
-    let pixels: Vec<Pixel> = (0..width * height)
+    let pixels: Vec<Pixel> = (0..image_width * image_height)
         .map(|_| Pixel {
             brightness: f32::from(input.next_byte()) / 255.0,
             opacity: if is_opaque { 1.0 } else { f32::from(input.next_byte()) / 255.0 },
         })
         .collect();
     for pixel in &pixels {
-        assert_cell_of_pixel(&interpretation, *pixel);
+        assert_cell_of_pixel(&pixel_classifier, *pixel);
     }
-    let image = Image { width, height, pixels };
-    Some((OccupancyGrid::new(&image, &interpretation, resolution, SE2::new(x, y, yaw)), unknown_cell_rule))
+    let image = Image { width: image_width, height: image_height, pixels };
+    Some((OccupancyGrid::new(&image, &pixel_classifier, resolution, SE2::new(x, y, yaw)), unknown_cell_rule))
 }
 
 /// Checks the cell of a pixel against the documentation of `map_server`. If the pixel is within rounding of a threshold, both states are
 /// right.
-fn assert_cell_of_pixel(interpretation: &PixelClassifier, pixel: Pixel) {
-    let PixelClassifier { mode, negate, occupied_thresh, free_thresh } = *interpretation;
+fn assert_cell_of_pixel(pixel_classifier: &PixelClassifier, pixel: Pixel) {
+    let PixelClassifier { mode: map_mode, negate: is_negated, occupied_thresh, free_thresh } = *pixel_classifier;
     let pixel_shade = f64::from(pixel.brightness);
-    let occupancy = if negate { pixel_shade } else { 1.0 - pixel_shade };
+    let occupancy = if is_negated { pixel_shade } else { 1.0 - pixel_shade };
     let grey_value = (255.0 * pixel_shade).round();
-    let is_near = |threshold: f64| (occupancy - threshold).abs() < 2.0 * f64::from(f32::EPSILON);
-    let expected_cell = match mode {
+    let is_near_threshold = |threshold: f64| (occupancy - threshold).abs() < 2.0 * f64::from(f32::EPSILON);
+    let expected_cell = match map_mode {
         MapMode::Raw if grey_value == 100.0 => Cell::Occupied,
         MapMode::Raw if grey_value > 100.0 => Cell::Unknown,
         MapMode::Raw => Cell::Free,
         MapMode::Scale if pixel.opacity < 1.0 => Cell::Unknown,
-        _ if is_near(occupied_thresh) || is_near(free_thresh) => return,
+        _ if is_near_threshold(occupied_thresh) || is_near_threshold(free_thresh) => return,
         _ if occupancy > occupied_thresh => Cell::Occupied,
         MapMode::Trinary if occupancy > free_thresh => Cell::Unknown,
         _ => Cell::Free,
     };
-    assert_eq!(interpretation.classify_pixel(pixel), expected_cell, "{interpretation:?} of {pixel:?}");
+    assert_eq!(pixel_classifier.classify_pixel(pixel), expected_cell, "{pixel_classifier:?} of {pixel:?}");
 }

@@ -5,19 +5,19 @@ use std::ops::RangeInclusive;
 /// Remaining bytes of a fuzz input. All bytes after the end of the input are 0.
 pub struct InputReader<'a>(pub &'a [u8]);
 
-/// Returns true for one in `interval` inputs, selected by a hash of all bytes. Slow checks run for these inputs only.
+/// Returns true for one in `selection_interval` inputs, which a hash of all bytes selects. Slow checks run for the selected inputs only.
 ///
-/// A single byte would not do, because most mutations of an input keep that byte.
-pub fn is_selected_by_hash(interval: u64, input_bytes: &[u8]) -> bool {
-    // FNV-1a.
+/// A single byte cannot select inputs, because most mutations of an input keep that byte.
+pub fn is_selected_by_hash(selection_interval: u64, input_bytes: &[u8]) -> bool {
+    // FNV-1a hash.
     let mix_byte =
         |input_hash: u64, byte: &u8| (input_hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);
     let input_hash = input_bytes.iter().fold(0xcbf2_9ce4_8422_2325, mix_byte);
-    (input_hash >> 32) % interval == 0
+    (input_hash >> 32) % selection_interval == 0
 }
 
 /// Limits of the ranges of settings, and limits of doubles.
-const LIMIT_NUMBERS: [f64; 24] = [
+const RANGE_AND_DOUBLE_LIMITS: [f64; 24] = [
     0.0,
     -0.0,
     1.0,
@@ -50,8 +50,8 @@ impl InputReader<'_> {
     }
 
     pub fn next_byte(&mut self) -> u8 {
-        let Some((first_byte, other_bytes)) = self.0.split_first() else { return 0 };
-        self.0 = other_bytes;
+        let Some((first_byte, remaining_bytes)) = self.0.split_first() else { return 0 };
+        self.0 = remaining_bytes;
         *first_byte
     }
 
@@ -63,9 +63,9 @@ impl InputReader<'_> {
         self.next_byte() & 1 == 1
     }
 
-    /// Returns an integer from 0 to `limit` − 1.
-    pub fn next_below(&mut self, limit: usize) -> usize {
-        usize::from(self.next_byte()) % limit
+    /// Returns an integer from 0 to `exclusive_limit` − 1.
+    pub fn next_below(&mut self, exclusive_limit: usize) -> usize {
+        usize::from(self.next_byte()) % exclusive_limit
     }
 
     pub fn choose_one<T: Copy>(&mut self, choices: &[T]) -> T {
@@ -76,7 +76,7 @@ impl InputReader<'_> {
     pub fn next_number(&mut self) -> f64 {
         match self.next_below(8) {
             0 => f64::from_le_bytes(self.next_bytes()),
-            1 => self.choose_one(&LIMIT_NUMBERS),
+            1 => self.choose_one(&RANGE_AND_DOUBLE_LIMITS),
             2 => f64::from(self.next_byte() as i8),
             3 => f64::from(self.next_byte() as i8) * 10f64.powi(i32::from(self.next_byte() as i8) / 4),
             4 => f64::from(i16::from_le_bytes(self.next_bytes())) * 1e-4,

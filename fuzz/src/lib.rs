@@ -9,7 +9,7 @@ macro_rules! targets {
         $(pub mod $name;)+
 
         /// Names and functions of the targets.
-        pub const TARGETS: &[(&str, fn(&[u8]))] = &[$((stringify!($name), $name::run)),+];
+        pub const TARGETS: &[(&str, fn(&[u8]))] = &[$((stringify!($name), $name::check_input)),+];
     };
 }
 targets!(anatomy, banana, calibrate, decomposer, grid, pgm, plan, png, reckoning, squeeze);

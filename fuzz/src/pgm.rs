@@ -4,15 +4,15 @@ use motion::geom::se2::SE2;
 use motion::map::{FloorPlan, Image, PixelClassifier, MAX_PIXELS, OccupancyGrid, read_grid, read_pgm};
 use std::fmt::Write;
 
-pub fn run(pgm_bytes: &[u8]) {
+pub fn check_input(pgm_bytes: &[u8]) {
     match read_pgm(pgm_bytes).map_err(|pgm_error| pgm_error.to_string()) {
         Ok(image) => {
             let Image { width, height, ref pixels } = image;
             assert!(width > 0 && height > 0 && width * height <= MAX_PIXELS);
             assert_eq!(pixels.len(), width * height);
-            assert!(pixels.iter().all(|shade| (0.0..=1.0).contains(shade)));
+            assert!(pixels.iter().all(|brightness| (0.0..=1.0).contains(brightness)));
             if pixels.len() <= 64 {
-                assert_survives_writing(&image);
+                assert_same_after_writing(&image);
                 let grid = OccupancyGrid::new(&image, &PixelClassifier::default(), 1.0, SE2::identity());
                 assert_eq!(
                     read_grid(pgm_bytes, &PixelClassifier::default(), 1.0, SE2::identity()).as_ref(),
@@ -21,26 +21,26 @@ pub fn run(pgm_bytes: &[u8]) {
                 assert!(FloorPlan::from_grid(grid).is_ok());
             }
         }
-        Err(message) => {
-            assert!(message.contains("; allowed is ") && message.len() < 300, "{message}");
+        Err(error_message) => {
+            assert!(error_message.contains("; allowed is ") && error_message.len() < 300, "{error_message}");
         }
     }
 }
 
 /// Asserts that an image written with 16 bits, as text or binary, is read as the same image. Shades are rounded to 1/65 535.
-fn assert_survives_writing(image: &Image<f32>) {
-    const MAX_VALUE: f32 = 65_535.0;
-    let mut plain_text = format!("P2\n{} {}\n{MAX_VALUE}", image.width, image.height);
-    let mut binary_file = format!("P5 {} {} {MAX_VALUE}\n", image.width, image.height).into_bytes();
-    for shade in &image.pixels {
-        let grey_value = (shade * MAX_VALUE).round() as u16;
-        write!(plain_text, " {grey_value}").expect("memory");
-        binary_file.extend(grey_value.to_be_bytes());
+fn assert_same_after_writing(image: &Image<f32>) {
+    const MAX_GREY_VALUE: f32 = 65_535.0;
+    let mut plain_pgm = format!("P2\n{} {}\n{MAX_GREY_VALUE}", image.width, image.height);
+    let mut binary_pgm = format!("P5 {} {} {MAX_GREY_VALUE}\n", image.width, image.height).into_bytes();
+    for brightness in &image.pixels {
+        let grey_value = (brightness * MAX_GREY_VALUE).round() as u16;
+        write!(plain_pgm, " {grey_value}").expect("memory");
+        binary_pgm.extend(grey_value.to_be_bytes());
     }
-    let reread_image = read_pgm(plain_text.as_bytes()).expect("a plain file");
-    assert_eq!(reread_image, read_pgm(&binary_file).expect("a binary file"));
+    let reread_image = read_pgm(plain_pgm.as_bytes()).expect("a plain file");
+    assert_eq!(reread_image, read_pgm(&binary_pgm).expect("a binary file"));
     assert_eq!((reread_image.width, reread_image.height), (image.width, image.height));
-    for (shade, reread_shade) in image.pixels.iter().zip(&reread_image.pixels) {
-        assert!((shade - reread_shade).abs() <= 0.51 / MAX_VALUE, "{shade} {reread_shade}");
+    for (brightness, reread_brightness) in image.pixels.iter().zip(&reread_image.pixels) {
+        assert!((brightness - reread_brightness).abs() <= 0.51 / MAX_GREY_VALUE, "{brightness} {reread_brightness}");
     }
 }

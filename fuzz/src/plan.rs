@@ -10,11 +10,11 @@ use motion::map::{FloorPlan, FloorPlanError};
 const MAX_WALLS: usize = 4;
 const MAX_ARCS: usize = 3;
 
-pub fn run(input_bytes: &[u8]) {
+pub fn check_input(input_bytes: &[u8]) {
     let mut input = InputReader(input_bytes);
-    let Some(plan) = read_plan(&mut input) else { return };
+    let Some(floor_plan) = read_floor_plan(&mut input) else { return };
     for _ in 0..MAX_ARCS {
-        assert_collision_verdicts(&plan, &mut input);
+        assert_collision_verdicts(&floor_plan, &mut input);
         if input.is_empty() {
             break;
         }
@@ -22,7 +22,7 @@ pub fn run(input_bytes: &[u8]) {
 }
 
 /// Reads a plan of a few walls. Returns None if the plan is refused.
-pub fn read_plan(input: &mut InputReader) -> Option<FloorPlan> {
+pub fn read_floor_plan(input: &mut InputReader) -> Option<FloorPlan> {
     let bounds: [f64; 4] = if input.next_bool() {
         std::array::from_fn(|_| input.next_number())
     } else {
@@ -32,9 +32,9 @@ pub fn read_plan(input: &mut InputReader) -> Option<FloorPlan> {
     };
     let [left, bottom, right, top] = bounds;
     let read_coordinate = |input: &mut InputReader, min_coordinate: f64, max_coordinate: f64| {
-        let range_fraction = f64::from(input.next_byte()) / 255.0;
-        let number_inside = min_coordinate + (max_coordinate - min_coordinate) * range_fraction;
-        if input.next_below(16) == 0 { input.next_number() } else { number_inside }
+        let fraction_of_range = f64::from(input.next_byte()) / 255.0;
+        let coordinate_within_range = min_coordinate + (max_coordinate - min_coordinate) * fraction_of_range;
+        if input.next_below(16) == 0 { input.next_number() } else { coordinate_within_range }
     };
     let wall_count = input.next_below(1 + MAX_WALLS);
     let mut walls: Vec<Segment> = Vec::new();
@@ -55,32 +55,32 @@ pub fn read_plan(input: &mut InputReader) -> Option<FloorPlan> {
     }
     let has_valid_bounds = bounds.iter().all(|bound| bound.abs() <= 1e6)
         && [right - left, top - bottom].iter().all(|side_length| (0.01..=1e5).contains(side_length));
-    // The edge has a tolerance for rounding.
+    // A wall that ends beyond the edge of the map by no more than rounding is accepted.
     let edge_tolerance = 1e-12 * bounds.iter().fold(0.0, |max_so_far: f64, bound| max_so_far.max(bound.abs()));
-    let is_outside = |[x, y]: [f64; 2]| {
+    let is_outside_bounds = |[x, y]: [f64; 2]| {
         !(left - edge_tolerance..=right + edge_tolerance).contains(&x) || !(bottom - edge_tolerance..=top + edge_tolerance).contains(&y)
     };
     match FloorPlan::new(walls.clone(), bounds) {
-        Ok(plan) => {
-            assert!(has_valid_bounds && !walls.iter().any(|wall| is_outside(wall.from) || is_outside(wall.to)));
-            Some(plan)
+        Ok(floor_plan) => {
+            assert!(has_valid_bounds && !walls.iter().any(|wall| is_outside_bounds(wall.from) || is_outside_bounds(wall.to)));
+            Some(floor_plan)
         }
-        Err(plan_error) => {
-            let message = plan_error.to_string();
-            assert!(message.contains("; allowed is "), "{message}");
-            match plan_error {
+        Err(floor_plan_error) => {
+            let error_message = floor_plan_error.to_string();
+            assert!(error_message.contains("; allowed is "), "{error_message}");
+            match floor_plan_error {
                 FloorPlanError::BadBounds(refused_bounds) => {
-                    assert!(!has_valid_bounds, "{message}");
-                    super::assertions::assert_same_numbers(&message, &refused_bounds, &bounds);
+                    assert!(!has_valid_bounds, "{error_message}");
+                    super::assertions::assert_same_numbers(&error_message, &refused_bounds, &bounds);
                 }
-                FloorPlanError::BadWall { index: wall_index, end: end_index } => {
-                    assert!(wall_index < wall_count, "{message}");
-                    let [x, y] = end_index;
-                    assert!(!((left..=right).contains(&x) && (bottom..=top).contains(&y)), "{message}");
+                FloorPlanError::BadWall { index: refused_wall_index, end: refused_end } => {
+                    assert!(refused_wall_index < wall_count, "{error_message}");
+                    let [x, y] = refused_end;
+                    assert!(!((left..=right).contains(&x) && (bottom..=top).contains(&y)), "{error_message}");
                 }
                 FloorPlanError::TooManyWalls(_)
                 | FloorPlanError::BadGrid(_)
-                | FloorPlanError::TooManySides(_) => panic!("{message}"),
+                | FloorPlanError::TooManySides(_) => panic!("{error_message}"),
             }
             None
         }
@@ -88,78 +88,78 @@ pub fn read_plan(input: &mut InputReader) -> Option<FloorPlan> {
 }
 
 /// Returns a pose, mostly inside the bounds.
-pub fn random_pose(plan: &FloorPlan, input: &mut InputReader) -> SE2 {
-    let [left, bottom, right, top] = plan.bounds();
+pub fn draw_pose(floor_plan: &FloorPlan, input: &mut InputReader) -> SE2 {
+    let [left, bottom, right, top] = floor_plan.bounds();
     let [x, y] = [[left, right], [bottom, top]].map(|[min_coordinate, max_coordinate]| {
-        let range_fraction = f64::from(u16::from_le_bytes(input.next_bytes())) / 65_535.0;
-        min_coordinate + (max_coordinate - min_coordinate) * range_fraction
+        let fraction_of_range = f64::from(u16::from_le_bytes(input.next_bytes())) / 65_535.0;
+        min_coordinate + (max_coordinate - min_coordinate) * fraction_of_range
     });
     SE2::new(x, y, input.draw_number_within(-1e6..=1e6))
 }
 
 /// Asserts that the collision verdicts on an arc and on its end equal those of a loop over all walls.
-pub fn assert_collision_verdicts(plan: &FloorPlan, input: &mut InputReader) {
-    let start_pose = random_pose(plan, input);
+pub fn assert_collision_verdicts(floor_plan: &FloorPlan, input: &mut InputReader) {
+    let start_pose = draw_pose(floor_plan, input);
     let arc_length = input.draw_number_within(-1e12..=1e12);
     let arc_turn = input.draw_number_within(-1e12..=1e12);
     let clearance = input.draw_number_within(0.0..=10.0);
     let driven_arc = Arc { start: start_pose, length: arc_length, turn: arc_turn };
-    let distance_tolerance = rounding_error(plan, &driven_arc, clearance);
-    let depth_at = |x: f64, y: f64| depth_inside(plan, [x, y]);
+    let distance_tolerance = rounding_tolerance_of(floor_plan, &driven_arc, clearance);
+    let edge_distance_at = |x: f64, y: f64| signed_distance_from_edge(floor_plan, [x, y]);
 
     // Upper bound of the minimum distance of the path from the edge of the map, computed at some points of the path. `min_depth -
     // max_distance_to_tested_point` is a lower bound.
-    const INTERVAL_COUNT: u32 = 16;
-    let min_depth = (0..=INTERVAL_COUNT).fold(f64::INFINITY, |min_so_far, i| {
-        let f = f64::from(i) / f64::from(INTERVAL_COUNT);
-        let point_on_path = Arc { length: f * arc_length, turn: f * arc_turn, ..driven_arc }.end();
-        min_so_far.min(depth_at(point_on_path.x(), point_on_path.y()))
+    const PATH_INTERVAL_COUNT: u32 = 16;
+    let min_edge_distance = (0..=PATH_INTERVAL_COUNT).fold(f64::INFINITY, |min_so_far, i| {
+        let path_fraction = f64::from(i) / f64::from(PATH_INTERVAL_COUNT);
+        let point_on_path = Arc { length: path_fraction * arc_length, turn: path_fraction * arc_turn, ..driven_arc }.end();
+        min_so_far.min(edge_distance_at(point_on_path.x(), point_on_path.y()))
     });
     // Upper bound of the distance of any point of the arc from the nearest tested point.
     let circle_diameter = if arc_turn == 0.0 { f64::INFINITY } else { 2.0 * (arc_length / arc_turn).abs() };
-    let max_distance_to_tested_point = (0.5 * arc_length.abs() / f64::from(INTERVAL_COUNT)).min(circle_diameter);
-    let is_in_obstacle = plan.grid().is_some_and(|grid| grid.is_blocked_at([start_pose.x(), start_pose.y()]));
-    let wall_distance = plan.walls().iter().map(|wall| wall.distance_to_arc(&driven_arc)).fold(f64::INFINITY, f64::min);
+    let max_distance_to_tested_point = (0.5 * arc_length.abs() / f64::from(PATH_INTERVAL_COUNT)).min(circle_diameter);
+    let is_in_obstacle = floor_plan.grid().is_some_and(|grid| grid.is_blocked_at([start_pose.x(), start_pose.y()]));
+    let min_wall_distance = floor_plan.walls().iter().map(|wall| wall.distance_to_arc(&driven_arc)).fold(f64::INFINITY, f64::min);
 
-    let is_free = plan.test_arc(&driven_arc, clearance).free;
-    let failure_description = format!("{driven_arc:?} with {clearance} to spare: walls {wall_distance}, edge {min_depth}");
+    let is_free = floor_plan.test_arc(&driven_arc, clearance).free;
+    let failure_description = format!("{driven_arc:?} with {clearance} to spare: walls {min_wall_distance}, edge {min_edge_distance}");
     if is_free {
-        assert!(wall_distance > clearance - distance_tolerance && min_depth >= -distance_tolerance && !is_in_obstacle, "through a wall: {failure_description}");
+        assert!(min_wall_distance > clearance - distance_tolerance && min_edge_distance >= -distance_tolerance && !is_in_obstacle, "through a wall: {failure_description}");
     } else {
-        let is_clear = wall_distance > clearance + distance_tolerance && min_depth - max_distance_to_tested_point > distance_tolerance && !is_in_obstacle;
-        assert!(!is_clear, "refused for nothing: {failure_description}");
+        let is_clearly_free = min_wall_distance > clearance + distance_tolerance && min_edge_distance - max_distance_to_tested_point > distance_tolerance && !is_in_obstacle;
+        assert!(!is_clearly_free, "refused for nothing: {failure_description}");
     }
 
     let end_pose = driven_arc.end();
     let end_point = [end_pose.x(), end_pose.y()];
-    let wall_distance = plan.walls().iter().map(|wall| wall.distance_to_point(end_point)).fold(f64::INFINITY, f64::min);
-    let is_free = plan.test_point(end_point, clearance).free;
-    let is_in_obstacle = plan.grid().is_some_and(|grid| grid.is_blocked_at(end_point));
-    let depth_of_end = depth_at(end_point[0], end_point[1]);
+    let min_wall_distance = floor_plan.walls().iter().map(|wall| wall.distance_to_point(end_point)).fold(f64::INFINITY, f64::min);
+    let is_free = floor_plan.test_point(end_point, clearance).free;
+    let is_in_obstacle = floor_plan.grid().is_some_and(|grid| grid.is_blocked_at(end_point));
+    let edge_distance_of_end = edge_distance_at(end_point[0], end_point[1]);
     if is_free {
-        assert!(wall_distance > clearance - distance_tolerance && depth_of_end >= -distance_tolerance && !is_in_obstacle, "{end_point:?}, {clearance}");
+        assert!(min_wall_distance > clearance - distance_tolerance && edge_distance_of_end >= -distance_tolerance && !is_in_obstacle, "{end_point:?}, {clearance}");
     } else {
-        let is_clear = wall_distance > clearance + distance_tolerance && depth_of_end > distance_tolerance && !is_in_obstacle;
-        assert!(!is_clear, "refused for nothing: {end_point:?}, {clearance}");
+        let is_clearly_free = min_wall_distance > clearance + distance_tolerance && edge_distance_of_end > distance_tolerance && !is_in_obstacle;
+        assert!(!is_clearly_free, "refused for nothing: {end_point:?}, {clearance}");
     }
 }
 
 /// Returns the distance (m) of a point from the edge of the map, which is negative outside of the map.
-fn depth_inside(plan: &FloorPlan, [x, y]: [f64; 2]) -> f64 {
-    let ([x, y], [left, bottom, right, top]) = match plan.grid() {
-        None => ([x, y], plan.bounds()),
+fn signed_distance_from_edge(floor_plan: &FloorPlan, [x, y]: [f64; 2]) -> f64 {
+    let ([x, y], [map_left, map_bottom, map_right, map_top]) = match floor_plan.grid() {
+        None => ([x, y], floor_plan.bounds()),
         Some(grid) => {
-            let point_in_grid = grid.origin().inverse() * SE2::new(x, y, 0.0);
+            let grid_pose = grid.origin().inverse() * SE2::new(x, y, 0.0);
             let [map_width, map_height] = grid.size().map(|cell_count| cell_count as f64 * grid.resolution());
-            ([point_in_grid.x(), point_in_grid.y()], [0.0, 0.0, map_width, map_height])
+            ([grid_pose.x(), grid_pose.y()], [0.0, 0.0, map_width, map_height])
         }
     };
-    (x - left).min(right - x).min(y - bottom).min(top - y)
+    (x - map_left).min(map_right - x).min(y - map_bottom).min(map_top - y)
 }
 
 /// Returns the rounding tolerance (m) that `FloorPlan` has at the edge of a map: some thousand units in the last place of
 /// the largest number.
-fn rounding_error(plan: &FloorPlan, arc: &Arc, clearance: f64) -> f64 {
-    let largest_coordinate = plan.bounds().iter().fold(0.0, |largest: f64, bound| largest.max(bound.abs()));
+fn rounding_tolerance_of(floor_plan: &FloorPlan, arc: &Arc, clearance: f64) -> f64 {
+    let largest_coordinate = floor_plan.bounds().iter().fold(0.0, |max_so_far: f64, bound| max_so_far.max(bound.abs()));
     1e-12 * (largest_coordinate + arc.length.abs() + clearance)
 }

@@ -15,7 +15,7 @@ const MAX_SAMPLES: usize = 800;
 const MAX_STEPS: u32 = 5;
 const MAX_CALLS: usize = 4;
 
-pub fn run(input_bytes: &[u8]) {
+pub fn check_input(input_bytes: &[u8]) {
     let mut input = InputReader(input_bytes);
     let [should_check_straight_growth, should_compare_new_simulation] = [0; 2].map(|_| input.next_below(4) == 1);
     let first_settings = Settings { samples: 3, steps: MAX_STEPS, ..Settings::default() };
@@ -25,8 +25,8 @@ pub fn run(input_bytes: &[u8]) {
         return;
     }
     let max_samples = if is_selected_by_hash(16, input_bytes) { MAX_SAMPLES } else { MAX_SAMPLES_OF_MOST_RUNS };
-    let limit_size = |settings| limit_size(settings, max_samples);
-    let mut simulation = DeadReckoning::with_shown_count(limit_size(first_settings), 0).expect("allowed");
+    let limit_settings = |settings| limit_settings(settings, max_samples);
+    let mut simulation = DeadReckoning::with_shown_count(limit_settings(first_settings), 0).expect("allowed");
     if input.next_bool() {
         simulation.add_samples(MAX_SAMPLES);
     }
@@ -34,7 +34,7 @@ pub fn run(input_bytes: &[u8]) {
         if input.is_empty() {
             break;
         }
-        call_method(&mut simulation, &limit_size, &mut input);
+        call_method(&mut simulation, &limit_settings, &mut input);
     }
     assert_results(&simulation);
     // Slow checks run for some inputs only.
@@ -47,7 +47,7 @@ pub fn run(input_bytes: &[u8]) {
 }
 
 /// Returns the settings with few robots and steps.
-fn limit_size(settings: Settings, max_samples: usize) -> Settings {
+fn limit_settings(settings: Settings, max_samples: usize) -> Settings {
     Settings {
         samples: settings.samples.min(max_samples),
         steps: settings.steps.min(MAX_STEPS),
@@ -56,11 +56,11 @@ fn limit_size(settings: Settings, max_samples: usize) -> Settings {
     }
 }
 
-fn call_method(simulation: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> Settings, input: &mut InputReader) {
+fn call_method(simulation: &mut DeadReckoning, limit_settings: &dyn Fn(Settings) -> Settings, input: &mut InputReader) {
     let shown_count = simulation.shown_count();
     match input.next_below(9) {
-        0 | 1 => change_simulation_settings(simulation, limit_size, input),
-        2 | 3 => assert_same_if_added_in_blocks(simulation, limit_size, input),
+        0 | 1 => change_simulation_settings(simulation, limit_settings, input),
+        2 | 3 => assert_same_if_added_in_blocks(simulation, limit_settings, input),
         4 => {
             let added_count = usize::from(u16::from_le_bytes(input.next_bytes())) % MAX_SAMPLES;
             assert_eq!(simulation.add_samples(added_count), (shown_count + added_count).min(simulation.settings().samples));
@@ -75,24 +75,24 @@ fn call_method(simulation: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> 
     }
 }
 
-fn change_simulation_settings(simulation: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> Settings, input: &mut InputReader) {
+fn change_simulation_settings(simulation: &mut DeadReckoning, limit_settings: &dyn Fn(Settings) -> Settings, input: &mut InputReader) {
     let settings = change_settings(simulation.settings(), input);
     if are_settings_allowed(&settings) {
-        simulation.configure(limit_size(settings)).expect("allowed");
+        simulation.configure(limit_settings(settings)).expect("allowed");
         return;
     }
-    let results_before = all_results(simulation);
+    let results_before = collect_results(simulation);
     assert!(simulation.configure(settings).is_err() && simulation.configure_first(settings, 0).is_err());
-    assert_eq!(all_results(simulation), results_before);
+    assert_eq!(collect_results(simulation), results_before);
 }
 
 /// Asserts that robots that are added in several blocks equal robots that are added in one call.
-fn assert_same_if_added_in_blocks(simulation: &mut DeadReckoning, limit_size: &dyn Fn(Settings) -> Settings, input: &mut InputReader) {
+fn assert_same_if_added_in_blocks(simulation: &mut DeadReckoning, limit_settings: &dyn Fn(Settings) -> Settings, input: &mut InputReader) {
     let settings = change_settings(simulation.settings(), input);
     if !are_settings_allowed(&settings) {
         return;
     }
-    let settings = limit_size(settings);
+    let settings = limit_settings(settings);
     let mut simulation_in_one_call = simulation.clone();
     simulation_in_one_call.configure(settings).expect("allowed");
     let block_size = 1 + usize::from(u16::from_le_bytes(input.next_bytes())) % MAX_SAMPLES;
@@ -100,7 +100,7 @@ fn assert_same_if_added_in_blocks(simulation: &mut DeadReckoning, limit_size: &d
     while simulation.shown_count() < settings.samples {
         simulation.add_samples(block_size);
     }
-    assert_eq!(all_results(simulation), all_results(&simulation_in_one_call));
+    assert_eq!(collect_results(simulation), collect_results(&simulation_in_one_call));
     assert_results(simulation);
 }
 
@@ -108,21 +108,21 @@ fn assert_same_if_added_in_blocks(simulation: &mut DeadReckoning, limit_size: &d
 fn assert_equals_new_simulation(simulation: &DeadReckoning) {
     let mut new_simulation = DeadReckoning::with_shown_count(*simulation.settings(), 0).expect("allowed");
     new_simulation.add_samples(simulation.shown_count());
-    assert_eq!(all_results(&new_simulation), all_results(simulation));
+    assert_eq!(collect_results(&new_simulation), collect_results(simulation));
 }
 
 /// Returns the settings and statistics as text, in which NaN equals NaN, and the coordinates of the selected step as bits.
-fn all_results(simulation: &DeadReckoning) -> (String, Vec<u64>) {
+fn collect_results(simulation: &DeadReckoning) -> (String, Vec<u64>) {
     let (settings, stats, measured_moments) = (simulation.settings(), simulation.stats(), simulation.measured_moments());
     let outlines = simulation.outlines(settings.step);
-    let outline_lines = outlines.iter().flat_map(|StepOutlines { ellipse, exponential, predicted, measured: measured_moments }| {
-        [ellipse, exponential, predicted, measured_moments].into_iter().flat_map(|outline| outline.as_flattened())
+    let outline_lines = outlines.iter().flat_map(|StepOutlines { ellipse: pose_ellipse, exponential: exponential_contour, predicted: predicted_ellipse, measured: measured_ellipse }| {
+        [pose_ellipse, exponential_contour, predicted_ellipse, measured_ellipse].into_iter().flat_map(|outline| outline.as_flattened())
     });
-    let all_coordinates = simulation.poses(settings.step).as_flattened().iter().chain(outline_lines);
-    (format!("{settings:?} {stats:?} {measured_moments:?}"), all_coordinates.map(|coordinate| coordinate.to_bits()).collect())
+    let outline_and_pose_coordinates = simulation.poses(settings.step).as_flattened().iter().chain(outline_lines);
+    (format!("{settings:?} {stats:?} {measured_moments:?}"), outline_and_pose_coordinates.map(|coordinate| coordinate.to_bits()).collect())
 }
 
-/// Asserts that all results are finite. An undefined result must be NaN or empty.
+/// Asserts that every result of the simulation is finite. An undefined result must be NaN or empty.
 fn assert_results(simulation: &DeadReckoning) {
     let settings = simulation.settings();
     let (n, step_count) = (simulation.shown_count(), settings.steps as usize);
@@ -135,7 +135,7 @@ fn assert_results(simulation: &DeadReckoning) {
             assertions::assert_finite("mean", measured_moments.mean.as_slice());
         }
         if n > 1 {
-            assert_covariance("measured", &measured_moments.cov, rounding_error_of_sums(measured_moments));
+            assert_covariance("measured", &measured_moments.cov, rounding_error_of_cov_entries(measured_moments));
         }
         for (i, relative_error) in measured_moments.relative_error.iter().enumerate() {
             assert!(relative_error.is_nan() || *relative_error >= 0.0, "{measured_moments:?}");
@@ -151,18 +151,18 @@ fn assert_results(simulation: &DeadReckoning) {
     simulation.twists().for_each(|twist| assertions::assert_finite("a twist", &twist));
     assert_eq!(simulation.twists().len(), n.min(MAX_SHOWN_ROBOTS));
     for recursion in RECURSIONS {
-        let (predicted_covs, comparison) = (simulation.predicted_covariances(recursion), simulation.comparison(recursion));
-        assert_eq!([predicted_covs.len(), comparison.ratios.len()], [step_count; 2]);
-        for (cov, variance_ratios) in predicted_covs.iter().zip(&comparison.ratios) {
+        let (predicted_covs, variance_comparison) = (simulation.predicted_covariances(recursion), simulation.comparison(recursion));
+        assert_eq!([predicted_covs.len(), variance_comparison.ratios.len()], [step_count; 2]);
+        for (predicted_cov, variance_ratios) in predicted_covs.iter().zip(&variance_comparison.ratios) {
             assert!(
-                variance_ratios.iter().all(|variance_ratios| variance_ratios.is_nan() || (cov.is_some() && *variance_ratios >= 0.0)),
+                variance_ratios.iter().all(|variance_ratio| variance_ratio.is_nan() || (predicted_cov.is_some() && *variance_ratio >= 0.0)),
                 "{variance_ratios:?}"
             );
-            let Some(cov) = cov else { continue };
-            // The heading of each step mixes the errors along and across the drive, and mixes their rounding errors.
-            assert_covariance("predicted", cov, |_, _| 1e-12 * cov.amax());
+            let Some(predicted_cov) = predicted_cov else { continue };
+            // All entries have the same tolerance, because rotations by the heading mix them and their rounding errors.
+            assert_covariance("predicted", predicted_cov, |_, _| 1e-12 * predicted_cov.amax());
         }
-        comparison.misses.iter().for_each(|misses| assert_misses(misses, step_count));
+        variance_comparison.misses.iter().for_each(|component_misses| assert_misses(component_misses, step_count));
     }
     let Stats { n: robot_count, .. } = simulation.stats();
     assert_eq!(robot_count, n);
@@ -184,44 +184,44 @@ fn assert_covariance(cov_name: &str, cov: &Matrix3<f64>, rounding_of_entry: impl
 }
 
 /// Returns the rounding error of a covariance that is computed as the mean of products minus the product of means.
-fn rounding_error_of_sums(MeasuredMoments { mean, cov, .. }: &MeasuredMoments) -> impl Fn(usize, usize) -> f64 + use<> {
-    let [along_size, lateral_size, heading_size] = [0, 1, 2].map(|i| mean[i].abs() + cov[(i, i)].sqrt());
-    let scale_of_coordinates = [along_size + lateral_size, along_size + lateral_size, heading_size];
-    move |i, j| assertions::ROUNDING_TOLERANCE * scale_of_coordinates[i] * scale_of_coordinates[j] + assertions::MAX_UNDERFLOWING_DEVIATION * (scale_of_coordinates[i] + scale_of_coordinates[j])
+fn rounding_error_of_cov_entries(MeasuredMoments { mean, cov, .. }: &MeasuredMoments) -> impl Fn(usize, usize) -> f64 + use<> {
+    let [along_scale, lateral_scale, heading_scale] = [0, 1, 2].map(|i| mean[i].abs() + cov[(i, i)].sqrt());
+    let coordinate_scales = [along_scale + lateral_scale, along_scale + lateral_scale, heading_scale];
+    move |i, j| assertions::ROUNDING_TOLERANCE * coordinate_scales[i] * coordinate_scales[j] + assertions::SQUARE_UNDERFLOW_LIMIT * (coordinate_scales[i] + coordinate_scales[j])
 }
 
 fn assert_misses(misses: &Misses, step_count: usize) {
-    let Misses { decidable, first, last, end, error } = *misses;
-    assert_eq!(first.is_some(), last.is_some(), "{misses:?}");
-    assert!(decidable || first.is_none(), "{misses:?}");
-    let are_in_order = 1 <= first.unwrap_or(1) && first <= last && last.unwrap_or(1) as usize <= step_count;
-    assert!(are_in_order && !end.is_infinite() && (error.is_nan() || error >= 0.0), "{misses:?}");
+    let Misses { decidable: is_decidable, first: first_missed_step, last: last_missed_step, end: relative_error_at_end, error: standard_error } = *misses;
+    assert_eq!(first_missed_step.is_some(), last_missed_step.is_some(), "{misses:?}");
+    assert!(is_decidable || first_missed_step.is_none(), "{misses:?}");
+    let are_in_order = 1 <= first_missed_step.unwrap_or(1) && first_missed_step <= last_missed_step && last_missed_step.unwrap_or(1) as usize <= step_count;
+    assert!(are_in_order && !relative_error_at_end.is_infinite() && (standard_error.is_nan() || standard_error >= 0.0), "{misses:?}");
 }
 
 fn assert_straight_growth(simulation: &DeadReckoning) {
-    let StraightGrowth { durations, along, across, along_first_order, across_first_order, crossing } =
+    let StraightGrowth { durations: drive_durations, along: along_variances, across: across_variances, along_first_order, across_first_order, crossing: crossing_time } =
         simulation.straight_growth();
-    for growth_curve in [&durations, &along, &across, &along_first_order, &across_first_order] {
+    for growth_curve in [&drive_durations, &along_variances, &across_variances, &along_first_order, &across_first_order] {
         assertions::assert_finite("straight", growth_curve);
-        assert!(growth_curve.len() == durations.len() && growth_curve.iter().all(|variance| *variance >= 0.0), "{growth_curve:?}");
+        assert!(growth_curve.len() == drive_durations.len() && growth_curve.iter().all(|variance| *variance >= 0.0), "{growth_curve:?}");
     }
-    assert!(crossing.is_none_or(|crossing| crossing.is_finite() && crossing > 0.0), "{crossing:?}");
+    assert!(crossing_time.is_none_or(|crossing_time| crossing_time.is_finite() && crossing_time > 0.0), "{crossing_time:?}");
 }
 
 fn assert_outlines(simulation: &DeadReckoning, selected_step: u32) {
     let settings = simulation.settings();
-    let Some(outlines) = simulation.outlines(selected_step) else {
+    let Some(step_outlines) = simulation.outlines(selected_step) else {
         assert!(selected_step > settings.steps);
         return;
     };
-    let StepOutlines { ellipse, exponential, predicted, measured } = outlines;
-    for outline in [&ellipse, &exponential, &predicted, &measured] {
+    let StepOutlines { ellipse: pose_ellipse, exponential: exponential_contour, predicted: predicted_ellipse, measured: measured_ellipse } = step_outlines;
+    for outline in [&pose_ellipse, &exponential_contour, &predicted_ellipse, &measured_ellipse] {
         assertions::assert_finite("an outline", outline.as_flattened());
         assert_eq!(outline.first(), outline.last(), "an outline is closed");
     }
-    let has_no_covariance = simulation.predicted_covariances(settings.compounding)[selected_step as usize - 1].is_none();
-    assert!([&ellipse, &exponential, &predicted].iter().all(|outline| outline.is_empty() == has_no_covariance));
-    assert_eq!(measured.is_empty(), simulation.shown_count() < 2);
+    let lacks_covariance = simulation.predicted_covariances(settings.compounding)[selected_step as usize - 1].is_none();
+    assert!([&pose_ellipse, &exponential_contour, &predicted_ellipse].iter().all(|outline| outline.is_empty() == lacks_covariance));
+    assert_eq!(measured_ellipse.is_empty(), simulation.shown_count() < 2);
 }
 
 /// Asserts that the path of a robot equals the poses of this robot in the clouds of the steps.
@@ -233,7 +233,7 @@ fn assert_rollout(simulation: &DeadReckoning, robot_index: usize) {
     assert_eq!(rollout_path.len(), simulation.settings().steps as usize);
     assertions::assert_finite("a path", rollout_path.as_flattened());
     for (step, pose) in (1..).zip(&rollout_path) {
-        assert!(simulation.poses(step).get(robot_index).is_none_or(|shown_pose| shown_pose == pose), "{robot_index} at {step}");
+        assert!(simulation.poses(step).get(robot_index).is_none_or(|pose_of_robot| pose_of_robot == pose), "{robot_index} at {step}");
     }
 }
 
@@ -244,7 +244,7 @@ fn assert_nearest_pose(simulation: &DeadReckoning, input: &mut InputReader) {
     let poses = simulation.poses(simulation.settings().step);
     let relative_distance_to = |[x, y, _]: &[f64; 3]| ((x - search_point[0]) / search_radius).hypot((y - search_point[1]) / search_radius);
     let min_relative_distance = poses.iter().map(relative_distance_to).fold(f64::INFINITY, f64::min);
-    // The square of a distance below 1e-154 of the radius underflows to 0.
+    // The absolute tolerance allows for distances below 1e-154 of the radius, whose squares underflow to 0.
     let found_relative_distance = relative_distance_to(&poses[nearest_index]);
     assert!(found_relative_distance <= min_relative_distance * (1.0 + 1e-9) + 1e-150 && found_relative_distance <= 1.0 + 1e-9, "{search_point:?} {search_radius}: {nearest_index}");
 }

@@ -7,10 +7,10 @@ use motion::sim::settings::{AllowedValues, Group, Rules, Setting, SettingsError}
 pub fn change_settings<S: Rules>(current_settings: &S, input: &mut InputReader) -> S {
     let (mut changed_settings, mut changed_keys) = (*current_settings, Vec::new());
     let setting_mask = u16::from_le_bytes(input.next_bytes());
-    let mut setting_count = 0;
+    let mut visited_count = 0;
     let _: Result<(), ()> = changed_settings.try_visit_settings(|setting_declaration, setting| {
-        setting_count += 1;
-        if setting_mask >> (setting_count - 1) & 1 == 1 {
+        visited_count += 1;
+        if setting_mask >> (visited_count - 1) & 1 == 1 {
             changed_keys.push(setting_declaration.key);
             set_any_value(setting, input);
         }
@@ -29,9 +29,9 @@ fn set_any_value(setting: Setting, input: &mut InputReader) {
         }
         Setting::Boolean(setting_value) => *setting_value = input.next_bool(),
         Setting::Keyword(setting_value) => {
-            let keywords = setting_value.all();
+            let keyword_choices = setting_value.all();
             assert!(
-                setting_value.set(input.choose_one(&keywords))
+                setting_value.set(input.choose_one(&keyword_choices))
                     && !setting_value.set("")
                     && !setting_value.set("__proto__")
             );
@@ -39,7 +39,7 @@ fn set_any_value(setting: Setting, input: &mut InputReader) {
         Setting::Numbers(setting_values, allowed) => setting_values
             .iter_mut()
             .for_each(|setting_value| *setting_value = input.draw_number_near(&allowed)),
-        // A level outside of its range is refused before it is converted to the numbers that it sets.
+        // A noise level sets several α's. A level outside of its range is refused before it is converted to α's.
         Setting::Level(mut setting_value, allowed) => setting_value.set(input.draw_number_within(allowed)),
         Setting::Group(setting_group) => {
             for (group_field, number) in setting_group.fields().iter().zip(setting_group.numbers_mut()) {
@@ -55,16 +55,17 @@ pub fn are_settings_allowed<S: Rules>(settings: &S) -> bool {
         assert_in_range(settings);
         return true;
     };
-    let SettingsError { field, value, allowed } = &settings_error;
-    let root_key = field.split(['.', '[']).next();
+    let SettingsError { field: refused_field, value: refused_number, allowed: allowed_values } =
+        &settings_error;
+    let root_key = refused_field.split(['.', '[']).next();
     assert!(S::KEYS.iter().any(|known_key| Some(*known_key) == root_key), "{settings_error}");
     let message = settings_error.to_string();
-    assert!(message.starts_with(field) && message.contains("; allowed is "), "{message}");
-    match allowed {
-        AllowedValues::Real(range) => assert!(!range.contains(value), "{message}"),
+    assert!(message.starts_with(refused_field) && message.contains("; allowed is "), "{message}");
+    match allowed_values {
+        AllowedValues::Real(range) => assert!(!range.contains(refused_number), "{message}"),
         AllowedValues::Integer(range) => {
-            let integer_value = *value as u64;
-            assert!(integer_value as f64 != *value || !range.contains(&integer_value), "{message}");
+            let integer_value = *refused_number as u64;
+            assert!(integer_value as f64 != *refused_number || !range.contains(&integer_value), "{message}");
         }
         AllowedValues::FitsInMemory | AllowedValues::Keyword { .. } => panic!("{message}"),
     }
@@ -81,7 +82,7 @@ fn assert_in_range<S: Rules>(settings: &S) {
             Setting::OptionalInteger(integer_value, range) => {
                 integer_value.is_none_or(|integer_value| range.contains(&(integer_value as u64)))
             }
-            Setting::Numbers(numbers, range) => numbers.iter().all(|number| range.contains(number)),
+            Setting::Numbers(list_numbers, range) => list_numbers.iter().all(|number| range.contains(number)),
             Setting::Group(group) => is_group_in_range(group),
             Setting::Boolean(_) | Setting::Keyword(_) | Setting::Level(..) => true,
         };

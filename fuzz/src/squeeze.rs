@@ -9,9 +9,9 @@ use motion::sim::picture::RAMP_STEP_COUNT;
 use motion::sim::squeeze::{OUTCOME_KIND_COUNT, MapSqueeze, Settings};
 use std::cell::LazyCell;
 
-/// Maximum numbers of samples, of parts of the command, and of calls in a run.
+/// Maximum numbers of samples, of sub-steps of the command, and of calls in a run.
 const MAX_SAMPLES: usize = 8;
-const MAX_COMMAND_PARTS: u32 = 3;
+const MAX_SUB_STEPS: u32 = 3;
 const MAX_CALLS: usize = 3;
 
 thread_local! {
@@ -19,14 +19,14 @@ thread_local! {
     static OPENING_SIMULATION: LazyCell<MapSqueeze> = LazyCell::new(|| {
         let opening_wall = Segment { from: [0.0, 3.5], to: [2.0, 3.5] };
         let opening_plan = FloorPlan::new(vec![opening_wall], [0.0, 0.0, 4.0, 5.0]).expect("a plan");
-        let mut simulation = MapSqueeze::new(limit_size(Settings::default(), false)).expect("the opening state");
+        let mut simulation = MapSqueeze::new(limit_settings(Settings::default(), false)).expect("the opening state");
         simulation.set_plan(opening_plan);
         assert!(simulation.is_start_free());
         simulation
     });
 }
 
-pub fn run(input_bytes: &[u8]) {
+pub fn check_input(input_bytes: &[u8]) {
     let mut input = InputReader(input_bytes);
     let mut simulation = OPENING_SIMULATION.with(|opening_simulation| (**opening_simulation).clone());
     for _ in 0..MAX_CALLS {
@@ -38,16 +38,16 @@ pub fn run(input_bytes: &[u8]) {
     assert_results(&simulation);
 }
 
-/// Returns the settings with few samples, and with a sampler that divides the command only if `allows_sub_steps`.
+/// Returns the settings with few samples, and with a sampler that divides the command into sub-steps only if `allows_sub_steps`.
 ///
-/// Divided commands are rarely tested: a robot that cannot move in one part of the command takes 10 000 draws.
-fn limit_size(settings: Settings, allows_sub_steps: bool) -> Settings {
-    let limited_steps = settings.steps.min(MAX_COMMAND_PARTS);
-    let sampler = if allows_sub_steps { settings.sampler.with_part_count(limited_steps) } else { without_sub_steps(settings.sampler) };
-    Settings { samples: settings.samples.min(MAX_SAMPLES), steps: limited_steps, sampler, ..settings }
+/// Divided commands are tested in few runs: a robot that cannot move in one of the sub-steps takes 10 000 draws.
+fn limit_settings(settings: Settings, allows_sub_steps: bool) -> Settings {
+    let limited_part_count = settings.steps.min(MAX_SUB_STEPS);
+    let sampler = if allows_sub_steps { settings.sampler.with_part_count(limited_part_count) } else { remove_sub_steps(settings.sampler) };
+    Settings { samples: settings.samples.min(MAX_SAMPLES), steps: limited_part_count, sampler, ..settings }
 }
 
-fn without_sub_steps(sampler: Sampler) -> Sampler {
+fn remove_sub_steps(sampler: Sampler) -> Sampler {
     if let Sampler::SubStepped(_) = sampler { Sampler::WholeArc } else { sampler }
 }
 
@@ -56,14 +56,14 @@ fn call_method(simulation: &mut MapSqueeze, input: &mut InputReader) {
         0 => change_simulation_settings(simulation, input),
         1 => assert_same_if_added_in_blocks(simulation, input),
         2 => {
-            if let Some(plan) = plan::read_plan(input) {
-                simulation.set_plan(plan);
+            if let Some(floor_plan) = plan::read_floor_plan(input) {
+                simulation.set_plan(floor_plan);
             }
         }
         3 => {
-            if let Some((grid, _)) = grid::read_random_grid(input) {
-                let (wall_count, was_refused) = (simulation.plan().walls().len(), simulation.set_grid(grid).is_err());
-                assert!(!was_refused || simulation.plan().walls().len() == wall_count);
+            if let Some((occupancy_grid, _)) = grid::read_random_grid(input) {
+                let (wall_count, is_refused) = (simulation.plan().walls().len(), simulation.set_grid(occupancy_grid).is_err());
+                assert!(!is_refused || simulation.plan().walls().len() == wall_count);
             }
         }
         4 => {
@@ -80,9 +80,9 @@ fn call_method(simulation: &mut MapSqueeze, input: &mut InputReader) {
             let search_point = [0; 2].map(|_| input.next_number());
             let search_radius = input.draw_number_within(0.0..=f64::INFINITY);
             let nearest_index = simulation.nearest(search_point, search_radius);
-            assert!(nearest_index.is_none_or(|nearest| nearest < simulation.attempts().len()));
+            assert!(nearest_index.is_none_or(|attempt_index| attempt_index < simulation.attempts().len()));
         }
-        // A free pose is rarely checked: the search along 72 headings takes as long as ten other calls.
+        // The search for a free pose is tested in few runs: it tries 72 headings, which takes as long as ten other calls.
         8 => assert_equals_new_simulation(simulation),
         _ if input.next_below(64) == 1 => assert_free_pose(simulation),
         _ => {}
@@ -94,7 +94,7 @@ fn change_simulation_settings(simulation: &mut MapSqueeze, input: &mut InputRead
     let settings_before = *simulation.settings();
     if are_settings_allowed(&settings) {
         let should_divide_command = input.next_below(16) == 1;
-        simulation.configure(limit_size(settings, should_divide_command)).expect("allowed");
+        simulation.configure(limit_settings(settings, should_divide_command)).expect("allowed");
         return;
     }
     let attempts_before = simulation.attempts().to_vec();
@@ -105,7 +105,7 @@ fn change_simulation_settings(simulation: &mut MapSqueeze, input: &mut InputRead
 
 /// Asserts that attempts that are added in several blocks equal attempts that are added in one call.
 fn assert_same_if_added_in_blocks(simulation: &mut MapSqueeze, input: &mut InputReader) {
-    let settings = limit_size(change_settings(simulation.settings(), input), false);
+    let settings = limit_settings(change_settings(simulation.settings(), input), false);
     if !are_settings_allowed(&settings) {
         return;
     }
@@ -131,17 +131,17 @@ fn assert_equals_new_simulation(simulation: &MapSqueeze) {
 fn assert_free_pose(simulation: &MapSqueeze) {
     let Some(free_pose) = simulation.find_free_pose() else { return };
     assertions::assert_pose("a free pose", &free_pose);
-    let is_free = simulation.plan().test_point([free_pose.x(), free_pose.y()], simulation.settings().clearance).free;
-    assert!(is_free, "{free_pose:?}");
+    let does_robot_fit = simulation.plan().test_point([free_pose.x(), free_pose.y()], simulation.settings().clearance).free;
+    assert!(does_robot_fit, "{free_pose:?}");
 }
 
 /// Asserts that all results are finite and consistent.
 fn assert_results(simulation: &MapSqueeze) {
-    let (settings, stats, attempts) = (simulation.settings(), simulation.stats(), simulation.attempts());
-    assert_eq!(stats.attempts, attempts.len());
-    assert!(attempts.len() <= settings.samples);
-    assert_eq!(stats.accepted, attempts.iter().filter(|attempt| attempt.accepted).count());
-    let through_wall_count = attempts.iter().filter(|attempt| attempt.accepted && !attempt.path_free).count();
+    let (settings, stats, shown_attempts) = (simulation.settings(), simulation.stats(), simulation.attempts());
+    assert_eq!(stats.attempts, shown_attempts.len());
+    assert!(shown_attempts.len() <= settings.samples);
+    assert_eq!(stats.accepted, shown_attempts.iter().filter(|attempt| attempt.accepted).count());
+    let through_wall_count = shown_attempts.iter().filter(|attempt| attempt.accepted && !attempt.path_free).count();
     assert_eq!(stats.through_wall, through_wall_count);
     assertions::assert_fraction("acceptance", stats.acceptance_rate);
     assertions::assert_fraction("through a wall", stats.through_wall_rate);
@@ -151,7 +151,7 @@ fn assert_results(simulation: &MapSqueeze) {
         assert!((interval_low..=interval_high).contains(&stats.through_wall_rate), "{stats:?}");
         assert!(stats.draws_per_accepted >= 1.0 && stats.draws_per_accepted.is_finite(), "{stats:?}");
     }
-    for (attempt_index, attempt) in attempts.iter().enumerate() {
+    for (attempt_index, attempt) in shown_attempts.iter().enumerate() {
         assertions::assert_pose("an attempt", &attempt.pose);
         assert!(attempt.end_free || !attempt.path_free, "{attempt:?}");
         let should_be_accepted = match settings.sampler {
@@ -169,7 +169,7 @@ fn assert_results(simulation: &MapSqueeze) {
             assertions::assert_finite("arc", &[path_arc.length, path_arc.turn]);
         }
     }
-    assert!(simulation.arcs(attempts.len()).is_empty());
+    assert!(simulation.arcs(shown_attempts.len()).is_empty());
     if let Some(path_arc) = simulation.arcs(0).first() {
         assertions::assert_finite("path", path_arc.points().as_flattened());
     }
@@ -184,9 +184,9 @@ fn assert_finite_plan(plan: &FloorPlan) {
 }
 
 fn assert_picture(simulation: &mut MapSqueeze, input: &mut InputReader) {
-    let grid = banana::read_grid(input);
+    let view_grid = banana::read_view_grid(input);
     let shown_count = simulation.attempts().len();
-    let pixels = simulation.paint(&grid, &[[[1; 4]; RAMP_STEP_COUNT]; OUTCOME_KIND_COUNT]);
-    assert_eq!(pixels.len(), grid.columns * grid.rows);
+    let pixels = simulation.paint(&view_grid, &[[[1; 4]; RAMP_STEP_COUNT]; OUTCOME_KIND_COUNT]);
+    assert_eq!(pixels.len(), view_grid.columns * view_grid.rows);
     assert!(pixels.iter().filter(|pixel| pixel[3] > 0).count() <= shown_count);
 }

@@ -118,7 +118,7 @@ async function createRecordings() {
 function clearChecksums(recordingBytes) {
   const [CHUNK_CODE, FOOTER_CODE] = [6, 2];
   for (let i = 8; i + 9 < recordingBytes.length; i += 9 + Number(recordingBytes.readBigUInt64LE(i + 1))) {
-    // In an MCAP file the checksum is after the two times and the size of a chunk, and after the two positions of the footer.
+    // The checksum of an MCAP chunk follows two times and a size. The checksum of the footer follows two file positions.
     const checksumOffset = { [CHUNK_CODE]: 24, [FOOTER_CODE]: 16 }[recordingBytes[i]];
     if (checksumOffset) recordingBytes.writeUInt32LE(0, i + 9 + checksumOffset);
   }
@@ -211,7 +211,7 @@ export const fuzzTargets = {
         return false;
       }
       const { map = null, ...fields } = Object(parsedState);
-      // The element itself checks the field `map`.
+      // The core does not know the field `map`, which the element itself checks.
       delete fields.widget;
       const mapBefore = currentMapOf(mapSqueeze, '');
       const isMapAccepted = map === null || isAccepted(() => applyMap(mapSqueeze, map));
@@ -237,7 +237,7 @@ export const fuzzTargets = {
   },
 };
 
-/** Returns the map of a simulation as data of a link. @param {InstanceType<typeof core.MapSqueeze>} simulation @param {string} name */
+/** Returns the map of a simulation as links contain it. @param {InstanceType<typeof core.MapSqueeze>} simulation @param {string} name */
 function currentMapOf(simulation, name) {
   return mapDataOf(simulation, name, gridOf(simulation));
 }

@@ -72,8 +72,8 @@ fn a_reference_with_other_units_or_axes_or_of_another_drive_is_unusable() {
 
 #[test]
 fn a_copy_of_the_odometry_is_no_reference() {
-    // The copied references are in another frame. Their lengths are scaled by 1.02, their times are delayed by 0.1 s, and their coordinates
-    // are rounded.
+    // These references are copies of the odometry in another frame, with lengths scaled by 1.02, times delayed by 0.1 s, and rounded
+    // coordinates.
     for (leg_count, decimals) in [(600, 6), (600, 3), (250, 3)] {
         let sim = simulation_that_passes(leg_count, 1);
         let [odometry, _] = sim.log();
@@ -95,8 +95,8 @@ fn a_copy_of_the_odometry_is_no_reference() {
         );
         assert_unusable(&calibration, "a copy");
     }
-    // A precise robot that errs by a millimetre and half a milliradian over a metre is not a copy, even if the log is short or the reference hides
-    // the noise of the wheels.
+    // The reference of a precise robot differs from the odometry by a millimetre and half a milliradian over a metre. It is not taken for a
+    // copy, even if the log is short or the reference hides the noise of the wheels.
     for seed in 1..=12 {
         for (leg_count, reference_std) in [(600, 0.0), (60, 0.0), (100, 0.03)] {
             let precise_simulation = Simulation {

@@ -29,8 +29,8 @@ struct IncompleteDrive {
     leg_velocity: VelocityOfLeg,
     odometry_reasons: [Option<NotIdentifiable>; 5],
     velocity_reasons: [Option<NotIdentifiable>; 6],
-    /// Drives with fifty legs of the missing motion. The first drive is for odometry models. The second is for the velocity model, which
-    /// does not use turns on the spot.
+    /// Drives with fifty additional legs of the motion that is missing. The first drive is for odometry models. The second is for the
+    /// velocity model, which does not use turns on the spot.
     complete: [VelocityOfLeg; 2],
 }
 
@@ -106,7 +106,7 @@ fn assert_reasons_and_intervals(models: &[Model]) {
             }
         }
     }
-    // The covered fraction may be below 0.95 by three standard errors.
+    // The fraction of intervals that contain the true α may be below 0.95 by three standard errors.
     let covered_fraction = f64::from(covered_count) / f64::from(interval_count);
     let standard_error = (0.95 * 0.05 / f64::from(interval_count)).sqrt();
     assert!(covered_fraction > 0.95 - 3.0 * standard_error, "{covered_fraction}");

@@ -224,7 +224,7 @@ fn an_interval_ends_where_the_profile_likelihood_has_fallen() {
         for interval_bound in calibration.intervals[alpha_index].expect("identifiable") {
             let alpha_ratio = interval_bound / expected_alpha;
             let deviance = n * (libm::log(alpha_ratio) + 1.0 / alpha_ratio - 1.0);
-            // Intervals are longer if squared residuals of neighbouring legs are correlated, by chance up to a tenth.
+            // The deviance is 3.84, or higher if squared residuals of neighbouring legs are correlated by chance.
             assert!((3.7..5.2).contains(&deviance), "{deviance}");
         }
     }

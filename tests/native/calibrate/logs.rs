@@ -154,7 +154,7 @@ fn no_velocity_spans_a_declared_jump() {
         .enumerate()
         .map(|(row, (time, pose))| (time, SE2::new(pose.x(), jump_offset_at(row), 0.0)));
     let drive_with_jumps = new_trajectory(rows_before_jumps).with_breaks_before([40, 43]);
-    // Some legs consist of the three rows between the jumps.
+    // The three rows between the two jumps are long enough for a leg.
     let leg_length = LegLength::Displacement { distance: 0.15, angle: 0.2 };
     let legs = split_into_legs(&drive_with_jumps, &drive_with_jumps, leg_length, 0.0).0;
     assert!(legs.len() > 45 && legs.iter().any(|leg| leg.odometry[0].y() == 5.0));
@@ -163,7 +163,7 @@ fn no_velocity_spans_a_declared_jump() {
     }
 }
 
-/// A leg's end by the length is moved to the reference sample that is nearest in time. The next leg is measured from the unmoved end.
+/// A leg ends at the reference sample nearest to the time of its length limit. The next leg is measured from that time.
 #[test]
 fn a_leg_ends_at_the_sample_of_the_reference_nearest_to_a_reading() {
     let drive = straight_drive(1001, 0.05);
@@ -177,11 +177,11 @@ fn a_leg_ends_at_the_sample_of_the_reference_nearest_to_a_reading() {
             assert_eq!(leg.odometry, leg.reference);
         }
         assert!(legs.windows(2).all(|adjacent_legs| adjacent_legs[0].times[1] == adjacent_legs[1].times[0]));
-        // Samples that are less than a leg apart lengthen no leg on average.
+        // If the samples of the reference are closer together than the ends of legs, the mean length of legs does not change.
         let count_ratio = legs.len() as f64 / all_legs.len() as f64;
         assert!((count_ratio - if row_step == 8 { 5.0 / 8.0 } else { 1.0 }).abs() < 0.02, "{count_ratio}");
     }
-    // Clocks differ by 0.01 s, or 5 mm. The odometry has a reading only each 0.8 s, and is interpolated at the nearest sample.
+    // In the clock offset of 0.01 s the robot drives 5 mm. The sparse odometry is interpolated at the nearest sample of the reference.
     let sparse_odometry = new_trajectory(drive.samples().step_by(8));
     let (legs, _) = split_into_legs(&sparse_odometry, &drive, leg_length, 0.01);
     assert!(legs.len() > 100);

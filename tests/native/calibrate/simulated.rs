@@ -58,10 +58,10 @@ pub struct Simulation {
 /// Times of the samples of odometry and reference.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SampleTimes {
-    /// Both have a sample each 50 ms.
+    /// Odometry and reference both have a sample each 50 ms.
     Common,
-    /// The odometry has a sample each first number of [`FINE_STEP_SECONDS`], the reference each second number, at unrelated times. The noise of
-    /// a leg is then a random walk.
+    /// Odometry and reference have samples at unrelated times. Their sample intervals are these multiples of [`FINE_STEP_SECONDS`]. The
+    /// noise of a leg is then a random walk.
     Unrelated([usize; 2]),
 }
 

@@ -138,8 +138,8 @@ fn measured_moments_agree_with_the_printed_table() {
     );
 }
 
-/// With the last turn γ̂ included in R_u the heading variance is correct, and the lateral coordinate gets a small additional
-/// variance.
+/// The variance of the last turn γ̂ belongs to the control covariance R_u. It makes the heading variance correct, but adds a small variance
+/// to the lateral coordinate.
 #[test]
 fn a_last_turn_adds_variance_to_the_lateral_coordinate() {
     let model = VelocityModel { alphas: VelocityAlphas([0.02, 0.02, 0.02, 0.02, 0.005, 0.005]), ..MODEL };

@@ -12,7 +12,7 @@ fn rule_noise(settings: Settings, rule: OdometryRule) -> RuleNoise {
 
 #[test]
 fn the_lever_grows_faster_than_the_drive() {
-    // The page states the exact standard deviation at the end, which is not the product of lever arm and angle.
+    // The page states the exact standard deviation of the lateral end position, which is not the product of lever arm and angle.
     let [printed_rot1_std, printed_lateral_std, printed_growth] = page_text().sentence_numbers(
         "the noise of the first rotation: ± # rad at the start are ± # m across at the end. Twice as far it is # times as much",
     );

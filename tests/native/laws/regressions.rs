@@ -70,8 +70,8 @@ fn a_last_turn_with_a_tiny_variance_has_a_finite_density() {
     assert!(log_prob < 0.0, "{log_prob}");
 }
 
-/// The search for a free pose must also divide the shorter side of these plans into squares, although the longer side is over 256 times as
-/// long.
+/// The search for a free pose divides the area into squares. It must divide the shorter side of these plans too, although the longer side
+/// is over 256 times as long.
 #[test]
 fn a_narrow_plan_has_a_free_pose() {
     for bounds in [[0.0, 0.0, 100.0, 0.3], [0.0, 0.0, 0.01, 100.0], [-1e6, 5.0, -9e5, 5.02]] {

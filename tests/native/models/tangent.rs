@@ -74,7 +74,7 @@ fn without_noise_in_the_arc_the_density_is_finite() {
         let tangent_model = TangentNoiseModel::from_velocity(&velocity_model(alphas), &U).unwrap();
         let log_prob = tangent_model.log_prob(&SE2::exp(&TangentNoiseModel::twist(&U)), &U, &SE2::identity());
         let variances = Vector3::new(along_variance.max(1e-12), turn_variance.max(1e-12), 0.0125);
-        // The volume factors of chart and arc cancel, except for one factor of 2.
+        // The volume factors of exponential and arc coordinates cancel, except for one factor of 2.
         let expected_log_prob =
             log_gaussian_density(&Vector3::zeros(), &Matrix3::from_diagonal(&variances)) + 2f64.ln();
         assert!(

@@ -318,7 +318,7 @@ fn a_log_without_legs_gives_an_empty_calibration() {
     assert!(
         simulation.panels(Regressor::Turn).iter().all(|panel| panel.x.is_empty() && panel.slope.is_none())
     );
-    // Another seed does not bring the simulated log back.
+    // A user's log replaces the simulated log. If the seed of the simulation changes later, the simulated log does not return.
     simulation.configure(Settings { seed: 1, ..Settings::default() }).expect("allowed");
     assert!(simulation.truth().is_none());
 }

@@ -26,7 +26,7 @@ fn results_as_text(simulation: &MapSqueeze) -> String {
     )
 }
 
-/// The sampler, conditioning and the map decide which attempts are accepted. They do not change the random numbers.
+/// The sampler, the conditioning and the map decide which attempts are accepted. They do not change the random numbers.
 #[test]
 fn changed_samplers_and_maps_move_no_sample() {
     let settings = Settings { samples: 3000, ..Settings::default() };

@@ -11,7 +11,7 @@ fn the_mean_of_the_corners_decides_how_a_saddle_is_connected() {
     for (contour_level, are_low_corners_cut_off) in [(0.4, true), (0.6, false)] {
         let contour_lines = trace_level_set(&[1.0, 0.0, 0.0, 1.0], 2, contour_level);
         assert_eq!(contour_lines.len(), 2);
-        // Two lines cut off either both low corners or both high corners.
+        // In a saddle cell, two contour lines separate either both low corners or both high corners from the rest.
         let is_cut_off = |corner: [f64; 2]| {
             contour_lines.iter().any(|contour_line| {
                 contour_line.iter().all(|[x, y]| (x - corner[0]).abs() + (y - corner[1]).abs() < 1.0)

@@ -8,9 +8,9 @@ export const en = {
     'drive-turn': 'Drive, turn',
     reverse: 'Reverse',
     spin: 'Spin',
-    rest: 'At rest',
+    wheelJitter: 'At rest',
   },
-  rules: {
+  ruleNames: {
     thrun: 'Table 5.6',
     nav2: 'AMCL of Nav2',
     beluga: 'Beluga 2',
@@ -26,7 +26,7 @@ export const en = {
     drift: { name: 'drift time', effect: 'Moves the odometry frame away from the world. The prediction stays.' },
     samples: { name: 'outcomes', effect: 'Outcomes: more of them narrow the error of what they measure.' },
   },
-  plays: { phase: 'Play the motion', drift: 'Play the drift' },
+  playLabels: { phase: 'Play the motion', drift: 'Play the drift' },
   handles: { from: ['Odometry before', 'Heading before'], to: ['Odometry after', 'Heading after'] },
   legsTitle: 'One odometry reading, four noise models',
   worldTitle: 'In the world: odometry drifts',
@@ -38,15 +38,15 @@ export const en = {
     odometry: 'odometry *x̄*',
     difference: 'drift *x̄* − *x*',
   },
-  headline: { expects: 'Table 5.6 expects', noise: 'the turn noise of AMCL of Nav2' },
-  outcomesBy: (rule) => `outcomes by ${rule}`,
-  spread: (rule) => `spread (2σ)\nby ${rule}`,
+  headline: { beforeRatio: 'Table 5.6 expects', afterRatio: 'the turn noise of AMCL of Nav2' },
+  outcomesLabel: (rule) => `outcomes by ${rule}`,
+  spreadLabel: (rule) => `spread (2σ)\nby ${rule}`,
   readouts: {
-    lever: 'from the first rotation alone, *δ*_{trans} · *σ*(*δ*_{rot1})',
-    crossTrack: '*σ* across the path, measured',
-    heading: '*σ* of the heading, measured',
-    exactly: (exact) => `exactly ${exact}`,
-    independent: (exact, independent) => `exactly ${exact}; if independent ${independent}`,
+    firstRotationDeviation: 'from the first rotation alone, *δ*_{trans} · *σ*(*δ*_{rot1})',
+    acrossDeviation: '*σ* across the path, measured',
+    headingDeviation: '*σ* of the heading, measured',
+    exactValue: (exactNumber) => `exactly ${exactNumber}`,
+    exactAndIndependentValues: (exactNumber, independentNumber) => `exactly ${exactNumber}; if independent ${independentNumber}`,
   },
   table: {
     caption: 'Standard deviations: of each part’s noise, then of the end, across the path and in *θ*. Bold on a tint: not as in Table 5.6 of *Probabilistic Robotics*.',
@@ -56,26 +56,26 @@ export const en = {
     lever: (deviation, trans, lever) =>
       `The first rotation has the long lever: its ± ${deviation} rad at the start become ± ${lever} m across the path after ${trans} m.`,
     reverse: 'Reverse driving decomposes into two rotations beyond π/2. Table 5.6 adds noise for both; the others use min(|\u2060δ\u2060|,\u00a0π\u00a0−\u00a0|\u2060δ\u2060|).',
-    rest: (trans, rot1) =>
+    wheelJitter: (trans, rot1) =>
       `The wheels stand still and their encoders jitter by ${trans} mm. Table 5.6 takes it for a rotation of ${rot1} rad, and adds noise for that.`,
-    restSpin: (trans) => `Less than a centimetre: ${trans} mm has no direction in this noise model, so there is nearly no noise.`,
+    ignoredWheelJitter: (trans) => `Less than a centimetre: ${trans} mm has no direction in this noise model, so there is nearly no noise.`,
     spin: 'A turn on the spot is all in the second rotation. Only the noise of α₄ moves the robot.',
-    spinEitherWay: (left) => `Beyond a quarter turn this noise model uses what is left to a half turn, here ${left} rad: a half turn on the spot has no noise.`,
-    omni: (strafe) => `This noise model has no noise in the first rotation: the direction of travel is exact, and the robot is off by ± ${strafe} m sideways, however it turns.`,
-    still: 'Without noise every outcome is the reading.',
+    spinFromEitherSide: (remainingTurn) => `Beyond a quarter turn this noise model uses what is left to a half turn, here ${remainingTurn} rad: a half turn on the spot has no noise.`,
+    omnidirectional: (strafe) => `This noise model has no noise in the first rotation: the direction of travel is exact, and the robot is off by ± ${strafe} m sideways, however it turns.`,
+    noNoise: 'Without noise every outcome is the reading.',
   },
   worldCaption: (distance) =>
     `Only the motion from *x̄*_{t−1} to *x̄*_{t} enters: the prediction does not drift. The place *x̄*_{t} itself is off by ${distance} m.`,
-  hinges:
+  correlationNote:
     'The noise models draw both rotations independently. A correlation *ρ* leaves the noise of each as it is and every outcome in its place; the headings spread from the difference of the two deviations (*ρ* = −1) to their sum (*ρ* = 1). At *ρ* = 0 neither is seen.',
   plot: {
     title: 'Spread against the length of the drive',
-    label: (trans, exact) =>
-      `Standard deviations against the length of the drive: across the path, from the first rotation alone, and along the path. At the reading, ${trans} m, ${exact} m across.`,
-    crossTrack: 'across the path, exact',
-    along: 'along the path',
-    here: 'read',
+    label: (trans, exactNumber) =>
+      `Standard deviations against the length of the drive: across the path, from the first rotation alone, and along the path. At the reading, ${trans} m, ${exactNumber} m across.`,
+    acrossCurve: 'across the path, exact',
+    alongCurve: 'along the path',
+    readingMark: 'read',
     caption: 'The rotations as they were read. The point is that of the outcomes, with its standard error.',
   },
-  reading: (rot1, trans, rot2) => `The reading: a first rotation by ${rot1} rad, a drive of ${trans} m, a second rotation by ${rot2} rad`,
+  readingDescription: (rot1, trans, rot2) => `The reading: a first rotation by ${rot1} rad, a drive of ${trans} m, a second rotation by ${rot2} rad`,
 } satisfies import('../../messages/registry.ts').Message;

@@ -19,7 +19,7 @@ import type { Motion, OdometryDecomposer as Simulation } from '../../types.d.ts'
 
 /** Returns the table of standard deviations by noise model. Values that differ from Table 5.6 are bold. */
 function noiseModelTableHtml(figure: OdometryDecomposerElement) {
-  const { rules: names, table: texts, settings } = words.decomposer;
+  const { ruleNames, table: texts, settings } = words.decomposer;
   const { rules } = figure.viewModel;
   const currentRule = figure.settings.requested.rule;
   const printedRows = rules.map(({ deviations, crossTrack, heading }) => [...deviations, crossTrack, heading].map((noiseValue) => formatFixed(noiseValue, 3)));
@@ -28,20 +28,20 @@ function noiseModelTableHtml(figure: OdometryDecomposerElement) {
       caption: formatMarkup(texts.caption),
       columns: [settings.rule.name, ...texts.columns.map(formatMarkup)],
       rows: rules.map(({ rule }, i) => [
-        radioButtonHtml({ group: 'rule', label: names[rule], checked: rule === currentRule, onChoose: () => figure.gesture.requestAndCommit({ rule }) }),
-        ...printedRows[i].map((cell, column) => (cell === printedRows[0][column] ? cell : html`<strong>${cell}</strong>`)),
+        radioButtonHtml({ group: 'rule', label: ruleNames[rule], checked: rule === currentRule, onChoose: () => figure.gesture.requestAndCommit({ rule }) }),
+        ...printedRows[i].map((printedValue, columnIndex) => (printedValue === printedRows[0][columnIndex] ? printedValue : html`<strong>${printedValue}</strong>`)),
       ]),
     })}
   </div>`;
 }
 
 /** Returns a slider, with a play button unless the user prefers reduced motion. */
-function playableSliderHtml(figure: OdometryDecomposerElement, key: 'phase' | 'drift') {
+function playableSliderHtml(figure: OdometryDecomposerElement, settingKey: 'phase' | 'drift') {
   const { player } = figure;
-  const { plays, settings } = words.decomposer;
-  return html`<fieldset class="playable with-button ${key}">
-    <legend class="visually-hidden">${settings[key].name}</legend>
-    ${settingSliderHtml(figure, key, { onInput: (value) => player.setByUser(key, value) })} ${player.buttonHtml(key, plays[key])}
+  const { playLabels: plays, settings } = words.decomposer;
+  return html`<fieldset class="playable with-button ${settingKey}">
+    <legend class="visually-hidden">${settings[settingKey].name}</legend>
+    ${settingSliderHtml(figure, settingKey, { onInput: (newValue) => player.setByUser(settingKey, newValue) })} ${player.buttonHtml(settingKey, plays[settingKey])}
   </fieldset>`;
 }
 
@@ -50,7 +50,7 @@ function noiseControlsHtml(figure: OdometryDecomposerElement) {
       ${fieldsetHtml(words.noise, html`${settingSlidersHtml(figure, NOISE_SLIDERS)} ${settingRadiosHtml(figure, 'noise', words.noises)}`, 'alphas')}
       ${cloudControlsHtml(figure, SAMPLE_COUNTS)}
     </div>
-    <p>${formatMarkup(words.decomposer.hinges)}</p>`;
+    <p>${formatMarkup(words.decomposer.correlationNote)}</p>`;
 }
 
 const styles = css`
@@ -59,7 +59,7 @@ const styles = css`
     aspect-ratio: 1;
   }
 
-  /* The legs next to the world, each with its text. */
+  /* Two columns: the picture of the legs with its text, and the picture of the world with its text. */
   @container (min-width: 38em) {
     .views {
       grid-template-columns: minmax(0, 3fr) minmax(0, 2fr);
@@ -119,7 +119,7 @@ const styles = css`
     min-height: max(24px, 1.6em);
   }
 
-  /* Bold, and on a tint. */
+  /* Values that differ from Table 5.6 are bold, and have a tinted background. */
   .rules td:has(strong) {
     background: color-mix(in srgb, var(--prediction) 16%, var(--paper));
   }
@@ -165,8 +165,8 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
 
   get scene() {
     const viewModel = this.currentViewModel;
-    const { selectedIndex: index, isSelectionShown } = this.cloud;
-    return { ...viewModel, overlays: this.settings.elementState.overlays, marked: isSelectionShown ? viewModel.poses.subarray(3 * index) : undefined };
+    const { selectedIndex, isSelectionShown } = this.cloud;
+    return { ...viewModel, overlays: this.settings.elementState.overlays, markedPose: isSelectionShown ? viewModel.poses.subarray(3 * selectedIndex) : undefined };
   }
 
   get exportData() {
@@ -179,17 +179,17 @@ export class OdometryDecomposerElement extends FigureElement<Simulation, ViewMod
 
   announcementOf = captionOf;
 
-  describePicture = ({ legs: { rot1, trans, rot2 } }: ViewModel) => [words.decomposer.legsTitle, words.decomposer.reading(formatFixed(rot1, 2), formatFixed(trans, 2), formatFixed(rot2, 2))];
+  describePicture = ({ legs: { rot1, trans, rot2 } }: ViewModel) => [words.decomposer.legsTitle, words.decomposer.readingDescription(formatFixed(rot1, 2), formatFixed(trans, 2), formatFixed(rot2, 2))];
 
   placeHandles({ config }: ViewModel) {
-    for (const handles of this.#handles) handles.place(config, ROBOT_RADIUS);
+    for (const poseHandles of this.#handles) poseHandles.place(config, ROBOT_RADIUS);
   }
 
   renderContent(viewModel: ViewModel) {
     const texts = words.decomposer;
     return html`
       <div class="views">
-        ${pictureHtml(this, this.#legsPicture, texts.legsTitle, { className: 'legs', handles: this.#handles.map((handle) => handle.render()) })}
+        ${pictureHtml(this, this.#legsPicture, texts.legsTitle, { className: 'legs', handles: this.#handles.map((poseHandles) => poseHandles.render()) })}
         ${pictureHtml(this, this.#worldPicture, texts.worldTitle)}
         ${this.renderer.renderAfterFirstPicture(() => html`
         <div class="summary">${headlineHtml(viewModel)} <p class="caption" part="caption">${captionOf(viewModel)}</p></div>

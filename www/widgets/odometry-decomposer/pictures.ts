@@ -14,37 +14,37 @@ import { poseAt, LINE_STYLES } from './settings.ts';
 import type { Pose, RuleNoise } from '../../types.d.ts';
 
 /** Half width and length of an arrow head, pixels. */
-const ARROW_HEAD_SIZE = { half: 4, length: 9 };
+const ARROW_HEAD_SIZE = { halfWidth: 4, length: 9 };
 
 /** Angle of a chord of a drawn arc, radians. */
 const CHORD_ANGLE = 0.1;
 
 /** Number of points of a drawn ellipse. */
-const ELLIPSE_POINTS = 64;
+const ELLIPSE_POINT_COUNT = 64;
 
 /** Returns the points of an ellipse about a pose with semi-axes along and across its heading. Lengths are in metres. */
 function ellipsePointsAround({ x, y, theta }: Pose, along: number, across: number) {
   const [cos, sin] = [Math.cos(theta), Math.sin(theta)];
-  return Array.from({ length: ELLIPSE_POINTS + 1 }, (_, i): [number, number] => {
-    const angle = (2 * Math.PI * i) / ELLIPSE_POINTS;
-    const [ahead, left] = [along * Math.cos(angle), across * Math.sin(angle)];
-    return [x + ahead * cos - left * sin, y + ahead * sin + left * cos];
+  return Array.from({ length: ELLIPSE_POINT_COUNT + 1 }, (_, i): [number, number] => {
+    const angle = (2 * Math.PI * i) / ELLIPSE_POINT_COUNT;
+    const [alongOffset, leftOffset] = [along * Math.cos(angle), across * Math.sin(angle)];
+    return [x + alongOffset * cos - leftOffset * sin, y + alongOffset * sin + leftOffset * cos];
   });
 }
 
-/** Draws a turn in radians from a pose's heading, as an arc with an arrow, with a radius in pixels. */
+/** Draws a turn (rad) from the heading of a pose as an arc with an arrow head. The radius is in pixels. */
 function drawTurn({ context, view }: DrawContext, startPose: Pose, turn: number, radius: number, colour: string) {
   strokePath(context, { colour, width: 1.75 }, () => addTurnArc(context, view.toPixel(startPose.x, startPose.y), radius, startPose.theta, turn));
   // The arrow head is smaller on a short arc.
-  const headLength = Math.min(ARROW_HEAD_SIZE.length, radius * Math.abs(turn));
-  const tip = view.headingLineFrom({ ...startPose, theta: startPose.theta + turn }, radius)[1];
-  const headBase = { ...startPose, theta: startPose.theta + turn - (Math.sign(turn) * headLength) / radius };
-  const headScale = headLength / ARROW_HEAD_SIZE.length;
-  const headCornerOf = (side: number) => view.headingLineFrom(headBase, radius + side * headScale * ARROW_HEAD_SIZE.half)[1];
-  fillPath(context, colour, () => addLine(context, [tip, headCornerOf(1), headCornerOf(-1)]));
+  const arrowHeadLength = Math.min(ARROW_HEAD_SIZE.length, radius * Math.abs(turn));
+  const arrowTip = view.headingLineFrom({ ...startPose, theta: startPose.theta + turn }, radius)[1];
+  const arrowBasePose = { ...startPose, theta: startPose.theta + turn - (Math.sign(turn) * arrowHeadLength) / radius };
+  const arrowHeadScale = arrowHeadLength / ARROW_HEAD_SIZE.length;
+  const arrowCornerOf = (side: number) => view.headingLineFrom(arrowBasePose, radius + side * arrowHeadScale * ARROW_HEAD_SIZE.halfWidth)[1];
+  fillPath(context, colour, () => addLine(context, [arrowTip, arrowCornerOf(1), arrowCornerOf(-1)]));
 }
 
-/** Draws a standard deviation (rad) to either side of a heading, as a fan with a radius in pixels. */
+/** Draws a standard deviation (rad) to either side of a heading as a fan. The radius is in pixels. */
 function drawDeviationFan({ context, view }: DrawContext, { x, y, theta }: Pose, deviation: number, radius: number, colour: string) {
   const halfAngle = Math.min(deviation, Math.PI);
   if (halfAngle === 0) return;
@@ -67,40 +67,40 @@ function drawDeviationBar({ context, view }: DrawContext, pose: Pose, deviation:
     for (const endOffset of [-halfLength, halfLength]) {
       const [barMiddle, [endX, endY]] = view.headingLineFrom(pose, endOffset);
       addLine(context, [barMiddle, [endX, endY]]);
-      addLine(context, [[endX - ARROW_HEAD_SIZE.half * barDirection.y, endY + ARROW_HEAD_SIZE.half * barDirection.x], [endX + ARROW_HEAD_SIZE.half * barDirection.y, endY - ARROW_HEAD_SIZE.half * barDirection.x]]);
+      addLine(context, [[endX - ARROW_HEAD_SIZE.halfWidth * barDirection.y, endY + ARROW_HEAD_SIZE.halfWidth * barDirection.x], [endX + ARROW_HEAD_SIZE.halfWidth * barDirection.y, endY - ARROW_HEAD_SIZE.halfWidth * barDirection.x]]);
     }
   });
 }
 
 /** View model of the legs and world pictures, with the names of the lines that are shown. */
-export type Scene = import('./settings.ts').ViewModel & { marked: Float64Array | undefined, overlays: string[] };
+export type Scene = import('./settings.ts').ViewModel & { markedPose: Float64Array | undefined, overlays: string[] };
 
 /** Radius of the robot, m. */
 export const ROBOT_RADIUS = 0.11;
 
 /** Margins around the robots (m), and around the outcomes (in standard deviations). */
-const MARGINS = { metres: 0.3, deviations: 2.4 };
+const MARGINS = { aroundRobot: 0.3, deviationsAroundOutcomes: 2.4 };
 
 /** Maximum number of outcomes that are drawn with headings. Headings of more outcomes would be indistinguishable. */
-const MAX_TICKS = 1000;
+const MAX_HEADING_TICKS = 1000;
 
 /** Gap between the handle that turns a robot and the arc of a turn around it, and between two arcs, CSS pixels. */
-const ARC_GAPS = { handle: 14, arcs: 16 };
+const ARC_GAPS = { afterHandle: 14, betweenArcs: 16 };
 
 /** Maximum margin around a turn, as a fraction of the frame's shorter side, so that half of the frame remains for the motion. */
-const MAX_ARC_SHARE = 0.25;
+const MAX_TURN_MARGIN_FRACTION = 0.25;
 
 /** Number of iterations for the scale of the view. Each iteration at least halves the error of the scale. */
-const SCALE_STEPS = 12;
+const SCALE_ITERATIONS = 12;
 
 /** Minimum length (CSS pixels) of a drive with a label. */
-const MIN_LABELLED_DRIVE = 24;
+const MIN_LABELLED_LENGTH = 24;
 
 /** Minimum angle (rad) of a turn that is drawn as an arc. */
 const MIN_DRAWN_TURN = 0.005;
 
-/** Candidate ends of a leader on the arc of a turn, as fractions of the turn. */
-const LEADER_ENDS = [0.5, 0.3, 0.7, 0.1, 0.9];
+/** Candidate points of a turn's arc at which the line from its label may end, as fractions of the turn. */
+const LEADER_END_FRACTIONS = [0.5, 0.3, 0.7, 0.1, 0.9];
 
 const AXIS_NAMES = { x: 'x (m)', y: 'y (m)' };
 
@@ -111,45 +111,46 @@ const FRAME_AXIS_LENGTH = 0.28;
 function neededPointsOf({ linkage, legs, rules }: Scene): number[] {
   const [{ x, y }, drivenPose] = [poseAt(linkage, 0), poseAt(linkage, 2)];
   // The scale is the same for all noise models, so that their spreads can be compared.
-  const alongMargin = Math.min(MARGINS.deviations * Math.max(...rules.map(({ deviations }) => deviations[1])), legs.trans + 2);
-  // No limit is needed here: a rotation moves the end across by at most the length of the drive.
-  const acrossMargin = MARGINS.deviations * Math.max(...rules.map(({ crossTrack }) => crossTrack));
+  const alongMargin = Math.min(MARGINS.deviationsAroundOutcomes * Math.max(...rules.map(({ deviations }) => deviations[1])), legs.trans + 2);
+  // This margin needs no limit: a rotation moves the end across the path by at most the length of the drive.
+  const acrossMargin = MARGINS.deviationsAroundOutcomes * Math.max(...rules.map(({ crossTrack }) => crossTrack));
   const [absCos, absSin] = [Math.abs(Math.cos(drivenPose.theta)), Math.abs(Math.sin(drivenPose.theta))];
   return [
-    ...cornersAround(x, y, MARGINS.metres),
-    ...cornersAround(drivenPose.x, drivenPose.y, MARGINS.metres + alongMargin * absCos + acrossMargin * absSin, MARGINS.metres + alongMargin * absSin + acrossMargin * absCos),
+    ...cornersAround(x, y, MARGINS.aroundRobot),
+    ...cornersAround(drivenPose.x, drivenPose.y, MARGINS.aroundRobot + alongMargin * absCos + acrossMargin * absSin, MARGINS.aroundRobot + alongMargin * absSin + acrossMargin * absCos),
   ];
 }
 
 function drawOutcomes(drawContext: DrawContext, { poses, overlays }: Scene) {
   if (!overlays.includes('outcomes')) return;
-  drawDots(drawContext, poses, poses.length <= 3 * MAX_TICKS ? 1 : 0);
+  drawDots(drawContext, poses, poses.length <= 3 * MAX_HEADING_TICKS ? 1 : 0);
 }
 
 /** Returns the 2σ ellipses of the current noise model and, if it differs, of a noise model for comparison. Each ellipse has a callout. */
 function spreadEllipsesOf({ palette }: DrawContext, { linkage, rules, config }: Scene) {
-  const currentRule = rules.find(({ rule }) => rule === config.rule) as RuleNoise;
-  const comparedRule = rules[config.rule === 'thrun' ? 1 : 0];
-  const hasOtherDeviations = comparedRule.deviations.some((deviation, i) => Math.abs(deviation - currentRule.deviations[i]) > 1e-9);
-  return [currentRule, ...(hasOtherDeviations ? [comparedRule] : [])].map(({ rule, deviations, crossTrack }) => {
+  const currentNoise = rules.find(({ rule }) => rule === config.rule) as RuleNoise;
+  const comparedNoise = rules[config.rule === 'thrun' ? 1 : 0];
+  const hasOtherDeviations = comparedNoise.deviations.some((deviation, i) => Math.abs(deviation - currentNoise.deviations[i]) > 1e-9);
+  return [currentNoise, ...(hasOtherDeviations ? [comparedNoise] : [])].map(({ rule, deviations, crossTrack }) => {
     const points = ellipsePointsAround(poseAt(linkage, 2), 2 * deviations[1], 2 * crossTrack);
     const colour = rule === config.rule ? palette.prediction : palette.ink;
-    // The callouts are at different sides: at the front of the ellipse of Table 5.6, and at the top of the other one, which is smaller.
+    // The callouts of the two ellipses are at different sides: the ellipse of Table 5.6 has its callout at the front, the smaller ellipse of another
+    // noise model at the top.
     const calloutPoint = rule === 'thrun' ? points[0] : greatest(points, ([, y]) => y) as [number, number];
-    const callout: Callout = { text: words.decomposer.spread(words.decomposer.rules[rule]), point: calloutPoint, colour };
+    const callout: Callout = { text: words.decomposer.spreadLabel(words.decomposer.ruleNames[rule]), point: calloutPoint, colour };
     return { points: Float64Array.from(points.flat()), colour, width: 2, callout };
   }).filter(({ points }) => hasLength(points));
 }
 
-function drawMarked(drawContext: DrawContext, { marked }: Scene) {
+function drawMarkedPose(drawContext: DrawContext, { markedPose: marked }: Scene) {
   if (marked) drawCrosshair(drawContext, { x: marked[0], y: marked[1], heading: marked[2] });
 }
 
-/** Pose from whose heading a turn starts, the turn (rad), and the radius of its arc, pixels. */
-type Turn = [Pose, turn: number, radius: number];
+/** Arc that shows a turn: the pose from whose heading the turn starts, the turn (rad), and the radius of the arc (pixels). */
+type TurnArc = [Pose, turn: number, radius: number];
 
 /** Returns the radii of the arcs of both turns, pixels. */
-const turnRadiiOf = (view: Pick<View, 'scaleX'>) => [0, 1].map((arc) => turnHandleDistanceOf(view, ROBOT_RADIUS) + ARC_GAPS.handle + arc * ARC_GAPS.arcs);
+const turnRadiiOf = (view: Pick<View, 'scaleX'>) => [0, 1].map((arcIndex) => turnHandleDistanceOf(view, ROBOT_RADIUS) + ARC_GAPS.afterHandle + arcIndex * ARC_GAPS.betweenArcs);
 
 /** Returns points of an arc about a pose that starts at its heading, as x, y pairs. The turn is in radians, and the radius in metres. */
 function turnArcPoints({ x, y, theta }: Pose, turn: number, radius: number) {
@@ -166,22 +167,22 @@ export class LegsPicture extends SamplesPicture<Scene> {
   fitView(scene: Scene) {
     const { view } = this;
     const { linkage, legs, overlays } = scene;
-    const worldPoints = neededPointsOf(scene);
+    const neededPoints = neededPointsOf(scene);
     if (!overlays.includes('legs')) {
-      view.fit(extentOf(worldPoints, 1.2));
+      view.fit(extentOf(neededPoints, 1.2));
       return;
     }
     const { left, right, top, bottom } = view.plotArea;
-    const maxTurnRadius = MAX_ARC_SHARE * Math.min(right - left, bottom - top);
-    const extentAtScale = (scale: number) => {
-      const radii = turnRadiiOf({ scaleX: scale });
-      const arcCorners = [legs.rot1, legs.rot2].flatMap((turn, i) => turnArcPoints(poseAt(linkage, 2 * i), turn, Math.min(radii[i], maxTurnRadius) / scale));
-      return extentOf([...worldPoints, ...arcCorners], 1.2);
+    const maxTurnRadius = MAX_TURN_MARGIN_FRACTION * Math.min(right - left, bottom - top);
+    const extentOfScale = (scale: number) => {
+      const arcRadii = turnRadiiOf({ scaleX: scale });
+      const arcPoints = [legs.rot1, legs.rot2].flatMap((turn, i) => turnArcPoints(poseAt(linkage, 2 * i), turn, Math.min(arcRadii[i], maxTurnRadius) / scale));
+      return extentOf([...neededPoints, ...arcPoints], 1.2);
     };
     // The arcs have a fixed size in pixels, and need more space in metres at a smaller scale.
-    let scale = view.fittingScaleOf(extentOf(worldPoints, 1.2));
-    for (let i = 0; i < SCALE_STEPS; i++) scale = view.fittingScaleOf(extentAtScale(scale));
-    view.fit(extentAtScale(scale));
+    let scale = view.fittingScaleOf(extentOf(neededPoints, 1.2));
+    for (let i = 0; i < SCALE_ITERATIONS; i++) scale = view.fittingScaleOf(extentOfScale(scale));
+    view.fit(extentOfScale(scale));
   }
 
   paint: SamplesPicture<Scene>['paint'] = (drawContext, scene) => {
@@ -190,53 +191,53 @@ export class LegsPicture extends SamplesPicture<Scene> {
     const [startPose, turnedPose, drivenPose] = [0, 1, 2].map((index) => poseAt(linkage, index));
     const legendNames = (['legs', 'deviation', 'outcomes'] as const).filter((name) => overlays.includes(name));
     drawAxes(drawContext, AXIS_NAMES, createLineLegend(drawContext, LINE_STYLES, legendNames, words.decomposer.overlays));
-    const [firstRadius, secondRadius] = turnRadiiOf(this.view);
-    const turns: Turn[] = [[startPose, legs.rot1, firstRadius], [drivenPose, legs.rot2, secondRadius]];
-    const styles = createLineStyles(drawContext, LINE_STYLES);
-    const showsDeviation = overlays.includes('deviation');
-    const { colour } = styles.deviation;
-    const ellipses = showsDeviation ? spreadEllipsesOf(drawContext, scene) : [];
+    const [firstTurnRadius, secondTurnRadius] = turnRadiiOf(this.view);
+    const turnArcs: TurnArc[] = [[startPose, legs.rot1, firstTurnRadius], [drivenPose, legs.rot2, secondTurnRadius]];
+    const lineStyles = createLineStyles(drawContext, LINE_STYLES);
+    const isDeviationShown = overlays.includes('deviation');
+    const { colour } = lineStyles.deviation;
+    const spreadEllipses = isDeviationShown ? spreadEllipsesOf(drawContext, scene) : [];
     clipToPlot(drawContext, () => {
-      if (showsDeviation) drawDeviationFan(drawContext, turnedPose, deviations.rot1, Math.max(legs.trans * this.view.scaleX, secondRadius), colour);
+      if (isDeviationShown) drawDeviationFan(drawContext, turnedPose, deviations.rot1, Math.max(legs.trans * this.view.scaleX, secondTurnRadius), colour);
       if (overlays.includes('outcomes')) this.#paintGhosts(drawContext, scene);
       drawOutcomes(drawContext, scene);
-      drawOutlines(drawContext, ellipses);
-      if (overlays.includes('legs')) drawSegment(drawContext, startPose, drivenPose, styles.legs);
+      drawOutlines(drawContext, spreadEllipses);
+      if (overlays.includes('legs')) drawSegment(drawContext, startPose, drivenPose, lineStyles.legs);
       drawDraggableRobot(drawContext, startPose, ROBOT_RADIUS, palette.prior);
       drawDraggableRobot(drawContext, config.to, ROBOT_RADIUS, palette.prior);
-      if (showsDeviation) {
+      if (isDeviationShown) {
         drawDeviationBar(drawContext, drivenPose, deviations.trans, colour);
         drawDeviationBar(drawContext, { ...drivenPose, theta: drivenPose.theta + Math.PI / 2 }, deviations.strafe, colour);
-        drawDeviationFan(drawContext, { ...drivenPose, theta: drivenPose.theta + legs.rot2 }, deviations.rot2, secondRadius, colour);
+        drawDeviationFan(drawContext, { ...drivenPose, theta: drivenPose.theta + legs.rot2 }, deviations.rot2, secondTurnRadius, colour);
       }
       if (config.phase < 3) this.#paintRobot(drawContext, scene.robot);
       if (overlays.includes('legs')) {
-        for (const [turnPose, turn, turnRadius] of turns) if (Math.abs(turn) >= MIN_DRAWN_TURN) drawTurn(drawContext, turnPose, turn, turnRadius, styles.legs.colour);
+        for (const [turnPose, turn, turnRadius] of turnArcs) if (Math.abs(turn) >= MIN_DRAWN_TURN) drawTurn(drawContext, turnPose, turn, turnRadius, lineStyles.legs.colour);
       }
-      drawMarked(drawContext, scene);
+      drawMarkedPose(drawContext, scene);
     });
-    const turnArcs = turns.map(([turnPose, turn, turnRadius]) => Float64Array.from(turnArcPoints(turnPose, turn, turnRadius / this.view.scaleX)));
-    if (overlays.includes('legs')) drawLabelsAbove(drawContext, this.#createLabels(drawContext, scene, turns));
-    drawCallouts(drawContext, ellipses.map(({ callout }) => callout), { shapeCentre: [drivenPose.x, drivenPose.y], lines: [...ellipses.map(({ points }) => points), ...turnArcs] });
+    const turnArcOutlines = turnArcs.map(([turnPose, turn, turnRadius]) => Float64Array.from(turnArcPoints(turnPose, turn, turnRadius / this.view.scaleX)));
+    if (overlays.includes('legs')) drawLabelsAbove(drawContext, this.#createLabels(drawContext, scene, turnArcs));
+    drawCallouts(drawContext, spreadEllipses.map(({ callout }) => callout), { shapeCentre: [drivenPose.x, drivenPose.y], lines: [...spreadEllipses.map(({ points }) => points), ...turnArcOutlines] });
   };
 
   /** Returns labels with the value and standard deviation of each leg that is long enough to see. */
-  #createLabels({ view, palette: { prior: colour } }: DrawContext, { legs, deviations }: Scene, turns: Turn[]) {
-    const [startPose, drivenPose] = turns.map(([turnPose]) => turnPose);
-    // The point of an arc that is nearest to the labels, and inside the axes.
-    const leaderEndOf = ([{ x, y, theta }, turn, radius]: Turn) => {
-      const leaderEndCandidates = LEADER_ENDS.map((share) => view.headingLineFrom({ x, y, theta: theta + share * turn }, radius)[1])
-        .map(([placeX, placeY]) => ({ x: placeX, y: placeY }))
+  #createLabels({ view, palette: { prior: colour } }: DrawContext, { legs, deviations }: Scene, turnArcs: TurnArc[]) {
+    const [startPose, drivenPose] = turnArcs.map(([turnPose]) => turnPose);
+    // Returns the highest candidate point below the labels. The line from the label of a turn ends at this point of the turn's arc.
+    const leaderEndOf = ([{ x, y, theta }, turn, radius]: TurnArc) => {
+      const leaderEndCandidates = LEADER_END_FRACTIONS.map((turnFraction) => view.headingLineFrom({ x, y, theta: theta + turnFraction * turn }, radius)[1])
+        .map(([pixelX, pixelY]) => ({ x: pixelX, y: pixelY }))
         .sort((candidate, otherCandidate) => candidate.y - otherCandidate.y);
       return leaderEndCandidates.find((candidate) => candidate.y > view.plotArea.top) ?? leaderEndCandidates[leaderEndCandidates.length - 1];
     };
     const driveMiddle = { x: view.toPixelX((startPose.x + drivenPose.x) / 2), y: view.toPixelY((startPose.y + drivenPose.y) / 2) };
-    const labels = [
-      { subscript: 'rot1', unit: 'rad', isShown: Math.abs(legs.rot1) >= MIN_DRAWN_TURN, anchor: leaderEndOf(turns[0]) },
-      { subscript: 'trans', unit: 'm', isShown: legs.trans * view.scaleX >= MIN_LABELLED_DRIVE, anchor: driveMiddle },
-      { subscript: 'rot2', unit: 'rad', isShown: Math.abs(legs.rot2) >= MIN_DRAWN_TURN, anchor: leaderEndOf(turns[1]) },
+    const legLabels = [
+      { subscript: 'rot1', unit: 'rad', isShown: Math.abs(legs.rot1) >= MIN_DRAWN_TURN, anchor: leaderEndOf(turnArcs[0]) },
+      { subscript: 'trans', unit: 'm', isShown: legs.trans * view.scaleX >= MIN_LABELLED_LENGTH, anchor: driveMiddle },
+      { subscript: 'rot2', unit: 'rad', isShown: Math.abs(legs.rot2) >= MIN_DRAWN_TURN, anchor: leaderEndOf(turnArcs[1]) },
     ] as const;
-    return labels.filter(({ isShown }) => isShown).map(({ subscript, unit, anchor }) => {
+    return legLabels.filter(({ isShown }) => isShown).map(({ subscript, unit, anchor }) => {
       const deviationText = deviations[subscript] > 0 ? ` ± ${formatFixed(deviations[subscript], 2)}` : '';
       return { ...anchor, symbol: 'δ', subscript, text: `${formatFixed(legs[subscript], 2)}${deviationText} ${unit}`, colour };
     });
@@ -251,9 +252,9 @@ export class LegsPicture extends SamplesPicture<Scene> {
 
   #paintRobot({ context, view, palette }: DrawContext, pose: Pose) {
     const radius = Math.max(7, 0.7 * ROBOT_RADIUS * view.scaleX);
-    const robotEdge = { colour: palette.paper, width: 2 };
-    drawDisc(context, view.toPixel(pose.x, pose.y), radius, palette.accent, robotEdge);
-    strokeLine(context, view.headingLineFrom(pose, radius), robotEdge);
+    const robotOutlineStyle = { colour: palette.paper, width: 2 };
+    drawDisc(context, view.toPixel(pose.x, pose.y), radius, palette.accent, robotOutlineStyle);
+    strokeLine(context, view.headingLineFrom(pose, radius), robotOutlineStyle);
   }
 }
 
@@ -264,39 +265,39 @@ export class WorldPicture extends SamplesPicture<Scene> {
 
   fitView(scene: Scene) {
     const { poses } = scene.drifted;
-    const robotCorners = [0, 1, 2].flatMap((index) => {
+    const robotBoxCorners = [0, 1, 2].flatMap((index) => {
       const { x, y } = poseAt(poses, index);
-      return cornersAround(x, y, MARGINS.metres);
+      return cornersAround(x, y, MARGINS.aroundRobot);
     });
-    this.view.fit(extentOf([...neededPointsOf(scene), ...robotCorners], 1.2));
+    this.view.fit(extentOf([...neededPointsOf(scene), ...robotBoxCorners], 1.2));
   }
 
   paint: SamplesPicture<Scene>['paint'] = (drawContext, scene) => {
     const { palette, context, view } = drawContext;
     const { overlays } = scene;
-    const [frame, odometryStart, odometryEnd] = [0, 1, 2].map((index) => poseAt(scene.drifted.poses, index));
+    const [framePose, odometryStart, odometryEnd] = [0, 1, 2].map((index) => poseAt(scene.drifted.poses, index));
     const [startPose, predictedPose] = [poseAt(scene.linkage, 0), poseAt(scene.linkage, 3)];
-    const styles = createLineStyles(drawContext, LINE_STYLES);
+    const lineStyles = createLineStyles(drawContext, LINE_STYLES);
     drawAxes(drawContext, AXIS_NAMES);
     clipToPlot(drawContext, () => {
       if (overlays.includes('odometry')) {
         const axisLength = FRAME_AXIS_LENGTH * view.scaleX;
-        const [, yAxisEnd] = view.headingLineFrom({ ...frame, theta: frame.theta + Math.PI / 2 }, axisLength);
-        strokeLine(context, [yAxisEnd, ...view.headingLineFrom(frame, axisLength)], { colour: palette.prior, width: 1.25 });
-        drawSegment(drawContext, odometryStart, odometryEnd, styles.odometry);
+        const [, yAxisEnd] = view.headingLineFrom({ ...framePose, theta: framePose.theta + Math.PI / 2 }, axisLength);
+        strokeLine(context, [yAxisEnd, ...view.headingLineFrom(framePose, axisLength)], { colour: palette.prior, width: 1.25 });
+        drawSegment(drawContext, odometryStart, odometryEnd, lineStyles.odometry);
         for (const pose of [odometryStart, odometryEnd]) {
           drawRobotOutline(drawContext, pose.x, pose.y, ROBOT_RADIUS, palette.prior);
           strokeLine(context, view.headingLineFrom(pose, ROBOT_RADIUS * view.scaleX + 8), { colour: palette.prior, width: 1.5 });
         }
       }
       drawOutcomes(drawContext, scene);
-      if (overlays.includes('prediction')) drawSegment(drawContext, startPose, predictedPose, styles.prediction);
-      if (overlays.includes('difference')) drawSegment(drawContext, odometryEnd, predictedPose, styles.difference);
+      if (overlays.includes('prediction')) drawSegment(drawContext, startPose, predictedPose, lineStyles.prediction);
+      if (overlays.includes('difference')) drawSegment(drawContext, odometryEnd, predictedPose, lineStyles.difference);
       drawDraggableRobot(drawContext, startPose, ROBOT_RADIUS, palette.truth);
-      drawMarked(drawContext, scene);
+      drawMarkedPose(drawContext, scene);
     });
     const { left, bottom } = this.view.plotArea;
-    const { outcomesBy, rules } = words.decomposer;
+    const { outcomesLabel: outcomesBy, ruleNames: rules } = words.decomposer;
     if (overlays.includes('outcomes')) drawLabel(drawContext, { text: outcomesBy(rules[scene.config.rule]), x: left, y: bottom, freeSide: 1, colour: palette.prediction });
     drawLabelsAbove(drawContext, [
       ...(overlays.includes('prediction') ? this.#createLabels(drawContext, [startPose, predictedPose], 'x', [palette.ink, palette.prediction]) : []),
@@ -310,8 +311,8 @@ export class WorldPicture extends SamplesPicture<Scene> {
       const [x, y] = view.toPixel(pose.x, pose.y);
       return { x, y, symbol, subscript: ['t−1', 't'][i], colour: colours[i] };
     });
-    return Math.hypot(firstLabel.x - secondLabel.x, firstLabel.y - secondLabel.y) > MIN_LABELLED_DRIVE ? [firstLabel, secondLabel] : [secondLabel];
+    return Math.hypot(firstLabel.x - secondLabel.x, firstLabel.y - secondLabel.y) > MIN_LABELLED_LENGTH ? [firstLabel, secondLabel] : [secondLabel];
   }
 }
 
-const drawSegment = (drawContext: DrawContext, from: Pose, to: Pose, style: LineStroke) => strokeLines(drawContext, [{ points: Float64Array.of(from.x, from.y, to.x, to.y), ...style }]);
+const drawSegment = (drawContext: DrawContext, startPose: Pose, endPose: Pose, lineStroke: LineStroke) => strokeLines(drawContext, [{ points: Float64Array.of(startPose.x, startPose.y, endPose.x, endPose.y), ...lineStroke }]);

@@ -33,10 +33,10 @@ export const SAMPLE_COUNTS = [10, 20, 50, 100, 200, 500, 1000, 2000, 5000];
 export type ViewModel = ReturnType<typeof viewModelOf>;
 
 export function viewModelOf(simulation: OdometryDecomposer) {
-  const results = simulation.read();
+  const simulationResults = simulation.read();
   // Legs and standard deviations of the current rule.
-  const { legs, deviations: [rot1, trans, rot2, strafe] } = results.rules.find(({ rule }) => rule === results.config.rule) as RuleNoise;
-  return { ...results, legs, deviations: { rot1, trans, rot2, strafe } };
+  const { legs, deviations: [rot1, trans, rot2, strafe] } = simulationResults.rules.find(({ rule }) => rule === simulationResults.config.rule) as RuleNoise;
+  return { ...simulationResults, legs, deviations: { rot1, trans, rot2, strafe } };
 }
 
 /** Returns one of several poses in an array of x, y, θ triples. */

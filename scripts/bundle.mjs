@@ -155,7 +155,7 @@ export async function bundle({ tags = WIDGET_TAGS } = {}) {
   printStep('Bundling the pages');
   await writeTypes();
   await writeComponents();
-  writeFileSync(absolutePath('build/widgets.js'), await composeWidgetLoaders());
+  writeFileSync(absolutePath('build/widgets.js'), composeWidgetLoaders());
   const moduleBytes = readFileSync(absolutePath('build/motion.wasm'));
   const bytesScript = hashedFileOf('motion-bytes', '.js', MODULE_SOURCES.bytes(moduleBytes, SHIFTED_CHARACTERS.utf8));
   /**
@@ -317,20 +317,9 @@ function withNonAsciiEscaped(script) {
   return script.replaceAll(/[^\0-\x7f]/g, (codeUnit) => `\\u${codeUnit.charCodeAt(0).toString(16).padStart(4, '0')}`);
 }
 
-/**
- * Returns the loaders of the widgets for external.js, and the keys of the messages that the widgets need.
- *
- * @returns {Promise<string>} a module
- */
-async function composeWidgetLoaders() {
-  const loaderLines = WIDGET_TAGS.map((tag) => `  '${tag}': () => import('../www/widgets/${tag}/${tag}.ts'),\n`);
-  const settingsModules = await Promise.all(WIDGET_TAGS.map((tag) => importTypeScript(`www/widgets/${tag}/settings.ts`)));
-  return (
-    '/** @type {Record<string, () => Promise<unknown>>} by their tags */\n' +
-    `export const widgets = {\n${loaderLines.join('')}};\n\n` +
-    `export const messageKeys = ${JSON.stringify(settingsModules.map(({ definition }) => definition.messageKey))};\n`
-  );
-}
+/** Returns a module with the loaders of the widgets for external.js. */
+const composeWidgetLoaders = () =>
+  `/** @type {Record<string, () => Promise<unknown>>} by their tags */\nexport const widgets = {\n${WIDGET_TAGS.map((tag) => `  '${tag}': () => import('../www/widgets/${tag}/${tag}.ts'),\n`).join('')}};\n`;
 
 /**
  * Returns the declarations of settings without parts that no page uses. These are documentation, and defaults that the defaults of a group

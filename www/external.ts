@@ -3,17 +3,12 @@
  * its tag is found in the document or in an open shadow root.
  */
 
-import { messageKeys, widgets } from '../build/widgets.js';
+import { widgets } from '../build/widgets.js';
 import { foundTags } from './core.ts';
 import { createPreUpgradeCss } from './ui/reserved-height.ts';
-import { en } from './messages/en.ts';
-import { addEnglishMessages } from './messages/registry.ts';
 
 export { load } from './core.ts';
 export { setMessages } from './messages/registry.ts';
-
-// A page may set the words of a widget before its script is loaded.
-addEnglishMessages({ ...en, ...Object.fromEntries(messageKeys.map((key) => [key, {}])) });
 
 /** Returns true for the tag of a figure. Template compilers, such as Vue's, need it to recognize custom elements. */
 export const isFigureTag = (tag: string) => tag in widgets;

@@ -94,34 +94,21 @@ test('the nearest lang decides, also on the form of numbers; a language without 
   await expectPlayButton('Stichproben ziehen');
 });
 
-test('a page may replace words and add languages; a message of another shape is refused by name', async ({ page }) => {
+test('a page may replace words and add languages; a text that is no language is refused', async ({ page }) => {
   const widget = await openBanana(page, 'preset="gentle"');
   await openDisclosures(widget);
-  const refusalMessages = await page.evaluate(async () => {
+  const refusalMessage = await page.evaluate(async () => {
     const { setMessages } = await import(new URL('/motion-widgets.js', location.href).href);
     setMessages('fr', { cloud: { play: 'Jouer' }, banana: { robot: 'Automate', bend: { bent: () => 'À droite.' } } });
     setMessages('en', { pause: 'Hold' });
     setMessages('ar', { cloud: { play: 'عيّن' } });
-    const refusedMessages = /** @type {[string, object][]} */ ([
-      ['fr', { banana: { robots: 'x' } }],
-      ['fr', { banana: { bend: { bowTie: 'silence' } } }],
-      ['fr', { banana: { settings: { model: 'x' } } }],
-      ['de_AT', { play: 'Los' }],
-    ]);
-    return refusedMessages.map(([languageCode, messages]) => {
-      try {
-        setMessages(languageCode, messages);
-      } catch (error) {
-        return String(error);
-      }
-    });
+    try {
+      setMessages('de_AT', { play: 'Los' });
+    } catch (error) {
+      return String(error);
+    }
   });
-  expect(refusalMessages).toEqual([
-    expect.stringMatching(/^TypeError: messages: fr\.banana\.robots is a string; allowed is one of title, /),
-    'TypeError: messages: fr.banana.bend.bowTie is a string; allowed is a function of 3 values.',
-    'TypeError: messages: fr.banana.settings.model is a string; allowed is a group.',
-    'RangeError: messages: lang is "de_AT"; allowed is a BCP 47 tag, as "de" or "pt-BR".',
-  ]);
+  expect(refusalMessage).toBe('RangeError: messages: lang is "de_AT"; allowed is a BCP 47 tag, as "de" or "pt-BR".');
   await expect(widget.getByRole('button', { name: 'Draw samples' })).toBeVisible();
   await widget.evaluate((element) => element.setAttribute('lang', 'fr'));
   await expect(widget.getByRole('button', { name: 'Jouer' })).toBeVisible();

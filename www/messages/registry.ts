@@ -30,7 +30,7 @@ export let language = 'en';
 const wordsByLanguage: Map<string, { words: Messages, language: string }> = new Map();
 sharedCatalogues.changeEvents.addEventListener('change', () => wordsByLanguage.clear());
 
-/** Adds English words of the elements, which define the keys of all catalogues. A later call may fill a group that was empty at first. */
+/** Adds English words of the elements, which define the keys of all catalogues. */
 export function addEnglishMessages(messages: { [key: string]: Message }) {
   sharedCatalogues.english = mergeMessages(sharedCatalogues.english, messages);
   notifyListeners();
@@ -38,42 +38,18 @@ export function addEnglishMessages(messages: { [key: string]: Message }) {
 
 /**
  * Sets words of the elements in a language, at once and on the whole page. Words that are left out stay as they were, and are English in a
- * new language. Messages of a figure whose script is not loaded yet are not checked.
+ * new language.
  *
  * @param lang a BCP 47 tag: "de", "pt-BR"
- * @param messages in the shape of the English ones, or a part of it
+ * @param messages in the shape of the English ones, or a part of it. A list must have as many entries as the English one
  * @throws {RangeError} if there is no such language
- * @throws {TypeError} if a message is not in the English catalogue, or has another kind there: a list must have as many entries as the
- *   English one, and a function may take as many values or fewer
  */
 export function setMessages(lang: string, messages: object) {
-  const { english, catalogues } = sharedCatalogues;
+  const { catalogues } = sharedCatalogues;
   if (!isLanguageTag(lang)) throw new RangeError(`messages: lang is ${JSON.stringify(lang)}; allowed is a BCP 47 tag, as "de" or "pt-BR".`);
-  checkMessages(english, messages, lang);
   const catalogueKey = lang.toLowerCase();
   catalogues[catalogueKey] = mergeMessages(catalogues[catalogueKey] ?? {}, messages);
   notifyListeners();
-}
-
-/** Throws a TypeError for messages that are not in the English catalogue. An empty catalogue is not filled yet, and accepts all. */
-function checkMessages(englishMessages: any, pageMessages: any, path: string) {
-  if (Object.keys(englishMessages).length === 0) return;
-  for (const [key, message] of Object.entries(pageMessages)) {
-    const expectedMessage = Object.hasOwn(englishMessages, key) ? englishMessages[key] : undefined;
-    const [messageKind, expectedKind] = [describeMessage(message), describeMessage(expectedMessage)];
-    const isShorter = typeof message === 'function' && typeof expectedMessage === 'function' && message.length < expectedMessage.length;
-    if (messageKind !== expectedKind && !isShorter) {
-      const allowedText = expectedMessage === undefined ? `one of ${Object.keys(englishMessages).join(', ')}` : expectedKind;
-      throw new TypeError(`messages: ${path}.${key} is ${messageKind}; allowed is ${allowedText}.`);
-    }
-    if (typeof message === 'object') checkMessages(expectedMessage, message, `${path}.${key}`);
-  }
-}
-
-function describeMessage(value: any) {
-  if (Array.isArray(value)) return `a list of ${value.length}`;
-  if (typeof value === 'function') return `a function of ${value.length} values`;
-  return value === null || value === undefined ? String(value) : typeof value === 'object' ? 'a group' : `a ${typeof value}`;
 }
 
 function mergeMessages(baseMessages: any, overrides: any) {

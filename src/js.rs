@@ -1,8 +1,8 @@
 //! Declaration of results that JavaScript gets as objects.
 
-/// Declares structs that become objects in JavaScript, with the names of the fields in camel case as keys. `as "Name"` after a
-/// struct names its TypeScript type. `as "Type"` after a field is its TypeScript type, and `wasm::values::ToJs` converts it.
-/// Without JavaScript they are plain structs.
+/// Declares structs of results, which JavaScript gets as objects whose keys are the names of the fields in camel case. `as "Name"` after a
+/// struct is the name of its TypeScript type. `as "Type"` after a field is the TypeScript type of the field, which `wasm::values::ToJs`
+/// then converts. In native builds they are plain structs.
 macro_rules! js_structs {
     ($(
         $(#[$meta:meta])*

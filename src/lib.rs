@@ -1,9 +1,8 @@
 //! Probabilistic motion models of a planar robot: one command, a distribution of outcomes.
 //!
 //! The models are those of an online book's chapter "Probabilistic Motion Models". The chapter follows Thrun, Burgard and Fox,
-//! *Probabilistic Robotics*, chapter 5, and Long et al., "The Banana Distribution is Gaussian", RSS 2012. The crate also has
-//! statistics of clouds of poses, and the simulations of the chapter's widgets. The examples also need the crates `rand` and
-//! `rand_xoshiro`.
+//! *Probabilistic Robotics*, chapter 5, and Long et al., "The Banana Distribution is Gaussian", RSS 2012. The crate also has statistics of
+//! clouds of poses, and the simulations of the chapter's widgets. The examples also need the crates `rand` and `rand_xoshiro`.
 //!
 //! ```
 //! use motion::geom::se2::SE2;
@@ -36,8 +35,7 @@
 //! | R_u | [`MotionModel::tangent_cov`] | noise covariance in exponential coordinates |
 //! | ξ = x_t ⊟ x_{t−1} | [`geom::se2::SE2::boxminus`] | exponential coordinates of a motion |
 //!
-//! No result depends on a platform's mathematics library: the same seed gives the same poses, to the bit, natively and
-//! in a browser.
+//! No result depends on a platform's mathematics library: the same seed gives the same poses, to the bit, natively and in a browser.
 
 #![warn(missing_docs)]
 

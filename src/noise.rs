@@ -33,7 +33,7 @@ impl Variance {
 #[error("variance is {0}; a number that is 0 or more is needed")]
 pub struct NegativeVariance(pub f64);
 
-/// Largest residual that counts as 0 for a noise of zero variance (m/s or rad/s, or m or rad for odometry legs).
+/// Largest residual that counts as 0 for a noise of zero variance (m/s or rad/s, or m or rad for rotations and translations of odometry).
 ///
 /// Inverting an arc of 0.01 s at 1 m/s, a kilometre from the origin, gives an error of up to 4e-9 in γ̂. At lower speeds the error is
 /// larger. A smaller bound would therefore reject poses of the sampler itself. No robot is controlled to 0.1 µm/s, so that the bound
@@ -62,8 +62,7 @@ pub enum NoiseKind {
 }
 
 impl NoiseKind {
-    /// Returns a draw of variance `b2`; 0 where the variance is 0, NaN where it is negative or NaN. Consumes one 64-bit
-    /// number of `rng`.
+    /// Returns a draw of variance `b2`; 0 where the variance is 0, NaN where it is negative or NaN. Consumes one 64-bit number of `rng`.
     pub fn sample<R: Rng + ?Sized>(self, b2: Variance, rng: &mut R) -> f64 {
         self.quantile(draw_centred_uniform(rng)) * b2.0.sqrt()
     }
@@ -101,7 +100,7 @@ impl NoiseKind {
         }
     }
 
-    /// Replaces each number q by its quantile, with the same bits as [`NoiseKind::quantile`].
+    /// Replaces each number q by the quantile of the probability ½ + q, with the same bits as [`NoiseKind::quantile`].
     pub(crate) fn replace_by_quantiles(self, numbers: &mut [f64x4]) {
         match self {
             Self::Normal => quantile::replace_by_normal_quantiles(numbers),

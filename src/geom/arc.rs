@@ -183,7 +183,7 @@ impl PreparedPose {
         [self.pose.x() + (self.cos * x - self.sin * y), self.pose.y() + (self.sin * x + self.cos * y)]
     }
 
-    /// Returns the arc of [`arc_end`], composed with the pose.
+    /// Returns the arc of `length` (m) and `turn` (rad) from this pose, with its end.
     #[inline(always)]
     pub fn drive(&self, length: f64, turn: f64) -> DrivenArc {
         let half_turn = 0.5 * turn;
@@ -193,7 +193,8 @@ impl PreparedPose {
         self.driven_arc(length, turn, half_sinc, self.transform_point([forward, left]))
     }
 
-    /// Returns four arcs that are driven at once. The ends differ from those of [`PreparedPose::drive`] by less than 2e-15 · length.
+    /// Computes four arcs from this pose in SIMD lanes. Returns a function from the lane index to the arc. The ends differ from those of
+    /// [`PreparedPose::drive`] by less than 2e-15 · length.
     #[inline(always)]
     pub fn drive_four(
         &self,
@@ -201,7 +202,7 @@ impl PreparedPose {
         length: f64x4,
         turn: f64x4,
     ) -> impl Fn(usize) -> DrivenArc {
-        // The end of the arc is on the bearing φ/2, at the length of the chord.
+        // The end of an arc is on the bearing φ/2, at the distance of the length of its chord.
         let SinCos { sinc, sin, cos } = trigonometry.sin_cos(turn * 0.5);
         let distance = length * sinc;
         let (forward, left) = (distance * cos, distance * sin);
@@ -244,8 +245,8 @@ impl DrivenArc {
             let circle_diameter = 2.0 * (self.arc.length / self.arc.turn).abs();
             return [x0 - circle_diameter, y0 - circle_diameter, x0 + circle_diameter, y0 + circle_diameter];
         }
-        // The arc lies in the rectangle between its chord and its middle. The middle lies tan(φ/4)/2 chord lengths to the right
-        // of the chord, at most φ/2π chord lengths.
+        // The arc lies in the rectangle between its chord and its midpoint. The midpoint is tan(φ/4)/2 chord lengths to the right of the
+        // chord, which is at most φ/2π chord lengths.
         let rise_ratio = self.arc.turn / TAU;
         let (rise_x, rise_y) = (rise_ratio * (y1 - y0), rise_ratio * (x0 - x1));
         [
@@ -297,7 +298,8 @@ impl ArcPiece {
         }
     }
 
-    /// Returns the coordinates of a point, ahead and to the left of the middle, for one length or four.
+    /// Returns the coordinates, ahead and to the left of the middle of the piece, of the point `s` metres after the middle. `T` is a number
+    /// or four SIMD lanes.
     #[inline(always)]
     fn local_point<T>(&self, s: T) -> [T; 2]
     where
@@ -346,8 +348,8 @@ impl LocalArc {
         [dx * self.forward[0] + dy * self.forward[1], dx * self.left[0] + dy * self.left[1]]
     }
 
-    /// Returns κ|p|²/2 − y of a point p. The value is 0 on the circle (or line), and positive outside the circle (or to the right of the
-    /// line).
+    /// Returns κ|p|²/2 − y of a point p. It is 0 on the circle (or line) of the arc, and positive outside the circle (or to the right of
+    /// the line).
     pub fn circle_equation_value(&self, [x, y]: [f64; 2]) -> f64 {
         0.5 * self.curvature * (x * x + y * y) - y
     }

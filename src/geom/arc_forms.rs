@@ -1,5 +1,5 @@
-//! Exercise 1: rounding and truncation errors of the arc, the straight line and the chord at small turn rates. They are differences from
-//! the same motion in double-double arithmetic.
+//! Exercise 1: rounding and truncation errors of three formulas for the end of a motion at small turn rates: arc, straight line and chord.
+//! An error is the difference from the same motion in double-double arithmetic.
 
 use super::arc::arc_end;
 use crate::js::js_structs;
@@ -13,7 +13,7 @@ const DURATION: f64 = 0.1;
 /// Turn rate |ω̂| (rad/s) below which the code of the book's chapter drives a straight line.
 pub const STRAIGHT_LINE_THRESHOLD: f64 = 1e-6;
 
-/// Turn rates from 10⁻¹² to 10 rad/s, and their number for each factor of ten.
+/// Decimal exponents of the first and last turn rate (rad/s), and number of turn rates per decade.
 const FIRST_AND_LAST_DECADE: [i32; 2] = [-12, 1];
 const POINTS_PER_DECADE: i32 = 8;
 
@@ -21,15 +21,15 @@ const POINTS_PER_DECADE: i32 = 8;
 const HEADING_COUNT: u32 = 24;
 
 js_structs! {
-    /// Errors (m) of three forms for the end of a motion at 1 m/s for 0.1 s, by turn rate. Each error is the root mean
-    /// square over all headings.
+    /// Errors (m) of three formulas for the end of a motion at 1 m/s for 0.1 s, by turn rate. Each error is the root mean square over all
+    /// headings.
     #[derive(Clone, Debug, PartialEq)]
     pub struct FormErrors {
         /// Turn rates, rad/s.
         pub omega: Vec<f64> as "Float64Array",
-        /// Error (m) of x − (v/ω) sin θ + (v/ω) sin(θ + ωΔt), and y likewise.
+        /// Error (m) of the arc: x − (v/ω) sin θ + (v/ω) sin(θ + ωΔt), and likewise for y.
         pub arc: Vec<f64> as "Float64Array",
-        /// Error (m) of x + vΔt cos θ, and y likewise.
+        /// Error (m) of the straight line: x + vΔt cos θ, and likewise for y.
         pub straight: Vec<f64> as "Float64Array",
         /// Error (m) of the chord: the distance vΔt sinc(ωΔt/2) in the direction θ + ωΔt/2.
         pub chord: Vec<f64> as "Float64Array",
@@ -40,7 +40,7 @@ js_structs! {
     }
 }
 
-/// Returns the errors of the three forms, relative to the same motion in double-double arithmetic.
+/// Returns the errors of the three formulas, relative to the same motion in double-double arithmetic.
 pub fn form_errors() -> FormErrors {
     let [first, last] = FIRST_AND_LAST_DECADE.map(|exponent| exponent * POINTS_PER_DECADE);
     let omega: Vec<f64> =

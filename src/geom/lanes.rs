@@ -47,14 +47,14 @@ impl Trigonometry {
         SinCos { sinc, sin: x * sinc, cos }
     }
 
-    /// Returns the sines and cosines of any finite angles (rad). Angles up to a quarter turn are fastest.
+    /// Returns the sines and cosines of any finite angles (rad). Angles up to π/2 are fastest.
     #[inline(always)]
     pub fn sin_cos(&self, x: f64x4) -> SinCos {
         if is_any_lane_beyond(x, FRAC_PI_2) { self.sin_cos_any_angle(x) } else { self.sin_cos_small_angle(x) }
     }
 
-    /// Returns the sines and cosines of any finite angles (rad). A lane up to a quarter turn gets the bits of
-    /// [`Trigonometry::sin_cos_small_angle`], unless another lane is beyond a million radians.
+    /// Returns the sines and cosines of any finite angles (rad). For an angle up to π/2 the result equals that of
+    /// [`Trigonometry::sin_cos_small_angle`] to the bit, unless another lane is beyond a million radians.
     #[inline(never)]
     pub fn sin_cos_any_angle(&self, x: f64x4) -> SinCos {
         if is_any_lane_beyond(x, MAX_REDUCED_ANGLE) {
@@ -64,7 +64,7 @@ impl Trigonometry {
         }
         let half_circles = half_circle_count(x);
         let reduced_sin_cos = self.sin_cos_small_angle(subtract_half_circles(x, half_circles));
-        // The parity is the difference from the nearest even number. It is ±1 if the number of half circles is odd.
+        // Parity of `half_circles`: 0 if the number is even, ±1 if it is odd. Twice [`ROUND_TO_INTEGER`] rounds to the nearest even number.
         let parity = half_circles - (half_circles + 2.0 * ROUND_TO_INTEGER - 2.0 * ROUND_TO_INTEGER);
         let parity_sign = f64x4::splat(1.0) - 2.0 * parity.abs();
         let (sin, cos) = (reduced_sin_cos.sin * parity_sign, reduced_sin_cos.cos * parity_sign);
@@ -72,9 +72,9 @@ impl Trigonometry {
         SinCos { sinc, sin, cos }
     }
 
-    /// Returns half headings h (rad) minus whole half circles, so that each is within a quarter circle of `branch_centre` (rad), with their sines
-    /// and cosines. The signs of sine and cosine are reversed if an odd number of half circles was subtracted. Half headings within a
-    /// quarter turn of 0 and of `branch_centre` get the bits of [`Trigonometry::sin_cos_small_angle`].
+    /// Moves half headings h (headings divided by 2, rad) by multiples of π to within π/2 of `branch_centre` (rad), and returns them with
+    /// their sines and cosines. An odd multiple of π reverses the signs of sine and cosine, but leaves the heading unchanged. For half
+    /// headings within π/2 of 0 and of `branch_centre`, the result equals that of [`Trigonometry::sin_cos_small_angle`] to the bit.
     #[inline(never)]
     pub fn sin_cos_on_branch(&self, half_heading: f64x4, branch_centre: f64) -> (f64x4, SinCos) {
         let mut half_heading_on_branch =
@@ -87,9 +87,9 @@ impl Trigonometry {
         (half_heading_on_branch, self.sin_cos_any_angle(half_heading_on_branch))
     }
 
-    /// Returns (sin x/x, cos x) from z = x², for |x| up to a quarter turn. The result is exact at 0.
+    /// Returns (sin x/x, cos x) from z = x², for |x| up to π/2. The result is exact at 0.
     ///
-    /// Estrin's scheme has as many operations as Horner's. Its chain of dependent operations is half as long.
+    /// Estrin's scheme has as many operations as Horner's scheme, but a chain of dependent operations that is half as long.
     #[inline(always)]
     fn sinc_and_cos(&self, z: f64x4) -> (f64x4, f64x4) {
         let z2 = z * z;
@@ -122,7 +122,7 @@ pub(crate) fn from_lanes(value_of_lane: impl FnMut(usize) -> f64) -> f64x4 {
     f64x4::new(std::array::from_fn(value_of_lane))
 }
 
-/// Returns the mask of the first `lane_count` lanes, whose bits are all set.
+/// Returns a lane mask with all bits set in the first `lane_count` lanes, and none in the others.
 pub(crate) fn first_lanes_mask(lane_count: usize) -> f64x4 {
     from_lanes(|lane| if lane < lane_count { f64::from_bits(u64::MAX) } else { 0.0 })
 }
@@ -167,17 +167,17 @@ const LOG_COEFFICIENTS: [f64; 7] = [
 ];
 
 /// Maximum angle (rad) that is reduced with [`PI_PARTS`], a π of 119 bits. The first two parts of π have 33 bits, so that their products
-/// with integers of up to 20 bits are exact. `libm` computes larger angles, which no robot turns by.
+/// with integers of up to 20 bits are exact. `libm` computes larger angles, by which no robot turns.
 const MAX_REDUCED_ANGLE: f64 = 3e6;
 const PI_PARTS: [f64; 3] = [3.141_592_653_468_251_2, 1.215_420_101_260_793_2e-10, 4.044_532_497_591_901e-21];
 
 /// Constant that rounds a number to an integer, if it is added and then subtracted. Twice the constant rounds to an even number.
 pub(crate) const ROUND_TO_INTEGER: f64 = 6_755_399_441_055_744.0;
 
-/// Returns the number of half circles that are subtracted from x so that the rest is within a quarter circle of 0.
+/// Returns the number of times that π is subtracted from each angle x so that the remainder is within ±π/2.
 #[inline(always)]
 fn half_circle_count(x: f64x4) -> f64x4 {
-    // Within a quarter circle the number is 0. At the ends of that range the rounded quotient may be 1.
+    // Angles within ±π/2 stay as they are. At ±π/2 the rounded quotient might be ±1.
     let is_small = x.abs().simd_le(f64x4::splat(FRAC_PI_2));
     is_small.bitselect(f64x4::splat(0.0), x * FRAC_1_PI + ROUND_TO_INTEGER - ROUND_TO_INTEGER)
 }

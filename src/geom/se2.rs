@@ -57,9 +57,8 @@ impl SE2 {
     /// Returns the exponential map of a twist (eq. 156): the pose after one unit of time at the constant body velocity
     /// `twist` = (v_x, v_y, ω), from the identity.
     ///
-    /// The position is V(ω)·(v_x, v_y) with V = [sin ω/ω, −(1 − cos ω)/ω; (1 − cos ω)/ω, sin ω/ω]. The heading is ω, wrapped.
-    /// The chord form of V needs no series near ω = 0. For |ω| ≤ π the error of a component is at most
-    /// 4e-16 · max(1, ‖twist‖).
+    /// The position is V(ω)·(v_x, v_y) with V = [sin ω/ω, −(1 − cos ω)/ω; (1 − cos ω)/ω, sin ω/ω]. The heading is ω, wrapped. The chord
+    /// form of V needs no series near ω = 0. For |ω| ≤ π the error of a component is at most 4e-16 · max(1, ‖twist‖).
     pub fn exp(twist: &Vector3<f64>) -> Self {
         let (a, b) = chord_factors(twist.z);
         Self::new(a * twist.x - b * twist.y, b * twist.x + a * twist.y, twist.z)
@@ -131,8 +130,7 @@ impl SE2 {
         Matrix3::new(a, b, c * twist.x - d * twist.y, -b, a, d * twist.x + c * twist.y, 0.0, 0.0, 1.0)
     }
 
-    /// Returns the inverse of the right Jacobian in closed form, 3 × 3: log(exp(τ) · exp(δ)) = τ + J_r⁻¹(τ)·δ to first order
-    /// in δ.
+    /// Returns the inverse of the right Jacobian in closed form, 3 × 3: log(exp(τ) · exp(δ)) = τ + J_r⁻¹(τ)·δ to first order in δ.
     ///
     /// Entries have the accuracy of [`SE2::right_jacobian`] for |ω| ≤ π. They grow without bound towards |ω| = 2π.
     pub fn right_jacobian_inverse(twist: &Vector3<f64>) -> Matrix3<f64> {
@@ -185,9 +183,9 @@ fn squared_half_sinc(turn: f64) -> f64 {
     half_sinc * half_sinc
 }
 
-/// Minimum |ω| of the closed forms. Below this angle two quotients would cancel, and are computed by series. Above this angle the closed
-/// forms lose up to four bits of small quotients, so that sums with them are exact to rounding. A smaller bound would lose more bits, and a
-/// larger bound would need more terms.
+/// Maximum |ω| (rad) at which [`sine_defect`] and [`cotangent_defect`] are computed by series, because their closed forms cancel. Beyond
+/// it, the closed forms lose up to four bits of small quotients, so that sums with them are exact to rounding. A smaller bound would lose
+/// more bits, and a larger bound would need more terms.
 const MAX_SERIES_ANGLE: f64 = 1.0;
 
 /// Returns (ω − sin ω)/ω² = ω/3! − ω³/5! + ω⁵/7! − …

@@ -3,7 +3,7 @@
 use super::arc::{Arc, LocalArc};
 use std::f64::consts::PI;
 
-/// Straight line between two points, m. Its length may be 0.
+/// Line segment between two points, m. Its length may be 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Segment {
     /// First end: x and y, m.
@@ -38,11 +38,11 @@ impl Segment {
         [offset[0] - t * direction[0], offset[1] - t * direction[1]]
     }
 
-    /// Returns the distance (m) between the nearest points of the segment and of an arc, which is 0 if they cross.
+    /// Returns the distance (m) between the segment and an arc, which is 0 if they cross.
     ///
-    /// The nearest points are a crossing, an end and the nearest point of the other line, or two inner points. At inner points the segment
-    /// is parallel to the arc and outside its circle. There are no other minima, because inside the circle the distance to it is concave
-    /// along a line.
+    /// The nearest points are a crossing, or an end of one and a point of the other, or two inner points. At inner points the segment is
+    /// parallel to the arc and outside the arc's circle. Inside the circle there is no minimum at inner points, because the distance to the
+    /// circle is concave along a line.
     pub fn distance_to_arc(&self, arc: &Arc) -> f64 {
         self.distance_to_local_arc(&arc.local_arc())
     }
@@ -53,11 +53,12 @@ impl Segment {
         if local_segment.crosses_arc(arc) { 0.0 } else { local_segment.distance_without_crossing(arc) }
     }
 
-    /// Returns the maximum distance (m) of an arc to the right of the segment's line. The ends of the arc must not be to the right.
+    /// Returns the maximum distance (m) of the points of an arc to the right of the line through the segment. The ends of the arc must not
+    /// be to the right.
     pub(crate) fn max_distance_on_right(&self, arc: &Arc) -> f64 {
         let direction = [self.to[0] - self.from[0], self.to[1] - self.from[1]];
         let direction_length = libm::hypot(direction[0], direction[1]);
-        // The arc is furthest from the line at the points where arc and line are parallel.
+        // A point of the arc is furthest from the line where arc and line are parallel.
         let bearing = libm::atan2(direction[1], direction[0]) - arc.start.theta();
         let parallel_turn = libm::remainder(bearing * arc.turn.signum(), PI);
         let first_parallel_turn = if parallel_turn < 0.0 { parallel_turn + PI } else { parallel_turn };
@@ -77,15 +78,15 @@ impl Segment {
         Self { from: arc.transform_to_local(self.from), to: arc.transform_to_local(self.to) }
     }
 
-    /// Returns true if a segment in the frame of an arc has a point in common with it.
+    /// Returns true if this segment, in the frame of the arc, has a point in common with the arc.
     fn crosses_arc(&self, arc: &LocalArc) -> bool {
         let Self { from, to } = *self;
         let direction = [to[0] - from[0], to[1] - from[1]];
-        // The points of the segment on the circle solve an equation that is quadratic along the segment.
+        // The crossings of the segment with the circle solve a quadratic equation in the position along the segment.
         let a = 0.5 * arc.curvature * dot(direction, direction);
         let b = arc.curvature * dot(from, direction) - direction[1];
         let c = arc.circle_equation_value(from);
-        // The discriminant b² − 4ac is rearranged to avoid cancellation if the wall is much longer than the radius.
+        // The discriminant b² − 4ac is rearranged to avoid cancellation if the segment is much longer than the radius.
         let line_offset = arc.curvature * (from[0] * direction[1] - from[1] * direction[0]);
         let discriminant = direction[1] * direction[1] - line_offset * (line_offset + 2.0 * direction[0]);
         if discriminant < 0.0 {
@@ -98,7 +99,7 @@ impl Segment {
         })
     }
 
-    /// Returns the distance between an arc and a segment that does not cross it, in the frame of the arc.
+    /// Returns the distance between an arc and this segment, which is in the frame of the arc and does not cross it.
     fn distance_without_crossing(&self, arc: &LocalArc) -> f64 {
         let Self { from, to } = *self;
         let direction = [to[0] - from[0], to[1] - from[1]];
@@ -111,11 +112,12 @@ impl Segment {
         ]
         .into_iter()
         .fold(f64::INFINITY, f64::min);
-        // The foot is that of the perpendicular from the circle's centre. A straight path has no centre, and needs no foot.
+        // Another candidate is the foot of the perpendicular from the circle's centre to the segment. A straight arc has no centre.
         if arc.curvature > 0.0 && squared_length > 0.0 {
             let t = (direction[1] / arc.curvature - dot(from, direction)) / squared_length;
             if (0.0..=1.0).contains(&t) {
-                // A foot inside the circle is no minimum. The exception is the foot of a tangent, which rounding may move into the circle.
+                // A foot inside the circle is not the nearest point, but its distance does no harm. The foot on a tangent is needed, even
+                // if rounding moves it inside.
                 min_distance = min_distance
                     .min(arc.distance_to_point([from[0] + t * direction[0], from[1] + t * direction[1]]));
             }

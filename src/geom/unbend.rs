@@ -14,14 +14,14 @@ use super::se2::SE2;
 use nalgebra::{Matrix2, Matrix2x3, Vector2, Vector3};
 use std::f64::consts::PI;
 
-/// Returns the point to which a morph fraction from 0 to 1 takes a twist (m, m, rad).
+/// Returns the point F_μ(ξ) of a twist ξ (m, m, rad) at a stage μ of the morph, from 0 to 1.
 pub fn unbend(twist: &Vector3<f64>, morph_fraction: f64) -> [f64; 2] {
     let bend_factor = 1.0 - morph_fraction;
     let pose = SE2::exp(&Vector3::new(twist.x, bend_factor * twist.y, bend_factor * twist.z));
     [pose.x(), pose.y() + morph_fraction * twist.z]
 }
 
-/// Returns the 2 × 3 Jacobian of [`unbend`] with respect to the twist.
+/// Returns the 2 × 3 Jacobian of [`unbend`] with respect to the twist ξ.
 pub fn unbend_jacobian(twist: &Vector3<f64>, morph_fraction: f64) -> Matrix2x3<f64> {
     let bend_factor = 1.0 - morph_fraction;
     let bent_twist = Vector3::new(twist.x, bend_factor * twist.y, bend_factor * twist.z);
@@ -35,10 +35,10 @@ pub fn unbend_jacobian(twist: &Vector3<f64>, morph_fraction: f64) -> Matrix2x3<f
     morph_jacobian
 }
 
-/// Returns a line of positions after a fraction of the morph: 0 is the floor, 1 exponential coordinates. Each position counts as the end of the
-/// arc whose turn is nearest to `expected_turn` (rad).
+/// Returns a polyline of positions (x, y) at a stage of the morph: 0 is the plane, 1 exponential coordinates. Each position counts as the
+/// end of the arc whose turn is nearest to `expected_turn` (rad).
 ///
-/// The result is empty if some arcs lead forward and others backward, as to a line around the start.
+/// The result is empty if some of these arcs lead forward and others backward, as for a polyline around the start.
 pub fn unbend_line(points: &[[f64; 2]], expected_turn: f64, morph_fraction: f64) -> Vec<[f64; 2]> {
     let arc_to_position =
         |[x, y]: &[f64; 2]| arc_with_turn_near(&SE2::identity(), &SE2::new(*x, *y, 0.0), expected_turn);
@@ -52,11 +52,11 @@ pub fn unbend_line(points: &[[f64; 2]], expected_turn: f64, morph_fraction: f64)
         .collect()
 }
 
-/// Maximum number of Newton steps. Three steps are enough from one frame of a drag to the next.
+/// Maximum number of Newton steps. Three steps are enough from one picture of a drag to the next.
 const MAX_NEWTON_STEPS: usize = 20;
 
-/// Returns the length and turn of the arc that a morph fraction takes to `target_point`, by Newton's method from an initial guess. Returns
-/// None if the method does not converge, as on a fold.
+/// Returns the length and turn of the arc whose point F_μ is `target_point`, by Newton's method from an initial guess. Returns None if the
+/// method does not converge, as on a fold of F_μ.
 pub fn find_arc(target_point: [f64; 2], initial_guess: [f64; 2], morph_fraction: f64) -> Option<[f64; 2]> {
     let mut arc = Vector2::from(initial_guess);
     for _ in 0..MAX_NEWTON_STEPS {

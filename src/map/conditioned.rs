@@ -14,7 +14,7 @@ use wide::f64x4;
 /// Condition under which a drawn motion is accepted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sampler {
-    /// The last pose of the draw is free, as in Table 5.7. The path may lead through a wall.
+    /// The end pose of the draw is free, as in Table 5.7. The path may lead through a wall.
     Endpoint,
     /// The whole arc driven is free.
     WholeArc,
@@ -63,16 +63,16 @@ pub struct MapConditioned<'a> {
     pub sampler: Sampler,
 }
 
-/// Motion drawn from the model without a map, and its collision tests.
+/// Motion drawn from the model without a map, and the results of its collision tests.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TestedDraw {
     /// End pose.
     pub pose: SE2,
     /// Arc driven with (v̂, ω̂); `pose` is its end turned by γ̂Δt.
     pub arc: Arc,
-    /// Collision test of the end pose.
+    /// Result of the collision test of the end pose.
     pub end_verdict: CollisionVerdict,
-    /// Collision test of the whole arc.
+    /// Result of the collision test of the whole arc.
     pub path_verdict: CollisionVerdict,
 }
 
@@ -81,11 +81,11 @@ pub struct TestedDraw {
 pub struct AcceptedMotion {
     /// End pose.
     pub pose: SE2,
-    /// True if the end pose is free, as it always is if the motion is conditioned.
+    /// True if the end pose is free. A conditioned motion always ends at a free pose.
     pub end_free: bool,
-    /// True if the whole path was free, as it always is with [`Sampler::WholeArc`].
+    /// True if the whole path is free. A motion conditioned with [`Sampler::WholeArc`] always has a free path.
     pub path_free: bool,
-    /// Draws and wall distances that it took.
+    /// Number of draws, and of wall distances computed, until the motion was accepted.
     pub cost: Cost,
 }
 
@@ -111,11 +111,11 @@ impl Cost {
 #[error("the robot is wedged: {} draws were tried and too few accepted", .0.draws)]
 pub struct NoAcceptedSample(pub Cost);
 
-/// Number of rejected draws in a row after which sampling fails. They take about a tenth of a second. An acceptance
-/// below one in ten thousand is useless to a filter; more draws would block a page.
+/// Number of rejected draws in a row after which sampling fails. They take about a tenth of a second. A motion that is accepted less than
+/// once in ten thousand draws is useless to a particle filter; more draws would block a page.
 pub const MAX_DRAWS: usize = 10_000;
 
-/// Collision tests of draws from one pose under one command.
+/// Tester of drawn motions for collisions, all from one pose under one command.
 #[derive(Clone, Copy, Debug)]
 pub struct CollisionTester<'a> {
     conditioned_model: &'a MapConditioned<'a>,
@@ -125,13 +125,13 @@ pub struct CollisionTester<'a> {
 }
 
 impl CollisionTester<'_> {
-    /// Returns the motion for three random numbers of variance 1, with the collision tests of its end pose and of its path.
+    /// Returns the motion with the noise `unit_noise` (three random numbers of variance 1), and the results of its collision tests.
     pub fn test_draw(&self, unit_noise: [f64; 3]) -> TestedDraw {
         self.test_motion(self.command.drive_with_noise(&self.start, unit_noise))
     }
 
-    /// Tests the motions in `lanes` of four samples, and calls `visit` with each result. The poses may differ by rounding from those of
-    /// [`CollisionTester::test_draw`].
+    /// Tests the motions in the range `lanes` of four SIMD lanes, and calls `visit` with each tested motion. The poses may differ by
+    /// rounding from those of [`CollisionTester::test_draw`].
     pub fn test_lanes(&self, unit_noise: &[f64x4; 3], lanes: Range<usize>, visit: impl FnMut(TestedDraw)) {
         let motion_of_lane = self.command.drive_four_with_noise(&self.start, &self.trigonometry, unit_noise);
         lanes.map(|lane| self.test_motion(motion_of_lane(lane))).for_each(visit);
@@ -144,7 +144,7 @@ impl CollisionTester<'_> {
         TestedDraw { pose, arc: driven.arc, end_verdict, path_verdict }
     }
 
-    /// Returns the arc that is driven with the noise `unit_noise`.
+    /// Returns the arc driven with the noise `unit_noise` (three random numbers of variance 1).
     pub fn arc(&self, unit_noise: [f64; 3]) -> Arc {
         let [length, turn, _] = self.command.executed_motion(unit_noise);
         Arc { start: self.start.pose, length, turn }
@@ -159,13 +159,13 @@ struct NoisyCommand {
 }
 
 impl NoisyCommand {
-    /// Returns the end pose and the driven arc with the noise `unit_noise`.
+    /// Returns the end pose and the driven arc for the noise `unit_noise` (three random numbers of variance 1).
     fn drive_with_noise(&self, start: &PreparedPose, unit_noise: [f64; 3]) -> (SE2, DrivenArc) {
         let [length, turn, last_turn] = self.executed_motion(unit_noise);
         with_last_turn(start.drive(length, turn), last_turn)
     }
 
-    /// Computes four motions at once, in the lanes of a SIMD vector. Returns a function of the lane's index.
+    /// Computes four motions in SIMD lanes. Returns a function from the lane index to the end pose and the driven arc.
     #[inline(always)]
     fn drive_four_with_noise(
         &self,
@@ -208,8 +208,9 @@ impl MapConditioned<'_> {
         self.sample_with_arcs(u, x, rng, true, |_| ())
     }
 
-    /// Returns an accepted motion as [`MapConditioned::sample`] does, after calling `visit_arc` with each of its arcs. Every draw is
-    /// accepted if `conditioned` is false. Up to the first rejection the draws are equal.
+    /// Returns an accepted motion as [`MapConditioned::sample`] does, and calls `visit_arc` with the arc of each of its parts. If
+    /// `conditioned` is false, every draw is accepted. For equal random numbers, conditioned and unconditioned motions are equal up to the
+    /// first rejected draw.
     pub fn sample_with_arcs<R: Rng + ?Sized>(
         &self,
         u: &VelocityCmd,
@@ -227,8 +228,8 @@ impl MapConditioned<'_> {
         Ok(AcceptedMotion { pose, end_free, path_free, cost })
     }
 
-    /// Returns the draws and wall tests until one motion is accepted. As in a particle filter, tests on which acceptance does not
-    /// depend are left out.
+    /// Returns the number of draws and of computed wall distances for one accepted motion in a particle filter. A filter makes only the
+    /// collision test on which the acceptance depends.
     ///
     /// # Errors
     /// [`NoAcceptedSample`] after [`MAX_DRAWS`] rejected draws.
@@ -251,8 +252,8 @@ impl MapConditioned<'_> {
         std::array::from_fn(|_| self.model.noise.quantile(draw_centred_uniform(rng)))
     }
 
-    /// Draws each part of a motion until it is accepted. Calls `visit_part` with the arc and the end verdict of each part. Returns the last
-    /// end pose.
+    /// Draws each part of a motion until it is accepted. Calls `visit_part` with the arc of each part and the collision test of its end.
+    /// Returns the end pose of the last part.
     fn drive_parts<R: Rng + ?Sized>(
         &self,
         u: &VelocityCmd,
@@ -300,13 +301,14 @@ impl MapConditioned<'_> {
         Err(NoAcceptedSample(*cost))
     }
 
-    /// Prepares tests of many draws from one pose: common terms are computed once.
+    /// Returns a tester of many draws from one pose. It computes the terms that the draws share only once.
     pub fn collision_tester(&self, u: &VelocityCmd, x: &SE2) -> CollisionTester<'_> {
         let (command, start) = (self.noisy_command(u), PreparedPose::new(*x));
         CollisionTester { conditioned_model: self, command, start, trigonometry: Trigonometry::default() }
     }
 
-    /// Returns the result of the test that decides on a draw.
+    /// Returns the result of the collision test on which the acceptance of a draw depends: of the whole path for [`Sampler::WholeArc`], of
+    /// the end pose for other samplers.
     pub fn deciding_verdict(&self, draw: &TestedDraw) -> CollisionVerdict {
         if self.sampler == Sampler::WholeArc { draw.path_verdict } else { draw.end_verdict }
     }

@@ -6,8 +6,8 @@ use crate::geom::lanes::{ROUND_TO_INTEGER, from_lanes};
 use std::f64::consts::FRAC_1_SQRT_2;
 use wide::f64x4;
 
-/// Square cells over the bounds of a map, each with a lower bound on the distance of its points to the nearest wall. Most collision tests
-/// need only this bound, so that they take the same time for any number of walls.
+/// Grid of square cells over the bounds of a map, each with a lower bound on the distance of its points to the nearest wall. Most collision
+/// tests need only this bound, so that their duration hardly depends on the number of walls.
 #[derive(Clone, Debug)]
 pub(super) struct DistanceField {
     min_corner: [f64; 2],
@@ -17,38 +17,40 @@ pub(super) struct DistanceField {
     last_cell: [f64; 2],
     /// Half the diagonal of a cell, m: the resolution of the field.
     pub cell_radius: f64,
-    /// Uncertainty of the distance from the middle of a cell, m.
+    /// Uncertainty (m) of the distance from the middle of a cell to the nearest wall.
     cell_uncertainty: f64,
-    /// Lower bounds row by row from the bottom, m. Negative if a wall passes through the cell or its neighbour, −∞ if the
-    /// cell is inside an occupied one, [`NOT_COMPUTED`] if unknown.
+    /// Lower bound of each cell, m, row by row from the bottom. It is negative if a wall passes through the cell or its neighbour, −∞
+    /// inside an occupied cell of the map, and [`NOT_COMPUTED`] if unknown.
     lower_bounds: Vec<f32>,
 }
 
-/// Number of cells for each wall, and minimum and maximum number of cells of a map. Fewer cells decide fewer tests; more cells take longer
-/// to fill. The apartment's cells have sides of 4 cm and take a millisecond; 2²⁰ cells take 4 MB. Fuzzing fills millions of fields, and
-/// therefore uses few cells. The results of collision tests are the same.
+/// Number of cells for each wall, and minimum and maximum number of cells of a map. With fewer cells, the bounds would decide fewer
+/// collision tests; more cells take longer to fill. The apartment's cells have sides of 4 cm and take a millisecond; 2²⁰ cells take 4 MB.
+/// Fuzzing fills millions of fields, and therefore uses few cells. The results of collision tests are the same.
 const CELLS_PER_WALL: f64 = MIN_CELLS;
 const MIN_CELLS: f64 = if cfg!(fuzzing) { 64.0 } else { 4096.0 };
 const MAX_CELLS: f64 = 1_048_576.0;
 
-/// Maximum number of walls or nodes that are measured for a block, and additional number for each of its cells. If more are near, as
-/// where many walls meet, filling would take seconds. The distance is then [`NOT_COMPUTED`], and the tree is searched.
+/// Limit of the distances to walls, or to nodes of the wall tree, that are computed for a block of cells: a fixed number, plus a number for
+/// each cell. Where more walls are near, filling would take seconds. The lower bound is then [`NOT_COMPUTED`], and collision tests search
+/// the tree.
 const MAX_WALLS_PER_BLOCK: usize = 32;
 const MAX_WALLS_PER_CELL: usize = 3;
 
-/// Accepted error of the distance from a block of cells to the nearest wall, as a fraction of the block's radius; 0 if the tree is a
-/// single leaf. Walls closer together than the error are measured as one.
+/// Accepted error of the distance from a block of cells to the nearest wall, as a fraction of half the block's diagonal. Walls closer
+/// together than this error are measured as one. A map whose walls fit into a single leaf of the wall tree is measured exactly.
 const RELATIVE_BLOCK_UNCERTAINTY: f64 = 0.125;
 
-/// Lower bound of a distance that was not computed.
+/// Lower bound of a cell whose distance to the walls was not computed.
 const NOT_COMPUTED: f32 = f32::MIN;
 
-/// Distance to the nearest wall, in radii of a block of cells, beyond which the block is not divided further.
+/// Distance from a block of cells to the nearest wall, as a multiple of half the block's diagonal, beyond which the block is not divided
+/// further.
 const UNDIVIDED_DISTANCE_RATIO: f64 = 8.0;
 
 impl DistanceField {
-    /// Fills the field of the walls of a tree within `bounds` (minimum x, minimum y, maximum x, maximum y; m). `occupied_grid` has the
-    /// cells that the walls outline.
+    /// Fills the field from the walls of a tree within `bounds` (minimum x, minimum y, maximum x, maximum y; m). `occupied_grid` is the
+    /// grid whose occupied cells the walls outline, if there is one.
     pub fn new(tree: &WallTree, bounds: [f64; 4], occupied_grid: Option<&OccupancyGrid>) -> Self {
         let mut builder = FieldBuilder::new(tree, bounds);
         while let Some(block) = builder.blocks.pop() {
@@ -60,7 +62,7 @@ impl DistanceField {
     /// Returns a lower bound (m) on the distance from a point inside the bounds to the nearest wall.
     #[inline(always)]
     pub fn lower_bound(&self, [x, y]: [f64; 2]) -> f64 {
-        // Rounding can move a point slightly outside; it belongs to the nearest cell.
+        // Rounding can move a point slightly outside the bounds; it then belongs to the nearest cell.
         let column =
             (((x - self.min_corner[0]) * self.cells_per_metre) as u32 as usize).min(self.columns - 1);
         let row = ((y - self.min_corner[1]) * self.cells_per_metre) as u32 as usize;
@@ -72,7 +74,7 @@ impl DistanceField {
         f64::from(self.lower_bounds.get(cell_index).copied().unwrap_or(NOT_COMPUTED))
     }
 
-    /// Returns [`DistanceField::lower_bound`] of four points. `points` are their x and y.
+    /// Returns [`DistanceField::lower_bound`] of four points, given as their x and y in SIMD lanes.
     #[inline(always)]
     pub fn lower_bounds(&self, points: &[f64x4; 2]) -> f64x4 {
         let zero = f64x4::splat(0.0);
@@ -87,10 +89,10 @@ impl DistanceField {
         from_lanes(|i| self.lower_bound_of_cell(cell_indices[i].to_bits() as u32 as usize))
     }
 
-    /// Returns the upper bound (m) on a distance with this lower bound; −∞ inside an occupied cell.
+    /// Returns an upper bound (m) on a distance to the nearest wall from its lower bound; −∞ inside an occupied cell.
     pub fn upper_bound(&self, lower_bound: f64) -> f64 {
-        // With the distance d from the middle of the cell to the nearest wall, `lower_bound` is d − radius. The upper bound is
-        // d + radius. In an undivided block d is only known up to a factor of (1 + 1/8)/(1 − 1/8).
+        // If d is the distance from the middle of the cell to the nearest wall, the lower bound is d − radius, and the upper bound d +
+        // radius. In an undivided block d is only known up to a factor of (1 + 1/8)/(1 − 1/8).
         let cell_radius = 1.001 * self.cell_radius;
         let upper_bound = (UNDIVIDED_DISTANCE_RATIO + 1.0) / (UNDIVIDED_DISTANCE_RATIO - 1.0)
             * (lower_bound + cell_radius + self.cell_uncertainty)
@@ -99,17 +101,17 @@ impl DistanceField {
     }
 }
 
-/// Distance field that is being filled, with the state of the search.
+/// Distance field during filling, with the state of the search.
 struct FieldBuilder {
     field: DistanceField,
     rows: usize,
     cell_side: f64,
     /// Bound on the rounding error of any coordinate on the map, m.
     rounding_slack: f64,
-    /// Stack of candidates for the nearest wall, for the blocks that are still to be filled.
+    /// Stack of candidates for the nearest wall, for all blocks that are still to be filled.
     candidates: Vec<WallSet>,
     blocks: Vec<Block>,
-    /// Candidates of the current block that are not yet measured, and measured candidates with their distances.
+    /// Candidates of the current block: those still to be measured, and those measured with their distances (m).
     unmeasured: Vec<WallSet>,
     measured: Vec<(f64, WallSet)>,
 }
@@ -118,7 +120,7 @@ struct FieldBuilder {
 struct Block {
     first_cell: [usize; 2],
     size: usize,
-    /// Range of the candidates of the block in `candidates`.
+    /// Range in [`FieldBuilder::candidates`] of the candidates of this block.
     candidate_range: [usize; 2],
 }
 
@@ -177,7 +179,7 @@ impl FieldBuilder {
         let block_centre = self.block_centre(block.first_cell, size);
         let block_radius = size as f64 * self.field.cell_radius;
         let block_uncertainty = size as f64 * self.field.cell_uncertainty;
-        // Removes the candidates of finished blocks, which follow those of the enclosing block.
+        // Removes the candidates of finished blocks. On the stack they follow the candidates of the enclosing block.
         self.candidates.truncate(candidate_range[1]);
         let Some([min_distance, max_distance]) =
             self.measure_candidates(tree, block_centre, block, block_uncertainty)
@@ -206,7 +208,8 @@ impl FieldBuilder {
             }
             return;
         }
-        // If `min_distance > cell_radius`, no wall passes through the block, so that it is inside or outside of all outlines as a whole.
+        // If `min_distance > block_radius`, no wall passes through the block, so that all of the block is inside or all is outside the
+        // occupied cells.
         let is_in_blocked_cell = min_distance > block_radius
             && occupied_grid.is_some_and(|occupied_grid| occupied_grid.is_blocked_at(block_centre));
         for row in bottom..top {
@@ -227,8 +230,8 @@ impl FieldBuilder {
         }
     }
 
-    /// Returns a lower and an upper bound on the distance from the middle of a block to the nearest wall, at most `cell_uncertainty` apart
-    /// (m); None if too many walls are near. Afterwards `measured` has all walls, or nodes, that may be nearest to a point of the block.
+    /// Returns a lower and an upper bound (m) on the distance from the middle of a block to the nearest wall, at most `uncertainty` apart.
+    /// None if too many walls are near. Afterwards `measured` has all walls or nodes that may be nearest to a point of the block.
     fn measure_candidates(
         &mut self,
         tree: &WallTree,
@@ -238,7 +241,7 @@ impl FieldBuilder {
     ) -> Option<[f64; 2]> {
         let Self { candidates, unmeasured, measured, .. } = self;
         let Block { size, candidate_range: [first_candidate, end_candidate], .. } = block;
-        // A wall may be nearest to a point of the block only if its distance from the middle exceeds the smallest distance by at most one
+        // A wall can be nearest to a point of the block only if its distance from the middle exceeds the smallest distance by at most the
         // diameter of the block.
         let max_excess = 2.0 * size as f64 * self.field.cell_radius + self.rounding_slack;
         measured.clear();

@@ -21,7 +21,7 @@ pub struct FloorPlan {
     bounds: [f64; 4],
     /// Cells of a grid whose outlines are the walls, if the plan is from a grid. A point inside an occupied cell is never free.
     occupied_grid: Option<OccupancyGrid>,
-    /// Distance field, created when the first motion is tested.
+    /// Search structures of the collision tests, created by the first test.
     collision_index: OnceLock<CollisionIndex>,
 }
 
@@ -41,7 +41,7 @@ pub enum FloorPlanError {
     BadWall {
         /// Index of the wall.
         index: usize,
-        /// The first such end, m.
+        /// First end of the wall that is not allowed, m.
         end: [f64; 2],
     },
     /// More than [`FloorPlan::MAX_WALLS`] walls.
@@ -91,7 +91,7 @@ impl FloorPlanError {
 pub struct CollisionVerdict {
     /// True if the pose or the motion is free of collisions.
     pub free: bool,
-    /// Number of wall distances that were computed. A wall near several pieces of a motion counts for each piece.
+    /// Number of wall distances that were computed. A wall near several pieces of a motion counts once for each piece.
     pub wall_tests: usize,
 }
 
@@ -102,7 +102,7 @@ impl CollisionVerdict {
 
 /// Range of the coordinates of a plan's bounds, m. A robot's coordinates have the same range.
 const COORDINATE_RANGE: RangeInclusive<f64> = -1e6..=1e6;
-/// Range of the width and height of bounds, m.
+/// Range of the width and height of a plan, m.
 const SIDE_RANGE: RangeInclusive<f64> = 0.01..=1e5;
 
 impl FloorPlan {
@@ -120,7 +120,7 @@ impl FloorPlan {
     /// Returns the plan of a grid. Its walls are the outlines of the blocked cells; its bounds are those of the grid.
     ///
     /// # Errors
-    /// [`FloorPlanError`] where there are too many walls, or the grid is too large or too small.
+    /// [`FloorPlanError`] if there are too many walls, or the grid is too large or too small.
     pub fn from_grid(grid: OccupancyGrid) -> Result<Self, FloorPlanError> {
         let walls = grid.outlines(Self::MAX_WALLS).map_err(FloorPlanError::TooManySides)?;
         let mut bounds = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
@@ -206,8 +206,7 @@ impl FloorPlan {
         CollisionVerdict { free: is_free, wall_tests }
     }
 
-    /// Tests whether a disc of radius `clearance` (m) whose centre drives along `arc` touches no wall and stays inside the
-    /// bounds.
+    /// Tests whether a disc of radius `clearance` (m) whose centre drives along `arc` touches no wall and stays inside the bounds.
     pub fn test_arc(&self, arc: &Arc, clearance: f64) -> CollisionVerdict {
         let driven_arc = PreparedPose::new(arc.start).drive(arc.length, arc.turn);
         self.test_arc_after_end(&driven_arc, self.test_point(driven_arc.end, clearance), clearance)
@@ -289,8 +288,8 @@ impl FloorPlan {
         })
     }
 
-    /// Tests whether `is_wall_clear` holds for every wall whose bounding box is within `max_distance` (m) of the point in x and in y. Nodes
-    /// of the tree for which `is_node_clear` holds are skipped.
+    /// Tests whether `is_wall_clear` holds for every wall whose bounding box is within `max_distance` (m) of a point in x and in y. Nodes
+    /// of the wall tree for which `is_node_clear` holds are skipped.
     fn are_near_walls_clear(
         &self,
         [x, y]: [f64; 2],
@@ -313,7 +312,7 @@ impl FloorPlan {
     }
 }
 
-/// Disc that moves along an arc.
+/// Collision test of a disc that moves along an arc.
 struct ArcSweep<'a> {
     plan: &'a FloorPlan,
     distance_field: &'a DistanceField,
@@ -325,8 +324,8 @@ struct ArcSweep<'a> {
 }
 
 impl ArcSweep<'_> {
-    /// Tests whether an arc piece is free between `start_offset` and `end_offset` metres after its middle. Tests four parts of the interval
-    /// at once.
+    /// Tests whether the disc is free on an arc piece between `start_offset` and `end_offset` (m, from the middle of the piece). Tests four
+    /// parts of the interval in SIMD lanes.
     fn is_free(&mut self, piece: &ArcPiece, start_offset: f64, end_offset: f64) -> bool {
         let distance_field = self.distance_field;
         let half_part_length = (end_offset - start_offset) / (2 * LANE_COUNT) as f64;
@@ -342,7 +341,8 @@ impl ArcSweep<'_> {
         if distance_field.upper_bound(min_lower_bound) <= self.clearance - piece.max_error {
             return false;
         }
-        // A part no longer than the diagonal of a cell is not divided, because the field is too coarse. Walls near it are measured.
+        // A part no longer than the diagonal of a cell is not divided, because the field is too coarse. The distances to the walls near it
+        // are computed.
         let is_divisible = half_part_length > distance_field.cell_radius;
         let [x, y] = part_middles.map(|lanes| lanes.to_array());
         (0..LANE_COUNT).all(|i| {
@@ -368,7 +368,7 @@ impl ArcSweep<'_> {
             &mut self.wall_tests,
             |node| {
                 node.is_farther_than(part_middle, clear_distance)
-                    // This test saves time only if the node is thinner than the part is long.
+                    // This test of a node of the wall tree saves time only if the node's capsule is thinner than the part is long.
                     || node.capsule_radius < part_radius
                         && node.capsule_axis.distance_to_local_arc(prepare_arc()) - node.capsule_radius > clearance
             },

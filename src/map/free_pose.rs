@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 /// Number of headings that are tried: one every five degrees.
 const HEADING_COUNT: u32 = 72;
 
-/// Number of cells along the longer side of the grid that is made of a plan of walls.
+/// Number of cells along the longer side of the grid to which a plan of walls is converted.
 const CELLS_ALONG_LONGER_SIDE: f64 = 256.0;
 
 impl FloorPlan {
@@ -27,7 +27,7 @@ impl FloorPlan {
         Some(SE2::new(x, y, heading_of_longest_path(&raster, [x, y], does_disc_fit)))
     }
 
-    /// Returns a grid of a plan of walls, in which cells that may touch a wall are occupied.
+    /// Returns a grid for a plan of walls. Cells that may touch a wall are occupied.
     fn rasterize(&self) -> OccupancyGrid {
         let [left, bottom, right, top] = self.bounds();
         let (width, height) = (right - left, top - bottom);
@@ -45,10 +45,10 @@ impl FloorPlan {
 }
 
 /// Returns the middle of the largest square of free cells, in cells from the lower left corner; None if no cell is free. Of equally large
-/// squares, the square with the first upper right corner row by row is taken.
+/// squares, it is the one whose upper right corner comes first, row by row.
 fn middle_of_largest_free_square(grid: &OccupancyGrid) -> Option<[f64; 2]> {
     let ([columns, rows], mut largest_side_so_far, mut square_middle) = (grid.size(), 0, None);
-    // Side of the largest free square that ends at each column of the previous row.
+    // Side (cells) of the largest free square whose upper right corner is in each column of the previous row.
     let mut square_sides = vec![0u32; columns];
     for row in 0..rows {
         let [mut side_at_left, mut side_at_lower_left] = [0, 0];

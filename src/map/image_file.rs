@@ -1,4 +1,4 @@
-//! Image files of maps: PGM, and PNG where the core has its decoder.
+//! Image files of maps: PGM, and PNG in builds with a PNG decoder.
 
 use super::occupancy::{OccupancyGrid, PixelClassifier};
 use super::pgm::{PgmError, read_pgm};

@@ -5,7 +5,7 @@ use crate::geom::se2::SE2;
 use crate::geom::segment::Segment;
 use std::ops::RangeInclusive;
 
-/// Classifier of pixels as cells, with the fields of the YAML file of `map_server`.
+/// Classifier of pixels as free, occupied or unknown cells, with the fields of the YAML file of `map_server`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PixelClassifier {
     /// Meaning of the pixels.
@@ -18,8 +18,8 @@ pub struct PixelClassifier {
     pub free_thresh: f64,
 }
 
-/// Defaults of keys that the YAML file does not have. Unknown cells are saved as the grey 205 of 255, whose occupancy of 0.1961
-/// is just above `free_thresh`.
+/// Defaults of keys that are missing in the YAML file. Unknown cells are saved as the grey 205 of 255, whose occupancy of 0.1961 is just
+/// above `free_thresh`.
 impl Default for PixelClassifier {
     fn default() -> Self {
         Self { mode: MapMode::Trinary, negate: false, occupied_thresh: 0.65, free_thresh: 0.196 }
@@ -80,14 +80,14 @@ pub struct Pixel {
     pub opacity: f32,
 }
 
-/// Conversion of the brightness of an opaque pixel.
+/// Creates an opaque pixel from its brightness.
 impl From<f32> for Pixel {
     fn from(brightness: f32) -> Self {
         Self { brightness, opacity: 1.0 }
     }
 }
 
-/// Conversion of red, green, blue and opacity from 0 to 255.
+/// Creates a pixel from red, green, blue and opacity, each from 0 to 255.
 impl From<[u8; 4]> for Pixel {
     fn from(colours: [u8; 4]) -> Self {
         let [red, green, blue, opacity] = colours.map(f32::from);
@@ -128,7 +128,7 @@ pub struct OccupancyGrid {
     resolution: f64,
     /// Frame of the grid: at the lower left corner of the lower left cell, with its axes along rows and columns.
     origin: SE2,
-    /// Transform from the plane to the frame of the origin.
+    /// Transform from the reference frame of the map to the frame of the grid.
     plane_to_grid: PreparedPose,
     /// Cells row by row from the bottom.
     cells: Vec<Cell>,
@@ -293,8 +293,8 @@ impl OccupancyGrid {
     }
 }
 
-/// Begins or ends an outline at `position` on a grid line, and returns the start of one that ends. `is_outline` is true if an outline leads
-/// on from `position`; `start` keeps its first position.
+/// Advances the outline along a grid line to `position`. `is_outline` is true if the line separates cells after the position. `start` is
+/// the position at which the current outline began, which is returned if the outline ends here.
 fn update_outline(start: &mut Option<usize>, is_outline: bool, position: usize) -> Option<usize> {
     match *start {
         None if is_outline => *start = Some(position),

@@ -7,7 +7,7 @@ use thiserror::Error;
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("line {line}: {field} is {actual_text}; allowed is {allowed_text}")]
 pub struct PgmError {
-    /// Name of the field: "the width".
+    /// Name of the invalid field with its article, such as "the width".
     pub field: &'static str,
     /// Line of the header (from 1) in which the field should have been.
     pub line: usize,

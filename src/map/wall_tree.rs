@@ -3,16 +3,17 @@
 use crate::geom::segment::Segment;
 use std::ops::Range;
 
-/// Tree of walls by position and direction. Each node has a capsule that contains its walls: all points within a radius of an axis. Long
-/// walls side by side thus need as few comparisons as short walls in one place. The distance to a node of equal walls is computed once.
+/// Binary tree of walls by position and direction. Each node has a capsule that contains its walls: all points within a radius of an axis.
+/// Searches among long parallel walls thus take as few comparisons as among short walls in one place. The distance to a node of equal walls
+/// is computed once.
 ///
-/// It is a full binary tree without pointers: the children of node i are 2i and 2i + 1, the root is 1.
+/// The tree is full and has no pointers: the children of node i are 2i and 2i + 1, and the root is 1.
 #[derive(Clone, Debug)]
 pub(super) struct WallTree {
     /// Walls, ordered so that the walls of each node are contiguous.
     pub walls: Vec<Segment>,
     pub nodes: Vec<Node>,
-    /// Number of times that the walls are halved.
+    /// Number of levels below the root.
     depth: u32,
     /// Upper bound on the rounding error of any distance on the map, m.
     rounding_slack: f64,
@@ -22,7 +23,7 @@ pub(super) struct WallTree {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub capsule_axis: Segment,
-    /// Maximum distance of a wall of the node from the axis of the capsule, m.
+    /// Maximum distance from a point of the node's walls to the axis of the capsule, m.
     pub capsule_radius: f64,
     /// True if all walls of the node are equal, so that the first wall represents all.
     has_equal_walls: bool,
@@ -45,7 +46,7 @@ impl WallTree {
         };
         let mut tree = Self {
             walls: walls.to_vec(),
-            // Node 0 is unused. The root is always visited.
+            // Node 0 is unused. The root has no capsule, because it is always visited.
             nodes: vec![
                 Node {
                     capsule_axis: ZERO_SEGMENT,
@@ -65,7 +66,7 @@ impl WallTree {
         tree
     }
 
-    /// Sorts the walls of a node into two halves, one for each child. The sort key is the entry of [`sort_keys`] that varies most.
+    /// Sorts the walls of a node into two halves, one for each child. The sort key is the component of [`sort_keys`] with the widest range.
     fn divide_in_half(&mut self, node_index: usize) {
         let (wall_range, middle) = (self.wall_range(node_index), self.wall_range(2 * node_index).end);
         let node_walls = &mut self.walls[wall_range.clone()];
@@ -84,7 +85,7 @@ impl WallTree {
 
     fn make_node(&self, node_index: usize) -> Node {
         let walls = &self.walls[self.wall_range(node_index)];
-        // The capsule lies along the mean direction of the walls or along an axis, whichever makes it narrowest.
+        // The axis of the capsule has the mean direction of the walls, or is parallel to x or y, whichever makes the capsule narrowest.
         let direction_sum =
             walls.iter().map(sort_keys).fold([0.0; 2], |[x, y], key| [x + key[2], y + key[3]]);
         let direction_sum_length = libm::hypot(direction_sum[0], direction_sum[1]);
@@ -191,8 +192,8 @@ impl Node {
     }
 }
 
-/// Moves the `count` walls with the smallest sort keys to the front, by Hoare's selection. The number of rounds is limited. Walls that
-/// would need more rounds are divided differently, and the tree is still correct.
+/// Moves the `count` walls with the smallest sort keys to the front, by Hoare's selection. After [`MAX_SELECTION_ROUNDS`] rounds the
+/// selection may still be incomplete. The capsules of the search tree are then larger, but it is correct.
 fn select_smallest(walls: &mut [Segment], count: usize, key_index: usize) {
     let (mut low, mut high) = (0, walls.len());
     for _ in 0..MAX_SELECTION_ROUNDS {
@@ -230,8 +231,8 @@ fn select_smallest(walls: &mut [Segment], count: usize, key_index: usize) {
 
 const MAX_SELECTION_ROUNDS: usize = 64;
 
-/// Returns the keys by which walls are divided: twice the midpoint, and the vector from the left end to the right end. The keys do not
-/// depend on the order of the ends.
+/// Returns the keys by which walls are sorted: twice the midpoint, and the vector from the left end to the right end. The keys do not
+/// depend on which end is first.
 fn sort_keys(wall: &Segment) -> [f64; 4] {
     let Segment { from: [x0, y0], to: [x1, y1] } = *wall;
     let (x, y) = (x1 - x0, y1 - y0);

@@ -99,7 +99,7 @@ pub trait RotTransRot {
 }
 
 impl<M: RotTransRot> MotionModel for M {
-    /// Odometry reading of [`OdomDelta::from_poses`], from two poses of the odometry frame.
+    /// Odometry reading, as [`OdomDelta::from_poses`] computes it from two poses of the odometry frame.
     type Control = OdomDelta;
 
     /// Returns the score of Table 5.5. As in the table, the variances are those of the hypothetical legs, not of the reading.
@@ -113,8 +113,8 @@ impl<M: RotTransRot> MotionModel for M {
         ])
     }
 
-    /// The map from legs to poses has the determinant δ̂_trans. Two combinations of legs lead to a pose. One drives forward. The other
-    /// drives in reverse, because noise has made the translation negative.
+    /// The map from (δ̂_rot1, δ̂_trans, δ̂_rot2) to poses has the determinant δ̂_trans. Two such motions lead to each pose. One drives
+    /// forward. The other drives in reverse, because noise has made the translation negative.
     fn pose_density(&self, x_next: &SE2, u: &OdomDelta, x: &SE2) -> Option<f64> {
         let (noise, variances) = (self.noise(), self.variances(u));
         if variances.iter().any(|variance| variance.0 == 0.0) {
@@ -143,7 +143,7 @@ impl<M: RotTransRot> MotionModel for M {
     }
 }
 
-/// Function from a rotation to the angle that enters the noise variances, rad.
+/// Function from a rotation to the angle by which it enters the noise variances, rad.
 pub(super) type EffectiveAngle = fn(f64) -> f64;
 
 /// Returns the variances of the three legs of `reading` (rad², m², rad²).

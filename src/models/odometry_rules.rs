@@ -10,9 +10,9 @@ pub enum OdometryRule {
     /// Table 5.6 as it is printed.
     Table,
     /// AMCL of Navigation2 for a differential drive: `nav2_amcl/src/motion_model/differential_motion_model.cpp` (ros-navigation/
-    /// navigation2, commit 0051083). A rotation δ counts as min(|δ|, |π − |δ||), so that backing up is no pair of half
-    /// turns; a reading shorter than a centimetre has no first rotation. The sums of α·δ² are variances. In AMCL of ROS 1
-    /// the same sums were the standard deviations themselves.
+    /// navigation2, commit 0051083). A rotation δ counts as min(|δ|, |π − |δ||), so that a drive in reverse does not count as two half
+    /// turns; a reading shorter than a centimetre has no first rotation. The sums of α·δ² are variances. In AMCL of ROS 1 the same sums
+    /// were the standard deviations themselves.
     Nav2,
     /// Beluga for a differential drive: `beluga/motion/differential_drive_model.hpp` (Ekumen-OS/beluga, release 2.0 and
     /// later). As [`OdometryRule::Nav2`], but for a reading of exactly a centimetre, which has no first rotation here.
@@ -31,7 +31,7 @@ pub const MAX_SPIN_DISTANCE: f64 = 0.01;
 /// Noise parameters α₁…α₅, each 0 or more. Only [`OdometryRule::Omni`] uses α₅.
 pub type RuleAlphas = [f64; 5];
 
-/// Variances of the noises of the three legs of a reading, and of the displacement across its drive.
+/// Variances of the noises of rotation, translation and rotation, and of the displacement across the translation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LegVariances {
     /// Variance of the first rotation, rad².
@@ -40,7 +40,7 @@ pub struct LegVariances {
     pub trans: Variance,
     /// Variance of the second rotation, rad².
     pub rot2: Variance,
-    /// Variance across the drive, m², which is 0 if the robot cannot slide.
+    /// Variance of the displacement across the drive, m², which is 0 if the robot cannot slide.
     pub strafe: Variance,
 }
 
@@ -48,8 +48,8 @@ impl OdometryRule {
     /// All rules.
     pub const ALL: [Self; 4] = [Self::Table, Self::Nav2, Self::Beluga, Self::Omni];
 
-    /// Returns the legs into which the rule decomposes a reading. The legs are the same motion to within [`MAX_SPIN_DISTANCE`]. If the rule
-    /// calls the reading a spin, the second rotation is the whole turn.
+    /// Returns the rotation, translation and rotation into which the rule decomposes a reading. They are the same motion to within
+    /// [`MAX_SPIN_DISTANCE`]. If the rule treats the reading as a turn on the spot, the second rotation is the whole turn.
     pub fn legs(self, reading: &OdomDelta) -> OdomDelta {
         let is_spin = match self {
             Self::Table | Self::Omni => false,
@@ -94,7 +94,7 @@ impl OdometryRule {
     }
 }
 
-/// Motion that a robot executed instead of a reading: three legs, and a displacement across the drive.
+/// Motion that a robot executed instead of the measured one: three legs, and a displacement across the drive.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExecutedLegs {
     /// Rotation, translation and rotation of the executed motion.
@@ -115,9 +115,9 @@ impl ExecutedLegs {
 }
 
 impl LegVariances {
-    /// Returns the executed legs when the noises are these multiples of their standard deviations. `across_noise` is the noise of the
-    /// first rotation or of sliding, because no rule has both. `along_noise` is that of the drive, `turn_noise` that of the second rotation.
-    /// As in Table 5.6, noise is subtracted.
+    /// Returns the executed motion when the noises are the given multiples of their standard deviations. `across_noise` is the noise of the
+    /// first rotation or of sliding, because no rule has both. `along_noise` is that of the drive, `turn_noise` that of the second
+    /// rotation. As in Table 5.6, noise is subtracted.
     pub fn executed_motion(
         &self,
         legs: &OdomDelta,

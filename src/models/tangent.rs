@@ -117,10 +117,9 @@ impl TangentNoiseModel {
 
     /// Returns the logarithm of the density of ξ = x_t ⊟ x_{t−1}, over dξ in the order (along, lateral, heading).
     ///
-    /// Without a turn after the arc it is log N(ξ; τ, R + 10⁻¹²·I). Times sinc⁻²(ξ_ω/2) that would be a density over dx dy dθ.
-    /// With such a turn it is the density of the noises (v̂Δt, ω̂Δt, γ̂Δt). They lead to x_t by the arc of at most half a turn.
-    /// The density is multiplied by sinc²(ξ_ω/2) and divided by v̂Δt·sinc²(ω̂Δt/2)/2, the determinant of the map from noises to
-    /// (x, y, θ).
+    /// Without a turn after the arc it is log N(ξ; τ, R + 10⁻¹²·I). Multiplied by sinc⁻²(ξ_ω/2), the density would be over dx dy dθ. With a
+    /// turn after the arc, the density is that of the noisy motion (v̂Δt, ω̂Δt, γ̂Δt) that leads to x_t by an arc of at most half a turn.
+    /// It is multiplied by sinc²(ξ_ω/2) and divided by v̂Δt·sinc²(ω̂Δt/2)/2, the determinant of the map from noisy motions to (x, y, θ).
     pub fn log_prob(&self, x_next: &SE2, u: &VelocityCmd, x: &SE2) -> f64 {
         if self.last_turn_variance == 0.0 {
             let padded_cov = self.r + Matrix3::identity() * PADDING_VARIANCE;

@@ -58,7 +58,7 @@ impl VelocityModel {
     }
 
     /// Returns the motion that the robot executes when the noises of v̂, ω̂ and γ̂ take the values `unit_noise` times their standard
-    /// deviations. With constant unit noise, other commands and α's move the same robot.
+    /// deviations. With the same unit noise, a changed command or α moves the same robot.
     pub fn executed_motion(&self, u: &VelocityCmd, unit_noise: [f64; 3]) -> ArcInversion {
         let [v_noise, omega_noise, gamma_noise] = self.noise_stds(u);
         ArcInversion {
@@ -79,7 +79,8 @@ impl VelocityModel {
         (9.0 * omega_std * u.dt / TAU).ceil().min(MAX_WINDINGS) as i32
     }
 
-    /// Returns the pose reached from `x` with these unit noises. This is Table 5.3 after its three draws.
+    /// Returns the pose reached from `x` when the noises are `unit_noise` times their standard deviations. This is Table 5.3 after its
+    /// three draws.
     pub fn apply_noise(&self, u: &VelocityCmd, x: &SE2, unit_noise: [f64; 3]) -> SE2 {
         let ArcInversion { v_hat, omega_hat, gamma_hat } = self.executed_motion(u, unit_noise);
         let (forward, left) = arc_end(v_hat * u.dt, omega_hat * u.dt);

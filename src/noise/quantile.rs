@@ -25,11 +25,11 @@ pub(super) fn normal_quantile(q: f64) -> f64 {
     tail_quantile.copysign(q)
 }
 
-/// Number of vectors in a chunk, whose numbers in the tails are gathered into full vectors. 1024 numbers take 10 kB of stack. Smaller chunks
-/// would leave more incomplete vectors.
+/// Number of SIMD vectors in a chunk. Numbers of a chunk that are in the tails are gathered into full vectors. 1024 numbers take 10 kB of
+/// stack. Smaller chunks would leave more incomplete vectors.
 const CHUNK_VECTORS: usize = 256;
 
-/// Replaces each number q by its quantile, with the same bits as [`normal_quantile`].
+/// Replaces each number q by Φ⁻¹(½ + q), with the same bits as [`normal_quantile`].
 pub(super) fn replace_by_normal_quantiles(numbers: &mut [f64x4]) {
     numbers.chunks_mut(CHUNK_VECTORS).for_each(replace_chunk_by_quantiles);
 }
@@ -43,7 +43,7 @@ fn replace_chunk_by_quantiles(numbers: &mut [f64x4]) {
     for (vector_index, q) in numbers.iter_mut().enumerate() {
         let tail_mask = q.abs().simd_gt(f64x4::splat(CENTRE_HALF_WIDTH)).to_bitmask();
         for (lane, number) in q.to_array().into_iter().enumerate() {
-            // The next number overwrites this number unless this number is in a tail.
+            // Each number is written. The next number overwrites it, unless it is in a tail.
             tail_numbers[tail_count] = number;
             tail_indices[tail_count] = (LANE_COUNT * vector_index + lane) as u16;
             tail_count += (tail_mask >> lane & 1) as usize;
@@ -62,7 +62,7 @@ fn replace_chunk_by_quantiles(numbers: &mut [f64x4]) {
     }
 }
 
-/// Returns [`normal_quantile`] of four numbers that are in the tails.
+/// Returns [`normal_quantile`] of four numbers, all of which are in the tails.
 #[inline(always)]
 fn tail_quantile_lanes(q: f64x4) -> f64x4 {
     let r = (-log(f64x4::splat(0.5) - q.abs())).sqrt();

@@ -8,7 +8,7 @@ use crate::models::{MotionModel, VelocityAlphas, VelocityCmd, VelocityModel};
 use crate::noise::{NoiseKind, Variance, product_or_zero};
 use crate::stats::trace_level_set;
 
-/// Quantity of the heat map. Each cell is a possible position of the final pose; the heading is that of the selected final pose.
+/// Quantity of the heat map: a function of the final position, while the final heading is fixed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SurfaceKind {
     /// No heat map.
@@ -40,7 +40,7 @@ settings! {
         noise: NoiseKind = NoiseKind::Normal;
         /// True for a radius without a sign, as Table 5.1 prints it.
         printed: bool = false;
-        /// Quantity of the heat map over all positions, at the heading of the final pose.
+        /// Quantity of the heat map over all final positions, at the heading of the final pose.
         map: SurfaceKind = SurfaceKind::Nothing;
     }
 }
@@ -79,15 +79,15 @@ const TWIST_PATH_CHORDS: usize = 64;
 /// Number of ticks on the path of the constant twist, at equal intervals of time.
 const TWIST_PATH_TICKS: usize = 8;
 
-/// Maximum number of exponentials for a heat map, which take some milliseconds on a phone. The density sums over the full turns
-/// that noise may cause. If there are many turns, the heat map has fewer and larger cells.
+/// Maximum number of exponential functions evaluated for a heat map, which takes some milliseconds on a phone. The density sums over the
+/// full turns that noise may cause. If there are many such turns, the heat map has fewer and larger cells.
 const MAX_EXPONENTIALS: f64 = 1e5;
 
-/// Maximum number of full turns over which the density of the last turn is summed: nine standard deviations of up to nine
+/// Maximum number of full turns in each direction over which the density of the last turn is summed: nine standard deviations of up to nine
 /// radians.
 const MAX_LAST_TURNS: f64 = 27.0;
 
-/// Values of the contours, relative to the maximum.
+/// Heights of the contours, relative to the maximum of the heat map.
 pub const CONTOUR_LEVELS: [f64; 3] = [0.5, 0.1, 0.01];
 
 js_structs! {
@@ -107,10 +107,10 @@ js_structs! {
         pub end: [f64; 3],
     }
 
-    /// Factor of p, which is the product of three.
+    /// One of the three factors of p.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Factor {
-        /// Estimated v̂, ω̂ or γ̂ (m/s, rad/s).
+        /// Value of v̂, ω̂ or γ̂ that the final pose implies (m/s, rad/s).
         pub estimate: f64,
         /// Residual v − v̂, ω − ω̂ or γ̂: the argument of `prob` in the table.
         pub residual: f64,
@@ -120,24 +120,24 @@ js_structs! {
         pub deviations: f64,
         /// `prob` of the residual.
         pub value: f64,
-        /// Ratio of `prob` at the residual to `prob` at 0, from 0 to 1.
+        /// Factor relative to its maximum, which is `prob` at residual 0; from 0 to 1.
         pub share: f64,
     }
 
-    /// Numbers that are shown next to the picture.
+    /// Arcs between the poses and likelihood of the final pose.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Stats as "AnatomyStats" {
         /// Arc of the command.
         pub commanded: ArcWithCircle,
         /// Arc to the final position.
         pub inverted: ArcWithCircle,
-        /// Arc that v̂ and ω̂ drive: the inverted one, unless the radius is unsigned as printed.
+        /// Arc that v̂ and ω̂ drive. It leads to the final position, unless the settings select the unsigned radius of Table 5.1.
         pub driven: ArcWithCircle,
         /// Final turn γ̂Δt, rad.
         pub last_turn: f64,
         /// Factors of v̂, ω̂ and γ̂.
         pub factors: [Factor; 3],
-        /// Index of the factor whose residual is the most standard deviations from 0.
+        /// Index of the factor with the largest residual in standard deviations.
         pub weakest: usize,
         /// p, the product of the three factors.
         pub prob: f64,
@@ -154,7 +154,7 @@ js_structs! {
     /// μ, the centre and r* are infinite if the displacement is parallel to the heading. μ is NaN without a displacement.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Table as "AnatomyTable" {
-        /// μ, x* (m), y* (m), r* (m), Δθ (rad), v̂ (m/s), ω̂ (rad/s), γ̂ (rad/s) and p.
+        /// Values of μ, x* (m), y* (m), r* (m), Δθ (rad), v̂ (m/s), ω̂ (rad/s), γ̂ (rad/s) and p.
         pub lines: [f64; 9],
         /// Midpoint of the start and final positions, m. The centre is the midpoint plus μ times `normal`.
         pub middle: [f64; 2],
@@ -174,8 +174,8 @@ js_structs! {
         /// Path of the constant twist ξ: start · exp(tξ) for t from 0 to 1. If γ̂ ≠ 0 it differs from the driven arc, and has a
         /// lateral velocity, which wheels do not allow.
         pub lie: Vec<[f64; 2]> as "Float64Array",
-        /// Line segments that start on the path `lie`, as x, y, x, y in m. Each is the displacement that the lateral velocity at its start
-        /// would cause within Δt.
+        /// Line segments that start on the path `lie`, as x, y, x, y in m. Each is the sideways displacement that the lateral velocity at
+        /// its start would cause within Δt.
         pub ticks: Vec<[f64; 4]> as "Float64Array",
     }
 
@@ -188,7 +188,7 @@ js_structs! {
         pub rows: usize,
         /// Values of the cells from 0 to 255, relative to the maximum; row by row from the top. All are 0 if a noise has no variance.
         pub shades: Vec<u8> as "Uint8Array",
-        /// Contours of p at a half, a tenth and a hundredth of its maximum, as x, y pairs in m.
+        /// Contours of the score p at a half, a tenth and a hundredth of its maximum, as x, y pairs in m.
         pub prob: Vec<Vec<[f64; 2]>> as "Float64Array[]",
         /// Contours of the sampler's density at the same fractions of its maximum.
         pub density: Vec<Vec<[f64; 2]>> as "Float64Array[]",
@@ -254,8 +254,8 @@ impl ArcAnatomy {
         ArcInversion { omega_hat: inversion.omega_hat + 0.0, ..inversion }
     }
 
-    /// Returns the inverted arc with the radius that the settings select. With the unsigned radius r* of Table 5.1,
-    /// v̂ = Δθ/Δt · r* has the sign of Δθ. That sign is wrong if the centre is to the right of the heading.
+    /// Returns the arc to the final position with the radius that the settings select. With the unsigned radius r* of Table 5.1, v̂ = Δθ/Δt
+    /// · r* has the sign of Δθ. That sign is wrong if the centre is to the right of the heading.
     fn selected_inversion(&self) -> ArcInversion {
         let inversion = self.signed_inversion();
         let ArcInversion { v_hat, omega_hat, .. } = inversion;
@@ -265,7 +265,7 @@ impl ArcAnatomy {
         ArcInversion { v_hat: v_hat.abs().copysign(omega_hat), ..inversion }
     }
 
-    /// Returns the estimate, the residual and the variance for v, ω and γ.
+    /// Returns the estimate v̂, ω̂ or γ̂, its residual, and the variance of its noise, for each of the three.
     fn noise_residuals(&self, estimates: &ArcInversion) -> [(f64, f64, Variance); 3] {
         let ArcInversion { v_hat, omega_hat, gamma_hat } = *estimates;
         let command = &self.settings.command;
@@ -301,7 +301,7 @@ impl ArcAnatomy {
         }
     }
 
-    /// Returns the paths to draw.
+    /// Returns the curves of the picture.
     pub fn paths(&self) -> Paths {
         let (start, next) = (self.settings.start(), self.settings.next());
         let Stats { commanded, inverted, driven, .. } = self.stats();
@@ -410,7 +410,7 @@ impl ArcWithCircle {
         }
     }
 
-    /// Returns the first part of the arc, up to this fraction of its length.
+    /// Returns the part of the arc from its start to a fraction of its length.
     fn leading_part(&self, start: SE2, fraction: f64) -> Arc {
         Arc { start, length: self.arc_length * fraction, turn: self.turn * fraction }
     }

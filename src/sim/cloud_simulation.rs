@@ -2,8 +2,8 @@
 
 /// Implements the methods that create and configure a simulation, and show more of its samples.
 ///
-/// The simulation has `settings`, a function `empty` that creates it without samples from valid settings, and methods `configure_first`,
-/// `show_samples` and `shown_count`.
+/// The simulation must have the field `settings`, a function `empty` that creates it without samples from valid settings, and the methods
+/// `configure_first`, `show_samples` and `shown_count`.
 macro_rules! cloud_simulation {
     ($simulation:ident) => {
         impl $simulation {

@@ -5,17 +5,17 @@ pub const fn alphas_of_noise_level(n: f64) -> [f64; 6] {
     [n, n, n, n, 0.25 * n, 0.25 * n]
 }
 
-/// Access to α's as one noise level. α's have a level n only if they equal `alphas_of_noise_level(n)`.
+/// Access to α's through one noise level. α's have the level n only if they equal `alphas_of_noise_level(n)`.
 pub struct NoiseLevel<'a>(pub &'a mut [f64]);
 
 impl NoiseLevel<'_> {
-    /// Returns the ratios of the α's to the level.
+    /// Returns the ratio of each α to the level.
     pub fn weights(&self) -> impl Iterator<Item = f64> + use<> {
         let alpha_count = self.0.len();
         (0..alpha_count).map(move |i| if i + 2 < alpha_count { 1.0 } else { 0.25 })
     }
 
-    /// Returns the level; None if the α's are not in the ratios of a level.
+    /// Returns the level; None if the α's do not have the ratios of a level.
     pub fn get(&self) -> Option<f64> {
         let n = self.0[0];
         self.weights().zip(&*self.0).all(|(weight, alpha)| *alpha == n * weight).then_some(n)

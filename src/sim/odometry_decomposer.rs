@@ -15,7 +15,7 @@ impl Keywords for OdometryRule {
         &[("thrun", Self::Table), ("nav2", Self::Nav2), ("beluga", Self::Beluga), ("omni", Self::Omni)];
 }
 
-/// Maximum number of outcomes. This many outcomes move within a frame. More dots would not be distinguishable.
+/// Maximum number of outcomes. This many can be computed within a frame. More dots would not be distinguishable.
 pub const MAX_SAMPLES: u64 = 5000;
 
 settings! {
@@ -31,9 +31,9 @@ settings! {
         /// Noise parameters of the rule; only the rule omni has the fifth.
         alphas: RuleAlphas = [0.03, 0.01, 0.01, 0.02, 0.01], in ALPHA_RANGE,
             each "Noise parameter; the first four are every rule’s, the fifth the omnidirectional one’s.";
-        /// Distribution of the noise; the variances are the same.
+        /// Distribution of the noise; its variances do not depend on it.
         noise: NoiseKind = NoiseKind::Normal;
-        /// Correlation of the noises of the two rotations, which the rules take to be independent.
+        /// Correlation of the noises of the two rotations, which the rules assume to be 0.
         correlation: f64 = 0.0, in -1.0..=1.0;
         /// Time for which the frame of the odometry has drifted away from the world.
         drift: f64 = 40.0, "s", in 0.0..=1e6;
@@ -64,27 +64,27 @@ const fn drive_to(to: [f64; 3]) -> Settings {
     Settings { to, ..Settings::DEFAULT }
 }
 
-/// Velocity of the odometry frame in the world (m/s, m/s, rad/s). The frame drifts on a slow
-/// curve, as with slightly wrong wheel diameters.
+/// Velocity of the odometry frame in the world (m/s, m/s, rad/s). The frame drifts on a slow curve, as with slightly wrong wheel diameters.
 const DRIFT_TWIST: [f64; 3] = [0.015, 0.008, -0.01];
 
 /// Maximum number of points of a curve. Each takes a microsecond.
 pub const MAX_CURVE_POINTS: u64 = 10_000;
 
 js_structs! {
-    /// Legs of the odometry reading (rotation, translation, rotation) under one noise rule, with the standard deviations of their
-    /// noises.
+    /// Rotation, translation and rotation of the reading, as one of the rules decomposes it, and the standard deviations of their noises.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct RuleNoise {
-        /// Rule of the noise.
+        /// Rule of the decomposition and of the noise.
         pub rule: OdometryRule as "OdometryDecomposerSettings['rule']",
-        /// Legs. If the rule takes a short reading for a spin, the second rotation is the whole turn.
+        /// Rotation, translation and rotation. If the rule treats a short reading as a turn on the spot, the second rotation is the whole
+        /// turn.
         pub legs: OdomDelta,
-        /// Standard deviations of the three legs, and of the sideways noise of the second: rad, m, rad, m.
+        /// Standard deviations of the first rotation (rad), the translation (m) and the second rotation (rad), and of the sideways noise of
+        /// the translation (m).
         pub deviations: [f64; 4] as "Float64Array",
         /// Standard deviation of the end position across the measured bearing, m.
         pub cross_track: f64,
-        /// Standard deviation of the turn made, rad.
+        /// Standard deviation of the whole turn, rad.
         pub heading: f64,
     }
 
@@ -93,16 +93,16 @@ js_structs! {
     pub struct DriftedOdometry as "Drifted" {
         /// Poses x, y (m), θ (rad) in the world: the odometry frame, the start pose and the end pose.
         pub poses: Vec<[f64; 3]> as "Float64Array",
-        /// Legs of the motion from the start pose to the end pose.
+        /// Rotation, translation and rotation of the motion from the start pose to the end pose.
         pub legs: OdomDelta,
     }
 
-    /// Statistics of the outcomes shown, and exact values under the current rule. Statistics are NaN without outcomes.
+    /// Statistics of the outcomes shown, and exact values under the selected rule. Statistics are NaN without outcomes.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Stats as "DecomposerStats" {
         /// Number of outcomes shown.
         pub n: usize,
-        /// Root mean square of the distance from the measured bearing, m.
+        /// Root mean square of the distance of the end position from the line along the measured bearing, m.
         pub cross_track: f64,
         /// Standard error of `crossTrack`, m.
         pub cross_track_error: f64,
@@ -110,13 +110,13 @@ js_structs! {
         pub exact_cross_track: f64,
         /// Sideways standard deviation (m) of the end of the drive due to the first rotation: δ_trans·σ_rot1.
         pub lever: f64,
-        /// Root mean square of the difference between the turn made and the measured one, rad.
+        /// Root mean square of the difference between the executed turn and the measured turn, rad.
         pub heading: f64,
         /// Standard error of `heading`, rad.
         pub heading_error: f64,
         /// Exact value of `heading`, rad.
         pub exact_heading: f64,
-        /// Exact standard deviation of the heading for independent rotations.
+        /// Exact standard deviation of the heading if the noises of the two rotations are independent, rad.
         pub independent_heading: f64,
     }
 }
@@ -166,12 +166,12 @@ impl OdometryDecomposer {
             self.executed_motions(self.shown_count).map(|executed| executed.poses(&start_pose)[3]).collect();
     }
 
-    /// Returns the odometry reading: the motion from the first odometry pose to the second.
+    /// Returns the odometry reading: the motion between the two odometry poses.
     pub fn reading(&self) -> OdomDelta {
         OdomDelta::from_poses(&self.start_pose(), &self.settings.to.into())
     }
 
-    /// Returns the legs of the reading under the current rule.
+    /// Returns the rotation, translation and rotation into which the selected rule decomposes the reading.
     pub fn legs(&self) -> OdomDelta {
         self.settings.rule.legs(&self.reading())
     }
@@ -184,7 +184,7 @@ impl OdometryDecomposer {
         self.settings.rule.variances(&self.reading(), &self.settings.alphas)
     }
 
-    /// Returns the executed legs of each of the first `count` outcomes.
+    /// Returns the executed motions of the first `count` outcomes.
     fn executed_motions(&self, count: usize) -> impl Iterator<Item = ExecutedLegs> + Clone + '_ {
         let rho = self.settings.correlation;
         let (legs, variances) = (self.legs(), self.variances());
@@ -200,8 +200,7 @@ impl OdometryDecomposer {
         &self.poses
     }
 
-    /// Returns the poses of the noise-free legs: at the start, after the first rotation, after the drive, after the
-    /// second rotation.
+    /// Returns the poses of the noise-free legs: at the start, after the first rotation, after the drive, after the second rotation.
     pub fn leg_poses(&self) -> [SE2; 4] {
         ExecutedLegs { legs: self.legs(), strafe: 0.0 }.poses(&self.start_pose())
     }
@@ -214,7 +213,7 @@ impl OdometryDecomposer {
             .collect()
     }
 
-    /// Returns the pose of the robot at the selected phase of the motion.
+    /// Returns the pose of the robot at the progress that the setting `phase` gives.
     pub fn robot_pose(&self) -> SE2 {
         let done_fraction_from = |phase_before: f64| (self.settings.phase - phase_before).clamp(0.0, 1.0);
         let OdomDelta { rot1, trans, rot2 } = self.legs();
@@ -226,7 +225,7 @@ impl OdometryDecomposer {
         legs.apply(&self.start_pose())
     }
 
-    /// Returns the legs and noises of the reading under each rule, with the current α's.
+    /// Returns the decomposition and the noise of the reading under each rule, with the current α's.
     pub fn rule_noises(&self) -> [RuleNoise; 4] {
         let Settings { alphas, noise, correlation, .. } = self.settings;
         let reading = self.reading();
@@ -244,7 +243,7 @@ impl OdometryDecomposer {
         })
     }
 
-    /// Returns the measured and exact spreads of the end position and of the turn.
+    /// Returns the measured and exact standard deviations of the end position and of the turn.
     pub fn stats(&self) -> Stats {
         let Settings { noise, correlation, .. } = self.settings;
         let (legs, variances) = (self.legs(), self.variances());
@@ -270,9 +269,9 @@ impl OdometryDecomposer {
         }
     }
 
-    /// Returns `point_count` points for lengths of the drive from 0 to `max_length` (m), with the measured rotations. A point has the
-    /// length, the standard deviation of the end across the bearing, its part due to the first rotation, and the standard deviation of the
-    /// length, in m.
+    /// Returns the standard deviations of drives of `point_count` lengths from 0 to `max_length` (m), with the measured rotations. A point
+    /// has the length, the standard deviation of the end across the bearing, its part due to the first rotation, and the standard deviation
+    /// of the length, in m.
     pub fn deviation_curve(&self, max_length: f64, point_count: usize) -> Vec<[f64; 4]> {
         let Settings { rule, alphas, noise, .. } = self.settings;
         let reading = self.reading();
@@ -287,7 +286,7 @@ impl OdometryDecomposer {
             .collect()
     }
 
-    /// Returns the odometry poses in the world. The odometry frame has moved by exp(t·d) in the drift time t.
+    /// Returns the odometry poses in the world. In the drift time t, the odometry frame moves by exp(t·d) with d = [`DRIFT_TWIST`].
     pub fn drifted_odometry(&self) -> DriftedOdometry {
         let drifted_frame = SE2::exp(&(Vector3::from(DRIFT_TWIST) * self.settings.drift));
         let (drifted_start, drifted_end) =
@@ -302,8 +301,7 @@ impl OdometryDecomposer {
     }
 }
 
-/// Returns the root mean square of values with mean 0, and its standard error by the delta method: √((m₄ −
-/// m₂²)/n)/(2√m₂).
+/// Returns the root mean square of offsets with mean 0, and its standard error by the delta method: √((m₄ − m₂²)/n)/(2√m₂).
 fn rms_with_error(offsets: impl Iterator<Item = f64>, count: usize) -> [f64; 2] {
     if count == 0 {
         return [f64::NAN; 2];

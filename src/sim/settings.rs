@@ -108,7 +108,7 @@ pub const MAX_SEED: u64 = (1 << 53) - 1;
 pub struct Declaration {
     /// Name of the setting in attributes and states.
     pub key: &'static str,
-    /// Key of the setting that this setting sets in another form: `alphas` for a noise level.
+    /// Key of the setting that this setting sets in another form: `alphas` for the setting of a noise level.
     pub of: Option<&'static str>,
     // WebAssembly modules omit the descriptions, which no page shows.
     /// Description of the setting.
@@ -117,7 +117,8 @@ pub struct Declaration {
     /// Unit; "" for a number without one.
     #[cfg(not(target_arch = "wasm32"))]
     pub unit: &'static str,
-    /// Description of each number of a list that is an attribute; for a group, the end of the descriptions of its numbers.
+    /// Description of each number of a list that is an attribute. For a group, it completes the sentences of the group's numbers, such as
+    /// "Position x" … "at which the robot starts".
     #[cfg(not(target_arch = "wasm32"))]
     pub each: &'static str,
 }
@@ -134,9 +135,9 @@ pub enum Setting<'a> {
     Boolean(&'a mut bool),
     /// Value of an enum, by its keyword.
     Keyword(&'a mut dyn Keyword),
-    /// List of fixed length, whose numbers have one range.
+    /// List of fixed length, whose numbers have one common range.
     Numbers(&'a mut [f64], RangeInclusive<f64>),
-    /// Noise level, which sets several numbers in fixed ratios, with its range.
+    /// Noise level, which sets several numbers in fixed ratios, and its range.
     Level(NoiseLevel<'a>, RangeInclusive<f64>),
     /// Several numbers with names.
     Group(&'a mut dyn Group),
@@ -160,7 +161,7 @@ impl Setting<'_> {
                     .try_for_each(|(i, number)| check_real(&format!("{key}[{i}]"), *number, &allowed))
             }
             Self::Group(group) => check_group(key, group),
-            // The numbers that a level stands for are checked instead of the level.
+            // The numbers that a level sets are checked instead of the level.
             Self::OptionalInteger(None, _) | Self::Boolean(_) | Self::Keyword(_) | Self::Level(..) => Ok(()),
         }
     }
@@ -208,7 +209,7 @@ pub(crate) fn check_group(key: &str, group: &dyn Group) -> Result<(), SettingsEr
     Ok(())
 }
 
-/// Integer of any type.
+/// Access to an integer of any type.
 pub trait Integer {
     /// Returns the number.
     fn get(&self) -> u64;
@@ -222,7 +223,7 @@ pub trait Keywords: Copy + 'static {
     const KEYWORDS: &'static [(&'static str, Self)];
 }
 
-/// Access to a value of any type with [`Keywords`].
+/// Access to a value of any type that implements [`Keywords`].
 pub trait Keyword {
     /// Returns the keyword of the value.
     fn get(&self) -> &'static str;
@@ -378,7 +379,7 @@ pub trait Rules: DeclaredSettings + 'static {
     /// Presets, each with its name in attributes and states.
     const PRESETS: &'static [(&'static str, Self)] = &[];
 
-    /// Adjusts settings to the settings with the changed keys.
+    /// Adjusts other settings to the settings whose keys are `changed_keys`.
     fn adjust(&mut self, _previous: &Self, _changed_keys: &[&str]) {}
 
     /// Checks combinations of settings, each of which is in its range.
@@ -411,7 +412,7 @@ pub trait Rules: DeclaredSettings + 'static {
 /// - `as` gives the key in JavaScript, if it differs from the name of the field.
 /// - `up to` names a method that returns the end of the range, if it depends on other settings.
 /// - `by` names a method that returns a reference to the value, if the setting is not a field.
-/// - `of` names another setting that has the same value in another form.
+/// - `of` names the setting that this setting sets in another form, such as `alphas` for a noise level.
 /// - `each` describes each number of a list. For a pose or command, it is the phrase after the name of each of its numbers.
 /// - `kept` lists fields of the struct that are not settings.
 macro_rules! settings {
@@ -482,7 +483,7 @@ macro_rules! settings {
 }
 pub(crate) use settings;
 
-/// Makes the [`Declaration`] of a setting or of a number of a group.
+/// Creates the [`Declaration`] of a setting or of a number of a group.
 macro_rules! declaration {
     ($key:expr, $sentence:literal, [$($unit:literal)?], [$($each:literal)?] $(, of $original:ident)?) => {
         $crate::sim::settings::Declaration {
@@ -501,7 +502,8 @@ macro_rules! declaration {
 }
 pub(crate) use declaration;
 
-/// Declares the numbers of a group, each by `/// Sentence.` and `key: "unit", in range;`. The pattern binds the keys.
+/// Declares the numbers of a group, each by `/// Sentence.` and `key: "unit", in range;`. The pattern after `as` binds the keys to the
+/// numbers of the type.
 macro_rules! group {
     ($type:ty as $pattern:pat => { $(#[doc = $sentence:literal] $key:ident: $unit:literal, in $range:expr;)+ }) => {
         impl $crate::sim::settings::Group for $type {

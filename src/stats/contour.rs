@@ -13,11 +13,11 @@ use wide::f64x4;
 /// Mahalanobis distance of the contours. A Gaussian in the plane has 1 − exp(−2²/2) = 86.5 % of its mass inside.
 const CONTOUR_SIGMAS: f64 = 2.0;
 
-/// Maximum 1 − ρ², with the correlation ρ, of an ellipse that counts as a line, because its width may be a rounding error. With a larger
-/// bound narrow ellipses would count as lines. With a smaller bound divisors could be rounding errors.
+/// Limit of 1 − ρ², with the correlation ρ of the coordinates, below which an ellipse counts as a line, because its width may be a rounding
+/// error. With a larger limit narrow ellipses would count as lines. With a smaller limit divisors could be rounding errors.
 const MIN_UNCORRELATED_FRACTION: f64 = 1e-12;
 
-/// The 2σ ellipse of a Gaussian in two coordinates.
+/// 2σ ellipse of a Gaussian in two coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ellipse {
     centre: Vector2<f64>,
@@ -28,8 +28,7 @@ pub struct Ellipse {
 }
 
 impl Ellipse {
-    /// Creates the ellipse around `centre` with covariance `cov` (symmetric, 2 × 2, in the squared units of the
-    /// coordinates).
+    /// Creates the ellipse around `centre` with covariance `cov` (symmetric, 2 × 2, in the squared units of the coordinates).
     pub fn new(centre: Vector2<f64>, cov: Matrix2<f64>) -> Self {
         let rounding_variance = MIN_RELATIVE_STD * MIN_RELATIVE_STD * (centre.norm_squared() + cov.trace());
         let std_or_zero =
@@ -46,7 +45,7 @@ impl Ellipse {
         Self { centre, cov_root: Matrix2::new(first_std, 0.0, cross_term, second_std), whitening_matrix }
     }
 
-    /// Returns the ellipse of the position (x, y), m.
+    /// Creates the 2σ ellipse of the position (x, y), m.
     pub fn from_moments(moments: &CartesianMoments) -> Self {
         Self::new(moments.mean.xy(), moments.cov.fixed_view::<2, 2>(0, 0).into_owned())
     }
@@ -56,7 +55,7 @@ impl Ellipse {
         self.cov_root[(0, 0)] > 0.0 && self.cov_root[(1, 1)] > 0.0
     }
 
-    /// Returns the area, in the product of the units of the coordinates; 0 for a line or a point.
+    /// Returns the area, in the unit of the first coordinate times that of the second; 0 for a line or a point.
     pub fn area(&self) -> f64 {
         PI * CONTOUR_SIGMAS * CONTOUR_SIGMAS * self.cov_root[(0, 0)] * self.cov_root[(1, 1)]
     }
@@ -78,7 +77,7 @@ impl Ellipse {
         (self.whitening_matrix * (Vector2::new(x, y) - self.centre)).norm()
     }
 
-    /// Returns the point at a fraction of the line from the centre (0) to a point (1).
+    /// Returns the point on the line from the centre to a point, at a fraction from 0 (the centre) to 1 (the point).
     pub fn interpolate_from_centre(&self, [x, y]: [f64; 2], fraction: f64) -> [f64; 2] {
         (self.centre + (Vector2::new(x, y) - self.centre) * fraction).into()
     }
@@ -89,7 +88,7 @@ impl Ellipse {
         self.contains_four(x, y).any()
     }
 
-    /// Returns [`Ellipse::contains`] for four points, as masks.
+    /// Returns [`Ellipse::contains`] for four points, as lane masks.
     #[inline(always)]
     pub(super) fn contains_four(&self, x: f64x4, y: f64x4) -> f64x4 {
         if !self.has_area() {
@@ -102,24 +101,23 @@ impl Ellipse {
     }
 }
 
-/// The 2σ contour of a Gaussian N(m, Σ) in exponential coordinates.
+/// 2σ contour of a Gaussian N(m, Σ) in exponential coordinates.
 ///
 /// Poses are counted inside the 2σ ellipse of the coordinates (along, heading). The outline in the plane approximates the boundary of the
-/// image of the 2σ ellipsoid under exp. The outline is the image of a great circle of the ellipsoid. Without γ̂ the ellipsoid is flat, and
-/// the circle is its edge.
+/// image of the 2σ ellipsoid under exp. It is the image of a great circle of the ellipsoid. Without γ̂ the ellipsoid is flat, and this
+/// circle is its edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExponentialContour {
     start: SE2,
     mean: Vector3<f64>,
-    /// The contour in (along, heading), m, rad.
+    /// 2σ ellipse in (along, heading), m, rad.
     pub ellipse: Ellipse,
     /// G with G·Gᵀ = Σ.
     cov_root: Matrix3<f64>,
 }
 
 impl ExponentialContour {
-    /// Creates the contour for `moments` of exponential coordinates about `start`. The points of the outline are in the frame of `start`
-    /// itself.
+    /// Creates the contour for `moments` of exponential coordinates about `start`. The outline is in the reference frame of `start`.
     pub fn new(moments: &ExponentialMoments, start: &SE2) -> Self {
         let ExponentialMoments { mean, cov } = *moments;
         let along_heading = Matrix2::new(cov[(0, 0)], cov[(0, 2)], cov[(2, 0)], cov[(2, 2)]);
@@ -131,20 +129,19 @@ impl ExponentialContour {
         }
     }
 
-    /// Returns the closed outline in the plane as `segment_count` chords: `segment_count` + 1 points, the last equal to the
-    /// first.
+    /// Returns the closed outline in the plane as `segment_count` chords: `segment_count` + 1 points, the last equal to the first.
     pub fn boundary(&self, segment_count: usize) -> Vec<[f64; 2]> {
         self.outline(segment_count).map(|(_, point)| point).collect()
     }
 
-    /// Returns the closed outline at a morph, in the frame of the start. At morph 0 the outline is [`ExponentialContour::boundary`], and at
-    /// morph 1 the boundary of `ellipse`.
+    /// Returns the closed outline at a stage of the morph, in the frame of the start. At stage 0 the outline is
+    /// [`ExponentialContour::boundary`], and at stage 1 the boundary of `ellipse`.
     pub fn morphed_boundary(&self, segment_count: usize, morph: f64) -> Vec<[f64; 2]> {
         self.silhouette_twists(segment_count, morph).map(|twist| unbend(&twist, morph)).collect()
     }
 
-    /// Returns the area of `ellipse` in the plane divided by the area of this outline. Each boundary consists of `segment_count` chords.
-    /// NaN if the ellipse, or the contour in (along, heading), has no area.
+    /// Returns the area of `ellipse`, which is in the plane, divided by the area of this outline. Both boundaries consist of
+    /// `segment_count` chords. NaN if the ellipse, or the contour in (along, heading), has no area.
     ///
     /// Motions in reverse make the outline cross itself. The area is then the sum of the areas of the loops.
     #[inline(never)]
@@ -152,7 +149,8 @@ impl ExponentialContour {
         if !ellipse.has_area() || !self.ellipse.has_area() {
             return f64::NAN;
         }
-        // Sums twice the signed areas of the triangles from the start to each chord. The sign is reversed for motions in reverse.
+        // `doubled_area` sums twice the signed areas of the triangles from the start to each chord. The sign is reversed for motions in
+        // reverse.
         let (mut doubled_area, mut previous_point) = (0.0, [0.0; 2]);
         for (i, (along, [x, y])) in self.outline(segment_count).enumerate() {
             let [x, y] = [x - self.start.x(), y - self.start.y()];
@@ -162,11 +160,11 @@ impl ExponentialContour {
             }
             previous_point = [x, y];
         }
-        // A circle drawn as n chords has sinc(2π/n) times its area.
+        // The polygon of n chords in a circle has sinc(2π/n) times the area of the circle.
         ellipse.area() * sinc(TAU / segment_count as f64) / (0.5 * doubled_area.abs())
     }
 
-    /// Returns the coordinate of ξ along the track (m), and the position, of each point of the outline.
+    /// Returns the coordinate along (m) and the position of each point of the outline.
     fn outline(&self, segment_count: usize) -> impl Iterator<Item = (f64, [f64; 2])> {
         self.silhouette_twists(segment_count, 0.0).map(|twist| {
             let pose = self.start.boxplus(twist);
@@ -174,15 +172,14 @@ impl ExponentialContour {
         })
     }
 
-    /// Returns the twists on the silhouette of the ellipsoid under a morph.
+    /// Returns twists on the silhouette of the ellipsoid at a stage of the morph.
     ///
-    /// The ellipsoid is ξ = m + 2·G·u with |u| = 1, and H(ξ) = ∂position/∂ξ. On the silhouette u is
-    /// perpendicular to the null vector k with H(ξ)·G·k = 0. The direction of k varies little over the ellipsoid. So the
-    /// great circle perpendicular to the principal direction of k approximates the silhouette.
+    /// The ellipsoid is ξ = m + 2·G·u with |u| = 1, and H(ξ) = ∂position/∂ξ. On the silhouette u is perpendicular to the null vector k with
+    /// H(ξ)·G·k = 0. The direction of k varies little over the ellipsoid. So the great circle perpendicular to the principal direction of k
+    /// approximates the silhouette.
     fn silhouette_twists(&self, segment_count: usize, morph: f64) -> impl Iterator<Item = Vector3<f64>> {
         let twist_at = move |u: &Vector3<f64>| self.mean + self.cov_root * u * CONTOUR_SIGMAS;
-        // Sum of k·kᵀ over the six ends of the axes. Each k is the cross product of the two rows of H·G: its length is the area of a unit square
-        // of the ellipsoid on the plane.
+        // Sum of k·kᵀ over both ends of the three axes of the ellipsoid. Each k is the cross product of the two rows of H·G.
         let mut null_direction_scatter = Matrix3::zeros();
         for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
             for axis_end in [axis, -axis] {
@@ -192,7 +189,7 @@ impl ExponentialContour {
             }
         }
         let null_direction = principal_direction(&null_direction_scatter);
-        // Two directions that span the circle. The coordinate axis least parallel to k makes the first well-conditioned.
+        // Two directions that span the great circle. The coordinate axis least parallel to k makes the first direction well-conditioned.
         let least_parallel_axis = Matrix3::identity().column(null_direction.iamin()).into_owned();
         let circle_x =
             (least_parallel_axis - null_direction * least_parallel_axis.dot(&null_direction)).normalize();
@@ -208,8 +205,8 @@ impl ExponentialContour {
     }
 }
 
-/// Returns the unit eigenvector of the largest eigenvalue of a symmetric, positive semidefinite matrix; the second axis
-/// for the zero matrix. Ten squarings raise the ratio of the eigenvalues to its 1024th power.
+/// Returns the unit eigenvector of the largest eigenvalue of a symmetric, positive semidefinite matrix; (0, 1, 0) for the zero matrix. Ten
+/// squarings raise the ratio of the eigenvalues to its 1024th power.
 fn principal_direction(matrix: &Matrix3<f64>) -> Vector3<f64> {
     let mut matrix_power = *matrix;
     for _ in 0..10 {
@@ -227,7 +224,7 @@ fn principal_direction(matrix: &Matrix3<f64>) -> Vector3<f64> {
 
 fn unit_circle_points(segment_count: usize) -> impl Iterator<Item = Vector2<f64>> {
     (0..=segment_count).map(move |i| {
-        // The last point has the index of the first, so that the outline is closed exactly.
+        // The last point has the angle of the first point, so that the outline is closed exactly.
         let (sin, cos) = libm::sincos(TAU * (i % segment_count) as f64 / segment_count as f64);
         Vector2::new(cos, sin)
     })

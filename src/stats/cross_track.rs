@@ -16,22 +16,22 @@ pub struct CrossTrackStats {
     /// Standard error of `skew` by the delta method, from the moments of the sample up to the sixth. It includes the
     /// uncertainty of the mean heading.
     pub skew_error: f64,
-    /// Correlation of d with the heading; NaN if one of them is constant.
+    /// Correlation of the residual d with the heading; NaN if one of them is constant.
     pub rho_heading: f64,
 }
 
-/// Standard deviation, relative to the extent and distance of the cloud, below which it counts as 0. Rounding is about 1e-16 per step. With
-/// a larger bound narrow clouds would count as lines.
+/// Standard deviation, relative to the extent of the cloud and its distance from the origin, below which it counts as 0. The rounding error
+/// of an operation is about 1e-16. With a larger bound narrow clouds would count as lines.
 pub(super) const MIN_RELATIVE_STD: f64 = 1e-12;
 
-/// Variance (m²) below which a standard deviation also counts as 0. The sixth power of 10⁻⁵⁰ m nearly underflows, so that the
-/// standard error would be 0.
+/// Variance (m²) below which a standard deviation also counts as 0. The sixth power of 10⁻⁵⁰ m nearly underflows, so that the standard
+/// error would be 0.
 const MIN_VARIANCE: f64 = 1e-100;
 
 impl CrossTrackStats {
     const UNDEFINED: Self = Self { skew: f64::NAN, skew_error: f64::NAN, rho_heading: f64::NAN };
 
-    /// Returns the statistics of `poses`. The origin must be near the poses.
+    /// Returns the statistics of `poses`, which must be near the origin.
     pub fn from_poses(poses: &[SE2]) -> Self {
         let CartesianMoments { mean, .. } = CartesianMoments::from_poses(poses);
         let (sin, cos) = libm::sincos(mean.z);
@@ -56,11 +56,11 @@ impl CrossTrackStats {
         if pose_count < 3 || m2 <= (MIN_RELATIVE_STD * MIN_RELATIVE_STD * squared_extent).max(MIN_VARIANCE) {
             return Self::UNDEFINED;
         }
-        // Means of dᵏ for k = 0 … 6, and of sin(t)·dᵏ for k = 0 … 3. The means of d and of sin(t) are 0.
+        // The means of dᵏ for k = 0 … 6, and of sin(t)·dᵏ for k = 0 … 3. The means of d and of sin(t) are 0.
         let (d, sin_d) = ([1.0, 0.0, m2, m3, d4, d5, d6], [0.0, sd, sd2, sd3]);
         let sd = m2.sqrt();
         let skew = m3 / (m2 * sd);
-        // Rotating the axis by dh changes d by −along·dh. The influence of a pose on the mean heading is sin(turn)/resultant.
+        // Rotating the mean heading by dh changes d by −along·dh. The influence of a pose on the mean heading is sin(turn)/resultant.
         let heading_influence = 3.0 * (skew * along_d / m2 - along_d2 / (m2 * sd)) / resultant_length;
         // The influence of a pose on the skew is z³ − skew − 3z − 1.5·skew·(z² − 1) + heading_influence·sin(turn), with z = d/sd. The
         // influence is a polynomial in d, so that its mean square is a sum of moments.
@@ -82,10 +82,10 @@ impl CrossTrackStats {
     }
 }
 
-/// Means over a cloud of products of residuals from the mean: d across the track, a along it, and t of the heading.
+/// Moments across the track: means over a cloud of products of the residuals d across the mean heading, a along it, and t of the heading.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TrackMoments {
-    /// Means of the [`track_products`].
+    /// Means of the products that [`track_products`] returns.
     pub products: [f64; 14],
     /// Mean of the squared distance from the origin.
     pub squared_extent: f64,
@@ -93,7 +93,7 @@ pub(super) struct TrackMoments {
     pub resultant_length: f64,
 }
 
-/// Returns the products ad, ad², d², …, d⁶, s², sd, sd², sd³, t, t² and td, with s = sin t.
+/// Returns the products ad, ad², d², …, d⁶, s², sd, sd², sd³, t, t² and td of the residuals, with s = sin t.
 #[inline(always)]
 pub(super) fn track_products<T: Copy + Mul<Output = T>>(a: T, d: T, s: T, t: T) -> [T; 14] {
     let d2 = d * d;
@@ -101,7 +101,7 @@ pub(super) fn track_products<T: Copy + Mul<Output = T>>(a: T, d: T, s: T, t: T) 
     [a * d, a * d2, d2, d3, d2 * d2, d2 * d3, d3 * d3, s * s, s * d, s * d2, s * d3, t, t * t, t * d]
 }
 
-/// Returns [`CrossTrackStats::skew`] of `poses`.
+/// Returns the cross-track skew of `poses`, which must be near the origin: see [`CrossTrackStats::skew`].
 pub fn cross_track_skew(poses: &[SE2]) -> f64 {
     CrossTrackStats::from_poses(poses).skew
 }

@@ -1,4 +1,4 @@
-//! Exact moments of a model, by quadrature over the heading noise. The other noises have a closed form.
+//! Exact moments of a model's poses, by quadrature over the heading noise. The other noises are integrated in closed form.
 
 use super::cross_track::MIN_RELATIVE_STD;
 use super::moments::non_negative;
@@ -9,30 +9,29 @@ use crate::models::{OdomDelta, RotTransRot, VelocityCmd, VelocityModel};
 use crate::noise::NoiseKind;
 use nalgebra::{Matrix3, Vector3};
 
-/// Mean and covariance of (x, y, θ), and cross-track skew, of a model's poses after a command from the identity pose; in m
-/// and rad.
+/// Mean and covariance of (x, y, θ), and cross-track skew, of a model's poses after a command from the identity pose; in m and rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExactMoments {
     /// Mean position, and circular mean heading in (−π, π].
     pub mean: Vector3<f64>,
     /// Covariance, 3 × 3, of the position and of the turn made (not wrapped).
     pub cov: Matrix3<f64>,
-    /// Third standardized moment across the mean heading; NaN if there is no spread across it.
+    /// Skewness of the position across the mean heading; NaN if there is no spread across it.
     pub cross_track_skew: f64,
 }
 
-/// Motion of length 1 for one value of the noise that turns the robot: a node of the quadrature. A motion of length L ends at L·`unit_end`.
+/// Node of the quadrature: motion of length 1 for one value of the noise that turns the robot. A motion of length L ends at L·`unit_end`.
 struct UnitMotion {
     weight: f64,
     unit_end: [f64; 2],
-    /// Turn at this noise minus the mean turn, rad.
+    /// Turn at this noise value minus the mean turn, rad.
     excess_turn: f64,
 }
 
-/// Weighted sums over motions of `unit_end`, called u, and of `excess_turn`. The weights may sum to less than 1.
+/// Sums over motions of `unit_end`, called u, and of `excess_turn`, with the weights of the nodes. The weights may sum to less than 1.
 #[derive(Default)]
 pub(super) struct UnitMotionMoments {
-    /// First value of u. Sums contain differences from this value, so that few digits are lost if u varies little.
+    /// Value of u of the first motion. Sums contain differences from this value, so that few digits are lost if u varies little.
     first_end: Option<[f64; 2]>,
     pub weight_sum: f64,
     weighted_sum: Vector3<f64>,
@@ -46,11 +45,12 @@ impl UnitMotionMoments {
         let offset = Vector3::new(unit_end[0] - x, unit_end[1] - y, excess_turn);
         self.weight_sum += weight;
         self.weighted_sum += offset * weight;
-        // Multiplying by the weight last makes the matrix symmetric to the last bit.
+        // The weight is multiplied last, so that the matrix is symmetric to the last bit.
         self.square_sum += offset * offset.transpose() * weight;
     }
 
-    /// Returns the mean and covariance of L·u and the turn, for an independent L with the given mean and standard deviation.
+    /// Returns the mean and covariance of L·u and the turn, for a length L that is independent of the noise and has the given mean and
+    /// standard deviation.
     #[inline(never)]
     pub fn mean_and_cov(&self, [mean_length, length_std]: [f64; 2]) -> (Vector3<f64>, Matrix3<f64>) {
         let mean = self.weighted_sum / self.weight_sum;
@@ -62,7 +62,7 @@ impl UnitMotionMoments {
         let mean_unit_end = [mean.x + x, mean.y + y, 0.0];
         let length_factors = [mean_length, mean_length, 1.0];
         let cov = Matrix3::from_fn(|i, j| {
-            // The spread of the length moves the position along u.
+            // The standard deviation of the length moves the position along u.
             let second_moment =
                 if i < 2 && j < 2 { unit_end_cov[(i, j)] + mean_unit_end[i] * mean_unit_end[j] } else { 0.0 };
             unit_end_cov[(i, j)] * length_factors[i] * length_factors[j]
@@ -73,8 +73,7 @@ impl UnitMotionMoments {
 }
 
 impl ExactMoments {
-    /// Returns the moments of the velocity model. Given ω̂, the position is v̂Δt·(sin φ/φ, (1 − cos φ)/φ) with φ =
-    /// ω̂Δt, linear in v̂.
+    /// Returns the moments of the velocity model. Given ω̂, the position is v̂Δt·(sin φ/φ, (1 − cos φ)/φ) with φ = ω̂Δt, linear in v̂.
     pub fn of_velocity(model: &VelocityModel, u: &VelocityCmd) -> Self {
         let [v_variance, omega_variance, gamma_variance] = model.variances(u).map(|variance| variance.0);
         let motions = nodes(model.noise).iter().map(|node| {
@@ -86,8 +85,7 @@ impl ExactMoments {
         Self::combine_motions(&motions, u.v * u.dt, dt2 * v_variance, u.omega * u.dt, dt2 * gamma_variance)
     }
 
-    /// Returns the moments of the odometry model. Given the first rotation, the position is δ̂_trans along it, linear
-    /// in δ̂_trans.
+    /// Returns the moments of the odometry model. Given the first rotation, the position is δ̂_trans along it, linear in δ̂_trans.
     pub fn of_odometry(model: &impl RotTransRot, u: &OdomDelta) -> Self {
         let [rot1_variance, trans_variance, rot2_variance] = model.variances(u).map(|variance| variance.0);
         let motions = nodes(model.noise()).iter().map(|node| {
@@ -104,8 +102,8 @@ impl ExactMoments {
         )
     }
 
-    /// Combines the motions with the mean and variance of the length, and with the mean `mean_turn` (rad). `last_turn_variance` is added
-    /// to the heading variance.
+    /// Combines the motions of length 1 with the mean and variance of the length, and with the mean `mean_turn` (rad) of the turn.
+    /// `last_turn_variance` is added to the variance of the heading.
     #[inline(never)]
     fn combine_motions(
         motions: &[UnitMotion],
@@ -162,15 +160,14 @@ pub fn predicted_cross_track_skew(mean: &Vector3<f64>, cov: &Matrix3<f64>) -> f6
     mixture_skew(lateral_components, mean.xy().norm_squared() + cov[(0, 0)] + cov[(1, 1)])
 }
 
-/// Part of a mixture of symmetric distributions.
+/// Component of a mixture of symmetric distributions, with its weight.
 struct MixtureComponent {
     weight: f64,
     mean: f64,
     variance: f64,
 }
 
-/// Returns the third standardized moment of the mixture; NaN if its spread is only rounding relative to
-/// `squared_extent`.
+/// Returns the skewness of the mixture; NaN if its spread is only rounding relative to `squared_extent`.
 fn mixture_skew(components: impl Iterator<Item = MixtureComponent> + Clone, squared_extent: f64) -> f64 {
     let mixture_mean: f64 = components.clone().map(|component| component.weight * component.mean).sum();
     let (mut m2, mut m3) = (0.0, 0.0);

@@ -1,5 +1,4 @@
-//! Exact likelihood gain of a model, by quadrature over the two noises that turn the robot. The noise of the length has
-//! a closed form.
+//! Exact likelihood gain of a model, by quadrature over the two noises that turn the robot. The noise of the length has a closed form.
 
 use super::exact::{ExactMoments, UnitMotionMoments};
 use super::gain::{ChartGaussians, LikelihoodGain, MeanAndCov};
@@ -14,12 +13,12 @@ use std::f64::consts::{LN_2, PI, TAU};
 
 /// Exact gain of a model, and the moments of its exponential coordinates, for robots that start at the identity pose.
 ///
-/// Exponential coordinates diverge at a turn of a full circle. Gaussian noise reaches it with some probability, so that the
-/// exact moments of ξ are infinite. Turns beyond `MAX_SIGMAS` standard deviations are therefore omitted, which changes a variance
-/// by a fraction of 1e-7. The values are NaN if a full circle is within `MAX_SIGMAS`.
+/// Exponential coordinates diverge at a turn of a full circle. Gaussian noise reaches it with some probability, so that the exact moments
+/// of ξ are infinite. Turns beyond `MAX_SIGMAS` standard deviations are therefore omitted, which changes a variance by a fraction of 1e-7.
+/// The values are NaN if a full circle is within `MAX_SIGMAS`.
 ///
-/// Turns are not wrapped here. A cloud wraps turns of more than half a circle beyond the command. If many robots make such turns, its
-/// `pose` differs.
+/// Turns are not wrapped here. In a cloud, turns of more than half a circle beyond the commanded turn are wrapped. If many robots make such
+/// turns, the cloud's `pose` differs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ExactGain {
     /// Gain without sampling error.
@@ -28,23 +27,24 @@ pub struct ExactGain {
     pub exponential: ExponentialMoments,
 }
 
-/// Limit of the integral over a normal turn, in standard deviations. The largest of ten million samples is at 5.3. A smaller limit would
-/// change the fourth digit. A larger limit would reach a full circle for commands whose clouds do not.
+/// Integration limit of a normally distributed turn, in standard deviations. The largest of ten million samples is at 5.3. A smaller limit
+/// would change the fourth digit. A larger limit would reach a full circle for commands whose clouds do not.
 const MAX_SIGMAS: f64 = 6.0;
 
-/// Breaks of a function that is smooth everywhere, see [`piecewise_nodes`].
+/// Break points for [`piecewise_nodes`] of a function that is smooth everywhere.
 const NO_BREAKS: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
-/// Motion of either model: a length in the direction of a bearing, and a turn.
+/// Motion of either model: a length along a bearing, and a turn.
 struct PolarMotion {
     noise: NoiseKind,
     /// True if `length` is an arc length. The chord of an arc at the bearing φ/2 is shorter by the factor sinc(φ/2).
     is_arc: bool,
-    /// Mean and standard deviation, m.
+    /// Mean and standard deviation of the length, m.
     length: [f64; 2],
     /// Mean and standard deviation of the bearing, rad. The mean is near half the commanded turn, and not wrapped to ±π.
     bearing: [f64; 2],
-    /// Mean of the turn, and its standard deviations due to the noise of the bearing and to the noise after it, rad.
+    /// Mean of the turn, standard deviation of the turn due to the noise of the bearing, and standard deviation due to the noise after the
+    /// arc or the second rotation, rad.
     turn: [f64; 3],
 }
 
@@ -63,10 +63,12 @@ impl ExactGain {
         motion.gain(&ExactMoments::of_velocity(model, u))
     }
 
-    /// Returns the gain of the odometry model. The reading `u` comes from a command that turns by `turn` (rad).
+    /// Returns the exact likelihood gain for a reading `u` under the odometry model. The reading comes from a command that turns by `turn`
+    /// (rad).
     pub fn of_odometry(model: &impl RotTransRot, u: &OdomDelta, turn: f64) -> Self {
         let [rot1_std, trans_std, rot2_std] = model.variances(u).map(|variance| variance.0.sqrt());
-        // The length in a reading is never negative. After a drive in reverse, its first rotation therefore differs by half a circle.
+        // The length in a reading is never negative. After a drive in reverse, the first rotation of the reading therefore differs by half
+        // a circle.
         let half_circles = ((u.rot1 - 0.5 * turn) / PI).round();
         let drive_sign = if libm::remainder(half_circles, 2.0) == 0.0 { 1.0 } else { -1.0 };
         let motion = PolarMotion {
@@ -114,7 +116,7 @@ impl PolarMotion {
         }
     }
 
-    /// Returns the moments of ξ, and the mean of ln sinc²(ξ_ω/2). A chord r on the bearing β with the final heading θ
+    /// Returns the moments of ξ, and the mean of ln sinc²(ξ_ω/2). A motion that ends at the distance r on the bearing β with the heading θ
     /// has ξ = r/sinc(θ/2) · (cos(β − θ/2), sin(β − θ/2)).
     fn twist_moments(&self) -> (MeanAndCov, f64) {
         let ([bearing, bearing_std], [turn, bearing_turn_std, last_turn_std]) = (self.bearing, self.turn);
@@ -147,8 +149,8 @@ impl PolarMotion {
     fn arc_moments(&self) -> (MeanAndCov, f64) {
         let ([bearing, bearing_std], half_commanded_turn) = (self.bearing, 0.5 * self.turn[0]);
         let (mut moments, mut log_sum) = (UnitMotionMoments::default(), 0.0);
-        // Statistics of a cloud use the arc whose turn is nearest to the commanded one. That arc is driven in the opposite
-        // direction if the bearing differs from half the commanded turn by more than π/2.
+        // Statistics of a cloud use the arc whose turn is nearest to the commanded turn. This arc is driven in the opposite direction if
+        // the bearing differs from half the commanded turn by more than π/2.
         let breaks =
             [-0.5 * PI, 0.5 * PI].map(|offset| (half_commanded_turn + offset - bearing) / bearing_std);
         for node in self.nodes(bearing_std, breaks) {
@@ -188,7 +190,7 @@ fn normal_mean_log(m: f64) -> f64 {
     /// ψ(½) = −γ − 2 ln 2.
     const DIGAMMA_HALF: f64 = -1.963_510_026_021_423_5;
     if m > MIN_ASYMPTOTIC_MEAN {
-        // Terms of the series use E (Z/m)²ᵏ = (2k − 1)!!/m²ᵏ.
+        // Terms of the asymptotic series use E (Z/m)²ᵏ = (2k − 1)!!/m²ᵏ.
         let inverse_square = 1.0 / (m * m);
         return libm::log(m) - inverse_square * (0.5 + inverse_square * (0.75 + inverse_square * 2.5));
     }
@@ -204,7 +206,7 @@ fn normal_mean_log(m: f64) -> f64 {
     0.5 * sum
 }
 
-/// Returns E ln|m + T| to 1e-14, with T triangular on ±`half_width`. Far from 0 it is a series of moments. Elsewhere it is a
+/// Returns E ln|m + T| to 1e-14, with T triangular on ±`half_width`. For m far from 0 it is a series of moments of T. Otherwise it is a
 /// second difference of the second antiderivative of the logarithm, because T is a sum of two uniform numbers.
 fn triangular_mean_log(m: f64, half_width: f64) -> f64 {
     if half_width < 0.5 * m {

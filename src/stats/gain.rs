@@ -1,5 +1,5 @@
-//! Gain in log-likelihood of a Gaussian in exponential or arc coordinates over a Gaussian in (x, y, θ). The gain also detects banana-shaped
-//! clouds without skew, which bend symmetrically to the left and right.
+//! Gain in log-likelihood of a Gaussian in exponential or arc coordinates over a Gaussian in (x, y, θ) or (x, y). The gain also detects
+//! banana-shaped clouds without skew, which bend symmetrically to the left and right.
 
 use super::cross_track::MIN_RELATIVE_STD;
 use super::moments::non_negative;
@@ -8,11 +8,12 @@ use crate::models::covariance_root;
 use nalgebra::{Matrix3, Vector3};
 use wide::f64x4;
 
-/// Mean log-likelihood of a cloud under one Gaussian minus that under another, in nats per robot. Each Gaussian has the cloud's moments in
-/// its coordinates. The densities are over the same measure, so that neither units nor the frame matter.
+/// Mean log-likelihood of a cloud under one Gaussian minus that under another Gaussian, in nats per robot. Each Gaussian has the cloud's
+/// moments in its own coordinates. The densities are over the same measure, so that neither units nor the frame matter.
 ///
-/// A gain is NaN if there are too few poses. It is also NaN if they fill no volume in (x, y, θ), or no area in (x, y). It is infinite if
-/// they fill a volume (an area) there, but none in exponential (arc) coordinates. The Gaussian is then infinitely narrow.
+/// A gain is NaN if there are too few poses. It is also NaN if the poses fill no volume in (x, y, θ), or no area in (x, y). It is infinite
+/// if they fill a volume in (x, y, θ) but none in exponential coordinates, or an area in (x, y) but none in arc coordinates. The Gaussian
+/// is then infinitely narrow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(target_arch = "wasm32", derive(serde::Serialize, tsify::Tsify))]
 pub struct LikelihoodGain {
@@ -30,12 +31,11 @@ pub struct MeasuredGain {
     /// Gain of the samples.
     pub value: LikelihoodGain,
     /// Standard errors: the standard deviation, over all robots, of the difference of the two log-densities, divided by √n. The fitted
-    /// moments add nothing to first order, because each Gaussian's likelihood is at its maximum over them. NaN where the
-    /// gain is not finite.
+    /// moments add nothing to first order, because they maximize the likelihood of each Gaussian. NaN if the gain is not finite.
     pub error: LikelihoodGain,
 }
 
-/// End poses of four robots in each of the coordinates.
+/// End poses of four robots in each of the three coordinate systems.
 #[derive(Clone, Copy)]
 pub(super) struct FourRobots {
     /// x and y (m), and the heading relative to the mean heading (rad).
@@ -62,8 +62,7 @@ pub(super) struct ChartGaussians {
 pub(super) type MeanAndCov = (Vector3<f64>, Matrix3<f64>);
 
 impl ChartGaussians {
-    /// Creates the Gaussians from the moments of the coordinates in [`FourRobots`], and the mean logarithms of their
-    /// Jacobians.
+    /// Creates the Gaussians from the moments of the coordinates in [`FourRobots`], and the mean logarithms of their Jacobians.
     pub fn new(cartesian: MeanAndCov, twist: MeanAndCov, arc: MeanAndCov, log_jacobians: [f64; 2]) -> Self {
         let (cartesian, twist, arc) =
             (Gaussian::new(&cartesian, 2), Gaussian::new(&twist, 2), Gaussian::new(&arc, 1));
@@ -71,7 +70,7 @@ impl ChartGaussians {
             let (cartesian, curved) =
                 (cartesian.log_volumes[dimensions - 1], curved.log_volumes[dimensions - 1]);
             let gain = cartesian - curved - log_jacobians[3 - dimensions];
-            // If the Gaussian in (x, y, θ), or (x, y), has no volume, up to rounding, the gain is undefined.
+            // The gain is undefined if the Gaussian in (x, y, θ), or in (x, y), has no volume, up to rounding.
             if gain > f64::NEG_INFINITY { gain } else { f64::NAN }
         };
         let gain = LikelihoodGain { pose: gain_in(3, &twist), floor: gain_in(2, &arc) };
@@ -79,17 +78,16 @@ impl ChartGaussians {
     }
 }
 
-/// Sums over a sample for the standard errors of the likelihood gain and of the area ratio: differences of log-densities under two
-/// Gaussians, and areas.
+/// Weighted sums over a sample of robots, for the standard errors of the likelihood gain and of the area ratio.
 #[derive(Clone, Debug)]
 pub(super) struct LogDensityDifferences {
     gaussians: ChartGaussians,
     weight_sums: f64x4,
-    /// Squared deviations of the log-density difference from the gain, for pose and floor. The mean difference is the
-    /// gain of all robots, so that its own sum is not needed.
+    /// Sums of squared deviations of the log-density difference from the gain, for (x, y, θ) and (x, y). The mean difference is the gain of
+    /// all robots, so that its own sum is not needed.
     squared_deviations: [f64x4; 2],
-    /// Sums of u, u², h·u and h² for [`LogDensityDifferences::log_area_error`]. u is the Jacobian over its geometric mean, less 1. h is half
-    /// the difference of the squared distances on the floor and in the arc's coordinates.
+    /// Sums of u, u², h·u and h² for [`LogDensityDifferences::log_area_error`]. u is the Jacobian divided by its geometric mean, minus 1. h
+    /// is half the difference of the squared Mahalanobis distances in (x, y) and in arc coordinates.
     area_sums: [f64x4; 4],
 }
 
@@ -103,7 +101,7 @@ impl LogDensityDifferences {
         }
     }
 
-    /// Adds four robots with their weights; 0 for a lane without a robot.
+    /// Adds four robots with their weights; lanes without a robot have the weight 0.
     #[inline(never)]
     pub fn add(&mut self, robots: &FourRobots, weights: f64x4) {
         let ChartGaussians { cartesian, twist, arc, gain, mean_jacobian } = &self.gaussians;
@@ -129,7 +127,7 @@ impl LogDensityDifferences {
         self.weight_sums += weights;
     }
 
-    /// Returns the gain of a cloud of `count` poses. The added poses are a weighted sample of the cloud.
+    /// Returns the gain of a cloud of `count` poses, of which the added robots are a weighted sample.
     pub fn measured_gain(&self, count: usize) -> MeasuredGain {
         let degrees_of_freedom = self.weight_sums.reduce_add() - 1.0;
         let [pose, floor] = self.squared_deviations.map(|squared_deviations| {
@@ -138,14 +136,14 @@ impl LogDensityDifferences {
         MeasuredGain { value: self.gaussians.gain, error: LikelihoodGain { pose, floor } }
     }
 
-    /// Returns the standard error of ln(A/B) by the delta method. A is the area of the 2σ ellipse in (x, y). B is the area within
-    /// the curve on the floor to which the 2σ ellipse in arc coordinates is mapped.
+    /// Returns the standard error of ln(A/B) by the delta method. A is the area of the 2σ ellipse of the Gaussian in (x, y). B is the area
+    /// in (x, y) that the 2σ ellipse of the Gaussian in arc coordinates covers.
     ///
-    /// The areas are 4π√(det Σ_xy) and 4π√(det Σ_sφ) times the mean Jacobian over the ellipse. Uniform points of a 2σ ellipse have the
-    /// Gaussian's own covariance, so that to third order this mean is the mean over the robots. The influence of a robot is then ½(z² − w²)
-    /// − J/mean J, up to a constant. Here z and w are its two Mahalanobis distances. If B is the area within the
-    /// outline of the 2σ ellipsoid in ξ, the error is the same to first order. With the presets the error is 0 to 14 % smaller than the
-    /// measured spread of ln(A/B).
+    /// A is 4π√(det Σ_xy). B is 4π√(det Σ_sφ) times the mean over that ellipse of the Jacobian J of (x, y) with respect to arc coordinates.
+    /// A uniform distribution on a 2σ ellipse has the covariance of its Gaussian. Therefore the mean of J over the ellipse equals its mean
+    /// over the robots to third order. The influence of a robot on ln(A/B) is then ½(z² − w²) − J/mean J, up to a constant. Here z and w
+    /// are the robot's Mahalanobis distances in (x, y) and in arc coordinates. The area of the outline in exponential coordinates has the
+    /// same error as B to first order. With the presets the estimate is 0 to 14 % smaller than the standard deviation of the ratio.
     pub fn log_area_error(&self, count: usize) -> f64 {
         let total_weight = self.weight_sums.reduce_add();
         let [u, uu, hu, hh] = self.area_sums.map(|sum| sum.reduce_add() / total_weight);
@@ -155,13 +153,13 @@ impl LogDensityDifferences {
     }
 }
 
-/// Gaussian of up to three dimensions, with its leading marginals.
+/// Gaussian in up to three dimensions, with its marginals in the first and the first two coordinates.
 #[derive(Clone, Copy, Debug)]
 struct Gaussian {
     mean: Vector3<f64>,
-    /// Lower triangular L with L·Lᵀ = covariance. The diagonal has the reciprocals, 0 for a direction without extent.
+    /// Lower triangular L with L·Lᵀ = covariance, except that its diagonal has the reciprocals, or 0 for a direction without extent.
     cov_root: Matrix3<f64>,
-    /// ½ ln det of the covariance of the first, the first two and all three coordinates; −∞ if it is 0 up to rounding.
+    /// ½ ln det of the covariance of the first, of the first two and of all three coordinates; −∞ if it is 0 up to rounding.
     log_volumes: [f64; 3],
 }
 
@@ -183,7 +181,7 @@ impl Gaussian {
         Self { mean: *mean, cov_root, log_volumes }
     }
 
-    /// Returns the squared Mahalanobis distances of four points in the first, the first two and all three coordinates.
+    /// Returns the squared Mahalanobis distances of four points in the first, in the first two and in all three coordinates.
     #[inline(never)]
     fn squared_distances(&self, points: &[f64x4; 3]) -> [f64x4; 3] {
         let mut centred_points: [f64x4; 3] = std::array::from_fn(|j| points[j] - self.mean[j]);

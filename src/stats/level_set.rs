@@ -1,17 +1,17 @@
 //! Contour lines of a field that is known at the points of a grid (marching squares).
 
-/// Index that stands for no edge of the grid.
+/// Index that marks a missing edge of the grid.
 const NO_EDGE: usize = usize::MAX;
 
-/// Returns the lines on which a field has the value `level`, by marching squares. Between neighbouring points the field is
-/// interpolated linearly. The mean of the four corners decides how a saddle is connected.
+/// Returns the lines on which a field has the value `level`, by marching squares. Between neighbouring points the field is interpolated
+/// linearly. The mean of the four corners decides how a saddle is connected.
 ///
-/// `field_values` are finite, at the points of a grid, row by row with `columns` in each row. Points of lines are (column, row) in steps of
-/// the grid, from its first point. A line ends where it began, or at the border of the grid.
+/// `field_values` are finite, at the points of a grid, row by row with `columns` in each row. The points of the returned lines are (column,
+/// row), in steps of the grid from its first point. A line ends where it began, or at the border of the grid.
 pub fn trace_level_set(field_values: &[f64], columns: usize, level: f64) -> Vec<Vec<[f64; 2]>> {
     let row_count = field_values.len() / columns.max(1);
-    // The previous and the next edge of a line, for each edge of the grid that it crosses. Edge 2i leads from point i to the next
-    // point in its row; edge 2i + 1 leads to the point in the next row.
+    // For each edge of the grid that a line crosses: the previous and the next edge that the line crosses. Edge 2i leads from point i to
+    // the next point in its row; edge 2i + 1 leads to the point in the next row.
     let mut edge_links = vec![[NO_EDGE; 2]; 2 * field_values.len()];
     let mut link_edges = |edge_a: usize, edge_b: usize| {
         for (edge, linked_edge) in [(edge_a, edge_b), (edge_b, edge_a)] {
@@ -22,7 +22,7 @@ pub fn trace_level_set(field_values: &[f64], columns: usize, level: f64) -> Vec<
     for row in 1..row_count {
         for column in 1..columns {
             let i = (row - 1) * columns + column - 1;
-            // Edges around the cell: corner k lies between the edges k − 1 and k.
+            // Values at the corners and indices of the edges of the cell: corner k lies between the edges k − 1 and k.
             let corner_values =
                 [i, i + 1, i + columns + 1, i + columns].map(|point_index| field_values[point_index]);
             let cell_edges = [2 * i, 2 * i + 3, 2 * (i + columns), 2 * i + 1];

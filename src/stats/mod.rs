@@ -1,4 +1,4 @@
-//! Statistics of a cloud of poses: moments, cross-track skew, 2σ contours. Exact values for a model, by quadrature.
+//! Statistics of a cloud of poses: moments, cross-track skew, 2σ contours. Exact values of the same quantities for a model, by quadrature.
 
 mod contour;
 mod cross_track;

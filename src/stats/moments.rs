@@ -10,7 +10,7 @@ js_structs! {
     pub struct CartesianMoments {
         /// Arithmetic mean position and circular mean heading in (−π, π].
         pub mean: Vector3<f64> as "number[]",
-        /// Sample covariance (over n − 1), 3 × 3. A heading counts as its shortest turn from the mean heading.
+        /// Sample covariance (over n − 1), 3 × 3. Headings count as the shortest turn from the mean heading.
         pub cov: Matrix3<f64> as "number[][]",
     }
 }
@@ -19,7 +19,7 @@ impl CartesianMoments {
     /// Returns the moments of `poses`. All are NaN without poses. The covariance is NaN for a single pose.
     pub fn from_poses(poses: &[SE2]) -> Self {
         let heading = mean_heading(poses);
-        // Subtracts the first pose, so that equal poses have residuals of exactly 0.
+        // Offset from the first pose, so that equal poses have residuals of exactly 0.
         let offset_of = |pose: &SE2| {
             Vector3::new(pose.x() - poses[0].x(), pose.y() - poses[0].y(), wrap_angle(pose.theta() - heading))
         };
@@ -41,11 +41,11 @@ js_structs! {
 }
 
 impl ExponentialMoments {
-    /// Returns the moments of `poses` in the chart anchored at `start`, the pose from which all of them were driven.
-    /// NaN as for [`CartesianMoments::from_poses`].
+    /// Returns the moments of ξ = pose ⊟ start of `poses`, which were all driven from the pose `start`. NaN as for
+    /// [`CartesianMoments::from_poses`].
     ///
-    /// The turn of each ξ is within half a turn of the mean heading. A cloud around a half turn therefore stays in one piece. Usually
-    /// ξ is x_t ⊟ x_{t−1} itself.
+    /// The turn of each ξ is within half a turn of the mean heading. A cloud around a half turn therefore stays in one piece. Usually ξ is
+    /// x_t ⊟ x_{t−1} itself.
     pub fn from_poses(poses: &[SE2], start: &SE2) -> Self {
         let mean_turn = wrap_angle(mean_heading(poses) - start.theta());
         let start_inverse = start.inverse();
@@ -69,7 +69,7 @@ fn mean_heading(poses: &[SE2]) -> f64 {
     wrap_angle(first.theta() + libm::atan2(sin_sum, cos_sum))
 }
 
-/// Replaces a negative variance by 0: rounding can make a difference negative. NaN stays NaN.
+/// Replaces a negative variance, which rounding may have caused, by 0. NaN stays NaN.
 pub(crate) fn non_negative(variance: f64) -> f64 {
     if variance < 0.0 { 0.0 } else { variance }
 }

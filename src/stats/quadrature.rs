@@ -4,12 +4,12 @@ use crate::noise::NoiseKind;
 use std::f64::consts::{PI, TAU};
 use std::sync::OnceLock;
 
-/// Node of a quadrature rule: a value of a noise of variance 1, and its weight. The weights of a rule sum to 1.
+/// Node of a quadrature rule for a noise of variance 1. The weights of a rule sum to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node {
     /// Value of the noise.
     pub value: f64,
-    /// Weight of the value.
+    /// Weight of the node.
     pub weight: f64,
 }
 
@@ -27,12 +27,11 @@ pub fn nodes(noise: NoiseKind) -> &'static [Node] {
     }
 }
 
-/// Returns the trapezoidal rule for a Gaussian weight. Its error at the step h and the frequency k is about
-/// exp(−(2π/h − k)²/2).
+/// Returns the trapezoidal rule for a Gaussian weight. Its error at the step h and the frequency k is about exp(−(2π/h − k)²/2).
 fn normal_nodes() -> Vec<Node> {
-    /// Step of the rule. The error stays below rounding up to k ≈ 16; with twice the step it would only up to 4.
+    /// Step of the rule. The error stays below rounding up to k ≈ 16; twice this step would suffice only up to k ≈ 4.
     const STEP_SIZE: f64 = 0.25;
-    /// Number of steps on each side of 0: nine standard deviations, where the density is 1e-18 of its maximum.
+    /// Number of steps on each side of 0. They reach nine standard deviations, where the density is 1e-18 of its maximum.
     const STEPS_PER_SIDE: i32 = 36;
     (-STEPS_PER_SIDE..=STEPS_PER_SIDE)
         .map(|i| {
@@ -59,11 +58,11 @@ fn triangular_nodes() -> Vec<Node> {
 }
 
 /// Returns a rule from −`limit` to `limit` for a function that is smooth except at the two `breaks`, of which one is negative and one is
-/// positive. Gauss–Legendre is used between breaks. Moments of normal noise up to six standard deviations are off by 1e-10.
+/// positive. Gauss–Legendre rules are used between the breaks. Moments of normal noise up to six standard deviations are off by 1e-10.
 #[inline(never)]
 pub(super) fn piecewise_nodes(noise: NoiseKind, limit: f64, breaks: [f64; 2]) -> Vec<Node> {
-    /// Number of nodes between breaks. Two noises are combined, so that the cost grows with the square of this number. Fewer nodes would
-    /// make displayed digits wrong.
+    /// Number of nodes between two breaks. Nodes of two noises are combined, so that the cost grows with the square of this number. Fewer
+    /// nodes would make displayed digits wrong.
     const NODES_PER_PIECE: usize = 16;
     let unit_nodes = legendre_nodes(NODES_PER_PIECE);
     let (mut nodes, mut piece_start) = (Vec::with_capacity(4 * NODES_PER_PIECE), -limit);
@@ -90,7 +89,7 @@ fn legendre_nodes(node_count: usize) -> Vec<Node> {
     let n = node_count as f64;
     (0..node_count)
         .map(|i| {
-            // Tricomi's guess is within 1e-4. Newton's method doubles the correct digits in each of four steps.
+            // Tricomi's initial guess is within 1e-4. Each of the four steps of Newton's method doubles the number of correct digits.
             let mut x = libm::cos(PI * (i as f64 + 0.75) / (n + 0.5));
             let mut derivative = 1.0;
             for _ in 0..4 {

@@ -1,4 +1,5 @@
-//! Sums of millions of terms, four at a time. Plain sums of blocks of terms are added to a compensated total.
+//! Sums of millions of terms, four at a time. Terms are summed in blocks without compensation. The sums of blocks are added to a total
+//! whose rounding errors are compensated.
 
 use crate::geom::lanes::split_into_lane_pairs;
 use wide::{f64x2, f64x4};
@@ -6,7 +7,7 @@ use wide::{f64x2, f64x4};
 /// Compensated sums of `N` quantities.
 #[derive(Clone, Debug)]
 pub struct CompensatedSums<const N: usize> {
-    /// Sums of the current block, to which [`add_to_block`] adds.
+    /// Sums of the current block, which [`add_to_block`] increases.
     pub block: [f64x2; N],
     total: [f64x2; N],
     compensation: [f64x2; N],
@@ -27,7 +28,7 @@ impl<const N: usize> CompensatedSums<N> {
     }
 }
 
-/// Adds blocks to their totals, and the rounding errors to `compensation` (Knuth's two-sum).
+/// Adds the sums of blocks to the totals, and the rounding errors of these additions to `compensation` (Knuth's two-sum).
 #[inline(never)]
 fn flush_blocks(blocks: &mut [f64x2], totals: &mut [f64x2], compensation: &mut [f64x2]) {
     for ((block, total), compensation) in blocks.iter_mut().zip(totals).zip(compensation) {

@@ -1,8 +1,8 @@
-//! Statistics of a large cloud in two passes over its poses, four at a time.
+//! Statistics of a large cloud, in two passes over its poses, which are processed in groups of four.
 //!
-//! The first pass computes means and covariances. The second pass needs them for higher moments across the track, and for
-//! the fractions inside the contours. Sums are compensated, and contain differences from a point near the mean. The
-//! relative error for ten million poses is about 1e-13.
+//! The first pass computes means and covariances. The second pass needs them for higher moments across the track, and for the fractions
+//! inside the contours. Sums are compensated, and contain differences from a point near the mean. The relative error for ten million poses
+//! is about 1e-13.
 
 use super::contour::{Ellipse, ExponentialContour};
 use super::cross_track::{CrossTrackStats, TrackMoments, track_products};
@@ -16,15 +16,15 @@ use nalgebra::{Matrix2, Matrix3, Vector3};
 use std::f64::consts::{LN_2, PI, TAU};
 use wide::{f64x2, f64x4};
 
-/// Four poses: positions, logarithms, and the sine and cosine of half the heading. Sine and cosine with both signs reversed describe the
-/// same heading.
+/// Four poses with their logarithms (along, lateral, half heading), and the sine and cosine of the half heading. Sine and cosine with both
+/// signs reversed describe the same heading.
 #[derive(Clone, Copy)]
 pub struct FourPoses {
     pub x: f64x4,
     pub y: f64x4,
     pub along: f64x4,
     pub lateral: f64x4,
-    /// Half of the heading on the branch of the logarithm.
+    /// Half heading (half the heading angle) on the branch of the logarithm, rad.
     pub half_heading: f64x4,
     pub half_sin: f64x4,
     pub half_cos: f64x4,
@@ -32,8 +32,8 @@ pub struct FourPoses {
     pub sinc: f64x4,
 }
 
-/// Arcs that end at the positions of four poses: signed length (m), half the turn φ (rad), and sinc(φ/2). Of the arcs to a position, the
-/// arc with the turn nearest to the commanded turn is used.
+/// Arcs that end at the positions of four poses: signed length (m), half the turn φ (rad), and sinc(φ/2). Of all arcs to a position, it is
+/// the arc whose turn is nearest to the commanded turn.
 #[derive(Clone, Copy)]
 pub struct FourArcs {
     pub length: f64x4,
@@ -41,11 +41,11 @@ pub struct FourArcs {
     pub sinc: f64x4,
 }
 
-/// Reference values that are subtracted from the values of each robot in all sums: x, y, along, lateral, half of the heading, length of
-/// the arc, half of its turn.
+/// Reference point of the sums, from which all coordinates are subtracted: x, y, along, lateral and half heading of a pose; length and half
+/// turn of the arc to it.
 pub type ReferencePoint = [f64; 7];
 
-/// Factors that scale two terms of the Jacobians to about 1, so that a product of many does not underflow. One term is
+/// Factors that scale the two terms of the Jacobians to about 1, so that a product of many terms does not underflow. One term is
 /// sinc(ξ_ω/2), with the turn ξ_ω of a twist. The other is |s|·sinc²(φ/2), with the length s and the turn φ of an arc.
 pub type JacobianScale = [f64; 2];
 
@@ -56,7 +56,7 @@ pub struct FirstPass {
     pub jacobian_scale: JacobianScale,
     sums: CompensatedSums<16>,
     /// Corrections for irregular arcs, which differ from the driven arcs (see `Drive::end_points`). Each correction adds the values of the
-    /// irregular arc, and subtracts those of the driven arc, which the sums of the unit noise contain.
+    /// irregular arc, and subtracts those of the driven arc, because the sums of the unit noise contain the driven arc.
     irregular_arcs: PairSums,
     /// Products of the scaled factors sinc(ξ_ω/2) and |s|·sinc²(φ/2) over a block, and sums of the logarithms of these products. Logarithms
     /// of products of a whole block take hardly any time. The factors average above e⁻¹, so that a product is above 1e-111.
@@ -76,7 +76,7 @@ impl FirstPass {
         }
     }
 
-    /// Adds the poses whose lanes of `mask` have all bits set.
+    /// Adds the poses in the lanes of `mask` that have all bits set.
     #[inline(always)]
     pub fn add(&mut self, poses: &FourPoses, mask: f64x4) {
         let [x, y, along, lateral, half_heading, ..] = self.reference_point;
@@ -103,7 +103,7 @@ impl FirstPass {
             multiply_lanes(arcs.length) * (arc_sincs * arc_sincs) * (arc_scale * arc_scale);
     }
 
-    /// Multiplies the products by the Jacobians of the poses whose lanes of `mask` have all bits set.
+    /// Multiplies the products by the Jacobians of the poses in the lanes of `mask` that have all bits set.
     #[inline(never)]
     pub fn multiply_masked_jacobians(&mut self, poses: &FourPoses, arcs: &FourArcs, mask: f64x4) {
         let masked_or_one = |values: f64x4| mask.bitselect(values, f64x4::splat(1.0));
@@ -114,7 +114,8 @@ impl FirstPass {
         );
     }
 
-    /// Adds the values of irregular arcs, and subtracts those of the driven `regular_arcs`, which the sums of the unit noise contain.
+    /// Adds the values of irregular arcs, and subtracts those of the driven `regular_arcs`, because the sums of the unit noise contain
+    /// them.
     #[inline(never)]
     pub fn add_irregular_arcs(&mut self, arcs: &FourArcs, regular_arcs: [f64x4; 2], mask: f64x4) {
         let [.., length, half_turn] = self.reference_point;
@@ -133,7 +134,7 @@ impl FirstPass {
     }
 
     /// Returns the moments of `count` poses. The Cartesian covariance contains only the position. `regular_sums` are the sums over the
-    /// driven arcs, in the order of [`PairSums`], which the irregular arcs correct.
+    /// driven arcs, in the order of [`PairSums`]; the corrections for irregular arcs are added to them.
     pub fn moments(&self, count: usize, regular_sums: [f64; 5]) -> FirstPassMoments {
         let n = count as f64;
         let [x, y, a, l, h, xx, xy, yy, aa, al, ll, ah, lh, hh, sin_cos, sin_sin] = self.sums.totals();
@@ -145,7 +146,8 @@ impl FirstPass {
         };
         let variance_of_sums = |square_sum: f64, sum: f64| non_negative(cov_of(square_sum, sum, sum));
         let [x0, y0, along, lateral, half_heading, length, half_turn] = self.reference_point;
-        // Sums of sin θ and of cos θ, by the formulas for double angles, in a frame in which the reference point has the heading 0.
+        // Sums of sin θ and cos θ, by the formulas for double angles. They are rotated into the frame in which the reference point has the
+        // heading 0.
         let (sin, cos) = libm::sincos(2.0 * half_heading);
         let (sum_sin, sum_cos) = (2.0 * sin_cos, n - 2.0 * sin_sin);
         let rotated_sums = (sum_sin * cos - sum_cos * sin, sum_cos * cos + sum_sin * sin);
@@ -156,7 +158,7 @@ impl FirstPass {
         let [aa, al, ll] = [variance_of_sums(aa, a), cov_of(al, a, l), variance_of_sums(ll, l)];
         let [ah, lh, hh] = [2.0 * cov_of(ah, a, h), 2.0 * cov_of(lh, l, h), 4.0 * variance_of_sums(hh, h)];
         let [ss, st, tt] = [variance_of_sums(ss, s), 2.0 * cov_of(st, s, t), 4.0 * variance_of_sums(tt, t)];
-        // All four lanes are scaled, including those without a pose.
+        // All four lanes are scaled, including lanes without a pose.
         let scaled_lane_count = count.next_multiple_of(LANE_COUNT) as f64;
         let [mean_log_twist, mean_log_arc] = [0, 1]
             .map(|i| (self.log_jacobian_sums[i] - scaled_lane_count * libm::log(self.jacobian_scale[i])) / n);
@@ -177,8 +179,8 @@ impl FirstPass {
         }
     }
 
-    /// Returns the means as a better reference if cancellation lost more than two digits of the sums. That happens if the
-    /// mean of a small cloud is many of its standard deviations away from the reference.
+    /// Returns the means as a better reference point if cancellation lost more than two digits of the sums. That happens if the mean of a
+    /// small cloud is many of its standard deviations away from the reference point.
     pub fn better_reference_point(&self, count: usize) -> Option<ReferencePoint> {
         let n = count as f64;
         let sums = self.sums.totals();
@@ -194,9 +196,9 @@ impl FirstPass {
 #[derive(Clone, Copy, Debug)]
 pub struct FirstPassMoments {
     position: [f64; 2],
-    /// Entries xx, xy and yy of the covariance.
+    /// Entries xx, xy and yy of the covariance of the position.
     position_cov: [f64; 3],
-    /// The circular mean of the headings, not wrapped.
+    /// Circular mean of the headings, not wrapped.
     mean_turn: f64,
     /// Length of the mean of the unit vectors in the directions of the headings.
     resultant_length: f64,
@@ -227,12 +229,12 @@ pub struct CloudStats {
     pub inside_ellipse: f64,
     pub inside_exponential: f64,
     pub gain: MeasuredGain,
-    /// Standard error of the log of the ratio of the area of the ellipse to the area of the exponential contour.
+    /// Standard error of the logarithm of the ratio of two areas: of the ellipse in (x, y) and of the exponential contour.
     pub log_area_error: f64,
 }
 
 impl SecondPass {
-    /// Starts the second pass over the same poses, which were driven from `start`.
+    /// Starts the second pass over the same poses, all of which were driven from `start`.
     pub fn new(first_pass: FirstPassMoments, start: &SE2) -> Self {
         let [xx, xy, yy] = first_pass.position_cov;
         Self {
@@ -244,16 +246,16 @@ impl SecondPass {
         }
     }
 
-    /// Adds the poses whose lanes of `mask` have all bits set.
+    /// Adds the poses in the lanes of `mask` that have all bits set.
     #[inline(always)]
     pub fn add(&mut self, poses: &FourPoses, mask: f64x4) {
         let ([mean_x, mean_y], (sin, cos)) = (self.first_pass.position, self.heading_sin_cos);
         let (x, y) = (poses.x - mean_x, poses.y - mean_y);
-        // The symbols a, d, s and t are defined at `TrackMoments`.
+        // The residuals a, d, s and t are defined at `TrackMoments`.
         let d = (y * cos - x * sin) & mask;
         let a = (x * cos + y * sin) & mask;
         let t = wrap_turns(poses.half_heading * 2.0 - self.first_pass.mean_turn) & mask;
-        // sin(θ − h), from the double angle of θ/2.
+        // sin(θ − h) of the heading θ and the mean heading h, from the sine and cosine of θ/2.
         let theta_sin = poses.half_sin * poses.half_cos * 2.0;
         let theta_cos = 1.0 - poses.half_sin * poses.half_sin * 2.0;
         let s = (theta_sin * cos - theta_cos * sin) & mask;
@@ -271,7 +273,7 @@ impl SecondPass {
         self.sums.flush_block();
     }
 
-    /// Returns the statistics of `count` poses. The weighted poses in `sample` give the standard errors of the gains.
+    /// Returns the statistics of `count` poses. `sample` is a weighted sample of the poses, for the standard errors of the gains.
     pub fn stats(
         &self,
         count: usize,
@@ -328,7 +330,7 @@ impl SecondPass {
     }
 }
 
-/// Wraps differences of angles to [−π, π]. The differences must be within [−3π, 3π].
+/// Wraps differences of angles to [−π, π]. The differences must be in [−3π, 3π].
 #[inline(always)]
 fn wrap_turns(turn: f64x4) -> f64x4 {
     let needs_wrapping = turn.abs().simd_gt(f64x4::splat(PI));

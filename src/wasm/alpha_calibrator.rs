@@ -17,17 +17,17 @@ simulation_class! {
 
 getters! {
     JsAlphaCalibrator, "AlphaCalibrator", |simulation| {
-        /// Settings of the fit. They differ from `config` until a fit with the settings in `config` has come.
+        /// Settings of the present fit. They differ from `config` until a fit with the settings in `config` is finished.
         fitted_config as fittedConfig: "AlphaCalibratorSettings" = to_plain_js(simulation.fitted_settings());
-        /// True while the settings need another fit, which only the simulation with the log can make.
+        /// True while the settings need another fit, which only a simulation with the log can compute.
         is_pending as isPending: "boolean" = simulation.is_pending();
-        /// Revision of the fit. It changes with each new fit.
+        /// Revision of the fit, a number that changes with each new fit.
         fit_revision as fits: "number" = simulation.fit_revision();
-        /// The true values of the simulated log; null for any other log.
+        /// True values of the simulated log; null for any other log.
         truth: "CalibrationTruth | null" = to_plain_js(&simulation.truth());
         /// Result of the calibration, without its legs. All α’s are null if the log has too few legs.
         stats: "Omit<Calibration, 'legs'>" = calibration_to_js(simulation.calibration());
-        /// Copies of the legs, in the form that `calibrate` returns.
+        /// Copy of the legs, in the form that `calibrate` returns.
         legs: "CalibrationLegs" = legs_to_js(simulation.calibration());
         /// Number of legs.
         count: "number" = simulation.legs().len();
@@ -35,7 +35,7 @@ getters! {
 }
 
 read! {
-    /// Settings, and the revision of the fit. `stats` and `legs` change only if that revision changes.
+    /// Settings, and the revision of the fit, in one call. `stats` and `legs` change only if that revision changes.
     JsAlphaCalibrator, "AlphaCalibrator", "AlphaCalibratorView",
     [config, fitted_config as fittedConfig, fit_revision as fits, is_pending as isPending]
 }
@@ -54,12 +54,12 @@ impl JsAlphaCalibrator {
         Ok(Self(AlphaCalibrator::restore(read_initial_settings(settings)?, calibration)?))
     }
 
-    /// The fit as bytes, from which `restored` makes a simulation.
+    /// Returns the fit as bytes, from which `restored` creates a simulation.
     pub fn save(&self) -> Vec<u8> {
         postcard::to_allocvec(self.0.calibration()).unwrap_or_default()
     }
 
-    /// Replaces the log by another one: odometry and reference in the form that `calibrate` takes.
+    /// Replaces the log by the given odometry and reference, in the form that `calibrate` takes.
     #[wasm_bindgen(js_name = setLog)]
     pub fn set_log(
         &mut self,
@@ -70,7 +70,8 @@ impl JsAlphaCalibrator {
         Ok(())
     }
 
-    /// Squared residuals of the three noises of the model against the square of the distance or of the turn.
+    /// Returns one panel for each of the three noise components of the model: squared residuals against the square of the distance or of
+    /// the turn.
     #[wasm_bindgen(unchecked_return_type = "CalibrationPanel[]")]
     pub fn panels(
         &self,
@@ -79,13 +80,13 @@ impl JsAlphaCalibrator {
         Ok(to_plain_js(&self.0.panels(read_keyword("regressor", regressor)?)))
     }
 
-    /// One leg by its index, counted from 0; null if there are fewer legs.
+    /// Returns one leg by its index, counted from 0; null if there are fewer legs.
     #[wasm_bindgen(unchecked_return_type = "LegView | null")]
     pub fn leg(&self, index: f64) -> Result<JsValue, JsValue> {
         Ok(to_plain_js(&self.0.leg(read_integer("index", index, 0..=u64::from(u32::MAX))? as usize)))
     }
 
-    /// The leg whose path is nearest to a point of the reference and within `radius` of it; −1 for none.
+    /// Returns the index of the leg whose path by the reference is nearest to a point and within `radius` of it; −1 for none.
     pub fn nearest(&self, x: f64, y: f64, radius: f64) -> Result<i32, JsValue> {
         nearest_index(x, y, radius, |target, radius| self.0.nearest(target, radius))
     }

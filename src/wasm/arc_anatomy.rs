@@ -10,7 +10,7 @@ use js_sys::Float64Array;
 use wasm_bindgen::prelude::*;
 
 simulation_class! {
-    /// The arc between two poses, and how likely it is after a command.
+    /// The arc between two poses, and how likely its end is after a command.
     JsArcAnatomy(ArcAnatomy), "ArcAnatomy", "ArcAnatomySettings", "Partial<ArcAnatomySettings>"
 }
 
@@ -23,13 +23,13 @@ getters! {
 }
 
 read! {
-    /// Everything that is shown besides the surface, in one call.
+    /// Everything that is shown besides the heat map, in one call.
     JsArcAnatomy, "ArcAnatomy", "ArcAnatomyView", [config, stats, table, paths]
 }
 
 #[wasm_bindgen(js_class = ArcAnatomy)]
 impl JsArcAnatomy {
-    /// Errors of the forms of the arc at small turn rates: exercise 1.
+    /// Errors of three formulas for the end of an arc at small turn rates: exercise 1.
     #[wasm_bindgen(js_name = formErrors, unchecked_return_type = "FormErrors")]
     pub fn form_errors() -> JsValue {
         to_plain_js(&form_errors())
@@ -48,7 +48,7 @@ impl JsArcAnatomy {
         Ok(to_plain_js(&self.0.surface(min, max)))
     }
 
-    /// Poses after a fraction of the time, 0 to 1: x, y (m) and θ (rad) on the commanded arc, on the arc that v̂ and ω̂
+    /// Returns the poses after a fraction of the time, 0 to 1, as x, y (m) and θ (rad): on the commanded arc, on the arc that v̂ and ω̂
     /// drive, and on the path of constant twist.
     #[wasm_bindgen(js_name = underway)]
     pub fn poses_at(&self, share: f64) -> Result<Float64Array, JsValue> {

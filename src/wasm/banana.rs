@@ -22,7 +22,7 @@ const TYPESCRIPT_TYPES: &str = r#"
 /** "plane" is (x, y); "twist" is (ξ along, ξ heading). */
 export type ViewName = 'plane' | 'twist';
 
-/** A view by its name, or by a morph from 0 (the plane) to 1 (the twists). */
+/** View by its name, or by a stage of the morph from 0 (the plane) to 1 (the twists). */
 export type MorphedView = ViewName | number;
 
 /** Mean and covariance of the pose or of its exponential coordinates. */
@@ -36,20 +36,20 @@ cloud_simulation_class! {
 
 getters! {
     JsBananaMachine, "BananaMachine", |simulation| {
-        /// The noise parameters of each model. A model that is not selected keeps its own.
+        /// Noise parameters of each model. A model that is not selected keeps its own.
         alphas_of_models as alphasOfModels: "{ velocity: number[]; odometry: number[] }" = js_object(&[
             ("velocity", js_array(&simulation.settings().velocity_alphas)),
             ("odometry", js_array(&simulation.settings().odometry_alphas)),
         ]);
         /// True if the robots turn by less than a full circle, so that exponential coordinates are defined. Otherwise statistics and
-        /// contours in them are undefined.
+        /// contours in exponential coordinates are undefined.
         is_chart_defined as chartHolds: "boolean" = simulation.is_chart_defined();
         /// x, y (m), θ (rad) of each sample shown; a copy.
         poses: "Float64Array" = triple_array(simulation.poses());
         /// Exponential coordinates ξ of each sample shown: three numbers, along and lateral (m) and heading (rad). A copy.
         twists: "Float64Array" = triple_array(simulation.twists());
-        /// Motion executed by each of the samples that are shown: v̂ (m/s), ω̂, γ̂ (rad/s); under the odometry model the legs δ̂_rot1
-        /// (rad), δ̂_trans (m), δ̂_rot2 (rad). A copy.
+        /// Motion executed by each sample shown: v̂ (m/s), ω̂, γ̂ (rad/s); or δ̂_rot1 (rad), δ̂_trans (m), δ̂_rot2 (rad) under the odometry
+        /// model. A copy.
         executed_motions as executed: "Float64Array" = triple_array(simulation.executed_motions());
         /// Noise-free odometry reading of the command.
         reading: "OdomDelta" = to_plain_js(&simulation.reading());
@@ -71,19 +71,19 @@ read! {
 
 #[wasm_bindgen(js_class = BananaMachine)]
 impl JsBananaMachine {
-    /// Poses as in `poses`, of the first `count` samples, or of all if there are fewer.
+    /// Returns `poses` of the first `count` samples, or of all if there are fewer.
     #[wasm_bindgen(js_name = firstPoses)]
     pub fn first_poses(&self, count: usize) -> Float64Array {
         triple_array(self.0.poses().take(count))
     }
 
-    /// Twists as in `twists`, of the first `count` samples, or of all if there are fewer.
+    /// Returns `twists` of the first `count` samples, or of all if there are fewer.
     #[wasm_bindgen(js_name = firstTwists)]
     pub fn first_twists(&self, count: usize) -> Float64Array {
         triple_array(self.0.twists().take(count))
     }
 
-    /// Exact cross-track skew at 2 to 10 000 evenly spaced turn rates, rad/s; NaN where undefined.
+    /// Returns the exact cross-track skew at 2 to 10 000 evenly spaced turn rates (rad/s); NaN where it is undefined.
     #[wasm_bindgen(js_name = skewCurve)]
     pub fn skew_curve(
         &self,
@@ -97,7 +97,7 @@ impl JsBananaMachine {
         Ok(self.0.skew_curve(first_omega, last_omega, point_count as usize))
     }
 
-    /// Sample by its index, counted from 0, among those shown.
+    /// Returns a sample by its index among those shown, counted from 0.
     #[wasm_bindgen(unchecked_return_type = "Inspection")]
     pub fn inspect(&self, index: f64) -> Result<JsValue, JsValue> {
         let index = read_integer("index", index, 0..=MAX_SAMPLES as u64)? as usize;
@@ -105,7 +105,7 @@ impl JsBananaMachine {
         Ok(to_plain_js(&sample))
     }
 
-    /// Heading (rad) of a sample by its index, counted from 0.
+    /// Returns the heading (rad) of a sample by its index, counted from 0.
     pub fn heading(&self, index: f64) -> Result<f64, JsValue> {
         let index = read_integer("index", index, 0..=MAX_SAMPLES as u64)? as usize;
         self.0
@@ -114,7 +114,7 @@ impl JsBananaMachine {
             .ok_or_else(|| not_shown_error(index, self.0.shown_count()))
     }
 
-    /// Index of the nearest sample inside an ellipse with these radii around a point of the view; −1 for none.
+    /// Returns the index of the nearest sample inside the ellipse with these semi-axes around a point of the view; −1 for none.
     pub fn nearest(
         &self,
         #[wasm_bindgen(unchecked_param_type = "MorphedView")] view: &JsValue,
@@ -131,8 +131,8 @@ impl JsBananaMachine {
         Ok(nearest.map_or(-1, |index| index as i32))
     }
 
-    /// Number of samples in each cell of a grid over a part of the view, row by row from yMax down. The grid has at most 2²⁴ cells,
-    /// and at most 2¹⁴ on a side.
+    /// Returns the number of samples in each cell of a grid over a part of the view, row by row from yMax down. The grid has at most 2²⁴
+    /// cells, and at most 2¹⁴ on a side.
     #[expect(clippy::too_many_arguments, reason = "a view, a rectangle and a size")]
     pub fn density(
         &self,
@@ -148,8 +148,8 @@ impl JsBananaMachine {
         Ok(Uint32Array::from(&self.0.density(read_view(view)?, &grid)[..]))
     }
 
-    /// Density of the samples as RGBA pixels: a count c has the colour ramp[255·√(c/max)] of 256, with the largest count max. Empty
-    /// cells are transparent. A view of the core's memory, valid until the next call of the simulation.
+    /// Returns the density of the samples as RGBA pixels. A count c has the colour ramp[255·√(c/max)], one of 256, where max is the largest
+    /// count. Empty cells are transparent. The result is a view of the core's memory, valid until the next call of the simulation.
     #[expect(clippy::too_many_arguments, reason = "a view, a rectangle, a size and colours")]
     #[wasm_bindgen(unchecked_return_type = "Uint8ClampedArray<ArrayBuffer>")]
     pub fn picture(
@@ -169,7 +169,7 @@ impl JsBananaMachine {
     }
 }
 
-/// Reads a view: its name, or a morph.
+/// Reads a view: its name, or a stage of the morph.
 fn read_view(view: &JsValue) -> Result<View, JsValue> {
     match view.as_f64() {
         Some(morph) => Ok(View::from_morph(check_range("view", morph, &MORPH_RANGE)?)),
@@ -177,19 +177,19 @@ fn read_view(view: &JsValue) -> Result<View, JsValue> {
     }
 }
 
-/// Range of the turns of commands, rad: a turn rate times a duration.
+/// Range of turns of commands, rad: the product of the ranges of turn rate and duration.
 const TURN_RANGE: RangeInclusive<f64> = -1e12..=1e12;
 
-/// Points to which a morph takes a line of points of the floor, x, y pairs in m. Each point counts as the end of the arc whose turn
-/// is nearest to `turn` (rad). Empty for a line around the start.
+/// Returns the points to which a stage of the morph moves a polyline of points of the plane, as x, y pairs in m. Each point counts as the
+/// end of the arc whose turn is nearest to `turn` (rad). Empty for a polyline around the start.
 #[wasm_bindgen(js_name = unbendLine)]
 pub fn js_unbend_line(points: &[f64], turn: f64, morph: f64) -> Result<Float64Array, JsValue> {
     let (turn, morph) = (check_range("turn", turn, &TURN_RANGE)?, check_range("morph", morph, &MORPH_RANGE)?);
     Ok(flat_float_array(&unbend_line(points.as_chunks().0, turn, morph)))
 }
 
-/// The 2σ outline at a morph of a Gaussian in exponential coordinates, as x, y pairs; `moments` are its mean (three numbers) and its
-/// covariance (nine).
+/// Returns the 2σ outline, at a stage of the morph, of a Gaussian in exponential coordinates, as x, y pairs. `moments` are the Gaussian's
+/// mean (three numbers) and covariance (nine numbers).
 #[wasm_bindgen(js_name = unbendGaussian)]
 pub fn js_unbend_gaussian(moments: &[f64], morph: f64) -> Result<Float64Array, JsValue> {
     let morph = check_range("morph", morph, &MORPH_RANGE)?;

@@ -1,4 +1,4 @@
-//! `motion.calibrate` for JavaScript: logs in, α's out.
+//! `motion.calibrate` for JavaScript: computes α's from logs.
 
 use super::calibration::{SYSTEMATIC_ERROR_KEYS, calibration_to_js, legs_to_js};
 use super::fields::{Fields, check_range, read_boolean, read_keyword, read_number, type_error};
@@ -30,27 +30,27 @@ export interface CalibrationOptions {
    * (s).
    */
   legs?: { distance?: number; angle?: number } | { duration: number };
-  /** Treatment of legs outside the gate: excluded (default), or fitted as noise. */
+  /** Treatment of outliers: excluded (default), or fitted as noise. */
   outliers?: 'reject' | 'keep';
   /**
    * Systematic errors that are corrected. The default is all errors that the log identifies, except for scales that are not constant.
    * With true these are corrected too, with false none.
    */
   correct?: boolean | { [name in SystematicErrorName]?: boolean };
-  /** Standard deviation of each coordinate of the reference, m; estimated unless stated. */
+  /** Standard deviation of each coordinate of the reference, m; estimated if it is not given. */
   positionStd?: number;
-  /** Standard deviation of the reference's heading, rad; estimated unless stated. */
+  /** Standard deviation of the reference's heading, rad; estimated if it is not given. */
   yawStd?: number;
 }
 "#;
 
-/// Lengths of legs, m, rad or s.
+/// Allowed lengths of legs, m, rad or s.
 const LEG_LENGTH_RANGE: RangeInclusive<f64> = 1e-6..=1e6;
 
-/// Range of the standard deviations that can be stated for a reference, m or rad.
+/// Allowed standard deviations of a reference, m or rad.
 const STD_RANGE: RangeInclusive<f64> = 0.0..=1e3;
 
-/// Fits the α's of a robot to logs of its odometry (or its commands) and of a reference. `doc/calibration-method.md` has the method.
+/// Fits the α's of a robot to logs of its odometry (or its commands) and of a reference. `doc/calibration-method.md` describes the method.
 #[wasm_bindgen(js_name = calibrate, unchecked_return_type = "Calibration")]
 pub fn js_calibrate(
     #[wasm_bindgen(unchecked_param_type = "CalibrationOptions")] options: &JsValue,

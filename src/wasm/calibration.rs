@@ -1,4 +1,4 @@
-//! Calibrations as plain JavaScript values.
+//! Calibrations as plain JavaScript objects.
 
 use super::values::to_plain_js;
 use crate::calibrate::{
@@ -12,7 +12,7 @@ use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
 const TYPESCRIPT_TYPES: &str = r#"
-/** A 95 % confidence interval: it contains the true value in 95 of 100 logs. */
+/** 95 % confidence interval: it contains the true value in 95 of 100 logs. */
 export type Interval = [number, number];
 
 /** Result of a calibration. */
@@ -21,7 +21,7 @@ export interface Calibration extends CalibrationStats {
 }
 "#;
 
-/// Keys of the systematic errors, each with its variants of [`SystematicError`].
+/// Keys of the systematic errors in JavaScript, each with its variants of [`SystematicError`].
 pub const SYSTEMATIC_ERROR_KEYS: [(&str, &[SystematicError]); 5] = [
     ("clockOffset", &[SystematicError::ClockOffset]),
     ("mountYaw", &[SystematicError::MountYaw]),
@@ -30,13 +30,14 @@ pub const SYSTEMATIC_ERROR_KEYS: [(&str, &[SystematicError]); 5] = [
     ("turnScale", &[SystematicError::TurnScale]),
 ];
 
-/// A systematic error. Null where the log does not identify it.
+/// Estimate of a systematic error; null if the log does not identify the error.
 #[derive(Serialize, Tsify)]
 #[tsify(missing_as_null)]
 pub struct SystematicValue<Value, Interval> {
     value: Value,
     interval: Interval,
-    /// True if the error is the same on straight and turning legs, and in both halves of the log; only scales are compared.
+    /// True if the error is the same on straight and turning legs, and in both halves of the log. Only scales are compared; other errors
+    /// count as constant.
     constant: bool,
     /// True if the error was corrected before the α's were fitted.
     corrected: bool,
@@ -72,21 +73,22 @@ pub struct ReferenceNoise {
 #[serde(rename_all = "camelCase")]
 #[tsify(missing_as_null)]
 pub struct CalibrationStats<'a> {
-    /// Fitted α's. Null where the log does not identify one.
+    /// Fitted α's; null for an α that the log does not identify.
     alphas: &'a [Option<f64>],
-    /// 95 % intervals by the profile likelihood, wider where the errors of neighbouring legs are correlated.
+    /// 95 % intervals by the profile likelihood. They are widened if the errors of neighbouring legs are correlated.
     intervals: &'a [Option<[f64; 2]>],
-    /// Why the log does not identify an α; null where it does.
+    /// Reason why the log does not identify an α; null for an identified α.
     not_identifiable: &'a [Option<NotIdentifiable>],
     systematic_errors: SystematicErrors,
     reference_noise: ReferenceNoise,
     persistence: Persistence,
-    /// Legs that the log does not give, by cause.
+    /// Parts of the log that give no legs, by cause.
     lost: LostLegs,
     /// Restricted log-likelihood of the residuals, nats.
     log_likelihood: f64,
     diagnostics: &'a Diagnostics,
-    /// α's for a filter: the fitted ones times the inflation under which held-out windows of 1 m are covered. Null where the log is unusable.
+    /// Recommended α's for a filter: the fitted α's multiplied by the inflation under which held-out windows of 1 m are covered. Null if
+    /// the log is unusable.
     recommended: Option<&'a Recommendation>,
 }
 
@@ -133,21 +135,21 @@ fn systematic_errors(calibration: &Calibration) -> SystematicErrors {
 }
 
 js_structs! {
-    /// Legs, one after the other in each array.
+    /// Columns of numbers of the legs, with one or several numbers a leg, leg after leg.
     #[derive(Default)]
     pub struct CalibrationLegs {
         pub count: usize,
-        /// Start and end, s.
+        /// Start and end times of each leg, s.
         pub times: Vec<f64> as "Float64Array",
-        /// Both ends in the odometry frame, x, y, θ.
+        /// Poses x, y, θ at the start and the end of each leg, in the odometry frame.
         pub odometry: Vec<f64> as "Float64Array",
-        /// Both ends of the robot's base by the reference, x, y, θ.
+        /// Poses x, y, θ of the robot's base at the start and the end of each leg, by the reference.
         pub reference: Vec<f64> as "Float64Array",
-        /// rot1, trans, rot2; or v, ω, Δt.
+        /// Odometry readings rot1, trans, rot2; or commands v, ω, Δt.
         pub readings: Vec<f64> as "Float64Array",
         /// Executed minus expected value of each noise component; NaN if the leg does not determine the component.
         pub residuals: Vec<f64> as "Float64Array",
-        /// Innovations over their standard deviations.
+        /// Innovations divided by their standard deviations.
         pub standardized: Vec<f64> as "Float64Array",
         /// Standard deviations of the innovations.
         pub stds: Vec<f64> as "Float64Array",

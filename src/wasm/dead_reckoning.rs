@@ -12,23 +12,21 @@ use nalgebra::{Matrix3, Vector3};
 use wasm_bindgen::prelude::*;
 
 cloud_simulation_class! {
-    /// One command driven step after step by many identical robots from (0, 0), heading along x, and the covariance that
-    /// recursions predict of it. `headingNoise` sets α₃ to α₆.
+    /// One command driven step after step by many identical robots from (0, 0), heading along x, and the covariances that recursions
+    /// predict. `headingNoise` sets α₃ to α₆.
     JsDeadReckoning(DeadReckoning), "DeadReckoning", "DeadReckoningSettings",
     "Partial<DeadReckoningSettings> & { headingNoise?: number }", MAX_SAMPLES
 }
 
 getters! {
     JsDeadReckoning, "DeadReckoning", |simulation| {
-        /// Level h of the heading noise; null where α₃ to α₆ are not those of a level.
+        /// Level h of the heading noise; null if α₃ to α₆ do not have the ratios of a level.
         heading_noise as headingNoise: "number | null" = number_or_null(simulation.settings().heading_noise());
         stats: "ReckoningStats" = to_plain_js(&simulation.stats());
-        /// Predicted divided by measured variance of along, lateral and heading after each step, three numbers a step; NaN if
-        /// undefined.
+        /// Predicted divided by measured variance of along, lateral and heading after each step, three numbers a step; NaN if undefined.
         ratios: "ByRecursion<Float64Array>" =
             js_by_recursion(|recursion| triple_array(simulation.comparison(recursion).ratios.iter().copied()));
-        /// Predicted variances of along, lateral (m²) and heading (rad²) after each step, three numbers a step; NaN if
-        /// undefined.
+        /// Predicted variances of along, lateral (m²) and heading (rad²) after each step, three numbers a step; NaN if undefined.
         predicted: "ByRecursion<Float64Array>" = js_by_recursion(|recursion| {
             let to_variances = |cov: &Matrix3<f64>| cov.diagonal();
             let covariances = simulation.predicted_covariances(recursion).iter();
@@ -36,12 +34,12 @@ getters! {
         });
         /// Measured variances, in the form of `predicted`.
         measured: "Float64Array" = triple_array(simulation.measured_moments().iter().map(|moments| moments.cov.diagonal()));
-        /// Standard errors of the measured variances, relative to them.
+        /// Standard errors of the measured variances, as fractions of the variances.
         relative_errors as relativeErrors: "Float64Array" =
             triple_array(simulation.measured_moments().iter().map(|moments| moments.relative_error));
         /// Path driven without noise, as x, y pairs (m) from the start.
         commanded: "Float64Array" = flat_float_array(&simulation.commanded_path());
-        /// Variances of a straight drive as functions of its duration, at this speed and noise. Each drive is one command.
+        /// Variances of a straight drive as functions of its duration, at the present speed and noise. Each drive is one command.
         straight_growth as straightGrowth: "StraightGrowth" = to_plain_js(&simulation.straight_growth());
         /// x, y (m), θ (rad) of the commanded pose after each step.
         nominal: "Float64Array" = triple_array(simulation.nominal_poses().iter().copied());
@@ -66,14 +64,14 @@ read! {
 
 #[wasm_bindgen(js_class = DeadReckoning)]
 impl JsDeadReckoning {
-    /// x, y (m), θ (rad) of one robot after each step, counted from 0.
+    /// Returns x, y (m), θ (rad) after each step of one robot, by its index, counted from 0.
     pub fn rollout(&self, index: f64) -> Result<Float64Array, JsValue> {
         let index = read_integer("index", index, 0..=MAX_SAMPLES as u64)? as usize;
         let poses = self.0.rollout(index).ok_or_else(|| not_shown_error(index, self.0.shown_count()))?;
         Ok(flat_float_array(&poses))
     }
 
-    /// The robot of `poses` that is nearest to a point and within `radius` of it; −1 for none.
+    /// Returns the index in `poses` of the robot that is nearest to a point and within `radius` of it; −1 for none.
     pub fn nearest(&self, x: f64, y: f64, radius: f64) -> Result<i32, JsValue> {
         nearest_index(x, y, radius, |target, radius| self.0.nearest(target, radius))
     }

@@ -13,10 +13,10 @@ impl From<SettingsError> for JsValue {
     }
 }
 
-/// JavaScript object whose fields are read by their names.
+/// Reader of the fields of a JavaScript object, by their names.
 pub struct Fields<'a> {
     object: &'a JsValue,
-    /// Path of the object in the argument: "" at the top, "command." one below.
+    /// Path of the object in the argument with a final dot: "" at the top, "command." one level below.
     prefix: &'a str,
 }
 
@@ -40,7 +40,7 @@ impl<'a> Fields<'a> {
         Ok(Self { object, prefix })
     }
 
-    /// Returns the fields of an object that may also have other keys.
+    /// Returns the reader of an object that may also have other keys.
     pub fn with_any_keys(
         name: &str,
         prefix: &'a str,
@@ -88,7 +88,7 @@ pub fn read_integer(field: &str, number: f64, allowed: RangeInclusive<u64>) -> R
     Ok(check_integer(field, number, &allowed)?)
 }
 
-/// Returns the error for the index of a sample that is not shown.
+/// Returns the error for an index beyond the samples shown.
 pub fn not_shown_error(index: usize, shown_count: usize) -> JsValue {
     let allowed_text = format!("one of the {shown_count} samples shown, counted from 0");
     RangeError::new(&format!("index is {index}; allowed is {allowed_text}")).into()
@@ -145,8 +145,7 @@ fn fill_array(field: &str, value: &JsValue, numbers: &mut [f64]) -> Result<(), J
     Ok(())
 }
 
-/// Reads all numbers of a group without checking ranges. A group has to be complete: speeds without their duration
-/// would mean another motion.
+/// Reads all numbers of a group without checking ranges. A group must be complete: speeds without their duration would mean another motion.
 fn read_group(field: &str, value: &JsValue, group: &mut dyn Group) -> Result<(), JsValue> {
     let keys: Vec<&str> = group.fields().iter().map(|field| field.declaration.key).collect();
     let path_prefix = format!("{field}.");
@@ -164,12 +163,12 @@ pub fn read_group_in_range<G: Group>(field: &str, value: &JsValue, mut group: G)
     Ok(group)
 }
 
-/// Returns the initial settings of a simulation: the defaults, with the values in `options`.
+/// Returns the initial settings of a simulation: the values in `options`, and defaults for the others.
 pub fn read_initial_settings<S: Rules>(options: &JsValue) -> Result<S, JsValue> {
     if options.is_undefined() { Ok(S::default()) } else { read_settings(&S::default(), options) }
 }
 
-/// Returns the current settings with the values in `options`. Ranges of doubles are checked later, by the simulation.
+/// Returns the current settings, changed to the values in `options`. The simulation checks ranges of doubles later.
 pub fn read_settings<S: Rules>(current_settings: &S, options: &JsValue) -> Result<S, JsValue> {
     let fields = Fields::new("options", "", options, S::KEYS)?;
     let (mut settings, mut given_keys) = (*current_settings, Vec::new());
@@ -203,7 +202,7 @@ fn read_setting(field: &str, value: &JsValue, setting: Setting) -> Result<(), Js
         Setting::Boolean(slot) => *slot = read_boolean(field, value)?,
         Setting::Keyword(slot) => set_keyword(field, value, slot)?,
         Setting::Numbers(slots, _) => fill_array(field, value, slots)?,
-        // The level is checked before it is converted to α's, because a later error would name an α.
+        // The level is checked before it is converted to α's, because a later error message would name an α.
         Setting::Level(mut slot, allowed) => {
             slot.set(check_range(field, read_number(field, value)?, &allowed)?)
         }
@@ -235,14 +234,14 @@ pub fn type_error(field: &str, value: &JsValue, allowed: &str) -> JsValue {
 
 /// Returns a number as JavaScript prints it.
 pub fn number_text(number: f64) -> String {
-    // Cannot throw with radix 10.
+    // Radix 10 never throws.
     Number::from(number).to_string_with_radix(10).map_or_else(|_| String::new(), String::from)
 }
 
-/// Maximum number of quoted characters: enough to recognize a text, and longer than any key or word.
+/// Maximum number of quoted characters. It suffices to recognize a text, and is longer than any key or keyword.
 const MAX_QUOTED_CHARACTERS: usize = 40;
 
-/// Shortens a text that is quoted in an error message.
+/// Shortens a text for quotation in an error message.
 fn shorten(text: &str) -> String {
     let mut characters = text
         .chars()

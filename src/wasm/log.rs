@@ -11,7 +11,7 @@ use wasm_bindgen::prelude::*;
 
 #[wasm_bindgen(typescript_custom_section)]
 const TYPESCRIPT_TYPES: &str = r#"
-/** Poses, in arrays of the same length: rising times in s, x and y in m, headings in rad. */
+/** Poses, in arrays of the same length: increasing times in s, x and y in m, headings in rad. */
 export interface LoggedPoses {
   t: ArrayLike<number>;
   x: ArrayLike<number>;
@@ -24,7 +24,7 @@ export interface LoggedPoses {
   breaks?: ArrayLike<number>;
 }
 
-/** Commands, each held until the next: rising times in s, speeds in m/s, turn rates in rad/s. */
+/** Commands, each held until the next: increasing times in s, speeds in m/s, turn rates in rad/s. */
 export interface LoggedCommands {
   t: ArrayLike<number>;
   v: ArrayLike<number>;
@@ -40,7 +40,7 @@ const MAX_ROWS: usize = 10_000_000;
 /// Range of times, s, of any clock.
 const TIME_RANGE: RangeInclusive<f64> = -1e12..=1e12;
 
-/// Range of coordinates (m) and other values. It includes the coordinates of any national map grid.
+/// Range of coordinates (m) and other numbers of a log. It includes the coordinates of any national map grid.
 const COORDINATE_RANGE: RangeInclusive<f64> = -1e9..=1e9;
 
 /// Reads odometry and reference of one drive, or arrays with the logs of several drives.
@@ -95,8 +95,8 @@ fn read_poses(field: &str, value: &JsValue) -> Result<Trajectory, JsValue> {
     checked_trajectory(fields, Trajectory::new(t.iter().copied().zip(poses)))
 }
 
-/// Returns the trajectory, interrupted at the samples in `fields.breaks`, or the error for JavaScript. JavaScript formats the numbers
-/// in the error's message, because Rust's number formatting would be 5 % of a module.
+/// Adds the breaks in `fields` to a trajectory. JavaScript formats the numbers of error messages, because Rust's number formatting would
+/// take 5 % of a module.
 fn checked_trajectory(
     fields: &Fields,
     trajectory: Result<Trajectory, TrajectoryError>,
@@ -137,7 +137,7 @@ fn checked_trajectory(
     Ok(trajectory)
 }
 
-/// Reads arrays of numbers that have the same length as the first array, the times.
+/// Reads arrays of numbers, all of which must have the length of the first array, the times.
 fn read_columns<const N: usize>(fields: &Fields, keys: [&str; N]) -> Result<[Vec<f64>; N], JsValue> {
     let mut columns = [const { Vec::new() }; N];
     for (i, key) in keys.into_iter().enumerate() {

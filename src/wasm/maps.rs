@@ -25,8 +25,8 @@ impl From<FloorPlanError> for JsValue {
     }
 }
 
-/// Reads a floor plan { bounds: [x, y, x, y], walls: [[x, y, x, y], …] }, as in JSON. The walls may also be one Float64Array,
-/// as a simulation returns them.
+/// Reads a floor plan { bounds: [x, y, x, y], walls: [[x, y, x, y], …] }, as in JSON. The walls may also be one Float64Array, as the getter
+/// of the map returns them.
 pub fn read_plan(plan: &JsValue) -> Result<FloorPlan, JsValue> {
     let fields = Fields::new("plan", "", plan, &["bounds", "walls"])?;
     let bounds = read_array("bounds", &fields.value("bounds")?)?;
@@ -50,8 +50,7 @@ pub fn read_plan(plan: &JsValue) -> Result<FloorPlan, JsValue> {
     Ok(FloorPlan::new(segments.collect::<Result<_, JsValue>>()?, bounds)?)
 }
 
-/// Reads a map as `map_server` does: from an image (the bytes of a file, or pixels), and the fields of its YAML file
-/// with their defaults.
+/// Reads a map as `map_server` does: from an image (the bytes of a file, or pixels), and the fields of its YAML file with their defaults.
 pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid, JsValue> {
     let fields = Fields::with_any_keys("description", "", description, "an object")?;
     let resolution = check_range("resolution", fields.number("resolution")?, &RESOLUTION_RANGE)?;
@@ -88,8 +87,8 @@ pub fn read_map(description: &JsValue, image: &JsValue) -> Result<OccupancyGrid,
     Ok(OccupancyGrid::new(&Image { width, height, pixels }, &classifier, resolution, origin))
 }
 
-/// Reads width, height, and red, green, blue and opacity of each pixel of an ImageData. An object with the same properties will
-/// do, because Node has no such class.
+/// Reads width, height, and the red, green, blue and opacity of each pixel of an ImageData. An object with the same properties is accepted,
+/// because Node has no such class.
 fn read_pixels(image: &JsValue) -> Result<(usize, usize, Vec<u8>), JsValue> {
     let fields = Fields::with_any_keys("image", "image.", image, "an object")?;
     let width = read_integer("image.width", fields.number("width")?, 1..=MAX_PIXELS as u64)? as usize;

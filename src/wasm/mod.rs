@@ -1,7 +1,6 @@
 //! JavaScript interface of the crate: reads arguments, calls the simulation and returns copies.
 
-// A page with one widget loads a module that has only that widget. The module is compiled with the widget's tag as the cfg
-// `widget`.
+// A page with one widget loads a module that has only that widget. The module is compiled with the widget's tag as the cfg `widget`.
 #![cfg_attr(widget, allow(dead_code, reason = "used by the other widgets"))]
 
 #[cfg(any(not(widget), widget = "alpha-calibrator"))]
@@ -44,9 +43,9 @@ pub fn random_seed() -> Result<f64, JsError> {
     Ok(f64::from(getrandom::u32()?))
 }
 
-/// Returns the speeds that lead from the origin, heading along x, to the point (x, y) of the picture. The duration is that of the
-/// given command. x and y are from −1e6 to 1e6 m. Of the many arcs that lead there, the one with the turn nearest to that of the command
-/// is used. `morph` is the stage of the picture, from 0 (the default, the floor) to 1 (exponential coordinates).
+/// Returns the command that leads from the origin, heading along x, to the point (x, y) of the picture. Its duration is that of the given
+/// command. x and y are from −1e6 to 1e6 m. Of the many arcs that lead there, it is the one whose turn is nearest to that of the given
+/// command. `morph` is the stage of the picture, from 0 (the default, the plane) to 1 (exponential coordinates).
 #[wasm_bindgen(js_name = commandReaching, unchecked_return_type = "{ v: number; omega: number }")]
 pub fn js_command_reaching(
     x: f64,

@@ -52,7 +52,7 @@ export interface OdometryModelOptions {
 
 /** Options of `propagate`. */
 export interface Propagation {
-  /** Covariance of the first pose in exponential coordinates about its mean, three rows of three; default 0. */
+  /** Covariance of the start pose in exponential coordinates about its mean, three rows of three; default 0. */
   sigma?: ArrayLike<ArrayLike<number>>;
   command: Command;
   /** α₁…α₆ of the velocity model. */
@@ -65,7 +65,7 @@ export interface Propagation {
 "#;
 
 js_structs! {
-    /// Arc that leaves one pose along its heading and reaches the position of another.
+    /// Arc that leaves a start pose along its heading and reaches the position of another pose.
     pub struct InvertedArc as "ArcInversion" {
         /// Speed along the arc, m/s; negative in reverse.
         pub v_hat: f64,
@@ -122,7 +122,7 @@ impl JsVelocityModel {
     }
 }
 
-/// The odometry motion model: noise on each of the three legs of a reading.
+/// The odometry motion model: noise on the rotation, translation and rotation of a reading.
 #[wasm_bindgen(js_name = OdometryModel)]
 pub struct JsOdometryModel(ConfiguredOdometry);
 
@@ -144,8 +144,7 @@ macro_rules! model_methods {
         #[wasm_bindgen(js_class = $name)]
         impl $class {
             $(#[$prob_doc])+
-            ///
-            /// A noise of variance 0 has the factor 1 if its residual is 0 up to rounding (1e-7), and 0 otherwise.
+            /// The density of a noise of variance 0 counts as 1 if its residual is 0 up to rounding (1e-7), and as 0 otherwise.
             pub fn prob(
                 &self,
                 next: &JsPose,
@@ -157,7 +156,7 @@ macro_rules! model_methods {
                 Ok(self.0.prob(&next, &control, &start))
             }
 
-            /// Density of the sampler over dx dy dθ; null if a variance is 0, infinite if the robot has not moved at all.
+            /// Returns the density of the sampler over dx dy dθ; null if a variance is 0, infinite if the robot has not moved at all.
             #[wasm_bindgen(js_name = poseDensity, unchecked_return_type = "number | null")]
             pub fn pose_density(
                 &self,
@@ -170,7 +169,7 @@ macro_rules! model_methods {
                 Ok(number_or_null(self.0.pose_density(&next, &control, &start)))
             }
 
-            /// Samples the pose after the motion, as x, y, θ triples. Equal seeds (whole numbers) give equal samples.
+            /// Returns samples of the pose after the motion, as x, y, θ triples. Equal seeds (whole numbers) give equal samples.
             pub fn sample(
                 &self,
                 control: &$control,
@@ -192,17 +191,17 @@ model_methods! {
 }
 model_methods! {
     JsOdometryModel, "OdometryModel", JsReading, read_legs,
-    /// Scoring function of Table 5.5, with the variances of the hypothetical legs.
+    /// Scoring function of Table 5.5, with the variances of the motion between the poses, not of the reading.
 }
 
-/// Arc that leaves `start` along its heading and reaches the position of `next` in `dt` seconds (Table 5.1, with a
-/// signed radius). Of the arcs on that circle, the one that turns by at most half a circle is returned.
+/// Returns the arc that leaves `start` along its heading and reaches the position of `next` in `dt` seconds (Table 5.1, with a signed
+/// radius). Of the arcs on that circle, it is the one that turns by at most half a circle.
 #[wasm_bindgen(js_name = invertArc, unchecked_return_type = "ArcInversion")]
 pub fn js_invert_arc(start: &JsPose, next: &JsPose, dt: f64) -> Result<JsValue, JsValue> {
     let (start, next, dt) =
         (read_pose("start", start)?, read_pose("next", next)?, check_range("dt", dt, &DURATION_RANGE)?);
     let inversion = invert_arc(&start, &next, dt);
-    // A straight drive in reverse has the turn rate −0. Adding 0 makes it 0.
+    // A straight drive in reverse has the turn rate −0. Adding 0 removes the minus.
     let omega_hat = inversion.omega_hat + 0.0;
     Ok(to_plain_js(&InvertedArc {
         v_hat: inversion.v_hat,
@@ -214,14 +213,15 @@ pub fn js_invert_arc(start: &JsPose, next: &JsPose, dt: f64) -> Result<JsValue, 
     }))
 }
 
-/// The three legs between two poses of the odometry frame (Table 5.5, lines 2–4). A turn on the spot is all in `rot2`.
+/// Returns the rotation, translation and rotation between two poses of the odometry frame (Table 5.5, lines 2–4). A turn on the spot is all
+/// in `rot2`.
 #[wasm_bindgen(unchecked_return_type = "OdomDelta")]
 pub fn decompose(start: &JsPose, next: &JsPose) -> Result<JsValue, JsValue> {
     Ok(to_plain_js(&OdomDelta::from_poses(&read_pose("start", start)?, &read_pose("next", next)?)))
 }
 
-/// Covariance, in exponential coordinates about the noise-free pose, after a command was driven several times. The
-/// fourth order is an expansion; noise that is too large for it is refused.
+/// Returns the covariance, in exponential coordinates about the noise-free pose, after a command was driven several times. The fourth order
+/// is a series expansion; noise that is too large for it is refused.
 #[wasm_bindgen(unchecked_return_type = "number[][]")]
 pub fn propagate(options: &JsPropagation) -> Result<Array, JsValue> {
     let fields =
@@ -235,7 +235,7 @@ pub fn propagate(options: &JsPropagation) -> Result<Array, JsValue> {
             read_integer(field, read_number(field, value)?, 1..=MAX_STEPS)
         })?
         .unwrap_or(1);
-    // Arguments in range cannot give a negative or infinite variance.
+    // The ranges of the arguments exclude negative and infinite variances.
     let noise_model = TangentNoiseModel::from_velocity(&model, &command)
         .map_err(|error| RangeError::new(&error.to_string()))?;
     let twist = TangentNoiseModel::twist(&command);
@@ -252,49 +252,49 @@ pub fn propagate(options: &JsPropagation) -> Result<Array, JsValue> {
     Ok(matrix_rows(&sigma))
 }
 
-/// Exponential map: the pose to which a twist leads from the origin in one unit of time.
+/// Exponential map: returns the pose to which a twist leads from the origin in one unit of time.
 #[wasm_bindgen(js_namespace = se2, unchecked_return_type = "Start")]
 pub fn exp(twist: &JsTwist) -> Result<JsValue, JsValue> {
     Ok(pose_to_js(SE2::exp(&read_twist("twist", twist)?)))
 }
 
-/// Logarithm: the twist that leads from the origin to a pose in one unit of time, with a turn of at most half a circle.
+/// Logarithm: returns the twist that leads from the origin to a pose in one unit of time, with a turn of at most half a circle.
 #[wasm_bindgen(js_namespace = se2, unchecked_return_type = "number[]")]
 pub fn log(pose: &JsPose) -> Result<JsValue, JsValue> {
     Ok(js_array(read_pose("pose", pose)?.log().as_slice()))
 }
 
-/// a · b: the pose `b`, given in the frame of `a`, in the reference frame of `a`.
+/// Composition a · b: returns the pose `b`, which is given in the frame of `a`, in the reference frame of `a`.
 #[wasm_bindgen(js_namespace = se2, unchecked_return_type = "Start")]
 pub fn compose(a: &JsPose, b: &JsPose) -> Result<JsValue, JsValue> {
     Ok(pose_to_js(read_pose("a", a)? * read_pose("b", b)?))
 }
 
-/// Inverse: the origin in the frame of a pose.
+/// Inverse: returns the origin in the frame of a pose.
 #[wasm_bindgen(js_namespace = se2, unchecked_return_type = "Start")]
 pub fn inverse(pose: &JsPose) -> Result<JsValue, JsValue> {
     Ok(pose_to_js(read_pose("pose", pose)?.inverse()))
 }
 
-/// x ⊞ τ = x · exp(τ).
+/// Returns x ⊞ τ = x · exp(τ).
 #[wasm_bindgen(js_namespace = se2, unchecked_return_type = "Start")]
 pub fn boxplus(pose: &JsPose, twist: &JsTwist) -> Result<JsValue, JsValue> {
     Ok(pose_to_js(read_pose("pose", pose)?.boxplus(read_twist("twist", twist)?)))
 }
 
-/// a ⊟ b = log(b⁻¹ · a): the twist that leads from `b` to `a`.
+/// Returns a ⊟ b = log(b⁻¹ · a), the twist that leads from `b` to `a`.
 #[wasm_bindgen(js_namespace = se2, unchecked_return_type = "number[]")]
 pub fn boxminus(a: &JsPose, b: &JsPose) -> Result<JsValue, JsValue> {
     Ok(js_array(read_pose("a", a)?.boxminus(&read_pose("b", b)?).as_slice()))
 }
 
-/// Adjoint of a pose, three rows of three.
+/// Returns the adjoint of a pose, three rows of three.
 #[wasm_bindgen(js_namespace = se2, unchecked_return_type = "number[][]")]
 pub fn adjoint(pose: &JsPose) -> Result<Array, JsValue> {
     Ok(matrix_rows(&read_pose("pose", pose)?.adjoint()))
 }
 
-/// Right Jacobian J_r of a twist, three rows of three: exp(τ + δ) is exp(τ) · exp(J_r δ) to first order.
+/// Returns the right Jacobian J_r of a twist, three rows of three: exp(τ + δ) is exp(τ) · exp(J_r δ) to first order.
 #[wasm_bindgen(js_namespace = se2, js_name = rightJacobian, unchecked_return_type = "number[][]")]
 pub fn right_jacobian(twist: &JsTwist) -> Result<Array, JsValue> {
     Ok(matrix_rows(&SE2::right_jacobian(&read_twist("twist", twist)?)))

@@ -19,15 +19,14 @@ getters! {
     JsOdometryDecomposer, "OdometryDecomposer", |simulation| {
         /// x, y (m), θ (rad) of each outcome shown, in the odometry frame; a copy.
         poses: "Float64Array" = triple_array(simulation.poses().iter().copied());
-        /// Noise-free reading as four poses x, y, θ: at the start, after the first rotation, after the drive, after the
-        /// second rotation.
+        /// Noise-free reading as four poses x, y, θ: at the start, after the first rotation, after the drive, after the second rotation.
         leg_poses as linkage: "Float64Array" = triple_array(simulation.leg_poses());
-        /// Leg poses of the first outcomes shown, one after the other in the form of `linkage`.
+        /// The four poses of each of the first outcomes shown, one outcome after the other, in the form of `linkage`.
         sample_leg_poses as ghosts: "Float64Array" =
             triple_array(simulation.sample_leg_poses(MAX_SHOWN_LINKAGES).into_iter().flatten());
-        /// Pose of the robot at the selected phase.
+        /// Pose of the robot at the progress that the setting `phase` gives.
         robot: "Start" = pose_to_js(simulation.robot_pose());
-        /// Legs and noises of the reading by each rule.
+        /// Decomposition and noise of the reading under each rule.
         rules: "RuleNoise[]" = to_plain_js(&simulation.rule_noises());
         stats: "DecomposerStats" = to_plain_js(&simulation.stats());
         drifted: "Drifted" = to_plain_js(&simulation.drifted_odometry());
@@ -44,20 +43,20 @@ read! {
 
 #[wasm_bindgen(js_class = OdometryDecomposer)]
 impl JsOdometryDecomposer {
-    /// Standard deviations for lengths of the drive from 0 to `longest` m. For each of `count` points: the length, the
-    /// standard deviation across the bearing, the contribution of the first rotation, and the standard deviation of the
-    /// length, all in m.
+    /// Returns standard deviations for `count` lengths of the drive from 0 to `longest` (m). A point has the length, the standard deviation
+    /// across the bearing, the part of it due to the first rotation, and the standard deviation of the length, all in m.
     pub fn curve(&self, longest: f64, count: f64) -> Result<Float64Array, JsValue> {
         let max_length = check_range("longest", longest, &(0.0..=*QUANTITY_RANGE.end()))?;
         let count = read_integer("count", count, 1..=MAX_CURVE_POINTS)? as usize;
         Ok(flat_float_array(&self.0.deviation_curve(max_length, count)))
     }
 
-    /// The index of the outcome that ends nearest to a point and within `radius` of it; −1 for none.
+    /// Returns the index of the outcome that ends nearest to a point and within `radius` of it; −1 for none.
     pub fn nearest(&self, x: f64, y: f64, radius: f64) -> Result<i32, JsValue> {
         nearest_index(x, y, radius, |target, radius| self.0.nearest(target, radius))
     }
 }
 
-/// Maximum number of outcomes whose rotation, translation and rotation are drawn. More would hide the legs of the reading.
+/// Maximum number of outcomes for which rotation, translation and rotation are drawn as lines. More lines would hide the lines of the
+/// reading.
 const MAX_SHOWN_LINKAGES: usize = 12;

@@ -1,4 +1,4 @@
-//! Density pictures for JavaScript: readers of arguments, and views of pixels in the core's memory.
+//! Density pictures for JavaScript: readers of arguments, and Uint8ClampedArray views of pixels in the core's memory.
 
 use super::fields::{check_range, read_integer};
 use crate::sim::picture::{RAMP_STEP_COUNT, Ramp};
@@ -21,7 +21,7 @@ pub fn pixel_view(pixels: &[[u8; 4]]) -> Uint8ClampedArray {
     if first_view.length() == byte_count { first_view } else { create_view() }
 }
 
-/// Returns the index that `find` returns for the point (x, y) (m) and the radius; −1 for none.
+/// Returns the index that `find` returns for the point (x, y) (m) and the radius (m); −1 if it returns None.
 pub fn nearest_index(
     x: f64,
     y: f64,

@@ -1,6 +1,6 @@
 //! JavaScript classes of simulations, with the methods that several simulations have.
 
-// The module of a single figure uses only some of these macros.
+// The core of a single widget uses only some of these macros.
 #![allow(unused_macros, unused_imports)]
 
 /// Declares the JavaScript class of a simulation, with its constructor, `configure` and `config`.
@@ -16,7 +16,7 @@ macro_rules! simulation_class {
 
         #[wasm_bindgen(js_class = $name)]
         impl $class {
-            /// Settings that are left out have their initial values.
+            /// Creates the simulation. Settings that are left out have their initial values.
             #[wasm_bindgen(constructor)]
             pub fn new(
                 #[wasm_bindgen(unchecked_optional_param_type = $options)] options: &JsValue,
@@ -24,7 +24,7 @@ macro_rules! simulation_class {
                 Ok(Self($simulation::new($crate::wasm::fields::read_initial_settings(options)?)?))
             }
 
-            /// Changes the given settings; the others stay. All samples are drawn again before it returns. Returns all settings.
+            /// Changes the given settings; the others stay. Draws all samples again before it returns. Returns all settings.
             #[wasm_bindgen(unchecked_return_type = $settings)]
             pub fn configure(
                 &mut self,
@@ -35,7 +35,7 @@ macro_rules! simulation_class {
                 Ok(self.config())
             }
 
-            /// A copy of the settings, so that changing it does not change the simulation.
+            /// Copy of the settings. Changing it does not change the simulation.
             #[wasm_bindgen(getter, unchecked_return_type = $settings)]
             pub fn config(&self) -> JsValue {
                 $crate::wasm::values::to_plain_js(self.0.settings())
@@ -67,15 +67,15 @@ macro_rules! cloud_simulation_class {
 
         #[wasm_bindgen(js_class = $name)]
         impl $class {
-            /// A simulation as the constructor makes it, which shows no samples yet.
+            /// Creates a simulation as the constructor does, but without samples.
             pub fn empty(
                 #[wasm_bindgen(unchecked_optional_param_type = $options)] options: &JsValue,
             ) -> Result<Self, JsValue> {
                 Ok(Self($simulation::with_shown_count($crate::wasm::fields::read_initial_settings(options)?, 0)?))
             }
 
-            /// Changes the given settings and returns all settings. Shows the first block of `goal` samples (Infinity: all samples)
-            /// within a few milliseconds; `addSamples` shows the remaining ones.
+            /// Changes the given settings and returns all settings. Shows the first block of `goal` samples (Infinity: all samples) within
+            /// a few milliseconds; `addSamples` shows the remaining samples.
             #[wasm_bindgen(js_name = configureFirst, unchecked_return_type = $settings)]
             pub fn configure_first(
                 &mut self,
@@ -98,8 +98,8 @@ macro_rules! cloud_simulation_class {
     };
 }
 
-/// Declares getters of the class of a simulation, each with its name, its TypeScript type and an expression of the simulation. `as` gives
-/// the name in JavaScript, if it differs.
+/// Declares getters of the JavaScript class of a simulation, each with its name, its TypeScript type, and the expression for its value.
+/// `as` gives the name in JavaScript, if it differs.
 macro_rules! getters {
     ($class:ident, $name:literal, |$simulation:ident| {
         $($(#[$doc:meta])* $getter:ident $(as $key:ident)?: $type:literal = $value:expr;)+
@@ -118,8 +118,8 @@ macro_rules! getters {
     };
 }
 
-/// Declares the method `read` of a simulation's class. It returns an object with the values of the listed getters. `$view` names the
-/// object's TypeScript type.
+/// Declares the method `read` of the JavaScript class of a simulation. It returns an object with the values of the listed getters. `$view`
+/// is the TypeScript type of that object.
 macro_rules! read {
     ($(#[$doc:meta])+ $class:ident, $name:literal, $view:literal, [$($getter:ident $(as $key:ident)?),+ $(,)?]) => {
         #[wasm_bindgen(typescript_custom_section)]

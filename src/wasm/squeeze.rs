@@ -15,7 +15,7 @@ use js_sys::{Array, Float64Array, RangeError, Uint8ClampedArray};
 use wasm_bindgen::prelude::*;
 
 js_structs! {
-    /// Map as it was read, in m.
+    /// Map of the simulation, in m.
     pub struct Plan {
         /// Smallest x and y, and largest x and y.
         pub bounds: [f64; 4] as "Float64Array",
@@ -39,22 +39,22 @@ js_structs! {
 }
 
 cloud_simulation_class! {
-    /// One command in a map, tried many times by a round robot. It opens facing a doorway in the apartment. `noise` sets all
-    /// of `alphas`.
+    /// One command on a map, tried many times by a round robot. At first the robot faces a doorway in the apartment. `noise` sets all of
+    /// `alphas`.
     JsMapSqueeze(MapSqueeze), "MapSqueeze", "MapSqueezeSettings",
     "Partial<MapSqueezeSettings> & { noise?: number }", MAX_SAMPLES
 }
 
 getters! {
     JsMapSqueeze, "MapSqueeze", |simulation| {
-        /// Level n of the noise parameters; null if they are not in the ratios of a level.
+        /// Level n of the noise parameters; null if they do not have the ratios of a level.
         noise: "number | null" = number_or_null(simulation.settings().noise());
         plan: "Plan" = {
             let wall_coordinates_of = |Segment { from, to }: &Segment| [from[0], from[1], to[0], to[1]];
             let walls = simulation.plan().walls().iter().map(wall_coordinates_of).collect();
             to_plain_js(&Plan { bounds: simulation.plan().bounds(), walls })
         };
-        /// Cells of the map; null for a plan of walls.
+        /// Cells of the map; null for a floor plan without cells.
         grid: "Grid | null" = to_plain_js(&simulation.plan().grid().map(|grid| {
             let ([columns, rows], origin) = (grid.size(), grid.origin().into());
             let cell_flags_of = |state| grid.cells().map(|cell| u8::from(cell == state)).collect();
@@ -70,7 +70,7 @@ getters! {
         commanded: "Float64Array" = flat_float_array(&simulation.commanded_arc().points());
         /// x, y (m), θ (rad) of each attempt shown; a copy.
         poses: "Float64Array" = triple_array(simulation.attempts().iter().map(|attempt| attempt.pose));
-        /// Result of each attempt as one byte: 1 for a free end, plus 2 for a free path, plus 4 if it is accepted.
+        /// Outcome of each attempt as one byte: 1 for a free end, plus 2 for a free path, plus 4 if it is accepted.
         verdicts: "Uint8Array" =
             simulation.attempts().iter().map(Attempt::verdict_bits).collect::<Vec<_>>().to_js();
         stats: "SqueezeStats" = to_plain_js(&simulation.stats());
@@ -93,7 +93,8 @@ read! {
 
 #[wasm_bindgen(js_class = MapSqueeze)]
 impl JsMapSqueeze {
-    /// { bounds: [x, y, x, y], walls: [[x, y, x, y], …] } in m, as a JSON floor plan has them; undefined for the apartment.
+    /// Replaces the map by a floor plan { bounds: [x, y, x, y], walls: [[x, y, x, y], …] } in m, as in JSON; by the apartment if it is
+    /// undefined.
     #[wasm_bindgen(js_name = setPlan)]
     pub fn set_plan(
         &mut self,
@@ -103,8 +104,8 @@ impl JsMapSqueeze {
         Ok(())
     }
 
-    /// Fields of the YAML file of map_server, and the bytes of a PGM file or the pixels of another image. The whole core,
-    /// which has all simulations, also takes the bytes of a PNG file.
+    /// Replaces the map by a grid, from the fields of the YAML file of map_server, and the bytes of a PGM file or the pixels of another
+    /// image. The core with all simulations also takes the bytes of a PNG file.
     #[wasm_bindgen(js_name = setGrid)]
     pub fn set_grid(
         &mut self,
@@ -115,7 +116,7 @@ impl JsMapSqueeze {
         Ok(self.0.set_grid(read_map(description, image)?)?)
     }
 
-    /// Path driven in an attempt, as x, y pairs; empty if the attempt is not shown.
+    /// Returns the path driven in an attempt, as x, y pairs; empty if the attempt is not shown.
     pub fn path(&self, index: f64) -> Result<Float64Array, JsValue> {
         Ok(path_of(&self.0, read_integer("index", index, 0..=MAX_SAMPLES as u64)? as usize))
     }
@@ -142,10 +143,10 @@ impl JsMapSqueeze {
         Ok(to_plain_js(&cost))
     }
 
-    /// Density of the ends of the attempts shown, as RGBA pixels of a grid, row by row from the top. The colours are three
-    /// ramps of 256: for rejected attempts, accepted ones, and those accepted through a wall. The most frequent kind in a
-    /// cell selects the ramp. A count c of all attempts in the cell has its colour 255·√(c/max), with the largest count max. Empty
-    /// cells are transparent. A view of the core's memory, valid until the next call of the simulation.
+    /// Returns the density of the ends of the attempts shown, as RGBA pixels of a grid, row by row from the top. `ramps` are three ramps of
+    /// 256 colours: for rejected attempts, accepted attempts, and attempts accepted through a wall. The most frequent kind in a cell
+    /// selects the ramp. A count c of attempts in the cell has the colour ramp[255·√(c/max)], where max is the largest count of all cells.
+    /// Empty cells are transparent. The result is a view of the core's memory, valid until the next call of the simulation.
     #[expect(clippy::too_many_arguments, reason = "a rectangle, a size and colours")]
     #[wasm_bindgen(unchecked_return_type = "Uint8ClampedArray<ArrayBuffer>")]
     pub fn picture(
@@ -163,7 +164,7 @@ impl JsMapSqueeze {
         Ok(pixel_view(self.0.paint(&grid, &ramps)))
     }
 
-    /// The index of the attempt that ends nearest to a point and within `radius` of it; −1 for none.
+    /// Returns the index of the attempt that ends nearest to a point and within `radius` of it; −1 for none.
     pub fn nearest(&self, x: f64, y: f64, radius: f64) -> Result<i32, JsValue> {
         nearest_index(x, y, radius, |target, radius| self.0.nearest(target, radius))
     }
@@ -176,7 +177,7 @@ fn path_of(simulation: &MapSqueeze, index: usize) -> Float64Array {
 /// Maximum number of paths shown: more would be indistinguishable, and take longer than a frame.
 const MAX_SHOWN_PATHS: usize = 60;
 
-/// Decodes a PNG image to red, green, blue and opacity of its pixels, for the core of a single widget, which has no decoder.
+/// Decodes a PNG image to red, green, blue and opacity of its pixels, for cores of single widgets, which have no decoder.
 #[cfg(not(widget))]
 #[wasm_bindgen(
     js_name = readMapImage,

@@ -10,16 +10,16 @@ use wasm_bindgen::prelude::*;
 /// Converts a value to a plain JavaScript value, in which None is null.
 pub fn to_plain_js<T: Serialize>(value: &T) -> JsValue {
     let serializer = serde_wasm_bindgen::Serializer::new().serialize_missing_as_null(true);
-    // Serialization fails only for maps whose keys are not strings, which results do not contain.
+    // Serialization fails only for maps whose keys are not strings. Results of the core contain no such maps.
     value.serialize(&serializer).unwrap_or(JsValue::NULL)
 }
 
-/// Conversion to a JavaScript value that serde does not create, such as a Float64Array.
+/// Conversion of Rust values to JavaScript values that serde does not create, such as a Float64Array.
 pub trait ToJs {
     fn to_js(&self) -> JsValue;
 }
 
-/// Serializes a field of [`crate::js::js_structs`] as [`ToJs`] converts it.
+/// Serializes a field of a struct of [`crate::js::js_structs`] by the conversion of [`ToJs`].
 pub fn serialize<T: ToJs, S: Serializer>(value: &T, serializer: S) -> Result<S::Ok, S::Error> {
     serde_wasm_bindgen::preserve::serialize(&value.to_js(), serializer)
 }
@@ -44,7 +44,7 @@ to_js! {
     Vec<Vec<[f64; 2]>>: |lines| lines.iter().map(Vec::to_js).collect::<Array>();
     Vec<u8>: |bytes| Uint8Array::from(&bytes[..]);
     Vector3<f64>: |vector| js_array(vector.as_slice());
-    // Array of the columns, which are also the rows, because all matrices in results are symmetric.
+    // Array of the columns, which equal the rows, because all matrices in results are symmetric.
     Matrix3<f64>: |matrix| matrix.as_slice().chunks(3).map(js_array).collect::<Array>();
 }
 

@@ -1,8 +1,8 @@
 //! Simulated log that the widget opens with. Its true α's are known.
 //!
-//! A robot follows a curve through a hall, and sometimes turns on the spot. Between two updates of a localizer, true motion and
-//! odometry differ by the noise of Table 5.6. The reference has a lever arm, a mount yaw, a clock offset, and jumps. The wheels
-//! deviate from their nominal size.
+//! A robot follows a curve through a hall, and sometimes turns on the spot. Between two updates of a localizer, the true motion and the
+//! odometry differ by noise with the variances of Table 5.6. The reference has a lever arm, a mount yaw, a clock offset, and jumps. The
+//! wheels deviate from their nominal size.
 
 use super::Log;
 use crate::calibrate::Trajectory;
@@ -33,31 +33,31 @@ pub const DISTANCE_SCALE: f64 = 1.02;
 /// Ratio of true turns to odometry turns.
 pub const TURN_SCALE: f64 = 0.97;
 
-/// Jumps of the reference: size (m), number of rows of a jump, and probability that one begins at a row. On average one leg in 70 becomes
-/// an outlier.
+/// Jumps of the reference: size (m), number of rows that a jump lasts, and probability that a jump begins at a row. On average one leg in
+/// 70 becomes an outlier.
 const JUMP_SIZE: f64 = 0.5;
 const ROWS_PER_JUMP: usize = 25;
 const JUMP_PROBABILITY: f64 = 4e-4;
 
-/// Time between two rows, s, and number of rows.
+/// Time between two rows of the log, s, and number of rows.
 const ROW_INTERVAL: f64 = 0.02;
 const ROW_COUNT: usize = 9000;
 
-/// Maximum speed, m/s, and maximum turn rate, rad/s.
+/// Maximum speed, m/s, and maximum turn rate, rad/s, of the robot.
 const MAX_SPEED: f64 = 0.6;
 const MAX_TURN_RATE: f64 = 0.8;
 
 /// Time between two turns on the spot, s.
 const TURN_INTERVAL: f64 = 20.0;
 
-/// Returns the target of the robot (m) at a phase (rad): a rosette, which crosses the hall in all directions.
+/// Returns the point (m) that the robot follows, at a phase (rad) of its path: a rosette, which crosses the hall in all directions.
 fn target_position(phase: f64) -> [f64; 2] {
     let radius = 2.1 + 1.1 * libm::cos(2.4 * phase);
     [1.35 * radius * libm::cos(phase), radius * libm::sin(phase)]
 }
 
 struct Controller {
-    /// Phase of the target, rad: see [`target_position`].
+    /// Phase of the point that the robot follows, rad: see [`target_position`].
     phase: f64,
     /// Remaining angle of the turn on the spot, rad.
     remaining_turn: f64,
@@ -65,7 +65,7 @@ struct Controller {
 }
 
 impl Controller {
-    /// Returns the speeds (m/s, rad/s) at a time and estimated pose.
+    /// Returns the speed (m/s) and turn rate (rad/s) of the robot at a time and estimated pose.
     fn next_speeds(&mut self, time: f64, pose: &SE2, rng: &mut Xoshiro256PlusPlus) -> [f64; 2] {
         if time >= self.next_turn_time {
             self.next_turn_time += TURN_INTERVAL;
@@ -76,7 +76,7 @@ impl Controller {
             self.remaining_turn -= turn;
             return [0.0, turn / ROW_INTERVAL];
         }
-        // The target moves ahead of the robot.
+        // The followed point stays 0.7 m or more ahead of the robot.
         let mut target = target_position(self.phase);
         while libm::hypot(target[0] - pose.x(), target[1] - pose.y()) < 0.7 {
             self.phase += 0.002;
@@ -92,11 +92,11 @@ impl Controller {
 struct CurrentLeg {
     odometry_start: SE2,
     true_start: SE2,
-    /// Row times, and noise-free motions from the start of the leg to each row.
+    /// Time of each row, and noise-free motion from the start of the leg to that row.
     motions: Vec<(f64, SE2)>,
 }
 
-/// Simulates odometry and reference for a seed.
+/// Simulates the odometry and the reference of a log, with random numbers from a seed.
 pub fn simulate_log(seed: u64) -> Log {
     let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed);
     let [x, y] = target_position(0.0);
@@ -135,7 +135,7 @@ pub fn simulate_log(seed: u64) -> Log {
             };
         }
     }
-    // Rows after the last complete leg have no noise.
+    // The motion after the last complete leg has no noise.
     true_poses.extend(
         current_leg
             .motions

@@ -24,9 +24,9 @@ const OUTLINE_SEGMENTS: usize = 64;
 /// Odometry and reference of one drive.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Log {
-    /// Poses by the odometry.
+    /// Poses measured by odometry.
     pub odometry: Trajectory,
-    /// Poses by the reference.
+    /// Poses measured by the reference.
     pub reference: Trajectory,
 }
 
@@ -42,22 +42,22 @@ js_structs! {
         pub mount_yaw: f64,
         /// Position of the reference's sensor on the robot, m ahead and to the left.
         pub lever_arm: [f64; 2],
-        /// True distances over those of the odometry.
+        /// True distances divided by those of the odometry.
         pub distance_scale: f64,
-        /// True turns over those of the odometry.
+        /// True turns divided by those of the odometry.
         pub turn_scale: f64,
     }
 
-    /// One leg in the frame of the robot at its start, m and rad.
+    /// One leg in the frame of the robot at the leg's start, m and rad.
     #[derive(Clone, Debug, PartialEq)]
     pub struct LegView {
-        /// End poses x, y, θ drawn from the model, with the fitted α’s times the inflation.
+        /// End poses x, y, θ drawn from the model, with the fitted α’s multiplied by the inflation.
         pub outcomes: Vec<[f64; 3]> as "Float64Array",
         /// 2σ ellipse of the drawn positions as x, y pairs; empty without noise.
         pub outline: Vec<[f64; 2]> as "Float64Array",
-        /// End pose x, y, θ by the odometry.
+        /// End pose x, y, θ measured by odometry.
         pub read: [f64; 3] as "Float64Array",
-        /// End pose x, y, θ by the reference.
+        /// End pose x, y, θ measured by the reference, without its systematic errors.
         pub ended: [f64; 3] as "Float64Array",
     }
 }
@@ -68,7 +68,7 @@ pub struct AlphaCalibrator {
     settings: Settings,
     log_source: LogSource,
     fit: Fit,
-    /// Revision of the fit. It increases with each change of the log or the settings that needs a new fit.
+    /// Revision of the fit, which increases when the log changes, or a setting on which the fit depends.
     fit_revision: u32,
 }
 
@@ -76,13 +76,13 @@ pub struct AlphaCalibrator {
 enum LogSource {
     /// Simulated with the seed of the settings.
     Simulated,
-    /// Logs that the user has loaded, one for each drive.
+    /// Loaded logs of the user, one for each drive.
     Loaded(Vec<Log>),
-    /// Log of another simulation, from which the fit is restored.
+    /// Unknown log: the fit comes from another simulation.
     Restored,
 }
 
-/// Calibration, computed on first use, and its settings.
+/// Calibration, computed on first use, and the settings that it depends on.
 #[derive(Clone, Debug)]
 struct Fit {
     settings: Settings,
@@ -98,8 +98,8 @@ impl AlphaCalibrator {
         Self::from_source(settings, LogSource::Simulated, OnceCell::new())
     }
 
-    /// Creates a simulation with a fit that another simulation has saved. The simulation has no log, so that settings that need another fit
-    /// are [pending](AlphaCalibrator::is_pending).
+    /// Creates a simulation without a log, with a fit that another simulation has saved. Settings that need another fit stay
+    /// [pending](AlphaCalibrator::is_pending).
     ///
     /// # Errors
     /// [`SettingsError`] for the first setting out of range.
@@ -131,8 +131,7 @@ impl AlphaCalibrator {
         !self.fit.settings.has_same_fit(&self.settings)
     }
 
-    /// Changes the settings.
-    /// Errors are those of [`AlphaCalibrator::new`], and change nothing.
+    /// Changes the settings. Errors are those of [`AlphaCalibrator::new`], and change nothing.
     pub fn configure(&mut self, settings: Settings) -> Result<(), SettingsError> {
         settings.check()?;
         let is_same_log =
@@ -145,7 +144,7 @@ impl AlphaCalibrator {
         Ok(())
     }
 
-    /// Replaces the log, which has an entry for each drive.
+    /// Replaces the log by `logs`, one for each drive.
     pub fn set_log(&mut self, logs: Vec<Log>) {
         self.log_source = LogSource::Loaded(logs);
         self.invalidate_fit();
@@ -158,7 +157,7 @@ impl AlphaCalibrator {
         }
     }
 
-    /// Returns the revision of the fit, which changes with each new fit.
+    /// Returns the revision of the fit, a number that changes with each new fit.
     pub fn fit_revision(&self) -> u32 {
         self.fit_revision
     }
@@ -179,7 +178,8 @@ impl AlphaCalibrator {
         })
     }
 
-    /// Returns the true values, if the log is simulated. Its α's hold for the leg length and the odometry rule of the simulated log.
+    /// Returns the true values, if the log is simulated. The true α's hold for the leg length and the odometry rule with which the log was
+    /// simulated.
     pub fn truth(&self) -> Option<Truth> {
         matches!(self.log_source, LogSource::Simulated).then_some(Truth {
             alphas: example::TRUE_ALPHAS,
@@ -196,13 +196,13 @@ impl AlphaCalibrator {
         &self.calibration().legs
     }
 
-    /// Returns the panels of squared residuals against their regressors.
+    /// Returns one panel of squared residuals against the regressor for each noise component.
     pub fn panels(&self, regressor: Regressor) -> [Panel; 3] {
         let model = self.fit.settings.model();
         [0, 1, 2].map(|component| create_panel(model, self.calibration(), component, regressor))
     }
 
-    /// Returns one leg in the frame of its start; None if the index is too large.
+    /// Returns one leg in the frame of the leg's start; None if the index is too large.
     pub fn leg(&self, index: usize) -> Option<LegView> {
         let leg = self.legs().get(index)?;
         let leg_reading = self.calibration().observations[index].reading;
@@ -221,10 +221,11 @@ impl AlphaCalibrator {
         Some(LegView { outcomes, outline, read: odometry_end.into(), ended: reference_end.into() })
     }
 
-    /// Returns the end pose that the model predicts for a reading, with the noise `unit_noise`.
+    /// Returns the end pose that the fitted model predicts for an odometry reading or command, with the noise `unit_noise` (three numbers
+    /// of variance 1).
     fn outcome_pose(&self, reading: &[f64; 3], unit_noise: [f64; 3]) -> SE2 {
         let (settings, calibration) = (&self.fit.settings, self.calibration());
-        // An α that the log does not identify adds nothing.
+        // An α that the log does not identify counts as 0.
         let inflated_alpha =
             |k: usize| settings.inflation * calibration.alphas.get(k).copied().flatten().unwrap_or(0.0);
         let [first, second, third] = *reading;
@@ -261,12 +262,12 @@ impl AlphaCalibrator {
     }
 }
 
-/// Regressor of a variance. Each variance has one α for the rotation and one for the distance.
+/// Regressor of the variance of a noise component, which has one α for a rotation and one for a distance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Regressor {
     /// Squared distance, or squared speed.
     Distance,
-    /// Squared rotation or squared turn rate; the sum over the rotations if several add noise.
+    /// Squared rotation or squared turn rate; a sum of squares if several rotations add noise.
     Turn,
 }
 
@@ -274,27 +275,27 @@ impl Keywords for Regressor {
     const KEYWORDS: &'static [(&'static str, Self)] = &[("distance", Self::Distance), ("turn", Self::Turn)];
 }
 
-/// Number of bins of a panel, with about equal numbers of legs. Legs with equal motions are in one bin.
+/// Maximum number of bins of a panel, which have about equal numbers of legs. Legs with equal motions are in one bin.
 pub const BIN_COUNT: usize = 8;
 
 /// Minimum number of legs in a bin. With fewer legs the standard error of their mean is meaningless.
 const MIN_LEGS_PER_BIN: usize = 5;
 
 js_structs! {
-    /// Squared innovations of one noise component against a regressor x. The variances due to the other α and to the reference
+    /// Squared innovations of one noise component against a regressor x. The variances due to the component's other α and to the reference
     /// are subtracted, so that the expectation is α·x.
     #[derive(Clone, Debug, PartialEq)]
     pub struct Panel as "CalibrationPanel" {
         /// Index of the α that is the slope, from 0.
         pub alpha: usize,
-        /// Means of the regressor in the bins.
+        /// Mean of the regressor in each bin.
         pub x: Vec<f64>,
-        /// Mean squared innovations of the bins, less the variances due to the other α and to the reference.
+        /// Mean squared innovation in each bin, less the variances due to the component's other α and to the reference.
         pub y: Vec<f64>,
         /// Standard errors of `y`: from the scatter of the squares, or from the model, whichever is larger. In a bin with
         /// one dominating leg the scatter is too small.
         pub error: Vec<f64>,
-        /// Slope: the α; null (None) if the log does not identify the α.
+        /// Slope of the line, which is the α; null (None) if the log does not identify the α.
         pub slope: Option<f64>,
         /// 95 % interval of the slope; null (None) if the log does not identify the α.
         pub interval: Option<[f64; 2]>,
@@ -327,8 +328,8 @@ fn create_panel(
         .iter()
         .zip(leg_fits)
         .filter(|(observation, fit)| !observation.residuals[component].is_nan() && !fit.is_outlier)
-        // Legs with sideways motion are omitted, because their readings have large rotations that the robot did not make. A diagnostic
-        // check counts them.
+        // Legs with sideways motion are omitted, because their odometry readings have large rotations that the robot did not make. A
+        // diagnostic check counts these legs.
         .filter(|(observation, _)| !observation.moves_sideways(model))
         .map(|(observation, fit)| {
             let coefficient = observation.coefficients[component][position_in_component];

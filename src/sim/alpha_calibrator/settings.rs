@@ -59,22 +59,22 @@ settings! {
         position_std as "positionStd": f64 = 0.0, "m", in 0.0..=1e3;
         /// Standard deviation of the reference’s heading; 0: estimated.
         yaw_std as "yawStd": f64 = 0.0, "rad", in 0.0..=1e3;
-        /// Factor of the α’s in predictions.
+        /// Factor by which the fitted α’s are multiplied in predictions.
         inflation: f64 = 1.0, in 0.01..=100.0;
         // With the default seed all intervals contain the true values.
-        /// Seed of the simulated log.
+        /// Seed of the simulated log, and of the predicted outcomes.
         seed: u64 = 8, in 0..=MAX_SEED;
     }
 }
 
 impl Settings {
-    /// Copies the settings on which the fit does not depend: inflation, noise distribution and seed of the predicted cloud.
+    /// Copies the settings on which the fit does not depend: inflation, noise distribution and seed of the predicted outcomes.
     pub(super) fn copy_prediction_settings(&mut self, other: &Self) {
         let Self { inflation, noise, seed, .. } = *other;
         *self = Self { inflation, noise, seed, ..*self };
     }
 
-    /// Returns true if `other` settings give the same fit, because they differ only in the predicted cloud.
+    /// Returns true if `other` settings give the same fit, because they differ only in the predicted outcomes.
     pub(super) fn has_same_fit(&self, other: &Self) -> bool {
         let mut with_other_prediction = *self;
         with_other_prediction.copy_prediction_settings(other);
@@ -118,7 +118,8 @@ impl Settings {
 }
 
 impl Rules for Settings {
-    /// Changes the rule if the model was changed to one that does not have it, or the model if the rule was changed.
+    /// Keeps model and rule consistent: changes the rule if the chosen model does not have it, or the model if the chosen rule belongs to
+    /// another model.
     fn adjust(&mut self, _: &Self, changed_keys: &[&str]) {
         let model_fits_rule = self.is_omnidirectional() == (self.rule == OdometryRule::Omni);
         match [changed_keys.contains(&"model"), changed_keys.contains(&"rule")] {

@@ -30,7 +30,7 @@ use std::f64::consts::TAU;
 use wide::f64x4;
 
 impl Settings {
-    /// Returns the current model with its input: the command, or the noise-free odometry reading of the command.
+    /// Returns the selected model with its input: the command, or the noise-free odometry reading of the command.
     fn model_with_input(&self, command: VelocityCmd) -> ModelWithInput {
         match self.model {
             ModelKind::Velocity => {
@@ -72,7 +72,7 @@ impl ModelWithInput {
         }
     }
 
-    /// Returns v̂, ω̂ and γ̂ of the velocity model, or rot1, trans and rot2 of the odometry model.
+    /// Returns the executed v̂, ω̂ and γ̂ of the velocity model, or rot1, trans and rot2 of the odometry model.
     fn executed_motion(&self, unit_noise: [f64; 3]) -> [f64; 3] {
         match self {
             Self::Velocity(model, command) => {
@@ -109,8 +109,9 @@ pub fn command_reaching(x: f64, y: f64, near_command: &VelocityCmd) -> VelocityC
     VelocityCmd { v: length / dt, omega: turn / dt, dt }
 }
 
-/// Returns the command whose end is drawn at (x, y), with the duration of `near_command`. `morph` is from 0 (the floor, where the result is
-/// [`command_reaching`]) to 1 (exponential coordinates). The search starts at `near_command`, which is returned if there is no solution.
+/// Returns the command whose end is drawn at the point (x, y) of the picture, with the duration of `near_command`. `morph` is the stage of
+/// the picture, from 0 (the plane, where the result is [`command_reaching`]) to 1 (exponential coordinates). The search starts at
+/// `near_command`, which is returned if there is no solution.
 pub fn command_drawn_at([x, y]: [f64; 2], near_command: &VelocityCmd, morph: f64) -> VelocityCmd {
     let VelocityCmd { v, omega, dt } = *near_command;
     if morph == 0.0 {
@@ -124,11 +125,11 @@ fn command_end(command: &VelocityCmd) -> SE2 {
     SE2::exp(&TangentNoiseModel::twist(command))
 }
 
-/// Minimum distance of the mean turn from a full circle, in standard deviations, for exponential coordinates to be usable.
-/// At a full circle ξ diverges. With a smaller distance, single samples of a large cloud would dominate its moments.
+/// Minimum distance of the mean turn from a full circle, in standard deviations, at which exponential coordinates count as defined. At a
+/// full circle they diverge. With a smaller distance, single samples of a large cloud would dominate the moments.
 const MIN_CIRCLE_SIGMAS: f64 = 4.0;
 
-/// Maximum number of points of a skew curve. Each takes about ten microseconds.
+/// Maximum number of points of a curve of the exact skew. Each takes about ten microseconds.
 pub const MAX_CURVE_POINTS: u64 = 10_000;
 
 /// Standard deviation (m) of the noise that [`BananaMachine::additive_moments`] adds to x and y. It is √(½ tr Σ) on the arc of the preset
@@ -147,7 +148,7 @@ pub struct BananaMachine {
     settings: Settings,
     cloud: Cloud,
     stats: Stats,
-    /// Latest picture. The page reads it in place.
+    /// Latest picture, which JavaScript reads from the core's memory.
     picture: Vec<[u8; 4]>,
 }
 
@@ -180,8 +181,8 @@ impl BananaMachine {
         self.stats = Stats::of(count, &cloud_stats, self.defined_charts());
     }
 
-    /// Returns the number of samples that can be added within a few milliseconds. Each block sums all
-    /// samples again. Therefore a block is as large as the cloud shown, and at least the first block.
+    /// Returns the number of samples that can be added within a few milliseconds. Adding a block sums all samples again. Therefore a block
+    /// is as large as the cloud shown, or as the first block if that is larger.
     pub fn block_size(&self) -> usize {
         self.shown_count().max(FIRST_BLOCK_SAMPLES)
     }
@@ -279,7 +280,7 @@ impl BananaMachine {
         let linearized = self.linearized_moments();
         let Stats { cartesian, cross_track_skew, likelihood_gain, area_ratio, .. } = self.stats;
         Table {
-            // A Gaussian in (x, y) has no skew. To first order in the noise, Gaussians in all coordinates are equal.
+            // A Gaussian in (x, y) has no skew. To first order in the noise, all coordinate systems have the same Gaussian.
             linearized: TableColumn {
                 mean: linearized.mean,
                 cov: linearized.cov,

@@ -36,7 +36,7 @@ const INITIAL_SEED: u64 = 87;
 settings! {
     /// Settings of the user.
     pub struct Settings {
-        /// Model of the noise; each model keeps its own alphas.
+        /// Motion model; each model keeps its own alphas.
         model: ModelKind = ModelKind::Velocity;
         /// Distribution of the noise; the variances are the same.
         noise: NoiseKind = NoiseKind::Normal;
@@ -49,7 +49,7 @@ settings! {
             each "Noise parameter of the present model; only the velocity model has the fifth and the sixth.";
         /// True if a drive in reverse gets noise for the rotations that the robot made, and not for two additional half turns.
         reverse_aware as "reverseAware": bool = false;
-        /// Number of the only noise parameter in effect; null for all of them.
+        /// Number of the only noise parameter in effect, from 1; null for all of them.
         isolate: Option<usize> = None, in 1..=6, up to alpha_count;
         /// Number of robots in the whole cloud.
         samples: usize = INITIAL_SAMPLES, in 1..=MAX_SAMPLES as u64;
@@ -65,7 +65,7 @@ settings! {
 }
 
 impl Settings {
-    /// Returns all α's of the present model, regardless of `isolate`.
+    /// Returns all α's of the selected model, regardless of `isolate`.
     pub fn alphas(&self) -> &[f64] {
         match self.model {
             ModelKind::Velocity => &self.velocity_alphas,
@@ -93,7 +93,7 @@ impl Settings {
 }
 
 impl Rules for Settings {
-    /// The four commands of the chapter, the clearest banana shape, and the chapter's example to check by hand.
+    /// The four commands of the chapter, the command with the clearest banana shape, and the chapter's example to check by hand.
     const PRESETS: &'static [(&'static str, Self)] = &[
         ("straight", preset([1.0, 0.0, 2.0], TYPICAL_ALPHAS)),
         ("gentle", preset([1.0, 0.5, 1.0], TYPICAL_ALPHAS)),
@@ -104,14 +104,14 @@ impl Rules for Settings {
     ];
 
     fn adjust(&mut self, previous: &Self, changed_keys: &[&str]) {
-        // An α of the same number has another meaning in the other model.
+        // The α of a given number has another meaning in the other model.
         if self.model != previous.model && !changed_keys.contains(&"isolate") {
             self.isolate = None;
         }
     }
 }
 
-/// Noise parameters of presets that differ in the command.
+/// Noise parameters of the presets whose commands differ from the default.
 const TYPICAL_ALPHAS: [f64; 6] = [0.05, 0.05, 0.05, 0.09, 0.01, 0.01];
 
 const fn preset([v, omega, dt]: [f64; 3], velocity_alphas: [f64; 6]) -> Settings {

@@ -33,11 +33,11 @@ js_structs! {
         pub rho_cross_heading: f64,
         /// Fractions of the samples within 2σ.
         pub coverage: Coverage,
-        /// Gain in mean log-likelihood of Gaussians in exponential and in arc coordinates over those in (x, y, θ) and (x, y).
+        /// Gain in mean log-likelihood of Gaussians in exponential coordinates over (x, y, θ), and in arc coordinates over (x, y).
         pub likelihood_gain: LikelihoodGain,
         /// Standard errors of the gains.
         pub likelihood_gain_error: LikelihoodGain,
-        /// Area of the 2σ ellipse in (x, y), divided by that of the 2σ outline of exponential coordinates in the plane.
+        /// Area of the 2σ ellipse in (x, y), divided by the area of the 2σ outline in the plane that exponential coordinates give.
         pub area_ratio: f64,
         /// Standard error of the area ratio.
         pub area_ratio_error: f64,
@@ -53,7 +53,7 @@ js_structs! {
     }
 }
 
-/// Coordinate systems that are defined for all turns of a cloud.
+/// Definedness of exponential and arc coordinates for the turns of a cloud.
 #[derive(Clone, Copy, Debug)]
 pub struct DefinedCharts {
     /// True if exponential coordinates are defined.
@@ -77,7 +77,8 @@ impl Stats {
             floor: floor * arc_factor,
         };
         let ellipse = Ellipse::from_moments(&cartesian);
-        // The shape is undefined if all positions are equal. Exponential coordinates may then differ, because of the headings.
+        // The cross-track statistics are undefined if all positions are equal. Statistics of exponential coordinates may still be defined,
+        // because the headings may differ.
         let shape_factor = one_or_nan_of(defined.pose && !ellipse.is_point());
         let contour = ExponentialContour::new(&exponential, &START_POSE);
         let area_ratio = contour.area_ratio(&ellipse, OUTLINE_SEGMENTS);
@@ -111,8 +112,8 @@ js_structs! {
         pub cov: Matrix3<f64> as "number[][]",
         /// Third standardized moment of the position across the mean heading.
         pub cross_track_skew: f64,
-        /// Gain in mean log-likelihood of Gaussians in exponential and in arc coordinates over Gaussians in (x, y, θ) and (x, y); 0 for the
-        /// linearization.
+        /// Gain in mean log-likelihood of Gaussians in exponential coordinates over (x, y, θ), and in arc coordinates over (x, y); 0 for
+        /// the linearization.
         pub likelihood_gain: LikelihoodGain,
         /// Area of the 2σ ellipse in (x, y), divided by that of the 2σ outline in exponential coordinates; 1 for the linearization.
         pub area_ratio: f64,
@@ -162,25 +163,25 @@ js_structs! {
         pub omega_hat: f64,
         /// Rate of the final turn, rad/s over the same duration; NaN under the odometry model.
         pub gamma_hat: f64,
-        /// Legs executed under the odometry model; null (None) under the velocity model.
+        /// Rotation, translation and rotation executed under the odometry model; null (None) under the velocity model.
         pub legs: Option<OdomDelta>,
         /// Path as x, y pairs in m from the start.
         pub path: Vec<[f64; 2]> as "Float64Array",
     }
 }
 
-/// Minimum area ratio for gaps. Below it the outlines nearly coincide.
+/// Minimum ratio of the areas of ellipse and banana outline at which gaps are looked for. Below it the outlines nearly coincide.
 const MIN_AREA_RATIO: f64 = 1.15;
 
-/// Minimum Mahalanobis distance of a gap from the mean in exponential coordinates. One robot in 900 stops beyond it.
+/// Minimum Mahalanobis distance, in exponential coordinates, of a gap from the mean. One robot in 900 ends beyond it.
 const MIN_GAP_DISTANCE: f64 = 3.7;
 
-/// Fraction of the way from the centre of the ellipse to its boundary: a point there is clearly inside.
+/// Distance of a gap from the centre of the ellipse, as a fraction of the distance to its boundary: clearly inside.
 const GAP_FRACTION: f64 = 0.95;
 
 impl BananaMachine {
-    /// Returns up to two points (x, y) in m inside the 2σ ellipse where no robot stops, before and beyond the mean. On its side of the
-    /// mean, each point has the largest Mahalanobis distance in exponential coordinates.
+    /// Returns up to two gaps: points (x, y) in m inside the 2σ ellipse where no robot ends, one before and one beyond the mean. On its
+    /// side of the mean, each gap has the largest Mahalanobis distance in exponential coordinates.
     pub fn gaps(&self) -> Vec<[f64; 2]> {
         let Self { stats, .. } = self;
         if stats.area_ratio.is_nan() || stats.area_ratio < MIN_AREA_RATIO {

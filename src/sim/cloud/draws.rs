@@ -9,8 +9,8 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use std::collections::TryReserveError;
 use wide::f64x4;
 
-/// Thresholds of the squared distance above which a group of four robots is far or farthest; other groups are near. The squared distance of
-/// a robot is the sum of its squared unit noises. The squared distance of a group is the largest of its four robots.
+/// Thresholds of the squared distance above which a group of four robots counts as far or farthest; other groups are near. The squared
+/// distance of a robot is the sum of its squared unit noises. The squared distance of a group is the largest of its four robots.
 ///
 /// Standard errors are expensive, and therefore computed from a weighted subsample of the groups. A few distant robots may contribute most
 /// of a variance, so that distant groups are sampled more densely. With Gaussian noise 1.8 % of the groups are far and 0.07 % farthest.
@@ -18,8 +18,8 @@ use wide::f64x4;
 const FAR_SQUARED_DISTANCE: f64 = 13.0;
 const FARTHEST_SQUARED_DISTANCE: f64 = 20.0;
 
-/// Number of leading groups of the cloud from which near, far and farthest groups enter the subsample: the first 2048 robots, the first 65
-/// 536, and all. With fewer groups the first digit of standard errors would be wrong; more groups would take time.
+/// Number of leading groups of the cloud from which the subsample takes the near, the far and the farthest groups. They are the first 2048
+/// robots, the first 65 536, and all. With fewer groups the first digit of standard errors would be wrong; more groups would take time.
 const SUBSAMPLE_GROUP_LIMITS: [usize; 3] = [512, 16_384, usize::MAX];
 
 #[inline(never)]
@@ -32,7 +32,7 @@ fn subsample_group_limit([a, b, c]: &[f64x4; 3]) -> usize {
     SUBSAMPLE_GROUP_LIMITS[distance_class]
 }
 
-/// Random numbers of all samples: three of variance 1 for each, in sample order. They depend only on the seed and the kind of noise.
+/// Common random numbers: three numbers of variance 1 for each sample, in sample order. They depend only on the seed and the kind of noise.
 /// Therefore a slider moves the same robots, and a larger cloud begins with the robots of a smaller cloud. Normal and triangular noise are
 /// quantiles of the same uniform numbers.
 #[derive(Clone, Debug)]
@@ -41,9 +41,10 @@ pub struct Draws {
     noise: NoiseKind,
     /// Generator with the same stream on every target, which `SmallRng` does not guarantee.
     rng: Xoshiro256PlusPlus,
-    /// Draws in groups of four samples. The last group may have additional samples.
+    /// Unit noise of the samples in groups of four. The last group may contain noise of samples beyond those requested.
     pub unit_noise: Vec<[f64x4; 3]>,
-    /// Sums over the first `summed_group_count` groups, in complete blocks. They stay valid while a slider moves the robots.
+    /// Sums of the unit noise of the first `summed_group_count` groups, in complete blocks. They stay valid while a slider moves the
+    /// robots.
     sums: PairSums,
     summed_group_count: usize,
     /// Indices of the groups whose noise is farthest from 0 among the first `summed_group_count`, in ascending order. Groups below
@@ -77,7 +78,7 @@ impl Draws {
         }
     }
 
-    /// Draws further samples until there are `count`, for which memory must be reserved.
+    /// Draws the unit noise of further samples until there are `count`, for which memory must be reserved.
     pub fn extend_to(&mut self, count: usize) {
         let Self { noise, rng, unit_noise, .. } = self;
         let (first_group, end_group) = (unit_noise.len(), count.div_ceil(LANE_COUNT));
@@ -105,7 +106,7 @@ impl Draws {
         }
     }
 
-    /// Returns the sums of the first two noises, of their squares and of their product over `sample_count` drawn samples.
+    /// Returns the sums of the first two unit noises of `sample_count` drawn samples, of their squares and of their product.
     #[inline(never)]
     pub fn pair_sums(&mut self, sample_count: usize) -> [f64; 5] {
         let group_count = sample_count / LANE_COUNT;

@@ -1,4 +1,4 @@
-//! Common form of the velocity and odometry models for a start at the origin: a distance in a direction, and a final heading.
+//! Common form of the velocity and odometry models for a start at the origin: a distance along a bearing, and a final heading.
 
 use crate::geom::lanes::{SinCos, Trigonometry, is_any_lane_set};
 use crate::models::{OdomDelta, RotTransRot, VelocityCmd, VelocityModel};
@@ -9,11 +9,11 @@ use wide::f64x4;
 /// Affine function of a unit noise: mean + deviation · noise.
 type AffineInNoise = [f64; 2];
 
-/// Motion under given settings. Its three unit noises are in the order of the model's draws.
+/// Motion of all robots under given settings, as a function of three unit noises in the order of the model's draws.
 ///
-/// An arc of length s and turn φ ends at the distance s·sinc(φ/2) on the bearing φ/2, with the heading φ + γ̂Δt. The three
-/// legs end at the distance δ̂_trans on the bearing δ̂_rot1, with the heading δ̂_rot1 + δ̂_rot2. Lengths, bearings and
-/// headings are affine functions of the noises.
+/// An arc of length s and turn φ ends at the distance s·sinc(φ/2) on the bearing φ/2, with the heading φ + γ̂Δt. An odometry motion ends at
+/// the distance δ̂_trans on the bearing δ̂_rot1, with the heading δ̂_rot1 + δ̂_rot2. Lengths, bearings and headings are affine functions of
+/// the noises.
 #[derive(Clone, Copy, Debug)]
 pub struct Drive {
     /// True if `length` is an arc length; false if it is a chord length.
@@ -22,12 +22,12 @@ pub struct Drive {
     length: AffineInNoise,
     /// Bearing of the end, rad.
     bearing: AffineInNoise,
-    /// Coefficients of half the heading, which is `bearing_weight` · bearing + `half_heading_offset` (rad).
+    /// Coefficients of the half heading (half the heading angle): `bearing_weight` · bearing + `half_heading_offset` (rad).
     bearing_weight: f64,
     half_heading_offset: AffineInNoise,
-    /// Half of the commanded turn (rad), which selects the branches of logarithm and arc.
+    /// Half of the commanded turn (rad), which selects the branches of the logarithm and of the arc to a position.
     half_commanded_turn: f64,
-    /// Middle and half the width (rad) of the interval of half turns in which the short formulas hold.
+    /// Middle and half the width (rad) of the interval of half turns for which the short formulas hold.
     short_formula_interval: [f64; 2],
     trigonometry: Trigonometry,
 }
@@ -92,9 +92,8 @@ impl Drive {
         }
     }
 
-    /// Returns the ends (x, y) of four motions, the arcs that lead there, and true if the arcs are regular. The length and half turn of a
-    /// regular arc differ from the noise-free ones by [`Drive::regular_arc_deviations`]; only a regular arc is the arc that the robot
-    /// drove.
+    /// Returns the ends (x, y) of four motions, the arcs from the origin to these ends, and true if the arcs are regular. A regular arc is
+    /// the arc that the robot drove. Its length and half turn differ from the noise-free ones by [`Drive::regular_arc_deviations`].
     #[inline(always)]
     pub fn end_points(&self, motions: &Motions) -> ([f64x4; 2], FourArcs, bool) {
         let Motions { length, bearing, .. } = *motions;
@@ -133,7 +132,7 @@ impl Drive {
         [a * s, b * t, aa * (s * s), ab * (s * t), bb * (t * t)]
     }
 
-    /// Returns the arcs from the origin to the points (x, y), whose directions are `bearing`.
+    /// Returns the arcs from the origin to the points (x, y), whose polar angles are `bearing`.
     #[inline(never)]
     fn arcs_to_points(&self, bearing: f64x4, [x, y]: [f64x4; 2]) -> FourArcs {
         let (half_turn, SinCos { sinc, sin, cos }) =
@@ -141,8 +140,7 @@ impl Drive {
         FourArcs { length: (x * cos + y * sin) / sinc, half_turn, sinc }
     }
 
-    /// Returns the poses of four motions that ended at `end_points`, with their logarithms on the branch of the commanded
-    /// turn.
+    /// Returns the poses of four motions that ended at `end_points`, and their logarithms on the branch of the commanded turn.
     #[inline(always)]
     pub fn poses(&self, motions: &Motions, end_points: &[f64x4; 2]) -> FourPoses {
         let turn = if self.is_outside_short_formulas(motions) {
@@ -153,7 +151,7 @@ impl Drive {
         with_logarithms(*end_points, turn)
     }
 
-    /// Returns the points to which a morph takes the ends of four motions: see [`crate::geom::unbend`].
+    /// Returns the points to which a stage of the morph moves the ends of four motions: see [`crate::geom::unbend`].
     #[inline(always)]
     pub fn morphed_points(&self, motions: &Motions, end_points: &[f64x4; 2], morph: f64) -> [f64x4; 2] {
         let FourPoses { along, lateral, half_heading, .. } = self.poses(motions, end_points);
@@ -171,8 +169,8 @@ impl Drive {
         is_any_lane_set(is_beyond(motions.bearing) | is_beyond(motions.half_heading))
     }
 
-    /// Returns the poses of four robots and the arcs to them, by formulas for any angle. Loops over all robots of a cloud use shorter
-    /// formulas for angles up to a quarter turn instead.
+    /// Returns the poses of four robots and the arcs to their positions, by formulas for any angle. Loops over all robots of a cloud use
+    /// shorter formulas for angles up to π/2 instead.
     #[inline(never)]
     pub fn coordinates_of_four(&self, unit_noise: &[f64x4; 3]) -> (FourPoses, FourArcs) {
         let motions = self.motions(unit_noise);
@@ -182,7 +180,7 @@ impl Drive {
         (with_logarithms(end_points, turn), self.arcs_to_points(motions.bearing, end_points))
     }
 
-    /// Returns the coordinates of the noise-free end, which are subtracted in all sums, and the scales of the Jacobians.
+    /// Returns the reference point of all sums, which is the noise-free end in all coordinates, and the scales of the Jacobians.
     pub fn nominal_coordinates(&self) -> (ReferencePoint, JacobianScale) {
         let (poses, arcs) = self.coordinates_of_four(&[f64x4::splat(0.0); 3]);
         let mut reference_coordinates =
@@ -193,7 +191,7 @@ impl Drive {
             [reference_coordinates[5], reference_coordinates[6]] = [self.length[0], self.bearing[0]];
         }
         let [half_heading_sinc, arc_sinc] = [poses.sinc, arcs.sinc].map(|lanes| lanes.to_array()[0].abs());
-        // The scale includes the noise of the length, because the command may be 0.
+        // The scale includes the noise of the length, because the commanded length may be 0.
         let length = libm::hypot(self.length[0], self.length[1]);
         (reference_coordinates, [1.0 / half_heading_sinc, 1.0 / (length * arc_sinc * arc_sinc)])
     }
@@ -204,20 +202,20 @@ impl Drive {
     }
 }
 
-/// Returns the poses at `ends` with the half headings of `turn`, and their logarithms.
+/// Returns the poses at the given ends with the half headings of `turn`, and their logarithms.
 #[inline(always)]
 fn with_logarithms([x, y]: [f64x4; 2], turn: (f64x4, SinCos)) -> FourPoses {
     let (half_heading, SinCos { sinc, sin, cos }) = turn;
-    // h·cot h of the half heading h.
+    // The factor h·cot h of the logarithm, for the half heading h.
     let half_cotangent = cos / sinc;
     let (along, lateral) = (half_cotangent * x + half_heading * y, half_cotangent * y - half_heading * x);
     FourPoses { x, y, along, lateral, half_heading, half_sin: sin, half_cos: cos, sinc }
 }
 
-/// Quarter turn minus a margin for rounding.
+/// Largest angle of the short formulas, rad: π/2 minus a margin for rounding.
 pub const MAX_SHORT_FORMULA_ANGLE: f64 = FRAC_PI_2 * (1.0 - 1e-12);
 
-/// Returns the middle and half the width of the interval of half turns that are within a quarter turn of 0 and of `half_commanded_turn`.
+/// Returns the middle and half the width (rad) of the interval of half turns that are within π/2 of 0 and of `half_commanded_turn`.
 fn short_formula_interval(half_commanded_turn: f64) -> [f64; 2] {
     let (low, high) = (
         (half_commanded_turn - MAX_SHORT_FORMULA_ANGLE).max(-MAX_SHORT_FORMULA_ANGLE),

@@ -20,7 +20,7 @@ use wide::f64x4;
 /// Start pose of every robot: the origin, heading along x.
 pub const START_POSE: SE2 = SE2::identity();
 
-/// Number of groups of four (256 poses) that are summed without compensation for rounding. With fewer groups, compensation would take
+/// Number of groups of four (256 poses) that are summed without compensation of rounding errors. With fewer groups, compensation would take
 /// noticeable time; with more groups, the rounding error would grow in proportion.
 const GROUPS_PER_BLOCK: usize = 64;
 
@@ -45,7 +45,7 @@ impl Cloud {
         self.positions.try_reserve_exact(group_count.saturating_sub(self.positions.len()))
     }
 
-    /// Drives the first `shown_count` samples, and returns their statistics. Their memory must be reserved.
+    /// Drives the first `shown_count` samples, and returns the statistics of their end poses. Memory for the samples must be reserved.
     pub fn drive_and_summarize(
         &mut self,
         seed: u64,
@@ -55,7 +55,7 @@ impl Cloud {
     ) -> CloudStats {
         self.draws.reset_if_changed(seed, noise);
         (self.drive, self.shown_count) = (drive, shown_count);
-        // The sums contain differences from the expected mean. They are computed again if the mean of the cloud is far from the expected
+        // The sums contain differences from the expected mean. The first pass is repeated if the mean of the cloud is far from the expected
         // mean.
         let (reference_point, jacobian_scale) = drive.nominal_coordinates();
         let mut first_pass = self.run_first_pass(FirstPass::new(reference_point, jacobian_scale));
@@ -109,7 +109,7 @@ impl Cloud {
         SE2::new(x, y, 2.0 * half_heading.to_array()[lane])
     }
 
-    /// Returns the points of each group of four samples in a view. In the last group, lanes without a sample are infinitely far away.
+    /// Returns the points of the samples in a view, in groups of four. In the last group, lanes without a sample are infinitely far away.
     #[inline(always)]
     pub fn point_groups(&self, view: View) -> impl Iterator<Item = [f64x4; 2]> {
         let points_of_group = move |group: usize| match view {
@@ -132,8 +132,8 @@ impl Cloud {
     }
 }
 
-/// Divides `sample_count` samples into blocks of groups of four, at least one block. A block has a range of complete groups, and a range of
-/// incomplete groups. Each range has the lane mask of its samples.
+/// Divides `sample_count` samples into blocks of groups of four, at least one block. Each block has a range of groups whose four lanes all
+/// have samples, and a range of groups with free lanes, each with its lane mask.
 fn sample_blocks(sample_count: usize) -> impl Iterator<Item = [(Range<usize>, f64x4); 2]> {
     let group_count = sample_count.div_ceil(LANE_COUNT);
     let lane_mask = first_lanes_mask(sample_count % LANE_COUNT);
@@ -144,7 +144,7 @@ fn sample_blocks(sample_count: usize) -> impl Iterator<Item = [(Range<usize>, f6
     })
 }
 
-/// Drives the robots, four at a time, and adds them to the sums of the first pass.
+/// Drives the robots, four at a time, writes their end positions, and adds them to the sums of the first pass.
 #[inline(never)]
 fn add_to_first_pass(
     drive: &Drive,

@@ -4,14 +4,13 @@ use super::Cloud;
 use super::views::{View, ViewGrid};
 use crate::geom::lanes::LANE_COUNT;
 
-/// Colour ramp by the count of a cell relative to the fullest cell: RGBA, one byte each.
+/// Colour ramp (RGBA, one byte each) by the count of a cell relative to the largest count.
 pub type Ramp = [[u8; 4]; RAMP_STEP_COUNT];
 
 /// Number of steps of a ramp, one for each value of a byte.
 pub const RAMP_STEP_COUNT: usize = 256;
 
-/// Counts the shown samples in each cell, row by row from the top (largest second coordinate). Samples outside are not
-/// counted.
+/// Counts the shown samples in each cell, row by row from the top (largest second coordinate). Samples outside are not counted.
 pub fn count_samples_in_cells(cloud: &Cloud, view: View, grid: &ViewGrid) -> Vec<u32> {
     let (ViewGrid { min, max, .. }, cells_per_unit) = (*grid, grid.cells_per_unit());
     let mut cell_counts = vec![0; grid.columns * grid.rows];
@@ -25,14 +24,14 @@ pub fn count_samples_in_cells(cloud: &Cloud, view: View, grid: &ViewGrid) -> Vec
     cell_counts
 }
 
-/// Paints a density, one pixel for each cell: ramp[255·√(count/max_count)], transparent for empty cells. With the square
-/// root the sparse ends of a cloud stay visible.
+/// Paints the counts of the cells of a grid, one pixel for each cell: ramp[255·√(count/max_count)], transparent for empty cells. With the
+/// square root the sparse ends of a cloud stay visible.
 pub fn paint_cell_counts(counts: &[u32], ramp: &Ramp) -> Vec<[u8; 4]> {
     let max_count = counts.iter().copied().max().unwrap_or(0);
     counts.iter().map(|count| if *count == 0 { [0; 4] } else { ramp[ramp_step(*count, max_count)] }).collect()
 }
 
-/// Returns the step of a ramp for a count: 255·√(count/max_count).
+/// Returns the index in a colour ramp for a count: 255·√(count/max_count).
 #[inline(always)]
 pub fn ramp_step(count: u32, max_count: u32) -> usize {
     let root_of_fraction = (f64::from(count) / f64::from(max_count)).sqrt();

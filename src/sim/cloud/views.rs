@@ -1,4 +1,4 @@
-//! Views of a cloud, with density and nearest sample.
+//! Views of a cloud, grids of their cells, and the nearest sample to a point.
 
 use crate::sim::settings::Keywords;
 use std::ops::RangeInclusive;
@@ -15,7 +15,7 @@ pub enum View {
 }
 
 impl View {
-    /// Returns the view at a morph. Morphs 0 and 1 are exactly the plane and the twists.
+    /// Returns the view at a stage of the morph. The stages 0 and 1 are exactly the plane and the twists.
     pub fn from_morph(morph: f64) -> Self {
         match morph {
             0.0 => Self::Plane,
@@ -29,10 +29,10 @@ impl Keywords for View {
     const KEYWORDS: &'static [(&'static str, Self)] = &[("plane", Self::Plane), ("twist", Self::Twist)];
 }
 
-/// Range of the morph, from the plane to the twists.
+/// Range of the stages of the morph, from the plane to the twists.
 pub const MORPH_RANGE: RangeInclusive<f64> = 0.0..=1.0;
 
-/// Range of the coordinates of a view. It includes every position that the largest settings reach.
+/// Allowed coordinates of a view. They include every position that the largest settings reach.
 pub const EXTENT_RANGE: RangeInclusive<f64> = -1e18..=1e18;
 
 /// Largest number of cells of a [`ViewGrid`], beyond any screen. They take 64 MB.
@@ -70,7 +70,8 @@ impl ViewGrid {
     }
 }
 
-/// Returns the index of the point nearest to `target`, inside the ellipse with `radii` around it. Distances are in units of the radii.
+/// Returns the index of the point nearest to `target` inside the ellipse with the semi-axes `radii` around it. Distances are in units of
+/// the semi-axes.
 pub fn nearest_index(
     points: impl IntoIterator<Item = [f64; 2]>,
     target: [f64; 2],

@@ -25,8 +25,8 @@ const OUTLINE_SEGMENTS: usize = 96;
 /// Maximum number of chords of the commanded arc in a step.
 const MAX_CHORDS: usize = 16;
 
-/// Number of steps of all robots in the first block, and in further blocks. While a handle is dragged, each frame waits for
-/// the first block. Further blocks take some milliseconds.
+/// Number of steps, summed over all robots, in the first block, and in further blocks. While a handle is dragged, each frame waits for the
+/// first block. Further blocks take some milliseconds.
 const FIRST_BLOCK_STEPS: usize = 80_000;
 const STEPS_PER_BLOCK: usize = 200_000;
 
@@ -55,7 +55,7 @@ pub struct Stats {
     /// Predicted covariance after the selected step; null (None) if the recursion has none.
     #[cfg_attr(target_arch = "wasm32", tsify(type = "ByRecursion<number[][] | null>"))]
     pub predicted: ByRecursion<Option<CovarianceRows>>,
-    /// Steps at which a prediction is off, for the components along, lateral and heading.
+    /// Steps at which a predicted variance is off, for the components along, lateral and heading.
     pub misses: ByRecursion<[Misses; 3]>,
 }
 
@@ -80,7 +80,7 @@ js_structs! {
     pub struct StepOutlines {
         /// Outline of the predicted Gaussian in (x, y), m, as in a filter that estimates x, y and θ.
         pub ellipse: Vec<[f64; 2]> as "Float64Array",
-        /// Outline of the predicted Gaussian in exponential coordinates about the commanded pose, on the floor, m.
+        /// Outline in the plane of the predicted Gaussian in exponential coordinates about the commanded pose, m.
         pub exponential: Vec<[f64; 2]> as "Float64Array",
         /// Outline of the predicted Gaussian in (ξ along, ξ lateral), m.
         pub predicted: Vec<[f64; 2]> as "Float64Array",
@@ -155,7 +155,7 @@ impl DeadReckoning {
         self.shown_count
     }
 
-    /// Returns the moments of the robots after each step; the first is of step 1.
+    /// Returns the moments of the robots after each step, from step 1.
     pub fn measured_moments(&self) -> &[MeasuredMoments] {
         &self.measured_moments
     }
@@ -183,7 +183,7 @@ impl DeadReckoning {
         if step_exists { rollouts.poses(step as usize, *shown_count) } else { &[] }
     }
 
-    /// Returns ξ = x_k ⊟ x̄_k of the robots in the picture after the selected step: along, lateral (m), heading (rad).
+    /// Returns ξ = x_k ⊟ x̄_k of the robots in the picture after the selected step: along (m), lateral (m), heading (rad).
     pub fn twists(&self) -> impl ExactSizeIterator<Item = [f64; 3]> {
         let step = self.settings.step;
         let nominal_pose = self.nominal_poses()[step as usize - 1];
@@ -234,7 +234,7 @@ impl DeadReckoning {
             along,
             across,
             along_first_order: durations.iter().map(|dt| alpha1 * v * v * dt * dt).collect(),
-            // An arc of length vΔt that turns by a small φ ends ½vΔt·φ to the side.
+            // To first order, an arc of length vΔt that turns by a small φ ends ½vΔt·φ to the side.
             across_first_order: (durations.iter())
                 .map(|dt| alpha3 * v * v * dt * dt * (0.5 * v * dt) * (0.5 * v * dt))
                 .collect(),
@@ -313,18 +313,18 @@ fn xi_ellipse_outline(mean: &Vector3<f64>, cov: &Matrix3<f64>) -> Vec<[f64; 2]> 
     Ellipse::new(mean.xy(), cov.fixed_view::<2, 2>(0, 0).into_owned()).boundary(OUTLINE_SEGMENTS)
 }
 
-/// Recursions that are compared, in the order in which they are listed.
+/// Recursions that are compared with the robots, in the order in which the widget lists them.
 pub const RECURSIONS: [Compounding; 3] =
     [Compounding::Chapter, Compounding::FirstOrder, Compounding::FourthOrder];
 
 /// Relative error of a variance above which a step counts as a miss.
 pub const MISS_TOLERANCE: f64 = 0.05;
 
-/// Maximum relative standard error at which rollouts can establish a miss, a quarter of the tolerance. Of dozens of ratios, some deviate by
-/// three standard errors by chance, but hardly any by four.
+/// Maximum relative standard error of a measured variance at which a miss can be established, a quarter of the tolerance. Of dozens of
+/// variance ratios, some deviate by three standard errors by chance, but hardly any by four.
 const MAX_STANDARD_ERROR: f64 = MISS_TOLERANCE / 4.0;
 
-/// Standard deviation, relative to the length of the path or in radians, below which a spread counts as rounding error.
+/// Standard deviation, relative to the length of the path or in radians, below which a measured spread counts as rounding error.
 const NEGLIGIBLE_STD: f64 = 1e-12;
 
 /// Comparison of a recursion with the robots.
@@ -337,16 +337,16 @@ pub struct RecursionComparison {
 }
 
 js_structs! {
-    /// Misses: steps at which the ratio of one component is off by more than 5 % ([`MISS_TOLERANCE`]).
+    /// Misses of one component: steps at which its variance ratio is off by more than 5 % ([`MISS_TOLERANCE`]).
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Misses {
-        /// True if there is a spread, and enough robots to decide whether a step is a miss.
+        /// True if the robots differ, and are enough to decide whether a step is a miss.
         pub decidable: bool,
         /// First step with a miss; null (None) if there is none, or if that cannot be decided.
         pub first: Option<u32>,
         /// Last step with a miss.
         pub last: Option<u32>,
-        /// Predicted over measured variance after the last step, minus 1; NaN without a prediction or a measured spread.
+        /// Predicted divided by measured variance after the last step, minus 1; NaN without a prediction or a measured spread.
         pub end: f64,
         /// Standard error of `end`.
         pub error: f64,
@@ -374,8 +374,8 @@ impl RecursionComparison {
     }
 }
 
-/// Returns the covariance of ξ after each step from a known start, by a recursion, beginning with step 1. The covariance is None from the
-/// step at which the fourth-order terms make it indefinite.
+/// Returns the covariance of ξ that a recursion predicts after each step, from step 1. The start is known exactly. The covariance is None
+/// from the step at which the fourth-order terms make it indefinite.
 fn propagate_covariances(settings: &Settings, recursion: Compounding) -> Vec<Option<Matrix3<f64>>> {
     let twist = TangentNoiseModel::twist(&settings.command);
     // All allowed settings have finite variances of 0 or more.
@@ -412,15 +412,15 @@ fn find_misses(ratios: &[Vector3<f64>], measured: &[MeasuredMoments], axis: usiz
     }
 }
 
-/// Decimal logarithms of the first and last duration, in tenths: 0.1 s to 10 s. Crossings at common settings are in this
-/// range. Smaller steps would not make the curves look smoother.
+/// Decimal logarithms, in tenths, of the first and last duration of the curves: 0.1 s to 10 s. Durations at which the variances along and
+/// across are equal are in this range for common settings. Smaller steps would not make the curves look smoother.
 const LOG10_DURATIONS_IN_TENTHS: [i32; 2] = [-10, 10];
 
 js_structs! {
     /// Variances of one straight command by its duration.
     #[derive(Clone, Debug, PartialEq)]
     pub struct StraightGrowth {
-        /// Δt (s) at even steps of its logarithm.
+        /// Durations Δt (s) in equal logarithmic steps.
         pub durations: Vec<f64> as "Float64Array",
         /// Exact variances along the track, m².
         pub along: Vec<f64> as "Float64Array",

@@ -14,16 +14,16 @@ use rand_xoshiro::Xoshiro256PlusPlus;
 use std::collections::TryReserveError;
 use wide::f64x4;
 
-/// Number of groups of four that are driven through all steps together: 256 rollouts, whose draws and poses take 8 kB. With fewer groups,
-/// compensated sums would take noticeable time. More groups would not fit into the first-level cache.
+/// Number of groups of four robots that are driven through all steps together: 256 rollouts, whose draws and poses take 8 kB. With fewer
+/// groups, compensated sums would take noticeable time. More groups would not fit into the first-level cache.
 const GROUPS_PER_BLOCK: usize = 64;
 pub const ROLLOUTS_PER_BLOCK: usize = GROUPS_PER_BLOCK * LANE_COUNT;
 
-/// Number of the powers and products of ξ = (a, l, h) that are summed: a, l, h; their squares, cubes and fourth powers; al, ah, lh.
+/// Number of the summed powers and products of ξ = (a, l, h): a, l, h; their squares, cubes and fourth powers; al, ah, lh.
 const SUMMED_TERM_COUNT: usize = 15;
 
-/// Step of a robot, as a change of its error pose. With the error pose e = x̄⁻¹·x, e_k =
-/// exp(−τ)·e_{k−1}·exp(τ + w)·(a turn by γ̂Δt). No number grows with the length of the path.
+/// Step of a robot, as a change of its error pose e = x̄⁻¹·x: e_k = exp(−τ)·e_{k−1}·exp(τ + w)·(a turn by γ̂Δt). No number grows with the
+/// length of the path.
 #[derive(Clone, Copy, Debug)]
 struct StepInErrorFrame {
     /// Mean and standard deviation of the length of the arc (m) and of half its turn (rad).
@@ -31,7 +31,7 @@ struct StepInErrorFrame {
     half_turn: [f64; 2],
     /// Standard deviation of half the turn after the arc, rad.
     half_last_turn_std: f64,
-    /// End of the noise-free step, m.
+    /// End position of the noise-free step, m.
     end: [f64x4; 2],
     /// Sine and cosine of the noise-free turn.
     sin: f64,
@@ -68,8 +68,8 @@ pub const MAX_SHOWN_ROBOTS: usize = 600;
 pub struct Rollouts {
     step: StepInErrorFrame,
     seed: u64,
-    /// Random generator of the next block. Each block has its own stream of numbers, so that a longer path takes more numbers of the same
-    /// stream. The first steps of a robot therefore depend on the seed alone.
+    /// Random generator of the next block. Each block has its own stream of numbers, and a longer path continues that stream. The first
+    /// steps of a robot therefore depend on the seed alone.
     block_rng: Xoshiro256PlusPlus,
     /// Number of robots driven in complete blocks.
     driven_count: usize,
@@ -151,8 +151,8 @@ impl Rollouts {
         })
     }
 
-    /// Drives complete blocks up to `target_count` robots, from the first one if more have been driven. [`Rollouts::measured_moments`] drives
-    /// the remaining robots.
+    /// Drives complete blocks of robots, up to `target_count` robots. If more have been driven already, it starts again from the first
+    /// block. [`Rollouts::measured_moments`] drives the remaining robots.
     pub fn drive_blocks_to(&mut self, target_count: usize) {
         if target_count < self.driven_count {
             self.reset();
@@ -237,11 +237,11 @@ impl ErrorPoses {
     }
 }
 
-/// Robots that are driven through all steps together.
+/// Block of robots that are driven through all steps together.
 struct RobotBlock {
     rng: Xoshiro256PlusPlus,
     groups: [ErrorPoses; GROUPS_PER_BLOCK],
-    /// Draws of a step, replaced by the resulting ξ.
+    /// Random numbers of a step, which are replaced by the resulting ξ.
     noise_or_xi: [[f64x4; 3]; GROUPS_PER_BLOCK],
 }
 
@@ -287,8 +287,8 @@ fn moments_from_sums(sums: &[f64; SUMMED_TERM_COUNT], n: f64) -> MeasuredMoments
         let m4 = mean_fourth - 4.0 * m * mean_cube + 6.0 * m * m * mean_square - 3.0 * m * m * m * m;
         let kurtosis = if m2 > 0.0 { m4 / (m2 * m2) } else { f64::NAN };
         let kurtosis_error = non_negative(kurtosis - 1.0) / n;
-        // The kurtosis of a few robots is unreliable; for two robots it is always 1. The standard error is then at least that of a
-        // normal distribution. `f64::max` would ignore NaN.
+        // The kurtosis of a few robots is unreliable; for two robots it is always 1. The standard error is then at least that of a normal
+        // distribution. `f64::max` would hide a NaN.
         let gaussian_error = if n < MIN_RELIABLE_COUNT { 2.0 / (n - 1.0) } else { 0.0 };
         if kurtosis_error < gaussian_error { gaussian_error.sqrt() } else { kurtosis_error.sqrt() }
     });

@@ -28,7 +28,7 @@ pub const MAX_SAMPLES: usize = 1_000_000;
 /// Maximum number of steps, ten times that of the chapter. Longer paths would show nothing new.
 pub const MAX_STEPS: u64 = 200;
 
-/// Seed with typical rollouts. Of the seeds 0 to 99 with the first miss at the exact step, this seed has the ratios nearest to the exact
+/// Seed with typical rollouts. Of the seeds 0 to 99 whose first miss is at the exact step, it has the variance ratios nearest to the exact
 /// ratios.
 const INITIAL_SEED: u64 = 29;
 
@@ -82,7 +82,7 @@ impl Settings {
     }
 
     /// Returns true if rollouts under `other` settings are equal to the last bit. The number of robots, the selected step and the recursion
-    /// do not matter.
+    /// may differ.
     pub(super) fn has_same_rollouts(&self, other: &Self) -> bool {
         let Self { step, compounding, samples, .. } = *other;
         // −0 equals 0, but leads to other signs of zeros in the results.
@@ -96,7 +96,7 @@ impl Settings {
 
 impl Rules for Settings {
     /// The chapter's path of twenty steps; the path with twice the standard deviation of the heading (exercise 7); the path in two hundred
-    /// steps, each with J_r nearly 1; a straight path.
+    /// steps, each so short that J_r is nearly the identity; a straight path.
     const PRESETS: &'static [(&'static str, Self)] = &[
         ("chapter", Self::DEFAULT),
         ("doubled", path([1.0, 0.5, 0.2], 20, 0.08)),

@@ -1,4 +1,4 @@
-//! Map Squeeze: motion conditioned on a floor plan, and paths through walls that the condition misses.
+//! Map Squeeze: motion conditioned on a floor plan, and accepted motions whose paths lead through walls.
 
 mod settings;
 
@@ -24,8 +24,8 @@ use rand::SeedableRng;
 use rand_xoshiro::Xoshiro256PlusPlus;
 use std::ops::Range;
 
-/// Maximum number of parts of motions in a timing trial: accepted samples times the parts of each. A longer trial would block
-/// the page.
+/// Maximum number of parts of motions in a timing trial: number of samples times the number of parts of a motion. A longer trial would
+/// block the page.
 pub const MAX_TRIAL_PARTS: u64 = 100_000;
 
 /// Simulation of the widget: a map, settings, draws, and the attempts shown.
@@ -36,7 +36,7 @@ pub struct MapSqueeze {
     draws: Draws,
     attempts: Vec<Attempt>,
     tally: Tally,
-    /// Latest picture. The page reads it in place.
+    /// Latest picture, which JavaScript reads from the core's memory.
     picture: Vec<[u8; 4]>,
 }
 
@@ -50,11 +50,12 @@ struct Tally {
     gave_up: bool,
 }
 
-/// Mean number of draws for a part of a motion (the sub-stepped sampler has several) at which the simulation gives up. A smaller limit would
-/// stop it where a filter still works. A larger limit, an acceptance below 5 %, would let a page wait for seconds.
+/// Number of draws, on average over all parts of motions, at which the simulation gives up. Only the sub-stepped sampler has several parts
+/// in a motion. A smaller limit would stop the simulation where a filter still works. A larger limit, an acceptance below 5 %, would let a
+/// page wait for seconds.
 const MAX_MEAN_DRAWS_PER_PART: usize = 20;
 
-/// Number of parts of motions that a block of attempts tests against the map. A block takes some milliseconds.
+/// Number of parts of motions that one block of attempts tests against the map. A block takes some milliseconds.
 const PARTS_PER_BLOCK: usize = 4096;
 
 cloud_simulation!(MapSqueeze);
@@ -112,7 +113,7 @@ impl MapSqueeze {
         let outdated_grid = self.plan.grid().filter(|_| settings.unknown != self.settings.unknown);
         let plan =
             outdated_grid.map(|grid| FloorPlan::from_grid(grid.clone().with_unknown(settings.unknown)));
-        // A grid that was accepted before can only be refused because of its unknown cells.
+        // A grid that was accepted before can only be refused because its unknown cells became obstacles.
         let plan = plan.transpose().map_err(|_| SettingsError {
             field: "unknown".to_owned(),
             value: f64::NAN,
@@ -173,13 +174,13 @@ impl MapSqueeze {
     /// Returns the statistics of the attempts shown.
     pub fn stats(&self) -> Stats {
         let Tally { cost, accepted, through_wall, gave_up } = self.tally;
-        // NaN for 0/0, and infinity for another number over 0.
+        // The ratio is NaN for 0/0, and infinite for another number over 0.
         let ratio_of = |numerator: usize, denominator: usize| numerator as f64 / denominator as f64;
         Stats {
             attempts: self.attempts.len(),
             drawn: cost.draws,
             accepted,
-            // In an accepted attempt of k parts, k draws were accepted.
+            // An accepted attempt of k parts has k accepted draws.
             acceptance_rate: ratio_of(accepted * self.settings.part_count() as usize, cost.draws),
             through_wall,
             through_wall_rate: ratio_of(through_wall, accepted),
@@ -250,7 +251,7 @@ impl MapSqueeze {
     }
 }
 
-/// Returns the maximum number of draws for this many parts of motions, after which the simulation gives up.
+/// Returns the number of draws for `part_count` parts of motions after which the simulation gives up.
 pub fn max_draws(part_count: usize) -> usize {
     MAX_DRAWS + MAX_MEAN_DRAWS_PER_PART * part_count
 }
@@ -261,8 +262,7 @@ fn conditioned_model<'a>(settings: &Settings, plan: &'a FloorPlan, sampler: Samp
 }
 
 js_structs! {
-    /// Statistics of the attempts shown. Fractions of 0 attempts are NaN. Costs per accepted attempt are infinite if none is
-    /// accepted.
+    /// Statistics of the attempts shown. Fractions of no attempts are NaN. Costs per accepted attempt are infinite if none is accepted.
     #[derive(Clone, Copy, Debug, PartialEq)]
     pub struct Stats as "SqueezeStats" {
         /// Number of attempts.
@@ -277,11 +277,11 @@ js_structs! {
         pub through_wall: usize,
         /// Fraction of accepted attempts whose path was blocked.
         pub through_wall_rate: f64,
-        /// 95 % interval of the fraction through a wall.
+        /// 95 % interval of the fraction of accepted attempts whose path was blocked.
         pub through_wall_interval: [f64; 2],
         /// Draws per accepted attempt.
         pub draws_per_accepted: f64,
-        /// Walls whose distance was computed, per accepted attempt.
+        /// Number of wall distances computed, per accepted attempt.
         pub wall_tests_per_accepted: f64,
         /// True if the simulation stopped before it had all samples, because too few draws were accepted.
         pub gave_up: bool,
@@ -302,7 +302,7 @@ pub fn wilson_interval(successes: usize, trials: usize) -> [f64; 2] {
     if n > 0.0 { [lower, upper] } else { [0.0, 1.0] }
 }
 
-/// Number of kinds of outcomes, each with a ramp: rejected, accepted with a free path, and accepted through a wall.
+/// Number of kinds of outcomes, each with a colour ramp: rejected, accepted with a free path, and accepted through a wall.
 pub const OUTCOME_KIND_COUNT: usize = 3;
 
 /// Outcome of one attempt.
@@ -333,7 +333,7 @@ impl Attempt {
             + ACCEPTED_BIT * u8::from(self.accepted)
     }
 
-    /// Returns the index of the attempt's kind of outcome.
+    /// Returns the index of the kind of outcome: 0 rejected, 1 accepted with a free path, 2 accepted through a wall.
     pub fn outcome_kind(&self) -> usize {
         usize::from(self.accepted) + usize::from(self.is_through_wall())
     }
@@ -344,7 +344,7 @@ impl Attempt {
     }
 }
 
-/// Driver that makes attempts, each from its own noise.
+/// Driver that makes attempts, each from the noise of its index.
 struct AttemptDriver<'a> {
     model: &'a MapConditioned<'a>,
     collision_tester: CollisionTester<'a>,
@@ -362,7 +362,8 @@ impl<'a> AttemptDriver<'a> {
         }
     }
 
-    /// Makes attempts from the start of `indices`: up to four, in the lanes of a SIMD vector, or one with the sub-stepped sampler.
+    /// Makes the first attempts of the range `indices`: up to four in SIMD lanes, or one with the sub-stepped sampler. Calls `visit` with
+    /// each attempt and its cost.
     #[inline(always)]
     fn make_next_attempts(&self, indices: Range<usize>, mut visit: impl FnMut(Attempt, Cost)) {
         if let Sampler::SubStepped(_) = self.settings.sampler {
@@ -397,8 +398,8 @@ impl<'a> AttemptDriver<'a> {
     fn drive_parts(&self, attempt_index: usize, visit_arc: &mut dyn FnMut(&Arc)) -> (Attempt, Cost) {
         let Settings { command, conditioned, seed, .. } = *self.settings;
         let start_pose = self.settings.start();
-        // The walls determine how many random numbers an attempt uses. Each attempt has its own stream, so that a wall changes only
-        // attempts near the wall.
+        // The number of random numbers that an attempt uses depends on the walls. Each attempt has its own stream of numbers, so that a
+        // wall changes only attempts near the wall.
         let mut rng = Xoshiro256PlusPlus::seed_from_u64(seed ^ (attempt_index as u64).rotate_left(32));
         match self.model.sample_with_arcs(&command, &start_pose, &mut rng, conditioned, visit_arc) {
             Ok(AcceptedMotion { pose, end_free, path_free, cost }) => {

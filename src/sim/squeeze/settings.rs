@@ -23,10 +23,9 @@ impl Keywords for UnknownCells {
 /// Start pose x, y (m) and θ (rad) in front of a doorway of the apartment.
 const DOORWAY_START: [f64; 3] = [2.05, 2.6, FRAC_PI_2];
 
-/// Maximum number of attempts, which take 56 MB, and some seconds in a difficult map.
+/// Maximum number of attempts, which take 56 MB, and some seconds on a difficult map.
 pub const MAX_SAMPLES: usize = 1_000_000;
-/// Maximum number of parts of a command. A thousand parts are as exact as checking the whole arc, and a thousand times
-/// slower.
+/// Maximum number of parts of a command. A thousand parts are as exact as testing the whole arc, and a thousand times slower.
 pub const MAX_STEPS: u64 = 1000;
 
 settings! {
@@ -42,11 +41,11 @@ settings! {
         noise, by noise_level of alphas, in ALPHA_RANGE;
         /// Radius of the robot.
         clearance: f64 = 0.13, "m", in 0.0..=10.0;
-        /// True if draws are judged by the map; otherwise all are accepted.
+        /// True if the map decides which draws are accepted; false if all are accepted.
         conditioned: bool = true;
         /// Treatment of unknown cells as free or blocked.
         unknown: UnknownCells = UnknownCells::Free;
-        /// Sampler that judges the draws.
+        /// Acceptance test of the draws.
         sampler: Sampler = Sampler::Endpoint;
         // The default is the smallest number of parts with a visible effect.
         /// Parts of the command, for the sub-stepped sampler.
@@ -63,12 +62,12 @@ impl Settings {
         NoiseLevel(&mut self.alphas)
     }
 
-    /// Returns the noise level of the α's; None if they are not in the ratios of a level.
+    /// Returns the noise level of the α's; None if the α's do not have the ratios of a level.
     pub fn noise(mut self) -> Option<f64> {
         self.noise_level().get()
     }
 
-    /// Returns the number of parts of an attempt.
+    /// Returns the number of parts of the motion of an attempt.
     pub fn part_count(&self) -> u32 {
         self.sampler.part_count()
     }

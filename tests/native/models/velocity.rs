@@ -201,7 +201,7 @@ fn sampler_and_density_agree() {
         let u = velocity_command(v, omega, 1.0);
         for kind in NOISE_KINDS {
             let velocity_model = velocity_model(alphas, kind);
-            box_around(&velocity_model, &u, &x).assert_sampled(&velocity_model, &u, &x, seed);
+            grid_around(&velocity_model, &u, &x).assert_sampled(&velocity_model, &u, &x, seed);
         }
     }
 }
@@ -211,7 +211,7 @@ fn sampler_and_density_agree() {
 fn the_tables_prob_differs_from_the_density_by_a_few_percent() {
     let (u, x) = (velocity_command(1.0, 0.5, 1.0), SE2::identity());
     let velocity_model = velocity_model(ALPHAS_WITH_LAST_TURN, NoiseKind::Normal);
-    let polar_grid = box_around(&velocity_model, &u, &x);
+    let polar_grid = grid_around(&velocity_model, &u, &x);
     let density_masses = polar_grid.cell_masses(|pose| velocity_model.pose_density(pose, &u, &x).unwrap());
     let score_masses = polar_grid.cell_masses(|pose| velocity_model.prob(pose, &u, &x));
     let total_score: f64 = score_masses.iter().sum();

@@ -128,10 +128,10 @@ fn samples_far_from_the_origin_have_a_positive_score() {
     }
 }
 
-/// Returns a box around the noise-free pose, which reaches twice as far as triangular noise. The kinks of the triangular density, at
-/// multiples of √6 deviations, lie on bounds of cells. In bearing, the box reaches half as far as the noise of the turn: a chord turns
+/// Returns a grid around the noise-free pose, which reaches twice as far as triangular noise. The kinks of the triangular density, at
+/// multiples of √6 deviations, lie on bounds of cells. In bearing, the grid reaches half as far as the noise of the turn: a chord turns
 /// by half of the arc's turn.
-fn box_around(velocity_model: &VelocityModel, u: &VelocityCmd, x: &SE2) -> PolarGrid {
+fn grid_around(velocity_model: &VelocityModel, u: &VelocityCmd, x: &SE2) -> PolarGrid {
     let [v, omega, gamma] =
         velocity_model.variances(u).map(|variance| 2.0 * (6.0 * variance.0).sqrt() * u.dt);
     PolarGrid::new(x, &noise_free_end(u, x), 2.0, [v, 0.5 * omega, gamma], [8; 3])

@@ -74,7 +74,7 @@ const USER_ACTIONS = {
     ['map', (widget) => widget.locator('input[name=map]').nth(1).check()],
     ['as printed', (widget) => widget.getByRole('checkbox', { name: /as printed/ }).check()],
     ['legend', (widget) => widget.getByRole('checkbox', { name: 'constant twist' }).check()],
-    ['line', (widget) => widget.locator('.stepper button').last().click()],
+    ['line', (widget) => widget.locator('.lines input').last().check()],
     ['slider by key', (widget) => widget.locator('#omega').press('ArrowRight')],
     ['underway by key', (widget) => widget.locator('#underway').press('ArrowLeft')],
     ['value typed', async (widget) => {

@@ -6,15 +6,15 @@ import { FigureElement } from '../../figure/figure.ts';
 import { defineElement } from '../../figure/reflection.ts';
 import { words } from '../../messages/registry.ts';
 import { swatchHtml } from '../../scene/draw.ts';
-import { buttonHtml, fieldsetHtml, formatMarkup } from '../../ui/controls.ts';
+import { fieldsetHtml, formatMarkup } from '../../ui/controls.ts';
 import { formatFixed } from '../../ui/format.ts';
 import { sliderTrackHtml } from '../../ui/slider.ts';
 import { Player, presetButtonsHtml } from '../shared/controls.ts';
 import { PoseHandles } from '../shared/robot.ts';
 import { describeCommand } from '../shared/sliders.ts';
 import { ArcPicture, ROBOT_RADIUS } from './picture.ts';
-import { formErrorsPlotHtml, factorBarsHtml, headlineHtml, likelihoodReadoutsHtml, tableLinesHtml, tableLineTextOf, captionOf } from './readouts.ts';
-import { LINE_STYLES, UNDERWAY_AT_END, definition, CONTOUR_STYLES, ALPHA_SLIDERS, COMMAND_SLIDERS, TABLE_LINES, type ViewModel } from './settings.ts';
+import { formErrorsPlotHtml, factorBarsHtml, headlineHtml, likelihoodReadoutsHtml, tableLinesHtml, captionOf } from './readouts.ts';
+import { LINE_STYLES, UNDERWAY_AT_END, definition, CONTOUR_STYLES, ALPHA_SLIDERS, COMMAND_SLIDERS, type ViewModel } from './settings.ts';
 import type { ArcAnatomy as Simulation, Motion } from '../../types.d.ts';
 
 /** Returns the controls of the likelihood: the sign of the radius, and the heat map with the names of its contours. */
@@ -24,17 +24,6 @@ function likelihoodControlsHtml(figure: ArcAnatomyElement) {
   const contourEntryHtml = (name: 'prob' | 'density') => html`<span>${swatchHtml(CONTOUR_STYLES[name])} ${maps[name]}</span>`;
   return fieldsetHtml(likelihood, html`${settingCheckboxHtml(figure, 'printed', formatMarkup(printed))} ${settingRadiosHtml(figure, 'map', maps)}
     ${map === 'none' ? nothing : html`<p class="legend">${contourEntryHtml('prob')} ${contourEntryHtml('density')}</p>`}`);
-}
-
-function tableLineStepperHtml(figure: ArcAnatomyElement) {
-  const texts = words.anatomy.table;
-  const { line } = figure.settings.elementState;
-  const chooseTableLine = (newTableLine: number) => () => figure.gesture.setElementField('line', newTableLine);
-  return html`<div class="stepper" role="group" aria-label=${texts.label}>
-    ${buttonHtml(html`<span aria-hidden="true">‹</span>`, chooseTableLine(line - 1), { disabled: line === 0, title: texts.back })}
-    ${buttonHtml(html`<span aria-hidden="true">›</span>`, chooseTableLine(line + 1), { disabled: line === TABLE_LINES, title: texts.on })}
-    <p role="status">${line === 0 ? texts.begin : formatMarkup(tableLineTextOf(figure.viewModel, line))}</p>
-  </div>`;
 }
 
 function timeControlHtml({ player, gesture, viewModel, settings }: ArcAnatomyElement) {
@@ -65,19 +54,17 @@ const styles = css`
 
   :is(.factors, .lines) {
     display: grid;
+    gap: 0.5em;
     margin: 0 0 0.6em;
     padding: 0;
+    list-style: none;
   }
 
-  .factors {
-    gap: 0.5em;
-  }
-
-  :is(.factors, .lines) li {
+  .factors li {
     padding-left: calc(0.5em + 3px);
   }
 
-  :is(.factors.lit li, .weakest, .lines .lit) {
+  :is(.factors.lit li, .weakest) {
     padding-left: 0.5em;
     border-left: 3px solid var(--accent);
   }
@@ -117,19 +104,6 @@ const styles = css`
     }
   }
 
-  .stepper {
-    display: grid;
-    grid-template-columns: auto auto 1fr;
-    gap: 0.35em;
-    align-items: start;
-    margin: 0.2em 0 0.5em;
-  }
-
-  .stepper p {
-    min-height: 2lh;
-    margin: 0.2em 0 0 0.4em;
-  }
-
   .underway {
     display: flex;
     gap: 0.6em;
@@ -139,11 +113,6 @@ const styles = css`
   .underway .slider {
     flex: 1;
     padding-bottom: 0;
-  }
-
-  .lines li {
-    display: block;
-    padding-block: 0.1em;
   }
 
   .handle.turn {
@@ -221,7 +190,7 @@ export class ArcAnatomyElement extends FigureElement<Simulation, ViewModel> {
       ${disclosuresHtml(this, {
         renderControls: () => html`<div class="controls">${likelihoodControlsHtml(this)}
           ${fieldsetHtml(words.noise, html`${settingRadiosHtml(this, 'noise', words.noises)} ${settingSlidersHtml(this, ALPHA_SLIDERS)}`, 'alphas')}</div>`,
-        renderNumbers: () => html`${tableLineStepperHtml(this)} ${tableLinesHtml(viewModel, this.settings.elementState.line)} ${likelihoodReadoutsHtml(viewModel)} ${formErrorsPlotHtml(this.motion)}`,
+        renderNumbers: () => html`${tableLinesHtml(this)} ${likelihoodReadoutsHtml(viewModel)} ${formErrorsPlotHtml(this.motion)}`,
         fileNameSuffix: 'figure',
         csvTitle: texts.csvTitle,
       })}`)}

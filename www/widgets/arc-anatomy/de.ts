@@ -46,9 +46,8 @@ export const de: typeof import('./en.ts').en = {
   },
   table: {
     label: 'Tabelle 5.1, Zeile für Zeile',
+    none: 'Keine Zeile',
     begin: 'Tabelle 5.1 aus Probabilistic Robotics, die Dichte des Geschwindigkeitsmodells, Zeile für Zeile: Jede Zeile hebt ihre Konstruktion im Bild hervor.',
-    back: 'Vorige Zeile',
-    on: 'Nächste Zeile',
     sign: 'Das Vorzeichen von *r\\** ist das der Seite: positiv, wenn der Mittelpunkt links der Richtung liegt. Die Tabelle druckt die Wurzel allein, sodass *v̂* das Vorzeichen von Δ*θ* hat: falsch, wo immer der Mittelpunkt rechts liegt.',
   },
 };

@@ -2,7 +2,7 @@
 
 import { html, nothing, svg } from 'lit';
 import { addEnglishMessages, words } from '../../messages/registry.ts';
-import { formatMarkup } from '../../ui/controls.ts';
+import { formatMarkup, radioButtonHtml } from '../../ui/controls.ts';
 import { clamp, formatFixed, formatPercent, formatPowerOfTen, formatSignificant } from '../../ui/format.ts';
 import { plotHtml } from '../../ui/plot.ts';
 import { readoutsHtml } from '../../ui/readouts.ts';
@@ -115,19 +115,19 @@ const TABLE_FORMULAS = [
 
 const LINE_UNITS = ['', ' m', ' m', ' m', ' rad', ' m/s', ' rad/s', ' rad/s', ''];
 
-/** Returns a line of the table, counted from 1, with its value. */
-export function tableLineTextOf({ table: { lines }, config: { printed } }: ViewModel, tableLine: number) {
-  const tableLineValue = lines[tableLine - 1];
-  const tableLineFormula = printed ? TABLE_FORMULAS[tableLine - 1].replace('±', '') : TABLE_FORMULAS[tableLine - 1];
-  const valueText = tableLine === TABLE_LINES ? formatDensity(tableLineValue) : formatFixed(tableLineValue, 3);
-  return `${tableLine}. ${tableLineFormula} = ${valueText}${LINE_UNITS[tableLine - 1]}`;
-}
-
-export function tableLinesHtml(viewModel: ViewModel, highlightedTableLine: number) {
+/** Returns the lines of the table with their values, as radio buttons that highlight constructions in the picture. */
+export function tableLinesHtml({ viewModel: { table: { lines }, config: { printed } }, settings: { elementState }, gesture }: import('./arc-anatomy.ts').ArcAnatomyElement) {
   const texts = words.anatomy.table;
-  return html`<ol class="lines" part="table">
-      ${TABLE_FORMULAS.map((_, i) => html`<li class=${i + 1 === highlightedTableLine ? 'lit' : nothing}>${formatMarkup(tableLineTextOf(viewModel, i + 1))}</li>`)}
-    </ol>
+  const lineTextOf = (formula: string, i: number) => {
+    const valueText = i === TABLE_LINES - 1 ? formatDensity(lines[i]) : formatFixed(lines[i], 3);
+    return `${i + 1}. ${printed ? formula.replace('±', '') : formula} = ${valueText}${LINE_UNITS[i]}`;
+  };
+  return html`<p>${texts.begin}</p>
+    <ul class="lines" part="table" role="radiogroup" aria-label=${texts.label}>
+      ${[texts.none, ...TABLE_FORMULAS.map(lineTextOf)].map((lineText, line) => html`<li>
+        ${radioButtonHtml({ group: 'line', label: formatMarkup(lineText), checked: line === elementState.line, onChoose: () => gesture.setElementField('line', line) })}
+      </li>`)}
+    </ul>
     <p class="muted">${formatMarkup(texts.sign)}</p>`;
 }
 

@@ -91,7 +91,7 @@ testWithWarnings('where there is no WebAssembly, a sentence says that it cannot 
     await Reflect.get(farFigure, 'updateComplete');
     return [element, farFigure].map(({ shadowRoot }) => {
       const surfaceStyle = /** @type {HTMLElement | undefined} */ (shadowRoot?.querySelector('.surface'))?.style;
-      return [surfaceStyle?.colorScheme, surfaceStyle?.getPropertyValue('--ground')];
+      return [surfaceStyle?.colorScheme, surfaceStyle?.getPropertyValue('--background')];
     });
   });
   expect(schemesAndGrounds).toEqual(Array(2).fill(['dark', 'rgb(17,34,51)']));

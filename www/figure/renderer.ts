@@ -112,8 +112,8 @@ export class Renderer extends FigureController {
     const { host } = this;
     this.#observeVisibility();
     host.resolveIfSettled();
-    if (!host.canvases.elements) host.colours.applyAndDraw();
-    if (!host.simulation || host.canvases.elements) return;
+    if (!host.canvases.canvasElements) host.colours.applyAndDraw();
+    if (!host.simulation || host.canvases.canvasElements) return;
     host.canvases.findAndObserve(host.renderRoot);
     this.requestFrame();
     if (this.isPrinting) this.#setPrinting(true);
@@ -185,7 +185,7 @@ export class Renderer extends FigureController {
   /** Draws the pending pictures, if a canvas is visible. During a resize no text is rendered, because it could change sizes again. */
   #attemptDraw(elapsedMs: number, isResizing = false) {
     // In a closed disclosure all sizes are 0.
-    if (!this.host.simulation || !this.host.canvases.elements?.some(hasPixels)) return;
+    if (!this.host.simulation || !this.host.canvases.canvasElements?.some(hasPixels)) return;
     this.host.runtime.attemptOrFail(() => {
       this.#draw(elapsedMs, isResizing);
       if (this.host.simulation) this.host.runtime.hasTrapped = false;

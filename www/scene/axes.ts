@@ -8,7 +8,7 @@ import { paintWithOpacity, strokeLine, type DrawContext, type LineStroke } from 
 const MIN_PLAIN_STEP = 9e-4;
 
 /** Minimum distance between two ticks of an axis, CSS pixels. */
-const TICK_SPACING = { x: 60, y: 48 };
+const MIN_TICK_SPACING = { x: 60, y: 48 };
 
 /** Lengths in a legend, relative to the font size: gap between entries, width of a line sample, space after the sample, and line height. */
 const LEGEND_LENGTHS_EM = { gap: 0.8, sample: 1.5, space: 0.35, line: 1.4 };
@@ -23,7 +23,7 @@ export function drawAxes(drawContext: DrawContext, axisNames: { x: string, y: st
   const { xMin, xMax, yMin, yMax } = view.extent;
   const drawHairline = (opacity: number, ...points: number[][]) => paintWithOpacity(context, opacity, () => strokeLine(context, points, { colour: palette.rule, width: 1 }));
 
-  const xTicks = ticksOfAxis(xMin, xMax, (right - left) / TICK_SPACING.x);
+  const xTicks = ticksOfAxis(xMin, xMax, (right - left) / MIN_TICK_SPACING.x);
   Object.assign(context, { font, fillStyle: palette.muted, textAlign: 'center', textBaseline: 'top' });
   // The name of the axis takes the place of the last tick label.
   const xAxisName = axisNames.x.replace('(', `(${xTicks.unitFactor}`);
@@ -34,7 +34,7 @@ export function drawAxes(drawContext: DrawContext, axisNames: { x: string, y: st
     const tickLabel = xTicks.formatLabel(value);
     if (x + context.measureText(tickLabel).width / 2 < maxLabelX) context.fillText(tickLabel, x, bottom + 6);
   }
-  const yTicks = ticksOfAxis(yMin, yMax, (bottom - top) / TICK_SPACING.y);
+  const yTicks = ticksOfAxis(yMin, yMax, (bottom - top) / MIN_TICK_SPACING.y);
   Object.assign(context, { textAlign: 'right', textBaseline: 'middle' });
   for (const value of yTicks.values) {
     const y = Math.round(view.toPixelY(value)) + 0.5;
@@ -68,13 +68,13 @@ function drawLegend({ context, view, palette, font }: DrawContext, axisName: str
   const placedEntries = [];
   for (const entry of entries) {
     const entryWidth = (LEGEND_LENGTHS_EM.gap + LEGEND_LENGTHS_EM.space) * fontSize + sampleWidth + context.measureText(entry.name).width;
-    // The first entry of a line has no gap before it.
+    // The first entry of a row has no gap before it.
     if (x + entryWidth > view.width && row < lastRow) [x, row] = [2 - LEGEND_LENGTHS_EM.gap * fontSize, row + 1];
     if (x + entryWidth > view.width) break;
     placedEntries.push({ ...entry, sampleX: x + LEGEND_LENGTHS_EM.gap * fontSize, row });
     x += entryWidth;
   }
-  // The last line is nearest to the picture.
+  // The last row of the legend is nearest to the picture.
   y -= row * lineHeight;
   context.font = `italic ${font}`;
   context.fillText(axisName, 2, y);

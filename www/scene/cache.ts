@@ -19,7 +19,7 @@ export class Memo<Result> {
 
 export type LayerDrawContext = Pick<DrawContext, 'view' | 'palette' | 'pixelRatio' | 'highlight'> & { context: CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D };
 
-/** Drawing of thousands of lines that change only with the view, the colours, or the data. */
+/** Cached drawing of thousands of lines, which change only with the view, the colours, or the data. */
 export class CachedLayer {
   #canvas = new OffscreenCanvas(1, 1);
   #drawingMemo: Memo<void> = new Memo();
@@ -53,7 +53,7 @@ export function strokeInBatches(context: LayerDrawContext['context'], lines: num
   }
 }
 
-/** Image of pixels that covers the plot area. */
+/** Cached image of pixels, which covers the plot area. */
 export class CachedImage {
   #canvas = new OffscreenCanvas(1, 1);
   #pixelsMemo: Memo<void> = new Memo();
@@ -80,7 +80,7 @@ export class CachedImage {
    *
    * @param cellSide side in CSS pixels
    * @param cacheKey values, besides the view, on which the pixels depend
-   * @param computePixels returns the simulation's picture of a part of the plane
+   * @param computePixels returns the pixels of the density in a part of the plane
    */
   drawDensity(drawContext: DrawContext, cellSide: number, cacheKey: unknown[], computePixels: (...view: [xMin: number, yMin: number, xMax: number, yMax: number, columns: number, rows: number]) => Uint8ClampedArray<ArrayBuffer>) {
     const { left, right, top, bottom } = drawContext.view.plotArea;

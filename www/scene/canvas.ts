@@ -1,7 +1,7 @@
 /** Context for drawing pictures, and basic shapes on a canvas. */
 
-/** Surface for drawing: a canvas or its substitute. */
-export interface Surface {
+/** Surface for drawing: a canvas, or its substitute for export. */
+export interface DrawSurface {
   width: number;
   height: number;
   clientWidth: number;
@@ -28,7 +28,7 @@ export interface DrawContext {
   placedBoxes: TextBox[];
   /** True if the picture is drawn for a file. Such a picture contains its own legend. */
   isExported?: boolean;
-  /** True if handles are drawn: on the screen they are elements over the picture. */
+  /** True if handles are part of the drawing. On the screen, handles are elements over the picture. */
   drawsHandles?: boolean;
   /** Name of the highlighted line. It is drawn thicker, and all others faint. */
   highlight?: string | null;
@@ -55,7 +55,7 @@ export function createHiddenContext(canvas: OffscreenCanvas) {
 }
 
 /** Clears a canvas, sets the view to its size, and returns the context with which a picture is drawn. */
-export function createDrawContext({ width, height, clientWidth, fontStyle: { fontFamily, fontSize }, context }: Surface, view: import('./view.ts').View, palette: import('../ui/theme.ts').Palette) {
+export function createDrawContext({ width, height, clientWidth, fontStyle: { fontFamily, fontSize }, context }: DrawSurface, view: import('./view.ts').View, palette: import('../ui/theme.ts').Palette) {
   const pixelRatio = ((width / Math.max(1, clientWidth)) * parseFloat(fontSize)) / FONT_SIZE_PX;
   view.resize(width / pixelRatio, height / pixelRatio);
   context.setTransform(pixelRatio, 0, 0, pixelRatio, 0, 0);

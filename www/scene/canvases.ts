@@ -1,6 +1,6 @@
 /** Canvases of a figure, and their sizes in device pixels. */
 
-import type { Surface } from './canvas.ts';
+import type { DrawSurface } from './canvas.ts';
 
 /** Pixels per CSS pixel in print. */
 const PRINT_RATIO = 2;
@@ -10,8 +10,8 @@ export const hasPixels = ({ width, height }: HTMLCanvasElement) => Math.min(widt
 
 export class Canvases {
   #drawResized;
-  /** Canvases that are observed; undefined until they are rendered. */
-  elements: HTMLCanvasElement[] | undefined;
+  /** Canvases whose sizes are observed; undefined until they are rendered. */
+  canvasElements: HTMLCanvasElement[] | undefined;
   /** Cached widths in CSS pixels. Reading them in a frame would cause a reflow. */
   #cssWidths: WeakMap<HTMLCanvasElement, number> = new WeakMap();
   #observer = new ResizeObserver((entries) => this.#resize(entries));
@@ -22,17 +22,17 @@ export class Canvases {
   }
 
   findAndObserve(root: ParentNode) {
-    this.elements = [...root.querySelectorAll('canvas')];
+    this.canvasElements = [...root.querySelectorAll('canvas')];
     this.observeSizes();
   }
 
   /** Stops observing the canvases, which are no longer rendered. */
   stopObserving() {
     this.#observer.disconnect();
-    this.elements = undefined;
+    this.canvasElements = undefined;
   }
 
-  /** Measures the canvases again after a change of the pixel ratio. WebKit's observer does not report device pixels. */
+  /** Measures the canvases again after a change of the pixel ratio. WebKit's ResizeObserver does not measure in device pixels. */
   followPixelRatio(signal: AbortSignal) {
     const onRatioChange = () => {
       this.observeSizes();
@@ -41,10 +41,10 @@ export class Canvases {
     matchMedia(`(resolution:${devicePixelRatio}dppx)`).addEventListener('change', onRatioChange, { once: true, signal });
   }
 
-  /** Observes the sizes of the canvases. The observer also reports the present sizes. */
+  /** Observes the sizes of the canvases. The observer reports the present sizes first. */
   observeSizes() {
     this.#observer.disconnect();
-    for (const canvas of this.elements ?? []) {
+    for (const canvas of this.canvasElements ?? []) {
       try {
         this.#observer.observe(canvas, { box: 'device-pixel-content-box' });
       } catch {
@@ -69,7 +69,7 @@ export class Canvases {
   /** Caches the CSS widths of the canvases. For print, it also sets their sizes in pixels, which then determine the layout and are not observed. */
   updateWidths(isPrinting: boolean) {
     if (isPrinting) this.#observer.disconnect();
-    for (const canvas of this.elements ?? []) {
+    for (const canvas of this.canvasElements ?? []) {
       const { clientWidth, clientHeight } = canvas;
       this.#cssWidths.set(canvas, clientWidth);
       if (isPrinting) Object.assign(canvas, { width: PRINT_RATIO * clientWidth, height: PRINT_RATIO * clientHeight });
@@ -77,10 +77,10 @@ export class Canvases {
   }
 
   canvasOf({ name }: { name: string }) {
-    return this.elements?.find(({ className }) => className === name) as HTMLCanvasElement;
+    return this.canvasElements?.find(({ className }) => className === name) as HTMLCanvasElement;
   }
 
-  surfaceOf(canvas: HTMLCanvasElement): Surface {
+  surfaceOf(canvas: HTMLCanvasElement): DrawSurface {
     const { width, height } = canvas;
     const clientWidth = this.#cssWidths.get(canvas) ?? canvas.clientWidth;
     return { width, height, clientWidth, fontStyle: getComputedStyle(canvas), context: canvas.getContext('2d') as CanvasRenderingContext2D };

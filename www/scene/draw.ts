@@ -75,7 +75,7 @@ export interface LineStyle {
   shape?: 'line' | 'dot' | 'ring' | 'area' | 'cross';
 }
 
-const HIGHLIGHT_WIDTH = 1.9;
+const HIGHLIGHT_WIDTH_FACTOR = 1.9;
 
 const DIMMED_OPACITY = 0.3;
 
@@ -84,15 +84,15 @@ export function createLineStyles<Name extends string>({ palette, highlight }: Pi
   const hasHighlight = Object.keys(lines).some((name) => name === highlight);
   const styleEntries = Object.entries(lines as Record<string, LineStyle>).map(([name, { role, width = 2.25, dash = [] }]) => {
     const colour = hasHighlight && name !== highlight ? `rgb(${colourChannelsOf(palette[role]).join(' ')} / ${DIMMED_OPACITY})` : palette[role];
-    return [name, { colour, width: name === highlight ? HIGHLIGHT_WIDTH * width : width, dash }];
+    return [name, { colour, width: name === highlight ? HIGHLIGHT_WIDTH_FACTOR * width : width, dash }];
   });
   return Object.fromEntries(styleEntries) as Record<Name, { colour: string, width: number, dash: number[] }>;
 }
 
 /** Returns the legend of an exported picture: the named lines with their words. On the page there is a legend beside the picture. */
-export function createLineLegend<Name extends string>(drawContext: DrawContext, lines: Record<Name, LineStyle>, names: Name[], labels: Record<Name, string>): LegendEntry[] {
+export function createLineLegend<Name extends string>(drawContext: DrawContext, lines: Record<Name, LineStyle>, lineNames: Name[], labels: Record<Name, string>): LegendEntry[] {
   const stylesByName = createLineStyles(drawContext, lines);
-  return drawContext.isExported ? names.map((name) => createLineLegendEntry(drawContext, labels[name].replaceAll('*', ''), stylesByName[name])) : [];
+  return drawContext.isExported ? lineNames.map((name) => createLineLegendEntry(drawContext, labels[name].replaceAll('*', ''), stylesByName[name])) : [];
 }
 
 /** Returns true if an outline is longer than rounding errors. The outline of robots that all stop at one point has no length. */

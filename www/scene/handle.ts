@@ -6,8 +6,8 @@ import { formatEm, toViewPixels } from './canvas.ts';
 /** Callbacks of a handle; lengths in metres. */
 interface HandleCallbacks {
   getView: () => import('./view.ts').View;
-  /** Returns the point (x, y) that a pointer at the point `pointer` grasps; by default the middle of the handle. */
-  graspedPointAt?: (pointer: number[]) => number[] | undefined;
+  /** Returns the point (x, y) that a pointer at `pointerPoint` grasps; by default the middle of the handle. */
+  findGraspedPoint?: (pointerPoint: number[]) => number[] | undefined;
   drag: (x: number, y: number) => void;
   /** Handles a key. Returns true if the key moved the handle's target. */
   handleKey: (event: KeyboardEvent) => boolean;
@@ -21,11 +21,11 @@ interface HandleLabels {
   valueRange: number[];
   value: number;
   valueText: string;
-  /** Text on the limit that the handle has reached, if any. */
+  /** Text about the limit at which the handle has arrived, if any. */
   limitText?: string | false;
   /** Hint for a user who has not used the handle yet, shown while the handle pulses once. */
   hint?: string | false;
-  /** Default: 0, in the tab order. */
+  /** Tab index of the element. The default is 0: the Tab key reaches the handle. */
   tabIndex?: number;
 }
 
@@ -50,7 +50,7 @@ export function stepsOfKey({ key, shiftKey, ctrlKey, metaKey, altKey }: Keyboard
   return [SHIFT_STEP_FACTOR * steps[0], SHIFT_STEP_FACTOR * steps[1]];
 }
 
-/** Steps of rotation by key, positive to the left. The first two are for keyboards on which brackets need a modifier. */
+/** Steps of rotation by key, positive to the left. Comma and period are for keyboards on which brackets need a modifier key. */
 const KEY_TURN_STEPS: Record<string, number> = { ',': 1, '.': -1, '[': 1, ']': -1 };
 
 /** Returns the steps by which a key turns something, positive to the left; undefined for other keys. */
@@ -96,11 +96,11 @@ export class Handle {
       @pointermove=${this.#onPointerMove}
       @pointerup=${this.#onPointerUp}
       @pointercancel=${this.#onPointerUp}
-      @keydown=${this.#onKey}
+      @keydown=${this.#onKeyDown}
     ></div>`;
   }
 
-  /** Moves the middle of the element in `root` to a point in pixels of the view. `size` (pixels) and `angle` (rad) replace those of its style. */
+  /** Moves the middle of the handle's element in `root` to a point in pixels of the view. `size` (pixels) and `angle` (rad) replace those of its style. */
   placeInView(root: ParentNode, x: number, y: number, { size, angle }: { size?: number, angle?: number } = {}) {
     const handle = root.querySelector(`.handle.${this.#classNames.replace(' ', '.')}`) as HTMLElement | null;
     if (!handle) return;
@@ -110,7 +110,7 @@ export class Handle {
     handle.style.translate = `${formatEm(x)} ${formatEm(y)}`;
   }
 
-  #pointerInWorld(event: PointerEvent) {
+  #worldPointOf(event: PointerEvent) {
     const view = this.#callbacks.getView();
     return view.toWorld(...toViewPixels((event.currentTarget as Element).parentElement as Element, view, event));
   }
@@ -120,14 +120,14 @@ export class Handle {
     const handle = event.currentTarget as Element;
     handle.setPointerCapture(event.pointerId);
     this.#heldPointer = { id: event.pointerId, element: handle };
-    const pointerInWorld = this.#pointerInWorld(event);
-    const graspedPoint = this.#callbacks.graspedPointAt?.(pointerInWorld) ?? this.#callbacks.getView().toWorld(...this.#middlePixels);
+    const pointerInWorld = this.#worldPointOf(event);
+    const graspedPoint = this.#callbacks.findGraspedPoint?.(pointerInWorld) ?? this.#callbacks.getView().toWorld(...this.#middlePixels);
     this.#gripOffset = [graspedPoint[0] - pointerInWorld[0], graspedPoint[1] - pointerInWorld[1]];
   };
 
   #onPointerMove = (event: PointerEvent) => {
     if (!this.isHeld) return;
-    const [x, y] = this.#pointerInWorld(event);
+    const [x, y] = this.#worldPointOf(event);
     this.#callbacks.drag(x + this.#gripOffset[0], y + this.#gripOffset[1]);
   };
 
@@ -137,7 +137,7 @@ export class Handle {
     this.#callbacks.commit();
   };
 
-  #onKey = (event: KeyboardEvent) => {
+  #onKeyDown = (event: KeyboardEvent) => {
     if (!this.#callbacks.handleKey(event)) return;
     event.preventDefault();
     this.#callbacks.commit();

@@ -28,14 +28,14 @@ interface LabelText {
 }
 
 /**
- * Draws a label with a background at a point in pixels, inside the axes. If another text is there, the label moves up or down. `towards` is
- * the direction in which there is space, from −1 (left) to 1 (right).
+ * Draws a label with a background at a point in pixels, inside the axes. If another text is there, the label moves up or down. `freeSide` is
+ * the side of the point on which there is space, from −1 (left) to 1 (right).
  */
 export function drawLabel(drawContext: DrawContext, { x, y, freeSide, colour, ...text }: LabelText & { x: number, y: number, freeSide: number, colour: string }) {
   const { context, view, palette, placedBoxes } = drawContext;
-  const parts = measureParts(drawContext, text);
+  const parts = measureTextParts(drawContext, text);
   if (parts.length === 0) return;
-  const width = widthOf(parts);
+  const width = totalWidthOf(parts);
   const { left, right, top, bottom } = view.plotArea;
   const labelLeft = clamp(x - (0.5 - 0.5 * freeSide) * width, left + 3, Math.max(left + 3, right - width - 3));
   const [halfWidth, halfHeight] = [width / 2 + 2, LABEL_BACKGROUND.halfHeight];
@@ -45,7 +45,7 @@ export function drawLabel(drawContext: DrawContext, { x, y, freeSide, colour, ..
   placedBoxes.push({ x: labelLeft + width / 2, y: labelY, halfWidth, halfHeight });
   context.fillStyle = palette.paper;
   paintWithOpacity(context, LABEL_BACKGROUND.opacity, () => context.fillRect(labelLeft - 2, labelY - halfHeight, 2 * halfWidth, 2 * halfHeight));
-  writeParts(drawContext, parts, labelLeft, labelY, colour);
+  drawTextParts(drawContext, parts, labelLeft, labelY, colour);
 }
 
 /**
@@ -56,8 +56,8 @@ export function drawLabelsAbove(drawContext: DrawContext, labels: (LabelText & {
   const { context, view, palette } = drawContext;
   const { left, right, top } = view.plotArea;
   const placedLabels = labels
-    .map((label) => ({ ...label, parts: measureParts(drawContext, label) }))
-    .map((label) => ({ ...label, width: widthOf(label.parts) }))
+    .map((label) => ({ ...label, parts: measureTextParts(drawContext, label) }))
+    .map((label) => ({ ...label, width: totalWidthOf(label.parts) }))
     .sort((a, b) => a.x - b.x)
     .map((label, i) => ({ ...label, row: i % 2, labelLeft: label.x - label.width / 2 }));
   for (const row of [0, 1]) {
@@ -83,7 +83,7 @@ export function drawLabelsAbove(drawContext: DrawContext, labels: (LabelText & {
     const leaderX = clamp(x, minLeaderX, Math.max(minLeaderX, maxLeaderX));
     const leaderStart = [clamp(leaderX, labelLeft, labelLeft + width), rowY + LABEL_BACKGROUND.halfHeight];
     drawLeader(context, [leaderStart, [leaderX, top - (row === 0 ? 0 : ROW_HEIGHT)], [leaderX, top], [x, y]], palette.muted);
-    writeParts(drawContext, parts, labelLeft, rowY, colour);
+    drawTextParts(drawContext, parts, labelLeft, rowY, colour);
   });
 }
 
@@ -93,7 +93,7 @@ export function drawLeader(context: CanvasRenderingContext2D, leaderPoints: numb
   drawDisc(context, leaderPoints[leaderPoints.length - 1], 2.5, colour);
 }
 
-function measureParts({ context, font }: DrawContext, { symbol = '', subscript = '', text = '' }: LabelText) {
+function measureTextParts({ context, font }: DrawContext, { symbol = '', subscript = '', text = '' }: LabelText) {
   const subscriptFont = font.replace(/[\d.]+px/, (size) => `${SUBSCRIPT_SIZE * parseFloat(size)}px`);
   const textParts = [
     { text: symbol, style: `italic ${font}`, drop: 0 },
@@ -106,10 +106,10 @@ function measureParts({ context, font }: DrawContext, { symbol = '', subscript =
   });
 }
 
-const widthOf = (parts: { width: number }[]) => parts.reduce((sum, { width }) => sum + width, 0);
+const totalWidthOf = (parts: { width: number }[]) => parts.reduce((sum, { width }) => sum + width, 0);
 
-/** Writes the parts from left to right, with a halo in the background colour. x is the left end and y the middle of the line, in pixels. */
-function writeParts({ context, palette }: DrawContext, parts: ReturnType<typeof measureParts>, x: number, y: number, colour: string) {
+/** Draws measured texts from left to right, with a halo in the background colour. x is the left end and y the middle of the line, in pixels. */
+function drawTextParts({ context, palette }: DrawContext, parts: ReturnType<typeof measureTextParts>, x: number, y: number, colour: string) {
   context.save();
   Object.assign(context, { textAlign: 'left', textBaseline: 'middle', lineJoin: 'round', lineWidth: 4, strokeStyle: palette.paper, fillStyle: colour });
   let partLeft = x;
@@ -123,7 +123,7 @@ function writeParts({ context, palette }: DrawContext, parts: ReturnType<typeof 
 }
 
 /** Minimum length of a callout's leader (the line from its sentence to its point), line height, and margin around the text, pixels. */
-const MIN_LEADER = 22;
+const MIN_LEADER_LENGTH = 22;
 const LINE_HEIGHT = 15;
 const TEXT_MARGIN = 4;
 
@@ -132,7 +132,7 @@ const MIN_DISTANCE = 9;
 
 /** Candidate positions of a sentence: angles (rad) relative to the direction away from the centre, and lengths of the leader, pixels. */
 const CANDIDATE_ANGLES = Array.from({ length: 24 }, (_, i) => (Math.PI * (i - 12)) / 12);
-const LEADER_LENGTHS = [MIN_LEADER, 2 * MIN_LEADER, 3 * MIN_LEADER];
+const LEADER_LENGTHS = [MIN_LEADER_LENGTH, 2 * MIN_LEADER_LENGTH, 3 * MIN_LEADER_LENGTH];
 
 /** Costs of a leader: for each radian from its preferred direction, and for each pixel of length. Each pixel by which a text overlaps others costs 1. */
 const COST_PER_RADIAN = 1;
@@ -166,12 +166,12 @@ export function drawCallouts({ context, view, palette, font, placedBoxes }: Draw
     const outwardAngle = Math.atan2(y - centreY, x - centreX);
     const candidateBoxes = CANDIDATE_POSITIONS.map(({ turn, length, cost }) => {
       const [idealX, idealY] = [x + (length + halfWidth) * Math.cos(outwardAngle + turn), y + (length + halfHeight) * Math.sin(outwardAngle + turn)];
-      const box = {
+      const textBox = {
         x: clamp(idealX, left + halfWidth, Math.max(left + halfWidth, right - halfWidth)),
         y: clamp(idealY, top + halfHeight, Math.max(top + halfHeight, bottom - halfHeight)),
         halfWidth, halfHeight,
       };
-      return { ...box, cost: cost + maxOverlapOf(box, avoidedPoints, placedBoxes) };
+      return { ...textBox, cost: cost + maxOverlapOf(textBox, avoidedPoints, placedBoxes) };
     });
     const bestBox = least(candidateBoxes, ({ cost }) => cost) ?? candidateBoxes[0];
     const leaderStart = [clamp(x, bestBox.x - halfWidth, bestBox.x + halfWidth), clamp(y, bestBox.y - halfHeight, bestBox.y + halfHeight)];
@@ -186,21 +186,21 @@ export function drawCallouts({ context, view, palette, font, placedBoxes }: Draw
   }
 }
 
-/** Maximum number of points between two others, because a line that leaves the picture may have any length. */
+/** Maximum number of points that represent a line, because a line that leaves the picture may have any length. */
 const MAX_LINE_POINTS = 200;
 
-/** Returns points on the line between two points, beginning with the first one, that a sentence must not cover; pixels. */
-function sampleLine([x, y]: number[], [toX, toY]: number[]) {
-  const pointCount = Math.min(MAX_LINE_POINTS, Math.ceil(Math.hypot(toX - x, toY - y) / (2 * MIN_DISTANCE)) || 1);
-  return Array.from({ length: pointCount }, (_, i) => [x + (i / pointCount) * (toX - x), y + (i / pointCount) * (toY - y)]);
+/** Returns evenly spaced points of a line, which a sentence must not cover: the start of the line, but not its end; pixels. */
+function sampleLine([x, y]: number[], [endX, endY]: number[]) {
+  const pointCount = Math.min(MAX_LINE_POINTS, Math.ceil(Math.hypot(endX - x, endY - y) / (2 * MIN_DISTANCE)) || 1);
+  return Array.from({ length: pointCount }, (_, i) => [x + (i / pointCount) * (endX - x), y + (i / pointCount) * (endY - y)]);
 }
 
-/** Returns the maximum depth by which points and other boxes reach into a box, pixels. The depth of boxes counts twice. */
+/** Returns the maximum depth by which points and other boxes of texts reach into a box, pixels. The depth of boxes counts twice. */
 function maxOverlapOf({ x, y, halfWidth, halfHeight }: TextBox, points: number[][], otherBoxes: TextBox[]) {
-  const overlapDepthOf = (toX: number, toY: number, otherHalfWidth = 0, otherHalfHeight = 0) =>
-    Math.min(halfWidth + otherHalfWidth + MIN_DISTANCE - Math.abs(toX - x), halfHeight + otherHalfHeight + MIN_DISTANCE - Math.abs(toY - y));
+  const overlapDepthOf = (otherX: number, otherY: number, otherHalfWidth = 0, otherHalfHeight = 0) =>
+    Math.min(halfWidth + otherHalfWidth + MIN_DISTANCE - Math.abs(otherX - x), halfHeight + otherHalfHeight + MIN_DISTANCE - Math.abs(otherY - y));
   let maxDepth = 0;
-  for (const [toX, toY] of points) maxDepth = Math.max(maxDepth, overlapDepthOf(toX, toY));
+  for (const [pointX, pointY] of points) maxDepth = Math.max(maxDepth, overlapDepthOf(pointX, pointY));
   for (const otherBox of otherBoxes) maxDepth = Math.max(maxDepth, 2 * overlapDepthOf(otherBox.x, otherBox.y, otherBox.halfWidth, otherBox.halfHeight));
   return maxDepth;
 }

@@ -1,7 +1,7 @@
 /** Picture: a canvas that shows a simulation through its own view. */
 
 import { createDrawContext } from './canvas.ts';
-import type { DrawContext, Surface } from './canvas.ts';
+import type { DrawContext, DrawSurface } from './canvas.ts';
 import type { View } from './view.ts';
 import type { Palette } from '../ui/theme.ts';
 
@@ -20,14 +20,14 @@ export class Picture<Scene, Name extends string = string> {
   declare name: Name;
   declare view: View;
 
-  /** Sets the target of the view. */
+  /** Sets the extent that the view has to show. */
   fitView(_scene: Scene) {}
 
   /** Paints the scene. */
   paint(_drawContext: DrawContext, _scene: Scene) {}
 
   /** Draws the scene. Returns true if the view is still moving. */
-  draw(surface: Surface, scene: Scene, palette: Palette, { elapsedMs = 0, keepsScale = false, isImmediate = false, previousViewModel, isExported, drawsHandles = isExported, highlight }: DrawOptions = {}): boolean {
+  draw(surface: DrawSurface, scene: Scene, palette: Palette, { elapsedMs = 0, keepsScale = false, isImmediate = false, previousViewModel, isExported, drawsHandles = isExported, highlight }: DrawOptions = {}): boolean {
     const { view } = this;
     const drawContext = createDrawContext(surface, view, palette);
     if (previousViewModel !== this.#previousViewModel && !isExported) {
@@ -41,7 +41,7 @@ export class Picture<Scene, Name extends string = string> {
   }
 
   /** Returns the index of the sample nearest to a point in CSS pixels; −1 for none. */
-  nearestSample(_simulation: any, _x: number, _y: number) {
+  findNearestSample(_simulation: any, _x: number, _y: number) {
     return -1;
   }
 }
@@ -51,5 +51,5 @@ const SELECTION_RADIUS = 14;
 
 /** Picture of samples that the pointer can select, with the same scale on both axes. */
 export class SamplesPicture<Scene> extends Picture<Scene> {
-  nearestSample: Picture<any>['nearestSample'] = (simulation, x, y) => simulation.nearest(...this.view.toWorld(x, y), SELECTION_RADIUS / this.view.scaleX);
+  findNearestSample: Picture<any>['findNearestSample'] = (simulation, x, y) => simulation.nearest(...this.view.toWorld(x, y), SELECTION_RADIUS / this.view.scaleX);
 }

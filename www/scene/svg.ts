@@ -15,7 +15,7 @@ const TEXT_ANCHORS = { center: 'middle', right: 'end' } as Record<string, string
 
 export class SvgContext {
   /** True for a context that writes vector graphics. Callers that would draw pixels for speed then draw shapes. */
-  vector = true;
+  isVector = true;
   strokeStyle = '';
   fillStyle = '';
   lineWidth = 1;
@@ -95,7 +95,7 @@ export class SvgContext {
 
   clip() {
     const id = `${this.#idPrefix}-clip${++this.#clipCount}`;
-    // The latest element is the group of `save`.
+    // The latest element is the group that `save` opened.
     this.#elements.splice(-1, 1, `<clipPath id="${id}"><path d="${this.#path}"/></clipPath><g clip-path="url(#${id})">`);
   }
 
@@ -137,15 +137,15 @@ export class SvgContext {
   #addText(text: string, x: number, y: number, paintAttributes: string) {
     const dy = BASELINE_SHIFTS[this.textBaseline] ?? '0';
     const anchor = TEXT_ANCHORS[this.textAlign] ?? 'start';
-    const textPosition = `x="${formatLength(x)}" y="${formatLength(y)}" dy="${dy}" text-anchor="${anchor}"`;
-    this.#elements.push(`<text ${textPosition} style="font:${escapeXml(this.font)}"${paintAttributes}>${escapeXml(text)}</text>`);
+    const positionAttributes = `x="${formatLength(x)}" y="${formatLength(y)}" dy="${dy}" text-anchor="${anchor}"`;
+    this.#elements.push(`<text ${positionAttributes} style="font:${escapeXml(this.font)}"${paintAttributes}>${escapeXml(text)}</text>`);
   }
 
   drawImage(image: OffscreenCanvas, ...rectangle: [x: number, y: number, width: number, height: number]) {
     const [x, y, width, height] = rectangle.map(formatLength);
     const canvas = Object.assign(document.createElement('canvas'), { width: image.width, height: image.height });
     (canvas.getContext('2d') as CanvasRenderingContext2D).drawImage(image, 0, 0);
-    const imageBox = `x="${x}" y="${y}" width="${width}" height="${height}"`;
-    this.#elements.push(`<image ${imageBox} preserveAspectRatio="none" href="${canvas.toDataURL()}"${this.#formatOpacityAttribute()}/>`);
+    const imageAttributes = `x="${x}" y="${y}" width="${width}" height="${height}"`;
+    this.#elements.push(`<image ${imageAttributes} preserveAspectRatio="none" href="${canvas.toDataURL()}"${this.#formatOpacityAttribute()}/>`);
   }
 }

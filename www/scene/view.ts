@@ -5,7 +5,7 @@
 
 import { clamp } from '../ui/format.ts';
 
-/** Axis-aligned part of a view's world. */
+/** Axis-aligned rectangle in the world of a view. */
 export type Extent = { xMin: number, yMin: number, xMax: number, yMax: number };
 
 /** Minimum fraction of a view that its content fills after a change by the page. If it fills less, the view zooms in. */
@@ -17,7 +17,7 @@ const RELATIVE_MARGIN = 0.06;
 /** Time constant of the animation from one extent to the next, ms. */
 const EASING_MS = 90;
 
-/** Rounded sizes of views, up to a power of ten. */
+/** Rounded sizes of views, as multiples of a power of ten. */
 const NICE_SIZES = [1, 1.12, 1.25, 1.4, 1.6, 1.8, 2, 2.25, 2.5, 2.8, 3.2, 3.6, 4, 4.5, 5, 5.6, 6.4, 7.2, 8, 9];
 
 /** Visible part of the world in a picture, with the transform to pixels. */
@@ -119,13 +119,13 @@ export class View {
   }
 
   /** Returns both ends, in pixels, of a line from a pose in its heading, with a length in pixels. */
-  headingLineFrom({ x, y, theta }: { x: number, y: number, theta: number }, length: number): [from: [x: number, y: number], to: [x: number, y: number]] {
+  headingLineFrom({ x, y, theta }: { x: number, y: number, theta: number }, length: number): [start: [x: number, y: number], end: [x: number, y: number]] {
     const [startX, startY] = this.toPixel(x, y);
     const headingStep = this.pixelDirectionOf(theta);
     return [[startX, startY], [startX + length * headingStep.x, startY + length * headingStep.y]];
   }
 
-  /** Sets the target of the view, which stays if it contains `neededExtent`. Otherwise the view zooms out. A released view may also zoom in. */
+  /** Sets the target of the view, which stays if it contains `neededExtent`. Otherwise the view zooms out. After `allowZoomIn` it may also zoom in. */
   fit(neededExtent: Extent) {
     const { width, height } = this;
     const isResized = this.#hasNoMargin && (width !== this.#fittedSize.width || height !== this.#fittedSize.height);
@@ -141,7 +141,7 @@ export class View {
     if (!keptTarget) this.extent = this.#targetExtent;
   }
 
-  /** Moves the extent towards the target by the time `elapsedMs` since the last call, or completely. Returns true if it has not arrived. */
+  /** Moves the extent towards its target by the time `elapsedMs` since the last call, or completely. Returns true if it has not arrived there. */
   moveTowardsTarget(elapsedMs: number, isImmediate: boolean): boolean {
     const targetExtent = this.#targetExtent;
     if (!targetExtent || targetExtent === this.extent) return false;
@@ -181,9 +181,9 @@ function clampMiddle(middle: number, length: number, min: number, max: number) {
 const isInside = (inner: Extent, outer: Extent) =>
   inner.xMin >= outer.xMin && inner.xMax <= outer.xMax && inner.yMin >= outer.yMin && inner.yMax <= outer.yMax;
 
-/** Returns the linear interpolation between two extents; `fraction` is 0 at `from` and 1 at `to`. */
-export function interpolateExtent(from: Extent, to: Extent, fraction: number): Extent {
-  const interpolate = (key: keyof Extent) => from[key] + fraction * (to[key] - from[key]);
+/** Returns the linear interpolation between two extents; `fraction` is 0 at `startExtent` and 1 at `endExtent`. */
+export function interpolateExtent(startExtent: Extent, endExtent: Extent, fraction: number): Extent {
+  const interpolate = (key: keyof Extent) => startExtent[key] + fraction * (endExtent[key] - startExtent[key]);
   return { xMin: interpolate('xMin'), yMin: interpolate('yMin'), xMax: interpolate('xMax'), yMax: interpolate('yMax') };
 }
 

@@ -28,7 +28,7 @@ export class WallLayer {
 
   /** Draws the walls or cells; unknown cells are hatched if they are shown. */
   draw(drawContext: DrawContext, showsUnknown: boolean) {
-    if (!this.#grid && 'vector' in drawContext.context) this.#paint(drawContext, showsUnknown);
+    if (!this.#grid && 'isVector' in drawContext.context) this.#paint(drawContext, showsUnknown);
     else this.#layer.draw(drawContext, [showsUnknown], (drawContext) => this.#paint(drawContext, showsUnknown));
   }
 

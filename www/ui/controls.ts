@@ -192,10 +192,10 @@ const FORMULA_PIECE_PATTERN = String.raw`\*(?:\\\*|[^*])+\*|[₀-₉]|_\{[^}]+\}
 const FORMULA_PIECE = new RegExp(FORMULA_PIECE_PATTERN, 'g');
 const FORMULA_REGEXP = new RegExp(`((?:${FORMULA_PIECE_PATTERN})+)`);
 
-/** Returns a message with its formulas as HTML. The text \\* is an asterisk. */
+/** Returns a message as HTML, with italics and subscripts in its formulas. The text \\* is an asterisk. */
 export function formatMarkup(message: string) {
   // Every second part is a formula.
-  return message.split(FORMULA_REGEXP).map((part, i) => (i % 2 ? untranslatedHtml(part.match(FORMULA_PIECE)?.map(formulaPieceHtml)) : part));
+  return message.split(FORMULA_REGEXP).map((messagePart, i) => (i % 2 ? untranslatedHtml(messagePart.match(FORMULA_PIECE)?.map(formulaPieceHtml)) : messagePart));
 }
 
 function formulaPieceHtml(piece: string) {
@@ -206,8 +206,8 @@ function formulaPieceHtml(piece: string) {
 /** Returns a value or formula with its own writing direction, which page translators leave unchanged. */
 export const untranslatedHtml = (content: unknown) => html`<bdi translate="no" class="notranslate">${content}</bdi>`;
 
-export function fieldsetHtml(heading: unknown, controls: unknown, className?: string, part?: string) {
-  return html`<fieldset class=${className ?? nothing} part=${part ?? nothing}>
+export function fieldsetHtml(heading: unknown, controls: unknown, className?: string, cssPart?: string) {
+  return html`<fieldset class=${className ?? nothing} part=${cssPart ?? nothing}>
     <legend>${heading}</legend>
     ${controls}
   </fieldset>`;

@@ -50,7 +50,7 @@ export function parseNumber(text: string, unit: string = '', isWhole: boolean = 
   return withoutUnit === '' ? NaN : Number(ungroupedText.replace(decimalSign, '.'));
 }
 
-/** Prints a limit: "1 000 000"; "1·10⁻⁶". */
+/** Prints a limit of a setting: "1 000 000"; "1·10⁻⁶". */
 export function formatLimit(value: number): string {
   return Number.isInteger(value) ? formatInteger(value) : formatSignificant(value, 1);
 }
@@ -104,7 +104,7 @@ export function formatTick(value: number, step: number) {
   return formatFixed(value, Math.max(0, -Math.floor(Math.log10(step) + 1e-9)));
 }
 
-/** Returns the nearest value from `min` to `max`. */
+/** Returns the value, or the nearer limit if the value is not between `min` and `max`. */
 export function clamp(value: number, min: number, max: number) {
   return Math.min(max, Math.max(min, value));
 }

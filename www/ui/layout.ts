@@ -8,7 +8,7 @@ import { controlStyles } from './controls.ts';
 import { readoutStyles } from './readouts.ts';
 import { sliderStyles } from './slider.ts';
 
-/** Style of a figure in which only the first picture or chart stays visible while scrolling. All would leave no space for the controls. */
+/** Style of a figure in which only the first picture or chart stays visible while scrolling. All pictures would leave no space for the controls. */
 const stickyPicture = css`
   :where(.views > .panel:first-of-type) > .panel-title + * {
     --most: 45svh;
@@ -24,7 +24,7 @@ const stickyPicture = css`
     display: contents;
   }
 
-  /* Margin for the fade. */
+  /* Margin for the gradient that fades scrolled text below the pictures. */
   .views > .panel:first-of-type + *,
   .stage + * {
     margin-top: 0.7em;

@@ -6,7 +6,7 @@ import { colourChannelsOf } from './theme.ts';
  * Colours around a figure. `shade` is the amount by which colours are darkened for this background. `strength` is the share of the text
  * colour in muted text. An empty `text` keeps the figure's own colour.
  */
-type PageColours = { ground: string, text: string, shade: string, strength: string, scheme: 'light' | 'dark' };
+type PageColours = { background: string, text: string, shade: string, strength: string, scheme: 'light' | 'dark' };
 
 /** Background assumed on a page that has light text, but neither a background nor a `color-scheme`. */
 const DARK_BACKGROUND = '#121212';
@@ -39,7 +39,7 @@ export function readPageColours(probe: Element): PageColours {
   const shade = scheme === 'light' && backgroundLightness < 0.97 ? `${100 * (1 - backgroundLightness ** 2.2)}%` : '';
   const mixMutedColour = (share: number) => backgroundColour.map((channel, i) => channel + (share / 100) * (textColour[i] - channel));
   const mutedStrength = isLegible ? `${MUTED_SHARES.find((share) => contrastRatioOf(mixMutedColour(share), backgroundColour) >= MIN_CONTRAST) ?? 100}%` : '';
-  return { ground: `rgb(${backgroundColour})`, text: isLegible ? color : '', shade, strength: mutedStrength, scheme };
+  return { background: `rgb(${backgroundColour})`, text: isLegible ? color : '', shade, strength: mutedStrength, scheme };
 }
 
 function contrastRatioOf(firstColour: number[], secondColour: number[]) {

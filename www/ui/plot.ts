@@ -14,7 +14,7 @@ const PLOT_TOP = 22;
 const PLOT_BOTTOM = CHART_HEIGHT - 34;
 
 /** Maximum number of labels along an axis. More labels would touch each other. */
-const MAX_LABELS = { x: 6, y: 7 };
+const MAX_LABEL_COUNTS = { x: 6, y: 7 };
 
 /** Coordinate outside every plot, and within the range of SVG paths. */
 const FAR_OUTSIDE_PX = 10_000;
@@ -32,7 +32,7 @@ export const plotStyles = css`
     max-width: 26em;
   }
 
-  /* Plot area. A slider's thumb is half a thumb away from its ends. It looks like a grip on a line, because a dot would look like data. */
+  /* Slider over the plot area, longer by half a thumb at both ends, so that the thumb's middle reaches them. The thumb is a bar, because a dot would look like data. */
   .plotted input {
     position: absolute;
     top: ${unsafeCSS((100 * PLOT_TOP) / CHART_HEIGHT)}%;
@@ -82,19 +82,19 @@ export const plotStyles = css`
 
 interface Axis {
   name: string;
-  from: number;
-  /** End of the axis, greater than `from`. */
-  to: number;
-  /** True for a logarithmic axis, whose ends are both above 0. */
+  min: number;
+  /** Largest value on the axis, greater than `min`. */
+  max: number;
+  /** True for a logarithmic axis, on which `min` and `max` are above 0. */
   isLogarithmic?: boolean;
 }
 
-export type Role = Exclude<keyof import('./theme.ts').Palette, 'paper' | 'rule'>;
+export type ColourRole = Exclude<keyof import('./theme.ts').Palette, 'paper' | 'rule'>;
 
 export interface Curve {
   /** Name in the legend; *stars* make italics. */
   name: string;
-  role: Role;
+  role: ColourRole;
   /** Dash pattern, which distinguishes the curve without colours. */
   dash?: string;
   x: ArrayLike<number>;
@@ -108,7 +108,7 @@ export interface Curve {
 }
 
 export interface DataPoint {
-  role: Role;
+  role: ColourRole;
   x: number;
   y: number;
   error: number;
@@ -138,13 +138,13 @@ export function plotHtml({ label, x, y, curves, points = [], marks = [], slider,
   const [toPixelX, toPixelY] = [createPixelScale(x, PLOT_LEFT, PLOT_RIGHT), createPixelScale(y, PLOT_BOTTOM, PLOT_TOP)];
   return html`<div class="plotted" dir="ltr">
     <svg class="plot" viewBox="0 0 ${CHART_WIDTH} ${CHART_HEIGHT}" role="img" aria-label=${label} part="chart">
-      ${axisLabelsOf(x, MAX_LABELS.x).map(([value, text]) => gridLineSvg(toPixelX(value), toPixelX(value), PLOT_TOP, PLOT_BOTTOM, { x: toPixelX(value), y: PLOT_BOTTOM + 18, anchor: 'middle', text }))}
-      ${axisLabelsOf(y, MAX_LABELS.y).map(([value, text]) => gridLineSvg(PLOT_LEFT, PLOT_RIGHT, toPixelY(value), toPixelY(value), { x: PLOT_LEFT - 6, y: toPixelY(value) + 4, anchor: 'end', text }))}
+      ${axisLabelsOf(x, MAX_LABEL_COUNTS.x).map(([value, text]) => gridLineSvg(toPixelX(value), toPixelX(value), PLOT_TOP, PLOT_BOTTOM, { x: toPixelX(value), y: PLOT_BOTTOM + 18, anchor: 'middle', text }))}
+      ${axisLabelsOf(y, MAX_LABEL_COUNTS.y).map(([value, text]) => gridLineSvg(PLOT_LEFT, PLOT_RIGHT, toPixelY(value), toPixelY(value), { x: PLOT_LEFT - 6, y: toPixelY(value) + 4, anchor: 'end', text }))}
       <text font-style="italic" x=${PLOT_RIGHT} y=${PLOT_BOTTOM + 30} text-anchor="end">${x.name}</text>
       <text font-style="italic" x="0" y="12">${y.name}</text>
       <svg x=${PLOT_LEFT} y=${PLOT_TOP} width=${PLOT_RIGHT - PLOT_LEFT} height=${PLOT_BOTTOM - PLOT_TOP} viewBox="${PLOT_LEFT} ${PLOT_TOP} ${PLOT_RIGHT - PLOT_LEFT} ${PLOT_BOTTOM - PLOT_TOP}">
-        ${curves.map((curve) => curve.error && svg`<path class="band ${highlightClass(curve)}" opacity="0.22" fill="var(--${curve.role})" d=${bandPathDataOf(curve, toPixelX, toPixelY)} />`)}
-        ${curves.map((curve) => !curve.isBandOnly && svg`<path class="curve ${highlightClass(curve)}" fill="none" stroke-width="1.9" stroke="var(--${curve.role})" stroke-dasharray=${curve.dash ?? nothing} d=${curvePathDataOf(curve, toPixelX, toPixelY)} />`)}
+        ${curves.map((curve) => curve.error && svg`<path class="band ${highlightClassOf(curve)}" opacity="0.22" fill="var(--${curve.role})" d=${bandPathDataOf(curve, toPixelX, toPixelY)} />`)}
+        ${curves.map((curve) => !curve.isBandOnly && svg`<path class="curve ${highlightClassOf(curve)}" fill="none" stroke-width="1.9" stroke="var(--${curve.role})" stroke-dasharray=${curve.dash ?? nothing} d=${curvePathDataOf(curve, toPixelX, toPixelY)} />`)}
         ${marks.map((mark, row) => markSvg(mark, row, toPixelX(mark.x)))}
         ${points.filter(({ y: value, error }) => !Number.isNaN(value + error)).map(
           ({ role, x: pointX, y: value, error }) => svg`<path
@@ -155,7 +155,7 @@ export function plotHtml({ label, x, y, curves, points = [], marks = [], slider,
         )}
       </svg>
     </svg>
-    ${slider ? sliderTrackHtml({ ...slider, min: x.from, max: x.to }) : nothing}
+    ${slider ? sliderTrackHtml({ ...slider, min: x.min, max: x.max }) : nothing}
     </div>
     ${legend}
   `;
@@ -165,7 +165,7 @@ const gridLineSvg = (x1: number, x2: number, y1: number, y2: number, { x, y, anc
   <line stroke="var(--rule)" x1=${x1} x2=${x2} y1=${y1} y2=${y2} />
   <text class="notranslate" translate="no" x=${x} y=${y} text-anchor=${anchor}>${text}</text>`;
 
-const highlightClass = ({ isHighlighted }: Curve) => (isHighlighted === undefined ? '' : isHighlighted ? 'lit' : 'unlit');
+const highlightClassOf = ({ isHighlighted }: Curve) => (isHighlighted === undefined ? '' : isHighlighted ? 'lit' : 'unlit');
 
 function curveLegendHtml(curves: Curve[]) {
   return html`<ul class="plot-key" part="legend">
@@ -179,18 +179,18 @@ function curveLegendHtml(curves: Curve[]) {
   </ul>`;
 }
 
-/** Returns a function that converts values to pixels. It returns NaN only for NaN. On a logarithmic axis, values of 0 or less are far below the axis. */
-function createPixelScale({ from, to, isLogarithmic }: Axis, firstPixel: number, lastPixel: number): (value: number) => number {
+/** Returns a function that converts a value on an axis to a pixel, and NaN to NaN. On a logarithmic axis, values of 0 or less are far below the axis. */
+function createPixelScale({ min, max, isLogarithmic }: Axis, firstPixel: number, lastPixel: number): (value: number) => number {
   const toLinear = isLogarithmic ? (value: number) => Math.log10(Math.max(value, 0)) : Number;
-  const [startValue, endValue] = [toLinear(from), toLinear(to)];
+  const [startValue, endValue] = [toLinear(min), toLinear(max)];
   return (value) => clamp(firstPixel + ((toLinear(value) - startValue) * (lastPixel - firstPixel)) / (endValue - startValue), -FAR_OUTSIDE_PX, FAR_OUTSIDE_PX);
 }
 
-function axisLabelsOf({ from, to, isLogarithmic }: Axis, maxCount: number): [value: number, text: string][] {
-  if (!isLogarithmic) return ticks(from, to, maxCount - 1).map((value, _, values) => [value, formatTick(value, values.length > 1 ? values[1] - values[0] : 1)]);
-  const [firstPower, lastPower] = [Math.ceil(Math.log10(from) - 1e-9), Math.floor(Math.log10(to) + 1e-9)];
-  const exponentStep = Math.max(1, Math.ceil((lastPower - firstPower + 1) / maxCount));
-  const exponents = Array.from({ length: Math.floor((lastPower - firstPower) / exponentStep) + 1 }, (_, i) => firstPower + i * exponentStep);
+function axisLabelsOf({ min, max, isLogarithmic }: Axis, maxCount: number): [value: number, text: string][] {
+  if (!isLogarithmic) return ticks(min, max, maxCount - 1).map((value, _, values) => [value, formatTick(value, values.length > 1 ? values[1] - values[0] : 1)]);
+  const [firstExponent, lastExponent] = [Math.ceil(Math.log10(min) - 1e-9), Math.floor(Math.log10(max) + 1e-9)];
+  const exponentStep = Math.max(1, Math.ceil((lastExponent - firstExponent + 1) / maxCount));
+  const exponents = Array.from({ length: Math.floor((lastExponent - firstExponent) / exponentStep) + 1 }, (_, i) => firstExponent + i * exponentStep);
   return exponents.map((exponent) => [10 ** exponent, formatPowerOfTen(exponent)]);
 }
 

@@ -18,7 +18,7 @@ export const presentationStyles = css`
     font-size: max(1em, min(1.5em, 100vw / 44, 100vh / 36), min(100vw / 80, 100vh / 45)) !important;
   }
 
-  /* The controls need more space. */
+  /* With controls, the font is smaller, because the controls need space. */
   :host([presentation]) .with-controls {
     font-size: max(0.6em, min(1em, 100vw / 84, 100vh / 54));
   }

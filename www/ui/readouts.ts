@@ -125,9 +125,9 @@ export const readoutStyles = css`
 `;
 
 /** Returns a list of readouts. Each may have a detail below it, and an earlier value beside it. One may be the headline of the figure. */
-export function readoutsHtml(rows: [name: string, value: string, detail?: string, earlier?: string][], headlineIndex?: number) {
+export function readoutsHtml(readouts: [name: string, value: string, detail?: string, earlier?: string][], headlineIndex?: number) {
   return html`<dl class="readouts" part="readouts">
-    ${rows.map(
+    ${readouts.map(
       ([name, value, detail, earlier], i) => html`<div class=${i === headlineIndex ? 'headline' : nothing}>
         <dt>${formatMarkup(name)}</dt>
         <dd>${untranslatedHtml(value)}${earlier ? html` <span class="earlier">${untranslatedHtml(earlier)}</span>` : nothing}</dd>

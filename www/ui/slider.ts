@@ -179,7 +179,7 @@ export function sliderRowHtml(row: SliderRow) {
   return html`
     <div class="slider ${row.hasNoEffect ? 'off' : ''} ${row.refusal ? 'refused' : ''}" part="slider" data-role=${row.role}>
       <span>
-        ${row.pickControl ?? nothing}
+        ${row.leadingControl ?? nothing}
         <label for=${row.id} id="${row.id}-name">${row.symbol ? html`<bdi class="symbol notranslate" translate="no">${row.symbol}</bdi>` : nothing}${row.name}</label>
       </span>
       ${sliderTrackHtml({ ...row, ...rangeOfStops(row), name: undefined, text: printedValue, describedBy: `${row.id}-effect`, onKeydown: focusField })}
@@ -216,8 +216,8 @@ export interface SliderRow extends SliderRange {
   role: 'prior' | 'prediction' | 'truth';
   /** True if the value has no effect at present. */
   hasNoEffect?: boolean;
-  /** Control in front of the label. */
-  pickControl?: unknown;
+  /** HTML of a control in front of the label. */
+  leadingControl?: unknown;
   /** Keyboard of a phone for typing the value. */
   inputMode: 'decimal' | 'numeric' | 'text';
   /** Applies a typed text. Returns the text to display, or undefined if it is refused. */
@@ -235,7 +235,7 @@ function rangeOfStops({ stops, value, onInput }: SliderRow): Partial<SliderRange
   return { min: 0, max: stops.length - 1, step: 1, value: stopIndex < 0 ? stops.length : stopIndex, onInput: (index) => onInput(stops[index]) };
 }
 
-interface Track extends SliderRange {
+interface SliderTrack extends SliderRange {
   /** Accessible name, for a slider without a label that screen readers can read. */
   name?: string;
   text: string;
@@ -244,7 +244,7 @@ interface Track extends SliderRange {
 }
 
 /** Returns the track of a slider. A finger that moves up or down over it scrolls the page. */
-export function sliderTrackHtml({ id, name, min, max, step, value, text, describedBy, onKeydown: keydown, onInput, onCommit }: Track) {
+export function sliderTrackHtml({ id, name, min, max, step, value, text, describedBy, onKeydown: keydown, onInput, onCommit }: SliderTrack) {
   // A browser changes a slider as soon as it is touched. The change is applied only after the touch proves to be a tap or a sideways move.
   const setValue = (event: Event) => {
     if (!undecidedTouch) onInput(inputOf(event).valueAsNumber);

@@ -1,7 +1,7 @@
 /**
  * Palette: one colour for each role, the same in every view, for light and dark backgrounds. The background (paper) and the text (ink) have
- * the colours of the surroundings. Explaining text is between them. The hues are Okabe and Ito's. Their lightness distinguishes the roles
- * under all common forms of colour blindness, and so do dashes and shapes. Text has a contrast of at least 4.5, and lines of at least 3. A
+ * the colours of the surroundings. Muted text has a colour between them. The hues are those of Okabe and Ito. Their lightness distinguishes
+ * the roles under all common forms of colour blindness, and so do dashes and shapes. Text has a contrast of at least 4.5, and lines of at least 3. A
  * page can replace the colour of a role by a custom property that begins with --motion.
  */
 
@@ -11,7 +11,7 @@ import { css, unsafeCSS } from 'lit';
  * Roles whose resolved colours the canvas needs. Each is a custom property of the same name. A cloud is also a prediction, but needs another
  * colour, because it consists of many dots.
  */
-const ROLES = ['paper', 'ink', 'muted', 'rule', 'prior', 'prediction', 'cloud', 'truth', 'posterior', 'accent'] as const;
+const COLOUR_ROLES = ['paper', 'ink', 'muted', 'rule', 'prior', 'prediction', 'cloud', 'truth', 'posterior', 'accent'] as const;
 
 /**
  * Styles of a pseudo-element that gives a figure the width of a book's column in a box that fits its contents. The element has two dots
@@ -21,7 +21,7 @@ export const preferredWidthCss =
   "content:'. .';display:block;height:0;overflow:hidden;visibility:hidden;white-space:normal;word-spacing:44em";
 
 /** Resolved CSS colours by role. */
-export type Palette = Record<(typeof ROLES)[number], string>;
+export type Palette = Record<(typeof COLOUR_ROLES)[number], string>;
 
 export const themeStyles = css`
   :host {
@@ -40,12 +40,12 @@ export const themeStyles = css`
   }
 
   /*
-   * Set by Colours: --ground and --text are background and text colour of the page, --shade how far the background is from white, and
+   * Set by Colours: --background and --text are the background and text colour of the page, --shade how far the background is from white, and
    * --strength the percentage of the text colour in muted text.
    */
   .scheme-probe,
   .surface {
-    --paper: var(--motion-paper, var(--ground, light-dark(#fffefb, #16181b)));
+    --paper: var(--motion-paper, var(--background, light-dark(#fffefb, #16181b)));
     --ink: var(--motion-ink, var(--text, light-dark(#1f1e1b, #ebe9e3)));
     --muted: var(--motion-muted, var(--mw-muted, color-mix(in srgb, var(--ink) var(--strength, 75%), var(--paper))));
     --rule: var(--motion-rule, var(--mw-rule, color-mix(in srgb, var(--ink) 18%, var(--paper))));
@@ -59,7 +59,7 @@ export const themeStyles = css`
   }
 
   /* In a style sheet, because extensions that darken pages do not rewrite custom properties of elements. */
-  ${unsafeCSS(ROLES.map((role) => `[data-role='${role}'] { --role: var(--${role}); }`).join('\n'))}
+  ${unsafeCSS(COLOUR_ROLES.map((role) => `[data-role='${role}'] { --role: var(--${role}); }`).join('\n'))}
 
   :host([hidden]) {
     display: none;
@@ -196,9 +196,9 @@ export const themeStyles = css`
 `;
 
 /** Returns the palette of an element with its current style. */
-export function resolvePalette(surface: HTMLElement) {
+export function resolvePalette(parent: HTMLElement) {
   // All probes, one for each role, are created before the first is read, so that the browser computes styles only once.
-  const colourProbes = ROLES.map((role) => {
+  const colourProbes = COLOUR_ROLES.map((role) => {
     const colourProbe = document.createElement('span');
     colourProbe.hidden = true;
     colourProbe.style.color = `var(--${role})`;
@@ -206,11 +206,11 @@ export function resolvePalette(surface: HTMLElement) {
     colourProbe.style.forcedColorAdjust = 'none';
     return colourProbe;
   });
-  surface.append(...colourProbes);
+  parent.append(...colourProbes);
   const paletteEntries = colourProbes.map((colourProbe, i) => {
     const { color } = getComputedStyle(colourProbe);
     // Mixed colours are serialized in notations that few programs read.
-    return [ROLES[i], /^rgb/.test(color) ? color : `rgb(${colourChannelsOf(color)})`];
+    return [COLOUR_ROLES[i], /^rgb/.test(color) ? color : `rgb(${colourChannelsOf(color)})`];
   });
   for (const colourProbe of colourProbes) colourProbe.remove();
   return Object.fromEntries(paletteEntries) as Palette;

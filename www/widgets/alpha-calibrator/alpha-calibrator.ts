@@ -313,7 +313,7 @@ export class AlphaCalibratorElement extends FigureElement<Simulation, ViewModel>
   selectAtPointer(picture: PathPicture | LegPicture, event: PointerEvent) {
     const { simulation } = this;
     if (!simulation || event.type !== 'click') return;
-    const leg = picture.nearestSample(simulation, ...toViewPixels(event.target as Element, picture.view, event));
+    const leg = picture.findNearestSample(simulation, ...toViewPixels(event.target as Element, picture.view, event));
     if (leg >= 0) this.gesture.requestAndCommit({ leg });
   }
 

@@ -73,7 +73,7 @@ export class PathPicture extends SamplesPicture<Scene> {
     drawAxes(drawContext, { x: 'x (m)', y: 'y (m)' }, createLineLegend(drawContext, LINE_STYLES, legendNames, words.calibrator.overlays));
     clipToPlot(drawContext, () => {
       const paintLegs = (painter: LayerDrawContext) => drawPath(painter, legs, this.#odometryPathOf(legs), classes, overlays);
-      if ('vector' in drawContext.context || legs.count <= MAX_WIDE_LEGS) paintLegs(drawContext);
+      if ('isVector' in drawContext.context || legs.count <= MAX_WIDE_LEGS) paintLegs(drawContext);
       else this.#layer.draw(drawContext, [legs, overlays, drawContext.highlight], paintLegs);
       if (chosen < 0) return;
       const [fromX, fromY, , x, y, heading] = legs.reference.subarray(6 * chosen);

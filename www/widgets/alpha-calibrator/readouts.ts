@@ -217,8 +217,8 @@ function panelPlotHtml({ alpha, x, y, error, slope, interval }: CalibrationPanel
   ];
   return {
     label: texts.label(panelTitle, String(alpha + 1), slope === null ? NO_VALUE : localizeNumber(formatAlphaOrBound(slope, interval))),
-    x: { name: axis, from: 0, to: axisEnd },
-    y: { name: `${panelTitle}, ${texts.axis}${exponent < 0 ? ` (${formatPowerOfTen(exponent)})` : ''}`, from: scaleToAxis(axisBottom), to: scaleToAxis(axisTop) },
+    x: { name: axis, min: 0, max: axisEnd },
+    y: { name: `${panelTitle}, ${texts.axis}${exponent < 0 ? ` (${formatPowerOfTen(exponent)})` : ''}`, min: scaleToAxis(axisBottom), max: scaleToAxis(axisTop) },
     curves: [...slopeLines, { name: texts.bins, role: 'ink', x: [], y: [] }],
     points: x.map((value, i) => ({ role: 'ink' as const, x: value, y: scaleToAxis(y[i]), error: scaleToAxis(error[i]) })),
   };

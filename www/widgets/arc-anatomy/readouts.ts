@@ -132,7 +132,7 @@ export function tableLinesHtml({ viewModel: { table: { lines }, config: { printe
 }
 
 /** Range (m) of the error axis, from below the rounding error of the distance to above the whole distance. */
-const ERROR_RANGE = { from: 1e-18, to: 1 };
+const ERROR_RANGE = { min: 1e-18, max: 1 };
 
 /** Cached errors of three formulas for the end of a motion: arc, straight line and chord. They depend on no setting. */
 let cachedFormErrors: FormErrors | undefined;
@@ -143,7 +143,7 @@ export function formErrorsPlotHtml({ ArcAnatomy }: Motion) {
   return html`<figure class="forms">
     ${plotHtml({
       label: texts.text,
-      x: { name: '|ω̂| (rad/s)', from: omega[0], to: omega[omega.length - 1], isLogarithmic: true },
+      x: { name: '|ω̂| (rad/s)', min: omega[0], max: omega[omega.length - 1], isLogarithmic: true },
       y: { name: texts.error, ...ERROR_RANGE, isLogarithmic: true },
       curves: [
         { name: texts.arc, role: 'prediction', x: omega, y: arc },

@@ -75,7 +75,7 @@ function alphaSliderHtml(figure: BananaMachineElement, alphaNumber: number, [nam
     name,
     effect: formatMarkup(effect),
     hasNoEffect,
-    pickControl: isolate === null ? undefined : radioButtonHtml({ group: 'isolate', name: words.banana.only(`α${subscriptOf(alphaNumber - 1)}`), checked: !hasNoEffect, onChoose: chooseAlpha }),
+    leadingControl: isolate === null ? undefined : radioButtonHtml({ group: 'isolate', name: words.banana.only(`α${subscriptOf(alphaNumber - 1)}`), checked: !hasNoEffect, onChoose: chooseAlpha }),
     formatValue: (value) => (hasNoEffect ? words.banana.off(formatEditable(value, 3)) : formatEditable(value, 3)),
     onInput: (value) => {
       if (hasNoEffect) chooseAlpha();
@@ -397,8 +397,8 @@ export class BananaMachineElement extends FigureElement<Simulation, ViewModel> {
     const omegaRange = [min, max];
     return plotHtml({
       label: texts.chart,
-      x: { name: 'ω (rad/s)', from: min, to: max },
-      y: { name: texts.readouts.skew, from: -chartHeight, to: chartHeight },
+      x: { name: 'ω (rad/s)', min, max },
+      y: { name: texts.readouts.skew, min: -chartHeight, max: chartHeight },
       curves: [
         { name: texts.readouts.skew, role: 'ink', x: skews.map((_, i) => min + (i * (max - min)) / (skews.length - 1)), y: skews },
         { name: texts.chartGaussian, role: 'prediction', dash: '7 4', x: omegaRange, y: [0, 0] },

@@ -48,7 +48,7 @@ class MorphPicture extends Picture<Scene, import('../../types.d.ts').ViewName> {
   #dotPositions: Memo<Float64Array> = new Memo();
 
   /** Returns the robot nearest to a point in CSS pixels; −1 for none. */
-  nearestSample(simulation: BananaMachine, x: number, y: number) {
+  findNearestSample(simulation: BananaMachine, x: number, y: number) {
     const { view } = this;
     return simulation.nearest(view.morph, ...view.toWorld(x, y), SELECTION_RADIUS / view.scaleX, SELECTION_RADIUS / view.scaleY);
   }

@@ -5,7 +5,7 @@ import { html, nothing } from 'lit';
 import { addEnglishMessages, words } from '../../messages/registry.ts';
 import { formatMarkup } from '../../ui/controls.ts';
 import { NO_VALUE, formatInteger, formatFixed, formatWithError, formatSignificant } from '../../ui/format.ts';
-import { plotHtml, type Role } from '../../ui/plot.ts';
+import { plotHtml, type ColourRole } from '../../ui/plot.ts';
 import { tableHtml, readoutsHtml } from '../../ui/readouts.ts';
 import { sampleFieldHtml } from '../shared/cloud.ts';
 import { en } from './en.ts';
@@ -80,8 +80,8 @@ export function ratioPlotHtml(figure: import('./dead-reckoning.ts').DeadReckonin
   const toleranceBand = { name: texts.overlays.tolerance, ...curveStyleOf('tolerance', figure.highlight), x: [0, steps], y: [1, 1], error: [RATIO_TOLERANCE, RATIO_TOLERANCE], isBandOnly: true };
   return plotHtml({
     label: formatRatio(viewModel, overlays),
-    x: { name: texts.stepAxis, from: 0, to: steps },
-    y: { name: texts.ratioAxis, from: 0, to: CHART_HEIGHTS.find((height) => height >= highestRatio) ?? highestRatio },
+    x: { name: texts.stepAxis, min: 0, max: steps },
+    y: { name: texts.ratioAxis, min: 0, max: CHART_HEIGHTS.find((height) => height >= highestRatio) ?? highestRatio },
     curves: [
       ...(overlays.includes('tolerance') ? [toleranceBand] : []),
       ...shownCurves.map(({ ratio, ...curve }) => ({ ...curve, x, y: ratio })),
@@ -103,7 +103,7 @@ export function ratioPlotHtml(figure: import('./dead-reckoning.ts').DeadReckonin
 
 /** Returns role, dash and highlight of a curve in the chart of ratios. */
 function curveStyleOf(name: keyof typeof CURVE_STYLES, highlight: string | null) {
-  const { role, dash } = CURVE_STYLES[name] as import('../../scene/draw.ts').LineStyle & { role: Role };
+  const { role, dash } = CURVE_STYLES[name] as import('../../scene/draw.ts').LineStyle & { role: ColourRole };
   const isHighlighted = highlight !== null && highlight in CURVE_STYLES ? name === highlight : undefined;
   return { role, dash: dash?.join(' '), isHighlighted };
 }
@@ -129,8 +129,8 @@ export function straightGrowthPlotHtml({ durations: x, along, across, alongFirst
     <p class="panel-title">${texts.title}</p>
     ${plotHtml({
       label: texts.label(crossing === null ? texts.never : texts.crossing(crossingText)),
-      x: { name: 'Δt (s)', from: minDuration, to: maxDuration, isLogarithmic: true },
-      y: { name: texts.y, from: minVariance, to: maxVariance, isLogarithmic: true },
+      x: { name: 'Δt (s)', min: minDuration, max: maxDuration, isLogarithmic: true },
+      y: { name: texts.y, min: minVariance, max: maxVariance, isLogarithmic: true },
       curves: [
         { name: texts.along, role: 'ink', dash: '8 4', x, y: alongFirstOrder },
         { name: texts.across, role: 'prediction', x, y: acrossFirstOrder },

@@ -85,7 +85,7 @@ export class WallHandles extends FigureController<import('./map-squeeze.ts').Map
     const pointOf = ({ wall, part }: Grip) => [...this.host.picture.plan.walls.subarray(part === 'to' ? wall + 2 : wall, wall + 4)];
     const handle = this.#handles.get(name) ?? new Handle(`${grip.part === 'side' ? 'side' : 'jamb'} ${name}`, {
       getView: () => this.host.picture.view,
-      graspedPointAt: () => callWithGrip(pointOf),
+      findGraspedPoint: () => callWithGrip(pointOf),
       drag: (x, y) => callWithGrip((currentGrip) => moveBy(x - pointOf(currentGrip)[0], y - pointOf(currentGrip)[1])),
       handleKey: (event) => {
         const [keyTurns, keySteps] = [turnStepsOfKey(event), stepsOfKey(event)];

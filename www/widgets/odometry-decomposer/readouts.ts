@@ -72,8 +72,8 @@ export function spreadPlotHtml(readCurve: (maxLength: number, pointCount: number
     <p class="panel-title">${texts.title}</p>
     ${plotHtml({
       label: texts.label(formatFixed(legs.trans, 2), formatFixed(stats.exactCrossTrack, 3)),
-      x: { name: 'δ trans (m)', from: 0, to: maxLength },
-      y: { name: 'σ (m)', from: 0, to: 1.08 * maxDeviation },
+      x: { name: 'δ trans (m)', min: 0, max: maxLength },
+      y: { name: 'σ (m)', min: 0, max: 1.08 * maxDeviation },
       curves: [
         { name: texts.acrossCurve, role: 'prediction', x: driveLengths, y: acrossDeviations },
         { name: words.decomposer.readouts.firstRotationDeviation, role: 'muted', dash: '2 4', x: driveLengths, y: leverDeviations },

@@ -159,7 +159,7 @@ export class Cloud extends FigureController implements SampleCloud {
     // A moving finger scrolls; a tap is a click.
     if (!simulation || gesture.isPressed || (event.pointerType === 'touch' && event.type !== 'click')) return;
     const [x, y] = toViewPixels(event.currentTarget as Element, picture.view, event);
-    const index = picture.nearestSample(simulation, x, y);
+    const index = picture.findNearestSample(simulation, x, y);
     if (index >= 0 || event.type === 'click') this.select(index);
   }
 

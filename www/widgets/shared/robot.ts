@@ -75,13 +75,13 @@ export class PoseHandles extends FigureController<import('../../figure/figure.ts
     const callbacks = { getView, commit: () => host.gesture.commit() };
     this.#bodyHandle = new Handle(`body ${setting}`, {
       ...callbacks,
-      graspedPointAt: () => [this.#pose.x, this.#pose.y],
+      findGraspedPoint: () => [this.#pose.x, this.#pose.y],
       drag: (x, y) => this.#moveTo(x, y),
       handleKey: (event) => this.#moveBy(stepsOfKey(event)) || this.#turnBy(turnStepsOfKey(event)),
     });
     this.#turnHandle = new Handle(`turn ${setting}`, {
       ...callbacks,
-      graspedPointAt: (pointer) => pointer,
+      findGraspedPoint: (pointer) => pointer,
       drag: (x, y) => this.#turnTo(Math.atan2(y - this.#pose.y, x - this.#pose.x)),
       handleKey: (event) => {
         const steps = stepsOfKey(event);
